@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes: what is to be drawn, in floating point and in world space, frame by frame.
+//
+// Units and conventions, for all of this header: right-handed coordinates, lengths in the file's unit, angles in radians.
+// All numbers are finite; a file with others is refused. Colours are linear, 0 .. 1. A Scene does not change once loaded, and
+// any number of threads may call frame() at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace kage {
+
+/// A camera: an orthonormal frame at `eye`. The view ray of a pixel leaves `eye` (perspective) or a point of the plane
+/// through it (parallel) towards `forward`.
+struct Camera {
+  glm::dvec3 eye{0, 0, 0};
+  glm::dvec3 right{1, 0, 0};
+  glm::dvec3 up{0, 1, 0};
+  glm::dvec3 forward{0, 0, -1};
+  bool perspective = true;
+  double half_height = 0.5;  ///< perspective: tan(vertical field of view / 2); parallel: half the height of the view
+  double near = 0.1;         ///< distance of the near plane along forward, > 0
+  double far = 0;            ///< distance of the far plane, > near; 0: not given, geometry takes what the scene needs
+};
+
+/// The light. One, directional or point.
+struct Light {
+  bool directional = true;
+  glm::dvec3 direction{0, -1, 0};  ///< directional: unit vector the light travels along
+  glm::dvec3 position{0, 0, 0};    ///< point
+  glm::dvec3 color{1, 1, 1};       ///< largest channel 1: intensity and fall-off are not modelled
+};
+
+/// A triangle, counter-clockwise seen from outside.
+struct Triangle {
+  std::array<std::uint32_t, 3> vertex;  ///< into SceneFrame::vertices
+  std::array<std::uint32_t, 3> shading; ///< into SceneFrame::shading
+  std::uint32_t object = 0;             ///< into Scene::objects()
+  std::uint32_t face = 0;               ///< number of the face within its object, as in the file
+};
+
+/// What shading needs at a corner of a triangle.
+struct ShadingVertex {
+  glm::dvec3 normal;  ///< unit, outward; the face's normal where the file has none
+  glm::dvec3 color;   ///< base colour times vertex colour
+};
+
+/// A maximal set of triangles joined by shared edges, within one object.
+struct Component {
+  std::uint32_t first = 0;  ///< first of its triangles; they are consecutive in SceneFrame::triangles
+  std::uint32_t count = 0;
+  bool closed = false;      ///< every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0
+  bool convex = false;      ///< closed, and no vertex is further than the stated tolerance outside a face's plane
+  std::string reason;       ///< why it is not closed or not convex, naming the edge or vertex; empty if it is both
+};
+
+/// One frame of a scene: all that geometry needs.
+/// Vertices are welded: corners at the same position in the same object share an index, so neighbours share coordinates.
+/// Triangles of inside-out closed components are turned so that they face outward.
+struct SceneFrame {
+  Camera camera;
+  Light light;
+  std::vector<glm::dvec3> vertices;
+  std::vector<ShadingVertex> shading;
+  std::vector<Triangle> triangles;    ///< in draw order: objects in the file's order, components in order of their first face
+  std::vector<Component> components;  ///< in the order of their triangles; every triangle belongs to one
+};
+
+/// A scene loaded from a file.
+class Scene {
+ public:
+  /// Load any file that Assimp reads, or a built-in scene by its name (`courtyard`, `knot`, `inside`, `edges`).
+  /// Import runs in a child process with limits of time and memory; its death is an Error like any other.
+  static Scene load(const std::string& name_or_path);
+
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  /// Number of frames of the scene's own camera path or animation, at least 1.
+  [[nodiscard]] int frame_count() const;
+
+  /// Frame `index` of `count` equal steps through the animation (or the orbit, where the file has no camera).
+  [[nodiscard]] SceneFrame frame(int index, int count) const;
+
+  [[nodiscard]] const std::vector<std::string>& objects() const;
+
+  /// What the file holds that kage does not draw, and what was added: one sentence each ("2 textures are ignored").
+  [[nodiscard]] const std::vector<std::string>& notes() const;
+
+  /// True where corners of some triangle differ in shading, so that colour varies within it.
+  [[nodiscard]] bool needs_smooth() const;
+
+  [[nodiscard]] const std::string& name() const;
+
+ private:
+  struct Data;
+  explicit Scene(std::unique_ptr<Data> data);
+  std::unique_ptr<Data> data_;
+};
+
+/// Names of the built-in scenes.
+const std::vector<std::string>& builtin_scenes();
+
+/// Directory of kage's data (scenes/, rtl/): $KAGE_DATA_DIR, else the source tree, else the install prefix.
+std::filesystem::path data_directory();
+
+}  // namespace kage
