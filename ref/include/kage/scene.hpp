@@ -9,7 +9,6 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -108,8 +107,5 @@ class Scene {
 
 /// Names of the built-in scenes.
 const std::vector<std::string>& builtin_scenes();
-
-/// Directory of kage's data (scenes/, rtl/): $KAGE_DATA_DIR, else the source tree, else the install prefix.
-std::filesystem::path data_directory();
 
 }  // namespace kage

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/pixel_line.hpp"
+
+#include <algorithm>
+
+#include "core/span_kernels.hpp"
+
+namespace kage {
+namespace {
+
+constexpr std::uint32_t kLit = 1U << 24;
+
+DepthRamp depth_ramp(const Config& c, const SpanToken& s) {
+  const int spare = 64 - (c.z_bits + c.z_frac + 2);
+  return {static_cast<std::int64_t>(static_cast<std::uint64_t>(s.z) << spare),
+          static_cast<std::int64_t>(static_cast<std::uint64_t>(s.dz) << spare), 30 - c.z_bits, (1 << c.z_bits) - 2};
+}
+
+}  // namespace
+
+PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_((1U << config.dsf_bits) - 1U) {
+  const auto n = static_cast<std::size_t>(config.max_width + kKernelSlack);
+  zb_.resize(n);
+  attr_.resize(n);
+  dsf_.resize(n);
+  fsf_.resize(n);
+}
+
+void PixelLine::start(int width, std::uint32_t background, std::uint32_t shade) {
+  width_ = width;
+  background_ = background;
+  shade_ = shade;
+  bias_ = 0;
+  shadow_touched_ = false;
+  std::fill(zb_.begin(), zb_.end(), (1 << config_.z_bits) - 1);
+  std::fill(dsf_.begin(), dsf_.end(), 0U);
+  std::fill(fsf_.begin(), fsf_.end(), 0U);
+}
+
+void PixelLine::op(const SpanToken& s) {
+  const DepthRamp ramp = depth_ramp(config_, s);
+  const std::uint32_t lit = s.lit ? kLit : 0;
+  if (config_.smooth == 0) {
+    std::uint32_t color = static_cast<std::uint32_t>(s.color[0]);
+    if (config_.channels > 1) color |= static_cast<std::uint32_t>(s.color[1]) << 8 | static_cast<std::uint32_t>(s.color[2]) << 16;
+    span_op_flat(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, color | lit);
+    return;
+  }
+  const int spare = 32 - (10 + config_.color_frac);
+  std::array<ColorRamp, 3> ramps{};
+  for (std::size_t c = 0; c < 3; ++c)
+    ramps[c] = {static_cast<std::int32_t>(static_cast<std::uint32_t>(s.color[c]) << spare),
+                static_cast<std::int32_t>(static_cast<std::uint32_t>(s.dcolor[c]) << spare)};
+  span_op_smooth(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, lit, ramps.data(), config_.channels);
+}
+
+void PixelLine::sp(const SpanToken& s) {
+  shadow_touched_ = true;
+  span_sp(depth_ramp(config_, s), s.xr - s.xl, zb_.data() + s.xl, dsf_.data() + s.xl, static_cast<std::uint32_t>(s.w));
+}
+
+void PixelLine::nc(int xl, int xr, int w) {
+  shadow_touched_ = true;
+  for (int x = xl; x < xr; ++x) dsf_[static_cast<std::size_t>(x)] += static_cast<std::uint32_t>(w);
+}
+
+void PixelLine::inside(int w) {
+  shadow_touched_ = true;
+  bias_ += static_cast<std::uint32_t>(w);
+}
+
+void PixelLine::ev(int xl, int xr) {
+  span_ev(xr - xl, dsf_.data() + xl, fsf_.data() + xl, bias_, dsf_mask_);
+  bias_ = 0;
+}
+
+void PixelLine::resolve() {
+  const std::uint32_t keep = (1U << config_.shade_frac) - shade_;
+  const std::uint32_t half = 1U << (config_.shade_frac - 1);
+  const std::int32_t clear = (1 << config_.z_bits) - 1;
+  for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
+    const bool shadowed = config_.fsf != 0 ? fsf_[x] != 0 : ((dsf_[x] + bias_) & dsf_mask_) != 0;
+    const std::uint32_t a = attr_[x];
+    if (!shadowed || (a & kLit) == 0 || zb_[x] == clear) continue;
+    std::uint32_t darkened = 0;
+    for (unsigned at = 0; at < 24; at += 8) darkened |= (((a >> at & 255U) * keep + half) >> config_.shade_frac) << at;
+    attr_[x] = darkened | kLit;
+  }
+  bias_ = 0;
+}
+
+void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
+  const std::int32_t clear = (1 << config_.z_bits) - 1;
+  const auto width = static_cast<std::size_t>(width_);
+  std::uint8_t* to = out.data();
+  for (std::size_t x = 0; x < width; ++x) {
+    const std::uint32_t a = blank || zb_[x] == clear ? background_ : attr_[x];
+    *to++ = static_cast<std::uint8_t>(a);
+    if (config_.channels > 1) {
+      *to++ = static_cast<std::uint8_t>(a >> 8);
+      *to++ = static_cast<std::uint8_t>(a >> 16);
+    }
+  }
+  std::fill_n(zb_.begin(), width, clear);
+  if (shadow_touched_) {
+    std::fill_n(dsf_.begin(), width, 0U);
+    std::fill_n(fsf_.begin(), width, 0U);
+    shadow_touched_ = false;
+  }
+  bias_ = 0;
+}
+
+}  // namespace kage

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/span_kernels.hpp"
+
+// The plain fallback: EMU128 knows every operation, SCALAR does not.
+#define HWY_DISABLED_TARGETS HWY_SCALAR
+#define HWY_BROKEN_EMU128 0
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/span_kernels.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target.h must come first.
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace kage::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D32 = hn::ScalableTag<std::int32_t>;
+using DU32 = hn::RebindToUnsigned<D32>;
+using D64 = hn::RepartitionToWide<D32>;
+
+// The depth of Lanes(D32) neighbouring pixels at a time.
+class Depths {
+ public:
+  explicit Depths(const DepthRamp& r) : shift_(r.shift), z_max_(hn::Set(D32(), r.z_max)) {
+    const D64 d;
+    const std::size_t half = hn::Lanes(d);
+    HWY_ALIGN std::int64_t lanes[hn::MaxLanes(D64())];
+    auto at = static_cast<std::uint64_t>(r.z);
+    const auto step = static_cast<std::uint64_t>(r.dz);
+    for (std::size_t i = 0; i < half; ++i, at += step) lanes[i] = static_cast<std::int64_t>(at);
+    low_ = hn::Load(d, lanes);
+    const auto half_step = hn::Set(d, static_cast<std::int64_t>(step * half));
+    high_ = hn::Add(low_, half_step);
+    full_step_ = hn::Add(half_step, half_step);
+  }
+
+  HWY_INLINE hn::Vec<D32> next() {
+    const D32 d;
+    const auto top = hn::ConcatOdd(d, hn::BitCast(d, high_), hn::BitCast(d, low_));
+    low_ = hn::Add(low_, full_step_);
+    high_ = hn::Add(high_, full_step_);
+    return hn::Min(hn::Max(hn::ShiftRightSame(top, shift_), hn::Set(d, 1)), z_max_);
+  }
+
+ private:
+  int shift_;
+  hn::Vec<D32> z_max_;
+  hn::Vec<D64> low_;
+  hn::Vec<D64> high_;
+  hn::Vec<D64> full_step_;
+};
+
+class Colors {
+ public:
+  Colors() = default;
+  explicit Colors(const ColorRamp& r) {
+    const D32 d;
+    HWY_ALIGN std::int32_t lanes[hn::MaxLanes(D32())];
+    auto at = static_cast<std::uint32_t>(r.c);
+    const auto step = static_cast<std::uint32_t>(r.dc);
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i, at += step) lanes[i] = static_cast<std::int32_t>(at);
+    acc_ = hn::Load(d, lanes);
+    step_ = hn::Set(d, static_cast<std::int32_t>(step * hn::Lanes(d)));
+  }
+
+  HWY_INLINE hn::Vec<DU32> next() {
+    const D32 d;
+    const auto c = hn::Min(hn::Max(hn::ShiftRight<22>(acc_), hn::Zero(d)), hn::Set(d, 255));
+    acc_ = hn::Add(acc_, step_);
+    return hn::BitCast(DU32(), c);
+  }
+
+ private:
+  hn::Vec<D32> acc_;
+  hn::Vec<D32> step_;
+};
+
+// Mask of the lanes from `x` that still belong to the span.
+HWY_INLINE hn::Mask<D32> lanes_left(int x, int count) { return hn::FirstN(D32(), static_cast<std::size_t>(count - x)); }
+
+void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr, std::uint32_t value) {
+  const D32 d;
+  const DU32 du;
+  Depths depths(ramp);
+  const auto v = hn::Set(du, value);
+  const int n = static_cast<int>(hn::Lanes(d));
+  for (int x = 0; x < count; x += n) {
+    const auto z = depths.next();
+    const auto old = hn::LoadU(d, zb + x);
+    auto nearer = hn::Lt(z, old);
+    if (count - x < n) nearer = hn::And(nearer, lanes_left(x, count));
+    hn::StoreU(hn::IfThenElse(nearer, z, old), d, zb + x);
+    const auto mask_u = hn::RebindMask(du, nearer);
+    hn::StoreU(hn::IfThenElse(mask_u, v, hn::LoadU(du, attr + x)), du, attr + x);
+  }
+}
+
+void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr, std::uint32_t value,
+              const ColorRamp* color, int channels) {
+  const D32 d;
+  const DU32 du;
+  Depths depths(ramp);
+  Colors c0(color[0]);
+  Colors c1(color[channels > 1 ? 1 : 0]);
+  Colors c2(color[channels > 1 ? 2 : 0]);
+  const auto v = hn::Set(du, value);
+  const int n = static_cast<int>(hn::Lanes(d));
+  for (int x = 0; x < count; x += n) {
+    const auto z = depths.next();
+    const auto old = hn::LoadU(d, zb + x);
+    auto nearer = hn::Lt(z, old);
+    if (count - x < n) nearer = hn::And(nearer, lanes_left(x, count));
+    hn::StoreU(hn::IfThenElse(nearer, z, old), d, zb + x);
+    auto a = hn::Or(v, c0.next());
+    if (channels > 1) a = hn::Or(a, hn::Or(hn::ShiftLeft<8>(c1.next()), hn::ShiftLeft<16>(c2.next())));
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(du, nearer), a, hn::LoadU(du, attr + x)), du, attr + x);
+  }
+}
+
+void Sp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT dsf, std::uint32_t w) {
+  const D32 d;
+  const DU32 du;
+  Depths depths(ramp);
+  const auto v = hn::Set(du, w);
+  const int n = static_cast<int>(hn::Lanes(d));
+  for (int x = 0; x < count; x += n) {
+    auto nearer = hn::Lt(depths.next(), hn::LoadU(d, zb + x));
+    if (count - x < n) nearer = hn::And(nearer, lanes_left(x, count));
+    hn::StoreU(hn::Add(hn::LoadU(du, dsf + x), hn::IfThenElseZero(hn::RebindMask(du, nearer), v)), du, dsf + x);
+  }
+}
+
+void Ev(int count, std::uint32_t* HWY_RESTRICT dsf, std::uint32_t* HWY_RESTRICT fsf, std::uint32_t bias, std::uint32_t mask) {
+  const D32 d;
+  const DU32 du;
+  const auto b = hn::Set(du, bias);
+  const auto m = hn::Set(du, mask);
+  const int n = static_cast<int>(hn::Lanes(d));
+  for (int x = 0; x < count; x += n) {
+    auto in = hn::FirstN(du, static_cast<std::size_t>(count - x));
+    const auto old = hn::LoadU(du, dsf + x);
+    const auto inside = hn::And(in, hn::Ne(hn::And(hn::Add(old, b), m), hn::Zero(du)));
+    hn::StoreU(hn::Or(hn::LoadU(du, fsf + x), hn::IfThenElseZero(inside, hn::Set(du, 1))), du, fsf + x);
+    hn::StoreU(hn::IfThenZeroElse(in, old), du, dsf + x);
+  }
+}
+
+}  // namespace kage::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace kage {
+
+HWY_EXPORT(OpFlat);
+HWY_EXPORT(OpSmooth);
+HWY_EXPORT(Sp);
+HWY_EXPORT(Ev);
+
+void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value) {
+  HWY_DYNAMIC_DISPATCH(OpFlat)(ramp, count, zb, attr, value);
+}
+void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value, const ColorRamp* color,
+                    int channels) {
+  HWY_DYNAMIC_DISPATCH(OpSmooth)(ramp, count, zb, attr, value, color, channels);
+}
+void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w) {
+  HWY_DYNAMIC_DISPATCH(Sp)(ramp, count, zb, dsf, w);
+}
+void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask) {
+  HWY_DYNAMIC_DISPATCH(Ev)(count, dsf, fsf, bias, mask);
+}
+
+}  // namespace kage
+#endif

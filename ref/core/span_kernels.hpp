@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Inner loops over the pixels of a span, compiled for every instruction set that Highway knows for this machine and chosen once
+// at run time. All are integer arithmetic modulo 2^n: every instruction set gives the same bits.
+#pragma once
+
+#include <cstdint>
+
+namespace kage {
+
+/// Depth along a span: acc = z + k * dz, both pre-shifted left so that the top bit of the accumulator is bit 63. Wrapping at
+/// 64 bits is then wrapping at the accumulator's own width, and Z = (acc >> 32) >> shift, clamped to 1 .. z_max.
+struct DepthRamp {
+  std::int64_t z;
+  std::int64_t dz;
+  int shift;
+  std::int32_t z_max;
+};
+
+/// One channel along a span, pre-shifted so that the accumulator's top bit is bit 31: value = clamp(acc >> 22, 0, 255).
+struct ColorRamp {
+  std::int32_t c;
+  std::int32_t dc;
+};
+
+/// Arrays may be read and written up to this many elements past `count`, with the old values.
+inline constexpr int kKernelSlack = 64;
+
+/// Where Z < zb: zb = Z, attr = value.
+void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value);
+
+/// Where Z < zb: zb = Z, attr = channels (lowest first) | value.
+void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value, const ColorRamp* color,
+                    int channels);
+
+/// Where Z < zb: dsf += w.
+void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w);
+
+/// fsf |= ((dsf + bias) & mask) != 0; dsf = 0.
+void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask);
+
+}  // namespace kage

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/clip.hpp"
+
+namespace kage {
+namespace {
+
+enum class Side { y_low, y_high, x_low, x_high };
+
+constexpr double kLimit = kGuard;
+
+double near_distance(const ClipPoint& p, double near) { return p.w - near; }
+
+double guard_distance(const ClipPoint& p, Side side) {
+  switch (side) {
+    case Side::x_low:
+      return p.sx + kLimit * p.q;
+    case Side::x_high:
+      return kLimit * p.q - p.sx;
+    case Side::y_low:
+      return p.sy + kLimit * p.q;
+    default:
+      return kLimit * p.q - p.sy;
+  }
+}
+
+ClipPoint between(const ClipPoint& in, const ClipPoint& out, double d_in, double d_out) {
+  const double t = d_in / (d_in - d_out);
+  return {in.sx + t * (out.sx - in.sx), in.sy + t * (out.sy - in.sy), in.q + t * (out.q - in.q), in.w + t * (out.w - in.w),
+          in.color + t * (out.color - in.color)};
+}
+
+ClipPoint cut_near(const ClipPoint& in, const ClipPoint& out, double near) {
+  ClipPoint p = between(in, out, near_distance(in, near), near_distance(out, near));
+  if (in.q == in.w && out.q == out.w) p.q = near;  // perspective: exactly on the plane
+  p.w = near;
+  return p;
+}
+
+ClipPoint cut_guard(const ClipPoint& in, const ClipPoint& out, Side side) {
+  ClipPoint p = between(in, out, guard_distance(in, side), guard_distance(out, side));
+  switch (side) {  // exactly on the border
+    case Side::x_low:
+      p.sx = -kLimit * p.q;
+      break;
+    case Side::x_high:
+      p.sx = kLimit * p.q;
+      break;
+    case Side::y_low:
+      p.sy = -kLimit * p.q;
+      break;
+    case Side::y_high:
+      p.sy = kLimit * p.q;
+      break;
+  }
+  return p;
+}
+
+// Sutherland-Hodgman against one plane. on_leave and on_enter see each new vertex.
+template <class Distance, class Cut, class Leave, class Enter>
+void clip_plane(std::vector<ClipPoint>& polygon, std::vector<ClipPoint>& buffer, Distance distance, Cut cut, Leave on_leave, Enter on_enter) {
+  const std::size_t n = polygon.size();
+  bool all_in = true;
+  for (const ClipPoint& p : polygon) all_in = all_in && distance(p) >= 0;
+  if (all_in) return;
+  buffer.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    const ClipPoint& a = polygon[i];
+    const ClipPoint& b = polygon[i + 1 == n ? 0 : i + 1];
+    const bool a_in = distance(a) >= 0;
+    const bool b_in = distance(b) >= 0;
+    if (a_in) buffer.push_back(a);
+    if (a_in && !b_in) {
+      buffer.push_back(cut(a, b));
+      on_leave(buffer.back());
+    } else if (!a_in && b_in) {
+      buffer.push_back(cut(b, a));
+      on_enter(buffer.back());
+    }
+  }
+  polygon.swap(buffer);
+}
+
+// What of the edge a-b is inside; false if nothing.
+bool clip_edge(ClipPoint& a, ClipPoint& b, Side side) {
+  const bool a_in = guard_distance(a, side) >= 0;
+  const bool b_in = guard_distance(b, side) >= 0;
+  if (a_in && !b_in) b = cut_guard(a, b, side);
+  if (!a_in && b_in) a = cut_guard(b, a, side);
+  return a_in || b_in;
+}
+
+ScreenVertex snap_onto(const ClipPoint& p, Side side) {
+  ScreenVertex v;
+  v.x = (side == Side::x_low ? -kGuard : kGuard) * 256;
+  ClipPoint at_q = p;
+  at_q.sx = 0;  // x may be out of range by far; only y counts
+  v.y = snap(at_q).y;
+  return v;
+}
+
+}  // namespace
+
+void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts) {
+  std::vector<ClipPoint> leaves;
+  std::vector<ClipPoint> enters;
+  bool enter_first = false;
+  clip_plane(
+      polygon, buffer_, [this](const ClipPoint& p) { return near_distance(p, near_); },
+      [this](const ClipPoint& in, const ClipPoint& out) { return cut_near(in, out, near_); },
+      [&](const ClipPoint& p) { leaves.push_back(p); },
+      [&](const ClipPoint& p) {
+        if (leaves.empty()) enter_first = true;
+        enters.push_back(p);
+      });
+  if (cuts != nullptr)
+    for (std::size_t i = 0; i < leaves.size(); ++i) cuts->push_back({leaves[i], enters[(i + (enter_first ? 1 : 0)) % enters.size()]});
+  for (const Side side : {Side::y_low, Side::y_high, Side::x_low, Side::x_high})
+    clip_plane(
+        polygon, buffer_, [side](const ClipPoint& p) { return guard_distance(p, side); },
+        [side](const ClipPoint& in, const ClipPoint& out) { return cut_guard(in, out, side); }, [](const ClipPoint&) {}, [](const ClipPoint&) {});
+  if (polygon.size() < 3) polygon.clear();
+}
+
+void Clipper::snap_cut(const NearCut& cut, std::vector<NearEdge>& edges) const {
+  const auto add = [&edges](ScreenVertex from, ScreenVertex to) {
+    if (from.y != to.y) edges.push_back({to, from});  // level edges bound nothing
+  };
+  ClipPoint a = cut.from;
+  ClipPoint b = cut.to;
+  if (!clip_edge(a, b, Side::y_low) || !clip_edge(a, b, Side::y_high)) return;
+  for (const Side side : {Side::x_low, Side::x_high}) {
+    const bool a_in = guard_distance(a, side) >= 0;
+    const bool b_in = guard_distance(b, side) >= 0;
+    if (!a_in && !b_in) {
+      add(snap_onto(a, side), snap_onto(b, side));
+      return;
+    }
+    if (a_in && !b_in) {
+      const ClipPoint g = cut_guard(a, b, side);
+      add(snap_onto(g, side), snap_onto(b, side));
+      b = g;
+    } else if (!a_in) {
+      const ClipPoint g = cut_guard(b, a, side);
+      add(snap_onto(a, side), snap_onto(g, side));
+      a = g;
+    }
+  }
+  add(snap(a), snap(b));
+}
+
+}  // namespace kage

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Clipping against the near plane and the guard band. A new vertex is computed from the end inside to the end outside, whichever
+// polygon of the edge asks, so neighbours get the very same one and no crack opens.
+#pragma once
+
+#include <vector>
+
+#include "geometry/view.hpp"
+
+namespace kage {
+
+/// An edge on the near plane that clipping made, in the polygon's direction.
+struct NearCut {
+  ClipPoint from;
+  ClipPoint to;
+};
+
+/// Clips one polygon after another; keeps its buffers.
+class Clipper {
+ public:
+  explicit Clipper(double near) : near_(near) {}
+
+  /// Clip in place. Near cuts are appended to `cuts` if given, even where nothing of the polygon is left. The outcome may be empty.
+  void clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts);
+
+  /// The pieces of a near cut as snapped edges, appended to `edges` in reverse direction (a section closes what the polygons leave
+  /// open): cut in y as the polygon is, but in x outside the guard band only moved onto it, so that what lies left of the
+  /// screen still counts.
+  void snap_cut(const NearCut& cut, std::vector<NearEdge>& edges) const;
+
+ private:
+  double near_;
+  std::vector<ClipPoint> buffer_;
+};
+
+}  // namespace kage

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/view.hpp"
+
+#include <cmath>
+
+namespace kage {
+
+View::View(const Camera& camera, int width, int height, int z_bits, double far)
+    : camera_(camera),
+      near_(camera.near),
+      far_(camera.far > 0 ? camera.far : far),
+      half_w_(width / 2.0),
+      half_h_(height / 2.0),
+      per_pixel_x_(camera.half_height / half_h_),
+      per_pixel_y_(camera.half_height / half_h_),
+      range_(static_cast<double>((std::int64_t{1} << z_bits) - 3)),
+      max_slope_(static_cast<double>(std::int64_t{1} << (z_bits + 8))) {
+  if (camera.perspective) {
+    const double span = 1.0 - near_ / far_;
+    z_base_ = 1.0 + range_ / span;
+    z_scale_ = range_ * near_ / span;
+  } else {
+    z_scale_ = range_ / (far_ - near_);
+    z_base_ = 1.0 - z_scale_ * near_;
+  }
+}
+
+EyePoint View::to_eye(const glm::dvec3& world) const {
+  const glm::dvec3 d = world - camera_.eye;
+  return {glm::dot(d, camera_.right), glm::dot(d, camera_.up), glm::dot(d, camera_.forward)};
+}
+
+ClipPoint View::to_clip(const EyePoint& p) const {
+  const double q = camera_.perspective ? p.z : 1.0;
+  return {p.x / per_pixel_x_ + half_w_ * q, half_h_ * q - p.y / per_pixel_y_, q, p.z, {0, 0, 0}};
+}
+
+double View::depth(double w) const { return camera_.perspective ? z_base_ - z_scale_ / w : z_base_ + z_scale_ * w; }
+
+std::optional<ScreenPlane> View::depth_plane(const glm::dvec3& normal, const EyePoint& point, const ClipPoint& anchor) const {
+  // Perspective: p = w (ex, ey, 1) with ex, ey linear on the screen, so normal . p = d gives 1/w = normal . (ex, ey, 1) / d.
+  // Parallel: w = (d - nx x - ny y) / nz.
+  const double denominator = camera_.perspective ? glm::dot(normal, point) : normal.z;
+  const double scale = -z_scale_ / denominator;
+  const double slope_x = scale * normal.x * per_pixel_x_;
+  const double slope_y = -scale * normal.y * per_pixel_y_;
+  // Written so that an infinity or a NaN (the plane through the eye, no area at all) is too steep as well.
+  if (!(std::abs(slope_x) <= max_slope_ && std::abs(slope_y) <= max_slope_)) return std::nullopt;
+  const double x = anchor.sx / anchor.q;
+  const double y = anchor.sy / anchor.q;
+  ScreenPlane p;
+  p.x0 = static_cast<std::int32_t>(std::floor(x));
+  p.y0 = static_cast<std::int32_t>(std::floor(y));
+  p.a = to_fixed(slope_x, kPlaneFrac);
+  p.b = to_fixed(slope_y, kPlaneFrac);
+  p.c = to_fixed(depth(anchor.w) + slope_x * (p.x0 + 0.5 - x) + slope_y * (p.y0 + 0.5 - y), kPlaneFrac);
+  return p;
+}
+
+ScreenPlane View::flat_plane(double value) { return {0, 0, to_fixed(value, kPlaneFrac), 0, 0}; }
+
+std::int64_t to_fixed(double v, int frac) {
+  return static_cast<std::int64_t>(std::floor(v * static_cast<double>(std::int64_t{1} << frac) + 0.5));
+}
+
+ScreenVertex snap(const ClipPoint& p) {
+  return {static_cast<std::int32_t>(std::floor(p.sx / p.q * 256.0 + 0.5)), static_cast<std::int32_t>(std::floor(p.sy / p.q * 256.0 + 0.5))};
+}
+
+}  // namespace kage

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From world space to the screen: the camera, depth, and the snap.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "kage/geometry.hpp"
+
+namespace kage {
+
+/// A point seen from the camera: x to the right, y up, w forward, all from the eye.
+using EyePoint = glm::dvec3;
+
+/// A point before the division: screen position (sx / q, sy / q) in pixels, y down. q is the distance w (perspective) or 1 (parallel).
+struct ClipPoint {
+  double sx = 0;
+  double sy = 0;
+  double q = 1;
+  double w = 0;
+  glm::dvec3 color{0, 0, 0};  ///< as displayed, 0 .. 255
+};
+
+class View {
+ public:
+  /// `far`: distance of the furthest thing to draw, used where the camera gives none.
+  View(const Camera& camera, int width, int height, int z_bits, double far);
+
+  [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const;
+  [[nodiscard]] ClipPoint to_clip(const EyePoint& p) const;
+  [[nodiscard]] double near() const { return near_; }
+
+  /// Depth at distance w, in LSB.
+  [[nodiscard]] double depth(double w) const;
+
+  /// The depth plane of the plane through `normal` and `point`, both in eye space, anchored at `anchor`, a point of it before the camera.
+  /// Empty if it is too steep: more than 2^(Z_BITS + 8) LSB a pixel.
+  [[nodiscard]] std::optional<ScreenPlane> depth_plane(const glm::dvec3& normal, const EyePoint& point, const ClipPoint& anchor) const;
+
+  /// A plane of constant depth.
+  [[nodiscard]] static ScreenPlane flat_plane(double value);
+
+ private:
+  Camera camera_;
+  double near_;
+  double far_;
+  double half_w_;      // of the picture, pixels
+  double half_h_;
+  double per_pixel_x_;  // eye x per pixel at w = 1 (perspective) or everywhere (parallel)
+  double per_pixel_y_;
+  double range_;       // LSB from near to far
+  double z_base_;      // perspective: depth = z_base - z_scale / w; parallel: z_base + z_scale w
+  double z_scale_;
+  double max_slope_;
+};
+
+/// v * 2^frac, rounded half up. |v| 2^frac must be below 2^62.
+std::int64_t to_fixed(double v, int frac);
+
+/// Screen position, rounded half up to 1/256 pixel.
+ScreenVertex snap(const ClipPoint& p);
+
+}  // namespace kage

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Geometry: a scene's frame as integers on the screen. Left of it all is floating point, right of it nothing is.
+//
+// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left pixel, whose
+// centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is nearer: 1 at the near plane,
+// 2^Z_BITS - 2 at the far plane. docs/numbers.md has every rounding with its bound.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kage/config.hpp"
+#include "kage/scene.hpp"
+
+namespace kage {
+
+/// Widest and highest picture: guard-band clipping cuts at 2^15 - 1, at least a pixel off screen.
+inline constexpr int kMaxSize = 32766;
+/// Limit of a snapped coordinate, in pixels.
+inline constexpr int kGuard = 32767;
+/// D of a plane, as a power of two.
+inline constexpr int kPlaneFrac = 24;
+
+/// A vertex after the snap, 16.8.
+struct ScreenVertex {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+
+  bool operator==(const ScreenVertex&) const = default;
+};
+
+/// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. In the terms of the design:
+/// A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| < 2^(Z_BITS + 9 + 24).
+struct ScreenPlane {
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+  std::int64_t c = 0;
+  std::int32_t x0 = 0;
+  std::int32_t y0 = 0;
+};
+
+/// A snapped polygon. Its outline is filled by winding number, so snapping may bend it without losing or doubling a pixel.
+struct ScreenPolygon {
+  std::uint32_t first_vertex = 0;  ///< into FrameGeometry::vertices
+  std::uint32_t vertex_count = 0;  ///< at least 3
+  ScreenPlane depth;
+  std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
+  std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
+  bool lit = false;                     ///< eye and light are on the same side of it
+  std::uint32_t triangle = 0;           ///< where it comes from, into SceneFrame::triangles
+};
+
+/// A polygon of a shadow volume.
+struct VolumeFace {
+  std::uint32_t polygon = 0;  ///< into FrameGeometry::polygons; a cap is the very polygon that is drawn
+  std::int32_t w = 1;         ///< factor of its winding number: -1 where the drawn polygon faces into the volume
+};
+
+/// A piece of a volume's section with the near plane; the section is to the right of edges that go down, with w = +1.
+struct NearEdge {
+  ScreenVertex from;
+  ScreenVertex to;
+};
+
+/// A shadow volume: all that delimits it before the far end, which lies behind everything drawn.
+struct ShadowVolume {
+  std::uint32_t first_face = 0;  ///< into FrameGeometry::volume_faces
+  std::uint32_t face_count = 0;
+  std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
+  std::uint32_t near_count = 0;
+  std::uint32_t component = 0;   ///< of the caster, into SceneFrame::components
+};
+
+/// A frame on the screen.
+struct FrameGeometry {
+  int width = 0;
+  int height = 0;
+  std::uint32_t background = 0;
+  std::uint32_t shade = 0;                   ///< darkening of a shadowed pixel, in 2^-SHADE_FRAC
+  std::vector<ScreenVertex> vertices;
+  std::vector<ScreenPolygon> polygons;       ///< first the drawn ones, in draw order, then sides of volumes
+  std::uint32_t drawn = 0;                   ///< number of the drawn ones
+  std::vector<ScreenPlane> color_planes;     ///< value in units of an 8-bit colour
+  std::vector<VolumeFace> volume_faces;
+  std::vector<NearEdge> near_edges;
+  std::vector<ShadowVolume> volumes;
+
+  [[nodiscard]] std::span<const ScreenVertex> outline(const ScreenPolygon& p) const {
+    return std::span(vertices).subspan(p.first_vertex, p.vertex_count);
+  }
+};
+
+/// What the picture's maker decides.
+struct Look {
+  std::array<std::uint8_t, 3> background{38, 44, 56};
+  double darkening = 0.55;  ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
+  double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
+};
+
+/// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each polygon
+/// has the mean of its corners), whether it is grey, and whether shadows are wanted.
+/// Throws Error if width or height is not 1 .. kMaxSize.
+FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {});
+
+}  // namespace kage

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The frame stream: tokens to words, words to tokens, stream files. The contract is docs/stream.md.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kage/defs.hpp"
+
+namespace kage {
+
+/// The five words that open a frame.
+struct FrameHeader {
+  int width = 0;
+  int height = 0;
+  std::uint32_t background = 0;  ///< channel c in bits 8c .. 8c + 7
+  std::uint32_t frame = 0;
+};
+
+/// A span with depth: OP and SP. Colour is used by OP only.
+struct SpanToken {
+  int xl = 0;
+  int xr = 0;                            ///< half open, xl <= xr <= width
+  std::int64_t z = 0;                    ///< at xl, Z_FRAC fraction bits, half an LSB included
+  std::int64_t dz = 0;                   ///< per pixel
+  int w = 0;                             ///< SP: signed multiplicity
+  bool lit = false;                      ///< OP: faces the light
+  std::array<std::int32_t, 3> color{};   ///< OP: at xl, COLOR_FRAC fraction bits with SMOOTH, else 0 .. 255
+  std::array<std::int32_t, 3> dcolor{};  ///< OP, SMOOTH: per pixel
+};
+
+/// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and ranges; fields are cut to
+/// their widths (assertions check them in debug builds).
+class TokenWriter {
+ public:
+  TokenWriter(const Config& config, std::vector<std::uint32_t>& out);
+
+  void header(const FrameHeader& header);
+  void shade(std::uint32_t shade);
+  void op(const SpanToken& span);
+  void sp(const SpanToken& span);
+  void nc(int xl, int xr, int w);
+  void inside(int w);  ///< IF
+  void ev(int xl, int xr);
+  void resolve();
+  void eol(int y);
+  void end();
+
+ private:
+  Config config_;
+  Layout layout_;
+  std::vector<std::uint32_t>* out_;
+};
+
+/// Any token, decoded. `span.xl`, `span.xr` and `span.w` are also those of NC, IF and EV.
+struct Token {
+  Kind kind{};
+  SpanToken span;
+  std::uint32_t shade = 0;
+  int y = 0;  ///< EOL
+};
+
+/// Decode the token that starts at `words[0]`; `words` must hold it whole.
+Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words);
+
+/// One line that says what the token is: "OP [12, 40) z 123.5 dz -0.25 color 10,20,30 lit".
+std::string to_string(const Config& config, const Token& token);
+
+/// Count of each kind of token, and words.
+struct TokenCounts {
+  std::array<std::uint64_t, 16> of_kind{};
+  std::uint64_t words = 0;
+  std::uint64_t spans = 0;        ///< OP, SP, NC
+  std::uint64_t span_pixels = 0;  ///< pixels in them
+};
+
+/// Check a whole frame as strictly as a file is: every field in its range, order of tokens, bits past the last field zero, no span
+/// whose depth or colour overflows its accumulator. Returns the counts. On a fault throws Error that names frame, line, token
+/// and byte offset; `where` opens the message and `offset` is that of the first word.
+TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where, std::uint64_t offset,
+                        FrameHeader* header = nullptr);
+
+/// Writes a stream file: the file appears under its name only when finish() has succeeded.
+class StreamFileWriter {
+ public:
+  StreamFileWriter(std::filesystem::path path, const Config& config);
+  ~StreamFileWriter();
+  StreamFileWriter(const StreamFileWriter&) = delete;
+  StreamFileWriter& operator=(const StreamFileWriter&) = delete;
+
+  void frame(std::span<const std::uint32_t> words);
+  void finish();
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// A stream file, mapped. Opening checks magic, version, configuration and the list of sections; frame() checks the section's
+/// checksum and the frame's tokens.
+class StreamFile {
+ public:
+  explicit StreamFile(const std::filesystem::path& path);
+  ~StreamFile();
+  StreamFile(StreamFile&&) noexcept;
+  StreamFile& operator=(StreamFile&&) noexcept;
+
+  [[nodiscard]] const Config& config() const;
+  [[nodiscard]] int frame_count() const;
+  [[nodiscard]] std::uint64_t bytes() const;
+
+  /// Words of frame `index`, valid as long as this object. Checked on every call; counts are added to `counts` if given.
+  [[nodiscard]] std::span<const std::uint32_t> frame(int index, TokenCounts* counts = nullptr) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// True if the file begins like a stream file.
+bool is_stream_file(const std::filesystem::path& path);
+
+}  // namespace kage

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf_file.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <string_view>
+
+#include "base64.hpp"
+#include "kage/error.hpp"
+#include "notes.hpp"
+
+namespace kage::scene {
+namespace {
+
+using Json = nlohmann::json;
+using Bytes = std::vector<std::uint8_t>;
+
+// Below it no sum or product of two sizes in this file overflows 64 bits.
+constexpr std::uint64_t kMostElements = std::uint64_t{1} << 30;
+
+std::uint32_t little(const std::uint8_t* p) {
+  return p[0] | static_cast<std::uint32_t>(p[1]) << 8 | static_cast<std::uint32_t>(p[2]) << 16 |
+         static_cast<std::uint32_t>(p[3]) << 24;
+}
+
+Bytes read_file(const std::filesystem::path& path, std::uint64_t most) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return {};
+  Bytes bytes;
+  constexpr std::size_t kChunk = std::size_t{1} << 20;
+  while (in && bytes.size() < most) {
+    const std::size_t want = static_cast<std::size_t>(std::min<std::uint64_t>(kChunk, most - bytes.size()));
+    const std::size_t old = bytes.size();
+    bytes.resize(old + want);
+    in.read(reinterpret_cast<char*>(bytes.data() + old), static_cast<std::streamsize>(want));
+    bytes.resize(old + static_cast<std::size_t>(in.gcount()));
+  }
+  return bytes;
+}
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string e = path.extension().string();
+  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return e;
+}
+
+std::string percent_decoded(const std::string& uri) {
+  const auto digit = [](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
+  };
+  std::string out;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0) {
+      out += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
+      i += 2;
+    } else {
+      out += uri[i];
+    }
+  }
+  return out;
+}
+
+std::size_t component_size(std::uint64_t type) {
+  switch (type) {
+    case 5120:
+    case 5121: return 1;
+    case 5122:
+    case 5123: return 2;
+    case 5125:
+    case 5126: return 4;
+    default: return 0;
+  }
+}
+
+std::size_t component_count(const std::string& type) {
+  if (type == "SCALAR") return 1;
+  if (type == "VEC2") return 2;
+  if (type == "VEC3") return 3;
+  if (type == "VEC4") return 4;
+  return 0;
+}
+
+template <typename T, typename Source>
+T converted(const std::uint8_t* p, bool normalized) {
+  Source s;
+  std::memcpy(&s, p, sizeof s);
+  if constexpr (std::is_integral_v<Source> && std::is_floating_point_v<T>) {
+    if (normalized) return std::max(static_cast<T>(s) / static_cast<T>(std::numeric_limits<Source>::max()), T{-1});
+  }
+  return static_cast<T>(s);
+}
+
+}  // namespace
+
+struct GltfFile::View {
+  const std::uint8_t* data = nullptr;  // null: zeros
+  std::uint64_t length = 0;
+  std::uint64_t stride = 0;  // 0: elements lie next to each other
+};
+
+struct GltfFile::Accessor {
+  View view;
+  std::uint64_t offset = 0;
+  std::uint64_t count = 0;
+  std::size_t components = 0;
+  int type = 0;
+  bool normalized = false;
+  const Json* sparse = nullptr;
+};
+
+bool GltfFile::recognises(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".gltf" && extension != ".glb") return false;
+  const Bytes head = read_file(path, 8);
+  if (head.size() == 8 && std::memcmp(head.data(), "glTF", 4) == 0) return little(head.data() + 4) != 1;
+  const Bytes all = read_file(path, std::numeric_limits<std::uint32_t>::max());
+  const Json root = Json::parse(all.begin(), all.end(), nullptr, false);
+  if (!root.is_object() || !root.contains("asset") || !root["asset"].is_object()) return true;
+  const Json& version = root["asset"].value("version", Json());
+  return !version.is_string() || version.get<std::string>().substr(0, 2) != "1.";
+}
+
+GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(path), name_(std::move(name)) {
+  Bytes text = read_file(path, std::numeric_limits<std::uint64_t>::max());
+  if (text.size() >= 4 && std::memcmp(text.data(), "glTF", 4) == 0) {
+    if (text.size() < 20) fail("header", "the file ends within it");
+    if (little(text.data() + 4) != 2) fail("header", "version " + std::to_string(little(text.data() + 4)) + " is not 2");
+    if (little(text.data() + 8) > text.size())
+      fail("header", "says " + std::to_string(little(text.data() + 8)) + " bytes, the file has " +
+                         std::to_string(text.size()));
+    const std::uint64_t json_bytes = little(text.data() + 12);
+    if (little(text.data() + 16) != 0x4e4f534a || 20 + json_bytes > text.size()) fail("JSON chunk", "missing or cut off");
+    const std::uint64_t next = 20 + json_bytes;
+    if (next + 8 <= text.size() && little(text.data() + next + 4) == 0x004e4942) {
+      const std::uint64_t bytes = little(text.data() + next);
+      if (next + 8 + bytes > text.size()) fail("BIN chunk", "cut off");
+      const auto begin = text.begin() + static_cast<std::ptrdiff_t>(next + 8);
+      binary_.assign(begin, begin + static_cast<std::ptrdiff_t>(bytes));
+    }
+    text = Bytes(text.begin() + 20, text.begin() + static_cast<std::ptrdiff_t>(next));
+  }
+  try {
+    root_ = Json::parse(text.begin(), text.end());
+  } catch (const Json::parse_error& e) {
+    throw Error(name_ + ": byte " + std::to_string(e.byte) + ": not JSON, or cut off");
+  } catch (const Json::exception& e) {
+    throw Error(name_ + ": not JSON: " + one_line(e.what()));
+  }
+  if (!root_.is_object()) fail("JSON", "the outermost value is not an object");
+  const std::string version = this->text(object(root_, "asset"), "version");
+  if (version.substr(0, 2) != "2.") fail("asset", version.empty() ? "no version: not glTF" : "version " + one_line(version, 20) + " is not 2.x");
+  buffers_.resize(count("buffers"));
+}
+
+void GltfFile::fail(const std::string& place, const std::string& cause) const {
+  throw Error(name_ + ": " + one_line(place, 120) + ": " + cause);
+}
+
+std::size_t GltfFile::count(const char* array_name) const { return array(root_, array_name, "JSON").size(); }
+
+const Json& GltfFile::item(const char* array_name, std::uint64_t index, const std::string& place) const {
+  const Json& all = array(root_, array_name, "JSON");
+  if (index >= all.size())
+    fail(place, "asks for number " + std::to_string(index) + " of " + std::to_string(all.size()) + " " + array_name);
+  const Json& found = all[static_cast<std::size_t>(index)];
+  if (!found.is_object()) fail(std::string(array_name) + " " + std::to_string(index), "not an object");
+  return found;
+}
+
+std::optional<std::uint64_t> GltfFile::integer(const Json& object, const char* key, const std::string& place) const {
+  const auto it = object.find(key);
+  if (it == object.end()) return std::nullopt;
+  const bool whole = it->is_number_unsigned() || (it->is_number_integer() && it->get<std::int64_t>() >= 0);
+  if (whole && it->get<std::uint64_t>() < (std::uint64_t{1} << 53)) return it->get<std::uint64_t>();
+  if (it->is_number_float()) {
+    const double d = it->get<double>();
+    if (d >= 0 && d < 0x1p53 && d == static_cast<double>(static_cast<std::uint64_t>(d))) return static_cast<std::uint64_t>(d);
+  }
+  fail(place, std::string("'") + key + "' is not a whole number");
+}
+
+std::optional<double> GltfFile::number(const Json& object, const char* key, const std::string& place) const {
+  const auto it = object.find(key);
+  if (it == object.end()) return std::nullopt;
+  if (!it->is_number()) fail(place, std::string("'") + key + "' is not a number");
+  return it->get<double>();
+}
+
+std::string GltfFile::text(const Json& object, const char* key) const {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+std::vector<double> GltfFile::numbers(const Json& object, const char* key, std::size_t size, const std::string& place) const {
+  const auto it = object.find(key);
+  if (it == object.end()) return {};
+  if (!it->is_array() || it->size() != size) fail(place, std::string("'") + key + "' is not " + std::to_string(size) + " numbers");
+  std::vector<double> values;
+  for (const Json& v : *it) {
+    if (!v.is_number()) fail(place, std::string("'") + key + "' holds what is not a number");
+    values.push_back(v.get<double>());
+  }
+  return values;
+}
+
+const Json& GltfFile::array(const Json& object, const char* key, const std::string& place) const {
+  static const Json kEmpty = Json::array();
+  const auto it = object.find(key);
+  if (it == object.end()) return kEmpty;
+  if (!it->is_array()) fail(place, std::string("'") + key + "' is not an array");
+  return *it;
+}
+
+const Json& GltfFile::object(const Json& parent, const char* key) const {
+  static const Json kEmpty = Json::object();
+  if (!parent.is_object()) return kEmpty;
+  const auto it = parent.find(key);
+  return it != parent.end() && it->is_object() ? *it : kEmpty;
+}
+
+const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
+  const Json& json = item("buffers", index, place);
+  std::optional<Bytes>& slot = buffers_[static_cast<std::size_t>(index)];
+  if (slot) return *slot;
+  const std::string here = "buffer " + std::to_string(index);
+  const std::uint64_t bytes = integer(json, "byteLength", here).value_or(0);
+  const std::string uri = text(json, "uri");
+  if (uri.empty()) {
+    if (index != 0 || binary_.empty()) fail(here, "no data");
+    slot = std::move(binary_);
+  } else if (uri.rfind("data:", 0) == 0) {
+    const std::size_t comma = uri.find(',');
+    if (comma == std::string::npos || uri.substr(0, comma).find(";base64") == std::string::npos)
+      fail(here, "its data URI is not base64");
+    slot = base64_decode(std::string_view(uri).substr(comma + 1));
+    if (!slot) fail(here, "its base64 is damaged");
+  } else {
+    if (uri.find("://") != std::string::npos) fail(here, "lies at another place: " + one_line(uri, 80));
+    const std::filesystem::path file = path_.parent_path() / percent_decoded(uri);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) fail(here, "no file " + one_line(uri, 80));
+    slot = read_file(file, bytes);
+  }
+  if (slot->size() < bytes)
+    fail(here, "says " + std::to_string(bytes) + " bytes, has " + std::to_string(slot->size()));
+  slot->resize(static_cast<std::size_t>(bytes));
+  return *slot;
+}
+
+GltfFile::View GltfFile::view(std::uint64_t index, const std::string& place) {
+  const Json& json = item("bufferViews", index, place);
+  const std::string here = "bufferView " + std::to_string(index);
+  if (json.contains("extensions") && json["extensions"].contains("EXT_meshopt_compression"))
+    fail(here, "is compressed (EXT_meshopt_compression)");
+  const std::optional<std::uint64_t> source = integer(json, "buffer", here);
+  if (!source) fail(here, "names no buffer");
+  const Bytes& bytes = buffer(*source, here);
+  const std::uint64_t offset = integer(json, "byteOffset", here).value_or(0);
+  View v;
+  v.length = integer(json, "byteLength", here).value_or(0);
+  v.stride = integer(json, "byteStride", here).value_or(0);
+  if (offset > bytes.size() || v.length > bytes.size() - offset) fail(here, "goes past the end of its buffer");
+  v.data = bytes.data() + offset;
+  return v;
+}
+
+GltfFile::Accessor GltfFile::accessor(std::uint64_t index, const std::string& place) {
+  const Json& json = item("accessors", index, place);
+  const std::string here = "accessor " + std::to_string(index);
+  Accessor a;
+  if (const auto v = integer(json, "bufferView", here)) a.view = view(*v, here);
+  a.offset = integer(json, "byteOffset", here).value_or(0);
+  a.count = integer(json, "count", here).value_or(0);
+  if (a.count > kMostElements) fail(here, std::to_string(a.count) + " elements are too many");
+  a.components = component_count(text(json, "type"));
+  if (a.components == 0) fail(here, "its type is not SCALAR, VEC2, VEC3 or VEC4");
+  const std::uint64_t type = integer(json, "componentType", here).value_or(0);
+  if (component_size(type) == 0) fail(here, "component type " + std::to_string(type) + " is unknown");
+  a.type = static_cast<int>(type);
+  a.normalized = json.contains("normalized") && json["normalized"] == Json(true);
+  if (json.contains("sparse")) a.sparse = &object(json, "sparse");
+  return a;
+}
+
+template <typename T>
+void GltfFile::copy(const View& view, std::uint64_t offset, std::uint64_t count, std::uint64_t stride, int type,
+                    std::size_t components, bool normalized, T* out, const std::string& place) const {
+  if (count == 0) return;
+  const std::size_t size = component_size(static_cast<std::uint64_t>(type));
+  const std::uint64_t element = size * components;
+  if (stride == 0) stride = element;
+  if (stride > 65536) fail(place, "stride " + std::to_string(stride) + " is too long");
+  if (offset > view.length || (count - 1) * stride + element > view.length - offset)
+    fail(place, "goes past the end of its bufferView");
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::uint8_t* p = view.data + offset + i * stride;
+    for (std::size_t k = 0; k < components; ++k, p += size, ++out) {
+      switch (type) {
+        case 5120: *out = converted<T, std::int8_t>(p, normalized); break;
+        case 5121: *out = converted<T, std::uint8_t>(p, normalized); break;
+        case 5122: *out = converted<T, std::int16_t>(p, normalized); break;
+        case 5123: *out = converted<T, std::uint16_t>(p, normalized); break;
+        case 5125: *out = converted<T, std::uint32_t>(p, normalized); break;
+        default: *out = converted<T, float>(p, normalized); break;
+      }
+    }
+  }
+}
+
+template <typename T>
+void GltfFile::elements(const Accessor& a, std::vector<T>& out, const std::string& place) {
+  out.assign(static_cast<std::size_t>(a.count) * a.components, T{});
+  if (a.view.data != nullptr)
+    copy(a.view, a.offset, a.count, a.view.stride, a.type, a.components, a.normalized, out.data(), place);
+  if (a.sparse == nullptr) return;
+  const std::uint64_t n = integer(*a.sparse, "count", place).value_or(0);
+  if (n > a.count) fail(place, "its sparse part is larger than the whole");
+  const Json& where = object(*a.sparse, "indices");
+  const Json& what = object(*a.sparse, "values");
+  const std::uint64_t type = integer(where, "componentType", place).value_or(0);
+  if (type != 5121 && type != 5123 && type != 5125) fail(place, "its sparse indices are not unsigned integers");
+  const auto where_view = integer(where, "bufferView", place);
+  const auto what_view = integer(what, "bufferView", place);
+  if (!where_view || !what_view) fail(place, "its sparse part names no bufferView");
+  std::vector<std::uint32_t> at(static_cast<std::size_t>(n));
+  std::vector<T> values(static_cast<std::size_t>(n) * a.components);
+  copy(view(*where_view, place), integer(where, "byteOffset", place).value_or(0), n, 0, static_cast<int>(type), 1, false,
+       at.data(), place);
+  copy(view(*what_view, place), integer(what, "byteOffset", place).value_or(0), n, 0, a.type, a.components, a.normalized,
+       values.data(), place);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (at[i] >= a.count) fail(place, "sparse index " + std::to_string(at[i]) + " of " + std::to_string(a.count));
+    for (std::size_t k = 0; k < a.components; ++k) out[at[i] * a.components + k] = values[i * a.components + k];
+  }
+}
+
+GltfFile::Floats GltfFile::floats(std::uint64_t index, std::size_t least, std::size_t most, const std::string& place) {
+  const Accessor a = accessor(index, place);
+  const std::string here = "accessor " + std::to_string(index);
+  if (a.components < least || a.components > most)
+    fail(place, here + " has " + std::to_string(a.components) + " components, not " + std::to_string(least));
+  Floats f;
+  f.components = a.components;
+  elements(a, f.values, here);
+  return f;
+}
+
+std::vector<std::uint32_t> GltfFile::indices(std::uint64_t index, const std::string& place) {
+  const Accessor a = accessor(index, place);
+  const std::string here = "accessor " + std::to_string(index);
+  if (a.components != 1 || (a.type != 5121 && a.type != 5123 && a.type != 5125))
+    fail(place, here + " does not hold unsigned integers");
+  std::vector<std::uint32_t> out;
+  elements(a, out, here);
+  return out;
+}
+
+}  // namespace kage::scene

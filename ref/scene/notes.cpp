@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "notes.hpp"
+
+namespace kage::scene {
+
+std::string one_line(std::string_view text, std::size_t limit) {
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool blank = byte <= 0x20 || byte == 0x7f;
+    if (blank && (line.empty() || line.back() == ' ')) continue;
+    line += blank ? ' ' : c;
+    if (line.size() > limit) {
+      // Not within a UTF-8 sequence: continuation bytes are 10xxxxxx.
+      while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xc0) == 0x80) line.pop_back();
+      if (!line.empty()) line.pop_back();
+      return line + "...";
+    }
+  }
+  while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
+  return line;
+}
+
+std::string counted(std::size_t count, std::string_view singular, std::string_view plural) {
+  return std::to_string(count) + " " + std::string(count == 1 ? singular : plural);
+}
+
+}  // namespace kage::scene

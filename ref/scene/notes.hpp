@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace kage::scene {
+
+/// One printable line: control characters become blanks, blanks are joined, and at most `limit` bytes are kept.
+std::string one_line(std::string_view text, std::size_t limit = 200);
+
+/// "1 texture is" / "2 textures are".
+std::string counted(std::size_t count, std::string_view singular, std::string_view plural);
+
+}  // namespace kage::scene

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What an importer hands over: the file's data, not yet welded, transformed or animated. It crosses the pipe from the
+// import child (wire.hpp). Angles, units and handedness as in kage/scene.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "transform.hpp"
+
+namespace kage::scene {
+
+/// Corners that share one material. Attributes lie in the order of the file's vertices.
+struct RawPrimitive {
+  glm::dvec3 color{1, 1, 1};            ///< base or diffuse colour
+  std::vector<float> positions;         ///< x, y, z of each vertex
+  std::vector<float> normals;           ///< as many, or none
+  std::vector<float> colors;            ///< red, green, blue of each vertex, or none
+  std::vector<std::uint32_t> corners;   ///< three vertices for each triangle
+  std::vector<std::uint32_t> faces;     ///< for each triangle the file's face it was cut from, counted within the primitive
+  std::uint32_t face_count = 0;         ///< of the file, lines and points not counted
+
+  [[nodiscard]] std::size_t vertex_count() const { return positions.size() / 3; }
+  [[nodiscard]] std::size_t triangle_count() const { return faces.size(); }
+};
+
+/// What one node draws: primitives that are welded to one object.
+struct RawMesh {
+  std::string name;
+  std::vector<RawPrimitive> primitives;
+};
+
+/// A node of the hierarchy. Parents come before their children.
+struct RawNode {
+  std::string name;
+  std::int32_t parent = -1;
+  std::int32_t mesh = -1;
+  bool fixed = true;  ///< the map is `matrix`; otherwise it is composed of translation, rotation and scale
+  Affine matrix;
+  glm::dvec3 translation{0, 0, 0};
+  Quaternion rotation;
+  glm::dvec3 scale{1, 1, 1};
+};
+
+enum class RawPath : std::uint8_t { kTranslation, kRotation, kScale };
+enum class RawInterpolation : std::uint8_t { kLinear, kStep, kCubic };
+
+/// Keys of one property of one node. Times rise strictly.
+struct RawTrack {
+  std::uint32_t node = 0;
+  RawPath path = RawPath::kTranslation;
+  RawInterpolation interpolation = RawInterpolation::kLinear;
+  std::vector<double> times;
+  std::vector<double> values;  ///< 3 a key, 4 (x, y, z, w) for rotations; kCubic: in-tangent, value, out-tangent
+
+  [[nodiscard]] std::size_t width() const { return path == RawPath::kRotation ? 4 : 3; }
+};
+
+/// A camera in the frame of its node.
+struct RawCamera {
+  std::uint32_t node = 0;
+  glm::dvec3 eye{0, 0, 0};
+  glm::dvec3 forward{0, 0, -1};
+  glm::dvec3 up{0, 1, 0};
+  bool perspective = true;
+  double half_height = 0.5;  ///< as kage::Camera
+  double near = 0;           ///< 0: not given
+  double far = 0;            ///< 0: not given
+};
+
+/// A light in the frame of its node.
+struct RawLight {
+  std::uint32_t node = 0;
+  bool directional = true;
+  glm::dvec3 direction{0, 0, -1};
+  glm::dvec3 position{0, 0, 0};
+  glm::dvec3 color{1, 1, 1};
+};
+
+struct RawScene {
+  std::vector<RawMesh> meshes;
+  std::vector<RawNode> nodes;
+  std::vector<RawTrack> tracks;
+  double start_time = 0;             ///< of the animation; its end is the last key
+  std::optional<RawCamera> camera;
+  std::optional<RawLight> light;
+  std::uint32_t frames = 0;          ///< as the file asks (extras.kage.frames); 0: it does not
+  std::vector<std::string> notes;
+};
+
+}  // namespace kage::scene

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kage/config.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+#include "stream/config_text.hpp"
+
+namespace kage {
+namespace {
+
+std::string allowed_values(const ParamInfo& p) {
+  if (p.allowed == 0) return fmt::format("{} .. {}", p.min, p.max);
+  std::string list;
+  for (int v = p.min; v <= p.max; ++v)
+    if ((p.allowed >> v) & 1U) list += fmt::format("{}{}", list.empty() ? "" : ", ", v);
+  return list;
+}
+
+Config from_yaml(const YAML::Node& node, const std::string& where) {
+  if (!node.IsMap()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
+  Config config;
+  std::set<std::string> seen;
+  for (const auto& entry : node) {
+    const auto name = entry.first.as<std::string>();
+    const auto* p = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& i) { return i.name == name; });
+    if (p == kParams.end()) throw Error(fmt::format("{}: {}: no such parameter", where, name));
+    if (!seen.insert(name).second) throw Error(fmt::format("{}: {}: given twice", where, name));
+    int value = 0;
+    if (!entry.second.IsScalar() || !YAML::convert<int>::decode(entry.second, value))
+      throw Error(fmt::format("{}: {}: not a whole number", where, name));
+    config.*(p->member) = value;
+  }
+  validate(config, where);
+  return config;
+}
+
+YAML::Node read_yaml(const std::string& path) {
+  try {
+    return YAML::LoadFile(path);
+  } catch (const YAML::BadFile&) {
+    throw Error(fmt::format("{}: cannot be read", path));
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: line {}: {}", path, e.mark.line + 1, e.msg));
+  }
+}
+
+}  // namespace
+
+Config config_from_text(const std::string& text, const std::string& where) {
+  try {
+    return from_yaml(YAML::Load(text), where);
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: configuration, line {}: {}", where, e.mark.line + 1, e.msg));
+  }
+}
+
+void validate(const Config& config, const std::string& where) {
+  for (const ParamInfo& p : kParams) {
+    const int v = config.*(p.member);
+    if (v < p.min || v > p.max || (p.allowed != 0 && ((p.allowed >> v) & 1U) == 0))
+      throw Error(fmt::format("{}: {} is {}, legal are {}", where, p.name, v, allowed_values(p)));
+  }
+  if (config.fsf != 0 && config.dsf_bits == 0) throw Error(fmt::format("{}: FSF needs DSF_BITS > 0", where));
+  if (config.color_frac != 0 && config.smooth == 0) throw Error(fmt::format("{}: COLOR_FRAC > 0 needs SMOOTH", where));
+  if (config.max_width > (1 << config.x_bits) - 1)
+    throw Error(fmt::format("{}: MAX_WIDTH is {}, X_BITS = {} holds {}", where, config.max_width, config.x_bits,
+                            (1 << config.x_bits) - 1));
+}
+
+std::vector<NamedConfig> named_configs() {
+  const std::string path = (data_directory() / "rtl" / "configs.yaml").string();
+  const YAML::Node all = read_yaml(path);
+  if (!all.IsMap()) throw Error(fmt::format("{}: not a list of configurations", path));
+  std::vector<NamedConfig> list;
+  for (const auto& entry : all) {
+    const auto name = entry.first.as<std::string>();
+    list.push_back({name, from_yaml(entry.second, fmt::format("{}: {}", path, name))});
+  }
+  return list;
+}
+
+NamedConfig load_config(const std::string& name_or_file) {
+  const auto named = named_configs();
+  for (const NamedConfig& n : named)
+    if (n.name == name_or_file) return n;
+  if (!std::filesystem::exists(name_or_file)) {
+    std::string names;
+    for (const NamedConfig& n : named) names += (names.empty() ? "" : ", ") + n.name;
+    throw Error(fmt::format("{}: no such file, and no configuration of that name (there are {})", name_or_file, names));
+  }
+  return {name_or_file, from_yaml(read_yaml(name_or_file), name_or_file)};
+}
+
+std::string to_yaml(const Config& config) {
+  std::string text;
+  for (const ParamInfo& p : kParams) text += fmt::format("{}: {}\n", p.name, config.*(p.member));
+  return text;
+}
+
+std::vector<std::string> lacks(const Config& config, const Needs& needs) {
+  std::vector<std::string> missing;
+  if (needs.shadows && config.dsf_bits == 0) missing.emplace_back("shadows (DSF_BITS > 0)");
+  if (needs.shadows && needs.several_volumes && config.fsf == 0) missing.emplace_back("several volumes (FSF)");
+  if (needs.smooth && config.smooth == 0) missing.emplace_back("smooth colour (SMOOTH)");
+  if (needs.color && config.channels == 1) missing.emplace_back("colour (CHANNELS = 3)");
+  if (needs.width > config.max_width) missing.push_back(fmt::format("MAX_WIDTH >= {}", needs.width));
+  return missing;
+}
+
+NamedConfig choose_config(const Needs& needs) {
+  std::string all;
+  for (const NamedConfig& n : named_configs()) {
+    const auto missing = lacks(n.config, needs);
+    if (missing.empty()) return n;
+    all += fmt::format("{}{} lacks {}", all.empty() ? "" : "; ", n.name, fmt::join(missing, ", "));
+  }
+  throw Error("no named configuration can draw this: " + all);
+}
+
+}  // namespace kage

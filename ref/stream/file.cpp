@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Stream files. All numbers little-endian.
+//
+//   8 bytes   "KAGESTRM"
+//   sections, each: 4 bytes tag, u32 CRC-32 of the payload, u64 payload bytes, payload, zeros up to a multiple of 8
+//     CONF    the configuration as YAML; first, once
+//     FRAM    the words of one frame, as the port gets them without fill
+//     DONE    u64 number of frames, u32 CRC-32 over all sections' headers before it; last, once
+//   Sections with other tags are checked and skipped.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "kage/config.hpp"
+#include "kage/error.hpp"
+#include "kage/stream.hpp"
+#include "stream/config_text.hpp"
+
+namespace kage {
+namespace {
+
+constexpr char kFileMagic[9] = "KAGESTRM";
+constexpr std::size_t kSectionHeader = 16;
+
+static_assert(std::endian::native == std::endian::little, "stream files are read and written in place");
+
+std::uint32_t crc(std::uint32_t seed, const void* data, std::size_t size) {
+  return static_cast<std::uint32_t>(crc32_z(seed, static_cast<const Bytef*>(data), size));
+}
+
+struct SectionHeader {
+  char tag[4];
+  std::uint32_t crc;
+  std::uint64_t size;
+};
+static_assert(sizeof(SectionHeader) == kSectionHeader);
+
+constexpr std::uint64_t padded(std::uint64_t size) { return (size + 7) / 8 * 8; }
+
+}  // namespace
+
+// ---- writing ------------------------------------------------------------------------------------------------------------
+
+struct StreamFileWriter::Data {
+  std::filesystem::path path;
+  std::filesystem::path part;
+  std::FILE* file = nullptr;
+  std::uint64_t frames = 0;
+  std::uint32_t headers_crc = 0;
+
+  [[noreturn]] void fail(const char* what) const { throw Error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno))); }
+
+  void write(const void* data, std::size_t size) const {
+    if (size != 0 && std::fwrite(data, 1, size, file) != size) fail("cannot write");
+  }
+
+  void section(const char* tag, const void* data, std::size_t size) {
+    SectionHeader h{};
+    std::memcpy(h.tag, tag, 4);
+    h.crc = crc(0, data, size);
+    h.size = size;
+    headers_crc = crc(headers_crc, &h, sizeof h);
+    write(&h, sizeof h);
+    write(data, size);
+    constexpr char zeros[8] = {};
+    write(zeros, padded(size) - size);
+  }
+};
+
+StreamFileWriter::StreamFileWriter(std::filesystem::path path, const Config& config) : data_(std::make_unique<Data>()) {
+  data_->path = std::move(path);
+  data_->part = data_->path;
+  data_->part += fmt::format(".part{}", ::getpid());
+  data_->file = std::fopen(data_->part.c_str(), "wb");
+  if (data_->file == nullptr) data_->fail("cannot be created");
+  data_->write(kFileMagic, 8);
+  const std::string text = to_yaml(config);
+  data_->section("CONF", text.data(), text.size());
+}
+
+StreamFileWriter::~StreamFileWriter() {
+  if (data_->file != nullptr) {
+    (void)std::fclose(data_->file);
+    (void)::unlink(data_->part.c_str());
+  }
+}
+
+void StreamFileWriter::frame(std::span<const std::uint32_t> words) {
+  data_->section("FRAM", words.data(), words.size_bytes());
+  ++data_->frames;
+}
+
+void StreamFileWriter::finish() {
+  std::array<char, 12> payload{};
+  std::memcpy(payload.data(), &data_->frames, 8);
+  std::memcpy(payload.data() + 8, &data_->headers_crc, 4);
+  data_->section("DONE", payload.data(), payload.size());
+  std::FILE* f = data_->file;
+  data_->file = nullptr;
+  const bool closed = std::fclose(f) == 0;
+  if (!closed || std::rename(data_->part.c_str(), data_->path.c_str()) != 0) {
+    const int saved = errno;
+    (void)::unlink(data_->part.c_str());
+    errno = saved;
+    data_->fail("cannot write");
+  }
+}
+
+// ---- reading ------------------------------------------------------------------------------------------------------------
+
+struct StreamFile::Data {
+  struct Frame {
+    std::uint64_t offset;  // of the payload
+    std::uint64_t size;
+    std::uint32_t crc;
+  };
+
+  std::string name;
+  const char* base = nullptr;
+  std::uint64_t size = 0;
+  Config config;
+  std::vector<Frame> frames;
+
+  Data() = default;
+  Data(const Data&) = delete;
+  Data& operator=(const Data&) = delete;
+  ~Data() {
+    if (base != nullptr) ::munmap(const_cast<char*>(base), size);
+  }
+
+  [[noreturn]] void fail(std::uint64_t at, const std::string& cause) const { throw Error(fmt::format("{}: byte {}: {}", name, at, cause)); }
+
+  void map(const std::filesystem::path& path) {
+    name = path.string();
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) throw Error(fmt::format("{}: {}", name, std::strerror(errno)));
+    struct stat st {};
+    if (::fstat(fd, &st) != 0 || !S_ISREG(st.st_mode)) {
+      ::close(fd);
+      throw Error(fmt::format("{}: not a file", name));
+    }
+    size = static_cast<std::uint64_t>(st.st_size);
+    if (size < 8) {
+      ::close(fd);
+      throw Error(fmt::format("{}: byte 0: not a stream file", name));
+    }
+    void* p = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0);
+    const int saved = errno;
+    ::close(fd);
+    if (p == MAP_FAILED) throw Error(fmt::format("{}: cannot be mapped: {}", name, std::strerror(saved)));
+    base = static_cast<const char*>(p);
+    if (std::memcmp(base, kFileMagic, 8) != 0) fail(0, "not a stream file");
+  }
+
+  void index() {
+    std::uint64_t at = 8;
+    std::uint32_t headers_crc = 0;
+    bool first = true;
+    for (bool done = false; !done; first = false) {
+      if (size - at < kSectionHeader) fail(at, "the file ends before its last section");
+      SectionHeader h{};
+      std::memcpy(&h, base + at, sizeof h);
+      const std::uint64_t payload = at + kSectionHeader;
+      if (h.size > size - payload || padded(h.size) > size - payload) fail(at, "a section reaches past the end of the file");
+      const std::string_view tag(h.tag, 4);
+      for (std::uint64_t i = h.size; i < padded(h.size); ++i)
+        if (base[payload + i] != 0) fail(payload + i, "padding is not zero");
+      if (first != (tag == "CONF")) fail(at, first ? "the first section is not CONF" : "a second CONF section");
+      // Frames are summed when they are asked for, so that opening a large file is quick.
+      if (tag == "FRAM") {
+        if (h.size % 4 != 0) fail(at, "a frame is not of whole words");
+        frames.push_back({payload, h.size, h.crc});
+      } else if (crc(0, base + payload, h.size) != h.crc) {
+        fail(at, fmt::format("checksum of section {} is wrong", printable(tag)));
+      }
+      if (tag == "CONF") {
+        config = config_from_text(std::string(base + payload, h.size), name);
+      } else if (tag == "DONE") {
+        check_done(at, payload, h.size, headers_crc);
+        done = true;
+      }
+      headers_crc = crc(headers_crc, &h, sizeof h);
+      at = payload + padded(h.size);
+    }
+    if (at != size) fail(at, "bytes after the last section");
+  }
+
+  static std::string printable(std::string_view tag) {
+    std::string s(tag);
+    for (char& c : s)
+      if (c < ' ' || c > '~') c = '?';
+    return s;
+  }
+
+  void check_done(std::uint64_t at, std::uint64_t payload, std::uint64_t bytes, std::uint32_t headers_crc) const {
+    std::uint64_t count = 0;
+    std::uint32_t sum = 0;
+    if (bytes != 12) fail(at, "section DONE has the wrong size");
+    std::memcpy(&count, base + payload, 8);
+    std::memcpy(&sum, base + payload + 8, 4);
+    if (sum != headers_crc) fail(at, "checksum of the section headers is wrong");
+    if (count != frames.size()) fail(at, fmt::format("{} frames announced, {} found", count, frames.size()));
+  }
+};
+
+StreamFile::StreamFile(const std::filesystem::path& path) : data_(std::make_unique<Data>()) {
+  data_->map(path);
+  data_->index();
+}
+StreamFile::~StreamFile() = default;
+StreamFile::StreamFile(StreamFile&&) noexcept = default;
+StreamFile& StreamFile::operator=(StreamFile&&) noexcept = default;
+
+const Config& StreamFile::config() const { return data_->config; }
+int StreamFile::frame_count() const { return static_cast<int>(data_->frames.size()); }
+std::uint64_t StreamFile::bytes() const { return data_->size; }
+
+std::span<const std::uint32_t> StreamFile::frame(int index, TokenCounts* counts) const {
+  const Data::Frame& f = data_->frames.at(static_cast<std::size_t>(index));
+  const char* payload = data_->base + f.offset;
+  // Payloads start at multiples of 8 in a page-aligned map.
+  const std::span<const std::uint32_t> words(reinterpret_cast<const std::uint32_t*>(payload), f.size / 4);
+  if (crc(0, payload, f.size) != f.crc) {
+    // Say where, if the damage can be seen in the tokens; the checksum is the verdict all the same.
+    (void)check_frame(data_->config, words, fmt::format("{}: section {}: checksum is wrong", data_->name, index), f.offset);
+    data_->fail(f.offset, fmt::format("checksum of frame {} is wrong", index));
+  }
+  const TokenCounts c = check_frame(data_->config, words, data_->name, f.offset);
+  if (counts != nullptr) {
+    for (std::size_t i = 0; i < c.of_kind.size(); ++i) counts->of_kind[i] += c.of_kind[i];
+    counts->words += c.words;
+    counts->spans += c.spans;
+    counts->span_pixels += c.span_pixels;
+  }
+  return words;
+}
+
+bool is_stream_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return false;
+  std::FILE* f = std::fopen(path.c_str(), "rb");
+  if (f == nullptr) return false;
+  char head[8] = {};
+  const bool yes = std::fread(head, 1, 8, f) == 8 && std::memcmp(head, kFileMagic, 8) == 0;
+  (void)std::fclose(f);
+  return yes;
+}
+
+}  // namespace kage
