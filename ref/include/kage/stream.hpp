@@ -42,6 +42,9 @@ class TokenWriter {
  public:
   TokenWriter(const Config& config, std::vector<std::uint32_t>& out);
 
+  /// Go on writing elsewhere.
+  void write_to(std::vector<std::uint32_t>& out) { out_ = &out; }
+
   void header(const FrameHeader& header);
   void shade(std::uint32_t shade);
   void op(const SpanToken& span);

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kage/frontend.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "frontend/scan.hpp"
+#include "frontend/span_setup.hpp"
+#include "kage/error.hpp"
+#include "kage/stream.hpp"
+
+namespace kage {
+namespace {
+
+constexpr int kBandLines = 16;
+
+/// Indices of things in the order of their numbers, for each band of lines that they touch.
+class Buckets {
+ public:
+  Buckets(int bands, int height, std::span<const LineRange> ranges) {
+    start_.assign(static_cast<std::size_t>(bands) + 1, 0);
+    const auto each_band = [&](auto what) {
+      for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const int first = std::max(ranges[i].first, 0);
+        const int end = std::min(ranges[i].end, height);
+        if (first >= end) continue;
+        for (int b = first / kBandLines; b <= (end - 1) / kBandLines; ++b) what(static_cast<std::size_t>(b), static_cast<std::uint32_t>(i));
+      }
+    };
+    each_band([this](std::size_t b, std::uint32_t) { ++start_[b + 1]; });
+    for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
+    items_.resize(start_.back());
+    std::vector<std::size_t> at(start_.begin(), start_.end() - 1);
+    each_band([&](std::size_t b, std::uint32_t i) { items_[at[b]++] = i; });
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> band(int b) const {
+    const auto i = static_cast<std::size_t>(b);
+    return std::span(items_).subspan(start_[i], start_[i + 1] - start_[i]);
+  }
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<std::uint32_t> items_;
+};
+
+/// What all bands share.
+struct Frame {
+  const FrameGeometry* geometry;
+  const Config* config;
+  std::vector<std::uint32_t> volume_of_face;
+  std::vector<std::uint32_t> volume_of_edge;
+  Buckets polygons;
+  Buckets faces;
+  Buckets edges;
+};
+
+std::vector<LineRange> ranges_of_polygons(const FrameGeometry& g, std::size_t count) {
+  std::vector<LineRange> r;
+  r.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) r.push_back(lines_of(g.outline(g.polygons[i])));
+  return r;
+}
+
+Frame prepare(const FrameGeometry& g, const Config& config) {
+  const int bands = (g.height + kBandLines - 1) / kBandLines;
+  const auto all = ranges_of_polygons(g, g.polygons.size());
+  std::vector<LineRange> faces;
+  faces.reserve(g.volume_faces.size());
+  for (const VolumeFace& f : g.volume_faces) faces.push_back(all[f.polygon]);
+  std::vector<LineRange> edges;
+  edges.reserve(g.near_edges.size());
+  for (const NearEdge& e : g.near_edges) edges.push_back(lines_of(std::array{e.from, e.to}));
+  Frame f{&g, &config, {}, {}, {bands, g.height, std::span(all).first(g.drawn)}, {bands, g.height, faces}, {bands, g.height, edges}};
+  f.volume_of_face.resize(g.volume_faces.size());
+  f.volume_of_edge.resize(g.near_edges.size());
+  for (std::uint32_t v = 0; v < g.volumes.size(); ++v) {
+    const ShadowVolume& volume = g.volumes[v];
+    std::fill_n(f.volume_of_face.begin() + volume.first_face, volume.face_count, v);
+    std::fill_n(f.volume_of_edge.begin() + volume.first_near, volume.near_count, v);
+  }
+  return f;
+}
+
+/// Makes the words of one band.
+class Band {
+ public:
+  Band(const Frame& frame, int band)
+      : f_(&frame),
+        g_(frame.geometry),
+        band_(band),
+        y0_(band * kBandLines),
+        y1_(std::min(y0_ + kBandLines, g_->height)),
+        writer_(*frame.config, words_),
+        depth_(frame.config->z_frac, frame.config->z_bits + frame.config->z_frac + 2),
+        color_(frame.config->color_frac, 10 + frame.config->color_frac) {}
+
+  std::vector<std::uint32_t> make() {
+    opaque();
+    if (f_->config->dsf_bits > 0) volumes();
+    for (int y = y0_; y < y1_; ++y) {
+      const Line& line = at(y);
+      words_.insert(words_.end(), line.opaque.begin(), line.opaque.end());
+      words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
+      writer_.write_to(words_);
+      if (!line.shadow.empty()) writer_.resolve();
+      writer_.eol(y);
+    }
+    return std::move(words_);
+  }
+
+ private:
+  struct Line {
+    std::vector<std::uint32_t> opaque;
+    std::vector<std::uint32_t> shadow;
+    // Of the volume being worked on:
+    std::vector<Crossing> near;
+    int touched_from = 0;
+    int touched_to = 0;
+  };
+
+  Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
+
+  SpanToken span(const ScreenPolygon& p, int y, int xl, int xr) const {
+    SpanToken s;
+    s.xl = xl;
+    s.xr = xr;
+    const SpanSetup::Ramp z = depth_.at(p.depth, xl, y, xr - xl);
+    s.z = z.start;
+    s.dz = z.step;
+    return s;
+  }
+
+  void opaque() {
+    const bool smooth = f_->config->smooth != 0;
+    const auto channels = static_cast<std::size_t>(f_->config->channels);
+    for (const std::uint32_t i : f_->polygons.band(band_)) {
+      const ScreenPolygon& p = g_->polygons[i];
+      scanner_.scan(g_->outline(p), y0_, y1_, g_->width, [&](int y, int xl, int xr, int) {
+        SpanToken s = span(p, y, xl, xr);
+        s.lit = p.lit;
+        for (std::size_t c = 0; c < channels; ++c) {
+          if (!smooth) {
+            s.color[c] = p.color[c];
+            continue;
+          }
+          const ScreenPlane plane = p.color_planes < 0 ? ScreenPlane{0, 0, std::int64_t{p.color[c]} << kPlaneFrac, 0, 0}
+                                                       : g_->color_planes[static_cast<std::size_t>(p.color_planes) + c];
+          const SpanSetup::Ramp r = color_.at(plane, xl, y, xr - xl);
+          s.color[c] = static_cast<std::int32_t>(r.start);
+          s.dcolor[c] = static_cast<std::int32_t>(r.step);
+        }
+        writer_.write_to(at(y).opaque);
+        writer_.op(s);
+      });
+    }
+  }
+
+  void volumes() {
+    const auto faces = f_->faces.band(band_);
+    const auto edges = f_->edges.band(band_);
+    std::size_t face = 0;
+    std::size_t edge = 0;
+    while (face < faces.size() || edge < edges.size()) {
+      std::uint32_t v = ~0U;
+      if (face < faces.size()) v = f_->volume_of_face[faces[face]];
+      if (edge < edges.size()) v = std::min(v, f_->volume_of_edge[edges[edge]]);
+      for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face) volume_face(g_->volume_faces[faces[face]]);
+      for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge) near_edge(g_->near_edges[edges[edge]]);
+      close_volume();
+    }
+  }
+
+  // w modulo 2^DSF_BITS, its sign kept where it fits; 0 if it has no effect.
+  [[nodiscard]] int weight(int w) const {
+    return w % (1 << f_->config->dsf_bits);
+  }
+
+  static void touch(Line& line, int xl, int xr) {
+    if (line.touched_from == line.touched_to) {
+      line.touched_from = xl;
+      line.touched_to = xr;
+    } else {
+      line.touched_from = std::min(line.touched_from, xl);
+      line.touched_to = std::max(line.touched_to, xr);
+    }
+  }
+
+  void volume_face(const VolumeFace& face) {
+    const ScreenPolygon& p = g_->polygons[face.polygon];
+    scanner_.scan(g_->outline(p), y0_, y1_, g_->width, [&](int y, int xl, int xr, int winding) {
+      const int w = weight(winding * face.w);
+      if (w == 0) return;
+      SpanToken s = span(p, y, xl, xr);
+      s.w = w;
+      Line& line = at(y);
+      writer_.write_to(line.shadow);
+      writer_.sp(s);
+      touch(line, xl, xr);
+    });
+  }
+
+  void near_edge(const NearEdge& e) {
+    EdgeWalker walker(e.from, e.to);
+    const int from = std::max(walker.first(), y0_);
+    const int to = std::min(walker.end(), y1_);
+    if (from >= to) return;
+    walker.start(from);
+    for (int y = from; y < to; ++y, walker.next()) at(y).near.push_back({walker.x(), walker.winding()});
+  }
+
+  void close_volume() {
+    for (int y = y0_; y < y1_; ++y) {
+      Line& line = at(y);
+      if (!line.near.empty()) near_cap(line);
+      if (line.touched_from == line.touched_to) continue;
+      if (f_->config->fsf != 0) {
+        writer_.write_to(line.shadow);
+        writer_.ev(line.touched_from, line.touched_to);
+      }
+      line.touched_from = line.touched_to = 0;
+    }
+  }
+
+  void near_cap(Line& line) {
+    std::stable_sort(line.near.begin(), line.near.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+    writer_.write_to(line.shadow);
+    fill_between(line.near, g_->width, [&](int xl, int xr, int winding) {
+      const int w = weight(winding);
+      if (w == 0) return;
+      if (xl == 0 && xr == g_->width)
+        writer_.inside(w);
+      else
+        writer_.nc(xl, xr, w);
+      touch(line, xl, xr);
+    });
+    line.near.clear();
+  }
+
+  const Frame* f_;
+  const FrameGeometry* g_;
+  int band_;
+  int y0_;
+  int y1_;
+  std::vector<std::uint32_t> words_;
+  TokenWriter writer_;
+  SpanSetup depth_;
+  SpanSetup color_;
+  Scanner scanner_;
+  std::array<Line, kBandLines> lines_;
+};
+
+}  // namespace
+
+void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink, int threads) {
+  if (g.width > (1 << config.x_bits) - 1)
+    throw Error(fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits, (1 << config.x_bits) - 1));
+  const bool shadows = config.dsf_bits > 0 && !g.volumes.empty();
+  if (shadows && config.fsf == 0 && g.volumes.size() > 1)
+    throw Error(fmt::format("{} shadow volumes need FSF, which the configuration lacks", g.volumes.size()));
+
+  std::vector<std::uint32_t> words;
+  TokenWriter writer(config, words);
+  writer.header({g.width, g.height, g.background, number});
+  if (shadows) writer.shade(g.shade);
+  sink(words);
+
+  const Frame frame = prepare(g, config);
+  const int bands = (g.height + kBandLines - 1) / kBandLines;
+  // A few bands at a time, handed on in order: memory holds no more than those.
+  const int wave = threads == 1 ? 1 : 8;
+  std::vector<std::vector<std::uint32_t>> made(static_cast<std::size_t>(wave));
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  for (int first = 0; first < bands; first += wave) {
+    const int end = std::min(first + wave, bands);
+    const auto make = [&](int b) { made[static_cast<std::size_t>(b - first)] = Band(frame, b).make(); };
+    if (wave == 1)
+      make(first);
+    else
+      arena.execute([&] { tbb::parallel_for(first, end, make); });
+    for (int b = first; b < end; ++b) sink(made[static_cast<std::size_t>(b - first)]);
+  }
+
+  words.clear();
+  writer.end();
+  sink(words);
+}
+
+void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, std::vector<std::uint32_t>& out, int threads) {
+  make_frame(
+      g, config, number, [&out](std::span<const std::uint32_t> words) { out.insert(out.end(), words.begin(), words.end()); }, threads);
+}
+
+}  // namespace kage

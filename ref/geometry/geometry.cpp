@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kage/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/clip.hpp"
+#include "geometry/shade.hpp"
+#include "geometry/shadow_volume.hpp"
+#include "geometry/view.hpp"
+#include "kage/error.hpp"
+
+namespace kage {
+namespace {
+
+// Drawn polygons of a triangle: consecutive in FrameGeometry::polygons. Smooth colour may need several.
+struct DrawnRange {
+  std::uint32_t first = 0;
+  std::uint32_t count = 0;
+};
+
+class Builder {
+ public:
+  Builder(const SceneFrame& frame, const Config& config, int width, int height, const Look& look)
+      : frame_(&frame),
+        config_(&config),
+        look_(&look),
+        caster_(frame, look.extrusion),
+        light_(frame.light, frame.camera.up),
+        view_(frame.camera, width, height, config.z_bits, furthest(frame)),
+        clipper_(view_.near()) {
+    out_.width = width;
+    out_.height = height;
+    for (unsigned c = 0; c < 3; ++c) out_.background |= static_cast<std::uint32_t>(look.background[c]) << (8 * c);
+    if (config.channels == 1) out_.background = look.background[1];
+    out_.shade = static_cast<std::uint32_t>(to_fixed(look.darkening, config.shade_frac));
+  }
+
+  FrameGeometry build() {
+    eye_points_.reserve(frame_->vertices.size());
+    for (const glm::dvec3& p : frame_->vertices) eye_points_.push_back(view_.to_eye(p));
+    drawn_.resize(frame_->triangles.size());
+    for (std::uint32_t t = 0; t < frame_->triangles.size(); ++t) draw(t);
+    out_.drawn = static_cast<std::uint32_t>(out_.polygons.size());
+    if (config_->dsf_bits > 0) caster_.each([this](const WorldVolume& v) { add_volume(v); });
+    return std::move(out_);
+  }
+
+ private:
+  // Depth reaches from the near plane to the furthest vertex; nothing is cut at the far end.
+  static double furthest(const SceneFrame& frame) {
+    double far = 0;
+    for (const glm::dvec3& p : frame.vertices) far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
+    return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
+  }
+
+  void draw(std::uint32_t index) {
+    const Triangle& t = frame_->triangles[index];
+    const std::array<glm::dvec3, 3> p{frame_->vertices[t.vertex[0]], frame_->vertices[t.vertex[1]], frame_->vertices[t.vertex[2]]};
+    const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const Camera& camera = frame_->camera;
+    const double eye_side = camera.perspective ? glm::dot(normal, camera.eye - p[0]) : -glm::dot(normal, camera.forward);
+    const int light_side = caster_.facing(t);
+    const bool lit = (eye_side > 0 && light_side > 0) || (eye_side < 0 && light_side < 0);
+
+    polygon_.clear();
+    for (std::size_t i = 0; i < 3; ++i) {
+      polygon_.push_back(view_.to_clip(eye_points_[t.vertex[i]]));
+      const ShadingVertex& s = frame_->shading[t.shading[i]];
+      const glm::dvec3 towards_eye = eye_side < 0 ? -s.normal : s.normal;
+      polygon_.back().color = light_.displayed(p[i], towards_eye, s.color, lit, config_->channels == 1);
+    }
+    const bool same_color = polygon_[0].color == polygon_[1].color && polygon_[1].color == polygon_[2].color;
+    const glm::dvec3 mean = same_color ? polygon_[0].color : (polygon_[0].color + polygon_[1].color + polygon_[2].color) / 3.0;
+
+    drawn_[index].first = static_cast<std::uint32_t>(out_.polygons.size());
+    clipper_.clip(polygon_, nullptr);
+    if (polygon_.empty()) return;
+    ScreenPolygon base;
+    base.lit = lit;
+    base.triangle = index;
+    base.depth = depth_plane(eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]);
+    for (std::size_t c = 0; c < 3; ++c) base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
+    if (config_->smooth == 0 || same_color) {
+      add_outline(base, polygon_);
+    } else {
+      // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one depth plane.
+      for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
+        piece_.assign({polygon_[0], polygon_[i], polygon_[i + 1]});
+        ScreenPolygon piece = base;
+        piece.color_planes = static_cast<std::int32_t>(out_.color_planes.size());
+        for (int c = 0; c < 3; ++c) out_.color_planes.push_back(color_plane(piece_, c));
+        add_outline(piece, piece_);
+      }
+    }
+    drawn_[index].count = static_cast<std::uint32_t>(out_.polygons.size()) - drawn_[index].first;
+  }
+
+  void add_volume(const WorldVolume& w) {
+    ShadowVolume v;
+    v.first_face = static_cast<std::uint32_t>(out_.volume_faces.size());
+    v.first_near = static_cast<std::uint32_t>(out_.near_edges.size());
+    v.component = w.component;
+    for (const CapFace& cap : w.caps) {
+      const DrawnRange& range = drawn_[cap.triangle];
+      for (std::uint32_t i = 0; i < range.count; ++i) out_.volume_faces.push_back({range.first + i, cap.turned ? -1 : 1});
+      const Triangle& t = frame_->triangles[cap.triangle];
+      const std::array<EyePoint, 3> p{eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]};
+      cut_only(cap.turned ? std::array<EyePoint, 3>{p[2], p[1], p[0]} : p);
+    }
+    for (const SideFace& s : w.sides) add_side(s);
+    for (const auto& f : w.far_end) cut_only({view_.to_eye(f[0]), view_.to_eye(f[1]), view_.to_eye(f[2])});
+    v.face_count = static_cast<std::uint32_t>(out_.volume_faces.size()) - v.first_face;
+    v.near_count = static_cast<std::uint32_t>(out_.near_edges.size()) - v.first_near;
+    if (v.face_count + v.near_count > 0) out_.volumes.push_back(v);
+  }
+
+  void add_side(const SideFace& s) {
+    const std::array<EyePoint, 4> p{view_.to_eye(s.a), view_.to_eye(s.far_a), view_.to_eye(s.far_b), view_.to_eye(s.b)};
+    polygon_.clear();
+    for (const EyePoint& e : p) polygon_.push_back(view_.to_clip(e));
+    clip_and_cut();
+    if (polygon_.empty()) return;
+    ScreenPolygon side;
+    side.triangle = ~0U;
+    side.depth = depth_plane(p[0], p[1], p[3]);
+    out_.volume_faces.push_back({static_cast<std::uint32_t>(out_.polygons.size()), 1});
+    add_outline(side, polygon_);
+  }
+
+  // Only the section with the near plane of a polygon that is never a span, or is one already.
+  void cut_only(const std::array<EyePoint, 3>& p) {
+    const bool crosses = std::any_of(p.begin(), p.end(), [this](const EyePoint& e) { return e.z < view_.near(); });
+    if (!crosses) return;
+    polygon_.clear();
+    for (const EyePoint& e : p) polygon_.push_back(view_.to_clip(e));
+    clip_and_cut();
+  }
+
+  void clip_and_cut() {
+    cuts_.clear();
+    clipper_.clip(polygon_, &cuts_);
+    for (const NearCut& cut : cuts_) clipper_.snap_cut(cut, out_.near_edges);
+  }
+
+  void add_outline(ScreenPolygon p, const std::vector<ClipPoint>& points) {
+    p.first_vertex = static_cast<std::uint32_t>(out_.vertices.size());
+    p.vertex_count = static_cast<std::uint32_t>(points.size());
+    for (const ClipPoint& c : points) out_.vertices.push_back(snap(c));
+    out_.polygons.push_back(p);
+  }
+
+  // The plane of three points of a polygon that is in polygon_, clipped. A plane too steep is one seen edge-on: within half a subpixel
+  // every depth of the polygon is in reach, and the mean of its vertices' is taken.
+  ScreenPlane depth_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    if (const auto plane = view_.depth_plane(normal, a, polygon_[0])) return *plane;
+    double sum = 0;
+    for (const ClipPoint& p : polygon_) sum += view_.depth(p.w);
+    return View::flat_plane(sum / static_cast<double>(polygon_.size()));
+  }
+
+  static ScreenPlane color_plane(const std::vector<ClipPoint>& p, int channel) {
+    std::array<double, 3> x{};
+    std::array<double, 3> y{};
+    std::array<double, 3> v{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      x[i] = p[i].sx / p[i].q;
+      y[i] = p[i].sy / p[i].q;
+      v[i] = p[i].color[channel];
+    }
+    const double dx1 = x[1] - x[0];
+    const double dy1 = y[1] - y[0];
+    const double dx2 = x[2] - x[0];
+    const double dy2 = y[2] - y[0];
+    const double area = dx1 * dy2 - dx2 * dy1;
+    const double a = ((v[1] - v[0]) * dy2 - (v[2] - v[0]) * dy1) / area;
+    const double b = ((v[2] - v[0]) * dx1 - (v[1] - v[0]) * dx2) / area;
+    constexpr double kMaxSlope = 65536.0;  // all of the range within 1/256 pixel
+    if (!(std::abs(a) <= kMaxSlope && std::abs(b) <= kMaxSlope)) return View::flat_plane((v[0] + v[1] + v[2]) / 3.0);
+    ScreenPlane plane;
+    plane.x0 = static_cast<std::int32_t>(std::floor(x[0]));
+    plane.y0 = static_cast<std::int32_t>(std::floor(y[0]));
+    plane.a = to_fixed(a, kPlaneFrac);
+    plane.b = to_fixed(b, kPlaneFrac);
+    plane.c = to_fixed(v[0] + a * (plane.x0 + 0.5 - x[0]) + b * (plane.y0 + 0.5 - y[0]), kPlaneFrac);
+    return plane;
+  }
+
+  const SceneFrame* frame_;
+  const Config* config_;
+  const Look* look_;
+  ShadowCaster caster_;
+  LightView light_;
+  View view_;
+  Clipper clipper_;
+  FrameGeometry out_;
+  std::vector<EyePoint> eye_points_;
+  std::vector<DrawnRange> drawn_;
+  std::vector<ClipPoint> polygon_;
+  std::vector<ClipPoint> piece_;
+  std::vector<NearCut> cuts_;
+};
+
+}  // namespace
+
+FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look) {
+  if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
+    throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
+  if (frame.triangles.empty()) throw Error("the scene has no faces");
+  return Builder(frame, config, width, height, look).build();
+}
+
+}  // namespace kage

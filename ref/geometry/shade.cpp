@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/shade.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace kage {
+namespace {
+
+// Ambient light is not modelled further than this: a constant, and some more from above, so that faces in shade differ.
+constexpr double kAmbient = 0.20;
+constexpr double kSky = 0.08;
+
+}  // namespace
+
+double srgb_encode(double linear) {
+  const double x = std::clamp(linear, 0.0, 1.0);
+  if (x <= 0.0031308) return 12.92 * x;
+  // Least squares fit of 1.055 x^(1/2.4) - 0.055 over square roots, constant chosen so that 1 stays 1.
+  const double s1 = std::sqrt(x);
+  const double s2 = std::sqrt(s1);
+  const double s3 = std::sqrt(s2);
+  return std::min(0.653986 * s1 + 0.688709 * s2 - 0.318471 * s3 - 0.020188 * x - 0.004036, 1.0);
+}
+
+glm::dvec3 LightView::displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base, bool lit, bool grey) const {
+  glm::dvec3 light = glm::dvec3(kAmbient + kSky * 0.5 * (1.0 + glm::dot(normal, up_)));
+  if (lit) {
+    const glm::dvec3 to = towards(point);
+    const double length = std::sqrt(glm::dot(to, to));
+    const double cosine = length > 0 ? glm::dot(to, normal) / length : 0;
+    light += light_.color * ((1.0 - kAmbient) * std::max(cosine, 0.0));
+  }
+  glm::dvec3 linear = base * light;
+  if (grey) linear = glm::dvec3(0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z);
+  return 255.0 * glm::dvec3(srgb_encode(linear.x), srgb_encode(linear.y), srgb_encode(linear.z));
+}
+
+}  // namespace kage

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Shadow volumes in world space: which faces are caps, which polygons are sides.
+//
+// A volume is closed: caps (faces of the caster, turned to the light), sides (from the caps' border edges away from the light) and a far
+// end. The far end lies behind everything drawn, so it is never a span; it counts where the near plane cuts it.
+// [Matsumoto, section 2; parity needs volumes that cover no point twice: a convex solid's, or a single face's.]
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "kage/scene.hpp"
+
+namespace kage {
+
+/// A cap: a triangle of the frame. `turned`: its own outside looks away from the light, so that it bounds the volume the other way.
+struct CapFace {
+  std::uint32_t triangle = 0;
+  bool turned = false;
+};
+
+/// A side from the edge (a, b) of a cap to (far_b, far_a); outward as written: a, far_a, far_b, b is counter-clockwise from outside.
+struct SideFace {
+  glm::dvec3 a, b, far_a, far_b;
+};
+
+struct WorldVolume {
+  std::vector<CapFace> caps;
+  std::vector<SideFace> sides;
+  std::vector<std::array<glm::dvec3, 3>> far_end;  ///< outward
+  std::uint32_t component = 0;
+
+  void clear() {
+    caps.clear();
+    sides.clear();
+    far_end.clear();
+  }
+};
+
+/// Casts the shadows of one frame.
+class ShadowCaster {
+ public:
+  ShadowCaster(const SceneFrame& frame, double extrusion);
+
+  /// The triangle's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts nothing).
+  [[nodiscard]] int facing(const Triangle& t) const;
+
+  /// Call `emit` with every volume of the frame, in order of components and triangles.
+  template <class Emit>
+  void each(Emit emit) const {
+    WorldVolume v;
+    for (std::size_t c = 0; c < frame_->components.size(); ++c) {
+      const Component& part = frame_->components[c];
+      v.component = static_cast<std::uint32_t>(c);
+      if (part.convex && light_outside(part) && make_convex(part, v)) {
+        emit(static_cast<const WorldVolume&>(v));
+        continue;
+      }
+      const bool lit_only = part.closed && light_outside(part);
+      for (std::uint32_t t = part.first; t < part.first + part.count; ++t)
+        if (make_face(t, lit_only, v)) emit(static_cast<const WorldVolume&>(v));
+    }
+  }
+
+ private:
+  [[nodiscard]] bool light_outside(const Component& part) const;
+  [[nodiscard]] bool make_convex(const Component& part, WorldVolume& v) const;
+  [[nodiscard]] bool make_face(std::uint32_t triangle, bool lit_only, WorldVolume& v) const;
+  [[nodiscard]] double light_distance(const Triangle& t) const;
+  [[nodiscard]] glm::dvec3 far_point(const glm::dvec3& p, double factor) const;
+  [[nodiscard]] double far_factor(double distance) const;
+
+  const SceneFrame* frame_;
+  double reach_;  // no two points of the scene (directional), or scene and light (point), are further apart
+};
+
+}  // namespace kage

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "raw.hpp"
+
+namespace kage::scene {
+
+/// Value of a track at a time: before the first key the first, after the last the last. Rotations come normalised, as
+/// x, y, z, w; linear ones turn by slerp, cubic ones as glTF says.
+std::array<double, 4> sample(const RawTrack& track, double time);
+
+/// Object-to-world map of every node at a time.
+std::vector<Affine> pose(const RawScene& scene, double time);
+
+/// Time of the last key of all tracks, at least the start.
+double end_time(const RawScene& scene);
+
+}  // namespace kage::scene

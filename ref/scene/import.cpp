@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "gltf_file.hpp"
+#include "kage/error.hpp"
+#include "notes.hpp"
+
+namespace kage::scene {
+namespace {
+
+// Enough for any scene that a line of pixels can tell apart, and few enough for 32-bit numbers and a machine's memory.
+constexpr std::uint64_t kMostTriangles = std::uint64_t{1} << 25;
+
+void check_finite(const std::vector<float>& values, const char* what, const std::string& place) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw Error(place + " vertex " + std::to_string(i / 3) + ": " + what + " is " +
+                  (std::isnan(values[i]) ? "not a number" : "infinite"));
+}
+
+std::uint64_t check_mesh(const RawMesh& mesh, const std::string& place) {
+  std::uint64_t triangles = 0;
+  for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
+    const RawPrimitive& p = mesh.primitives[k];
+    const std::string here = mesh.primitives.size() > 1 ? place + " primitive " + std::to_string(k) : place;
+    check_finite(p.positions, "position", here);
+    check_finite(p.colors, "colour", here);
+    // Normals that are zero or not finite are common, and a face has one of its own: scene.cpp replaces them.
+    for (const std::uint32_t corner : p.corners)
+      if (corner >= p.vertex_count())
+        throw Error(here + ": a face names vertex " + std::to_string(corner) + " of " + std::to_string(p.vertex_count()));
+    triangles += p.triangle_count();
+  }
+  return triangles;
+}
+
+}  // namespace
+
+void check(const RawScene& scene, const std::string& name) {
+  std::vector<std::uint64_t> triangles;
+  for (const RawMesh& mesh : scene.meshes) {
+    const std::string place = name + ": mesh '" + one_line(mesh.name, 60) + "'";
+    triangles.push_back(check_mesh(mesh, place));
+  }
+  std::uint64_t total = 0;
+  for (const RawNode& node : scene.nodes) {
+    if (node.mesh >= 0) total += triangles[static_cast<std::size_t>(node.mesh)];
+    if (total > kMostTriangles)
+      throw Error(name + ": more than " + std::to_string(kMostTriangles) + " triangles");
+    const bool finite = is_finite(node.matrix.x) && is_finite(node.matrix.y) && is_finite(node.matrix.z) &&
+                        is_finite(node.matrix.origin) && is_finite(node.translation) && is_finite(node.scale) &&
+                        std::isfinite(node.rotation.x + node.rotation.y + node.rotation.z + node.rotation.w);
+    if (!finite) throw Error(name + ": node '" + one_line(node.name, 60) + "': its transformation is not finite");
+  }
+  for (const RawTrack& track : scene.tracks) {
+    double sum = scene.start_time;
+    for (const double t : track.times) sum += t;
+    for (const double v : track.values) sum += v;
+    if (!std::isfinite(sum))
+      throw Error(name + ": animation of node '" + one_line(scene.nodes[track.node].name, 60) + "': a key is not finite");
+  }
+  if (total == 0) throw Error(name + ": no faces");
+}
+
+RawScene import_file(const std::filesystem::path& path, const std::string& name) {
+  RawScene scene = GltfFile::recognises(path) ? import_gltf(path, name) : import_assimp(path, name);
+  check(scene, name);
+  return scene;
+}
+
+}  // namespace kage::scene

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh.hpp"
+
+#include <algorithm>
+
+#include "transform.hpp"
+
+namespace kage::scene {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+glm::dvec3 triple(const std::vector<float>& values, std::size_t i) {
+  return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+}
+
+glm::dvec3 clamped(const glm::dvec3& c) {
+  return {std::clamp(c.x, 0.0, 1.0), std::clamp(c.y, 0.0, 1.0), std::clamp(c.z, 0.0, 1.0)};
+}
+
+// A triangle before topology: where its corners come from.
+struct Source {
+  std::uint32_t primitive;
+  Corners vertex;  // within the primitive
+};
+
+class Builder {
+ public:
+  Builder(const RawMesh& raw, std::uint64_t& budget) : raw_(raw), budget_(budget) {}
+
+  Mesh run() {
+    collect();
+    const Topology topology = analyse(mesh_.vertices, welded_, budget_);
+    mesh_.components = topology.components;
+    mesh_.turned = topology.turned;
+    mesh_.inside_out = topology.inside_out;
+    for (const std::uint32_t t : topology.order) {
+      const bool reversed = topology.reversed[t];
+      mesh_.triangles.push_back(turned(welded_[t], reversed));
+      mesh_.faces.push_back(faces_[t]);
+      ordered_.push_back({sources_[t].primitive, turned(sources_[t].vertex, reversed)});
+    }
+    shade();
+    return std::move(mesh_);
+  }
+
+ private:
+  static Corners turned(const Corners& c, bool reversed) { return reversed ? Corners{c[0], c[2], c[1]} : c; }
+
+  void collect();
+  void shade();
+  void shade_component(const MeshComponent& c);
+  [[nodiscard]] glm::dvec3 face_normal(std::size_t triangle) const;
+  /// The file's normal at a corner, of length 1, or 0 where it has none to speak of.
+  [[nodiscard]] glm::dvec3 file_normal(const Source& s, std::size_t corner) const;
+  [[nodiscard]] glm::dvec3 color(const Source& s, std::size_t corner) const;
+  std::uint32_t add(const ShadingVertex& v) {
+    mesh_.shading.push_back(v);
+    return static_cast<std::uint32_t>(mesh_.shading.size() - 1);
+  }
+
+  const RawMesh& raw_;
+  std::uint64_t& budget_;
+  Mesh mesh_;
+  std::vector<Corners> welded_;
+  std::vector<std::uint32_t> faces_;
+  std::vector<Source> sources_;
+  std::vector<Source> ordered_;
+  std::vector<std::size_t> first_vertex_;  // of each primitive in the concatenation of all
+  std::vector<std::uint32_t> slots_;       // shading vertex of a file's vertex: as in the file, and with its normal negated
+};
+
+void Builder::collect() {
+  std::vector<float> positions;
+  for (const RawPrimitive& p : raw_.primitives) {
+    first_vertex_.push_back(positions.size() / 3);
+    positions.insert(positions.end(), p.positions.begin(), p.positions.end());
+  }
+  slots_.assign(positions.size() / 3 * 2, kNone);
+  const std::vector<std::uint32_t> number = weld(positions, mesh_.vertices);
+  std::uint32_t first_face = 0;
+  for (std::uint32_t k = 0; k < raw_.primitives.size(); ++k) {
+    const RawPrimitive& p = raw_.primitives[k];
+    for (std::size_t t = 0; t < p.triangle_count(); ++t) {
+      Source s{k, {p.corners[3 * t], p.corners[3 * t + 1], p.corners[3 * t + 2]}};
+      Corners c{};
+      for (std::size_t i = 0; i < 3; ++i) c[i] = number[first_vertex_[k] + s.vertex[i]];
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) {
+        ++mesh_.dropped;
+        continue;
+      }
+      welded_.push_back(c);
+      faces_.push_back(first_face + p.faces[t]);
+      sources_.push_back(s);
+    }
+    first_face += p.face_count;
+  }
+}
+
+glm::dvec3 Builder::face_normal(std::size_t triangle) const {
+  const Corners& t = mesh_.triangles[triangle];
+  const glm::dvec3& a = mesh_.vertices[t[0]];
+  // A face without area has no normal, nor a pixel: any will do.
+  return unit(cross(mesh_.vertices[t[1]] - a, mesh_.vertices[t[2]] - a), {0, 1, 0});
+}
+
+glm::dvec3 Builder::file_normal(const Source& s, std::size_t corner) const {
+  const RawPrimitive& p = raw_.primitives[s.primitive];
+  if (p.normals.empty()) return {0, 0, 0};
+  return unit(triple(p.normals, s.vertex[corner]), {0, 0, 0});
+}
+
+glm::dvec3 Builder::color(const Source& s, std::size_t corner) const {
+  const RawPrimitive& p = raw_.primitives[s.primitive];
+  if (p.colors.empty()) return clamped(p.color);
+  const glm::dvec3 c = triple(p.colors, s.vertex[corner]);
+  return clamped({p.color.x * c.x, p.color.y * c.y, p.color.z * c.z});
+}
+
+// The winding decides what is outside; the file's normals follow it, by a majority over the component, because single
+// corners of a coarse mesh may well lean away from their face.
+void Builder::shade_component(const MeshComponent& c) {
+  double agreement = 0;
+  for (std::uint32_t t = c.first; t < c.first + c.count; ++t) {
+    const glm::dvec3 n = face_normal(t);
+    for (std::size_t i = 0; i < 3; ++i) agreement += dot(file_normal(ordered_[t], i), n);
+  }
+  const bool negate = agreement < 0;
+  for (std::uint32_t t = c.first; t < c.first + c.count; ++t) {
+    const Source& s = ordered_[t];
+    const RawPrimitive& p = raw_.primitives[s.primitive];
+    Corners corners{};
+    std::uint32_t of_face = kNone;  // corners without a normal of their own share the face's, if they are of one colour
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec3 n = file_normal(s, i);
+      if (n.x == 0 && n.y == 0 && n.z == 0) {
+        if (!p.normals.empty()) ++mesh_.bad_normals;
+        if (of_face == kNone || !p.colors.empty()) of_face = add({face_normal(t), color(s, i)});
+        corners[i] = of_face;
+        continue;
+      }
+      std::uint32_t& slot = slots_[2 * (first_vertex_[s.primitive] + s.vertex[i]) + (negate ? 1 : 0)];
+      if (slot == kNone) slot = add({negate ? -n : n, color(s, i)});
+      corners[i] = slot;
+    }
+    const auto differ = [&](std::uint32_t a, std::uint32_t b) {
+      const ShadingVertex& u = mesh_.shading[a];
+      const ShadingVertex& v = mesh_.shading[b];
+      return u.normal != v.normal || u.color != v.color;
+    };
+    mesh_.smooth = mesh_.smooth || differ(corners[0], corners[1]) || differ(corners[0], corners[2]);
+    mesh_.shading_corners.push_back(corners);
+  }
+}
+
+void Builder::shade() {
+  for (const MeshComponent& c : mesh_.components) shade_component(c);
+}
+
+}  // namespace
+
+Mesh build_mesh(const RawMesh& raw, std::uint64_t& budget) { return Builder(raw, budget).run(); }
+
+}  // namespace kage::scene

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kage/scene.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "animation.hpp"
+#include "child.hpp"
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+#include "mesh.hpp"
+#include "notes.hpp"
+#include "view.hpp"
+
+namespace kage {
+namespace {
+
+constexpr int kDefaultFrames = 8;
+
+using scene::Affine;
+
+// A mesh placed in the world by a node.
+struct Object {
+  std::uint32_t node;
+  std::uint32_t mesh;
+};
+
+void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, SceneFrame& frame) {
+  const bool mirrored = world.determinant() < 0;
+  const auto vertex = static_cast<std::uint32_t>(frame.vertices.size());
+  const auto shading = static_cast<std::uint32_t>(frame.shading.size());
+  for (const glm::dvec3& p : mesh.vertices) frame.vertices.push_back(world.point(p));
+  for (const ShadingVertex& s : mesh.shading)
+    frame.shading.push_back({scene::unit(world.normal(s.normal), s.normal), s.color});
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    scene::Corners v = mesh.triangles[i];
+    scene::Corners s = mesh.shading_corners[i];
+    if (mirrored) {
+      std::swap(v[1], v[2]);
+      std::swap(s[1], s[2]);
+    }
+    frame.triangles.push_back({{vertex + v[0], vertex + v[1], vertex + v[2]},
+                               {shading + s[0], shading + s[1], shading + s[2]},
+                               object,
+                               mesh.faces[i]});
+  }
+}
+
+}  // namespace
+
+struct Scene::Data {
+  std::string name;
+  scene::RawScene raw;  // nodes and tracks; its meshes are empty once `meshes` is built
+  std::vector<scene::Mesh> meshes;
+  std::vector<Object> objects;
+  std::vector<std::string> object_names;
+  std::vector<Component> components;  // of all objects, as in every frame
+  std::vector<std::string> notes;
+  scene::Bounds bounds;
+  double end_time = 0;
+  bool smooth = false;
+
+  void build_meshes();
+  void place_objects();
+  void describe();
+  void measure();
+  [[nodiscard]] double time(int index, int count) const {
+    return raw.start_time + (end_time - raw.start_time) * index / count;
+  }
+};
+
+void Scene::Data::build_meshes() {
+  std::uint64_t budget = scene::kSceneBudget;
+  std::size_t dropped = 0;
+  std::size_t turned = 0;
+  std::size_t inside_out = 0;
+  std::size_t normals = 0;
+  for (scene::RawMesh& mesh : raw.meshes) {
+    meshes.push_back(scene::build_mesh(mesh, budget));
+    mesh.primitives = {};
+    const scene::Mesh& m = meshes.back();
+    dropped += m.dropped;
+    turned += m.turned;
+    inside_out += m.inside_out;
+    normals += m.bad_normals;
+  }
+  const auto note = [this](std::size_t count, const char* one, const char* many, const char* rest) {
+    if (count > 0) notes.push_back(scene::counted(count, one, many) + rest);
+  };
+  note(dropped, "triangle repeats", "triangles repeat", " a vertex: left out");
+  note(turned, "triangle is", "triangles are", " turned to agree with the neighbours");
+  note(inside_out, "closed part is", "closed parts are", " inside out: turned");
+  note(normals, "corner has", "corners have", " a normal that is 0 or not finite: the face's is taken");
+}
+
+void Scene::Data::place_objects() {
+  std::uint32_t vertices = 0;
+  std::uint32_t triangles = 0;
+  for (std::uint32_t i = 0; i < raw.nodes.size(); ++i) {
+    const scene::RawNode& node = raw.nodes[i];
+    if (node.mesh < 0) continue;
+    const auto number = static_cast<std::uint32_t>(node.mesh);
+    const scene::Mesh& mesh = meshes[number];
+    if (mesh.triangles.empty()) continue;
+    objects.push_back({i, number});
+    std::string called = scene::one_line(node.name.empty() ? raw.meshes[number].name : node.name, 80);
+    object_names.push_back(called.empty() ? "object " + std::to_string(objects.size() - 1) : std::move(called));
+    for (const scene::MeshComponent& c : mesh.components)
+      components.push_back({triangles + c.first, c.count, c.closed, c.convex, c.reason.text(vertices, triangles + c.first)});
+    vertices += static_cast<std::uint32_t>(mesh.vertices.size());
+    triangles += static_cast<std::uint32_t>(mesh.triangles.size());
+    smooth = smooth || mesh.smooth;
+  }
+  if (objects.empty()) throw Error("no faces: every triangle repeats a vertex");
+}
+
+void Scene::Data::describe() {
+  notes.insert(notes.begin(), raw.notes.begin(), raw.notes.end());
+  if (!raw.camera) notes.push_back("no camera: an orbit round the scene is added");
+  if (!raw.light) notes.push_back("no light: a directional one is added");
+}
+
+// The ball that holds all frames. What moves is held by the corners of its box, at the frames that the scene asks for.
+void Scene::Data::measure() {
+  std::vector<glm::dvec3> points;
+  const int steps = raw.tracks.empty() ? 1 : kDefaultFrames;
+  for (int step = 0; step < steps; ++step) {
+    const std::vector<Affine> world = scene::pose(raw, time(step, steps));
+    for (const Object& object : objects) {
+      const std::vector<glm::dvec3>& vertices = meshes[object.mesh].vertices;
+      if (steps == 1) {
+        for (const glm::dvec3& p : vertices) points.push_back(world[object.node].point(p));
+        continue;
+      }
+      glm::dvec3 low = vertices[0];
+      glm::dvec3 high = vertices[0];
+      for (const glm::dvec3& p : vertices) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+      for (int corner = 0; corner < 8; ++corner)
+        points.push_back(world[object.node].point({(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                                                   (corner & 4) != 0 ? high.z : low.z}));
+    }
+  }
+  bounds = scene::bounds_of(points);
+}
+
+Scene Scene::load(const std::string& name_or_path) {
+  namespace fs = std::filesystem;
+  auto data = std::make_unique<Data>();
+  const std::vector<std::string>& builtin = builtin_scenes();
+  fs::path path = name_or_path;
+  data->name = name_or_path;
+  if (std::find(builtin.begin(), builtin.end(), name_or_path) != builtin.end())
+    path = data_directory() / "scenes" / (name_or_path + ".gltf");
+  else
+    data->name = path.stem().string();
+  const std::string shown = scene::one_line(path.string(), 300);
+  data->raw = scene::import_in_child(path, shown);
+  try {
+    data->end_time = scene::end_time(data->raw);
+    data->build_meshes();
+    data->place_objects();
+    data->describe();
+    data->measure();
+  } catch (const Error& e) {
+    throw Error(shown + ": " + e.what());
+  }
+  Scene scene(std::move(data));
+  (void)scene.frame(0, scene.frame_count());  // what cannot be drawn is to be refused here
+  return scene;
+}
+
+Scene::Scene(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+int Scene::frame_count() const {
+  if (data_->raw.frames > 0) return static_cast<int>(data_->raw.frames);
+  return data_->raw.camera && data_->raw.tracks.empty() ? 1 : kDefaultFrames;
+}
+
+SceneFrame Scene::frame(int index, int count) const {
+  const Data& d = *data_;
+  if (index < 0 || index >= count)
+    throw Error(d.name + ": frame " + std::to_string(index) + " of " + std::to_string(count) + ": there is none");
+  const std::vector<Affine> world = scene::pose(d.raw, d.time(index, count));
+  SceneFrame frame;
+  frame.components = d.components;
+  std::size_t component = 0;
+  for (std::uint32_t i = 0; i < d.objects.size(); ++i) {
+    const Object& object = d.objects[i];
+    const Affine& to_world = world[object.node];
+    const scene::Mesh& mesh = d.meshes[object.mesh];
+    const std::size_t first = frame.vertices.size();
+    append(to_world, mesh, i, frame);
+    for (std::size_t v = first; v < frame.vertices.size(); ++v)
+      if (!scene::is_finite(frame.vertices[v]))
+        throw Error(d.name + ": object '" + d.object_names[i] + "' vertex " + std::to_string(v) + ": position is not finite");
+    const bool flattened = to_world.determinant() == 0;
+    for (std::size_t k = 0; k < mesh.components.size(); ++k, ++component) {
+      Component& c = frame.components[component];
+      if (!flattened || !c.closed) continue;
+      c.closed = false;
+      c.convex = false;
+      c.reason = "its node scales it to volume 0";
+    }
+  }
+  try {
+    frame.camera = d.raw.camera ? scene::file_camera(*d.raw.camera, world[d.raw.camera->node], d.bounds)
+                                : scene::orbit_camera(d.bounds, index, count);
+  } catch (const Error& e) {
+    throw Error(d.name + ": " + e.what());
+  }
+  frame.light = d.raw.light ? scene::file_light(*d.raw.light, world[d.raw.light->node]) : scene::default_light();
+  return frame;
+}
+
+const std::vector<std::string>& Scene::objects() const { return data_->object_names; }
+const std::vector<std::string>& Scene::notes() const { return data_->notes; }
+bool Scene::needs_smooth() const { return data_->smooth; }
+const std::string& Scene::name() const { return data_->name; }
+
+const std::vector<std::string>& builtin_scenes() {
+  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges"};
+  return kNames;
+}
+
+}  // namespace kage

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "functions.hpp"
+#include "kage/error.hpp"
+
+namespace kage::scene {
+namespace {
+
+constexpr double kOrbitStart = portable::kPi / 6;  // frame 0 stands to the right of the front, which faces +z
+constexpr double kOrbitRise = 0.42;                // height over distance in the plane: looking down by 23 degrees
+constexpr double kOrbitHalfHeight = 0.4;           // tangent of half the field of view: 44 degrees in all
+constexpr double kMargin = 1.02;
+
+// Near planes of files that give none, in radii of the scene: one tells depths apart where a scene's own size matters.
+constexpr double kNearShare = 1.0 / 512;
+
+// Right, up and forward from a direction and a hint of what is up.
+void orient(Camera& camera, const glm::dvec3& forward, const glm::dvec3& up) {
+  const glm::dvec3 none{0, 0, 0};
+  camera.forward = unit(forward, none);
+  camera.right = unit(cross(camera.forward, unit(up, none)), none);
+  camera.up = cross(camera.right, camera.forward);
+  if (camera.forward == none || camera.right == none) throw Error("the camera has no direction");
+}
+
+}  // namespace
+
+Bounds bounds_of(const std::vector<glm::dvec3>& points) {
+  if (points.empty()) return {};
+  glm::dvec3 low = points[0];
+  glm::dvec3 high = points[0];
+  for (const glm::dvec3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  Bounds b;
+  b.center = {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2, low.z + (high.z - low.z) / 2};
+  double square = 0;
+  for (const glm::dvec3& p : points) square = std::max(square, dot(p - b.center, p - b.center));
+  b.radius = square > 0 ? std::sqrt(square) : 1;
+  return b;
+}
+
+Camera file_camera(const RawCamera& raw, const Affine& world, const Bounds& bounds) {
+  Camera camera;
+  camera.eye = world.point(raw.eye);
+  orient(camera, world.vector(raw.forward), world.vector(raw.up));
+  camera.perspective = raw.perspective;
+  camera.half_height = raw.half_height;
+  camera.near = raw.near > 0 ? raw.near : bounds.radius * kNearShare;
+  camera.far = raw.far > camera.near ? raw.far : 0;
+  return camera;
+}
+
+Camera orbit_camera(const Bounds& bounds, int index, int count) {
+  const double angle = kOrbitStart + 2 * portable::kPi * index / count;
+  const glm::dvec3 out = unit({portable::sin(angle), kOrbitRise, portable::cos(angle)}, {0, 0, 1});
+  const double radius = bounds.radius * kMargin;
+  // The ball touches the pyramid of view where radius / distance is the sine of half the angle.
+  const double sine = kOrbitHalfHeight / std::sqrt(1 + kOrbitHalfHeight * kOrbitHalfHeight);
+  const double distance = radius / sine;
+  Camera camera;
+  camera.eye = bounds.center + out * distance;
+  orient(camera, -out, {0, 1, 0});
+  camera.perspective = true;
+  camera.half_height = kOrbitHalfHeight;
+  camera.near = distance - radius;
+  camera.far = 0;
+  return camera;
+}
+
+Light file_light(const RawLight& raw, const Affine& world) {
+  Light light;
+  light.directional = raw.directional;
+  light.direction = unit(world.vector(raw.direction), {0, -1, 0});
+  light.position = world.point(raw.position);
+  const double largest = std::max({raw.color.x, raw.color.y, raw.color.z});
+  if (largest > 0 && std::isfinite(largest)) {
+    light.color = raw.color / largest;
+    light.color = {std::max(light.color.x, 0.0), std::max(light.color.y, 0.0), std::max(light.color.z, 0.0)};
+  }
+  return light;
+}
+
+Light default_light() {
+  Light light;
+  light.directional = true;
+  light.direction = glm::dvec3{-3, -6, -2} / 7.0;  // of length 1
+  return light;
+}
+
+}  // namespace kage::scene
