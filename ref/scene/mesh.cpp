@@ -48,6 +48,7 @@ class Builder {
   static Corners turned(const Corners& c, bool reversed) { return reversed ? Corners{c[0], c[2], c[1]} : c; }
 
   void collect();
+  void keep_used_vertices();
   void shade();
   void shade_component(const MeshComponent& c);
   [[nodiscard]] glm::dvec3 face_normal(std::size_t triangle) const;
@@ -95,6 +96,23 @@ void Builder::collect() {
     }
     first_face += p.face_count;
   }
+  keep_used_vertices();
+}
+
+// Vertices of points, lines and dropped triangles would only blow up the bounds.
+void Builder::keep_used_vertices() {
+  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNone);
+  for (const Corners& c : welded_)
+    for (const std::uint32_t v : c) number[v] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kNone) continue;
+    number[v] = kept;
+    mesh_.vertices[kept++] = mesh_.vertices[v];
+  }
+  mesh_.vertices.resize(kept);
+  for (Corners& c : welded_)
+    for (std::uint32_t& v : c) v = number[v];
 }
 
 glm::dvec3 Builder::face_normal(std::size_t triangle) const {

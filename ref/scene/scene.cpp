@@ -2,6 +2,7 @@
 #include "kage/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -145,6 +146,7 @@ void Scene::Data::measure() {
     }
   }
   bounds = scene::bounds_of(points);
+  if (!std::isfinite(bounds.radius) || !scene::is_finite(bounds.center)) throw Error("the scene is too large to be measured");
 }
 
 Scene Scene::load(const std::string& name_or_path) {
@@ -215,7 +217,9 @@ SceneFrame Scene::frame(int index, int count) const {
   } catch (const Error& e) {
     throw Error(d.name + ": " + e.what());
   }
+  if (!scene::is_finite(frame.camera.eye)) throw Error(d.name + ": the camera's position is not finite");
   frame.light = d.raw.light ? scene::file_light(*d.raw.light, world[d.raw.light->node]) : scene::default_light();
+  if (!scene::is_finite(frame.light.position)) throw Error(d.name + ": the light's position is not finite");
   return frame;
 }
 

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "child.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <string_view>
+
+#include "import.hpp"
+#include "kage/error.hpp"
+#include "notes.hpp"
+#include "wire.hpp"
+
+namespace kage::scene {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Bytes = std::vector<std::uint8_t>;
+
+// What the child's first byte says; a message or a packed scene follows, then its end is the pipe's end.
+constexpr std::uint8_t kScene = 'S';
+constexpr std::uint8_t kError = 'E';
+constexpr std::uint8_t kNoMemory = 'M';
+constexpr std::uint8_t kDone = '.';  // the last byte: nothing is missing
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+#else
+constexpr bool kSanitized = false;
+#endif
+
+std::int64_t positive(const char* variable, std::int64_t otherwise, std::int64_t most) {
+  const char* text = std::getenv(variable);
+  if (text == nullptr || *text == '\0') return otherwise;
+  std::int64_t value = 0;
+  const char* end = text + std::strlen(text);
+  const auto [stop, error] = std::from_chars(text, end, value);
+  if (error != std::errc() || stop != end || value < 1 || value > most)
+    throw Error(std::string(variable) + ": '" + one_line(text, 40) + "' is not a number from 1 to " + std::to_string(most));
+  return value;
+}
+
+void limit(int resource, std::uint64_t value) {
+  rlimit r{};
+  if (getrlimit(static_cast<__rlimit_resource>(resource), &r) != 0) return;
+  r.rlim_cur = std::min<rlim_t>(r.rlim_max, value);
+  setrlimit(static_cast<__rlimit_resource>(resource), &r);
+}
+
+// RLIMIT_DATA counts private writable memory, which is what an importer eats. RLIMIT_AS would also count what the program
+// has mapped, and the terabytes that sanitizers reserve.
+void limit_memory(std::int64_t mib) {
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t pages[6] = {};
+  for (std::uint64_t& p : pages) statm >> p;
+  if (!statm) return;
+  const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  limit(RLIMIT_DATA, pages[5] * page + (static_cast<std::uint64_t>(mib) << 20));
+}
+
+void write_all(int fd, const void* data, std::size_t size) {
+  const auto* p = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t n = write(fd, p, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) _exit(3);  // the parent is gone
+    p += n;
+    size -= static_cast<std::size_t>(n);
+  }
+}
+
+void answer(int fd, std::uint8_t kind, std::string_view text) {
+  write_all(fd, &kind, 1);
+  write_all(fd, text.data(), text.size());
+  write_all(fd, &kDone, 1);
+}
+
+[[noreturn]] void child(int fd, pid_t parent, const ImportLimits& limits, const std::function<Bytes()>& work) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(3);  // it died before prctl
+  if (!kSanitized) {
+    // The program's handlers are not for this process, and a reader's last words are not for the user: the parent says
+    // in one line what happened. A sanitizer's report must be seen.
+    for (const int s : {SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGABRT, SIGFPE, SIGSEGV, SIGBUS, SIGTERM, SIGXCPU, SIGPIPE})
+      std::signal(s, SIG_DFL);
+    const int null = open("/dev/null", O_RDWR);
+    if (null >= 0) {
+      dup2(null, STDOUT_FILENO);
+      dup2(null, STDERR_FILENO);
+    }
+  }
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_CPU, static_cast<std::uint64_t>(limits.seconds) + 1);
+  limit_memory(limits.mib);
+  try {
+    const Bytes result = work();
+    write_all(fd, &kScene, 1);
+    write_all(fd, result.data(), result.size());
+    write_all(fd, &kDone, 1);
+  } catch (const std::bad_alloc&) {
+    answer(fd, kNoMemory, "");
+  } catch (const std::length_error&) {  // of a container: a count that no memory can hold
+    answer(fd, kNoMemory, "");
+  } catch (const Error& e) {
+    answer(fd, kError, e.what());
+  } catch (const std::exception& e) {
+    answer(fd, kError, e.what());
+  } catch (...) {
+    answer(fd, kError, "unknown exception");
+  }
+  _exit(0);
+}
+
+enum class Ending { kClosed, kLate, kLarge };
+
+Ending receive(int fd, const ImportLimits& limits, Bytes& bytes) {
+  const Clock::time_point deadline = Clock::now() + std::chrono::seconds(limits.seconds);
+  const std::uint64_t most = static_cast<std::uint64_t>(limits.mib) << 20;
+  Bytes chunk(std::size_t{1} << 16);
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    if (left <= 0) return Ending::kLate;
+    pollfd p{fd, POLLIN, 0};
+    const int ready = poll(&p, 1, static_cast<int>(std::min<std::int64_t>(left, 1000)));
+    if (ready <= 0) continue;  // a signal, or a second gone
+    const ssize_t n = read(fd, chunk.data(), chunk.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return Ending::kClosed;
+    if (bytes.size() + static_cast<std::size_t>(n) > most) return Ending::kLarge;
+    bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + n);
+  }
+}
+
+void check_file(const std::filesystem::path& path, const std::string& name) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) throw Error(name + ": no such file");
+  if (error) throw Error(name + ": " + one_line(error.message()));
+  if (fs::is_directory(status)) throw Error(name + ": is a directory");
+  if (!fs::is_regular_file(status)) throw Error(name + ": is not a regular file");
+  if (fs::file_size(path, error) == 0 && !error) throw Error(name + ": is empty");
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) throw Error(name + ": cannot be read: " + std::string(std::strerror(errno)));
+  close(fd);
+}
+
+}  // namespace
+
+ImportLimits ImportLimits::from_environment() {
+  ImportLimits limits;
+  limits.seconds = static_cast<int>(positive("KAGE_IMPORT_SECONDS", limits.seconds, 1'000'000));
+  limits.mib = positive("KAGE_IMPORT_MIB", limits.mib, 1 << 30);
+  return limits;
+}
+
+Bytes run_in_child(const std::string& name, const ImportLimits& limits, const std::function<Bytes()>& work) {
+  const std::string no_time = name + ": import took longer than " + std::to_string(limits.seconds) + " s";
+  const std::string no_memory = name + ": import needs more than " + std::to_string(limits.mib) + " MiB";
+  int pipe_ends[2];
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw Error(name + ": no pipe to an import process: " + std::strerror(errno));
+  const pid_t parent = getpid();
+  const pid_t pid = fork();
+  if (pid < 0) {
+    const int error = errno;
+    close(pipe_ends[0]);
+    close(pipe_ends[1]);
+    throw Error(name + ": no import process: " + std::strerror(error));
+  }
+  if (pid == 0) {
+    close(pipe_ends[0]);
+    child(pipe_ends[1], parent, limits, work);
+  }
+  close(pipe_ends[1]);
+  Bytes bytes;
+  Ending ending = Ending::kLarge;
+  try {
+    ending = receive(pipe_ends[0], limits, bytes);
+  } catch (const std::bad_alloc&) {  // ours: the scene does not fit
+  }
+  close(pipe_ends[0]);
+  if (ending != Ending::kClosed) kill(pid, SIGKILL);
+  int status = 0;
+  pid_t ended = -1;
+  do ended = waitpid(pid, &status, 0);
+  while (ended < 0 && errno == EINTR);
+
+  if (ending == Ending::kLate) throw Error(no_time);
+  if (ending == Ending::kLarge) throw Error(no_memory);
+  // Where the program reaps all children itself, the pipe alone tells.
+  const int signal = ended == pid && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal == SIGXCPU) throw Error(no_time);
+  if (signal != 0) throw Error(name + ": killed by signal " + std::to_string(signal) + " while importing");
+  if (bytes.size() < 2 || bytes.back() != kDone) {
+    const std::string code = ended == pid && WIFEXITED(status) ? " with code " + std::to_string(WEXITSTATUS(status)) : "";
+    throw Error(name + ": the import process ended" + code + " and gave no scene");
+  }
+  const std::uint8_t kind = bytes.front();
+  bytes.pop_back();
+  bytes.erase(bytes.begin());
+  if (kind == kNoMemory) throw Error(no_memory);
+  if (kind == kError) throw Error(std::string(bytes.begin(), bytes.end()));
+  return bytes;
+}
+
+RawScene import_in_child(const std::filesystem::path& path, const std::string& name) {
+  check_file(path, name);
+  const Bytes bytes =
+      run_in_child(name, ImportLimits::from_environment(), [&] { return packed(import_file(path, name)); });
+  try {
+    return unpacked(bytes);
+  } catch (const std::exception& e) {
+    throw Error(name + ": " + e.what());
+  }
+}
+
+}  // namespace kage::scene
