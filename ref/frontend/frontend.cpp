@@ -251,11 +251,25 @@ class Band {
   std::array<Line, kBandLines> lines_;
 };
 
+void check_guard(const FrameGeometry& g) {
+  constexpr std::int32_t kLimit = kGuard * 256;
+  const auto check = [](const ScreenVertex& v, const char* what, std::size_t i) {
+    if (v.x < -kLimit || v.x > kLimit || v.y < -kLimit || v.y > kLimit)
+      throw Error(fmt::format("{} {}: ({}, {}) / 256 is outside the guard band of +-{} pixels", what, i, v.x, v.y, kGuard));
+  };
+  for (std::size_t i = 0; i < g.vertices.size(); ++i) check(g.vertices[i], "vertex", i);
+  for (std::size_t i = 0; i < g.near_edges.size(); ++i) {
+    check(g.near_edges[i].from, "near edge", i);
+    check(g.near_edges[i].to, "near edge", i);
+  }
+}
+
 }  // namespace
 
 void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink, int threads) {
   if (g.width > (1 << config.x_bits) - 1)
     throw Error(fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits, (1 << config.x_bits) - 1));
+  check_guard(g);
   const bool shadows = config.dsf_bits > 0 && !g.volumes.empty();
   if (shadows && config.fsf == 0 && g.volumes.size() > 1)
     throw Error(fmt::format("{} shadow volumes need FSF, which the configuration lacks", g.volumes.size()));

@@ -8,8 +8,6 @@ enum class Side { y_low, y_high, x_low, x_high };
 
 constexpr double kLimit = kGuard;
 
-double near_distance(const ClipPoint& p, double near) { return p.w - near; }
-
 double guard_distance(const ClipPoint& p, Side side) {
   switch (side) {
     case Side::x_low:
@@ -29,10 +27,11 @@ ClipPoint between(const ClipPoint& in, const ClipPoint& out, double d_in, double
           in.color + t * (out.color - in.color)};
 }
 
-ClipPoint cut_near(const ClipPoint& in, const ClipPoint& out, double near) {
-  ClipPoint p = between(in, out, near_distance(in, near), near_distance(out, near));
-  if (in.q == in.w && out.q == out.w) p.q = near;  // perspective: exactly on the plane
-  p.w = near;
+// Cut at distance `at`, the plane between in and out.
+ClipPoint cut_at(const ClipPoint& in, const ClipPoint& out, double at) {
+  ClipPoint p = between(in, out, in.w - at, out.w - at);
+  if (in.q == in.w && out.q == out.w) p.q = at;  // perspective: exactly on the plane
+  p.w = at;
   return p;
 }
 
@@ -100,13 +99,13 @@ ScreenVertex snap_onto(const ClipPoint& p, Side side) {
 
 }  // namespace
 
-void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts) {
+void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, bool at_far) {
   std::vector<ClipPoint> leaves;
   std::vector<ClipPoint> enters;
   bool enter_first = false;
   clip_plane(
-      polygon, buffer_, [this](const ClipPoint& p) { return near_distance(p, near_); },
-      [this](const ClipPoint& in, const ClipPoint& out) { return cut_near(in, out, near_); },
+      polygon, buffer_, [this](const ClipPoint& p) { return p.w - near_; },
+      [this](const ClipPoint& in, const ClipPoint& out) { return cut_at(in, out, near_); },
       [&](const ClipPoint& p) { leaves.push_back(p); },
       [&](const ClipPoint& p) {
         if (leaves.empty()) enter_first = true;
@@ -114,10 +113,15 @@ void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts) 
       });
   if (cuts != nullptr)
     for (std::size_t i = 0; i < leaves.size(); ++i) cuts->push_back({leaves[i], enters[(i + (enter_first ? 1 : 0)) % enters.size()]});
+  const auto ignore = [](const ClipPoint&) {};
+  if (at_far)
+    clip_plane(
+        polygon, buffer_, [this](const ClipPoint& p) { return far_ - p.w; },
+        [this](const ClipPoint& in, const ClipPoint& out) { return cut_at(in, out, far_); }, ignore, ignore);
   for (const Side side : {Side::y_low, Side::y_high, Side::x_low, Side::x_high})
     clip_plane(
         polygon, buffer_, [side](const ClipPoint& p) { return guard_distance(p, side); },
-        [side](const ClipPoint& in, const ClipPoint& out) { return cut_guard(in, out, side); }, [](const ClipPoint&) {}, [](const ClipPoint&) {});
+        [side](const ClipPoint& in, const ClipPoint& out) { return cut_guard(in, out, side); }, ignore, ignore);
   if (polygon.size() < 3) polygon.clear();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clipping against the near plane and the guard band. A new vertex is computed from the end inside to the end outside, whichever
+// Clipping against the near plane, the far plane and the guard band. A new vertex is computed from the end inside to the end outside, whichever
 // polygon of the edge asks, so neighbours get the very same one and no crack opens.
 #pragma once
 
@@ -19,10 +19,11 @@ struct NearCut {
 /// Clips one polygon after another; keeps its buffers.
 class Clipper {
  public:
-  explicit Clipper(double near) : near_(near) {}
+  Clipper(double near, double far) : near_(near), far_(far) {}
 
-  /// Clip in place. Near cuts are appended to `cuts` if given, even where nothing of the polygon is left. The outcome may be empty.
-  void clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts);
+  /// Clip in place. Near cuts are appended to `cuts` if given, even where nothing of the polygon is left. `at_far`: cut what lies
+  /// past the far plane too. The outcome may be empty.
+  void clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, bool at_far);
 
   /// The pieces of a near cut as snapped edges, appended to `edges` in reverse direction (a section closes what the polygons leave
   /// open): cut in y as the polygon is, but in x outside the guard band only moved onto it, so that what lies left of the
@@ -31,6 +32,7 @@ class Clipper {
 
  private:
   double near_;
+  double far_;
   std::vector<ClipPoint> buffer_;
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "geometry/clip.hpp"
 #include "geometry/shade.hpp"
@@ -31,7 +32,7 @@ class Builder {
         caster_(frame, look.extrusion),
         light_(frame.light, frame.camera.up),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
-        clipper_(view_.near()) {
+        clipper_(view_.near(), view_.volume_end()) {
     out_.width = width;
     out_.height = height;
     for (unsigned c = 0; c < 3; ++c) out_.background |= static_cast<std::uint32_t>(look.background[c]) << (8 * c);
@@ -77,7 +78,7 @@ class Builder {
     const glm::dvec3 mean = same_color ? polygon_[0].color : (polygon_[0].color + polygon_[1].color + polygon_[2].color) / 3.0;
 
     drawn_[index].first = static_cast<std::uint32_t>(out_.polygons.size());
-    clipper_.clip(polygon_, nullptr);
+    clipper_.clip(polygon_, nullptr, false);
     if (polygon_.empty()) return;
     ScreenPolygon base;
     base.lit = lit;
@@ -112,7 +113,13 @@ class Builder {
       cut_only(cap.turned ? std::array<EyePoint, 3>{p[2], p[1], p[0]} : p);
     }
     for (const SideFace& s : w.sides) add_side(s);
-    for (const auto& f : w.far_end) cut_only({view_.to_eye(f[0]), view_.to_eye(f[1]), view_.to_eye(f[2])});
+    for (const auto& f : w.far_end) {
+      const std::array<EyePoint, 3> p{view_.to_eye(f[0]), view_.to_eye(f[1]), view_.to_eye(f[2])};
+      if (look_->far_ends)
+        add_face(p, p[0], p[1], p[2]);
+      else
+        cut_only(p);
+    }
     v.face_count = static_cast<std::uint32_t>(out_.volume_faces.size()) - v.first_face;
     v.near_count = static_cast<std::uint32_t>(out_.near_edges.size()) - v.first_near;
     if (v.face_count + v.near_count > 0) out_.volumes.push_back(v);
@@ -120,15 +127,20 @@ class Builder {
 
   void add_side(const SideFace& s) {
     const std::array<EyePoint, 4> p{view_.to_eye(s.a), view_.to_eye(s.far_a), view_.to_eye(s.far_b), view_.to_eye(s.b)};
+    add_face(p, p[0], p[1], p[3]);
+  }
+
+  // A face of a volume that is not drawn, in the plane of three of its points.
+  void add_face(std::span<const EyePoint> points, const EyePoint& a, const EyePoint& b, const EyePoint& c) {
     polygon_.clear();
-    for (const EyePoint& e : p) polygon_.push_back(view_.to_clip(e));
+    for (const EyePoint& e : points) polygon_.push_back(view_.to_clip(e));
     clip_and_cut();
     if (polygon_.empty()) return;
-    ScreenPolygon side;
-    side.triangle = ~0U;
-    side.depth = depth_plane(p[0], p[1], p[3]);
+    ScreenPolygon face;
+    face.triangle = ~0U;
+    face.depth = depth_plane(a, b, c);
     out_.volume_faces.push_back({static_cast<std::uint32_t>(out_.polygons.size()), 1});
-    add_outline(side, polygon_);
+    add_outline(face, polygon_);
   }
 
   // Only the section with the near plane of a polygon that is never a span, or is one already.
@@ -142,7 +154,7 @@ class Builder {
 
   void clip_and_cut() {
     cuts_.clear();
-    clipper_.clip(polygon_, &cuts_);
+    clipper_.clip(polygon_, &cuts_, !look_->far_ends);
     for (const NearCut& cut : cuts_) clipper_.snap_cut(cut, out_.near_edges);
   }
 
@@ -205,12 +217,26 @@ class Builder {
   std::vector<NearCut> cuts_;
 };
 
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+void check_finite(const SceneFrame& frame) {
+  for (std::size_t i = 0; i < frame.vertices.size(); ++i)
+    if (!finite(frame.vertices[i])) throw Error(fmt::format("vertex {}: position is not finite", i));
+  const Camera& c = frame.camera;
+  if (!finite(c.eye) || !finite(c.right) || !finite(c.up) || !finite(c.forward) || !(c.near > 0) || !std::isfinite(c.near) || !(c.half_height > 0) ||
+      !std::isfinite(c.half_height))
+    throw Error("the camera is not finite, or its near plane or field of view is not positive");
+  const Light& l = frame.light;
+  if (!finite(l.directional ? l.direction : l.position)) throw Error("the light is not finite");
+}
+
 }  // namespace
 
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look) {
   if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
     throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
   if (frame.triangles.empty()) throw Error("the scene has no faces");
+  check_finite(frame);
   return Builder(frame, config, width, height, look).build();
 }
 

@@ -8,7 +8,7 @@ namespace kage {
 View::View(const Camera& camera, int width, int height, int z_bits, double far)
     : camera_(camera),
       near_(camera.near),
-      far_(camera.far > 0 ? camera.far : far),
+      far_(far),
       half_w_(width / 2.0),
       half_h_(height / 2.0),
       per_pixel_x_(camera.half_height / half_h_),

@@ -24,12 +24,15 @@ struct ClipPoint {
 
 class View {
  public:
-  /// `far`: distance of the furthest thing to draw, used where the camera gives none.
+  /// `far`: distance of the furthest thing to draw, > the camera's near. The camera's own far is not used: nothing drawn is cut there.
   View(const Camera& camera, int width, int height, int z_bits, double far);
 
   [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const;
   [[nodiscard]] ClipPoint to_clip(const EyePoint& p) const;
   [[nodiscard]] double near() const { return near_; }
+
+  /// Where volumes are cut: a little past everything drawn. Depth there still fits a span's accumulator.
+  [[nodiscard]] double volume_end() const { return far_ + 0.01 * (far_ - near_); }
 
   /// Depth at distance w, in LSB.
   [[nodiscard]] double depth(double w) const;

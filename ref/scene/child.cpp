@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -15,7 +16,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <new>
+#include <stdexcept>
 #include <string_view>
 
 #include "import.hpp"
@@ -175,6 +178,9 @@ ImportLimits ImportLimits::from_environment() {
 Bytes run_in_child(const std::string& name, const ImportLimits& limits, const std::function<Bytes()>& work) {
   const std::string no_time = name + ": import took longer than " + std::to_string(limits.seconds) + " s";
   const std::string no_memory = name + ": import needs more than " + std::to_string(limits.mib) + " MiB";
+  // One at a time, or another thread's child would inherit this pipe's writing end and keep it open.
+  static std::mutex forking;
+  std::unique_lock<std::mutex> lock(forking);
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw Error(name + ": no pipe to an import process: " + std::strerror(errno));
   const pid_t parent = getpid();
@@ -190,6 +196,7 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
     child(pipe_ends[1], parent, limits, work);
   }
   close(pipe_ends[1]);
+  lock.unlock();
   Bytes bytes;
   Ending ending = Ending::kLarge;
   try {

@@ -98,11 +98,12 @@ struct Look {
   std::array<std::uint8_t, 3> background{38, 44, 56};
   double darkening = 0.55;  ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
   double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
+  bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
 };
 
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each polygon
 /// has the mean of its corners), whether it is grey, and whether shadows are wanted.
-/// Throws Error if width or height is not 1 .. kMaxSize.
+/// Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the camera is not finite.
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {});
 
 }  // namespace kage

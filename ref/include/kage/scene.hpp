@@ -26,7 +26,7 @@ struct Camera {
   bool perspective = true;
   double half_height = 0.5;  ///< perspective: tan(vertical field of view / 2); parallel: half the height of the view
   double near = 0.1;         ///< distance of the near plane along forward, > 0
-  double far = 0;            ///< distance of the far plane, > near; 0: not given, geometry takes what the scene needs
+  double far = 0;            ///< distance of the far plane, > near; 0: not given. Geometry cuts nothing there
 };
 
 /// The light. One, directional or point.

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/compare.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace kage::cosim {
+namespace {
+
+const char* channel_name(int channels, int channel) {
+  static constexpr const char* kColors[] = {"red", "green", "blue"};
+  return channels == 1 ? "grey" : kColors[channel];
+}
+
+/// `image` cut or filled with black to a size.
+Image fitted(const Image& image, int width, int height, int channels) {
+  Image out(width, height, channels);
+  if (image.channels != channels) return out;
+  const auto row = static_cast<std::size_t>(std::min(width, image.width)) * static_cast<std::size_t>(channels);
+  for (int y = 0; y < std::min(height, image.height); ++y) {
+    const auto from = image.data.begin() + static_cast<std::ptrdiff_t>(image.index(0, y));
+    std::copy(from, from + static_cast<std::ptrdiff_t>(row), out.data.begin() + static_cast<std::ptrdiff_t>(out.index(0, y)));
+  }
+  return out;
+}
+
+std::optional<Difference> first_pixel(int frame, const Image& e, const Image& a) {
+  const int width = std::min(e.width, a.width);
+  for (int y = 0; y < std::min(e.height, a.height); ++y) {
+    const std::uint8_t* pe = &e.data[e.index(0, y)];
+    const std::uint8_t* pa = &a.data[a.index(0, y)];
+    const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(e.channels);
+    const std::uint8_t* at = std::mismatch(pe, pe + n, pa).first;
+    if (at == pe + n) continue;
+    const auto offset = static_cast<int>(at - pe);
+    return Difference{frame, y, offset / e.channels, channel_name(e.channels, offset % e.channels), *at, pa[offset]};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Difference> first_difference(int frame, const FrameResult& expected, const FrameResult& actual) {
+  const Image& e = expected.image;
+  const Image& a = actual.image;
+  if (e == a && expected.status == actual.status) return std::nullopt;
+  if (e.width > 0 && a.width > 0)
+    if (auto pixel = first_pixel(frame, e, a)) return pixel;
+  if (e.width != a.width) return Difference{frame, -1, -1, "width", e.width, a.width};
+  if (e.height != a.height) return Difference{frame, std::min(e.height, a.height), -1, "height", e.height, a.height};
+  const FrameStatus& es = expected.status;
+  const FrameStatus& as = actual.status;
+  const int line = static_cast<int>(es.line);
+  if (es.error != as.error) return Difference{frame, line, -1, "error", static_cast<int>(es.error), static_cast<int>(as.error)};
+  if (es.frame != as.frame) return Difference{frame, line, -1, "error_frame", es.frame, as.frame};
+  if (es.line != as.line) return Difference{frame, line, -1, "error_line", es.line, as.line};
+  if (es.token != as.token) return Difference{frame, line, -1, "error_token", es.token, as.token};
+  return Difference{frame, -1, -1, "height", es.height, as.height};
+}
+
+std::string describe(const Difference& d) {
+  std::string text = fmt::format("frame {}", d.frame);
+  if (d.line >= 0) text += fmt::format(", line {}", d.line);
+  if (d.x >= 0) text += fmt::format(", x {}", d.x);
+  if (d.field == "error")
+    return text + fmt::format(": expected {}, got {}", kErrorNames[static_cast<std::size_t>(d.expected)], kErrorNames[static_cast<std::size_t>(d.actual) % 10]);
+  return text + fmt::format(", {}: expected {}, got {}", d.field, d.expected, d.actual);
+}
+
+Image difference_picture(const Image& expected, const Image& actual) {
+  Image heat;
+  (void)diff_images(expected, fitted(actual, expected.width, expected.height, expected.channels), {}, &heat);
+  return heat;
+}
+
+}  // namespace kage::cosim

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/model.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <sys/file.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+
+namespace kage::cosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
+
+  /// Adds a text and its length, so that no two lists of texts are alike.
+  void add(const std::string& text) {
+    const std::uint64_t size = text.size();
+    EVP_DigestUpdate(context_.get(), &size, sizeof size);
+    EVP_DigestUpdate(context_.get(), text.data(), text.size());
+  }
+
+  std::string hex() {
+    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+    unsigned size = 0;
+    EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
+    std::string text;
+    for (unsigned char byte : std::span(digest).first(size)) text += fmt::format("{:02x}", byte);
+    return text;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+std::string read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) throw Error(fmt::format("{}: cannot be read", path.string()));
+  return text;
+}
+
+/// What `command` prints; empty if it fails.
+std::string output_of(const char* command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command, "r"), pclose);
+  std::string text;
+  if (!pipe) return text;
+  std::array<char, 512> buffer{};
+  while (fgets(buffer.data(), buffer.size(), pipe.get()) != nullptr) text += buffer.data();
+  return text;
+}
+
+std::string key_of(const fs::path& data, const Config& config, const std::string& fault) {
+  std::vector<fs::path> files;
+  for (const fs::path& folder : {data / "rtl", data / "verif/rtl_model"}) {
+    if (!fs::is_directory(folder)) throw Error(fmt::format("{}: no such folder: kage's RTL is not there", folder.string()));
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      if (entry.is_regular_file() && entry.path().filename() != "configs.yaml" && entry.path().filename().string().front() != '.')
+        files.push_back(entry.path().lexically_relative(data));
+  }
+  std::sort(files.begin(), files.end());
+  Sha256 hash;
+  for (const fs::path& file : files) {
+    hash.add(file.string());
+    hash.add(read_file(data / file));
+  }
+  for (const ParamInfo& p : kParams) hash.add(fmt::format("{}={}", p.name, config.*(p.member)));
+  hash.add(fault);
+  const std::string verilator = output_of("verilator --version 2>/dev/null");
+  if (verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
+  hash.add(verilator);
+  hash.add(output_of("${CXX:-g++} -dumpfullversion 2>/dev/null"));
+  return hash.hex();
+}
+
+fs::path cache_folder() {
+  const char* xdg = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  fs::path folder;
+  if (xdg != nullptr && *xdg != '\0')
+    folder = xdg;
+  else if (home != nullptr && *home != '\0')
+    folder = fs::path(home) / ".cache";
+  else
+    throw Error("neither XDG_CACHE_HOME nor HOME is set: there is no place for RTL models");
+  folder /= "kage/models";
+  std::error_code ec;
+  fs::create_directories(folder, ec);
+  if (ec) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), ec.message()));
+  return folder;
+}
+
+/// A lock that other programs see, released with the object.
+class Lock {
+ public:
+  explicit Lock(const fs::path& path) : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
+    if (fd_ < 0) throw Error(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
+  }
+  ~Lock() { close(fd_); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+  [[nodiscard]] bool try_lock() const { return flock(fd_, LOCK_EX | LOCK_NB) == 0; }
+
+ private:
+  int fd_;
+};
+
+/// A program in a process group of its own, ended with the object.
+class Process {
+ public:
+  Process(const std::vector<std::string>& command, const fs::path& log) : pid_(fork()) {
+    if (pid_ < 0) throw Error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(errno)));
+    if (pid_ != 0) return;
+    setpgid(0, 0);
+    const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int in = open("/dev/null", O_RDONLY);
+    dup2(in, STDIN_FILENO);
+    dup2(out, STDOUT_FILENO);
+    dup2(out, STDERR_FILENO);
+    std::vector<char*> argv;
+    for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    execvp(argv[0], argv.data());
+    _exit(127);
+  }
+  ~Process() {
+    if (pid_ <= 0) return;
+    kill(-pid_, SIGTERM);
+    waitpid(pid_, nullptr, 0);
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  /// True once it has ended.
+  bool ended(bool& ok) {
+    int status = 0;
+    const pid_t done = waitpid(pid_, &status, WNOHANG);
+    if (done == 0) return false;
+    ok = done == pid_ && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    pid_ = 0;
+    return true;
+  }
+
+ private:
+  pid_t pid_;
+};
+
+/// The last line that says something, for a message of one line.
+std::string last_line(const fs::path& log) {
+  std::ifstream in(log);
+  std::string line;
+  std::string error;
+  std::string last;
+  while (std::getline(in, line)) {
+    if (line.empty()) continue;
+    if (error.empty() && line.find("rror") != std::string::npos) error = line;
+    last = line;
+  }
+  return error.empty() ? last : error;
+}
+
+struct RemoveFolder {
+  fs::path path;
+  explicit RemoveFolder(fs::path p) : path(std::move(p)) {}
+  ~RemoveFolder() {
+    std::error_code ec;
+    fs::remove_all(path, ec);
+  }
+  RemoveFolder(const RemoveFolder&) = delete;
+  RemoveFolder& operator=(const RemoveFolder&) = delete;
+};
+
+}  // namespace
+
+Model find_model(const Config& config, const std::string& fault, const BuildProgress& progress) {
+  const fs::path data = data_directory();
+  const fs::path folder = cache_folder();
+  const std::string key = key_of(data, config, fault);
+  const fs::path library = folder / (key + ".so");
+  if (fs::exists(library)) return {library, 0};
+
+  const auto start = std::chrono::steady_clock::now();
+  const auto wait = [&] {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (progress) progress(seconds);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return seconds;
+  };
+  const Lock lock(folder / (key + ".lock"));
+  while (!lock.try_lock()) wait();
+  if (fs::exists(library)) return {library, 0};  // another program has built it
+
+  const fs::path log = folder / (key + ".log");
+  const RemoveFolder work(folder / fmt::format("{}.{}", key, getpid()));
+  fs::create_directories(work.path);
+  std::vector<std::string> command{"bash", (data / "verif/rtl_model/build.sh").string(), "--out", (work.path / "model.so").string()};
+  if (!fault.empty()) command.insert(command.end(), {"--fault", fault});
+  for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
+  Process build(command, log);
+  bool ok = false;
+  while (!build.ended(ok)) wait();
+  if (!ok || !fs::exists(work.path / "model.so")) throw Error(fmt::format("RTL model: the build failed: {} (log: {})", last_line(log), log.string()));
+  fs::rename(work.path / "model.so", library);
+  return {library, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+}
+
+}  // namespace kage::cosim

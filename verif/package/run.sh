@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the build into a temporary prefix, then configures, builds and runs a project that knows nothing but that prefix.
+# usage: run.sh BUILD SOURCE CXX
+set -euo pipefail
+build=$1 source=$2 cxx=$3
+temp=$(mktemp -d)
+trap 'rm -rf "$temp"' EXIT
+cmake --install "$build" --prefix "$temp/prefix" >/dev/null
+cmake -S "$source/verif/package" -B "$temp/build" -G Ninja -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$temp/prefix" ${KAGE_PACKAGE_FLAGS:+-DCMAKE_CXX_FLAGS="$KAGE_PACKAGE_FLAGS"}
+cmake --build "$temp/build"
+KAGE_DATA_DIR="$temp/prefix/share/kage" "$temp/build/consumer"
+for file in rtl/defs/kage.yaml rtl/configs.yaml; do
+  [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
+done
