@@ -122,14 +122,19 @@ class Band {
 
   Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
 
-  SpanToken span(const ScreenPolygon& p, int y, int xl, int xr) const {
-    SpanToken s;
-    s.xl = xl;
-    s.xr = xr;
-    const SpanSetup::Ramp z = depth_.at(p.depth, xl, y, xr - xl);
-    s.z = z.start;
-    s.dz = z.step;
-    return s;
+  /// Call emit(y, span, winding) for every span of the polygon in the band; what a drawn polygon and a cap emit is the same.
+  template <class Emit>
+  void spans(const ScreenPolygon& p, Emit emit) {
+    scanner_.scan(g_->outline(p), y0_, y1_, g_->width, [&](int y, int xl, int xr, int winding) {
+      depth_.each(p.depth, xl, xr, y, [&](int from, int to, SpanSetup::Ramp z) {
+        SpanToken s;
+        s.xl = from;
+        s.xr = to;
+        s.z = z.start;
+        s.dz = z.step;
+        emit(y, s, winding);
+      });
+    });
   }
 
   void opaque() {
@@ -137,8 +142,7 @@ class Band {
     const auto channels = static_cast<std::size_t>(f_->config->channels);
     for (const std::uint32_t i : f_->polygons.band(band_)) {
       const ScreenPolygon& p = g_->polygons[i];
-      scanner_.scan(g_->outline(p), y0_, y1_, g_->width, [&](int y, int xl, int xr, int) {
-        SpanToken s = span(p, y, xl, xr);
+      spans(p, [&](int y, SpanToken& s, int) {
         s.lit = p.lit;
         for (std::size_t c = 0; c < channels; ++c) {
           if (!smooth) {
@@ -147,7 +151,7 @@ class Band {
           }
           const ScreenPlane plane = p.color_planes < 0 ? ScreenPlane{0, 0, std::int64_t{p.color[c]} << kPlaneFrac, 0, 0}
                                                        : g_->color_planes[static_cast<std::size_t>(p.color_planes) + c];
-          const SpanSetup::Ramp r = color_.at(plane, xl, y, xr - xl);
+          const SpanSetup::Ramp r = color_.at(plane, s.xl, y, s.xr - s.xl);
           s.color[c] = static_cast<std::int32_t>(r.start);
           s.dcolor[c] = static_cast<std::int32_t>(r.step);
         }
@@ -188,16 +192,13 @@ class Band {
   }
 
   void volume_face(const VolumeFace& face) {
-    const ScreenPolygon& p = g_->polygons[face.polygon];
-    scanner_.scan(g_->outline(p), y0_, y1_, g_->width, [&](int y, int xl, int xr, int winding) {
-      const int w = weight(winding * face.w);
-      if (w == 0) return;
-      SpanToken s = span(p, y, xl, xr);
-      s.w = w;
+    spans(g_->polygons[face.polygon], [&](int y, SpanToken& s, int winding) {
+      s.w = weight(winding * face.w);
+      if (s.w == 0) return;
       Line& line = at(y);
       writer_.write_to(line.shadow);
       writer_.sp(s);
-      touch(line, xl, xr);
+      touch(line, s.xl, s.xr);
     });
   }
 

@@ -30,8 +30,7 @@ class SpanSetup {
   /// Start at (x, y), half an LSB included, and step for a span of `count` pixels. Each is rounded to nearest, halves up; a start out of the
   /// accumulator's range is clamped, and a step that would leave the range before the last pixel is made as steep as fits.
   [[nodiscard]] Ramp at(const ScreenPlane& plane, int x, int y, int count) const {
-    const Int128 value = round(value_at(plane, x, y)) + half_;
-    Ramp r{static_cast<std::int64_t>(std::clamp(value, -static_cast<Int128>(limit_), static_cast<Int128>(limit_) - 1)), 0};
+    Ramp r{static_cast<std::int64_t>(clamp(start(plane, x, y))), 0};
     if (count > 1) {
       const Int128 up = (static_cast<Int128>(limit_) - 1 - r.start) / (count - 1);
       const Int128 down = -((static_cast<Int128>(r.start) + limit_) / (count - 1));
@@ -40,7 +39,28 @@ class SpanSetup {
     return r;
   }
 
+  /// Call emit(xl, xr, ramp) for the parts of [xl, xr) that are within the accumulator's range, before it and past it: one part for every
+  /// plane that geometry makes. Outside the range a part is constant, so that clamping holds where the plane itself does not fit.
+  template <class Emit>
+  void each(const ScreenPlane& plane, int xl, int xr, int y, Emit emit) const {
+    if (in_range(start(plane, xl, y)) && in_range(start(plane, xr - 1, y))) {
+      emit(xl, xr, at(plane, xl, y, xr - xl));
+      return;
+    }
+    for (int x = xl; x < xr;) {
+      const Int128 first = start(plane, x, y);
+      int end = x + 1;
+      while (end < xr && range_of(start(plane, end, y)) == range_of(first)) ++end;
+      emit(x, end, in_range(first) ? at(plane, x, y, end - x) : Ramp{static_cast<std::int64_t>(clamp(first)), 0});
+      x = end;
+    }
+  }
+
  private:
+  [[nodiscard]] Int128 start(const ScreenPlane& plane, int x, int y) const { return round(value_at(plane, x, y)) + half_; }
+  [[nodiscard]] Int128 clamp(Int128 v) const { return std::clamp(v, -static_cast<Int128>(limit_), static_cast<Int128>(limit_) - 1); }
+  [[nodiscard]] int range_of(Int128 v) const { return v < -limit_ ? -1 : v >= limit_ ? 1 : 0; }
+  [[nodiscard]] bool in_range(Int128 v) const { return range_of(v) == 0; }
   [[nodiscard]] Int128 round(Int128 v) const { return shift_ == 0 ? v : (v + (static_cast<Int128>(1) << (shift_ - 1))) >> shift_; }
 
   int shift_;

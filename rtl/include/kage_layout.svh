@@ -122,18 +122,17 @@ localparam int TokenMax13 = EolWords > TokenMax12 ? EolWords : TokenMax12;
 localparam int TokenMax14 = EndWords > TokenMax13 ? EndWords : TokenMax13;
 localparam int TokenWords = TokenMax14;  // words of the longest token
 
-function automatic logic [31:0] param_hash(input logic unused);
-  param_hash = 32'd2166136261;
-  param_hash = (param_hash ^ 32'(X_BITS)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(Z_BITS)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(Z_FRAC)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(CHANNELS)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(SMOOTH)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(COLOR_FRAC)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(DSF_BITS)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(FSF)) * 32'd16777619;
-  param_hash = (param_hash ^ 32'(SHADE_FRAC)) * 32'd16777619;
-endfunction
+localparam logic [31:0] ParamHash0 = 32'd2166136261;
+localparam logic [31:0] ParamHash1 = (ParamHash0 ^ 32'(X_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash2 = (ParamHash1 ^ 32'(Z_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash3 = (ParamHash2 ^ 32'(Z_FRAC)) * 32'd16777619;
+localparam logic [31:0] ParamHash4 = (ParamHash3 ^ 32'(CHANNELS)) * 32'd16777619;
+localparam logic [31:0] ParamHash5 = (ParamHash4 ^ 32'(SMOOTH)) * 32'd16777619;
+localparam logic [31:0] ParamHash6 = (ParamHash5 ^ 32'(COLOR_FRAC)) * 32'd16777619;
+localparam logic [31:0] ParamHash7 = (ParamHash6 ^ 32'(DSF_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash8 = (ParamHash7 ^ 32'(FSF)) * 32'd16777619;
+localparam logic [31:0] ParamHash9 = (ParamHash8 ^ 32'(SHADE_FRAC)) * 32'd16777619;
+localparam logic [31:0] ParamHash = ParamHash9;  // what a header must carry
 
 // Words of a token of this kind; 0: the configuration lacks it.
 function automatic logic [4:0] token_words(input logic [3:0] kind);

@@ -45,14 +45,13 @@ done
 trouble missing.kage "$kage" info missing.kage
 trouble "--frames" "$kage" render c.kage --frames 3
 trouble "--size" "$kage" render c.kage --size 10x10
-trouble "Z_BITS" "$kage" render c.kage --config tiny
+trouble "X_BITS" "$kage" render c.kage --config tiny
 trouble nowhere "$kage" stream courtyard "${small[@]}" --out nowhere/c.kage
 trouble nowhere.obj "$kage" render nowhere.obj
 printf 'v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n' >nan.obj
 trouble nan.obj "$kage" render nan.obj --frames 1
 : >empty.obj
 trouble empty.obj "$kage" render empty.obj --frames 1
-chmod 000 empty.obj
 
 # Interruption leaves no file behind.
 "$kage" stream courtyard --size 1280x960 --frames 200 --out long.kage >/dev/null 2>err &

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common.hpp"
+
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "image/temp_file.hpp"
+#include "kage/error.hpp"
+
+namespace kage::cli {
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+
+void on_signal(int number) {
+  if (signalled != 0) _exit(128 + number);
+  signalled = 1;
+}
+
+}  // namespace
+
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->footer("Examples:\n" + examples);
+  return command;
+}
+
+void option_size(CLI::App& command, Options& options) {
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&options](const std::string& text) {
+            const char* const end = text.data() + text.size();
+            Size size;
+            const auto w = std::from_chars(text.data(), end, size.width);
+            if (w.ec != std::errc{} || w.ptr == end || *w.ptr != 'x') throw CLI::ValidationError("--size", text + " is not WxH");
+            const auto h = std::from_chars(w.ptr + 1, end, size.height);
+            if (h.ec != std::errc{} || h.ptr != end) throw CLI::ValidationError("--size", text + " is not WxH");
+            if (size.width < 1 || size.width > 32767 || size.height < 1 || size.height > 32767)
+              throw CLI::ValidationError("--size", text + ": width and height are 1 .. 32767");
+            options.size = size;
+            options.size_given = true;
+          },
+          "picture size, default 640x480")
+      ->type_name("WxH");
+}
+
+void option_frames(CLI::App& command, Options& options) {
+  command.add_option("--frames", options.frames, "number of frames along the camera path, default: the scene's own")
+      ->check(CLI::Range(1, 1000000))
+      ->type_name("N");
+}
+
+void option_config(CLI::App& command, Options& options) {
+  command.add_option("--config", options.config, "configuration of the core: a name in rtl/configs.yaml or a YAML file")->type_name("NAME|FILE");
+}
+
+void option_seed(CLI::App& command, Options& options) {
+  command.add_option("--seed", options.seed, "seed of everything random, default 1")->type_name("S");
+}
+
+void option_json(CLI::App& command, Options& options) {
+  command.add_option("--json", options.json, "write the result as JSON; - is standard output, with nothing else on it")->type_name("FILE");
+}
+
+void option_degrade(CLI::App& command, Options& options) {
+  command.add_flag("--degrade", options.degrade, "draw what the configuration lacks without it: no shadows, flat or grey instead of smooth or coloured");
+}
+
+void option_threads(CLI::App& command, Options& options) {
+  command.add_option("--threads", options.threads, "threads to use, default: one per processor")->check(CLI::Range(1, 1024))->type_name("N");
+}
+
+bool json_only(const Options& options) { return options.json == "-"; }
+
+void check_json(const Options& options) {
+  if (options.json.empty() || json_only(options)) return;
+  const std::filesystem::path folder = std::filesystem::path(options.json).parent_path();
+  std::error_code ec;
+  const bool to_be_made = !options.out.empty() && folder.lexically_normal() == std::filesystem::path(options.out).lexically_normal();
+  if (!folder.empty() && !to_be_made && !std::filesystem::is_directory(folder, ec)) throw Error(fmt::format("{}: cannot be written: no such folder", options.json));
+}
+
+void write_json(const Options& options, const Json& value) {
+  if (options.json.empty()) return;
+  const std::string text = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (json_only(options)) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+      throw Error("standard output: cannot be written");
+    return;
+  }
+  TempFile file(options.json);
+  std::ofstream out(file.temp(), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("{}: cannot be written", options.json));
+  file.commit();
+}
+
+Json to_json(const Config& config) {
+  Json object = Json::object();
+  for (const ParamInfo& p : kParams) object[std::string(p.name)] = config.*(p.member);
+  return object;
+}
+
+void make_folder(const std::filesystem::path& path) {
+  std::error_code ec;
+  std::filesystem::create_directories(path, ec);
+  if (ec || !std::filesystem::is_directory(path, ec)) throw Error(fmt::format("{}: the folder cannot be made: {}", path.string(), ec ? ec.message() : "not a folder"));
+}
+
+void catch_signals() {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() { return signalled != 0; }
+
+void check_interrupt() {
+  if (interrupted()) throw Interrupted{};
+}
+
+Progress::Progress() {
+  const char* term = std::getenv("TERM");
+  terminal_ = isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+Progress::~Progress() { clear(); }
+
+void Progress::show(const std::string& text) {
+  if (!terminal_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  shown_ = true;
+  winsize window{};
+  const std::size_t columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 ? window.ws_col - 1U : 79U;
+  fmt::print(stderr, "\r\033[K{}", text.substr(0, columns));
+  std::fflush(stderr);
+}
+
+void Progress::clear() {
+  if (!shown_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  shown_ = false;
+}
+
+}  // namespace kage::cli

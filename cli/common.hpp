@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the subcommands share: options, results as JSON, progress, interruption. A subcommand parses, calls the library and prints.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "kage/defs.hpp"
+
+namespace kage::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// Exit codes.
+inline constexpr int kSame = 0;
+inline constexpr int kDifferent = 1;
+inline constexpr int kTrouble = 2;
+inline constexpr int kInterrupted = 130;
+
+/// What a subcommand does once the command line is parsed; returns the exit code.
+using Action = std::function<int()>;
+
+// One function per subcommand: adds it to `app`; when it is given, `action` becomes what it does.
+void add_cosim(CLI::App& app, Action& action);
+void add_render(CLI::App& app, Action& action);
+void add_stream(CLI::App& app, Action& action);
+void add_info(CLI::App& app, Action& action);
+void add_diff(CLI::App& app, Action& action);
+void add_model(CLI::App& app, Action& action);
+
+/// Adds a subcommand whose help ends with `examples`.
+CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);
+
+/// A picture's size, "640x480".
+struct Size {
+  int width = 640;
+  int height = 480;
+};
+
+/// Options that several subcommands have, and what they default to.
+struct Options {
+  std::string input;
+  Size size;
+  bool size_given = false;
+  int frames = 0;  ///< 0: as many as the scene has
+  std::string config;
+  std::uint64_t seed = 1;
+  std::string out;
+  std::string json;
+  int threads = 0;  ///< 0: one per processor
+  bool degrade = false;
+};
+
+void option_size(CLI::App& command, Options& options);
+void option_frames(CLI::App& command, Options& options);
+void option_config(CLI::App& command, Options& options);
+void option_seed(CLI::App& command, Options& options);
+void option_json(CLI::App& command, Options& options);
+void option_degrade(CLI::App& command, Options& options);
+void option_threads(CLI::App& command, Options& options);
+
+/// Whether `--json -` claims standard output for itself.
+bool json_only(const Options& options);
+
+/// Throws Error if --json names a file in a folder that is not there and is not --out: before long work, not after it.
+void check_json(const Options& options);
+
+/// Writes `value` where --json says, if it was given; a file appears only when it is whole.
+void write_json(const Options& options, const Json& value);
+
+/// The parameters as an object, in the order of the definition file.
+Json to_json(const Config& config);
+
+/// Makes the folder, and those above it. Throws Error.
+void make_folder(const std::filesystem::path& path);
+
+/// Ctrl-C and SIGTERM set a flag; loops ask it, so that files are whole or absent. A second one ends the program at once.
+void catch_signals();
+bool interrupted();
+
+/// Thrown by check_interrupt() when the flag is set.
+struct Interrupted {};
+void check_interrupt();
+
+/// A line on standard error that is written over and over, on a terminal only.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(const std::string& text);
+  void clear();
+
+ private:
+  bool terminal_ = false;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace kage::cli

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage info STREAM: describes and checks a stream file.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "common.hpp"
+#include "kage/stream.hpp"
+
+namespace kage::cli {
+namespace {
+
+int run(const Options& o) {
+  const StreamFile file(o.input);
+  TokenCounts counts;
+  Progress progress;
+  for (int i = 0; i < file.frame_count(); ++i) {
+    check_interrupt();
+    progress.show(fmt::format("frame {}/{}", i + 1, file.frame_count()));
+    (void)file.frame(i, &counts);
+  }
+  progress.clear();
+
+  Json tokens = Json::object();
+  for (std::size_t k = 0; k < counts.of_kind.size(); ++k)
+    if (counts.of_kind[k] != 0) tokens[std::string(kKindNames[k])] = counts.of_kind[k];
+  const std::uint64_t lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)];
+  Json j;
+  j["version"] = kStreamVersion;
+  j["config"] = to_json(file.config());
+  j["frames"] = file.frame_count();
+  j["lines"] = lines;
+  j["tokens"] = tokens;
+  j["spans"] = counts.spans;
+  j["span_pixels"] = counts.span_pixels;
+  j["bytes"] = file.bytes();
+  j["checksum_ok"] = true;  // a wrong one has ended this with an error
+  write_json(o, j);
+  if (!json_only(o)) {
+    fmt::print("{}: {} frames, {} lines, {} spans over {} pixels, {} bytes, checksums right\n", o.input, file.frame_count(), lines, counts.spans,
+               counts.span_pixels, file.bytes());
+    fmt::print("tokens:");
+    for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
+    fmt::print("\nconfiguration:");
+    for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
+    fmt::print("\n");
+  }
+  return kSame;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(app, "info", "Describe and check a stream file",
+                            "  kage info courtyard.kage\n"
+                            "  kage info courtyard.kage --json -");
+  const auto o = std::make_shared<Options>();
+  c->add_option("STREAM", o->input, "a stream file, as kage stream writes it")->required();
+  option_json(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+
+#include "common.hpp"
+
+namespace {
+
+using namespace kage::cli;
+
+/// One line on standard error, whatever the message holds.
+int trouble(std::string message) {
+  while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  fmt::print(stderr, "kage: {}\n", message);
+  return kTrouble;
+}
+
+/// An installed kage finds its data beside itself, wherever the prefix was moved to.
+void find_data() {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  const fs::path data = fs::read_symlink("/proc/self/exe", ec).parent_path().parent_path() / "share/kage";
+  if (!ec && fs::exists(data / "rtl/configs.yaml", ec)) setenv("KAGE_DATA_DIR", data.c_str(), 0);
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("kage: a span-stream rendering core, its golden model and its co-simulation", "kage");
+  app.set_version_flag("--version", "kage " KAGE_VERSION);
+  app.footer("kage COMMAND --help explains a command. Exit codes: 0 same or done, 1 different, 2 trouble.");
+  app.require_subcommand(0, 1);
+  Action action;
+  add_cosim(app, action);
+  add_render(app, action);
+  add_stream(app, action);
+  add_info(app, action);
+  add_diff(app, action);
+  add_model(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    return trouble(e.what());
+  }
+  if (!action) return trouble("no command given: kage --help lists them");
+  return action();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    find_data();
+    catch_signals();
+    return run(argc, argv);
+  } catch (const Interrupted&) {
+    (void)trouble("interrupted");
+    return kInterrupted;
+  } catch (const std::bad_alloc&) {
+    return trouble("out of memory");
+  } catch (const std::exception& e) {
+    return trouble(e.what());
+  }
+}

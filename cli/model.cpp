@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage model CONFIG...: builds RTL models ahead of their use.
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "cosim/model.hpp"
+#include "kage/config.hpp"
+
+namespace kage::cli {
+namespace {
+
+struct ModelCommand : Options {
+  std::vector<std::string> configs;
+  std::string fault;
+};
+
+int run(const ModelCommand& o) {
+  std::vector<NamedConfig> list;
+  if (o.configs.empty()) list = named_configs();
+  for (const std::string& name : o.configs) list.push_back(load_config(name));
+  check_json(o);
+  Json j = Json::array();
+  for (const NamedConfig& named : list) {
+    Progress progress;
+    const cosim::Model model = cosim::find_model(named.config, o.fault, [&](double seconds) {
+      check_interrupt();
+      progress.show(fmt::format("building the RTL model of configuration {}: {:.0f} s", named.name, seconds));
+    });
+    progress.clear();
+    if (!json_only(o))
+      fmt::print("{}: {} ({})\n", named.name, model.library.string(), model.build_seconds > 0 ? fmt::format("built in {:.0f} s", model.build_seconds) : "was there");
+    j.push_back({{"name", named.name}, {"library", model.library.string()}, {"build_seconds", model.build_seconds}, {"config", to_json(named.config)}});
+  }
+  write_json(o, j);
+  return kSame;
+}
+
+}  // namespace
+
+void add_model(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(app, "model", "Build the RTL models of configurations ahead of their use",
+                            "  kage model\n"
+                            "  kage model default full\n"
+                            "  kage model mine.yaml --json -");
+  const auto o = std::make_shared<ModelCommand>();
+  c->add_option("CONFIG", o->configs, "names in rtl/configs.yaml or YAML files, default: all names")->type_name("NAME|FILE");
+  c->add_option("--fault", o->fault, "with a deliberate defect")->type_name("NAME");
+  option_json(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage render SCENE: draws frames with the golden model.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "common.hpp"
+#include "cosim/core.hpp"
+#include "kage/error.hpp"
+#include "kage/image.hpp"
+#include "source.hpp"
+
+namespace kage::cli {
+namespace {
+
+struct RenderCommand : Options {
+  bool exr = false;
+};
+
+int run(const RenderCommand& o) {
+  Source source(o);
+  check_json(o);
+  make_folder(o.out);
+  const Config& config = source.config().config;
+  const auto golden = cosim::make_golden(config);
+  TokenCounts counts;
+  double seconds = 0;
+  Json files = Json::array();
+  Size size;
+  Progress progress;
+  for (int i = 0; i < source.frames(); ++i) {
+    check_interrupt();
+    progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
+    const auto words = source.words(i, &counts);
+    const cosim::FrameResult frame = golden->frame(words);
+    if (frame.status.error != ErrorCode::NONE) throw Error(fmt::format("{}: frame {}: {}", o.input, i, cosim::describe(frame.status)));
+    seconds += frame.seconds;
+    size = {frame.image.width, frame.image.height};
+    const auto path = std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
+    save_image(path, frame.image);
+    files.push_back(path.string());
+  }
+  progress.clear();
+
+  Json j;
+  j["frames"] = source.frames();
+  j["width"] = size.width;
+  j["height"] = size.height;
+  j["spans"] = counts.spans;
+  j["span_pixels"] = counts.span_pixels;
+  j["golden_seconds"] = seconds;
+  j["config"] = to_json(config);
+  j["degraded"] = source.degraded();
+  j["files"] = files;
+  j["notes"] = source.notes();
+  write_json(o, j);
+  print_notes(source, o);
+  if (!json_only(o)) fmt::print("{} frames, {}x{}, {} spans over {} pixels: {}\n", source.frames(), size.width, size.height, counts.spans, counts.span_pixels, o.out);
+  return kSame;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(app, "render", "Draw a scene or a stream with the golden model",
+                            "  kage render courtyard --out pictures\n"
+                            "  kage render horse.3ds --size 800x600 --frames 1\n"
+                            "  kage render courtyard.kage --exr --json -");
+  const auto o = std::make_shared<RenderCommand>();
+  o->out = "out";
+  c->add_option("SCENE", o->input, "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")->required();
+  c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
+  c->add_flag("--exr", o->exr, "write EXR instead of PNG");
+  option_size(*c, *o);
+  option_frames(*c, *o);
+  option_config(*c, *o);
+  option_degrade(*c, *o);
+  option_json(*c, *o);
+  option_threads(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

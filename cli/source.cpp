@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "source.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "kage/error.hpp"
+#include "kage/frontend.hpp"
+#include "kage/geometry.hpp"
+
+namespace kage::cli {
+namespace {
+
+bool is_grey(const glm::dvec3& c) { return c.x == c.y && c.y == c.z; }
+
+/// What drawing `scene` takes, judged by the frame at hand.
+Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size) {
+  Needs needs;
+  needs.width = size.width;
+  needs.height = size.height;
+  needs.shadows = !frame.triangles.empty();
+  needs.several_volumes = frame.components.size() > 1 || std::any_of(frame.components.begin(), frame.components.end(), [](const Component& c) { return !c.convex; });
+  needs.smooth = scene.needs_smooth();
+  needs.color = !is_grey(frame.light.color) || std::any_of(frame.shading.begin(), frame.shading.end(), [](const ShadingVertex& v) { return !is_grey(v.color); });
+  return needs;
+}
+
+}  // namespace
+
+Source::Source(const Options& options) : threads_(options.threads) {
+  if (is_stream_file(options.input))
+    open_stream(options);
+  else
+    open_scene(options);
+}
+
+void Source::open_stream(const Options& options) {
+  if (options.size_given) throw Error(fmt::format("{}: --size: a stream has its own size", options.input));
+  stream_.emplace(options.input);
+  name_ = std::filesystem::path(options.input).stem().string();
+  frames_ = stream_->frame_count();
+  if (options.frames > frames_) throw Error(fmt::format("{}: --frames {}: the stream has {}", options.input, options.frames, frames_));
+  if (options.frames > 0) frames_ = options.frames;
+  config_ = {"of the stream", stream_->config()};
+  if (options.config.empty()) return;
+  config_ = load_config(options.config);
+  for (const ParamInfo& p : kParams)
+    if (p.affects_pixels && config_.config.*(p.member) != stream_->config().*(p.member))
+      throw Error(fmt::format("{}: {}: {} is {}, the stream's is {}", options.input, config_.name, p.name, config_.config.*(p.member), stream_->config().*(p.member)));
+}
+
+void Source::open_scene(const Options& options) {
+  scene_.emplace(Scene::load(options.input));
+  name_ = std::filesystem::path(scene_->name()).stem().string();
+  notes_ = scene_->notes();
+  frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
+  size_ = options.size;
+  if (size_.width > kMaxSize || size_.height > kMaxSize)
+    throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
+  Needs needs = needs_of(*scene_, scene_->frame(0, frames_), size_);
+  if (options.config.empty()) {
+    config_ = choose_config(needs);
+    notes_.push_back(fmt::format("configuration: {}", config_.name));
+    return;
+  }
+  config_ = load_config(options.config);
+  std::vector<std::string> missing = lacks(config_.config, needs);
+  if (!missing.empty() && options.degrade) {
+    degraded_ = missing;
+    needs.shadows = needs.smooth = needs.color = false;
+    missing = lacks(config_.config, needs);
+    std::erase_if(degraded_, [&](const std::string& m) { return std::find(missing.begin(), missing.end(), m) != missing.end(); });
+  }
+  if (!missing.empty()) throw Error(fmt::format("{}: configuration {} lacks {}", options.input, config_.name, fmt::join(missing, ", ")));
+  if (!degraded_.empty()) notes_.push_back(fmt::format("drawn without {}", fmt::join(degraded_, ", ")));
+}
+
+std::span<const std::uint32_t> Source::words(int index, TokenCounts* counts) {
+  if (stream_) return stream_->frame(index, counts);
+  words_.clear();
+  make_frame(make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config, static_cast<std::uint32_t>(index),
+             words_, threads_);
+  if (counts != nullptr) {
+    const TokenCounts frame = check_frame(config_.config, words_, fmt::format("{}: frame {}", name_, index), 0);
+    for (std::size_t k = 0; k < frame.of_kind.size(); ++k) counts->of_kind[k] += frame.of_kind[k];
+    counts->words += frame.words;
+    counts->spans += frame.spans;
+    counts->span_pixels += frame.span_pixels;
+  }
+  return words_;
+}
+
+Size Source::size(std::span<const std::uint32_t> words) {
+  if (words.size() < kHeaderWords) return {0, 0};
+  return {static_cast<int>(words[1] & 0xFFFF), static_cast<int>(words[1] >> 16)};
+}
+
+void print_notes(const Source& source, const Options& options) {
+  for (const std::string& note : source.notes()) fmt::print(json_only(options) ? stderr : stdout, "{}: {}\n", source.name(), note);
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "kage/config.hpp"
+#include "kage/scene.hpp"
+#include "kage/stream.hpp"
+
+namespace kage::cli {
+
+/// Where frames come from: a scene, drawn as the options say, or a stream file. One frame is in memory at a time.
+class Source {
+ public:
+  /// Opens options.input and settles the configuration: --config, else the stream's own, else the first named one that has what the
+  /// scene needs. Throws Error if a configuration lacks what the scene needs and --degrade is not given.
+  explicit Source(const Options& options);
+
+  [[nodiscard]] const NamedConfig& config() const { return config_; }
+  [[nodiscard]] int frames() const { return frames_; }
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// Sentences for the person: what was ignored or added, which configuration was chosen.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+  /// What --degrade left out.
+  [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
+
+  /// The words of frame `index`, valid until the next call; counts are added to `counts` if given.
+  std::span<const std::uint32_t> words(int index, TokenCounts* counts = nullptr);
+
+  /// Size of a frame, from its words.
+  static Size size(std::span<const std::uint32_t> words);
+
+ private:
+  void open_stream(const Options& options);
+  void open_scene(const Options& options);
+
+  NamedConfig config_;
+  int frames_ = 0;
+  std::string name_;
+  std::vector<std::string> notes_;
+  std::vector<std::string> degraded_;
+  std::optional<StreamFile> stream_;
+  std::optional<Scene> scene_;
+  Size size_;
+  int threads_ = 0;
+  std::vector<std::uint32_t> words_;
+};
+
+/// Prints the notes, a line each, once the work is done: a failure says one line and nothing else.
+void print_notes(const Source& source, const Options& options);
+
+}  // namespace kage::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage stream SCENE --out FILE: writes a stream file.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "common.hpp"
+#include "source.hpp"
+
+namespace kage::cli {
+namespace {
+
+int run(const Options& o) {
+  Source source(o);
+  StreamFileWriter writer(o.out, source.config().config);
+  TokenCounts counts;
+  Progress progress;
+  for (int i = 0; i < source.frames(); ++i) {
+    check_interrupt();
+    progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
+    writer.frame(source.words(i, &counts));
+  }
+  progress.clear();
+  writer.finish();
+  print_notes(source, o);
+  fmt::print("{}: {} frames, {} spans over {} pixels, {} words\n", o.out, source.frames(), counts.spans, counts.span_pixels, counts.words);
+  return kSame;
+}
+
+}  // namespace
+
+void add_stream(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(app, "stream", "Write the frames of a scene as a stream file",
+                            "  kage stream courtyard --out courtyard.kage\n"
+                            "  kage stream model.glb --size 320x240 --frames 4 --config full --out model.kage");
+  const auto o = std::make_shared<Options>();
+  c->add_option("SCENE", o->input, "a built-in scene (courtyard, knot, inside, edges) or a file that Assimp reads")->required();
+  c->add_option("--out", o->out, "the stream file")->required()->type_name("FILE");
+  option_size(*c, *o);
+  option_frames(*c, *o);
+  option_config(*c, *o);
+  option_degrade(*c, *o);
+  option_threads(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# The build's one set of flags. What a stream holds must not depend on the compiler: no contraction of a*b+c, no fast-math, no -march.
+get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+if(PROJECT_IS_TOP_LEVEL AND NOT multi_config AND NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or Sanitize" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_CXX_FLAGS_RELEASE "-O2 -g1 -DNDEBUG")
+  set(CMAKE_CXX_FLAGS_DEBUG "-Og -g1 -D_GLIBCXX_ASSERTIONS")
+  set(CMAKE_CXX_FLAGS_SANITIZE
+      "-O1 -g1 -D_GLIBCXX_ASSERTIONS -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer")
+endif()
+
+# kage_flags: what every target of this project compiles with; never exported.
+add_library(kage_flags INTERFACE)
+target_compile_options(kage_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+  target_compile_options(kage_flags INTERFACE -Wno-sign-conversion)
+endif()
+if(KAGE_WERROR)
+  target_compile_options(kage_flags INTERFACE -Werror)
+endif()
+
+# kage_executable(NAME SOURCES... [LIBS...]): an executable with the project's flags.
+function(kage_executable name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE kage_flags ${arg_LIBS})
+endfunction()

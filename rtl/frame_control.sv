@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame: checks header and tokens as docs/stream.md demands, keeps line number, phase and bias, and turns tokens into
+// commands for the pixels and lines for the way out. What is downstream never sees a malformed stream.
+//
+// Handshake: token_*, cmd_* and line_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. A line is passed
+//   on in the clock in which its EOL becomes a command, so lines and EOL commands come in the same order.
+// Commands: OP, SP, NC, EV with 0 <= xl < xr <= width, and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE take
+//   their clock here and go no further: cmd_count_o brings the line's bias with EV and EOL.
+// Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands
+//   clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
+// Latency: 1 clock from token to command. Throughput: a token a clock.
+`default_nettype none
+
+module frame_control #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    parameter int MAX_WIDTH   = 640,
+    parameter int TOKEN_WORDS = 5
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // from token_reader
+    input  wire logic                      token_valid_i,
+    output logic                           token_ready_o,
+    input  wire logic [TOKEN_WORDS*32-1:0] token_i,
+    input  wire logic                      token_header_i,
+    input  wire logic                      token_lacking_i,
+    input  wire logic                      token_cut_i,
+    input  wire logic                      token_final_i,
+    input  wire logic                      token_at_last_i,
+    output logic                           drop_o,
+    input  wire logic                      dropping_i,
+
+    // to the pixels
+    output logic                 cmd_valid_o,
+    input  wire logic            cmd_ready_i,
+    output logic [          3:0] cmd_kind_o,
+    output logic [   X_BITS-1:0] cmd_xl_o,
+    output logic [   X_BITS-1:0] cmd_xr_o,
+    output logic [CountBits-1:0] cmd_count_o,  // lit of OP, w of SP and NC, bias of EV and EOL
+    output logic [DepthBits-1:0] cmd_z_o,
+    output logic [DepthBits-1:0] cmd_dz_o,
+    output logic [ColorBits-1:0] cmd_color_o,
+    output logic [SlopeBits-1:0] cmd_dcolor_o,
+
+    // to the way out: the lines in order
+    output logic                line_valid_o,
+    input  wire logic           line_ready_i,
+    output logic                line_first_o,       // of its frame
+    output logic                line_blank_o,       // background from its first pixel
+    output logic [  X_BITS-1:0] line_width_o,
+    output logic [ RgbBits-1:0] line_background_o,
+    output logic [SHADE_FRAC:0] line_shade_o,
+
+    // to the registers
+    output logic        open_o,         // a frame's header has been taken and the frame has not ended
+    output logic        hungry_o,       // waits for a token or for TLAST
+    output logic        draining_o,     // input is being dropped after an error
+    output logic        frame_end_o,    // one clock
+    output logic        error_o,        // one clock, with the next four
+    output logic [ 3:0] error_code_o,
+    output logic [31:0] error_frame_o,
+    output logic [15:0] error_line_o,
+    output logic [31:0] error_token_o
+);
+  `include "kage_layout.svh"
+
+  localparam logic [1:0] StHeader = 2'd0;
+  localparam logic [1:0] StBody = 2'd1;  // tokens of an error-free frame
+  localparam logic [1:0] StBlank = 2'd2;  // after an error: the rest is background
+
+  localparam logic [1:0] PhaseOpaque = 2'd0;
+  localparam logic [1:0] PhaseVolume = 2'd1;
+  localparam logic [1:0] PhaseResolved = 2'd2;
+
+  // ---- state -------------------------------------------------------------------------------------------------------
+  logic [1:0] state_q, phase_q;
+  logic volume_open_q;  // an SP, NC or IF came after the last EV
+  logic [X_BITS-1:0] width_q;
+  logic [14:0] height_q, line_q;
+  logic [31:0] frame_q, index_q;
+  logic [RgbBits-1:0] background_q;
+  logic [SHADE_FRAC:0] shade_q;
+  logic [CountBits-1:0] bias_q;
+
+  // ---- decode ------------------------------------------------------------------------------------------------------
+  logic [3:0] kind;
+  logic is_shade, is_op, is_sp, is_nc, is_if, is_ev, is_resolve, is_eol, is_end, is_span;
+  logic [X_BITS-1:0] xl, xr;
+  logic [CountBits-1:0] w;
+  logic [SHADE_FRAC:0] shade;
+
+  assign kind = token_i[3:0];
+  assign is_shade = kind == KindShade;
+  assign is_op = kind == KindOp;
+  assign is_sp = kind == KindSp;
+  assign is_nc = kind == KindNc;
+  assign is_if = kind == KindIf;
+  assign is_ev = kind == KindEv;
+  assign is_resolve = kind == KindResolve;
+  assign is_eol = kind == KindEol;
+  assign is_end = kind == KindEnd;
+  assign is_span = is_op || is_sp || is_nc || is_ev;
+  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC and EV
+  assign xr = token_i[OpXrLsb+:X_BITS];
+  assign w = is_if ? token_i[IfWLsb+:CountBits] : token_i[SpWLsb+:CountBits];
+  assign shade = token_i[ShadeShadeLsb+:SHADE_FRAC+1];
+
+  // ---- header ------------------------------------------------------------------------------------------------------
+  logic [15:0] head_width, head_height;
+  logic [3:0] head_error;
+  assign head_width  = token_i[47:32];
+  assign head_height = token_i[63:48];
+  always_comb begin
+    if (token_cut_i) head_error = ErrLastEarly;
+    else if (token_i[31:0] != {16'(StreamMagic), 16'(StreamVersion)}) head_error = ErrHeader;
+    else if (head_width == '0 || head_width > 16'(MAX_WIDTH)) head_error = ErrSize;
+    else if (head_height == '0 || head_height[15]) head_error = ErrSize;
+    else if (token_i[95:64] != ParamHash) head_error = ErrParams;
+    else head_error = ErrNone;
+  end
+
+  // ---- order, range, line ------------------------------------------------------------------------------------------
+  logic lines_done, in_order, in_range, in_line;
+  logic [3:0] body_error;
+  assign lines_done = line_q == height_q;
+  always_comb begin
+    unique case (kind)
+      KindShade: in_order = index_q == 32'd1;
+      KindOp: in_order = phase_q == PhaseOpaque;
+      KindSp, KindNc, KindIf: in_order = phase_q != PhaseResolved;
+      KindEv: in_order = phase_q == PhaseVolume && volume_open_q;
+      KindResolve: in_order = phase_q == PhaseVolume && !(FSF > 0 && volume_open_q);
+      KindEol: in_order = phase_q != PhaseVolume;
+      default: in_order = 1'b1;
+    endcase
+    if (lines_done && !is_end) in_order = 1'b0;
+    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade[SHADE_FRAC] && shade[SHADE_FRAC-1:0] != '0);
+    in_line = !(is_eol && token_i[EolYLsb+:16] != 16'(line_q)) && !(is_end && !lines_done);
+    if (token_cut_i) body_error = ErrLastEarly;
+    else if (token_lacking_i) body_error = ErrKind;
+    else if (!in_order) body_error = ErrOrder;
+    else if (!in_range) body_error = ErrRange;
+    else if (!in_line) body_error = ErrLine;
+    else if (is_end && !token_at_last_i) body_error = ErrLastLate;
+    else body_error = ErrNone;
+  end
+
+  // ---- what happens in this clock ----------------------------------------------------------------------------------
+  logic cmd_free, eol_free, accept, bad, good, body_eol, blank_eol, emit_eol, emit_span;
+  logic [3:0] error_code;
+  assign cmd_free = !cmd_valid_o || cmd_ready_i;
+  assign eol_free = cmd_free && line_ready_i;
+  assign token_ready_o = state_q == StHeader || (state_q == StBody && cmd_free && (line_ready_i || !is_eol));
+  assign accept = token_valid_i && token_ready_o;
+  assign error_code = token_header_i ? head_error : body_error;
+  assign bad = accept && error_code != ErrNone;
+  assign good = accept && error_code == ErrNone;
+  assign body_eol = good && !token_header_i && is_eol;
+  assign blank_eol = state_q == StBlank && !lines_done && eol_free;
+  assign emit_eol = body_eol || blank_eol;
+  assign emit_span = good && !token_header_i && is_span && xl != xr;
+  assign drop_o = bad && !token_final_i;
+
+  assign line_valid_o = emit_eol;
+  assign line_first_o = line_q == '0;
+  assign line_blank_o = blank_eol;
+  assign line_width_o = width_q;
+  assign line_background_o = background_q;
+  assign line_shade_o = shade_q;
+
+  assign open_o = state_q != StHeader;
+  assign hungry_o = state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done);
+  assign draining_o = state_q == StBlank && dropping_i;
+  assign frame_end_o = (good && !token_header_i && is_end) || (state_q == StBlank && lines_done && !dropping_i);
+  assign error_o = bad;
+  assign error_code_o = error_code;
+  assign error_frame_o = token_header_i ? (token_cut_i ? 32'd0 : token_i[159:128]) : frame_q;
+  assign error_line_o = token_header_i ? 16'd0 : 16'(line_q);
+  assign error_token_o = token_header_i ? 32'd0 : index_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      state_q <= StHeader;
+    end else begin
+      if (good && token_header_i) state_q <= StBody;
+      if (bad) state_q <= StBlank;
+      if (frame_end_o) state_q <= StHeader;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (accept && token_header_i) begin
+      width_q <= token_i[32+:X_BITS];
+      height_q <= bad ? '0 : token_i[62:48];  // no lines after an error in the header
+      background_q <= token_i[96+:RgbBits];
+      frame_q <= token_i[159:128];
+      line_q <= '0;
+      index_q <= 32'd1;
+      phase_q <= PhaseOpaque;
+      volume_open_q <= 1'b0;
+      bias_q <= '0;
+      shade_q <= '0;
+    end else begin
+      if (good) index_q <= index_q + 32'd1;
+      if (emit_eol) begin
+        line_q <= line_q + 15'd1;
+        phase_q <= PhaseOpaque;
+        volume_open_q <= 1'b0;
+        bias_q <= '0;
+      end
+      if (DSF_BITS > 0 && good) begin
+        if (is_shade) shade_q <= shade;
+        if (is_sp || is_nc || is_if) begin
+          phase_q <= PhaseVolume;
+          volume_open_q <= 1'b1;
+        end
+        if (is_if) bias_q <= bias_q + w;
+        if (is_resolve) phase_q <= PhaseResolved;
+        if (FSF > 0 && is_ev) begin
+          volume_open_q <= 1'b0;
+          bias_q <= '0;
+        end
+      end
+    end
+  end
+
+  // ---- command register --------------------------------------------------------------------------------------------
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) cmd_valid_o <= 1'b0;
+    else if (cmd_free) cmd_valid_o <= emit_eol || emit_span;
+    if (cmd_free) begin
+      cmd_kind_o <= emit_eol ? KindEol : kind;
+      cmd_xl_o <= emit_eol ? '0 : xl;
+      cmd_xr_o <= emit_eol ? width_q : xr;
+      cmd_z_o <= DSF_BITS > 0 && is_sp ? token_i[SpZLsb+:DepthBits] : token_i[OpZLsb+:DepthBits];
+      cmd_dz_o <= DSF_BITS > 0 && is_sp ? token_i[SpDzLsb+:DepthBits] : token_i[OpDzLsb+:DepthBits];
+      cmd_color_o <= token_i[OpColorLsb+:ColorBits];
+      cmd_dcolor_o <= SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
+      if (DSF_BITS == 0) cmd_count_o <= '0;
+      else if (emit_eol || is_ev) cmd_count_o <= bias_q;
+      else if (is_op) cmd_count_o <= CountBits'(token_i[OpLitLsb]);
+      else cmd_count_o <= w;
+    end
+  end
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      // 1. The header is the first token of a frame and no other.
+      assert (!accept || token_header_i == (state_q == StHeader));
+      // 2. A command has pixels.
+      assert (!cmd_valid_o || cmd_xl_o < cmd_xr_o);
+      // 3. The line number never passes the height.
+      assert (state_q == StHeader || line_q <= height_q);
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

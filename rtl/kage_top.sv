@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage: a span-stream rendering core. Frames of tokens in, video out; docs/stream.md is the contract, docs/rtl.md the guide.
+//
+//   s_axis -> token_reader -> frame_control -> pixel_core -> line_out -> m_axis
+//                                    \---- lines ----^          registers on s_axil
+//
+// Clocking: one clock, synchronous reset, active low. All outputs depend on registers only.
+// Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame.
+`default_nettype none
+
+module kage_top #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    `include "kage_impl_params.svh"
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // frame stream
+    input  wire logic                     s_axis_tvalid_i,
+    output logic                          s_axis_tready_o,
+    input  wire logic [BEAT_WORDS*32-1:0] s_axis_tdata_i,
+    input  wire logic                     s_axis_tlast_i,
+
+    // video
+    output logic               m_axis_tvalid_o,
+    input  wire logic          m_axis_tready_i,
+    output logic [RgbBits-1:0] m_axis_tdata_o,
+    output logic               m_axis_tuser_o,
+    output logic               m_axis_tlast_o,
+
+    // registers
+    input  wire logic        s_axil_awvalid_i,
+    output logic             s_axil_awready_o,
+    input  wire logic [ 7:0] s_axil_awaddr_i,
+    input  wire logic        s_axil_wvalid_i,
+    output logic             s_axil_wready_o,
+    input  wire logic [31:0] s_axil_wdata_i,
+    input  wire logic [ 3:0] s_axil_wstrb_i,
+    output logic             s_axil_bvalid_o,
+    input  wire logic        s_axil_bready_i,
+    output logic      [ 1:0] s_axil_bresp_o,
+    input  wire logic        s_axil_arvalid_i,
+    output logic             s_axil_arready_o,
+    input  wire logic [ 7:0] s_axil_araddr_i,
+    output logic             s_axil_rvalid_o,
+    input  wire logic        s_axil_rready_i,
+    output logic      [31:0] s_axil_rdata_o,
+    output logic      [ 1:0] s_axil_rresp_o,
+
+    output logic irq_o
+);
+  `include "kage_layout.svh"
+
+  // ---- legal parameters --------------------------------------------------------------------------------------------
+  `include "kage_checks.svh"
+  if (FSF > 0 && DSF_BITS == 0) begin : gen_bad_fsf_alone
+    $fatal(1, "FSF needs DSF_BITS > 0: it collects what DSF counts");
+  end
+  if (COLOR_FRAC > 0 && SMOOTH == 0) begin : gen_bad_color_frac_alone
+    $fatal(1, "COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction");
+  end
+  if (MAX_WIDTH > 2 ** X_BITS - 1) begin : gen_bad_width_for_x
+    $fatal(1, "MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width");
+  end
+
+  localparam int FrontWords = TokenWords > HeaderWords ? TokenWords : HeaderWords;
+  localparam int ExitLanes = ARRANGEMENT == 1 ? LANES : 1;
+
+  // ---- words to tokens ---------------------------------------------------------------------------------------------
+  logic token_valid, token_ready, token_header, token_lacking, token_cut, token_final, token_at_last;
+  logic [FrontWords*32-1:0] token;
+  logic drop, dropping, reader_busy;
+
+  token_reader #(
+      `include "kage_pixel_param_map.svh"
+      .BEAT_WORDS (BEAT_WORDS),
+      .TOKEN_WORDS(FrontWords)
+  ) u_reader (
+      .clk_i,
+      .rst_ni,
+      .s_valid_i      (s_axis_tvalid_i),
+      .s_ready_o      (s_axis_tready_o),
+      .s_data_i       (s_axis_tdata_i),
+      .s_last_i       (s_axis_tlast_i),
+      .token_valid_o  (token_valid),
+      .token_ready_i  (token_ready),
+      .token_o        (token),
+      .token_header_o (token_header),
+      .token_lacking_o(token_lacking),
+      .token_cut_o    (token_cut),
+      .token_final_o  (token_final),
+      .token_at_last_o(token_at_last),
+      .drop_i         (drop),
+      .dropping_o     (dropping),
+      .busy_o         (reader_busy)
+  );
+
+  // ---- tokens to commands and lines --------------------------------------------------------------------------------
+  logic cmd_valid, cmd_ready;
+  logic [3:0] cmd_kind;
+  logic [X_BITS-1:0] cmd_xl, cmd_xr;
+  logic [CountBits-1:0] cmd_count;
+  logic [DepthBits-1:0] cmd_z, cmd_dz;
+  logic [ColorBits-1:0] cmd_color;
+  logic [SlopeBits-1:0] cmd_dcolor;
+
+  localparam int LineBits = 2 + X_BITS + RgbBits + SHADE_FRAC + 1;
+  logic line_valid, line_ready, line_first, line_blank;
+  logic [X_BITS-1:0] line_width;
+  logic [RgbBits-1:0] line_background;
+  logic [SHADE_FRAC:0] line_shade;
+  logic queue_valid, queue_ready, queue_first, queue_blank;
+  logic [X_BITS-1:0] queue_width;
+  logic [RgbBits-1:0] queue_background;
+  logic [SHADE_FRAC:0] queue_shade;
+
+  logic frame_open, hungry, draining, frame_end, error;
+  logic [ 3:0] error_code;
+  logic [31:0] error_frame, error_token;
+  logic [15:0] error_line;
+
+  frame_control #(
+      `include "kage_pixel_param_map.svh"
+      .MAX_WIDTH  (MAX_WIDTH),
+      .TOKEN_WORDS(FrontWords)
+  ) u_control (
+      .clk_i,
+      .rst_ni,
+      .token_valid_i    (token_valid),
+      .token_ready_o    (token_ready),
+      .token_i          (token),
+      .token_header_i   (token_header),
+      .token_lacking_i  (token_lacking),
+      .token_cut_i      (token_cut),
+      .token_final_i    (token_final),
+      .token_at_last_i  (token_at_last),
+      .drop_o           (drop),
+      .dropping_i       (dropping),
+      .cmd_valid_o      (cmd_valid),
+      .cmd_ready_i      (cmd_ready),
+      .cmd_kind_o       (cmd_kind),
+      .cmd_xl_o         (cmd_xl),
+      .cmd_xr_o         (cmd_xr),
+      .cmd_count_o      (cmd_count),
+      .cmd_z_o          (cmd_z),
+      .cmd_dz_o         (cmd_dz),
+      .cmd_color_o      (cmd_color),
+      .cmd_dcolor_o     (cmd_dcolor),
+      .line_valid_o     (line_valid),
+      .line_ready_i     (line_ready),
+      .line_first_o     (line_first),
+      .line_blank_o     (line_blank),
+      .line_width_o     (line_width),
+      .line_background_o(line_background),
+      .line_shade_o     (line_shade),
+      .open_o           (frame_open),
+      .hungry_o         (hungry),
+      .draining_o       (draining),
+      .frame_end_o      (frame_end),
+      .error_o          (error),
+      .error_code_o     (error_code),
+      .error_frame_o    (error_frame),
+      .error_line_o     (error_line),
+      .error_token_o    (error_token)
+  );
+
+  // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer.
+  stream_fifo #(
+      .BITS (LineBits),
+      .DEPTH(4)
+  ) u_lines (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (line_valid),
+      .in_ready_o (line_ready),
+      .in_data_i  ({line_first, line_blank, line_width, line_background, line_shade}),
+      .out_valid_o(queue_valid),
+      .out_ready_i(queue_ready),
+      .out_data_o ({queue_first, queue_blank, queue_width, queue_background, queue_shade})
+  );
+
+  // ---- commands to pixels ------------------------------------------------------------------------------------------
+  logic exit_free, exit_take, exit_valid, exit_last, moving;
+  logic [ExitLanes*ExitBits-1:0] exit_data;
+
+  pixel_core #(
+      `include "kage_pixel_param_map.svh"
+      .ARRANGEMENT(ARRANGEMENT),
+      .LANES(LANES),
+      .MAX_WIDTH(MAX_WIDTH)
+  ) u_pixels (
+      .clk_i,
+      .rst_ni,
+      .cmd_valid_i (cmd_valid),
+      .cmd_ready_o (cmd_ready),
+      .cmd_kind_i  (cmd_kind),
+      .cmd_xl_i    (cmd_xl),
+      .cmd_xr_i    (cmd_xr),
+      .cmd_count_i (cmd_count),
+      .cmd_z_i     (cmd_z),
+      .cmd_dz_i    (cmd_dz),
+      .cmd_color_i (cmd_color),
+      .cmd_dcolor_i(cmd_dcolor),
+      .exit_free_i (exit_free),
+      .exit_take_o (exit_take),
+      .exit_valid_o(exit_valid),
+      .exit_last_o (exit_last),
+      .exit_data_o (exit_data),
+      .moving_o    (moving)
+  );
+
+  line_out #(
+      `include "kage_pixel_param_map.svh"
+      .LANES(ExitLanes),
+      .MAX_WIDTH(MAX_WIDTH)
+  ) u_out (
+      .clk_i,
+      .rst_ni,
+      .exit_free_o      (exit_free),
+      .exit_take_i      (exit_take),
+      .exit_valid_i     (exit_valid),
+      .exit_last_i      (exit_last),
+      .exit_data_i      (exit_data),
+      .line_valid_i     (queue_valid),
+      .line_ready_o     (queue_ready),
+      .line_first_i     (queue_first),
+      .line_blank_i     (queue_blank),
+      .line_width_i     (queue_width),
+      .line_background_i(queue_background),
+      .line_shade_i     (queue_shade),
+      .m_valid_o        (m_axis_tvalid_o),
+      .m_ready_i        (m_axis_tready_i),
+      .m_data_o         (m_axis_tdata_o),
+      .m_user_o         (m_axis_tuser_o),
+      .m_last_o         (m_axis_tlast_o)
+  );
+
+  // ---- status ------------------------------------------------------------------------------------------------------
+  // A line is under way from its EOL until its last pixel has left.
+  logic [3:0] lines_q;
+  logic line_gone, in_frame, waiting_input, waiting_output, progress;
+  assign line_gone = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) lines_q <= '0;
+    else lines_q <= lines_q + 4'(line_valid) - 4'(line_gone);
+  end
+  assign in_frame = reader_busy || frame_open;
+  assign waiting_input = in_frame && hungry && !token_valid && s_axis_tready_o && !s_axis_tvalid_i;
+  assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
+  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || (token_valid && token_ready) || (cmd_valid && cmd_ready) ||
+      moving || (m_axis_tvalid_o && m_axis_tready_i);
+
+  registers #(
+      `include "kage_pixel_param_map.svh"
+      `include "kage_impl_param_map.svh"
+  ) u_registers (
+      .clk_i,
+      .rst_ni,
+      .awvalid_i       (s_axil_awvalid_i),
+      .awready_o       (s_axil_awready_o),
+      .awaddr_i        (s_axil_awaddr_i),
+      .wvalid_i        (s_axil_wvalid_i),
+      .wready_o        (s_axil_wready_o),
+      .wdata_i         (s_axil_wdata_i),
+      .wstrb_i         (s_axil_wstrb_i),
+      .bvalid_o        (s_axil_bvalid_o),
+      .bready_i        (s_axil_bready_i),
+      .bresp_o         (s_axil_bresp_o),
+      .arvalid_i       (s_axil_arvalid_i),
+      .arready_o       (s_axil_arready_o),
+      .araddr_i        (s_axil_araddr_i),
+      .rvalid_o        (s_axil_rvalid_o),
+      .rready_i        (s_axil_rready_i),
+      .rdata_o         (s_axil_rdata_o),
+      .rresp_o         (s_axil_rresp_o),
+      .irq_o,
+      .open_i          (in_frame || lines_q != '0),
+      .draining_i      (draining),
+      .waiting_input_i (waiting_input),
+      .waiting_output_i(waiting_output),
+      .progress_i      (progress),
+      .frame_end_i     (frame_end),
+      .error_i         (error),
+      .error_code_i    (error_code),
+      .error_frame_i   (error_frame),
+      .error_line_i    (error_line),
+      .error_token_i   (error_token)
+  );
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way out: two line buffers, so that the next line is worked on while this one leaves at a pixel a clock; the multiplier of
+// RESOLVE; background where nothing was drawn; AXI4-Stream video.
+//
+// Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by exit_valid_i
+//   (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's width and colours, in the
+//   order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's last.
+// Pixel: background if the line is blank or the pixel not covered; else its colour, times 1 - shade if it is dark, rounded once:
+//   (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC.
+// Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so the one
+//   multiplier per channel here does the work of LANES of them in the pass that empties the line.
+// Latency: 7 clocks from a complete line to its first pixel.
+// Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without shadows).
+`default_nettype none
+
+module line_out #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    parameter int LANES = 4,  // pixels of a group
+    parameter int MAX_WIDTH = 640
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // from the pixels
+    output logic                           exit_free_o,
+    input  wire logic                      exit_take_i,
+    input  wire logic                      exit_valid_i,
+    input  wire logic                      exit_last_i,
+    input  wire logic [LANES*ExitBits-1:0] exit_data_i,
+
+    // from frame_control
+    input  wire logic                line_valid_i,
+    output logic                     line_ready_o,
+    input  wire logic                line_first_i,
+    input  wire logic                line_blank_i,
+    input  wire logic [  X_BITS-1:0] line_width_i,
+    input  wire logic [ RgbBits-1:0] line_background_i,
+    input  wire logic [SHADE_FRAC:0] line_shade_i,
+
+    // video
+    output logic               m_valid_o,
+    input  wire logic          m_ready_i,
+    output logic [RgbBits-1:0] m_data_o,
+    output logic               m_user_o,
+    output logic               m_last_o
+);
+
+  localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;
+  localparam int AddrBits = $clog2(2 * Groups);
+  localparam int LaneBits = LANES > 1 ? $clog2(LANES) : 1;
+
+  // ---- buffers in use ----------------------------------------------------------------------------------------------
+  logic [1:0] taken_q, full_q;  // buffers not free; buffers whose line is complete
+  logic line_complete, line_left;
+  assign exit_free_o   = taken_q != 2'd2;
+  assign line_complete = exit_valid_i && exit_last_i;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      taken_q <= '0;
+      full_q  <= '0;
+    end else begin
+      taken_q <= taken_q + 2'(exit_take_i) - 2'(line_left);
+      full_q  <= full_q + 2'(line_complete) - 2'(line_left);
+    end
+  end
+
+  // ---- filling -----------------------------------------------------------------------------------------------------
+  // Buffers lie behind each other in one RAM: the second one starts at Groups.
+  logic [AddrBits-1:0] wr_addr_q, rd_addr_q;
+  logic wr_second_q, rd_second_q;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      wr_addr_q   <= '0;
+      wr_second_q <= 1'b0;
+    end else if (line_complete) begin
+      wr_addr_q   <= wr_second_q ? '0 : AddrBits'(Groups);
+      wr_second_q <= !wr_second_q;
+    end else if (exit_valid_i) begin
+      wr_addr_q <= wr_addr_q + 1'b1;
+    end
+  end
+
+  // ---- emptying: one pixel a clock goes into the pipeline ----------------------------------------------------------
+  localparam int Depth = 5;  // RAM, register, lane, product, colour
+  logic go;  // the pipeline moves
+  logic start, sending_q, issue, issue_last;
+  logic [X_BITS-1:0] x_q;
+  logic [LaneBits-1:0] lane;
+  logic first_q, blank_q;
+  logic [X_BITS-1:0] width_q;
+  logic [RgbBits-1:0] background_q;
+  logic [SHADE_FRAC:0] keep_q;  // 1 - shade
+  logic [Depth-1:0] valid_q;
+
+  // A frame's first line waits for the pipeline to drain, since background and shade are kept once, not per stage.
+  assign start = line_valid_i && full_q != '0 && (!sending_q || (go && issue_last)) && !(sending_q && full_q == 2'd1) &&
+      !(line_first_i && (sending_q || valid_q != '0));
+  assign line_ready_o = start;
+  assign issue = sending_q;
+  assign issue_last = x_q == width_q - 1'b1;
+  assign line_left = sending_q && go && issue_last;
+  assign lane = LANES > 1 ? x_q[LaneBits-1:0] : '0;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) sending_q <= 1'b0;
+    else if (start) sending_q <= 1'b1;
+    else if (line_left) sending_q <= 1'b0;
+
+    if (start) begin
+      x_q <= '0;
+      first_q <= line_first_i;
+      blank_q <= line_blank_i;
+      width_q <= line_width_i;
+      if (line_first_i) background_q <= line_background_i;
+      if (line_first_i) keep_q <= {1'b1, {SHADE_FRAC{1'b0}}} - line_shade_i;
+    end else if (go && issue) begin
+      x_q <= x_q + 1'b1;
+    end
+
+    if (!rst_ni) begin
+      rd_addr_q   <= '0;
+      rd_second_q <= 1'b0;
+    end else if (line_left) begin
+      rd_addr_q   <= rd_second_q ? '0 : AddrBits'(Groups);
+      rd_second_q <= !rd_second_q;
+    end else if (go && issue && lane == LaneBits'(LANES - 1)) begin
+      rd_addr_q <= rd_addr_q + 1'b1;
+    end
+  end
+
+  // What goes along with a pixel, one set of bits a stage, the first stage lowest.
+  logic [Depth-1:0] user_q, last_q;
+  logic [2:0] blank_at_q;
+  logic [2*LaneBits-1:0] lane_at_q;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) valid_q <= '0;
+    else if (go) valid_q <= {valid_q[Depth-2:0], issue};
+    if (go) begin
+      user_q <= {user_q[Depth-2:0], first_q && x_q == '0};
+      last_q <= {last_q[Depth-2:0], issue_last};
+      blank_at_q <= {blank_at_q[1:0], blank_q};
+      lane_at_q <= {lane_at_q[LaneBits-1:0], lane};
+    end
+  end
+
+  // ---- stages 1 and 2: RAM and the register behind it, which holds a group while its lanes leave -------------------
+  logic [LANES*ExitBits-1:0] ram_data, group_q;
+  ram_1r1w #(
+      .BITS (LANES * ExitBits),
+      .WORDS(2 * Groups)
+  ) u_lines (
+      .clk_i,
+      .wr_en_i  (exit_valid_i),
+      .wr_addr_i(wr_addr_q),
+      .wr_data_i(exit_data_i),
+      .rd_en_i  (go && issue && lane == '0),
+      .rd_addr_i(rd_addr_q),
+      .rd_data_o(ram_data)
+  );
+  always_ff @(posedge clk_i) if (go && lane_at_q[LaneBits-1:0] == '0) group_q <= ram_data;
+
+  // ---- stage 3: one lane -------------------------------------------------------------------------------------------
+  logic [ExitBits-1:0] pixel_d, pixel_q;
+  if (LANES > 1) begin : gen_lane
+    always_comb begin
+      pixel_d = '0;
+      for (int l = 0; l < LANES; l++) begin
+        if (lane_at_q[LaneBits+:LaneBits] == LaneBits'(l)) pixel_d = group_q[l*ExitBits+:ExitBits];
+      end
+    end
+  end else begin : gen_one_lane
+    logic unused_lane;
+    assign unused_lane = lane_at_q[1];
+    assign pixel_d = group_q;
+  end
+  always_ff @(posedge clk_i) if (go) pixel_q <= pixel_d;
+
+  // ---- stages 4 and 5: resolve, background -------------------------------------------------------------------------
+  logic [RgbBits-1:0] plain_q, dimmed, color_q;
+  logic show_q, dark_q;  // the pixel is covered, in a line that is not blank; and in shadow
+  if (DSF_BITS > 0) begin : gen_resolve
+    logic [CHANNELS*(SHADE_FRAC+9)-1:0] product_q;
+    always_ff @(posedge clk_i) begin
+      if (go) begin
+        dark_q <= pixel_q[ExitBits-1];
+        for (int c = 0; c < CHANNELS; c++) begin
+          product_q[c*(SHADE_FRAC+9)+:SHADE_FRAC+9] <= (SHADE_FRAC + 9)'(pixel_q[c*8+:8]) * (SHADE_FRAC + 9)'(keep_q) +
+              (SHADE_FRAC + 9)'(1 << (SHADE_FRAC - 1));
+        end
+      end
+    end
+    always_comb begin
+      for (int c = 0; c < CHANNELS; c++) dimmed[c*8+:8] = product_q[c*(SHADE_FRAC+9)+SHADE_FRAC+:8];
+    end
+  end else begin : gen_no_resolve
+    logic unused_keep;
+    assign unused_keep = ^keep_q;
+    assign dark_q = 1'b0;
+    assign dimmed = '0;
+  end
+  always_ff @(posedge clk_i) begin
+    if (go) begin
+      plain_q <= pixel_q[RgbBits-1:0];
+      show_q  <= pixel_q[RgbBits] && !blank_at_q[2];
+      if (!show_q) color_q <= background_q;
+      else color_q <= dark_q ? dimmed : plain_q;
+    end
+  end
+
+  // ---- output ------------------------------------------------------------------------------------------------------
+  skid_buffer #(
+      .BITS(RgbBits + 2)
+  ) u_out (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (valid_q[Depth-1]),
+      .in_ready_o (go),
+      .in_data_i  ({last_q[Depth-1], user_q[Depth-1], color_q}),
+      .out_valid_o(m_valid_o),
+      .out_ready_i(m_ready_i),
+      .out_data_o ({m_last_o, m_user_o, m_data_o})
+  );
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      // 1. No line comes without a buffer.
+      assert (!exit_take_i || exit_free_o);
+      // 2. No more lines are complete than buffers are taken.
+      assert (full_q <= taken_q);
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixels of a line in block RAM, LANES to a word: spans are walked one aligned group of LANES pixels a clock.
+//
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL starts its pass when exit_free_i is high, takes the
+//   buffer by a clock of exit_take_o, and then brings the line's groups in order by exit_valid_o, without stops; the last with
+//   exit_last_o. Pixels past the line's width in the last group are void.
+// Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL takes one per group of
+//   the line and leaves cleared state behind. After reset a sweep of all groups comes first: what the RAM held never matters.
+// Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1.
+// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the newest in
+//   front of the comparison, the two older ones in front of the register behind the RAM.
+// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port.
+`default_nettype none
+
+module pixel_banked #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    parameter int LANES = 4,
+    parameter int MAX_WIDTH = 640
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // from frame_control
+    input  wire logic                 cmd_valid_i,
+    output logic                      cmd_ready_o,
+    input  wire logic [          3:0] cmd_kind_i,
+    input  wire logic [   X_BITS-1:0] cmd_xl_i,
+    input  wire logic [   X_BITS-1:0] cmd_xr_i,
+    input  wire logic [CountBits-1:0] cmd_count_i,
+    input  wire logic [DepthBits-1:0] cmd_z_i,
+    input  wire logic [DepthBits-1:0] cmd_dz_i,
+    input  wire logic [ColorBits-1:0] cmd_color_i,
+    input  wire logic [SlopeBits-1:0] cmd_dcolor_i,
+
+    // to line_out
+    input  wire logic                      exit_free_i,
+    output logic                           exit_take_o,
+    output logic                           exit_valid_o,
+    output logic                           exit_last_o,
+    output logic      [LANES*ExitBits-1:0] exit_data_o,
+
+    output logic moving_o  // a command is being worked on, though none comes in
+);
+  `include "kage_layout.svh"
+  `include "kage_pixel_next.svh"
+
+  localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;
+  localparam int AddrBits = Groups > 1 ? $clog2(Groups) : 1;
+  localparam int Levels = $clog2(LANES);
+  localparam int OffBits = LANES > 1 ? Levels : 1;
+  localparam int WordBits = LANES * PixelBits;
+  localparam int Last = Levels + 2;  // the stage at which a group's next state is computed; the walker is stage 0
+
+  // ---- set-up stages -----------------------------------------------------------------------------------------------
+  // What goes along unchanged: {kind, count, colour, first group, last group, first lane, last lane}.
+  localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
+  localparam int SetBits = 4 + CountBits + FlatBits + 2 * AddrBits + 2 * OffBits;
+  logic [SetBits-1:0] set_d, set1_q, set2_q, set3_q;
+  logic [2:0] set_valid_q, set_en;
+  logic [X_BITS-1:0] x_last;
+  logic [FlatBits-1:0] flat;
+  logic [AddrBits-1:0] group_first, group_last;
+  logic [OffBits-1:0] lane_first, lane_last;
+  logic take3;
+
+  assign x_last = cmd_xr_i - 1'b1;
+  assign flat = SMOOTH > 0 ? '0 : cmd_color_i[FlatBits-1:0];
+  assign group_first = AddrBits'(cmd_xl_i >> Levels);
+  assign group_last = AddrBits'(x_last >> Levels);
+  assign lane_first = LANES > 1 ? cmd_xl_i[OffBits-1:0] : '0;
+  assign lane_last = LANES > 1 ? x_last[OffBits-1:0] : '0;
+  assign set_d = {cmd_kind_i, cmd_count_i, flat, group_first, group_last, lane_first, lane_last};
+  assign set_en[2] = !set_valid_q[2] || take3;
+  assign set_en[1] = set_valid_q[2:1] != 2'b11 || take3;
+  assign set_en[0] = set_valid_q != 3'b111 || take3;
+  assign cmd_ready_o = set_en[0];
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      set_valid_q <= '0;
+    end else begin
+      if (set_en[0]) set_valid_q[0] <= cmd_valid_i;
+      if (set_en[1]) set_valid_q[1] <= set_valid_q[0];
+      if (set_en[2]) set_valid_q[2] <= set_valid_q[1];
+    end
+    if (set_en[0]) set1_q <= set_d;
+    if (set_en[1]) set2_q <= set1_q;
+    if (set_en[2]) set3_q <= set2_q;
+  end
+
+  // ---- walker, stage 0 ---------------------------------------------------------------------------------------------
+  logic [3:0] next_kind;
+  logic [CountBits-1:0] next_count;
+  logic [FlatBits-1:0] next_flat;
+  logic [AddrBits-1:0] next_group, next_end;
+  logic [OffBits-1:0] next_lane_first, next_lane_last;
+  assign {next_kind, next_count, next_flat, next_group, next_end, next_lane_first, next_lane_last} = set3_q;
+
+  logic walk_valid_q, walk_first_q, walk_sweep_q, walk_at_end, step;
+  logic [3:0] walk_kind_q;
+  logic [CountBits-1:0] walk_count_q;
+  logic [FlatBits-1:0] walk_flat_q;
+  logic [AddrBits-1:0] walk_group_q, walk_end_q;
+  logic [OffBits-1:0] walk_lane_first_q, walk_lane_last_q;
+  logic walk_eol;
+
+  assign walk_eol = walk_kind_q == KindEol;
+  assign walk_at_end = walk_group_q == walk_end_q;
+  assign step = walk_valid_q && !walk_at_end;
+  assign take3 = set_valid_q[2] && !step && (next_kind != KindEol || exit_free_i);
+  assign moving_o = step;
+  assign exit_take_o = take3 && next_kind == KindEol;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      // The sweep: an EOL over all groups whose pixels go nowhere.
+      walk_valid_q <= 1'b1;
+      walk_sweep_q <= 1'b1;
+      walk_kind_q  <= KindEol;
+      walk_group_q <= '0;
+      walk_end_q   <= AddrBits'(Groups - 1);
+    end else if (step) begin
+      walk_group_q <= walk_group_q + 1'b1;
+      walk_first_q <= 1'b0;
+    end else begin
+      walk_valid_q <= take3;
+      if (take3) begin
+        walk_first_q <= 1'b1;
+        walk_sweep_q <= 1'b0;
+        walk_kind_q <= next_kind;
+        walk_count_q <= next_count;
+        walk_flat_q <= next_flat;
+        walk_group_q <= next_group;
+        walk_end_q <= next_end;
+        walk_lane_first_q <= next_lane_first;
+        walk_lane_last_q <= next_lane_last;
+      end
+    end
+  end
+
+  // Lanes of this group that lie in the span; all of them at the end of a line, so that it leaves no pixel behind.
+  logic [LANES-1:0] walk_lanes;
+  always_comb begin
+    walk_lanes = '0;
+    for (int l = 0; l < LANES; l++) begin
+      walk_lanes[l] = walk_eol || ((!walk_first_q || OffBits'(l) >= walk_lane_first_q) &&
+                                   (!walk_at_end || OffBits'(l) <= walk_lane_last_q));
+    end
+  end
+
+  // ---- ramps -------------------------------------------------------------------------------------------------------
+  logic [LANES*Z_BITS-1:0] lane_z;
+  lane_ramp #(
+      .LANES(LANES),
+      .BITS(DepthBits),
+      .FRAC(Z_FRAC),
+      .LO(1),
+      .HI((1 << Z_BITS) - 2),
+      .OUT_BITS(Z_BITS)
+  ) u_depth (
+      .clk_i,
+      .set_en_i(set_en),
+      .start_i(cmd_z_i),
+      .slope_i(cmd_dz_i),
+      .offset_i(lane_first),
+      .load_i(take3),
+      .step_i(step),
+      .value_o(lane_z)
+  );
+
+  logic [LANES*RgbBits-1:0] lane_color;
+  if (SMOOTH > 0) begin : gen_smooth
+    logic unused_flat;
+    assign unused_flat = ^walk_flat_q;
+    for (genvar c = 0; c < CHANNELS; c++) begin : gen_channel
+      logic [LANES*8-1:0] value;
+      lane_ramp #(
+          .LANES(LANES),
+          .BITS(RampBits),
+          .FRAC(COLOR_FRAC),
+          .LO(0),
+          .HI(255),
+          .OUT_BITS(8)
+      ) u_color (
+          .clk_i,
+          .set_en_i(set_en),
+          .start_i(cmd_color_i[c*RampBits+:RampBits]),
+          .slope_i(cmd_dcolor_i[c*RampBits+:RampBits]),
+          .offset_i(lane_first),
+          .load_i(take3),
+          .step_i(step),
+          .value_o(value)
+      );
+      for (genvar l = 0; l < LANES; l++) begin : gen_lane
+        assign lane_color[l*RgbBits+c*8+:8] = value[l*8+:8];
+      end
+    end
+  end
+
+  // ---- what goes along with a group, stage 1 .. Last ---------------------------------------------------------------
+  // {kind, count, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
+  localparam int InfoBits = 4 + CountBits + LANES + AddrBits + 2;
+  logic [Last*InfoBits-1:0] info_q;
+  logic [Last:0] valid;  // bit k: stage k holds a group
+  logic [Last-1:0] valid_q;
+  logic [InfoBits-1:0] info_walk;
+  logic leaves;
+  assign leaves = walk_eol && !walk_sweep_q;
+  assign info_walk = {walk_kind_q, walk_count_q, walk_lanes, walk_group_q, walk_at_end, leaves};
+  assign valid = {valid_q, walk_valid_q};
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) valid_q <= '0;
+    else valid_q <= valid[Last-1:0];
+    info_q <= {info_q[(Last-1)*InfoBits-1:0], info_walk};
+  end
+
+  if (SMOOTH == 0) begin : gen_flat
+    logic unused_dcolor;
+    assign unused_dcolor = ^cmd_dcolor_i;
+    logic [Last*RgbBits-1:0] flat_q;
+    always_ff @(posedge clk_i) flat_q <= {flat_q[(Last-1)*RgbBits-1:0], walk_flat_q};
+    assign lane_color = {LANES{flat_q[(Last-1)*RgbBits+:RgbBits]}};
+  end
+
+  // Address of the group at stage k, k = 1 .. Last: the walker's goes in at stage 1.
+  localparam int AddrAt = 2;
+  logic [AddrBits-1:0] addr_read, addr_before, addr_now;  // stages Last - 2, Last - 1, Last
+  if (Last > 2) begin : gen_addr_read
+    assign addr_read = info_q[(Last-3)*InfoBits+AddrAt+:AddrBits];
+  end else begin : gen_addr_read_walk
+    assign addr_read = walk_group_q;
+  end
+  assign addr_before = info_q[(Last-2)*InfoBits+AddrAt+:AddrBits];
+  assign addr_now = info_q[(Last-1)*InfoBits+AddrAt+:AddrBits];
+
+  logic [3:0] now_kind;
+  logic [CountBits-1:0] now_count;
+  logic [LANES-1:0] now_lanes;
+  logic [AddrBits-1:0] now_addr;
+  logic now_at_end, now_leaves;
+  assign {now_kind, now_count, now_lanes, now_addr, now_at_end, now_leaves} = info_q[(Last-1)*InfoBits+:InfoBits];
+
+  // ---- read, next state, write -------------------------------------------------------------------------------------
+  logic [WordBits-1:0] ram_data, word_q, word, next, done_q, done2_q;
+  logic [AddrBits-1:0] done_addr_q;
+  logic done_valid_q;
+  logic same1_q, same2_q, same3_q;  // the group computed 1, 2, 3 clocks before is the same
+
+  ram_1r1w #(
+      .BITS (WordBits),
+      .WORDS(Groups)
+  ) u_state (
+      .clk_i,
+      .wr_en_i  (done_valid_q),
+      .wr_addr_i(done_addr_q),
+      .wr_data_i(done_q),
+      .rd_en_i  (valid[Last-2]),
+      .rd_addr_i(addr_read),
+      .rd_data_o(ram_data)
+  );
+
+  always_ff @(posedge clk_i) begin
+    // For the group that moves from stage Last - 2 to Last - 1; see the contract's hazards.
+    same2_q <= valid[Last] && addr_read == addr_now;
+    same3_q <= done_valid_q && addr_read == done_addr_q;
+    // For the group that moves from stage Last - 1 to Last.
+    same1_q <= valid[Last] && addr_before == addr_now;
+    if (same2_q) word_q <= done_q;
+    else if (same3_q) word_q <= done2_q;
+    else word_q <= ram_data;
+  end
+  assign word = same1_q ? done_q : word_q;
+
+  always_comb begin
+    next = word;
+    for (int l = 0; l < LANES; l++) begin
+      if (now_lanes[l]) begin
+        next[l*PixelBits+:PixelBits] = pixel_next(
+            word[l*PixelBits+:PixelBits], now_kind, lane_z[l*Z_BITS+:Z_BITS], lane_color[l*RgbBits+:RgbBits], now_count);
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      done_valid_q <= 1'b0;
+    end else begin
+      done_valid_q <= valid[Last];
+    end
+    done_addr_q  <= now_addr;
+    done_q       <= next;
+    done2_q      <= done_q;
+  end
+
+  // ---- the line leaves ---------------------------------------------------------------------------------------------
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) exit_valid_o <= 1'b0;
+    else exit_valid_o <= valid[Last] && now_leaves;
+    exit_last_o <= now_at_end;
+    for (int l = 0; l < LANES; l++) begin
+      exit_data_o[l*ExitBits+:ExitBits] <= pixel_exit(word[l*PixelBits+:PixelBits], now_count);
+    end
+  end
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      // 1. The walker stays within the RAM.
+      assert (!walk_valid_q || (walk_group_q <= walk_end_q && 32'(walk_end_q) < Groups));
+      // 2. A line's pass never starts without a place for its pixels.
+      assert (!exit_take_o || exit_free_i);
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixels of a line as a chain of processors, one a pixel: commands move one processor a clock, as in Matsumoto's line of
+// pixel processors, and a new one may enter every clock, whatever its length.
+//
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL can be made to wait: for exit_free_i, and for the
+//   line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's pixels then leave one a clock by
+//   exit_valid_o, without stops; the last with exit_last_o. The next line's commands follow right behind the EOL.
+// Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 2 clocks.
+// Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels leave.
+// After reset an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted; commands
+//   follow right behind it, the first line's EOL waits until it is through.
+// Cost: MAX_WIDTH times a command, a depth adder, a comparison and a pixel's state. The loops below are over vectors in one
+//   process: instances would simulate at half the speed.
+`default_nettype none
+
+module pixel_systolic #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    parameter int MAX_WIDTH = 64
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // from frame_control
+    input  wire logic                 cmd_valid_i,
+    output logic                      cmd_ready_o,
+    input  wire logic [          3:0] cmd_kind_i,
+    input  wire logic [   X_BITS-1:0] cmd_xl_i,
+    input  wire logic [   X_BITS-1:0] cmd_xr_i,
+    input  wire logic [CountBits-1:0] cmd_count_i,
+    input  wire logic [DepthBits-1:0] cmd_z_i,
+    input  wire logic [DepthBits-1:0] cmd_dz_i,
+    input  wire logic [ColorBits-1:0] cmd_color_i,
+    input  wire logic [SlopeBits-1:0] cmd_dcolor_i,
+
+    // to line_out
+    input  wire logic                exit_free_i,
+    output logic                     exit_take_o,
+    output logic                     exit_valid_o,
+    output logic                     exit_last_o,
+    output logic      [ExitBits-1:0] exit_data_o,
+
+    output logic moving_o  // a command is moving, though none comes in
+);
+  `include "kage_layout.svh"
+  `include "kage_pixel_next.svh"
+
+  localparam int N = MAX_WIDTH;
+  localparam int Segment = 16;  // pixels whose exits are joined in one clock
+  localparam int Segments = (N + Segment - 1) / Segment;
+
+  // ---- entry -------------------------------------------------------------------------------------------------------
+  logic is_eol, enter;
+  logic [X_BITS-1:0] leaving_q;  // pixels of the leaving line that its EOL has not reached
+  logic sweep_q;  // that EOL is the one of reset
+  assign is_eol = cmd_kind_i == KindEol;
+  assign cmd_ready_o = !is_eol || (exit_free_i && leaving_q == '0);
+  assign enter = cmd_valid_i && cmd_ready_o;
+  assign exit_take_o = enter && is_eol;
+
+  // An EOL moves on every clock, so counting says where it is: no sign from the processors is needed.
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      leaving_q <= X_BITS'(N - 1);
+      sweep_q   <= 1'b1;
+    end else begin
+      if (exit_take_o) leaving_q <= cmd_xr_i - 1'b1;
+      else if (leaving_q != '0) leaving_q <= leaving_q - 1'b1;
+      if (leaving_q == '0) sweep_q <= 1'b0;
+    end
+  end
+
+  assign moving_o = leaving_q != '0;
+
+  // ---- the chain ---------------------------------------------------------------------------------------------------
+  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, whether its range had begun, depth and colour
+  // at this pixel, and the pixel's state.
+  logic [N-1:0] valid_q, begun_q, hit;
+  logic [N*4-1:0] kind_q;
+  logic [N*X_BITS-1:0] xl_q, xr_q;
+  logic [N*CountBits-1:0] count_q;
+  logic [N*DepthBits-1:0] z_q, dz_q, z_d;
+  logic [N*ColorBits-1:0] color_q, color_d;
+  logic [N*PixelBits-1:0] pixel_q, pixel_d;
+  logic [Segments*ExitBits-1:0] joined_d, joined_q;
+
+  // Clamped depth, from an accumulator without its fraction.
+  function automatic logic [Z_BITS-1:0] clamp_z(input logic signed [Z_BITS+1:0] whole);
+    begin
+      if (whole < (Z_BITS + 2)'(1)) clamp_z = Z_BITS'(1);
+      else if (whole > (Z_BITS + 2)'((1 << Z_BITS) - 2)) clamp_z = {{(Z_BITS - 1) {1'b1}}, 1'b0};
+      else clamp_z = whole[Z_BITS-1:0];
+    end
+  endfunction
+
+  // Clamped colour, from the accumulators of all channels. Without SMOOTH they have 8 bits, and nothing is clamped.
+  function automatic logic [RgbBits-1:0] clamp_color(input logic [ColorBits-1:0] sums);
+    logic [9:0] whole;
+    begin
+      clamp_color = '0;
+      whole = '0;
+      for (int c = 0; c < CHANNELS; c++) begin
+        whole = 10'({2'b00, sums[c*RampBits+:RampBits]} >> COLOR_FRAC);
+        if (whole[9]) clamp_color[c*8+:8] = 8'd0;
+        else if (whole[8]) clamp_color[c*8+:8] = 8'd255;
+        else clamp_color[c*8+:8] = whole[7:0];
+      end
+    end
+  endfunction
+
+  always_comb begin
+    pixel_d = pixel_q;
+    z_d = z_q;
+    joined_d = '0;
+    for (int i = 0; i < N; i++) begin
+      hit[i] = valid_q[i] && (begun_q[i] || xl_q[i*X_BITS+:X_BITS] == X_BITS'(i)) && xr_q[i*X_BITS+:X_BITS] != X_BITS'(i);
+      if (hit[i]) begin
+        z_d[i*DepthBits+:DepthBits] = z_q[i*DepthBits+:DepthBits] + dz_q[i*DepthBits+:DepthBits];
+        pixel_d[i*PixelBits+:PixelBits] = pixel_next(
+            pixel_q[i*PixelBits+:PixelBits],
+            kind_q[i*4+:4],
+            clamp_z(
+                z_q[i*DepthBits+Z_FRAC+:Z_BITS+2]
+            ),
+            clamp_color(
+                color_q[i*ColorBits+:ColorBits]
+            ),
+            count_q[i*CountBits+:CountBits]
+        );
+        // Only the one EOL in the chain whose pixels leave opens its processor's exit: the OR of all is that pixel.
+        if (kind_q[i*4+:4] == KindEol) begin
+          joined_d[(i/Segment)*ExitBits+:ExitBits] = joined_d[(i/Segment)*ExitBits+:ExitBits] |
+              pixel_exit(pixel_q[i*PixelBits+:PixelBits], count_q[i*CountBits+:CountBits]);
+        end
+      end
+    end
+  end
+
+  if (SMOOTH > 0) begin : gen_smooth
+    logic [N*SlopeBits-1:0] dcolor_q;
+    always_comb begin
+      color_d = color_q;
+      for (int i = 0; i < N; i++) begin
+        for (int c = 0; c < CHANNELS; c++) begin
+          if (hit[i]) begin
+            color_d[i*ColorBits+c*RampBits+:RampBits] =
+                color_q[i*ColorBits+c*RampBits+:RampBits] + dcolor_q[i*ColorBits+c*RampBits+:RampBits];
+          end
+        end
+      end
+    end
+    always_ff @(posedge clk_i) dcolor_q <= (N * SlopeBits)'({dcolor_q, cmd_dcolor_i});
+  end else begin : gen_flat
+    logic unused_dcolor;
+    assign unused_dcolor = ^cmd_dcolor_i;
+    assign color_d = color_q;
+  end
+
+  always_ff @(posedge clk_i) begin
+    // Only what says whether a command is there needs a reset. The first is the EOL that clears.
+    if (!rst_ni) valid_q <= N'(1);
+    else valid_q <= N'({valid_q, enter});
+    begun_q <= N'({hit, 1'b0});
+    kind_q  <= (N * 4)'({kind_q, rst_ni ? cmd_kind_i : KindEol});
+    xl_q    <= (N * X_BITS)'({xl_q, rst_ni ? cmd_xl_i : X_BITS'(0)});
+    xr_q    <= (N * X_BITS)'({xr_q, rst_ni ? cmd_xr_i : X_BITS'(N)});
+    count_q <= (N * CountBits)'({count_q, cmd_count_i});
+    z_q     <= (N * DepthBits)'({z_d, cmd_z_i});
+    dz_q    <= (N * DepthBits)'({dz_q, cmd_dz_i});
+    color_q <= (N * ColorBits)'({color_d, cmd_color_i});
+    pixel_q <= pixel_d;
+  end
+
+  // ---- exit --------------------------------------------------------------------------------------------------------
+  // EOL enters in clock t, is at processor i in t + 1 + i; that pixel is in joined_q in t + 2 + i, in exit_data_o in t + 3 + i.
+  logic [ExitBits-1:0] all;
+  logic at_q, joined_valid_q, at_last, joined_last_q;
+  always_comb begin
+    all = '0;
+    for (int s = 0; s < Segments; s++) all = all | joined_q[s*ExitBits+:ExitBits];
+  end
+  assign at_last = leaving_q == '0;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      at_q <= 1'b0;
+      joined_valid_q <= 1'b0;
+      exit_valid_o <= 1'b0;
+    end else begin
+      at_q <= exit_take_o || (leaving_q != '0 && !sweep_q);
+      joined_valid_q <= at_q;
+      exit_valid_o <= joined_valid_q;
+    end
+    joined_q <= joined_d;
+    joined_last_q <= at_last;
+    exit_last_o <= joined_last_q;
+    exit_data_o <= all;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// The registers of docs/stream.md on AXI4-Lite, the interrupt, the counters and the watchdog.
+//
+// Handshake: AXI4-Lite. Address and data of a write are taken in either order, one write and one read under way at a time.
+//   Addresses without a register answer SLVERR and change nothing; writes to read-only registers are taken and ignored.
+//   WSTRB is honoured. Latency: 2 clocks from the address to a read's data.
+// Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of its clearing
+//   wins.
+// Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts it anew.
+`default_nettype none
+
+module registers #(
+    `include "kage_pixel_params.svh"
+    `include "kage_impl_params.svh"
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // AXI4-Lite
+    input  wire logic        awvalid_i,
+    output logic             awready_o,
+    input  wire logic [ 7:0] awaddr_i,
+    input  wire logic        wvalid_i,
+    output logic             wready_o,
+    input  wire logic [31:0] wdata_i,
+    input  wire logic [ 3:0] wstrb_i,
+    output logic             bvalid_o,
+    input  wire logic        bready_i,
+    output logic      [ 1:0] bresp_o,
+    input  wire logic        arvalid_i,
+    output logic             arready_o,
+    input  wire logic [ 7:0] araddr_i,
+    output logic             rvalid_o,
+    input  wire logic        rready_i,
+    output logic      [31:0] rdata_o,
+    output logic      [ 1:0] rresp_o,
+
+    output logic irq_o,
+
+    // from the core
+    input wire logic        open_i,            // a frame is open, or pixels of one have not left
+    input wire logic        draining_i,
+    input wire logic        waiting_input_i,
+    input wire logic        waiting_output_i,
+    input wire logic        progress_i,        // a beat came, a command moved or a pixel left
+    input wire logic        frame_end_i,
+    input wire logic        error_i,
+    input wire logic [ 3:0] error_code_i,
+    input wire logic [31:0] error_frame_i,
+    input wire logic [15:0] error_line_i,
+    input wire logic [31:0] error_token_i
+);
+  `include "kage_layout.svh"
+  `include "kage_registers.svh"
+
+  localparam logic [31:0] Shape = {1'(ARRANGEMENT), 5'd0, 4'(BEAT_WORDS), 6'(LANES), 16'(MAX_WIDTH)};
+  localparam logic [1:0] RespOkay = 2'b00;
+  localparam logic [1:0] RespSlverr = 2'b10;
+  localparam logic [7:0] RegLast = RegBlocked;
+
+  // ---- write channel -----------------------------------------------------------------------------------------------
+  logic aw_held_q, w_held_q, write;
+  logic [ 7:0] aw_addr_q;
+  logic [31:0] w_data_q, w_mask;
+  logic [ 3:0] w_strb_q;
+  assign awready_o = !aw_held_q;
+  assign wready_o = !w_held_q;
+  assign write = aw_held_q && w_held_q && !bvalid_o;
+  assign w_mask = {{8{w_strb_q[3]}}, {8{w_strb_q[2]}}, {8{w_strb_q[1]}}, {8{w_strb_q[0]}}};
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      aw_held_q <= 1'b0;
+      w_held_q  <= 1'b0;
+      bvalid_o  <= 1'b0;
+    end else begin
+      if (awvalid_i && awready_o) aw_held_q <= 1'b1;
+      if (wvalid_i && wready_o) w_held_q <= 1'b1;
+      if (bvalid_o && bready_i) bvalid_o <= 1'b0;
+      if (write) begin
+        aw_held_q <= 1'b0;
+        w_held_q  <= 1'b0;
+        bvalid_o  <= 1'b1;
+      end
+    end
+    if (awready_o) aw_addr_q <= awaddr_i;
+    if (wready_o) w_data_q <= wdata_i;
+    if (wready_o) w_strb_q <= wstrb_i;
+    if (write) bresp_o <= aw_addr_q > RegLast + 8'd3 ? RespSlverr : RespOkay;
+  end
+
+  // ---- registers ---------------------------------------------------------------------------------------------------
+  logic [2:0] control_q, irq_q, irq_set;
+  logic [31:0] limit_q, idle_q;
+  logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
+  logic [15:0] error_line_q;
+  logic [ 3:0] error_code_q;
+  logic bite, write_control, write_irq, write_limit;
+
+  assign write_control = write && aw_addr_q[7:2] == RegControl[7:2];
+  assign write_irq = write && aw_addr_q[7:2] == RegIrq[7:2];
+  assign write_limit = write && aw_addr_q[7:2] == RegWatchdog[7:2];
+  assign bite = limit_q != '0 && open_i && !progress_i && idle_q == limit_q - 32'd1;
+  assign irq_set = {bite, error_i, frame_end_i};
+  assign irq_o = (irq_q & control_q) != '0;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      control_q <= '0;
+      irq_q <= '0;
+      limit_q <= '0;
+      idle_q <= '0;
+      error_code_q <= ErrNone;
+      error_line_q <= '0;
+      error_frame_q <= '0;
+      error_token_q <= '0;
+      errors_q <= '0;
+      frames_q <= '0;
+      cycles_q <= '0;
+      starved_q <= '0;
+      blocked_q <= '0;
+    end else begin
+      if (write_control) control_q <= (control_q & ~w_mask[2:0]) | (w_data_q[2:0] & w_mask[2:0]);
+      if (write_limit) limit_q <= (limit_q & ~w_mask) | (w_data_q & w_mask);
+      irq_q <= irq_set | (write_irq ? irq_q & ~(w_data_q[2:0] & w_mask[2:0]) : irq_q);
+      // idle_q stops at the limit: one bite for one standstill.
+      if (write_limit || progress_i || !open_i) idle_q <= '0;
+      else if (idle_q != limit_q) idle_q <= idle_q + 32'd1;
+      if (error_i) begin
+        error_code_q <= error_code_i;
+        error_line_q <= error_line_i;
+        error_frame_q <= error_frame_i;
+        error_token_q <= error_token_i;
+        errors_q <= errors_q + 32'd1;
+      end
+      if (frame_end_i) frames_q <= frames_q + 32'd1;
+      cycles_q <= cycles_q + 32'd1;
+      if (waiting_input_i) starved_q <= starved_q + 32'd1;
+      if (waiting_output_i) blocked_q <= blocked_q + 32'd1;
+    end
+  end
+
+  // ---- read channel ------------------------------------------------------------------------------------------------
+  logic [31:0] value;
+  always_comb begin
+    unique case ({araddr_i[7:2], 2'b00})
+      RegId: value = "KAGE";
+      RegVersion: value = 32'(StreamVersion);
+      RegParamHash: value = ParamHash;
+      RegShape: value = Shape;
+      RegControl: value = 32'(control_q);
+      RegIrq: value = 32'(irq_q);
+      RegWatchdog: value = limit_q;
+      RegStatus: value = {28'd0, waiting_output_i, waiting_input_i, draining_i, open_i};
+      RegError: value = {error_line_q, 12'd0, error_code_q};
+      RegErrorFrame: value = error_frame_q;
+      RegErrorToken: value = error_token_q;
+      RegErrors: value = errors_q;
+      RegFrames: value = frames_q;
+      RegCycles: value = cycles_q;
+      RegStarved: value = starved_q;
+      RegBlocked: value = blocked_q;
+      default: value = '0;
+    endcase
+  end
+
+  assign arready_o = !rvalid_o;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      rvalid_o <= 1'b0;
+    end else begin
+      if (rvalid_o && rready_i) rvalid_o <= 1'b0;
+      if (arvalid_i && arready_o) rvalid_o <= 1'b1;
+    end
+    if (arready_o) rdata_o <= value;
+    if (arready_o) rresp_o <= araddr_i > RegLast + 8'd3 ? RespSlverr : RespOkay;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small first-in first-out buffer for a valid/ready stream, in registers.
+//
+// Handshake: valid/ready on both sides; in_ready_o and out_valid_o depend on registers only.
+// Capacity: DEPTH words, a power of two, at least 2. Latency: 1 clock. Throughput: a word a clock.
+// Cost: DEPTH x BITS flip-flops (or LUT RAM) and a DEPTH to 1 multiplexer.
+`default_nettype none
+
+module stream_fifo #(
+    parameter int BITS  = 8,
+    parameter int DEPTH = 4
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    input  wire logic            in_valid_i,
+    output logic                 in_ready_o,
+    input  wire logic [BITS-1:0] in_data_i,
+
+    output logic                 out_valid_o,
+    input  wire logic            out_ready_i,
+    output logic      [BITS-1:0] out_data_o
+);
+  localparam int PtrBits = $clog2(DEPTH);
+
+  if (DEPTH < 2 || DEPTH != 2 ** PtrBits) begin : gen_bad_depth
+    $fatal(1, "DEPTH must be a power of two and at least 2");
+  end
+
+  logic [BITS-1:0] mem[DEPTH];
+  logic [PtrBits-1:0] rd_q, wr_q;
+  logic [PtrBits:0] count_q;
+  logic push, pop;
+
+  assign in_ready_o  = !count_q[PtrBits];
+  assign out_valid_o = count_q != '0;
+  assign out_data_o  = mem[rd_q];
+  assign push        = in_valid_i && in_ready_o;
+  assign pop         = out_valid_o && out_ready_i;
+
+  always_ff @(posedge clk_i) begin
+    if (push) mem[wr_q] <= in_data_i;
+    if (!rst_ni) begin
+      rd_q    <= '0;
+      wr_q    <= '0;
+      count_q <= '0;
+    end else begin
+      if (push) wr_q <= wr_q + 1'b1;
+      if (pop) rd_q <= rd_q + 1'b1;
+      if (push && !pop) count_q <= count_q + 1'b1;
+      if (pop && !push) count_q <= count_q - 1'b1;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Build the RTL model of one configuration: a shared library with the C interface of rtl_model.h.
+
+usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--jobs N] [--keep DIR] [--sources]
+
+  PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
+  --fault NAME   apply verif/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
+  --define       a macro for Verilator
+  --jobs N       compilers at a time (default 2)
+  --keep DIR     build in DIR and leave it there (default: a temporary directory, removed)
+  --sources      print the files that the model depends on, one a line, and stop: what a cache key must cover
+
+The RTL is that of this source tree or of $KAGE_RTL_DIR; $VERILATOR and $CXX name other tools. OUT.so appears only when it is whole.
+On failure: one line on standard error that names the step and the log, exit status 2.
+"""
+import argparse
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import yaml
+
+HERE = pathlib.Path(__file__).resolve().parent
+RTL = pathlib.Path(os.environ.get("KAGE_RTL_DIR", HERE.parent.parent / "rtl")).resolve()
+FAULTS = HERE.parent / "faults"
+
+
+def fail(message):
+    print(f"build.py: {message}", file=sys.stderr)
+    sys.exit(2)
+
+
+def run(step, command, log, cwd=None):
+    with open(log, "a") as out:
+        out.write("$ " + " ".join(map(str, command)) + "\n")
+        out.flush()
+        try:
+            done = subprocess.run([str(c) for c in command], stdout=out, stderr=subprocess.STDOUT, cwd=cwd)
+        except OSError as e:
+            fail(f"{step}: {command[0]}: {e.strerror}")
+    if done.returncode != 0:
+        saved = pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"
+        shutil.copyfile(log, saved)
+        wanted = [line for line in saved.read_text(errors="replace").splitlines() if "rror" in line or line.startswith("%Warning")]
+        fail(f"{step} failed (log: {saved}){': ' + wanted[0].strip() if wanted else ''}")
+
+
+def parameters(arguments):
+    defs = yaml.safe_load((RTL / "defs/kage.yaml").read_text())
+    values = {p["name"]: p["default"] for p in defs["pixel_params"] + defs["impl_params"]}
+    for argument in arguments:
+        name, equals, value = argument.partition("=")
+        if not equals or name not in values:
+            fail(f"{argument}: not PARAM=VALUE with a parameter of {RTL / 'defs/kage.yaml'}")
+        try:
+            values[name] = int(value, 0)
+        except ValueError:
+            fail(f"{argument}: {value} is not a whole number")
+    return values
+
+
+def sources(fault=None):
+    files = sorted(p for p in RTL.glob("*.sv")) + sorted((RTL / "include").glob("*.svh"))
+    files += [RTL / "defs/kage.yaml", HERE / "rtl_model.h", HERE / "rtl_model.cpp", HERE / "build.py"]
+    if fault:
+        files.append(FAULTS / f"{fault}.patch")
+    return files
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0], add_help=True)
+    parser.add_argument("out", nargs="?")
+    parser.add_argument("params", nargs="*")
+    parser.add_argument("--fault")
+    parser.add_argument("--define", action="append", default=[])
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--keep")
+    parser.add_argument("--sources", action="store_true")
+    args = parser.parse_intermixed_args()
+    if args.fault and not (FAULTS / f"{args.fault}.patch").exists():
+        fail(f"{args.fault}: no {FAULTS / (args.fault + '.patch')}")
+    if args.sources:
+        print("\n".join(map(str, sources(args.fault))))
+        return
+    if not args.out:
+        fail("no OUT.so given")
+    out = pathlib.Path(args.out).resolve()
+    values = parameters(args.params)
+    work = pathlib.Path(args.keep).resolve() if args.keep else pathlib.Path(tempfile.mkdtemp(prefix="kage-model-"))
+    try:
+        work.mkdir(parents=True, exist_ok=True)
+        build(out, values, args, work)
+    finally:
+        if not args.keep:
+            shutil.rmtree(work, ignore_errors=True)
+
+
+def build(out, values, args, work):
+    log = work / "build.log"
+    log.write_text("")
+    rtl = RTL
+    if args.fault:
+        rtl = work / "rtl"
+        shutil.rmtree(rtl, ignore_errors=True)
+        shutil.copytree(RTL, rtl)
+        run(f"fault {args.fault}", ["patch", "--fuzz=0", "--batch", "-p2", "-d", rtl, "-i", FAULTS / f"{args.fault}.patch"], log)
+
+    names = ", ".join(f'"{n}"' for n in values)
+    numbers = ", ".join(str(v) for v in values.values())
+    (work / "params.inc").write_text(
+        f"constexpr std::uint32_t kParamCount = {len(values)};\n"
+        f"const char* const kParamNames[] = {{{names}}};\n"
+        f"const std::int32_t kParamValues[] = {{{numbers}}};\n"
+        f'const char* const kFault = "{args.fault or ""}";\n'
+        f"constexpr unsigned kBeatWords = {values['BEAT_WORDS']};\n"
+        f"constexpr int kChannels = {values['CHANNELS']};\n"
+        f"constexpr unsigned kMaxWidth = {values['MAX_WIDTH']};\n")
+
+    verilator = os.environ.get("VERILATOR", "verilator")
+    obj = work / "obj"
+    command = [verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", obj, "-O3", "--x-initial", "unique",
+               "--assert", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", "-fPIC -fvisibility=hidden -fno-gnu-unique"]
+    command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
+    command += sorted(rtl.glob("*.sv"))
+    run("verilator", command, log)
+
+    cxx = os.environ.get("CXX", "c++")
+    make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O1", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={cxx}"]
+    run("compiling the model", make + ["Vkage__ALL.a", "verilated.o"], log)
+    extra = [p for p in ("verilated_threads.o",) if needs_threads(obj)]
+    if extra:
+        run("compiling the model", make + extra, log)
+    include = subprocess.run([verilator, "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True).stdout.strip()
+    partial = out.with_name(f".{out.name}.{os.getpid()}")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        run("linking the model", [cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", f"-I{obj}", f"-I{work}",
+                                  f"-I{HERE}", "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
+                                  HERE / "rtl_model.cpp", obj / "Vkage__ALL.a", obj / "verilated.o", *(obj / e for e in extra),
+                                  "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
+        os.replace(partial, out)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def needs_threads(obj):
+    return "verilated_threads" in (obj / "Vkage_classes.mk").read_text()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The driver around a verilated kage_top: queues, stall patterns, checks of the video port. See rtl_model.h.
+#include "rtl_model.h"
+
+#include <deque>
+#include <memory>
+#include <new>
+#include <vector>
+
+#include "Vkage.h"
+#include "verilated.h"
+
+#include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
+
+namespace {
+
+/// xorshift64*: small, and the same everywhere.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ULL + 0xD1B54A32D192ED03ULL) {
+    if (state_ == 0) state_ = 1;
+  }
+  bool chance(std::uint32_t of_65536) {
+    if (of_65536 >= 65536) return true;
+    state_ ^= state_ >> 12;
+    state_ ^= state_ << 25;
+    state_ ^= state_ >> 27;
+    return (state_ * 0x2545F4914F6CDD1DULL >> 48) < of_65536;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+void put_words(IData& port, const std::uint32_t* words) { port = words[0]; }
+void put_words(QData& port, const std::uint32_t* words) { port = words[0] | static_cast<QData>(words[1]) << 32; }
+template <std::size_t N>
+void put_words(VlWide<N>& port, const std::uint32_t* words) {
+  for (std::size_t i = 0; i < N; ++i) port[i] = words[i];
+}
+
+struct Block {
+  std::vector<std::uint32_t> words;  // whole beats
+  bool last;
+};
+
+struct Size {
+  std::uint32_t width, height;
+};
+
+// Clocks without any movement after which the core counts as idle: more than the longest work on one token.
+constexpr std::uint64_t kIdleClocks = 8ULL * kMaxWidth + 4096;
+
+}  // namespace
+
+struct kage_rtl {
+  VerilatedContext context;
+  std::unique_ptr<Vkage> top;
+  Random input_random{1}, output_random{2};
+  std::uint32_t input_chance = 65536, output_chance = 65536;
+
+  std::deque<Block> queue;
+  std::size_t at = 0;  // word of queue.front() that is offered next
+  bool offered = false;
+
+  std::deque<Size> expected;
+  std::uint32_t x = 0, y = 0;
+  std::vector<std::uint8_t> pixels;
+  std::uint64_t pixel_count = 0;
+  bool waiting = false;  // a pixel was there but not taken
+  std::uint32_t waiting_value = 0;
+
+  std::uint64_t quiet = 0;
+  kage_rtl_stats stats{};
+
+  explicit kage_rtl(std::uint64_t seed) {
+    context.randReset(2);
+    // Verilator's seed is an int in which 0 means "pick one".
+    context.randSeed(static_cast<int>((seed ^ seed >> 31) & 0x3FFFFFFF) + 1);
+    context.fatalOnError(false);
+    top = std::make_unique<Vkage>(&context, "top");
+    idle_inputs();
+    top->clk_i = 0;
+    top->rst_ni = 0;
+    top->eval();
+    stalls(65536, 65536, seed);
+    reset(2);
+  }
+  ~kage_rtl() { top->final(); }
+
+  void idle_inputs() {
+    top->s_axis_tvalid_i = 0;
+    top->s_axis_tlast_i = 0;
+    top->m_axis_tready_i = 0;
+    top->s_axil_awvalid_i = 0;
+    top->s_axil_awaddr_i = 0;
+    top->s_axil_wvalid_i = 0;
+    top->s_axil_wdata_i = 0;
+    top->s_axil_wstrb_i = 0;
+    top->s_axil_bready_i = 0;
+    top->s_axil_arvalid_i = 0;
+    top->s_axil_araddr_i = 0;
+    top->s_axil_rready_i = 0;
+  }
+
+  void edge() {
+    top->clk_i = 1;
+    top->eval();
+    top->clk_i = 0;
+    top->eval();
+    context.timeInc(1);
+  }
+
+  void reset(std::uint32_t clocks) {
+    queue.clear();
+    expected.clear();
+    at = 0;
+    offered = false;
+    waiting = false;
+    x = y = 0;
+    quiet = 0;
+    idle_inputs();
+    top->rst_ni = 0;
+    for (std::uint32_t i = 0; i < (clocks > 0 ? clocks : 1); ++i) edge();
+    top->rst_ni = 1;
+    top->eval();
+  }
+
+  void stalls(std::uint32_t input, std::uint32_t output, std::uint64_t seed) {
+    input_chance = input;
+    output_chance = output;
+    input_random = Random(seed * 2 + 1);
+    output_random = Random(seed * 2 + 2);
+  }
+
+  void take_pixel(std::uint32_t value) {
+    bool first = false;
+    bool last = false;
+    if (expected.empty()) {
+      ++stats.extra_pixels;
+    } else {
+      first = x == 0 && y == 0;
+      last = x + 1 == expected.front().width;
+      if (first != static_cast<bool>(top->m_axis_tuser_o)) ++stats.user_errors;
+      if (last != static_cast<bool>(top->m_axis_tlast_o)) ++stats.last_errors;
+      if (last) {
+        x = 0;
+        if (++y == expected.front().height) {
+          y = 0;
+          expected.pop_front();
+        }
+      } else {
+        ++x;
+      }
+    }
+    for (int c = 0; c < kChannels; ++c) pixels.push_back(static_cast<std::uint8_t>(value >> (8 * c)));
+    ++pixel_count;
+    ++stats.pixels;
+  }
+
+  // One clock. The core's outputs depend on registers only, so what they are now is what they are at the edge.
+  void clock() {
+    if (!offered && !queue.empty()) {
+      offered = input_random.chance(input_chance);
+      if (offered) {
+        const Block& b = queue.front();
+        put_words(top->s_axis_tdata_i, b.words.data() + at);
+        top->s_axis_tlast_i = b.last && at + kBeatWords == b.words.size() ? 1 : 0;
+      }
+    }
+    top->s_axis_tvalid_i = offered ? 1 : 0;
+    const bool ready = output_random.chance(output_chance);
+    top->m_axis_tready_i = ready ? 1 : 0;
+
+    const bool beat = offered && top->s_axis_tready_o;
+    const bool pixel = top->m_axis_tvalid_o;
+    const std::uint32_t value = static_cast<std::uint32_t>(top->m_axis_tdata_o);
+    const std::uint32_t all = value | static_cast<std::uint32_t>(top->m_axis_tuser_o) << 24 |
+                              static_cast<std::uint32_t>(top->m_axis_tlast_o) << 25;
+    if (waiting && (!pixel || all != waiting_value)) ++stats.unstable;
+    waiting = pixel && !ready;
+    waiting_value = all;
+    if (top->s_axis_tready_o && !offered && !queue.empty()) ++stats.input_starved;
+    if (waiting) ++stats.output_blocked;
+    if (pixel && ready) take_pixel(value);
+    ++stats.cycles;
+    quiet = beat || (pixel && ready) ? 0 : quiet + (ready && (offered || queue.empty()) ? 1 : 0);
+
+    edge();
+
+    if (beat) {
+      offered = false;
+      ++stats.beats;
+      at += kBeatWords;
+      if (at >= queue.front().words.size()) {
+        queue.pop_front();
+        at = 0;
+      }
+    }
+  }
+
+  int run(std::uint64_t want, std::uint64_t max_clocks) {
+    quiet = 0;
+    for (std::uint64_t n = 0;; ++n) {
+      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (pixel_count >= want) return KAGE_RTL_PIXELS;
+      if (quiet >= kIdleClocks) return queue.empty() ? KAGE_RTL_IDLE : KAGE_RTL_STUCK;
+      if (n >= max_clocks) return KAGE_RTL_LIMIT;
+      clock();
+    }
+  }
+
+  int read(std::uint32_t address, std::uint32_t* value) {
+    top->s_axil_arvalid_i = 1;
+    top->s_axil_araddr_i = static_cast<CData>(address);
+    top->s_axil_rready_i = 1;
+    for (int n = 0; n < 1000; ++n) {
+      const bool taken = top->s_axil_arvalid_i && top->s_axil_arready_o;
+      if (top->s_axil_rvalid_o) {
+        *value = top->s_axil_rdata_o;
+        const int response = top->s_axil_rresp_o;
+        clock();
+        top->s_axil_rready_i = 0;
+        return response;
+      }
+      clock();
+      if (taken) top->s_axil_arvalid_i = 0;
+    }
+    return -1;
+  }
+
+  int write(std::uint32_t address, std::uint32_t value) {
+    top->s_axil_awvalid_i = 1;
+    top->s_axil_awaddr_i = static_cast<CData>(address);
+    top->s_axil_wvalid_i = 1;
+    top->s_axil_wdata_i = value;
+    top->s_axil_wstrb_i = 15;
+    top->s_axil_bready_i = 1;
+    for (int n = 0; n < 1000; ++n) {
+      const bool aw = top->s_axil_awvalid_i && top->s_axil_awready_o;
+      const bool w = top->s_axil_wvalid_i && top->s_axil_wready_o;
+      if (top->s_axil_bvalid_o) {
+        const int response = top->s_axil_bresp_o;
+        clock();
+        top->s_axil_bready_i = 0;
+        return response;
+      }
+      clock();
+      if (aw) top->s_axil_awvalid_i = 0;
+      if (w) top->s_axil_wvalid_i = 0;
+    }
+    return -1;
+  }
+};
+
+namespace {
+
+const kage_rtl_table kTable = {
+    KAGE_RTL_ABI,
+    kParamCount,
+    kParamNames,
+    kParamValues,
+    kFault,
+    [](std::uint64_t seed) { return new (std::nothrow) kage_rtl(seed); },
+    [](kage_rtl* m) { delete m; },
+    [](kage_rtl* m, std::uint32_t clocks) { m->reset(clocks); },
+    [](kage_rtl* m, std::uint32_t input, std::uint32_t output, std::uint64_t seed) { m->stalls(input, output, seed); },
+    [](kage_rtl* m, const std::uint32_t* words, std::size_t count, int last) {
+      if (count == 0) return;
+      Block b{std::vector<std::uint32_t>(words, words + count), last != 0};
+      b.words.resize((count + kBeatWords - 1) / kBeatWords * kBeatWords, 0);
+      m->queue.push_back(std::move(b));
+    },
+    [](kage_rtl* m, std::uint32_t width, std::uint32_t height) {
+      if (width > 0 && height > 0) m->expected.push_back({width, height});
+    },
+    [](kage_rtl* m, std::uint64_t pixels, std::uint64_t clocks) { return m->run(pixels, clocks); },
+    [](kage_rtl* m, std::uint64_t* count) -> const std::uint8_t* {
+      *count = m->pixel_count;
+      return m->pixels.data();
+    },
+    [](kage_rtl* m) {
+      m->pixels.clear();
+      m->pixel_count = 0;
+    },
+    [](kage_rtl* m, std::uint32_t address, std::uint32_t* value) { return m->read(address, value); },
+    [](kage_rtl* m, std::uint32_t address, std::uint32_t value) { return m->write(address, value); },
+    [](kage_rtl* m) -> int { return m->top->irq_o; },
+    [](kage_rtl* m, kage_rtl_stats* out) { *out = m->stats; },
+    [](kage_rtl* m) { m->stats = {}; },
+    [](kage_rtl*, const char*) { return -1; },
+};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const kage_rtl_table* kage_rtl_api(void) { return &kTable; }
