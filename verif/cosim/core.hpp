@@ -18,6 +18,8 @@ namespace kage::cosim {
 struct FrameResult {
   FrameStatus status;
   Image image;               ///< 0 x 0 after an error in the header
+  std::uint64_t missing = 0; ///< pixels at the picture's end that never came; they are black in `image`
+  std::string misconduct;    ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
   double seconds = 0;        ///< wall time inside the core
   std::uint64_t cycles = 0;  ///< core clock edges; 0 for a core without clock
   std::uint64_t starved = 0; ///< of them, waiting for input

@@ -72,12 +72,18 @@ std::string output_of(const char* command) {
 }
 
 std::string key_of(const fs::path& data, const Config& config, const std::string& fault) {
-  std::vector<fs::path> files;
-  for (const fs::path& folder : {data / "rtl", data / "verif/rtl_model"}) {
-    if (!fs::is_directory(folder)) throw Error(fmt::format("{}: no such folder: kage's RTL is not there", folder.string()));
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-      if (entry.is_regular_file() && entry.path().filename() != "configs.yaml" && entry.path().filename().string().front() != '.')
-        files.push_back(entry.path().lexically_relative(data));
+  std::vector<fs::path> files;  // what build.py --sources names, and perhaps a file more
+  for (const char* folder : {"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"}) {
+    if (!fs::is_directory(data / folder)) throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
+    for (const auto& entry : fs::directory_iterator(data / folder)) {
+      const std::string name = entry.path().filename().string();
+      if (entry.is_regular_file() && name != "configs.yaml" && name.front() != '.') files.push_back(fs::path(folder) / name);
+    }
+  }
+  if (!fault.empty()) {
+    files.push_back(fs::path("verif/faults") / (fault + ".patch"));
+    if (fault.find('/') != std::string::npos || !fs::exists(data / files.back()))
+      throw Error(fmt::format("{}: no such fault, there is no {}", fault, (data / files.back()).string()));
   }
   std::sort(files.begin(), files.end());
   Sha256 hash;
@@ -215,9 +221,10 @@ Model find_model(const Config& config, const std::string& fault, const BuildProg
   const fs::path log = folder / (key + ".log");
   const RemoveFolder work(folder / fmt::format("{}.{}", key, getpid()));
   fs::create_directories(work.path);
-  std::vector<std::string> command{"bash", (data / "verif/rtl_model/build.sh").string(), "--out", (work.path / "model.so").string()};
-  if (!fault.empty()) command.insert(command.end(), {"--fault", fault});
+  std::vector<std::string> command{(data / "verif/rtl_model/build.py").string(), (work.path / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
+  if (!fault.empty()) command.insert(command.end(), {"--fault", fault});
+  command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)), "--keep", (work.path / "build").string()});
   Process build(command, log);
   bool ok = false;
   while (!build.ended(ok)) wait();

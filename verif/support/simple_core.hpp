@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// docs/stream.md as plainly as it can be written: a pixel at a time, no vectors, no shared code but the bit positions. For tests of the
+// golden core.
+#pragma once
+
+#include <vector>
+
+#include "kage/core.hpp"
+#include "kage/defs.hpp"
+#include "number/int128.hpp"
+
+namespace kage::verif {
+
+class SimpleCore {
+ public:
+  SimpleCore(const Config& c, std::vector<std::uint32_t> words, std::vector<std::uint8_t>& out) : c_(c), l_(c), words_(std::move(words)), out_(&out) {
+    while (words_.size() % static_cast<std::size_t>(c.beat_words) != 0) words_.push_back(0);
+  }
+
+  FrameStatus run() {
+    if (words_.size() < 5) return fail(ErrorCode::LAST_EARLY);
+    status_.frame = words_[4];
+    const int width = static_cast<int>(words_[1] & 0xFFFFU);
+    const int height = static_cast<int>(words_[1] >> 16);
+    if (words_[0] != (kStreamMagic << 16 | kStreamVersion)) return fail(ErrorCode::HEADER);
+    if (width == 0 || height == 0 || width > c_.max_width || height > 32767) return fail(ErrorCode::SIZE);
+    if (words_[2] != param_hash(c_)) return fail(ErrorCode::PARAMS);
+    status_.width = width;
+    status_.height = height;
+    clear();
+    at_ = 5;
+    token_ = 1;
+    for (; step(); ++token_) {
+    }
+    if (status_.error != ErrorCode::NONE && status_.error != ErrorCode::LAST_LATE) {
+      clear();
+      while (line_ < height) end_line();
+    }
+    return status_;
+  }
+
+ private:
+  struct Pixel {
+    std::int64_t z;
+    std::array<std::int64_t, 3> color;
+    bool lit;
+    unsigned dsf;
+    bool fsf;
+  };
+
+  FrameStatus fail(ErrorCode e) {
+    status_.error = e;
+    status_.line = static_cast<std::uint32_t>(line_);
+    status_.token = token_;
+    return status_;
+  }
+
+  [[nodiscard]] std::int64_t field(Field f) const {
+    std::int64_t v = 0;
+    for (unsigned i = 0; i < f.bits; ++i) {
+      const unsigned bit = f.lsb + i;
+      if ((words_[at_ + bit / 32] >> (bit % 32)) & 1U) v |= std::int64_t{1} << i;
+    }
+    if (f.is_signed && f.bits > 0 && ((v >> (f.bits - 1)) & 1) != 0) v -= std::int64_t{1} << f.bits;
+    return v;
+  }
+
+  // The value of an accumulator of so many bits: what two's complement leaves of it.
+  static std::int64_t wrap(Int128 v, int bits) {
+    const auto modulus = static_cast<Int128>(1) << bits;
+    auto r = v % modulus;
+    if (r < 0) r += modulus;
+    if (r >= modulus / 2) r -= modulus;
+    return static_cast<std::int64_t>(r);
+  }
+
+  static std::int64_t shift_down(std::int64_t v, int by) {
+    const std::int64_t unit = std::int64_t{1} << by;
+    return (v >= 0 ? v : v - (unit - 1)) / unit;
+  }
+
+  [[nodiscard]] std::int64_t depth(Field z, Field dz, int k) const {
+    const int bits = c_.z_bits + c_.z_frac + 2;
+    const std::int64_t v = shift_down(wrap(static_cast<Int128>(field(z)) + static_cast<Int128>(k) * field(dz), bits), c_.z_frac);
+    const std::int64_t top = (std::int64_t{1} << c_.z_bits) - 2;
+    return v < 1 ? 1 : v > top ? top : v;
+  }
+
+  void clear() {
+    pixels_.assign(static_cast<std::size_t>(status_.width), Pixel{(std::int64_t{1} << c_.z_bits) - 1, {}, false, 0, false});
+    bias_ = 0;
+  }
+
+  void end_line() {
+    for (const Pixel& p : pixels_)
+      for (int ch = 0; ch < c_.channels; ++ch)
+        out_->push_back(static_cast<std::uint8_t>(p.z == (std::int64_t{1} << c_.z_bits) - 1 ? words_[3] >> (8 * ch) : static_cast<std::uint32_t>(p.color[static_cast<std::size_t>(ch)])));
+    clear();
+    ++line_;
+  }
+
+  // One token; false at the end of the frame or at an error.
+  bool step() {
+    const std::size_t n = words_.size();
+    if (at_ >= n) return fail(ErrorCode::LAST_EARLY), false;
+    const auto kind = static_cast<Kind>(words_[at_] & 15U);
+    const std::size_t length = l_.words[words_[at_] & 15U];
+    if (length == 0) return fail(ErrorCode::KIND), false;
+    if (at_ + length > n) return fail(ErrorCode::LAST_EARLY), false;
+    const bool all_lines = line_ == status_.height;
+    const int width = status_.width;
+    const unsigned modulus = 1U << c_.dsf_bits;
+    const auto order = [this] { return fail(ErrorCode::ORDER), false; };
+    const auto range = [this] { return fail(ErrorCode::RANGE), false; };
+    const auto bad_range = [&](Field xl, Field xr) { return field(xl) > field(xr) || field(xr) > width; };
+    switch (kind) {
+      case Kind::SHADE:
+        if (begun_ || shade_seen_) return order();
+        if (field(l_.shade_shade) > (1 << c_.shade_frac)) return range();
+        shade_ = field(l_.shade_shade);
+        shade_seen_ = true;
+        break;
+      case Kind::OP:
+        if (all_lines || phase_ > 0) return order();
+        if (bad_range(l_.op_xl, l_.op_xr)) return range();
+        begun_ = true;
+        for (std::int64_t x = field(l_.op_xl); x < field(l_.op_xr); ++x) {
+          Pixel& p = pixels_[static_cast<std::size_t>(x)];
+          const int k = static_cast<int>(x - field(l_.op_xl));
+          const std::int64_t z = depth(l_.op_z, l_.op_dz, k);
+          if (z >= p.z) continue;
+          p.z = z;
+          p.lit = field(l_.op_lit) != 0;
+          for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch) {
+            p.color[ch] = field(l_.op_color[ch]);
+            if (c_.smooth == 0) continue;
+            const std::int64_t v = shift_down(wrap(static_cast<Int128>(p.color[ch]) + static_cast<Int128>(k) * field(l_.op_dcolor[ch]), 10 + c_.color_frac), c_.color_frac);
+            p.color[ch] = v < 0 ? 0 : v > 255 ? 255 : v;
+          }
+        }
+        break;
+      case Kind::SP:
+      case Kind::NC: {
+        if (all_lines || phase_ > 1) return order();
+        const bool sp = kind == Kind::SP;
+        const Field xl = sp ? l_.sp_xl : l_.nc_xl;
+        const Field xr = sp ? l_.sp_xr : l_.nc_xr;
+        if (bad_range(xl, xr)) return range();
+        begun_ = open_ = true;
+        phase_ = 1;
+        for (std::int64_t x = field(xl); x < field(xr); ++x) {
+          Pixel& p = pixels_[static_cast<std::size_t>(x)];
+          if (!sp || depth(l_.sp_z, l_.sp_dz, static_cast<int>(x - field(xl))) < p.z)
+            p.dsf = (p.dsf + static_cast<unsigned>(field(sp ? l_.sp_w : l_.nc_w))) % modulus;
+        }
+        break;
+      }
+      case Kind::IF:
+        if (all_lines || phase_ > 1) return order();
+        begun_ = open_ = true;
+        phase_ = 1;
+        bias_ = (bias_ + static_cast<unsigned>(field(l_.if_w))) % modulus;
+        break;
+      case Kind::EV:
+        if (all_lines || phase_ != 1 || !open_) return order();
+        if (bad_range(l_.ev_xl, l_.ev_xr)) return range();
+        open_ = false;
+        for (std::int64_t x = field(l_.ev_xl); x < field(l_.ev_xr); ++x) {
+          Pixel& p = pixels_[static_cast<std::size_t>(x)];
+          if ((p.dsf + bias_) % modulus != 0) p.fsf = true;
+          p.dsf = 0;
+        }
+        bias_ = 0;
+        break;
+      case Kind::RESOLVE:
+        if (all_lines || phase_ != 1 || (c_.fsf != 0 && open_)) return order();
+        phase_ = 2;
+        for (Pixel& p : pixels_) {
+          const bool shadowed = c_.fsf != 0 ? p.fsf : (p.dsf + bias_) % modulus != 0;
+          if (!shadowed || !p.lit || p.z == (std::int64_t{1} << c_.z_bits) - 1) continue;
+          for (std::int64_t& v : p.color) v = (v * ((1 << c_.shade_frac) - shade_) + (1 << (c_.shade_frac - 1))) >> c_.shade_frac;
+        }
+        break;
+      case Kind::EOL:
+        if (all_lines || phase_ == 1) return order();
+        if (field(l_.eol_y) != line_) return fail(ErrorCode::LINE), false;
+        begun_ = true;
+        open_ = false;
+        phase_ = 0;
+        end_line();
+        break;
+      case Kind::END:
+        if (!all_lines) return fail(ErrorCode::LINE), false;
+        if ((at_ / static_cast<std::size_t>(c_.beat_words) + 1) * static_cast<std::size_t>(c_.beat_words) != n) fail(ErrorCode::LAST_LATE);
+        return false;
+      default:
+        return false;
+    }
+    at_ += length;
+    return true;
+  }
+
+  Config c_;
+  Layout l_;
+  std::vector<std::uint32_t> words_;
+  std::vector<std::uint8_t>* out_;
+  FrameStatus status_;
+  std::vector<Pixel> pixels_;
+  std::size_t at_ = 0;
+  std::uint32_t token_ = 0;
+  int line_ = 0;
+  int phase_ = 0;
+  bool begun_ = false;
+  bool open_ = false;
+  bool shade_seen_ = false;
+  std::int64_t shade_ = 0;
+  unsigned bias_ = 0;
+};
+
+inline FrameStatus simple_core(const Config& c, const std::vector<std::uint32_t>& words, std::vector<std::uint8_t>& out) {
+  return SimpleCore(c, words, out).run();
+}
+
+}  // namespace kage::verif

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tokens to words and back, and the strict check of frames.
+#include "catch.hpp"
+#include "kage/error.hpp"
+#include "kage/stream.hpp"
+#include "number/bits.hpp"
+#include "support/configs.hpp"
+#include "support/random.hpp"
+#include "support/streams.hpp"
+
+namespace kage::verif {
+namespace {
+
+std::string cause(const Config& c, const std::vector<std::uint32_t>& words) {
+  try {
+    check_frame(c, words, "f", 0);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("every field of every token survives its way through the words, at its extremes too") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  for (int round = 0; round < 3000; ++round) {
+    const Config c = random_config(random);
+    const Layout l(c);
+    const auto pick = [&random](Field f) {
+      const std::int64_t low = f.is_signed ? -(std::int64_t{1} << (f.bits - 1)) : 0;
+      const std::int64_t high = low + static_cast<std::int64_t>((std::uint64_t{1} << f.bits) - 1);
+      return random.chance(0.2) ? low : random.chance(0.2) ? high : random.integer(low, high);
+    };
+    SpanToken s;
+    s.xl = static_cast<int>(pick(l.op_xl));
+    s.xr = std::max(s.xl, static_cast<int>(pick(l.op_xr)));
+    s.z = pick(l.op_z);
+    s.dz = pick(l.op_dz);
+    s.lit = c.dsf_bits > 0 && random.chance(0.5);
+    s.w = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i) {
+      s.color[i] = static_cast<std::int32_t>(pick(l.op_color[i]));
+      if (c.smooth != 0) s.dcolor[i] = static_cast<std::int32_t>(pick(l.op_dcolor[i]));
+    }
+    const auto same = [](const SpanToken& a, const SpanToken& b) {
+      return a.xl == b.xl && a.xr == b.xr && a.z == b.z && a.dz == b.dz && a.lit == b.lit && a.w == b.w && a.color == b.color && a.dcolor == b.dcolor;
+    };
+    std::vector<std::uint32_t> words;
+    TokenWriter w(c, words);
+    w.op(s);
+    REQUIRE(words.size() == l.words[6]);
+    REQUIRE(decode(c, l, words).kind == Kind::OP);
+    REQUIRE(same(decode(c, l, words).span, s));
+    if (c.dsf_bits == 0) continue;
+    s.w = static_cast<int>(pick(l.sp_w));
+    s.lit = false;
+    s.color = s.dcolor = {};
+    words.clear();
+    w.sp(s);
+    REQUIRE(same(decode(c, l, words).span, s));
+    words.clear();
+    w.nc(s.xl, s.xr, s.w);
+    const Token nc = decode(c, l, words);
+    REQUIRE((nc.kind == Kind::NC && nc.span.xl == s.xl && nc.span.xr == s.xr && nc.span.w == s.w));
+    words.clear();
+    w.inside(s.w);
+    REQUIRE(decode(c, l, words).span.w == s.w);
+  }
+}
+
+TEST_CASE("a valid frame passes; its counts are what was written") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  for (int round = 0; round < 300; ++round) {
+    const Config c = random_config(random);
+    std::vector<std::uint32_t> words;
+    const auto written = random_frame(random, c, random.in(1, 40), random.in(1, 6), words);
+    CAPTURE(to_yaml(c));
+    const TokenCounts counts = check_frame(c, words, "test", 0);
+    REQUIRE(counts.of_kind == written);
+    REQUIRE(counts.words == words.size());
+  }
+}
+
+TEST_CASE("faults are named with frame, line, token and byte") {
+  const Config c;
+  std::vector<std::uint32_t> words;
+  TokenWriter w(c, words);
+  w.header({8, 2, 0, 77});
+  w.eol(0);
+  SpanToken s;
+  s.xl = 3;
+  s.xr = 9;
+  w.op(s);
+  w.eol(1);
+  w.end();
+  CHECK(cause(c, words) == "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, or shade > 1 (RANGE)");
+
+  const auto with = [&](auto change) {
+    std::vector<std::uint32_t> v;
+    TokenWriter t(c, v);
+    change(t, v);
+    return cause(c, v);
+  };
+  using W = TokenWriter;
+  using V = std::vector<std::uint32_t>;
+  using Catch::Matchers::ContainsSubstring;
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.eol(1); }), ContainsSubstring("(LINE)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.end(); }), ContainsSubstring("(LINE)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.eol(0); t.eol(1); }), ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.eol(0); }), ContainsSubstring("(LAST_EARLY)"));
+  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v.push_back(0); }), ContainsSubstring("(KIND)"));
+  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v.push_back(13); }), ContainsSubstring("(KIND)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.ev(0, 1); }), ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.resolve(); }), ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.inside(1); t.resolve(); }), ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.inside(1); t.ev(0, 8); t.eol(0); }), ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.shade(0); t.shade(0); }), ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.shade(257); }), ContainsSubstring("(RANGE)"));
+  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); t.eol(0); v.back() |= 1U << 31; }), ContainsSubstring("not zero"));
+  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); t.eol(0); t.end(); v.push_back(0); }), ContainsSubstring("words after END"));
+  CHECK_THAT(with([](W& t, V&) { t.header({0, 1, 0, 0}); }), ContainsSubstring("(SIZE)"));
+  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v[0] ^= 1; }), ContainsSubstring("(HEADER)"));
+  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v[2] ^= 1; }), ContainsSubstring("(PARAMS)"));
+  CHECK_THAT(with([](W&, V& v) { v.push_back(kStreamMagic << 16 | kStreamVersion); }), ContainsSubstring("the header is cut"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               SpanToken steep;
+               steep.xr = 8;
+               steep.z = (std::int64_t{1} << 36) - 8;
+               steep.dz = 1 << 20;
+               t.op(steep);
+             }),
+             ContainsSubstring("depth overflows"));
+}
+
+}  // namespace kage::verif
