@@ -100,7 +100,7 @@ module line_out #(
   assign issue = sending_q;
   assign issue_last = x_q == width_q - 1'b1;
   assign line_left = sending_q && go && issue_last;
-  assign lane = LANES > 1 ? x_q[LaneBits-1:0] : '0;
+  assign lane = LANES > 1 ? LaneBits'(x_q) : '0;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) sending_q <= 1'b0;

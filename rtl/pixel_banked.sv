@@ -68,8 +68,8 @@ module pixel_banked #(
   assign flat = SMOOTH > 0 ? '0 : cmd_color_i[FlatBits-1:0];
   assign group_first = AddrBits'(cmd_xl_i >> Levels);
   assign group_last = AddrBits'(x_last >> Levels);
-  assign lane_first = LANES > 1 ? cmd_xl_i[OffBits-1:0] : '0;
-  assign lane_last = LANES > 1 ? x_last[OffBits-1:0] : '0;
+  assign lane_first = LANES > 1 ? OffBits'(cmd_xl_i) : '0;
+  assign lane_last = LANES > 1 ? OffBits'(x_last) : '0;
   assign set_d = {cmd_kind_i, cmd_count_i, flat, group_first, group_last, lane_first, lane_last};
   assign set_en[2] = !set_valid_q[2] || take3;
   assign set_en[1] = set_valid_q[2:1] != 2'b11 || take3;

@@ -78,8 +78,10 @@ FrameStatus GoldenCore::frame(std::span<const std::uint32_t> words, const LineSi
   }
 
   FrameStatus status;
-  const auto fail = [&status](ErrorCode e, std::uint32_t line, std::uint32_t token) {
+  std::uint32_t number = 0;
+  const auto fail = [&](ErrorCode e, std::uint32_t line, std::uint32_t token) {
     status.error = e;
+    status.frame = number;
     status.line = line;
     status.token = token;
   };
@@ -87,7 +89,7 @@ FrameStatus GoldenCore::frame(std::span<const std::uint32_t> words, const LineSi
     fail(ErrorCode::LAST_EARLY, 0, 0);
     return status;
   }
-  status.frame = words[4];
+  number = words[4];
   if (const ErrorCode e = d.check_header(words); e != ErrorCode::NONE) {
     fail(e, 0, 0);
     return status;

@@ -96,7 +96,8 @@ void answer(int fd, std::uint8_t kind, std::string_view text) {
   write_all(fd, &kDone, 1);
 }
 
-[[noreturn]] void child(int fd, pid_t parent, const ImportLimits& limits, const std::function<Bytes()>& work) {
+[[noreturn]] void child(int fd, pid_t parent, const std::string& name, const ImportLimits& limits,
+                        const std::function<Bytes()>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(3);  // it died before prctl
   if (!kSanitized) {
@@ -125,9 +126,9 @@ void answer(int fd, std::uint8_t kind, std::string_view text) {
   } catch (const Error& e) {
     answer(fd, kError, e.what());
   } catch (const std::exception& e) {
-    answer(fd, kError, e.what());
+    answer(fd, kError, name + ": " + one_line(e.what()));
   } catch (...) {
-    answer(fd, kError, "unknown exception");
+    answer(fd, kError, name + ": unknown exception");
   }
   _exit(0);
 }
@@ -193,7 +194,7 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   }
   if (pid == 0) {
     close(pipe_ends[0]);
-    child(pipe_ends[1], parent, limits, work);
+    child(pipe_ends[1], parent, name, limits, work);
   }
   close(pipe_ends[1]);
   lock.unlock();

@@ -129,7 +129,7 @@ def build(out, values, args, work):
     run("verilator", command, log)
 
     cxx = os.environ.get("CXX", "c++")
-    make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O1", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={cxx}"]
+    make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={cxx}"]
     run("compiling the model", make + ["Vkage__ALL.a", "verilated.o"], log)
     extra = [p for p in ("verilated_threads.o",) if needs_threads(obj)]
     if extra:

@@ -20,7 +20,6 @@ class SimpleCore {
 
   FrameStatus run() {
     if (words_.size() < 5) return fail(ErrorCode::LAST_EARLY);
-    status_.frame = words_[4];
     const int width = static_cast<int>(words_[1] & 0xFFFFU);
     const int height = static_cast<int>(words_[1] >> 16);
     if (words_[0] != (kStreamMagic << 16 | kStreamVersion)) return fail(ErrorCode::HEADER);
@@ -51,6 +50,7 @@ class SimpleCore {
 
   FrameStatus fail(ErrorCode e) {
     status_.error = e;
+    status_.frame = words_.size() < 5 ? 0 : words_[4];
     status_.line = static_cast<std::uint32_t>(line_);
     status_.token = token_;
     return status_;

@@ -13,10 +13,10 @@
 
 namespace kage {
 
-/// How a frame ended. Without an error `line` and `token` are 0.
+/// How a frame ended. Without an error all but the size is 0.
 struct FrameStatus {
   ErrorCode error = ErrorCode::NONE;
-  std::uint32_t frame = 0;  ///< number in the header; 0 when the header did not arrive whole
+  std::uint32_t frame = 0;  ///< number in the header of the erroneous frame; 0 when the header did not arrive whole
   std::uint32_t line = 0;   ///< EOLs accepted before the error
   std::uint32_t token = 0;  ///< index of the token in its frame; the header is 0
   int width = 0;            ///< of the frame as it left the core; 0 x 0 after an error in the header

@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What a feature costs: cells of kage_top for iCE40 (Debian's yosys), one configuration a row, each without one feature of the first.
+#
+# usage: verif/synth/cells.sh [NAME PARAM=VALUE...]     one configuration; without arguments the table below
+# Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a configuration that leaves a feature out is not smaller.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+cells() { # NAME PARAM=VALUE...: prints a row
+  local name=$1 sets= p
+  shift
+  for p in "$@"; do sets+=" -set ${p%%=*} ${p#*=}"; done
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -Irtl/include rtl/*.sv; chparam$sets kage_top; synth_ice40 -top kage_top; tee -o $work/$name.stat stat" \
+    >"$work/$name.out" 2>&1 || { echo "cells.sh: $name: yosys failed" >&2; tail -5 "$work/$name.log" >&2; exit 2; }
+  if grep -q "Warning" "$work/$name.out"; then echo "cells.sh: $name: yosys warns" >&2; grep -m3 Warning "$work/$name.out" >&2; fi
+  awk -v name="$name" -v params="$*" '
+    / SB_LUT4 /{lut=$2} / SB_CARRY /{carry=$2} / SB_DFF/{ff+=$2} / SB_RAM40/{ram+=$2}
+    END{printf "| %s | %d | %d | %d | %d | `%s` |\n", name, lut, ff, carry, ram, params}' "$work/$name.stat"
+}
+
+if [ $# -gt 0 ]; then cells "$@"; exit; fi
+
+base="LANES=2 MAX_WIDTH=64 X_BITS=7 Z_FRAC=7"
+echo "| configuration | LUT4 | flip-flops | carry | RAM 4k | parameters |"
+echo "| --- | --- | --- | --- | --- | --- |"
+rows=(
+  "full $base"
+  "no-fsf $base FSF=0"
+  "no-shadow $base FSF=0 DSF_BITS=0"
+  "one-channel $base CHANNELS=1"
+  "small-z $base Z_BITS=12"
+  "smooth $base SMOOTH=1 COLOR_FRAC=7"
+  "one-lane $base LANES=1"
+  "one-word-beats $base BEAT_WORDS=1"
+  "systolic16 $base ARRANGEMENT=0 MAX_WIDTH=16"
+)
+export -f cells
+export work
+printf '%s\n' "${rows[@]}" | xargs -P 2 -I{} bash -c 'set -euo pipefail; set -- {}; cells "$@" >"$work/$1.row"'
+for row in "${rows[@]}"; do cat "$work/${row%% *}.row"; done
+
+luts() { awk -F'|' '{print $3 + 0}' "$work/$1.row"; }
+bad=0
+for less in no-fsf no-shadow one-channel small-z one-lane one-word-beats; do
+  [ "$(luts "$less")" -lt "$(luts full)" ] || { echo "cells.sh: $less has no fewer LUTs than full" >&2; bad=1; }
+done
+[ "$(luts smooth)" -gt "$(luts full)" ] || { echo "cells.sh: smooth has no more LUTs than full" >&2; bad=1; }
+exit $bad

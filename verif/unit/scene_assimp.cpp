@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Formats that Assimp reads, the same file by both readers, and real meshes where Debian's packages carry them.
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "catch.hpp"
+#include "scene/import.hpp"
+#include "scene/polygon.hpp"
+#include "scene/transform.hpp"
+#include "scene_files.hpp"
+
+using namespace kage;
+using test::TempDirectory;
+
+namespace {
+
+constexpr const char* kCube = R"(o cube
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
+constexpr const char* kCollada = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_cameras><camera id="eye"><optics><technique_common><perspective>
+  <yfov>40</yfov><aspect_ratio>1.5</aspect_ratio><znear>0.5</znear><zfar>50</zfar>
+</perspective></technique_common></optics></camera></library_cameras>
+<library_lights><light id="lamp"><technique_common><point><color>2 1 0</color></point></technique_common></light></library_lights>
+<library_geometries><geometry id="g"><mesh>
+  <source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+    <accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+    <param name="Z" type="float"/></accessor></technique_common></source>
+  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_animations><animation>
+  <source id="t"><float_array id="ta" count="2">0 1</float_array><technique_common>
+    <accessor source="#ta" count="2" stride="1"><param name="TIME" type="float"/></accessor></technique_common></source>
+  <source id="k"><float_array id="ka" count="6">0 0 0 2 0 0</float_array><technique_common>
+    <accessor source="#ka" count="2" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+    <param name="Z" type="float"/></accessor></technique_common></source>
+  <source id="i"><Name_array id="ia" count="2">LINEAR LINEAR</Name_array><technique_common>
+    <accessor source="#ia" count="2" stride="1"><param name="INTERPOLATION" type="name"/></accessor></technique_common></source>
+  <sampler id="s"><input semantic="INPUT" source="#t"/><input semantic="OUTPUT" source="#k"/>
+    <input semantic="INTERPOLATION" source="#i"/></sampler>
+  <channel source="#s" target="mover/move"/>
+</animation></library_animations>
+<library_visual_scenes><visual_scene id="scene">
+  <node id="mover" name="mover"><translate sid="move">0 0 0</translate><instance_geometry url="#g"/></node>
+  <node id="c" name="c"><translate>0 0 5</translate><instance_camera url="#eye"/></node>
+  <node id="l" name="l"><translate>3 4 5</translate><instance_light url="#lamp"/></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#scene"/></scene>
+</COLLADA>
+)";
+
+std::vector<glm::dvec3> flat(std::initializer_list<std::array<double, 2>> p) {
+  std::vector<glm::dvec3> out;
+  for (const auto& q : p) out.push_back({q[0], q[1], 0});
+  return out;
+}
+
+// Twice the area of each triangle, signed; their sum is the polygon's.
+std::vector<double> areas(const std::vector<glm::dvec3>& p) {
+  std::vector<double> a;
+  for (const auto& t : scene::triangulate(p)) a.push_back(scene::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).z);
+  return a;
+}
+
+// World positions of all triangles' corners, unordered, to compare two readings of a file.
+std::multiset<std::array<float, 3>> corner_set(const scene::RawScene& s) {
+  std::multiset<std::array<float, 3>> out;
+  std::vector<scene::Affine> world;
+  for (const scene::RawNode& n : s.nodes) {
+    const scene::Affine own = n.fixed ? n.matrix : scene::compose(n.translation, n.rotation, n.scale);
+    world.push_back(n.parent < 0 ? own : world[static_cast<std::size_t>(n.parent)] * own);
+    if (n.mesh < 0) continue;
+    for (const scene::RawPrimitive& p : s.meshes[static_cast<std::size_t>(n.mesh)].primitives)
+      for (const std::uint32_t c : p.corners) {
+        const glm::dvec3 q =
+            world.back().point({p.positions[3 * c], p.positions[3 * c + 1], p.positions[3 * c + 2]});
+        // Assimp's matrices are floats: compare to a thousandth.
+        out.insert({static_cast<float>(std::nearbyint(q.x * 1e3)), static_cast<float>(std::nearbyint(q.y * 1e3)),
+                    static_cast<float>(std::nearbyint(q.z * 1e3))});
+      }
+  }
+  return out;
+}
+
+bool present(const std::string& path) {
+  if (std::filesystem::exists(path)) return true;
+  std::printf("SKIPPED: %s is not installed\n", path.c_str());
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("polygons: convex as fans, concave by ears, what crosses itself somehow") {
+  CHECK(scene::triangulate(flat({{0, 0}, {1, 0}})).empty());
+  CHECK(areas(flat({{0, 0}, {2, 0}, {2, 1}, {0, 1}})) == std::vector<double>{2, 2});
+  const auto check_area = [](const std::vector<glm::dvec3>& p, double twice) {
+    double sum = 0;
+    for (const double a : areas(p)) {
+      CHECK(a * twice > 0);
+      sum += a;
+    }
+    CHECK(sum == Approx(twice));
+  };
+  check_area(flat({{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}), 20);                              // a notch from above
+  check_area(flat({{0, 4}, {2, 1}, {4, 4}, {4, 0}, {0, 0}}), -20);                             // the other way round
+  check_area(flat({{0, 0}, {1, 1}, {2, 0}, {1, 4}}), 6);                                       // an arrow
+  check_area(flat({{0, 0}, {6, 0}, {6, 1}, {1, 1}, {1, 5}, {6, 5}, {6, 6}, {0, 6}}), 2 * 16);  // a bracket
+  CHECK(areas(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})).size() == 2);
+  CHECK(areas(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}})).size() == 3);
+}
+
+TEST_CASE("a cube of quads: faces keep the file's numbers, the solid is closed and convex") {
+  const TempDirectory dir;
+  const Scene s = Scene::load(dir.write("cube.obj", kCube));
+  CHECK(s.name() == "cube");
+  const SceneFrame f = s.frame(0, 1);
+  REQUIRE(f.triangles.size() == 12);
+  CHECK(f.vertices.size() == 8);
+  for (std::size_t i = 0; i < 12; ++i) CHECK(f.triangles[i].face == i / 2);
+  REQUIRE(f.components.size() == 1);
+  CHECK(f.components[0].convex);
+  CHECK_FALSE(s.needs_smooth());
+}
+
+TEST_CASE("materials of other formats give their diffuse colour; textures are noted") {
+  const TempDirectory dir;
+  dir.write("paint.mtl", "newmtl red\nKd 0.5 0.25 0.125\nmap_Kd red.png\nnewmtl glass\nKd 0 0 1\nd 0.5\n");
+  std::string text = std::string("mtllib paint.mtl\n") + kCube;
+  text.replace(text.find("f 4 3 2 1"), 0, "usemtl red\n");
+  text.replace(text.find("f 4 1 5 8"), 0, "usemtl glass\n");
+  const Scene s = Scene::load(dir.write("cube.obj", text));
+  const SceneFrame f = s.frame(0, 1);
+  CHECK(f.components.size() == 1);  // two materials, one solid
+  CHECK(f.components[0].convex);
+  CHECK(f.shading[f.triangles[0].shading[0]].color == glm::dvec3{0.5, 0.25, 0.125});
+  CHECK(test::has_note(s, "1 texture is ignored"));
+  CHECK(test::has_note(s, "alpha"));
+}
+
+TEST_CASE("camera, light and animation of another format") {
+  const TempDirectory dir;
+  const Scene s = Scene::load(dir.write("scene.dae", kCollada));
+  const SceneFrame f = s.frame(1, 2);
+  // Assimp turns the vertical angle into a horizontal one, in floats, by libm; back again it is the file's.
+  CHECK(f.camera.perspective);
+  CHECK(f.camera.half_height == Approx(std::tan(20 * 3.14159265358979 / 180)).epsilon(1e-6));
+  CHECK(f.camera.near == Approx(0.5));
+  CHECK(f.camera.far == Approx(50));
+  CHECK(f.camera.eye == glm::dvec3{0, 0, 5});
+  CHECK(f.camera.forward == glm::dvec3{0, 0, -1});
+  CHECK(f.camera.up == glm::dvec3{0, 1, 0});
+  CHECK_FALSE(f.light.directional);
+  CHECK(f.light.position == glm::dvec3{3, 4, 5});
+  CHECK(f.light.color == glm::dvec3{1, 0.5, 0});
+  CHECK(s.objects() == std::vector<std::string>{"mover"});
+  CHECK(s.frame_count() == 8);
+  CHECK(s.frame(0, 2).vertices[0] == glm::dvec3{0, 0, 0});
+  CHECK(f.vertices[0] == glm::dvec3{1, 0, 0});  // half way from (0 0 0) to (2 0 0)
+}
+
+TEST_CASE("both readers see the same triangles in a glTF file") {
+  const std::string root = "/usr/share/assimp/models/glTF2/";
+  if (!present(root)) return;
+  for (const char* file :
+       {"BoxTextured-glTF/BoxTextured.gltf", "BoxTextured-glTF-Binary/BoxTextured.glb", "BoxTextured-glTF-Embedded/BoxTextured.gltf",
+        "2CylinderEngine-glTF-Binary/2CylinderEngine.glb", "ClearCoat-glTF/ClearCoatTest.gltf", "cameras/Cameras.gltf",
+        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_04.gltf",
+        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_05.gltf",
+        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_06.gltf",
+        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_12.gltf",
+        "glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf"}) {
+    INFO(file);
+    const auto ours = corner_set(scene::import_gltf(root + file, file));
+    const auto theirs = corner_set(scene::import_assimp(root + file, file));
+    CHECK(ours.size() == theirs.size());
+    std::size_t unlike = 0;
+    for (const auto& p : ours) unlike += theirs.count(p) == 0 ? 1 : 0;
+    CHECK(unlike * 50 <= ours.size());  // those that a thousandth's rounding parts
+  }
+}
+
+TEST_CASE("real meshes") {
+  struct Expected {
+    const char* file;
+    std::size_t triangles;
+  };
+  const std::string root = "/usr/share/glmark2/models/";
+  if (!present(root)) return;
+  for (const Expected& e : {Expected{"horse.3ds", 7172}, {"bunny.obj", 69666}, {"cat.3ds", 14348}, {"asteroid-low.3ds", 480},
+                            {"asteroid-high.3ds", 48000}, {"cube.3ds", 12}}) {
+    const std::string path = root + e.file;
+    if (!present(path)) continue;
+    const Scene s = Scene::load(path);
+    const SceneFrame f = s.frame(3, 8);
+    std::size_t closed = 0;
+    std::size_t convex = 0;
+    std::size_t counted = 0;
+    for (const Component& c : f.components) {
+      CHECK(c.first == counted);
+      counted += c.count;
+      closed += c.closed ? 1 : 0;
+      convex += c.convex ? 1 : 0;
+      CHECK(c.reason.empty() == c.convex);
+    }
+    std::printf("%s: %zu triangles, %zu vertices, %zu components, %zu closed, %zu convex\n", e.file, f.triangles.size(),
+                f.vertices.size(), f.components.size(), closed, convex);
+    CHECK(counted == f.triangles.size());
+    CHECK(f.triangles.size() == e.triangles);
+    for (const ShadingVertex& v : f.shading) CHECK(std::abs(scene::length(v.normal) - 1) < 1e-12);
+  }
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// The import child and its limits, and files that are no scenes.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <thread>
+
+#include "catch.hpp"
+#include "scene/child.hpp"
+#include "scene/wire.hpp"
+#include "scene_files.hpp"
+
+using namespace kage;
+using scene::ImportLimits;
+using scene::run_in_child;
+using test::refusal;
+using test::TempDirectory;
+
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+std::string end_of(const std::function<Bytes()>& work, const ImportLimits& limits = {}) {
+  try {
+    (void)run_in_child("x", limits, work);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "returned";
+}
+
+}  // namespace
+
+TEST_CASE("what the child returns or throws arrives") {
+  Bytes large(5'000'000);
+  for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<std::uint8_t>(i * 7);
+  CHECK(run_in_child("x", {}, [&] { return large; }) == large);
+  CHECK(run_in_child("x", {}, [] { return Bytes{}; }).empty());
+  CHECK(end_of([]() -> Bytes { throw Error("x: no good"); }) == "x: no good");
+  CHECK(end_of([]() -> Bytes { throw std::runtime_error("bare"); }) == "x: bare");
+}
+
+TEST_CASE("the child's death is told by its cause") {
+  CHECK(end_of([]() -> Bytes { raise(SIGKILL); return {}; }) == "x: killed by signal 9 while importing");
+  CHECK(end_of([]() -> Bytes { _exit(7); }) == "x: the import process ended with code 7 and gave no scene");
+  if (!kSanitized) CHECK(end_of([]() -> Bytes { abort(); }) == "x: killed by signal 6 while importing");
+}
+
+TEST_CASE("time and memory are limited") {
+  CHECK(end_of([]() -> Bytes { for (;;) pause(); }, {1, 64}) == "x: import took longer than 1 s");
+  CHECK(end_of(
+            []() -> Bytes {
+              volatile int busy = 1;
+              while (busy != 0) {
+              }
+              return {};
+            },
+            {1, 64}) == "x: import took longer than 1 s");
+  CHECK(end_of([] { return Bytes(100 << 20); }, {60, 150}) == "returned");
+  if (kSanitized) return;  // it ends the program rather than throw
+  CHECK(end_of([] { return Bytes(std::size_t{300} << 20); }, {60, 150}) == "x: import needs more than 150 MiB");
+  CHECK(end_of([] { return Bytes(static_cast<std::size_t>(-1) / 2); }) == "x: import needs more than 4096 MiB");
+}
+
+TEST_CASE("limits come from the environment") {
+  setenv("KAGE_IMPORT_SECONDS", "7", 1);
+  setenv("KAGE_IMPORT_MIB", "100", 1);
+  CHECK(ImportLimits::from_environment().seconds == 7);
+  CHECK(ImportLimits::from_environment().mib == 100);
+  for (const char* bad : {"0", "-3", "x", "7x", "99999999999999999999"}) {
+    setenv("KAGE_IMPORT_SECONDS", bad, 1);
+    CHECK_THROWS_AS(ImportLimits::from_environment(), Error);
+  }
+  unsetenv("KAGE_IMPORT_SECONDS");
+  unsetenv("KAGE_IMPORT_MIB");
+  CHECK(ImportLimits::from_environment().seconds == 60);
+}
+
+TEST_CASE("a packed scene survives, and damage to it is noticed") {
+  scene::RawScene s;
+  s.meshes.resize(2);
+  s.meshes[1].name = "m";
+  s.meshes[1].primitives.resize(1);
+  s.meshes[1].primitives[0].positions = {1, 2, 3};
+  s.nodes.resize(3);
+  s.nodes[2].name = "node";
+  s.camera.emplace().half_height = 0.125;
+  s.notes = {"a", ""};
+  const Bytes bytes = scene::packed(s);
+  const scene::RawScene t = scene::unpacked(bytes);
+  CHECK(t.meshes[1].name == "m");
+  CHECK(t.meshes[1].primitives[0].positions[2] == 3);
+  CHECK(t.nodes[2].name == "node");
+  CHECK(t.camera->half_height == 0.125);
+  CHECK_FALSE(t.light.has_value());
+  CHECK(t.notes == s.notes);
+  for (std::size_t cut = 0; cut < bytes.size(); ++cut)
+    CHECK_THROWS_AS(scene::unpacked(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(cut))), Error);
+  Bytes more = bytes;
+  more.push_back(0);
+  CHECK_THROWS_AS(scene::unpacked(more), Error);
+}
+
+TEST_CASE("files that are none") {
+  const TempDirectory dir;
+  const std::string missing = (dir.path() / "missing.obj").string();
+  CHECK(refusal(missing) == missing + ": no such file");
+  CHECK(refusal(dir.path().string()) == dir.path().string() + ": is a directory");
+  CHECK(refusal("") == ": no such file");
+  const std::string empty = dir.write("empty.ply", "");
+  CHECK(refusal(empty) == empty + ": is empty");
+  const std::string fifo = (dir.path() / "fifo.obj").string();
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  CHECK(refusal(fifo) == fifo + ": is not a regular file");
+  if (geteuid() != 0) {
+    const std::string secret = dir.write("secret.obj", "v 0 0 0\n");
+    chmod(secret.c_str(), 0);
+    CHECK(refusal(secret) == secret + ": cannot be read: Permission denied");
+  }
+  const std::string through = dir.write("plain", "x") + "/below.obj";
+  CHECK(refusal(through).rfind(through + ": ", 0) == 0);
+}
+
+TEST_CASE("files that hold no scene are refused in one line") {
+  const TempDirectory dir;
+  const std::string nothing = dir.write("noise.xyz", "what is this?");
+  const std::vector<std::string> files{
+      nothing, dir.write("noise.obj", std::string("\0\1\2\3", 4)), dir.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n"),
+      dir.write("nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n"), dir.write("range.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"),
+      dir.write("same.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n"), dir.write("cut.ply", "ply\nformat ascii 1.0\nelement vertex"),
+      dir.write("absurd.off", "OFF\n2000000000 2000000000 0\n0 0 0\n"), dir.write("fake.glb", "glTF\2\0\0\0"),
+      dir.write("name\nwith a break.obj", "?")};
+  for (const std::string& file : files) {
+    const std::string message = refusal(file);
+    INFO(message);
+    CHECK(message != "loaded");
+    CHECK(message.find('\n') == std::string::npos);
+    CHECK(message.rfind(dir.path().string(), 0) == 0);
+  }
+  CHECK(refusal(files[3]).find("vertex 1: position is not a number") != std::string::npos);
+  CHECK(refusal(files[5]).find("no faces: every triangle repeats a vertex") != std::string::npos);
+}
+
+TEST_CASE("several threads load at once") {
+  const TempDirectory dir;
+  const std::string good = dir.write("good.gltf", test::triangle_gltf(R"("nodes": [{"mesh": 0}])"));
+  const std::string bad = dir.write("bad.gltf", "{");
+  std::vector<std::string> results(8);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < results.size(); ++i)
+    threads.emplace_back([&, i] { results[i] = refusal(i % 2 == 0 ? good : bad); });
+  for (std::thread& t : threads) t.join();
+  for (std::size_t i = 0; i < results.size(); ++i) CHECK((results[i] == "loaded") == (i % 2 == 0));
+}
