@@ -17,11 +17,12 @@ constexpr double kSky = 0.08;
 double srgb_encode(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);
   if (x <= 0.0031308) return 12.92 * x;
+  if (x >= 1) return 1;
   // Least squares fit of 1.055 x^(1/2.4) - 0.055 over square roots, constant chosen so that 1 stays 1.
   const double s1 = std::sqrt(x);
   const double s2 = std::sqrt(s1);
   const double s3 = std::sqrt(s2);
-  return std::min(0.653986 * s1 + 0.688709 * s2 - 0.318471 * s3 - 0.020188 * x - 0.004036, 1.0);
+  return 0.653986 * s1 + 0.688709 * s2 - 0.318471 * s3 - 0.020188 * x - 0.004036;
 }
 
 glm::dvec3 LightView::displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base, bool lit, bool grey) const {

@@ -14,3 +14,9 @@ KAGE_DATA_DIR="$temp/prefix/share/kage" "$temp/build/consumer"
 for file in rtl/defs/kage.yaml rtl/configs.yaml; do
   [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
 done
+# The installed program, moved to another prefix, finds RTL, scenes and model builder beside itself.
+mv "$temp/prefix" "$temp/moved"
+if [ -x "$temp/moved/bin/kage" ]; then
+  cd "$temp"
+  env -u KAGE_DATA_DIR moved/bin/kage cosim courtyard --size 64x48 --frames 1 --out pictures
+fi

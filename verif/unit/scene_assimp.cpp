@@ -35,7 +35,7 @@ f 4 1 5 8
 constexpr const char* kCollada = R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><up_axis>Y_UP</up_axis></asset>
-<library_cameras><camera id="eye"><optics><technique_common><perspective>
+<library_cameras><camera id="eye" name="eye"><optics><technique_common><perspective>
   <yfov>40</yfov><aspect_ratio>1.5</aspect_ratio><znear>0.5</znear><zfar>50</zfar>
 </perspective></technique_common></optics></camera></library_cameras>
 <library_lights><light id="lamp"><technique_common><point><color>2 1 0</color></point></technique_common></light></library_lights>

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "catch.hpp"
+#include "geometry/shade.hpp"
+
+namespace kage::verif {
+
+TEST_CASE("the sRGB curve by square roots is within 0.017 of a step of the exact one, monotone, exact at its ends") {
+  double worst = 0;
+  double before = -1;
+  for (int i = 0; i <= 200000; ++i) {
+    const double x = i / 200000.0;
+    const double exact = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+    const double got = srgb_encode(x);
+    worst = std::max(worst, std::abs(got - exact) * 255);
+    REQUIRE(got >= before);
+    before = got;
+  }
+  CAPTURE(worst);
+  CHECK(worst < 0.017);
+  CHECK(srgb_encode(0) == 0);
+  CHECK(srgb_encode(1) == 1);
+  CHECK(srgb_encode(-5) == 0);
+  CHECK(srgb_encode(5) == 1);
+}
+
+TEST_CASE("an unlit face gets ambient light only, a lit one more the straighter the light falls") {
+  Light light;
+  light.direction = {0, -1, 0};
+  const LightView view(light, {0, 1, 0});
+  const glm::dvec3 white(1, 1, 1);
+  const double straight = view.displayed({0, 0, 0}, {0, 1, 0}, white, true, false).x;
+  const double oblique = view.displayed({0, 0, 0}, {0.8, 0.6, 0}, white, true, false).x;
+  const double unlit = view.displayed({0, 0, 0}, {0, 1, 0}, white, false, false).x;
+  CHECK(straight > oblique);
+  CHECK(oblique > unlit);
+  CHECK(straight <= 255);
+  CHECK(view.displayed({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, true, true).x == view.displayed({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, true, true).z);
+}
+
+}  // namespace kage::verif
