@@ -33,25 +33,25 @@ module frame_control #(
     input  wire logic                      dropping_i,
 
     // to the pixels
-    output logic                 cmd_valid_o,
-    input  wire logic            cmd_ready_i,
-    output logic [          3:0] cmd_kind_o,
-    output logic [   X_BITS-1:0] cmd_xl_o,
-    output logic [   X_BITS-1:0] cmd_xr_o,
-    output logic [CountBits-1:0] cmd_count_o,  // lit of OP, w of SP and NC, bias of EV and EOL
-    output logic [DepthBits-1:0] cmd_z_o,
-    output logic [DepthBits-1:0] cmd_dz_o,
-    output logic [ColorBits-1:0] cmd_color_o,
-    output logic [SlopeBits-1:0] cmd_dcolor_o,
+    output logic                      cmd_valid_o,
+    input  wire logic                 cmd_ready_i,
+    output logic      [          3:0] cmd_kind_o,
+    output logic      [   X_BITS-1:0] cmd_xl_o,
+    output logic      [   X_BITS-1:0] cmd_xr_o,
+    output logic      [CountBits-1:0] cmd_count_o,  // lit of OP, w of SP and NC, bias of EV and EOL
+    output logic      [DepthBits-1:0] cmd_z_o,
+    output logic      [DepthBits-1:0] cmd_dz_o,
+    output logic      [ColorBits-1:0] cmd_color_o,
+    output logic      [SlopeBits-1:0] cmd_dcolor_o,
 
     // to the way out: the lines in order
-    output logic                line_valid_o,
-    input  wire logic           line_ready_i,
-    output logic                line_first_o,       // of its frame
-    output logic                line_blank_o,       // background from its first pixel
-    output logic [  X_BITS-1:0] line_width_o,
-    output logic [ RgbBits-1:0] line_background_o,
-    output logic [SHADE_FRAC:0] line_shade_o,
+    output logic                     line_valid_o,
+    input  wire logic                line_ready_i,
+    output logic                     line_first_o,       // of its frame
+    output logic                     line_blank_o,       // background from its first pixel
+    output logic      [  X_BITS-1:0] line_width_o,
+    output logic      [ RgbBits-1:0] line_background_o,
+    output logic      [SHADE_FRAC:0] line_shade_o,
 
     // to the registers
     output logic        open_o,         // a frame's header has been taken and the frame has not ended
@@ -69,6 +69,8 @@ module frame_control #(
   localparam logic [1:0] StHeader = 2'd0;
   localparam logic [1:0] StBody = 2'd1;  // tokens of an error-free frame
   localparam logic [1:0] StBlank = 2'd2;  // after an error: the rest is background
+
+  localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
 
   localparam logic [1:0] PhaseOpaque = 2'd0;
   localparam logic [1:0] PhaseVolume = 2'd1;
@@ -89,7 +91,7 @@ module frame_control #(
   logic is_shade, is_op, is_sp, is_nc, is_if, is_ev, is_resolve, is_eol, is_end, is_span;
   logic [X_BITS-1:0] xl, xr;
   logic [CountBits-1:0] w;
-  logic [SHADE_FRAC:0] shade;
+  logic [ SHADE_FRAC:0] shade;
 
   assign kind = token_i[3:0];
   assign is_shade = kind == KindShade;
@@ -136,8 +138,8 @@ module frame_control #(
       default: in_order = 1'b1;
     endcase
     if (lines_done && !is_end) in_order = 1'b0;
-    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade[SHADE_FRAC] && shade[SHADE_FRAC-1:0] != '0);
-    in_line = !(is_eol && token_i[EolYLsb+:16] != 16'(line_q)) && !(is_end && !lines_done);
+    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade > ShadeMost);
+    in_line  = !(is_eol && token_i[EolYLsb+:16] != 16'(line_q)) && !(is_end && !lines_done);
     if (token_cut_i) body_error = ErrLastEarly;
     else if (token_lacking_i) body_error = ErrKind;
     else if (!in_order) body_error = ErrOrder;

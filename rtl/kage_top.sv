@@ -23,11 +23,11 @@ module kage_top #(
     input  wire logic                     s_axis_tlast_i,
 
     // video
-    output logic               m_axis_tvalid_o,
-    input  wire logic          m_axis_tready_i,
-    output logic [RgbBits-1:0] m_axis_tdata_o,
-    output logic               m_axis_tuser_o,
-    output logic               m_axis_tlast_o,
+    output logic                    m_axis_tvalid_o,
+    input  wire logic               m_axis_tready_i,
+    output logic      [RgbBits-1:0] m_axis_tdata_o,
+    output logic                    m_axis_tuser_o,
+    output logic                    m_axis_tlast_o,
 
     // registers
     input  wire logic        s_axil_awvalid_i,
@@ -107,16 +107,16 @@ module kage_top #(
 
   localparam int LineBits = 2 + X_BITS + RgbBits + SHADE_FRAC + 1;
   logic line_valid, line_ready, line_first, line_blank;
-  logic [X_BITS-1:0] line_width;
-  logic [RgbBits-1:0] line_background;
+  logic [  X_BITS-1:0] line_width;
+  logic [ RgbBits-1:0] line_background;
   logic [SHADE_FRAC:0] line_shade;
   logic queue_valid, queue_ready, queue_first, queue_blank;
-  logic [X_BITS-1:0] queue_width;
-  logic [RgbBits-1:0] queue_background;
+  logic [  X_BITS-1:0] queue_width;
+  logic [ RgbBits-1:0] queue_background;
   logic [SHADE_FRAC:0] queue_shade;
 
   logic frame_open, hungry, draining, frame_end, error;
-  logic [ 3:0] error_code;
+  logic [3:0] error_code;
   logic [31:0] error_frame, error_token;
   logic [15:0] error_line;
 

@@ -65,7 +65,9 @@ module lane_ramp #(
   logic [(2*LANES-1)*BITS-1:0] tree_d, tree_q;
   logic [(Levels+1)*BITS-1:0] slopes_d, slopes_q;  // the slope that goes with each level
 
+  logic [BITS-1:0] node;
   always_comb begin
+    node = '0;
     tree_d = tree_q;
     slopes_d = slopes_q;
     if (load_i) begin
@@ -77,8 +79,9 @@ module lane_ramp #(
     for (int k = 0; k < Levels; k++) begin
       slopes_d[(k+1)*BITS+:BITS] = slopes_q[k*BITS+:BITS];
       for (int i = 0; i < (1 << k); i++) begin
-        tree_d[((2<<k)-1+2*i)*BITS+:BITS] = tree_q[((1<<k)-1+i)*BITS+:BITS];
-        tree_d[((2<<k)+2*i)*BITS+:BITS] = tree_q[((1<<k)-1+i)*BITS+:BITS] + (slopes_q[k*BITS+:BITS] << (Levels - 1 - k));
+        node = tree_q[((1<<k)-1+i)*BITS+:BITS];
+        tree_d[((2<<k)-1+2*i)*BITS+:BITS] = node;
+        tree_d[((2<<k)+2*i)*BITS+:BITS] = node + (slopes_q[k*BITS+:BITS] << (Levels - 1 - k));
       end
     end
   end

@@ -39,11 +39,11 @@ module line_out #(
     input  wire logic [SHADE_FRAC:0] line_shade_i,
 
     // video
-    output logic               m_valid_o,
-    input  wire logic          m_ready_i,
-    output logic [RgbBits-1:0] m_data_o,
-    output logic               m_user_o,
-    output logic               m_last_o
+    output logic                    m_valid_o,
+    input  wire logic               m_ready_i,
+    output logic      [RgbBits-1:0] m_data_o,
+    output logic                    m_user_o,
+    output logic                    m_last_o
 );
 
   localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;
@@ -85,7 +85,7 @@ module line_out #(
   localparam int Depth = 5;  // RAM, register, lane, product, colour
   logic go;  // the pipeline moves
   logic start, sending_q, issue, issue_last;
-  logic [X_BITS-1:0] x_q;
+  logic [  X_BITS-1:0] x_q;
   logic [LaneBits-1:0] lane;
   logic first_q, blank_q;
   logic [X_BITS-1:0] width_q;

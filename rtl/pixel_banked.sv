@@ -58,7 +58,7 @@ module pixel_banked #(
   localparam int SetBits = 4 + CountBits + FlatBits + 2 * AddrBits + 2 * OffBits;
   logic [SetBits-1:0] set_d, set1_q, set2_q, set3_q;
   logic [2:0] set_valid_q, set_en;
-  logic [X_BITS-1:0] x_last;
+  logic [  X_BITS-1:0] x_last;
   logic [FlatBits-1:0] flat;
   logic [AddrBits-1:0] group_first, group_last;
   logic [OffBits-1:0] lane_first, lane_last;
@@ -161,12 +161,12 @@ module pixel_banked #(
   ) u_depth (
       .clk_i,
       .set_en_i(set_en),
-      .start_i(cmd_z_i),
-      .slope_i(cmd_dz_i),
+      .start_i (cmd_z_i),
+      .slope_i (cmd_dz_i),
       .offset_i(lane_first),
-      .load_i(take3),
-      .step_i(step),
-      .value_o(lane_z)
+      .load_i  (take3),
+      .step_i  (step),
+      .value_o (lane_z)
   );
 
   logic [LANES*RgbBits-1:0] lane_color;
@@ -185,12 +185,12 @@ module pixel_banked #(
       ) u_color (
           .clk_i,
           .set_en_i(set_en),
-          .start_i(cmd_color_i[c*RampBits+:RampBits]),
-          .slope_i(cmd_dcolor_i[c*RampBits+:RampBits]),
+          .start_i (cmd_color_i[c*RampBits+:RampBits]),
+          .slope_i (cmd_dcolor_i[c*RampBits+:RampBits]),
           .offset_i(lane_first),
-          .load_i(take3),
-          .step_i(step),
-          .value_o(value)
+          .load_i  (take3),
+          .step_i  (step),
+          .value_o (value)
       );
       for (genvar l = 0; l < LANES; l++) begin : gen_lane
         assign lane_color[l*RgbBits+c*8+:8] = value[l*8+:8];
@@ -277,8 +277,8 @@ module pixel_banked #(
     next = word;
     for (int l = 0; l < LANES; l++) begin
       if (now_lanes[l]) begin
-        next[l*PixelBits+:PixelBits] = pixel_next(
-            word[l*PixelBits+:PixelBits], now_kind, lane_z[l*Z_BITS+:Z_BITS], lane_color[l*RgbBits+:RgbBits], now_count);
+        next[l*PixelBits+:PixelBits] = pixel_next(word[l*PixelBits+:PixelBits], now_kind, lane_z[l*Z_BITS+:Z_BITS],
+                                                  lane_color[l*RgbBits+:RgbBits], now_count);
       end
     end
   end
@@ -289,9 +289,9 @@ module pixel_banked #(
     end else begin
       done_valid_q <= valid[Last];
     end
-    done_addr_q  <= now_addr;
-    done_q       <= next;
-    done2_q      <= done_q;
+    done_addr_q <= now_addr;
+    done_q      <= next;
+    done2_q     <= done_q;
   end
 
   // ---- the line leaves ---------------------------------------------------------------------------------------------

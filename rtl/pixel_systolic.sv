@@ -108,29 +108,35 @@ module pixel_systolic #(
     end
   endfunction
 
+  // The processor that the loop is at.
+  logic begins;
+  logic [3:0] kind;
+  logic [CountBits-1:0] count;
+  logic [DepthBits-1:0] z;
+  logic [RgbBits-1:0] color;
+  logic [PixelBits-1:0] pixel;
+  logic [ExitBits-1:0] leaving;
+
   always_comb begin
     pixel_d = pixel_q;
     z_d = z_q;
     joined_d = '0;
+    {begins, kind, count, z, color, pixel, leaving} = '0;
     for (int i = 0; i < N; i++) begin
-      hit[i] = valid_q[i] && (begun_q[i] || xl_q[i*X_BITS+:X_BITS] == X_BITS'(i)) && xr_q[i*X_BITS+:X_BITS] != X_BITS'(i);
+      begins = begun_q[i] || xl_q[i*X_BITS+:X_BITS] == X_BITS'(i);
+      hit[i] = valid_q[i] && begins && xr_q[i*X_BITS+:X_BITS] != X_BITS'(i);
       if (hit[i]) begin
-        z_d[i*DepthBits+:DepthBits] = z_q[i*DepthBits+:DepthBits] + dz_q[i*DepthBits+:DepthBits];
-        pixel_d[i*PixelBits+:PixelBits] = pixel_next(
-            pixel_q[i*PixelBits+:PixelBits],
-            kind_q[i*4+:4],
-            clamp_z(
-                z_q[i*DepthBits+Z_FRAC+:Z_BITS+2]
-            ),
-            clamp_color(
-                color_q[i*ColorBits+:ColorBits]
-            ),
-            count_q[i*CountBits+:CountBits]
-        );
-        // Only the one EOL in the chain whose pixels leave opens its processor's exit: the OR of all is that pixel.
-        if (kind_q[i*4+:4] == KindEol) begin
-          joined_d[(i/Segment)*ExitBits+:ExitBits] = joined_d[(i/Segment)*ExitBits+:ExitBits] |
-              pixel_exit(pixel_q[i*PixelBits+:PixelBits], count_q[i*CountBits+:CountBits]);
+        kind = kind_q[i*4+:4];
+        count = count_q[i*CountBits+:CountBits];
+        z = z_q[i*DepthBits+:DepthBits];
+        color = clamp_color(color_q[i*ColorBits+:ColorBits]);
+        pixel = pixel_q[i*PixelBits+:PixelBits];
+        z_d[i*DepthBits+:DepthBits] = z + dz_q[i*DepthBits+:DepthBits];
+        pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, clamp_z(z[Z_FRAC+:Z_BITS+2]), color, count);
+        // Of the EOLs in the chain only one is among its line's pixels: the OR of all exits is that one's.
+        if (kind == KindEol) begin
+          leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count);
+          joined_d[(i/Segment)*ExitBits+:ExitBits] = leaving;
         end
       end
     end

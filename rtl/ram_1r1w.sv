@@ -7,7 +7,7 @@
 `default_nettype none
 
 module ram_1r1w #(
-    parameter int BITS  = 8,
+    parameter int BITS = 8,
     parameter int WORDS = 256,
     localparam int AddrBits = WORDS > 1 ? $clog2(WORDS) : 1
 ) (
@@ -22,7 +22,7 @@ module ram_1r1w #(
     output logic      [    BITS-1:0] rd_data_o
 );
 
-  logic [BITS-1:0] mem[WORDS];
+  logic [BITS-1:0] mem  [WORDS];
   logic [BITS-1:0] rd_q;
 
   assign rd_data_o = rd_q;

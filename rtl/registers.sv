@@ -60,9 +60,9 @@ module registers #(
 
   // ---- write channel -----------------------------------------------------------------------------------------------
   logic aw_held_q, w_held_q, write;
-  logic [ 7:0] aw_addr_q;
+  logic [7:0] aw_addr_q;
   logic [31:0] w_data_q, w_mask;
-  logic [ 3:0] w_strb_q;
+  logic [3:0] w_strb_q;
   assign awready_o = !aw_held_q;
   assign wready_o = !w_held_q;
   assign write = aw_held_q && w_held_q && !bvalid_o;
@@ -143,7 +143,9 @@ module registers #(
   // ---- read channel ------------------------------------------------------------------------------------------------
   logic [31:0] value;
   always_comb begin
-    unique case ({araddr_i[7:2], 2'b00})
+    unique case ({
+      araddr_i[7:2], 2'b00
+    })
       RegId: value = "KAGE";
       RegVersion: value = 32'(StreamVersion);
       RegParamHash: value = ParamHash;

@@ -26,15 +26,15 @@ module token_reader #(
     input  wire logic                     s_last_i,
 
     // to frame_control
-    output logic                          token_valid_o,
-    input  wire logic                     token_ready_i,
-    output logic     [TOKEN_WORDS*32-1:0] token_o,
-    output logic                          token_header_o,    // the frame's first
-    output logic                          token_lacking_o,   // its kind is not in this configuration
-    output logic                          token_cut_o,       // TLAST came before its last word
-    output logic                          token_final_o,     // nothing of the frame follows: END, or cut
-    output logic                          token_at_last_o,   // its first word is in TLAST's beat
-    input  wire logic                     drop_i,
+    output logic                           token_valid_o,
+    input  wire logic                      token_ready_i,
+    output logic      [TOKEN_WORDS*32-1:0] token_o,
+    output logic                           token_header_o,   // the frame's first
+    output logic                           token_lacking_o,  // its kind is not in this configuration
+    output logic                           token_cut_o,      // TLAST came before its last word
+    output logic                           token_final_o,    // nothing of the frame follows: END, or cut
+    output logic                           token_at_last_o,  // its first word is in TLAST's beat
+    input  wire logic                      drop_i,
 
     output logic dropping_o,  // words are being dropped up to TLAST
     output logic busy_o       // some of a frame has come in and its end has not been passed on

@@ -16,9 +16,9 @@ localparam logic [PixelBits-1:0] PixelClear = {{(PixelBits - Z_BITS) {1'b0}}, {Z
 
 // Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel; `count` is the lit bit for OP, w
 // for SP and NC, the line's bias for EV. EOL clears.
-function automatic logic [PixelBits-1:0] pixel_next(
-    input logic [PixelBits-1:0] pixel, input logic [3:0] kind, input logic [Z_BITS-1:0] z,
-    input logic [RgbBits-1:0] color, input logic [CountBits-1:0] count);
+function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [3:0] kind,
+                                                    input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
+                                                    input logic [CountBits-1:0] count);
   logic in_front;
   logic [CountBits-1:0] sum;
   begin
@@ -32,8 +32,8 @@ function automatic logic [PixelBits-1:0] pixel_next(
         pixel_next[Z_BITS+:RgbBits] = color;
         if (DSF_BITS > 0) pixel_next[PixelLitAt] = count[0];
       end
-      KindSp: if (DSF_BITS > 0 && in_front) pixel_next[PixelDsfAt+:CountBits] = sum;
-      KindNc: if (DSF_BITS > 0) pixel_next[PixelDsfAt+:CountBits] = sum;
+      KindSp:  if (DSF_BITS > 0 && in_front) pixel_next[PixelDsfAt+:CountBits] = sum;
+      KindNc:  if (DSF_BITS > 0) pixel_next[PixelDsfAt+:CountBits] = sum;
       KindEv:
       if (FSF > 0) begin
         if (sum != '0) pixel_next[PixelFsfAt] = 1'b1;

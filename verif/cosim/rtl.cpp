@@ -70,7 +70,6 @@ class Rtl : public Core {
     std::string trouble = why == KAGE_RTL_STUCK ? "the core hangs, with input waiting" : why == KAGE_RTL_PIXELS || pixels == 0 ? "" : "the core went idle";
     if (why == KAGE_RTL_PIXELS) trouble = wait_for_end();
     result.status = status();
-    if (result.status.error == ErrorCode::NONE && whole_header) result.status.frame = words[4];
     broken_ = why != KAGE_RTL_PIXELS || !trouble.empty();
 
     const bool header_error = result.status.error == ErrorCode::HEADER || result.status.error == ErrorCode::SIZE || result.status.error == ErrorCode::PARAMS ||

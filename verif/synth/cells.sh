@@ -35,7 +35,7 @@ rows=(
   "smooth $base SMOOTH=1 COLOR_FRAC=7"
   "one-lane $base LANES=1"
   "one-word-beats $base BEAT_WORDS=1"
-  "systolic16 $base ARRANGEMENT=0 MAX_WIDTH=16"
+  "systolic16 ${base/MAX_WIDTH=64/MAX_WIDTH=16} ARRANGEMENT=0"
 )
 export -f cells
 export work

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Formats that Assimp reads, the same file by both readers, and real meshes where Debian's packages carry them.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -214,16 +215,18 @@ TEST_CASE("real meshes") {
     std::size_t convex = 0;
     std::size_t counted = 0;
     for (const Component& c : f.components) {
-      CHECK(c.first == counted);
+      REQUIRE(c.first == counted);
       counted += c.count;
       closed += c.closed ? 1 : 0;
       convex += c.convex ? 1 : 0;
-      CHECK(c.reason.empty() == c.convex);
+      REQUIRE(c.reason.empty() == c.convex);
     }
     std::printf("%s: %zu triangles, %zu vertices, %zu components, %zu closed, %zu convex\n", e.file, f.triangles.size(),
                 f.vertices.size(), f.components.size(), closed, convex);
     CHECK(counted == f.triangles.size());
     CHECK(f.triangles.size() == e.triangles);
-    for (const ShadingVertex& v : f.shading) CHECK(std::abs(scene::length(v.normal) - 1) < 1e-12);
+    double worst = 0;
+    for (const ShadingVertex& v : f.shading) worst = std::max(worst, std::abs(scene::length(v.normal) - 1));
+    CHECK(worst < 1e-12);
   }
 }

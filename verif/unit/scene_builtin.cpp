@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built-in scenes: as their script writes them, as their descriptions promise, and the same bits everywhere.
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+
+#include "catch.hpp"
+#include "scene/transform.hpp"
+#include "scene_files.hpp"
+
+using namespace kage;
+using scene::dot;
+
+namespace {
+
+// FNV-1a over everything that geometry is given.
+class Digest {
+ public:
+  void add(const void* data, std::size_t size) {
+    const auto* p = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) hash_ = (hash_ ^ p[i]) * 1099511628211u;
+  }
+  void add(double v) { add(&v, sizeof v); }
+  void add(const glm::dvec3& v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  }
+  [[nodiscard]] std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037u;
+};
+
+std::uint64_t digest(const Scene& scene) {
+  Digest d;
+  for (int i = 0; i < scene.frame_count(); ++i) {
+    const SceneFrame f = scene.frame(i, scene.frame_count());
+    for (const glm::dvec3& v : {f.camera.eye, f.camera.right, f.camera.up, f.camera.forward, f.light.direction, f.light.position,
+                                f.light.color})
+      d.add(v);
+    for (const double v : {f.camera.half_height, f.camera.near, f.camera.far}) d.add(v);
+    for (const glm::dvec3& v : f.vertices) d.add(v);
+    for (const ShadingVertex& v : f.shading) {
+      d.add(v.normal);
+      d.add(v.color);
+    }
+    for (const Triangle& t : f.triangles) {
+      d.add(t.vertex.data(), sizeof t.vertex);
+      d.add(t.shading.data(), sizeof t.shading);
+    }
+    for (const Component& c : f.components) {
+      d.add(&c.count, sizeof c.count);
+      d.add(c.closed ? 1.0 : c.convex ? 2.0 : 3.0);
+    }
+  }
+  return d.value();
+}
+
+}  // namespace
+
+TEST_CASE("scenes/make writes exactly the committed files") {
+  if (std::system("python3 -c pass") != 0) {
+    std::printf("SKIPPED: python3 is not installed\n");
+    return;
+  }
+  CHECK(std::system("python3 " KAGE_SOURCE_DIR "/scenes/make --check") == 0);
+}
+
+TEST_CASE("a scene is the same, bit by bit, for every compiler and every Debian") {
+  // Where this fails after scenes/make or the import changed on purpose, put in what it prints.
+  const std::map<std::string, std::uint64_t> expected{{"courtyard", 0xe03c4a6a2885fa12u},
+                                                       {"knot", 0xffbe8a8d51fa1be9u},
+                                                       {"inside", 0x1f75d211220dd0bbu},
+                                                       {"edges", 0xfccbbac39be2e5f9u}};
+  for (const std::string& name : builtin_scenes()) {
+    INFO(name);
+    CHECK(digest(Scene::load(name)) == expected.at(name));
+  }
+}
+
+TEST_CASE("every built-in scene: frames, orthonormal cameras, nothing left out") {
+  const std::map<std::string, int> frames{{"courtyard", 8}, {"knot", 8}, {"inside", 8}, {"edges", 2}};
+  for (const std::string& name : builtin_scenes()) {
+    INFO(name);
+    const Scene s = Scene::load(name);
+    CHECK(s.name() == name);
+    CHECK(s.frame_count() == frames.at(name));
+    CHECK(s.notes().empty());
+    CHECK(s.needs_smooth() == (name == "knot"));
+    for (int i = 0; i < s.frame_count(); ++i) {
+      const Camera c = s.frame(i, s.frame_count()).camera;
+      for (const glm::dvec3& v : {c.right, c.up, c.forward}) CHECK(std::abs(dot(v, v) - 1) < 1e-14);
+      CHECK(std::abs(dot(c.right, c.up)) < 1e-14);
+      CHECK(std::abs(dot(c.up, c.forward)) < 1e-14);
+      CHECK(dot(scene::cross(c.right, c.up), c.forward) < 0);  // right-handed, looking along -z
+    }
+  }
+}
+
+TEST_CASE("courtyard: all casters are convex, and the camera keeps clear of them") {
+  const Scene s = Scene::load("courtyard");
+  for (int i = 0; i < 8; ++i) {
+    const SceneFrame f = s.frame(i, 8);
+    CHECK(f.components.size() == 20);
+    for (const Component& c : f.components) {
+      CHECK(c.convex);
+      // The eye is further outside some face than the near plane's farthest corner lies from it.
+      double outside = -1e9;
+      for (std::uint32_t t = c.first; t < c.first + c.count; ++t) {
+        const auto& v = f.triangles[t].vertex;
+        const glm::dvec3 n = scene::unit(
+            scene::cross(f.vertices[v[1]] - f.vertices[v[0]], f.vertices[v[2]] - f.vertices[v[0]]), {0, 0, 0});
+        outside = std::max(outside, dot(n, f.camera.eye - f.vertices[v[0]]));
+      }
+      CHECK(outside > 2 * f.camera.near);
+    }
+  }
+}
+
+TEST_CASE("knot: one closed part that is not convex, over a floor that is") {
+  const SceneFrame f = Scene::load("knot").frame(0, 8);
+  REQUIRE(f.components.size() == 2);
+  CHECK(f.components[0].convex);
+  CHECK(f.components[1].closed);
+  CHECK_FALSE(f.components[1].convex);
+  CHECK(f.components[1].count >= 1500);
+  CHECK(f.components[1].count <= 3000);
+  CHECK_FALSE(f.light.directional);
+}
+
+TEST_CASE("edges: vertices on pixel centres in the first frame, half a pixel away in the second") {
+  const Scene s = Scene::load("edges");
+  const auto on_centres = [&](int frame) {
+    const SceneFrame f = s.frame(frame, 2);
+    CHECK(f.camera.half_height == 240);
+    CHECK_FALSE(f.camera.perspective);
+    std::size_t n = 0;
+    for (const glm::dvec3& v : f.vertices) {
+      const double x = dot(v - f.camera.eye, f.camera.right) + 320;
+      const double y = 240 - dot(v - f.camera.eye, f.camera.up);
+      n += x - std::floor(x) == 0.5 && y - std::floor(y) == 0.5 ? 1 : 0;
+    }
+    return n;
+  };
+  CHECK(on_centres(0) > 150);
+  CHECK(on_centres(1) < 100);
+}
