@@ -32,10 +32,15 @@ class SpanSetup {
   [[nodiscard]] Ramp at(const ScreenPlane& plane, int x, int y, int count) const {
     Ramp r{static_cast<std::int64_t>(clamp(start(plane, x, y))), 0};
     if (count > 1) {
+      const Int128 step = round(plane.a);
       const Int128 most = static_cast<Int128>(limit_) - 1;
-      const Int128 up = std::min(most, (most - r.start) / (count - 1));
-      const Int128 down = std::max(-most - 1, -((static_cast<Int128>(r.start) + limit_) / (count - 1)));
-      r.step = static_cast<std::int64_t>(std::clamp(round(plane.a), down, up));
+      if (range_of(step) == 0 && range_of(r.start + step * (count - 1)) == 0) {
+        r.step = static_cast<std::int64_t>(step);
+      } else {
+        const Int128 up = std::min(most, (most - r.start) / (count - 1));
+        const Int128 down = std::max(-most - 1, -((static_cast<Int128>(r.start) + limit_) / (count - 1)));
+        r.step = static_cast<std::int64_t>(std::clamp(step, down, up));
+      }
     }
     return r;
   }

@@ -74,6 +74,7 @@ class Reader {
   std::vector<const aiNode*> nodes_;
   std::set<unsigned> materials_;
   std::size_t thin_faces_ = 0;
+  std::size_t alpha_meshes_ = 0;  // by the colours of their vertices
   std::size_t skins_ = 0;
   std::size_t morphs_ = 0;
   std::size_t cameras_ = 0;
@@ -131,12 +132,15 @@ void Reader::read_mesh(const aiMesh& mesh, RawMesh& out) {
     to.push_back(static_cast<float>(b));
     to.push_back(static_cast<float>(c));
   };
+  bool translucent = false;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    translucent = translucent || (mesh.mColors[0] != nullptr && mesh.mColors[0][i].a < 1);
     push(p.positions, mesh.mVertices[i].x, mesh.mVertices[i].y, mesh.mVertices[i].z);
     if (mesh.mNormals != nullptr) push(p.normals, mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z);
     if (mesh.mColors[0] != nullptr) push(p.colors, mesh.mColors[0][i].r, mesh.mColors[0][i].g, mesh.mColors[0][i].b);
   }
   p.color = read_material(mesh.mMaterialIndex);
+  alpha_meshes_ += translucent ? 1 : 0;
   skins_ += mesh.HasBones() ? 1 : 0;
   morphs_ += mesh.mNumAnimMeshes > 0 ? 1 : 0;
   read_faces(mesh, p);
@@ -308,6 +312,7 @@ void Reader::write_notes() {
   };
   add(std::max(textures, slots), "texture is", "textures are", " ignored");
   add(alpha, "material has", "materials have", " alpha, which is ignored: drawn opaque");
+  add(alpha_meshes_, "mesh's vertices have", "meshes' vertices have", " alpha, which is ignored: drawn opaque");
   add(thin_faces_, "point or line is", "points or lines are", " ignored");
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
   add(morphs_, "mesh has", "meshes have", " morph targets, which are ignored");

@@ -116,20 +116,15 @@ struct GltfFile::Accessor {
 
 bool GltfFile::recognises(const std::filesystem::path& path) {
   const std::string extension = lower_extension(path);
-  if (extension != ".gltf" && extension != ".glb") return false;
-  const Bytes head = read_file(path, 8);
-  if (head.size() == 8 && std::memcmp(head.data(), "glTF", 4) == 0) return little(head.data() + 4) != 1;
-  const Bytes all = read_file(path, std::numeric_limits<std::uint32_t>::max());
-  const Json root = Json::parse(all.begin(), all.end(), nullptr, false);
-  if (!root.is_object() || !root.contains("asset") || !root["asset"].is_object()) return true;
-  const Json& version = root["asset"].value("version", Json());
-  return !version.is_string() || version.get<std::string>().substr(0, 2) != "1.";
+  return extension == ".gltf" || extension == ".glb";
 }
 
 GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(path), name_(std::move(name)) {
   Bytes text = read_file(path, std::numeric_limits<std::uint64_t>::max());
   if (text.size() >= 4 && std::memcmp(text.data(), "glTF", 4) == 0) {
     if (text.size() < 20) fail("header", "the file ends within it");
+    version_2_ = little(text.data() + 4) != 1;
+    if (!version_2_) return;
     if (little(text.data() + 4) != 2) fail("header", "version " + std::to_string(little(text.data() + 4)) + " is not 2");
     if (little(text.data() + 8) > text.size())
       fail("header", "says " + std::to_string(little(text.data() + 8)) + " bytes, the file has " +
@@ -154,7 +149,10 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(
   }
   if (!root_.is_object()) fail("JSON", "the outermost value is not an object");
   const std::string version = this->text(object(root_, "asset"), "version");
-  if (version.substr(0, 2) != "2.") fail("asset", version.empty() ? "no version: not glTF" : "version " + one_line(version, 20) + " is not 2.x");
+  version_2_ = version.substr(0, 2) != "1.";
+  if (!version_2_) return;
+  if (version.substr(0, 2) != "2.")
+    fail("asset", version.empty() ? "no version: not glTF" : "version " + one_line(version, 20) + " is not 2.x");
   buffers_.resize(count("buffers"));
 }
 

@@ -18,12 +18,14 @@ class GltfFile {
  public:
   using Json = nlohmann::json;
 
-  /// Whether `path` holds glTF of version 2, by its first bytes; also true for a .gltf or .glb file that is no glTF at all,
-  /// so that the error comes from here. False for glTF 1.
+  /// Whether the file's name ends in .gltf or .glb.
   static bool recognises(const std::filesystem::path& path);
 
   /// Read the JSON part; buffers are read when first used. `name` is how messages call the file.
   GltfFile(const std::filesystem::path& path, std::string name);
+
+  /// False for glTF 1, whose further content is not looked at.
+  [[nodiscard]] bool is_version_2() const { return version_2_; }
 
   [[nodiscard]] const Json& root() const { return root_; }
 
@@ -68,6 +70,7 @@ class GltfFile {
   std::filesystem::path path_;
   std::string name_;
   Json root_;
+  bool version_2_ = true;
   std::vector<std::uint8_t> binary_;  // the BIN chunk of a .glb
   std::vector<std::optional<std::vector<std::uint8_t>>> buffers_;
 };

@@ -21,7 +21,7 @@ glm::dvec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 class Importer {
  public:
-  Importer(const std::filesystem::path& path, const std::string& name) : file_(path, name) {}
+  explicit Importer(GltfFile file) : file_(std::move(file)) {}
 
   RawScene run() {
     refuse_compression();
@@ -65,6 +65,7 @@ class Importer {
   std::size_t thin_primitives_ = 0;
   std::size_t bare_primitives_ = 0;
   std::size_t instanced_ = 0;
+  std::size_t alpha_primitives_ = 0;  // by the colours of their vertices
   std::set<std::uint64_t> alpha_materials_;
   std::string camera_name_;
   std::string light_name_;
@@ -192,8 +193,13 @@ void Importer::read_primitive(const Json& json, RawMesh& mesh, const std::string
   if (const auto color = file_.integer(attributes, "COLOR_0", place)) {
     const GltfFile::Floats c = file_.floats(*color, 3, 4, place);
     if (c.values.size() / c.components != p.vertex_count()) file_.fail(place, "has more or fewer colours than positions");
+    bool translucent = false;
     for (std::size_t i = 0; i < c.values.size(); ++i)
-      if (i % c.components < 3) p.colors.push_back(c.values[i]);
+      if (i % c.components < 3)
+        p.colors.push_back(c.values[i]);
+      else
+        translucent = translucent || c.values[i] < 1;
+    alpha_primitives_ += translucent ? 1 : 0;
   }
   p.color = material_color(json, place);
   read_corners(json, p, place);
@@ -340,6 +346,7 @@ void Importer::write_notes() {
   };
   add(file_.count("textures"), "texture is", "textures are", " ignored");
   add(alpha_materials_.size(), "material has", "materials have", " alpha, which is ignored: drawn opaque");
+  add(alpha_primitives_, "primitive's vertices have", "primitives' vertices have", " alpha, which is ignored: drawn opaque");
   add(thin_primitives_, "primitive of points or lines is", "primitives of points or lines are", " ignored");
   add(bare_primitives_, "primitive without positions is", "primitives without positions are", " ignored");
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
@@ -353,6 +360,6 @@ void Importer::write_notes() {
 
 }  // namespace
 
-RawScene import_gltf(const std::filesystem::path& path, const std::string& name) { return Importer(path, name).run(); }
+RawScene import_gltf(GltfFile file) { return Importer(std::move(file)).run(); }
 
 }  // namespace kage::scene

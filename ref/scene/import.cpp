@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 
-#include "gltf_file.hpp"
 #include "kage/error.hpp"
 #include "notes.hpp"
 
@@ -66,9 +66,15 @@ void check(const RawScene& scene, const std::string& name) {
 }
 
 RawScene import_file(const std::filesystem::path& path, const std::string& name) {
-  RawScene scene = GltfFile::recognises(path) ? import_gltf(path, name) : import_assimp(path, name);
-  check(scene, name);
-  return scene;
+  const auto checked = [&name](RawScene scene) {
+    check(scene, name);
+    return scene;
+  };
+  if (GltfFile::recognises(path)) {
+    GltfFile file(path, name);
+    if (file.is_version_2()) return checked(import_gltf(std::move(file)));
+  }
+  return checked(import_assimp(path, name));
 }
 
 }  // namespace kage::scene

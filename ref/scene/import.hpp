@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "gltf_file.hpp"
 #include "raw.hpp"
 
 namespace kage::scene {
@@ -14,7 +15,7 @@ namespace kage::scene {
 /// indices in range, at least one face. `name` is how messages call the file.
 RawScene import_file(const std::filesystem::path& path, const std::string& name);
 
-RawScene import_gltf(const std::filesystem::path& path, const std::string& name);
+RawScene import_gltf(GltfFile file);
 RawScene import_assimp(const std::filesystem::path& path, const std::string& name);
 
 /// The checks that close import_file.

@@ -18,6 +18,7 @@ namespace kage {
 namespace {
 
 constexpr int kDefaultFrames = 8;
+constexpr int kPoses = 16;  // of an animation, to find its bounds
 
 using scene::Affine;
 
@@ -122,10 +123,10 @@ void Scene::Data::describe() {
   if (!raw.light) notes.push_back("no light: a directional one is added");
 }
 
-// The ball that holds all frames. What moves is held by the corners of its box, at the frames that the scene asks for.
+// The ball that holds all frames: what moves, by the corners of its box at a number of times.
 void Scene::Data::measure() {
   std::vector<glm::dvec3> points;
-  const int steps = raw.tracks.empty() ? 1 : kDefaultFrames;
+  const int steps = raw.tracks.empty() ? 1 : kPoses;
   for (int step = 0; step < steps; ++step) {
     const std::vector<Affine> world = scene::pose(raw, time(step, steps));
     for (const Object& object : objects) {

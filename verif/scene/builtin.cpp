@@ -6,6 +6,7 @@
 
 #include "catch.hpp"
 #include "scene/judge.hpp"
+#include "scene/ray_truth.hpp"
 
 namespace kage::verif {
 namespace {
@@ -35,6 +36,20 @@ TEST_CASE("built-in scenes: coverage, surfaces and shadows are the oracle's in e
     // Near ties are pixels, not areas.
     CAPTURE(name, sum.surface_near, sum.shadow_near, sum.pixels);
     CHECK((sum.surface_near + sum.shadow_near) * 500 < sum.pixels);
+  }
+}
+
+TEST_CASE("built-in scenes of large faces: surfaces and shadows are what rays say") {
+  for (const char* name : {"courtyard", "inside"}) {
+    const Scene scene = Scene::load(name);
+    RayCount count;
+    for (int i = 0; i < scene.frame_count(); ++i) count += compare_with_rays(scene.frame(i, scene.frame_count()), 160, 120);
+    CAPTURE(name);
+    INFO(count.text());
+    CHECK(count.wrong_surface == 0);
+    CHECK(count.wrong_shadow == 0);
+    CHECK(count.lit > 1000);
+    CHECK(count.shadowed > 1000);
   }
 }
 

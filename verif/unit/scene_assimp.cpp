@@ -189,7 +189,7 @@ TEST_CASE("both readers see the same triangles in a glTF file") {
         "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_12.gltf",
         "glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf"}) {
     INFO(file);
-    const auto ours = corner_set(scene::import_gltf(root + file, file));
+    const auto ours = corner_set(scene::import_gltf(scene::GltfFile(root + file, file)));
     const auto theirs = corner_set(scene::import_assimp(root + file, file));
     CHECK(ours.size() == theirs.size());
     std::size_t unlike = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The built-in scenes: as their script writes them, as their descriptions promise, and the same bits everywhere.
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -128,6 +130,50 @@ TEST_CASE("knot: one closed part that is not convex, over a floor that is") {
   CHECK(f.components[1].count >= 1500);
   CHECK(f.components[1].count <= 3000);
   CHECK_FALSE(f.light.directional);
+}
+
+TEST_CASE("inside: the eye within volumes, the near plane cut by several") {
+  // Rays from points of the near plane to the light, against every caster: the share that each shadows (scenes/README.md).
+  const Scene s = Scene::load("inside");
+  bool whole = false;
+  std::size_t most_cut = 0;
+  for (int i = 0; i < 8; ++i) {
+    const SceneFrame f = s.frame(i, 8);
+    const Camera& c = f.camera;
+    constexpr int kX = 40;
+    constexpr int kY = 30;
+    std::vector<int> hits(f.components.size(), 0);
+    for (int k = 0; k < kX * kY; ++k) {
+      const double x = ((k % kX + 0.5) * 2 / kX - 1) * c.half_height * kX / kY;
+      const double y = ((k / kX + 0.5) * 2 / kY - 1) * c.half_height;
+      const glm::dvec3 p = c.eye + (c.forward + c.right * x + c.up * y) * c.near;
+      const glm::dvec3 ray = f.light.position - p;
+      for (std::size_t n = 0; n < f.components.size(); ++n) {
+        // Convex: the ray is cut down by each face's plane.
+        double enter = 0;
+        double leave = 1;
+        for (std::uint32_t t = f.components[n].first; t < f.components[n].first + f.components[n].count; ++t) {
+          const auto& v = f.triangles[t].vertex;
+          const glm::dvec3 normal =
+              scene::cross(f.vertices[v[1]] - f.vertices[v[0]], f.vertices[v[2]] - f.vertices[v[0]]);
+          const double from = dot(normal, p - f.vertices[v[0]]);
+          const double along = dot(normal, ray);
+          if (along < 0) enter = std::max(enter, -from / along);
+          if (along > 0) leave = std::min(leave, -from / along);
+          if (along == 0 && from > 0) leave = -1;
+        }
+        hits[n] += enter < leave ? 1 : 0;
+      }
+    }
+    std::size_t cut = 0;
+    for (const int n : hits) {
+      cut += n > 0 && n < kX * kY ? 1 : 0;
+      whole = whole || n == kX * kY;
+    }
+    most_cut = std::max(most_cut, cut);
+  }
+  CHECK(whole);
+  CHECK(most_cut >= 4);
 }
 
 TEST_CASE("edges: vertices on pixel centres in the first frame, half a pixel away in the second") {

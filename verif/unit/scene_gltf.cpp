@@ -214,6 +214,7 @@ TEST_CASE("refusals name the place and the cause") {
   const std::string whole = triangle_gltf(kNode);
   CHECK(refused(whole.substr(0, whole.size() / 2)).find("not JSON, or cut off") != std::string::npos);
   CHECK(refused("[]") == "JSON: the outermost value is not an object");
+  CHECK(refused(R"({"asset": {"version": "3.0"}})") == "asset: version 3.0 is not 2.x");
   CHECK(refused("{}") == "asset: no version: not glTF");
   std::string longer = whole;
   longer.replace(longer.find(R"("count": 3)"), 10, R"("count": 4)");

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// line_out: what comes out of lines that go in, under any back-pressure: background, RESOLVE's rounding, TUSER and TLAST, no gap.
+#include <deque>
+
+#include "Vline_out1.h"
+#include "Vline_out4.h"
+#include "bench.hpp"
+
+using namespace kage::rtl;
+
+namespace {
+
+struct Shape {
+  int lanes, max_width, shade_frac;
+};
+
+struct Line {
+  bool first, blank;
+  int width;
+  std::uint32_t background, shade;
+  std::vector<std::uint32_t> pixels;  // {dark, covered, colour}
+};
+
+struct Out {
+  std::uint32_t color;
+  bool user, last;
+};
+
+template <class Model>
+void line_test(const Shape& s) {
+  each_seed(15, [&](Dice& dice) {
+    Bench<Model> top(dice);
+    const int in_stall = stall_percent(dice);
+    const int out_stall = stall_percent(dice);
+    std::deque<Line> announced, to_fill;
+    std::deque<Out> expected;
+    std::uint32_t background = 0, shade = 0;
+    int made = 0, width = 1, left = 0, taken_lines = 0, filled = 0;
+    bool waited = false;
+    Out before{};
+    for (int clock = 0; made < 14 || !expected.empty(); ++clock) {
+      REQUIRE(clock < 100000);
+      if (made < 14 && announced.size() < 3) {
+        Line l{};
+        l.first = left == 0;
+        if (l.first) {
+          width = dice.percent(30) ? s.max_width : dice.between(1, s.max_width);
+          left = dice.between(1, 4);
+          background = static_cast<std::uint32_t>(dice.bits(24));
+          shade = dice.percent(30) ? 1U << s.shade_frac : static_cast<std::uint32_t>(dice.bits(s.shade_frac));
+        }
+        --left;
+        l.blank = dice.percent(20);
+        l.width = width;
+        l.background = background;
+        l.shade = shade;
+        for (int x = 0; x < width; ++x) {
+          const auto p = static_cast<std::uint32_t>(dice.bits(26));
+          l.pixels.push_back(p);
+          std::uint32_t color = p & 0xFFFFFF;
+          if ((p >> 25 & 1) != 0) {
+            color = 0;
+            for (int ch = 0; ch < 24; ch += 8)
+              color |= (((p >> ch & 255) * ((1U << s.shade_frac) - shade) + (1U << (s.shade_frac - 1))) >> s.shade_frac) << ch;
+          }
+          if (l.blank || (p >> 24 & 1) == 0) color = background;
+          expected.push_back({color, l.first && x == 0, x == width - 1});
+        }
+        announced.push_back(l);
+        to_fill.push_back(l);
+        ++made;
+      }
+      top->line_valid_i = announced.empty() ? 0 : 1;
+      if (!announced.empty()) {
+        const Line& l = announced.front();
+        top->line_first_i = l.first ? 1 : 0;
+        top->line_blank_i = l.blank ? 1 : 0;
+        top->line_width_i = static_cast<CData>(l.width);
+        top->line_background_i = l.background;
+        top->line_shade_i = static_cast<SData>(l.shade);
+      }
+      top->exit_take_i = 0;
+      top->exit_valid_i = 0;
+      top.settle();
+      // One line at a time takes a buffer and then comes in, group by group, as from the pixels.
+      if (taken_lines == 0 && !to_fill.empty() && top->exit_free_o && !dice.percent(in_stall)) {
+        top->exit_take_i = 1;
+      }
+      if (taken_lines == 1) {
+        const Line& l = to_fill.front();
+        top->exit_valid_i = 1;
+        for (int lane = 0; lane < s.lanes; ++lane) {
+          const int x = filled + lane;
+          put(top->exit_data_i, 26 * lane, 26, x < l.width ? l.pixels[static_cast<std::size_t>(x)] : dice.bits(26));
+        }
+        top->exit_last_i = filled + s.lanes >= l.width ? 1 : 0;
+      }
+      top->m_ready_i = dice.percent(out_stall) ? 0 : 1;
+      top.settle();
+      if (waited) {
+        REQUIRE(top->m_valid_o);
+        REQUIRE((top->m_data_o == before.color && top->m_user_o == before.user && top->m_last_o == before.last));
+      }
+      waited = top->m_valid_o && !top->m_ready_i;
+      before = {top->m_data_o, static_cast<bool>(top->m_user_o), static_cast<bool>(top->m_last_o)};
+      if (top->m_valid_o && top->m_ready_i) {
+        REQUIRE(!expected.empty());
+        REQUIRE(top->m_data_o == expected.front().color);
+        REQUIRE(static_cast<bool>(top->m_user_o) == expected.front().user);
+        REQUIRE(static_cast<bool>(top->m_last_o) == expected.front().last);
+        expected.pop_front();
+      }
+      const bool line_taken = top->line_valid_i && top->line_ready_o;
+      const bool take = top->exit_take_i;
+      const bool fill = top->exit_valid_i;
+      const bool complete = fill && top->exit_last_i;
+      top.edge();
+      if (line_taken) announced.pop_front();
+      if (take) {
+        taken_lines = 1;
+        filled = 0;
+      } else if (complete) {
+        taken_lines = 0;
+        to_fill.pop_front();
+      } else if (fill) {
+        filled += s.lanes;
+      }
+    }
+  });
+}
+
+}  // namespace
+
+TEST_CASE("line_out, groups of four", "[line_out]") { line_test<Vline_out4>({4, 21, 8}); }
+TEST_CASE("line_out, single pixels", "[line_out]") { line_test<Vline_out1>({1, 21, 3}); }
+
+TEST_CASE("line_out sends the lines of a frame without a gap", "[line_out]") {
+  each_seed(2, [](Dice& dice) {
+    Bench<Vline_out4> top(dice);
+    const int width = 16, lines = 10;
+    int announced = 0, groups = 0, taken = 0, pixels = 0, first = 0, last = 0;
+    top->m_ready_i = 1;
+    for (int clock = 0; pixels < width * lines; ++clock) {
+      top->line_valid_i = announced < lines ? 1 : 0;
+      top->line_first_i = announced == 0 ? 1 : 0;
+      top->line_blank_i = 0;
+      top->line_width_i = width;
+      top->exit_take_i = 0;
+      top->exit_valid_i = 0;
+      top.settle();
+      if (groups == taken * (width / 4) && taken < lines && top->exit_free_o) {
+        top->exit_take_i = 1;
+        ++taken;
+      } else if (groups < taken * (width / 4)) {
+        top->exit_valid_i = 1;
+        top->exit_last_i = groups % (width / 4) == width / 4 - 1 ? 1 : 0;
+        ++groups;
+      }
+      top.settle();
+      if (top->line_ready_o) ++announced;
+      if (top->m_valid_o) {
+        if (pixels == 0) first = clock;
+        last = clock;
+        ++pixels;
+      }
+      top.edge();
+      REQUIRE(clock < 10000);
+    }
+    REQUIRE(last - first == width * lines - 1);
+  });
+}

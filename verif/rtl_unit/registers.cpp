@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// registers: AXI4-Lite under random timing, every register, interrupt, counters, watchdog.
+#include "Vregisters.h"
+#include "bench.hpp"
+#include "kage/defs.hpp"
+#include "kage/registers.h"
+
+using namespace kage::rtl;
+
+namespace {
+
+constexpr std::uint32_t kOkay = 0, kSlverr = 2;
+
+class Axil {
+ public:
+  explicit Axil(Dice& dice) : dice_(dice), top(dice) {
+    top->awvalid_i = top->wvalid_i = top->bready_i = top->arvalid_i = top->rready_i = 0;
+    quiet();
+    stall_ = stall_percent(dice);
+  }
+  void quiet() {
+    top->open_i = top->draining_i = top->waiting_input_i = top->waiting_output_i = 0;
+    top->progress_i = top->frame_end_i = top->error_i = 0;
+  }
+  void clock() {
+    top.settle();
+    top.edge();
+  }
+
+  std::uint32_t read(std::uint32_t address, std::uint32_t response = kOkay) {
+    bool asked = false;
+    for (int n = 0; n < 1000; ++n) {
+      if (!asked && !top->arvalid_i && !dice_.percent(stall_)) {
+        top->arvalid_i = 1;
+        top->araddr_i = static_cast<CData>(address);
+      }
+      top->rready_i = dice_.percent(stall_) ? 0 : 1;
+      top.settle();
+      const bool ar = top->arvalid_i && top->arready_o;
+      const bool done = top->rvalid_o && top->rready_i;
+      const std::uint32_t value = top->rdata_o;
+      const std::uint32_t resp = top->rresp_o;
+      top.edge();
+      if (ar) {
+        asked = true;
+        top->arvalid_i = 0;
+      }
+      if (done) {
+        REQUIRE(resp == response);
+        top->rready_i = 0;
+        return value;
+      }
+    }
+    FAIL("no answer to a read");
+    return 0;
+  }
+
+  void write(std::uint32_t address, std::uint32_t value, std::uint32_t response = kOkay, unsigned strobe = 15) {
+    bool aw_done = false, w_done = false;
+    for (int n = 0; n < 1000; ++n) {  // address and data in either order
+      if (!aw_done && !top->awvalid_i && !dice_.percent(stall_)) {
+        top->awvalid_i = 1;
+        top->awaddr_i = static_cast<CData>(address);
+      }
+      if (!w_done && !top->wvalid_i && !dice_.percent(stall_)) {
+        top->wvalid_i = 1;
+        top->wdata_i = value;
+        top->wstrb_i = static_cast<CData>(strobe);
+      }
+      top->bready_i = dice_.percent(stall_) ? 0 : 1;
+      top.settle();
+      const bool aw = top->awvalid_i && top->awready_o;
+      const bool w = top->wvalid_i && top->wready_o;
+      const bool done = top->bvalid_o && top->bready_i;
+      const std::uint32_t resp = top->bresp_o;
+      top.edge();
+      if (aw) {
+        aw_done = true;
+        top->awvalid_i = 0;
+      }
+      if (w) {
+        w_done = true;
+        top->wvalid_i = 0;
+      }
+      if (done) {
+        REQUIRE((aw_done && w_done));
+        REQUIRE(resp == response);
+        top->bready_i = 0;
+        return;
+      }
+    }
+    FAIL("no answer to a write");
+  }
+
+ private:
+  Dice& dice_;
+  int stall_ = 0;
+
+ public:
+  Bench<Vregisters> top;
+};
+
+}  // namespace
+
+TEST_CASE("Constants and values after reset", "[registers]") {
+  each_seed(5, [](Dice& dice) {
+    Axil a(dice);
+    CHECK(a.read(KAGE_REG_ID) == 0x4B414745);
+    CHECK(a.read(KAGE_REG_VERSION) == kage::kStreamVersion);
+    CHECK(a.read(KAGE_REG_PARAM_HASH) == kage::param_hash(kage::Config{}));
+    CHECK(a.read(KAGE_REG_SHAPE) == (640U | 4U << 16 | 4U << 22 | 1U << 31));
+    for (const std::uint32_t r : {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR, KAGE_REG_ERROR_FRAME,
+                                  KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES, KAGE_REG_STARVED, KAGE_REG_BLOCKED})
+      CHECK(a.read(r) == 0);
+  });
+}
+
+TEST_CASE("Writes: byte strobes, read-only registers, addresses without a register", "[registers]") {
+  each_seed(10, [](Dice& dice) {
+    Axil a(dice);
+    a.write(KAGE_REG_WATCHDOG, 0x11223344);
+    a.write(KAGE_REG_WATCHDOG, 0xAABBCCDD, kOkay, 0b0101);
+    CHECK(a.read(KAGE_REG_WATCHDOG) == 0x11BB33DD);
+    a.write(KAGE_REG_CONTROL, 0xFFFFFFFF);
+    CHECK(a.read(KAGE_REG_CONTROL) == 7);
+    a.write(KAGE_REG_ID, 5);
+    CHECK(a.read(KAGE_REG_ID) == 0x4B414745);
+    a.write(0x40, 1, kSlverr);
+    a.write(0xFC, 1, kSlverr);
+    a.read(0x40, kSlverr);
+  });
+}
+
+TEST_CASE("Errors, frames and the interrupt", "[registers]") {
+  each_seed(10, [](Dice& dice) {
+    Axil a(dice);
+    a.top->error_i = 1;
+    a.top->error_code_i = 6;
+    a.top->error_frame_i = 77;
+    a.top->error_line_i = 0x7001;
+    a.top->error_token_i = 123456;
+    a.clock();
+    a.quiet();
+    a.top->frame_end_i = 1;
+    a.clock();
+    a.quiet();
+    CHECK(a.read(KAGE_REG_ERROR) == (0x70010000U | 6U));
+    CHECK(a.read(KAGE_REG_ERROR_FRAME) == 77);
+    CHECK(a.read(KAGE_REG_ERROR_TOKEN) == 123456);
+    CHECK(a.read(KAGE_REG_ERRORS) == 1);
+    CHECK(a.read(KAGE_REG_FRAMES) == 1);
+    CHECK(a.read(KAGE_REG_IRQ) == 3);
+    CHECK(!a.top->irq_o);
+    a.write(KAGE_REG_CONTROL, 2);
+    CHECK(a.top->irq_o);
+    a.write(KAGE_REG_IRQ, 1);
+    CHECK(a.read(KAGE_REG_IRQ) == 2);
+    CHECK(a.top->irq_o);
+    a.write(KAGE_REG_IRQ, 2);
+    CHECK(a.read(KAGE_REG_IRQ) == 0);
+    CHECK(!a.top->irq_o);
+  });
+}
+
+TEST_CASE("Counters and status", "[registers]") {
+  each_seed(3, [](Dice& dice) {
+    Axil a(dice);
+    a.top->waiting_input_i = 1;
+    for (int i = 0; i < 5; ++i) a.clock();
+    a.quiet();
+    a.top->waiting_output_i = 1;
+    for (int i = 0; i < 7; ++i) a.clock();
+    a.quiet();
+    CHECK(a.read(KAGE_REG_STARVED) == 5);
+    CHECK(a.read(KAGE_REG_BLOCKED) == 7);
+    const std::uint32_t before = a.read(KAGE_REG_CYCLES);
+    for (int i = 0; i < 10; ++i) a.clock();
+    CHECK(a.read(KAGE_REG_CYCLES) >= before + 10);
+    a.top->open_i = a.top->waiting_output_i = 1;
+    CHECK(a.read(KAGE_REG_STATUS) == 0b1001);
+    a.top->open_i = a.top->draining_i = a.top->waiting_input_i = 1;
+    a.top->waiting_output_i = 0;
+    CHECK(a.read(KAGE_REG_STATUS) == 0b0111);
+  });
+}
+
+TEST_CASE("The watchdog bites once, after its clocks without progress, in a frame only", "[registers]") {
+  each_seed(5, [](Dice& dice) {
+    Axil a(dice);
+    a.write(KAGE_REG_WATCHDOG, 20);
+    a.write(KAGE_REG_CONTROL, 4);
+    for (int i = 0; i < 100; ++i) a.clock();  // no frame is open
+    CHECK(!a.top->irq_o);
+    a.top->open_i = 1;
+    for (int i = 0; i < 200; ++i) {  // progress now and then
+      a.top->progress_i = i % 20 == 0 ? 1 : 0;
+      a.clock();
+      REQUIRE(!a.top->irq_o);
+    }
+    a.top->progress_i = 1;
+    a.clock();
+    a.top->progress_i = 0;
+    for (int i = 0; i < 19; ++i) {
+      a.clock();
+      REQUIRE(!a.top->irq_o);
+    }
+    a.clock();
+    CHECK(a.top->irq_o);
+    a.write(KAGE_REG_IRQ, 4);
+    for (int i = 0; i < 100; ++i) a.clock();
+    CHECK(!a.top->irq_o);  // one bite for one standstill
+    a.top->progress_i = 1;
+    a.clock();
+    a.top->progress_i = 0;
+    for (int i = 0; i < 20; ++i) a.clock();
+    CHECK(a.top->irq_o);
+    a.write(KAGE_REG_WATCHDOG, 0);
+    a.write(KAGE_REG_IRQ, 4);
+    for (int i = 0; i < 100; ++i) a.clock();
+    CHECK(!a.top->irq_o);  // off
+  });
+}
