@@ -2,6 +2,7 @@
 #include "core/pixel_line.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/span_kernels.hpp"
 
@@ -42,7 +43,8 @@ void PixelLine::op(const SpanToken& s) {
   const std::uint32_t lit = s.lit ? kLit : 0;
   if (config_.smooth == 0) {
     std::uint32_t color = static_cast<std::uint32_t>(s.color[0]);
-    if (config_.channels > 1) color |= static_cast<std::uint32_t>(s.color[1]) << 8 | static_cast<std::uint32_t>(s.color[2]) << 16;
+    if (config_.channels > 1)
+      color |= static_cast<std::uint32_t>(s.color[1]) << 8 | static_cast<std::uint32_t>(s.color[2]) << 16;
     span_op_flat(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, color | lit);
     return;
   }

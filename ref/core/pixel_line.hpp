@@ -19,12 +19,12 @@ class PixelLine {
   void start(int width, std::uint32_t background, std::uint32_t shade);
   void set_shade(std::uint32_t shade) { shade_ = shade; }
 
-  void op(const SpanToken& s);       ///< where Z < ZB: Z, colour and lit are written
-  void sp(const SpanToken& s);       ///< where Z < ZB: DSF += w
-  void nc(int xl, int xr, int w);    ///< DSF += w
-  void inside(int w);                ///< IF: bias += w
-  void ev(int xl, int xr);           ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
-  void resolve();                    ///< darken what is lit and in shadow
+  void op(const SpanToken& s);     ///< where Z < ZB: Z, colour and lit are written
+  void sp(const SpanToken& s);     ///< where Z < ZB: DSF += w
+  void nc(int xl, int xr, int w);  ///< DSF += w
+  void inside(int w);              ///< IF: bias += w
+  void ev(int xl, int xr);         ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
+  void resolve();                  ///< darken what is lit and in shadow
 
   /// The line's pixels as bytes; all state is cleared. `blank`: the line is background whatever was drawn.
   void finish(bool blank, std::span<std::uint8_t> out);
@@ -37,7 +37,8 @@ class PixelLine {
   std::uint32_t dsf_mask_ = 0;
   std::uint32_t bias_ = 0;
   bool shadow_touched_ = false;
-  // A pixel's state, one array a field. Arrays reach past the width by the longest vector, so that kernels need no scalar tail.
+  // A pixel's state, one array a field. Arrays reach past the width by the longest vector, so that kernels need no
+  // scalar tail.
   std::vector<std::int32_t> zb_;
   std::vector<std::uint32_t> attr_;  // colour in bits 0-23, lit in bit 24
   std::vector<std::uint32_t> dsf_;

@@ -78,7 +78,8 @@ class Colors {
 // Mask of the lanes from `x` that still belong to the span.
 HWY_INLINE hn::Mask<D32> lanes_left(int x, int count) { return hn::FirstN(D32(), static_cast<std::size_t>(count - x)); }
 
-void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr, std::uint32_t value) {
+void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
+            std::uint32_t value) {
   const D32 d;
   const DU32 du;
   Depths depths(ramp);
@@ -95,8 +96,8 @@ void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint3
   }
 }
 
-void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr, std::uint32_t value,
-              const ColorRamp* color, int channels) {
+void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
+              std::uint32_t value, const ColorRamp* color, int channels) {
   const D32 d;
   const DU32 du;
   Depths depths(ramp);
@@ -117,7 +118,8 @@ void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uin
   }
 }
 
-void Sp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT dsf, std::uint32_t w) {
+void Sp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT dsf,
+        std::uint32_t w) {
   const D32 d;
   const DU32 du;
   Depths depths(ramp);
@@ -130,7 +132,8 @@ void Sp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uin
   }
 }
 
-void Ev(int count, std::uint32_t* HWY_RESTRICT dsf, std::uint32_t* HWY_RESTRICT fsf, std::uint32_t bias, std::uint32_t mask) {
+void Ev(int count, std::uint32_t* HWY_RESTRICT dsf, std::uint32_t* HWY_RESTRICT fsf, std::uint32_t bias,
+        std::uint32_t mask) {
   const D32 d;
   const DU32 du;
   const auto b = hn::Set(du, bias);
@@ -159,8 +162,8 @@ HWY_EXPORT(Ev);
 void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value) {
   HWY_DYNAMIC_DISPATCH(OpFlat)(ramp, count, zb, attr, value);
 }
-void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value, const ColorRamp* color,
-                    int channels) {
+void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                    const ColorRamp* color, int channels) {
   HWY_DYNAMIC_DISPATCH(OpSmooth)(ramp, count, zb, attr, value, color, channels);
 }
 void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w) {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Inner loops over the pixels of a span, compiled for every instruction set that Highway knows for this machine and chosen once
-// at run time. All are integer arithmetic modulo 2^n: every instruction set gives the same bits.
+// Inner loops over the pixels of a span, compiled for every instruction set that Highway knows for this machine and
+// chosen once at run time. All are integer arithmetic modulo 2^n: every instruction set gives the same bits.
 #pragma once
 
 #include <cstdint>
 
 namespace kage {
 
-/// Depth along a span: acc = z + k * dz, both pre-shifted left so that the top bit of the accumulator is bit 63. Wrapping at
-/// 64 bits is then wrapping at the accumulator's own width, and Z = (acc >> 32) >> shift, clamped to 1 .. z_max.
+/// Depth along a span: acc = z + k * dz, both pre-shifted left so that the top bit of the accumulator is bit 63.
+/// Wrapping at 64 bits is then wrapping at the accumulator's own width, and Z = (acc >> 32) >> shift, clamped to 1 ..
+/// z_max.
 struct DepthRamp {
   std::int64_t z;
   std::int64_t dz;
@@ -30,8 +31,8 @@ inline constexpr int kKernelSlack = 64;
 void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value);
 
 /// Where Z < zb: zb = Z, attr = channels (lowest first) | value.
-void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value, const ColorRamp* color,
-                    int channels);
+void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                    const ColorRamp* color, int channels);
 
 /// Where Z < zb: dsf += w.
 void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact edge walking. An edge crosses the centres of the lines y with ceil(top - 1/2) <= y < ceil(bottom - 1/2); on such a line its
-// first pixel to the right is ceil(x - 1/2), x being the exact rational crossing. Quotient and remainder are carried from line to
-// line, so a shared edge gives every pixel to exactly one side whatever its slope. docs/numbers.md, Coverage.
+// Exact edge walking. An edge crosses the centres of the lines y with ceil(top - 1/2) <= y < ceil(bottom - 1/2); on
+// such a line its first pixel to the right is ceil(x - 1/2), x being the exact rational crossing. Quotient and
+// remainder are carried from line to line, so a shared edge gives every pixel to exactly one side whatever its slope.
+// docs/numbers.md, Coverage.
 #pragma once
 
 #include <cstdint>

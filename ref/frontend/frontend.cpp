@@ -5,6 +5,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <array>
+
 #include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
 #include "kage/error.hpp"
@@ -25,7 +28,8 @@ class Buckets {
         const int first = std::max(ranges[i].first, 0);
         const int end = std::min(ranges[i].end, height);
         if (first >= end) continue;
-        for (int b = first / kBandLines; b <= (end - 1) / kBandLines; ++b) what(static_cast<std::size_t>(b), static_cast<std::uint32_t>(i));
+        for (int b = first / kBandLines; b <= (end - 1) / kBandLines; ++b)
+          what(static_cast<std::size_t>(b), static_cast<std::uint32_t>(i));
       }
     };
     each_band([this](std::size_t b, std::uint32_t) { ++start_[b + 1]; });
@@ -72,7 +76,13 @@ Frame prepare(const FrameGeometry& g, const Config& config) {
   std::vector<LineRange> edges;
   edges.reserve(g.near_edges.size());
   for (const NearEdge& e : g.near_edges) edges.push_back(lines_of(std::array{e.from, e.to}));
-  Frame f{&g, &config, {}, {}, {bands, g.height, std::span(all).first(g.drawn)}, {bands, g.height, faces}, {bands, g.height, edges}};
+  Frame f{&g,
+          &config,
+          {},
+          {},
+          {bands, g.height, std::span(all).first(g.drawn)},
+          {bands, g.height, faces},
+          {bands, g.height, edges}};
   f.volume_of_face.resize(g.volume_faces.size());
   f.volume_of_edge.resize(g.near_edges.size());
   for (std::uint32_t v = 0; v < g.volumes.size(); ++v) {
@@ -122,7 +132,8 @@ class Band {
 
   Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
 
-  /// Call emit(y, span, winding) for every span of the polygon in the band; what a drawn polygon and a cap emit is the same.
+  /// Call emit(y, span, winding) for every span of the polygon in the band; what a drawn polygon and a cap emit is the
+  /// same.
   template <class Emit>
   void spans(const ScreenPolygon& p, Emit emit) {
     scanner_.scan(g_->outline(p), y0_, y1_, g_->width, [&](int y, int xl, int xr, int winding) {
@@ -170,16 +181,16 @@ class Band {
       std::uint32_t v = ~0U;
       if (face < faces.size()) v = f_->volume_of_face[faces[face]];
       if (edge < edges.size()) v = std::min(v, f_->volume_of_edge[edges[edge]]);
-      for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face) volume_face(g_->volume_faces[faces[face]]);
-      for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge) near_edge(g_->near_edges[edges[edge]]);
+      for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face)
+        volume_face(g_->volume_faces[faces[face]]);
+      for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge)
+        near_edge(g_->near_edges[edges[edge]]);
       close_volume();
     }
   }
 
   // w modulo 2^DSF_BITS, its sign kept where it fits; 0 if it has no effect.
-  [[nodiscard]] int weight(int w) const {
-    return w % (1 << f_->config->dsf_bits);
-  }
+  [[nodiscard]] int weight(int w) const { return w % (1 << f_->config->dsf_bits); }
 
   static void touch(Line& line, int xl, int xr) {
     if (line.touched_from == line.touched_to) {
@@ -225,7 +236,8 @@ class Band {
   }
 
   void near_cap(Line& line) {
-    std::stable_sort(line.near.begin(), line.near.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+    std::stable_sort(line.near.begin(), line.near.end(),
+                     [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
     writer_.write_to(line.shadow);
     fill_between(line.near, g_->width, [&](int xl, int xr, int winding) {
       const int w = weight(winding);
@@ -256,7 +268,8 @@ void check_guard(const FrameGeometry& g) {
   constexpr std::int32_t kLimit = kGuard * 256;
   const auto check = [](const ScreenVertex& v, const char* what, std::size_t i) {
     if (v.x < -kLimit || v.x > kLimit || v.y < -kLimit || v.y > kLimit)
-      throw Error(fmt::format("{} {}: ({}, {}) / 256 is outside the guard band of +-{} pixels", what, i, v.x, v.y, kGuard));
+      throw Error(
+          fmt::format("{} {}: ({}, {}) / 256 is outside the guard band of +-{} pixels", what, i, v.x, v.y, kGuard));
   };
   for (std::size_t i = 0; i < g.vertices.size(); ++i) check(g.vertices[i], "vertex", i);
   for (std::size_t i = 0; i < g.near_edges.size(); ++i) {
@@ -269,7 +282,8 @@ void check_guard(const FrameGeometry& g) {
 
 void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink, int threads) {
   if (g.width > (1 << config.x_bits) - 1)
-    throw Error(fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits, (1 << config.x_bits) - 1));
+    throw Error(fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits,
+                            (1 << config.x_bits) - 1));
   check_guard(g);
   const bool shadows = config.dsf_bits > 0 && !g.volumes.empty();
   if (shadows && config.fsf == 0 && g.volumes.size() > 1)
@@ -302,9 +316,11 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   sink(words);
 }
 
-void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, std::vector<std::uint32_t>& out, int threads) {
+void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, std::vector<std::uint32_t>& out,
+                int threads) {
   make_frame(
-      g, config, number, [&out](std::span<const std::uint32_t> words) { out.insert(out.end(), words.begin(), words.end()); }, threads);
+      g, config, number,
+      [&out](std::span<const std::uint32_t> words) { out.insert(out.end(), words.begin(), words.end()); }, threads);
 }
 
 }  // namespace kage

@@ -33,8 +33,8 @@ inline LineRange lines_of(std::span<const ScreenVertex> outline) {
   return {first_centre(low), first_centre(high)};
 }
 
-/// Call emit(xl, xr, winding) for the ranges of [0, width) between sorted crossings where the winding number is not 0. Ranges are as
-/// long as the winding number stays the same.
+/// Call emit(xl, xr, winding) for the ranges of [0, width) between sorted crossings where the winding number is not 0.
+/// Ranges are as long as the winding number stays the same.
 template <class Emit>
 void fill_between(std::span<const Crossing> sorted, int width, Emit emit) {
   int winding = 0;
@@ -60,8 +60,9 @@ inline void sort_crossings(std::vector<Crossing>& c) {
 /// Scans outlines; keeps its buffers.
 class Scanner {
  public:
-  /// emit(y, xl, xr, winding) for every range of the outline on the lines [y0, y1) and pixels [0, width), from top to bottom and
-  /// left to right. Snapping may have bent the outline: the winding number then still adds up with that of its neighbours.
+  /// emit(y, xl, xr, winding) for every range of the outline on the lines [y0, y1) and pixels [0, width), from top to
+  /// bottom and left to right. Snapping may have bent the outline: the winding number then still adds up with that of
+  /// its neighbours.
   template <class Emit>
   void scan(std::span<const ScreenVertex> outline, int y0, int y1, int width, Emit emit) {
     edges_.clear();

@@ -20,15 +20,19 @@ inline Int128 value_at(const ScreenPlane& p, int x, int y) {
 class SpanSetup {
  public:
   /// `frac` fraction bits in an accumulator of `bits` bits.
-  SpanSetup(int frac, int bits) : shift_(kPlaneFrac - frac), limit_(std::int64_t{1} << (bits - 1)), half_(frac > 0 ? std::int64_t{1} << (frac - 1) : 0) {}
+  SpanSetup(int frac, int bits)
+      : shift_(kPlaneFrac - frac),
+        limit_(std::int64_t{1} << (bits - 1)),
+        half_(frac > 0 ? std::int64_t{1} << (frac - 1) : 0) {}
 
   struct Ramp {
     std::int64_t start;
     std::int64_t step;
   };
 
-  /// Start at (x, y), half an LSB included, and step for a span of `count` pixels. Each is rounded to nearest, halves up; a start out of the
-  /// accumulator's range is clamped, and a step that would leave the range before the last pixel is made as steep as fits.
+  /// Start at (x, y), half an LSB included, and step for a span of `count` pixels. Each is rounded to nearest, halves
+  /// up; a start out of the accumulator's range is clamped, and a step that would leave the range before the last pixel
+  /// is made as steep as fits.
   [[nodiscard]] Ramp at(const ScreenPlane& plane, int x, int y, int count) const {
     Ramp r{static_cast<std::int64_t>(clamp(start(plane, x, y))), 0};
     if (count > 1) {
@@ -45,8 +49,9 @@ class SpanSetup {
     return r;
   }
 
-  /// Call emit(xl, xr, ramp) for the parts of [xl, xr) that are within the accumulator's range, before it and past it: one part for every
-  /// plane that geometry makes. Outside the range a part is constant, so that clamping holds where the plane itself does not fit.
+  /// Call emit(xl, xr, ramp) for the parts of [xl, xr) that are within the accumulator's range, before it and past it:
+  /// one part for every plane that geometry makes. Outside the range a part is constant, so that clamping holds where
+  /// the plane itself does not fit.
   template <class Emit>
   void each(const ScreenPlane& plane, int xl, int xr, int y, Emit emit) const {
     if (in_range(start(plane, xl, y)) && in_range(start(plane, xr - 1, y))) {
@@ -63,11 +68,17 @@ class SpanSetup {
   }
 
  private:
-  [[nodiscard]] Int128 start(const ScreenPlane& plane, int x, int y) const { return round(value_at(plane, x, y)) + half_; }
-  [[nodiscard]] Int128 clamp(Int128 v) const { return std::clamp(v, -static_cast<Int128>(limit_), static_cast<Int128>(limit_) - 1); }
+  [[nodiscard]] Int128 start(const ScreenPlane& plane, int x, int y) const {
+    return round(value_at(plane, x, y)) + half_;
+  }
+  [[nodiscard]] Int128 clamp(Int128 v) const {
+    return std::clamp(v, -static_cast<Int128>(limit_), static_cast<Int128>(limit_) - 1);
+  }
   [[nodiscard]] int range_of(Int128 v) const { return v < -limit_ ? -1 : v >= limit_ ? 1 : 0; }
   [[nodiscard]] bool in_range(Int128 v) const { return range_of(v) == 0; }
-  [[nodiscard]] Int128 round(Int128 v) const { return shift_ == 0 ? v : (v + (static_cast<Int128>(1) << (shift_ - 1))) >> shift_; }
+  [[nodiscard]] Int128 round(Int128 v) const {
+    return shift_ == 0 ? v : (v + (static_cast<Int128>(1) << (shift_ - 1))) >> shift_;
+  }
 
   int shift_;
   std::int64_t limit_;

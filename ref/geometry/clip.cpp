@@ -23,8 +23,8 @@ double guard_distance(const ClipPoint& p, Side side) {
 
 ClipPoint between(const ClipPoint& in, const ClipPoint& out, double d_in, double d_out) {
   const double t = d_in / (d_in - d_out);
-  return {in.sx + t * (out.sx - in.sx), in.sy + t * (out.sy - in.sy), in.q + t * (out.q - in.q), in.w + t * (out.w - in.w),
-          in.color + t * (out.color - in.color)};
+  return {in.sx + t * (out.sx - in.sx), in.sy + t * (out.sy - in.sy), in.q + t * (out.q - in.q),
+          in.w + t * (out.w - in.w), in.color + t * (out.color - in.color)};
 }
 
 // Cut at distance `at`, the plane between in and out.
@@ -56,7 +56,8 @@ ClipPoint cut_guard(const ClipPoint& in, const ClipPoint& out, Side side) {
 
 // Sutherland-Hodgman against one plane. on_leave and on_enter see each new vertex.
 template <class Distance, class Cut, class Leave, class Enter>
-void clip_plane(std::vector<ClipPoint>& polygon, std::vector<ClipPoint>& buffer, Distance distance, Cut cut, Leave on_leave, Enter on_enter) {
+void clip_plane(std::vector<ClipPoint>& polygon, std::vector<ClipPoint>& buffer, Distance distance, Cut cut,
+                Leave on_leave, Enter on_enter) {
   const std::size_t n = polygon.size();
   bool all_in = true;
   for (const ClipPoint& p : polygon) all_in = all_in && distance(p) >= 0;
@@ -112,7 +113,8 @@ void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, 
         enters.push_back(p);
       });
   if (cuts != nullptr)
-    for (std::size_t i = 0; i < leaves.size(); ++i) cuts->push_back({leaves[i], enters[(i + (enter_first ? 1 : 0)) % enters.size()]});
+    for (std::size_t i = 0; i < leaves.size(); ++i)
+      cuts->push_back({leaves[i], enters[(i + (enter_first ? 1 : 0)) % enters.size()]});
   const auto ignore = [](const ClipPoint&) {};
   if (at_far)
     clip_plane(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clipping against the near plane, the far plane and the guard band. A new vertex is computed from the end inside to the end outside, whichever
-// polygon of the edge asks, so neighbours get the very same one and no crack opens.
+// Clipping against the near plane, the far plane and the guard band. A new vertex is computed from the end inside to
+// the end outside, whichever polygon of the edge asks, so neighbours get the very same one and no crack opens.
 #pragma once
 
 #include <vector>
@@ -21,13 +21,13 @@ class Clipper {
  public:
   Clipper(double near, double far) : near_(near), far_(far) {}
 
-  /// Clip in place. Near cuts are appended to `cuts` if given, even where nothing of the polygon is left. `at_far`: cut what lies
-  /// past the far plane too. The outcome may be empty.
+  /// Clip in place. Near cuts are appended to `cuts` if given, even where nothing of the polygon is left. `at_far`: cut
+  /// what lies past the far plane too. The outcome may be empty.
   void clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, bool at_far);
 
-  /// The pieces of a near cut as snapped edges, appended to `edges` in reverse direction (a section closes what the polygons leave
-  /// open): cut in y as the polygon is, but in x outside the guard band only moved onto it, so that what lies left of the
-  /// screen still counts.
+  /// The pieces of a near cut as snapped edges, appended to `edges` in reverse direction (a section closes what the
+  /// polygons leave open): cut in y as the polygon is, but in x outside the guard band only moved onto it, so that what
+  /// lies left of the screen still counts.
   void snap_cut(const NearCut& cut, std::vector<NearEdge>& edges) const;
 
  private:

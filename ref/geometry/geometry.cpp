@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <span>
@@ -54,16 +55,19 @@ class Builder {
   // Depth reaches from the near plane to the furthest vertex; nothing is cut at the far end.
   static double furthest(const SceneFrame& frame) {
     double far = 0;
-    for (const glm::dvec3& p : frame.vertices) far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
+    for (const glm::dvec3& p : frame.vertices)
+      far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
     return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
   }
 
   void draw(std::uint32_t index) {
     const Triangle& t = frame_->triangles[index];
-    const std::array<glm::dvec3, 3> p{frame_->vertices[t.vertex[0]], frame_->vertices[t.vertex[1]], frame_->vertices[t.vertex[2]]};
+    const std::array<glm::dvec3, 3> p{frame_->vertices[t.vertex[0]], frame_->vertices[t.vertex[1]],
+                                      frame_->vertices[t.vertex[2]]};
     const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
     const Camera& camera = frame_->camera;
-    const double eye_side = camera.perspective ? glm::dot(normal, camera.eye - p[0]) : -glm::dot(normal, camera.forward);
+    const double eye_side =
+        camera.perspective ? glm::dot(normal, camera.eye - p[0]) : -glm::dot(normal, camera.forward);
     const int light_side = caster_.facing(t);
     const bool lit = (eye_side > 0 && light_side > 0) || (eye_side < 0 && light_side < 0);
 
@@ -75,7 +79,8 @@ class Builder {
       polygon_.back().color = light_.displayed(p[i], towards_eye, s.color, lit, config_->channels == 1);
     }
     const bool same_color = polygon_[0].color == polygon_[1].color && polygon_[1].color == polygon_[2].color;
-    const glm::dvec3 mean = same_color ? polygon_[0].color : (polygon_[0].color + polygon_[1].color + polygon_[2].color) / 3.0;
+    const glm::dvec3 mean =
+        same_color ? polygon_[0].color : (polygon_[0].color + polygon_[1].color + polygon_[2].color) / 3.0;
 
     drawn_[index].first = static_cast<std::uint32_t>(out_.polygons.size());
     clipper_.clip(polygon_, nullptr, false);
@@ -84,11 +89,13 @@ class Builder {
     base.lit = lit;
     base.triangle = index;
     base.depth = depth_plane(eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]);
-    for (std::size_t c = 0; c < 3; ++c) base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
+    for (std::size_t c = 0; c < 3; ++c)
+      base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
     if (config_->smooth == 0 || same_color) {
       add_outline(base, polygon_);
     } else {
-      // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one depth plane.
+      // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one
+      // depth plane.
       for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
         piece_.assign({polygon_[0], polygon_[i], polygon_[i + 1]});
         ScreenPolygon piece = base;
@@ -107,7 +114,8 @@ class Builder {
     v.component = w.component;
     for (const CapFace& cap : w.caps) {
       const DrawnRange& range = drawn_[cap.triangle];
-      for (std::uint32_t i = 0; i < range.count; ++i) out_.volume_faces.push_back({range.first + i, cap.turned ? -1 : 1});
+      for (std::uint32_t i = 0; i < range.count; ++i)
+        out_.volume_faces.push_back({range.first + i, cap.turned ? -1 : 1});
       const Triangle& t = frame_->triangles[cap.triangle];
       const std::array<EyePoint, 3> p{eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]};
       cut_only(cap.turned ? std::array<EyePoint, 3>{p[2], p[1], p[0]} : p);
@@ -165,8 +173,8 @@ class Builder {
     out_.polygons.push_back(p);
   }
 
-  // The plane of three points of a polygon that is in polygon_, clipped. A plane too steep is one seen edge-on: within half a subpixel
-  // every depth of the polygon is in reach, and the mean of its vertices' is taken.
+  // The plane of three points of a polygon that is in polygon_, clipped. A plane too steep is one seen edge-on: within
+  // half a subpixel every depth of the polygon is in reach, and the mean of its vertices' is taken.
   ScreenPlane depth_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     if (const auto plane = view_.depth_plane(normal, a, polygon_[0])) return *plane;
@@ -223,8 +231,8 @@ void check_finite(const SceneFrame& frame) {
   for (std::size_t i = 0; i < frame.vertices.size(); ++i)
     if (!finite(frame.vertices[i])) throw Error(fmt::format("vertex {}: position is not finite", i));
   const Camera& c = frame.camera;
-  if (!finite(c.eye) || !finite(c.right) || !finite(c.up) || !finite(c.forward) || !(c.near > 0) || !std::isfinite(c.near) || !(c.half_height > 0) ||
-      !std::isfinite(c.half_height))
+  if (!finite(c.eye) || !finite(c.right) || !finite(c.up) || !finite(c.forward) || !(c.near > 0) ||
+      !std::isfinite(c.near) || !(c.half_height > 0) || !std::isfinite(c.half_height))
     throw Error("the camera is not finite, or its near plane or field of view is not positive");
   const Light& l = frame.light;
   if (!finite(l.directional ? l.direction : l.position)) throw Error("the light is not finite");

@@ -25,7 +25,8 @@ double srgb_encode(double linear) {
   return 0.653986 * s1 + 0.688709 * s2 - 0.318471 * s3 - 0.020188 * x - 0.004036;
 }
 
-glm::dvec3 LightView::displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base, bool lit, bool grey) const {
+glm::dvec3 LightView::displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base, bool lit,
+                                bool grey) const {
   glm::dvec3 light = glm::dvec3(kAmbient + kSky * 0.5 * (1.0 + glm::dot(normal, up_)));
   if (lit) {
     const glm::dvec3 to = towards(point);

@@ -2,6 +2,7 @@
 #include "geometry/shadow_volume.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <unordered_map>
@@ -9,7 +10,8 @@
 namespace kage {
 namespace {
 
-// Volumes reach past everything by this much, so that rounding leaves nothing between their far end and the last receiver.
+// Volumes reach past everything by this much, so that rounding leaves nothing between their far end and the last
+// receiver.
 constexpr double kMargin = 1.01;
 // A face is edge-on to a point light nearer to its plane than this share of the scene's reach.
 constexpr double kEdgeOn = 1e-9;
@@ -52,7 +54,8 @@ double ShadowCaster::light_distance(const Triangle& t) const {
   const glm::dvec3 normal = glm::cross(frame_->vertices[t.vertex[1]] - a, frame_->vertices[t.vertex[2]] - a);
   const double n = length(normal);
   if (!(n > 0)) return 0;
-  return frame_->light.directional ? -glm::dot(normal, frame_->light.direction) / n : glm::dot(normal, frame_->light.position - a) / n;
+  return frame_->light.directional ? -glm::dot(normal, frame_->light.direction) / n
+                                   : glm::dot(normal, frame_->light.position - a) / n;
 }
 
 int ShadowCaster::facing(const Triangle& t) const {
@@ -63,7 +66,8 @@ int ShadowCaster::facing(const Triangle& t) const {
 
 bool ShadowCaster::light_outside(const Component& part) const {
   if (frame_->light.directional) return true;
-  // Outside the box is surely outside; within it a component is treated as if the light were inside, which is right as well.
+  // Outside the box is surely outside; within it a component is treated as if the light were inside, which is right as
+  // well.
   Box box;
   for (std::uint32_t t = part.first; t < part.first + part.count; ++t)
     for (const std::uint32_t v : frame_->triangles[t].vertex) box.add(frame_->vertices[v]);
@@ -71,11 +75,12 @@ bool ShadowCaster::light_outside(const Component& part) const {
 }
 
 glm::dvec3 ShadowCaster::far_point(const glm::dvec3& p, double factor) const {
-  return frame_->light.directional ? p + frame_->light.direction * factor : frame_->light.position + (p - frame_->light.position) * factor;
+  return frame_->light.directional ? p + frame_->light.direction * factor
+                                   : frame_->light.position + (p - frame_->light.position) * factor;
 }
 
-// Directional: the length of the volume. Point: a point of the shadow of a face at distance d from the light's plane is at most
-// reach / d times as far from the light as the face is along its ray.
+// Directional: the length of the volume. Point: a point of the shadow of a face at distance d from the light's plane is
+// at most reach / d times as far from the light as the face is along its ray.
 double ShadowCaster::far_factor(double distance) const {
   return frame_->light.directional ? reach_ : std::max(reach_ / distance, kMargin);
 }

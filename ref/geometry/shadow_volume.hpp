@@ -2,9 +2,10 @@
 //
 // Shadow volumes in world space: which faces are caps, which polygons are sides.
 //
-// A volume is closed: caps (faces of the caster, turned to the light), sides (from the caps' border edges away from the light) and a far
-// end. The far end lies behind everything drawn, so it is never a span; it counts where the near plane cuts it.
-// [Matsumoto, section 2; parity needs volumes that cover no point twice: a convex solid's, or a single face's.]
+// A volume is closed: caps (faces of the caster, turned to the light), sides (from the caps' border edges away from the
+// light) and a far end. The far end lies behind everything drawn, so it is never a span; it counts where the near plane
+// cuts it. [Matsumoto, section 2; parity needs volumes that cover no point twice: a convex solid's, or a single
+// face's.]
 #pragma once
 
 #include <array>
@@ -16,13 +17,15 @@
 
 namespace kage {
 
-/// A cap: a triangle of the frame. `turned`: its own outside looks away from the light, so that it bounds the volume the other way.
+/// A cap: a triangle of the frame. `turned`: its own outside looks away from the light, so that it bounds the volume
+/// the other way.
 struct CapFace {
   std::uint32_t triangle = 0;
   bool turned = false;
 };
 
-/// A side from the edge (a, b) of a cap to (far_b, far_a); outward as written: a, far_a, far_b, b is counter-clockwise from outside.
+/// A side from the edge (a, b) of a cap to (far_b, far_a); outward as written: a, far_a, far_b, b is counter-clockwise
+/// from outside.
 struct SideFace {
   glm::dvec3 a, b, far_a, far_b;
 };
@@ -45,7 +48,8 @@ class ShadowCaster {
  public:
   ShadowCaster(const SceneFrame& frame, double extrusion);
 
-  /// The triangle's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts nothing).
+  /// The triangle's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts
+  /// nothing).
   [[nodiscard]] int facing(const Triangle& t) const;
 
   /// Call `emit` with every volume of the frame, in order of components and triangles.

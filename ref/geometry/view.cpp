@@ -37,9 +37,10 @@ ClipPoint View::to_clip(const EyePoint& p) const {
 
 double View::depth(double w) const { return camera_.perspective ? z_base_ - z_scale_ / w : z_base_ + z_scale_ * w; }
 
-std::optional<ScreenPlane> View::depth_plane(const glm::dvec3& normal, const EyePoint& point, const ClipPoint& anchor) const {
-  // Perspective: p = w (ex, ey, 1) with ex, ey linear on the screen, so normal . p = d gives 1/w = normal . (ex, ey, 1) / d.
-  // Parallel: w = (d - nx x - ny y) / nz.
+std::optional<ScreenPlane> View::depth_plane(const glm::dvec3& normal, const EyePoint& point,
+                                             const ClipPoint& anchor) const {
+  // Perspective: p = w (ex, ey, 1) with ex, ey linear on the screen, so normal . p = d gives 1/w = normal . (ex, ey, 1)
+  // / d. Parallel: w = (d - nx x - ny y) / nz.
   const double denominator = camera_.perspective ? glm::dot(normal, point) : normal.z;
   const double scale = -z_scale_ / denominator;
   const double slope_x = scale * normal.x * per_pixel_x_;
@@ -64,7 +65,8 @@ std::int64_t to_fixed(double v, int frac) {
 }
 
 ScreenVertex snap(const ClipPoint& p) {
-  return {static_cast<std::int32_t>(std::floor(p.sx / p.q * 256.0 + 0.5)), static_cast<std::int32_t>(std::floor(p.sy / p.q * 256.0 + 0.5))};
+  return {static_cast<std::int32_t>(std::floor(p.sx / p.q * 256.0 + 0.5)),
+          static_cast<std::int32_t>(std::floor(p.sy / p.q * 256.0 + 0.5))};
 }
 
 }  // namespace kage

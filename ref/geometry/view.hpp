@@ -13,7 +13,8 @@ namespace kage {
 /// A point seen from the camera: x to the right, y up, w forward, all from the eye.
 using EyePoint = glm::dvec3;
 
-/// A point before the division: screen position (sx / q, sy / q) in pixels, y down. q is the distance w (perspective) or 1 (parallel).
+/// A point before the division: screen position (sx / q, sy / q) in pixels, y down. q is the distance w (perspective)
+/// or 1 (parallel).
 struct ClipPoint {
   double sx = 0;
   double sy = 0;
@@ -24,7 +25,8 @@ struct ClipPoint {
 
 class View {
  public:
-  /// `far`: distance of the furthest thing to draw, > the camera's near. The camera's own far is not used: nothing drawn is cut there.
+  /// `far`: distance of the furthest thing to draw, > the camera's near. The camera's own far is not used: nothing
+  /// drawn is cut there.
   View(const Camera& camera, int width, int height, int z_bits, double far);
 
   [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const;
@@ -37,9 +39,10 @@ class View {
   /// Depth at distance w, in LSB.
   [[nodiscard]] double depth(double w) const;
 
-  /// The depth plane of the plane through `normal` and `point`, both in eye space, anchored at `anchor`, a point of it before the camera.
-  /// Empty if it is too steep: more than 2^(Z_BITS + 8) LSB a pixel.
-  [[nodiscard]] std::optional<ScreenPlane> depth_plane(const glm::dvec3& normal, const EyePoint& point, const ClipPoint& anchor) const;
+  /// The depth plane of the plane through `normal` and `point`, both in eye space, anchored at `anchor`, a point of it
+  /// before the camera. Empty if it is too steep: more than 2^(Z_BITS + 8) LSB a pixel.
+  [[nodiscard]] std::optional<ScreenPlane> depth_plane(const glm::dvec3& normal, const EyePoint& point,
+                                                       const ClipPoint& anchor) const;
 
   /// A plane of constant depth.
   [[nodiscard]] static ScreenPlane flat_plane(double value);
@@ -48,12 +51,12 @@ class View {
   Camera camera_;
   double near_;
   double far_;
-  double half_w_;      // of the picture, pixels
+  double half_w_;  // of the picture, pixels
   double half_h_;
   double per_pixel_x_;  // eye x per pixel at w = 1 (perspective) or everywhere (parallel)
   double per_pixel_y_;
-  double range_;       // LSB from near to far
-  double z_base_;      // perspective: depth = z_base - z_scale / w; parallel: z_base + z_scale w
+  double range_;   // LSB from near to far
+  double z_base_;  // perspective: depth = z_base - z_scale / w; parallel: z_base + z_scale w
   double z_scale_;
   double max_slope_;
 };

@@ -36,7 +36,8 @@ inline std::int64_t extract(std::span<const std::uint32_t> words, Field f) {
     shift = 0;
     ++i;
   }
-  return f.is_signed ? sign_extend(v, f.bits) : static_cast<std::int64_t>(f.bits == 64 ? v : v & ((std::uint64_t{1} << f.bits) - 1));
+  return f.is_signed ? sign_extend(v, f.bits)
+                     : static_cast<std::int64_t>(f.bits == 64 ? v : v & ((std::uint64_t{1} << f.bits) - 1));
 }
 
 /// Appends fields to words, least significant bit first.

@@ -2,6 +2,7 @@
 #include "kage/oracle.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "number/int128.hpp"
 
@@ -29,7 +30,8 @@ bool meets_line(std::span<const ScreenVertex> outline, int y) {
 // +1, -1 or 0: what the edge adds to the winding number round a point.
 int edge_winding(const ScreenVertex& a, const ScreenVertex& b, std::int64_t px, std::int64_t py) {
   if ((a.y <= py) == (b.y <= py)) return 0;
-  // Twice the signed area of (a, b, point). For an edge that goes down it is <= 0 where the point is right of it or on it.
+  // Twice the signed area of (a, b, point). For an edge that goes down it is <= 0 where the point is right of it or on
+  // it.
   const std::int64_t area = (std::int64_t{b.x} - a.x) * (py - a.y) - (std::int64_t{b.y} - a.y) * (px - a.x);
   if (a.y <= py) return area <= 0 ? 1 : 0;
   return area >= 0 ? -1 : 0;
@@ -60,11 +62,14 @@ void Oracle::line(int y) {
 int Oracle::winding(std::span<const ScreenVertex> outline, int x, int y) {
   int sum = 0;
   for (std::size_t i = 0; i < outline.size(); ++i)
-    sum += edge_winding(outline[i], outline[(i + 1) % outline.size()], std::int64_t{256} * x + 128, std::int64_t{256} * y + 128);
+    sum += edge_winding(outline[i], outline[(i + 1) % outline.size()], std::int64_t{256} * x + 128,
+                        std::int64_t{256} * y + 128);
   return sum;
 }
 
-bool Oracle::covers(std::uint32_t polygon, int x) const { return winding(g_->outline(g_->polygons[polygon]), x, y_) != 0; }
+bool Oracle::covers(std::uint32_t polygon, int x) const {
+  return winding(g_->outline(g_->polygons[polygon]), x, y_) != 0;
+}
 
 bool Oracle::nearer(const ScreenPlane& a, const ScreenPlane& b, int x) const {
   return depth(a, x, y_, config_.z_bits) < depth(b, x, y_, config_.z_bits);
@@ -80,7 +85,8 @@ bool Oracle::within_error(const ScreenPlane& a, const ScreenPlane& b, int x) con
 
 int Oracle::near_cap(const Volume& v, int x) const {
   int sum = 0;
-  for (const NearEdge& e : v.near) sum += edge_winding(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128);
+  for (const NearEdge& e : v.near)
+    sum += edge_winding(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128);
   return sum;
 }
 
@@ -88,7 +94,8 @@ OraclePixel Oracle::at(int x) const {
   OraclePixel p;
   for (const std::uint32_t i : drawn_) {
     if (!covers(i, x)) continue;
-    if (p.surface < 0 || nearer(g_->polygons[i].depth, g_->polygons[static_cast<std::uint32_t>(p.surface)].depth, x)) p.surface = static_cast<std::int32_t>(i);
+    if (p.surface < 0 || nearer(g_->polygons[i].depth, g_->polygons[static_cast<std::uint32_t>(p.surface)].depth, x))
+      p.surface = static_cast<std::int32_t>(i);
   }
   if (p.surface < 0) return p;
   const int mask = (1 << config_.dsf_bits) - 1;
@@ -96,7 +103,8 @@ OraclePixel Oracle::at(int x) const {
     int sum = near_cap(v, x);
     for (const Face& f : v.faces) {
       const ScreenPolygon& face = g_->polygons[f.polygon];
-      if (nearer(face.depth, g_->polygons[static_cast<std::uint32_t>(p.surface)].depth, x)) sum += f.w * winding(g_->outline(face), x, y_);
+      if (nearer(face.depth, g_->polygons[static_cast<std::uint32_t>(p.surface)].depth, x))
+        sum += f.w * winding(g_->outline(face), x, y_);
     }
     if ((sum & mask) != 0) p.shadowed = true;
   }
@@ -106,7 +114,8 @@ OraclePixel Oracle::at(int x) const {
 Verdict Oracle::judge_surface(int x, const OraclePixel& truth, std::int32_t seen) const {
   if (seen == truth.surface) return Verdict::right;
   if (seen < 0 || truth.surface < 0 || !covers(static_cast<std::uint32_t>(seen), x)) return Verdict::gross;
-  return within_error(g_->polygons[static_cast<std::uint32_t>(seen)].depth, g_->polygons[static_cast<std::uint32_t>(truth.surface)].depth, x)
+  return within_error(g_->polygons[static_cast<std::uint32_t>(seen)].depth,
+                      g_->polygons[static_cast<std::uint32_t>(truth.surface)].depth, x)
              ? Verdict::near_tie
              : Verdict::gross;
 }
@@ -118,7 +127,8 @@ Verdict Oracle::judge_shadow(int x, const OraclePixel& truth, bool seen) const {
     for (const Face& f : v.faces) {
       const ScreenPolygon& face = g_->polygons[f.polygon];
       // The surface's own plane is the same numbers on both sides: no error can part them.
-      if (static_cast<std::int32_t>(f.polygon) != truth.surface && within_error(face.depth, surface, x) && winding(g_->outline(face), x, y_) != 0)
+      if (static_cast<std::int32_t>(f.polygon) != truth.surface && within_error(face.depth, surface, x) &&
+          winding(g_->outline(face), x, y_) != 0)
         return Verdict::near_tie;
     }
   return Verdict::gross;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "animation.hpp"
 
+#include <array>
 #include <algorithm>
 #include <iterator>
 

@@ -2,6 +2,7 @@
 //
 // glTF 2.0 into a RawScene. kage reads it itself, because Assimp computes with it (matrices and fields of view in float,
 // by libm) and the result differs between its versions; here numbers go from the file into the scene untouched.
+#include <array>
 #include <algorithm>
 #include <map>
 #include <set>

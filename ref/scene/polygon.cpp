@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Ear clipping, seen along the polygon's mean normal. Convex polygons, nearly all there are, become fans.
+#include <array>
+
 #include "polygon.hpp"
 
 #include "transform.hpp"

@@ -26,8 +26,8 @@ bool padding_is_zero(std::span<const std::uint32_t> words, unsigned bits) {
 
 }  // namespace
 
-TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where, std::uint64_t offset,
-                        FrameHeader* header) {
+TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
+                        std::uint64_t offset, FrameHeader* header) {
   TokenCounts counts;
   counts.words = words.size();
   const Layout layout(config);
@@ -36,7 +36,8 @@ TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> wor
   std::size_t at = 0;
   TokenRules rules;
   const auto fail = [&](const std::string& cause) {
-    throw Error(fmt::format("{}: frame {}, line {}, token {}, byte {}: {}", where, frame, rules.line(), token, offset + at * 4, cause));
+    throw Error(fmt::format("{}: frame {}, line {}, token {}, byte {}: {}", where, frame, rules.line(), token,
+                            offset + at * 4, cause));
   };
   const auto fail_code = [&](ErrorCode e) {
     fail(fmt::format("{} ({})", kErrorTexts[static_cast<unsigned>(e)], kErrorNames[static_cast<unsigned>(e)]));

@@ -15,6 +15,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstdio>
@@ -48,7 +49,8 @@ constexpr std::uint64_t padded(std::uint64_t size) { return (size + 7) / 8 * 8; 
 
 }  // namespace
 
-// ---- writing ------------------------------------------------------------------------------------------------------------
+// ---- writing
+// ------------------------------------------------------------------------------------------------------------
 
 struct StreamFileWriter::Data {
   std::filesystem::path path;
@@ -57,7 +59,9 @@ struct StreamFileWriter::Data {
   std::uint64_t frames = 0;
   std::uint32_t headers_crc = 0;
 
-  [[noreturn]] void fail(const char* what) const { throw Error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno))); }
+  [[noreturn]] void fail(const char* what) const {
+    throw Error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno)));
+  }
 
   void write(const void* data, std::size_t size) const {
     if (size != 0 && std::fwrite(data, 1, size, file) != size) fail("cannot write");
@@ -115,7 +119,8 @@ void StreamFileWriter::finish() {
   }
 }
 
-// ---- reading ------------------------------------------------------------------------------------------------------------
+// ---- reading
+// ------------------------------------------------------------------------------------------------------------
 
 struct StreamFile::Data {
   struct Frame {
@@ -137,7 +142,9 @@ struct StreamFile::Data {
     if (base != nullptr) ::munmap(const_cast<char*>(base), size);
   }
 
-  [[noreturn]] void fail(std::uint64_t at, const std::string& cause) const { throw Error(fmt::format("{}: byte {}: {}", name, at, cause)); }
+  [[noreturn]] void fail(std::uint64_t at, const std::string& cause) const {
+    throw Error(fmt::format("{}: byte {}: {}", name, at, cause));
+  }
 
   void map(const std::filesystem::path& path) {
     name = path.string();
@@ -170,7 +177,8 @@ struct StreamFile::Data {
       SectionHeader h{};
       std::memcpy(&h, base + at, sizeof h);
       const std::uint64_t payload = at + kSectionHeader;
-      if (h.size > size - payload || padded(h.size) > size - payload) fail(at, "a section reaches past the end of the file");
+      if (h.size > size - payload || padded(h.size) > size - payload)
+        fail(at, "a section reaches past the end of the file");
       const std::string_view tag(h.tag, 4);
       for (std::uint64_t i = h.size; i < padded(h.size); ++i)
         if (base[payload + i] != 0) fail(payload + i, "padding is not zero");
@@ -231,7 +239,8 @@ std::span<const std::uint32_t> StreamFile::frame(int index, TokenCounts* counts)
   const std::span<const std::uint32_t> words(reinterpret_cast<const std::uint32_t*>(payload), f.size / 4);
   if (crc(0, payload, f.size) != f.crc) {
     // Say where, if the damage can be seen in the tokens; the checksum is the verdict all the same.
-    (void)check_frame(data_->config, words, fmt::format("{}: section {}: checksum is wrong", data_->name, index), f.offset);
+    (void)check_frame(data_->config, words, fmt::format("{}: section {}: checksum is wrong", data_->name, index),
+                      f.offset);
     data_->fail(f.offset, fmt::format("checksum of frame {} is wrong", index));
   }
   const TokenCounts c = check_frame(data_->config, words, data_->name, f.offset);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The rules of token order, range and line (docs/stream.md, "Order in a line" and "Errors"), as one small machine that the
-// golden core and the file reader share.
+// The rules of token order, range and line (docs/stream.md, "Order in a line" and "Errors"), as one small machine that
+// the golden core and the file reader share.
 #pragma once
 
 #include "kage/stream.hpp"
@@ -21,7 +21,8 @@ class TokenRules {
     volume_open_ = false;
   }
 
-  /// The error of this token, or NONE; then the machine has moved on. Kinds that the configuration lacks are the caller's.
+  /// The error of this token, or NONE; then the machine has moved on. Kinds that the configuration lacks are the
+  /// caller's.
   ErrorCode accept(const Token& t) {
     if (!in_order(t.kind)) return ErrorCode::ORDER;
     if (!in_range(t)) return ErrorCode::RANGE;

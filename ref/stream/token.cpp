@@ -15,7 +15,8 @@ constexpr unsigned code(Kind k) { return static_cast<unsigned>(k); }
 
 }  // namespace
 
-TokenWriter::TokenWriter(const Config& config, std::vector<std::uint32_t>& out) : config_(config), layout_(config), out_(&out) {}
+TokenWriter::TokenWriter(const Config& config, std::vector<std::uint32_t>& out)
+    : config_(config), layout_(config), out_(&out) {}
 
 void TokenWriter::header(const FrameHeader& h) {
   out_->push_back(kStreamMagic << 16 | kStreamVersion);
@@ -138,7 +139,8 @@ std::string to_string(const Config& config, const Token& t) {
     case Kind::SHADE:
       return s + fmt::format(" {}/{}", t.shade, 1U << config.shade_frac);
     case Kind::OP: {
-      s += fmt::format(" [{}, {}) z {} dz {} color", p.xl, p.xr, static_cast<double>(p.z) * z_unit, static_cast<double>(p.dz) * z_unit);
+      s += fmt::format(" [{}, {}) z {} dz {} color", p.xl, p.xr, static_cast<double>(p.z) * z_unit,
+                       static_cast<double>(p.dz) * z_unit);
       const double c_unit = std::ldexp(1.0, -config.color_frac);
       for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c) {
         s += fmt::format("{}{}", c == 0 ? " " : ",", p.color[c] * c_unit);
@@ -147,7 +149,8 @@ std::string to_string(const Config& config, const Token& t) {
       return s + (config.dsf_bits == 0 ? "" : p.lit ? " lit" : " unlit");
     }
     case Kind::SP:
-      return s + fmt::format(" [{}, {}) w {:+} z {} dz {}", p.xl, p.xr, p.w, static_cast<double>(p.z) * z_unit, static_cast<double>(p.dz) * z_unit);
+      return s + fmt::format(" [{}, {}) w {:+} z {} dz {}", p.xl, p.xr, p.w, static_cast<double>(p.z) * z_unit,
+                             static_cast<double>(p.dz) * z_unit);
     case Kind::NC:
       return s + fmt::format(" [{}, {}) w {:+}", p.xl, p.xr, p.w);
     case Kind::IF:

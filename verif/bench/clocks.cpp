@@ -2,6 +2,9 @@
 // Clocks that tokens and lines cost in the RTL, measured by differences between frames, beside what the design says.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "cosim/core.hpp"
 #include "cosim/model.hpp"
 #include "cosim/rtl.hpp"
@@ -46,7 +49,8 @@ std::vector<std::uint32_t> frame(const Config& c, What what, int xl, int xr, int
 }  // namespace
 
 int main() {
-  fmt::print("{:<10} {:>5} {:>5} {:<6} {:>9} {:>6} {:>6} {:>14} {:>14}\n", "core", "lanes", "beat", "token", "range", "words", "groups", "clocks/token", "by design");
+  fmt::print("{:<10} {:>5} {:>5} {:<6} {:>9} {:>6} {:>6} {:>14} {:>14}\n", "core", "lanes", "beat", "token", "range",
+             "words", "groups", "clocks/token", "by design");
   bool as_designed = true;
   for (const int lanes : {0, 1, 4, 8}) {
     for (const int beat : {2, 4}) {
@@ -56,25 +60,37 @@ int main() {
       c.beat_words = beat;
       c.max_width = kWidth;
       const auto rtl = cosim::make_rtl(cosim::find_model(c).library, c);
-      const auto clocks = [&](const std::vector<std::uint32_t>& words) { return static_cast<double>(rtl->frame(words).cycles); };
+      const auto clocks = [&](const std::vector<std::uint32_t>& words) {
+        return static_cast<double>(rtl->frame(words).cycles);
+      };
       const Layout layout(c);
       for (const auto& [what, kind] : {std::pair{What::op, Kind::OP}, {What::sp, Kind::SP}, {What::nc, Kind::NC}})
         for (const auto& [xl, xr] : {std::pair{8, 8}, {8, 9}, {7, 9}, {3, 40}, {0, kWidth}}) {
-          // 200 tokens a line more, kLines times: what a line costs besides cancels, once tokens and not pixels out decide.
-          const double per_token = (clocks(frame(c, what, xl, xr, 400)) - clocks(frame(c, what, xl, xr, 200))) / (200.0 * kLines);
+          // 200 tokens a line more, kLines times: what a line costs besides cancels, once tokens and not pixels out
+          // decide.
+          const double per_token =
+              (clocks(frame(c, what, xl, xr, 400)) - clocks(frame(c, what, xl, xr, 200))) / (200.0 * kLines);
           const int words = layout.words[static_cast<std::size_t>(kind)];
           const int groups = lanes == 0 || xl == xr ? 1 : (xr - 1) / lanes - xl / lanes + 1;
           const double by_design = std::max({1.0, static_cast<double>(groups), static_cast<double>(words) / beat});
           const bool right = std::abs(per_token - by_design) < 1e-9;
           as_designed = as_designed && right;
-          fmt::print("{:<10} {:>5} {:>5} {:<6} {:>4}-{:<4} {:>6} {:>6} {:>14.4f} {:>14.4f}{}\n", lanes == 0 ? "systolic" : "banked", lanes == 0 ? kWidth : lanes, beat, kKindNames[static_cast<std::size_t>(kind)], xl, xr, words, groups,
-                     per_token, by_design, right ? "" : "  <-- differs");
+          fmt::print("{:<10} {:>5} {:>5} {:<6} {:>4}-{:<4} {:>6} {:>6} {:>14.4f} {:>14.4f}{}\n",
+                     lanes == 0 ? "systolic" : "banked", lanes == 0 ? kWidth : lanes, beat,
+                     kKindNames[static_cast<std::size_t>(kind)], xl, xr, words, groups, per_token, by_design,
+                     right ? "" : "  <-- differs");
         }
-      const double line = (clocks(frame(c, What::none, 0, 0, 0, 108)) - clocks(frame(c, What::none, 0, 0, 0, 8))) / 100.0;
-      // A line whose tokens take longer than its pixels need to leave: what is added to their clocks is the price of changing lines.
-      const double busy = (clocks(frame(c, What::op, 0, 1, 400, 108)) - clocks(frame(c, What::op, 0, 1, 400, 8))) / 100.0;
+      const double line =
+          (clocks(frame(c, What::none, 0, 0, 0, 108)) - clocks(frame(c, What::none, 0, 0, 0, 8))) / 100.0;
+      // A line whose tokens take longer than its pixels need to leave: what is added to their clocks is the price of
+      // changing lines.
+      const double busy =
+          (clocks(frame(c, What::op, 0, 1, 400, 108)) - clocks(frame(c, What::op, 0, 1, 400, 8))) / 100.0;
       const double busy_tokens = 400 * std::max(1.0, static_cast<double>(layout.words[6]) / beat);
-      fmt::print("{:<10} {:>5} {:>5} an empty line of {} pixels: {:.2f} clocks; changing lines adds {:.2f} clocks to a line of 400 tokens\n", lanes == 0 ? "systolic" : "banked", lanes == 0 ? kWidth : lanes, beat, kWidth, line, busy - busy_tokens);
+      fmt::print(
+          "{:<10} {:>5} {:>5} an empty line of {} pixels: {:.2f} clocks; changing lines adds {:.2f} clocks to a line "
+          "of 400 tokens\n",
+          lanes == 0 ? "systolic" : "banked", lanes == 0 ? kWidth : lanes, beat, kWidth, line, busy - busy_tokens);
     }
   }
   fmt::print("{}\n", as_designed ? "all as designed" : "NOT as designed");

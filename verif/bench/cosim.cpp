@@ -2,6 +2,7 @@
 // What a co-simulation of courtyard costs, part by part, on one thread, and golden model against RTL side by side.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "cosim/core.hpp"
@@ -17,7 +18,9 @@ namespace {
 
 using namespace kage;
 
-double seconds_since(std::chrono::steady_clock::time_point t) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count(); }
+double seconds_since(std::chrono::steady_clock::time_point t) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
+}
 
 /// Least time of a few runs of `work`.
 template <class Work>
@@ -41,10 +44,12 @@ int main() {
   const auto model = cosim::find_model(config);
   const auto start = std::chrono::steady_clock::now();
   const Scene scene = Scene::load("courtyard");
-  fmt::print("courtyard, {}x{}, {} frames, configuration default ({} lanes), one thread; least of 5 runs, RTL of 3\n", kWidth, kHeight, scene.frame_count(), config.lanes);
+  fmt::print("courtyard, {}x{}, {} frames, configuration default ({} lanes), one thread; least of 5 runs, RTL of 3\n",
+             kWidth, kHeight, scene.frame_count(), config.lanes);
   fmt::print("scene loaded and model opened in {:.3f} s\n", seconds_since(start));
-  fmt::print("{:>5} {:>8} {:>11} {:>12} {:>12} {:>14} {:>12} {:>11} {:>10} {:>12} {:>9}\n", "frame", "spans", "span pixels", "geometry ms", "front end ms", "golden ns/pixel", "golden ms", "RTL clocks",
-             "RTL ms", "clocks/pixel", "RTL/golden");
+  fmt::print("{:>5} {:>8} {:>11} {:>12} {:>12} {:>14} {:>12} {:>11} {:>10} {:>12} {:>9}\n", "frame", "spans",
+             "span pixels", "geometry ms", "front end ms", "golden ns/pixel", "golden ms", "RTL clocks", "RTL ms",
+             "clocks/pixel", "RTL/golden");
   double geometry_sum = 0;
   double front_sum = 0;
   double golden_sum = 0;
@@ -64,15 +69,19 @@ int main() {
     const double golden_time = least(5, [&] { (void)golden->frame(words); });
     std::uint64_t cycles = 0;
     const double rtl_time = least(3, [&] { cycles = rtl->frame(words).cycles; });
-    fmt::print("{:>5} {:>8} {:>11} {:>12.2f} {:>12.2f} {:>15.2f} {:>12.2f} {:>11} {:>10.1f} {:>12.3f} {:>9.1f}\n", i, counts.spans, counts.span_pixels, geometry * 1e3, front * 1e3, golden_time * 1e9 / kPixels,
-               golden_time * 1e3, cycles, rtl_time * 1e3, static_cast<double>(cycles) / kPixels, rtl_time / golden_time);
+    fmt::print("{:>5} {:>8} {:>11} {:>12.2f} {:>12.2f} {:>15.2f} {:>12.2f} {:>11} {:>10.1f} {:>12.3f} {:>9.1f}\n", i,
+               counts.spans, counts.span_pixels, geometry * 1e3, front * 1e3, golden_time * 1e9 / kPixels,
+               golden_time * 1e3, cycles, rtl_time * 1e3, static_cast<double>(cycles) / kPixels,
+               rtl_time / golden_time);
     geometry_sum += geometry;
     front_sum += front;
     golden_sum += golden_time;
     rtl_sum += rtl_time;
   }
   const double n = scene.frame_count();
-  fmt::print("golden: {:.2f} ns per pixel of the frame; RTL / golden: {:.1f}; co-simulation on one thread, pictures not counted: {:.2f} frames/s\n", golden_sum / n * 1e9 / kPixels, rtl_sum / golden_sum,
-             n / (geometry_sum + front_sum + golden_sum + rtl_sum));
+  fmt::print(
+      "golden: {:.2f} ns per pixel of the frame; RTL / golden: {:.1f}; co-simulation on one thread, pictures not "
+      "counted: {:.2f} frames/s\n",
+      golden_sum / n * 1e9 / kPixels, rtl_sum / golden_sum, n / (geometry_sum + front_sum + golden_sum + rtl_sum));
   return 0;
 }

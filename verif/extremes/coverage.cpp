@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Families 1 - 9, 11 and 13: which pixels a polygon covers.
+#include <algorithm>
+#include <array>
+
 #include "catch.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -16,7 +19,8 @@ namespace {
 constexpr int kWidth = 80;
 constexpr int kHeight = 60;
 
-/// Triangles that together are the rectangle from (x0, y0) to (x1, y1), in subpixels: points are strewn into triangles, which fall in three.
+/// Triangles that together are the rectangle from (x0, y0) to (x1, y1), in subpixels: points are strewn into triangles,
+/// which fall in three.
 std::vector<Outline> triangulate(Random& random, int x0, int y0, int x1, int y1, int points) {
   std::vector<Outline> t{{{x0, y0}, {x0, y1}, {x1, y1}}, {{x0, y0}, {x1, y1}, {x1, y0}}};
   for (int i = 0; i < points; ++i) {
@@ -56,7 +60,8 @@ TEST_CASE("family 1: a random triangulation of the screen hits every pixel once 
   for (int round = 0; round < 50; ++round) {
     CAPTURE(round);
     Hits whole(kWidth, kHeight);
-    for (const Outline& o : triangulate(random, -700, -900, kWidth * 256 + 5000, kHeight * 256 + 300, 400)) whole.add(o);
+    for (const Outline& o : triangulate(random, -700, -900, kWidth * 256 + 5000, kHeight * 256 + 300, 400))
+      whole.add(o);
     CHECK(whole.unlike(1) == 0);
 
     const int x0 = random.in(0, 20 * 256);
@@ -180,9 +185,10 @@ TEST_CASE("family 6: slivers one subpixel wide and 32k long are the oracle's") {
 }
 
 TEST_CASE("family 7: zero area, collinear and repeated vertices make no span and change no state") {
-  for (const Outline& o : {Outline{{100, 100}, {9000, 4000}, {100, 100}}, Outline{{128, 128}, {128, 128}, {128, 128}},
-                           Outline{{0, 0}, {2560, 2560}, {5120, 5120}}, Outline{{128, 384}, {9000, 384}, {500, 384}},
-                           Outline{{384, 128}, {384, 9000}, {384, 500}}, Outline{{128, 128}, {1280, 1280}, {1280, 1280}, {128, 128}}}) {
+  for (const Outline& o :
+       {Outline{{100, 100}, {9000, 4000}, {100, 100}}, Outline{{128, 128}, {128, 128}, {128, 128}},
+        Outline{{0, 0}, {2560, 2560}, {5120, 5120}}, Outline{{128, 384}, {9000, 384}, {500, 384}},
+        Outline{{384, 128}, {384, 9000}, {384, 500}}, Outline{{128, 128}, {1280, 1280}, {1280, 1280}, {128, 128}}}) {
     Hits hits(kWidth, kHeight);
     hits.add(o);
     CHECK(hits.unlike(0) == 0);
@@ -225,7 +231,8 @@ TEST_CASE("family 9: coordinates at the guard band are exact, one past is refuse
     CHECK_NOTHROW(frame_with(at, 0));
     CHECK_NOTHROW(frame_with(0, at));
   }
-  for (const std::int32_t at : {kLimit + 1, -kLimit - 1, (1 << 15) * 256, -(1 << 15) * 256, (1 << 15) * 256 + 1, INT32_MAX, INT32_MIN}) {
+  for (const std::int32_t at :
+       {kLimit + 1, -kLimit - 1, (1 << 15) * 256, -(1 << 15) * 256, (1 << 15) * 256 + 1, INT32_MAX, INT32_MIN}) {
     CHECK_THROWS_AS(frame_with(at, 0), Error);
     CHECK_THROWS_AS(frame_with(0, at), Error);
   }
@@ -261,7 +268,10 @@ TEST_CASE("family 11: a frame moved by whole pixels within the screen gives the 
         const int fx = x - dx;
         const int fy = y - dy;
         const bool inside = fx >= 0 && fx < kWidth && fy >= 0 && fy < kHeight;
-        wrong += b[static_cast<std::size_t>(y * kWidth + x)] != (inside ? a[static_cast<std::size_t>(fy * kWidth + fx)] : 0U) ? 1U : 0U;
+        wrong +=
+            b[static_cast<std::size_t>(y * kWidth + x)] != (inside ? a[static_cast<std::size_t>(fy * kWidth + fx)] : 0U)
+                ? 1U
+                : 0U;
       }
     CHECK(wrong == 0);
   }
@@ -280,7 +290,8 @@ TEST_CASE("family 13: spans of no, one and all pixels write 0, 1, W; joints at r
     w.end();
     GoldenCore core(config);
     std::vector<std::uint8_t> out;
-    const FrameStatus status = core.frame(words, [&out](int, std::span<const std::uint8_t> p) { out.assign(p.begin(), p.end()); });
+    const FrameStatus status =
+        core.frame(words, [&out](int, std::span<const std::uint8_t> p) { out.assign(p.begin(), p.end()); });
     REQUIRE(status.error == ErrorCode::NONE);
     return out;
   };

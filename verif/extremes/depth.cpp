@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Families 15 - 19: depth and colour along spans.
+#include <algorithm>
+#include <cmath>
+
 #include "catch.hpp"
 #include "frontend/span_setup.hpp"
 #include "scene/judge.hpp"
@@ -12,7 +15,9 @@ namespace {
 constexpr int kWidth = 96;
 constexpr int kHeight = 40;
 
-std::uint32_t pixel(const std::vector<std::uint32_t>& p, int x, int y) { return p[static_cast<std::size_t>(y * kWidth + x)]; }
+std::uint32_t pixel(const std::vector<std::uint32_t>& p, int x, int y) {
+  return p[static_cast<std::size_t>(y * kWidth + x)];
+}
 
 }  // namespace
 
@@ -118,7 +123,8 @@ TEST_CASE("family 18: planes further apart than the errors keep their order; cro
     FrameBuilder crossing(kWidth, kHeight);
     for (int i = 0; i < 6; ++i)
       crossing.add(rectangle(random.in(0, 20), 0, random.in(70, kWidth), kHeight),
-                   plane(c, random.real(-1, 1) * top / kWidth / 2, random.real(-1, 1) * top / kWidth / 2, kWidth / 2, kHeight / 2));
+                   plane(c, random.real(-1, 1) * top / kWidth / 2, random.real(-1, 1) * top / kWidth / 2, kWidth / 2,
+                         kHeight / 2));
     const Judgement j = judge(crossing.frame(), config);
     INFO(j.text());
     CHECK(j.good());

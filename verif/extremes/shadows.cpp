@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Families 21, 22, 24 - 28: shadows, held against the oracle.
+#include <cmath>
+
 #include "catch.hpp"
 #include "scene/judge.hpp"
 #include "scene/ray_truth.hpp"
@@ -107,7 +109,8 @@ TEST_CASE("family 22: nested, overlapping and touching casters in any order give
   }
 }
 
-TEST_CASE("family 24: eye inside, outside and on every shadow plane, plus and minus one ulp; near planes that cut volumes") {
+TEST_CASE(
+    "family 24: eye inside, outside and on every shadow plane, plus and minus one ulp; near planes that cut volumes") {
   Random random(test_seed(5));
   CAPTURE(test_seed(5));
   SceneFrame f;
@@ -180,7 +183,8 @@ TEST_CASE("family 26: volumes that reach further give the same picture, up to ne
       ++pixels;
       if (a[p] == b[p]) continue;
       ++different;
-      // Both snapped lines lie within sqrt(1/2) subpixel of the one true line, so the centre between them lies within sqrt(2) of either.
+      // Both snapped lines lie within sqrt(1/2) subpixel of the one true line, so the centre between them lies within
+      // sqrt(2) of either.
       const int x = static_cast<int>(p) % kWidth;
       const int y = static_cast<int>(p) / kWidth;
       CAPTURE(x, y);
@@ -199,7 +203,8 @@ TEST_CASE("family 27: a face that is the cap of its own volume has no acne, at a
     SceneFrame f;
     const bool one_face = i % 2 == 0;
     if (one_face)
-      add_solid(f, Solid{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {0, 0, 0}, {1, 1, 1}, random_turn(random), {1, 1, 1}, false, false);
+      add_solid(f, Solid{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {0, 0, 0}, {1, 1, 1}, random_turn(random),
+                {1, 1, 1}, false, false);
     else
       add_solid(f, octahedron_solid(), {0, 0, 0}, {1, 1, 1}, random_turn(random), {1, 1, 1});
     look_at(f.camera, {0, 0, 3}, {0, 0, 0});
@@ -212,7 +217,8 @@ TEST_CASE("family 27: a face that is the cap of its own volume has no acne, at a
       for (int x = 0; x < kWidth; ++x) {
         const OraclePixel p = oracle.at(x);
         // At the silhouette a side leaves the face in the same point; the snap may put it on either side there.
-        if (p.shadowed && g.polygons[static_cast<std::uint32_t>(p.surface)].lit && !near_volume_edge(g, x, y, 1.5)) ++lit_and_shadowed;
+        if (p.shadowed && g.polygons[static_cast<std::uint32_t>(p.surface)].lit && !near_volume_edge(g, x, y, 1.5))
+          ++lit_and_shadowed;
       }
     }
     CHECK(lit_and_shadowed == 0);
@@ -230,7 +236,7 @@ TEST_CASE("family 28: open, non-manifold and inverted casters shadow as rays say
     Solid open = random.chance(0.5) ? box_solid() : octahedron_solid();
     open.faces.pop_back();
     if (random.chance(0.5)) std::swap(open.faces[0][0], open.faces[0][1]);  // one face inverted
-    if (random.chance(0.5)) open.faces.push_back({0, 3, 5});                 // a fin: edges with three faces
+    if (random.chance(0.5)) open.faces.push_back({0, 3, 5});                // a fin: edges with three faces
     add_solid(f, open, {0, 0, 0}, {1.2, 1.2, 1.2}, random_turn(random), {1, 1, 1}, false, false);
     look_at(f.camera, {random.real(-4, 4), random.real(0, 4), random.real(2, 5)}, {0, -1, 0});
     f.light.directional = random.chance(0.5);

@@ -45,7 +45,7 @@ def run(step, command, log, cwd=None):
     if done.returncode != 0:
         saved = pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"
         shutil.copyfile(log, saved)
-        wanted = [line for line in saved.read_text(errors="replace").splitlines() if "rror" in line or line.startswith("%Warning")]
+        wanted = [line for line in saved.read_text(errors="replace").splitlines() if "rror" in line or "FAILED" in line or line.startswith("%Warning")]
         fail(f"{step} failed (log: {saved}){': ' + wanted[0].strip() if wanted else ''}")
 
 

@@ -6,6 +6,7 @@
 // the seed that repeats it; 2: trouble.
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <random>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // token_reader against a reader of words: frames sound, cut, too long, and dropped by the frame's control, for all widths of beats.
+#include <algorithm>
 #include <array>
 
 #include "Vtoken_reader1.h"

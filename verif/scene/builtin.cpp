@@ -2,6 +2,7 @@
 // The built-in scenes: the golden core's pictures against the oracle, and the bytes of their streams.
 #include <zlib.h>
 
+#include <array>
 #include <map>
 
 #include "catch.hpp"
@@ -25,7 +26,8 @@ TEST_CASE("built-in scenes: coverage, surfaces and shadows are the oracle's in e
     Judgement sum;
     for (int i = 0; i < scene.frame_count(); ++i) {
       CAPTURE(name, i);
-      const Judgement j = judge(make_geometry(scene.frame(i, scene.frame_count()), wide_enough(), 128, 96), wide_enough());
+      const Judgement j =
+          judge(make_geometry(scene.frame(i, scene.frame_count()), wide_enough(), 128, 96), wide_enough());
       INFO(j.text());
       CHECK(j.good());
       CHECK(j.shadowed > 0);
@@ -43,7 +45,8 @@ TEST_CASE("built-in scenes of large faces: surfaces and shadows are what rays sa
   for (const char* name : {"courtyard", "inside"}) {
     const Scene scene = Scene::load(name);
     RayCount count;
-    for (int i = 0; i < scene.frame_count(); ++i) count += compare_with_rays(scene.frame(i, scene.frame_count()), 160, 120);
+    for (int i = 0; i < scene.frame_count(); ++i)
+      count += compare_with_rays(scene.frame(i, scene.frame_count()), 160, 120);
     CAPTURE(name);
     INFO(count.text());
     CHECK(count.wrong_surface == 0);
@@ -54,8 +57,8 @@ TEST_CASE("built-in scenes of large faces: surfaces and shadows are what rays sa
 }
 
 TEST_CASE("built-in scenes: streams have the same bytes with every compiler, number of threads and Debian") {
-  // CRC-32 over the words of all frames at 320x240, flat and smooth. After a change that is meant to change them: run this test and
-  // copy what it prints.
+  // CRC-32 over the words of all frames at 320x240, flat and smooth. After a change that is meant to change them: run
+  // this test and copy what it prints.
   const std::map<std::string, std::array<std::uint32_t, 2>> expected{
 #include "scene/stream_checksums.inc"
   };

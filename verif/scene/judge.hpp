@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Holds the golden core's picture of a frame against the oracle, pixel by pixel. Nothing but the stream goes in and nothing but
-// pixels comes out: to see which surface a pixel shows, polygons are given their number as colour; to see its shadow, all are white.
+// Holds the golden core's picture of a frame against the oracle, pixel by pixel. Nothing but the stream goes in and
+// nothing but pixels comes out: to see which surface a pixel shows, polygons are given their number as colour; to see
+// its shadow, all are white.
 #pragma once
 
 #include <fmt/format.h>
@@ -28,9 +29,11 @@ struct Judgement {
 
   [[nodiscard]] bool good() const { return coverage_wrong == 0 && surface_gross == 0 && shadow_gross == 0; }
   [[nodiscard]] std::string text() const {
-    return fmt::format("{} pixels, {} covered, {} shadowed; coverage wrong {}; surface near ties {} gross {}; shadow near ties {} gross {}{}{}", pixels,
-                       covered, shadowed, coverage_wrong, surface_near, surface_gross, shadow_near, shadow_gross, first_gross.empty() ? "" : "; first: ",
-                       first_gross);
+    return fmt::format(
+        "{} pixels, {} covered, {} shadowed; coverage wrong {}; surface near ties {} gross {}; shadow near ties {} "
+        "gross {}{}{}",
+        pixels, covered, shadowed, coverage_wrong, surface_near, surface_gross, shadow_near, shadow_gross,
+        first_gross.empty() ? "" : "; first: ", first_gross);
   }
 };
 
@@ -42,7 +45,8 @@ inline std::vector<std::uint32_t> draw(const FrameGeometry& g, const Config& con
   GoldenCore core(config);
   std::vector<std::uint32_t> pixels;
   const FrameStatus status = core.frame(words, [&](int, std::span<const std::uint8_t> p) {
-    for (std::size_t i = 0; i < p.size(); i += 3) pixels.push_back(p[i] | static_cast<std::uint32_t>(p[i + 1]) << 8 | static_cast<std::uint32_t>(p[i + 2]) << 16);
+    for (std::size_t i = 0; i < p.size(); i += 3)
+      pixels.push_back(p[i] | static_cast<std::uint32_t>(p[i + 1]) << 8 | static_cast<std::uint32_t>(p[i + 2]) << 16);
   });
   if (status.error != ErrorCode::NONE) throw std::runtime_error("the golden core refuses the front end's frame");
   return pixels;
@@ -83,7 +87,8 @@ inline Judgement judge(FrameGeometry g, const Config& config) {
       if (shadow == Verdict::near_tie) ++j.shadow_near;
       if (shadow == Verdict::gross) ++j.shadow_gross;
       if ((surface == Verdict::gross || shadow == Verdict::gross) && j.first_gross.empty())
-        j.first_gross = fmt::format("({}, {}): surface {} for {}, shadow {} for {}", x, y, seen, truth.surface, shadows[at] == 0, truth.shadowed);
+        j.first_gross = fmt::format("({}, {}): surface {} for {}, shadow {} for {}", x, y, seen, truth.surface,
+                                    shadows[at] == 0, truth.shadowed);
     }
   }
   return j;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real meshes from Debian packages, held against the oracle: open, non-manifold, of many parts. A mesh that is not installed is named.
+// Real meshes from Debian packages, held against the oracle: open, non-manifold, of many parts. A mesh that is not
+// installed is named.
 #include <filesystem>
 
 #include "catch.hpp"

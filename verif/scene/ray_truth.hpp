@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rays say of an unsnapped scene, in double precision and by brute force: the surface that a pixel's centre sees, and whether a
-// face other than its own stands between it and the light. Pixels whose ray passes an edge, or a second surface, closer than the snap and the
-// depth errors reach are left out and counted.
+// What rays say of an unsnapped scene, in double precision and by brute force: the surface that a pixel's centre sees,
+// and whether a face other than its own stands between it and the light. Pixels whose ray passes an edge, or a second
+// surface, closer than the snap and the depth errors reach are left out and counted.
 #pragma once
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -14,7 +16,8 @@
 
 namespace kage::verif {
 
-/// True if the centre of pixel (x, y) lies within `subpixels` of an edge of some volume face, drawn polygon or near cap.
+/// True if the centre of pixel (x, y) lies within `subpixels` of an edge of some volume face, drawn polygon or near
+/// cap.
 inline bool near_volume_edge(const FrameGeometry& g, int x, int y, double subpixels) {
   const double px = 256.0 * x + 128;
   const double py = 256.0 * y + 128;
@@ -57,19 +60,21 @@ struct RayCount {
     return *this;
   }
   [[nodiscard]] std::string text() const {
-    return fmt::format("{} pixels, {} left out, {} lit, {} shadowed; wrong surfaces {}, wrong shadows {} {}", pixels, skipped, lit, shadowed,
-                       wrong_surface, wrong_shadow, first_wrong);
+    return fmt::format("{} pixels, {} left out, {} lit, {} shadowed; wrong surfaces {}, wrong shadows {} {}", pixels,
+                       skipped, lit, shadowed, wrong_surface, wrong_shadow, first_wrong);
   }
 };
 
-/// Where a ray meets a triangle: distance in units of `direction`, and whether it passes within `margin` (share of the triangle) of an edge.
+/// Where a ray meets a triangle: distance in units of `direction`, and whether it passes within `margin` (share of the
+/// triangle) of an edge.
 struct RayHit {
   bool hit = false;
   bool doubtful = false;
   double t = 0;
 };
 
-inline RayHit meet(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double margin) {
+inline RayHit meet(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
+                   const glm::dvec3& c, double margin) {
   const glm::dvec3 e1 = b - a;
   const glm::dvec3 e2 = c - a;
   const glm::dvec3 n = glm::cross(e1, e2);
@@ -101,7 +106,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, int width, int height) {
   g.shade = 0;
   for (std::uint32_t i = 0; i < g.drawn; ++i) {
     g.polygons[i].lit = true;
-    for (unsigned c = 0; c < 3; ++c) g.polygons[i].color[c] = static_cast<std::uint8_t>(g.polygons[i].triangle >> (8 * c));
+    for (unsigned c = 0; c < 3; ++c)
+      g.polygons[i].color[c] = static_cast<std::uint8_t>(g.polygons[i].triangle >> (8 * c));
   }
   const auto seen = draw(g, config);
   g.shade = 1U << config.shade_frac;
@@ -110,13 +116,15 @@ inline RayCount compare_with_rays(const SceneFrame& f, int width, int height) {
 
   const Camera& camera = f.camera;
   const double unit = 2 * camera.half_height / height;
-  constexpr double kMargin = 0.02;  // far more than half a subpixel of a 96 pixel wide picture on faces that cover some pixels
+  constexpr double kMargin =
+      0.02;  // far more than half a subpixel of a 96 pixel wide picture on faces that cover some pixels
   RayCount count;
   std::size_t at = 0;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x, ++at) {
       ++count.pixels;
-      const glm::dvec3 across = camera.right * ((x + 0.5 - width / 2.0) * unit) + camera.up * ((height / 2.0 - y - 0.5) * unit);
+      const glm::dvec3 across =
+          camera.right * ((x + 0.5 - width / 2.0) * unit) + camera.up * ((height / 2.0 - y - 0.5) * unit);
       const glm::dvec3 origin = camera.perspective ? camera.eye : camera.eye + across;
       const glm::dvec3 direction = camera.perspective ? camera.forward + across : camera.forward;
       double nearest = INFINITY;
@@ -145,7 +153,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, int width, int height) {
       }
       if (seen[at] != surface) {
         ++count.wrong_surface;
-        if (count.first_wrong.empty()) count.first_wrong = fmt::format("({}, {}): triangle {} for {}", x, y, seen[at], surface);
+        if (count.first_wrong.empty())
+          count.first_wrong = fmt::format("({}, {}): triangle {} for {}", x, y, seen[at], surface);
         continue;
       }
       if (surface == nothing) continue;
@@ -164,7 +173,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, int width, int height) {
       }
       // A face seen from its unlit side is not lit anyway: nothing to compare, as the core darkens only what is lit.
       const auto& own = f.triangles[surface].vertex;
-      const glm::dvec3 n = glm::normalize(glm::cross(f.vertices[own[1]] - f.vertices[own[0]], f.vertices[own[2]] - f.vertices[own[0]]));
+      const glm::dvec3 n =
+          glm::normalize(glm::cross(f.vertices[own[1]] - f.vertices[own[0]], f.vertices[own[2]] - f.vertices[own[0]]));
       const double light_side = glm::dot(n, glm::normalize(to_light));
       const bool lit = light_side * -glm::dot(n, direction) > 0;
       if (doubtful || !lit || std::abs(light_side) < 1e-3) {
@@ -174,7 +184,9 @@ inline RayCount compare_with_rays(const SceneFrame& f, int width, int height) {
       ++(blocked ? count.shadowed : count.lit);
       if ((shadow[at] == 0) != blocked) {
         ++count.wrong_shadow;
-        if (count.first_wrong.empty()) count.first_wrong = fmt::format("({}, {}): triangle {}, shadow {} for {}", x, y, surface, shadow[at] == 0, blocked);
+        if (count.first_wrong.empty())
+          count.first_wrong =
+              fmt::format("({}, {}): triangle {}, shadow {} for {}", x, y, surface, shadow[at] == 0, blocked);
       }
     }
   return count;

@@ -31,7 +31,8 @@ class Random {
 
   template <class Container>
   void shuffle(Container& c) {
-    for (std::size_t i = c.size(); i > 1; --i) std::swap(c[i - 1], c[static_cast<std::size_t>(integer(0, static_cast<std::int64_t>(i) - 1))]);
+    for (std::size_t i = c.size(); i > 1; --i)
+      std::swap(c[i - 1], c[static_cast<std::size_t>(integer(0, static_cast<std::int64_t>(i) - 1))]);
   }
 
  private:

@@ -3,6 +3,7 @@
 // Frames made of screen polygons by hand, and hit counts.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "frontend/scan.hpp"
@@ -15,15 +16,19 @@ using Outline = std::vector<ScreenVertex>;
 /// How often each pixel of a width x height screen is hit.
 class Hits {
  public:
-  Hits(int width, int height) : width_(width), height_(height), count_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+  Hits(int width, int height)
+      : width_(width), height_(height), count_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
   void add(const Outline& o) {
     scanner_.scan(o, 0, height_, width_, [this](int y, int xl, int xr, int) {
-      for (int x = xl; x < xr; ++x) ++count_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+      for (int x = xl; x < xr; ++x)
+        ++count_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
     });
   }
 
-  [[nodiscard]] int at(int x, int y) const { return count_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)]; }
+  [[nodiscard]] int at(int x, int y) const {
+    return count_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  }
   [[nodiscard]] const std::vector<int>& all() const { return count_; }
   [[nodiscard]] std::size_t unlike(int expected) const {
     std::size_t n = 0;

@@ -3,6 +3,7 @@
 // Scenes for tests, made of simple solids whose topology is known.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <vector>
@@ -42,14 +43,21 @@ struct Solid {
 inline Solid box_solid() {
   Solid s;
   for (unsigned i = 0; i < 8; ++i) s.vertices.push_back({i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1});
-  for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+  for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
+                                                {1, 3, 7, 5},
+                                                {0, 1, 5, 4},
+                                                {2, 6, 7, 3},
+                                                {0, 2, 3, 1},
+                                                {4, 5, 7, 6}}) {
     s.faces.push_back({q[0], q[1], q[2]});
     s.faces.push_back({q[0], q[2], q[3]});
   }
   return s;
 }
 
-inline Solid tetrahedron_solid() { return {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}}; }
+inline Solid tetrahedron_solid() {
+  return {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+}
 
 inline Solid octahedron_solid() {
   return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
@@ -57,8 +65,8 @@ inline Solid octahedron_solid() {
 }
 
 /// Add a solid as one component: p -> centre + turn(scale * p).
-inline void add_solid(SceneFrame& f, const Solid& s, const glm::dvec3& centre, const glm::dvec3& scale, const Turn& turn, const glm::dvec3& color,
-                      bool convex = true, bool closed = true) {
+inline void add_solid(SceneFrame& f, const Solid& s, const glm::dvec3& centre, const glm::dvec3& scale,
+                      const Turn& turn, const glm::dvec3& color, bool convex = true, bool closed = true) {
   const auto base = static_cast<std::uint32_t>(f.vertices.size());
   for (const glm::dvec3& p : s.vertices) f.vertices.push_back(centre + turn(p * scale));
   Component c;
@@ -94,10 +102,13 @@ inline SceneFrame random_scene(Random& random, int solids, bool convex_flag = tr
   for (int i = 0; i < solids; ++i) {
     const int kind = random.in(0, 2);
     const Solid s = kind == 0 ? box_solid() : kind == 1 ? tetrahedron_solid() : octahedron_solid();
-    add_solid(f, s, {random.real(-3, 3), random.real(-2, 2), random.real(-3, 3)}, {random.real(0.1, 1), random.real(0.1, 1), random.real(0.1, 1)},
-              random.chance(0.3) ? Turn{} : random_turn(random), {random.real(0.2, 1), random.real(0.2, 1), random.real(0.2, 1)}, convex_flag);
+    add_solid(f, s, {random.real(-3, 3), random.real(-2, 2), random.real(-3, 3)},
+              {random.real(0.1, 1), random.real(0.1, 1), random.real(0.1, 1)},
+              random.chance(0.3) ? Turn{} : random_turn(random),
+              {random.real(0.2, 1), random.real(0.2, 1), random.real(0.2, 1)}, convex_flag);
   }
-  look_at(f.camera, {random.real(-4, 4), random.real(-1.9, 4), random.real(-4, 4)}, {random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)});
+  look_at(f.camera, {random.real(-4, 4), random.real(-1.9, 4), random.real(-4, 4)},
+          {random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)});
   f.camera.perspective = random.chance(0.8);
   f.camera.half_height = f.camera.perspective ? random.real(0.2, 1.2) : random.real(1, 4);
   f.camera.near = random.real(0.02, 1.5);

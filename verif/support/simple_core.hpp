@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// docs/stream.md as plainly as it can be written: a pixel at a time, no vectors, no shared code but the bit positions. For tests of the
-// golden core.
+// docs/stream.md as plainly as it can be written: a pixel at a time, no vectors, no shared code but the bit positions.
+// For tests of the golden core.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kage/core.hpp"
@@ -14,7 +15,8 @@ namespace kage::verif {
 
 class SimpleCore {
  public:
-  SimpleCore(const Config& c, std::vector<std::uint32_t> words, std::vector<std::uint8_t>& out) : c_(c), l_(c), words_(std::move(words)), out_(&out) {
+  SimpleCore(const Config& c, std::vector<std::uint32_t> words, std::vector<std::uint8_t>& out)
+      : c_(c), l_(c), words_(std::move(words)), out_(&out) {
     while (words_.size() % static_cast<std::size_t>(c.beat_words) != 0) words_.push_back(0);
   }
 
@@ -82,20 +84,25 @@ class SimpleCore {
 
   [[nodiscard]] std::int64_t depth(Field z, Field dz, int k) const {
     const int bits = c_.z_bits + c_.z_frac + 2;
-    const std::int64_t v = shift_down(wrap(static_cast<Int128>(field(z)) + static_cast<Int128>(k) * field(dz), bits), c_.z_frac);
+    const std::int64_t v =
+        shift_down(wrap(static_cast<Int128>(field(z)) + static_cast<Int128>(k) * field(dz), bits), c_.z_frac);
     const std::int64_t top = (std::int64_t{1} << c_.z_bits) - 2;
     return v < 1 ? 1 : v > top ? top : v;
   }
 
   void clear() {
-    pixels_.assign(static_cast<std::size_t>(status_.width), Pixel{(std::int64_t{1} << c_.z_bits) - 1, {}, false, 0, false});
+    pixels_.assign(static_cast<std::size_t>(status_.width),
+                   Pixel{(std::int64_t{1} << c_.z_bits) - 1, {}, false, 0, false});
     bias_ = 0;
   }
 
   void end_line() {
     for (const Pixel& p : pixels_)
       for (int ch = 0; ch < c_.channels; ++ch)
-        out_->push_back(static_cast<std::uint8_t>(p.z == (std::int64_t{1} << c_.z_bits) - 1 ? words_[3] >> (8 * ch) : static_cast<std::uint32_t>(p.color[static_cast<std::size_t>(ch)])));
+        out_->push_back(
+            static_cast<std::uint8_t>(p.z == (std::int64_t{1} << c_.z_bits) - 1
+                                          ? words_[3] >> (8 * ch)
+                                          : static_cast<std::uint32_t>(p.color[static_cast<std::size_t>(ch)])));
     clear();
     ++line_;
   }
@@ -135,7 +142,10 @@ class SimpleCore {
           for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch) {
             p.color[ch] = field(l_.op_color[ch]);
             if (c_.smooth == 0) continue;
-            const std::int64_t v = shift_down(wrap(static_cast<Int128>(p.color[ch]) + static_cast<Int128>(k) * field(l_.op_dcolor[ch]), 10 + c_.color_frac), c_.color_frac);
+            const std::int64_t v =
+                shift_down(wrap(static_cast<Int128>(p.color[ch]) + static_cast<Int128>(k) * field(l_.op_dcolor[ch]),
+                                10 + c_.color_frac),
+                           c_.color_frac);
             p.color[ch] = v < 0 ? 0 : v > 255 ? 255 : v;
           }
         }
@@ -179,7 +189,8 @@ class SimpleCore {
         for (Pixel& p : pixels_) {
           const bool shadowed = c_.fsf != 0 ? p.fsf : (p.dsf + bias_) % modulus != 0;
           if (!shadowed || !p.lit || p.z == (std::int64_t{1} << c_.z_bits) - 1) continue;
-          for (std::int64_t& v : p.color) v = (v * ((1 << c_.shade_frac) - shade_) + (1 << (c_.shade_frac - 1))) >> c_.shade_frac;
+          for (std::int64_t& v : p.color)
+            v = (v * ((1 << c_.shade_frac) - shade_) + (1 << (c_.shade_frac - 1))) >> c_.shade_frac;
         }
         break;
       case Kind::EOL:
@@ -192,7 +203,8 @@ class SimpleCore {
         break;
       case Kind::END:
         if (!all_lines) return fail(ErrorCode::LINE), false;
-        if ((at_ / static_cast<std::size_t>(c_.beat_words) + 1) * static_cast<std::size_t>(c_.beat_words) != n) fail(ErrorCode::LAST_LATE);
+        if ((at_ / static_cast<std::size_t>(c_.beat_words) + 1) * static_cast<std::size_t>(c_.beat_words) != n)
+          fail(ErrorCode::LAST_LATE);
         return false;
       default:
         return false;
@@ -218,7 +230,8 @@ class SimpleCore {
   unsigned bias_ = 0;
 };
 
-inline FrameStatus simple_core(const Config& c, const std::vector<std::uint32_t>& words, std::vector<std::uint8_t>& out) {
+inline FrameStatus simple_core(const Config& c, const std::vector<std::uint32_t>& words,
+                               std::vector<std::uint8_t>& out) {
   return SimpleCore(c, words, out).run();
 }
 

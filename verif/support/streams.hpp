@@ -3,6 +3,7 @@
 // Random frames of tokens: valid ones, and what can happen to them on the way.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -28,7 +29,10 @@ inline void random_ramp(Random& random, int bits, int count, std::int64_t& start
 inline SpanToken random_span(Random& random, const Config& c, int width) {
   SpanToken s;
   s.xl = random.in(0, width);
-  s.xr = random.chance(0.2) ? width : random.chance(0.2) ? s.xl : random.chance(0.3) ? std::min(width, s.xl + random.in(0, 3)) : random.in(s.xl, width);
+  s.xr = random.chance(0.2)   ? width
+         : random.chance(0.2) ? s.xl
+         : random.chance(0.3) ? std::min(width, s.xl + random.in(0, 3))
+                              : random.in(s.xl, width);
   if (random.chance(0.1)) s.xl = 0;
   const int count = s.xr - s.xl;
   random_ramp(random, c.z_bits + c.z_frac + 2, count, s.z, s.dz);
@@ -52,8 +56,8 @@ inline int random_weight(Random& random, const Config& c) {
 }
 
 /// Append a valid frame; returns how many tokens of each kind it has.
-inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height, std::vector<std::uint32_t>& words,
-                                                  std::uint32_t number = 0) {
+inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height,
+                                                  std::vector<std::uint32_t>& words, std::uint32_t number = 0) {
   width = std::min(width, c.max_width);
   std::array<std::uint64_t, 16> count{};
   const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
@@ -118,7 +122,8 @@ inline void damage(Random& random, std::vector<std::uint32_t>& words) {
         words.resize(static_cast<std::size_t>(at));
         break;
       case 1:
-        for (int n = random.in(1, 9); n > 0; --n) words.push_back(static_cast<std::uint32_t>(random.integer(0, UINT32_MAX)));
+        for (int n = random.in(1, 9); n > 0; --n)
+          words.push_back(static_cast<std::uint32_t>(random.integer(0, UINT32_MAX)));
         break;
       case 2:
         words.erase(words.begin() + at);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector kernels, on every instruction set of this machine, against docs/stream.md written out pixel by pixel; and the core against it.
+// The vector kernels, on every instruction set of this machine, against docs/stream.md written out pixel by pixel; and
+// the core against it.
 #include <hwy/targets.h>
+
+#include <array>
 
 #include "catch.hpp"
 #include "kage/core.hpp"
@@ -11,7 +14,8 @@
 
 namespace kage::verif {
 
-TEST_CASE("the golden core is docs/stream.md to the letter, on every instruction set, for valid frames and damaged ones") {
+TEST_CASE(
+    "the golden core is docs/stream.md to the letter, on every instruction set, for valid frames and damaged ones") {
   Random random(test_seed());
   CAPTURE(test_seed());
   std::size_t targets = 0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
 #include "catch.hpp"
@@ -36,7 +37,8 @@ TEST_CASE("an unlit face gets ambient light only, a lit one more the straighter 
   CHECK(straight > oblique);
   CHECK(oblique > unlit);
   CHECK(straight <= 255);
-  CHECK(view.displayed({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, true, true).x == view.displayed({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, true, true).z);
+  CHECK(view.displayed({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, true, true).x ==
+        view.displayed({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, true, true).z);
 }
 
 }  // namespace kage::verif

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Formats that Assimp reads, the same file by both readers, and real meshes where Debian's packages carry them.
+#include <array>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

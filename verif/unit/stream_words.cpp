@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tokens to words and back, and the strict check of frames.
+#include <algorithm>
+
 #include "catch.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
@@ -45,7 +47,8 @@ TEST_CASE("every field of every token survives its way through the words, at its
       if (c.smooth != 0) s.dcolor[i] = static_cast<std::int32_t>(pick(l.op_dcolor[i]));
     }
     const auto same = [](const SpanToken& a, const SpanToken& b) {
-      return a.xl == b.xl && a.xr == b.xr && a.z == b.z && a.dz == b.dz && a.lit == b.lit && a.w == b.w && a.color == b.color && a.dcolor == b.dcolor;
+      return a.xl == b.xl && a.xr == b.xr && a.z == b.z && a.dz == b.dz && a.lit == b.lit && a.w == b.w &&
+             a.color == b.color && a.dcolor == b.dcolor;
     };
     std::vector<std::uint32_t> words;
     TokenWriter w(c, words);
@@ -107,24 +110,97 @@ TEST_CASE("faults are named with frame, line, token and byte") {
   using W = TokenWriter;
   using V = std::vector<std::uint32_t>;
   using Catch::Matchers::ContainsSubstring;
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.eol(1); }), ContainsSubstring("(LINE)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.end(); }), ContainsSubstring("(LINE)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.eol(0); t.eol(1); }), ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.eol(0); }), ContainsSubstring("(LAST_EARLY)"));
-  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v.push_back(0); }), ContainsSubstring("(KIND)"));
-  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v.push_back(13); }), ContainsSubstring("(KIND)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.ev(0, 1); }), ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.resolve(); }), ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.inside(1); t.resolve(); }), ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.inside(1); t.ev(0, 8); t.eol(0); }), ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.shade(0); t.shade(0); }), ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) { t.header({8, 1, 0, 0}); t.shade(257); }), ContainsSubstring("(RANGE)"));
-  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); t.eol(0); v.back() |= 1U << 31; }), ContainsSubstring("not zero"));
-  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); t.eol(0); t.end(); v.push_back(0); }), ContainsSubstring("words after END"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.eol(1);
+             }),
+             ContainsSubstring("(LINE)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.end();
+             }),
+             ContainsSubstring("(LINE)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.eol(0);
+               t.eol(1);
+             }),
+             ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.eol(0);
+             }),
+             ContainsSubstring("(LAST_EARLY)"));
+  CHECK_THAT(with([](W& t, V& v) {
+               t.header({8, 1, 0, 0});
+               v.push_back(0);
+             }),
+             ContainsSubstring("(KIND)"));
+  CHECK_THAT(with([](W& t, V& v) {
+               t.header({8, 1, 0, 0});
+               v.push_back(13);
+             }),
+             ContainsSubstring("(KIND)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.ev(0, 1);
+             }),
+             ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.resolve();
+             }),
+             ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.inside(1);
+               t.resolve();
+             }),
+             ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.inside(1);
+               t.ev(0, 8);
+               t.eol(0);
+             }),
+             ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.shade(0);
+               t.shade(0);
+             }),
+             ContainsSubstring("(ORDER)"));
+  CHECK_THAT(with([](W& t, V&) {
+               t.header({8, 1, 0, 0});
+               t.shade(257);
+             }),
+             ContainsSubstring("(RANGE)"));
+  CHECK_THAT(with([](W& t, V& v) {
+               t.header({8, 1, 0, 0});
+               t.eol(0);
+               v.back() |= 1U << 31;
+             }),
+             ContainsSubstring("not zero"));
+  CHECK_THAT(with([](W& t, V& v) {
+               t.header({8, 1, 0, 0});
+               t.eol(0);
+               t.end();
+               v.push_back(0);
+             }),
+             ContainsSubstring("words after END"));
   CHECK_THAT(with([](W& t, V&) { t.header({0, 1, 0, 0}); }), ContainsSubstring("(SIZE)"));
-  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v[0] ^= 1; }), ContainsSubstring("(HEADER)"));
-  CHECK_THAT(with([](W& t, V& v) { t.header({8, 1, 0, 0}); v[2] ^= 1; }), ContainsSubstring("(PARAMS)"));
-  CHECK_THAT(with([](W&, V& v) { v.push_back(kStreamMagic << 16 | kStreamVersion); }), ContainsSubstring("the header is cut"));
+  CHECK_THAT(with([](W& t, V& v) {
+               t.header({8, 1, 0, 0});
+               v[0] ^= 1;
+             }),
+             ContainsSubstring("(HEADER)"));
+  CHECK_THAT(with([](W& t, V& v) {
+               t.header({8, 1, 0, 0});
+               v[2] ^= 1;
+             }),
+             ContainsSubstring("(PARAMS)"));
+  CHECK_THAT(with([](W&, V& v) { v.push_back(kStreamMagic << 16 | kStreamVersion); }),
+             ContainsSubstring("the header is cut"));
   CHECK_THAT(with([](W& t, V&) {
                t.header({8, 1, 0, 0});
                SpanToken steep;

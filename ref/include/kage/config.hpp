@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Configurations of the core: reading, checking, naming. The parameters themselves come from rtl/defs/kage.yaml by defs.hpp.
+// Configurations of the core: reading, checking, naming. The parameters themselves come from rtl/defs/kage.yaml by
+// defs.hpp.
 #pragma once
 
 #include <string>
@@ -23,7 +24,8 @@ void validate(const Config& config, const std::string& where);
 /// The named configurations of rtl/configs.yaml, in listed order, all valid.
 std::vector<NamedConfig> named_configs();
 
-/// The configuration with this name, or the one in this file: YAML, one `PARAMETER: value` a line, others at their defaults.
+/// The configuration with this name, or the one in this file: YAML, one `PARAMETER: value` a line, others at their
+/// defaults.
 NamedConfig load_config(const std::string& name_or_file);
 
 /// The parameters as YAML, one a line, in the order of the definition file.

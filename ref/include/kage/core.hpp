@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The golden core: the pixels and the status that docs/stream.md demands for a frame of words, for any configuration. It reads
-// the words that the RTL reads and nothing else.
+// The golden core: the pixels and the status that docs/stream.md demands for a frame of words, for any configuration.
+// It reads the words that the RTL reads and nothing else.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ class GoldenCore {
   GoldenCore(GoldenCore&&) noexcept;
   GoldenCore& operator=(GoldenCore&&) noexcept;
 
-  /// Work through one frame: `words` up to and with TLAST's beat. The last beat is filled with zeros up to BEAT_WORDS, as the
-  /// port does it. Errors in the words are no exceptions but a status, and background pixels.
+  /// Work through one frame: `words` up to and with TLAST's beat. The last beat is filled with zeros up to BEAT_WORDS,
+  /// as the port does it. Errors in the words are no exceptions but a status, and background pixels.
   FrameStatus frame(std::span<const std::uint32_t> words, const LineSink& sink);
 
  private:

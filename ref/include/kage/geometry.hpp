@@ -2,9 +2,9 @@
 //
 // Geometry: a scene's frame as integers on the screen. Left of it all is floating point, right of it nothing is.
 //
-// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left pixel, whose
-// centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is nearer: 1 at the near plane,
-// 2^Z_BITS - 2 at the far plane. docs/numbers.md has every rounding with its bound.
+// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left
+// pixel, whose centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is
+// nearer: 1 at the near plane, 2^Z_BITS - 2 at the far plane. docs/numbers.md has every rounding with its bound.
 #pragma once
 
 #include <array>
@@ -32,8 +32,9 @@ struct ScreenVertex {
   bool operator==(const ScreenVertex&) const = default;
 };
 
-/// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. In the terms of the design:
-/// A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| < 2^(Z_BITS + 9 + 24).
+/// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. In the
+/// terms of the design: A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| <
+/// 2^(Z_BITS + 9 + 24).
 struct ScreenPlane {
   std::int64_t a = 0;
   std::int64_t b = 0;
@@ -42,7 +43,8 @@ struct ScreenPlane {
   std::int32_t y0 = 0;
 };
 
-/// A snapped polygon. Its outline is filled by winding number, so snapping may bend it without losing or doubling a pixel.
+/// A snapped polygon. Its outline is filled by winding number, so snapping may bend it without losing or doubling a
+/// pixel.
 struct ScreenPolygon {
   std::uint32_t first_vertex = 0;  ///< into FrameGeometry::vertices
   std::uint32_t vertex_count = 0;  ///< at least 3
@@ -71,7 +73,7 @@ struct ShadowVolume {
   std::uint32_t face_count = 0;
   std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
   std::uint32_t near_count = 0;
-  std::uint32_t component = 0;   ///< of the caster, into SceneFrame::components
+  std::uint32_t component = 0;  ///< of the caster, into SceneFrame::components
 };
 
 /// A frame on the screen.
@@ -79,11 +81,11 @@ struct FrameGeometry {
   int width = 0;
   int height = 0;
   std::uint32_t background = 0;
-  std::uint32_t shade = 0;                   ///< darkening of a shadowed pixel, in 2^-SHADE_FRAC
+  std::uint32_t shade = 0;  ///< darkening of a shadowed pixel, in 2^-SHADE_FRAC
   std::vector<ScreenVertex> vertices;
-  std::vector<ScreenPolygon> polygons;       ///< first the drawn ones, in draw order, then sides of volumes
-  std::uint32_t drawn = 0;                   ///< number of the drawn ones
-  std::vector<ScreenPlane> color_planes;     ///< value in units of an 8-bit colour
+  std::vector<ScreenPolygon> polygons;    ///< first the drawn ones, in draw order, then sides of volumes
+  std::uint32_t drawn = 0;                ///< number of the drawn ones
+  std::vector<ScreenPlane> color_planes;  ///< value in units of an 8-bit colour
   std::vector<VolumeFace> volume_faces;
   std::vector<NearEdge> near_edges;
   std::vector<ShadowVolume> volumes;
@@ -101,9 +103,10 @@ struct Look {
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
 };
 
-/// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each polygon
-/// has the mean of its corners), whether it is grey, and whether shadows are wanted.
-/// Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the camera is not finite.
-FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {});
+/// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
+/// polygon has the mean of its corners), whether it is grey, and whether shadows are wanted. Throws Error if width or
+/// height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the camera is not finite.
+FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height,
+                            const Look& look = {});
 
 }  // namespace kage

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The oracle: the exact answer at a pixel, from the snapped polygons, by sign tests in 128-bit integers. It shares no arithmetic
-// with the front end or the cores: no edge walking, no increments, no rounding. Slow, and meant to be.
+// The oracle: the exact answer at a pixel, from the snapped polygons, by sign tests in 128-bit integers. It shares no
+// arithmetic with the front end or the cores: no edge walking, no increments, no rounding. Slow, and meant to be.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ class Oracle {
   /// Work on line y from now on.
   void line(int y);
 
-  /// Winding number of an outline round the centre of pixel (x, y): each edge counts for the pixels at or right of it, its upper end
-  /// included, its lower end not.
+  /// Winding number of an outline round the centre of pixel (x, y): each edge counts for the pixels at or right of it,
+  /// its upper end included, its lower end not.
   [[nodiscard]] static int winding(std::span<const ScreenVertex> outline, int x, int y);
 
   /// Whether a drawn polygon covers the pixel.
@@ -46,8 +46,8 @@ class Oracle {
   [[nodiscard]] Verdict judge_surface(int x, const OraclePixel& truth, std::int32_t seen) const;
   [[nodiscard]] Verdict judge_shadow(int x, const OraclePixel& truth, bool seen) const;
 
-  /// Sum over the volume of winding numbers with factor of all faces and the near cap at the pixel, whatever their depth; with
-  /// the far end it is 0, so without it it is minus what the far end covers.
+  /// Sum over the volume of winding numbers with factor of all faces and the near cap at the pixel, whatever their
+  /// depth; with the far end it is 0, so without it it is minus what the far end covers.
   [[nodiscard]] int sum_of_toggles(std::uint32_t volume, int x) const;
 
  private:

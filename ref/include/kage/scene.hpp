@@ -2,9 +2,9 @@
 //
 // Scenes: what is to be drawn, in floating point and in world space, frame by frame.
 //
-// Units and conventions, for all of this header: right-handed coordinates, lengths in the file's unit, angles in radians.
-// All numbers are finite; a file with others is refused. Colours are linear, 0 .. 1. A Scene does not change once loaded, and
-// any number of threads may call frame() at once.
+// Units and conventions, for all of this header: right-handed coordinates, lengths in the file's unit, angles in
+// radians. All numbers are finite; a file with others is refused. Colours are linear, 0 .. 1. A Scene does not change
+// once loaded, and any number of threads may call frame() at once.
 #pragma once
 
 #include <array>
@@ -39,10 +39,10 @@ struct Light {
 
 /// A triangle, counter-clockwise seen from outside.
 struct Triangle {
-  std::array<std::uint32_t, 3> vertex;  ///< into SceneFrame::vertices
-  std::array<std::uint32_t, 3> shading; ///< into SceneFrame::shading
-  std::uint32_t object = 0;             ///< into Scene::objects()
-  std::uint32_t face = 0;               ///< number of the face within its object, as in the file
+  std::array<std::uint32_t, 3> vertex;   ///< into SceneFrame::vertices
+  std::array<std::uint32_t, 3> shading;  ///< into SceneFrame::shading
+  std::uint32_t object = 0;              ///< into Scene::objects()
+  std::uint32_t face = 0;                ///< number of the face within its object, as in the file
 };
 
 /// What shading needs at a corner of a triangle.
@@ -55,20 +55,22 @@ struct ShadingVertex {
 struct Component {
   std::uint32_t first = 0;  ///< first of its triangles; they are consecutive in SceneFrame::triangles
   std::uint32_t count = 0;
-  bool closed = false;      ///< every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0
-  bool convex = false;      ///< closed, and no vertex is further than the stated tolerance outside a face's plane
-  std::string reason;       ///< why it is not closed or not convex, naming the edge or vertex; empty if it is both
+  bool closed =
+      false;  ///< every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0
+  bool convex = false;  ///< closed, and no vertex is further than the stated tolerance outside a face's plane
+  std::string reason;   ///< why it is not closed or not convex, naming the edge or vertex; empty if it is both
 };
 
 /// One frame of a scene: all that geometry needs.
-/// Vertices are welded: corners at the same position in the same object share an index, so neighbours share coordinates.
-/// Triangles of inside-out closed components are turned so that they face outward.
+/// Vertices are welded: corners at the same position in the same object share an index, so neighbours share
+/// coordinates. Triangles of inside-out closed components are turned so that they face outward.
 struct SceneFrame {
   Camera camera;
   Light light;
   std::vector<glm::dvec3> vertices;
   std::vector<ShadingVertex> shading;
-  std::vector<Triangle> triangles;    ///< in draw order: objects in the file's order, components in order of their first face
+  std::vector<Triangle>
+      triangles;  ///< in draw order: objects in the file's order, components in order of their first face
   std::vector<Component> components;  ///< in the order of their triangles; every triangle belongs to one
 };
 

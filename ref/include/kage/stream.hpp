@@ -36,8 +36,8 @@ struct SpanToken {
   std::array<std::int32_t, 3> dcolor{};  ///< OP, SMOOTH: per pixel
 };
 
-/// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and ranges; fields are cut to
-/// their widths (assertions check them in debug builds).
+/// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and ranges; fields are
+/// cut to their widths (assertions check them in debug builds).
 class TokenWriter {
  public:
   TokenWriter(const Config& config, std::vector<std::uint32_t>& out);
@@ -84,11 +84,11 @@ struct TokenCounts {
   std::uint64_t span_pixels = 0;  ///< pixels in them
 };
 
-/// Check a whole frame as strictly as a file is: every field in its range, order of tokens, bits past the last field zero, no span
-/// whose depth or colour overflows its accumulator. Returns the counts. On a fault throws Error that names frame, line, token
-/// and byte offset; `where` opens the message and `offset` is that of the first word.
-TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where, std::uint64_t offset,
-                        FrameHeader* header = nullptr);
+/// Check a whole frame as strictly as a file is: every field in its range, order of tokens, bits past the last field
+/// zero, no span whose depth or colour overflows its accumulator. Returns the counts. On a fault throws Error that
+/// names frame, line, token and byte offset; `where` opens the message and `offset` is that of the first word.
+TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
+                        std::uint64_t offset, FrameHeader* header = nullptr);
 
 /// Writes a stream file: the file appears under its name only when finish() has succeeded.
 class StreamFileWriter {
@@ -106,8 +106,8 @@ class StreamFileWriter {
   std::unique_ptr<Data> data_;
 };
 
-/// A stream file, mapped. Opening checks magic, version, configuration and the list of sections; frame() checks the section's
-/// checksum and the frame's tokens.
+/// A stream file, mapped. Opening checks magic, version, configuration and the list of sections; frame() checks the
+/// section's checksum and the frame's tokens.
 class StreamFile {
  public:
   explicit StreamFile(const std::filesystem::path& path);
@@ -119,7 +119,8 @@ class StreamFile {
   [[nodiscard]] int frame_count() const;
   [[nodiscard]] std::uint64_t bytes() const;
 
-  /// Words of frame `index`, valid as long as this object. Checked on every call; counts are added to `counts` if given.
+  /// Words of frame `index`, valid as long as this object. Checked on every call; counts are added to `counts` if
+  /// given.
   [[nodiscard]] std::span<const std::uint32_t> frame(int index, TokenCounts* counts = nullptr) const;
 
  private:
