@@ -9,7 +9,7 @@
 //   (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC.
 // Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so the one
 //   multiplier per channel here does the work of LANES of them in the pass that empties the line.
-// Latency: 7 clocks from a complete line to its first pixel.
+// Latency: 8 clocks from a line's first group to its first pixel.
 // Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without shadows).
 `default_nettype none
 
@@ -51,17 +51,20 @@ module line_out #(
   localparam int LaneBits = LANES > 1 ? $clog2(LANES) : 1;
 
   // ---- buffers in use ----------------------------------------------------------------------------------------------
-  logic [1:0] taken_q, full_q;  // buffers not free; buffers whose line is complete
-  logic line_complete, line_left;
+  logic [1:0] taken_q, begun_q;  // buffers not free; those whose line has begun to come in
+  logic filling_q, line_begins, line_complete, line_left;
   assign exit_free_o   = taken_q != 2'd2;
+  assign line_begins   = exit_valid_i && !filling_q;
   assign line_complete = exit_valid_i && exit_last_i;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      taken_q <= '0;
-      full_q  <= '0;
+      taken_q   <= '0;
+      begun_q   <= '0;
+      filling_q <= 1'b0;
     end else begin
       taken_q <= taken_q + 2'(exit_take_i) - 2'(line_left);
-      full_q  <= full_q + 2'(line_complete) - 2'(line_left);
+      begun_q <= begun_q + 2'(line_begins) - 2'(line_left);
+      if (exit_valid_i) filling_q <= !exit_last_i;
     end
   end
 
@@ -93,8 +96,9 @@ module line_out #(
   logic [SHADE_FRAC:0] keep_q;  // 1 - shade
   logic [Depth-1:0] valid_q;
 
+  // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake them.
   // A frame's first line waits for the pipeline to drain, since background and shade are kept once, not per stage.
-  assign start = line_valid_i && full_q != '0 && (!sending_q || (go && issue_last)) && !(sending_q && full_q == 2'd1) &&
+  assign start = line_valid_i && begun_q != '0 && (!sending_q || (go && issue_last)) && !(sending_q && begun_q == 2'd1) &&
       !(line_first_i && (sending_q || valid_q != '0));
   assign line_ready_o = start;
   assign issue = sending_q;
@@ -228,8 +232,8 @@ module line_out #(
     if (rst_ni) begin
       // 1. No line comes without a buffer.
       assert (!exit_take_i || exit_free_o);
-      // 2. No more lines are complete than buffers are taken.
-      assert (full_q <= taken_q);
+      // 2. No more lines have begun than buffers are taken.
+      assert (begun_q <= taken_q);
     end
   end
 `endif

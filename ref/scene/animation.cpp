@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "animation.hpp"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace kage::scene {
@@ -77,9 +77,15 @@ std::vector<Affine> pose(const RawScene& scene, double time) {
     const std::array<double, 4> v = sample(track, time);
     Local& l = local[track.node];
     switch (track.path) {
-      case RawPath::kTranslation: l.translation = {v[0], v[1], v[2]}; break;
-      case RawPath::kRotation: l.rotation = quaternion(v); break;
-      case RawPath::kScale: l.scale = {v[0], v[1], v[2]}; break;
+      case RawPath::kTranslation:
+        l.translation = {v[0], v[1], v[2]};
+        break;
+      case RawPath::kRotation:
+        l.rotation = quaternion(v);
+        break;
+      case RawPath::kScale:
+        l.scale = {v[0], v[1], v[2]};
+        break;
     }
   }
   std::vector<Affine> world;

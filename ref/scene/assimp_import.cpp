@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whatever else Assimp reads, into a RawScene. Assimp is asked for the file's data as they are, without its own processing:
-// kage triangulates, welds and orders itself.
+// Whatever else Assimp reads, into a RawScene. Assimp is asked for the file's data as they are, without its own
+// processing: kage triangulates, welds and orders itself.
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -159,8 +159,8 @@ void Reader::read_faces(const aiMesh& mesh, RawPrimitive& p) {
     corners.clear();
     for (unsigned i = 0; i < face.mNumIndices; ++i) {
       if (face.mIndices[i] >= mesh.mNumVertices)
-        throw Error(file_ + ": mesh '" + one_line(text(mesh.mName), 60) + "' face " + std::to_string(f) + " names vertex " +
-                    std::to_string(face.mIndices[i]) + " of " + std::to_string(mesh.mNumVertices));
+        throw Error(file_ + ": mesh '" + one_line(text(mesh.mName), 60) + "' face " + std::to_string(f) +
+                    " names vertex " + std::to_string(face.mIndices[i]) + " of " + std::to_string(mesh.mNumVertices));
       corners.push_back(vec3(mesh.mVertices[face.mIndices[i]]));
     }
     for (const auto& t : triangulate(corners)) {
@@ -176,7 +176,8 @@ glm::dvec3 Reader::read_material(unsigned index) {
   materials_.insert(index);
   const aiMaterial& material = *in_.mMaterials[index];
   aiColor4D color(1, 1, 1, 1);
-  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != AI_SUCCESS && material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS)
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != AI_SUCCESS &&
+      material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS)
     return {1, 1, 1};
   const glm::dvec3 c{color.r, color.g, color.b};
   return is_finite(c) ? c : glm::dvec3{1, 1, 1};
@@ -197,19 +198,20 @@ void Reader::read_cameras() {
       // The importers store the whole horizontal angle, whatever the header says of half of it.
       const double angle = c.mHorizontalFOV;
       if (!(angle > 0 && angle < portable::kPi)) {
-        out_.notes.push_back("the camera's field of view is not between 0 and pi: the camera is ignored");
+        out_.notes.emplace_back("the camera's field of view is not between 0 and pi: the camera is ignored");
         continue;
       }
       camera.half_height = portable::tan(angle / 2) / aspect;
     } else {
       camera.half_height = static_cast<double>(c.mOrthographicWidth) / aspect;
     }
-    const bool given = static_cast<float>(kAssimpNear) != c.mClipPlaneNear || static_cast<float>(kAssimpFar) != c.mClipPlaneFar;
+    const bool given =
+        static_cast<float>(kAssimpNear) != c.mClipPlaneNear || static_cast<float>(kAssimpFar) != c.mClipPlaneFar;
     if (given && c.mClipPlaneNear > 0 && std::isfinite(c.mClipPlaneNear)) camera.near = c.mClipPlaneNear;
     if (given && c.mClipPlaneFar > c.mClipPlaneNear && std::isfinite(c.mClipPlaneFar)) camera.far = c.mClipPlaneFar;
     const glm::dvec3 right = cross(camera.forward, camera.up);
     if (!is_finite(right) || right == glm::dvec3{0, 0, 0} || !is_finite(camera.eye)) {
-      out_.notes.push_back("the camera has no direction: it is ignored");
+      out_.notes.emplace_back("the camera has no direction: it is ignored");
       continue;
     }
     out_.camera = camera;
@@ -232,9 +234,12 @@ void Reader::read_lights() {
     light.direction = vec3(l.mDirection);
     light.position = vec3(l.mPosition);
     light.color = rgb(l.mColorDiffuse);
-    if (l.mType == aiLightSource_SPOT) out_.notes.push_back("the light '" + name + "' is a spot, read as a point light");
-    if (l.mType == aiLightSource_AREA) out_.notes.push_back("the light '" + name + "' is an area, read as a point light");
-    if (!is_finite(light.direction) || !is_finite(light.position)) throw Error(file_ + ": light '" + name + "' is not finite");
+    if (l.mType == aiLightSource_SPOT)
+      out_.notes.push_back("the light '" + name + "' is a spot, read as a point light");
+    if (l.mType == aiLightSource_AREA)
+      out_.notes.push_back("the light '" + name + "' is an area, read as a point light");
+    if (!is_finite(light.direction) || !is_finite(light.position))
+      throw Error(file_ + ": light '" + name + "' is not finite");
     out_.light = light;
   }
 }
@@ -249,7 +254,8 @@ void Reader::read_animation() {
     for (const RawTrack& t : out_.tracks) out_.start_time = std::min(out_.start_time, t.times[0]);
   }
   if (in_.mNumAnimations > 1)
-    out_.notes.push_back(counted(in_.mNumAnimations - 1, "animation is", "animations are") + " ignored: the first is played");
+    out_.notes.push_back(counted(in_.mNumAnimations - 1, "animation is", "animations are") +
+                         " ignored: the first is played");
 }
 
 void Reader::read_node_animation(const aiNodeAnim& channel) {
@@ -268,7 +274,8 @@ void Reader::read_node_animation(const aiNodeAnim& channel) {
     return t;
   };
   const auto push = [](RawTrack& t, double time, std::initializer_list<double> value) {
-    if (!std::isfinite(time) || (!t.times.empty() && time <= t.times.back())) return;  // a key that goes back is skipped
+    if (!std::isfinite(time) || (!t.times.empty() && time <= t.times.back()))
+      return;  // a key that goes back is skipped
     t.times.push_back(time);
     t.values.insert(t.values.end(), value);
   };

@@ -57,7 +57,8 @@ std::int64_t positive(const char* variable, std::int64_t otherwise, std::int64_t
   const char* end = text + std::strlen(text);
   const auto [stop, error] = std::from_chars(text, end, value);
   if (error != std::errc() || stop != end || value < 1 || value > most)
-    throw Error(std::string(variable) + ": '" + one_line(text, 40) + "' is not a number from 1 to " + std::to_string(most));
+    throw Error(std::string(variable) + ": '" + one_line(text, 40) + "' is not a number from 1 to " +
+                std::to_string(most));
   return value;
 }
 
@@ -68,8 +69,8 @@ void limit(int resource, std::uint64_t value) {
   setrlimit(static_cast<__rlimit_resource>(resource), &r);
 }
 
-// RLIMIT_DATA counts private writable memory, which is what an importer eats. RLIMIT_AS would also count what the program
-// has mapped, and the terabytes that sanitizers reserve.
+// RLIMIT_DATA counts private writable memory, which is what an importer eats. RLIMIT_AS would also count what the
+// program has mapped, and the terabytes that sanitizers reserve.
 void limit_memory(std::int64_t mib) {
   std::ifstream statm("/proc/self/statm");
   std::uint64_t pages[6] = {};
@@ -218,7 +219,8 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   if (signal == SIGXCPU) throw Error(no_time);
   if (signal != 0) throw Error(name + ": killed by signal " + std::to_string(signal) + " while importing");
   if (bytes.size() < 2 || bytes.back() != kDone) {
-    const std::string code = ended == pid && WIFEXITED(status) ? " with code " + std::to_string(WEXITSTATUS(status)) : "";
+    const std::string code =
+        ended == pid && WIFEXITED(status) ? " with code " + std::to_string(WEXITSTATUS(status)) : "";
     throw Error(name + ": the import process ended" + code + " and gave no scene");
   }
   const std::uint8_t kind = bytes.front();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Import runs in a child process, because no reader of forty formats survives every file: Assimp crashes, hangs or eats all
-// memory on some. The child is forked, not executed anew: a library has no program of its own that it could execute. It
-// does nothing but read the file and write the scene into a pipe, and leaves by _exit. glibc keeps malloc and stdio
-// usable after fork() in a program with threads; should another thread hold some other lock at that moment, the
-// child waits for ever and the time limit ends it.
+// Import runs in a child process, because no reader of forty formats survives every file: Assimp crashes, hangs or eats
+// all memory on some. The child is forked, not executed anew: a library has no program of its own that it could
+// execute. It does nothing but read the file and write the scene into a pipe, and leaves by _exit. glibc keeps malloc
+// and stdio usable after fork() in a program with threads; should another thread hold some other lock at that moment,
+// the child waits for ever and the time limit ends it.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +28,8 @@ struct ImportLimits {
 /// import_file in a child process. Its death is an Error, as is a file that is missing, empty, unreadable or no file.
 RawScene import_in_child(const std::filesystem::path& path, const std::string& name);
 
-/// Run `work` in a child process and return what it returned; what it threw as Error is thrown here. Any other end is an Error
-/// that names `name` and the cause.
+/// Run `work` in a child process and return what it returned; what it threw as Error is thrown here. Any other end is
+/// an Error that names `name` and the cause.
 std::vector<std::uint8_t> run_in_child(const std::string& name, const ImportLimits& limits,
                                        const std::function<std::vector<std::uint8_t>()>& work);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A closed, connected surface that faces outward bounds a convex body exactly if no vertex lies outside the plane of a face
-// and it goes round its inside once. Edges are looked at first: nearly every surface that is not convex has a hollow edge,
-// which costs one distance to see. They do not suffice: in a finely cut shallow dent each edge is within the tolerance.
+// A closed, connected surface that faces outward bounds a convex body exactly if no vertex lies outside the plane of a
+// face and it goes round its inside once. Edges are looked at first: nearly every surface that is not convex has a
+// hollow edge, which costs one distance to see. They do not suffice: in a finely cut shallow dent each edge is within
+// the tolerance.
 #include <algorithm>
 #include <cmath>
 
@@ -39,7 +40,8 @@ std::vector<std::uint32_t> vertices_of(const std::vector<Corners>& triangles) {
 
 // Follow a ray from the middle of the body through the middle of its largest face: it must meet no other face. With all
 // vertices inside all planes every face is seen from within, so two faces on the ray mean two layers.
-bool wound_once(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles, const glm::dvec3& middle) {
+bool wound_once(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles,
+                const glm::dvec3& middle) {
   std::size_t largest = 0;
   double area = -1;
   for (std::size_t i = 0; i < triangles.size(); ++i) {

@@ -8,8 +8,8 @@
 namespace kage::portable {
 namespace {
 
-// Taylor coefficients suffice: the argument is at most pi/4, where the first term left out, x^19/19! or x^20/20!, is below
-// 1e-19 of the result.
+// Taylor coefficients suffice: the argument is at most pi/4, where the first term left out, x^19/19! or x^20/20!, is
+// below 1e-19 of the result.
 constexpr int kTerms = 9;
 
 constexpr std::array<double, kTerms> taylor(int first) {
@@ -52,8 +52,8 @@ struct Reduced {
   double tail;
 };
 
-// Cody and Waite: x - n pi/2 with pi/2 in three parts of 33, 33 and 53 bits. n has at most 20 bits, so that the products
-// with the first two parts are exact.
+// Cody and Waite: x - n pi/2 with pi/2 in three parts of 33, 33 and 53 bits. n has at most 20 bits, so that the
+// products with the first two parts are exact.
 Reduced reduce(double x) {
   constexpr double kPart1 = 0x1.921fb544p+0;
   constexpr double kPart2 = 0x1.0b4611a6p-34;

@@ -69,12 +69,16 @@ std::string percent_decoded(const std::string& uri) {
 std::size_t component_size(std::uint64_t type) {
   switch (type) {
     case 5120:
-    case 5121: return 1;
+    case 5121:
+      return 1;
     case 5122:
-    case 5123: return 2;
+    case 5123:
+      return 2;
     case 5125:
-    case 5126: return 4;
-    default: return 0;
+    case 5126:
+      return 4;
+    default:
+      return 0;
   }
 }
 
@@ -125,12 +129,14 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(
     if (text.size() < 20) fail("header", "the file ends within it");
     version_2_ = little(text.data() + 4) != 1;
     if (!version_2_) return;
-    if (little(text.data() + 4) != 2) fail("header", "version " + std::to_string(little(text.data() + 4)) + " is not 2");
+    if (little(text.data() + 4) != 2)
+      fail("header", "version " + std::to_string(little(text.data() + 4)) + " is not 2");
     if (little(text.data() + 8) > text.size())
-      fail("header", "says " + std::to_string(little(text.data() + 8)) + " bytes, the file has " +
-                         std::to_string(text.size()));
+      fail("header",
+           "says " + std::to_string(little(text.data() + 8)) + " bytes, the file has " + std::to_string(text.size()));
     const std::uint64_t json_bytes = little(text.data() + 12);
-    if (little(text.data() + 16) != 0x4e4f534a || 20 + json_bytes > text.size()) fail("JSON chunk", "missing or cut off");
+    if (little(text.data() + 16) != 0x4e4f534a || 20 + json_bytes > text.size())
+      fail("JSON chunk", "missing or cut off");
     const std::uint64_t next = 20 + json_bytes;
     if (next + 8 <= text.size() && little(text.data() + next + 4) == 0x004e4942) {
       const std::uint64_t bytes = little(text.data() + next);
@@ -178,7 +184,8 @@ std::optional<std::uint64_t> GltfFile::integer(const Json& object, const char* k
   if (whole && it->get<std::uint64_t>() < (std::uint64_t{1} << 53)) return it->get<std::uint64_t>();
   if (it->is_number_float()) {
     const double d = it->get<double>();
-    if (d >= 0 && d < 0x1p53 && d == static_cast<double>(static_cast<std::uint64_t>(d))) return static_cast<std::uint64_t>(d);
+    if (d >= 0 && d < 0x1p53 && d == static_cast<double>(static_cast<std::uint64_t>(d)))
+      return static_cast<std::uint64_t>(d);
   }
   fail(place, std::string("'") + key + "' is not a whole number");
 }
@@ -195,10 +202,12 @@ std::string GltfFile::text(const Json& object, const char* key) const {
   return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
 }
 
-std::vector<double> GltfFile::numbers(const Json& object, const char* key, std::size_t size, const std::string& place) const {
+std::vector<double> GltfFile::numbers(const Json& object, const char* key, std::size_t size,
+                                      const std::string& place) const {
   const auto it = object.find(key);
   if (it == object.end()) return {};
-  if (!it->is_array() || it->size() != size) fail(place, std::string("'") + key + "' is not " + std::to_string(size) + " numbers");
+  if (!it->is_array() || it->size() != size)
+    fail(place, std::string("'") + key + "' is not " + std::to_string(size) + " numbers");
   std::vector<double> values;
   for (const Json& v : *it) {
     if (!v.is_number()) fail(place, std::string("'") + key + "' holds what is not a number");
@@ -245,8 +254,7 @@ const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
     if (!std::filesystem::is_regular_file(file, error)) fail(here, "no file " + one_line(uri, 80));
     slot = read_file(file, bytes);
   }
-  if (slot->size() < bytes)
-    fail(here, "says " + std::to_string(bytes) + " bytes, has " + std::to_string(slot->size()));
+  if (slot->size() < bytes) fail(here, "says " + std::to_string(bytes) + " bytes, has " + std::to_string(slot->size()));
   slot->resize(static_cast<std::size_t>(bytes));
   return *slot;
 }
@@ -300,12 +308,24 @@ void GltfFile::copy(const View& view, std::uint64_t offset, std::uint64_t count,
     const std::uint8_t* p = view.data + offset + i * stride;
     for (std::size_t k = 0; k < components; ++k, p += size, ++out) {
       switch (type) {
-        case 5120: *out = converted<T, std::int8_t>(p, normalized); break;
-        case 5121: *out = converted<T, std::uint8_t>(p, normalized); break;
-        case 5122: *out = converted<T, std::int16_t>(p, normalized); break;
-        case 5123: *out = converted<T, std::uint16_t>(p, normalized); break;
-        case 5125: *out = converted<T, std::uint32_t>(p, normalized); break;
-        default: *out = converted<T, float>(p, normalized); break;
+        case 5120:
+          *out = converted<T, std::int8_t>(p, normalized);
+          break;
+        case 5121:
+          *out = converted<T, std::uint8_t>(p, normalized);
+          break;
+        case 5122:
+          *out = converted<T, std::int16_t>(p, normalized);
+          break;
+        case 5123:
+          *out = converted<T, std::uint16_t>(p, normalized);
+          break;
+        case 5125:
+          *out = converted<T, std::uint32_t>(p, normalized);
+          break;
+        default:
+          *out = converted<T, float>(p, normalized);
+          break;
       }
     }
   }
@@ -328,10 +348,10 @@ void GltfFile::elements(const Accessor& a, std::vector<T>& out, const std::strin
   if (!where_view || !what_view) fail(place, "its sparse part names no bufferView");
   std::vector<std::uint32_t> at(static_cast<std::size_t>(n));
   std::vector<T> values(static_cast<std::size_t>(n) * a.components);
-  copy(view(*where_view, place), integer(where, "byteOffset", place).value_or(0), n, 0, static_cast<int>(type), 1, false,
-       at.data(), place);
-  copy(view(*what_view, place), integer(what, "byteOffset", place).value_or(0), n, 0, a.type, a.components, a.normalized,
-       values.data(), place);
+  copy(view(*where_view, place), integer(where, "byteOffset", place).value_or(0), n, 0, static_cast<int>(type), 1,
+       false, at.data(), place);
+  copy(view(*what_view, place), integer(what, "byteOffset", place).value_or(0), n, 0, a.type, a.components,
+       a.normalized, values.data(), place);
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (at[i] >= a.count) fail(place, "sparse index " + std::to_string(at[i]) + " of " + std::to_string(a.count));
     for (std::size_t k = 0; k < a.components; ++k) out[at[i] * a.components + k] = values[i * a.components + k];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A glTF 2.0 file (.gltf or .glb): its JSON with checked access, its buffers and accessors. Everything that does not hold
-// what the format demands is an Error that names file and place.
+// A glTF 2.0 file (.gltf or .glb): its JSON with checked access, its buffers and accessors. Everything that does not
+// hold what the format demands is an Error that names file and place.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,8 @@ class GltfFile {
   [[nodiscard]] const Json& item(const char* array, std::uint64_t index, const std::string& place) const;
 
   // Members of an object. What is absent is the default; what is of another type is an Error.
-  [[nodiscard]] std::optional<std::uint64_t> integer(const Json& object, const char* key, const std::string& place) const;
+  [[nodiscard]] std::optional<std::uint64_t> integer(const Json& object, const char* key,
+                                                     const std::string& place) const;
   [[nodiscard]] std::optional<double> number(const Json& object, const char* key, const std::string& place) const;
   [[nodiscard]] std::string text(const Json& object, const char* key) const;
   /// `size` numbers, or none where the key is absent.
@@ -47,13 +48,14 @@ class GltfFile {
   [[nodiscard]] const Json& array(const Json& object, const char* key, const std::string& place) const;
   [[nodiscard]] const Json& object(const Json& parent, const char* key) const;
 
-  /// Values of an accessor as floats, normalised integers mapped as glTF says. `components`: 1 (SCALAR) to 4 (VEC4).
+  /// Values of an accessor as floats, normalised integers mapped as glTF says. It has `least` to `most` components:
+  /// 1 (SCALAR) to 4 (VEC4).
   struct Floats {
     std::vector<float> values;
     std::size_t components = 0;
   };
-  Floats floats(std::uint64_t accessor, std::size_t least_components, std::size_t most_components, const std::string& place);
-  std::vector<std::uint32_t> indices(std::uint64_t accessor, const std::string& place);
+  Floats floats(std::uint64_t index, std::size_t least, std::size_t most, const std::string& place);
+  std::vector<std::uint32_t> indices(std::uint64_t index, const std::string& place);
 
  private:
   struct View;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// glTF 2.0 into a RawScene. kage reads it itself, because Assimp computes with it (matrices and fields of view in float,
-// by libm) and the result differs between its versions; here numbers go from the file into the scene untouched.
-#include <array>
+// glTF 2.0 into a RawScene. kage reads it itself, because Assimp computes with it (matrices and fields of view in
+// float, by libm) and the result differs between its versions; here numbers go from the file into the scene untouched.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -56,8 +56,8 @@ class Importer {
 
   GltfFile file_;
   RawScene scene_;
-  std::map<std::uint64_t, std::int32_t> mesh_of_;        // file's mesh -> ours
-  std::map<std::uint64_t, std::uint32_t> node_of_;       // file's node -> ours
+  std::map<std::uint64_t, std::int32_t> mesh_of_;   // file's mesh -> ours
+  std::map<std::uint64_t, std::uint32_t> node_of_;  // file's node -> ours
   std::size_t cameras_ = 0;
   std::size_t lights_ = 0;
   std::size_t skins_ = 0;
@@ -193,7 +193,8 @@ void Importer::read_primitive(const Json& json, RawMesh& mesh, const std::string
   }
   if (const auto color = file_.integer(attributes, "COLOR_0", place)) {
     const GltfFile::Floats c = file_.floats(*color, 3, 4, place);
-    if (c.values.size() / c.components != p.vertex_count()) file_.fail(place, "has more or fewer colours than positions");
+    if (c.values.size() / c.components != p.vertex_count())
+      file_.fail(place, "has more or fewer colours than positions");
     bool translucent = false;
     for (std::size_t i = 0; i < c.values.size(); ++i)
       if (i % c.components < 3)
@@ -314,7 +315,9 @@ void Importer::read_channel(const Json& animation, const Json& channel, const st
 
   RawTrack track;
   track.node = known->second;
-  track.path = path == "translation" ? RawPath::kTranslation : path == "rotation" ? RawPath::kRotation : RawPath::kScale;
+  track.path = path == "translation" ? RawPath::kTranslation
+               : path == "rotation"  ? RawPath::kRotation
+                                     : RawPath::kScale;
   const Json& samplers = file_.array(animation, "samplers", place);
   const auto sampler_index = file_.integer(channel, "sampler", place);
   if (!sampler_index || *sampler_index >= samplers.size()) file_.fail(place, "names no sampler");
@@ -347,7 +350,8 @@ void Importer::write_notes() {
   };
   add(file_.count("textures"), "texture is", "textures are", " ignored");
   add(alpha_materials_.size(), "material has", "materials have", " alpha, which is ignored: drawn opaque");
-  add(alpha_primitives_, "primitive's vertices have", "primitives' vertices have", " alpha, which is ignored: drawn opaque");
+  add(alpha_primitives_, "primitive's vertices have", "primitives' vertices have",
+      " alpha, which is ignored: drawn opaque");
   add(thin_primitives_, "primitive of points or lines is", "primitives of points or lines are", " ignored");
   add(bare_primitives_, "primitive without positions is", "primitives without positions are", " ignored");
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
@@ -356,7 +360,8 @@ void Importer::write_notes() {
   add(instanced_, "node's", "nodes'", " GPU instances are ignored: drawn once");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
   add(lights_ > 1 ? lights_ - 1 : 0, "light is", "lights are", " ignored: the first is used");
-  if (light_type_ == "spot") notes.push_back("the light '" + one_line(light_name_, 60) + "' is a spot, read as a point light");
+  if (light_type_ == "spot")
+    notes.push_back("the light '" + one_line(light_name_, 60) + "' is a spot, read as a point light");
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ std::uint64_t check_mesh(const RawMesh& mesh, const std::string& place) {
     // Normals that are zero or not finite are common, and a face has one of its own: scene.cpp replaces them.
     for (const std::uint32_t corner : p.corners)
       if (corner >= p.vertex_count())
-        throw Error(here + ": a face names vertex " + std::to_string(corner) + " of " + std::to_string(p.vertex_count()));
+        throw Error(here + ": a face names vertex " + std::to_string(corner) + " of " +
+                    std::to_string(p.vertex_count()));
     triangles += p.triangle_count();
   }
   return triangles;
@@ -48,8 +49,7 @@ void check(const RawScene& scene, const std::string& name) {
   std::uint64_t total = 0;
   for (const RawNode& node : scene.nodes) {
     if (node.mesh >= 0) total += triangles[static_cast<std::size_t>(node.mesh)];
-    if (total > kMostTriangles)
-      throw Error(name + ": more than " + std::to_string(kMostTriangles) + " triangles");
+    if (total > kMostTriangles) throw Error(name + ": more than " + std::to_string(kMostTriangles) + " triangles");
     const bool finite = is_finite(node.matrix.x) && is_finite(node.matrix.y) && is_finite(node.matrix.z) &&
                         is_finite(node.matrix.origin) && is_finite(node.translation) && is_finite(node.scale) &&
                         std::isfinite(node.rotation.x + node.rotation.y + node.rotation.z + node.rotation.w);
@@ -60,7 +60,8 @@ void check(const RawScene& scene, const std::string& name) {
     for (const double t : track.times) sum += t;
     for (const double v : track.values) sum += v;
     if (!std::isfinite(sum))
-      throw Error(name + ": animation of node '" + one_line(scene.nodes[track.node].name, 60) + "': a key is not finite");
+      throw Error(name + ": animation of node '" + one_line(scene.nodes[track.node].name, 60) +
+                  "': a key is not finite");
   }
   if (total == 0) throw Error(name + ": no faces");
 }

@@ -68,7 +68,7 @@ class Builder {
   std::vector<Source> sources_;
   std::vector<Source> ordered_;
   std::vector<std::size_t> first_vertex_;  // of each primitive in the concatenation of all
-  std::vector<std::uint32_t> slots_;       // shading vertex of a file's vertex: as in the file, and with its normal negated
+  std::vector<std::uint32_t> slots_;  // shading vertex of a file's vertex: as in the file, and with its normal negated
 };
 
 void Builder::collect() {

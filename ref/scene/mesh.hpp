@@ -16,16 +16,16 @@ namespace kage::scene {
 struct Mesh {
   std::vector<glm::dvec3> vertices;
   std::vector<ShadingVertex> shading;
-  std::vector<Corners> triangles;         ///< corners into vertices, by component
-  std::vector<Corners> shading_corners;   ///< corners into shading
-  std::vector<std::uint32_t> faces;       ///< the file's face of each triangle
+  std::vector<Corners> triangles;        ///< corners into vertices, by component
+  std::vector<Corners> shading_corners;  ///< corners into shading
+  std::vector<std::uint32_t> faces;      ///< the file's face of each triangle
   std::vector<MeshComponent> components;
-  bool smooth = false;                    ///< shading differs between corners of some triangle
+  bool smooth = false;  ///< shading differs between corners of some triangle
 
-  std::uint32_t dropped = 0;              ///< triangles left out because they repeat a vertex
-  std::uint32_t turned = 0;               ///< triangles reversed to agree with their neighbours
-  std::uint32_t inside_out = 0;           ///< closed components turned outward
-  std::uint32_t bad_normals = 0;          ///< normals that are 0 or not finite
+  std::uint32_t dropped = 0;      ///< triangles left out because they repeat a vertex
+  std::uint32_t turned = 0;       ///< triangles reversed to agree with their neighbours
+  std::uint32_t inside_out = 0;   ///< closed components turned outward
+  std::uint32_t bad_normals = 0;  ///< normals that are 0 or not finite
 };
 
 Mesh build_mesh(const RawMesh& raw, std::uint64_t& budget);

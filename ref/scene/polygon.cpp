@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Ear clipping, seen along the polygon's mean normal. Convex polygons, nearly all there are, become fans.
-#include <array>
-
 #include "polygon.hpp"
+
+#include <array>
 
 #include "transform.hpp"
 

@@ -8,8 +8,8 @@
 
 namespace kage::scene {
 
-/// Cut a polygon into corner.size() - 2 triangles that keep its winding; numbers are into `corner`. It may be concave and
-/// not quite planar. One that crosses itself is cut too, into something.
+/// Cut a polygon into corner.size() - 2 triangles that keep its winding; numbers are into `corner`. It may be concave
+/// and not quite planar. One that crosses itself is cut too, into something.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<glm::dvec3>& corner);
 
 }  // namespace kage::scene

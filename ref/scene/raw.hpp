@@ -17,13 +17,14 @@ namespace kage::scene {
 
 /// Corners that share one material. Attributes lie in the order of the file's vertices.
 struct RawPrimitive {
-  glm::dvec3 color{1, 1, 1};            ///< base or diffuse colour
-  std::vector<float> positions;         ///< x, y, z of each vertex
-  std::vector<float> normals;           ///< as many, or none
-  std::vector<float> colors;            ///< red, green, blue of each vertex, or none
-  std::vector<std::uint32_t> corners;   ///< three vertices for each triangle
-  std::vector<std::uint32_t> faces;     ///< for each triangle the file's face it was cut from, counted within the primitive
-  std::uint32_t face_count = 0;         ///< of the file, lines and points not counted
+  glm::dvec3 color{1, 1, 1};           ///< base or diffuse colour
+  std::vector<float> positions;        ///< x, y, z of each vertex
+  std::vector<float> normals;          ///< as many, or none
+  std::vector<float> colors;           ///< red, green, blue of each vertex, or none
+  std::vector<std::uint32_t> corners;  ///< three vertices for each triangle
+  std::vector<std::uint32_t>
+      faces;                     ///< for each triangle the file's face it was cut from, counted within the primitive
+  std::uint32_t face_count = 0;  ///< of the file, lines and points not counted
 
   [[nodiscard]] std::size_t vertex_count() const { return positions.size() / 3; }
   [[nodiscard]] std::size_t triangle_count() const { return faces.size(); }
@@ -86,10 +87,10 @@ struct RawScene {
   std::vector<RawMesh> meshes;
   std::vector<RawNode> nodes;
   std::vector<RawTrack> tracks;
-  double start_time = 0;             ///< of the animation; its end is the last key
+  double start_time = 0;  ///< of the animation; its end is the last key
   std::optional<RawCamera> camera;
   std::optional<RawLight> light;
-  std::uint32_t frames = 0;          ///< as the file asks (extras.kage.frames); 0: it does not
+  std::uint32_t frames = 0;  ///< as the file asks (extras.kage.frames); 0: it does not
   std::vector<std::string> notes;
 };
 

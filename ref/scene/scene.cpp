@@ -109,7 +109,8 @@ void Scene::Data::place_objects() {
     std::string called = scene::one_line(node.name.empty() ? raw.meshes[number].name : node.name, 80);
     object_names.push_back(called.empty() ? "object " + std::to_string(objects.size() - 1) : std::move(called));
     for (const scene::MeshComponent& c : mesh.components)
-      components.push_back({triangles + c.first, c.count, c.closed, c.convex, c.reason.text(vertices, triangles + c.first)});
+      components.push_back(
+          {triangles + c.first, c.count, c.closed, c.convex, c.reason.text(vertices, triangles + c.first)});
     vertices += static_cast<std::uint32_t>(mesh.vertices.size());
     triangles += static_cast<std::uint32_t>(mesh.triangles.size());
     smooth = smooth || mesh.smooth;
@@ -119,8 +120,8 @@ void Scene::Data::place_objects() {
 
 void Scene::Data::describe() {
   notes.insert(notes.begin(), raw.notes.begin(), raw.notes.end());
-  if (!raw.camera) notes.push_back("no camera: an orbit round the scene is added");
-  if (!raw.light) notes.push_back("no light: a directional one is added");
+  if (!raw.camera) notes.emplace_back("no camera: an orbit round the scene is added");
+  if (!raw.light) notes.emplace_back("no light: a directional one is added");
 }
 
 // The ball that holds all frames: what moves, by the corners of its box at a number of times.
@@ -142,12 +143,14 @@ void Scene::Data::measure() {
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
       }
       for (int corner = 0; corner < 8; ++corner)
-        points.push_back(world[object.node].point({(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                                                   (corner & 4) != 0 ? high.z : low.z}));
+        points.push_back(
+            world[object.node].point({(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+                                      (corner & 4) != 0 ? high.z : low.z}));
     }
   }
   bounds = scene::bounds_of(points);
-  if (!std::isfinite(bounds.radius) || !scene::is_finite(bounds.center)) throw Error("the scene is too large to be measured");
+  if (!std::isfinite(bounds.radius) || !scene::is_finite(bounds.center))
+    throw Error("the scene is too large to be measured");
 }
 
 Scene Scene::load(const std::string& name_or_path) {
@@ -202,7 +205,8 @@ SceneFrame Scene::frame(int index, int count) const {
     append(to_world, mesh, i, frame);
     for (std::size_t v = first; v < frame.vertices.size(); ++v)
       if (!scene::is_finite(frame.vertices[v]))
-        throw Error(d.name + ": object '" + d.object_names[i] + "' vertex " + std::to_string(v) + ": position is not finite");
+        throw Error(d.name + ": object '" + d.object_names[i] + "' vertex " + std::to_string(v) +
+                    ": position is not finite");
     const bool flattened = to_world.determinant() == 0;
     for (std::size_t k = 0; k < mesh.components.size(); ++k, ++component) {
       Component& c = frame.components[component];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "topology.hpp"
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -125,8 +125,7 @@ void Analysis::split() {
   }
   result_.order.resize(n);
   std::vector<std::uint32_t> next(result_.components.size(), 0);
-  for (std::uint32_t t = 0; t < n; ++t)
-    result_.order[result_.components[number[t]].first + next[number[t]]++] = t;
+  for (std::uint32_t t = 0; t < n; ++t) result_.order[result_.components[number[t]].first + next[number[t]]++] = t;
   edges_.resize(result_.components.size());
   for (const Range& r : ranges) edges_[number[uses_[r.begin].triangle]].push_back(r);
 }
@@ -160,9 +159,8 @@ Reason Analysis::orient(const MeshComponent& c, const std::vector<Range>& edges)
     neighbours.push_back({p.triangle, q.triangle, p.forward == q.forward, r.begin});
     neighbours.push_back({q.triangle, p.triangle, p.forward == q.forward, r.begin});
   }
-  std::sort(neighbours.begin(), neighbours.end(), [](const Neighbour& p, const Neighbour& q) {
-    return std::tie(p.from, p.use) < std::tie(q.from, q.use);
-  });
+  std::sort(neighbours.begin(), neighbours.end(),
+            [](const Neighbour& p, const Neighbour& q) { return std::tie(p.from, p.use) < std::tie(q.from, q.use); });
   std::vector<std::uint32_t> stack{result_.order[c.first]};
   seen_[stack.back()] = true;
   std::uint32_t turned = 0;
@@ -228,17 +226,25 @@ Reason Analysis::test_convexity(const MeshComponent& c, const std::vector<Range>
 std::string Reason::text(std::uint32_t first_vertex, std::uint32_t first_triangle) const {
   const std::string edge = "edge " + std::to_string(first_vertex + a) + "-" + std::to_string(first_vertex + b);
   switch (kind) {
-    case Kind::kNone: return "";
-    case Kind::kOneFace: return edge + " belongs to one face only";
-    case Kind::kManyFaces: return edge + " belongs to " + std::to_string(n) + " faces";
-    case Kind::kNoOrientation: return "at " + edge + " the faces cannot all face outward";
-    case Kind::kFlat: return "its volume is 0";
-    case Kind::kConcaveEdge: return edge + " is hollow";
+    case Kind::kNone:
+      return "";
+    case Kind::kOneFace:
+      return edge + " belongs to one face only";
+    case Kind::kManyFaces:
+      return edge + " belongs to " + std::to_string(n) + " faces";
+    case Kind::kNoOrientation:
+      return "at " + edge + " the faces cannot all face outward";
+    case Kind::kFlat:
+      return "its volume is 0";
+    case Kind::kConcaveEdge:
+      return edge + " is hollow";
     case Kind::kOutside:
       return "vertex " + std::to_string(first_vertex + a) + " lies outside the plane of triangle " +
              std::to_string(first_triangle + n);
-    case Kind::kLarge: return "too large to be tested for convexity";
-    case Kind::kWound: return "it surrounds its inside more than once";
+    case Kind::kLarge:
+      return "too large to be tested for convexity";
+    case Kind::kWound:
+      return "it surrounds its inside more than once";
   }
   return "";
 }
@@ -273,7 +279,8 @@ std::vector<std::uint32_t> weld(const std::vector<float>& positions, std::vector
   return number;
 }
 
-Topology analyse(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles, std::uint64_t& budget) {
+Topology analyse(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles,
+                 std::uint64_t& budget) {
   return Analysis(positions, triangles, budget).run();
 }
 

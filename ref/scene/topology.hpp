@@ -17,22 +17,22 @@ using Corners = std::array<std::uint32_t, 3>;
 struct Reason {
   enum class Kind : std::uint8_t {
     kNone,
-    kOneFace,       ///< edge a-b belongs to one face only
-    kManyFaces,     ///< edge a-b belongs to n faces
-    kNoOrientation, ///< around edge a-b the faces cannot all face outward
-    kFlat,          ///< volume 0
-    kConcaveEdge,   ///< the faces at edge a-b make a hollow
-    kOutside,       ///< vertex a lies outside the plane of triangle n of the component
-    kLarge,         ///< more work than the test's limit
-    kWound,         ///< it surrounds its inside more than once
+    kOneFace,        ///< edge a-b belongs to one face only
+    kManyFaces,      ///< edge a-b belongs to n faces
+    kNoOrientation,  ///< around edge a-b the faces cannot all face outward
+    kFlat,           ///< volume 0
+    kConcaveEdge,    ///< the faces at edge a-b make a hollow
+    kOutside,        ///< vertex a lies outside the plane of triangle n of the component
+    kLarge,          ///< more work than the test's limit
+    kWound,          ///< it surrounds its inside more than once
   };
   Kind kind = Kind::kNone;
   std::uint32_t a = 0;
   std::uint32_t b = 0;
   std::uint32_t n = 0;
 
-  /// One sentence. The numbers of the mesh's first vertex and of the component's first triangle are added, so that what is
-  /// named can be found in SceneFrame.
+  /// One sentence. The numbers of the mesh's first vertex and of the component's first triangle are added, so that what
+  /// is named can be found in SceneFrame.
   [[nodiscard]] std::string text(std::uint32_t first_vertex, std::uint32_t first_triangle) const;
 };
 
@@ -60,13 +60,14 @@ struct Topology {
   std::vector<std::uint32_t> order;  ///< triangles by component, components by their first triangle
   std::vector<bool> reversed;        ///< for each triangle of the input: its winding is to be reversed
   std::vector<MeshComponent> components;
-  std::uint32_t turned = 0;          ///< triangles reversed to agree with their neighbours
-  std::uint32_t inside_out = 0;      ///< closed components turned outward
+  std::uint32_t turned = 0;      ///< triangles reversed to agree with their neighbours
+  std::uint32_t inside_out = 0;  ///< closed components turned outward
 };
 
-/// Find components, orient the closed ones and test them for convexity. No triangle repeats a vertex. `budget` is how many
-/// distances of a vertex from a plane may still be computed; it shrinks.
-Topology analyse(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles, std::uint64_t& budget);
+/// Find components, orient the closed ones and test them for convexity. No triangle repeats a vertex. `budget` is how
+/// many distances of a vertex from a plane may still be computed; it shrinks.
+Topology analyse(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles,
+                 std::uint64_t& budget);
 
 /// For a closed component facing outward, `edges` being all of its edges: none if it is convex, or why not.
 /// Tolerance, cost and limits: docs/scenes.md.

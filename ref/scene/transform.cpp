@@ -73,8 +73,7 @@ Quaternion slerp(const Quaternion& a, const Quaternion& b, double u) {
     from = portable::sin(from * angle) / sine;
     to = portable::sin(to * angle) / sine;
   }
-  return normalized(
-      {from * a.x + to * c.x, from * a.y + to * c.y, from * a.z + to * c.z, from * a.w + to * c.w});
+  return normalized({from * a.x + to * c.x, from * a.y + to * c.y, from * a.z + to * c.z, from * a.w + to * c.w});
 }
 
 Affine compose(const glm::dvec3& translation, const Quaternion& rotation, const glm::dvec3& scale) {

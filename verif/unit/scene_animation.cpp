@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/animation.hpp"
-
 #include <cmath>
 
 #include "catch.hpp"
+#include "scene/animation.hpp"
 #include "scene_files.hpp"
 
 using namespace kage;
@@ -70,7 +69,8 @@ TEST_CASE("a hierarchy moves with its parents") {
   s.nodes[1].scale = {2, 2, 2};
   s.nodes[2].parent = 1;
   s.nodes[2].matrix.origin = {1, 0, 0};
-  RawTrack turn = track(RawPath::kRotation, RawInterpolation::kLinear, {0, 2}, {0, 0, 0, 1, 0, 0, 1, 0});  // half a turn about z
+  RawTrack turn =
+      track(RawPath::kRotation, RawInterpolation::kLinear, {0, 2}, {0, 0, 0, 1, 0, 0, 1, 0});  // half a turn about z
   s.tracks.push_back(turn);
   CHECK(end_time(s) == 2);
   // The child at (1 0 0), scaled by 2, lies 2 away from (10 0 0), in the direction turned by a right angle a second.

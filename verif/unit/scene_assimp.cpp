@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Formats that Assimp reads, the same file by both readers, and real meshes where Debian's packages carry them.
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -71,7 +71,7 @@ constexpr const char* kCollada = R"(<?xml version="1.0"?>
 
 std::vector<glm::dvec3> flat(std::initializer_list<std::array<double, 2>> p) {
   std::vector<glm::dvec3> out;
-  for (const auto& q : p) out.push_back({q[0], q[1], 0});
+  for (const auto& q : p) out.emplace_back(q[0], q[1], 0);
   return out;
 }
 
@@ -91,9 +91,8 @@ std::multiset<std::array<float, 3>> corner_set(const scene::RawScene& s) {
     world.push_back(n.parent < 0 ? own : world[static_cast<std::size_t>(n.parent)] * own);
     if (n.mesh < 0) continue;
     for (const scene::RawPrimitive& p : s.meshes[static_cast<std::size_t>(n.mesh)].primitives)
-      for (const std::uint32_t c : p.corners) {
-        const glm::dvec3 q =
-            world.back().point({p.positions[3 * c], p.positions[3 * c + 1], p.positions[3 * c + 2]});
+      for (const std::size_t c : p.corners) {
+        const glm::dvec3 q = world.back().point({p.positions[3 * c], p.positions[3 * c + 1], p.positions[3 * c + 2]});
         // Assimp's matrices are floats: compare to a thousandth.
         out.insert({static_cast<float>(std::nearbyint(q.x * 1e3)), static_cast<float>(std::nearbyint(q.y * 1e3)),
                     static_cast<float>(std::nearbyint(q.z * 1e3))});
@@ -181,14 +180,14 @@ TEST_CASE("camera, light and animation of another format") {
 TEST_CASE("both readers see the same triangles in a glTF file") {
   const std::string root = "/usr/share/assimp/models/glTF2/";
   if (!present(root)) return;
-  for (const char* file :
-       {"BoxTextured-glTF/BoxTextured.gltf", "BoxTextured-glTF-Binary/BoxTextured.glb", "BoxTextured-glTF-Embedded/BoxTextured.gltf",
-        "2CylinderEngine-glTF-Binary/2CylinderEngine.glb", "ClearCoat-glTF/ClearCoatTest.gltf", "cameras/Cameras.gltf",
-        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_04.gltf",
-        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_05.gltf",
-        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_06.gltf",
-        "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_12.gltf",
-        "glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf"}) {
+  for (const char* file : {"BoxTextured-glTF/BoxTextured.gltf", "BoxTextured-glTF-Binary/BoxTextured.glb",
+                           "BoxTextured-glTF-Embedded/BoxTextured.gltf",
+                           "2CylinderEngine-glTF-Binary/2CylinderEngine.glb", "ClearCoat-glTF/ClearCoatTest.gltf",
+                           "cameras/Cameras.gltf", "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_04.gltf",
+                           "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_05.gltf",
+                           "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_06.gltf",
+                           "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_12.gltf",
+                           "glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf"}) {
     INFO(file);
     const auto ours = corner_set(scene::import_gltf(scene::GltfFile(root + file, file)));
     const auto theirs = corner_set(scene::import_assimp(root + file, file));
@@ -206,8 +205,12 @@ TEST_CASE("real meshes") {
   };
   const std::string root = "/usr/share/glmark2/models/";
   if (!present(root)) return;
-  for (const Expected& e : {Expected{"horse.3ds", 7172}, {"bunny.obj", 69666}, {"cat.3ds", 14348}, {"asteroid-low.3ds", 480},
-                            {"asteroid-high.3ds", 48000}, {"cube.3ds", 12}}) {
+  for (const Expected& e : {Expected{"horse.3ds", 7172},
+                            {"bunny.obj", 69666},
+                            {"cat.3ds", 14348},
+                            {"asteroid-low.3ds", 480},
+                            {"asteroid-high.3ds", 48000},
+                            {"cube.3ds", 12}}) {
     const std::string path = root + e.file;
     if (!present(path)) continue;
     const Scene s = Scene::load(path);

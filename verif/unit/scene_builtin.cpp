@@ -39,8 +39,8 @@ std::uint64_t digest(const Scene& scene) {
   Digest d;
   for (int i = 0; i < scene.frame_count(); ++i) {
     const SceneFrame f = scene.frame(i, scene.frame_count());
-    for (const glm::dvec3& v : {f.camera.eye, f.camera.right, f.camera.up, f.camera.forward, f.light.direction, f.light.position,
-                                f.light.color})
+    for (const glm::dvec3& v : {f.camera.eye, f.camera.right, f.camera.up, f.camera.forward, f.light.direction,
+                                f.light.position, f.light.color})
       d.add(v);
     for (const double v : {f.camera.half_height, f.camera.near, f.camera.far}) d.add(v);
     for (const glm::dvec3& v : f.vertices) d.add(v);
@@ -73,9 +73,9 @@ TEST_CASE("scenes/make writes exactly the committed files") {
 TEST_CASE("a scene is the same, bit by bit, for every compiler and every Debian") {
   // Where this fails after scenes/make or the import changed on purpose, put in what it prints.
   const std::map<std::string, std::uint64_t> expected{{"courtyard", 0xe03c4a6a2885fa12u},
-                                                       {"knot", 0xffbe8a8d51fa1be9u},
-                                                       {"inside", 0x1f75d211220dd0bbu},
-                                                       {"edges", 0xfccbbac39be2e5f9u}};
+                                                      {"knot", 0xffbe8a8d51fa1be9u},
+                                                      {"inside", 0x1f75d211220dd0bbu},
+                                                      {"edges", 0xfccbbac39be2e5f9u}};
   for (const std::string& name : builtin_scenes()) {
     INFO(name);
     CHECK(digest(Scene::load(name)) == expected.at(name));
@@ -133,7 +133,8 @@ TEST_CASE("knot: one closed part that is not convex, over a floor that is") {
 }
 
 TEST_CASE("inside: the eye within volumes, the near plane cut by several") {
-  // Rays from points of the near plane to the light, against every caster: the share that each shadows (scenes/README.md).
+  // Rays from points of the near plane to the light, against every caster: the share that each shadows
+  // (scenes/README.md).
   const Scene s = Scene::load("inside");
   bool whole = false;
   std::size_t most_cut = 0;
@@ -144,8 +145,10 @@ TEST_CASE("inside: the eye within volumes, the near plane cut by several") {
     constexpr int kY = 30;
     std::vector<int> hits(f.components.size(), 0);
     for (int k = 0; k < kX * kY; ++k) {
-      const double x = ((k % kX + 0.5) * 2 / kX - 1) * c.half_height * kX / kY;
-      const double y = ((k / kX + 0.5) * 2 / kY - 1) * c.half_height;
+      const int column = k % kX;
+      const int row = k / kX;
+      const double x = ((column + 0.5) * 2 / kX - 1) * c.half_height * kX / kY;
+      const double y = ((row + 0.5) * 2 / kY - 1) * c.half_height;
       const glm::dvec3 p = c.eye + (c.forward + c.right * x + c.up * y) * c.near;
       const glm::dvec3 ray = f.light.position - p;
       for (std::size_t n = 0; n < f.components.size(); ++n) {

@@ -75,8 +75,7 @@ inline std::string base64(std::string_view data) {
     std::uint32_t bits = 0;
     for (std::size_t k = 0; k < 3; ++k)
       bits = bits << 8 | (i + k < data.size() ? static_cast<unsigned char>(data[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += k <= data.size() - i ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+    for (std::size_t k = 0; k < 4; ++k) out += k <= data.size() - i ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
   }
   return out;
 }
@@ -84,8 +83,8 @@ inline std::string base64(std::string_view data) {
 /// A glTF file of one buffer: `members` are the JSON's further members, `data` the buffer.
 inline std::string gltf(const std::string& members, std::string_view data) {
   return R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": )" + std::to_string(data.size()) +
-         R"(, "uri": "data:application/octet-stream;base64,)" + base64(data) + "\"}]" + (members.empty() ? "" : ", ") + members +
-         "}";
+         R"(, "uri": "data:application/octet-stream;base64,)" + base64(data) + "\"}]" + (members.empty() ? "" : ", ") +
+         members + "}";
 }
 
 /// One triangle (0 0 0), (1 0 0), (0 1 0) in bufferView 0 and accessor 0, mesh 0 that draws it, and what else is given.
@@ -93,7 +92,8 @@ inline std::string triangle_gltf(const std::string& members) {
   const std::vector<float> p{0, 0, 0, 1, 0, 0, 0, 1, 0};
   return gltf(R"("bufferViews": [{"buffer": 0, "byteLength": 36}],
       "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
-      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], )" + members,
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], )" +
+                  members,
               bytes_of(p));
 }
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/functions.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "catch.hpp"
+#include "scene/functions.hpp"
 #include "scene/transform.hpp"
 
 namespace portable = kage::portable;
@@ -21,7 +20,8 @@ double largest_error(double from, double to, Ours ours, Reference reference) {
   double worst = 0;
   for (int i = 0; i < 200000; ++i) {
     const double x = in(random);
-    worst = std::max(worst, static_cast<double>(std::abs(static_cast<long double>(ours(x)) - reference(static_cast<long double>(x)))));
+    worst = std::max(worst, static_cast<double>(
+                                std::abs(static_cast<long double>(ours(x)) - reference(static_cast<long double>(x)))));
   }
   return worst;
 }
@@ -42,8 +42,8 @@ TEST_CASE("sine and cosine stay within the stated error") {
 }
 
 TEST_CASE("tangent and arctangent agree with libm") {
-  const double t = largest_error(-1.5, 1.5, [](double x) { return portable::tan(x) * std::cos(x); },
-                                 [](long double x) { return std::sin(x); });
+  const double t = largest_error(
+      -1.5, 1.5, [](double x) { return portable::tan(x) * std::cos(x); }, [](long double x) { return std::sin(x); });
   CHECK(t < 1e-15);
   double worst = 0;
   std::mt19937_64 random(2);
@@ -53,7 +53,8 @@ TEST_CASE("tangent and arctangent agree with libm") {
     const double y = std::ldexp(in(random), exponent(random));
     const double x = std::ldexp(in(random), exponent(random));
     const long double truth = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
-    worst = std::max(worst, static_cast<double>(std::abs((static_cast<long double>(portable::atan2(y, x)) - truth) / truth)));
+    worst = std::max(worst,
+                     static_cast<double>(std::abs((static_cast<long double>(portable::atan2(y, x)) - truth) / truth)));
   }
   INFO("relative error of atan2: " << worst);
   CHECK(worst < 1e-15);
@@ -74,7 +75,9 @@ TEST_CASE("special angles") {
 }
 
 TEST_CASE("slerp turns at constant speed, the shorter way") {
-  const auto about_z = [](double angle) { return Quaternion{0, 0, portable::sin(angle / 2), portable::cos(angle / 2)}; };
+  const auto about_z = [](double angle) {
+    return Quaternion{0, 0, portable::sin(angle / 2), portable::cos(angle / 2)};
+  };
   const Quaternion a = about_z(0.3);
   const Quaternion b = about_z(2.1);
   for (const double u : {0.0, 0.125, 0.5, 0.75, 1.0}) {

@@ -23,7 +23,7 @@ Scene load(const std::string& text) {
 std::string refused(const std::string& text) {
   const TempDirectory dir;
   const std::string path = dir.write("scene.gltf", text);
-  const std::string message = test::refusal(path);
+  std::string message = test::refusal(path);
   CHECK(message.find('\n') == std::string::npos);
   if (message.rfind(path + ": ", 0) != 0) return message;
   return message.substr(path.size() + 2);
@@ -78,10 +78,10 @@ TEST_CASE("matrices are by columns; parents come first; a mirrored node keeps it
 TEST_CASE("strips, fans, indices of every size, strides, sparse and normalised accessors") {
   // A square as strip and as fan from 8-bit indices; positions as floats with a stride, and as normalised bytes.
   std::string data = test::bytes_of(std::vector<float>{0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9, 1, 1, 0, 9});  // 0: 64 bytes
-  data += test::bytes_of(std::vector<std::uint8_t>{0, 1, 2, 3, 0, 1, 3, 2});                              // 64: strip, fan
-  data += test::bytes_of(std::vector<std::int8_t>{0, 0, 0, 0, 127, 0, 0, 0, -128, 127, 0, 0});            // 72: 3 of stride 4
-  data += test::bytes_of(std::vector<std::uint16_t>{2, 0});                                               // 84: sparse index
-  data += test::bytes_of(std::vector<float>{5, 5, 5});                                                    // 88: sparse value
+  data += test::bytes_of(std::vector<std::uint8_t>{0, 1, 2, 3, 0, 1, 3, 2});                    // 64: strip, fan
+  data += test::bytes_of(std::vector<std::int8_t>{0, 0, 0, 0, 127, 0, 0, 0, -128, 127, 0, 0});  // 72: 3 of stride 4
+  data += test::bytes_of(std::vector<std::uint16_t>{2, 0});                                     // 84: sparse index
+  data += test::bytes_of(std::vector<float>{5, 5, 5});                                          // 88: sparse value
   const Scene s = load(test::gltf(R"(
       "bufferViews": [{"buffer": 0, "byteLength": 64, "byteStride": 16}, {"buffer": 0, "byteOffset": 64, "byteLength": 8},
                       {"buffer": 0, "byteOffset": 72, "byteLength": 12, "byteStride": 4},
@@ -105,7 +105,8 @@ TEST_CASE("strips, fans, indices of every size, strides, sparse and normalised a
   const glm::dvec3 c{0, 1, 0};
   const glm::dvec3 d{1, 1, 0};
   // Strip and fan are one component: 4 triangles over the same square. The bytes make a triangle of their own.
-  CHECK(std::vector<glm::dvec3>(p.begin(), p.begin() + 12) == std::vector<glm::dvec3>{a, b, c, b, d, c, a, b, d, a, d, c});
+  CHECK(std::vector<glm::dvec3>(p.begin(), p.begin() + 12) ==
+        std::vector<glm::dvec3>{a, b, c, b, d, c, a, b, d, a, d, c});
   CHECK(std::vector<glm::dvec3>(p.begin() + 12, p.end()) == std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {-1, 1, 0}});
   CHECK(test::has_note(s, "1 primitive of points or lines is ignored"));
   CHECK(s.frame(0, 1).triangles[4].face == 4);
@@ -133,7 +134,8 @@ TEST_CASE("colours: factor times vertex colour; smooth where they differ within 
 }
 
 TEST_CASE("a perspective camera: field of view, clip planes, its node's frame without the scale") {
-  const Scene s = load(triangle_gltf(R"("cameras": [{"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.25}},
+  const Scene s =
+      load(triangle_gltf(R"("cameras": [{"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.25}},
         {"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 3, "znear": 0, "zfar": 8}}],
       "nodes": [{"mesh": 0}, {"camera": 0, "translation": [1, 2, 3], "scale": [2, 3, 4], "rotation": [0, 0.6, 0, 0.8]},
                 {"camera": 1}], "scenes": [{"nodes": [0, 1, 2]}])"));
@@ -167,8 +169,9 @@ TEST_CASE("an orthographic camera") {
 
 TEST_CASE("lights: directional, point, spot read as point, the first of several") {
   const auto with = [](const std::string& lights, const std::string& nodes) {
-    return load(triangle_gltf(R"("extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [)" +
-                              lights + R"(]}}, "nodes": [{"mesh": 0}, )" + nodes + R"(], "scenes": [{"nodes": [0, 1]}])"));
+    return load(triangle_gltf(
+        R"("extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [)" + lights +
+        R"(]}}, "nodes": [{"mesh": 0}, )" + nodes + R"(], "scenes": [{"nodes": [0, 1]}])"));
   };
   const std::string node = R"({"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [1, 2, 3],
       "rotation": [-0.70710678118654752, 0, 0, 0.70710678118654752]})";
@@ -178,9 +181,9 @@ TEST_CASE("lights: directional, point, spot read as point, the first of several"
   CHECK(distance(l.direction, {0, -1, 0}) < 1e-15);
   CHECK(l.color == glm::dvec3{0.5, 1, 0});
   CHECK_FALSE(test::has_note(sun, "light"));
-  const Scene spot = with(R"({"type": "spot", "name": "lamp"}, {"type": "point"})",
-                          node.substr(0, node.size() - 1) +
-                              R"(, "children": [2]}, {"extensions": {"KHR_lights_punctual": {"light": 1}}})");
+  const Scene spot = with(
+      R"({"type": "spot", "name": "lamp"}, {"type": "point"})",
+      node.substr(0, node.size() - 1) + R"(, "children": [2]}, {"extensions": {"KHR_lights_punctual": {"light": 1}}})");
   CHECK_FALSE(spot.frame(0, 1).light.directional);
   CHECK(spot.frame(0, 1).light.position == glm::dvec3{1, 2, 3});
   CHECK(test::has_note(spot, "the light 'lamp' is a spot, read as a point light"));
@@ -188,7 +191,8 @@ TEST_CASE("lights: directional, point, spot read as point, the first of several"
 }
 
 TEST_CASE("the scene that the file names; all roots where it has none") {
-  const std::string nodes = R"("nodes": [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "children": [2]}, {"mesh": 0, "name": "c"}])";
+  const std::string nodes =
+      R"("nodes": [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "children": [2]}, {"mesh": 0, "name": "c"}])";
   CHECK(load(triangle_gltf(nodes + R"(, "scenes": [{"nodes": [0]}, {"nodes": [1]}], "scene": 1)")).objects() ==
         std::vector<std::string>{"b", "c"});
   CHECK(load(triangle_gltf(nodes)).objects() == std::vector<std::string>{"a", "b", "c"});
@@ -203,14 +207,16 @@ TEST_CASE("frames as the file asks") {
 TEST_CASE("refusals name the place and the cause") {
   CHECK(refused(triangle_gltf(R"("nodes": [{"mesh": 7}], "scenes": [{"nodes": [0]}])")) ==
         "mesh 7: asks for number 7 of 1 meshes");
-  CHECK(refused(triangle_gltf(R"("nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}], "scenes": [{"nodes": [0]}])")) ==
+  CHECK(refused(triangle_gltf(
+            R"("nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}], "scenes": [{"nodes": [0]}])")) ==
         "node 0: has two parents, or is its own ancestor");
   CHECK(refused(triangle_gltf(R"("nodes": [{"mesh": 0, "scale": [1, 2]}])")) == "node 0: 'scale' is not 3 numbers");
   CHECK(refused(triangle_gltf(R"("nodes": [{"mesh": -1}])")) == "node 0: 'mesh' is not a whole number");
   CHECK(refused(triangle_gltf(R"("nodes": [{}], "scenes": [{"nodes": [0]}])")) == "no faces");
   CHECK(refused(triangle_gltf(R"("cameras": [{"type": "perspective", "perspective": {"yfov": 4, "znear": 1}}],
       "nodes": [{"mesh": 0, "camera": 0}])")) == "camera 0: 'yfov' is not between 0 and pi");
-  CHECK(refused(triangle_gltf(R"("extensionsRequired": ["KHR_draco_mesh_compression"])")).find("KHR_draco") != std::string::npos);
+  CHECK(refused(triangle_gltf(R"("extensionsRequired": ["KHR_draco_mesh_compression"])")).find("KHR_draco") !=
+        std::string::npos);
   const std::string whole = triangle_gltf(kNode);
   CHECK(refused(whole.substr(0, whole.size() / 2)).find("not JSON, or cut off") != std::string::npos);
   CHECK(refused("[]") == "JSON: the outermost value is not an object");
@@ -228,10 +234,12 @@ TEST_CASE("refusals name the place and the cause") {
 
 TEST_CASE("positions that are no numbers are refused by mesh and vertex; bad normals give way to the face's") {
   std::vector<float> p{0, 0, 0, 1, 0, 0, 0, NAN, 0};
-  const std::string members = R"("bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteLength": 36, "byteOffset": 36}],
+  const std::string members =
+      R"("bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteLength": 36, "byteOffset": 36}],
       "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
                     {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC3"}],
-      "meshes": [{"name": "kite", "primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}}]}], )" + kNode;
+      "meshes": [{"name": "kite", "primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}}]}], )" +
+      kNode;
   const std::string normals = test::bytes_of(std::vector<float>{0, 0, 1, 0, 0, 0, NAN, 0, 0});
   CHECK(refused(test::gltf(members, test::bytes_of(p) + normals)) == "mesh 'kite' vertex 2: position is not a number");
   p[7] = -INFINITY;

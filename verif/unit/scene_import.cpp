@@ -48,13 +48,20 @@ TEST_CASE("what the child returns or throws arrives") {
 }
 
 TEST_CASE("the child's death is told by its cause") {
-  CHECK(end_of([]() -> Bytes { raise(SIGKILL); return {}; }) == "x: killed by signal 9 while importing");
+  CHECK(end_of([]() -> Bytes {
+          raise(SIGKILL);
+          return {};
+        }) == "x: killed by signal 9 while importing");
   CHECK(end_of([]() -> Bytes { _exit(7); }) == "x: the import process ended with code 7 and gave no scene");
   if (!kSanitized) CHECK(end_of([]() -> Bytes { abort(); }) == "x: killed by signal 6 while importing");
 }
 
 TEST_CASE("time and memory are limited") {
-  CHECK(end_of([]() -> Bytes { for (;;) pause(); }, {1, 64}) == "x: import took longer than 1 s");
+  CHECK(end_of(
+            []() -> Bytes {
+              for (;;) pause();
+            },
+            {1, 64}) == "x: import took longer than 1 s");
   CHECK(end_of(
             []() -> Bytes {
               volatile int busy = 1;
@@ -131,12 +138,16 @@ TEST_CASE("files that are none") {
 TEST_CASE("files that hold no scene are refused in one line") {
   const TempDirectory dir;
   const std::string nothing = dir.write("noise.xyz", "what is this?");
-  const std::vector<std::string> files{
-      nothing, dir.write("noise.obj", std::string("\0\1\2\3", 4)), dir.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n"),
-      dir.write("nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n"), dir.write("range.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"),
-      dir.write("same.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n"), dir.write("cut.ply", "ply\nformat ascii 1.0\nelement vertex"),
-      dir.write("absurd.off", "OFF\n2000000000 2000000000 0\n0 0 0\n"), dir.write("fake.glb", "glTF\2\0\0\0"),
-      dir.write("name\nwith a break.obj", "?")};
+  const std::vector<std::string> files{nothing,
+                                       dir.write("noise.obj", std::string("\0\1\2\3", 4)),
+                                       dir.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n"),
+                                       dir.write("nan.obj", "v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n"),
+                                       dir.write("range.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n"),
+                                       dir.write("same.obj", "v 0 0 0\nv 0 0 0\nv 0 1 0\nf 1 2 3\n"),
+                                       dir.write("cut.ply", "ply\nformat ascii 1.0\nelement vertex"),
+                                       dir.write("absurd.off", "OFF\n2000000000 2000000000 0\n0 0 0\n"),
+                                       dir.write("fake.glb", "glTF\2\0\0\0"),
+                                       dir.write("name\nwith a break.obj", "?")};
   for (const std::string& file : files) {
     const std::string message = refusal(file);
     INFO(message);

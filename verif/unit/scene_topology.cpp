@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Known solids, and each way in which a mesh can fail to be closed or convex.
-#include "scene/topology.hpp"
-
 #include <cmath>
 #include <random>
 
 #include "catch.hpp"
 #include "scene/functions.hpp"
+#include "scene/topology.hpp"
 #include "scene/transform.hpp"
 
 using namespace kage::scene;
@@ -26,8 +25,10 @@ Topology run(const Solid& s, std::uint64_t budget = kSceneBudget) { return analy
 // Corner i of a box has bit k of i in coordinate k.
 Solid box(const glm::dvec3& size = {1, 1, 1}) {
   Solid s;
-  for (int i = 0; i < 8; ++i) s.points.push_back({(i & 1) != 0 ? size.x : 0, (i & 2) != 0 ? size.y : 0, (i & 4) != 0 ? size.z : 0});
-  const std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (int i = 0; i < 8; ++i)
+    s.points.push_back({(i & 1) != 0 ? size.x : 0, (i & 2) != 0 ? size.y : 0, (i & 4) != 0 ? size.z : 0});
+  const std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                     {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& q : quads) {
     s.triangles.push_back({q[0], q[1], q[2]});
     s.triangles.push_back({q[0], q[2], q[3]});
@@ -173,7 +174,8 @@ TEST_CASE("a Klein bottle is closed by its edges, but nothing is its outside") {
   const std::uint32_t n = 5;
   std::mt19937 random(3);
   for (std::uint32_t i = 0; i < n * n; ++i)
-    s.points.push_back({static_cast<double>(random() % 997), static_cast<double>(random() % 991), static_cast<double>(random() % 983)});
+    s.points.push_back({static_cast<double>(random() % 997), static_cast<double>(random() % 991),
+                        static_cast<double>(random() % 983)});
   const auto at = [&](std::uint32_t i, std::uint32_t k) { return i < n ? i * n + k % n : (n - k % n) % n; };
   for (std::uint32_t i = 0; i < n; ++i)
     for (std::uint32_t k = 0; k < n; ++k) {
