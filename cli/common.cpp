@@ -40,7 +40,8 @@ void option_size(CLI::App& command, Options& options) {
             const char* const end = text.data() + text.size();
             Size size;
             const auto w = std::from_chars(text.data(), end, size.width);
-            if (w.ec != std::errc{} || w.ptr == end || *w.ptr != 'x') throw CLI::ValidationError("--size", text + " is not WxH");
+            if (w.ec != std::errc{} || w.ptr == end || *w.ptr != 'x')
+              throw CLI::ValidationError("--size", text + " is not WxH");
             const auto h = std::from_chars(w.ptr + 1, end, size.height);
             if (h.ec != std::errc{} || h.ptr != end) throw CLI::ValidationError("--size", text + " is not WxH");
             if (size.width < 1 || size.width > 32767 || size.height < 1 || size.height > 32767)
@@ -59,7 +60,9 @@ void option_frames(CLI::App& command, Options& options) {
 }
 
 void option_config(CLI::App& command, Options& options) {
-  command.add_option("--config", options.config, "configuration of the core: a name in rtl/configs.yaml or a YAML file")->type_name("NAME|FILE");
+  command
+      .add_option("--config", options.config, "configuration of the core: a name in rtl/configs.yaml or a YAML file")
+      ->type_name("NAME|FILE");
 }
 
 void option_seed(CLI::App& command, Options& options) {
@@ -67,15 +70,20 @@ void option_seed(CLI::App& command, Options& options) {
 }
 
 void option_json(CLI::App& command, Options& options) {
-  command.add_option("--json", options.json, "write the result as JSON; - is standard output, with nothing else on it")->type_name("FILE");
+  command.add_option("--json", options.json, "write the result as JSON; - is standard output, with nothing else on it")
+      ->type_name("FILE");
 }
 
 void option_degrade(CLI::App& command, Options& options) {
-  command.add_flag("--degrade", options.degrade, "draw what the configuration lacks without it: no shadows, flat or grey instead of smooth or coloured");
+  command.add_flag(
+      "--degrade", options.degrade,
+      "draw what the configuration lacks without it: no shadows, flat or grey instead of smooth or coloured");
 }
 
 void option_threads(CLI::App& command, Options& options) {
-  command.add_option("--threads", options.threads, "threads to use, default: one per processor")->check(CLI::Range(1, 1024))->type_name("N");
+  command.add_option("--threads", options.threads, "threads to use, default: one per processor")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
 }
 
 bool json_only(const Options& options) { return options.json == "-"; }
@@ -84,8 +92,10 @@ void check_json(const Options& options) {
   if (options.json.empty() || json_only(options)) return;
   const std::filesystem::path folder = std::filesystem::path(options.json).parent_path();
   std::error_code ec;
-  const bool to_be_made = !options.out.empty() && folder.lexically_normal() == std::filesystem::path(options.out).lexically_normal();
-  if (!folder.empty() && !to_be_made && !std::filesystem::is_directory(folder, ec)) throw Error(fmt::format("{}: cannot be written: no such folder", options.json));
+  const bool to_be_made =
+      !options.out.empty() && folder.lexically_normal() == std::filesystem::path(options.out).lexically_normal();
+  if (!folder.empty() && !to_be_made && !std::filesystem::is_directory(folder, ec))
+    throw Error(fmt::format("{}: cannot be written: no such folder", options.json));
 }
 
 void write_json(const Options& options, const Json& value) {
@@ -113,7 +123,8 @@ Json to_json(const Config& config) {
 void make_folder(const std::filesystem::path& path) {
   std::error_code ec;
   std::filesystem::create_directories(path, ec);
-  if (ec || !std::filesystem::is_directory(path, ec)) throw Error(fmt::format("{}: the folder cannot be made: {}", path.string(), ec ? ec.message() : "not a folder"));
+  if (ec || !std::filesystem::is_directory(path, ec))
+    throw Error(fmt::format("{}: the folder cannot be made: {}", path.string(), ec ? ec.message() : "not a folder"));
 }
 
 void catch_signals() {
@@ -143,7 +154,8 @@ void Progress::show(const std::string& text) {
   last_ = now;
   shown_ = true;
   winsize window{};
-  const std::size_t columns = ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 ? window.ws_col - 1U : 79U;
+  const std::size_t columns =
+      ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 ? window.ws_col - 1U : 79U;
   fmt::print(stderr, "\r\033[K{}", text.substr(0, columns));
   std::fflush(stderr);
 }

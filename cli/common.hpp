@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the subcommands share: options, results as JSON, progress, interruption. A subcommand parses, calls the library and prints.
+// What the subcommands share: options, results as JSON, progress, interruption. A subcommand parses, calls the library
+// and prints.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -80,7 +81,8 @@ Json to_json(const Config& config);
 /// Makes the folder, and those above it. Throws Error.
 void make_folder(const std::filesystem::path& path);
 
-/// Ctrl-C and SIGTERM set a flag; loops ask it, so that files are whole or absent. A second one ends the program at once.
+/// Ctrl-C and SIGTERM set a flag; loops ask it, so that files are whole or absent. A second one ends the program at
+/// once.
 void catch_signals();
 bool interrupted();
 

@@ -58,7 +58,8 @@ int run(CosimCommand& o) {
     check_interrupt();
     progress.show(fmt::format("{}: frame {}/{}", source.name(), frame + 1, source.frames()));
   };
-  const cosim::Report r = cosim::run(source.frames(), [&](int i) { return source.words(i, &counts); }, *golden, *rtl, options);
+  const cosim::Report r = cosim::run(
+      source.frames(), [&](int i) { return source.words(i, &counts); }, *golden, *rtl, options);
   progress.clear();
 
   Json j;
@@ -83,8 +84,10 @@ int run(CosimCommand& o) {
   write_json(o, j);
   print_notes(source, o);
   if (!json_only(o)) {
-    fmt::print("{}: {} frames, {}x{}, {} pixels compared, {} spans, {} cycles, golden {:.3f} s, RTL {:.3f} s, seed {}\n", r.same ? "same" : "different",
-               r.frames, r.width, r.height, r.pixels_compared, counts.spans, r.cycles, r.expected_seconds, r.actual_seconds, o.seed);
+    fmt::print(
+        "{}: {} frames, {}x{}, {} pixels compared, {} spans, {} cycles, golden {:.3f} s, RTL {:.3f} s, seed {}\n",
+        r.same ? "same" : "different", r.frames, r.width, r.height, r.pixels_compared, counts.spans, r.cycles,
+        r.expected_seconds, r.actual_seconds, o.seed);
     if (r.first_difference) fmt::print("first difference: {}\n", cosim::describe(*r.first_difference));
     if (!r.same && !r.pictures.empty()) fmt::print("pictures: {}\n", r.pictures.back());
   }
@@ -94,15 +97,18 @@ int run(CosimCommand& o) {
 }  // namespace
 
 void add_cosim(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "cosim", "Send every frame through golden model and RTL and compare every pixel",
-                            "  kage cosim courtyard\n"
-                            "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
-                            "  kage cosim courtyard.kage --json -\n"
-                            "The RTL model of a configuration is built on first use and kept in ~/.cache/kage/models.\n"
-                            "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
+  CLI::App* c = add_command(
+      app, "cosim", "Send every frame through golden model and RTL and compare every pixel",
+      "  kage cosim courtyard\n"
+      "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
+      "  kage cosim courtyard.kage --json -\n"
+      "The RTL model of a configuration is built on first use and kept in ~/.cache/kage/models.\n"
+      "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   const auto o = std::make_shared<CosimCommand>();
   o->out = "out";
-  c->add_option("SCENE", o->input, "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")->required();
+  c->add_option("SCENE", o->input,
+                "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")
+      ->required();
   c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
   option_size(*c, *o);
   option_frames(*c, *o);
@@ -111,8 +117,11 @@ void add_cosim(CLI::App& app, Action& action) {
   option_seed(*c, *o);
   option_json(*c, *o);
   option_threads(*c, *o);
-  c->add_option("--idle", o->rtl.idle_percent, "percent of clocks at random in which no input is offered, default 0")->check(CLI::Range(0, 95))->type_name("P");
-  c->add_option("--backpressure", o->rtl.backpressure_percent, "percent of clocks at random in which no output is taken, default 0")
+  c->add_option("--idle", o->rtl.idle_percent, "percent of clocks at random in which no input is offered, default 0")
+      ->check(CLI::Range(0, 95))
+      ->type_name("P");
+  c->add_option("--backpressure", o->rtl.backpressure_percent,
+                "percent of clocks at random in which no output is taken, default 0")
       ->check(CLI::Range(0, 95))
       ->type_name("P");
   c->add_option("--fault", o->fault, "build the RTL with a deliberate defect, to see it found")->type_name("NAME");

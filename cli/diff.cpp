@@ -23,7 +23,8 @@ struct DiffCommand : Options {
 std::string describe(const DiffResult& r) {
   const auto pixels = static_cast<std::uint64_t>(r.width) * static_cast<std::uint64_t>(r.height);
   if (r.width == 0) return fmt::format("different: {}", r.reason);
-  std::string text = fmt::format("{}: {}x{}, {} pixels compared", r.same ? "same" : "different", r.width, r.height, pixels);
+  std::string text =
+      fmt::format("{}: {}x{}, {} pixels compared", r.same ? "same" : "different", r.width, r.height, pixels);
   if (r.different_pixels != 0) text += fmt::format(", {} differ", r.different_pixels);
   if (r.max_lsb != 0) text += fmt::format(", by up to {} LSB", r.max_lsb);
   if (r.nan_pixels != 0) text += fmt::format(", {} hold a NaN", r.nan_pixels);
@@ -83,20 +84,23 @@ int run(const DiffCommand& o) {
 }  // namespace
 
 void add_diff(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "diff", "Compare two pictures, exactly unless told otherwise",
-                            "  kage diff a.png b.png\n"
-                            "  kage diff a.exr b.exr --lsb 1 --max-percent 0.01 --out heat.png --json -\n"
-                            "An LSB is one step of the file's pixel type; for floats, of the representable numbers.\n"
-                            "A NaN on either side, or unlike size, channels or pixel type, is a difference that no option tolerates.");
+  CLI::App* c = add_command(
+      app, "diff", "Compare two pictures, exactly unless told otherwise",
+      "  kage diff a.png b.png\n"
+      "  kage diff a.exr b.exr --lsb 1 --max-percent 0.01 --out heat.png --json -\n"
+      "An LSB is one step of the file's pixel type; for floats, of the representable numbers.\n"
+      "A NaN on either side, or unlike size, channels or pixel type, is a difference that no option tolerates.");
   const auto o = std::make_shared<DiffCommand>();
   c->add_option("A", o->a, "a picture: PNG, EXR or any other that OpenImageIO reads")->required();
   c->add_option("B", o->b, "another")->required();
-  c->add_option("--lsb", o->limits.lsb, "a pixel is the same if no channel is further apart than N LSB, default 0")->type_name("N");
+  c->add_option("--lsb", o->limits.lsb, "a pixel is the same if no channel is further apart than N LSB, default 0")
+      ->type_name("N");
   c->add_option("--max-pixels", o->limits.max_pixels, "same if at most N pixels differ, default 0")->type_name("N");
   c->add_option("--max-percent", o->limits.max_percent, "same if at most P percent of the pixels differ")
       ->check(CLI::Range(0.0, 100.0))
       ->type_name("P");
-  c->add_option("--out", o->out, "write a picture of the differences: A dimmed, red where they differ")->type_name("FILE");
+  c->add_option("--out", o->out, "write a picture of the differences: A dimmed, red where they differ")
+      ->type_name("FILE");
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -37,8 +37,8 @@ int run(const Options& o) {
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
   write_json(o, j);
   if (!json_only(o)) {
-    fmt::print("{}: {} frames, {} lines, {} spans over {} pixels, {} bytes, checksums right\n", o.input, file.frame_count(), lines, counts.spans,
-               counts.span_pixels, file.bytes());
+    fmt::print("{}: {} frames, {} lines, {} spans over {} pixels, {} bytes, checksums right\n", o.input,
+               file.frame_count(), lines, counts.spans, counts.span_pixels, file.bytes());
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
     fmt::print("\nconfiguration:");

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage model CONFIG...: builds RTL models ahead of their use.
+#include "cosim/model.hpp"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "common.hpp"
-#include "cosim/model.hpp"
 #include "kage/config.hpp"
 
 namespace kage::cli {
@@ -32,8 +33,12 @@ int run(const ModelCommand& o) {
     });
     progress.clear();
     if (!json_only(o))
-      fmt::print("{}: {} ({})\n", named.name, model.library.string(), model.build_seconds > 0 ? fmt::format("built in {:.0f} s", model.build_seconds) : "was there");
-    j.push_back({{"name", named.name}, {"library", model.library.string()}, {"build_seconds", model.build_seconds}, {"config", to_json(named.config)}});
+      fmt::print("{}: {} ({})\n", named.name, model.library.string(),
+                 model.build_seconds > 0 ? fmt::format("built in {:.0f} s", model.build_seconds) : "was there");
+    j.push_back({{"name", named.name},
+                 {"library", model.library.string()},
+                 {"build_seconds", model.build_seconds},
+                 {"config", to_json(named.config)}});
   }
   write_json(o, j);
   return kSame;
@@ -47,7 +52,8 @@ void add_model(CLI::App& app, Action& action) {
                             "  kage model default full\n"
                             "  kage model mine.yaml --json -");
   const auto o = std::make_shared<ModelCommand>();
-  c->add_option("CONFIG", o->configs, "names in rtl/configs.yaml or YAML files, default: all names")->type_name("NAME|FILE");
+  c->add_option("CONFIG", o->configs, "names in rtl/configs.yaml or YAML files, default: all names")
+      ->type_name("NAME|FILE");
   c->add_option("--fault", o->fault, "with a deliberate defect")->type_name("NAME");
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

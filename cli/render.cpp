@@ -35,10 +35,12 @@ int run(const RenderCommand& o) {
     progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
     const auto words = source.words(i, &counts);
     const cosim::FrameResult frame = golden->frame(words);
-    if (frame.status.error != ErrorCode::NONE) throw Error(fmt::format("{}: frame {}: {}", o.input, i, cosim::describe(frame.status)));
+    if (frame.status.error != ErrorCode::NONE)
+      throw Error(fmt::format("{}: frame {}: {}", o.input, i, cosim::describe(frame.status)));
     seconds += frame.seconds;
     size = {frame.image.width, frame.image.height};
-    const auto path = std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
+    const auto path =
+        std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
     save_image(path, frame.image);
     files.push_back(path.string());
   }
@@ -57,7 +59,9 @@ int run(const RenderCommand& o) {
   j["notes"] = source.notes();
   write_json(o, j);
   print_notes(source, o);
-  if (!json_only(o)) fmt::print("{} frames, {}x{}, {} spans over {} pixels: {}\n", source.frames(), size.width, size.height, counts.spans, counts.span_pixels, o.out);
+  if (!json_only(o))
+    fmt::print("{} frames, {}x{}, {} spans over {} pixels: {}\n", source.frames(), size.width, size.height,
+               counts.spans, counts.span_pixels, o.out);
   return kSame;
 }
 
@@ -70,7 +74,9 @@ void add_render(CLI::App& app, Action& action) {
                             "  kage render courtyard.kage --exr --json -");
   const auto o = std::make_shared<RenderCommand>();
   o->out = "out";
-  c->add_option("SCENE", o->input, "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")->required();
+  c->add_option("SCENE", o->input,
+                "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")
+      ->required();
   c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
   c->add_flag("--exr", o->exr, "write EXR instead of PNG");
   option_size(*c, *o);

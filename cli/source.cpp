@@ -23,9 +23,11 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size) {
   needs.width = size.width;
   needs.height = size.height;
   needs.shadows = !frame.triangles.empty();
-  needs.several_volumes = frame.components.size() > 1 || std::any_of(frame.components.begin(), frame.components.end(), [](const Component& c) { return !c.convex; });
+  needs.several_volumes = frame.components.size() > 1 || std::any_of(frame.components.begin(), frame.components.end(),
+                                                                     [](const Component& c) { return !c.convex; });
   needs.smooth = scene.needs_smooth();
-  needs.color = !is_grey(frame.light.color) || std::any_of(frame.shading.begin(), frame.shading.end(), [](const ShadingVertex& v) { return !is_grey(v.color); });
+  needs.color = !is_grey(frame.light.color) || std::any_of(frame.shading.begin(), frame.shading.end(),
+                                                           [](const ShadingVertex& v) { return !is_grey(v.color); });
   return needs;
 }
 
@@ -43,14 +45,16 @@ void Source::open_stream(const Options& options) {
   stream_.emplace(options.input);
   name_ = std::filesystem::path(options.input).stem().string();
   frames_ = stream_->frame_count();
-  if (options.frames > frames_) throw Error(fmt::format("{}: --frames {}: the stream has {}", options.input, options.frames, frames_));
+  if (options.frames > frames_)
+    throw Error(fmt::format("{}: --frames {}: the stream has {}", options.input, options.frames, frames_));
   if (options.frames > 0) frames_ = options.frames;
   config_ = {"of the stream", stream_->config()};
   if (options.config.empty()) return;
   config_ = load_config(options.config);
   for (const ParamInfo& p : kParams)
     if (p.affects_pixels && config_.config.*(p.member) != stream_->config().*(p.member))
-      throw Error(fmt::format("{}: {}: {} is {}, the stream's is {}", options.input, config_.name, p.name, config_.config.*(p.member), stream_->config().*(p.member)));
+      throw Error(fmt::format("{}: {}: {} is {}, the stream's is {}", options.input, config_.name, p.name,
+                              config_.config.*(p.member), stream_->config().*(p.member)));
 }
 
 void Source::open_scene(const Options& options) {
@@ -73,17 +77,19 @@ void Source::open_scene(const Options& options) {
     degraded_ = missing;
     needs.shadows = needs.smooth = needs.color = false;
     missing = lacks(config_.config, needs);
-    std::erase_if(degraded_, [&](const std::string& m) { return std::find(missing.begin(), missing.end(), m) != missing.end(); });
+    std::erase_if(degraded_,
+                  [&](const std::string& m) { return std::find(missing.begin(), missing.end(), m) != missing.end(); });
   }
-  if (!missing.empty()) throw Error(fmt::format("{}: configuration {} lacks {}", options.input, config_.name, fmt::join(missing, ", ")));
+  if (!missing.empty())
+    throw Error(fmt::format("{}: configuration {} lacks {}", options.input, config_.name, fmt::join(missing, ", ")));
   if (!degraded_.empty()) notes_.push_back(fmt::format("drawn without {}", fmt::join(degraded_, ", ")));
 }
 
 std::span<const std::uint32_t> Source::words(int index, TokenCounts* counts) {
   if (stream_) return stream_->frame(index, counts);
   words_.clear();
-  make_frame(make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config, static_cast<std::uint32_t>(index),
-             words_, threads_);
+  make_frame(make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config,
+             static_cast<std::uint32_t>(index), words_, threads_);
   if (counts != nullptr) {
     const TokenCounts frame = check_frame(config_.config, words_, fmt::format("{}: frame {}", name_, index), 0);
     for (std::size_t k = 0; k < frame.of_kind.size(); ++k) counts->of_kind[k] += frame.of_kind[k];
@@ -100,7 +106,8 @@ Size Source::size(std::span<const std::uint32_t> words) {
 }
 
 void print_notes(const Source& source, const Options& options) {
-  for (const std::string& note : source.notes()) fmt::print(json_only(options) ? stderr : stdout, "{}: {}\n", source.name(), note);
+  for (const std::string& note : source.notes())
+    fmt::print(json_only(options) ? stderr : stdout, "{}: {}\n", source.name(), note);
 }
 
 }  // namespace kage::cli

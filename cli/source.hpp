@@ -18,8 +18,8 @@ namespace kage::cli {
 /// Where frames come from: a scene, drawn as the options say, or a stream file. One frame is in memory at a time.
 class Source {
  public:
-  /// Opens options.input and settles the configuration: --config, else the stream's own, else the first named one that has what the
-  /// scene needs. Throws Error if a configuration lacks what the scene needs and --degrade is not given.
+  /// Opens options.input and settles the configuration: --config, else the stream's own, else the first named one that
+  /// has what the scene needs. Throws Error if a configuration lacks what the scene needs and --degrade is not given.
   explicit Source(const Options& options);
 
   [[nodiscard]] const NamedConfig& config() const { return config_; }

@@ -23,7 +23,8 @@ int run(const Options& o) {
   progress.clear();
   writer.finish();
   print_notes(source, o);
-  fmt::print("{}: {} frames, {} spans over {} pixels, {} words\n", o.out, source.frames(), counts.spans, counts.span_pixels, counts.words);
+  fmt::print("{}: {} frames, {} spans over {} pixels, {} words\n", o.out, source.frames(), counts.spans,
+             counts.span_pixels, counts.words);
   return kSame;
 }
 
@@ -34,7 +35,8 @@ void add_stream(CLI::App& app, Action& action) {
                             "  kage stream courtyard --out courtyard.kage\n"
                             "  kage stream model.glb --size 320x240 --frames 4 --config full --out model.kage");
   const auto o = std::make_shared<Options>();
-  c->add_option("SCENE", o->input, "a built-in scene (courtyard, knot, inside, edges) or a file that Assimp reads")->required();
+  c->add_option("SCENE", o->input, "a built-in scene (courtyard, knot, inside, edges) or a file that Assimp reads")
+      ->required();
   c->add_option("--out", o->out, "the stream file")->required()->type_name("FILE");
   option_size(*c, *o);
   option_frames(*c, *o);

@@ -98,8 +98,10 @@ module line_out #(
 
   // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake them.
   // A frame's first line waits for the pipeline to drain, since background and shade are kept once, not per stage.
-  assign start = line_valid_i && begun_q != '0 && (!sending_q || (go && issue_last)) && !(sending_q && begun_q == 2'd1) &&
-      !(line_first_i && (sending_q || valid_q != '0));
+  logic next_begun, may_start;
+  assign next_begun = begun_q > 2'(sending_q);
+  assign may_start = sending_q ? go && issue_last && !line_first_i : !line_first_i || valid_q == '0;
+  assign start = line_valid_i && next_begun && may_start;
   assign line_ready_o = start;
   assign issue = sending_q;
   assign issue_last = x_q == width_q - 1'b1;

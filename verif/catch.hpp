@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Catch2 2.13 (Debian 12) and 3 (Debian 13) under one name. Tests include this, never Catch2 itself, and use Catch2 3's names.
+// Catch2 2.13 (Debian 12) and 3 (Debian 13) under one name. Tests include this, never Catch2 itself, and use Catch2 3's
+// names.
 #pragma once
 
 #ifdef KAGE_CATCH2_V2

@@ -33,15 +33,16 @@ struct Integer {
     using U = std::make_unsigned_t<T>;
     const T a = load<T>(pa);
     const T b = load<T>(pb);
-    return a < b ? static_cast<U>(static_cast<U>(b) - static_cast<U>(a)) : static_cast<U>(static_cast<U>(a) - static_cast<U>(b));
+    return a < b ? static_cast<U>(static_cast<U>(b) - static_cast<U>(a))
+                 : static_cast<U>(static_cast<U>(a) - static_cast<U>(b));
   }
   static double unit(const std::byte* p) {  // 0 .. 1 for the heat map's background
     return std::clamp(static_cast<double>(load<T>(p)) / static_cast<double>(std::numeric_limits<T>::max()), 0.0, 1.0);
   }
 };
 
-/// Distance of two IEEE numbers of pattern U with `Mantissa` mantissa bits: values in order are patterns in order, once the patterns
-/// of negative numbers are turned round.
+/// Distance of two IEEE numbers of pattern U with `Mantissa` mantissa bits: values in order are patterns in order, once
+/// the patterns of negative numbers are turned round.
 template <typename U, int Mantissa>
 struct Ieee {
   static constexpr std::size_t kSize = sizeof(U);
@@ -66,7 +67,8 @@ struct Ieee {
       value = static_cast<double>(std::bit_cast<float>(load<U>(p)));
     } else {
       const U v = load<U>(p);  // half: good enough for a background, subnormals are black
-      if ((v & kSign) == 0 && v >= 0x400) value = static_cast<double>(std::bit_cast<float>((std::uint32_t{v} << 13) + (112U << 23)));
+      if ((v & kSign) == 0 && v >= 0x400)
+        value = static_cast<double>(std::bit_cast<float>((std::uint32_t{v} << 13) + (112U << 23)));
     }
     return value > 0 ? std::min(value, 1.0) : 0.0;  // NaN too is black
   }
@@ -123,7 +125,8 @@ void judge(const DiffOptions& options, DiffResult& r) {
   const auto n = r.different_pixels;
   bool within = n == 0;
   if (options.max_pixels || options.max_percent)
-    within = (!options.max_pixels || n <= *options.max_pixels) && (!options.max_percent || static_cast<double>(n) * 100 <= *options.max_percent * pixels);
+    within = (!options.max_pixels || n <= *options.max_pixels) &&
+             (!options.max_percent || static_cast<double>(n) * 100 <= *options.max_percent * pixels);
   r.same = within && r.nan_pixels == 0;
   if (r.nan_pixels != 0)
     r.reason = fmt::format("{} pixels hold a NaN", r.nan_pixels);
@@ -131,24 +134,47 @@ void judge(const DiffOptions& options, DiffResult& r) {
     r.reason = fmt::format("{} pixels differ", n);
 }
 
-DiffResult diff_raw(Sample sample, int width, int height, int channels, const std::byte* a, const std::byte* b, const DiffOptions& options, Image* heat) {
+DiffResult diff_raw(Sample sample, int width, int height, int channels, const std::byte* a, const std::byte* b,
+                    const DiffOptions& options, Image* heat) {
   DiffResult r;
   r.width = width;
   r.height = height;
   r.channels = channels;
   if (heat != nullptr) *heat = Image(width, height, 3);
   switch (sample) {
-    case Sample::kU8: compare<Integer<std::uint8_t>>(a, b, options, r, heat); break;
-    case Sample::kI8: compare<Integer<std::int8_t>>(a, b, options, r, heat); break;
-    case Sample::kU16: compare<Integer<std::uint16_t>>(a, b, options, r, heat); break;
-    case Sample::kI16: compare<Integer<std::int16_t>>(a, b, options, r, heat); break;
-    case Sample::kU32: compare<Integer<std::uint32_t>>(a, b, options, r, heat); break;
-    case Sample::kI32: compare<Integer<std::int32_t>>(a, b, options, r, heat); break;
-    case Sample::kU64: compare<Integer<std::uint64_t>>(a, b, options, r, heat); break;
-    case Sample::kI64: compare<Integer<std::int64_t>>(a, b, options, r, heat); break;
-    case Sample::kHalf: compare<Ieee<std::uint16_t, 10>>(a, b, options, r, heat); break;
-    case Sample::kFloat: compare<Ieee<std::uint32_t, 23>>(a, b, options, r, heat); break;
-    case Sample::kDouble: compare<Ieee<std::uint64_t, 52>>(a, b, options, r, heat); break;
+    case Sample::kU8:
+      compare<Integer<std::uint8_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kI8:
+      compare<Integer<std::int8_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kU16:
+      compare<Integer<std::uint16_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kI16:
+      compare<Integer<std::int16_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kU32:
+      compare<Integer<std::uint32_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kI32:
+      compare<Integer<std::int32_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kU64:
+      compare<Integer<std::uint64_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kI64:
+      compare<Integer<std::int64_t>>(a, b, options, r, heat);
+      break;
+    case Sample::kHalf:
+      compare<Ieee<std::uint16_t, 10>>(a, b, options, r, heat);
+      break;
+    case Sample::kFloat:
+      compare<Ieee<std::uint32_t, 23>>(a, b, options, r, heat);
+      break;
+    case Sample::kDouble:
+      compare<Ieee<std::uint64_t, 52>>(a, b, options, r, heat);
+      break;
   }
   judge(options, r);
   return r;
@@ -162,22 +188,27 @@ DiffResult unlike(const std::string& what) {
 
 }  // namespace
 
-DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options, Image* heat) {
+DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options,
+                      Image* heat) {
   const Picture pa = load_picture(a);
   const Picture pb = load_picture(b);
   if (pa.width != pb.width || pa.height != pb.height)
     return unlike(fmt::format("sizes are unlike: {}x{} and {}x{}", pa.width, pa.height, pb.width, pb.height));
-  if (pa.x != pb.x || pa.y != pb.y) return unlike(fmt::format("origins are unlike: {},{} and {},{}", pa.x, pa.y, pb.x, pb.y));
+  if (pa.x != pb.x || pa.y != pb.y)
+    return unlike(fmt::format("origins are unlike: {},{} and {},{}", pa.x, pa.y, pb.x, pb.y));
   if (pa.channels != pb.channels || pa.channel_names != pb.channel_names)
     return unlike(fmt::format("channels are unlike: {} and {}", pa.channel_names, pb.channel_names));
-  if (pa.sample != pb.sample) return unlike(fmt::format("pixel types are unlike: {} and {}", name_of(pa.sample), name_of(pb.sample)));
+  if (pa.sample != pb.sample)
+    return unlike(fmt::format("pixel types are unlike: {} and {}", name_of(pa.sample), name_of(pb.sample)));
   return diff_raw(pa.sample, pa.width, pa.height, pa.channels, pa.data.data(), pb.data.data(), options, heat);
 }
 
 DiffResult diff_images(const Image& a, const Image& b, const DiffOptions& options, Image* heat) {
-  if (a.width != b.width || a.height != b.height) return unlike(fmt::format("sizes are unlike: {}x{} and {}x{}", a.width, a.height, b.width, b.height));
+  if (a.width != b.width || a.height != b.height)
+    return unlike(fmt::format("sizes are unlike: {}x{} and {}x{}", a.width, a.height, b.width, b.height));
   if (a.channels != b.channels) return unlike(fmt::format("channels are unlike: {} and {}", a.channels, b.channels));
-  return diff_raw(Sample::kU8, a.width, a.height, a.channels, std::as_bytes(std::span(a.data)).data(), std::as_bytes(std::span(b.data)).data(), options, heat);
+  return diff_raw(Sample::kU8, a.width, a.height, a.channels, std::as_bytes(std::span(a.data)).data(),
+                  std::as_bytes(std::span(b.data)).data(), options, heat);
 }
 
 }  // namespace kage

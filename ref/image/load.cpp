@@ -27,18 +27,30 @@ namespace {
 
 Sample sample_of(const OIIO::TypeDesc& type, const std::filesystem::path& path) {
   switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8: return Sample::kU8;
-    case OIIO::TypeDesc::INT8: return Sample::kI8;
-    case OIIO::TypeDesc::UINT16: return Sample::kU16;
-    case OIIO::TypeDesc::INT16: return Sample::kI16;
-    case OIIO::TypeDesc::UINT32: return Sample::kU32;
-    case OIIO::TypeDesc::INT32: return Sample::kI32;
-    case OIIO::TypeDesc::UINT64: return Sample::kU64;
-    case OIIO::TypeDesc::INT64: return Sample::kI64;
-    case OIIO::TypeDesc::HALF: return Sample::kHalf;
-    case OIIO::TypeDesc::FLOAT: return Sample::kFloat;
-    case OIIO::TypeDesc::DOUBLE: return Sample::kDouble;
-    default: fail(path, fmt::format("pixels of type {} cannot be compared", type.c_str()));
+    case OIIO::TypeDesc::UINT8:
+      return Sample::kU8;
+    case OIIO::TypeDesc::INT8:
+      return Sample::kI8;
+    case OIIO::TypeDesc::UINT16:
+      return Sample::kU16;
+    case OIIO::TypeDesc::INT16:
+      return Sample::kI16;
+    case OIIO::TypeDesc::UINT32:
+      return Sample::kU32;
+    case OIIO::TypeDesc::INT32:
+      return Sample::kI32;
+    case OIIO::TypeDesc::UINT64:
+      return Sample::kU64;
+    case OIIO::TypeDesc::INT64:
+      return Sample::kI64;
+    case OIIO::TypeDesc::HALF:
+      return Sample::kHalf;
+    case OIIO::TypeDesc::FLOAT:
+      return Sample::kFloat;
+    case OIIO::TypeDesc::DOUBLE:
+      return Sample::kDouble;
+    default:
+      fail(path, fmt::format("pixels of type {} cannot be compared", type.c_str()));
   }
 }
 
@@ -47,22 +59,27 @@ Sample sample_of(const OIIO::TypeDesc& type, const std::filesystem::path& path) 
 std::size_t size_of(Sample sample) {
   switch (sample) {
     case Sample::kU8:
-    case Sample::kI8: return 1;
+    case Sample::kI8:
+      return 1;
     case Sample::kU16:
     case Sample::kI16:
-    case Sample::kHalf: return 2;
+    case Sample::kHalf:
+      return 2;
     case Sample::kU32:
     case Sample::kI32:
-    case Sample::kFloat: return 4;
+    case Sample::kFloat:
+      return 4;
     case Sample::kU64:
     case Sample::kI64:
-    case Sample::kDouble: return 8;
+    case Sample::kDouble:
+      return 8;
   }
   return 0;
 }
 
 const char* name_of(Sample sample) {
-  static constexpr const char* kNames[] = {"uint8", "int8", "uint16", "int16", "uint32", "int32", "uint64", "int64", "half", "float", "double"};
+  static constexpr const char* kNames[] = {"uint8",  "int8",  "uint16", "int16", "uint32", "int32",
+                                           "uint64", "int64", "half",   "float", "double"};
   return kNames[static_cast<std::size_t>(sample)];
 }
 

@@ -22,11 +22,14 @@ namespace {
 
 void save_image(const std::filesystem::path& path, const Image& image) {
   std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const bool exr = extension == ".exr";
   if (!exr && extension != ".png") throw Error(fmt::format("{}: pictures are written as .png or .exr", path.string()));
-  if (image.width <= 0 || image.height <= 0 || (image.channels != 1 && image.channels != 3) || image.data.size() != image.index(0, image.height))
-    throw Error(fmt::format("{}: a picture of {}x{} with {} channels cannot be written", path.string(), image.width, image.height, image.channels));
+  if (image.width <= 0 || image.height <= 0 || (image.channels != 1 && image.channels != 3) ||
+      image.data.size() != image.index(0, image.height))
+    throw Error(fmt::format("{}: a picture of {}x{} with {} channels cannot be written", path.string(), image.width,
+                            image.height, image.channels));
 
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   std::error_code ec;

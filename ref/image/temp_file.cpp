@@ -14,7 +14,8 @@ namespace kage {
 TempFile::TempFile(std::filesystem::path target) : target_(std::move(target)) {
   static std::atomic<unsigned> count{0};
   temp_ = target_;
-  temp_.replace_filename(fmt::format(".{}.{}.{}{}", target_.stem().string(), getpid(), count++, target_.extension().string()));
+  temp_.replace_filename(
+      fmt::format(".{}.{}.{}{}", target_.stem().string(), getpid(), count++, target_.extension().string()));
 }
 
 TempFile::~TempFile() {

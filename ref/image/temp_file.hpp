@@ -5,8 +5,8 @@
 
 namespace kage {
 
-/// A file that appears under its name only when it is whole: write to temp(), then commit(). Without commit() the temporary file is
-/// removed. It lies beside the target and has its extension.
+/// A file that appears under its name only when it is whole: write to temp(), then commit(). Without commit() the
+/// temporary file is removed. It lies beside the target and has its extension.
 class TempFile {
  public:
   explicit TempFile(std::filesystem::path target);

@@ -18,8 +18,8 @@ namespace {
 using Json = nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
-// Below it no sum or product of two sizes in this file overflows 64 bits.
-constexpr std::uint64_t kMostElements = std::uint64_t{1} << 30;
+// Four times the corners that the largest scene has. No sum or product of sizes up to it overflows 64 bits.
+constexpr std::uint64_t kMostElements = std::uint64_t{1} << 27;
 
 std::uint32_t little(const std::uint8_t* p) {
   return p[0] | static_cast<std::uint32_t>(p[1]) << 8 | static_cast<std::uint32_t>(p[2]) << 16 |

@@ -20,7 +20,8 @@ Image fitted(const Image& image, int width, int height, int channels) {
   const auto row = static_cast<std::size_t>(std::min(width, image.width)) * static_cast<std::size_t>(channels);
   for (int y = 0; y < std::min(height, image.height); ++y) {
     const auto from = image.data.begin() + static_cast<std::ptrdiff_t>(image.index(0, y));
-    std::copy(from, from + static_cast<std::ptrdiff_t>(row), out.data.begin() + static_cast<std::ptrdiff_t>(out.index(0, y)));
+    std::copy(from, from + static_cast<std::ptrdiff_t>(row),
+              out.data.begin() + static_cast<std::ptrdiff_t>(out.index(0, y)));
   }
   return out;
 }
@@ -40,11 +41,13 @@ std::optional<Difference> first_pixel(int frame, const FrameResult& expected, co
     const std::uint8_t* at = std::mismatch(pe, pe + n, pa).first;
     if (at != pe + n) {
       const auto offset = static_cast<int>(at - pe);
-      return Difference{frame, y, offset / e.channels, channel_name(e.channels, offset % e.channels), *at, pa[offset], {}};
+      return Difference{frame,      y, offset / e.channels, channel_name(e.channels, offset % e.channels), *at,
+                        pa[offset], {}};
     }
     if (left < static_cast<std::uint64_t>(width)) {
       const auto pixels = static_cast<std::int64_t>(a.data.size() / channels);
-      return Difference{frame, y, static_cast<int>(left), "missing", pixels, static_cast<std::int64_t>(present), actual.misconduct};
+      return Difference{
+          frame, y, static_cast<int>(left), "missing", pixels, static_cast<std::int64_t>(present), actual.misconduct};
     }
   }
   return std::nullopt;

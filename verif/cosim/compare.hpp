@@ -14,7 +14,8 @@ struct Difference {
   int frame = 0;
   int line = -1;      ///< -1: of the frame as a whole
   int x = -1;         ///< -1: not at a pixel
-  std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port"; "error", "error_frame", "error_line", "error_token"
+  std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
+                      ///< "error", "error_frame", "error_line", "error_token"
   std::int64_t expected = 0;
   std::int64_t actual = 0;
   std::string remark;  ///< more in words, or empty
@@ -26,7 +27,8 @@ std::optional<Difference> first_difference(int frame, const FrameResult& expecte
 /// "frame 3, line 17, x 204, red: expected 12, got 13".
 std::string describe(const Difference& difference);
 
-/// Where both differ, at the size of `expected`: that dimmed, red where `actual` is unlike; what `actual` lacks counts as black.
+/// Where both differ, at the size of `expected`: that dimmed, red where `actual` is unlike; what `actual` lacks counts
+/// as black.
 Image difference_picture(const Image& expected, const Image& actual);
 
 }  // namespace kage::cosim

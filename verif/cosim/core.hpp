@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Anything that turns the words of a frame into pixels and a status: the golden model, the RTL. What compares them knows no more.
+// Anything that turns the words of a frame into pixels and a status: the golden model, the RTL. What compares them
+// knows no more.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +18,13 @@ namespace kage::cosim {
 /// What a core made of a frame.
 struct FrameResult {
   FrameStatus status;
-  Image image;               ///< 0 x 0 after an error in the header
-  std::uint64_t missing = 0; ///< pixels at the picture's end that never came; they are black in `image`
-  std::string misconduct;    ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
-  double seconds = 0;        ///< wall time inside the core
-  std::uint64_t cycles = 0;  ///< core clock edges; 0 for a core without clock
-  std::uint64_t starved = 0; ///< of them, waiting for input
-  std::uint64_t blocked = 0; ///< of them, waiting for output
+  Image image;                ///< 0 x 0 after an error in the header
+  std::uint64_t missing = 0;  ///< pixels at the picture's end that never came; they are black in `image`
+  std::string misconduct;     ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
+  double seconds = 0;         ///< wall time inside the core
+  std::uint64_t cycles = 0;   ///< core clock edges; 0 for a core without clock
+  std::uint64_t starved = 0;  ///< of them, waiting for input
+  std::uint64_t blocked = 0;  ///< of them, waiting for output
 };
 
 class Core {

@@ -17,7 +17,8 @@ class Golden : public Core {
     FrameResult result;
     std::vector<std::uint8_t> pixels;
     const auto start = std::chrono::steady_clock::now();
-    result.status = core_.frame(words, [&](int, std::span<const std::uint8_t> line) { pixels.insert(pixels.end(), line.begin(), line.end()); });
+    result.status = core_.frame(
+        words, [&](int, std::span<const std::uint8_t> line) { pixels.insert(pixels.end(), line.begin(), line.end()); });
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     result.image.width = result.status.width;
     result.image.height = result.status.height;

@@ -74,10 +74,12 @@ std::string output_of(const char* command) {
 std::string key_of(const fs::path& data, const Config& config, const std::string& fault) {
   std::vector<fs::path> files;  // what build.py --sources names, and perhaps a file more
   for (const char* folder : {"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"}) {
-    if (!fs::is_directory(data / folder)) throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
+    if (!fs::is_directory(data / folder))
+      throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
     for (const auto& entry : fs::directory_iterator(data / folder)) {
       const std::string name = entry.path().filename().string();
-      if (entry.is_regular_file() && name != "configs.yaml" && name.front() != '.') files.push_back(fs::path(folder) / name);
+      if (entry.is_regular_file() && name != "configs.yaml" && name.front() != '.')
+        files.push_back(fs::path(folder) / name);
     }
   }
   if (!fault.empty()) {
@@ -224,11 +226,13 @@ Model find_model(const Config& config, const std::string& fault, const BuildProg
   std::vector<std::string> command{(data / "verif/rtl_model/build.py").string(), (work.path / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
   if (!fault.empty()) command.insert(command.end(), {"--fault", fault});
-  command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)), "--keep", (work.path / "build").string()});
+  command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
+                                 "--keep", (work.path / "build").string()});
   Process build(command, log);
   bool ok = false;
   while (!build.ended(ok)) wait();
-  if (!ok || !fs::exists(work.path / "model.so")) throw Error(fmt::format("RTL model: the build failed: {} (log: {})", last_line(log), log.string()));
+  if (!ok || !fs::exists(work.path / "model.so"))
+    throw Error(fmt::format("RTL model: the build failed: {} (log: {})", last_line(log), log.string()));
   fs::rename(work.path / "model.so", library);
   return {library, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }

@@ -39,10 +39,13 @@ class Library {
 
 class Rtl : public Core {
  public:
-  Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options) : config_(config), library_(path), table_(library_.table()) {
-    if (table_ == nullptr || table_->abi != KAGE_RTL_ABI) throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
+  Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
+      : config_(config), library_(path), table_(library_.table()) {
+    if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
+      throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
     for (const ParamInfo& p : kParams)
-      if (built_with(p.name) != config.*(p.member)) throw Error(fmt::format("{}: {} is not that of the configuration", path.string(), p.name));
+      if (built_with(p.name) != config.*(p.member))
+        throw Error(fmt::format("{}: {} is not that of the configuration", path.string(), p.name));
     model_ = table_->create(options.seed);
     if (model_ == nullptr) throw Error(fmt::format("{}: out of memory", path.string()));
     const auto chance = [](int idle) { return kAlways - kAlways * static_cast<std::uint32_t>(idle) / 100; };
@@ -65,14 +68,18 @@ class Rtl : public Core {
     const std::uint64_t pixels = std::uint64_t{width} * height;
     table_->expect(model_, width, height);
     table_->submit(model_, words.data(), words.size(), 1);
-    const int why = table_->run(model_, pixels == 0 ? std::numeric_limits<std::uint64_t>::max() : pixels, std::numeric_limits<std::uint64_t>::max());
+    const int why = table_->run(model_, pixels == 0 ? std::numeric_limits<std::uint64_t>::max() : pixels,
+                                std::numeric_limits<std::uint64_t>::max());
     if (why == KAGE_RTL_ASSERT) throw Error("RTL model: an assertion failed (its message is above)");
-    std::string trouble = why == KAGE_RTL_STUCK ? "the core hangs, with input waiting" : why == KAGE_RTL_PIXELS || pixels == 0 ? "" : "the core went idle";
+    std::string trouble = why == KAGE_RTL_STUCK                   ? "the core hangs, with input waiting"
+                          : why == KAGE_RTL_PIXELS || pixels == 0 ? ""
+                                                                  : "the core went idle";
     if (why == KAGE_RTL_PIXELS) trouble = wait_for_end();
     result.status = status();
     broken_ = why != KAGE_RTL_PIXELS || !trouble.empty();
 
-    const bool header_error = result.status.error == ErrorCode::HEADER || result.status.error == ErrorCode::SIZE || result.status.error == ErrorCode::PARAMS ||
+    const bool header_error = result.status.error == ErrorCode::HEADER || result.status.error == ErrorCode::SIZE ||
+                              result.status.error == ErrorCode::PARAMS ||
                               (result.status.error == ErrorCode::LAST_EARLY && result.status.token == 0);
     if (header_error && why != KAGE_RTL_STUCK) trouble.clear();
     if (!header_error) take_image(static_cast<int>(width), static_cast<int>(height), result);
@@ -98,7 +105,8 @@ class Rtl : public Core {
 
   std::uint32_t read(std::uint32_t address) {
     std::uint32_t value = 0;
-    if (table_->reg_read(model_, address, &value) != 0) throw Error(fmt::format("RTL model: register {:#04x} does not answer", address));
+    if (table_->reg_read(model_, address, &value) != 0)
+      throw Error(fmt::format("RTL model: register {:#04x} does not answer", address));
     return value;
   }
 
@@ -129,7 +137,8 @@ class Rtl : public Core {
     std::uint64_t count = 0;
     const std::uint8_t* pixels = table_->pixels(model_, &count);
     result.image = Image(width, height, config_.channels);
-    const std::size_t have = std::min<std::size_t>(result.image.data.size(), count * static_cast<std::size_t>(config_.channels));
+    const std::size_t have =
+        std::min<std::size_t>(result.image.data.size(), count * static_cast<std::size_t>(config_.channels));
     if (have != 0) std::memcpy(result.image.data.data(), pixels, have);
     result.missing = (result.image.data.size() - have) / static_cast<std::size_t>(config_.channels);
   }

@@ -38,7 +38,8 @@ Report run(int frames, const Feed& feed, Core& expected, Core& actual, const Run
   for (int i = 0; i < frames; ++i) {
     if (options.begin) options.begin(i);
     if (i == 0) fetch(0, words);
-    auto other = std::async(options.two_threads ? std::launch::async : std::launch::deferred, [&] { return actual.frame(words); });
+    auto other = std::async(options.two_threads ? std::launch::async : std::launch::deferred,
+                            [&] { return actual.frame(words); });
     const FrameResult e = expected.frame(words);
     pictures.save(i, "", e.image);
     if (i + 1 < frames) fetch(i + 1, next);

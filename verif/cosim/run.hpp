@@ -39,8 +39,9 @@ struct Report {
   std::vector<std::string> pictures;
 };
 
-/// Send every frame through both cores and compare. Each frame of `expected` is written as a picture; at the first difference also
-/// NAME_0000_expected.png, _actual.png and _difference.png. Two frames' words and two pictures are in memory, whatever the number.
+/// Send every frame through both cores and compare. Each frame of `expected` is written as a picture; at the first
+/// difference also NAME_0000_expected.png, _actual.png and _difference.png. Two frames' words and two pictures are in
+/// memory, whatever the number.
 Report run(int frames, const Feed& feed, Core& expected, Core& actual, const RunOptions& options);
 
 }  // namespace kage::cosim

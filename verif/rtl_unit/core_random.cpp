@@ -207,6 +207,37 @@ struct Trial {
     return good;
   }
 
+  /// A standstill is named: by the watchdog's interrupt, and in STATUS by what the core waits for.
+  bool standstill(kage_rtl* m, FrameMaker& maker) {
+    api.stalls(m, 65536, 65536, 1);
+    api.reg_write(m, KAGE_REG_WATCHDOG, 300);
+    api.reg_write(m, KAGE_REG_CONTROL, 4);
+    api.reg_write(m, KAGE_REG_IRQ, 7);
+    Words words = maker.sound(5);
+    words.resize(words.size() - 1);  // no END, no TLAST
+    api.submit(m, words.data(), words.size(), 0);
+    api.run(m, UINT64_MAX, 50'000'000);
+    if (config.beat_words == 1) {  // else the fill is an error, and the core waits for TLAST: the same standstill
+      if ((reg(m, KAGE_REG_STATUS) & 15U) != 5U) return fails("STATUS does not say that a frame waits for input");
+    } else if ((reg(m, KAGE_REG_STATUS) & 13U) != 5U) {
+      return fails("STATUS does not say that the core waits for input");
+    }
+    if (api.irq(m) == 0 || (reg(m, KAGE_REG_IRQ) & 4U) == 0) return fails("the watchdog does not bite when input stops");
+    api.reset(m, 1);
+    api.clear_pixels(m);
+    api.stalls(m, 65536, 0, 1);
+    api.reg_write(m, KAGE_REG_WATCHDOG, 300);
+    api.reg_write(m, KAGE_REG_CONTROL, 4);
+    words = maker.sound(6);
+    api.submit(m, words.data(), words.size(), 1);
+    api.run(m, UINT64_MAX, 8ULL * static_cast<std::uint64_t>(config.max_width) + 20'000);
+    if ((reg(m, KAGE_REG_STATUS) & 9U) != 9U) return fails("STATUS does not say that the core waits for output");
+    if (api.irq(m) == 0) return fails("the watchdog does not bite when output stops");
+    api.reset(m, 1);
+    api.clear_pixels(m);
+    return true;
+  }
+
   bool frames(kage_rtl* m, Dice& dice) {
     FrameMaker maker(config, dice);
     GoldenCore golden(config);
@@ -214,6 +245,7 @@ struct Trial {
       static constexpr std::uint32_t chances[] = {65536, 65536, 60000, 32768, 9000, 2500};
       api.stalls(m, chances[dice.below(6)], chances[dice.below(6)], dice.bits());
     };
+    if (dice.one_in(5) && !standstill(m, maker)) return false;
     stall();
     if (reg(m, KAGE_REG_PARAM_HASH) != param_hash(config)) return fails("PARAM_HASH differs");
     std::uint32_t errors = 0;

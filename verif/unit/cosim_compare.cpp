@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The comparison of cores, tried with cores that lie: it must say where.
+#include <unistd.h>
+
 #include <filesystem>
 #include <set>
-#include <unistd.h>
 
 #include "catch.hpp"
 #include "cosim/compare.hpp"
@@ -78,8 +79,8 @@ TEST_CASE("a single bit is found at its frame, line, x and channel, with picture
   CHECK(r.first_difference->field == "green");
   std::set<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  CHECK(names == std::set<std::string>{"frame_0000.png", "frame_0001.png", "frame_0002.png", "frame_0002_actual.png", "frame_0002_difference.png",
-                                       "frame_0002_expected.png"});
+  CHECK(names == std::set<std::string>{"frame_0000.png", "frame_0001.png", "frame_0002.png", "frame_0002_actual.png",
+                                       "frame_0002_difference.png", "frame_0002_expected.png"});
   fs::remove_all(folder);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The co-simulation can say no, and at the right pixel: frames made by hand, in which each defect of verif/faults can show first
-// in one known place, go through RTL with the defect. The sound RTL passes the same frames.
+// The co-simulation can say no, and at the right pixel: frames made by hand, in which each defect of verif/faults can
+// show first in one known place, go through RTL with the defect. The sound RTL passes the same frames.
 #include <functional>
 #include <vector>
 
@@ -76,7 +76,8 @@ Report compare(const std::string& fault, const LineMaker& opaque, const LineMake
   return run(kFrames, feed, *golden, *rtl, {});
 }
 
-void check(const std::string& fault, const LineMaker& opaque, const LineMaker& volumes, int line, int x, int expected, int actual) {
+void check(const std::string& fault, const LineMaker& opaque, const LineMaker& volumes, int line, int x, int expected,
+           int actual) {
   CHECK(compare("", opaque, volumes).same);
   CHECK(compare("", opaque, volumes, 50).same);
   const Report r = compare(fault, opaque, volumes);
@@ -116,9 +117,12 @@ TEST_CASE("a swallowed toggle shows where a second face of the volume is crossed
 }
 
 TEST_CASE("a token lost in a stall shows at its own pixels") {
-  // Empty lines come faster than their pixels leave, so the only span of all meets a core that is waiting.
+  // A wall takes as many clocks as the line has groups; the second and third change nothing, and what follows finds the
+  // core busy.
   const LineMaker opaque = [](TokenWriter& out, int frame, int line) {
-    if (frame == 1 && line == 4) out.op(span(203, 204, 900, 20));
+    if (frame != 1 || line != 4) return;
+    for (int i = 0; i < 3; ++i) wall(out);
+    out.op(span(203, 204, 900, 20));
   };
-  check("lost_token", opaque, {}, 4, 203, 20, 0);
+  check("lost_token", opaque, {}, 4, 203, 20, 100);
 }

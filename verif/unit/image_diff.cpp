@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Laws of the picture comparison, and that pictures survive being written and read.
 #include <OpenImageIO/imageio.h>
+#include <rapidcheck.h>
+#include <unistd.h>
 
 #include <bit>
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <rapidcheck.h>
-#include <unistd.h>
 
 #include "catch.hpp"
 #include "kage/error.hpp"
@@ -37,7 +37,8 @@ Image random_image(int w, int h, int c) {
 
 fs::path write_float(const fs::path& path, int width, const std::vector<float>& values) {
   const auto output = OIIO::ImageOutput::create("exr");
-  output->open(path.string(), OIIO::ImageSpec(width, static_cast<int>(values.size()) / width, 1, OIIO::TypeDesc::FLOAT));
+  output->open(path.string(),
+               OIIO::ImageSpec(width, static_cast<int>(values.size()) / width, 1, OIIO::TypeDesc::FLOAT));
   output->write_image(OIIO::TypeDesc::FLOAT, values.data());
   output->close();
   return path;
@@ -65,7 +66,8 @@ TEST_CASE("comparison is symmetric") {
     const auto ba = diff_images(b, a, o);
     RC_ASSERT(ab.same == ba.same && ab.different_pixels == ba.different_pixels && ab.max_lsb == ba.max_lsb);
     RC_ASSERT(ab.first.has_value() == ba.first.has_value());
-    if (ab.first) RC_ASSERT(ab.first->x == ba.first->x && ab.first->y == ba.first->y && ab.first->channel == ba.first->channel);
+    if (ab.first)
+      RC_ASSERT(ab.first->x == ba.first->x && ab.first->y == ba.first->y && ab.first->channel == ba.first->channel);
   }));
 }
 
@@ -134,7 +136,8 @@ TEST_CASE("pictures survive PNG and EXR") {
     CHECK(diff_files(folder.path / "a.exr", folder.path / "b.exr").different_pixels == 1);
     CHECK_FALSE(diff_files(png, folder.path / "a.exr").same);
   }
-  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator{}) == 3);  // no temporary file is left
+  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator{}) ==
+        3);  // no temporary file is left
 }
 
 TEST_CASE("floats are told apart by their bits; NaN is never the same, not even as itself") {
@@ -142,7 +145,9 @@ TEST_CASE("floats are told apart by their bits; NaN is never the same, not even 
   const float inf = std::numeric_limits<float>::infinity();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const auto a = write_float(folder.path / "a.exr", 2, {0.0F, 1.0F, inf, -1.0F});
-  const auto b = write_float(folder.path / "b.exr", 2, {-0.0F, std::nextafter(1.0F, 2.0F), inf, std::nextafter(std::nextafter(-1.0F, 0.0F), 0.0F)});
+  const auto b =
+      write_float(folder.path / "b.exr", 2,
+                  {-0.0F, std::nextafter(1.0F, 2.0F), inf, std::nextafter(std::nextafter(-1.0F, 0.0F), 0.0F)});
   const auto n = write_float(folder.path / "n.exr", 2, {0.0F, 1.0F, inf, nan});
   const auto r = diff_files(a, b);
   CHECK(r.different_pixels == 3);

@@ -249,3 +249,60 @@ TEST_CASE("positions that are no numbers are refused by mesh and vertex; bad nor
   CHECK(test::has_note(s, "2 corners have a normal that is 0 or not finite"));
   for (const ShadingVertex& v : s.frame(0, 1).shading) CHECK(v.normal == glm::dvec3{0, 0, 1});
 }
+
+TEST_CASE("any byte changed, or the file cut anywhere: read or refused in one line") {
+  // Without the child process, so that a crash is one. Text, and the same scene as a .glb.
+  const std::vector<std::uint16_t> index{0, 1, 2, 0};
+  const std::string data =
+      test::bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 2}) + test::bytes_of(index);
+  const std::string members =
+      R"("bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 48, "byteLength": 8},
+                      {"buffer": 0, "byteOffset": 36, "byteLength": 12}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
+                    {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
+                    {"bufferView": 2, "componentType": 5126, "count": 3, "type": "SCALAR"}],
+      "materials": [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}],
+      "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 1}}],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0, "mode": 5}]}],
+      "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+                      "samplers": [{"input": 2, "output": 0}]}],
+      "nodes": [{"mesh": 0, "children": [1]}, {"camera": 0}], "scenes": [{"nodes": [0]}])";
+  const auto word = [](std::size_t v) {
+    return test::bytes_of(std::vector<std::uint32_t>{static_cast<std::uint32_t>(v)});
+  };
+  std::string json = R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 56}], )" + members + "}";
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string body = word(json.size()) + "JSON" + json + word(data.size()) + std::string("BIN\0", 4) + data;
+  const std::string binary = "glTF" + word(2) + word(12 + body.size()) + body;
+  const std::string text = test::gltf(members, data);
+
+  const TempDirectory dir;
+  std::size_t read = 0;
+  std::size_t refused_files = 0;
+  const auto attempt = [&](const char* name, const std::string& content) {
+    const std::string path = dir.write(name, content);
+    try {
+      (void)scene::import_file(path, "x");
+      ++read;
+    } catch (const Error& e) {
+      ++refused_files;
+      const std::string message = e.what();
+      if (message.rfind("x: ", 0) != 0 || message.find('\n') != std::string::npos) FAIL_CHECK(message);
+    }
+  };
+  attempt("x.gltf", text);
+  attempt("x.glb", binary);
+  REQUIRE(read == 2);
+  for (const auto& [name, whole] : {std::pair{"x.gltf", text}, {"x.glb", binary}})
+    for (std::size_t i = 0; i < whole.size(); ++i) {
+      if (i > 0) attempt(name, whole.substr(0, i));
+      for (const char c : {'\0', '9', '-', '"', '\xff'}) {
+        std::string changed = whole;
+        changed[i] = c;
+        attempt(name, changed);
+      }
+    }
+  INFO(read << " read, " << refused_files << " refused");
+  CHECK(read > 100);
+  CHECK(refused_files > 1000);
+}
