@@ -36,6 +36,8 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "kage " KAGE_VERSION);
   app.footer("kage COMMAND --help explains a command. Exit codes: 0 same or done, 1 different, 2 trouble.");
   app.require_subcommand(0, 1);
+  app.option_defaults()->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeLast);  // scripts set defaults that a person overrides
   Action action;
   add_cosim(app, action);
   add_render(app, action);

@@ -53,6 +53,7 @@ void add_model(CLI::App& app, Action& action) {
                             "  kage model mine.yaml --json -");
   const auto o = std::make_shared<ModelCommand>();
   c->add_option("CONFIG", o->configs, "names in rtl/configs.yaml or YAML files, default: all names")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
   c->add_option("--fault", o->fault, "with a deliberate defect")->type_name("NAME");
   option_json(*c, *o);

@@ -10,6 +10,11 @@ for command in cosim render stream info diff model; do
   grep -q Examples: stdout || fail "$command --help has no examples"
 done
 
+# The last of an option given twice counts.
+expect 0 "$kage" stream courtyard --size 640x480 --size 32x24 --frames 2 --frames 1 --out twice.kage
+expect 0 "$kage" info twice.kage --json twice.json
+json twice.json 'j["frames"]==1 and j["lines"]==24'
+
 trouble "no command" "$kage"
 trouble "nonsense" "$kage" nonsense
 trouble "A is required" "$kage" diff
