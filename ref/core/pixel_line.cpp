@@ -20,7 +20,7 @@ DepthRamp depth_ramp(const Config& c, const SpanToken& s) {
 }  // namespace
 
 PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_((1U << config.dsf_bits) - 1U) {
-  const auto n = static_cast<std::size_t>(config.max_width + kKernelSlack);
+  const auto n = static_cast<std::size_t>(config.max_width) + kKernelSlack;
   zb_.resize(n);
   attr_.resize(n);
   dsf_.resize(n);

@@ -4,6 +4,7 @@
 // chosen once at run time. All are integer arithmetic modulo 2^n: every instruction set gives the same bits.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace kage {
@@ -25,7 +26,7 @@ struct ColorRamp {
 };
 
 /// Arrays may be read and written up to this many elements past `count`, with the old values.
-inline constexpr int kKernelSlack = 64;
+inline constexpr std::size_t kKernelSlack = 64;
 
 /// Where Z < zb: zb = Z, attr = value.
 void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value);

@@ -72,7 +72,7 @@ class ShadowCaster {
  private:
   [[nodiscard]] bool light_outside(const Component& part) const;
   [[nodiscard]] bool make_convex(const Component& part, WorldVolume& v) const;
-  [[nodiscard]] bool make_face(std::uint32_t triangle, bool lit_only, WorldVolume& v) const;
+  [[nodiscard]] bool make_face(std::uint32_t index, bool lit_only, WorldVolume& v) const;
   [[nodiscard]] double light_distance(const Triangle& t) const;
   [[nodiscard]] glm::dvec3 far_point(const glm::dvec3& p, double factor) const;
   [[nodiscard]] double far_factor(double distance) const;

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "Vkage.h"
-#include "verilated.h"
-
 #include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
+#include "verilated.h"
 
 namespace {
 

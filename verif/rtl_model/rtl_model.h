@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
- * The C interface of an RTL model: one shared library per configuration, made by build.py, opened with dlopen. Its one symbol is
- * kage_rtl_api, which gives the table below.
+ * The C interface of an RTL model: one shared library per configuration, made by build.py, opened with dlopen. Its one
+ * symbol is kage_rtl_api, which gives the table below.
  *
- * A model is kage_top with a driver around it: queues of beats go in under a stall pattern, pixels come out under another. Time
- * passes only in run(), reset(), reg_read() and reg_write(). The same seed and the same calls give the same clocks. One thread at
- * a time per model; models are independent.
+ * A model is kage_top with a driver around it: queues of beats go in under a stall pattern, pixels come out under
+ * another. Time passes only in run(), reset(), reg_read() and reg_write(). The same seed and the same calls give the
+ * same clocks. One thread at a time per model; models are independent.
  */
 #ifndef KAGE_RTL_MODEL_H
 #define KAGE_RTL_MODEL_H
@@ -27,13 +27,13 @@ enum {
   KAGE_RTL_IDLE = 1,   /* all input is taken and nothing moves any more */
   KAGE_RTL_LIMIT = 2,  /* the clocks allowed are used up */
   KAGE_RTL_STUCK = 3,  /* input is waiting, output is ready, and nothing moves: a hang */
-  KAGE_RTL_ASSERT = 4  /* an assertion in the RTL failed (its message is on standard error); only destroy() may follow */
+  KAGE_RTL_ASSERT = 4 /* an assertion in the RTL failed (its message is on standard error); only destroy() may follow */
 };
 
 /* All counts are since create() or clear_stats(). */
 typedef struct {
-  uint64_t cycles;         /* clocks outside reset */
-  uint64_t input_starved;  /* clocks in which the core was ready for a beat that is still queued, but none was offered */
+  uint64_t cycles;        /* clocks outside reset */
+  uint64_t input_starved; /* clocks in which the core was ready for a beat that is still queued, but none was offered */
   uint64_t output_blocked; /* clocks in which a pixel waited for ready */
   uint64_t beats;          /* taken by the core */
   uint64_t pixels;         /* delivered */
@@ -46,7 +46,8 @@ typedef struct {
 typedef struct {
   uint32_t abi; /* KAGE_RTL_ABI */
 
-  /* What the model was built from: parameters by name, in the order of rtl/defs/kage.yaml, and the fault built in ("" if none). */
+  /* What the model was built from: parameters by name, in the order of rtl/defs/kage.yaml, and the fault built in (""
+   * if none). */
   uint32_t param_count;
   const char* const* param_names;
   const int32_t* param_values;
@@ -56,28 +57,32 @@ typedef struct {
   kage_rtl* (*create)(uint64_t seed);
   void (*destroy)(kage_rtl*);
 
-  /* Hold reset for `clocks` (at least 1). Queued beats, expected frames and a half-finished register access are dropped;
-   * pixels already delivered stay. */
+  /* Hold reset for `clocks` (at least 1). Queued beats, expected frames and a half-finished register access are
+   * dropped; pixels already delivered stay. */
   void (*reset)(kage_rtl*, uint32_t clocks);
 
-  /* Chance in 65536 that a beat is offered, and that a pixel is taken, per clock: 65536 is always. An offered beat stays. */
+  /* Chance in 65536 that a beat is offered, and that a pixel is taken, per clock: 65536 is always. An offered beat
+   * stays. */
   void (*stalls)(kage_rtl*, uint32_t input_chance, uint32_t output_chance, uint64_t seed);
 
-  /* Queue words as whole beats; zeros fill the last beat. `last` puts TLAST on it. A frame may come in several calls. */
+  /* Queue words as whole beats; zeros fill the last beat. `last` puts TLAST on it. A frame may come in several calls.
+   */
   void (*submit)(kage_rtl*, const uint32_t* words, size_t count, int last);
 
   /* Announce the size of a frame whose pixels are to come, for the checks of TUSER and TLAST. */
   void (*expect)(kage_rtl*, uint32_t width, uint32_t height);
 
-  /* Let the clock run until the model holds at least `pixels` undelivered-to-you pixels, or for any other reason above. With
-   * pixels = UINT64_MAX it runs until idle. */
+  /* Let the clock run until the model holds at least `pixels` undelivered-to-you pixels, or for any other reason above.
+   * With pixels = UINT64_MAX it runs until idle. */
   int (*run)(kage_rtl*, uint64_t pixels, uint64_t max_clocks);
 
-  /* The pixels that came since the last clear_pixels(): CHANNELS bytes each, channel 0 first. Valid until time passes. */
+  /* The pixels that came since the last clear_pixels(): CHANNELS bytes each, channel 0 first. Valid until time passes.
+   */
   const uint8_t* (*pixels)(kage_rtl*, uint64_t* count);
   void (*clear_pixels)(kage_rtl*);
 
-  /* AXI4-Lite accesses; the streams go on meanwhile. Return the response (0 is OKAY), -1 if none came in 1000 clocks. */
+  /* AXI4-Lite accesses; the streams go on meanwhile. Return the response (0 is OKAY), -1 if none came in 1000 clocks.
+   */
   int (*reg_read)(kage_rtl*, uint32_t address, uint32_t* value);
   int (*reg_write)(kage_rtl*, uint32_t address, uint32_t value);
   int (*irq)(kage_rtl*);

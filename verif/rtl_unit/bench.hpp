@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of RTL modules share: a seed that is printed and can be repeated (KAGE_SEED), a clock, valid/ready sources and
-// sinks that stall at random, and access to ports of any width.
+// What the tests of RTL modules share: a seed that is printed and can be repeated (KAGE_SEED), a clock, valid/ready
+// sources and sinks that stall at random, and access to ports of any width.
 //
 // A clock of a test: set inputs, settle(), look at outputs, edge(). Registers and memories start at random values.
 #pragma once
@@ -58,7 +58,8 @@ void put(Port& port, std::uint64_t value) {
 }
 template <std::size_t N>
 void put(VlWide<N>& port, std::uint64_t value) {
-  for (std::size_t i = 0; i < N; ++i) port[i] = i == 0 ? static_cast<EData>(value) : i == 1 ? static_cast<EData>(value >> 32) : 0;
+  for (std::size_t i = 0; i < N; ++i)
+    port[i] = i == 0 ? static_cast<EData>(value) : i == 1 ? static_cast<EData>(value >> 32) : 0;
 }
 
 /// Set `bits` bits of a port from bit `lsb`.
@@ -97,7 +98,7 @@ class Bench {
     context_.randSeed(static_cast<int>(dice.bits(30)) + 1);
     top_ = std::make_unique<Model>(&context_, "top");
     top_->clk_i = 0;
-    if constexpr (requires(Model& m) { m.rst_ni; }) {
+    if constexpr (requires(Model & m) { m.rst_ni; }) {
       top_->rst_ni = 0;
       settle();
       for (int i = 0; i < 2; ++i) edge();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Clocks that the whole core takes: per token within a line, per change of line, per frame. Prints them and exits 1 if a token
-// takes more than docs/rtl.md promises.
+// Clocks that the whole core takes: per token within a line, per change of line, per frame. Prints them and exits 1 if
+// a token takes more than docs/rtl.md promises.
 //
 // usage: core_clocks MODEL.so...
 #include <dlfcn.h>
@@ -18,7 +18,8 @@ namespace {
 using namespace kage;
 
 /// Clocks for a frame of one line of this width with `tokens` spans [xl, xr), from the first beat to the last pixel.
-std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int height, int tokens, int xl, int xr, int frames = 1) {
+std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int height, int tokens, int xl, int xr,
+                     int frames = 1) {
   std::vector<std::uint32_t> words;
   TokenWriter out(c, words);
   out.header({width, height, 0, 1});
@@ -38,7 +39,9 @@ std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int 
     api.submit(m, words.data(), words.size(), 1);
     api.expect(m, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
   }
-  const int why = api.run(m, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(frames), 100'000'000);
+  const int why = api.run(
+      m, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(frames),
+      100'000'000);
   kage_rtl_stats stats;
   api.stats(m, &stats);
   api.destroy(m);
@@ -51,7 +54,8 @@ int main(int argc, char** argv) {
   bool good = argc > 1;
   for (int i = 1; i < argc; ++i) {
     void* library = dlopen(argv[i], RTLD_NOW | RTLD_LOCAL);
-    const auto function = library == nullptr ? nullptr : reinterpret_cast<kage_rtl_api_function>(dlsym(library, KAGE_RTL_API_SYMBOL));
+    const auto function =
+        library == nullptr ? nullptr : reinterpret_cast<kage_rtl_api_function>(dlsym(library, KAGE_RTL_API_SYMBOL));
     if (function == nullptr) {
       std::fprintf(stderr, "core_clocks: %s: no RTL model\n", argv[i]);
       return 2;
@@ -74,16 +78,20 @@ int main(int argc, char** argv) {
     };
     for (const Range r : {Range{0, 1}, Range{std::max(0, lanes - 1), std::min(width, lanes + 1)}, Range{0, width}}) {
       const int few = 100, many = 1100;
-      const auto extra = static_cast<double>(clocks(api, c, width, 1, many, r.xl, r.xr) - clocks(api, c, width, 1, few, r.xl, r.xr)) / (many - few);
+      const auto extra =
+          static_cast<double>(clocks(api, c, width, 1, many, r.xl, r.xr) - clocks(api, c, width, 1, few, r.xl, r.xr)) /
+          (many - few);
       const int groups = banked ? (r.xr - 1) / lanes - r.xl / lanes + 1 : 1;
-      const double promised = std::max({1.0, static_cast<double>(groups), static_cast<double>(op_words) / c.beat_words});
+      const double promised =
+          std::max({1.0, static_cast<double>(groups), static_cast<double>(op_words) / c.beat_words});
       std::printf("  OP [%d, %d): %.3f clocks, promised %.3f\n", r.xl, r.xr, extra, promised);
       good = good && extra <= promised * 1.001;
     }
     // Changing lines: tokens enough that the video port does not limit; clocks of a line less clocks of its tokens.
     const int tokens = 3 * width;
     const double per_token = std::max(1.0, static_cast<double>(op_words) / c.beat_words);
-    const auto line = static_cast<double>(clocks(api, c, width, 21, tokens, 0, 1) - clocks(api, c, width, 1, tokens, 0, 1)) / 20;
+    const auto line =
+        static_cast<double>(clocks(api, c, width, 21, tokens, 0, 1) - clocks(api, c, width, 1, tokens, 0, 1)) / 20;
     std::printf("  changing lines, %d pixels wide: %.1f clocks\n", width, line - tokens * per_token);
     good = good && line - tokens * per_token <= (banked ? (width + lanes - 1) / lanes : 0) + 2;
     // Empty lines: the video port is the limit.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole core against the golden core on random frames, sound and malformed: pixels, video framing, error registers and counts.
+// The whole core against the golden core on random frames, sound and malformed: pixels, video framing, error registers
+// and counts.
 //
-// usage: core_random MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length. Exit 0: the same; 1: a difference, with
-// the seed that repeats it; 2: trouble.
+// usage: core_random MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length. Exit 0: the same; 1: a
+// difference, with the seed that repeats it; 2: trouble.
 #include <dlfcn.h>
 
 #include <algorithm>
@@ -52,7 +53,8 @@ class FrameMaker {
     width_ = dice_.one_in(3) ? c_.max_width : dice_.between(1, std::min(c_.max_width, 70));
     const int height = dice_.between(1, dice_.one_in(8) ? 12 : 4);
     out.header({width_, height, static_cast<std::uint32_t>(dice_.bits()) & 0xFFFFFF, number});
-    if (c_.dsf_bits > 0 && !dice_.one_in(4)) out.shade(static_cast<std::uint32_t>(dice_.bits() % ((1U << c_.shade_frac) + 1)));
+    if (c_.dsf_bits > 0 && !dice_.one_in(4))
+      out.shade(static_cast<std::uint32_t>(dice_.bits() % ((1U << c_.shade_frac) + 1)));
     for (int y = 0; y < height; ++y) line(out, y);
     out.end();
     return words;
@@ -90,7 +92,8 @@ class FrameMaker {
         words[at()] = static_cast<std::uint32_t>(dice_.bits());
         break;
       default:  // short sizes: more or fewer lines than the header says
-        words[1] = static_cast<std::uint32_t>(dice_.between(0, 6)) << 16 | static_cast<std::uint32_t>(dice_.between(0, c_.max_width + 1));
+        words[1] = static_cast<std::uint32_t>(dice_.between(0, 6)) << 16 |
+                   static_cast<std::uint32_t>(dice_.between(0, c_.max_width + 1));
         break;
     }
     return words;
@@ -176,7 +179,8 @@ class FrameMaker {
   bool volume_ = false;
 };
 
-/// Fill for the last beat: a core ignores it after END, so noise there must not matter; elsewhere zeros, as the golden core reads.
+/// Fill for the last beat: a core ignores it after END, so noise there must not matter; elsewhere zeros, as the golden
+/// core reads.
 void fill(Words& words, const Config& c, bool sound, Dice& dice) {
   while (words.size() % static_cast<std::size_t>(c.beat_words) != 0)
     words.push_back(sound ? static_cast<std::uint32_t>(dice.bits()) : 0U);
@@ -222,7 +226,8 @@ struct Trial {
     } else if ((reg(m, KAGE_REG_STATUS) & 13U) != 5U) {
       return fails("STATUS does not say that the core waits for input");
     }
-    if (api.irq(m) == 0 || (reg(m, KAGE_REG_IRQ) & 4U) == 0) return fails("the watchdog does not bite when input stops");
+    if (api.irq(m) == 0 || (reg(m, KAGE_REG_IRQ) & 4U) == 0)
+      return fails("the watchdog does not bite when input stops");
     api.reset(m, 1);
     api.clear_pixels(m);
     api.stalls(m, 65536, 0, 1);
@@ -267,9 +272,12 @@ struct Trial {
         const bool sound = dice.one_in(2);
         const auto number = static_cast<std::uint32_t>(dice.bits());
         Words words = sound ? maker.sound(number) : maker.malformed(number);
-        while (words.size() > 1 && words[1] >> 16 < 32768 && words[1] >> 16 > 40) words = maker.malformed(number);  // too long a wait
+        while (words.size() > 1 && words[1] >> 16 < 32768 && words[1] >> 16 > 40)
+          words = maker.malformed(number);  // too long a wait
         fill(words, config, sound, dice);
-        const FrameStatus s = golden.frame(words, [&](int, std::span<const std::uint8_t> line) { expected.insert(expected.end(), line.begin(), line.end()); });
+        const FrameStatus s = golden.frame(words, [&](int, std::span<const std::uint8_t> line) {
+          expected.insert(expected.end(), line.begin(), line.end());
+        });
         if (sound && s.error != ErrorCode::NONE) return fails("the golden core refuses a sound frame");
         story += std::string(" ") + std::string(kErrorNames[static_cast<std::size_t>(s.error)]);
         ++ended;
@@ -288,20 +296,23 @@ struct Trial {
       const std::uint64_t channels = static_cast<std::uint64_t>(config.channels);
       for (std::uint64_t i = 0; i < std::min<std::uint64_t>(got * channels, expected.size()); ++i)
         if (pixels[i] != expected[i])
-          return fails("pixel " + std::to_string(i / channels) + " channel " + std::to_string(i % channels) + " is " + std::to_string(pixels[i]) +
-                       ", not " + std::to_string(expected[i]) + ":" + story);
+          return fails("pixel " + std::to_string(i / channels) + " channel " + std::to_string(i % channels) + " is " +
+                       std::to_string(pixels[i]) + ", not " + std::to_string(expected[i]) + ":" + story);
       if (got * channels != expected.size())
         return fails(std::to_string(got) + " pixels, not " + std::to_string(expected.size() / channels) + ":" + story);
       api.clear_pixels(m);
-      if (reg(m, KAGE_REG_FRAMES) != ended) return fails("FRAMES is " + std::to_string(reg(m, KAGE_REG_FRAMES)) + ":" + story);
-      if (reg(m, KAGE_REG_ERRORS) != errors) return fails("ERRORS is " + std::to_string(reg(m, KAGE_REG_ERRORS)) + ":" + story);
+      if (reg(m, KAGE_REG_FRAMES) != ended)
+        return fails("FRAMES is " + std::to_string(reg(m, KAGE_REG_FRAMES)) + ":" + story);
+      if (reg(m, KAGE_REG_ERRORS) != errors)
+        return fails("ERRORS is " + std::to_string(reg(m, KAGE_REG_ERRORS)) + ":" + story);
       if (newest.error != ErrorCode::NONE) {
         const std::uint32_t e = reg(m, KAGE_REG_ERROR);
-        if ((e & 15U) != static_cast<std::uint32_t>(newest.error) || e >> 16 != newest.line || reg(m, KAGE_REG_ERROR_FRAME) != newest.frame ||
-            reg(m, KAGE_REG_ERROR_TOKEN) != newest.token)
+        if ((e & 15U) != static_cast<std::uint32_t>(newest.error) || e >> 16 != newest.line ||
+            reg(m, KAGE_REG_ERROR_FRAME) != newest.frame || reg(m, KAGE_REG_ERROR_TOKEN) != newest.token)
           return fails("error " + std::to_string(e & 15U) + " line " + std::to_string(e >> 16) + " token " +
-                       std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) + ", not " + std::to_string(static_cast<int>(newest.error)) + " line " +
-                       std::to_string(newest.line) + " token " + std::to_string(newest.token) + ":" + story);
+                       std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) + ", not " +
+                       std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) +
+                       " token " + std::to_string(newest.token) + ":" + story);
       }
       if ((reg(m, KAGE_REG_STATUS) & 3U) != 0) return fails("STATUS says that a frame is open:" + story);
       stall();
@@ -347,7 +358,8 @@ int main(int argc, char** argv) {
     for (int round = 0; round < (fixed != nullptr && length == nullptr ? 1 : rounds); ++round) {
       Trial trial{api, config_of(api), base + static_cast<std::uint64_t>(round), {}};
       if (!trial.run()) {
-        std::printf("%s: %s\nrepeat with KAGE_SEED=%llu\n", argv[i], trial.text.c_str(), static_cast<unsigned long long>(trial.seed));
+        std::printf("%s: %s\nrepeat with KAGE_SEED=%llu\n", argv[i], trial.text.c_str(),
+                    static_cast<unsigned long long>(trial.seed));
         return 1;
       }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// frame_control: the commands and lines that a frame becomes, and each error with its code, line and token. Default configuration
-// (X_BITS 11, Z 24.11, three flat channels, DSF_BITS 1, FSF), MAX_WIDTH 64.
+// frame_control: the commands and lines that a frame becomes, and each error with its code, line and token. Default
+// configuration (X_BITS 11, Z 24.11, three flat channels, DSF_BITS 1, FSF), MAX_WIDTH 64.
 #include <array>
 #include <deque>
 
@@ -30,7 +30,8 @@ void set(Token& t, int lsb, int bits, std::uint64_t value) {
 Token header(std::uint32_t width, std::uint32_t height, std::uint32_t frame) {
   Token t;
   t.header = true;
-  t.words = {kage::kStreamMagic << 16 | kage::kStreamVersion, width | height << 16, kage::param_hash(kConfig), 0x0A0B0C, frame};
+  t.words = {kage::kStreamMagic << 16 | kage::kStreamVersion, width | height << 16, kage::param_hash(kConfig), 0x0A0B0C,
+             frame};
   return t;
 }
 
@@ -136,10 +137,11 @@ Outcome run(Dice& dice, const std::vector<Token>& tokens) {
     }
     if (top->line_valid_o) {
       REQUIRE(top->line_ready_i);
-      out.lines.push_back({static_cast<bool>(top->line_first_o), static_cast<bool>(top->line_blank_o), top->line_width_o, top->line_background_o,
-                           top->line_shade_o});
+      out.lines.push_back({static_cast<bool>(top->line_first_o), static_cast<bool>(top->line_blank_o),
+                           top->line_width_o, top->line_background_o, top->line_shade_o});
     }
-    if (top->error_o) out.errors.push_back({top->error_code_o, top->error_frame_o, top->error_line_o, top->error_token_o});
+    if (top->error_o)
+      out.errors.push_back({top->error_code_o, top->error_frame_o, top->error_line_o, top->error_token_o});
     if (top->frame_end_o) ++out.frames;
     if (dropping > 0) --dropping;
     const bool taken = offered && top->token_ready_o;
@@ -194,9 +196,10 @@ const Token kEnd = token(Kind::END);
 
 TEST_CASE("A frame becomes commands and lines; bias goes with EV and is cleared by it", "[frame_control]") {
   each_seed(20, [](Dice& dice) {
-    const Outcome out = run(dice, {header(20, 2, 7), token(Kind::SHADE, 256), token(Kind::OP, 3, 9, 1), token(Kind::OP, 4, 4, 1),
-                                   token(Kind::SP, 0, 20, 1), token(Kind::IF, 1), token(Kind::EV, 1, 19), token(Kind::NC, 2, 3, 3),
-                                   token(Kind::EV, 0, 20), token(Kind::RESOLVE), kEol0, token(Kind::OP, 19, 20, 0), kEol1, kEnd});
+    const Outcome out =
+        run(dice, {header(20, 2, 7), token(Kind::SHADE, 256), token(Kind::OP, 3, 9, 1), token(Kind::OP, 4, 4, 1),
+                   token(Kind::SP, 0, 20, 1), token(Kind::IF, 1), token(Kind::EV, 1, 19), token(Kind::NC, 2, 3, 3),
+                   token(Kind::EV, 0, 20), token(Kind::RESOLVE), kEol0, token(Kind::OP, 19, 20, 0), kEol1, kEnd});
     REQUIRE(out.errors.empty());
     REQUIRE(out.frames == 1);
     REQUIRE(out.drops == 0);
@@ -241,7 +244,8 @@ TEST_CASE("Errors of kind, order, range and line, each at its place", "[frame_co
   expect_error({token(Kind::RESOLVE)}, ErrorCode::ORDER, 0, 1);
   expect_error({token(Kind::NC, 0, 1), token(Kind::RESOLVE)}, ErrorCode::ORDER, 0, 2);
   expect_error({token(Kind::NC, 0, 1), kEol0}, ErrorCode::ORDER, 0, 2);
-  expect_error({token(Kind::IF, 1), token(Kind::EV, 0, 1), token(Kind::RESOLVE), token(Kind::IF, 1)}, ErrorCode::ORDER, 0, 4);
+  expect_error({token(Kind::IF, 1), token(Kind::EV, 0, 1), token(Kind::RESOLVE), token(Kind::IF, 1)}, ErrorCode::ORDER,
+               0, 4);
   expect_error({kEol0, kEol1, token(Kind::OP, 0, 1)}, ErrorCode::ORDER, 2, 3);
   expect_error({kEol0, kEol1, token(Kind::EOL, 2)}, ErrorCode::ORDER, 2, 3);
   expect_error({token(Kind::SHADE, 257)}, ErrorCode::RANGE, 0, 1);
@@ -273,12 +277,15 @@ TEST_CASE("A bad header gives no pixels and is named", "[frame_control]") {
   params.words[2] ^= 0x80;
   both.words[0] ^= 0x10000;
   cut.cut = cut.final = true;
-  for (const Case& c : {Case{magic, ErrorCode::HEADER, 5}, Case{both, ErrorCode::HEADER, 5}, Case{header(0, 1, 5), ErrorCode::SIZE, 5},
-                        Case{header(1, 0, 5), ErrorCode::SIZE, 5}, Case{header(kMaxWidth + 1, 1, 5), ErrorCode::SIZE, 5},
-                        Case{header(1, 32768, 5), ErrorCode::SIZE, 5}, Case{params, ErrorCode::PARAMS, 5}, Case{cut, ErrorCode::LAST_EARLY, 0}}) {
+  for (const Case& c :
+       {Case{magic, ErrorCode::HEADER, 5}, Case{both, ErrorCode::HEADER, 5}, Case{header(0, 1, 5), ErrorCode::SIZE, 5},
+        Case{header(1, 0, 5), ErrorCode::SIZE, 5}, Case{header(kMaxWidth + 1, 1, 5), ErrorCode::SIZE, 5},
+        Case{header(1, 32768, 5), ErrorCode::SIZE, 5}, Case{params, ErrorCode::PARAMS, 5},
+        Case{cut, ErrorCode::LAST_EARLY, 0}}) {
     each_seed(4, [&](Dice& dice) {
       const Outcome out = run(dice, {c.header, header(kMaxWidth, 1, 6), kEol0, kEnd});
-      REQUIRE(out.errors == std::vector<std::array<std::uint32_t, 4>>{{static_cast<std::uint32_t>(c.code), c.frame, 0, 0}});
+      REQUIRE(out.errors ==
+              std::vector<std::array<std::uint32_t, 4>>{{static_cast<std::uint32_t>(c.code), c.frame, 0, 0}});
       REQUIRE(out.lines.size() == 1);
       REQUIRE(out.frames == 2);
       REQUIRE(out.drops == (c.header.final ? 0 : 1));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// lane_ramp against its formula, clamp((start + (x - xl) * slope) >> FRAC, LO, HI), for groups one after the other and with pauses.
+// lane_ramp against its formula, clamp((start + (x - xl) * slope) >> FRAC, LO, HI), for groups one after the other and
+// with pauses.
 #include <algorithm>
 #include <deque>
 
@@ -49,7 +50,8 @@ void ramp_test(const Shape& s) {
       const bool en0 = stage_valid[0] == 0 || en1;
       const bool offer = dice.percent(80);
       Span fresh{dice.bits(s.bits), dice.bits(dice.between(1, s.bits)), dice.below(s.lanes)};
-      if (dice.percent(50)) fresh.slope = static_cast<std::uint64_t>(-static_cast<std::int64_t>(fresh.slope)) & ((1ULL << s.bits) - 1);
+      if (dice.percent(50))
+        fresh.slope = static_cast<std::uint64_t>(-static_cast<std::int64_t>(fresh.slope)) & ((1ULL << s.bits) - 1);
       if (dice.percent(50)) fresh.start >>= 3;
       top->set_en_i = static_cast<CData>(en0 | en1 << 1 | en2 << 2);
       top->load_i = load ? 1 : 0;
@@ -58,8 +60,10 @@ void ramp_test(const Shape& s) {
       put(top->slope_i, fresh.slope);
       top->offset_i = static_cast<CData>(fresh.offset);
 
-      if (load) walker = {true, staged[2], 0};
-      else if (step) ++walker.group;
+      if (load)
+        walker = {true, staged[2], 0};
+      else if (step)
+        ++walker.group;
       if (en2) {
         staged[2] = staged[1];
         stage_valid[2] = stage_valid[1];
@@ -80,7 +84,8 @@ void ramp_test(const Shape& s) {
       const Held& h = history[age];
       for (int lane = 0; lane < s.lanes; ++lane) {
         const int dx = h.group * s.lanes + lane - h.span.offset;
-        const std::int64_t sum = wrap(h.span.start + static_cast<std::uint64_t>(static_cast<std::int64_t>(dx)) * h.span.slope, s.bits);
+        const std::int64_t sum =
+            wrap(h.span.start + static_cast<std::uint64_t>(static_cast<std::int64_t>(dx)) * h.span.slope, s.bits);
         const std::int64_t expected = std::clamp<std::int64_t>(sum >> s.frac, s.lo, s.hi);
         REQUIRE(get(top->value_o, lane * s.out_bits, s.out_bits) == static_cast<std::uint64_t>(expected));
       }
@@ -90,6 +95,12 @@ void ramp_test(const Shape& s) {
 
 }  // namespace
 
-TEST_CASE("lane_ramp with one lane: depth of 24.11 bits", "[lane_ramp]") { ramp_test<Vlane_ramp1>({1, 37, 11, 1, (1 << 24) - 2, 24}); }
-TEST_CASE("lane_ramp with four lanes: colour of 8.8 bits", "[lane_ramp]") { ramp_test<Vlane_ramp4>({4, 18, 8, 0, 255, 8}); }
-TEST_CASE("lane_ramp with 32 lanes: depth of 12 bits, no fraction", "[lane_ramp]") { ramp_test<Vlane_ramp32>({32, 14, 0, 1, (1 << 12) - 2, 12}); }
+TEST_CASE("lane_ramp with one lane: depth of 24.11 bits", "[lane_ramp]") {
+  ramp_test<Vlane_ramp1>({1, 37, 11, 1, (1 << 24) - 2, 24});
+}
+TEST_CASE("lane_ramp with four lanes: colour of 8.8 bits", "[lane_ramp]") {
+  ramp_test<Vlane_ramp4>({4, 18, 8, 0, 255, 8});
+}
+TEST_CASE("lane_ramp with 32 lanes: depth of 12 bits, no fraction", "[lane_ramp]") {
+  ramp_test<Vlane_ramp32>({32, 14, 0, 1, (1 << 12) - 2, 12});
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_out: what comes out of lines that go in, under any back-pressure: background, RESOLVE's rounding, TUSER and TLAST, no gap.
+// line_out: what comes out of lines that go in, under any back-pressure: background, RESOLVE's rounding, TUSER and
+// TLAST, no gap.
 #include <deque>
 
 #include "Vline_out1.h"
@@ -61,7 +62,8 @@ void line_test(const Shape& s) {
           if ((p >> 25 & 1) != 0) {
             color = 0;
             for (int ch = 0; ch < 24; ch += 8)
-              color |= (((p >> ch & 255) * ((1U << s.shade_frac) - shade) + (1U << (s.shade_frac - 1))) >> s.shade_frac) << ch;
+              color |= (((p >> ch & 255) * ((1U << s.shade_frac) - shade) + (1U << (s.shade_frac - 1))) >> s.shade_frac)
+                       << ch;
           }
           if (l.blank || (p >> 24 & 1) == 0) color = background;
           expected.push_back({color, l.first && x == 0, x == width - 1});

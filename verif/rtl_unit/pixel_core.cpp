@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pixel_core in both arrangements against an array of pixels: random commands, buffers that are not free, back-to-back work on the
-// same pixels, and the clocks that commands take.
+// pixel_core in both arrangements against an array of pixels: random commands, buffers that are not free, back-to-back
+// work on the same pixels, and the clocks that commands take.
 #include <algorithm>
 #include <deque>
 
@@ -52,9 +52,11 @@ class Reference {
           p.z = z;
           p.lit = c.count & 1;
           for (int ch = 0; ch < s_.channels; ++ch)
-            p.color[ch] = s_.smooth == 0 ? c.color[ch]
-                                         : static_cast<std::uint64_t>(std::clamp<std::int64_t>(
-                                               wrap(c.color[ch] + dx * c.dcolor[ch], 10 + s_.color_frac) >> s_.color_frac, 0, 255));
+            p.color[ch] =
+                s_.smooth == 0
+                    ? c.color[ch]
+                    : static_cast<std::uint64_t>(std::clamp<std::int64_t>(
+                          wrap(c.color[ch] + dx * c.dcolor[ch], 10 + s_.color_frac) >> s_.color_frac, 0, 255));
           break;
         case Kind::SP:
           if (z < p.z) p.dsf = (p.dsf + static_cast<unsigned>(c.count)) & mask;
@@ -225,7 +227,7 @@ TEST_CASE("Systolic, smooth, counting, no FSF", "[pixel_core]") { pixel_test<Vpi
 
 TEST_CASE("Clocks per command: groups touched, or one", "[pixel_core]") {
   each_seed(1, [](Dice& dice) {
-    CHECK(clocks_of<Vpixel_banked4>(dice, kBanked4, 4, 8, 40) == 40);        // one group, again and again: no hazard stalls
+    CHECK(clocks_of<Vpixel_banked4>(dice, kBanked4, 4, 8, 40) == 40);  // one group, again and again: no hazard stalls
     CHECK(clocks_of<Vpixel_banked4>(dice, kBanked4, 7, 9, 40) == 2 * 40);    // two pixels in two groups
     CHECK(clocks_of<Vpixel_banked4>(dice, kBanked4, 0, 37, 20) == 10 * 20);  // the line
     CHECK(clocks_of<Vpixel_banked1>(dice, kBanked1, 3, 9, 20) == 6 * 20);

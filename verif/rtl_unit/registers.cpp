@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // registers: AXI4-Lite under random timing, every register, interrupt, counters, watchdog.
+#include "kage/registers.h"
+
 #include "Vregisters.h"
 #include "bench.hpp"
 #include "kage/defs.hpp"
-#include "kage/registers.h"
 
 using namespace kage::rtl;
 
@@ -109,8 +110,9 @@ TEST_CASE("Constants and values after reset", "[registers]") {
     CHECK(a.read(KAGE_REG_VERSION) == kage::kStreamVersion);
     CHECK(a.read(KAGE_REG_PARAM_HASH) == kage::param_hash(kage::Config{}));
     CHECK(a.read(KAGE_REG_SHAPE) == (640U | 4U << 16 | 4U << 22 | 1U << 31));
-    for (const std::uint32_t r : {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR, KAGE_REG_ERROR_FRAME,
-                                  KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES, KAGE_REG_STARVED, KAGE_REG_BLOCKED})
+    for (const std::uint32_t r :
+         {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR, KAGE_REG_ERROR_FRAME,
+          KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES, KAGE_REG_STARVED, KAGE_REG_BLOCKED})
       CHECK(a.read(r) == 0);
   });
 }

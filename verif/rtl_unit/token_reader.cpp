@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// token_reader against a reader of words: frames sound, cut, too long, and dropped by the frame's control, for all widths of beats.
+// token_reader against a reader of words: frames sound, cut, too long, and dropped by the frame's control, for all
+// widths of beats.
 #include <algorithm>
 #include <array>
 
@@ -78,7 +79,8 @@ void reader_test(int beat) {
       const bool offered = offer(dice, in_frame < all.size());
       top->s_valid_i = offered ? 1 : 0;
       if (offered) {
-        for (int i = 0; i < beat; ++i) put(top->s_data_i, 32 * i, 32, all[in_frame][in_at + static_cast<std::size_t>(i)]);
+        for (int i = 0; i < beat; ++i)
+          put(top->s_data_i, 32 * i, 32, all[in_frame][in_at + static_cast<std::size_t>(i)]);
         top->s_last_i = in_at + static_cast<std::size_t>(beat) == all[in_frame].size() ? 1 : 0;
       }
       top->token_ready_i = dice.percent(out_stall) ? 0 : 1;

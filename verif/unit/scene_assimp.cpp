@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <set>
 
 #include "catch.hpp"
@@ -232,5 +233,47 @@ TEST_CASE("real meshes") {
     double worst = 0;
     for (const ShadingVertex& v : f.shading) worst = std::max(worst, std::abs(scene::length(v.normal) - 1));
     CHECK(worst < 1e-12);
+  }
+}
+
+TEST_CASE("topology of meshes from CGAL's demo") {
+  struct Expected {
+    const char* file;
+    std::size_t triangles;
+    std::size_t vertices;
+    std::size_t components;
+    std::size_t closed;
+    std::size_t convex;
+  };
+  const std::string archive = "/usr/share/doc/libcgal-demo/data.tar.gz";
+  if (!present(archive)) return;
+  const TempDirectory dir;
+  REQUIRE(std::system(("tar xzf " + archive + " -C " + dir.path().string()).c_str()) == 0);
+  for (const Expected& e : {Expected{"tetrahedron", 4, 4, 1, 1, 1},
+                            {"cube_quad", 12, 8, 1, 1, 1},
+                            {"icosahedron", 20, 12, 1, 1, 1},
+                            {"cube-meshed", 1728, 866, 1, 1, 1},
+                            {"geosphere", 320, 162, 1, 1, 1},
+                            {"larger_sphere", 1620, 812, 1, 1, 1},
+                            {"open_cube", 10, 8, 1, 0, 0},
+                            {"star", 24, 14, 1, 1, 0},
+                            {"eight", 634, 315, 1, 1, 0},
+                            {"elephant", 5558, 2775, 1, 1, 0},
+                            {"elephant-with-holes", 4463, 2733, 1, 0, 0},
+                            {"knot2", 11520, 5760, 2, 2, 0}}) {
+    INFO(e.file);
+    const SceneFrame f =
+        Scene::load((dir.path() / "data/meshes" / (std::string(e.file) + ".off")).string()).frame(0, 1);
+    std::size_t closed = 0;
+    std::size_t convex = 0;
+    for (const Component& c : f.components) {
+      closed += c.closed ? 1 : 0;
+      convex += c.convex ? 1 : 0;
+    }
+    CHECK(f.triangles.size() == e.triangles);
+    CHECK(f.vertices.size() == e.vertices);
+    CHECK(f.components.size() == e.components);
+    CHECK(closed == e.closed);
+    CHECK(convex == e.convex);
   }
 }

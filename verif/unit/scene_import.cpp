@@ -137,6 +137,7 @@ TEST_CASE("files that are none") {
 
 TEST_CASE("files that hold no scene are refused in one line") {
   const TempDirectory dir;
+  setenv("KAGE_IMPORT_SECONDS", "2", 1);  // Assimp 5.2.5 reads the cut PLY file for ever
   const std::string nothing = dir.write("noise.xyz", "what is this?");
   const std::vector<std::string> files{nothing,
                                        dir.write("noise.obj", std::string("\0\1\2\3", 4)),
@@ -155,6 +156,7 @@ TEST_CASE("files that hold no scene are refused in one line") {
     CHECK(message.find('\n') == std::string::npos);
     CHECK(message.rfind(dir.path().string(), 0) == 0);
   }
+  unsetenv("KAGE_IMPORT_SECONDS");
   CHECK(refusal(files[3]).find("vertex 1: position is not a number") != std::string::npos);
   CHECK(refusal(files[5]).find("no faces: every triangle repeats a vertex") != std::string::npos);
 }
