@@ -26,6 +26,17 @@
 #include "notes.hpp"
 #include "wire.hpp"
 
+#if defined(__SANITIZE_ADDRESS__)
+#define KAGE_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define KAGE_ADDRESS_SANITIZER
+#endif
+#endif
+#ifdef KAGE_ADDRESS_SANITIZER
+#include <sanitizer/common_interface_defs.h>
+#endif
+
 namespace kage::scene {
 namespace {
 
@@ -38,17 +49,20 @@ constexpr std::uint8_t kError = 'E';
 constexpr std::uint8_t kNoMemory = 'M';
 constexpr std::uint8_t kDone = '.';  // the last byte: nothing is missing
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr bool kSanitized = true;
+// A reader's last words are not for the user: the parent says in one line what happened. A sanitizer's report must be
+// seen, so under AddressSanitizer the report keeps its way out, and the handlers that write it stay.
+void fall_silent() {
+#ifdef KAGE_ADDRESS_SANITIZER
+  __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(dup(STDERR_FILENO))));
 #else
-constexpr bool kSanitized = false;
+  for (const int s : {SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGABRT, SIGFPE, SIGSEGV, SIGBUS, SIGTERM, SIGXCPU, SIGPIPE})
+    std::signal(s, SIG_DFL);
 #endif
-#else
-constexpr bool kSanitized = false;
-#endif
+  const int null = open("/dev/null", O_RDWR);
+  if (null < 0) return;
+  dup2(null, STDOUT_FILENO);
+  dup2(null, STDERR_FILENO);
+}
 
 std::int64_t positive(const char* variable, std::int64_t otherwise, std::int64_t most) {
   const char* text = std::getenv(variable);
@@ -101,17 +115,7 @@ void answer(int fd, std::uint8_t kind, std::string_view text) {
                         const std::function<Bytes()>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(3);  // it died before prctl
-  if (!kSanitized) {
-    // The program's handlers are not for this process, and a reader's last words are not for the user: the parent says
-    // in one line what happened. A sanitizer's report must be seen.
-    for (const int s : {SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGABRT, SIGFPE, SIGSEGV, SIGBUS, SIGTERM, SIGXCPU, SIGPIPE})
-      std::signal(s, SIG_DFL);
-    const int null = open("/dev/null", O_RDWR);
-    if (null >= 0) {
-      dup2(null, STDOUT_FILENO);
-      dup2(null, STDERR_FILENO);
-    }
-  }
+  fall_silent();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<std::uint64_t>(limits.seconds) + 1);
   limit_memory(limits.mib);

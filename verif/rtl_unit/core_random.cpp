@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The whole core against the golden core on random frames, sound and malformed: pixels, video framing, error registers
-// and counts.
+// and counts. Families 39 (stalls, back-to-back frames, one-pixel frames, empty lines, resets), 40 (damage at the port)
+// and 41 (random initial state of every register and memory).
 //
 // usage: core_random MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length. Exit 0: the same; 1: a
 // difference, with the seed that repeats it; 2: trouble.
