@@ -13,6 +13,7 @@
 
 #include "image/temp_file.hpp"
 #include "kage/error.hpp"
+#include "kage/geometry.hpp"
 
 namespace kage::cli {
 namespace {
@@ -44,8 +45,8 @@ void option_size(CLI::App& command, Options& options) {
               throw CLI::ValidationError("--size", text + " is not WxH");
             const auto h = std::from_chars(w.ptr + 1, end, size.height);
             if (h.ec != std::errc{} || h.ptr != end) throw CLI::ValidationError("--size", text + " is not WxH");
-            if (size.width < 1 || size.width > 32767 || size.height < 1 || size.height > 32767)
-              throw CLI::ValidationError("--size", text + ": width and height are 1 .. 32767");
+            if (size.width < 1 || size.width > kMaxSize || size.height < 1 || size.height > kMaxSize)
+              throw CLI::ValidationError("--size", fmt::format("{}: width and height are 1 .. {}", text, kMaxSize));
             options.size = size;
             options.size_given = true;
           },

@@ -127,6 +127,13 @@ void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, 
   if (polygon.size() < 3) polygon.clear();
 }
 
+bool Clipper::keeps(const ClipPoint& p) const {
+  if (p.w < near_) return false;
+  for (const Side side : {Side::y_low, Side::y_high, Side::x_low, Side::x_high})
+    if (guard_distance(p, side) < 0) return false;
+  return true;
+}
+
 void Clipper::snap_cut(const NearCut& cut, std::vector<NearEdge>& edges) const {
   const auto add = [&edges](ScreenVertex from, ScreenVertex to) {
     if (from.y != to.y) edges.push_back({to, from});  // level edges bound nothing

@@ -25,6 +25,9 @@ class Clipper {
   /// what lies past the far plane too. The outcome may be empty.
   void clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, bool at_far);
 
+  /// Whether clipping leaves this vertex alone.
+  [[nodiscard]] bool keeps(const ClipPoint& p) const;
+
   /// The pieces of a near cut as snapped edges, appended to `edges` in reverse direction (a section closes what the
   /// polygons leave open): cut in y as the polygon is, but in x outside the guard band only moved onto it, so that what
   /// lies left of the screen still counts.

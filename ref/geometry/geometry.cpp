@@ -10,6 +10,7 @@
 #include <span>
 
 #include "geometry/clip.hpp"
+#include "geometry/plane.hpp"
 #include "geometry/shade.hpp"
 #include "geometry/shadow_volume.hpp"
 #include "geometry/view.hpp"
@@ -88,7 +89,7 @@ class Builder {
     ScreenPolygon base;
     base.lit = lit;
     base.triangle = index;
-    base.depth = depth_plane(eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]);
+    base.depth = face_plane(eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]);
     for (std::size_t c = 0; c < 3; ++c)
       base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
     if (config_->smooth == 0 || same_color) {
@@ -135,10 +136,11 @@ class Builder {
 
   void add_side(const SideFace& s) {
     const std::array<EyePoint, 4> p{view_.to_eye(s.a), view_.to_eye(s.far_a), view_.to_eye(s.far_b), view_.to_eye(s.b)};
-    add_face(p, p[0], p[1], p[3]);
+    add_face(p, p[0], p[3], p[1]);
   }
 
-  // A face of a volume that is not drawn, in the plane of three of its points.
+  // A face of a volume that is not drawn, in the plane of three of its points; a and b are those that it shares with a
+  // drawn face.
   void add_face(std::span<const EyePoint> points, const EyePoint& a, const EyePoint& b, const EyePoint& c) {
     polygon_.clear();
     for (const EyePoint& e : points) polygon_.push_back(view_.to_clip(e));
@@ -146,7 +148,7 @@ class Builder {
     if (polygon_.empty()) return;
     ScreenPolygon face;
     face.triangle = ~0U;
-    face.depth = depth_plane(a, b, c);
+    face.depth = side_plane(a, b, c);
     out_.volume_faces.push_back({static_cast<std::uint32_t>(out_.polygons.size()), 1});
     add_outline(face, polygon_);
   }
@@ -173,9 +175,44 @@ class Builder {
     out_.polygons.push_back(p);
   }
 
+  [[nodiscard]] DepthVertex depth_vertex(const ClipPoint& p) const {
+    return {snap(p), to_fixed(view_.depth(p.w), kVertexFrac)};
+  }
+
+  // The plane of a drawn triangle, in polygon_ after clipping: through its snapped vertices if they are all there.
+  ScreenPlane face_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
+    const std::array<ClipPoint, 3> p{view_.to_clip(a), view_.to_clip(b), view_.to_clip(c)};
+    if (clipper_.keeps(p[0]) && clipper_.keeps(p[1]) && clipper_.keeps(p[2]))
+      if (const auto plane = plane_through({depth_vertex(p[0]), depth_vertex(p[1]), depth_vertex(p[2])})) return *plane;
+    return unsnapped_plane(a, b, c);
+  }
+
+  // The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap and
+  // the vertex furthest from it, so that it leaves the cap's neighbour exactly at their common edge.
+  ScreenPlane side_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
+    const ClipPoint pa = view_.to_clip(a);
+    const ClipPoint pb = view_.to_clip(b);
+    if (clipper_.keeps(pa) && clipper_.keeps(pb)) {
+      const ScreenVertex sa = snap(pa);
+      const ScreenVertex sb = snap(pb);
+      const ClipPoint* furthest = &polygon_[0];
+      std::int64_t most = 0;
+      for (const ClipPoint& p : polygon_) {
+        const std::int64_t area = std::abs(double_area(sa, sb, snap(p)));
+        if (area > most) {
+          most = area;
+          furthest = &p;
+        }
+      }
+      if (const auto plane = plane_through({depth_vertex(pa), depth_vertex(pb), depth_vertex(*furthest)}))
+        return *plane;
+    }
+    return unsnapped_plane(a, b, c);
+  }
+
   // The plane of three points of a polygon that is in polygon_, clipped. A plane too steep is one seen edge-on: within
   // half a subpixel every depth of the polygon is in reach, and the mean of its vertices' is taken.
-  ScreenPlane depth_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
+  ScreenPlane unsnapped_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
     const glm::dvec3 normal = glm::cross(b - a, c - a);
     if (const auto plane = view_.depth_plane(normal, a, polygon_[0])) return *plane;
     double sum = 0;

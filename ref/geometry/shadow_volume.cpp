@@ -51,7 +51,15 @@ ShadowCaster::ShadowCaster(const SceneFrame& frame, double extrusion) : frame_(&
 
 double ShadowCaster::light_distance(const Triangle& t) const {
   const glm::dvec3& a = frame_->vertices[t.vertex[0]];
-  const glm::dvec3 normal = glm::cross(frame_->vertices[t.vertex[1]] - a, frame_->vertices[t.vertex[2]] - a);
+  glm::dvec3 u = frame_->vertices[t.vertex[1]] - a;
+  glm::dvec3 v = frame_->vertices[t.vertex[2]] - a;
+  // Scaled so that neither products nor squares leave the range of doubles, however large or small the scene is.
+  const double scale =
+      std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z), std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(scale > 0)) return 0;
+  u /= scale;
+  v /= scale;
+  const glm::dvec3 normal = glm::cross(u, v);
   const double n = length(normal);
   if (!(n > 0)) return 0;
   return frame_->light.directional ? -glm::dot(normal, frame_->light.direction) / n

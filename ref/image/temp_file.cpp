@@ -8,10 +8,11 @@
 #include <system_error>
 
 #include "kage/error.hpp"
+#include "number/replaceable.hpp"
 
 namespace kage {
 
-TempFile::TempFile(std::filesystem::path target) : target_(std::move(target)) {
+TempFile::TempFile(std::filesystem::path target) : target_(replaceable(std::move(target))) {
   static std::atomic<unsigned> count{0};
   temp_ = target_;
   temp_.replace_filename(

@@ -48,7 +48,7 @@ TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> wor
   if (words[0] != (kStreamMagic << 16 | kStreamVersion)) fail_code(ErrorCode::HEADER);
   const int width = static_cast<int>(words[1] & 0xFFFFU);
   const int height = static_cast<int>(words[1] >> 16);
-  if (width < 1 || height < 1 || width > (1 << config.x_bits) - 1 || height > 32767) fail_code(ErrorCode::SIZE);
+  if (width < 1 || height < 1 || width > config.max_width || height > 32767) fail_code(ErrorCode::SIZE);
   if (words[2] != param_hash(config)) fail_code(ErrorCode::PARAMS);
   if (words[3] >> 24 != 0) fail("background has bits past its channels");
   if (header != nullptr) *header = {width, height, words[3], words[4]};

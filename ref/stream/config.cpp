@@ -28,6 +28,7 @@ Config from_yaml(const YAML::Node& node, const std::string& where) {
   Config config;
   std::set<std::string> seen;
   for (const auto& entry : node) {
+    if (!entry.first.IsScalar()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
     const auto name = entry.first.as<std::string>();
     const auto* p = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& i) { return i.name == name; });
     if (p == kParams.end()) throw Error(fmt::format("{}: {}: no such parameter", where, name));
@@ -42,6 +43,7 @@ Config from_yaml(const YAML::Node& node, const std::string& where) {
 }
 
 YAML::Node read_yaml(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw Error(fmt::format("{}: not a file", path));
   try {
     return YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {

@@ -24,6 +24,7 @@
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
+#include "number/replaceable.hpp"
 #include "stream/config_text.hpp"
 
 namespace kage {
@@ -81,7 +82,7 @@ struct StreamFileWriter::Data {
 };
 
 StreamFileWriter::StreamFileWriter(std::filesystem::path path, const Config& config) : data_(std::make_unique<Data>()) {
-  data_->path = std::move(path);
+  data_->path = replaceable(std::move(path));
   data_->part = data_->path;
   data_->part += fmt::format(".part{}", ::getpid());
   data_->file = std::fopen(data_->part.c_str(), "wb");
@@ -200,6 +201,7 @@ struct StreamFile::Data {
       at = payload + padded(h.size);
     }
     if (at != size) fail(at, "bytes after the last section");
+    if (frames.empty()) fail(at, "the file holds no frame");
   }
 
   static std::string printable(std::string_view tag) {

@@ -40,5 +40,9 @@ trouble "lacks" "$kage" cosim courtyard --config tiny --size 64x48 --out none
 trouble "no such fault" "$kage" cosim courtyard --size 64x48 --fault nonsense --out none
 printf 'LANES: 3\n' >three.yaml
 trouble three.yaml "$kage" cosim courtyard --config three.yaml --out none
+# No pixel compared is no verdict.
+expect 0 "$kage" stream edges --size 64x48 --frames 1 --out edges.kage
+printf 'MAX_WIDTH: 32\n' >narrow.yaml
+trouble SIZE "$kage" cosim edges.kage --config narrow.yaml --out narrow
 [ ! -e none ] || fail "a refused run leaves a folder"
 done_testing

@@ -45,5 +45,11 @@ trouble empty.png "$kage" diff a.png empty.png
 trouble "is a directory" "$kage" diff a.png .
 trouble nowhere "$kage" diff a.png b.png --out nowhere/heat.png
 trouble nowhere/r.json "$kage" diff a.png b.png --json nowhere/r.json --lsb 9 >/dev/null
+trouble -1 "$kage" diff a.png b.png --lsb -1
+trouble -1 "$kage" diff a.png b.png --max-pixels -1
+trouble 99999999999999999999 "$kage" diff a.png b.png --lsb 99999999999999999999
+trouble nan "$kage" diff a.png b.png --max-percent nan
+mkfifo pipe
+trouble "not a file" "$kage" diff a.png c.png --out pipe
 [ -z "$(find . -name '.*.png' -o -name '.*.json')" ] || fail "temporary files are left"
 done_testing

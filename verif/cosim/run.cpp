@@ -5,6 +5,8 @@
 
 #include <future>
 
+#include "kage/error.hpp"
+
 namespace kage::cosim {
 namespace {
 
@@ -62,8 +64,11 @@ Report run(int frames, const Feed& feed, Core& expected, Core& actual, const Run
       if (!e.image.data.empty()) pictures.save(i, "_difference", difference_picture(e.image, a.image));
       return report;
     }
+    // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".
+    if (e.image.data.empty()) throw Error(fmt::format("frame {}: the cores refuse it: {}", i, describe(e.status)));
     words.swap(next);
   }
+  if (report.frames == 0) throw Error("no frame to compare");
   return report;
 }
 

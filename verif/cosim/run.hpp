@@ -42,6 +42,8 @@ struct Report {
 /// Send every frame through both cores and compare. Each frame of `expected` is written as a picture; at the first
 /// difference also NAME_0000_expected.png, _actual.png and _difference.png. Two frames' words and two pictures are in
 /// memory, whatever the number.
+/// Throws Error where no verdict is possible: no frames, or a frame that the expected core refuses in its header, so
+/// that no pixel could be compared.
 Report run(int frames, const Feed& feed, Core& expected, Core& actual, const RunOptions& options);
 
 }  // namespace kage::cosim

@@ -3,7 +3,7 @@
 # What a feature costs: cells of kage_top for iCE40 (Debian's yosys), one configuration a row, each without one feature of the first.
 #
 # usage: verif/synth/cells.sh [--quick | NAME PARAM=VALUE...]
-#   without arguments the table below; --quick: the features of the issue only; NAME ...: one configuration
+#   without arguments the table below; --quick: no-shadow, one-channel and small-z only; NAME ...: one configuration
 # Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a configuration that leaves a feature out is not smaller
 # (LUTs; without FSF, a bit per pixel in block RAM, flip-flops).
 set -euo pipefail

@@ -99,7 +99,8 @@ TEST_CASE("faults are named with frame, line, token and byte") {
   w.op(s);
   w.eol(1);
   w.end();
-  CHECK(cause(c, words) == "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, or shade > 1 (RANGE)");
+  CHECK(cause(c, words) ==
+        "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, or shade > 2^SHADE_FRAC (RANGE)");
 
   const auto with = [&](auto change) {
     std::vector<std::uint32_t> v;

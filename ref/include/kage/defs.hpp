@@ -98,7 +98,7 @@ enum class ErrorCode : std::uint8_t {
   PARAMS = 3,  ///< param_hash is not this core's
   KIND = 4,  ///< kind 0, or a token that the configuration lacks
   ORDER = 5,  ///< a token where its phase does not allow it
-  RANGE = 6,  ///< xl > xr, xr > width, or shade > 1
+  RANGE = 6,  ///< xl > xr, xr > width, or shade > 2^SHADE_FRAC
   LINE = 7,  ///< EOL with another line number, or END before the last line
   LAST_EARLY = 8,  ///< TLAST before END
   LAST_LATE = 9,  ///< no TLAST at END's beat
@@ -114,7 +114,7 @@ inline constexpr std::array<std::string_view, 10> kErrorTexts{
     "param_hash is not this core's",
     "kind 0, or a token that the configuration lacks",
     "a token where its phase does not allow it",
-    "xl > xr, xr > width, or shade > 1",
+    "xl > xr, xr > width, or shade > 2^SHADE_FRAC",
     "EOL with another line number, or END before the last line",
     "TLAST before END",
     "no TLAST at END's beat",
