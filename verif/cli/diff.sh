@@ -49,7 +49,7 @@ trouble -1 "$kage" diff a.png b.png --lsb -1
 trouble -1 "$kage" diff a.png b.png --max-pixels -1
 trouble 99999999999999999999 "$kage" diff a.png b.png --lsb 99999999999999999999
 trouble nan "$kage" diff a.png b.png --max-percent nan
-mkfifo pipe
-trouble "not a file" "$kage" diff a.png b.png --out pipe
+mkfifo pipe.png
+trouble "not a file" "$kage" diff a.png b.png --out pipe.png
 [ -z "$(find . -name '.*.png' -o -name '.*.json')" ] || fail "temporary files are left"
 done_testing
