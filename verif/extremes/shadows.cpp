@@ -82,7 +82,7 @@ TEST_CASE("family 21: the shadow is what a ray to the light says") {
 TEST_CASE("family 22: nested, overlapping and touching casters in any order give the same picture, the oracle's") {
   Random random(test_seed(4));
   CAPTURE(test_seed(4));
-  for (const int k : {0, 1, 2, 5, 17, 64}) {
+  for (int k = 0; k <= 64; ++k) {
     CAPTURE(k);
     std::vector<int> order(static_cast<std::size_t>(k));
     for (int i = 0; i < k; ++i) order[static_cast<std::size_t>(i)] = i;

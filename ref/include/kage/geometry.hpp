@@ -33,7 +33,8 @@ struct ScreenVertex {
 };
 
 /// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. In the
-/// terms of the design: A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| <= 2^60.
+/// terms of the design: A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| <=
+/// 2^60.
 struct ScreenPlane {
   std::int64_t a = 0;
   std::int64_t b = 0;
