@@ -31,9 +31,9 @@ class Builder {
       : frame_(&frame),
         config_(&config),
         look_(&look),
-        caster_(frame, look.extrusion),
-        light_(frame.light, frame.camera.up),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
+        caster_(frame, view_.near_corners(), look.extrusion),
+        light_(frame.light, frame.camera.up),
         clipper_(view_.near(), view_.volume_end()) {
     out_.width = width;
     out_.height = height;
@@ -250,9 +250,9 @@ class Builder {
   const SceneFrame* frame_;
   const Config* config_;
   const Look* look_;
+  View view_;
   ShadowCaster caster_;
   LightView light_;
-  View view_;
   Clipper clipper_;
   FrameGeometry out_;
   std::vector<EyePoint> eye_points_;

@@ -13,7 +13,8 @@ namespace {
 // Volumes reach past everything by this much, so that rounding leaves nothing between their far end and the last
 // receiver.
 constexpr double kMargin = 1.01;
-// A face is edge-on to a point light nearer to its plane than this share of the scene's reach.
+// A face is edge-on to a point light nearer to its plane than this share of the light's distance to the furthest
+// vertex.
 constexpr double kEdgeOn = 1e-9;
 
 double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
@@ -37,16 +38,20 @@ struct Box {
 
 }  // namespace
 
-ShadowCaster::ShadowCaster(const SceneFrame& frame, double extrusion) : frame_(&frame) {
+ShadowCaster::ShadowCaster(const SceneFrame& frame, std::span<const glm::dvec3> near_corners, double extrusion)
+    : frame_(&frame) {
+  const Light& light = frame.light;
   Box box;
-  for (const glm::dvec3& p : frame.vertices) box.add(p);
-  if (frame.light.directional) {
-    reach_ = length(box.high - box.low);
-  } else {
-    reach_ = 0;
-    for (const glm::dvec3& p : frame.vertices) reach_ = std::max(reach_, length(p - frame.light.position));
-  }
-  reach_ *= kMargin * extrusion;
+  double distance = 0;
+  const auto add = [&](const glm::dvec3& p) {
+    box.add(p);
+    distance = std::max(distance, length(p - light.position));
+  };
+  for (const glm::dvec3& p : frame.vertices) add(p);
+  // What is edge-on is the scene's matter, not the camera's.
+  edge_on_ = light.directional ? kEdgeOn : kEdgeOn * distance;
+  for (const glm::dvec3& p : near_corners) add(p);
+  reach_ = (light.directional ? length(box.high - box.low) : distance) * kMargin * extrusion;
 }
 
 double ShadowCaster::light_distance(const Triangle& t) const {
@@ -68,8 +73,7 @@ double ShadowCaster::light_distance(const Triangle& t) const {
 
 int ShadowCaster::facing(const Triangle& t) const {
   const double d = light_distance(t);
-  const double edge_on = frame_->light.directional ? kEdgeOn : kEdgeOn * reach_;
-  return d > edge_on ? 1 : d < -edge_on ? -1 : 0;
+  return d > edge_on_ ? 1 : d < -edge_on_ ? -1 : 0;
 }
 
 bool ShadowCaster::light_outside(const Component& part) const {

@@ -3,14 +3,16 @@
 // Shadow volumes in world space: which faces are caps, which polygons are sides.
 //
 // A volume is closed: caps (faces of the caster, turned to the light), sides (from the caps' border edges away from the
-// light) and a far end. The far end lies behind everything drawn, so it is never a span; it counts where the near plane
-// cuts it. [Matsumoto, section 2; parity needs volumes that cover no point twice: a convex solid's, or a single
-// face's.]
+// light) and a far end. The far end is further from the light than everything drawn and than the picture's corners on
+// the near plane, hence than every point between eye and surface; so it hides no pixel and is never a span. It counts
+// where the near plane cuts it. [Matsumoto, section 2; parity needs volumes that cover no point twice: a convex
+// solid's, or a single face's.]
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "kage/scene.hpp"
@@ -46,7 +48,9 @@ struct WorldVolume {
 /// Casts the shadows of one frame.
 class ShadowCaster {
  public:
-  ShadowCaster(const SceneFrame& frame, double extrusion);
+  /// `near_corners`: the picture's corners on the near plane; volumes reach past them too. `extrusion`: how many times
+  /// as far as they must volumes reach, >= 1.
+  ShadowCaster(const SceneFrame& frame, std::span<const glm::dvec3> near_corners, double extrusion);
 
   /// The triangle's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts
   /// nothing).
@@ -78,7 +82,10 @@ class ShadowCaster {
   [[nodiscard]] double far_factor(double distance) const;
 
   const SceneFrame* frame_;
-  double reach_;  // no two points of the scene (directional), or scene and light (point), are further apart
+  double edge_on_;  // a face whose plane is no further from the light is edge-on
+  // No two points of the scene and the near corners (directional), or one of them and the light (point), are further
+  // apart.
+  double reach_;
 };
 
 }  // namespace kage

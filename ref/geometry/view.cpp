@@ -35,6 +35,14 @@ ClipPoint View::to_clip(const EyePoint& p) const {
   return {p.x / per_pixel_x_ + half_w_ * q, half_h_ * q - p.y / per_pixel_y_, q, p.z, {0, 0, 0}};
 }
 
+std::array<glm::dvec3, 4> View::near_corners() const {
+  const double scale = camera_.perspective ? near_ : 1.0;
+  const glm::dvec3 centre = camera_.eye + camera_.forward * near_;
+  const glm::dvec3 across = camera_.right * (half_w_ * per_pixel_x_ * scale);
+  const glm::dvec3 along = camera_.up * (half_h_ * per_pixel_y_ * scale);
+  return {centre - across - along, centre + across - along, centre - across + along, centre + across + along};
+}
+
 double View::depth(double w) const { return camera_.perspective ? z_base_ - z_scale_ / w : z_base_ + z_scale_ * w; }
 
 std::optional<ScreenPlane> View::depth_plane(const glm::dvec3& normal, const EyePoint& point,

@@ -3,6 +3,7 @@
 // From world space to the screen: the camera, depth, and the snap.
 #pragma once
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <optional>
 
@@ -32,6 +33,9 @@ class View {
   [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const;
   [[nodiscard]] ClipPoint to_clip(const EyePoint& p) const;
   [[nodiscard]] double near() const { return near_; }
+
+  /// The picture's corners on the near plane, in world space: everything seen lies between them and a surface.
+  [[nodiscard]] std::array<glm::dvec3, 4> near_corners() const;
 
   /// Where volumes are cut: a little past everything drawn. Depth there still fits a span's accumulator.
   [[nodiscard]] double volume_end() const { return far_ + 0.01 * (far_ - near_); }

@@ -41,18 +41,19 @@ TEST_CASE("built-in scenes: coverage, surfaces and shadows are the oracle's in e
   }
 }
 
-TEST_CASE("built-in scenes of large faces: surfaces and shadows are what rays say") {
-  for (const char* name : {"courtyard", "inside"}) {
+TEST_CASE("built-in scenes: surfaces and shadows are what rays say of the unsnapped scene") {
+  for (const std::string& name : builtin_scenes()) {
     const Scene scene = Scene::load(name);
     RayCount count;
     for (int i = 0; i < scene.frame_count(); ++i)
       count += compare_with_rays(scene.frame(i, scene.frame_count()), 160, 120);
     CAPTURE(name);
-    INFO(count.text());
-    CHECK(count.wrong_surface == 0);
-    CHECK(count.wrong_shadow == 0);
+    UNSCOPED_INFO(name << ": " << count.text());
+    CHECK(count.good());
     CHECK(count.lit > 1000);
     CHECK(count.shadowed > 1000);
+    // What the snap alone changes: little, but in `edges`, whose edges run through pixel centres.
+    CHECK((count.near_surface + count.near_shadow) * 50 < count.pixels);
   }
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What rays say of an unsnapped scene, in double precision and by brute force: the surface that a pixel's centre sees,
-// and whether a face other than its own stands between it and the light. Pixels whose ray passes an edge, or a second
-// surface, closer than the snap and the depth errors reach are left out and counted.
+// and whether a face other than its own stands between it and the light. Nothing of kage's geometry goes in. Where the
+// picture differs, the oracle says whether moving every snapped vertex by half a subpixel can make the rays' answer of
+// kage's geometry; if not, it is wrong.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <vector>
 
 #include "scene/judge.hpp"
 
@@ -40,156 +42,183 @@ inline bool near_volume_edge(const FrameGeometry& g, int x, int y, double subpix
   return false;
 }
 
+/// The "triangle" of a pixel that shows the background.
+inline constexpr std::uint32_t kNothing = 0xFFFFFF;
+
 struct RayCount {
   std::uint64_t pixels = 0;
-  std::uint64_t skipped = 0;
-  std::uint64_t lit = 0;
-  std::uint64_t shadowed = 0;
+  std::uint64_t lit = 0;       ///< pixels whose surface agrees and is lit
+  std::uint64_t shadowed = 0;  ///< pixels whose surface agrees and is in shadow
+  std::uint64_t near_surface = 0;
+  std::uint64_t near_shadow = 0;
   std::uint64_t wrong_surface = 0;
   std::uint64_t wrong_shadow = 0;
   std::string first_wrong;
 
   RayCount& operator+=(const RayCount& o) {
     pixels += o.pixels;
-    skipped += o.skipped;
     lit += o.lit;
     shadowed += o.shadowed;
+    near_surface += o.near_surface;
+    near_shadow += o.near_shadow;
     wrong_surface += o.wrong_surface;
     wrong_shadow += o.wrong_shadow;
     if (first_wrong.empty()) first_wrong = o.first_wrong;
     return *this;
   }
+  [[nodiscard]] bool good() const { return wrong_surface == 0 && wrong_shadow == 0; }
   [[nodiscard]] std::string text() const {
-    return fmt::format("{} pixels, {} left out, {} lit, {} shadowed; wrong surfaces {}, wrong shadows {} {}", pixels,
-                       skipped, lit, shadowed, wrong_surface, wrong_shadow, first_wrong);
+    return fmt::format("{} pixels, {} lit, {} shadowed; surfaces near {} wrong {}, shadows near {} wrong {} {}", pixels,
+                       lit, shadowed, near_surface, wrong_surface, near_shadow, wrong_shadow, first_wrong);
   }
 };
 
-/// Where a ray meets a triangle: distance in units of `direction`, and whether it passes within `margin` (share of the
-/// triangle) of an edge.
-struct RayHit {
-  bool hit = false;
-  bool doubtful = false;
-  double t = 0;
+/// A scene's frame for rays: every triangle with a ball round it, so that most are passed by quickly.
+class RayScene {
+ public:
+  explicit RayScene(const SceneFrame& f) {
+    for (const Triangle& t : f.triangles) {
+      Face face;
+      for (std::size_t i = 0; i < 3; ++i) face.corner[i] = f.vertices[t.vertex[i]];
+      face.centre = (face.corner[0] + face.corner[1] + face.corner[2]) / 3.0;
+      for (const glm::dvec3& c : face.corner) face.radius2 = std::max(face.radius2, dot2(c - face.centre));
+      face.radius2 *= 1.0001;
+      faces_.push_back(face);
+    }
+  }
+
+  /// Calls hit(t, triangle) for every triangle that the line origin + t direction meets.
+  template <typename Hit>
+  void meet(const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) const {
+    const double d2 = dot2(direction);
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+      const Face& face = faces_[i];
+      const glm::dvec3 to = face.centre - origin;
+      const double along = glm::dot(to, direction);
+      if (dot2(to) * d2 - along * along > face.radius2 * d2 * 1.0001 + 1e-9 * dot2(to) * d2) continue;
+      const glm::dvec3 e1 = face.corner[1] - face.corner[0];
+      const glm::dvec3 e2 = face.corner[2] - face.corner[0];
+      const glm::dvec3 n = glm::cross(e1, e2);
+      const double nd = glm::dot(n, direction);
+      if (nd == 0) continue;
+      const double t = glm::dot(n, face.corner[0] - origin) / nd;
+      // Inside if the direction passes all three edges on the same side.
+      const auto side = [&](std::size_t a, std::size_t b) {
+        return glm::dot(direction, glm::cross(face.corner[a] - origin, face.corner[b] - origin));
+      };
+      const double s0 = side(0, 1);
+      const double s1 = side(1, 2);
+      const double s2 = side(2, 0);
+      if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0)) hit(t, i);
+    }
+  }
+
+ private:
+  static double dot2(const glm::dvec3& v) { return glm::dot(v, v); }
+
+  struct Face {
+    std::array<glm::dvec3, 3> corner{};
+    glm::dvec3 centre{};
+    double radius2 = 0;
+  };
+  std::vector<Face> faces_;
 };
 
-inline RayHit meet(const glm::dvec3& origin, const glm::dvec3& direction, const glm::dvec3& a, const glm::dvec3& b,
-                   const glm::dvec3& c, double margin) {
-  const glm::dvec3 e1 = b - a;
-  const glm::dvec3 e2 = c - a;
-  const glm::dvec3 n = glm::cross(e1, e2);
-  const double along = glm::dot(n, direction);
-  RayHit r;
-  if (std::abs(along) < 1e-5 * glm::length(n) * glm::length(direction)) {
-    // Nearly parallel: doubtful if the ray comes close at all.
-    const double off = std::abs(glm::dot(n, origin - a)) / glm::length(n);
-    r.doubtful = off < 0.05;
-    return r;
-  }
-  r.t = glm::dot(n, a - origin) / along;
-  const glm::dvec3 p = origin + r.t * direction - a;
-  const double nn = glm::dot(n, n);
-  const double v = glm::dot(glm::cross(p, e2), n) / nn;
-  const double w = glm::dot(glm::cross(e1, p), n) / nn;
-  const double u = 1 - v - w;
-  const double least = std::min({u, v, w});
-  r.hit = least >= 0;
-  r.doubtful = std::abs(least) < margin;
-  return r;
+/// Whether moving vertices lets the pixel show a polygon of the triangle, or nothing if it is kNothing.
+inline bool possible_triangle(const Oracle& oracle, const FrameGeometry& g, int x, std::uint32_t triangle) {
+  if (triangle == kNothing) return oracle.possible_surface(x, -1, Errors::depth_and_snap);
+  for (std::uint32_t i = 0; i < g.drawn; ++i)
+    if (g.polygons[i].triangle == triangle &&
+        oracle.possible_surface(x, static_cast<std::int32_t>(i), Errors::depth_and_snap))
+      return true;
+  return false;
 }
 
-inline RayCount compare_with_rays(const SceneFrame& f, int width, int height) {
-  const Config config;
-  FrameGeometry g = make_geometry(f, config, width, height);
-  const std::uint32_t nothing = 0xFFFFFF;
-  g.background = nothing;
+/// Compares the golden core's picture of `whole`, made from frame `f`, with rays through `f`, at every `step`th pixel
+/// of every `step`th line.
+inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whole, const Config& config, int step = 1) {
+  const int width = whole.width;
+  const int height = whole.height;
+  FrameGeometry g = whole;
+  g.background = kNothing;
   g.shade = 0;
   for (std::uint32_t i = 0; i < g.drawn; ++i) {
     g.polygons[i].lit = true;
-    for (unsigned c = 0; c < 3; ++c)
-      g.polygons[i].color[c] = static_cast<std::uint8_t>(g.polygons[i].triangle >> (8 * c));
+    for (unsigned c = 0; c < 3; ++c) g.polygons[i].color[c] = static_cast<std::uint8_t>(i >> (8 * c));
   }
   const auto seen = draw(g, config);
   g.shade = 1U << config.shade_frac;
+  g.background = 0x808080;
   for (std::uint32_t i = 0; i < g.drawn; ++i) g.polygons[i].color = {255, 255, 255};
   const auto shadow = draw(g, config);
 
   const Camera& camera = f.camera;
   const double unit = 2 * camera.half_height / height;
-  constexpr double kMargin =
-      0.02;  // far more than half a subpixel of a 96 pixel wide picture on faces that cover some pixels
+  const RayScene rays(f);
+  Oracle oracle(whole, config);
   RayCount count;
-  std::size_t at = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x, ++at) {
+  for (int y = 0; y < height; y += step) {
+    oracle.line(y);
+    for (int x = 0; x < width; x += step) {
+      const std::size_t at =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       ++count.pixels;
       const glm::dvec3 across =
           camera.right * ((x + 0.5 - width / 2.0) * unit) + camera.up * ((height / 2.0 - y - 0.5) * unit);
       const glm::dvec3 origin = camera.perspective ? camera.eye : camera.eye + across;
       const glm::dvec3 direction = camera.perspective ? camera.forward + across : camera.forward;
+      // direction has length 1 along forward, so t is the distance that the near plane is measured in.
       double nearest = INFINITY;
-      double second = INFINITY;
-      std::uint32_t surface = nothing;
-      bool doubtful = false;
-      for (std::uint32_t t = 0; t < f.triangles.size(); ++t) {
-        const auto& v = f.triangles[t].vertex;
-        const RayHit h = meet(origin, direction, f.vertices[v[0]], f.vertices[v[1]], f.vertices[v[2]], kMargin);
-        // direction has length 1 along forward, so t is the distance w.
-        if (h.doubtful) doubtful = true;
-        if (!h.hit) continue;
-        if (std::abs(h.t - camera.near) < 1e-3) doubtful = true;
-        if (h.t < camera.near) continue;
-        if (h.t < nearest) {
-          second = nearest;
-          nearest = h.t;
-          surface = t;
+      std::uint32_t surface = kNothing;
+      rays.meet(origin, direction, [&](double t, std::uint32_t triangle) {
+        if (t < camera.near || t >= nearest) return;
+        nearest = t;
+        surface = triangle;
+      });
+      const auto polygon = seen[at] == kNothing ? -1 : static_cast<std::int32_t>(seen[at]);
+      const std::uint32_t shown = polygon < 0 ? kNothing : whole.polygons[static_cast<std::uint32_t>(polygon)].triangle;
+      if (shown != surface) {
+        if (possible_triangle(oracle, whole, x, surface)) {
+          ++count.near_surface;
         } else {
-          second = std::min(second, h.t);
+          ++count.wrong_surface;
+          if (count.first_wrong.empty())
+            count.first_wrong = fmt::format("({}, {}): triangle {} for {}", x, y, shown, surface);
         }
-      }
-      if (doubtful || second < nearest * 1.001) {
-        ++count.skipped;
         continue;
       }
-      if (seen[at] != surface) {
-        ++count.wrong_surface;
-        if (count.first_wrong.empty())
-          count.first_wrong = fmt::format("({}, {}): triangle {} for {}", x, y, seen[at], surface);
-        continue;
-      }
-      if (surface == nothing) continue;
+      // A face seen from its unlit side is not lit anyway: nothing to compare, as the core darkens only what is lit.
+      if (polygon < 0 || !whole.polygons[static_cast<std::uint32_t>(polygon)].lit) continue;
       const glm::dvec3 point = origin + nearest * direction;
       const glm::dvec3 to_light = f.light.directional ? -f.light.direction : f.light.position - point;
       const double reach = f.light.directional ? INFINITY : 1;
       bool blocked = false;
-      for (std::uint32_t t = 0; t < f.triangles.size(); ++t) {
-        if (t == surface) continue;
-        const auto& v = f.triangles[t].vertex;
-        const RayHit h = meet(point, to_light, f.vertices[v[0]], f.vertices[v[1]], f.vertices[v[2]], kMargin);
-        const double scale = glm::length(to_light);
-        if (h.doubtful) doubtful = true;
-        if (h.hit && (std::abs(h.t) * scale < 5e-3 || std::abs(h.t - reach) * scale < 5e-3)) doubtful = true;
-        if (h.hit && h.t > 0 && h.t < reach) blocked = true;
-      }
-      // A face seen from its unlit side is not lit anyway: nothing to compare, as the core darkens only what is lit.
-      const auto& own = f.triangles[surface].vertex;
-      const glm::dvec3 n =
-          glm::normalize(glm::cross(f.vertices[own[1]] - f.vertices[own[0]], f.vertices[own[2]] - f.vertices[own[0]]));
-      const double light_side = glm::dot(n, glm::normalize(to_light));
-      const bool lit = light_side * -glm::dot(n, direction) > 0;
-      if (doubtful || !lit || std::abs(light_side) < 1e-3) {
-        ++count.skipped;
+      rays.meet(point, to_light, [&](double t, std::uint32_t triangle) {
+        if (triangle != surface && t > 0 && t < reach) blocked = true;
+      });
+      if ((shadow[at] == 0) == blocked) {
+        ++(blocked ? count.shadowed : count.lit);
         continue;
       }
-      ++(blocked ? count.shadowed : count.lit);
-      if ((shadow[at] == 0) != blocked) {
+      const PossibleShadow possible =
+          oracle.possible_shadow(x, static_cast<std::uint32_t>(polygon), Errors::depth_and_snap);
+      if (blocked ? possible.shadowed : possible.lit) {
+        ++count.near_shadow;
+      } else {
         ++count.wrong_shadow;
         if (count.first_wrong.empty())
           count.first_wrong =
               fmt::format("({}, {}): triangle {}, shadow {} for {}", x, y, surface, shadow[at] == 0, blocked);
       }
     }
+  }
   return count;
+}
+
+inline RayCount compare_with_rays(const SceneFrame& f, int width, int height, int step = 1) {
+  Config config;
+  config.max_width = std::max(config.max_width, width);
+  return compare_with_rays(f, make_geometry(f, config, width, height), config, step);
 }
 
 }  // namespace kage::verif

@@ -2,6 +2,10 @@
 //
 // The oracle: the exact answer at a pixel, from the snapped polygons, by sign tests in 128-bit integers. It shares no
 // arithmetic with the front end or the cores: no edge walking, no increments, no rounding. Slow, and meant to be.
+//
+// An answer unlike the oracle's is a near tie if the errors that docs/numbers.md states can give it; else it is gross,
+// and a bug. Which errors count, the caller says: see Errors. Both are decided by outer intervals: every outline and
+// every depth may err as far as its bound allows, each on its own.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +25,20 @@ struct OraclePixel {
 /// How an answer compares with the truth.
 enum class Verdict : std::uint8_t {
   right,
-  near_tie,  ///< unlike, and the stated depth errors can give it
+  near_tie,  ///< unlike, and the stated errors can give it
   gross,     ///< unlike, and nothing excuses it: a bug
+};
+
+/// The errors that may part an answer from the truth.
+enum class Errors : std::uint8_t {
+  depth,           ///< the core's: sums along a span, and the rounding to an integer
+  depth_and_snap,  ///< also the snap: every vertex moved by up to half a subpixel in x and in y
+};
+
+/// What a pixel may show while every error stays within its bound.
+struct PossibleShadow {
+  bool lit = false;
+  bool shadowed = false;
 };
 
 class Oracle {
@@ -42,9 +58,15 @@ class Oracle {
 
   [[nodiscard]] OraclePixel at(int x) const;
 
-  /// Judge an answer: the surface that was seen, and, if it is the right one, its shadow.
+  /// Judge an answer: the surface that was seen, and, if it is the right one, its shadow. Errors of depth only.
   [[nodiscard]] Verdict judge_surface(int x, const OraclePixel& truth, std::int32_t seen) const;
   [[nodiscard]] Verdict judge_shadow(int x, const OraclePixel& truth, bool seen) const;
+
+  /// Whether the pixel may show `surface` (a drawn polygon, or -1 for none).
+  [[nodiscard]] bool possible_surface(int x, std::int32_t surface, Errors errors) const;
+
+  /// The shadows that `surface`, a drawn polygon that the pixel shows, may have there.
+  [[nodiscard]] PossibleShadow possible_shadow(int x, std::uint32_t surface, Errors errors) const;
 
   /// Sum over the volume of winding numbers with factor of all faces and the near cap at the pixel, whatever their
   /// depth; with the far end it is 0, so without it it is minus what the far end covers.
@@ -61,9 +83,14 @@ class Oracle {
     std::vector<NearEdge> near;
   };
 
+  // How an uncertain comparison or test comes out.
+  enum class Sure : std::uint8_t { no, maybe, yes };
+
   [[nodiscard]] bool nearer(const ScreenPlane& a, const ScreenPlane& b, int x) const;
-  [[nodiscard]] bool within_error(const ScreenPlane& a, const ScreenPlane& b, int x) const;
+  [[nodiscard]] Sure surely_nearer(const ScreenPlane& a, const ScreenPlane& b, int x, Errors errors) const;
+  [[nodiscard]] Sure surely_covers(std::uint32_t polygon, int x, Errors errors) const;
   [[nodiscard]] int near_cap(const Volume& v, int x) const;
+  [[nodiscard]] bool meets_line(std::span<const ScreenVertex> outline) const;
 
   const FrameGeometry* g_;
   Config config_;
