@@ -5,13 +5,14 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 
-#include "image/temp_file.hpp"
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
 
@@ -23,6 +24,18 @@ volatile std::sig_atomic_t signalled = 0;
 void on_signal(int number) {
   if (signalled != 0) _exit(128 + number);
   signalled = 1;
+}
+
+void write_text(TempFiles& files, const std::string& path, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code ec;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
+    throw Error(fmt::format("{}: cannot be written: no such folder", path));
+  errno = 0;
+  std::ofstream out(files.add(path), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 }  // namespace
@@ -91,28 +104,22 @@ bool json_only(const Options& options) { return options.json == "-"; }
 
 void check_json(const Options& options) {
   if (options.json.empty() || json_only(options)) return;
-  const std::filesystem::path folder = std::filesystem::path(options.json).parent_path();
-  std::error_code ec;
-  const bool to_be_made =
-      !options.out.empty() && folder.lexically_normal() == std::filesystem::path(options.out).lexically_normal();
-  if (!folder.empty() && !to_be_made && !std::filesystem::is_directory(folder, ec))
-    throw Error(fmt::format("{}: cannot be written: no such folder", options.json));
+  TempFiles file;
+  write_text(file, options.json, "");
+}
+
+void write_json(const Options& options, const Json& value, TempFiles& files) {
+  const std::string text = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (!options.json.empty() && !json_only(options)) write_text(files, options.json, text);
+  files.commit();
+  if (json_only(options) &&
+      (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0))
+    throw Error("standard output: cannot be written");
 }
 
 void write_json(const Options& options, const Json& value) {
-  if (options.json.empty()) return;
-  const std::string text = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (json_only(options)) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-      throw Error("standard output: cannot be written");
-    return;
-  }
-  TempFile file(options.json);
-  std::ofstream out(file.temp(), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written", options.json));
-  file.commit();
+  TempFiles files;
+  write_json(options, value, files);
 }
 
 Json to_json(const Config& config) {
@@ -121,11 +128,32 @@ Json to_json(const Config& config) {
   return object;
 }
 
-void make_folder(const std::filesystem::path& path) {
+OutFolder::OutFolder(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
   std::error_code ec;
-  std::filesystem::create_directories(path, ec);
-  if (ec || !std::filesystem::is_directory(path, ec))
+  std::vector<fs::path> missing;
+  for (fs::path p = path; !p.empty() && !fs::exists(p, ec); p = p.parent_path()) missing.push_back(p);
+  // One by one, so that a failure half-way leaves none: the destructor of a half-made object does not run.
+  for (auto p = missing.rbegin(); p != missing.rend(); ++p) {
+    if (fs::create_directory(*p, ec)) made_.insert(made_.begin(), *p);
+    if (ec) break;
+  }
+  if (ec || !fs::is_directory(path, ec)) {
+    remove();
     throw Error(fmt::format("{}: the folder cannot be made: {}", path.string(), ec ? ec.message() : "not a folder"));
+  }
+  if (::access(path.c_str(), W_OK | X_OK) != 0) {
+    const int error = errno;
+    remove();
+    throw Error(fmt::format("{}: cannot be written to: {}", path.string(), std::strerror(error)));
+  }
+}
+
+OutFolder::~OutFolder() { remove(); }
+
+void OutFolder::remove() {
+  for (const std::filesystem::path& p : made_) (void)::rmdir(p.c_str());  // refuses one with something in it
+  made_.clear();
 }
 
 void catch_signals() {

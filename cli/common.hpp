@@ -6,12 +6,15 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "image/temp_file.hpp"
 #include "kage/defs.hpp"
 
 namespace kage::cli {
@@ -69,17 +72,36 @@ void option_threads(CLI::App& command, Options& options);
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);
 
-/// Throws Error if --json names a file in a folder that is not there and is not --out: before long work, not after it.
+/// Throws Error if what --json names cannot be written: before the work, not after it.
 void check_json(const Options& options);
 
-/// Writes `value` where --json says, if it was given; a file appears only when it is whole.
+/// Writes `value` where --json says, if it was given, and gives all of `files` their names: all appear or none.
+void write_json(const Options& options, const Json& value, TempFiles& files);
 void write_json(const Options& options, const Json& value);
 
 /// The parameters as an object, in the order of the definition file.
 Json to_json(const Config& config);
 
-/// Makes the folder, and those above it. Throws Error.
-void make_folder(const std::filesystem::path& path);
+/// A folder for what a run writes, made with those above it. What was made and is empty in the end is removed again, so
+/// that a run that fails leaves nothing.
+class OutFolder {
+ public:
+  /// Throws Error if the folder cannot be made or written to.
+  explicit OutFolder(const std::filesystem::path& path);
+  ~OutFolder();
+  OutFolder(const OutFolder&) = delete;
+  OutFolder& operator=(const OutFolder&) = delete;
+
+ private:
+  void remove();
+  std::vector<std::filesystem::path> made_;  // the innermost first
+};
+
+/// "1 frame", "2 frames".
+template <std::integral Count>
+std::string counted(Count count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
 
 /// Ctrl-C and SIGTERM set a flag; loops ask it, so that files are whole or absent. A second one ends the program at
 /// once.

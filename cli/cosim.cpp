@@ -34,9 +34,10 @@ Json to_json(const std::optional<cosim::Difference>& d) {
 }
 
 int run(CosimCommand& o) {
+  const OutFolder folder(o.out);
+  check_json(o);
   Source source(o);
   const Config& config = source.config().config;
-  check_json(o);
 
   Progress progress;
   const cosim::Model model = cosim::find_model(config, o.fault, [&](double seconds) {
@@ -44,7 +45,6 @@ int run(CosimCommand& o) {
     progress.show(fmt::format("building the RTL model of configuration {}: {:.0f} s", source.config().name, seconds));
   });
   progress.clear();
-  make_folder(o.out);
 
   o.rtl.seed = o.seed;
   const auto golden = cosim::make_golden(config);
@@ -84,10 +84,10 @@ int run(CosimCommand& o) {
   write_json(o, j);
   print_notes(source, o);
   if (!json_only(o)) {
-    fmt::print(
-        "{}: {} frames, {}x{}, {} pixels compared, {} spans, {} cycles, golden {:.3f} s, RTL {:.3f} s, seed {}\n",
-        r.same ? "same" : "different", r.frames, r.width, r.height, r.pixels_compared, counts.spans, r.cycles,
-        r.expected_seconds, r.actual_seconds, o.seed);
+    fmt::print("{}: {}, {}x{}, {} compared, {}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n",
+               r.same ? "same" : "different", counted(r.frames, "frame"), r.width, r.height,
+               counted(r.pixels_compared, "pixel"), counted(counts.spans, "span"), counted(r.cycles, "cycle"),
+               r.expected_seconds, r.actual_seconds, o.seed);
     if (r.first_difference) fmt::print("first difference: {}\n", cosim::describe(*r.first_difference));
     if (!r.same && !r.pictures.empty()) fmt::print("pictures: {}\n", r.pictures.back());
   }

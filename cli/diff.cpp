@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "common.hpp"
+#include "image/save.hpp"
 #include "kage/image.hpp"
 
 namespace kage::cli {
@@ -24,7 +25,7 @@ std::string describe(const DiffResult& r) {
   const auto pixels = static_cast<std::uint64_t>(r.width) * static_cast<std::uint64_t>(r.height);
   if (r.width == 0) return fmt::format("different: {}", r.reason);
   std::string text =
-      fmt::format("{}: {}x{}, {} pixels compared", r.same ? "same" : "different", r.width, r.height, pixels);
+      fmt::format("{}: {}x{}, {} compared", r.same ? "same" : "different", r.width, r.height, counted(pixels, "pixel"));
   if (r.different_pixels != 0) text += fmt::format(", {} differ", r.different_pixels);
   if (r.max_lsb != 0) text += fmt::format(", by up to {} LSB", r.max_lsb);
   if (r.nan_pixels != 0) text += fmt::format(", {} hold a NaN", r.nan_pixels);
@@ -70,13 +71,15 @@ class QuietStderr {
 };
 
 int run(const DiffCommand& o) {
+  check_json(o);
   Image heat;
   const DiffResult result = [&] {
     const QuietStderr quiet;
     return diff_files(o.a, o.b, o.limits, o.out.empty() ? nullptr : &heat);
   }();
-  if (!o.out.empty() && heat.width != 0) save_image(o.out, heat);
-  write_json(o, to_json(result));
+  TempFiles files;
+  if (!o.out.empty() && heat.width != 0) save_image(files, o.out, heat);
+  write_json(o, to_json(result), files);
   if (!json_only(o)) fmt::print("{}\n", describe(result));
   return result.same ? kSame : kDifferent;
 }

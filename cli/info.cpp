@@ -11,6 +11,7 @@ namespace kage::cli {
 namespace {
 
 int run(const Options& o) {
+  check_json(o);
   const StreamFile file(o.input);
   TokenCounts counts;
   Progress progress;
@@ -37,8 +38,9 @@ int run(const Options& o) {
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
   write_json(o, j);
   if (!json_only(o)) {
-    fmt::print("{}: {} frames, {} lines, {} spans over {} pixels, {} bytes, checksums right\n", o.input,
-               file.frame_count(), lines, counts.spans, counts.span_pixels, file.bytes());
+    fmt::print("{}: {}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
+               counted(lines, "line"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
+               counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
     fmt::print("\nconfiguration:");

@@ -20,10 +20,10 @@ struct ModelCommand : Options {
 };
 
 int run(const ModelCommand& o) {
+  check_json(o);
   std::vector<NamedConfig> list;
   if (o.configs.empty()) list = named_configs();
   for (const std::string& name : o.configs) list.push_back(load_config(name));
-  check_json(o);
   Json j = Json::array();
   for (const NamedConfig& named : list) {
     Progress progress;

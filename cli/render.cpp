@@ -8,8 +8,8 @@
 
 #include "common.hpp"
 #include "cosim/core.hpp"
+#include "image/save.hpp"
 #include "kage/error.hpp"
-#include "kage/image.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
@@ -20,14 +20,15 @@ struct RenderCommand : Options {
 };
 
 int run(const RenderCommand& o) {
-  Source source(o);
+  const OutFolder folder(o.out);
   check_json(o);
-  make_folder(o.out);
+  Source source(o);
   const Config& config = source.config().config;
   const auto golden = cosim::make_golden(config);
   TokenCounts counts;
   double seconds = 0;
-  Json files = Json::array();
+  TempFiles files;
+  Json names = Json::array();
   Size size;
   Progress progress;
   for (int i = 0; i < source.frames(); ++i) {
@@ -41,8 +42,8 @@ int run(const RenderCommand& o) {
     size = {frame.image.width, frame.image.height};
     const auto path =
         std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
-    save_image(path, frame.image);
-    files.push_back(path.string());
+    save_image(files, path, frame.image);
+    names.push_back(path.string());
   }
   progress.clear();
 
@@ -55,13 +56,13 @@ int run(const RenderCommand& o) {
   j["golden_seconds"] = seconds;
   j["config"] = to_json(config);
   j["degraded"] = source.degraded();
-  j["files"] = files;
+  j["files"] = names;
   j["notes"] = source.notes();
-  write_json(o, j);
+  write_json(o, j, files);
   print_notes(source, o);
   if (!json_only(o))
-    fmt::print("{} frames, {}x{}, {} spans over {} pixels: {}\n", source.frames(), size.width, size.height,
-               counts.spans, counts.span_pixels, o.out);
+    fmt::print("{}, {}x{}, {} over {}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
+               counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"), o.out);
   return kSame;
 }
 

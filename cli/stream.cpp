@@ -23,8 +23,8 @@ int run(const Options& o) {
   progress.clear();
   writer.finish();
   print_notes(source, o);
-  fmt::print("{}: {} frames, {} spans over {} pixels, {} words\n", o.out, source.frames(), counts.spans,
-             counts.span_pixels, counts.words);
+  fmt::print("{}: {}, {} over {}, {}\n", o.out, counted(source.frames(), "frame"), counted(counts.spans, "span"),
+             counted(counts.span_pixels, "pixel"), counted(counts.words, "word"));
   return kSame;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "image/save.hpp"
+
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include "image/temp_file.hpp"
 #include "kage/error.hpp"
-#include "kage/image.hpp"
 
 namespace kage {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 
 }  // namespace
 
-void save_image(const std::filesystem::path& path, const Image& image) {
+void save_image(TempFiles& files, const std::filesystem::path& path, const Image& image) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -35,14 +35,19 @@ void save_image(const std::filesystem::path& path, const Image& image) {
   std::error_code ec;
   if (!std::filesystem::is_directory(folder, ec)) fail(path, "no such folder");
 
-  TempFile file(path);
+  const std::filesystem::path& temp = files.add(path);
   const auto output = OIIO::ImageOutput::create(extension.substr(1));
   if (!output) fail(path, OIIO::geterror());
   OIIO::ImageSpec spec(image.width, image.height, image.channels, exr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT8);
   if (image.channels == 1) spec.channelnames = {"Y"};
-  if (!output->open(file.temp().string(), spec)) fail(path, output->geterror());
+  if (!output->open(temp.string(), spec)) fail(path, output->geterror());
   if (!output->write_image(OIIO::TypeDesc::UINT8, image.data.data())) fail(path, output->geterror());
   if (!output->close()) fail(path, output->geterror());
+}
+
+void save_image(const std::filesystem::path& path, const Image& image) {
+  TempFiles file;
+  save_image(file, path, image);
   file.commit();
 }
 

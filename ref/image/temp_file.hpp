@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <filesystem>
+#include <utility>
 
 namespace kage {
 
@@ -22,6 +24,24 @@ class TempFile {
  private:
   std::filesystem::path target_;
   std::filesystem::path temp_;
+};
+
+/// Files of one run, which get their names together once all are written, or never: a run that fails half-way leaves
+/// what was there before it.
+class TempFiles {
+ public:
+  /// A file more; returns where to write it.
+  const std::filesystem::path& add(std::filesystem::path target) {
+    return files_.emplace_back(std::move(target)).temp();
+  }
+
+  void commit() {
+    for (TempFile& file : files_) file.commit();
+    files_.clear();
+  }
+
+ private:
+  std::deque<TempFile> files_;
 };
 
 }  // namespace kage

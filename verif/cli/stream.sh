@@ -53,6 +53,37 @@ trouble nan.obj "$kage" render nan.obj --frames 1
 : >empty.obj
 trouble empty.obj "$kage" render empty.obj --frames 1
 
+# A bad frame after good ones: no picture of the good ones stays, pictures of an earlier run do, and so do other files.
+python3 -c "d=bytearray(open('c.kage','rb').read()); d[-100]^=1; open('late.kage','wb').write(d)"
+trouble "late.kage: section 1: checksum is wrong" "$kage" render late.kage --out made/here
+[ ! -e made ] || fail "a failed render leaves $(find made)"
+mkdir kept && echo earlier >kept/late_0000.png && echo other >kept/notes.txt
+trouble late.kage "$kage" render late.kage --out kept --json kept/r.json
+trouble late.kage "$kage" cosim late.kage --out kept --json kept/r.json
+[ "$(cat kept/late_0000.png kept/notes.txt)" = "$(printf 'earlier\nother')" ] || fail "a failed render changes what was there"
+[ "$(find kept -type f | wc -l)" = 2 ] || fail "a failed render leaves files: $(find kept)"
+
+# What cannot be written is found before the work: nothing is read, so even a missing scene is not reached.
+mkdir folder
+for command in render cosim; do
+  trouble "folder: exists and is not a file" "$kage" $command nowhere.obj --json folder --out unmade
+  trouble "no/r.json: cannot be written: no such folder" "$kage" $command nowhere.obj --json no/r.json --out unmade
+  trouble "c.kage/x: the folder cannot be made" "$kage" $command nowhere.obj --out c.kage/x
+  [ ! -e unmade ] || fail "a run that cannot write leaves its folder"
+done
+trouble "folder: exists and is not a file" "$kage" info nowhere.kage --json folder
+trouble "folder: exists and is not a file" "$kage" model nowhere.yaml --json folder
+trouble "folder: exists and is not a file" "$kage" diff a.png b.png --json folder
+if [ "$(id -u)" != 0 ]; then
+  chmod 500 folder
+  trouble "folder/r.json: cannot be written: Permission denied" "$kage" render nowhere.obj --json folder/r.json --out unmade
+  trouble "folder: cannot be written to: Permission denied" "$kage" render nowhere.obj --out folder
+fi
+# JSON into the folder that the run makes; one of a thing is called so.
+expect 0 "$kage" render c.kage --frames 1 --out made/here --json made/here/r.json
+grep -q '^1 frame, ' stdout || fail "one frame: $(cat stdout)"
+[ -s made/here/r.json ] && [ -s made/here/c_0000.png ] || fail "no picture or JSON in a folder just made"
+
 # Interruption leaves no file behind.
 "$kage" stream courtyard --size 1280x960 --frames 200 --out long.kage >/dev/null 2>err &
 pid=$!

@@ -5,6 +5,7 @@
 
 #include <future>
 
+#include "image/save.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
@@ -17,13 +18,16 @@ class Pictures {
   void save(int frame, const char* suffix, const Image& image) {
     if (options_.out.empty() || image.data.empty()) return;
     const auto path = options_.out / fmt::format("{}_{:04}{}.png", options_.name, frame, suffix);
-    save_image(path, image);
+    save_image(files_, path, image);
     report_.pictures.push_back(path.string());
   }
+
+  void commit() { files_.commit(); }
 
  private:
   const RunOptions& options_;
   Report& report_;
+  TempFiles files_;
 };
 
 }  // namespace
@@ -62,6 +66,7 @@ Report run(int frames, const Feed& feed, Core& expected, Core& actual, const Run
       pictures.save(i, "_expected", e.image);
       pictures.save(i, "_actual", a.image);
       if (!e.image.data.empty()) pictures.save(i, "_difference", difference_picture(e.image, a.image));
+      pictures.commit();
       return report;
     }
     // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".
@@ -69,6 +74,7 @@ Report run(int frames, const Feed& feed, Core& expected, Core& actual, const Run
     words.swap(next);
   }
   if (report.frames == 0) throw Error("no frame to compare");
+  pictures.commit();
   return report;
 }
 

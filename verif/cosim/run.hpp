@@ -40,7 +40,8 @@ struct Report {
 };
 
 /// Send every frame through both cores and compare. Each frame of `expected` is written as a picture; at the first
-/// difference also NAME_0000_expected.png, _actual.png and _difference.png. Two frames' words and two pictures are in
+/// difference also NAME_0000_expected.png, _actual.png and _difference.png. They appear together when there is a
+/// verdict; without one, what lay in the folder before is untouched. Two frames' words and two pictures are in
 /// memory, whatever the number.
 /// Throws Error where no verdict is possible: no frames, or a frame that the expected core refuses in its header, so
 /// that no pixel could be compared.

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "catch.hpp"
@@ -113,4 +114,22 @@ TEST_CASE("an exception in either core ends the run") {
   FakeCore bad([](std::uint32_t, FrameResult&) { throw std::runtime_error("stalled"); });
   CHECK_THROWS_WITH(run(3, feed, good, bad, {}), "stalled");
   CHECK_THROWS_WITH(run(3, feed, bad, good, {}), "stalled");
+}
+
+TEST_CASE("a run without a verdict leaves the folder as it was") {
+  const fs::path folder = fs::temp_directory_path() / ("kage-cosim-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "frame_0000.png") << "of an earlier run";
+  FakeCore good;
+  FakeCore bad([](std::uint32_t frame, FrameResult&) {
+    if (frame == 2) throw std::runtime_error("stalled");
+  });
+  RunOptions options;
+  options.out = folder;
+  CHECK_THROWS_WITH(run(3, feed, good, bad, options), "stalled");
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  CHECK(names == std::set<std::string>{"frame_0000.png"});
+  CHECK(fs::file_size(folder / "frame_0000.png") == 17);
+  fs::remove_all(folder);
 }
