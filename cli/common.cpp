@@ -46,6 +46,17 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
   return command;
 }
 
+CLI::Validator whole_number() {
+  return {[](const std::string& text) {
+            std::uint64_t value = 0;
+            const char* const end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            return error == std::errc{} && stop == end ? std::string()
+                                                       : text + " is not a whole number from 0 to 2^64 - 1";
+          },
+          "", "whole"};
+}
+
 void option_size(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
@@ -80,7 +91,9 @@ void option_config(CLI::App& command, Options& options) {
 }
 
 void option_seed(CLI::App& command, Options& options) {
-  command.add_option("--seed", options.seed, "seed of everything random, default 1")->type_name("S");
+  command.add_option("--seed", options.seed, "seed of everything random, default 1")
+      ->check(whole_number())
+      ->type_name("S");
 }
 
 void option_json(CLI::App& command, Options& options) {

@@ -41,6 +41,12 @@ void add_model(CLI::App& app, Action& action);
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);
 
+/// What is wrong with a command line that `app` refused, and the help to read: one line.
+std::string explain(const CLI::App& app, const CLI::ParseError& error);
+
+/// A whole number from 0 to 2^64 - 1. As text: a minus sign or too many digits would wrap round in an unsigned number.
+CLI::Validator whole_number();
+
 /// A picture's size, "640x480".
 struct Size {
   int width = 640;

@@ -94,14 +94,6 @@ void add_diff(CLI::App& app, Action& action) {
       "An LSB is one step of the file's pixel type; for floats, of the representable numbers.\n"
       "A NaN on either side, or unlike size, channels or pixel type, is a difference that no option tolerates.");
   const auto o = std::make_shared<DiffCommand>();
-  // As text: a minus sign or too many digits would wrap round in an unsigned number and tolerate everything.
-  const CLI::Validator whole(
-      [](const std::string& text) {
-        const bool digits =
-            !text.empty() && text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
-        return digits ? std::string() : text + " is not a whole number from 0 on";
-      },
-      "", "whole");
   const CLI::Validator finite(
       [](const std::string& text) {
         return text.find_first_not_of("0123456789.eE+-") == std::string::npos ? std::string()
@@ -111,10 +103,10 @@ void add_diff(CLI::App& app, Action& action) {
   c->add_option("A", o->a, "a picture: PNG, EXR or any other that OpenImageIO reads")->required();
   c->add_option("B", o->b, "another")->required();
   c->add_option("--lsb", o->limits.lsb, "a pixel is the same if no channel is further apart than N LSB, default 0")
-      ->check(whole)
+      ->check(whole_number())
       ->type_name("N");
   c->add_option("--max-pixels", o->limits.max_pixels, "same if at most N pixels differ, default 0")
-      ->check(whole)
+      ->check(whole_number())
       ->type_name("N");
   c->add_option("--max-percent", o->limits.max_percent, "same if at most P percent of the pixels differ")
       ->check(finite)

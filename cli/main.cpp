@@ -49,9 +49,9 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    return trouble(e.what());
+    return trouble(explain(app, e));
   }
-  if (!action) return trouble("no command given: kage --help lists them");
+  if (!action) return trouble("no command given; see kage --help");
   return action();
 }
 

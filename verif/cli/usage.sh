@@ -15,9 +15,25 @@ expect 0 "$kage" stream courtyard --size 640x480 --size 32x24 --frames 2 --frame
 expect 0 "$kage" info twice.kage --json twice.json
 json twice.json 'j["frames"]==1 and j["lines"]==24'
 
-trouble "no command" "$kage"
-trouble "nonsense" "$kage" nonsense
-trouble "A is required" "$kage" diff
+# line TEXT COMMAND...: exactly that line, so nothing of the parser's own words and lists.
+line() {
+  trouble "$@"
+  [ "$(cat stderr)" = "$1" ] || fail "${*:2}: says '$(cat stderr)'"
+}
+line "kage: no command given; see kage --help" "$kage"
+line "kage: nonsense: no such command; see kage --help" "$kage" nonsense
+line "kage: rendr: no such command (did you mean render?); see kage --help" "$kage" rendr courtyard --out none
+line "kage: cosmi: no such command (did you mean cosim?); see kage --help" "$kage" cosmi
+line "kage: --verson: no such option (did you mean --version?); see kage --help" "$kage" --verson
+line "kage: --sise: no such option (did you mean --size?); see kage render --help" "$kage" render courtyard --sise 3x3
+line "kage: --conf=x: no such option (did you mean --config?); see kage cosim --help" "$kage" cosim courtyard --conf=x
+line "kage: --frobnicate: no such option; see kage info --help" "$kage" info x --frobnicate
+line "kage: --size: options come after the command; see kage render --help" "$kage" --size 3x3 render courtyard
+line "kage: b: an argument too many; see kage render --help" "$kage" render courtyard b c
+line "kage: --frames: its value is missing; see kage render --help" "$kage" render courtyard --frames
+line "kage: A is missing; see kage diff --help" "$kage" diff
+line "kage: --seed: -1 is not a whole number from 0 to 2^64 - 1; see kage cosim --help" "$kage" cosim courtyard --seed -1
+trouble 18446744073709551616 "$kage" cosim courtyard --seed 18446744073709551616
 trouble "--lsb" "$kage" diff a b --lsb many
 trouble "--size" "$kage" render courtyard --size 640
 trouble "--size" "$kage" render courtyard --size 0x480

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with a command line, in one line.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common.hpp"
+
+namespace kage::cli {
+namespace {
+
+/// Letters to insert, leave out, change or swap with the next one to make `a` of `b`.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  std::iota(d[0].begin(), d[0].end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      d[i][k] = std::min({d[i - 1][k] + 1, d[i][k - 1] + 1, d[i - 1][k - 1] + (a[i - 1] == b[k - 1] ? 0 : 1)});
+      if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1])
+        d[i][k] = std::min(d[i][k], d[i - 2][k - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+/// The name that was probably meant, or "": a beginning, or a name that two slips of the finger or one in a short word
+/// turn into `text`.
+std::string nearest(const std::string& text, const std::vector<std::string>& names) {
+  std::string best;
+  std::size_t least = text.size() < 5 ? 2 : 3;
+  for (const std::string& name : names) {
+    const bool beginning = text.size() >= 3 && name.rfind(text, 0) == 0;
+    const std::size_t d = beginning ? 1 : distance(text, name);
+    if (d >= least) continue;
+    least = d;
+    best = name;
+  }
+  return best;
+}
+
+std::vector<std::string> commands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  return names;
+}
+
+std::vector<std::string> options(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  return names;
+}
+
+/// What nobody asked for: a mistyped command or option, or an argument too many.
+std::string unexpected(const CLI::App& app, const CLI::App* command) {
+  const std::vector<std::string> before = app.remaining(false);
+  const std::vector<std::string> all = app.remaining(true);
+  const std::string text = all.empty() ? std::string() : all.front();
+  const auto meant = [](const std::string& name) {
+    return name.empty() ? "" : fmt::format(" (did you mean {}?)", name);
+  };
+  if (text.size() > 1 && text.front() == '-') {
+    const std::size_t dashes = text.rfind("--", 0) == 0 ? 2 : 1;
+    const std::string name = text.substr(dashes, text.find('=') - dashes);
+    const std::vector<std::string> known = options(command != nullptr ? *command : app);
+    if (command != nullptr && !before.empty() && std::find(known.begin(), known.end(), name) != known.end())
+      return fmt::format("{}: options come after the command", text);
+    const std::string near = nearest(name, known);
+    return fmt::format("{}: no such option{}", text, meant(near.empty() ? "" : "--" + near));
+  }
+  if (command == nullptr) return fmt::format("{}: no such command{}", text, meant(nearest(text, commands(app))));
+  return fmt::format("{}: an argument too many", text);
+}
+
+}  // namespace
+
+std::string explain(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> parsed = app.get_subcommands();
+  const CLI::App* const command = parsed.empty() ? nullptr : parsed.front();
+  std::string text = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    text = unexpected(app, command);
+  } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && text.rfind("--", 0) == 0) {
+    text = text.substr(0, text.find(':')) + ": its value is missing";
+  } else if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr &&
+             text.find(" is required") != std::string::npos) {
+    text = text.substr(0, text.find(" is required")) + " is missing";
+  }
+  return fmt::format("{}; see kage {}--help", text, command == nullptr ? "" : command->get_name() + " ");
+}
+
+}  // namespace kage::cli
