@@ -59,7 +59,7 @@ int run(CosimCommand& o) {
     progress.show(fmt::format("{}: frame {}/{}", source.name(), frame + 1, source.frames()));
   };
   const cosim::Report r = cosim::run(
-      source.frames(), [&](int i) { return source.words(i, &counts); }, *golden, *rtl, options);
+      source.frames(), [&](int i) { return source.words(i, counts); }, *golden, *rtl, options);
   progress.clear();
 
   Json j;

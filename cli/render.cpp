@@ -34,7 +34,7 @@ int run(const RenderCommand& o) {
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
     progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
-    const auto words = source.words(i, &counts);
+    const auto words = source.words(i, counts);
     const cosim::FrameResult frame = golden->frame(words);
     if (frame.status.error != ErrorCode::NONE)
       throw Error(fmt::format("{}: frame {}: {}", o.input, i, cosim::describe(frame.status)));

@@ -67,7 +67,13 @@ void Source::open_scene(const Options& options) {
     throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
   Needs needs = needs_of(*scene_, scene_->frame(0, frames_), size_);
   if (options.config.empty()) {
-    config_ = choose_config(needs);
+    try {
+      config_ = choose_config(needs);
+    } catch (const Error& e) {
+      const std::string line = widened_config(needs);
+      throw Error(line.empty() ? e.what()
+                               : fmt::format("{}; --config FILE can, with this line in it: {}", e.what(), line));
+    }
     notes_.push_back(fmt::format("configuration: {}", config_.name));
     return;
   }
@@ -85,24 +91,30 @@ void Source::open_scene(const Options& options) {
   if (!degraded_.empty()) notes_.push_back(fmt::format("drawn without {}", fmt::join(degraded_, ", ")));
 }
 
-std::span<const std::uint32_t> Source::words(int index, TokenCounts* counts) {
-  if (stream_) return stream_->frame(index, counts);
-  words_.clear();
-  make_frame(make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config,
-             static_cast<std::uint32_t>(index), words_, threads_);
-  if (counts != nullptr) {
-    const TokenCounts frame = check_frame(config_.config, words_, fmt::format("{}: frame {}", name_, index), 0);
-    for (std::size_t k = 0; k < frame.of_kind.size(); ++k) counts->of_kind[k] += frame.of_kind[k];
-    counts->words += frame.words;
-    counts->spans += frame.spans;
-    counts->span_pixels += frame.span_pixels;
+std::span<const std::uint32_t> Source::words(int index, TokenCounts& counts) {
+  TokenCounts frame;
+  std::span<const std::uint32_t> words;
+  if (stream_) {
+    words = stream_->frame(index, &frame);
+  } else {
+    words_.clear();
+    make_frame(make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config,
+               static_cast<std::uint32_t>(index), words_, threads_);
+    frame = check_frame(config_.config, words_, fmt::format("{}: frame {}", name_, index), 0);
+    words = words_;
   }
-  return words_;
+  ++made_;
+  if (frame.of_kind[static_cast<std::size_t>(Kind::OP)] == 0) ++blank_;
+  counts += frame;
+  return words;
 }
 
-Size Source::size(std::span<const std::uint32_t> words) {
-  if (words.size() < kHeaderWords) return {0, 0};
-  return {static_cast<int>(words[1] & 0xFFFF), static_cast<int>(words[1] >> 16)};
+std::vector<std::string> Source::notes() const {
+  std::vector<std::string> all = notes_;
+  if (blank_ > 0)
+    all.push_back(fmt::format("nothing is to be seen{}: no face covers the centre of a pixel",
+                              blank_ == made_ ? "" : fmt::format(" in {} of {} frames", blank_, made_)));
+  return all;
 }
 
 void print_notes(const Source& source, const Options& options) {

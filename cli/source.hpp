@@ -26,17 +26,21 @@ class Source {
   [[nodiscard]] int frames() const { return frames_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// Sentences for the person: what was ignored or added, which configuration was chosen.
-  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// Sentences for the person: what was ignored or added, which configuration was chosen, and in how many of the frames
+  /// made so far nothing is to be seen.
+  [[nodiscard]] std::vector<std::string> notes() const;
+
+  /// One more of them.
+  void note(std::string text) { notes_.push_back(std::move(text)); }
+
+  /// Whether the frames come from a stream file.
+  [[nodiscard]] bool is_stream() const { return stream_.has_value(); }
 
   /// What --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 
-  /// The words of frame `index`, valid until the next call; counts are added to `counts` if given.
-  std::span<const std::uint32_t> words(int index, TokenCounts* counts = nullptr);
-
-  /// Size of a frame, from its words.
-  static Size size(std::span<const std::uint32_t> words);
+  /// The words of frame `index`, valid until the next call; its counts are added to `counts`.
+  std::span<const std::uint32_t> words(int index, TokenCounts& counts);
 
  private:
   void open_stream(const Options& options);
@@ -52,6 +56,8 @@ class Source {
   Size size_;
   int threads_ = 0;
   std::vector<std::uint32_t> words_;
+  int made_ = 0;   // frames
+  int blank_ = 0;  // of those, without any opaque span
 };
 
 /// Prints the notes, a line each, once the work is done: a failure says one line and nothing else.

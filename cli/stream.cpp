@@ -12,13 +12,14 @@ namespace {
 
 int run(const Options& o) {
   Source source(o);
+  if (source.is_stream()) source.note("copied from a stream file");
   StreamFileWriter writer(o.out, source.config().config);
   TokenCounts counts;
   Progress progress;
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
     progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
-    writer.frame(source.words(i, &counts));
+    writer.frame(source.words(i, counts));
   }
   progress.clear();
   writer.finish();
@@ -31,11 +32,16 @@ int run(const Options& o) {
 }  // namespace
 
 void add_stream(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "stream", "Write the frames of a scene as a stream file",
-                            "  kage stream courtyard --out courtyard.kage\n"
-                            "  kage stream model.glb --size 320x240 --frames 4 --config full --out model.kage");
+  CLI::App* c =
+      add_command(app, "stream", "Write the frames of a scene as a stream file",
+                  "  kage stream courtyard --out courtyard.kage\n"
+                  "  kage stream model.glb --size 320x240 --frames 4 --config full --out model.kage\n"
+                  "  kage stream courtyard.kage --frames 2 --out short.kage\n"
+                  "A stream file is checked and copied: --frames takes its first ones, and --config may change\n"
+                  "what affects no pixel.");
   const auto o = std::make_shared<Options>();
-  c->add_option("SCENE", o->input, "a built-in scene (courtyard, knot, inside, edges) or a file that Assimp reads")
+  c->add_option("SCENE", o->input,
+                "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")
       ->required();
   c->add_option("--out", o->out, "the stream file")->required()->type_name("FILE");
   option_size(*c, *o);

@@ -41,6 +41,8 @@ class Builder {
       ordered_.push_back({sources_[t].primitive, turned(sources_[t].vertex, reversed)});
     }
     shade();
+    for (std::size_t t = 0; t < mesh_.triangles.size() && !mesh_.has_area; ++t)
+      mesh_.has_area = face_cross(t) != glm::dvec3{0, 0, 0};
     return std::move(mesh_);
   }
 
@@ -51,6 +53,8 @@ class Builder {
   void keep_used_vertices();
   void shade();
   void shade_component(const MeshComponent& c);
+  /// Across a face, twice its area long.
+  [[nodiscard]] glm::dvec3 face_cross(std::size_t triangle) const;
   [[nodiscard]] glm::dvec3 face_normal(std::size_t triangle) const;
   /// The file's normal at a corner, of length 1, or 0 where it has none to speak of.
   [[nodiscard]] glm::dvec3 file_normal(const Source& s, std::size_t corner) const;
@@ -115,11 +119,15 @@ void Builder::keep_used_vertices() {
     for (std::uint32_t& v : c) v = number[v];
 }
 
-glm::dvec3 Builder::face_normal(std::size_t triangle) const {
+glm::dvec3 Builder::face_cross(std::size_t triangle) const {
   const Corners& t = mesh_.triangles[triangle];
   const glm::dvec3& a = mesh_.vertices[t[0]];
+  return cross(mesh_.vertices[t[1]] - a, mesh_.vertices[t[2]] - a);
+}
+
+glm::dvec3 Builder::face_normal(std::size_t triangle) const {
   // A face without area has no normal, nor a pixel: any will do.
-  return unit(cross(mesh_.vertices[t[1]] - a, mesh_.vertices[t[2]] - a), {0, 1, 0});
+  return unit(face_cross(triangle), {0, 1, 0});
 }
 
 glm::dvec3 Builder::file_normal(const Source& s, std::size_t corner) const {

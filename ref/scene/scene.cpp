@@ -20,6 +20,10 @@ namespace {
 constexpr int kDefaultFrames = 8;
 constexpr int kPoses = 16;  // of an animation, to find its bounds
 
+// How many times further from the origin than large a scene may be before its numbers are noticeably rounded: a double
+// then tells positions apart by 2^-23 of the scene, a subpixel of the widest picture.
+constexpr double kFar = 1 << 29;
+
 using scene::Affine;
 
 // A mesh placed in the world by a node.
@@ -53,6 +57,7 @@ void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, 
 
 struct Scene::Data {
   std::string name;
+  std::string place;    // of the file: messages open with it
   scene::RawScene raw;  // nodes and tracks; its meshes are empty once `meshes` is built
   std::vector<scene::Mesh> meshes;
   std::vector<Object> objects;
@@ -99,6 +104,7 @@ void Scene::Data::build_meshes() {
 void Scene::Data::place_objects() {
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
+  std::size_t flat = 0;
   for (std::uint32_t i = 0; i < raw.nodes.size(); ++i) {
     const scene::RawNode& node = raw.nodes[i];
     if (node.mesh < 0) continue;
@@ -106,6 +112,7 @@ void Scene::Data::place_objects() {
     const scene::Mesh& mesh = meshes[number];
     if (mesh.triangles.empty()) continue;
     objects.push_back({i, number});
+    if (!mesh.has_area) ++flat;
     std::string called = scene::one_line(node.name.empty() ? raw.meshes[number].name : node.name, 80);
     object_names.push_back(called.empty() ? "object " + std::to_string(objects.size() - 1) : std::move(called));
     for (const scene::MeshComponent& c : mesh.components)
@@ -116,6 +123,9 @@ void Scene::Data::place_objects() {
     smooth = smooth || mesh.smooth;
   }
   if (objects.empty()) throw Error("no faces: every triangle repeats a vertex");
+  if (flat == objects.size()) throw Error("no faces: no triangle has an area");
+  if (flat > 0)
+    notes.push_back(scene::counted(flat, "object is", "objects are") + " not seen: none of its triangles has an area");
 }
 
 void Scene::Data::describe() {
@@ -151,6 +161,9 @@ void Scene::Data::measure() {
   bounds = scene::bounds_of(points);
   if (!std::isfinite(bounds.radius) || !scene::is_finite(bounds.center))
     throw Error("the scene is too large to be measured");
+  const double distance = std::max({std::abs(bounds.center.x), std::abs(bounds.center.y), std::abs(bounds.center.z)});
+  if (distance > bounds.radius * kFar)
+    notes.emplace_back("the scene is so far from the origin, for its size, that its numbers are noticeably rounded");
 }
 
 Scene Scene::load(const std::string& name_or_path) {
@@ -163,7 +176,14 @@ Scene Scene::load(const std::string& name_or_path) {
     path = data_directory() / "scenes" / (name_or_path + ".gltf");
   else
     data->name = path.stem().string();
-  const std::string shown = scene::one_line(path.string(), 300);
+  data->place = scene::one_line(path.string(), 300);
+  const std::string shown = data->place;
+  std::error_code ec;
+  if (path == name_or_path && fs::status(path, ec).type() == fs::file_type::not_found) {
+    std::string names;
+    for (const std::string& name : builtin) names += (names.empty() ? "" : ", ") + name;
+    throw Error(shown + ": no such file, and no built-in scene of that name (there are " + names + ")");
+  }
   data->raw = scene::import_in_child(path, shown);
   try {
     data->end_time = scene::end_time(data->raw);
@@ -192,7 +212,7 @@ int Scene::frame_count() const {
 SceneFrame Scene::frame(int index, int count) const {
   const Data& d = *data_;
   if (index < 0 || index >= count)
-    throw Error(d.name + ": frame " + std::to_string(index) + " of " + std::to_string(count) + ": there is none");
+    throw Error(d.place + ": frame " + std::to_string(index) + " of " + std::to_string(count) + ": there is none");
   const std::vector<Affine> world = scene::pose(d.raw, d.time(index, count));
   SceneFrame frame;
   frame.components = d.components;
@@ -205,7 +225,7 @@ SceneFrame Scene::frame(int index, int count) const {
     append(to_world, mesh, i, frame);
     for (std::size_t v = first; v < frame.vertices.size(); ++v)
       if (!scene::is_finite(frame.vertices[v]))
-        throw Error(d.name + ": object '" + d.object_names[i] + "' vertex " + std::to_string(v) +
+        throw Error(d.place + ": object '" + d.object_names[i] + "' vertex " + std::to_string(v) +
                     ": position is not finite");
     const bool flattened = to_world.determinant() == 0;
     for (std::size_t k = 0; k < mesh.components.size(); ++k, ++component) {
@@ -220,11 +240,13 @@ SceneFrame Scene::frame(int index, int count) const {
     frame.camera = d.raw.camera ? scene::file_camera(*d.raw.camera, world[d.raw.camera->node], d.bounds)
                                 : scene::orbit_camera(d.bounds, index, count);
   } catch (const Error& e) {
-    throw Error(d.name + ": " + e.what());
+    const std::string node =
+        d.raw.camera ? "node '" + scene::one_line(d.raw.nodes[d.raw.camera->node].name, 60) + "': " : "";
+    throw Error(d.place + ": " + node + e.what());
   }
-  if (!scene::is_finite(frame.camera.eye)) throw Error(d.name + ": the camera's position is not finite");
+  if (!scene::is_finite(frame.camera.eye)) throw Error(d.place + ": the camera's position is not finite");
   frame.light = d.raw.light ? scene::file_light(*d.raw.light, world[d.raw.light->node]) : scene::default_light();
-  if (!scene::is_finite(frame.light.position)) throw Error(d.name + ": the light's position is not finite");
+  if (!scene::is_finite(frame.light.position)) throw Error(d.place + ": the light's position is not finite");
   return frame;
 }
 

@@ -26,6 +26,14 @@ bool padding_is_zero(std::span<const std::uint32_t> words, unsigned bits) {
 
 }  // namespace
 
+TokenCounts& TokenCounts::operator+=(const TokenCounts& other) {
+  for (std::size_t k = 0; k < of_kind.size(); ++k) of_kind[k] += other.of_kind[k];
+  words += other.words;
+  spans += other.spans;
+  span_pixels += other.span_pixels;
+  return *this;
+}
+
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header) {
   TokenCounts counts;

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <bit>
 #include <filesystem>
 #include <set>
 
@@ -116,6 +117,26 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   return missing;
 }
 
+namespace {
+
+/// One line of YAML: `config` made as wide as `needs` asks, or "" if even that does not do.
+std::string widened(Config config, const Needs& needs) {
+  const auto width = static_cast<unsigned>(needs.width);
+  config.max_width = needs.width;
+  config.x_bits = std::max(config.x_bits, static_cast<int>(std::bit_width(width)));
+  // ceil(log2 width) keeps the error in depth near half an LSB up to the end of a line.
+  config.z_frac = std::max(config.z_frac, static_cast<int>(std::bit_width(width - 1)));
+  std::string line;
+  for (const ParamInfo& p : kParams) {
+    if (config.*(p.member) > p.max) return "";
+    if (config.*(p.member) != Config{}.*(p.member))
+      line += fmt::format("{}{}: {}", line.empty() ? "" : ", ", p.name, config.*(p.member));
+  }
+  return lacks(config, needs).empty() ? "{" + line + "}" : "";
+}
+
+}  // namespace
+
 NamedConfig choose_config(const Needs& needs) {
   std::string all;
   for (const NamedConfig& n : named_configs()) {
@@ -124,6 +145,13 @@ NamedConfig choose_config(const Needs& needs) {
     all += fmt::format("{}{} lacks {}", all.empty() ? "" : "; ", n.name, fmt::join(missing, ", "));
   }
   throw Error("no named configuration can draw this: " + all);
+}
+
+std::string widened_config(const Needs& needs) {
+  for (const NamedConfig& n : named_configs())
+    if (n.config.max_width < needs.width)
+      if (std::string line = widened(n.config, needs); !line.empty()) return line;
+  return "";
 }
 
 }  // namespace kage

@@ -246,12 +246,7 @@ std::span<const std::uint32_t> StreamFile::frame(int index, TokenCounts* counts)
     data_->fail(f.offset, fmt::format("checksum of frame {} is wrong", index));
   }
   const TokenCounts c = check_frame(data_->config, words, data_->name, f.offset);
-  if (counts != nullptr) {
-    for (std::size_t i = 0; i < c.of_kind.size(); ++i) counts->of_kind[i] += c.of_kind[i];
-    counts->words += c.words;
-    counts->spans += c.spans;
-    counts->span_pixels += c.span_pixels;
-  }
+  if (counts != nullptr) *counts += c;
   return words;
 }
 

@@ -30,6 +30,11 @@ expect 0 "$kage" cosim courtyard --config full --size 160x120 --frames 1 --out f
 expect 0 "$kage" cosim knot --config full --size 64x48 --frames 1 --out full
 expect 0 "$kage" cosim courtyard --config systolic64 --size 64x48 --frames 2 --out systolic
 expect 0 "$kage" cosim inside --config systolic64 --size 64x48 --frames 2 --out systolic
+# Wider than any of them, by a file of one's own (the line that docs/stream.md shows).
+printf '{X_BITS: 13, Z_FRAC: 12, LANES: 8, MAX_WIDTH: 4096}\n' >wide.yaml
+grep -qF "$(cat wide.yaml)" "$source/docs/stream.md" || fail "docs/stream.md shows another line"
+expect 0 "$kage" cosim courtyard --size 4096x8 --frames 1 --config wide.yaml --out wide --json w.json
+json w.json 'j["same"] is True and j["pixels_compared"]==32768 and j["span_pixels"]>0'
 # The arrangement changes no pixel.
 expect 0 "$kage" render courtyard --config default --size 64x48 --frames 2 --out banked
 expect 0 "$kage" diff systolic/courtyard_0001.png banked/courtyard_0001.png

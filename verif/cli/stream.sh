@@ -32,6 +32,38 @@ expect 0 "$kage" render courtyard --size 48x32 --frames 1 --config tiny --degrad
 json d.json 'len(j["degraded"])>0'
 trouble "MAX_WIDTH" "$kage" render courtyard --size 300x32 --frames 1 --config tiny --degrade --out lacking
 
+# Wider than all named configurations: the message shows the file to write, and that file does.
+for size in 1921x4 32766x1; do
+  trouble "--config FILE can, with this line in it: {" "$kage" render courtyard --size $size --frames 1 --out lacking
+  sed 's/.*in it: //' stderr >wide.yaml
+  expect 0 "$kage" render courtyard --size $size --frames 1 --config wide.yaml --out wide --json w.json
+  json w.json "'%dx%d' % (j['width'], j['height']) == '$size' and j['span_pixels'] > 0 and j['config']['DSF_BITS'] == 1"
+done
+trouble "{X_BITS: 13, Z_FRAC: 12, LANES: 8, MAX_WIDTH: 4096}" "$kage" render courtyard --size 4096x4 --out lacking
+
+# Pictures in which nothing is to be seen are said to be so.
+printf 'v 0 0 0\nv 1 2 3\nv 2 4 6\nf 1 2 3\n' >flat.obj
+trouble "flat.obj: no faces: no triangle has an area" "$kage" render flat.obj --out lacking
+printf 'v 1e17 0 0\nv 1e17 1 0\nv 1e17 0 1\nf 1 2 3\n' >far.obj
+expect 0 "$kage" render far.obj --size 32x24 --frames 2 --out far --json f.json
+grep -q '^far: nothing is to be seen: no face covers the centre of a pixel$' stdout || fail "an empty picture without a word: $(cat stdout)"
+grep -q '^far: the scene is so far from the origin' stdout || fail "no cause of an empty picture: $(cat stdout)"
+json f.json 'any("nothing is to be seen" in n for n in j["notes"])'
+expect 0 "$kage" stream far.obj --size 32x24 --frames 2 --out far.kage
+expect 0 "$kage" render far.kage --out far
+grep -q '^far: nothing is to be seen' stdout || fail "an empty stream without a word"
+expect 0 "$kage" render courtyard --size 32x24 --frames 1 --out seen
+! grep -q 'nothing is to be seen' stdout || fail "the courtyard is not seen"
+
+# A stream file may be what a stream file is made of: its first frames, checked.
+expect 0 "$kage" stream c.kage --out again.kage
+cmp -s c.kage again.kage || fail "a copy of a stream differs"
+grep -qx 'c: copied from a stream file' stdout || fail "a copy is not called so: $(cat stdout)"
+expect 0 "$kage" stream c.kage --frames 1 --out first.kage
+expect 0 "$kage" info first.kage --json first.json
+json first.json 'j["frames"]==1 and j["lines"]==64'
+trouble "SMOOTH is 1, the stream's is 0" "$kage" stream c.kage --config full --out other.kage
+
 # Bad streams: one line that names the file, exit 2. Any byte cut or changed.
 bytes=$(stat -c %s c.kage)
 for cut in 0 1 7 40 $((bytes / 2)) $((bytes - 1)); do
@@ -48,6 +80,7 @@ trouble "--size" "$kage" render c.kage --size 10x10
 trouble "X_BITS" "$kage" render c.kage --config tiny
 trouble nowhere "$kage" stream courtyard "${small[@]}" --out nowhere/c.kage
 trouble nowhere.obj "$kage" render nowhere.obj
+trouble "courtyrad: no such file, and no built-in scene of that name (there are courtyard, knot, inside, edges)" "$kage" render courtyrad
 printf 'v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n' >nan.obj
 trouble nan.obj "$kage" render nan.obj --frames 1
 : >empty.obj

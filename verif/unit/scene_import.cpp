@@ -118,9 +118,12 @@ TEST_CASE("a packed scene survives, and damage to it is noticed") {
 TEST_CASE("files that are none") {
   const TempDirectory dir;
   const std::string missing = (dir.path() / "missing.obj").string();
-  CHECK(refusal(missing) == missing + ": no such file");
+  const std::string none =
+      ": no such file, and no built-in scene of that name (there are courtyard, knot, inside, edges)";
+  CHECK(refusal(missing) == missing + none);
+  CHECK(refusal("courtyrad") == "courtyrad" + none);
   CHECK(refusal(dir.path().string()) == dir.path().string() + ": is a directory");
-  CHECK(refusal("") == ": no such file");
+  CHECK(refusal("") == none);
   const std::string empty = dir.write("empty.ply", "");
   CHECK(refusal(empty) == empty + ": is empty");
   const std::string fifo = (dir.path() / "fifo.obj").string();
@@ -159,6 +162,34 @@ TEST_CASE("files that hold no scene are refused in one line") {
   unsetenv("KAGE_IMPORT_SECONDS");
   CHECK(refusal(files[3]).find("vertex 1: position is not a number") != std::string::npos);
   CHECK(refusal(files[5]).find("no faces: every triangle repeats a vertex") != std::string::npos);
+}
+
+TEST_CASE("a mesh without any area is refused, one among others is named in a note") {
+  const TempDirectory dir;
+  const std::string flat = "o a\nv 0 0 0\nv 1 2 3\nv 2 4 6\nf 1 2 3\n";
+  const std::string alone = dir.write("flat.obj", flat);
+  CHECK(refusal(alone) == alone + ": no faces: no triangle has an area");
+  const Scene two = Scene::load(dir.write("two.obj", flat + "o b\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 4 5 6\n"));
+  CHECK(test::has_note(two, "1 object is not seen: none of its triangles has an area"));
+}
+
+TEST_CASE("a scene too far out for its size is noted") {
+  const TempDirectory dir;
+  for (const auto& [x, noted] : {std::pair{"0", false}, {"300000000", false}, {"1000000000", true}, {"1e17", true}}) {
+    std::string text;
+    for (const char* yz : {"0 0", "1 0", "0 1"}) text += std::string("v ") + x + " " + yz + "\n";
+    const Scene scene = Scene::load(dir.write("far.obj", text + "f 1 2 3\n"));
+    INFO(x);
+    CHECK(test::has_note(scene, "so far from the origin") == noted);
+  }
+}
+
+TEST_CASE("what a frame lacks is said with the file's path") {
+  const TempDirectory dir;
+  const std::string file = dir.write("eye.gltf", test::triangle_gltf(R"("nodes": [{"mesh": 0},
+      {"name": "eye", "camera": 0, "scale": [0, 0, 0]}],
+      "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])"));
+  CHECK(refusal(file) == file + ": node 'eye': the camera has no direction");
 }
 
 TEST_CASE("several threads load at once") {

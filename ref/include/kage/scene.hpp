@@ -78,7 +78,10 @@ struct SceneFrame {
 class Scene {
  public:
   /// Load any file that Assimp reads, or a built-in scene by its name (`courtyard`, `knot`, `inside`, `edges`).
-  /// Import runs in a child process with limits of time and memory; its death is an Error like any other.
+  /// Import runs in a child process with limits of time and memory; its death is an Error like any other. The child is
+  /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
+  /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
+  /// limit of time. So load before other threads start, or while they rest. Several threads may load at once.
   static Scene load(const std::string& name_or_path);
 
   ~Scene();

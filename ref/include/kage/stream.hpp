@@ -82,6 +82,8 @@ struct TokenCounts {
   std::uint64_t words = 0;
   std::uint64_t spans = 0;        ///< OP, SP, NC
   std::uint64_t span_pixels = 0;  ///< pixels in them
+
+  TokenCounts& operator+=(const TokenCounts& other);
 };
 
 /// Check a whole frame as strictly as a file is: every field in its range, order of tokens, bits past the last field
