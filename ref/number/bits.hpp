@@ -3,6 +3,7 @@
 // Bit fields in 32-bit words, and integers of stated widths.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,34 +41,55 @@ inline std::int64_t extract(std::span<const std::uint32_t> words, Field f) {
                      : static_cast<std::int64_t>(f.bits == 64 ? v : v & ((std::uint64_t{1} << f.bits) - 1));
 }
 
-/// Appends fields to words, least significant bit first.
+/// What of a value, counted from the least that fits its field, lies above the field's bits: 0 if it fits. A field of
+/// no bits holds 0.
+constexpr std::uint64_t beyond(std::int64_t value, Field f) {
+  const std::uint64_t least = (std::uint64_t{f.is_signed} << f.bits) >> 1;
+  return (static_cast<std::uint64_t>(value) + least) >> f.bits;
+}
+
+/// The words of one token: fields of up to 63 bits each, least significant bit first.
 class BitPacker {
  public:
-  explicit BitPacker(std::vector<std::uint32_t>& out) : out_(&out) {}
-
-  void put(std::uint64_t value, unsigned bits) {
-    if (bits == 0) return;
-    acc_ |= static_cast<Uint128>(value & (~std::uint64_t{0} >> (64 - bits))) << have_;
-    have_ += bits;
-    while (have_ >= 32) {
-      out_->push_back(static_cast<std::uint32_t>(acc_));
-      acc_ >>= 32;
-      have_ -= 32;
+  void put(std::int64_t value, Field f) {
+    lost_ |= beyond(value, f);
+    auto v = static_cast<std::uint64_t>(value);
+    unsigned bits = f.bits;
+    if (bits > 32) {
+      put_half(static_cast<std::uint32_t>(v), 32);
+      v >>= 32;
+      bits -= 32;
     }
+    put_half(v & ((std::uint64_t{1} << bits) - 1), bits);
   }
-  void put_signed(std::int64_t value, unsigned bits) { put(static_cast<std::uint64_t>(value), bits); }
 
-  /// Pad with zeros to the next word.
-  void close() {
-    if (have_ > 0) out_->push_back(static_cast<std::uint32_t>(acc_));
+  /// False if a value did not fit its field.
+  [[nodiscard]] bool whole() const { return lost_ == 0; }
+
+  /// The words so far, with zeros up to the end of the last.
+  [[nodiscard]] std::span<const std::uint32_t> close() {
+    if (have_ > 0) words_[count_++] = static_cast<std::uint32_t>(acc_);
     acc_ = 0;
     have_ = 0;
+    return std::span(words_).first(count_);
   }
 
  private:
-  std::vector<std::uint32_t>* out_;
-  Uint128 acc_ = 0;
+  // have_ < 32 between calls, so 32 more bits fit.
+  void put_half(std::uint64_t value, unsigned bits) {
+    acc_ |= value << have_;
+    have_ += bits;
+    if (have_ < 32) return;
+    words_[count_++] = static_cast<std::uint32_t>(acc_);
+    acc_ >>= 32;
+    have_ -= 32;
+  }
+
+  std::array<std::uint32_t, 16> words_;  // only the first count_ are ever read
+  std::size_t count_ = 0;
+  std::uint64_t acc_ = 0;
   unsigned have_ = 0;
+  std::uint64_t lost_ = 0;
 };
 
 }  // namespace kage

@@ -2,9 +2,9 @@
 // Tokens to words and back.
 #include <fmt/format.h>
 
-#include <cassert>
 #include <cmath>
 
+#include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
 
@@ -13,12 +13,20 @@ namespace {
 
 constexpr unsigned code(Kind k) { return static_cast<unsigned>(k); }
 
+[[noreturn, gnu::cold, gnu::noinline]] void refuse(Kind kind, const char* name, std::int64_t value, Field f) {
+  throw Error(fmt::format("{}: {} is {}, which {}{} bits do not hold", kKindNames[code(kind)], name, value,
+                          f.is_signed ? "signed " : "", f.bits));
+}
+
 }  // namespace
 
 TokenWriter::TokenWriter(const Config& config, std::vector<std::uint32_t>& out)
     : config_(config), layout_(config), out_(&out) {}
 
 void TokenWriter::header(const FrameHeader& h) {
+  for (const auto& [name, value] : {std::pair{"width", h.width}, {"height", h.height}})
+    if (value < 0 || value > 0xFFFF)
+      throw Error(fmt::format("header: {} is {}, which 16 bits do not hold", name, value));
   out_->push_back(kStreamMagic << 16 | kStreamVersion);
   out_->push_back(static_cast<std::uint32_t>(h.height) << 16 | static_cast<std::uint32_t>(h.width));
   out_->push_back(param_hash(config_));
@@ -26,67 +34,72 @@ void TokenWriter::header(const FrameHeader& h) {
   out_->push_back(h.frame);
 }
 
+/// Writes a token. `fields` calls its argument with name, value and Field of each field in turn. They are checked as
+/// they go by, with one question at the end.
+template <typename Fields>
+void TokenWriter::pack(Kind kind, const Fields& fields) {
+  BitPacker p;
+  p.put(code(kind), Field{0, 4, false});
+  fields([&p](const char*, std::int64_t value, Field f) { p.put(value, f); });
+  if (!p.whole()) [[unlikely]]
+    fields([kind](const char* name, std::int64_t value, Field f) {
+      if (beyond(value, f) != 0) refuse(kind, name, value, f);
+    });
+  const auto words = p.close();
+  out_->insert(out_->end(), words.begin(), words.end());
+}
+
 void TokenWriter::shade(std::uint32_t shade) {
-  BitPacker p(*out_);
-  p.put(code(Kind::SHADE), 4);
-  p.put(shade, layout_.shade_shade.bits);
-  p.close();
+  pack(Kind::SHADE, [&](auto put) { put("shade", shade, layout_.shade_shade); });
 }
 
 void TokenWriter::op(const SpanToken& s) {
-  assert(fits_signed(s.z, layout_.op_z.bits) && fits_signed(s.dz, layout_.op_dz.bits) && s.xl >= 0 && s.xl <= s.xr);
-  BitPacker p(*out_);
-  p.put(code(Kind::OP), 4);
-  p.put(static_cast<unsigned>(s.xl), layout_.op_xl.bits);
-  p.put(static_cast<unsigned>(s.xr), layout_.op_xr.bits);
-  p.put(s.lit ? 1 : 0, layout_.op_lit.bits);
-  p.put_signed(s.z, layout_.op_z.bits);
-  p.put_signed(s.dz, layout_.op_dz.bits);
-  const auto channels = static_cast<std::size_t>(config_.channels);
-  for (std::size_t c = 0; c < channels; ++c) p.put_signed(s.color[c], layout_.op_color[c].bits);
-  for (std::size_t c = 0; c < channels; ++c) p.put_signed(s.dcolor[c], layout_.op_dcolor[c].bits);
-  p.close();
+  pack(Kind::OP, [&](auto put) {
+    put("xl", s.xl, layout_.op_xl);
+    put("xr", s.xr, layout_.op_xr);
+    put("lit", s.lit && layout_.op_lit.bits != 0 ? 1 : 0, layout_.op_lit);
+    put("z", s.z, layout_.op_z);
+    put("dz", s.dz, layout_.op_dz);
+    const auto channels = static_cast<std::size_t>(config_.channels);
+    for (std::size_t c = 0; c < channels; ++c) put("color", s.color[c], layout_.op_color[c]);
+    for (std::size_t c = 0; c < channels; ++c) put("dcolor", s.dcolor[c], layout_.op_dcolor[c]);
+  });
 }
 
 void TokenWriter::sp(const SpanToken& s) {
-  assert(fits_signed(s.z, layout_.sp_z.bits) && fits_signed(s.dz, layout_.sp_dz.bits) && s.xl >= 0 && s.xl <= s.xr);
-  BitPacker p(*out_);
-  p.put(code(Kind::SP), 4);
-  p.put(static_cast<unsigned>(s.xl), layout_.sp_xl.bits);
-  p.put(static_cast<unsigned>(s.xr), layout_.sp_xr.bits);
-  p.put_signed(s.w, layout_.sp_w.bits);
-  p.put_signed(s.z, layout_.sp_z.bits);
-  p.put_signed(s.dz, layout_.sp_dz.bits);
-  p.close();
+  pack(Kind::SP, [&](auto put) {
+    put("xl", s.xl, layout_.sp_xl);
+    put("xr", s.xr, layout_.sp_xr);
+    put("w", s.w, layout_.sp_w);
+    put("z", s.z, layout_.sp_z);
+    put("dz", s.dz, layout_.sp_dz);
+  });
 }
 
 void TokenWriter::nc(int xl, int xr, int w) {
-  BitPacker p(*out_);
-  p.put(code(Kind::NC), 4);
-  p.put(static_cast<unsigned>(xl), layout_.nc_xl.bits);
-  p.put(static_cast<unsigned>(xr), layout_.nc_xr.bits);
-  p.put_signed(w, layout_.nc_w.bits);
-  p.close();
+  pack(Kind::NC, [&](auto put) {
+    put("xl", xl, layout_.nc_xl);
+    put("xr", xr, layout_.nc_xr);
+    put("w", w, layout_.nc_w);
+  });
 }
 
 void TokenWriter::inside(int w) {
-  BitPacker p(*out_);
-  p.put(code(Kind::IF), 4);
-  p.put_signed(w, layout_.if_w.bits);
-  p.close();
+  pack(Kind::IF, [&](auto put) { put("w", w, layout_.if_w); });
 }
 
 void TokenWriter::ev(int xl, int xr) {
-  BitPacker p(*out_);
-  p.put(code(Kind::EV), 4);
-  p.put(static_cast<unsigned>(xl), layout_.ev_xl.bits);
-  p.put(static_cast<unsigned>(xr), layout_.ev_xr.bits);
-  p.close();
+  pack(Kind::EV, [&](auto put) {
+    put("xl", xl, layout_.ev_xl);
+    put("xr", xr, layout_.ev_xr);
+  });
 }
 
 void TokenWriter::resolve() { out_->push_back(code(Kind::RESOLVE)); }
 
-void TokenWriter::eol(int y) { out_->push_back(code(Kind::EOL) | static_cast<std::uint32_t>(y) << layout_.eol_y.lsb); }
+void TokenWriter::eol(int y) {
+  pack(Kind::EOL, [&](auto put) { put("y", y, layout_.eol_y); });
+}
 
 void TokenWriter::end() { out_->push_back(code(Kind::END)); }
 

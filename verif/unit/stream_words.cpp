@@ -73,6 +73,80 @@ TEST_CASE("every field of every token survives its way through the words, at its
   }
 }
 
+TEST_CASE("a value that its field does not hold is refused, never cut, and nothing of its token is written") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  for (int round = 0; round < 300; ++round) {
+    Config c = random_config(random);
+    c.channels = 3;
+    if (c.dsf_bits == 0) c.dsf_bits = 1;
+    c.fsf = 1;
+    const Layout l(c);
+    std::vector<std::uint32_t> words;
+    TokenWriter w(c, words);
+    // The nearest values outside a field, and one so far outside that its low bits are 0.
+    const auto outside = [](Field f, auto write) {
+      const std::int64_t low = f.is_signed && f.bits > 0 ? -(std::int64_t{1} << (f.bits - 1)) : 0;
+      const std::int64_t high = low + static_cast<std::int64_t>((std::uint64_t{1} << f.bits) - 1);
+      for (const std::int64_t v :
+           {low - 1, high + 1, low - (std::int64_t{1} << f.bits), high + (std::int64_t{1} << f.bits)})
+        write(v);
+    };
+    const auto refused = [&](Field f, auto write) {
+      outside(f, [&](std::int64_t v) {
+        if (v < INT32_MIN || v > INT32_MAX) return;  // not of that type to begin with
+        CAPTURE(to_yaml(c), v);
+        REQUIRE_THROWS_AS(write(static_cast<int>(v)), Error);
+        REQUIRE(words.empty());
+      });
+    };
+    const auto refused_span = [&](Field f, auto set, bool opaque) {
+      outside(f, [&](std::int64_t v) {
+        SpanToken s;
+        set(s, v);
+        CAPTURE(to_yaml(c), v);
+        REQUIRE_THROWS_AS(opaque ? w.op(s) : w.sp(s), Error);
+        REQUIRE(words.empty());
+      });
+    };
+    const auto z = [](SpanToken& s, std::int64_t v) { s.z = v; };
+    const auto dz = [](SpanToken& s, std::int64_t v) { s.dz = v; };
+    const auto xl = [](SpanToken& s, std::int64_t v) { s.xl = static_cast<int>(v); };
+    const auto xr = [](SpanToken& s, std::int64_t v) { s.xr = static_cast<int>(v); };
+    refused_span(l.op_z, z, true);
+    refused_span(l.op_dz, dz, true);
+    refused_span(l.op_xl, xl, true);
+    refused_span(l.op_xr, xr, true);
+    refused_span(l.sp_z, z, false);
+    refused_span(l.sp_dz, dz, false);
+    refused_span(l.sp_xl, xl, false);
+    refused_span(l.sp_xr, xr, false);
+    refused_span(
+        l.sp_w, [](SpanToken& s, std::int64_t v) { s.w = static_cast<int>(v); }, false);
+    for (std::size_t i = 0; i < 3; ++i) {
+      refused_span(
+          l.op_color[i], [i](SpanToken& s, std::int64_t v) { s.color[i] = static_cast<int>(v); }, true);
+      refused_span(
+          l.op_dcolor[i], [i](SpanToken& s, std::int64_t v) { s.dcolor[i] = static_cast<int>(v); }, true);
+    }
+    refused(l.nc_xl, [&](int v) { w.nc(v, 0, 0); });
+    refused(l.nc_xr, [&](int v) { w.nc(0, v, 0); });
+    refused(l.nc_w, [&](int v) { w.nc(0, 0, v); });
+    refused(l.if_w, [&](int v) { w.inside(v); });
+    refused(l.ev_xl, [&](int v) { w.ev(v, 0); });
+    refused(l.ev_xr, [&](int v) { w.ev(0, v); });
+    refused(l.eol_y, [&](int v) { w.eol(v); });
+    refused(l.shade_shade, [&](int v) { w.shade(static_cast<std::uint32_t>(v)); });
+    refused(Field{0, 16, false}, [&](int v) { w.header({v, 1, 0, 0}); });
+    refused(Field{0, 16, false}, [&](int v) { w.header({1, v, 0, 0}); });
+  }
+  std::vector<std::uint32_t> words;
+  TokenWriter w(Config{}, words);
+  SpanToken s;
+  s.z = std::int64_t{1} << 36;
+  CHECK_THROWS_WITH(w.op(s), "OP: z is 68719476736, which signed 37 bits do not hold");
+}
+
 TEST_CASE("a valid frame passes; its counts are what was written") {
   Random random(test_seed());
   CAPTURE(test_seed());

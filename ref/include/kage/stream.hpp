@@ -36,8 +36,9 @@ struct SpanToken {
   std::array<std::int32_t, 3> dcolor{};  ///< OP, SMOOTH: per pixel
 };
 
-/// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and ranges; fields are
-/// cut to their widths (assertions check them in debug builds).
+/// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and to what the
+/// fields mean (check_frame() judges both). A value that its field cannot hold is never cut: Error names token, field
+/// and value, and the words are as they were. `lit` is left out where the configuration has no shadows.
 class TokenWriter {
  public:
   TokenWriter(const Config& config, std::vector<std::uint32_t>& out);
@@ -57,6 +58,9 @@ class TokenWriter {
   void end();
 
  private:
+  template <typename Fields>
+  void pack(Kind kind, const Fields& fields);
+
   Config config_;
   Layout layout_;
   std::vector<std::uint32_t>* out_;
