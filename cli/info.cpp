@@ -6,12 +6,14 @@
 
 #include "common.hpp"
 #include "kage/stream.hpp"
+#include "mapped.hpp"
 
 namespace kage::cli {
 namespace {
 
 int run(const Options& o) {
   check_json(o);
+  guard_mapped(o.input);
   const StreamFile file(o.input);
   TokenCounts counts;
   Progress progress;
@@ -20,6 +22,7 @@ int run(const Options& o) {
     progress.show(fmt::format("frame {}/{}", i + 1, file.frame_count()));
     (void)file.frame(i, &counts);
   }
+  check_mapped();
   progress.clear();
 
   Json tokens = Json::object();

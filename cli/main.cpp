@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common.hpp"
+#include "mapped.hpp"
 
 namespace {
 
@@ -68,6 +69,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return trouble("out of memory");
   } catch (const std::exception& e) {
-    return trouble(e.what());
+    // Zeros in place of lost pages make errors of their own; the cause is what counts.
+    const std::string lost = lost_mapped();
+    return trouble(lost.empty() ? e.what() : lost);
   }
 }

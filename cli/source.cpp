@@ -11,6 +11,7 @@
 #include "kage/error.hpp"
 #include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
+#include "mapped.hpp"
 
 namespace kage::cli {
 namespace {
@@ -42,6 +43,7 @@ Source::Source(const Options& options) : threads_(options.threads) {
 
 void Source::open_stream(const Options& options) {
   if (options.size_given) throw Error(fmt::format("{}: --size: a stream has its own size", options.input));
+  guard_mapped(options.input);
   stream_.emplace(options.input);
   name_ = std::filesystem::path(options.input).stem().string();
   frames_ = stream_->frame_count();
@@ -93,20 +95,21 @@ void Source::open_scene(const Options& options) {
 
 std::span<const std::uint32_t> Source::words(int index, TokenCounts& counts) {
   TokenCounts frame;
-  std::span<const std::uint32_t> words;
   if (stream_) {
-    words = stream_->frame(index, &frame);
+    // A copy, so that whatever happens to the file from now on, all who read these words read the same.
+    const std::span<const std::uint32_t> mapped = stream_->frame(index, &frame);
+    words_.assign(mapped.begin(), mapped.end());
+    check_mapped();
   } else {
     words_.clear();
     make_frame(make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config,
                static_cast<std::uint32_t>(index), words_, threads_);
     frame = check_frame(config_.config, words_, fmt::format("{}: frame {}", name_, index), 0);
-    words = words_;
   }
   ++made_;
   if (frame.of_kind[static_cast<std::size_t>(Kind::OP)] == 0) ++blank_;
   counts += frame;
-  return words;
+  return words_;
 }
 
 std::vector<std::string> Source::notes() const {

@@ -60,6 +60,15 @@ struct StreamFileWriter::Data {
   std::uint64_t frames = 0;
   std::uint32_t headers_crc = 0;
 
+  Data() = default;
+  Data(const Data&) = delete;
+  Data& operator=(const Data&) = delete;
+  // Here and not in the writer's destructor, which does not run where its constructor has thrown.
+  ~Data() {
+    if (file != nullptr) (void)std::fclose(file);
+    if (!part.empty()) (void)::unlink(part.c_str());
+  }
+
   [[noreturn]] void fail(const char* what) const {
     throw Error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno)));
   }
@@ -83,21 +92,19 @@ struct StreamFileWriter::Data {
 
 StreamFileWriter::StreamFileWriter(std::filesystem::path path, const Config& config) : data_(std::make_unique<Data>()) {
   data_->path = replaceable(std::move(path));
-  data_->part = data_->path;
-  data_->part += fmt::format(".part{}", ::getpid());
-  data_->file = std::fopen(data_->part.c_str(), "wb");
+  std::filesystem::path part = data_->path;
+  part += fmt::format(".part{}", ::getpid());
+  data_->file = std::fopen(part.c_str(), "wb");
   if (data_->file == nullptr) data_->fail("cannot be created");
+  data_->part = std::move(part);
   data_->write(kFileMagic, 8);
   const std::string text = to_yaml(config);
   data_->section("CONF", text.data(), text.size());
+  // A full disk is found here, before the work on the first frame, and not when a buffer has filled up.
+  if (std::fflush(data_->file) != 0) data_->fail("cannot write");
 }
 
-StreamFileWriter::~StreamFileWriter() {
-  if (data_->file != nullptr) {
-    (void)std::fclose(data_->file);
-    (void)::unlink(data_->part.c_str());
-  }
-}
+StreamFileWriter::~StreamFileWriter() = default;
 
 void StreamFileWriter::frame(std::span<const std::uint32_t> words) {
   data_->section("FRAM", words.data(), words.size_bytes());
@@ -111,13 +118,8 @@ void StreamFileWriter::finish() {
   data_->section("DONE", payload.data(), payload.size());
   std::FILE* f = data_->file;
   data_->file = nullptr;
-  const bool closed = std::fclose(f) == 0;
-  if (!closed || std::rename(data_->part.c_str(), data_->path.c_str()) != 0) {
-    const int saved = errno;
-    (void)::unlink(data_->part.c_str());
-    errno = saved;
-    data_->fail("cannot write");
-  }
+  if (std::fclose(f) != 0 || std::rename(data_->part.c_str(), data_->path.c_str()) != 0) data_->fail("cannot write");
+  data_->part.clear();
 }
 
 // ---- reading

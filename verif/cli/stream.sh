@@ -117,6 +117,25 @@ expect 0 "$kage" render c.kage --frames 1 --out made/here --json made/here/r.jso
 grep -q '^1 frame, ' stdout || fail "one frame: $(cat stdout)"
 [ -s made/here/r.json ] && [ -s made/here/c_0000.png ] || fail "no picture or JSON in a folder just made"
 
+# A file that is cut while it is read: an error like any other, not a signal. First more than was read yet is cut, then
+# all of it.
+expect 0 "$kage" stream courtyard --size 320x240 --frames 200 --out whole.kage
+for size in $(($(stat -c %s whole.kage) / 2)) 0; do
+  for command in render cosim; do
+    cp whole.kage cut.kage
+    "$kage" $command cut.kage --out cutting >stdout 2>stderr </dev/null &
+    pid=$!
+    for _ in $(seq 1000); do [ -n "$(find cutting -name '.*.png' -size +0 2>/dev/null)" ] && break || sleep 0.01; done
+    truncate -s "$size" cut.kage
+    rc=0
+    wait $pid || rc=$?
+    [ $rc = 2 ] || fail "$command of a file cut to $size: exit $rc"
+    [ "$(cat stderr)" = "kage: cut.kage: became shorter, or could not be read, while it was open" ] ||
+      fail "$command of a file cut to $size: $(cat stderr)"
+    [ ! -s stdout ] && [ ! -e cutting ] || fail "$command of a file cut to $size leaves $(find cutting) and says $(cat stdout)"
+  done
+done
+
 # Interruption leaves no file behind.
 "$kage" stream courtyard --size 1280x960 --frames 200 --out long.kage >/dev/null 2>err &
 pid=$!

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stream files, and family 40 for them.
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 
@@ -82,6 +84,37 @@ TEST_CASE("a writer that does not finish leaves nothing") {
   }
   CHECK(fs::is_empty(scratch.dir));
   CHECK_THROWS_AS(StreamFileWriter(scratch.dir / "no" / "such.kage", Config{}), Error);
+}
+
+TEST_CASE("a disk that takes nothing is found at once, and leaves nothing") {
+  Scratch scratch;
+  rlimit before{};
+  REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit none = before;
+  none.rlim_cur = 0;
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &none) == 0);
+  std::string said;
+  try {
+    const StreamFileWriter w(scratch.dir / "full.kage", Config{});
+  } catch (const Error& e) {
+    said = e.what();
+  }
+  none.rlim_cur = 1024;
+  REQUIRE(setrlimit(RLIMIT_FSIZE, &none) == 0);
+  std::string later;
+  try {
+    StreamFileWriter w(scratch.dir / "full.kage", Config{});
+    w.frame(std::vector<std::uint32_t>(300));  // stays in the buffer until finish()
+    w.finish();
+  } catch (const Error& e) {
+    later = e.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(said == (scratch.dir / "full.kage").string() + ": cannot write: File too large");
+  CHECK(later == said);
+  CHECK(fs::is_empty(scratch.dir));
 }
 
 TEST_CASE("family 40: a stream file with any bit flipped or cut anywhere is refused with a place") {

@@ -96,7 +96,7 @@ struct TokenCounts {
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header = nullptr);
 
-/// Writes a stream file: the file appears under its name only when finish() has succeeded.
+/// Writes a stream file: the file appears under its name only when finish() has succeeded; otherwise nothing is left.
 class StreamFileWriter {
  public:
   StreamFileWriter(std::filesystem::path path, const Config& config);
@@ -112,8 +112,10 @@ class StreamFileWriter {
   std::unique_ptr<Data> data_;
 };
 
-/// A stream file, mapped. Opening checks magic, version, configuration and the list of sections; frame() checks the
-/// section's checksum and the frame's tokens.
+/// A stream file, mapped: another program must not make it shorter while it is open. Where one does, what is gone
+/// raises SIGBUS on reading, in frame() or in the words it gave, and a program that wants to outlive that has to handle
+/// the signal (kage does, see cli/mapped.hpp). Opening checks magic, version, configuration and the list of sections;
+/// frame() checks the section's checksum and the frame's tokens.
 class StreamFile {
  public:
   explicit StreamFile(const std::filesystem::path& path);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A stream file is mapped, and what another program cuts off it raises SIGBUS when it is read. From guard_mapped() on,
+// lost pages read as zeros instead and are remembered, so that the run ends as with any bad file: one line, exit 2, and
+// no file left.
+#pragma once
+
+#include <string>
+
+namespace kage::cli {
+
+/// To be called before the file is opened; one file a run.
+void guard_mapped(const std::string& name);
+
+/// The error of the guarded file, if pages of it have been lost; otherwise empty.
+std::string lost_mapped();
+
+/// Throws Error if pages have been lost. To be called after words were read and before anything is made of them.
+void check_mapped();
+
+}  // namespace kage::cli
