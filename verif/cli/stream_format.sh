@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# docs/stream.md, Files: its command makes the bytes it shows, and its Python reads them, and refuses a changed file.
+. "$(dirname "$0")/common.bash"
+
+# block LANGUAGE N: the Nth code block of that language under "By hand".
+block() {
+  awk -v lang="\`\`\`$1" -v n="$2" '/^### By hand/ { on = 1 } on && inside && /^```$/ { inside = 0; next }
+    on && !inside && /^```/ { inside = 1; take = ($0 == lang && ++seen == n); next } inside && take' "$source/docs/stream.md"
+}
+
+block sh 1 >commands
+[ "$(wc -l <commands)" = 2 ] || fail "not two commands: $(cat commands)"
+mkdir bin && ln -s "$kage" bin/kage
+expect 0 env PATH="$temp/bin:$PATH" sh -e commands
+sed -n '/^000000/,$p' stdout >made
+block "" 1 >shown
+[ "$(wc -l <shown)" -gt 10 ] || fail "no dump in docs/stream.md"
+diff shown made || fail "docs/stream.md shows other bytes than its command makes"
+
+block python 1 >read.py
+expect 0 python3 read.py pixel.kage
+[ "$(cat stdout)" = "frame 0: 1x1, 13 words" ] || fail "the reader prints $(cat stdout)"
+grep -qF "$(cat stdout)" "$source/docs/stream.md" || fail "docs/stream.md says that the reader prints something else"
+expect 0 "$kage" stream courtyard --size 96x64 --frames 3 --out c.kage
+expect 0 python3 read.py c.kage
+[ "$(grep -c ': 96x64, ' stdout)" = 3 ] || fail "the reader finds other frames: $(cat stdout)"
+for at in 20 190 230 260 280; do
+  python3 -c "import sys; d=bytearray(open('pixel.kage','rb').read()); d[int(sys.argv[1])]^=1; open('bad.kage','wb').write(d)" $at
+  expect 1 python3 read.py bad.kage
+  trouble bad.kage "$kage" info bad.kage
+done
+done_testing
