@@ -86,7 +86,15 @@ struct kage_rtl {
     stalls(65536, 65536, seed);
     reset(2);
   }
-  ~kage_rtl() { top->final(); }
+  ~kage_rtl() {
+    enter();
+    top->final();
+    top.reset();
+  }
+
+  // Verilator books failed assertions, and a model's end, to the context of the thread, which is that of the model made
+  // last on it. So every call that lets time pass or ends a model begins with this.
+  void enter() { Verilated::threadContextp(&context); }
 
   void idle_inputs() {
     top->s_axis_tvalid_i = 0;
@@ -112,6 +120,7 @@ struct kage_rtl {
   }
 
   void reset(std::uint32_t clocks) {
+    enter();
     queue.clear();
     expected.clear();
     at = 0;
@@ -200,6 +209,7 @@ struct kage_rtl {
   }
 
   int run(std::uint64_t want, std::uint64_t max_clocks) {
+    enter();
     quiet = 0;
     for (std::uint64_t n = 0;; ++n) {
       if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
@@ -211,6 +221,7 @@ struct kage_rtl {
   }
 
   int read(std::uint32_t address, std::uint32_t* value) {
+    enter();
     top->s_axil_arvalid_i = 1;
     top->s_axil_araddr_i = static_cast<CData>(address);
     top->s_axil_rready_i = 1;
@@ -230,6 +241,7 @@ struct kage_rtl {
   }
 
   int write(std::uint32_t address, std::uint32_t value) {
+    enter();
     top->s_axil_awvalid_i = 1;
     top->s_axil_awaddr_i = static_cast<CData>(address);
     top->s_axil_wvalid_i = 1;

@@ -106,7 +106,11 @@ class Bench {
     }
     settle();
   }
-  ~Bench() { top_->final(); }
+  ~Bench() {
+    Verilated::threadContextp(&context_);  // a model is taken off its thread's context, which may be another bench's
+    top_->final();
+    top_.reset();
+  }
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
