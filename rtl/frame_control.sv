@@ -2,8 +2,9 @@
 // The frame: checks header and tokens as docs/stream.md demands, keeps line number, phase and bias, and turns tokens into
 // commands for the pixels and lines for the way out. What is downstream never sees a malformed stream.
 //
-// Handshake: token_*, cmd_* and line_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. A line is passed
-//   on in the clock in which its EOL becomes a command, so lines and EOL commands come in the same order.
+// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o waits for
+//   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command, so lines and
+//   EOL commands come in the same order.
 // Commands: OP, SP, NC, EV with 0 <= xl < xr <= width, and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE take
 //   their clock here and go no further: cmd_count_o brings the line's bias with EV and EOL.
 // Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands

@@ -4,8 +4,10 @@
 //   s_axis -> token_reader -> frame_control -> pixel_core -> line_out -> m_axis
 //                                    \---- lines ----^          registers on s_axil
 //
-// Clocking: one clock, synchronous reset, active low. All outputs depend on registers only.
-// Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame.
+// Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of s_axis and
+//   s_axil, which rst_ni keeps low.
+// Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame. Nothing is taken and lost
+//   in reset: no input is ready. The valids are low from the second clock of it on.
 `default_nettype none
 
 module kage_top #(
@@ -70,7 +72,7 @@ module kage_top #(
   // ---- words to tokens ---------------------------------------------------------------------------------------------
   logic token_valid, token_ready, token_header, token_lacking, token_cut, token_final, token_at_last;
   logic [FrontWords*32-1:0] token;
-  logic drop, dropping, reader_busy;
+  logic drop, dropping, reader_busy, reader_moving;
 
   token_reader #(
       `include "kage_pixel_param_map.svh"
@@ -93,7 +95,8 @@ module kage_top #(
       .token_at_last_o(token_at_last),
       .drop_i         (drop),
       .dropping_o     (dropping),
-      .busy_o         (reader_busy)
+      .busy_o         (reader_busy),
+      .moving_o       (reader_moving)
   );
 
   // ---- tokens to commands and lines --------------------------------------------------------------------------------
@@ -181,7 +184,7 @@ module kage_top #(
   );
 
   // ---- commands to pixels ------------------------------------------------------------------------------------------
-  logic exit_free, exit_take, exit_valid, exit_last, moving;
+  logic exit_free, exit_take, exit_valid, exit_last, pixels_moving, out_moving;
   logic [ExitLanes*ExitBits-1:0] exit_data;
 
   pixel_core #(
@@ -207,7 +210,7 @@ module kage_top #(
       .exit_valid_o(exit_valid),
       .exit_last_o (exit_last),
       .exit_data_o (exit_data),
-      .moving_o    (moving)
+      .moving_o    (pixels_moving)
   );
 
   line_out #(
@@ -233,23 +236,28 @@ module kage_top #(
       .m_ready_i        (m_axis_tready_i),
       .m_data_o         (m_axis_tdata_o),
       .m_user_o         (m_axis_tuser_o),
-      .m_last_o         (m_axis_tlast_o)
+      .m_last_o         (m_axis_tlast_o),
+      .moving_o         (out_moving)
   );
 
   // ---- status ------------------------------------------------------------------------------------------------------
-  // A line is under way from its EOL until its last pixel has left.
+  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, 5 in line_out's pipeline
+  // and 2 behind it, if each has one pixel.
   logic [3:0] lines_q;
-  logic line_gone, in_frame, waiting_input, waiting_output, progress;
+  logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
   assign line_gone = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) lines_q <= '0;
     else lines_q <= lines_q + 4'(line_valid) - 4'(line_gone);
   end
   assign in_frame = reader_busy || frame_open;
+  assign frame_here = in_frame || lines_q != '0;
   assign waiting_input = in_frame && hungry && !token_valid && s_axis_tready_o && !s_axis_tvalid_i;
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
-  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || (token_valid && token_ready) || (cmd_valid && cmd_ready) ||
-      moving || (m_axis_tvalid_o && m_axis_tready_i);
+  // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only if
+  // one of them does.
+  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) || line_valid ||
+      (cmd_valid && cmd_ready) || frame_end || pixels_moving || out_moving || (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
       `include "kage_pixel_param_map.svh"
@@ -275,7 +283,7 @@ module kage_top #(
       .rdata_o         (s_axil_rdata_o),
       .rresp_o         (s_axil_rresp_o),
       .irq_o,
-      .open_i          (in_frame || lines_q != '0),
+      .open_i          (frame_here),
       .draining_i      (draining),
       .waiting_input_i (waiting_input),
       .waiting_output_i(waiting_output),
@@ -287,6 +295,18 @@ module kage_top #(
       .error_line_i    (error_line),
       .error_token_i   (error_token)
   );
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      // 1. A frame that does not move waits for one of the ports.
+      assert (!frame_here || progress || (s_axis_tready_o && !s_axis_tvalid_i) || waiting_output);
+      // 2. The count of lines under way stays within its bits.
+      assert (!(&lines_q) || !line_valid);
+    end
+  end
+`endif
 
 endmodule
 

@@ -43,7 +43,9 @@ module line_out #(
     input  wire logic               m_ready_i,
     output logic      [RgbBits-1:0] m_data_o,
     output logic                    m_user_o,
-    output logic                    m_last_o
+    output logic                    m_last_o,
+
+    output logic moving_o  // pixels are on their way through here
 );
 
   localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;
@@ -134,6 +136,8 @@ module line_out #(
       rd_addr_q <= rd_addr_q + 1'b1;
     end
   end
+
+  assign moving_o = start || (go && (sending_q || valid_q != '0));
 
   // What goes along with a pixel, one set of bits a stage, the first stage lowest.
   logic [Depth-1:0] user_q, last_q;

@@ -40,7 +40,7 @@ module pixel_banked #(
     output logic                           exit_last_o,
     output logic      [LANES*ExitBits-1:0] exit_data_o,
 
-    output logic moving_o  // a command is being worked on, though none comes in
+    output logic moving_o  // something is on its way through here, though no command comes in
 );
   `include "kage_layout.svh"
   `include "kage_pixel_next.svh"
@@ -109,7 +109,7 @@ module pixel_banked #(
   assign walk_at_end = walk_group_q == walk_end_q;
   assign step = walk_valid_q && !walk_at_end;
   assign take3 = set_valid_q[2] && !step && (next_kind != KindEol || exit_free_i);
-  assign moving_o = step;
+  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o;
   assign exit_take_o = take3 && next_kind == KindEol;
 
   always_ff @(posedge clk_i) begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels of a line behind one interface, in the arrangement that the configuration names; contract and cost are those of
-// pixel_banked or pixel_systolic. A group that leaves has EXIT_LANES pixels: LANES if banked, 1 if systolic.
+// pixel_banked or pixel_systolic. A group that leaves has ExitLanes pixels: LANES if banked, 1 if systolic.
 `default_nettype none
 
 module pixel_core #(
@@ -33,7 +33,7 @@ module pixel_core #(
     output logic                               exit_last_o,
     output logic      [ExitLanes*ExitBits-1:0] exit_data_o,
 
-    output logic moving_o  // a command is being worked on, though none comes in
+    output logic moving_o  // something is on its way through here, though no command comes in
 );
 
   if (ARRANGEMENT == 1) begin : gen_banked

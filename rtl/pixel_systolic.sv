@@ -40,7 +40,7 @@ module pixel_systolic #(
     output logic                     exit_last_o,
     output logic      [ExitBits-1:0] exit_data_o,
 
-    output logic moving_o  // a command is moving, though none comes in
+    output logic moving_o  // something is on its way through here, though no command comes in
 );
   `include "kage_layout.svh"
   `include "kage_pixel_next.svh"
@@ -70,7 +70,6 @@ module pixel_systolic #(
     end
   end
 
-  assign moving_o = leaving_q != '0;
 
   // ---- the chain ---------------------------------------------------------------------------------------------------
   // Processor i holds, in vectors with processor 0 lowest: the command that is at it, whether its range had begun, depth and colour
@@ -185,7 +184,9 @@ module pixel_systolic #(
     all = '0;
     for (int s = 0; s < Segments; s++) all = all | joined_q[s*ExitBits+:ExitBits];
   end
-  assign at_last = leaving_q == '0;
+  assign at_last  = leaving_q == '0;
+  // Commands other than EOL need not be counted: nothing waits for them but the EOL behind them.
+  assign moving_o = leaving_q != '0 || at_q || joined_valid_q || exit_valid_o;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       at_q <= 1'b0;

@@ -3,10 +3,11 @@
 //
 // Handshake: AXI4-Lite. Address and data of a write are taken in either order, one write and one read under way at a time.
 //   Addresses without a register answer SLVERR and change nothing; writes to read-only registers are taken and ignored.
-//   WSTRB is honoured. Latency: 2 clocks from the address to a read's data.
+//   WSTRB is honoured. In reset nothing is ready. Latency: 1 clock from the address to a read's data.
 // Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of its clearing
 //   wins.
 // Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts it anew.
+//   Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
 `default_nettype none
 
 module registers #(
@@ -42,7 +43,7 @@ module registers #(
     input wire logic        draining_i,
     input wire logic        waiting_input_i,
     input wire logic        waiting_output_i,
-    input wire logic        progress_i,        // a beat came, a command moved or a pixel left
+    input wire logic        progress_i,        // something moves between the ports
     input wire logic        frame_end_i,
     input wire logic        error_i,
     input wire logic [ 3:0] error_code_i,
@@ -63,8 +64,8 @@ module registers #(
   logic [7:0] aw_addr_q;
   logic [31:0] w_data_q, w_mask;
   logic [3:0] w_strb_q;
-  assign awready_o = !aw_held_q;
-  assign wready_o = !w_held_q;
+  assign awready_o = rst_ni && !aw_held_q;
+  assign wready_o = rst_ni && !w_held_q;
   assign write = aw_held_q && w_held_q && !bvalid_o;
   assign w_mask = {{8{w_strb_q[3]}}, {8{w_strb_q[2]}}, {8{w_strb_q[1]}}, {8{w_strb_q[0]}}};
 
@@ -166,7 +167,7 @@ module registers #(
     endcase
   end
 
-  assign arready_o = !rvalid_o;
+  assign arready_o = rst_ni && !rvalid_o;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       rvalid_o <= 1'b0;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Beats to tokens: cuts the words of the input port into the frame's header and its tokens, one whole token at a time.
 //
-// Handshake: s_* is AXI4-Stream; s_ready_o depends on registers only. token_* is valid/ready, the token and its flags stable
+// Handshake: s_* is AXI4-Stream; s_ready_o depends on registers and on rst_ni, which keeps it low: no beat is taken and lost in
+//   reset. token_* is valid/ready, the token and its flags stable
 //   while it waits. drop_i may be high only with token_ready_i, and only for a token without token_final_o: the rest of the frame
 //   is then dropped up to and with TLAST. The reader drops the rest by itself after a final token (END, or one that TLAST cut).
 // Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks is passed
@@ -37,7 +38,8 @@ module token_reader #(
     input  wire logic                      drop_i,
 
     output logic dropping_o,  // words are being dropped up to TLAST
-    output logic busy_o       // some of a frame has come in and its end has not been passed on
+    output logic busy_o,      // some of a frame has come in and its end has not been passed on
+    output logic moving_o     // something changes in here, though no beat comes and no token is taken
 );
   `include "kage_layout.svh"
 
@@ -61,7 +63,7 @@ module token_reader #(
   logic header_q, dropping_q;
 
   logic push;
-  assign s_ready_o = !beats_q[PtrBits] && !last_q;
+  assign s_ready_o = rst_ni && !beats_q[PtrBits] && !last_q;
   assign push = s_valid_i && s_ready_o;
 
   // ---- the token at the front ------------------------------------------------------------------------------------
@@ -124,6 +126,7 @@ module token_reader #(
   assign out_free = !token_valid_q || token_ready_i;
   assign dropping_o = dropping_q;
   assign busy_o = !header_q || dropping_q || token_valid_q || beats_q != '0;
+  assign moving_o = take || (dropping_q && (last_q || beats_q != '0));
 
   always_ff @(posedge clk_i) begin
     if (take) begin
