@@ -241,8 +241,8 @@ module kage_top #(
   );
 
   // ---- status ------------------------------------------------------------------------------------------------------
-  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, 5 in line_out's pipeline
-  // and 2 behind it, if each has one pixel.
+  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each has one
+  // pixel, 5 in line_out's pipeline and 2 behind it.
   logic [3:0] lines_q;
   logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
   assign line_gone = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
@@ -254,10 +254,10 @@ module kage_top #(
   assign frame_here = in_frame || lines_q != '0;
   assign waiting_input = in_frame && hungry && !token_valid && s_axis_tready_o && !s_axis_tvalid_i;
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
-  // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only if
-  // one of them does.
-  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) || line_valid ||
-      (cmd_valid && cmd_ready) || frame_end || pixels_moving || out_moving || (m_axis_tvalid_o && m_axis_tready_i);
+  // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
+  // if one of them does.
+  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) || frame_end ||
+      line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving || (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
       `include "kage_pixel_param_map.svh"
@@ -300,8 +300,8 @@ module kage_top #(
 `ifndef SYNTHESIS
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      // 1. A frame that does not move waits for one of the ports.
-      assert (!frame_here || progress || (s_axis_tready_o && !s_axis_tvalid_i) || waiting_output);
+      // 1. A frame that does not move waits for one of the ports: for input until that is done, or for output.
+      assert (!frame_here || progress || (in_frame && s_axis_tready_o && !s_axis_tvalid_i) || waiting_output);
       // 2. The count of lines under way stays within its bits.
       assert (!(&lines_q) || !line_valid);
     end

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What a feature costs: cells of kage_top for iCE40 (Debian's yosys), one configuration a row, each without one feature of the first.
+# What a feature costs: cells of kage_top for iCE40 (Debian's yosys). The first row is the base, the next ones differ from it in one
+# feature; `default` is the named configuration.
 #
 # usage: verif/synth/cells.sh [--quick | NAME PARAM=VALUE...]
-#   without arguments the table below; --quick: no-shadow, one-channel and small-z only; NAME ...: one configuration
-# Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a configuration that leaves a feature out is not smaller
-# (LUTs; without FSF, a bit per pixel in block RAM, flip-flops).
+#   without arguments the table below; --quick: base, no-shadow, one-channel and small-z only; NAME ...: one configuration
+# Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take, or if it
+# is not smaller (smooth: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
@@ -18,19 +19,23 @@ cells() { # NAME PARAM=VALUE...: prints a row
   yosys -q -l "$work/$name.log" -p "read_verilog -sv -Irtl/include rtl/*.sv; chparam$sets kage_top; synth_ice40 -top kage_top; tee -o $work/$name.stat stat" \
     >"$work/$name.out" 2>&1 || { echo "cells.sh: $name: yosys failed" >&2; tail -5 "$work/$name.log" >&2; exit 2; }
   if grep -q "Warning" "$work/$name.out"; then echo "cells.sh: $name: yosys warns" >&2; grep -m3 Warning "$work/$name.out" >&2; fi
-  awk -v name="$name" -v params="$*" '
+  awk -v name="$name" -v params="$*" -v base="$base" '
     / SB_LUT4 /{lut=$2} / SB_CARRY /{carry=$2} / SB_DFF/{ff+=$2} / SB_RAM40/{ram+=$2}
-    END{printf "| %s | %d | %d | %d | %d | `%s` |\n", name, lut, ff, carry, ram, params}' "$work/$name.stat"
+    END{
+      if (name != "base" && index(params, base " ") == 1) params = "base, " substr(params, length(base) + 2)
+      printf "| %s | %d | %d | %d | %d | `%s` |\n", name, lut, ff, carry, ram, params
+    }' "$work/$name.stat"
 }
 
+base="LANES=2 MAX_WIDTH=64 X_BITS=7 Z_FRAC=7"
+export -f cells
+export work base
 quick=
 if [ "${1:-}" = --quick ]; then quick=1; elif [ $# -gt 0 ]; then cells "$@"; exit; fi
 
-base="LANES=2 MAX_WIDTH=64 X_BITS=7 Z_FRAC=7"
-echo "| configuration | LUT4 | flip-flops | carry | RAM 4k | parameters |"
-echo "| --- | --- | --- | --- | --- | --- |"
+default=$(python3 -c 'import yaml; print(*(f"{k}={v}" for k, v in yaml.safe_load(open("rtl/configs.yaml"))["default"].items()))')
 rows=(
-  "full $base"
+  "base $base"
   "no-fsf $base FSF=0"
   "no-shadow $base FSF=0 DSF_BITS=0"
   "one-channel $base CHANNELS=1"
@@ -38,24 +43,100 @@ rows=(
   "smooth $base SMOOTH=1 COLOR_FRAC=7"
   "one-lane $base LANES=1"
   "one-word-beats $base BEAT_WORDS=1"
-  "systolic16 ${base/MAX_WIDTH=64/MAX_WIDTH=16} ARRANGEMENT=0"
+  "systolic16 $base MAX_WIDTH=16 ARRANGEMENT=0"
+  "default $default"
 )
 [ -z "$quick" ] || rows=("${rows[0]}" "${rows[@]:2:3}")
-export -f cells
-export work
+echo "| configuration | LUT4 | flip-flops | carry | RAM 4k | parameters |"
+echo "| --- | --- | --- | --- | --- | --- |"
 printf '%s\n' "${rows[@]}" | xargs -P 2 -I{} bash -c 'set -euo pipefail; set -- {}; cells "$@" >"$work/$1.row"'
 for row in "${rows[@]}"; do cat "$work/${row%% *}.row"; done
 
-luts() { awk -F'|' '{print $3 + 0}' "$work/$1.row"; }
-ffs() { awk -F'|' '{print $4 + 0}' "$work/$1.row"; }
-bad=0
-for row in "${rows[@]:1}"; do
-  name=${row%% *}
-  case $name in
-    smooth) [ "$(luts smooth)" -gt "$(luts full)" ] || { echo "cells.sh: smooth has no more LUTs than full" >&2; bad=1; } ;;
-    systolic*) ;;
-    no-fsf) [ "$(ffs no-fsf)" -lt "$(ffs full)" ] || { echo "cells.sh: no-fsf has no fewer flip-flops than full" >&2; bad=1; } ;;
-    *) [ "$(luts "$name")" -lt "$(luts full)" ] || { echo "cells.sh: $name has no fewer LUTs than full" >&2; bad=1; } ;;
+column() { awk -F'|' -v c="$2" '{print $c + 0}' "$work/$1.row"; } # NAME COLUMN
+luts() { column "$1" 3; }
+ffs() { column "$1" 4; }
+rams() { column "$1" 6; }
+
+# ---- block RAMs: exactly those of the line's state (banked) and of the way out's two lines ------------------------------------------
+# A block holds 256 words of 16 bits, 512 of 8, 1024 of 4 or 2048 of 2.
+expected_rams() { # PARAM=VALUE...
+  python3 - "$@" <<'PY'
+import sys, yaml
+defs = yaml.safe_load(open("rtl/defs/kage.yaml"))
+p = {d["name"]: d["default"] for d in defs["pixel_params"] + defs["impl_params"]}
+p.update((a.split("=")[0], int(a.split("=")[1])) for a in sys.argv[1:])
+lanes = p["LANES"] if p["ARRANGEMENT"] == 1 else 1
+groups = -(-p["MAX_WIDTH"] // lanes)
+shadows = p["DSF_BITS"] > 0
+state = p["Z_BITS"] + 8 * p["CHANNELS"] + shadows + p["DSF_BITS"] + p["FSF"]
+leaving = 8 * p["CHANNELS"] + 1 + shadows
+def blocks(words, bits):
+    if words * bits <= 16 * 16:  # so little goes into flip-flops
+        return 0
+    width = next(w for w, depth in ((16, 256), (8, 512), (4, 1024), (2, 2048)) if words <= depth)
+    return -(-bits // width)
+print((blocks(groups, lanes * state) if p["ARRANGEMENT"] == 1 else 0) + blocks(2 * groups, lanes * leaving))
+PY
+}
+
+# ---- what a feature's state implies: the least number of LUTs and flip-flops that go (smooth: come) with it ---------------------------
+# Counted are only what no optimizer can share or drop, in the base's numbers: L = 2 lanes, 24 bits of depth, 3 x 8 of colour,
+# S = 9 bits of shade, `Last` = 3 stages behind the walker.
+#   A bit of a pixel's state, per lane: flip-flops word_q, done_q, done2_q (3); LUTs of word_q's three sources (2), of word (1), of
+#   the next state (1).
+#   A bit of colour that leaves: exit_data_o, group_q per lane; pixel_q, plain_q, color_q, two in the skid buffer, one of the
+#   product's upper 8, and background in frame_control, line_out and four times in the queue. LUTs: the lane's choice, dimmed or
+#   plain, the skid buffer's choice, two for the queue's four words.
+#   A product of 8 x S bits takes S - 1 additions of 8 bits: a LUT a bit.
+#   A ramp of B bits, F of them fraction: start, slope, low; part, slope2; first, slope3; root, L leaves without fraction (the
+#   last level), slope of the root; L x OUT for the integer part and again for the value. LUTs: low, part, root, right leaf, and the
+#   clamp of each lane's OUT bits.
+l=2 last=3 s=9
+state_ff=$((3 * l)) state_lut=$((4 * l))
+exit_ff=$((2 * l + 5 + 1 + 2 + 4)) exit_lut=$((1 + 1 + 1 + 2))
+product_lut=$(((s - 1) * 8))
+implied() { # NAME: "LUTs flip-flops"
+  local bits
+  case $1 in
+    # One bit of state, and volume_open_q. LUTs: none, since DSF + bias is now read at the end of the line in place of FSF.
+    no-fsf) echo 0 $((state_ff + 1)) ;;
+    # lit, DSF and FSF; dark in exit_data_o, group_q, pixel_q and dark_q; the products with their upper 8 bits; shade in
+    # frame_control, line_out and queue; bias, phase and volume_open_q; the count in cmd, three set-up stages, walker and stages.
+    no-shadow) echo $((3 * state_lut + 3 * product_lut + 24)) $((3 * state_ff + 2 * l + 2 + 3 * 8 + 6 * s + 4 + 5 + last)) ;;
+    # 16 bits of colour: in state and exit, and on the way in: cmd, three set-up stages, walker, stages.
+    one-channel) echo $((16 * (state_lut + exit_lut) + 2 * product_lut)) $((16 * (state_ff + exit_ff + 5 + last))) ;;
+    # 12 bits of depth: in state, its comparison, cmd_z, cmd_dz and the ramp.
+    small-z) echo $((12 * (state_lut + l + 4 + l))) $((12 * (state_ff + 2 + 7 + 1 + l + 1 + 2 * l))) ;;
+    # Three ramps of 17 bits, 7 of them fraction, colour and slope in cmd and token_q (187 bits in place of the header's 160), less
+    # the flat colour's set-up stages, walker and stages.
+    smooth)
+      bits=17
+      echo $((3 * (4 * bits + 8 * l))) $((3 * (9 * bits + l * (bits - 7) + 2 * 8 * l) + 3 * (bits - 8) + 3 * bits + 27 - 24 * (4 + last))) ;;
+    # A lane's 51 bits of state with its comparison, its 26 bits of exit_data_o and group_q, the choice among lanes, two leaves, and
+    # a stage of flat colour.
+    one-lane) echo $((51 * 4 + 24 + 26 + 24)) $((51 * 3 + 2 * 26 + 2 * (33 - 7) + 2 * 24 + 24)) ;;
+    # 8 words in place of 4 x 4, and a bit more in two pointers. LUTs: less alignment, but more words to choose from: no bound.
+    one-word-beats) echo 0 $((32 * 8 - 2)) ;;
   esac
+}
+
+bad=0
+for row in "${rows[@]}"; do
+  name=${row%% *}
+  # shellcheck disable=SC2086
+  want=$(expected_rams ${row#* })
+  [ "$(rams "$name")" = "$want" ] || { echo "cells.sh: $name: $(rams "$name") block RAMs, its memories take $want" >&2; bad=1; }
+  case $name in base | default) continue ;; esac
+  lut=$(($(luts base) - $(luts "$name"))) ff=$(($(ffs base) - $(ffs "$name")))
+  if [ "$name" = systolic16 ]; then # 16 processors: state, kind, range, count, depth and slope, colour, two flags
+    least=$((16 * (51 + 4 + 2 * 7 + 1 + 2 * 33 + 24 + 2)))
+    [ "$(ffs "$name")" -ge $least ] || { echo "cells.sh: $name: $(ffs "$name") flip-flops, its processors hold $least" >&2; bad=1; }
+    continue
+  fi
+  [ "$name" != smooth ] || { lut=$((-lut)); ff=$((-ff)); }
+  read -r least_lut least_ff < <(implied "$name")
+  echo "cells.sh: $name: $lut LUTs, at least $least_lut; $ff flip-flops, at least $least_ff" >&2
+  [ "$least_lut" = 0 ] || [ "$lut" -ge "$least_lut" ] || bad=1
+  [ "$ff" -ge "$least_ff" ] || bad=1
 done
 exit $bad
