@@ -256,8 +256,9 @@ module kage_top #(
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
   // if one of them does.
-  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) || frame_end ||
-      line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving || (m_axis_tvalid_o && m_axis_tready_i);
+  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
+      frame_end || line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving ||
+      (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
       `include "kage_pixel_param_map.svh"
