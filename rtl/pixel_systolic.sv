@@ -16,31 +16,10 @@
 module pixel_systolic #(
     `include "kage_pixel_params.svh"
     `include "kage_widths.svh"
-    parameter int MAX_WIDTH = 64
+    parameter  int MAX_WIDTH = 64,
+    localparam int ExitLanes = 1
 ) (
-    input wire logic clk_i,
-    input wire logic rst_ni,
-
-    // from frame_control
-    input  wire logic                 cmd_valid_i,
-    output logic                      cmd_ready_o,
-    input  wire logic [          3:0] cmd_kind_i,
-    input  wire logic [   X_BITS-1:0] cmd_xl_i,
-    input  wire logic [   X_BITS-1:0] cmd_xr_i,
-    input  wire logic [CountBits-1:0] cmd_count_i,
-    input  wire logic [DepthBits-1:0] cmd_z_i,
-    input  wire logic [DepthBits-1:0] cmd_dz_i,
-    input  wire logic [ColorBits-1:0] cmd_color_i,
-    input  wire logic [SlopeBits-1:0] cmd_dcolor_i,
-
-    // to line_out
-    input  wire logic                exit_free_i,
-    output logic                     exit_take_o,
-    output logic                     exit_valid_o,
-    output logic                     exit_last_o,
-    output logic      [ExitBits-1:0] exit_data_o,
-
-    output logic moving_o  // something is on its way through here, though no command comes in
+    `include "kage_pixel_ports.svh"
 );
   `include "kage_layout.svh"
   `include "kage_pixel_next.svh"

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ports of pixel_core and of both arrangements behind it: the one list. Included in a module that has the pixel parameters,
+// kage_widths.svh and ExitLanes.
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // from frame_control
+    input  wire logic                 cmd_valid_i,
+    output logic                      cmd_ready_o,
+    input  wire logic [          3:0] cmd_kind_i,
+    input  wire logic [   X_BITS-1:0] cmd_xl_i,
+    input  wire logic [   X_BITS-1:0] cmd_xr_i,
+    input  wire logic [CountBits-1:0] cmd_count_i,
+    input  wire logic [DepthBits-1:0] cmd_z_i,
+    input  wire logic [DepthBits-1:0] cmd_dz_i,
+    input  wire logic [ColorBits-1:0] cmd_color_i,
+    input  wire logic [SlopeBits-1:0] cmd_dcolor_i,
+
+    // to line_out
+    input  wire logic                          exit_free_i,
+    output logic                               exit_take_o,
+    output logic                               exit_valid_o,
+    output logic                               exit_last_o,
+    output logic      [ExitLanes*ExitBits-1:0] exit_data_o,
+
+    output logic moving_o  // something is on its way through here, though no command comes in
