@@ -28,6 +28,8 @@ json s.json 'j["same"] is True and j["seed"]==7 and j["stalled"]["input_starved"
 expect 0 "$kage" cosim courtyard --config tiny --degrade --size 150x40 --frames 1 --out tiny
 expect 0 "$kage" cosim courtyard --config full --size 160x120 --frames 1 --out full
 expect 0 "$kage" cosim knot --config full --size 64x48 --frames 1 --out full
+expect 0 "$kage" cosim knot --size 3840x32 --frames 1 --idle 20 --backpressure 20 --out wide --json wide.json # no other is as wide
+json wide.json 'j["config"]["MAX_WIDTH"]==3840 and j["pixels_compared"]==3840*32'
 expect 0 "$kage" cosim courtyard --config systolic64 --size 64x48 --frames 2 --out systolic
 expect 0 "$kage" cosim inside --config systolic64 --size 64x48 --frames 2 --out systolic
 # Wider than any of them, by a file of one's own (the line that docs/stream.md shows).
