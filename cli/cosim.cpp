@@ -49,7 +49,6 @@ int run(CosimCommand& o) {
   o.rtl.seed = o.seed;
   const auto golden = cosim::make_golden(config);
   const auto rtl = cosim::make_rtl(model.library, config, o.rtl);
-  TokenCounts counts;
   cosim::RunOptions options;
   options.out = o.out;
   options.name = source.name();
@@ -58,8 +57,9 @@ int run(CosimCommand& o) {
     check_interrupt();
     progress.show(fmt::format("{}: frame {}/{}", source.name(), frame + 1, source.frames()));
   };
+  options.wait = check_interrupt;
   const cosim::Report r = cosim::run(
-      source.frames(), [&](int i) { return source.words(i, counts); }, *golden, *rtl, options);
+      source.frames(), [&](int i, const WordSink& sink) { return source.frame(i, sink); }, *golden, *rtl, options);
   progress.clear();
 
   Json j;
@@ -68,8 +68,8 @@ int run(CosimCommand& o) {
   j["width"] = r.width;
   j["height"] = r.height;
   j["pixels_compared"] = r.pixels_compared;
-  j["spans"] = counts.spans;
-  j["span_pixels"] = counts.span_pixels;
+  j["spans"] = r.spans;
+  j["span_pixels"] = r.span_pixels;
   j["cycles"] = r.cycles;
   j["stalled"] = {{"input_starved", r.starved}, {"output_blocked", r.blocked}};
   j["golden_seconds"] = r.expected_seconds;
@@ -86,7 +86,7 @@ int run(CosimCommand& o) {
   if (!json_only(o)) {
     fmt::print("{}: {}, {}x{}, {} compared, {}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n",
                r.same ? "same" : "different", counted(r.frames, "frame"), r.width, r.height,
-               counted(r.pixels_compared, "pixel"), counted(counts.spans, "span"), counted(r.cycles, "cycle"),
+               counted(r.pixels_compared, "pixel"), counted(r.spans, "span"), counted(r.cycles, "cycle"),
                r.expected_seconds, r.actual_seconds, o.seed);
     if (r.first_difference) fmt::print("first difference: {}\n", cosim::describe(*r.first_difference));
     if (!r.same && !r.pictures.empty()) fmt::print("pictures: {}\n", r.pictures.back());

@@ -8,7 +8,7 @@
 
 #include "common.hpp"
 #include "cosim/core.hpp"
-#include "image/save.hpp"
+#include "cosim/picture.hpp"
 #include "kage/error.hpp"
 #include "source.hpp"
 
@@ -34,15 +34,21 @@ int run(const RenderCommand& o) {
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
     progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
-    const auto words = source.words(i, counts);
-    const cosim::FrameResult frame = golden->frame(words);
-    if (frame.status.error != ErrorCode::NONE)
-      throw Error(fmt::format("{}: frame {}: {}", o.input, i, cosim::describe(frame.status)));
-    seconds += frame.seconds;
-    size = {frame.image.width, frame.image.height};
     const auto path =
         std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
-    save_image(files, path, frame.image);
+    cosim::FramePicture picture(path);
+    const LineSink line = [&](int, std::span<const std::uint8_t> pixels) { picture.line(pixels); };
+    counts += source.frame(i, [&](std::span<const std::uint32_t> words) {
+      picture.words(words);
+      golden->feed(words, line);
+    });
+    const cosim::FrameEnd end = golden->finish(line);
+    if (end.status.error != ErrorCode::NONE)
+      throw Error(fmt::format("{}: frame {}: {}", o.input, i, cosim::describe(end.status)));
+    seconds += end.seconds;
+    size = {end.status.width, end.status.height};
+    picture.close();
+    picture.hand_over(files);
     names.push_back(path.string());
   }
   progress.clear();

@@ -9,12 +9,14 @@
 #include <filesystem>
 
 #include "kage/error.hpp"
-#include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
 #include "mapped.hpp"
 
 namespace kage::cli {
 namespace {
+
+// Words of a file's frame that go on at a time.
+constexpr std::size_t kPieceWords = 4096;
 
 bool is_grey(const glm::dvec3& c) { return c.x == c.y && c.y == c.z; }
 
@@ -93,31 +95,49 @@ void Source::open_scene(const Options& options) {
   if (!degraded_.empty()) notes_.push_back(fmt::format("drawn without {}", fmt::join(degraded_, ", ")));
 }
 
-std::span<const std::uint32_t> Source::words(int index, TokenCounts& counts) {
-  TokenCounts frame;
-  if (stream_) {
-    // A copy, so that whatever happens to the file from now on, all who read these words read the same.
-    const std::span<const std::uint32_t> mapped = stream_->frame(index, &frame);
-    words_.assign(mapped.begin(), mapped.end());
-    check_mapped();
-  } else {
-    words_.clear();
-    make_frame(make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config,
-               static_cast<std::uint32_t>(index), words_, threads_);
-    frame = check_frame(config_.config, words_, fmt::format("{}: frame {}", name_, index), 0);
-  }
-  ++made_;
-  if (frame.of_kind[static_cast<std::size_t>(Kind::OP)] == 0) ++blank_;
-  counts += frame;
-  return words_;
-}
-
 std::vector<std::string> Source::notes() const {
   std::vector<std::string> all = notes_;
   if (blank_ > 0)
     all.push_back(fmt::format("nothing is to be seen{}: no face covers the centre of a pixel",
                               blank_ == made_ ? "" : fmt::format(" in {} of {} frames", blank_, made_)));
   return all;
+}
+
+TokenCounts Source::frame(int index, const WordSink& sink) {
+  const TokenCounts counts = stream_ ? frame_of_stream(index, sink) : frame_of_scene(index, sink);
+  ++made_;
+  if (counts.of_kind[static_cast<std::size_t>(Kind::OP)] == 0) ++blank_;
+  return counts;
+}
+
+TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
+  TokenCounts counts;
+  auto words = stream_->frame(index, &counts);
+  std::vector<std::uint32_t> copy;
+  while (!words.empty()) {
+    check_interrupt();
+    const auto piece = words.first(std::min(words.size(), kPieceWords));
+    words = words.subspan(piece.size());
+    // A copy, so that whatever happens to the file from now on, all who read these words read the same.
+    copy.assign(piece.begin(), piece.end());
+    check_mapped();
+    sink(copy);
+  }
+  return counts;
+}
+
+TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
+  FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
+  make_frame(
+      make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config,
+      static_cast<std::uint32_t>(index),
+      [&](std::span<const std::uint32_t> words) {
+        check_interrupt();
+        checker.feed(words);
+        sink(words);
+      },
+      threads_);
+  return checker.finish();
 }
 
 void print_notes(const Source& source, const Options& options) {

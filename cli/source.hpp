@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "common.hpp"
 #include "kage/config.hpp"
+#include "kage/frontend.hpp"
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
 
 namespace kage::cli {
 
-/// Where frames come from: a scene, drawn as the options say, or a stream file. One frame is in memory at a time.
+/// Where frames come from: a scene, drawn as the options say, or a stream file. A few bands of a frame are in memory at
+/// a time.
 class Source {
  public:
   /// Opens options.input and settles the configuration: --config, else the stream's own, else the first named one that
@@ -39,10 +39,13 @@ class Source {
   /// What --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 
-  /// The words of frame `index`, valid until the next call; its counts are added to `counts`.
-  std::span<const std::uint32_t> words(int index, TokenCounts& counts);
+  /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts. Between the pieces
+  /// check_interrupt() may end it.
+  TokenCounts frame(int index, const WordSink& sink);
 
  private:
+  TokenCounts frame_of_stream(int index, const WordSink& sink);
+  TokenCounts frame_of_scene(int index, const WordSink& sink);
   void open_stream(const Options& options);
   void open_scene(const Options& options);
 
@@ -55,7 +58,6 @@ class Source {
   std::optional<Scene> scene_;
   Size size_;
   int threads_ = 0;
-  std::vector<std::uint32_t> words_;
   int made_ = 0;   // frames
   int blank_ = 0;  // of those, without any opaque span
 };

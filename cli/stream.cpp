@@ -19,7 +19,9 @@ int run(const Options& o) {
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
     progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
-    writer.frame(source.words(i, counts));
+    writer.begin_frame();
+    counts += source.frame(i, [&](std::span<const std::uint32_t> words) { writer.words(words); });
+    writer.end_frame();
   }
   progress.clear();
   writer.finish();

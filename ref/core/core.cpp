@@ -2,10 +2,12 @@
 // Frame control: header, order of tokens, errors, and the lines of a frame.
 #include "kage/core.hpp"
 
+#include <array>
 #include <vector>
 
 #include "core/pixel_line.hpp"
 #include "kage/stream.hpp"
+#include "stream/cutter.hpp"
 #include "stream/rules.hpp"
 
 namespace kage {
@@ -13,12 +15,23 @@ namespace kage {
 struct GoldenCore::Data {
   explicit Data(const Config& c) : config(c), layout(c), pixels(c) {}
 
+  /// Where in a frame the core is.
+  enum class At { header, lines, ended, failed };
+
   Config config;
   Layout layout;
   PixelLine pixels;
   TokenRules rules;
+  WordCutter cutter;
   std::vector<std::uint8_t> out;
-  std::vector<std::uint32_t> filled;
+
+  // Of the frame at hand:
+  FrameStatus status;
+  At at = At::header;
+  std::uint32_t number = 0;
+  std::uint32_t token = 0;  // the next one
+  std::uint64_t taken = 0;  // words of tokens that came whole
+  std::uint64_t came = 0;   // words
 
   /// The error of a header that arrived whole.
   [[nodiscard]] ErrorCode check_header(std::span<const std::uint32_t> words) const {
@@ -61,6 +74,87 @@ struct GoldenCore::Data {
     pixels.finish(blank, out);
     sink(y, out);
   }
+
+  void start() {
+    status = {};
+    at = At::header;
+    number = token = 0;
+    taken = came = 0;
+    cutter.start();
+  }
+
+  /// The frame's error; the lines that have not ended are background.
+  void fail(ErrorCode e, const LineSink& sink) {
+    const bool lines = at == At::lines;
+    at = At::failed;
+    status.error = e;
+    status.frame = number;
+    status.line = lines ? static_cast<std::uint32_t>(rules.line()) : 0;
+    status.token = token;
+    if (!lines) return;
+    for (int y = rules.line(); y < status.height; ++y) emit(y, true, sink);
+  }
+
+  void header(std::span<const std::uint32_t> h, const LineSink& sink) {
+    number = h[4];
+    if (const ErrorCode e = check_header(h); e != ErrorCode::NONE) return fail(e, sink);
+    status.width = static_cast<int>(h[1] & 0xFFFFU);
+    status.height = static_cast<int>(h[1] >> 16);
+    rules.start(config, status.width, status.height);
+    pixels.start(status.width, h[3], 0);
+    out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(config.channels));
+    taken = kHeaderWords;
+    token = 1;
+    at = At::lines;
+  }
+
+  void feed(std::span<const std::uint32_t> piece, const LineSink& sink) {
+    came += piece.size();
+    if (at == At::ended || at == At::failed) return;
+    cutter.feed(piece);
+    if (at == At::header) {
+      const auto h = cutter.take(kHeaderWords);
+      if (h.empty()) return;
+      header(h, sink);
+    }
+    while (at == At::lines) {
+      const std::uint32_t* first = cutter.peek();
+      if (first == nullptr) return;
+      const std::size_t n = layout.words[*first & 15U];
+      if (n == 0) return fail(ErrorCode::KIND, sink);
+      const auto body = cutter.take(n);
+      if (body.empty()) return;
+      const Token t = decode(config, layout, body);
+      if (const ErrorCode e = rules.accept(t); e != ErrorCode::NONE) return fail(e, sink);
+      if (t.kind == Kind::END) {
+        at = At::ended;
+        return;
+      }
+      if (t.kind == Kind::EOL)
+        emit(t.y, false, sink);
+      else
+        apply(t);
+      taken += n;
+      ++token;
+    }
+  }
+
+  FrameStatus finish(const LineSink& sink) {
+    const auto beat = static_cast<std::uint64_t>(config.beat_words);
+    constexpr std::array<std::uint32_t, 8> kFill{};
+    feed(std::span(kFill).first((beat - came % beat) % beat), sink);
+    if (at == At::header || at == At::lines) {
+      fail(ErrorCode::LAST_EARLY, sink);
+    } else if (at == At::ended && taken / beat != came / beat - 1) {
+      status.error = ErrorCode::LAST_LATE;  // all lines have left
+      status.frame = number;
+      status.line = static_cast<std::uint32_t>(rules.line());
+      status.token = token;
+    }
+    const FrameStatus result = status;
+    start();
+    return result;
+  }
 };
 
 GoldenCore::GoldenCore(const Config& config) : data_(std::make_unique<Data>(config)) {}
@@ -68,69 +162,14 @@ GoldenCore::~GoldenCore() = default;
 GoldenCore::GoldenCore(GoldenCore&&) noexcept = default;
 GoldenCore& GoldenCore::operator=(GoldenCore&&) noexcept = default;
 
+void GoldenCore::feed(std::span<const std::uint32_t> words, const LineSink& sink) { data_->feed(words, sink); }
+
+FrameStatus GoldenCore::finish(const LineSink& sink) { return data_->finish(sink); }
+
 FrameStatus GoldenCore::frame(std::span<const std::uint32_t> words, const LineSink& sink) {
-  Data& d = *data_;
-  const auto beat = static_cast<std::size_t>(d.config.beat_words);
-  if (words.size() % beat != 0) {
-    d.filled.assign(words.begin(), words.end());
-    d.filled.resize((words.size() + beat - 1) / beat * beat, 0);
-    words = d.filled;
-  }
-
-  FrameStatus status;
-  std::uint32_t number = 0;
-  const auto fail = [&](ErrorCode e, std::uint32_t line, std::uint32_t token) {
-    status.error = e;
-    status.frame = number;
-    status.line = line;
-    status.token = token;
-  };
-  if (words.size() < kHeaderWords) {
-    fail(ErrorCode::LAST_EARLY, 0, 0);
-    return status;
-  }
-  number = words[4];
-  if (const ErrorCode e = d.check_header(words); e != ErrorCode::NONE) {
-    fail(e, 0, 0);
-    return status;
-  }
-  status.width = static_cast<int>(words[1] & 0xFFFFU);
-  status.height = static_cast<int>(words[1] >> 16);
-  d.rules.start(d.config, status.width, status.height);
-  d.pixels.start(status.width, words[3], 0);
-  d.out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(d.config.channels));
-
-  std::size_t at = kHeaderWords;
-  for (std::uint32_t token = 1;; ++token) {
-    const auto line = static_cast<std::uint32_t>(d.rules.line());
-    ErrorCode e = ErrorCode::NONE;
-    std::size_t n = 0;
-    Token t;
-    if (at >= words.size()) {
-      e = ErrorCode::LAST_EARLY;
-    } else if (n = d.layout.words[words[at] & 15U]; n == 0) {
-      e = ErrorCode::KIND;
-    } else if (at + n > words.size()) {
-      e = ErrorCode::LAST_EARLY;
-    } else {
-      t = decode(d.config, d.layout, words.subspan(at, n));
-      e = d.rules.accept(t);
-    }
-    if (e != ErrorCode::NONE) {
-      fail(e, line, token);
-      for (int y = d.rules.line(); y < status.height; ++y) d.emit(y, true, sink);
-      return status;
-    }
-    if (t.kind == Kind::END) {
-      if (at / beat != words.size() / beat - 1) fail(ErrorCode::LAST_LATE, line, token);
-      return status;
-    }
-    if (t.kind == Kind::EOL)
-      d.emit(t.y, false, sink);
-    else
-      d.apply(t);
-    at += n;
-  }
+  data_->start();
+  data_->feed(words, sink);
+  return data_->finish(sink);
 }
 
 }  // namespace kage

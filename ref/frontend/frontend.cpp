@@ -18,35 +18,46 @@ namespace {
 
 constexpr int kBandLines = 16;
 
-/// Indices of things in the order of their numbers, for each band of lines that they touch.
-class Buckets {
+/// What each band of lines touches, in the order of their numbers, band after band from the top. Every thing is held
+/// once, however many bands it touches.
+class Sweep {
  public:
-  Buckets(int bands, int height, std::span<const LineRange> ranges) {
-    start_.assign(static_cast<std::size_t>(bands) + 1, 0);
-    const auto each_band = [&](auto what) {
+  Sweep(int bands, int height, std::span<const LineRange> ranges)
+      : start_(static_cast<std::size_t>(bands) + 1, 0), end_band_(ranges.size(), 0) {
+    const auto each = [&](auto what) {
       for (std::size_t i = 0; i < ranges.size(); ++i) {
         const int first = std::max(ranges[i].first, 0);
         const int end = std::min(ranges[i].end, height);
-        if (first >= end) continue;
-        for (int b = first / kBandLines; b <= (end - 1) / kBandLines; ++b)
-          what(static_cast<std::size_t>(b), static_cast<std::uint32_t>(i));
+        if (first < end) what(i, static_cast<std::size_t>(first / kBandLines), (end - 1) / kBandLines + 1);
       }
     };
-    each_band([this](std::size_t b, std::uint32_t) { ++start_[b + 1]; });
+    each([this](std::size_t, std::size_t band, int) { ++start_[band + 1]; });
     for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
     items_.resize(start_.back());
     std::vector<std::size_t> at(start_.begin(), start_.end() - 1);
-    each_band([&](std::size_t b, std::uint32_t i) { items_[at[b]++] = i; });
+    each([&](std::size_t i, std::size_t band, int end) {
+      items_[at[band]++] = static_cast<std::uint32_t>(i);
+      end_band_[i] = end;
+    });
   }
 
-  [[nodiscard]] std::span<const std::uint32_t> band(int b) const {
-    const auto i = static_cast<std::size_t>(b);
-    return std::span(items_).subspan(start_[i], start_[i + 1] - start_[i]);
+  /// What the next band touches.
+  const std::vector<std::uint32_t>& next() {
+    std::erase_if(active_, [this](std::uint32_t i) { return end_band_[i] <= band_; });
+    const auto b = static_cast<std::size_t>(band_++);
+    const auto old = static_cast<std::ptrdiff_t>(active_.size());
+    active_.insert(active_.end(), items_.begin() + static_cast<std::ptrdiff_t>(start_[b]),
+                   items_.begin() + static_cast<std::ptrdiff_t>(start_[b + 1]));
+    std::inplace_merge(active_.begin(), active_.begin() + old, active_.end());
+    return active_;
   }
 
  private:
-  std::vector<std::size_t> start_;
-  std::vector<std::uint32_t> items_;
+  std::vector<std::size_t> start_;    // in items_, by the band in which things begin
+  std::vector<std::uint32_t> items_;  // by first band, then by number
+  std::vector<int> end_band_;
+  std::vector<std::uint32_t> active_;
+  int band_ = 0;
 };
 
 /// What all bands share.
@@ -55,9 +66,16 @@ struct Frame {
   const Config* config;
   std::vector<std::uint32_t> volume_of_face;
   std::vector<std::uint32_t> volume_of_edge;
-  Buckets polygons;
-  Buckets faces;
-  Buckets edges;
+  Sweep polygons;
+  Sweep faces;
+  Sweep edges;
+};
+
+/// What a band touches.
+struct BandWork {
+  std::vector<std::uint32_t> polygons;
+  std::vector<std::uint32_t> faces;
+  std::vector<std::uint32_t> edges;
 };
 
 std::vector<LineRange> ranges_of_polygons(const FrameGeometry& g, std::size_t count) {
@@ -96,10 +114,10 @@ Frame prepare(const FrameGeometry& g, const Config& config) {
 /// Makes the words of one band.
 class Band {
  public:
-  Band(const Frame& frame, int band)
+  Band(const Frame& frame, const BandWork& work, int band)
       : f_(&frame),
+        work_(&work),
         g_(frame.geometry),
-        band_(band),
         y0_(band * kBandLines),
         y1_(std::min(y0_ + kBandLines, g_->height)),
         writer_(*frame.config, words_),
@@ -151,7 +169,7 @@ class Band {
   void opaque() {
     const bool smooth = f_->config->smooth != 0;
     const auto channels = static_cast<std::size_t>(f_->config->channels);
-    for (const std::uint32_t i : f_->polygons.band(band_)) {
+    for (const std::uint32_t i : work_->polygons) {
       const ScreenPolygon& p = g_->polygons[i];
       spans(p, [&](int y, SpanToken& s, int) {
         s.lit = p.lit;
@@ -173,8 +191,8 @@ class Band {
   }
 
   void volumes() {
-    const auto faces = f_->faces.band(band_);
-    const auto edges = f_->edges.band(band_);
+    const auto& faces = work_->faces;
+    const auto& edges = work_->edges;
     std::size_t face = 0;
     std::size_t edge = 0;
     while (face < faces.size() || edge < edges.size()) {
@@ -252,8 +270,8 @@ class Band {
   }
 
   const Frame* f_;
+  const BandWork* work_;
   const FrameGeometry* g_;
-  int band_;
   int y0_;
   int y1_;
   std::vector<std::uint32_t> words_;
@@ -295,15 +313,21 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   if (shadows) writer.shade(g.shade);
   sink(words);
 
-  const Frame frame = prepare(g, config);
+  Frame frame = prepare(g, config);
   const int bands = (g.height + kBandLines - 1) / kBandLines;
   // A few bands at a time, handed on in order: memory holds no more than those.
   const int wave = threads == 1 ? 1 : 8;
+  std::vector<BandWork> work(static_cast<std::size_t>(wave));
   std::vector<std::vector<std::uint32_t>> made(static_cast<std::size_t>(wave));
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   for (int first = 0; first < bands; first += wave) {
     const int end = std::min(first + wave, bands);
-    const auto make = [&](int b) { made[static_cast<std::size_t>(b - first)] = Band(frame, b).make(); };
+    for (int b = first; b < end; ++b)
+      work[static_cast<std::size_t>(b - first)] = {frame.polygons.next(), frame.faces.next(), frame.edges.next()};
+    const auto make = [&](int b) {
+      const auto i = static_cast<std::size_t>(b - first);
+      made[i] = Band(frame, work[i], b).make();
+    };
     if (wave == 1)
       make(first);
     else

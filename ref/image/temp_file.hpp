@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
 #include <filesystem>
+#include <memory>
 #include <utility>
+#include <vector>
 
 namespace kage {
 
@@ -32,16 +33,19 @@ class TempFiles {
  public:
   /// A file more; returns where to write it.
   const std::filesystem::path& add(std::filesystem::path target) {
-    return files_.emplace_back(std::move(target)).temp();
+    return files_.emplace_back(std::make_unique<TempFile>(std::move(target)))->temp();
   }
 
+  /// A file that is written already.
+  void add(std::unique_ptr<TempFile> file) { files_.push_back(std::move(file)); }
+
   void commit() {
-    for (TempFile& file : files_) file.commit();
+    for (const auto& file : files_) file->commit();
     files_.clear();
   }
 
  private:
-  std::deque<TempFile> files_;
+  std::vector<std::unique_ptr<TempFile>> files_;
 };
 
 }  // namespace kage

@@ -5,6 +5,7 @@
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
+#include "stream/cutter.hpp"
 #include "stream/rules.hpp"
 
 namespace kage {
@@ -34,43 +35,49 @@ TokenCounts& TokenCounts::operator+=(const TokenCounts& other) {
   return *this;
 }
 
-TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
-                        std::uint64_t offset, FrameHeader* header) {
-  TokenCounts counts;
-  counts.words = words.size();
-  const Layout layout(config);
-  std::uint32_t frame = 0;
-  std::uint32_t token = 0;
-  std::size_t at = 0;
-  TokenRules rules;
-  const auto fail = [&](const std::string& cause) {
-    throw Error(fmt::format("{}: frame {}, line {}, token {}, byte {}: {}", where, frame, rules.line(), token,
-                            offset + at * 4, cause));
-  };
-  const auto fail_code = [&](ErrorCode e) {
-    fail(fmt::format("{} ({})", kErrorTexts[static_cast<unsigned>(e)], kErrorNames[static_cast<unsigned>(e)]));
-  };
+struct FrameChecker::Data {
+  Data(const Config& c, std::string w, std::uint64_t o) : config(c), layout(c), where(std::move(w)), offset(o) {}
 
-  if (words.size() < kHeaderWords) fail("the header is cut");
-  frame = words[4];
-  if (words[0] != (kStreamMagic << 16 | kStreamVersion)) fail_code(ErrorCode::HEADER);
-  const int width = static_cast<int>(words[1] & 0xFFFFU);
-  const int height = static_cast<int>(words[1] >> 16);
-  if (width < 1 || height < 1 || width > config.max_width || height > 32767) fail_code(ErrorCode::SIZE);
-  if (words[2] != param_hash(config)) fail_code(ErrorCode::PARAMS);
-  if (words[3] >> 24 != 0) fail("background has bits past its channels");
-  if (header != nullptr) *header = {width, height, words[3], words[4]};
-  rules.start(config, width, height);
-  at = kHeaderWords;
-  for (token = 1;; ++token) {
-    if (at >= words.size()) fail_code(ErrorCode::LAST_EARLY);
-    const auto kind = words[at] & 15U;
-    const std::size_t n = layout.words[kind];
-    if (n == 0) fail_code(ErrorCode::KIND);
-    if (at + n > words.size()) fail_code(ErrorCode::LAST_EARLY);
-    const auto body = words.subspan(at, n);
+  Config config;
+  Layout layout;
+  std::string where;
+  std::uint64_t offset;
+  TokenRules rules;
+  WordCutter cutter;
+  TokenCounts counts;
+  FrameHeader header;
+  bool header_seen = false;
+  bool ended = false;
+  std::uint32_t token = 0;
+  std::uint64_t at = 0;  // word of the frame where the token begins
+
+  [[noreturn]] void fail(const std::string& cause) const {
+    throw Error(fmt::format("{}: frame {}, line {}, token {}, byte {}: {}", where, header.frame, rules.line(), token,
+                            offset + at * 4, cause));
+  }
+  [[noreturn]] void fail(ErrorCode e) const {
+    fail(fmt::format("{} ({})", kErrorTexts[static_cast<unsigned>(e)], kErrorNames[static_cast<unsigned>(e)]));
+  }
+
+  void check_header(std::span<const std::uint32_t> words) {
+    header.frame = words[4];
+    if (words[0] != (kStreamMagic << 16 | kStreamVersion)) fail(ErrorCode::HEADER);
+    const int width = static_cast<int>(words[1] & 0xFFFFU);
+    const int height = static_cast<int>(words[1] >> 16);
+    if (width < 1 || height < 1 || width > config.max_width || height > 32767) fail(ErrorCode::SIZE);
+    if (words[2] != param_hash(config)) fail(ErrorCode::PARAMS);
+    if (words[3] >> 24 != 0) fail("background has bits past its channels");
+    header = {width, height, words[3], words[4]};
+    header_seen = true;
+    rules.start(config, width, height);
+    at = kHeaderWords;
+    token = 1;
+  }
+
+  void check_token(std::span<const std::uint32_t> body) {
+    const auto kind = body[0] & 15U;
     const Token t = decode(config, layout, body);
-    if (const ErrorCode e = rules.accept(t); e != ErrorCode::NONE) fail_code(e);
+    if (const ErrorCode e = rules.accept(t); e != ErrorCode::NONE) fail(e);
     if (!padding_is_zero(body, layout.bits[kind])) fail("bits past the last field are not zero");
     ++counts.of_kind[kind];
     if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC) {
@@ -83,11 +90,50 @@ TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> wor
         for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
           if (!span_fits(s.color[c], s.dcolor[c], count, layout.op_color[c].bits)) fail("the span's colour overflows");
     }
-    at += n;
-    if (t.kind == Kind::END) break;
+    at += body.size();
+    if (t.kind == Kind::END)
+      ended = true;
+    else
+      ++token;
   }
-  if (at != words.size()) fail("words after END");
-  return counts;
+};
+
+FrameChecker::FrameChecker(const Config& config, std::string where, std::uint64_t offset)
+    : data_(std::make_unique<Data>(config, std::move(where), offset)) {}
+FrameChecker::~FrameChecker() = default;
+
+void FrameChecker::feed(std::span<const std::uint32_t> words) {
+  Data& d = *data_;
+  d.counts.words += words.size();
+  d.cutter.feed(words);
+  if (!d.header_seen) {
+    const auto header = d.cutter.take(kHeaderWords);
+    if (header.empty()) return;
+    d.check_header(header);
+  }
+  while (const std::uint32_t* first = d.cutter.peek()) {
+    if (d.ended) d.fail("words after END");
+    const std::size_t n = d.layout.words[*first & 15U];
+    if (n == 0) d.fail(ErrorCode::KIND);
+    const auto body = d.cutter.take(n);
+    if (body.empty()) return;
+    d.check_token(body);
+  }
+}
+
+TokenCounts FrameChecker::finish(FrameHeader* header) {
+  Data& d = *data_;
+  if (!d.header_seen) d.fail("the header is cut");
+  if (!d.ended) d.fail(ErrorCode::LAST_EARLY);
+  if (header != nullptr) *header = d.header;
+  return d.counts;
+}
+
+TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
+                        std::uint64_t offset, FrameHeader* header) {
+  FrameChecker checker(config, where, offset);
+  checker.feed(words);
+  return checker.finish(header);
 }
 
 }  // namespace kage

@@ -77,16 +77,38 @@ struct StreamFileWriter::Data {
     if (size != 0 && std::fwrite(data, 1, size, file) != size) fail("cannot write");
   }
 
-  void section(const char* tag, const void* data, std::size_t size) {
-    SectionHeader h{};
-    std::memcpy(h.tag, tag, 4);
-    h.crc = crc(0, data, size);
-    h.size = size;
-    headers_crc = crc(headers_crc, &h, sizeof h);
-    write(&h, sizeof h);
+  SectionHeader open_section{};
+  off_t open_at = 0;
+
+  void begin_section(const char* tag) {
+    open_at = ::ftello(file);
+    if (open_at < 0) fail("cannot write");
+    open_section = {};
+    std::memcpy(open_section.tag, tag, 4);
+    write(&open_section, sizeof open_section);
+  }
+
+  void add(const void* data, std::size_t size) {
+    open_section.crc = crc(open_section.crc, data, size);
+    open_section.size += size;
     write(data, size);
+  }
+
+  /// Size and checksum are known now: the header is written again.
+  void end_section() {
+    const SectionHeader& h = open_section;
     constexpr char zeros[8] = {};
-    write(zeros, padded(size) - size);
+    write(zeros, padded(h.size) - h.size);
+    headers_crc = crc(headers_crc, &h, sizeof h);
+    if (::fseeko(file, open_at, SEEK_SET) != 0) fail("cannot write");
+    write(&h, sizeof h);
+    if (::fseeko(file, 0, SEEK_END) != 0) fail("cannot write");
+  }
+
+  void section(const char* tag, const void* data, std::size_t size) {
+    begin_section(tag);
+    add(data, size);
+    end_section();
   }
 };
 
@@ -106,9 +128,19 @@ StreamFileWriter::StreamFileWriter(std::filesystem::path path, const Config& con
 
 StreamFileWriter::~StreamFileWriter() = default;
 
-void StreamFileWriter::frame(std::span<const std::uint32_t> words) {
-  data_->section("FRAM", words.data(), words.size_bytes());
+void StreamFileWriter::begin_frame() { data_->begin_section("FRAM"); }
+
+void StreamFileWriter::words(std::span<const std::uint32_t> words) { data_->add(words.data(), words.size_bytes()); }
+
+void StreamFileWriter::end_frame() {
+  data_->end_section();
   ++data_->frames;
+}
+
+void StreamFileWriter::frame(std::span<const std::uint32_t> w) {
+  begin_frame();
+  words(w);
+  end_frame();
 }
 
 void StreamFileWriter::finish() {

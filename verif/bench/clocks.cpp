@@ -61,7 +61,7 @@ int main() {
       c.max_width = kWidth;
       const auto rtl = cosim::make_rtl(cosim::find_model(c).library, c);
       const auto clocks = [&](const std::vector<std::uint32_t>& words) {
-        return static_cast<double>(rtl->frame(words).cycles);
+        return static_cast<double>(rtl->frame(words, [](int, std::span<const std::uint8_t>) {}).cycles);
       };
       const Layout layout(c);
       for (const auto& [what, kind] : {std::pair{What::op, Kind::OP}, {What::sp, Kind::SP}, {What::nc, Kind::NC}})

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace kage::cosim {
 namespace {
@@ -13,68 +14,91 @@ const char* channel_name(int channels, int channel) {
   return channels == 1 ? "grey" : kColors[channel];
 }
 
-/// `image` cut or filled with black to a size.
-Image fitted(const Image& image, int width, int height, int channels) {
-  Image out(width, height, channels);
-  if (image.channels != channels) return out;
-  const auto row = static_cast<std::size_t>(std::min(width, image.width)) * static_cast<std::size_t>(channels);
-  for (int y = 0; y < std::min(height, image.height); ++y) {
-    const auto from = image.data.begin() + static_cast<std::ptrdiff_t>(image.index(0, y));
-    std::copy(from, from + static_cast<std::ptrdiff_t>(row),
-              out.data.begin() + static_cast<std::ptrdiff_t>(out.index(0, y)));
-  }
-  return out;
-}
-
-std::optional<Difference> first_pixel(int frame, const FrameResult& expected, const FrameResult& actual) {
-  const Image& e = expected.image;
-  const Image& a = actual.image;
-  const int width = std::min(e.width, a.width);
-  const auto channels = static_cast<std::size_t>(e.channels);
-  const std::uint64_t present = a.data.size() / channels - actual.missing;
-  for (int y = 0; y < std::min(e.height, a.height); ++y) {
-    const std::size_t start = a.index(0, y);
-    const std::uint64_t left = present - std::min(present, start / channels);
-    const std::size_t n = std::min(static_cast<std::uint64_t>(width), left) * channels;
-    const std::uint8_t* pe = &e.data[e.index(0, y)];
-    const std::uint8_t* pa = &a.data[start];
-    const std::uint8_t* at = std::mismatch(pe, pe + n, pa).first;
-    if (at != pe + n) {
-      const auto offset = static_cast<int>(at - pe);
-      return Difference{frame,      y, offset / e.channels, channel_name(e.channels, offset % e.channels), *at,
-                        pa[offset], {}};
-    }
-    if (left < static_cast<std::uint64_t>(width)) {
-      const auto pixels = static_cast<std::int64_t>(a.data.size() / channels);
-      return Difference{
-          frame, y, static_cast<int>(left), "missing", pixels, static_cast<std::int64_t>(present), actual.misconduct};
-    }
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
-std::optional<Difference> first_difference(int frame, const FrameResult& expected, const FrameResult& actual) {
-  const Image& e = expected.image;
-  const Image& a = actual.image;
-  if (e.width > 0 && a.width > 0 && e.channels == a.channels)
-    if (auto pixel = first_pixel(frame, expected, actual)) return pixel;
+void Lines::add(std::span<const std::uint8_t> line) {
+  if (!repeats_.empty() && std::equal(line.begin(), line.end(), bytes_.end() - static_cast<std::ptrdiff_t>(length_))) {
+    ++repeats_.back();
+    return;
+  }
+  length_ = line.size();
+  bytes_.insert(bytes_.end(), line.begin(), line.end());
+  repeats_.push_back(1);
+}
+
+std::span<const std::uint8_t> Lines::front() const { return std::span(bytes_).subspan(next_ * length_, length_); }
+
+void Lines::pop() {
+  if (--repeats_[next_] == 0) ++next_;
+}
+
+void FrameComparison::actual(std::span<const std::uint8_t> line) {
+  const int y = lines_++;
+  const auto channels = static_cast<std::size_t>(channels_);
+  pixels_ += line.size() / channels;
+  std::span<const std::uint8_t> want;
+  if (!expected_.empty()) want = expected_.front().front();
+  const auto n = static_cast<std::ptrdiff_t>(std::min(want.size(), line.size()));
+  const auto at =
+      static_cast<std::size_t>(std::mismatch(want.begin(), want.begin() + n, line.begin()).first - want.begin());
+  if (at < static_cast<std::size_t>(n) && !first_)
+    first_ = Difference{frame_,
+                        y,
+                        static_cast<int>(at / channels),
+                        channel_name(channels_, static_cast<int>(at % channels)),
+                        want[at],
+                        line[at],
+                        {}};
+  if (line.size() != want.size() && !unlike_)
+    unlike_ = {y, static_cast<int>(want.size() / channels), static_cast<int>(line.size() / channels)};
+  if (keep_ && (first_ || unlike_)) {
+    if (kept_.empty()) {
+      kept_from_ = y;
+      kept_line_ = line.size();
+    }
+    kept_.insert(kept_.end(), line.begin(), line.end());
+  }
+  if (expected_.empty()) return;
+  expected_.front().pop();
+  if (expected_.front().empty()) expected_.pop_front();
+}
+
+std::optional<Difference> FrameComparison::finish(const FrameEnd& e, const FrameEnd& a) const {
+  const FrameStatus& es = e.status;
+  const FrameStatus& as = a.status;
   const auto whole = [&](int line, const char* field, std::int64_t want, std::int64_t got) {
-    return Difference{frame, line, -1, field, want, got, actual.misconduct};
+    return Difference{frame_, line, -1, field, want, got, a.misconduct};
   };
-  if (e.channels != a.channels && e.width > 0 && a.width > 0) return whole(-1, "channels", e.channels, a.channels);
-  if (e.width != a.width) return whole(-1, "width", e.width, a.width);
-  if (e.height != a.height) return whole(std::min(e.height, a.height), "height", e.height, a.height);
-  const FrameStatus& es = expected.status;
-  const FrameStatus& as = actual.status;
-  const int line = static_cast<int>(es.line);
+  if (first_) return first_;
+  if (es.width != as.width) return whole(-1, "width", es.width, as.width);
+  if (es.height != as.height) return whole(std::min(es.height, as.height), "height", es.height, as.height);
+  if (lines_ < es.height || (unlike_ && unlike_->actual < unlike_->expected))
+    return Difference{frame_,      unlike_ ? unlike_->line : lines_,   unlike_ ? unlike_->actual : 0,
+                      "missing",   std::int64_t{es.width} * es.height, static_cast<std::int64_t>(pixels_),
+                      a.misconduct};
+  if (lines_ > es.height) return whole(es.height, "height", es.height, lines_);
+  if (unlike_) return whole(unlike_->line, "width", unlike_->expected, unlike_->actual);
+  const auto line = static_cast<int>(es.line);
   if (es.error != as.error) return whole(line, "error", static_cast<int>(es.error), static_cast<int>(as.error));
   if (es.frame != as.frame) return whole(line, "error_frame", es.frame, as.frame);
   if (es.line != as.line) return whole(line, "error_line", es.line, as.line);
   if (es.token != as.token) return whole(line, "error_token", es.token, as.token);
-  if (expected.misconduct != actual.misconduct) return whole(-1, "port", 0, 1);
+  if (e.misconduct != a.misconduct) return whole(-1, "port", 0, 1);
   return std::nullopt;
+}
+
+Image FrameComparison::actual_image(const Image& expected) const {
+  Image image = expected;
+  if (expected.data.empty()) {
+    const auto width = static_cast<int>(kept_line_) / channels_;
+    image = Image(width, width == 0 ? 0 : static_cast<int>(kept_.size() / kept_line_), channels_);
+  }
+  // What is kept begins with the first difference; if there is none in the lines, it is that lines are missing.
+  const auto same = std::min(image.data.size(), image.index(0, kept_.empty() ? lines_ : kept_from_));
+  const auto have = std::min(image.data.size() - same, kept_.size());
+  const auto end = std::copy_n(kept_.begin(), have, image.data.begin() + static_cast<std::ptrdiff_t>(same));
+  std::fill(end, image.data.end(), std::uint8_t{0});
+  return image;
 }
 
 std::string describe(const Difference& d) {
@@ -90,12 +114,6 @@ std::string describe(const Difference& d) {
     text += fmt::format(", {}: expected {}, got {}", d.field, d.expected, d.actual);
   }
   return d.remark.empty() ? text : text + ": " + d.remark;
-}
-
-Image difference_picture(const Image& expected, const Image& actual) {
-  Image heat;
-  (void)diff_images(expected, fitted(actual, expected.width, expected.height, expected.channels), {}, &heat);
-  return heat;
 }
 
 }  // namespace kage::cosim

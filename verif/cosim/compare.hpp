@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "cosim/core.hpp"
+#include "kage/image.hpp"
 
 namespace kage::cosim {
 
@@ -21,14 +25,65 @@ struct Difference {
   std::string remark;  ///< more in words, or empty
 };
 
-/// Compare exactly: pixels in reading order, then size, then status, then conduct at the port. Nothing where all agree.
-std::optional<Difference> first_difference(int frame, const FrameResult& expected, const FrameResult& actual);
+/// Lines of one length, one after the other. Neighbours that are the same take room once, so the background that
+/// follows an error in a frame is one line.
+class Lines {
+ public:
+  void add(std::span<const std::uint8_t> line);
+  [[nodiscard]] bool empty() const { return next_ == repeats_.size(); }
+  [[nodiscard]] std::span<const std::uint8_t> front() const;
+  void pop();
+  [[nodiscard]] std::size_t bytes() const { return bytes_.size() + repeats_.size() * sizeof repeats_[0]; }
+
+ private:
+  std::size_t length_ = 0;
+  std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint32_t> repeats_;
+  std::size_t next_ = 0;
+};
+
+/// Compares a frame line by line, exactly: pixels in reading order, then size, then status, then conduct at the port.
+/// Keeps the lines that the expected core is ahead.
+class FrameComparison {
+ public:
+  /// With `keep`, what actual() was given from the first difference on is kept for actual_image().
+  FrameComparison(int frame, int channels, bool keep) : frame_(frame), channels_(channels), keep_(keep) {}
+
+  /// The next lines of the expected core. They must be here before those of the actual one.
+  void expect(Lines lines) {
+    if (!lines.empty()) expected_.push_back(std::move(lines));
+  }
+
+  /// The next line of the actual core.
+  void actual(std::span<const std::uint8_t> line);
+
+  /// Both frames have ended. Nothing where all agree.
+  std::optional<Difference> finish(const FrameEnd& expected, const FrameEnd& actual) const;
+
+  /// After finish(): what the actual core drew, given what the expected one did; the same above the first difference,
+  /// and black where pixels are missing.
+  [[nodiscard]] Image actual_image(const Image& expected) const;
+
+ private:
+  int frame_;
+  int channels_;
+  bool keep_;
+  std::deque<Lines> expected_;
+  int lines_ = 0;                    // that came from the actual core
+  std::uint64_t pixels_ = 0;         // in them
+  std::optional<Difference> first_;  // of pixels
+  struct Unlike {
+    int line;
+    int expected;
+    int actual;
+  };
+  std::optional<Unlike> unlike_;  // the first line of another length
+  int kept_from_ = 0;             // line
+  std::size_t kept_line_ = 0;     // its bytes
+  std::vector<std::uint8_t> kept_;
+};
 
 /// "frame 3, line 17, x 204, red: expected 12, got 13".
 std::string describe(const Difference& difference);
-
-/// Where both differ, at the size of `expected`: that dimmed, red where `actual` is unlike; what `actual` lacks counts
-/// as black.
-Image difference_picture(const Image& expected, const Image& actual);
 
 }  // namespace kage::cosim

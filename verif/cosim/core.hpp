@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Anything that turns the words of a frame into pixels and a status: the golden model, the RTL. What compares them
-// knows no more.
+// Anything that turns the words of a frame into lines of pixels and a status: the golden model, the RTL. What compares
+// them knows no more.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,12 @@
 
 #include "kage/core.hpp"
 #include "kage/defs.hpp"
-#include "kage/image.hpp"
 
 namespace kage::cosim {
 
-/// What a core made of a frame.
-struct FrameResult {
+/// How a core ended a frame.
+struct FrameEnd {
   FrameStatus status;
-  Image image;                ///< 0 x 0 after an error in the header
-  std::uint64_t missing = 0;  ///< pixels at the picture's end that never came; they are black in `image`
   std::string misconduct;     ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
   double seconds = 0;         ///< wall time inside the core
   std::uint64_t cycles = 0;   ///< core clock edges; 0 for a core without clock
@@ -27,6 +24,7 @@ struct FrameResult {
   std::uint64_t blocked = 0;  ///< of them, waiting for output
 };
 
+/// Words flow in and lines flow out: a core keeps a few lines at most, whatever the size of the frame.
 class Core {
  public:
   Core() = default;
@@ -34,8 +32,21 @@ class Core {
   Core(const Core&) = delete;
   Core& operator=(const Core&) = delete;
 
-  /// Work through one frame: all its words, TLAST with the beat of the last. Frames follow each other without a reset.
-  virtual FrameResult frame(std::span<const std::uint32_t> words) = 0;
+  [[nodiscard]] virtual int channels() const = 0;
+
+  /// The next words of the frame at hand, in pieces of any size. Lines that have come out go to `sink` before this
+  /// returns, from top to bottom.
+  virtual void feed(std::span<const std::uint32_t> words, const LineSink& sink) = 0;
+
+  /// The frame's words have all been fed, TLAST with the beat of the last. The other lines go to `sink`; the last one
+  /// is shorter than the others if pixels are missing. Frames follow each other without a reset.
+  virtual FrameEnd finish(const LineSink& sink) = 0;
+
+  /// A frame whose words are all there.
+  FrameEnd frame(std::span<const std::uint32_t> words, const LineSink& sink) {
+    feed(words, sink);
+    return finish(sink);
+  }
 };
 
 /// The golden model.

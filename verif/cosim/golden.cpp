@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
+#include <utility>
 
 #include "cosim/core.hpp"
+#include "cosim/stopwatch.hpp"
 
 namespace kage::cosim {
 namespace {
@@ -13,23 +13,27 @@ class Golden : public Core {
  public:
   explicit Golden(const Config& config) : channels_(config.channels), core_(config) {}
 
-  FrameResult frame(std::span<const std::uint32_t> words) override {
-    FrameResult result;
-    std::vector<std::uint8_t> pixels;
-    const auto start = std::chrono::steady_clock::now();
-    result.status = core_.frame(
-        words, [&](int, std::span<const std::uint8_t> line) { pixels.insert(pixels.end(), line.begin(), line.end()); });
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    result.image.width = result.status.width;
-    result.image.height = result.status.height;
-    result.image.channels = channels_;
-    result.image.data = std::move(pixels);
-    return result;
+  [[nodiscard]] int channels() const override { return channels_; }
+
+  void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
+    Stopwatch watch(seconds_);
+    core_.feed(words, watch.outside(sink));
+  }
+
+  FrameEnd finish(const LineSink& sink) override {
+    FrameEnd end;
+    {
+      Stopwatch watch(seconds_);
+      end.status = core_.finish(watch.outside(sink));
+    }
+    end.seconds = std::exchange(seconds_, 0);
+    return end;
   }
 
  private:
   int channels_;
   GoldenCore core_;
+  double seconds_ = 0;
 };
 
 }  // namespace

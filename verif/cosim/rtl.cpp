@@ -4,11 +4,13 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <chrono>
-#include <cstring>
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "cosim/stopwatch.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
 #include "rtl_model/rtl_model.h"
@@ -53,50 +55,106 @@ class Rtl : public Core {
   }
   ~Rtl() override { table_->destroy(model_); }
 
-  FrameResult frame(std::span<const std::uint32_t> words) override {
-    const auto start = std::chrono::steady_clock::now();
-    if (broken_) table_->reset(model_, 2);
-    if (broken_) errors_ = frames_ = 0;
-    broken_ = false;
-    table_->clear_pixels(model_);
-    table_->clear_stats(model_);
+  [[nodiscard]] int channels() const override { return config_.channels; }
 
-    FrameResult result;
-    const bool whole_header = words.size() >= kHeaderWords;
-    const std::uint32_t width = whole_header ? words[1] & 0xFFFF : 0;
-    const std::uint32_t height = whole_header ? words[1] >> 16 : 0;
-    const std::uint64_t pixels = std::uint64_t{width} * height;
-    table_->expect(model_, width, height);
-    table_->submit(model_, words.data(), words.size(), 1);
-    const int why = table_->run(model_, pixels == 0 ? std::numeric_limits<std::uint64_t>::max() : pixels,
-                                std::numeric_limits<std::uint64_t>::max());
-    if (why == KAGE_RTL_ASSERT) throw Error("RTL model: an assertion failed (its message is above)");
-    std::string trouble = why == KAGE_RTL_STUCK                   ? "the core hangs, with input waiting"
-                          : why == KAGE_RTL_PIXELS || pixels == 0 ? ""
-                                                                  : "the core went idle";
-    if (why == KAGE_RTL_PIXELS) trouble = wait_for_end();
-    result.status = status();
-    broken_ = why != KAGE_RTL_PIXELS || !trouble.empty();
+  void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
+    Stopwatch watch(seconds_);
+    open();
+    held_.insert(held_.end(), words.begin(), words.end());
+    announce();
+    if (!announced_ || stuck_ || held_.empty()) return;
+    // The last beat waits here: TLAST may belong to it.
+    const auto beat = static_cast<std::size_t>(config_.beat_words);
+    const std::size_t n = (held_.size() - 1) / beat * beat;
+    if (n == 0) return;
+    table_->submit(model_, held_.data(), n, 0);
+    held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(n));
+    stuck_ = checked(table_->run_dry(model_, kForever)) == KAGE_RTL_STUCK;
+    take_pixels(watch.outside(sink));
+  }
 
-    const bool header_error = result.status.error == ErrorCode::HEADER || result.status.error == ErrorCode::SIZE ||
-                              result.status.error == ErrorCode::PARAMS ||
-                              (result.status.error == ErrorCode::LAST_EARLY && result.status.token == 0);
-    if (header_error && why != KAGE_RTL_STUCK) trouble.clear();
-    if (!header_error) take_image(static_cast<int>(width), static_cast<int>(height), result);
-    result.status.width = result.image.width;
-    result.status.height = result.image.height;
-
-    kage_rtl_stats stats{};
-    table_->stats(model_, &stats);
-    result.misconduct = misconduct(stats, trouble);
-    result.cycles = stats.cycles;
-    result.starved = stats.input_starved;
-    result.blocked = stats.output_blocked;
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return result;
+  FrameEnd finish(const LineSink& sink) override {
+    FrameEnd end;
+    {
+      Stopwatch watch(seconds_);
+      open();
+      finish(end, watch.outside(sink));
+    }
+    end.seconds = std::exchange(seconds_, 0);
+    open_ = false;
+    return end;
   }
 
  private:
+  static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
+
+  static int checked(int why) {
+    if (why == KAGE_RTL_ASSERT) throw Error("RTL model: an assertion failed (its message is above)");
+    return why;
+  }
+
+  /// The first words of a frame are coming.
+  void open() {
+    if (open_) return;
+    open_ = true;
+    if (broken_) table_->reset(model_, 2);
+    if (broken_) errors_ = frames_ = 0;
+    broken_ = stuck_ = announced_ = false;
+    width_ = height_ = 0;
+    left_ = 0;
+    y_ = 0;
+    line_.clear();
+    held_.clear();
+    table_->clear_pixels(model_);
+    table_->clear_stats(model_);
+  }
+
+  /// Once the header is there whole, the model is told of the frame's size.
+  void announce() {
+    if (announced_ || held_.size() < kHeaderWords) return;
+    announced_ = true;
+    width_ = held_[1] & 0xFFFF;
+    height_ = held_[1] >> 16;
+    left_ = std::uint64_t{width_} * height_;
+    table_->expect(model_, width_, height_);
+  }
+
+  void finish(FrameEnd& end, const LineSink& sink) {
+    const bool any = width_ != 0 && height_ != 0;
+    int why = KAGE_RTL_STUCK;
+    if (!stuck_) {
+      table_->submit(model_, held_.data(), held_.size(), 1);
+      why = checked(table_->run(model_, any ? left_ : kForever, kForever));
+    }
+    std::string trouble;
+    if (why == KAGE_RTL_STUCK)
+      trouble = "the core hangs, with input waiting";
+    else if (why == KAGE_RTL_PIXELS)
+      trouble = wait_for_end();
+    else if (any)
+      trouble = "the core went idle";
+    end.status = status();
+    broken_ = why != KAGE_RTL_PIXELS || !trouble.empty();
+
+    const bool header_error = end.status.error == ErrorCode::HEADER || end.status.error == ErrorCode::SIZE ||
+                              end.status.error == ErrorCode::PARAMS ||
+                              (end.status.error == ErrorCode::LAST_EARLY && end.status.token == 0);
+    if (header_error && why != KAGE_RTL_STUCK) trouble.clear();
+    take_pixels(sink);
+    if (!line_.empty()) sink(static_cast<int>(y_), line_);
+    if (!header_error) {
+      end.status.width = static_cast<int>(width_);
+      end.status.height = static_cast<int>(height_);
+    }
+
+    kage_rtl_stats stats{};
+    table_->stats(model_, &stats);
+    end.misconduct = misconduct(stats, trouble);
+    end.cycles = stats.cycles;
+    end.starved = stats.input_starved;
+    end.blocked = stats.output_blocked;
+  }
+
   [[nodiscard]] int built_with(std::string_view name) const {
     for (std::uint32_t i = 0; i < table_->param_count; ++i)
       if (name == table_->param_names[i]) return table_->param_values[i];
@@ -133,14 +191,28 @@ class Rtl : public Core {
     return s;
   }
 
-  void take_image(int width, int height, FrameResult& result) {
+  /// Whole lines go to the sink, the beginning of another stays. Pixels past the frame's size are counted by the model.
+  void take_pixels(const LineSink& sink) {
     std::uint64_t count = 0;
     const std::uint8_t* pixels = table_->pixels(model_, &count);
-    result.image = Image(width, height, config_.channels);
-    const std::size_t have =
-        std::min<std::size_t>(result.image.data.size(), count * static_cast<std::size_t>(config_.channels));
-    if (have != 0) std::memcpy(result.image.data.data(), pixels, have);
-    result.missing = (result.image.data.size() - have) / static_cast<std::size_t>(config_.channels);
+    const auto channels = static_cast<std::size_t>(config_.channels);
+    const std::size_t line_bytes = std::size_t{width_} * channels;
+    count = std::min(count, left_);
+    left_ -= count;
+    std::span<const std::uint8_t> bytes(pixels, static_cast<std::size_t>(count) * channels);
+    while (!bytes.empty()) {
+      const auto part = bytes.first(std::min(bytes.size(), line_bytes - line_.size()));
+      bytes = bytes.subspan(part.size());
+      if (part.size() == line_bytes) {
+        sink(static_cast<int>(y_++), part);
+        continue;
+      }
+      line_.insert(line_.end(), part.begin(), part.end());
+      if (line_.size() < line_bytes) continue;
+      sink(static_cast<int>(y_++), line_);
+      line_.clear();
+    }
+    table_->clear_pixels(model_);
   }
 
   static std::string misconduct(const kage_rtl_stats& stats, const std::string& trouble) {
@@ -162,6 +234,18 @@ class Rtl : public Core {
   std::uint32_t frames_ = 0;
   std::uint32_t errors_ = 0;
   bool broken_ = false;
+
+  // Of the frame at hand:
+  bool open_ = false;
+  bool announced_ = false;
+  bool stuck_ = false;
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  std::uint64_t left_ = 0;           // pixels to come
+  std::uint32_t y_ = 0;              // of the line to come
+  std::vector<std::uint8_t> line_;   // the part of it that is here
+  std::vector<std::uint32_t> held_;  // not yet submitted
+  double seconds_ = 0;
 };
 
 }  // namespace

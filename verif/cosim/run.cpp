@@ -3,79 +3,260 @@
 
 #include <fmt/format.h>
 
-#include <future>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
 
-#include "image/save.hpp"
+#include "cosim/picture.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
 namespace {
 
-class Pictures {
- public:
-  Pictures(const RunOptions& options, Report& report) : options_(options), report_(report) {}
+/// A piece of a frame on its way to the actual core.
+struct Piece {
+  std::vector<std::uint32_t> words;
+  Lines lines;  // what the expected core made of them
+  struct End {
+    FrameEnd expected;
+    TokenCounts counts;
+    std::unique_ptr<FramePicture> picture;  // complete, and without its name
+  };
+  std::optional<End> end;  // the frame ends here
 
-  void save(int frame, const char* suffix, const Image& image) {
-    if (options_.out.empty() || image.data.empty()) return;
-    const auto path = options_.out / fmt::format("{}_{:04}{}.png", options_.name, frame, suffix);
-    save_image(files_, path, image);
-    report_.pictures.push_back(path.string());
+  [[nodiscard]] std::size_t bytes() const { return words.size() * sizeof words[0] + lines.bytes(); }
+};
+
+/// The actual core, and the verdict.
+class Comparer {
+ public:
+  Comparer(Core& actual, const RunOptions& options) : actual_(actual), options_(options) {}
+
+  /// False after the first difference: nothing more is wanted.
+  bool take(Piece piece) {
+    if (!comparison_) comparison_.emplace(report_.frames, actual_.channels(), !options_.out.empty());
+    comparison_->expect(std::move(piece.lines));
+    const LineSink sink = [this](int, std::span<const std::uint8_t> line) { comparison_->actual(line); };
+    actual_.feed(piece.words, sink);
+    return !piece.end || end_frame(*piece.end, actual_.finish(sink));
+  }
+
+  [[nodiscard]] Report& report() { return report_; }
+
+  /// There is a verdict: the pictures get their names.
+  void commit() { files_.commit(); }
+
+ private:
+  bool end_frame(Piece::End& end, const FrameEnd& a) {
+    const FrameEnd& e = end.expected;
+    const int frame = report_.frames++;
+    report_.width = e.status.width;
+    report_.height = e.status.height;
+    report_.pixels_compared += static_cast<std::uint64_t>(e.status.width) * static_cast<std::uint64_t>(e.status.height);
+    report_.spans += end.counts.spans;
+    report_.span_pixels += end.counts.span_pixels;
+    report_.cycles += a.cycles;
+    report_.starved += a.starved;
+    report_.blocked += a.blocked;
+    report_.expected_seconds += e.seconds;
+    report_.actual_seconds += a.seconds;
+    report_.first_difference = comparison_->finish(e, a);
+    if (end.picture && end.picture->drawn()) {
+      report_.pictures.push_back(end.picture->path().string());
+      if (report_.first_difference) expected_ = load_image(end.picture->temp());
+      end.picture->hand_over(files_);
+    }
+    if (report_.first_difference) {
+      report_.same = false;
+      if (!options_.out.empty()) show_difference(frame);
+      return false;
+    }
+    // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".
+    if (e.status.width == 0) throw Error(fmt::format("frame {}: the cores refuse it: {}", frame, describe(e.status)));
+    comparison_.reset();
+    return true;
+  }
+
+  void show_difference(int frame) {
+    const Image actual = comparison_->actual_image(expected_);
+    Image difference;
+    if (!expected_.data.empty()) (void)diff_images(expected_, actual, {}, &difference);
+    const auto save = [&](const char* suffix, const Image& image) {
+      if (image.data.empty()) return;
+      const auto path = options_.out / fmt::format("{}_{:04}{}.png", options_.name, frame, suffix);
+      save_image(files_, path, image);
+      report_.pictures.push_back(path.string());
+    };
+    save("_expected", expected_);
+    save("_actual", actual);
+    save("_difference", difference);
+  }
+
+  Core& actual_;
+  const RunOptions& options_;
+  Report report_;
+  TempFiles files_;  // the pictures of the report
+  Image expected_;   // of the frame with the difference
+  std::optional<FrameComparison> comparison_;
+};
+
+/// The comparer on a thread of its own, behind a queue that holds so much and no more.
+class Behind {
+ public:
+  Behind(Comparer& comparer, const std::function<void()>& wait)
+      : comparer_(comparer), wait_(wait), thread_([this] { work(); }) {}
+  ~Behind() {
+    end(true);
+    thread_.join();
+  }
+  Behind(const Behind&) = delete;
+  Behind& operator=(const Behind&) = delete;
+
+  /// Waits for room. False: nothing more is wanted.
+  bool put(Piece piece) {
+    const std::size_t bytes = piece.bytes();
+    std::unique_lock lock(mutex_);
+    until(lock, [&] { return stopped_ || bytes_ == 0 || bytes_ + bytes <= kAheadBytes; });
+    if (stopped_) return false;
+    bytes_ += bytes;
+    queue_.push_back(std::move(piece));
+    changed_.notify_all();
+    return true;
+  }
+
+  /// Wait until all that was put is worked off, or nothing more is wanted. Throws what the comparer threw.
+  void finish() {
+    end(false);
+    std::unique_lock lock(mutex_);
+    until(lock, [&] { return stopped_; });
+    if (error_) std::rethrow_exception(error_);
   }
 
   void commit() { files_.commit(); }
 
  private:
-  const RunOptions& options_;
-  Report& report_;
-  TempFiles files_;
+  template <class Condition>
+  void until(std::unique_lock<std::mutex>& lock, Condition condition) {
+    while (!changed_.wait_for(lock, std::chrono::milliseconds(100), condition)) {
+      if (!wait_) continue;
+      lock.unlock();
+      wait_();
+      lock.lock();
+    }
+  }
+
+  void end(bool at_once) {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    if (at_once) stopped_ = true;
+    changed_.notify_all();
+  }
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (!stopped_) {
+      changed_.wait(lock, [&] { return stopped_ || ended_ || !queue_.empty(); });
+      if (stopped_) break;
+      if (queue_.empty()) {
+        stopped_ = true;
+        break;
+      }
+      // The piece counts until it is worked off.
+      const std::size_t bytes = queue_.front().bytes();
+      Piece piece = std::move(queue_.front());
+      queue_.pop_front();
+      lock.unlock();
+      bool more = false;
+      std::exception_ptr error;
+      try {
+        more = comparer_.take(std::move(piece));
+      } catch (...) {
+        error = std::current_exception();
+      }
+      lock.lock();
+      bytes_ -= bytes;
+      error_ = error;
+      if (!more) stopped_ = true;
+      changed_.notify_all();
+    }
+    changed_.notify_all();
+  }
+
+  Comparer& comparer_;
+  const std::function<void()>& wait_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Piece> queue_;
+  std::size_t bytes_ = 0;
+  bool ended_ = false;    // nothing more will be put
+  bool stopped_ = false;  // nothing more will be taken
+  std::exception_ptr error_;
+  std::thread thread_;
 };
+
+/// Thrown through a feed when nothing more is wanted.
+struct Enough {};
+
+using Taker = std::function<bool(Piece)>;
+
+/// The expected core works through all frames; what it does is handed to `take`.
+void lead(int frames, const Feed& feed, Core& expected, const RunOptions& options, const Taker& take) {
+  const auto hand_on = [&](Piece& piece) {
+    if (!take(std::exchange(piece, {}))) throw Enough();
+  };
+  for (int i = 0; i < frames; ++i) {
+    if (options.begin) options.begin(i);
+    Piece piece;
+    std::unique_ptr<FramePicture> picture;
+    if (!options.out.empty())
+      picture = std::make_unique<FramePicture>(options.out / fmt::format("{}_{:04}.png", options.name, i));
+    const LineSink line = [&](int, std::span<const std::uint8_t> pixels) {
+      piece.lines.add(pixels);
+      if (picture) picture->line(pixels);
+    };
+    const TokenCounts counts = feed(i, [&](std::span<const std::uint32_t> words) {
+      piece.words.assign(words.begin(), words.end());
+      if (picture) picture->words(words);
+      expected.feed(words, line);
+      hand_on(piece);
+    });
+    const FrameEnd end = expected.finish(line);
+    if (picture) picture->close();
+    piece.end = Piece::End{end, counts, std::move(picture)};
+    hand_on(piece);
+  }
+}
 
 }  // namespace
 
 Report run(int frames, const Feed& feed, Core& expected, Core& actual, const RunOptions& options) {
-  Report report;
-  Pictures pictures(options, report);
-  std::vector<std::uint32_t> words;
-  std::vector<std::uint32_t> next;
-  const auto fetch = [&](int index, std::vector<std::uint32_t>& to) {
-    const auto from = feed(index);
-    to.assign(from.begin(), from.end());
-  };
-  for (int i = 0; i < frames; ++i) {
-    if (options.begin) options.begin(i);
-    if (i == 0) fetch(0, words);
-    auto other = std::async(options.two_threads ? std::launch::async : std::launch::deferred,
-                            [&] { return actual.frame(words); });
-    const FrameResult e = expected.frame(words);
-    pictures.save(i, "", e.image);
-    if (i + 1 < frames) fetch(i + 1, next);
-    const FrameResult a = other.get();
-
-    ++report.frames;
-    report.width = e.image.width;
-    report.height = e.image.height;
-    report.pixels_compared += static_cast<std::uint64_t>(e.image.width) * static_cast<std::uint64_t>(e.image.height);
-    report.cycles += a.cycles;
-    report.starved += a.starved;
-    report.blocked += a.blocked;
-    report.expected_seconds += e.seconds;
-    report.actual_seconds += a.seconds;
-    report.first_difference = first_difference(i, e, a);
-    if (report.first_difference) {
-      report.same = false;
-      pictures.save(i, "_expected", e.image);
-      pictures.save(i, "_actual", a.image);
-      if (!e.image.data.empty()) pictures.save(i, "_difference", difference_picture(e.image, a.image));
-      pictures.commit();
-      return report;
+  Comparer comparer(actual, options);
+  if (options.two_threads) {
+    Behind behind(comparer, options.wait);
+    try {
+      lead(frames, feed, expected, options, [&](Piece piece) { return behind.put(std::move(piece)); });
+      behind.finish();
+    } catch (const Enough&) {
+      behind.finish();
+    } catch (const std::exception&) {
+      // A frame that cannot be made is as far as it goes; a difference before it counts, however far behind.
+      behind.finish();
+      if (comparer.report().same) throw;
     }
-    // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".
-    if (e.image.data.empty()) throw Error(fmt::format("frame {}: the cores refuse it: {}", i, describe(e.status)));
-    words.swap(next);
+  } else {
+    try {
+      lead(frames, feed, expected, options, [&](Piece piece) { return comparer.take(std::move(piece)); });
+    } catch (const Enough&) {
+    }
   }
-  if (report.frames == 0) throw Error("no frame to compare");
-  pictures.commit();
-  return report;
+  if (comparer.report().frames == 0) throw Error("no frame to compare");
+  comparer.commit();
+  return std::move(comparer.report());
 }
 
 }  // namespace kage::cosim

@@ -220,6 +220,17 @@ struct kage_rtl {
     }
   }
 
+  int run_dry(std::uint64_t max_clocks) {
+    quiet = 0;
+    for (std::uint64_t n = 0;; ++n) {
+      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (queue.empty()) return KAGE_RTL_DRY;
+      if (quiet >= kIdleClocks) return KAGE_RTL_STUCK;
+      if (n >= max_clocks) return KAGE_RTL_LIMIT;
+      clock();
+    }
+  }
+
   int read(std::uint32_t address, std::uint32_t* value) {
     enter();
     top->s_axil_arvalid_i = 1;
@@ -287,6 +298,7 @@ const kage_rtl_table kTable = {
       if (width > 0 && height > 0) m->expected.push_back({width, height});
     },
     [](kage_rtl* m, std::uint64_t pixels, std::uint64_t clocks) { return m->run(pixels, clocks); },
+    [](kage_rtl* m, std::uint64_t clocks) { return m->run_dry(clocks); },
     [](kage_rtl* m, std::uint64_t* count) -> const std::uint8_t* {
       *count = m->pixel_count;
       return m->pixels.data();

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 1u
+#define KAGE_RTL_ABI 2u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -27,7 +27,9 @@ enum {
   KAGE_RTL_IDLE = 1,   /* all input is taken and nothing moves any more */
   KAGE_RTL_LIMIT = 2,  /* the clocks allowed are used up */
   KAGE_RTL_STUCK = 3,  /* input is waiting, output is ready, and nothing moves: a hang */
-  KAGE_RTL_ASSERT = 4 /* an assertion in the RTL failed (its message is on standard error); only destroy() may follow */
+  KAGE_RTL_ASSERT =
+      4,           /* an assertion in the RTL failed (its message is on standard error); only destroy() may follow */
+  KAGE_RTL_DRY = 5 /* every queued beat is taken */
 };
 
 /* All counts are since create() or clear_stats(). */
@@ -75,6 +77,10 @@ typedef struct {
   /* Let the clock run until the model holds at least `pixels` undelivered-to-you pixels, or for any other reason above.
    * With pixels = UINT64_MAX it runs until idle. */
   int (*run)(kage_rtl*, uint64_t pixels, uint64_t max_clocks);
+
+  /* Let the clock run until every queued beat is taken, and not one clock more, so that a frame submitted piece by
+   * piece takes the clocks it would have taken at once. Comes back with KAGE_RTL_DRY, LIMIT, STUCK or ASSERT. */
+  int (*run_dry)(kage_rtl*, uint64_t max_clocks);
 
   /* The pixels that came since the last clear_pixels(): CHANNELS bytes each, channel 0 first. Valid until time passes.
    */

@@ -68,10 +68,9 @@ Report compare(const std::string& fault, const LineMaker& opaque, const LineMake
   RtlOptions options;
   options.backpressure_percent = backpressure;
   const auto rtl = make_rtl(model.library, config(), options);
-  std::vector<std::uint32_t> words;
-  const auto feed = [&](int frame) {
-    words = make(frame, opaque, volumes);
-    return std::span<const std::uint32_t>(words);
+  const auto feed = [&](int frame, const WordSink& sink) {
+    sink(make(frame, opaque, volumes));
+    return TokenCounts{};
   };
   return run(kFrames, feed, *golden, *rtl, {});
 }

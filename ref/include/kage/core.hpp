@@ -37,8 +37,15 @@ class GoldenCore {
   GoldenCore(GoldenCore&&) noexcept;
   GoldenCore& operator=(GoldenCore&&) noexcept;
 
-  /// Work through one frame: `words` up to and with TLAST's beat. The last beat is filled with zeros up to BEAT_WORDS,
-  /// as the port does it. Errors in the words are no exceptions but a status, and background pixels.
+  /// The next words of the frame at hand, in pieces of any size. Lines go to `sink` as they end; no more than a line
+  /// and a token are kept. Errors in the words are no exceptions but a status, and background pixels.
+  void feed(std::span<const std::uint32_t> words, const LineSink& sink);
+
+  /// The frame's words have all been fed, TLAST with the beat of the last. That beat is filled with zeros up to
+  /// BEAT_WORDS, as the port does it. What is fed next is the next frame.
+  FrameStatus finish(const LineSink& sink);
+
+  /// A frame whose words are all there: what was fed before without finish() is forgotten, then feed() and finish().
   FrameStatus frame(std::span<const std::uint32_t> words, const LineSink& sink);
 
  private:

@@ -90,9 +90,28 @@ struct TokenCounts {
   TokenCounts& operator+=(const TokenCounts& other);
 };
 
-/// Check a whole frame as strictly as a file is: every field in its range, order of tokens, bits past the last field
-/// zero, no span whose depth or colour overflows its accumulator. Returns the counts. On a fault throws Error that
-/// names frame, line, token and byte offset; `where` opens the message and `offset` is that of the first word.
+/// Checks a frame whose words come in pieces, as strictly as a file is: every field in its range, order of tokens, bits
+/// past the last field zero, no span whose depth or colour overflows its accumulator. On a fault feed() or finish()
+/// throws Error that names frame, line, token and byte offset; `where` opens the message and `offset` is that of the
+/// first word.
+class FrameChecker {
+ public:
+  FrameChecker(const Config& config, std::string where, std::uint64_t offset);
+  ~FrameChecker();
+  FrameChecker(const FrameChecker&) = delete;
+  FrameChecker& operator=(const FrameChecker&) = delete;
+
+  void feed(std::span<const std::uint32_t> words);
+
+  /// After the last words: the counts.
+  TokenCounts finish(FrameHeader* header = nullptr);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// The same for a frame whose words are all there.
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header = nullptr);
 
@@ -104,7 +123,14 @@ class StreamFileWriter {
   StreamFileWriter(const StreamFileWriter&) = delete;
   StreamFileWriter& operator=(const StreamFileWriter&) = delete;
 
+  /// A frame in pieces: begin_frame(), its words, end_frame(). No piece is kept.
+  void begin_frame();
+  void words(std::span<const std::uint32_t> words);
+  void end_frame();
+
+  /// A frame whose words are all there.
   void frame(std::span<const std::uint32_t> words);
+
   void finish();
 
  private:

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Frames and bands of lines flow through: peak memory grows neither with a frame's height nor with the number of frames.
+# The tall frames hold 14 MB of pixels, or 28 MB of words (knot): what keeps either is seen. Programs begin at some 130 MB, nearly all
+# of it shared libraries.
+. "$(dirname "$0")/common.bash"
+
+# peak COMMAND...: the command's peak resident memory in KiB, in $kib.
+peak() {
+  kib=$(python3 - "$@" 2>stderr <<'PY'
+import resource, subprocess, sys
+rc = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL).returncode
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss if rc == 0 else 0)
+PY
+  ) || kib=0
+  [ "$kib" -gt 0 ] || { fail "$*"; sed 's/^/    /' stderr; }
+}
+
+# flat TALL COMMAND...: {H} stands for the frame's height, 480 or TALL, {N} for the number of frames.
+flat() {
+  local high=$1 low tall many command
+  shift
+  command=("${@//'{H}'/480}")
+  peak "${command[@]//'{N}'/1}"
+  low=$kib
+  peak "${command[@]//'{N}'/12}"
+  many=$kib
+  command=("${@//'{H}'/$high}")
+  peak "${command[@]//'{N}'/1}"
+  tall=$kib
+  echo "$2: $low KiB for 640x480, $tall for 640x$high, $many for 12 frames of 640x480"
+  [ $((tall - low)) -le 8192 ] || fail "$2: $((tall - low)) KiB more for a frame of $high lines"
+  [ $((many - low)) -le 8192 ] || fail "$2: $((many - low)) KiB more for 12 frames than for one"
+}
+
+"$kage" model default >/dev/null || fail "no RTL model"
+flat 7680 "$kage" cosim courtyard --size '640x{H}' --frames '{N}' --out c
+flat 7680 "$kage" render courtyard --size '640x{H}' --frames '{N}' --out r
+flat 3840 "$kage" stream knot --size '640x{H}' --frames '{N}' --out s.kage
+done_testing

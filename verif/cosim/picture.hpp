@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "image/save.hpp"
+
+namespace kage::cosim {
+
+/// The picture of a frame, written as the frame flows by: its words tell the size, its lines the rest.
+class FramePicture {
+ public:
+  explicit FramePicture(std::filesystem::path path) : path_(std::move(path)) {}
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  /// The next words of the frame, before their lines.
+  void words(std::span<const std::uint32_t> words) {
+    for (std::size_t i = 0; i < words.size() && seen_ < head_.size(); ++i) head_[seen_++] = words[i];
+  }
+
+  /// The next line from the top. The file is begun with the first.
+  void line(std::span<const std::uint8_t> pixels) {
+    if (!writer_) {
+      const auto width = static_cast<int>(head_[1] & 0xFFFF);
+      const auto height = static_cast<int>(head_[1] >> 16);
+      writer_ =
+          std::make_unique<ImageWriter>(path_, width, height, width == 0 ? 0 : static_cast<int>(pixels.size()) / width);
+    }
+    writer_->line(pixels);
+  }
+
+  /// All lines are there, or none: a frame without pixels has no picture.
+  void close() {
+    if (writer_) writer_->close();
+  }
+
+  /// Whether there is one.
+  [[nodiscard]] bool drawn() const { return writer_ != nullptr; }
+
+  /// Where the complete picture lies.
+  [[nodiscard]] const std::filesystem::path& temp() const { return writer_->temp(); }
+
+  /// The complete picture, if there is one, is to get its name with the others of `files`.
+  void hand_over(TempFiles& files) {
+    if (writer_) writer_->hand_over(files);
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::array<std::uint32_t, 2> head_{};
+  std::size_t seen_ = 0;
+  std::unique_ptr<ImageWriter> writer_;
+};
+
+}  // namespace kage::cosim
