@@ -36,6 +36,7 @@ constexpr std::size_t kSectionHeader = 16;
 static_assert(std::endian::native == std::endian::little, "stream files are read and written in place");
 
 std::uint32_t crc(std::uint32_t seed, const void* data, std::size_t size) {
+  if (size == 0) return seed;  // zlib starts anew where there is no data to point to
   return static_cast<std::uint32_t>(crc32_z(seed, static_cast<const Bytef*>(data), size));
 }
 
