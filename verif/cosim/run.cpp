@@ -137,8 +137,6 @@ class Behind {
     if (error_) std::rethrow_exception(error_);
   }
 
-  void commit() { files_.commit(); }
-
  private:
   template <class Condition>
   void until(std::unique_lock<std::mutex>& lock, Condition condition) {

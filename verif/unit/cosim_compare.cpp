@@ -316,19 +316,19 @@ TEST_CASE("lines that are the same take room once") {
 }
 
 TEST_CASE("a run without a verdict leaves the folder as it was") {
-  const fs::path folder = fs::temp_directory_path() / ("kage-cosim-" + std::to_string(getpid()));
-  fs::create_directories(folder);
-  std::ofstream(folder / "frame_0000.png") << "of an earlier run";
-  FakeCore good;
-  FakeCore bad([](std::uint32_t frame, FrameResult&) {
-    if (frame == 2) throw std::runtime_error("stalled");
-  });
-  RunOptions options;
-  options.out = folder;
-  CHECK_THROWS_WITH(run(3, feed, good, bad, options), "stalled");
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
-  CHECK(names == std::set<std::string>{"frame_0000.png"});
-  CHECK(fs::file_size(folder / "frame_0000.png") == 17);
-  fs::remove_all(folder);
+  for (const bool two_threads : {false, true}) {
+    const Folder folder;
+    std::ofstream(folder.path / "frame_0000.png") << "of an earlier run";
+    FakeCore good;
+    FakeCore bad;
+    bad.spoil_end = [](std::uint32_t frame, FrameEnd&) {
+      if (frame == 2) throw std::runtime_error("stalled");
+    };
+    RunOptions options;
+    options.out = folder.path;
+    options.two_threads = two_threads;
+    CHECK_THROWS_WITH(run(3, small, good, bad, options), "stalled");
+    CHECK(folder.names() == std::set<std::string>{"frame_0000.png"});
+    CHECK(fs::file_size(folder.path / "frame_0000.png") == 17);
+  }
 }
