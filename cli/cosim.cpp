@@ -103,6 +103,7 @@ void add_cosim(CLI::App& app, Action& action) {
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
       "The RTL model of a configuration is built on first use and kept in ~/.cache/kage/models.\n"
+      "The pictures appear together when there is a verdict.\n"
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   const auto o = std::make_shared<CosimCommand>();
   o->out = "out";

@@ -78,7 +78,8 @@ void add_render(CLI::App& app, Action& action) {
   CLI::App* c = add_command(app, "render", "Draw a scene or a stream with the golden model",
                             "  kage render courtyard --out pictures\n"
                             "  kage render horse.3ds --size 800x600 --frames 1\n"
-                            "  kage render courtyard.kage --exr --json -");
+                            "  kage render courtyard.kage --exr --json -\n"
+                            "The pictures appear together when the last one is drawn.");
   const auto o = std::make_shared<RenderCommand>();
   o->out = "out";
   c->add_option("SCENE", o->input,
