@@ -26,7 +26,7 @@ std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int 
   SpanToken s;
   s.xl = xl;
   s.xr = xr;
-  s.z = std::int64_t{100} << c.z_frac;
+  s.z = std::int64_t{1} << (c.z_bits + c.z_frac - 1);  // the middle, whatever the width
   for (int y = 0; y < height; ++y) {
     for (int i = 0; i < tokens; ++i) out.op(s);
     out.eol(y);
