@@ -20,9 +20,10 @@ std::string file_name;
 // mmap() is a plain system call on Linux and safe here, though POSIX does not list it.
 void on_bus(int number, siginfo_t* info, void*) {
   const int saved = errno;
-  const std::uintptr_t page = reinterpret_cast<std::uintptr_t>(info->si_addr) & ~(page_size - 1);
-  const bool zeros = info->si_code == BUS_ADRERR && mmap(reinterpret_cast<void*>(page), page_size, PROT_READ,
-                                                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
+  char* page = static_cast<char*>(info->si_addr);
+  page -= reinterpret_cast<std::uintptr_t>(page) % page_size;
+  const bool zeros = info->si_code == BUS_ADRERR &&
+                     mmap(page, page_size, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
   if (zeros)
     lost = 1;
   else
