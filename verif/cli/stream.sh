@@ -139,7 +139,8 @@ done
 # Interruption leaves no file behind.
 "$kage" stream courtyard --size 1280x960 --frames 200 --out long.kage >/dev/null 2>err &
 pid=$!
-sleep 1
+# A shell's background job ignores SIGINT until the program says otherwise, which it has when its file is there.
+for ((i = 0; i < 600; ++i)); do [ -z "$(find . -name '*long*')" ] || break; sleep 0.1; done
 kill -INT $pid
 rc=0
 wait $pid || rc=$?

@@ -278,8 +278,8 @@ TEST_CASE("an exception in either core or in the feed ends the run, and leaves n
 
 TEST_CASE("the expected core runs ahead by so much and no more, whatever the height and the number of frames") {
   constexpr std::uint32_t kWidth = 1000;
-  constexpr std::size_t kLine = kWidth * 3;
-  constexpr std::uint32_t kPiece = 16;
+  constexpr std::size_t kLine = std::size_t{kWidth} * 3;
+  constexpr std::size_t kPiece = 16;
   for (const std::uint32_t height : {30'000U, 100U}) {
     std::atomic<std::int64_t> ahead{0};
     std::int64_t most = 0;
@@ -290,7 +290,7 @@ TEST_CASE("the expected core runs ahead by so much and no more, whatever the hei
       if (y == 0) std::this_thread::sleep_for(std::chrono::milliseconds(height == 100 ? 1 : 300));
       --ahead;
     };
-    const Report r = run(height == 100 ? 300 : 1, feed_of(kWidth, height, kPiece), fast, slow, {});
+    const Report r = run(height == 100 ? 300 : 1, feed_of(kWidth, height, std::uint32_t{kPiece}), fast, slow, {});
     CHECK(r.same);
     CHECK(ahead == 0);
     CAPTURE(height, most);
