@@ -154,6 +154,7 @@ TEST_CASE("family 4: vertices on pixel centres and edges through them at all slo
 TEST_CASE("family 5: a fan of 1000 triangles round a pixel centre has one owner for it, and for every other pixel") {
   const ScreenVertex hub{40 * 256 + 128, 30 * 256 + 128};
   std::vector<ScreenVertex> rim;
+  rim.reserve(1000);
   // 1000 points on a square, in order.
   for (int i = 0; i < 250; ++i) rim.push_back({hub.x - 6000 + i * 48, hub.y - 6000});
   for (int i = 0; i < 250; ++i) rim.push_back({hub.x + 6000, hub.y - 6000 + i * 48});
@@ -268,10 +269,9 @@ TEST_CASE("family 11: a frame moved by whole pixels within the screen gives the 
         const int fx = x - dx;
         const int fy = y - dy;
         const bool inside = fx >= 0 && fx < kWidth && fy >= 0 && fy < kHeight;
-        wrong +=
-            b[static_cast<std::size_t>(y * kWidth + x)] != (inside ? a[static_cast<std::size_t>(fy * kWidth + fx)] : 0U)
-                ? 1U
-                : 0U;
+        const int from = fy * kWidth + fx;
+        const int to = y * kWidth + x;
+        wrong += b[static_cast<std::size_t>(to)] != (inside ? a[static_cast<std::size_t>(from)] : 0U) ? 1U : 0U;
       }
     CHECK(wrong == 0);
   }
@@ -321,7 +321,8 @@ TEST_CASE("family 13: spans of no, one and all pixels write 0, 1, W; joints at r
     for (int x = 0; x < kWidth;) {
       const int to = std::min(kWidth, x + random.in(0, 9));
       spans.push_back(span_at(x, to, 1000 - color, color));
-      std::fill(expected.begin() + 3 * x, expected.begin() + 3 * to, static_cast<std::uint8_t>(color));
+      std::fill(expected.begin() + std::ptrdiff_t{3} * x, expected.begin() + std::ptrdiff_t{3} * to,
+                static_cast<std::uint8_t>(color));
       x = to;
       ++color;
     }

@@ -16,7 +16,7 @@ constexpr int kWidth = 96;
 constexpr int kHeight = 40;
 
 std::uint32_t pixel(const std::vector<std::uint32_t>& p, int x, int y) {
-  return p[static_cast<std::size_t>(y * kWidth + x)];
+  return p[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)];
 }
 
 }  // namespace
@@ -65,7 +65,10 @@ TEST_CASE("family 15: a plane past either end is clamped, not wrapped") {
     b.add(rectangle(0, 0, kWidth, kHeight), plane(8e6), {1, 1, 1});
     b.add(rectangle(0, 0, kWidth, kHeight), plane(8e6, slope, 0, kWidth / 2, 0), {2, 2, 2});
     const auto p = draw(b.frame(), Config{});
-    for (int x = 0; x < kWidth; ++x) CHECK(pixel(p, x, 5) == ((x - kWidth / 2) * slope < 0 ? 0x020202U : 0x010101U));
+    for (int x = 0; x < kWidth; ++x) {
+      const int along = x - kWidth / 2;
+      CHECK(pixel(p, x, 5) == (along * slope < 0 ? 0x020202U : 0x010101U));
+    }
   }
 }
 
@@ -152,7 +155,9 @@ TEST_CASE("family 19: colour from 0 to 255 and back is in range and monotone") {
           std::vector<std::uint8_t> p;
           core.frame(words, [&p](int, std::span<const std::uint8_t> line) { p.assign(line.begin(), line.end()); });
           CAPTURE(frac, channels, up, width);
-          const auto at = [&](int x) { return int{p[static_cast<std::size_t>(x * channels)]}; };
+          const auto at = [&](int x) {
+            return int{p[static_cast<std::size_t>(x) * static_cast<std::size_t>(channels)]};
+          };
           CHECK(at(0) == (up ? 0 : 255));
           for (int x = 1; x < width; ++x) REQUIRE((up ? at(x) >= at(x - 1) : at(x) <= at(x - 1)));
           // Half a step is rounding, the rest the slope's error: (k + 1) 2^-(f+1).

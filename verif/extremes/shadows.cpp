@@ -122,7 +122,9 @@ TEST_CASE("family 22: nested, overlapping and touching casters in any order give
       add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
       // In threes: a box, one around it, and one that touches it.
       for (const int i : order) {
-        const glm::dvec3 centre{(i / 3 % 5) * 1.5 - 3, 0, (i / 15) * 1.5 - 3};
+        const int column = i / 3 % 5;
+        const int row = i / 15;
+        const glm::dvec3 centre{column * 1.5 - 3, 0, row * 1.5 - 3};
         if (i % 3 == 2)
           add_solid(f, box_solid(), centre + glm::dvec3(0.4, 0, 0), {0.2, 0.2, 0.2}, Turn{}, {1, 1, 1});
         else

@@ -79,7 +79,7 @@ void ramp_test(const Shape& s) {
       top.edge();
       history.push_front(walker);
 
-      const auto age = static_cast<std::size_t>(levels + 2);
+      const auto age = static_cast<std::size_t>(levels) + 2;
       if (history.size() <= age || !history[age].valid) continue;
       const Held& h = history[age];
       for (int lane = 0; lane < s.lanes; ++lane) {

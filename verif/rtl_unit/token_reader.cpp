@@ -70,6 +70,7 @@ void reader_test(int beat) {
     const int out_stall = stall_percent(dice);
     const int frames = 12;
     std::vector<Words> all;
+    all.reserve(frames);
     for (int i = 0; i < frames; ++i) all.push_back(random_frame(dice, beat));
     std::size_t in_frame = 0, in_at = 0, out_frame = 0, out_token = 0;
     std::vector<Expected> expected = tokens_of(all[0], beat);

@@ -42,7 +42,7 @@ struct Solid {
 
 inline Solid box_solid() {
   Solid s;
-  for (unsigned i = 0; i < 8; ++i) s.vertices.push_back({i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1});
+  for (unsigned i = 0; i < 8; ++i) s.vertices.emplace_back(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1);
   for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
                                                 {1, 3, 7, 5},
                                                 {0, 1, 5, 4},
