@@ -33,7 +33,7 @@ json d.json 'len(j["degraded"])>0'
 trouble "MAX_WIDTH" "$kage" render courtyard --size 300x32 --frames 1 --config tiny --degrade --out lacking
 
 # Wider than all named configurations: the message shows the file to write, and that file does.
-for size in 1921x4 32766x1; do
+for size in 3841x4 32766x1; do
   trouble "--config FILE can, with this line in it: {" "$kage" render courtyard --size $size --frames 1 --out lacking
   sed 's/.*in it: //' stderr >wide.yaml
   expect 0 "$kage" render courtyard --size $size --frames 1 --config wide.yaml --out wide --json w.json

@@ -248,13 +248,12 @@ TEST_CASE("an exception in either core or in the feed ends the run, and leaves n
       if (frame == 1 && y == 3) throw std::runtime_error("stalled");
     };
     CHECK_THROWS_WITH(run(3, small, good, bad, options), "stalled");
-    CHECK(folder.names() == std::set<std::string>{"frame_0000.png"});
-    fs::remove(folder.path / "frame_0000.png");
+    CHECK(folder.names().empty());
     FakeCore other;
     FakeCore bad_too;
     bad_too.spoil_line = bad.spoil_line;
     CHECK_THROWS_WITH(run(3, small, bad_too, other, options), "stalled");
-    CHECK(folder.names() == std::set<std::string>{"frame_0000.png"});
+    CHECK(folder.names().empty());
 
     // A frame that cannot be made does not hide a difference before it, however far behind its comparison is.
     const Feed broken = [](int index, const WordSink& sink) {
