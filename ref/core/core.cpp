@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/pixel_line.hpp"
+#include "core/tree_core.hpp"
 #include "kage/stream.hpp"
 #include "stream/cutter.hpp"
 #include "stream/rules.hpp"
@@ -13,7 +14,7 @@
 namespace kage {
 
 struct GoldenCore::Data {
-  explicit Data(const Config& c) : config(c), layout(c), pixels(c) {}
+  explicit Data(const Config& c) : config(c), layout(c), pixels(c), tree(c) {}
 
   /// Where in a frame the core is.
   enum class At { header, lines, ended, failed };
@@ -21,6 +22,7 @@ struct GoldenCore::Data {
   Config config;
   Layout layout;
   PixelLine pixels;
+  TreeCore tree;
   TokenRules rules;
   WordCutter cutter;
   std::vector<std::uint8_t> out;
@@ -46,6 +48,15 @@ struct GoldenCore::Data {
     switch (t.kind) {
       case Kind::SHADE:
         pixels.set_shade(t.shade);
+        break;
+      case Kind::FACE:
+        tree.add_face(t.segment);
+        break;
+      case Kind::SEG:
+        if (rules.outcome().taken) tree.add_segment(t.segment);
+        break;
+      case Kind::TREE:
+        pixels.tree(tree.take_line());
         break;
       case Kind::OP:
         pixels.op(t.span);
@@ -102,6 +113,7 @@ struct GoldenCore::Data {
     status.height = static_cast<int>(h[1] >> 16);
     rules.start(config, status.width, status.height);
     pixels.start(status.width, h[3], 0);
+    tree.start(status.width);
     out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(config.channels));
     taken = kHeaderWords;
     token = 1;
@@ -125,7 +137,13 @@ struct GoldenCore::Data {
       const auto body = cutter.take(n);
       if (body.empty()) return;
       const Token t = decode(config, layout, body);
-      if (const ErrorCode e = rules.accept(t); e != ErrorCode::NONE) return fail(e, sink);
+      if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) {
+        if (rules.fault().code != ErrorCode::NONE) {
+          status.unit = rules.fault().unit;
+          token = rules.fault().token;
+        }
+        return fail(e, sink);
+      }
       if (t.kind == Kind::END) {
         at = At::ended;
         return;

@@ -38,6 +38,15 @@ void PixelLine::start(int width, std::uint32_t background, std::uint32_t shade) 
   std::fill(fsf_.begin(), fsf_.end(), 0U);
 }
 
+void PixelLine::tree(const TreeLine& line) {
+  for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
+    const auto z = static_cast<std::int32_t>(line.key[x] >> TreeLine::kIndexBits);
+    const bool front = z < zb_[x];
+    attr_[x] = front ? line.attr[x] : attr_[x];
+    zb_[x] = front ? z : zb_[x];
+  }
+}
+
 void PixelLine::op(const SpanToken& s) {
   const DepthRamp ramp = depth_ramp(config_, s);
   const std::uint32_t lit = s.lit ? kLit : 0;

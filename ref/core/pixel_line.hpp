@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/expansion_unit.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {
@@ -19,12 +20,13 @@ class PixelLine {
   void start(int width, std::uint32_t background, std::uint32_t shade);
   void set_shade(std::uint32_t shade) { shade_ = shade; }
 
-  void op(const SpanToken& s);     ///< where Z < ZB: Z, colour and lit are written
-  void sp(const SpanToken& s);     ///< where Z < ZB: DSF += w
-  void nc(int xl, int xr, int w);  ///< DSF += w
-  void inside(int w);              ///< IF: bias += w
-  void ev(int xl, int xr);         ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
-  void resolve();                  ///< darken what is lit and in shadow
+  void tree(const TreeLine& line);  ///< as OP over the whole line
+  void op(const SpanToken& s);      ///< where Z < ZB: Z, colour and lit are written
+  void sp(const SpanToken& s);      ///< where Z < ZB: DSF += w
+  void nc(int xl, int xr, int w);   ///< DSF += w
+  void inside(int w);               ///< IF: bias += w
+  void ev(int xl, int xr);          ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
+  void resolve();                   ///< darken what is lit and in shadow
 
   /// The line's pixels as bytes; all state is cleared. `blank`: the line is background whatever was drawn.
   void finish(bool blank, std::span<std::uint8_t> out);

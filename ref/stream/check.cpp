@@ -77,8 +77,9 @@ struct FrameChecker::Data {
   void check_token(std::span<const std::uint32_t> body) {
     const auto kind = body[0] & 15U;
     const Token t = decode(config, layout, body);
-    if (const ErrorCode e = rules.accept(t); e != ErrorCode::NONE) fail(e);
+    if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) fail(e);
     if (!padding_is_zero(body, layout.bits[kind])) fail("bits past the last field are not zero");
+    if (t.kind == Kind::SEG && !rules.outcome().taken) fail(rules.outcome().fault);
     ++counts.of_kind[kind];
     if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC) {
       const SpanToken& s = t.span;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "kage/stream.hpp"
+#include "stream/segment_rules.hpp"
 
 namespace kage {
 
@@ -19,32 +20,50 @@ class TokenRules {
     phase_ = Phase::state;
     shade_seen_ = false;
     volume_open_ = false;
+    has_tree_ = false;
+    segments_.start(config, width, height);
+    outcome_ = {};
+    fault_ = {};
   }
 
-  /// The error of this token, or NONE; then the machine has moved on. Kinds that the configuration lacks are the
-  /// caller's.
-  ErrorCode accept(const Token& t) {
+  /// The error of this token, which has index `token`, or NONE; then the machine has moved on. Kinds that the
+  /// configuration lacks are the caller's.
+  ErrorCode accept(const Token& t, std::uint32_t token) {
     if (!in_order(t.kind)) return ErrorCode::ORDER;
     if (!in_range(t)) return ErrorCode::RANGE;
+    if (const ErrorCode e = accept_segment(t, token); e != ErrorCode::NONE) return e;
     if (t.kind == Kind::EOL && t.y != line_) return ErrorCode::LINE;
     if (t.kind == Kind::END && line_ < height_) return ErrorCode::LINE;
     move(t.kind);
     return ErrorCode::NONE;
   }
 
+  /// What became of the last SEG.
+  [[nodiscard]] const SegmentRules::Outcome& outcome() const { return outcome_; }
+
+  /// The fault that the last TREE raised; its code is NONE if it raised none.
+  [[nodiscard]] const SegmentRules::Fault& fault() const { return fault_; }
+
   /// Number of EOLs accepted.
   [[nodiscard]] int line() const { return line_; }
 
  private:
-  enum class Phase { state, opaque, volume, resolved };
+  enum class Phase { state, ahead, opaque, volume, resolved };
 
   [[nodiscard]] bool in_order(Kind k) const {
     if (k == Kind::END) return true;
     if (line_ >= height_) return false;
-    const bool opaque = phase_ == Phase::state || phase_ == Phase::opaque;
+    const bool ahead = phase_ == Phase::state || phase_ == Phase::ahead;
+    const bool opaque = phase_ == Phase::opaque || (ahead && !has_tree_);
     switch (k) {
       case Kind::SHADE:
         return phase_ == Phase::state && !shade_seen_;
+      case Kind::FACE:
+        return phase_ == Phase::state;
+      case Kind::SEG:
+        return phase_ == Phase::state || (phase_ == Phase::ahead && has_tree_);
+      case Kind::TREE:
+        return phase_ == Phase::ahead && has_tree_;
       case Kind::OP:
         return opaque;
       case Kind::SP:
@@ -76,11 +95,31 @@ class TokenRules {
     }
   }
 
+  ErrorCode accept_segment(const Token& t, std::uint32_t token) {
+    switch (t.kind) {
+      case Kind::FACE:
+        return segments_.face(t.segment);
+      case Kind::SEG:
+        outcome_ = segments_.seg(t.segment, line_, token);
+        return outcome_.error;
+      case Kind::TREE:
+        fault_ = segments_.tree(line_, token);
+        return fault_.code;
+      default:
+        return ErrorCode::NONE;
+    }
+  }
+
   void move(Kind k) {
     switch (k) {
       case Kind::SHADE:
         shade_seen_ = true;
         break;
+      case Kind::SEG:
+        phase_ = Phase::ahead;
+        has_tree_ = true;
+        break;
+      case Kind::TREE:
       case Kind::OP:
         phase_ = Phase::opaque;
         break;
@@ -97,7 +136,7 @@ class TokenRules {
         phase_ = Phase::resolved;
         break;
       case Kind::EOL:
-        phase_ = Phase::opaque;
+        phase_ = Phase::ahead;
         volume_open_ = false;
         ++line_;
         break;
@@ -113,6 +152,10 @@ class TokenRules {
   Phase phase_ = Phase::state;
   bool shade_seen_ = false;
   bool volume_open_ = false;
+  bool has_tree_ = false;
+  SegmentRules segments_;
+  SegmentRules::Outcome outcome_;
+  SegmentRules::Fault fault_;
 };
 
 }  // namespace kage

@@ -53,6 +53,31 @@ void TokenWriter::shade(std::uint32_t shade) {
   pack(Kind::SHADE, [&](auto put) { put("shade", shade, layout_.shade_shade); });
 }
 
+void TokenWriter::face(const SegmentToken& s) {
+  pack(Kind::FACE, [&](auto put) {
+    put("unit", s.unit, layout_.face_unit);
+    put("face", s.face, layout_.face_face);
+    put("index", s.index, layout_.face_index);
+    put("lit", s.lit && layout_.face_lit.bits != 0 ? 1 : 0, layout_.face_lit);
+    put("dz", s.dz, layout_.face_dz);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c)
+      put("color", s.color[c], layout_.face_color[c]);
+  });
+}
+
+void TokenWriter::seg(const SegmentToken& s) {
+  pack(Kind::SEG, [&](auto put) {
+    put("unit", s.unit, layout_.seg_unit);
+    put("pad", 0, layout_.seg_pad);
+    put("z", s.z, layout_.seg_z);
+    put("sync", s.sync ? 1 : 0, layout_.seg_sync);
+    put("dx", s.dx, layout_.seg_dx);
+    put("face", s.face, layout_.seg_face);
+  });
+}
+
+void TokenWriter::tree() { out_->push_back(code(Kind::TREE)); }
+
 void TokenWriter::op(const SpanToken& s) {
   pack(Kind::OP, [&](auto put) {
     put("xl", s.xl, layout_.op_xl);
@@ -113,6 +138,21 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
     case Kind::SHADE:
       t.shade = static_cast<std::uint32_t>(get(l.shade_shade));
       break;
+    case Kind::FACE:
+      t.segment.unit = geti(l.face_unit);
+      t.segment.face = geti(l.face_face);
+      t.segment.index = geti(l.face_index);
+      t.segment.lit = get(l.face_lit) != 0;
+      t.segment.dz = get(l.face_dz);
+      for (std::size_t c = 0; c < channels; ++c) t.segment.color[c] = geti(l.face_color[c]);
+      break;
+    case Kind::SEG:
+      t.segment.unit = geti(l.seg_unit);
+      t.segment.face = geti(l.seg_face);
+      t.segment.z = get(l.seg_z);
+      t.segment.dx = geti(l.seg_dx);
+      t.segment.sync = get(l.seg_sync) != 0;
+      break;
     case Kind::OP:
       t.span = {geti(l.op_xl), geti(l.op_xr), get(l.op_z), get(l.op_dz), 0, get(l.op_lit) != 0, {}, {}};
       for (std::size_t c = 0; c < channels; ++c) {
@@ -151,6 +191,22 @@ std::string to_string(const Config& config, const Token& t) {
   switch (t.kind) {
     case Kind::SHADE:
       return s + fmt::format(" {}/{}", t.shade, 1U << config.shade_frac);
+    case Kind::FACE: {
+      const SegmentToken& f = t.segment;
+      s += fmt::format(" unit {} face {} index {} dz {} color", f.unit, f.face, f.index,
+                       static_cast<double>(f.dz) * z_unit);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+        s += fmt::format("{}{}", c == 0 ? " " : ",", f.color[c]);
+      return s + (config.dsf_bits == 0 ? "" : f.lit ? " lit" : " unlit");
+    }
+    case Kind::SEG: {
+      const SegmentToken& g = t.segment;
+      s += fmt::format(" unit {} dx {}", g.unit, g.dx);
+      s += g.face == (1 << config.face_bits) - 1
+               ? " blank"
+               : fmt::format(" face {} z {}", g.face, static_cast<double>(g.z) * z_unit);
+      return s + (g.sync ? " sync" : "");
+    }
     case Kind::OP: {
       s += fmt::format(" [{}, {}) z {} dz {} color", p.xl, p.xr, static_cast<double>(p.z) * z_unit,
                        static_cast<double>(p.dz) * z_unit);

@@ -19,6 +19,7 @@ struct FrameStatus {
   std::uint32_t frame = 0;  ///< number in the header of the erroneous frame; 0 when the header did not arrive whole
   std::uint32_t line = 0;   ///< EOLs accepted before the error
   std::uint32_t token = 0;  ///< index of the token in its frame; the header is 0
+  std::uint32_t unit = 0;   ///< of SEGMENT, UNIT_LONG and UNIT_SHORT
   int width = 0;            ///< of the frame as it left the core; 0 x 0 after an error in the header
   int height = 0;
 

@@ -36,6 +36,20 @@ struct SpanToken {
   std::array<std::int32_t, 3> dcolor{};  ///< OP, SMOOTH: per pixel
 };
 
+/// FACE and SEG: an entry of a unit's face table, and a run of pixels of one face (docs/stream.md, "Units and the
+/// tree").
+struct SegmentToken {
+  int unit = 0;
+  int face = 0;                         ///< SEG: 2^FACE_BITS - 1 is blank
+  std::int64_t z = 0;                   ///< SEG: at the first pixel, as a span's; not for blank ones
+  int dx = 0;                           ///< SEG: pixels, at least 1
+  bool sync = false;                    ///< SEG: first of its unit's line
+  int index = 0;                        ///< FACE: draw index of the polyhedron
+  bool lit = false;                     ///< FACE: faces the light
+  std::int64_t dz = 0;                  ///< FACE: depth per pixel
+  std::array<std::int32_t, 3> color{};  ///< FACE: 0 .. 255
+};
+
 /// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and to what the
 /// fields mean (check_frame() judges both). A value that its field cannot hold is never cut: Error names token, field
 /// and value, and the words are as they were. `lit` is left out where the configuration has no shadows.
@@ -48,6 +62,9 @@ class TokenWriter {
 
   void header(const FrameHeader& header);
   void shade(std::uint32_t shade);
+  void face(const SegmentToken& face);
+  void seg(const SegmentToken& segment);
+  void tree();
   void op(const SpanToken& span);
   void sp(const SpanToken& span);
   void nc(int xl, int xr, int w);
@@ -70,6 +87,7 @@ class TokenWriter {
 struct Token {
   Kind kind{};
   SpanToken span;
+  SegmentToken segment;  ///< FACE and SEG
   std::uint32_t shade = 0;
   int y = 0;  ///< EOL
 };

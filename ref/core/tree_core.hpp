@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Expansion units and the tree over them: the lines of convex polyhedra. The golden counterpart of tree_core.sv.
+#pragma once
+
+#include <vector>
+
+#include "core/compare_tree.hpp"
+#include "core/expansion_unit.hpp"
+
+namespace kage {
+
+class TreeCore {
+ public:
+  explicit TreeCore(const Config& config)
+      : units_(static_cast<std::size_t>(config.units), ExpansionUnit(config)),
+        lines_(static_cast<std::size_t>(config.units)) {}
+
+  /// A new frame: no faces, no segments.
+  void start(int width) {
+    width_ = width;
+    for (ExpansionUnit& u : units_) u.start();
+    for (TreeLine& l : lines_) l.resize(static_cast<std::size_t>(width));
+  }
+
+  // Only what SegmentRules lets through.
+  void add_face(const SegmentToken& t) { units_[static_cast<std::size_t>(t.unit)].add_face(t); }
+  void add_segment(const SegmentToken& t) { units_[static_cast<std::size_t>(t.unit)].add_segment(t, width_); }
+
+  /// Every unit has its line: merge them. Valid until the next call.
+  const TreeLine& take_line() {
+    for (std::size_t i = 0; i < units_.size(); ++i) units_[i].expand(lines_[i]);
+    compare_tree(lines_);
+    return lines_[0];
+  }
+
+ private:
+  std::vector<ExpansionUnit> units_;
+  std::vector<TreeLine> lines_;
+  int width_ = 0;
+};
+
+}  // namespace kage
