@@ -19,7 +19,7 @@
 namespace kage {
 namespace {
 
-// Drawn polygons of a triangle: consecutive in FrameGeometry::polygons. Smooth colour may need several.
+// Drawn polygons of a face: consecutive in FrameGeometry::polygons. Smooth colour may need several.
 struct DrawnRange {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
@@ -45,8 +45,8 @@ class Builder {
   FrameGeometry build() {
     eye_points_.reserve(frame_->vertices.size());
     for (const glm::dvec3& p : frame_->vertices) eye_points_.push_back(view_.to_eye(p));
-    drawn_.resize(frame_->triangles.size());
-    for (std::uint32_t t = 0; t < frame_->triangles.size(); ++t) draw(t);
+    drawn_.resize(frame_->polygons.size());
+    for (std::uint32_t i = 0; i < frame_->polygons.size(); ++i) draw(i);
     out_.drawn = static_cast<std::uint32_t>(out_.polygons.size());
     if (config_->dsf_bits > 0) caster_.each([this](const WorldVolume& v) { add_volume(v); });
     return std::move(out_);
@@ -62,34 +62,39 @@ class Builder {
   }
 
   void draw(std::uint32_t index) {
-    const Triangle& t = frame_->triangles[index];
-    const std::array<glm::dvec3, 3> p{frame_->vertices[t.vertex[0]], frame_->vertices[t.vertex[1]],
-                                      frame_->vertices[t.vertex[2]]};
-    const glm::dvec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const Polygon& face = frame_->polygons[index];
+    const auto corners = frame_->outline(face);
+    const Triangle& t = frame_->triangles[face.triangle];
+    const glm::dvec3& p = frame_->vertices[t.vertex[0]];
+    const glm::dvec3 normal = glm::cross(frame_->vertices[t.vertex[1]] - p, frame_->vertices[t.vertex[2]] - p);
     const Camera& camera = frame_->camera;
-    const double eye_side =
-        camera.perspective ? glm::dot(normal, camera.eye - p[0]) : -glm::dot(normal, camera.forward);
-    const int light_side = caster_.facing(t);
+    const double eye_side = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
+    const int light_side = caster_.facing(face);
     const bool lit = (eye_side > 0 && light_side > 0) || (eye_side < 0 && light_side < 0);
 
     polygon_.clear();
-    for (std::size_t i = 0; i < 3; ++i) {
-      polygon_.push_back(view_.to_clip(eye_points_[t.vertex[i]]));
-      const ShadingVertex& s = frame_->shading[t.shading[i]];
+    glm::dvec3 mean{0, 0, 0};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      polygon_.push_back(view_.to_clip(eye_points_[corners[i]]));
+      // More corners than a triangle's share one look.
+      const ShadingVertex& s = frame_->shading[t.shading[corners.size() == 3 ? i : 0]];
       const glm::dvec3 towards_eye = eye_side < 0 ? -s.normal : s.normal;
-      polygon_.back().color = light_.displayed(p[i], towards_eye, s.color, lit, config_->channels == 1);
+      polygon_.back().color =
+          light_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
+      mean += polygon_.back().color;
     }
-    const bool same_color = polygon_[0].color == polygon_[1].color && polygon_[1].color == polygon_[2].color;
-    const glm::dvec3 mean =
-        same_color ? polygon_[0].color : (polygon_[0].color + polygon_[1].color + polygon_[2].color) / 3.0;
+    const bool same_color =
+        std::all_of(polygon_.begin(), polygon_.end(), [&](const ClipPoint& c) { return c.color == polygon_[0].color; });
+    mean = same_color ? polygon_[0].color : mean / static_cast<double>(polygon_.size());
 
     drawn_[index].first = static_cast<std::uint32_t>(out_.polygons.size());
     clipper_.clip(polygon_, nullptr, false);
     if (polygon_.empty()) return;
     ScreenPolygon base;
     base.lit = lit;
-    base.triangle = index;
-    base.depth = face_plane(eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]);
+    base.source = index;
+    base.depth =
+        face_plane(corners.size(), {eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]});
     for (std::size_t c = 0; c < 3; ++c)
       base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
     if (config_->smooth == 0 || same_color) {
@@ -114,20 +119,22 @@ class Builder {
     v.first_near = static_cast<std::uint32_t>(out_.near_edges.size());
     v.component = w.component;
     for (const CapFace& cap : w.caps) {
-      const DrawnRange& range = drawn_[cap.triangle];
+      const DrawnRange& range = drawn_[cap.polygon];
       for (std::uint32_t i = 0; i < range.count; ++i)
         out_.volume_faces.push_back({range.first + i, cap.turned ? -1 : 1});
-      const Triangle& t = frame_->triangles[cap.triangle];
-      const std::array<EyePoint, 3> p{eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]};
-      cut_only(cap.turned ? std::array<EyePoint, 3>{p[2], p[1], p[0]} : p);
+      points_.clear();
+      for (const std::uint32_t c : frame_->outline(frame_->polygons[cap.polygon])) points_.push_back(eye_points_[c]);
+      if (cap.turned) std::reverse(points_.begin(), points_.end());
+      cut_only();
     }
     for (const SideFace& s : w.sides) add_side(s);
     for (const auto& f : w.far_end) {
-      const std::array<EyePoint, 3> p{view_.to_eye(f[0]), view_.to_eye(f[1]), view_.to_eye(f[2])};
+      points_.clear();
+      for (const glm::dvec3& p : f) points_.push_back(view_.to_eye(p));
       if (look_->far_ends)
-        add_face(p, p[0], p[1], p[2]);
+        add_face([&] { return unsnapped_plane(points_[0], points_[1], points_[2]); });
       else
-        cut_only(p);
+        cut_only();
     }
     v.face_count = static_cast<std::uint32_t>(out_.volume_faces.size()) - v.first_face;
     v.near_count = static_cast<std::uint32_t>(out_.near_edges.size()) - v.first_near;
@@ -135,30 +142,32 @@ class Builder {
   }
 
   void add_side(const SideFace& s) {
-    const std::array<EyePoint, 4> p{view_.to_eye(s.a), view_.to_eye(s.far_a), view_.to_eye(s.far_b), view_.to_eye(s.b)};
-    add_face(p, p[0], p[3], p[1]);
+    points_.assign({view_.to_eye(s.a), view_.to_eye(s.far_a), view_.to_eye(s.far_b), view_.to_eye(s.b)});
+    add_face([&] { return side_plane(drawn_[s.polygon], points_[0], points_[3], points_[1]); });
   }
 
-  // A face of a volume that is not drawn, in the plane of three of its points; a and b are those that it shares with a
-  // drawn face.
-  void add_face(std::span<const EyePoint> points, const EyePoint& a, const EyePoint& b, const EyePoint& c) {
+  // A face of a volume that is not drawn: the polygon in points_, with the plane that make_plane() gives once it is
+  // clipped.
+  template <class MakePlane>
+  void add_face(MakePlane make_plane) {
     polygon_.clear();
-    for (const EyePoint& e : points) polygon_.push_back(view_.to_clip(e));
+    for (const EyePoint& e : points_) polygon_.push_back(view_.to_clip(e));
     clip_and_cut();
     if (polygon_.empty()) return;
     ScreenPolygon face;
-    face.triangle = ~0U;
-    face.depth = side_plane(a, b, c);
+    face.source = ~0U;
+    face.depth = make_plane();
     out_.volume_faces.push_back({static_cast<std::uint32_t>(out_.polygons.size()), 1});
     add_outline(face, polygon_);
   }
 
-  // Only the section with the near plane of a polygon that is never a span, or is one already.
-  void cut_only(const std::array<EyePoint, 3>& p) {
-    const bool crosses = std::any_of(p.begin(), p.end(), [this](const EyePoint& e) { return e.z < view_.near(); });
+  // Only the section with the near plane of the polygon in points_, which is never a span, or is one already.
+  void cut_only() {
+    const bool crosses =
+        std::any_of(points_.begin(), points_.end(), [this](const EyePoint& e) { return e.z < view_.near(); });
     if (!crosses) return;
     polygon_.clear();
-    for (const EyePoint& e : p) polygon_.push_back(view_.to_clip(e));
+    for (const EyePoint& e : points_) polygon_.push_back(view_.to_clip(e));
     clip_and_cut();
   }
 
@@ -179,20 +188,26 @@ class Builder {
     return {snap(p), to_fixed(view_.depth(p.w), kVertexFrac)};
   }
 
-  // The plane of a drawn triangle, in polygon_ after clipping: through its snapped vertices if they are all there.
-  ScreenPlane face_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
-    const std::array<ClipPoint, 3> p{view_.to_clip(a), view_.to_clip(b), view_.to_clip(c)};
-    if (clipper_.keeps(p[0]) && clipper_.keeps(p[1]) && clipper_.keeps(p[2]))
-      if (const auto plane = plane_through({depth_vertex(p[0]), depth_vertex(p[1]), depth_vertex(p[2])})) return *plane;
-    return unsnapped_plane(a, b, c);
+  // The plane of a drawn face, in polygon_ after clipping. A triangle's goes through its snapped vertices if they are
+  // all there. More vertices than three do not lie in one plane once they are snapped: theirs is the unsnapped one, by
+  // three of the points.
+  ScreenPlane face_plane(std::size_t corners, const std::array<EyePoint, 3>& t) const {
+    if (corners == 3) {
+      const std::array<ClipPoint, 3> p{view_.to_clip(t[0]), view_.to_clip(t[1]), view_.to_clip(t[2])};
+      if (clipper_.keeps(p[0]) && clipper_.keeps(p[1]) && clipper_.keeps(p[2]))
+        if (const auto plane = plane_through({depth_vertex(p[0]), depth_vertex(p[1]), depth_vertex(p[2])}))
+          return *plane;
+    }
+    return unsnapped_plane(t[0], t[1], t[2]);
   }
 
-  // The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap and
-  // the vertex furthest from it, so that it leaves the cap's neighbour exactly at their common edge.
-  ScreenPlane side_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
+  // The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap, at
+  // the depths that the cap has there, and the vertex furthest from it; so that it leaves the cap exactly at their
+  // common edge.
+  ScreenPlane side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
     const ClipPoint pa = view_.to_clip(a);
     const ClipPoint pb = view_.to_clip(b);
-    if (clipper_.keeps(pa) && clipper_.keeps(pb)) {
+    if (cap.count > 0 && clipper_.keeps(pa) && clipper_.keeps(pb)) {
       const ScreenVertex sa = snap(pa);
       const ScreenVertex sb = snap(pb);
       const ClipPoint* furthest = &polygon_[0];
@@ -204,7 +219,8 @@ class Builder {
           furthest = &p;
         }
       }
-      if (const auto plane = plane_through({depth_vertex(pa), depth_vertex(pb), depth_vertex(*furthest)}))
+      const ScreenPlane& at = out_.polygons[cap.first].depth;
+      if (const auto plane = plane_through({on_plane(at, sa), on_plane(at, sb), depth_vertex(*furthest)}))
         return *plane;
     }
     return unsnapped_plane(a, b, c);
@@ -257,6 +273,7 @@ class Builder {
   FrameGeometry out_;
   std::vector<EyePoint> eye_points_;
   std::vector<DrawnRange> drawn_;
+  std::vector<EyePoint> points_;
   std::vector<ClipPoint> polygon_;
   std::vector<ClipPoint> piece_;
   std::vector<NearCut> cuts_;
@@ -280,7 +297,7 @@ void check_finite(const SceneFrame& frame) {
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look) {
   if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
     throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
-  if (frame.triangles.empty()) throw Error("the scene has no faces");
+  if (frame.polygons.empty()) throw Error("the scene has no faces");
   check_finite(frame);
   return Builder(frame, config, width, height, look).build();
 }

@@ -16,6 +16,16 @@ Int128 divide_round(Int128 a, Int128 b) {
 
 }  // namespace
 
+DepthVertex on_plane(const ScreenPlane& plane, const ScreenVertex& at) {
+  // In 2^-24 LSB a pixel times 1/256 pixel.
+  const Int128 off = Int128{plane.a} * (std::int64_t{at.x} - 256 * std::int64_t{plane.x0} - 128) +
+                     Int128{plane.b} * (std::int64_t{at.y} - 256 * std::int64_t{plane.y0} - 128);
+  const Int128 z = divide_round((Int128{plane.c} << 8) + off, Int128{1} << (kPlaneFrac - kVertexFrac + 8));
+  // A plane that is steep may leave all bounds within the half subpixel that the snap moved its vertex.
+  constexpr Int128 kMost = Int128{1} << (28 + kVertexFrac);
+  return {at, static_cast<std::int64_t>(z < -kMost ? -kMost : z > kMost ? kMost : z)};
+}
+
 std::int64_t double_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
   return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{c.x} - a.x) * (std::int64_t{b.y} - a.y);
 }

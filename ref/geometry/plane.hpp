@@ -22,6 +22,9 @@ struct DepthVertex {
   std::int64_t z = 0;
 };
 
+/// The vertex on a plane at a snapped position, rounded to nearest and held within +-2^28 LSB.
+DepthVertex on_plane(const ScreenPlane& plane, const ScreenVertex& at);
+
 /// Twice the signed area of a snapped triangle, in subpixels squared; 0 if it has none.
 std::int64_t double_area(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c);
 

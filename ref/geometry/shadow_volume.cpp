@@ -2,10 +2,10 @@
 #include "geometry/shadow_volume.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 namespace kage {
 namespace {
@@ -54,7 +54,8 @@ ShadowCaster::ShadowCaster(const SceneFrame& frame, std::span<const glm::dvec3> 
   reach_ = (light.directional ? length(box.high - box.low) : distance) * kMargin * extrusion;
 }
 
-double ShadowCaster::light_distance(const Triangle& t) const {
+double ShadowCaster::light_distance(const Polygon& p) const {
+  const Triangle& t = frame_->triangles[p.triangle];
   const glm::dvec3& a = frame_->vertices[t.vertex[0]];
   glm::dvec3 u = frame_->vertices[t.vertex[1]] - a;
   glm::dvec3 v = frame_->vertices[t.vertex[2]] - a;
@@ -71,8 +72,8 @@ double ShadowCaster::light_distance(const Triangle& t) const {
                                    : glm::dot(normal, frame_->light.position - a) / n;
 }
 
-int ShadowCaster::facing(const Triangle& t) const {
-  const double d = light_distance(t);
+int ShadowCaster::facing(const Polygon& p) const {
+  const double d = light_distance(p);
   return d > edge_on_ ? 1 : d < -edge_on_ ? -1 : 0;
 }
 
@@ -97,50 +98,57 @@ double ShadowCaster::far_factor(double distance) const {
   return frame_->light.directional ? reach_ : std::max(reach_ / distance, kMargin);
 }
 
+// The far end of a cap whose corners go round it seen from the light, and sides at its border edges.
+template <class Border>
+void ShadowCaster::extrude(std::span<const std::uint32_t> corners, const CapFace& cap, double factor, WorldVolume& v,
+                           Border border) const {
+  const std::size_t n = corners.size();
+  std::vector<glm::dvec3> far(n);
+  for (std::size_t i = 0; i < n; ++i) far[i] = far_point(frame_->vertices[corners[i]], factor);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    if (!border(corners[i], corners[j])) continue;
+    v.sides.push_back({cap.polygon, frame_->vertices[corners[i]], frame_->vertices[corners[j]], far[i], far[j]});
+  }
+  std::reverse(far.begin(), far.end());
+  v.far_end.push_back(std::move(far));
+}
+
 bool ShadowCaster::make_convex(const Component& part, WorldVolume& v) const {
   v.clear();
   // A border edge is one of a lit face whose twin is not a lit face's.
-  std::unordered_map<std::uint64_t, int> lit_edges;
+  std::unordered_set<std::uint64_t> lit_edges;
   const auto key = [](std::uint32_t a, std::uint32_t b) { return static_cast<std::uint64_t>(a) << 32 | b; };
   double nearest = INFINITY;
-  for (std::uint32_t t = part.first; t < part.first + part.count; ++t) {
-    const Triangle& triangle = frame_->triangles[t];
-    if (facing(triangle) <= 0) continue;
-    v.caps.push_back({t, false});
-    nearest = std::min(nearest, light_distance(triangle));
-    for (std::size_t i = 0; i < 3; ++i) ++lit_edges[key(triangle.vertex[i], triangle.vertex[(i + 1) % 3])];
+  for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
+    const Polygon& polygon = frame_->polygons[i];
+    if (facing(polygon) <= 0) continue;
+    v.caps.push_back({i, false});
+    nearest = std::min(nearest, light_distance(polygon));
+    const auto corners = frame_->outline(polygon);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      lit_edges.insert(key(corners[k], corners[(k + 1) % corners.size()]));
   }
   if (v.caps.empty()) return false;
   const double factor = far_factor(nearest);
-  for (const CapFace& cap : v.caps) {
-    const Triangle& triangle = frame_->triangles[cap.triangle];
-    std::array<glm::dvec3, 3> far{};
-    for (std::size_t i = 0; i < 3; ++i) far[i] = far_point(frame_->vertices[triangle.vertex[i]], factor);
-    v.far_end.push_back({far[0], far[2], far[1]});
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      if (lit_edges.count(key(triangle.vertex[j], triangle.vertex[i])) != 0) continue;
-      v.sides.push_back({frame_->vertices[triangle.vertex[i]], frame_->vertices[triangle.vertex[j]], far[i], far[j]});
-    }
-  }
+  for (const CapFace& cap : v.caps)
+    extrude(frame_->outline(frame_->polygons[cap.polygon]), cap, factor, v,
+            [&](std::uint32_t a, std::uint32_t b) { return lit_edges.count(key(b, a)) == 0; });
   return true;
 }
 
 bool ShadowCaster::make_face(std::uint32_t index, bool lit_only, WorldVolume& v) const {
-  const Triangle& triangle = frame_->triangles[index];
-  const int side = facing(triangle);
+  const Polygon& polygon = frame_->polygons[index];
+  const int side = facing(polygon);
   if (side == 0 || (lit_only && side < 0)) return false;
   v.clear();
-  v.caps.push_back({index, side < 0});
-  const double factor = far_factor(std::abs(light_distance(triangle)));
-  std::array<glm::dvec3, 3> near{};
-  std::array<glm::dvec3, 3> far{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    near[i] = frame_->vertices[triangle.vertex[side < 0 ? 2 - i : i]];
-    far[i] = far_point(near[i], factor);
-  }
-  v.far_end.push_back({far[0], far[2], far[1]});
-  for (std::size_t i = 0; i < 3; ++i) v.sides.push_back({near[i], near[(i + 1) % 3], far[i], far[(i + 1) % 3]});
+  const CapFace cap{index, side < 0};
+  v.caps.push_back(cap);
+  const auto outline = frame_->outline(polygon);
+  std::vector<std::uint32_t> corners(outline.begin(), outline.end());
+  if (cap.turned) std::reverse(corners.begin(), corners.end());
+  extrude(corners, cap, far_factor(std::abs(light_distance(polygon))), v,
+          [](std::uint32_t, std::uint32_t) { return true; });
   return true;
 }
 

@@ -9,7 +9,6 @@
 // solid's, or a single face's.]
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -19,23 +18,24 @@
 
 namespace kage {
 
-/// A cap: a triangle of the frame. `turned`: its own outside looks away from the light, so that it bounds the volume
-/// the other way.
+/// A cap: a polygon of the frame. `turned`: its own outside looks away from the light, so that it bounds the volume the
+/// other way.
 struct CapFace {
-  std::uint32_t triangle = 0;
+  std::uint32_t polygon = 0;
   bool turned = false;
 };
 
 /// A side from the edge (a, b) of a cap to (far_b, far_a); outward as written: a, far_a, far_b, b is counter-clockwise
 /// from outside.
 struct SideFace {
+  std::uint32_t polygon = 0;  ///< the cap
   glm::dvec3 a, b, far_a, far_b;
 };
 
 struct WorldVolume {
   std::vector<CapFace> caps;
   std::vector<SideFace> sides;
-  std::vector<std::array<glm::dvec3, 3>> far_end;  ///< outward
+  std::vector<std::vector<glm::dvec3>> far_end;  ///< outward
   std::uint32_t component = 0;
 
   void clear() {
@@ -52,11 +52,11 @@ class ShadowCaster {
   /// as far as they must volumes reach, >= 1.
   ShadowCaster(const SceneFrame& frame, std::span<const glm::dvec3> near_corners, double extrusion);
 
-  /// The triangle's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts
+  /// The polygon's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts
   /// nothing).
-  [[nodiscard]] int facing(const Triangle& t) const;
+  [[nodiscard]] int facing(const Polygon& p) const;
 
-  /// Call `emit` with every volume of the frame, in order of components and triangles.
+  /// Call `emit` with every volume of the frame, in order of components and polygons.
   template <class Emit>
   void each(Emit emit) const {
     WorldVolume v;
@@ -68,8 +68,8 @@ class ShadowCaster {
         continue;
       }
       const bool lit_only = part.closed && light_outside(part);
-      for (std::uint32_t t = part.first; t < part.first + part.count; ++t)
-        if (make_face(t, lit_only, v)) emit(static_cast<const WorldVolume&>(v));
+      for (std::uint32_t p = part.first_polygon; p < part.first_polygon + part.polygon_count; ++p)
+        if (make_face(p, lit_only, v)) emit(static_cast<const WorldVolume&>(v));
     }
   }
 
@@ -77,7 +77,10 @@ class ShadowCaster {
   [[nodiscard]] bool light_outside(const Component& part) const;
   [[nodiscard]] bool make_convex(const Component& part, WorldVolume& v) const;
   [[nodiscard]] bool make_face(std::uint32_t index, bool lit_only, WorldVolume& v) const;
-  [[nodiscard]] double light_distance(const Triangle& t) const;
+  template <class Border>
+  void extrude(std::span<const std::uint32_t> corners, const CapFace& cap, double factor, WorldVolume& v,
+               Border border) const;
+  [[nodiscard]] double light_distance(const Polygon& p) const;
   [[nodiscard]] glm::dvec3 far_point(const glm::dvec3& p, double factor) const;
   [[nodiscard]] double far_factor(double distance) const;
 

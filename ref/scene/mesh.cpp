@@ -2,7 +2,9 @@
 #include "mesh.hpp"
 
 #include <algorithm>
+#include <span>
 
+#include "polygons.hpp"
 #include "transform.hpp"
 
 namespace kage::scene {
@@ -41,6 +43,13 @@ class Builder {
       ordered_.push_back({sources_[t].primitive, turned(sources_[t].vertex, reversed)});
     }
     shade();
+    for (MeshComponent& c : mesh_.components) {
+      c.first_polygon = static_cast<std::uint32_t>(mesh_.polygons.size());
+      append_polygons(mesh_.vertices, std::span(mesh_.triangles).subspan(c.first, c.count),
+                      std::span(mesh_.shading_corners).subspan(c.first, c.count), mesh_.shading, c.first, c.convex,
+                      mesh_.polygons, mesh_.corners);
+      c.polygon_count = static_cast<std::uint32_t>(mesh_.polygons.size()) - c.first_polygon;
+    }
     for (std::size_t t = 0; t < mesh_.triangles.size() && !mesh_.has_area; ++t)
       mesh_.has_area = face_cross(t) != glm::dvec3{0, 0, 0};
     return std::move(mesh_);

@@ -20,8 +20,10 @@ struct Mesh {
   std::vector<Corners> shading_corners;  ///< corners into shading
   std::vector<std::uint32_t> faces;      ///< the file's face of each triangle
   std::vector<MeshComponent> components;
-  bool has_area = false;  ///< some triangle's area is not 0: there is something to see
-  bool smooth = false;    ///< shading differs between corners of some triangle
+  std::vector<Polygon> polygons;       ///< of the components, in their order
+  std::vector<std::uint32_t> corners;  ///< of polygons, into vertices
+  bool has_area = false;               ///< some triangle's area is not 0: there is something to see
+  bool smooth = false;                 ///< shading differs between corners of some triangle
 
   std::uint32_t dropped = 0;      ///< triangles left out because they repeat a vertex
   std::uint32_t turned = 0;       ///< triangles reversed to agree with their neighbours

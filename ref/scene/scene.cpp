@@ -36,6 +36,7 @@ void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, 
   const bool mirrored = world.determinant() < 0;
   const auto vertex = static_cast<std::uint32_t>(frame.vertices.size());
   const auto shading = static_cast<std::uint32_t>(frame.shading.size());
+  const auto triangle = static_cast<std::uint32_t>(frame.triangles.size());
   for (const glm::dvec3& p : mesh.vertices) frame.vertices.push_back(world.point(p));
   for (const ShadingVertex& s : mesh.shading)
     frame.shading.push_back({scene::unit(world.normal(s.normal), s.normal), s.color});
@@ -50,6 +51,15 @@ void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, 
                                {shading + s[0], shading + s[1], shading + s[2]},
                                object,
                                mesh.faces[i]});
+  }
+  const auto corner = static_cast<std::uint32_t>(frame.corners.size());
+  for (const std::uint32_t v : mesh.corners) frame.corners.push_back(vertex + v);
+  for (Polygon p : mesh.polygons) {
+    p.first += corner;
+    p.triangle += triangle;
+    // As for triangles, the first corner stays.
+    if (mirrored) std::reverse(frame.corners.begin() + p.first + 1, frame.corners.begin() + p.first + p.count);
+    frame.polygons.push_back(p);
   }
 }
 
@@ -104,6 +114,7 @@ void Scene::Data::build_meshes() {
 void Scene::Data::place_objects() {
   std::uint32_t vertices = 0;
   std::uint32_t triangles = 0;
+  std::uint32_t polygons = 0;
   std::size_t flat = 0;
   for (std::uint32_t i = 0; i < raw.nodes.size(); ++i) {
     const scene::RawNode& node = raw.nodes[i];
@@ -116,10 +127,11 @@ void Scene::Data::place_objects() {
     std::string called = scene::one_line(node.name.empty() ? raw.meshes[number].name : node.name, 80);
     object_names.push_back(called.empty() ? "object " + std::to_string(objects.size() - 1) : std::move(called));
     for (const scene::MeshComponent& c : mesh.components)
-      components.push_back(
-          {triangles + c.first, c.count, c.closed, c.convex, c.reason.text(vertices, triangles + c.first)});
+      components.push_back({triangles + c.first, c.count, c.closed, c.convex, polygons + c.first_polygon,
+                            c.polygon_count, c.reason.text(vertices, triangles + c.first)});
     vertices += static_cast<std::uint32_t>(mesh.vertices.size());
     triangles += static_cast<std::uint32_t>(mesh.triangles.size());
+    polygons += static_cast<std::uint32_t>(mesh.polygons.size());
     smooth = smooth || mesh.smooth;
   }
   if (objects.empty()) throw Error("no faces: every triangle repeats a vertex");

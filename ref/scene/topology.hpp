@@ -43,6 +43,8 @@ struct MeshComponent {
   bool closed = false;
   bool convex = false;
   Reason reason;
+  std::uint32_t first_polygon = 0;  ///< of its faces as polygons
+  std::uint32_t polygon_count = 0;
 };
 
 /// Two triangles that share an edge, and the vertices of each that are not on it.

@@ -42,7 +42,7 @@ inline bool near_volume_edge(const FrameGeometry& g, int x, int y, double subpix
   return false;
 }
 
-/// The "triangle" of a pixel that shows the background.
+/// The "face" of a pixel that shows the background.
 inline constexpr std::uint32_t kNothing = 0xFFFFFF;
 
 struct RayCount {
@@ -73,26 +73,30 @@ struct RayCount {
   }
 };
 
-/// A scene's frame for rays: every triangle with a ball round it, so that most are passed by quickly.
+/// A scene's frame for rays: every polygon as a fan of triangles, each with a ball round it, so that most are passed by
+/// quickly.
 class RayScene {
  public:
   explicit RayScene(const SceneFrame& f) {
-    for (const Triangle& t : f.triangles) {
-      Face face;
-      for (std::size_t i = 0; i < 3; ++i) face.corner[i] = f.vertices[t.vertex[i]];
-      face.centre = (face.corner[0] + face.corner[1] + face.corner[2]) / 3.0;
-      for (const glm::dvec3& c : face.corner) face.radius2 = std::max(face.radius2, dot2(c - face.centre));
-      face.radius2 *= 1.0001;
-      faces_.push_back(face);
+    for (std::uint32_t p = 0; p < f.polygons.size(); ++p) {
+      const auto outline = f.outline(f.polygons[p]);
+      for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+        Face face;
+        face.polygon = p;
+        face.corner = {f.vertices[outline[0]], f.vertices[outline[i]], f.vertices[outline[i + 1]]};
+        face.centre = (face.corner[0] + face.corner[1] + face.corner[2]) / 3.0;
+        for (const glm::dvec3& c : face.corner) face.radius2 = std::max(face.radius2, dot2(c - face.centre));
+        face.radius2 *= 1.0001;
+        faces_.push_back(face);
+      }
     }
   }
 
-  /// Calls hit(t, triangle) for every triangle that the line origin + t direction meets.
+  /// Calls hit(t, polygon) for every polygon that the line origin + t direction meets.
   template <typename Hit>
   void meet(const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) const {
     const double d2 = dot2(direction);
-    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-      const Face& face = faces_[i];
+    for (const Face& face : faces_) {
       const glm::dvec3 to = face.centre - origin;
       const double along = glm::dot(to, direction);
       if (dot2(to) * d2 - along * along > face.radius2 * d2 * 1.0001 + 1e-9 * dot2(to) * d2) continue;
@@ -109,7 +113,7 @@ class RayScene {
       const double s0 = side(0, 1);
       const double s1 = side(1, 2);
       const double s2 = side(2, 0);
-      if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0)) hit(t, i);
+      if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0)) hit(t, face.polygon);
     }
   }
 
@@ -117,6 +121,7 @@ class RayScene {
   static double dot2(const glm::dvec3& v) { return glm::dot(v, v); }
 
   struct Face {
+    std::uint32_t polygon = 0;
     std::array<glm::dvec3, 3> corner{};
     glm::dvec3 centre{};
     double radius2 = 0;
@@ -124,11 +129,11 @@ class RayScene {
   std::vector<Face> faces_;
 };
 
-/// Whether moving vertices lets the pixel show a polygon of the triangle, or nothing if it is kNothing.
-inline bool possible_triangle(const Oracle& oracle, const FrameGeometry& g, int x, std::uint32_t triangle) {
-  if (triangle == kNothing) return oracle.possible_surface(x, -1, Errors::depth_and_snap);
+/// Whether moving vertices lets the pixel show the face, or nothing if it is kNothing.
+inline bool possible_face(const Oracle& oracle, const FrameGeometry& g, int x, std::uint32_t face) {
+  if (face == kNothing) return oracle.possible_surface(x, -1, Errors::depth_and_snap);
   for (std::uint32_t i = 0; i < g.drawn; ++i)
-    if (g.polygons[i].triangle == triangle &&
+    if (g.polygons[i].source == face &&
         oracle.possible_surface(x, static_cast<std::int32_t>(i), Errors::depth_and_snap))
       return true;
   return false;
@@ -170,20 +175,20 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       // direction has length 1 along forward, so t is the distance that the near plane is measured in.
       double nearest = INFINITY;
       std::uint32_t surface = kNothing;
-      rays.meet(origin, direction, [&](double t, std::uint32_t triangle) {
+      rays.meet(origin, direction, [&](double t, std::uint32_t face) {
         if (t < camera.near || t >= nearest) return;
         nearest = t;
-        surface = triangle;
+        surface = face;
       });
       const auto polygon = seen[at] == kNothing ? -1 : static_cast<std::int32_t>(seen[at]);
-      const std::uint32_t shown = polygon < 0 ? kNothing : whole.polygons[static_cast<std::uint32_t>(polygon)].triangle;
+      const std::uint32_t shown = polygon < 0 ? kNothing : whole.polygons[static_cast<std::uint32_t>(polygon)].source;
       if (shown != surface) {
-        if (possible_triangle(oracle, whole, x, surface)) {
+        if (possible_face(oracle, whole, x, surface)) {
           ++count.near_surface;
         } else {
           ++count.wrong_surface;
           if (count.first_wrong.empty())
-            count.first_wrong = fmt::format("({}, {}): triangle {} for {}", x, y, shown, surface);
+            count.first_wrong = fmt::format("({}, {}): face {} for {}", x, y, shown, surface);
         }
         continue;
       }
@@ -193,8 +198,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       const glm::dvec3 to_light = f.light.directional ? -f.light.direction : f.light.position - point;
       const double reach = f.light.directional ? INFINITY : 1;
       bool blocked = false;
-      rays.meet(point, to_light, [&](double t, std::uint32_t triangle) {
-        if (triangle != surface && t > 0 && t < reach) blocked = true;
+      rays.meet(point, to_light, [&](double t, std::uint32_t face) {
+        if (face != surface && t > 0 && t < reach) blocked = true;
       });
       if ((shadow[at] == 0) == blocked) {
         ++(blocked ? count.shadowed : count.lit);
@@ -208,7 +213,7 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
         ++count.wrong_shadow;
         if (count.first_wrong.empty())
           count.first_wrong =
-              fmt::format("({}, {}): triangle {}, shadow {} for {}", x, y, surface, shadow[at] == 0, blocked);
+              fmt::format("({}, {}): face {}, shadow {} for {}", x, y, surface, shadow[at] == 0, blocked);
       }
     }
   }

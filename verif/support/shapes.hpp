@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kage/scene.hpp"
+#include "scene/polygons.hpp"
 #include "support/random.hpp"
 
 namespace kage::verif {
@@ -74,16 +75,24 @@ inline void add_solid(SceneFrame& f, const Solid& s, const glm::dvec3& centre, c
   c.count = static_cast<std::uint32_t>(s.faces.size());
   c.closed = closed;
   c.convex = convex;
+  std::vector<scene::Corners> triangles;
+  std::vector<scene::Corners> shading_corners;
   for (const auto& face : s.faces) {
     Triangle t;
     for (std::size_t i = 0; i < 3; ++i) t.vertex[i] = base + face[i];
+    triangles.push_back(t.vertex);
     const glm::dvec3 a = f.vertices[t.vertex[0]];
     const glm::dvec3 n = glm::cross(f.vertices[t.vertex[1]] - a, f.vertices[t.vertex[2]] - a);
     const auto shading = static_cast<std::uint32_t>(f.shading.size());
     f.shading.push_back({n / std::sqrt(glm::dot(n, n)), color});
     t.shading = {shading, shading, shading};
+    shading_corners.push_back(t.shading);
     f.triangles.push_back(t);
   }
+  c.first_polygon = static_cast<std::uint32_t>(f.polygons.size());
+  scene::append_polygons(f.vertices, triangles, shading_corners, f.shading, c.first, convex && closed, f.polygons,
+                         f.corners);
+  c.polygon_count = static_cast<std::uint32_t>(f.polygons.size()) - c.first_polygon;
   f.components.push_back(c);
 }
 

@@ -52,7 +52,7 @@ struct ScreenPolygon {
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
   bool lit = false;                     ///< eye and light are on the same side of it
-  std::uint32_t triangle = 0;           ///< where it comes from, into SceneFrame::triangles
+  std::uint32_t source = 0;             ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
 };
 
 /// A polygon of a shadow volume.

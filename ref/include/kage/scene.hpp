@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,14 @@ struct Triangle {
   std::uint32_t face = 0;                ///< number of the face within its object, as in the file
 };
 
+/// A face as it is drawn, counter-clockwise seen from outside: a triangle, or, of convex bodies, triangles in one plane
+/// that look the same, put together again.
+struct Polygon {
+  std::uint32_t first = 0;     ///< of its corners, into SceneFrame::corners
+  std::uint32_t count = 0;     ///< at least 3
+  std::uint32_t triangle = 0;  ///< the largest of its triangles, which has its plane and its shading
+};
+
 /// What shading needs at a corner of a triangle.
 struct ShadingVertex {
   glm::dvec3 normal;  ///< unit, outward; the face's normal where the file has none
@@ -58,7 +67,9 @@ struct Component {
   bool closed =
       false;  ///< every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0
   bool convex = false;  ///< closed, and no vertex is further than the stated tolerance outside a face's plane
-  std::string reason;   ///< why it is not closed or not convex, naming the edge or vertex; empty if it is both
+  std::uint32_t first_polygon = 0;  ///< its polygons are consecutive in SceneFrame::polygons
+  std::uint32_t polygon_count = 0;
+  std::string reason;  ///< why it is not closed or not convex, naming the edge or vertex; empty if it is both
 };
 
 /// One frame of a scene: all that geometry needs.
@@ -71,7 +82,13 @@ struct SceneFrame {
   std::vector<ShadingVertex> shading;
   std::vector<Triangle>
       triangles;  ///< in draw order: objects in the file's order, components in order of their first face
-  std::vector<Component> components;  ///< in the order of their triangles; every triangle belongs to one
+  std::vector<Polygon> polygons;       ///< the same surface, in the same order
+  std::vector<std::uint32_t> corners;  ///< of polygons, into vertices
+  std::vector<Component> components;   ///< in the order of their triangles; every triangle and polygon belongs to one
+
+  [[nodiscard]] std::span<const std::uint32_t> outline(const Polygon& p) const {
+    return std::span(corners).subspan(p.first, p.count);
+  }
 };
 
 /// A scene loaded from a file.

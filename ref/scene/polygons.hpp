@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Faces of convex bodies as polygons: files carry triangles, so what lies in one plane and looks the same is put
+// together again.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "kage/scene.hpp"
+#include "topology.hpp"
+
+namespace kage::scene {
+
+/// Share of a body's size (the diagonal of its bounding box) that a corner of a polygon may lie off the plane of the
+/// polygon's first triangle. As for convexity: what single precision leaves of a plane.
+inline constexpr double kPlanarTolerance = kConvexTolerance;
+
+/// Append the polygons of a component to `polygons` and their corners to `corners`. A convex closed one's triangles are
+/// put together where they share an edge, have one colour and one normal within themselves and, up to rounding, among
+/// each other, and lie in the plane of the largest; any other triangle is a polygon of its own. `first` is the number
+/// of the component's first triangle; polygons are in the order of their lowest triangle.
+void append_polygons(const std::vector<glm::dvec3>& positions, std::span<const Corners> triangles,
+                     std::span<const Corners> shading_corners, const std::vector<ShadingVertex>& shading,
+                     std::uint32_t first, bool convex, std::vector<Polygon>& polygons,
+                     std::vector<std::uint32_t>& corners);
+
+}  // namespace kage::scene
