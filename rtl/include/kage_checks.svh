@@ -29,6 +29,24 @@ end
 if (SHADE_FRAC < 1 || SHADE_FRAC > 16) begin : gen_bad_shade_frac
   $fatal(1, "SHADE_FRAC must be 1 .. 16");
 end
+if (UNITS < 0 || UNITS > 64) begin : gen_bad_units
+  $fatal(1, "UNITS must be 0 .. 64");
+end
+if (FACE_BITS < 2 || FACE_BITS > 12) begin : gen_bad_face_bits
+  $fatal(1, "FACE_BITS must be 2 .. 12");
+end
+if (DX_BITS < 2 || DX_BITS > 15) begin : gen_bad_dx_bits
+  $fatal(1, "DX_BITS must be 2 .. 15");
+end
+if (SEG_BITS < 2 || SEG_BITS > 12) begin : gen_bad_seg_bits
+  $fatal(1, "SEG_BITS must be 2 .. 12");
+end
+if (ORDER_BITS < 1 || ORDER_BITS > 16) begin : gen_bad_order_bits
+  $fatal(1, "ORDER_BITS must be 1 .. 16");
+end
+if (CLASSIC < 0 || CLASSIC > 1) begin : gen_bad_classic
+  $fatal(1, "CLASSIC must be 0 .. 1");
+end
 if (ARRANGEMENT < 0 || ARRANGEMENT > 1) begin : gen_bad_arrangement
   $fatal(1, "ARRANGEMENT must be 0 .. 1");
 end

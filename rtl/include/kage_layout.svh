@@ -33,6 +33,9 @@ localparam logic [3:0] ErrRange = 4'd6;
 localparam logic [3:0] ErrLine = 4'd7;
 localparam logic [3:0] ErrLastEarly = 4'd8;
 localparam logic [3:0] ErrLastLate = 4'd9;
+localparam logic [3:0] ErrSegment = 4'd10;
+localparam logic [3:0] ErrUnitLong = 4'd11;
+localparam logic [3:0] ErrUnitShort = 4'd12;
 
 localparam int ShadeShadeLsb = 4;
 localparam int ShadeShadeBits = SHADE_FRAC + 1;
@@ -40,12 +43,36 @@ localparam int ShadeBits = ShadeShadeLsb + ShadeShadeBits;
 localparam int ShadeWords = (DSF_BITS > 0) != 0 ? (ShadeBits + 31) / 32 : 0;
 localparam int TableBits = 4;
 localparam int TableWords = (0) != 0 ? (TableBits + 31) / 32 : 0;
-localparam int FaceBits = 4;
-localparam int FaceWords = (0) != 0 ? (FaceBits + 31) / 32 : 0;
-localparam int SegBits = 4;
-localparam int SegWords = (0) != 0 ? (SegBits + 31) / 32 : 0;
+localparam int FaceUnitLsb = 4;
+localparam int FaceUnitBits = UNITS > 32 ? 6 : (UNITS > 16 ? 5 : (UNITS > 8 ? 4 : (UNITS > 4 ? 3 : (UNITS > 2 ? 2 : 1))));
+localparam int FaceFaceLsb = FaceUnitLsb + FaceUnitBits;
+localparam int FaceFaceBits = FACE_BITS;
+localparam int FaceIndexLsb = FaceFaceLsb + FaceFaceBits;
+localparam int FaceIndexBits = ORDER_BITS;
+localparam int FaceLitLsb = FaceIndexLsb + FaceIndexBits;
+localparam int FaceLitBits = DSF_BITS > 0 ? 1 : 0;
+localparam int FaceDzLsb = FaceLitLsb + FaceLitBits;
+localparam int FaceDzBits = Z_BITS + Z_FRAC + 2;
+localparam int FaceColorLsb = FaceDzLsb + FaceDzBits;
+localparam int FaceColorBits = 8;
+localparam int FaceBits = FaceColorLsb + FaceColorBits * CHANNELS;
+localparam int FaceWords = (UNITS > 0) != 0 ? (FaceBits + 31) / 32 : 0;
+localparam int SegUnitLsb = 4;
+localparam int SegUnitBits = UNITS > 32 ? 6 : (UNITS > 16 ? 5 : (UNITS > 8 ? 4 : (UNITS > 4 ? 3 : (UNITS > 2 ? 2 : 1))));
+localparam int SegPadLsb = SegUnitLsb + SegUnitBits;
+localparam int SegPadBits = CLASSIC > 0 ? 28 - (UNITS > 32 ? 6 : (UNITS > 16 ? 5 : (UNITS > 8 ? 4 : (UNITS > 4 ? 3 : (UNITS > 2 ? 2 : 1))))) : 0;
+localparam int SegZLsb = SegPadLsb + SegPadBits;
+localparam int SegZBits = CLASSIC > 0 ? 15 : (Z_BITS + Z_FRAC + 2);
+localparam int SegSyncLsb = SegZLsb + SegZBits;
+localparam int SegSyncBits = 1;
+localparam int SegDxLsb = SegSyncLsb + SegSyncBits;
+localparam int SegDxBits = DX_BITS;
+localparam int SegFaceLsb = SegDxLsb + SegDxBits;
+localparam int SegFaceBits = FACE_BITS;
+localparam int SegBits = SegFaceLsb + SegFaceBits;
+localparam int SegWords = (UNITS > 0) != 0 ? (SegBits + 31) / 32 : 0;
 localparam int TreeBits = 4;
-localparam int TreeWords = (0) != 0 ? (TreeBits + 31) / 32 : 0;
+localparam int TreeWords = (UNITS > 0) != 0 ? (TreeBits + 31) / 32 : 0;
 localparam int OpXlLsb = 4;
 localparam int OpXlBits = X_BITS;
 localparam int OpXrLsb = OpXlLsb + OpXlBits;
@@ -132,7 +159,13 @@ localparam logic [31:0] ParamHash6 = (ParamHash5 ^ 32'(COLOR_FRAC)) * 32'd167776
 localparam logic [31:0] ParamHash7 = (ParamHash6 ^ 32'(DSF_BITS)) * 32'd16777619;
 localparam logic [31:0] ParamHash8 = (ParamHash7 ^ 32'(FSF)) * 32'd16777619;
 localparam logic [31:0] ParamHash9 = (ParamHash8 ^ 32'(SHADE_FRAC)) * 32'd16777619;
-localparam logic [31:0] ParamHash = ParamHash9;  // what a header must carry
+localparam logic [31:0] ParamHash10 = (ParamHash9 ^ 32'(UNITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash11 = (ParamHash10 ^ 32'(FACE_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash12 = (ParamHash11 ^ 32'(DX_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash13 = (ParamHash12 ^ 32'(SEG_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash14 = (ParamHash13 ^ 32'(ORDER_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash15 = (ParamHash14 ^ 32'(CLASSIC)) * 32'd16777619;
+localparam logic [31:0] ParamHash = ParamHash15;  // what a header must carry
 
 // Words of a token of this kind; 0: the configuration lacks it.
 function automatic logic [4:0] token_words(input logic [3:0] kind);

@@ -18,4 +18,6 @@ localparam logic [7:0] RegFrames = 8'h30;  // ro
 localparam logic [7:0] RegCycles = 8'h34;  // ro
 localparam logic [7:0] RegStarved = 8'h38;  // ro
 localparam logic [7:0] RegBlocked = 8'h3c;  // ro
+localparam logic [7:0] RegErrorUnit = 8'h40;  // ro
+localparam logic [7:0] RegTree = 8'h44;  // ro
 /* verilator lint_on UNUSEDPARAM */

@@ -24,6 +24,12 @@ struct Config {
   int dsf_bits = 1;  ///< bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows
   int fsf = 1;  ///< 1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE
   int shade_frac = 8;  ///< fraction bits of SHADE, the darkening of a shadowed pixel
+  int units = 0;  ///< expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree
+  int face_bits = 7;  ///< bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank
+  int dx_bits = 9;  ///< bits of a segment's length, 1 .. 2^DX_BITS - 1 pixels
+  int seg_bits = 7;  ///< a unit buffers 2^SEG_BITS segments of a line
+  int order_bits = 8;  ///< bits of a polyhedron's draw index, which decides between equal depths
+  int classic = 0;  ///< 1: segments are the paper's two 16-bit words; needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9
   int arrangement = 1;  ///< 0 systolic (a processor per pixel), 1 banked (LANES over line buffers)
   int lanes = 4;  ///< banked: pixels worked on per clock
   int max_width = 640;  ///< pixels of the longest line; systolic: the number of processors
@@ -44,7 +50,7 @@ struct ParamInfo {
   std::string_view doc;
 };
 
-inline constexpr std::array<ParamInfo, 13> kParams{{
+inline constexpr std::array<ParamInfo, 19> kParams{{
     {"X_BITS", &Config::x_bits, 11, 4, 15, true, 0x0, "bits of a pixel position; a line holds at most 2^X_BITS - 1 pixels"},
     {"Z_BITS", &Config::z_bits, 24, 4, 28, true, 0x0, "bits of stored depth; all ones is clear, drawn depth lies in 1 .. 2^Z_BITS - 2"},
     {"Z_FRAC", &Config::z_frac, 11, 0, 16, true, 0x0, "fraction bits of a span's depth; at least ceil(log2 width) keeps the error near half an LSB"},
@@ -54,6 +60,12 @@ inline constexpr std::array<ParamInfo, 13> kParams{{
     {"DSF_BITS", &Config::dsf_bits, 1, 0, 8, true, 0x0, "bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows"},
     {"FSF", &Config::fsf, 1, 0, 1, true, 0x0, "1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE"},
     {"SHADE_FRAC", &Config::shade_frac, 8, 1, 16, true, 0x0, "fraction bits of SHADE, the darkening of a shadowed pixel"},
+    {"UNITS", &Config::units, 0, 0, 64, true, 0x0, "expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree"},
+    {"FACE_BITS", &Config::face_bits, 7, 2, 12, true, 0x0, "bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank"},
+    {"DX_BITS", &Config::dx_bits, 9, 2, 15, true, 0x0, "bits of a segment's length, 1 .. 2^DX_BITS - 1 pixels"},
+    {"SEG_BITS", &Config::seg_bits, 7, 2, 12, true, 0x0, "a unit buffers 2^SEG_BITS segments of a line"},
+    {"ORDER_BITS", &Config::order_bits, 8, 1, 16, true, 0x0, "bits of a polyhedron's draw index, which decides between equal depths"},
+    {"CLASSIC", &Config::classic, 0, 0, 1, true, 0x0, "1: segments are the paper's two 16-bit words; needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9"},
     {"ARRANGEMENT", &Config::arrangement, 1, 0, 1, false, 0x0, "0 systolic (a processor per pixel), 1 banked (LANES over line buffers)"},
     {"LANES", &Config::lanes, 4, 1, 32, false, 0x100010116, "banked: pixels worked on per clock"},
     {"MAX_WIDTH", &Config::max_width, 640, 1, 32767, false, 0x0, "pixels of the longest line; systolic: the number of processors"},
@@ -72,8 +84,8 @@ constexpr std::uint32_t param_hash(const Config& c) {
 enum class Kind : std::uint8_t {
   SHADE = 1,  ///< frame state: share of the light's colour that a shadow takes, in 2^-SHADE_FRAC
   TABLE = 2,  ///< frame state: entry of the light table
-  FACE = 3,  ///< frame state: entry of a unit's face table
-  SEG = 4,  ///< segment of a convex polyhedron, one line ahead
+  FACE = 3,  ///< frame state: entry of a unit's face table, in order from 0
+  SEG = 4,  ///< segment of a convex polyhedron on the line ahead
   TREE = 5,  ///< take the compare tree's line
   OP = 6,  ///< opaque span
   SP = 7,  ///< shadow span
@@ -98,26 +110,32 @@ enum class ErrorCode : std::uint8_t {
   PARAMS = 3,  ///< param_hash is not this core's
   KIND = 4,  ///< kind 0, or a token that the configuration lacks
   ORDER = 5,  ///< a token where its phase does not allow it
-  RANGE = 6,  ///< xl > xr, xr > width, or shade > 2^SHADE_FRAC
+  RANGE = 6,  ///< xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, or a face out of turn
   LINE = 7,  ///< EOL with another line number, or END before the last line
   LAST_EARLY = 8,  ///< TLAST before END
   LAST_LATE = 9,  ///< no TLAST at END's beat
+  SEGMENT = 10,  ///< a segment of length 0, with SYNC out of place, or of a face that the frame has not defined
+  UNIT_LONG = 11,  ///< a unit with more pixels than the line, or more segments than it buffers
+  UNIT_SHORT = 12,  ///< a unit with fewer pixels than the line
 };
 
-inline constexpr std::array<std::string_view, 10> kErrorNames{
-    "NONE", "HEADER", "SIZE", "PARAMS", "KIND", "ORDER", "RANGE", "LINE", "LAST_EARLY", "LAST_LATE"};
+inline constexpr std::array<std::string_view, 13> kErrorNames{
+    "NONE", "HEADER", "SIZE", "PARAMS", "KIND", "ORDER", "RANGE", "LINE", "LAST_EARLY", "LAST_LATE", "SEGMENT", "UNIT_LONG", "UNIT_SHORT"};
 
-inline constexpr std::array<std::string_view, 10> kErrorTexts{
+inline constexpr std::array<std::string_view, 13> kErrorTexts{
     "no error",
     "magic or version is not this core's",
     "width or height is 0, or more than the core has",
     "param_hash is not this core's",
     "kind 0, or a token that the configuration lacks",
     "a token where its phase does not allow it",
-    "xl > xr, xr > width, or shade > 2^SHADE_FRAC",
+    "xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, or a face out of turn",
     "EOL with another line number, or END before the last line",
     "TLAST before END",
     "no TLAST at END's beat",
+    "a segment of length 0, with SYNC out of place, or of a face that the frame has not defined",
+    "a unit with more pixels than the line, or more segments than it buffers",
+    "a unit with fewer pixels than the line",
 };
 
 /// Place of a field in its token: `bits` from bit `lsb` of the token's words, the first word lowest.
@@ -130,6 +148,18 @@ struct Field {
 /// Places of all fields for one configuration. An absent field has no bits.
 struct Layout {
   Field shade_shade;
+  Field face_unit;
+  Field face_face;
+  Field face_index;
+  Field face_lit;
+  Field face_dz;
+  Field face_color[3];
+  Field seg_unit;
+  Field seg_pad;
+  Field seg_z;
+  Field seg_sync;
+  Field seg_dx;
+  Field seg_face;
   Field op_xl;
   Field op_xr;
   Field op_lit;
@@ -166,14 +196,26 @@ struct Layout {
     bits[2] = static_cast<std::uint16_t>(at);
     words[2] = static_cast<std::uint8_t>((0) ? (at + 31) / 32 : 0);
     at = 4;  // FACE
+    put(face_unit, c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))), false);
+    put(face_face, c.face_bits, false);
+    put(face_index, c.order_bits, false);
+    put(face_lit, c.dsf_bits > 0 ? 1 : 0, false);
+    put(face_dz, c.z_bits + c.z_frac + 2, true);
+    for (int i = 0; i < c.channels; ++i) put(face_color[i], 8, false);
     bits[3] = static_cast<std::uint16_t>(at);
-    words[3] = static_cast<std::uint8_t>((0) ? (at + 31) / 32 : 0);
+    words[3] = static_cast<std::uint8_t>((c.units > 0) ? (at + 31) / 32 : 0);
     at = 4;  // SEG
+    put(seg_unit, c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))), false);
+    put(seg_pad, c.classic > 0 ? 28 - (c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1))))) : 0, false);
+    put(seg_z, c.classic > 0 ? 15 : (c.z_bits + c.z_frac + 2), (c.classic == 0) != 0);
+    put(seg_sync, 1, false);
+    put(seg_dx, c.dx_bits, false);
+    put(seg_face, c.face_bits, false);
     bits[4] = static_cast<std::uint16_t>(at);
-    words[4] = static_cast<std::uint8_t>((0) ? (at + 31) / 32 : 0);
+    words[4] = static_cast<std::uint8_t>((c.units > 0) ? (at + 31) / 32 : 0);
     at = 4;  // TREE
     bits[5] = static_cast<std::uint16_t>(at);
-    words[5] = static_cast<std::uint8_t>((0) ? (at + 31) / 32 : 0);
+    words[5] = static_cast<std::uint8_t>((c.units > 0) ? (at + 31) / 32 : 0);
     at = 4;  // OP
     put(op_xl, c.x_bits, false);
     put(op_xr, c.x_bits, false);

@@ -20,6 +20,8 @@
 #define KAGE_REG_CYCLES 0x34u /* ro: clocks since reset, modulo 2^32 */
 #define KAGE_REG_STARVED 0x38u /* ro: clocks inside a frame in which the core waited for input */
 #define KAGE_REG_BLOCKED 0x3Cu /* ro: clocks in which a pixel waited for the output's ready */
+#define KAGE_REG_ERROR_UNIT 0x40u /* ro: unit of the newest error, if it is SEGMENT, UNIT_LONG or UNIT_SHORT */
+#define KAGE_REG_TREE 0x44u /* ro: bits 5-0 the lowest unit that the compare tree waits for, bit 31 it waits for one */
 
 #define KAGE_ERR_NONE 0u /* no error */
 #define KAGE_ERR_HEADER 1u /* magic or version is not this core's */
@@ -27,9 +29,12 @@
 #define KAGE_ERR_PARAMS 3u /* param_hash is not this core's */
 #define KAGE_ERR_KIND 4u /* kind 0, or a token that the configuration lacks */
 #define KAGE_ERR_ORDER 5u /* a token where its phase does not allow it */
-#define KAGE_ERR_RANGE 6u /* xl > xr, xr > width, or shade > 2^SHADE_FRAC */
+#define KAGE_ERR_RANGE 6u /* xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, or a face out of turn */
 #define KAGE_ERR_LINE 7u /* EOL with another line number, or END before the last line */
 #define KAGE_ERR_LAST_EARLY 8u /* TLAST before END */
 #define KAGE_ERR_LAST_LATE 9u /* no TLAST at END's beat */
+#define KAGE_ERR_SEGMENT 10u /* a segment of length 0, with SYNC out of place, or of a face that the frame has not defined */
+#define KAGE_ERR_UNIT_LONG 11u /* a unit with more pixels than the line, or more segments than it buffers */
+#define KAGE_ERR_UNIT_SHORT 12u /* a unit with fewer pixels than the line */
 
 #endif
