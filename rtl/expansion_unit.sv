@@ -10,7 +10,7 @@
 // Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >> Z_FRAC, 1, 2^Z_BITS - 2), with the
 //   face's index, colour and lit bit. Face all ones is blank: Z and index all ones, colour and lit bit 0. px_data_o = {Z, index, colour, lit}.
 // flush_i drops all lines, in one clock; the table stays.
-// width_i holds still from the first segment of a frame until its last line has been read out.
+// width_i matters with segments only, and holds still while a line comes in.
 // Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that are buffered without a gap.
 // Cost: RAMs of 2^(SEG_BITS + 1) segments and 2^(FACE_BITS + 1) entries, an adder of DepthBits, about 4 registers of a segment's width.
 `default_nettype none
