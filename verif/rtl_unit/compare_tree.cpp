@@ -128,6 +128,7 @@ void speed_test(int units) {
       REQUIRE(top->out_valid_o == (clock >= levels(units) ? 1 : 0));
       if (top->out_valid_o) {
         std::vector<Word> pixels;
+        pixels.reserve(line.size());
         for (const auto& unit : line) pixels.push_back(unit[static_cast<std::size_t>(clock - levels(units))]);
         REQUIRE(top->out_data_o == least(pixels).data);
       }

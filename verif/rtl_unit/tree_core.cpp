@@ -186,7 +186,7 @@ void random_test(const TreeShape& s) {
         open = false;
       }
       if (start) {
-        if (last_line.size() >= 1) REQUIRE(left >= last_line.back());  // of the frame before the last one none is left
+        if (!last_line.empty()) REQUIRE(left >= last_line.back());  // of the frame before the last one none is left
         last_line.push_back(claimed);
         width = dice.percent(15) ? s.widest() : dice.percent(40) ? dice.between(1, 3) : dice.between(1, s.widest());
         if (s.widest() > 100 && dice.percent(80)) width = std::min(width, 30);
