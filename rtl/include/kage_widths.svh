@@ -9,4 +9,9 @@ localparam int SlopeBits = SMOOTH > 0 ? ColorBits : 1,
 localparam int CountBits = DSF_BITS > 0 ? DSF_BITS : 1,  // shadow counter, bias, or the lit bit of OP
 localparam int RgbBits = 8 * CHANNELS,  // one pixel's colour
 localparam int ExitBits = RgbBits + (DSF_BITS > 0 ? 2 : 1),  // a pixel that leaves: {dark, covered, colour}
+localparam int LitBits = DSF_BITS > 0 ? 1 : 0,  // the lit bit of a face and of the tree's pixel
+localparam int UnitBits = UNITS > 2 ? $clog2(UNITS) : 1,  // an expansion unit's number
+localparam int EntryBits = ORDER_BITS + LitBits + DepthBits + RgbBits,  // {colour, dz, lit, index}, as FACE has them
+localparam int KeyBits = Z_BITS + ORDER_BITS,  // what the compare tree compares: {Z, index}
+localparam int PointBits = KeyBits + RgbBits + LitBits,  // a pixel in the compare tree: {Z, index, colour, lit}
 /* verilator lint_on UNUSEDPARAM */

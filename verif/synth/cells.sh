@@ -3,8 +3,9 @@
 # What a feature costs: cells of kage_top for iCE40 (Debian's yosys). The first row is the base, the next ones differ from it in one
 # feature; `default` is the named configuration.
 #
-# usage: verif/synth/cells.sh [--quick | NAME PARAM=VALUE...]
-#   without arguments the table below; --quick: base, no-shadow, one-channel and small-z only; NAME ...: one configuration
+# usage: verif/synth/cells.sh [--quick | --tree | NAME PARAM=VALUE...]
+#   without arguments the table below; --quick: base, no-shadow, one-channel and small-z only; NAME ...: one configuration;
+#   --tree: the parts of the compare tree alone
 # Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take, or if it
 # is not smaller (smooth: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
 set -euo pipefail
@@ -30,6 +31,38 @@ cells() { # NAME PARAM=VALUE...: prints a row
 base="LANES=2 MAX_WIDTH=64 X_BITS=7 Z_FRAC=7"
 export -f cells
 export work base
+# ---- the compare tree's parts alone ----
+part() { # NAME TOP PARAM=VALUE...: prints a row
+  local name=$1 top=$2 sets= p
+  shift 2
+  for p in "$@"; do sets+=" -set ${p%%=*} ${p#*=}"; done
+  [ -z "$sets" ] || sets="chparam$sets $top;"
+  yosys -q -l "$work/$name.log" -p "read_verilog -sv -Irtl/include rtl/*.sv; $sets synth_ice40 -top $top; tee -o $work/$name.stat stat" \
+    >"$work/$name.out" 2>&1 || { echo "cells.sh: $name: yosys failed" >&2; tail -5 "$work/$name.log" >&2; exit 2; }
+  if grep -q "Warning" "$work/$name.out"; then echo "cells.sh: $name: yosys warns" >&2; grep -m3 Warning "$work/$name.out" >&2; fi
+  awk -v name="$name" -v params="$top${*:+ $*}" '
+    / SB_LUT4 /{lut=$2} / SB_CARRY /{carry=$2} / SB_DFF/{ff+=$2} / SB_RAM40/{ram+=$2}
+    END{printf "| %s | %d | %d | %d | %d | `%s` |\n", name, lut, ff, carry, ram, params}' "$work/$name.stat"
+}
+tree_parts() { # prints the table; exit 1 if a tree is smaller than one of fewer units
+  local last=0 luts units row
+  echo "| part | LUT4 | flip-flops | carry | RAM 4k | module and parameters |"
+  echo "| --- | --- | --- | --- | --- | --- |"
+  part cell compare_cell
+  part unit expansion_unit UNITS=2
+  part unit-classic expansion_unit UNITS=2 CLASSIC=1 Z_BITS=15 Z_FRAC=0
+  for units in 2 4 8 16 32 64; do
+    row=$(part tree$units compare_tree UNITS=$units)
+    echo "$row"
+    luts=$(awk -F'|' '{print $3 + 0}' <<<"$row")
+    [ "$luts" -gt "$last" ] || { echo "cells.sh: tree$units has no more LUTs than half of it" >&2; exit 1; }
+    last=$luts
+  done
+  part check4 segment_check UNITS=4
+  part check64 segment_check UNITS=64
+}
+if [ "${1:-}" = --tree ]; then tree_parts; exit; fi
+
 quick=
 if [ "${1:-}" = --quick ]; then quick=1; elif [ $# -gt 0 ]; then cells "$@"; exit; fi
 

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// An expansion unit: makes pixels of the segments of convex polyhedra that do not overlap on the screen. [Ohno 1985]
+//
+// Segments: seg_* is valid/ready. A line's segments come in order, of 1 .. 2^DX_BITS - 1 pixels each, at most 2^SEG_BITS of them; the line is
+//   complete when they sum to width_i. Two lines are buffered, a half of the RAM each: seg_ready_o falls while both halves
+//   hold a line that has not been read out whole. A line is expanded only when it is complete, so it has no bubble from its first pixel to its last.
+// Faces: face_valid_i writes an entry of the table of the frame that came in last; segments may name it from the next clock on. The
+//   table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs while they leave: whoever
+//   gives frame_start_i sees to it that no line is left of the frame before that one, and that no line is half filled.
+// Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >> Z_FRAC, 1, 2^Z_BITS - 2), with the
+//   face's index, colour and lit bit. Face all ones is blank: Z and index all ones, colour and lit bit 0. px_data_o = {Z, index, colour, lit}.
+// flush_i drops all lines, in one clock; the table stays.
+// width_i matters with segments only, and holds still while a line comes in.
+// Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that are buffered without a gap.
+// Cost: RAMs of 2^(SEG_BITS + 1) segments and 2^(FACE_BITS + 1) entries, an adder of DepthBits, about 4 registers of a segment's width.
+`default_nettype none
+
+module expansion_unit #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    localparam int ZStored = CLASSIC > 0 ? 15 : DepthBits  // the paper's depth is unsigned
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    input wire logic              frame_start_i,
+    input wire logic              flush_i,
+    input wire logic [X_BITS-1:0] width_i,
+
+    input wire logic                 face_valid_i,
+    input wire logic [FACE_BITS-1:0] face_number_i,
+    input wire logic [EntryBits-1:0] face_entry_i,
+
+    input  wire logic                 seg_valid_i,
+    output logic                      seg_ready_o,
+    input  wire logic [DepthBits-1:0] seg_z_i,
+    input  wire logic [  DX_BITS-1:0] seg_dx_i,
+    input  wire logic [FACE_BITS-1:0] seg_face_i,
+
+    output logic                      px_valid_o,
+    input  wire logic                 px_ready_i,
+    output logic      [PointBits-1:0] px_data_o,
+    output logic                      px_last_o
+);
+
+  localparam int WordBits = ZStored + DX_BITS + FACE_BITS;
+
+  // ---- filling -----------------------------------------------------------------------------------------------------
+  logic clear, seg_take, line_complete, line_read;
+  logic wr_half_q, rd_half_q, wr_bank_q;
+  logic [1:0] full_q;  // the half has a line that has not been read out whole
+  logic [1:0] bank_q;  // of the table, for the line in the half
+  logic [SEG_BITS-1:0] wr_at_q, rd_at_q;
+  logic [2*SEG_BITS-1:0] end_q;  // place of the last segment in each half
+  logic [X_BITS-1:0] sum_q, sum;
+
+  assign clear = !rst_ni || flush_i;
+  assign seg_ready_o = !full_q[wr_half_q];
+  assign seg_take = seg_valid_i && seg_ready_o;
+  assign sum = sum_q + X_BITS'(seg_dx_i);
+  assign line_complete = seg_take && sum == width_i;
+
+  always_ff @(posedge clk_i) begin
+    if (clear) begin
+      wr_half_q <= 1'b0;
+      wr_at_q   <= '0;
+      sum_q     <= '0;
+      full_q    <= '0;
+    end else begin
+      if (line_complete) begin
+        wr_half_q <= !wr_half_q;
+        wr_at_q <= '0;
+        sum_q <= '0;
+      end else if (seg_take) begin
+        wr_at_q <= wr_at_q + 1'b1;
+        sum_q   <= sum;
+      end
+      for (int h = 0; h < 2; h++) begin
+        if (line_complete && wr_half_q == 1'(h)) full_q[h] <= 1'b1;
+        else if (line_read && rd_half_q == 1'(h)) full_q[h] <= 1'b0;
+      end
+    end
+    for (int h = 0; h < 2; h++) begin
+      if (line_complete && wr_half_q == 1'(h)) begin
+        bank_q[h] <= wr_bank_q;
+        end_q[h*SEG_BITS+:SEG_BITS] <= wr_at_q;
+      end
+    end
+    if (!rst_ni) wr_bank_q <= 1'b0;
+    else if (frame_start_i) wr_bank_q <= !wr_bank_q;
+  end
+
+  // ---- prefetch: the word of a segment, a register behind it, its face ---------------------------------------------
+  // Stage k holds a segment while valid_q[k]; move k lets it take what is before it. Nothing is read ahead of its time: a RAM keeps
+  // what it gave until the stage moves.
+  logic load;  // the Z generator takes a segment
+  logic read, read_end;
+  logic [2:0] valid_q, last_q;
+  logic move0, move1, move2;
+  logic [1:0] face_bank_q;
+  logic [WordBits-1:0] word, word_q;
+  logic [EntryBits-1:0] entry;
+  logic [ZStored-1:0] z3_q;
+  logic [DX_BITS-1:0] dx3_q;
+  logic blank3_q;
+
+  assign move2     = !valid_q[2] || load;
+  assign move1     = !valid_q[1] || move2;
+  assign move0     = !valid_q[0] || move1;
+  assign read      = full_q[rd_half_q] && move0;
+  assign read_end  = rd_at_q == end_q[rd_half_q*SEG_BITS+:SEG_BITS];
+  assign line_read = read && read_end;
+
+  always_ff @(posedge clk_i) begin
+    if (clear) begin
+      rd_half_q <= 1'b0;
+      rd_at_q   <= '0;
+      valid_q   <= '0;
+    end else begin
+      if (line_read) begin
+        rd_half_q <= !rd_half_q;
+        rd_at_q   <= '0;
+      end else if (read) begin
+        rd_at_q <= rd_at_q + 1'b1;
+      end
+      if (move0) valid_q[0] <= read;
+      if (move1) valid_q[1] <= valid_q[0];
+      if (move2) valid_q[2] <= valid_q[1];
+    end
+    if (move0) begin
+      last_q[0] <= read_end;
+      face_bank_q[0] <= bank_q[rd_half_q];
+    end
+    if (move1) begin
+      word_q <= word;
+      last_q[1] <= last_q[0];
+      face_bank_q[1] <= face_bank_q[0];
+    end
+    if (move2) begin
+      {z3_q, dx3_q} <= word_q[WordBits-1:FACE_BITS];
+      blank3_q <= &word_q[FACE_BITS-1:0];
+      last_q[2] <= last_q[1];
+    end
+  end
+
+  ram_1r1w #(
+      .BITS (WordBits),
+      .WORDS(2 << SEG_BITS)
+  ) u_segments (
+      .clk_i,
+      .wr_en_i  (seg_take),
+      .wr_addr_i({wr_half_q, wr_at_q}),
+      .wr_data_i({seg_z_i[ZStored-1:0], seg_dx_i, seg_face_i}),
+      .rd_en_i  (read),
+      .rd_addr_i({rd_half_q, rd_at_q}),
+      .rd_data_o(word)
+  );
+
+  ram_1r1w #(
+      .BITS (EntryBits),
+      .WORDS(2 << FACE_BITS)
+  ) u_faces (
+      .clk_i,
+      .wr_en_i  (face_valid_i),
+      .wr_addr_i({wr_bank_q, face_number_i}),
+      .wr_data_i(face_entry_i),
+      .rd_en_i  (move2),
+      .rd_addr_i({face_bank_q[1], word_q[FACE_BITS-1:0]}),
+      .rd_data_o(entry)
+  );
+
+  // ---- Z generator: the registers Z, X and DEF, and what the segment's pixels share --------------------------------
+  localparam int PaintBits = RgbBits + LitBits;
+  logic busy_q, step, x_end, end_seg_q, blank_q;
+  logic [DepthBits-1:0] z_q, def_q;
+  logic [DX_BITS-1:0] x_q;  // pixels left
+  logic [ORDER_BITS-1:0] index_q;
+  logic [PaintBits-1:0] paint, paint_q;
+
+  if (DSF_BITS > 0) begin : gen_lit
+    assign paint = {entry[EntryBits-1-:RgbBits], entry[ORDER_BITS]};
+  end else begin : gen_no_lit
+    assign paint = entry[EntryBits-1-:RgbBits];
+  end
+
+  assign step  = busy_q && (!px_valid_o || px_ready_i);
+  assign x_end = x_q == DX_BITS'(1);
+  assign load  = valid_q[2] && (!busy_q || (step && x_end));
+
+  always_ff @(posedge clk_i) begin
+    if (clear) busy_q <= 1'b0;
+    else if (load) busy_q <= 1'b1;
+    else if (step && x_end) busy_q <= 1'b0;
+    if (load) begin
+      z_q <= DepthBits'(z3_q);
+      x_q <= dx3_q;
+      def_q <= entry[ORDER_BITS+LitBits+:DepthBits];
+      index_q <= entry[ORDER_BITS-1:0];
+      paint_q <= paint;
+      blank_q <= blank3_q;
+      end_seg_q <= last_q[2];
+    end else if (step) begin
+      z_q <= z_q + def_q;
+      x_q <= x_q - 1'b1;
+    end
+  end
+
+  // ---- clamp and the pixel's register ------------------------------------------------------------------------------
+  logic [Z_BITS+1:0] whole;
+  logic [Z_BITS-1:0] depth;
+  assign whole = z_q[DepthBits-1:Z_FRAC];
+  always_comb begin
+    if (whole[Z_BITS+1] || whole == '0) depth = Z_BITS'(1);
+    else if (whole[Z_BITS] || &whole[Z_BITS-1:0]) depth = {{(Z_BITS - 1) {1'b1}}, 1'b0};
+    else depth = whole[Z_BITS-1:0];
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (clear) px_valid_o <= 1'b0;
+    else if (!px_valid_o || px_ready_i) px_valid_o <= busy_q;
+    if (step) begin
+      px_data_o <= blank_q ? {{KeyBits{1'b1}}, {PaintBits{1'b0}}} : {depth, index_q, paint_q};
+      px_last_o <= x_end && end_seg_q;
+    end
+  end
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  logic mid_line_q;  // a line has begun to leave and not ended
+  always_ff @(posedge clk_i) begin
+    if (clear) mid_line_q <= 1'b0;
+    else if (px_valid_o && px_ready_i) mid_line_q <= !px_last_o;
+    if (rst_ni) begin
+      // 1. A segment has pixels and stays in its line, and the line in its half.
+      assert (!seg_take || (seg_dx_i != '0 && 16'(sum_q) + 16'(seg_dx_i) <= 16'(width_i)));
+      assert (!seg_take || line_complete || !(&wr_at_q));
+      // 2. No frame begins in the middle of a line.
+      assert (!frame_start_i || flush_i || sum_q == '0);
+      // 3. A line has no bubble.
+      assert (!mid_line_q || px_valid_o);
+      // 4. The paper's depth is unsigned.
+      assert (!seg_take || DepthBits'(seg_z_i[ZStored-1:0]) == seg_z_i);
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

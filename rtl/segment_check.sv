@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rules for FACE, SEG and TREE (docs/stream.md, "Units and the tree"): what each unit has been given, which tokens may come, and
+// which fault a TREE raises. frame_control asks about the token it has and acts on the answer; nothing here waits.
+//
+// Question: is_*_i, at most one, says what the token is, *_i brings its fields; all hold still while the token waits. line_left_i is the height less
+//   the number of EOLs accepted. Every answer is combinational, and valid for the kinds it names.
+// Acts: frame_start_i, one clock, at a good header. take_i, one clock, when the token was good and has been taken; a token that is refused by
+//   any check must not be taken, and then nothing but the next frame_start_i counts.
+// Answers, in the order of the checks:
+//   order_error_o   FACE, SEG, TREE, SHADE, EOL, or any other token but END (is_other_i), where its phase does not allow it: as far as the
+//                   tree is concerned; lines, volumes and the number of SHADEs are frame_control's
+//   range_error_o   FACE or SEG of a unit that the core lacks, FACE out of turn
+//   seg_pass_o      SEG: it goes to its unit; otherwise it is swallowed: its unit is or becomes at fault
+//   tree_error_o    TREE: a unit is at fault for this line; tree_code_o, tree_unit_o and tree_token_o say how
+// State: tree_o, the frame has a tree; due_o, the line's TREE has not been taken yet, so only SEG and TREE may come.
+// Two faults are kept, the first SEG at fault for this line and for the next: no SEG can be at fault for a later one, and none
+//   is left from an earlier one, because that line's TREE has raised it.
+// Latency: answers 0, state 1 clock. Throughput: a token a clock.
+// Cost: per unit FACE_BITS + X_BITS + SEG_BITS + 4 flip-flops and the multiplexers to them; comparators once.
+// Needs UNITS > 0: a core without units leaves it out.
+`default_nettype none
+
+module segment_check #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    localparam int CodeBits = 4
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    input wire logic frame_start_i,
+    input wire logic take_i,
+
+    input wire logic              is_shade_i,
+    input wire logic              is_face_i,
+    input wire logic              is_seg_i,
+    input wire logic              is_tree_i,
+    input wire logic              is_eol_i,
+    input wire logic              is_other_i,
+    input wire logic [X_BITS-1:0] width_i,
+    input wire logic [      14:0] lines_left_i,
+    input wire logic [      31:0] token_i,       // index of the token in its frame
+
+    input wire logic [ UnitBits-1:0] unit_i,  // of FACE or SEG
+    input wire logic [FACE_BITS-1:0] face_i,  // of FACE or SEG
+    input wire logic                 sync_i,
+    input wire logic [  DX_BITS-1:0] dx_i,
+
+    output logic order_error_o,
+    output logic range_error_o,
+    output logic seg_pass_o,
+
+    output logic                tree_error_o,
+    output logic [CodeBits-1:0] tree_code_o,
+    output logic [UnitBits-1:0] tree_unit_o,
+    output logic [        31:0] tree_token_o,
+
+    output logic tree_o,
+    output logic due_o
+);
+  `include "kage_layout.svh"
+
+  localparam int SumBits = (X_BITS > DX_BITS ? X_BITS : DX_BITS) + 1;
+
+  // ---- the frame: has it a tree? -----------------------------------------------------------------------------------
+  logic state_q;  // only SHADE and FACE since the header: a SEG begins the tree, any other token rules it out
+  logic tree_q, due_q;
+  assign tree_o = tree_q;
+  assign due_o  = due_q;
+
+  // ---- the units ---------------------------------------------------------------------------------------------------
+  // Flat: unit u has bits u * width and up.
+  logic [UNITS*FACE_BITS-1:0] faces_q;  // defined
+  logic [UNITS*X_BITS-1:0] sum_q;  // pixels of the line being given
+  logic [UNITS*SEG_BITS-1:0] count_q;  // its segments, modulo 2^SEG_BITS: 0 with pixels is all of them
+  logic [UNITS*2-1:0] ahead_q;  // lines complete, less the number of this line
+  logic [UNITS-1:0] fault_q;
+
+  logic lacking;
+  logic [UnitBits-1:0] unit;
+  logic [FACE_BITS-1:0] faces;
+  logic [X_BITS-1:0] sum;
+  logic [SEG_BITS-1:0] count;
+  logic [1:0] ahead;
+  logic fault;
+  assign lacking = 32'(unit_i) >= 32'(UNITS);
+  assign unit = lacking ? '0 : unit_i;
+  assign faces = faces_q[unit*FACE_BITS+:FACE_BITS];
+  assign sum = sum_q[unit*X_BITS+:X_BITS];
+  assign count = count_q[unit*SEG_BITS+:SEG_BITS];
+  assign ahead = ahead_q[unit*2+:2];
+  assign fault = fault_q[unit];
+
+  // ---- order and range ---------------------------------------------------------------------------------------------
+  logic all_lines;  // the unit has all lines of the frame
+  assign all_lines = 15'(ahead) == lines_left_i;
+  always_comb begin
+    order_error_o = 1'b0;
+    if (is_shade_i || is_face_i) order_error_o = !state_q;
+    if (is_seg_i) order_error_o = !(state_q || due_q) || (!lacking && all_lines);
+    if (is_tree_i) order_error_o = !due_q;
+    if (is_eol_i || is_other_i) order_error_o = due_q;
+    range_error_o = (is_face_i || is_seg_i) && lacking;
+    if (is_face_i && (face_i != faces || &face_i)) range_error_o = 1'b1;
+  end
+
+  // ---- a segment ---------------------------------------------------------------------------------------------------
+  logic [SumBits-1:0] sum_next;
+  logic begins, completes, too_early, seg_fault;
+  logic [3:0] seg_code;
+  assign sum_next   = SumBits'(sum) + SumBits'(dx_i);
+  assign begins     = sum == '0;
+  assign completes  = sum_next == SumBits'(width_i);
+  assign too_early  = ahead == 2'd2;
+  assign seg_pass_o = is_seg_i && !fault && seg_code == ErrNone;
+  assign seg_fault  = is_seg_i && !fault && seg_code != ErrNone;
+  always_comb begin
+    if (too_early) seg_code = ErrUnitLong;
+    else if (sync_i != begins || dx_i == '0 || (!(&face_i) && face_i >= faces)) seg_code = ErrSegment;
+    else if (sum_next > SumBits'(width_i) || (!begins && count == '0)) seg_code = ErrUnitLong;
+    else seg_code = ErrNone;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      state_q <= 1'b0;
+      tree_q  <= 1'b0;
+      due_q   <= 1'b0;
+    end else if (frame_start_i) begin
+      state_q <= 1'b1;
+      tree_q  <= 1'b0;
+      due_q   <= 1'b0;
+    end else if (take_i) begin
+      if (!is_shade_i && !is_face_i) state_q <= 1'b0;
+      if (is_seg_i) tree_q <= 1'b1;
+      if (is_seg_i || (is_eol_i && tree_q)) due_q <= 1'b1;
+      if (is_tree_i) due_q <= 1'b0;
+    end
+    if (frame_start_i) begin
+      faces_q <= '0;
+      sum_q   <= '0;
+      count_q <= '0;
+      ahead_q <= '0;
+      fault_q <= '0;
+    end else if (take_i) begin
+      if (is_face_i) faces_q[unit*FACE_BITS+:FACE_BITS] <= faces + 1'b1;
+      if (seg_fault) fault_q[unit] <= 1'b1;
+      if (seg_pass_o) begin
+        sum_q[unit*X_BITS+:X_BITS] <= completes ? '0 : sum_next[X_BITS-1:0];
+        count_q[unit*SEG_BITS+:SEG_BITS] <= completes ? '0 : count + 1'b1;
+        if (completes) ahead_q[unit*2+:2] <= ahead + 2'd1;
+      end
+      if (is_eol_i && tree_q) begin
+        for (int u = 0; u < UNITS; u++) ahead_q[u*2+:2] <= ahead_q[u*2+:2] - 2'd1;
+      end
+    end
+  end
+
+  // ---- faults kept for this line and the next ----------------------------------------------------------------------
+  logic [1:0] kept_q;
+  logic [2*CodeBits-1:0] kept_code_q;
+  logic [2*UnitBits-1:0] kept_unit_q;
+  logic [63:0] kept_token_q;
+  logic later;  // the segment is of the next line, not of this one
+  assign later = ahead != 2'd0;
+
+  always_ff @(posedge clk_i) begin
+    if (frame_start_i) begin
+      kept_q <= '0;
+    end else if (take_i && is_eol_i) begin
+      kept_q <= {1'b0, kept_q[1]};
+      kept_code_q[0+:CodeBits] <= kept_code_q[CodeBits+:CodeBits];
+      kept_unit_q[0+:UnitBits] <= kept_unit_q[UnitBits+:UnitBits];
+      kept_token_q[31:0] <= kept_token_q[63:32];
+    end else if (take_i && seg_fault) begin
+      for (int i = 0; i < 2; i++) begin
+        if (later == 1'(i) && !kept_q[i]) begin
+          kept_q[i] <= 1'b1;
+          kept_code_q[i*CodeBits+:CodeBits] <= seg_code;
+          kept_unit_q[i*UnitBits+:UnitBits] <= unit;
+          kept_token_q[i*32+:32] <= token_i;
+        end
+      end
+    end
+  end
+
+  // ---- at TREE -----------------------------------------------------------------------------------------------------
+  logic short_any;
+  logic [UnitBits-1:0] short_unit;
+  always_comb begin
+    short_any  = 1'b0;
+    short_unit = '0;
+    for (int u = UNITS - 1; u >= 0; u--) begin
+      if (ahead_q[u*2+:2] == 2'd0) begin
+        short_any  = 1'b1;
+        short_unit = UnitBits'(u);
+      end
+    end
+    tree_error_o = is_tree_i && (kept_q[0] || short_any);
+    tree_code_o  = kept_q[0] ? kept_code_q[0+:CodeBits] : ErrUnitShort;
+    tree_unit_o  = kept_q[0] ? kept_unit_q[0+:UnitBits] : short_unit;
+    tree_token_o = kept_q[0] ? kept_token_q[31:0] : token_i;
+  end
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      // 1. One token at a time, and none that was refused.
+      assert ($onehot0({is_shade_i, is_face_i, is_seg_i, is_tree_i, is_eol_i, is_other_i}));
+      assert (!take_i || !(order_error_o || range_error_o || tree_error_o));
+      // 2. A line that ends under a tree has had its TREE, so every unit had it complete and no fault of it is left.
+      assert (!take_i || !is_eol_i || !tree_q || !(short_any || kept_q[0]));
+      // 3. A faulty segment is of this line or the next.
+      assert (!take_i || !seg_fault || lines_left_i > 15'(later));
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// The expansion units and their compare tree: one opaque layer, a line at a time, of faces and segments. [Ohno 1985]
+//
+// In: face_* takes an entry a clock; seg_* is valid/ready, and seg_ready_o, which depends on seg_unit_i, waits for that unit only.
+//   Both bring sound ones only: segment_check sees to it. width_i is the frame's, and matters with segments only.
+// Out: line_* is valid/ready: Z, lit bit and colour of the nearest face at each pixel, line_last_o at a line's last. Z all ones: none.
+//   A line is offered as soon as all units have it, before it is asked for.
+// Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All units have the
+//   line complete by then.
+// Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be leaving then,
+//   none of the one before that. After a frame with an error flush_i, one clock or more, drops what has not been claimed: lines claimed
+//   leave first, and frame_ready_o is low until the rest is gone. No face, segment or claim comes from flush_i until the next frame_start_i.
+// Status: wait_o says that a unit has no pixel while another has one, and wait_unit_o is the lowest such unit; 1 clock late.
+// Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of the tree.
+// Throughput: a pixel a clock, no bubble in a line.
+// Needs UNITS > 0: a core without units leaves it out.
+`default_nettype none
+
+module tree_core #(
+    `include "kage_pixel_params.svh"
+    `include "kage_widths.svh"
+    localparam int ClaimBits = 5  // no more than 16 lines fit in units and tree
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    input  wire logic              frame_start_i,
+    output logic                   frame_ready_o,
+    input  wire logic              flush_i,
+    input  wire logic              claim_i,
+    input  wire logic [X_BITS-1:0] width_i,
+
+    input wire logic                 face_valid_i,
+    input wire logic [ UnitBits-1:0] face_unit_i,
+    input wire logic [FACE_BITS-1:0] face_number_i,
+    input wire logic [EntryBits-1:0] face_entry_i,   // the token's fields from index on
+
+    input  wire logic                 seg_valid_i,
+    output logic                      seg_ready_o,
+    input  wire logic [ UnitBits-1:0] seg_unit_i,
+    input  wire logic [DepthBits-1:0] seg_z_i,      // extended by 0 if CLASSIC
+    input  wire logic [  DX_BITS-1:0] seg_dx_i,
+    input  wire logic [FACE_BITS-1:0] seg_face_i,
+
+    output logic                    line_valid_o,
+    input  wire logic               line_ready_i,
+    output logic      [ Z_BITS-1:0] line_z_o,
+    output logic                    line_lit_o,
+    output logic      [RgbBits-1:0] line_color_o,
+    output logic                    line_last_o,
+
+    output logic                wait_o,
+    output logic [UnitBits-1:0] wait_unit_o
+);
+
+  // ---- lines claimed, flush ----------------------------------------------------------------------------------------
+  logic [ClaimBits-1:0] claimed_q, claimed;  // lines asked for that have not left
+  logic [ClaimBits-1:0] old_q;  // those of them that belong to earlier frames
+  logic flushing_q, flush, line_left;
+  assign line_left = line_valid_o && line_ready_i && line_last_o;
+  assign claimed = claimed_q + ClaimBits'(claim_i) - ClaimBits'(line_left);
+  assign flush = flushing_q && claimed_q == '0;
+  assign frame_ready_o = !flushing_q && old_q == '0;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      claimed_q  <= '0;
+      old_q      <= '0;
+      flushing_q <= 1'b0;
+    end else begin
+      claimed_q <= claimed;
+      if (frame_start_i) old_q <= claimed;
+      else if (line_left && old_q != '0) old_q <= old_q - 1'b1;
+      if (flush_i) flushing_q <= 1'b1;
+      else if (flush) flushing_q <= 1'b0;
+    end
+  end
+
+  // ---- units -------------------------------------------------------------------------------------------------------
+  logic [UNITS-1:0] seg_ready, px_valid, px_ready, px_last;
+  logic [UNITS*PointBits-1:0] px_data;
+
+  always_comb begin
+    seg_ready_o = 1'b0;
+    for (int u = 0; u < UNITS; u++) if (seg_unit_i == UnitBits'(u)) seg_ready_o = seg_ready[u];
+  end
+
+  for (genvar u = 0; u < UNITS; u++) begin : gen_unit
+    expansion_unit #(
+        .X_BITS(X_BITS),
+        .Z_BITS(Z_BITS),
+        .Z_FRAC(Z_FRAC),
+        .CHANNELS(CHANNELS),
+        .DSF_BITS(DSF_BITS),
+        .FACE_BITS(FACE_BITS),
+        .DX_BITS(DX_BITS),
+        .SEG_BITS(SEG_BITS),
+        .ORDER_BITS(ORDER_BITS),
+        .CLASSIC(CLASSIC)
+    ) u_unit (
+        .clk_i,
+        .rst_ni,
+        .frame_start_i,
+        .flush_i     (flush),
+        .width_i,
+        .face_valid_i(face_valid_i && face_unit_i == UnitBits'(u)),
+        .face_number_i,
+        .face_entry_i,
+        .seg_valid_i (seg_valid_i && seg_unit_i == UnitBits'(u)),
+        .seg_ready_o (seg_ready[u]),
+        .seg_z_i,
+        .seg_dx_i,
+        .seg_face_i,
+        .px_valid_o  (px_valid[u]),
+        .px_ready_i  (px_ready[u]),
+        .px_data_o   (px_data[u*PointBits+:PointBits]),
+        .px_last_o   (px_last[u])
+    );
+  end
+
+  // ---- tree --------------------------------------------------------------------------------------------------------
+  logic [PointBits-1:0] point;
+  compare_tree #(
+      .UNITS    (UNITS),
+      .KEY_BITS (KeyBits),
+      .DATA_BITS(PointBits)
+  ) u_tree (
+      .clk_i,
+      .rst_ni     (rst_ni && !flush),
+      .in_valid_i (px_valid),
+      .in_ready_o (px_ready),
+      .in_data_i  (px_data),
+      .in_last_i  (px_last),
+      .out_valid_o(line_valid_o),
+      .out_ready_i(line_ready_i),
+      .out_data_o (point),
+      .out_last_o (line_last_o)
+  );
+
+  logic unused_index;
+  assign unused_index = ^point[PointBits-Z_BITS-1-:ORDER_BITS];
+  assign line_z_o = point[PointBits-1-:Z_BITS];
+  assign line_color_o = point[LitBits+:RgbBits];
+  assign line_lit_o = DSF_BITS > 0 && point[0];
+
+  // ---- status ------------------------------------------------------------------------------------------------------
+  logic [UnitBits-1:0] lowest;
+  always_comb begin
+    lowest = '0;
+    for (int u = UNITS - 1; u >= 0; u--) if (!px_valid[u]) lowest = UnitBits'(u);
+  end
+  always_ff @(posedge clk_i) begin
+    wait_o <= rst_ni && !flush && |px_valid && !(&px_valid);
+    wait_unit_o <= lowest;
+  end
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      // 1. A frame starts when it may.
+      assert (!frame_start_i || frame_ready_o);
+      // 2. No line leaves that was not claimed, and no more are claimed than fit.
+      assert (!line_left || claimed_q != '0 || claim_i);
+      assert (claimed_q <= ClaimBits'(16));
+      // 3. Nothing is given between flush_i and the next frame.
+      assert (!flushing_q || !(face_valid_i || seg_valid_i || claim_i));
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+// tree_core: lines of random frames under any stalls, frames in close succession and flushes at any clock; the clocks
+// of a line; whom the tree waits for.
+#include <deque>
+#include <optional>
+
+#include "Vcore1.h"
+#include "Vcore16.h"
+#include "Vcore2.h"
+#include "Vcore3.h"
+#include "Vcore32.h"
+#include "Vcore4.h"
+#include "Vcore5.h"
+#include "Vcore64.h"
+#include "Vcore8.h"
+#include "tree_model.hpp"
+
+using namespace kage::rtl;
+
+namespace {
+
+constexpr TreeShape small(int units) { return {units, 6, 10, 3, 3, 1, 3, 4, 3, 4, false}; }
+constexpr TreeShape kClassic{3, 8, 15, 0, 1, 0, 7, 9, 4, 8, true};
+
+struct Pixel {
+  std::uint64_t z, color, lit;
+  bool last;
+  bool operator==(const Pixel&) const = default;
+};
+
+template <class Top>
+Pixel pixel_of(const Top& top) {
+  return {top.line_z_o, top.line_color_o, top.line_lit_o, top.line_last_o != 0};
+}
+
+using Lines = std::vector<std::vector<Point>>;  // of each unit
+
+std::vector<Pixel> merge(const Lines& units) {
+  std::vector<Pixel> line;
+  for (std::size_t x = 0; x < units[0].size(); ++x) {
+    const Point* best = &units[0][x];
+    for (const auto& unit : units)
+      if (unit[x].z < best->z || (unit[x].z == best->z && unit[x].index < best->index)) best = &unit[x];
+    line.push_back({best->z, best->color, best->lit, best->last});
+  }
+  return line;
+}
+
+template <class Top>
+void quiet(Top& top, int width) {
+  top.frame_start_i = 0;
+  top.flush_i = 0;
+  top.claim_i = 0;
+  top.width_i = static_cast<CData>(width);
+  top.face_valid_i = 0;
+  top.seg_valid_i = 0;
+  top.line_ready_i = 0;
+}
+
+/// What a frame brings, in order: faces, segments, and TREE's claims.
+struct Event {
+  enum Kind { kFace, kSegment, kClaim } kind;
+  int unit, number;
+  Face face;
+  Segment segment;
+  std::vector<Pixel> line;  // of the claim
+};
+
+std::deque<Event> random_frame(Dice& dice, const TreeShape& s, int width) {
+  const auto n = static_cast<std::size_t>(s.units);
+  std::deque<Event> events;
+  std::vector<std::vector<Face>> faces(n);
+  std::vector<std::size_t> order;
+  for (std::size_t u = 0; u < n; ++u) {
+    faces[u].resize(static_cast<std::size_t>(dice.below(5)));
+    order.insert(order.end(), faces[u].size(), u);
+  }
+  std::vector<int> defined(n);
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(dice.below(static_cast<int>(i)))]);
+  for (const std::size_t u : order) {
+    Face& face = faces[u][static_cast<std::size_t>(defined[u])];
+    face = random_face(dice, s);
+    events.push_back({Event::kFace, static_cast<int>(u), defined[u]++, face, {}, {}});
+  }
+  const auto lines = static_cast<std::size_t>(dice.between(0, 5));
+  std::vector<std::deque<std::pair<std::size_t, Segment>>> todo(n);  // with the line it belongs to
+  std::vector<Lines> points(lines, Lines(n));
+  for (std::size_t u = 0; u < n; ++u) {
+    for (std::size_t y = 0; y < lines; ++y) {
+      const auto line = random_line(dice, s, width, static_cast<int>(faces[u].size()));
+      points[y][u] = expand(s, faces[u], line);
+      for (const Segment& segment : line) todo[u].emplace_back(y, segment);
+    }
+  }
+  for (std::size_t y = 0; y < lines; ++y) {
+    const int eager = dice.below(100);  // how much of the next line comes before this line's TREE
+    for (;;) {
+      std::vector<std::size_t> due, next;
+      for (std::size_t u = 0; u < n; ++u) {
+        if (todo[u].empty()) continue;
+        if (todo[u].front().first == y) due.push_back(u);
+        if (todo[u].front().first == y + 1) next.push_back(u);
+      }
+      if (due.empty() && (next.empty() || !dice.percent(eager))) break;
+      const bool ahead = due.empty() || (!next.empty() && dice.percent(eager));
+      const auto& from = ahead ? next : due;
+      const std::size_t u = from[static_cast<std::size_t>(dice.below(static_cast<int>(from.size())))];
+      events.push_back({Event::kSegment, static_cast<int>(u), 0, {}, todo[u].front().second, {}});
+      todo[u].pop_front();
+    }
+    events.push_back({Event::kClaim, 0, 0, {}, {}, merge(points[y])});
+  }
+  return events;
+}
+
+template <class Model>
+void random_test(const TreeShape& s) {
+  each_seed(25, [&](Dice& dice) {
+    Bench<Model> top(dice);
+    const bool flushes = dice.percent(50);
+    const int out_stall = stall_percent(dice);
+    Offer offer(stall_percent(dice));
+    std::deque<Event> events;
+    std::deque<Pixel> expected;  // of lines claimed
+    std::optional<Pixel> waiting;
+    int width = 1, frames = 0, claimed = 0, left = 0;
+    bool open = false;           // a frame has begun and has not been flushed
+    std::vector<int> last_line;  // claims up to the end of each frame
+    while (frames < 14 || !events.empty() || !expected.empty()) {
+      REQUIRE(top.clocks < 400000);
+      quiet(*top, width);
+      const bool flush = flushes && open && dice.below(150) == 0;
+      top->flush_i = flush ? 1 : 0;
+      if (open && events.empty() && !flush) open = false;
+      const bool want_start = !open && !flush && frames < 14 && dice.percent(60);
+      top.settle();
+      // A frame may begin as soon as all lines of the frame before the last one have left.
+      const bool start = want_start && top->frame_ready_o;
+      top->frame_start_i = start ? 1 : 0;
+      const Event* event = nullptr;
+      if (!flush && open && offer(dice, !events.empty())) {
+        event = &events.front();
+        if (event->kind == Event::kFace) {
+          top->face_valid_i = 1;
+          top->face_unit_i = static_cast<CData>(event->unit);
+          put_face(*top, s, event->number, event->face);
+        } else if (event->kind == Event::kSegment) {
+          top->seg_valid_i = 1;
+          top->seg_unit_i = static_cast<CData>(event->unit);
+          put_segment(*top, event->segment);
+        } else {
+          top->claim_i = 1;
+        }
+      }
+      // The reader takes what has been claimed in an earlier clock.
+      top->line_ready_i = !expected.empty() && !dice.percent(out_stall) ? 1 : 0;
+      top.settle();
+
+      const bool out = top->line_valid_o && top->line_ready_i;
+      if (top->line_valid_o && !expected.empty()) REQUIRE(pixel_of(*top) == expected.front());
+      if (waiting) {
+        REQUIRE(top->line_valid_o);
+        REQUIRE(pixel_of(*top) == *waiting);
+      }
+      const bool hold = top->line_valid_o && !out && !expected.empty();
+      waiting = hold ? std::optional(pixel_of(*top)) : std::nullopt;
+      const bool done = event != nullptr && (event->kind != Event::kSegment || top->seg_ready_o);
+      top.edge();
+
+      if (out) {
+        if (expected.front().last) ++left;
+        expected.pop_front();
+      }
+      if (done) {
+        if (event->kind == Event::kClaim) {
+          expected.insert(expected.end(), event->line.begin(), event->line.end());
+          ++claimed;
+        }
+        events.pop_front();
+        offer.taken();
+      }
+      if (flush) {
+        events.clear();
+        offer.taken();
+        open = false;
+      }
+      if (start) {
+        if (!last_line.empty()) REQUIRE(left >= last_line.back());  // of the frame before the last one none is left
+        last_line.push_back(claimed);
+        width = dice.percent(15) ? s.widest() : dice.percent(40) ? dice.between(1, 3) : dice.between(1, s.widest());
+        if (s.widest() > 100 && dice.percent(80)) width = std::min(width, 30);
+        events = random_frame(dice, s, width);
+        open = true;
+        ++frames;
+      }
+    }
+  });
+}
+
+template <class Model>
+void clocks_test(int units) {
+  const TreeShape s = small(units);
+  int levels = 0;
+  while (1 << levels < units) ++levels;
+  each_seed(3, [&](Dice& dice) {
+    Bench<Model> top(dice);
+    const int width = dice.between(1, 8);  // segments of length 1: no other could show a bubble
+    std::uint64_t complete = 0, first = 0;
+    int given = 0, taken = 0;
+    // The first line: given unit by unit, so that one comes last; then no stall until it has left.
+    while (taken < width) {
+      REQUIRE(top.clocks < 5000);
+      quiet(*top, width);
+      top->line_ready_i = 1;
+      top->seg_valid_i = given < width * units ? 1 : 0;
+      top->seg_unit_i = static_cast<CData>(given / width);
+      put_segment(*top, {0, 1, s.blank()});
+      top->claim_i = top.clocks == complete + 1 && complete != 0 ? 1 : 0;
+      top.settle();
+      if (top->line_valid_o) {
+        if (taken == 0) first = top.clocks;
+        REQUIRE(top.clocks == first + static_cast<std::uint64_t>(taken));  // no bubble
+        REQUIRE(top->line_last_o == (taken == width - 1 ? 1 : 0));
+        ++taken;
+      }
+      if (top->seg_valid_i && top->seg_ready_o && ++given == width * units) complete = top.clocks;
+      top.edge();
+    }
+    // From the segment that completes the line to the line's last pixel: the latency, and a clock for each further
+    // pixel.
+    REQUIRE(first - complete == static_cast<std::uint64_t>(6 + levels));
+    REQUIRE(top.clocks - complete == static_cast<std::uint64_t>(6 + levels + width));
+  });
+}
+
+template <class Model>
+void two_lines_test(int units) {
+  each_seed(2, [&](Dice& dice) {
+    Bench<Model> top(dice);
+    const int width = 8;
+    int given = 0, taken = 0;
+    for (int clock = 0; clock < 40 * units + 100; ++clock) {
+      quiet(*top, width);
+      top->seg_valid_i = given < 2 * width * units ? 1 : 0;
+      top->seg_unit_i = static_cast<CData>(given / width % units);
+      put_segment(*top, {0, 1, small(units).blank()});
+      top->claim_i = clock == 40 * units || clock == 40 * units + 1 ? 1 : 0;
+      top->line_ready_i = clock >= 40 * units + 1 ? 1 : 0;
+      top.settle();
+      if (top->line_ready_i && taken < 2 * width) {
+        REQUIRE(top->line_valid_o);  // two lines without a gap
+        ++taken;
+      }
+      if (top->seg_valid_i && top->seg_ready_o) ++given;
+      top.edge();
+    }
+    REQUIRE(taken == 2 * width);
+    REQUIRE(!top->line_valid_o);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("tree_core of 1 unit", "[tree_core]") { random_test<Vcore1>(small(1)); }
+TEST_CASE("tree_core of 2 units", "[tree_core]") { random_test<Vcore2>(small(2)); }
+TEST_CASE("tree_core of 3 units, the paper's segments", "[tree_core]") { random_test<Vcore3>(kClassic); }
+TEST_CASE("tree_core of 5 units", "[tree_core]") { random_test<Vcore5>(small(5)); }
+TEST_CASE("tree_core of 8 units", "[tree_core]") { random_test<Vcore8>(small(8)); }
+
+TEST_CASE("tree_core takes a line's width and its latency", "[tree_core]") {
+  clocks_test<Vcore1>(1);
+  clocks_test<Vcore2>(2);
+  clocks_test<Vcore4>(4);
+  clocks_test<Vcore5>(5);
+  clocks_test<Vcore8>(8);
+  clocks_test<Vcore16>(16);
+  clocks_test<Vcore32>(32);
+  clocks_test<Vcore64>(64);
+}
+
+TEST_CASE("tree_core sends buffered lines without a gap", "[tree_core]") {
+  two_lines_test<Vcore1>(1);
+  two_lines_test<Vcore5>(5);
+  two_lines_test<Vcore64>(64);
+}
+
+TEST_CASE("tree_core names the lowest unit that it waits for", "[tree_core]") {
+  each_seed(10, [](Dice& dice) {
+    Bench<Vcore5> top(dice);
+    const auto clock = [&](int unit) {
+      quiet(*top, 3);
+      if (unit >= 0) {
+        top->seg_valid_i = 1;
+        top->seg_unit_i = static_cast<CData>(unit);
+        put_segment(*top, {0, 3, small(5).blank()});
+      }
+      top.settle();
+      top.edge();
+    };
+    std::vector<int> order{0, 1, 2, 3, 4};
+    for (std::size_t i = 5; i > 1; --i)
+      std::swap(order[i - 1], order[static_cast<std::size_t>(dice.below(static_cast<int>(i)))]);
+    std::vector<bool> has(5, false);
+    for (int i = 0; i < 20; ++i) clock(-1);
+    REQUIRE(!top->wait_o);  // nobody has a pixel
+    for (const int unit : order) {
+      clock(unit);
+      has[static_cast<std::size_t>(unit)] = true;
+      for (int i = 0; i < 20; ++i) clock(-1);
+      int lowest = 0;
+      while (lowest < 5 && has[static_cast<std::size_t>(lowest)]) ++lowest;
+      // The tree's cells have taken the pixels of those units whose neighbour has some too: only a pixel that waits
+      // counts.
+      REQUIRE(top->wait_o == (lowest < 5 ? 1 : 0));
+      if (lowest < 5) REQUIRE(top->wait_unit_o == lowest);
+    }
+  });
+}
+
+TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next frame until then", "[tree_core]") {
+  each_seed(10, [](Dice& dice) {
+    Bench<Vcore2> top(dice);
+    const int width = dice.between(1, 8);
+    const int claims = dice.below(3);
+    int given = 0, taken = 0;
+    const auto clock = [&](bool flush, bool claim, bool ready) {
+      quiet(*top, width);
+      top->seg_valid_i = !flush && given < 4 ? 1 : 0;
+      top->seg_unit_i = static_cast<CData>(given % 2);
+      put_segment(*top, {0, width, small(2).blank()});
+      top->flush_i = flush ? 1 : 0;
+      top->claim_i = claim ? 1 : 0;
+      top->line_ready_i = ready ? 1 : 0;
+      top.settle();
+      if (top->seg_valid_i && top->seg_ready_o) ++given;
+      if (top->line_valid_o && ready) ++taken;
+      top.edge();
+    };
+    for (int i = 0; i < 20; ++i) clock(false, false, false);
+    REQUIRE(given == 4);
+    for (int i = 0; i < claims; ++i) clock(false, true, false);
+    clock(true, false, false);
+    for (int i = 0; i < 10; ++i) {
+      top.settle();
+      REQUIRE(top->frame_ready_o == (claims == 0 && i > 0 ? 1 : 0));
+      clock(false, false, false);
+    }
+    while (taken < claims * width) {
+      REQUIRE(top.clocks < 500);
+      REQUIRE(!top->frame_ready_o);
+      clock(false, false, true);
+    }
+    for (int i = 0; i < 3; ++i) clock(false, false, false);
+    REQUIRE(top->frame_ready_o);
+    for (int i = 0; i < 20; ++i) {
+      REQUIRE(!top->line_valid_o);
+      clock(false, false, false);
+    }
+  });
+}
