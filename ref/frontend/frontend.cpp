@@ -10,6 +10,7 @@
 
 #include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
+#include "frontend/tree_plan.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 
@@ -64,6 +65,7 @@ class Sweep {
 struct Frame {
   const FrameGeometry* geometry;
   const Config* config;
+  TreePlan tree;
   std::vector<std::uint32_t> volume_of_face;
   std::vector<std::uint32_t> volume_of_edge;
   Sweep polygons;
@@ -96,6 +98,7 @@ Frame prepare(const FrameGeometry& g, const Config& config) {
   for (const NearEdge& e : g.near_edges) edges.push_back(lines_of(std::array{e.from, e.to}));
   Frame f{&g,
           &config,
+          TreePlan(g, config),
           {},
           {},
           {bands, g.height, std::span(all).first(g.drawn)},
@@ -127,8 +130,17 @@ class Band {
   std::vector<std::uint32_t> make() {
     opaque();
     if (f_->config->dsf_bits > 0) volumes();
+    const bool tree = f_->tree.any();
+    std::vector<std::vector<std::uint32_t>> ahead;  // segments of line y + 1 at y - y0_
+    if (tree) f_->tree.segments(y0_ + 1, std::min(y1_ + 1, g_->height), ahead);
     for (int y = y0_; y < y1_; ++y) {
       const Line& line = at(y);
+      if (tree) {
+        const auto i = static_cast<std::size_t>(y - y0_);
+        if (i < ahead.size()) words_.insert(words_.end(), ahead[i].begin(), ahead[i].end());
+        writer_.write_to(words_);
+        writer_.tree();
+      }
       words_.insert(words_.end(), line.opaque.begin(), line.opaque.end());
       words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
       writer_.write_to(words_);
@@ -170,6 +182,7 @@ class Band {
     const bool smooth = f_->config->smooth != 0;
     const auto channels = static_cast<std::size_t>(f_->config->channels);
     for (const std::uint32_t i : work_->polygons) {
+      if (i < f_->tree.first_span_polygon()) continue;
       const ScreenPolygon& p = g_->polygons[i];
       spans(p, [&](int y, SpanToken& s, int) {
         s.lit = p.lit;
@@ -298,7 +311,8 @@ void check_guard(const FrameGeometry& g) {
 
 }  // namespace
 
-void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink, int threads) {
+void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink, int threads,
+                PolyhedraReport* report) {
   if (g.width > (1 << config.x_bits) - 1)
     throw Error(fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits,
                             (1 << config.x_bits) - 1));
@@ -311,9 +325,16 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   TokenWriter writer(config, words);
   writer.header({g.width, g.height, g.background, number});
   if (shadows) writer.shade(g.shade);
+  Frame frame = prepare(g, config);
+  if (report != nullptr) *report = frame.tree.report();
+  if (frame.tree.any()) {
+    frame.tree.faces(writer);
+    std::vector<std::vector<std::uint32_t>> first;
+    frame.tree.segments(0, 1, first);
+    words.insert(words.end(), first[0].begin(), first[0].end());
+  }
   sink(words);
 
-  Frame frame = prepare(g, config);
   const int bands = (g.height + kBandLines - 1) / kBandLines;
   // A few bands at a time, handed on in order: memory holds no more than those.
   const int wave = threads == 1 ? 1 : 8;

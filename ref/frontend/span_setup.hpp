@@ -49,6 +49,11 @@ class SpanSetup {
     return r;
   }
 
+  /// The step of a plane, whatever the span: what at() gives to every span that stays in range.
+  [[nodiscard]] std::int64_t step(const ScreenPlane& plane) const {
+    return static_cast<std::int64_t>(clamp(round(plane.a)));
+  }
+
   /// Call emit(xl, xr, ramp) for the parts of [xl, xr) that are within the accumulator's range, before it and past it:
   /// one part for every plane that geometry makes. Outside the range a part is constant, so that clamping holds where
   /// the plane itself does not fit.

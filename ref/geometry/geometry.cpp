@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <span>
+#include <tuple>
 
 #include "geometry/clip.hpp"
 #include "geometry/plane.hpp"
@@ -15,6 +16,7 @@
 #include "geometry/shadow_volume.hpp"
 #include "geometry/view.hpp"
 #include "kage/error.hpp"
+#include "number/int128.hpp"
 
 namespace kage {
 namespace {
@@ -46,8 +48,11 @@ class Builder {
     eye_points_.reserve(frame_->vertices.size());
     for (const glm::dvec3& p : frame_->vertices) eye_points_.push_back(view_.to_eye(p));
     drawn_.resize(frame_->polygons.size());
-    for (std::uint32_t i = 0; i < frame_->polygons.size(); ++i) draw(i);
+    draw_all();
     out_.drawn = static_cast<std::uint32_t>(out_.polygons.size());
+    // What is turned away may still be a cap.
+    if (config_->dsf_bits > 0)
+      for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) caster_.each([this](const WorldVolume& v) { add_volume(v); });
     return std::move(out_);
   }
@@ -59,6 +64,99 @@ class Builder {
     for (const glm::dvec3& p : frame.vertices)
       far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
     return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
+  }
+
+  // Polyhedra first, then the rest, each in the scene's order: whether a polyhedron goes to a unit or becomes spans
+  // changes no tie.
+  void draw_all() {
+    for (std::uint32_t c = 0; c < frame_->components.size(); ++c) out_.span_reasons.push_back(draw_polyhedron(c));
+    for (std::uint32_t c = 0; c < frame_->components.size(); ++c) {
+      if (out_.span_reasons[c] == SpanReason::none) continue;
+      const Component& part = frame_->components[c];
+      for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) draw(i);
+    }
+  }
+
+  // Nothing is drawn unless the component is a polyhedron.
+  SpanReason draw_polyhedron(std::uint32_t component) {
+    const Component& part = frame_->components[component];
+    if (!part.closed) return SpanReason::not_closed;
+    if (!part.convex) return SpanReason::not_convex;
+    const auto faces = std::span(frame_->polygons).subspan(part.first_polygon, part.polygon_count);
+    for (const Polygon& face : faces)
+      for (const std::uint32_t v : frame_->outline(face))
+        if (!clipper_.keeps(view_.to_clip(eye_points_[v]))) return SpanReason::cut;
+
+    const std::size_t polygons = out_.polygons.size();
+    const std::size_t vertices = out_.vertices.size();
+    const std::size_t turned_away = turned_away_.size();
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
+      draw(i);
+      if (out_.polygons.back().color_planes >= 0) {
+        out_.color_planes.resize(static_cast<std::size_t>(out_.polygons[drawn_[i].first].color_planes));
+        out_.polygons.resize(polygons);
+        out_.vertices.resize(vertices);
+        turned_away_.resize(turned_away);
+        return SpanReason::colors;
+      }
+      if (is_turned_away(out_.outline(out_.polygons.back()))) {
+        out_.vertices.resize(out_.polygons.back().first_vertex);
+        out_.polygons.pop_back();
+        drawn_[i].count = 0;
+        turned_away_.push_back(i);
+      }
+    }
+    Polyhedron p;
+    p.component = component;
+    p.first_polygon = static_cast<std::uint32_t>(polygons);
+    p.polygon_count = static_cast<std::uint32_t>(out_.polygons.size() - polygons);
+    p.first_edge = static_cast<std::uint32_t>(out_.polyhedron_edges.size());
+    add_edges(part);
+    p.edge_count = static_cast<std::uint32_t>(out_.polyhedron_edges.size()) - p.first_edge;
+    out_.polyhedra.push_back(p);
+    return SpanReason::none;
+  }
+
+  // Each edge once, from its lower vertex to its higher one.
+  void add_edges(const Component& part) {
+    struct Side {
+      std::uint32_t low;
+      std::uint32_t high;
+      bool along;
+      std::uint32_t polygon;
+    };
+    std::vector<Side> sides;
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
+      const auto corners = frame_->outline(frame_->polygons[i]);
+      const std::uint32_t polygon = drawn_[i].count == 0 ? PolyhedronEdge::kNoPolygon : drawn_[i].first;
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const std::uint32_t a = corners[k];
+        const std::uint32_t b = corners[(k + 1) % corners.size()];
+        sides.push_back({std::min(a, b), std::max(a, b), a < b, polygon});
+      }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) {
+      return std::tie(p.low, p.high, p.along) < std::tie(q.low, q.high, q.along);
+    });
+    // Closed: sides come in pairs, one each way.
+    for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+      const Side& against = sides[i];
+      const Side& along = sides[i + 1];
+      if (along.polygon == PolyhedronEdge::kNoPolygon && against.polygon == PolyhedronEdge::kNoPolygon) continue;
+      out_.polyhedron_edges.push_back({snap(view_.to_clip(eye_points_[along.low])),
+                                       snap(view_.to_clip(eye_points_[along.high])), along.polygon, against.polygon});
+    }
+  }
+
+  // Counter-clockwise from outside is clockwise with y down, when seen from the front: a positive area is the back.
+  static bool is_turned_away(std::span<const ScreenVertex> outline) {
+    Int128 area = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const ScreenVertex& a = outline[i];
+      const ScreenVertex& b = outline[(i + 1) % outline.size()];
+      area += Int128{a.x} * b.y - Int128{b.x} * a.y;
+    }
+    return area > 0;
   }
 
   void draw(std::uint32_t index) {
@@ -273,6 +371,7 @@ class Builder {
   FrameGeometry out_;
   std::vector<EyePoint> eye_points_;
   std::vector<DrawnRange> drawn_;
+  std::vector<std::uint32_t> turned_away_;  // polygons of polyhedra, into SceneFrame::polygons
   std::vector<EyePoint> points_;
   std::vector<ClipPoint> polygon_;
   std::vector<ClipPoint> piece_;

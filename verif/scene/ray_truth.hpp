@@ -132,7 +132,8 @@ class RayScene {
 /// Whether moving vertices lets the pixel show the face, or nothing if it is kNothing.
 inline bool possible_face(const Oracle& oracle, const FrameGeometry& g, int x, std::uint32_t face) {
   if (face == kNothing) return oracle.possible_surface(x, -1, Errors::depth_and_snap);
-  for (std::uint32_t i = 0; i < g.drawn; ++i)
+  // Of all polygons, not only the drawn ones: a thin face of a polyhedron may be turned away by the snap alone.
+  for (std::uint32_t i = 0; i < g.polygons.size(); ++i)
     if (g.polygons[i].source == face &&
         oracle.possible_surface(x, static_cast<std::int32_t>(i), Errors::depth_and_snap))
       return true;

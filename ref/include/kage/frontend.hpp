@@ -16,11 +16,18 @@ namespace kage {
 /// Takes the next words of a frame.
 using WordSink = std::function<void(std::span<const std::uint32_t> words)>;
 
+/// How the polyhedra of a frame went.
+struct PolyhedraReport {
+  std::vector<int> unit_of;  ///< of each of FrameGeometry::polyhedra: its unit, or -1 if it became spans
+  int units = 0;             ///< units with at least one
+};
+
 /// Make the frame's words from first to last. Lines are made in bands, on up to `threads` threads (0: all there are),
 /// and handed on band by band; the words do not depend on the number of threads. Cost is linear in the spans. Throws
-/// Error if the configuration cannot hold the frame (width, volumes).
+/// Error if the configuration cannot hold the frame (width, volumes). With UNITS > 0 polyhedra go to units, in draw
+/// order up to the first that finds none; the rest become spans, which changes no pixel. `report` is filled if given.
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number, const WordSink& sink,
-                int threads = 0);
+                int threads = 0, PolyhedraReport* report = nullptr);
 
 /// The same, appended to `out`.
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number,

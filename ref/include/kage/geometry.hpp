@@ -76,6 +76,36 @@ struct ShadowVolume {
   std::uint32_t component = 0;  ///< of the caster, into SceneFrame::components
 };
 
+/// An edge of a polyhedron. Of the polygons at its two sides, `along` has it in its outline from `from` to `to`,
+/// `against` the other way round; one that is turned away, and not drawn, is kNoPolygon. [Ohno 1985: edge groups with
+/// right and left face.]
+struct PolyhedronEdge {
+  static constexpr std::uint32_t kNoPolygon = ~0U;
+  ScreenVertex from;
+  ScreenVertex to;
+  std::uint32_t along = kNoPolygon;
+  std::uint32_t against = kNoPolygon;
+};
+
+/// A convex polyhedron that is wholly before the near plane, of one colour per face. Its drawn polygons are those not
+/// turned away.
+struct Polyhedron {
+  std::uint32_t component = 0;      ///< into SceneFrame::components
+  std::uint32_t first_polygon = 0;  ///< into FrameGeometry::polygons
+  std::uint32_t polygon_count = 0;
+  std::uint32_t first_edge = 0;  ///< into FrameGeometry::polyhedron_edges
+  std::uint32_t edge_count = 0;
+};
+
+/// Why a component is no polyhedron in a frame.
+enum class SpanReason : std::uint8_t {
+  none,  ///< it is one
+  not_closed,
+  not_convex,
+  cut,     ///< by the near plane or the guard band
+  colors,  ///< more than one within a face
+};
+
 /// A frame on the screen.
 struct FrameGeometry {
   int width = 0;
@@ -83,12 +113,15 @@ struct FrameGeometry {
   std::uint32_t background = 0;
   std::uint32_t shade = 0;  ///< darkening of a shadowed pixel, in 2^-SHADE_FRAC
   std::vector<ScreenVertex> vertices;
-  std::vector<ScreenPolygon> polygons;    ///< first the drawn ones, in draw order, then sides of volumes
+  std::vector<ScreenPolygon> polygons;    ///< first the drawn ones, in draw order, then other faces of volumes
   std::uint32_t drawn = 0;                ///< number of the drawn ones
   std::vector<ScreenPlane> color_planes;  ///< value in units of an 8-bit colour
   std::vector<VolumeFace> volume_faces;
   std::vector<NearEdge> near_edges;
   std::vector<ShadowVolume> volumes;
+  std::vector<Polyhedron> polyhedra;  ///< in draw order; their polygons are the first of the drawn ones
+  std::vector<PolyhedronEdge> polyhedron_edges;
+  std::vector<SpanReason> span_reasons;  ///< of each of SceneFrame::components
 
   [[nodiscard]] std::span<const ScreenVertex> outline(const ScreenPolygon& p) const {
     return std::span(vertices).subspan(p.first_vertex, p.vertex_count);

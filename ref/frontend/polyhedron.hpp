@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scan conversion of convex polyhedra to runs of one face. [Ohno 1985: from vertex interval to vertex interval, links
+// sorted by x, by increments from line to line.] Each edge is walked once for both of its faces, with the walking, the
+// half-open rule and the ramps that spans have, so a polyhedron gives the same bits either way.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frontend/edge_walker.hpp"
+#include "frontend/scan.hpp"
+#include "frontend/span_setup.hpp"
+#include "kage/geometry.hpp"
+
+namespace kage {
+
+/// Pixels [xl, xr) of a line that show `polygon`; z at xl, half an LSB included.
+struct Run {
+  int xl = 0;
+  int xr = 0;
+  std::uint32_t polygon = 0;
+  std::int64_t z = 0;
+};
+
+/// Scans polyhedra; keeps its buffers.
+class PolyhedronScanner {
+ public:
+  PolyhedronScanner(const FrameGeometry& geometry, const Config& config);
+
+  /// emit(y, runs) for each of the lines [y0, y1) that the polyhedron touches, from top to bottom; runs go from left to
+  /// right and do not overlap.
+  template <class Emit>
+  void scan(const Polyhedron& p, int y0, int y1, Emit emit) {
+    load(p, y0, y1);
+    for (int y = first_; y < end_; ++y) {
+      cross(y);
+      fill(y);
+      if (!runs_.empty()) emit(y, std::span<const Run>(runs_));
+    }
+  }
+
+  /// False if a run's depth does not go on by its face's own step from pixel to pixel, or does not fit a segment: then
+  /// the last scanned polyhedron cannot be segments.
+  [[nodiscard]] bool representable() const { return representable_; }
+
+ private:
+  struct Edge {
+    EdgeWalker walker;
+    std::uint32_t along;
+    std::uint32_t against;
+  };
+  struct EdgeCrossing {
+    int x;
+    int winding;
+    std::uint32_t along;
+    std::uint32_t against;
+  };
+  struct Open {
+    std::uint32_t polygon;
+    int winding = 0;
+    int change = 0;  // at the crossing at hand
+    int from = 0;    // where its span began
+  };
+  // A span of one face, before overlaps are settled.
+  struct Part {
+    int xl;
+    int xr;
+    std::uint32_t polygon;
+    SpanSetup::Ramp ramp;
+  };
+
+  void load(const Polyhedron& p, int y0, int y1);
+  void cross(int y);
+  void fill(int y);
+  void add(std::uint32_t polygon, int winding);
+  void close(Open& open, int x, int y);
+  void settle();
+  [[nodiscard]] std::int64_t depth(const Part& p, int x) const;
+
+  const FrameGeometry* g_;
+  SpanSetup setup_;
+  int z_bits_;
+  int z_frac_;
+  std::int64_t least_z_;  // of a segment's start
+  std::int64_t most_z_;
+  std::vector<Edge> edges_;
+  std::vector<EdgeCrossing> crossings_;
+  std::vector<Open> open_;
+  std::vector<Part> parts_;
+  std::vector<Run> runs_;
+  int first_ = 0;
+  int end_ = 0;
+  bool representable_ = true;
+};
+
+}  // namespace kage

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What of a frame goes to the compare tree: units, face numbers, and the segments of each line.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frontend/polyhedron.hpp"
+#include "kage/frontend.hpp"
+#include "kage/stream.hpp"
+
+namespace kage {
+
+class TreePlan {
+ public:
+  TreePlan(const FrameGeometry& geometry, const Config& config);
+
+  /// Whether the frame has a tree at all.
+  [[nodiscard]] bool any() const { return any_; }
+
+  /// Drawn polygons before this one come by segments.
+  [[nodiscard]] std::uint32_t first_span_polygon() const { return first_span_polygon_; }
+
+  /// The FACE tokens of the frame.
+  void faces(TokenWriter& writer) const;
+
+  /// The SEG tokens of lines [y0, y1), lines[0] being y0's.
+  void segments(int y0, int y1, std::vector<std::vector<std::uint32_t>>& lines) const;
+
+  [[nodiscard]] PolyhedraReport report() const;
+
+ private:
+  struct Member {
+    std::uint32_t polyhedron;
+    int first_face;  // in its unit's table
+    int first_line;
+    int end_line;
+  };
+
+  [[nodiscard]] int blank() const { return (1 << config_->face_bits) - 1; }
+
+  const FrameGeometry* g_;
+  const Config* config_;
+  std::vector<int> unit_of_;                  // of each polyhedron: -1 if it is drawn by spans
+  std::vector<std::vector<Member>> members_;  // of each unit, in draw order
+  std::uint32_t first_span_polygon_ = 0;
+  bool any_ = false;
+};
+
+}  // namespace kage
