@@ -107,6 +107,11 @@ void option_degrade(CLI::App& command, Options& options) {
       "draw what the configuration lacks without it: no shadows, flat or grey instead of smooth or coloured");
 }
 
+void option_units_only(CLI::App& command, Options& options) {
+  command.add_flag("--units-only", options.units_only,
+                   "refuse a frame in which a polyhedron finds no expansion unit, instead of drawing it by spans");
+}
+
 void option_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
       ->check(CLI::Range(1, 1024))

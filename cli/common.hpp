@@ -65,6 +65,7 @@ struct Options {
   std::string json;
   int threads = 0;  ///< 0: one per processor
   bool degrade = false;
+  bool units_only = false;  ///< polyhedra that find no unit are an error
 };
 
 void option_size(CLI::App& command, Options& options);
@@ -73,6 +74,7 @@ void option_config(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 void option_degrade(CLI::App& command, Options& options);
+void option_units_only(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
 
 /// Whether `--json -` claims standard output for itself.

@@ -33,6 +33,18 @@ Json to_json(const std::optional<cosim::Difference>& d) {
   return j;
 }
 
+// Which way each component went, and why, where the configuration has units.
+Json to_json(const std::vector<Source::Way>& ways) {
+  Json list = Json::array();
+  for (const Source::Way& w : ways)
+    list.push_back({{"object", w.object},
+                    {"component", w.component},
+                    {"unit_frames", w.unit_frames},
+                    {"span_frames", w.span_frames},
+                    {"why", w.why.empty() ? Json(nullptr) : Json(w.why)}});
+  return list;
+}
+
 int run(CosimCommand& o) {
   const OutFolder folder(o.out);
   check_json(o);
@@ -70,6 +82,9 @@ int run(CosimCommand& o) {
   j["pixels_compared"] = r.pixels_compared;
   j["spans"] = r.spans;
   j["span_pixels"] = r.span_pixels;
+  j["segments"] = r.segments;
+  j["units"] = source.units();
+  j["polyhedra"] = to_json(source.ways());
   j["cycles"] = r.cycles;
   j["stalled"] = {{"input_starved", r.starved}, {"output_blocked", r.blocked}};
   j["golden_seconds"] = r.expected_seconds;
@@ -115,6 +130,7 @@ void add_cosim(CLI::App& app, Action& action) {
   option_frames(*c, *o);
   option_config(*c, *o);
   option_degrade(*c, *o);
+  option_units_only(*c, *o);
   option_seed(*c, *o);
   option_json(*c, *o);
   option_threads(*c, *o);

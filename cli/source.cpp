@@ -67,6 +67,7 @@ void Source::open_scene(const Options& options) {
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
   size_ = options.size;
+  units_only_ = options.units_only;
   if (size_.width > kMaxSize || size_.height > kMaxSize)
     throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
   Needs needs = needs_of(*scene_, scene_->frame(0, frames_), size_);
@@ -106,7 +107,8 @@ std::vector<std::string> Source::notes() const {
 TokenCounts Source::frame(int index, const WordSink& sink) {
   const TokenCounts counts = stream_ ? frame_of_stream(index, sink) : frame_of_scene(index, sink);
   ++made_;
-  if (counts.of_kind[static_cast<std::size_t>(Kind::OP)] == 0) ++blank_;
+  if (counts.of_kind[static_cast<std::size_t>(Kind::OP)] + counts.of_kind[static_cast<std::size_t>(Kind::TREE)] == 0)
+    ++blank_;
   return counts;
 }
 
@@ -128,16 +130,58 @@ TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
 
 TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
+  const SceneFrame frame = scene_->frame(index, frames_);
+  const FrameGeometry geometry = make_geometry(frame, config_.config, size_.width, size_.height);
+  PolyhedraReport report;
+  bool recorded = false;
   make_frame(
-      make_geometry(scene_->frame(index, frames_), config_.config, size_.width, size_.height), config_.config,
-      static_cast<std::uint32_t>(index),
+      geometry, config_.config, static_cast<std::uint32_t>(index),
       [&](std::span<const std::uint32_t> words) {
         check_interrupt();
+        if (!recorded) record(index, frame, geometry, report);
+        recorded = true;
         checker.feed(words);
         sink(words);
       },
-      threads_);
+      threads_, &report);
   return checker.finish();
+}
+
+// The report is complete before the frame's first words.
+void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report) {
+  const int units = config_.config.units;
+  if (units == 0) {
+    if (units_only_ && !geometry.polyhedra.empty())
+      throw Error(fmt::format("{}: frame {}: --units-only: configuration {} has no units", name_, index, config_.name));
+    return;
+  }
+  const auto object = [&](std::size_t c) {
+    return scene_->objects()[frame.triangles[frame.components[c].first].object];
+  };
+  if (ways_.empty())
+    for (std::size_t c = 0; c < frame.components.size(); ++c)
+      ways_.push_back({object(c), static_cast<std::uint32_t>(c), 0, 0, {}});
+  units_ = std::max(units_, report.units);
+  for (std::size_t c = 0; c < frame.components.size(); ++c) {
+    const SpanReason reason = geometry.span_reasons[c];
+    if (reason == SpanReason::none) continue;  // below
+    ++ways_[c].span_frames;
+    ways_[c].why = reason == SpanReason::not_closed || reason == SpanReason::not_convex ? frame.components[c].reason
+                   : reason == SpanReason::cut ? "the near plane or the guard band cuts it"
+                                               : "a face has more than one colour";
+  }
+  for (std::size_t i = 0; i < geometry.polyhedra.size(); ++i) {
+    Way& way = ways_[geometry.polyhedra[i].component];
+    if (report.unit_of[i] >= 0) {
+      ++way.unit_frames;
+      continue;
+    }
+    ++way.span_frames;
+    way.why = "it or one before it finds no unit";
+    if (units_only_)
+      throw Error(fmt::format("{}: frame {}: object '{}', component {}: no unit of {} has room for it (--units-only)",
+                              name_, index, way.object, way.component, units));
+  }
 }
 
 void print_notes(const Source& source, const Options& options) {

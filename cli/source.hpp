@@ -39,6 +39,21 @@ class Source {
   /// What --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 
+  /// How a component of the scene went in the frames made so far.
+  struct Way {
+    std::string object;
+    std::uint32_t component = 0;  ///< its number in the scene
+    int unit_frames = 0;          ///< frames in which an expansion unit had it
+    int span_frames = 0;          ///< frames in which it became spans
+    std::string why;              ///< why spans, in the last of those
+  };
+
+  /// Of every component, if the configuration has units.
+  [[nodiscard]] const std::vector<Way>& ways() const { return ways_; }
+
+  /// Most units in use in a frame.
+  [[nodiscard]] int units() const { return units_; }
+
   /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts. Between the pieces
   /// check_interrupt() may end it.
   TokenCounts frame(int index, const WordSink& sink);
@@ -46,6 +61,7 @@ class Source {
  private:
   TokenCounts frame_of_stream(int index, const WordSink& sink);
   TokenCounts frame_of_scene(int index, const WordSink& sink);
+  void record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report);
   void open_stream(const Options& options);
   void open_scene(const Options& options);
 
@@ -58,8 +74,11 @@ class Source {
   std::optional<Scene> scene_;
   Size size_;
   int threads_ = 0;
+  bool units_only_ = false;
   int made_ = 0;   // frames
-  int blank_ = 0;  // of those, without any opaque span
+  int blank_ = 0;  // of those, without any opaque span or segment
+  std::vector<Way> ways_;
+  int units_ = 0;
 };
 
 /// Prints the notes, a line each, once the work is done: a failure says one line and nothing else.

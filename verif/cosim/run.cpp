@@ -60,6 +60,7 @@ class Comparer {
     report_.pixels_compared += static_cast<std::uint64_t>(e.status.width) * static_cast<std::uint64_t>(e.status.height);
     report_.spans += end.counts.spans;
     report_.span_pixels += end.counts.span_pixels;
+    report_.segments += end.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
     report_.cycles += a.cycles;
     report_.starved += a.starved;
     report_.blocked += a.blocked;

@@ -34,6 +34,7 @@ struct Report {
   std::uint64_t pixels_compared = 0;
   std::uint64_t spans = 0;  ///< of the frames compared
   std::uint64_t span_pixels = 0;
+  std::uint64_t segments = 0;
   std::uint64_t cycles = 0;
   std::uint64_t starved = 0;
   std::uint64_t blocked = 0;
