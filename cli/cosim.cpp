@@ -33,18 +33,6 @@ Json to_json(const std::optional<cosim::Difference>& d) {
   return j;
 }
 
-// Which way each component went, and why, where the configuration has units.
-Json to_json(const std::vector<Source::Way>& ways) {
-  Json list = Json::array();
-  for (const Source::Way& w : ways)
-    list.push_back({{"object", w.object},
-                    {"component", w.component},
-                    {"unit_frames", w.unit_frames},
-                    {"span_frames", w.span_frames},
-                    {"why", w.why.empty() ? Json(nullptr) : Json(w.why)}});
-  return list;
-}
-
 int run(CosimCommand& o) {
   const OutFolder folder(o.out);
   check_json(o);
@@ -84,7 +72,7 @@ int run(CosimCommand& o) {
   j["span_pixels"] = r.span_pixels;
   j["segments"] = r.segments;
   j["units"] = source.units();
-  j["polyhedra"] = to_json(source.ways());
+  j["polyhedra"] = source.ways();
   j["cycles"] = r.cycles;
   j["stalled"] = {{"input_starved", r.starved}, {"output_blocked", r.blocked}};
   j["golden_seconds"] = r.expected_seconds;

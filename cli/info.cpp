@@ -7,6 +7,7 @@
 #include "common.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
+#include "source.hpp"
 
 namespace kage::cli {
 namespace {
@@ -37,6 +38,9 @@ int run(const Options& o) {
   j["tokens"] = tokens;
   j["spans"] = counts.spans;
   j["span_pixels"] = counts.span_pixels;
+  j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
+  const Json ways = ways_of(file);
+  j["polyhedra"] = ways;
   j["bytes"] = file.bytes();
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
   write_json(o, j);
@@ -46,6 +50,11 @@ int run(const Options& o) {
                counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
+    for (const Json& w : ways.is_array() ? ways : Json::array())
+      fmt::print("\n{}, component {}: by segments in {}, by spans in {}{}", w.value("object", "?"),
+                 w.value("component", 0), counted(w.value("unit_frames", 0), "frame"),
+                 counted(w.value("span_frames", 0), "frame"),
+                 w["why"].is_string() ? fmt::format(": {}", w["why"].get<std::string>()) : std::string());
     fmt::print("\nconfiguration:");
     for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
     fmt::print("\n");

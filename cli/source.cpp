@@ -159,8 +159,7 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
     return scene_->objects()[frame.triangles[frame.components[c].first].object];
   };
   if (ways_.empty())
-    for (std::size_t c = 0; c < frame.components.size(); ++c)
-      ways_.push_back({object(c), static_cast<std::uint32_t>(c), 0, 0, {}});
+    for (std::size_t c = 0; c < frame.components.size(); ++c) ways_.push_back({object(c), 0, 0, {}});
   units_ = std::max(units_, report.units);
   for (std::size_t c = 0; c < frame.components.size(); ++c) {
     const SpanReason reason = geometry.span_reasons[c];
@@ -180,8 +179,34 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
     way.why = "it or one before it finds no unit";
     if (units_only_)
       throw Error(fmt::format("{}: frame {}: object '{}', component {}: no unit of {} has room for it (--units-only)",
-                              name_, index, way.object, way.component, units));
+                              name_, index, way.object, geometry.polyhedra[i].component, units));
   }
+}
+
+Json Source::ways() const {
+  if (stream_) return ways_of(*stream_);
+  if (config_.config.units == 0) return nullptr;
+  Json list = Json::array();
+  for (std::size_t c = 0; c < ways_.size(); ++c)
+    list.push_back({{"object", ways_[c].object},
+                    {"component", c},
+                    {"unit_frames", ways_[c].unit_frames},
+                    {"span_frames", ways_[c].span_frames},
+                    {"why", ways_[c].why.empty() ? Json(nullptr) : Json(ways_[c].why)}});
+  return list;
+}
+
+Json ways_of(const StreamFile& file) {
+  const Json origin = Json::parse(file.origin(), nullptr, false);
+  if (!origin.is_object() || !origin.contains("polyhedra") || !origin["polyhedra"].is_array()) return nullptr;
+  // Whoever wrote the file: what is not of this form is not taken.
+  for (const Json& w : origin["polyhedra"])
+    if (!w.is_object() || !w.contains("object") || !w["object"].is_string() || !w.contains("component") ||
+        !w["component"].is_number_unsigned() || !w.contains("unit_frames") || !w["unit_frames"].is_number_integer() ||
+        !w.contains("span_frames") || !w["span_frames"].is_number_integer() || !w.contains("why") ||
+        !(w["why"].is_string() || w["why"].is_null()))
+      return nullptr;
+  return origin["polyhedra"];
 }
 
 void print_notes(const Source& source, const Options& options) {

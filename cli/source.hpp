@@ -39,17 +39,10 @@ class Source {
   /// What --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 
-  /// How a component of the scene went in the frames made so far.
-  struct Way {
-    std::string object;
-    std::uint32_t component = 0;  ///< its number in the scene
-    int unit_frames = 0;          ///< frames in which an expansion unit had it
-    int span_frames = 0;          ///< frames in which it became spans
-    std::string why;              ///< why spans, in the last of those
-  };
-
-  /// Of every component, if the configuration has units.
-  [[nodiscard]] const std::vector<Way>& ways() const { return ways_; }
+  /// How each component of the scene went in the frames made so far, if the configuration has units: object, component,
+  /// in how many frames a unit had it and in how many it became spans, and why in the last of those. Of a stream: as
+  /// the file has it, else null.
+  [[nodiscard]] Json ways() const;
 
   /// Most units in use in a frame.
   [[nodiscard]] int units() const { return units_; }
@@ -77,9 +70,18 @@ class Source {
   bool units_only_ = false;
   int made_ = 0;   // frames
   int blank_ = 0;  // of those, without any opaque span or segment
-  std::vector<Way> ways_;
+  struct Way {
+    std::string object;
+    int unit_frames = 0;
+    int span_frames = 0;
+    std::string why;
+  };
+  std::vector<Way> ways_;  // by component
   int units_ = 0;
 };
+
+/// The ways that a stream file holds (Source::ways()), or null.
+Json ways_of(const StreamFile& file);
 
 /// Prints the notes, a line each, once the work is done: a failure says one line and nothing else.
 void print_notes(const Source& source, const Options& options);

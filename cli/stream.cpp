@@ -24,6 +24,10 @@ int run(const Options& o) {
     writer.end_frame();
   }
   progress.clear();
+  Json origin;
+  origin["scene"] = source.name();
+  origin["polyhedra"] = source.ways();
+  if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
   writer.finish();
   print_notes(source, o);
   fmt::print("{}: {}, {} over {}, {}\n", o.out, counted(source.frames(), "frame"), counted(counts.spans, "span"),

@@ -6,6 +6,7 @@
 //   sections, each: 4 bytes tag, u32 CRC-32 of the payload, u64 payload bytes, payload, zeros up to a multiple of 8
 //     CONF    the configuration as YAML; first, once
 //     FRAM    the words of one frame, as the port gets them without fill
+//     ORIG    where the frames come from, as JSON; once at most
 //     DONE    u64 number of frames, u32 CRC-32 over all sections' headers before it; last, once
 //   Sections with other tags are checked and skipped.
 #include <fcntl.h>
@@ -144,6 +145,8 @@ void StreamFileWriter::frame(std::span<const std::uint32_t> w) {
   end_frame();
 }
 
+void StreamFileWriter::origin(const std::string& json) { data_->section("ORIG", json.data(), json.size()); }
+
 void StreamFileWriter::finish() {
   std::array<char, 12> payload{};
   std::memcpy(payload.data(), &data_->frames, 8);
@@ -170,6 +173,7 @@ struct StreamFile::Data {
   std::uint64_t size = 0;
   Config config;
   std::vector<Frame> frames;
+  std::string origin;
 
   Data() = default;
   Data(const Data&) = delete;
@@ -226,6 +230,10 @@ struct StreamFile::Data {
       } else if (crc(0, base + payload, h.size) != h.crc) {
         fail(at, fmt::format("checksum of section {} is wrong", printable(tag)));
       }
+      if (tag == "ORIG") {
+        if (!origin.empty()) fail(at, "a second ORIG section");
+        origin.assign(base + payload, h.size);
+      }
       if (tag == "CONF") {
         config = config_from_text(std::string(base + payload, h.size), name);
       } else if (tag == "DONE") {
@@ -267,6 +275,7 @@ StreamFile& StreamFile::operator=(StreamFile&&) noexcept = default;
 
 const Config& StreamFile::config() const { return data_->config; }
 int StreamFile::frame_count() const { return static_cast<int>(data_->frames.size()); }
+const std::string& StreamFile::origin() const { return data_->origin; }
 std::uint64_t StreamFile::bytes() const { return data_->size; }
 
 std::span<const std::uint32_t> StreamFile::frame(int index, TokenCounts* counts) const {

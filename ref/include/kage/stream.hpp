@@ -149,6 +149,9 @@ class StreamFileWriter {
   /// A frame whose words are all there.
   void frame(std::span<const std::uint32_t> words);
 
+  /// Where the frames come from, as JSON text (docs/stream.md, Files): once, after the last frame. Cores ignore it.
+  void origin(const std::string& json);
+
   void finish();
 
  private:
@@ -170,6 +173,9 @@ class StreamFile {
   [[nodiscard]] const Config& config() const;
   [[nodiscard]] int frame_count() const;
   [[nodiscard]] std::uint64_t bytes() const;
+
+  /// The text that StreamFileWriter::origin() took, or nothing.
+  [[nodiscard]] const std::string& origin() const;
 
   /// Words of frame `index`, valid as long as this object. Checked on every call; counts are added to `counts` if
   /// given.
