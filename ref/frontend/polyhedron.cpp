@@ -27,23 +27,29 @@ void PolyhedronScanner::load(const Polyhedron& p, int y0, int y1) {
     const int to = std::min(edge.walker.end(), y1);
     if (from >= to) continue;
     edge.walker.start(from);
+    edge.first = from;
     edges_.push_back(edge);
     first_ = std::min(first_, from);
     end_ = std::max(end_, to);
   }
+  std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.first < b.first; });
+  active_.clear();
+  entered_ = 0;
 }
 
+// The edges that cross line y, from left to right. From line to line few enter, leave or change places, so sorting by
+// insertion looks at each about once.
 void PolyhedronScanner::cross(int y) {
-  crossings_.clear();
-  for (Edge& e : edges_) {
-    if (!e.walker.active(y)) continue;
-    crossings_.push_back({std::clamp(e.walker.x(), 0, g_->width), e.walker.winding(), e.along, e.against});
-    e.walker.next();
+  std::erase_if(active_, [y](const Edge& e) { return e.walker.end() <= y; });
+  for (Edge& e : active_) e.walker.next();
+  for (; entered_ < edges_.size() && edges_[entered_].first == y; ++entered_) active_.push_back(edges_[entered_]);
+  for (std::size_t i = 1; i < active_.size(); ++i) {
+    if (active_[i].walker.x() >= active_[i - 1].walker.x()) continue;
+    const Edge moved = active_[i];
+    std::size_t j = i;
+    for (; j > 0 && moved.walker.x() < active_[j - 1].walker.x(); --j) active_[j] = active_[j - 1];
+    active_[j] = moved;
   }
-  // Nearly sorted already: coherence from line to line is in the order of the edges.
-  for (std::size_t i = 1; i < crossings_.size(); ++i)
-    for (std::size_t j = i; j > 0 && crossings_[j].x < crossings_[j - 1].x; --j)
-      std::swap(crossings_[j], crossings_[j - 1]);
 }
 
 void PolyhedronScanner::add(std::uint32_t polygon, int winding) {
@@ -73,11 +79,12 @@ void PolyhedronScanner::fill(int y) {
   runs_.clear();
   parts_.clear();
   open_.clear();
-  for (std::size_t i = 0; i < crossings_.size();) {
-    const int x = crossings_[i].x;
-    for (; i < crossings_.size() && crossings_[i].x == x; ++i) {
-      add(crossings_[i].along, crossings_[i].winding);
-      add(crossings_[i].against, -crossings_[i].winding);
+  const auto at = [&](std::size_t i) { return std::clamp(active_[i].walker.x(), 0, g_->width); };
+  for (std::size_t i = 0; i < active_.size();) {
+    const int x = at(i);
+    for (; i < active_.size() && at(i) == x; ++i) {
+      add(active_[i].along, active_[i].walker.winding());
+      add(active_[i].against, -active_[i].walker.winding());
     }
     for (Open& o : open_) {
       if (o.change == 0) continue;

@@ -50,12 +50,7 @@ class PolyhedronScanner {
     EdgeWalker walker;
     std::uint32_t along;
     std::uint32_t against;
-  };
-  struct EdgeCrossing {
-    int x;
-    int winding;
-    std::uint32_t along;
-    std::uint32_t against;
+    int first = 0;  // line on which it enters
   };
   struct Open {
     std::uint32_t polygon;
@@ -85,8 +80,9 @@ class PolyhedronScanner {
   int z_frac_;
   std::int64_t least_z_;  // of a segment's start
   std::int64_t most_z_;
-  std::vector<Edge> edges_;
-  std::vector<EdgeCrossing> crossings_;
+  std::vector<Edge> edges_;  // by the line on which they enter
+  std::size_t entered_ = 0;
+  std::vector<Edge> active_;  // from left to right
   std::vector<Open> open_;
   std::vector<Part> parts_;
   std::vector<Run> runs_;
