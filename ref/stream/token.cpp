@@ -53,26 +53,26 @@ void TokenWriter::shade(std::uint32_t shade) {
   pack(Kind::SHADE, [&](auto put) { put("shade", shade, layout_.shade_shade); });
 }
 
-void TokenWriter::face(const SegmentToken& s) {
+void TokenWriter::face(const SegmentToken& face) {
   pack(Kind::FACE, [&](auto put) {
-    put("unit", s.unit, layout_.face_unit);
-    put("face", s.face, layout_.face_face);
-    put("index", s.index, layout_.face_index);
-    put("lit", s.lit && layout_.face_lit.bits != 0 ? 1 : 0, layout_.face_lit);
-    put("dz", s.dz, layout_.face_dz);
+    put("unit", face.unit, layout_.face_unit);
+    put("face", face.face, layout_.face_face);
+    put("index", face.index, layout_.face_index);
+    put("lit", face.lit && layout_.face_lit.bits != 0 ? 1 : 0, layout_.face_lit);
+    put("dz", face.dz, layout_.face_dz);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c)
-      put("color", s.color[c], layout_.face_color[c]);
+      put("color", face.color[c], layout_.face_color[c]);
   });
 }
 
-void TokenWriter::seg(const SegmentToken& s) {
+void TokenWriter::seg(const SegmentToken& segment) {
   pack(Kind::SEG, [&](auto put) {
-    put("unit", s.unit, layout_.seg_unit);
+    put("unit", segment.unit, layout_.seg_unit);
     put("pad", 0, layout_.seg_pad);
-    put("z", s.z, layout_.seg_z);
-    put("sync", s.sync ? 1 : 0, layout_.seg_sync);
-    put("dx", s.dx, layout_.seg_dx);
-    put("face", s.face, layout_.seg_face);
+    put("z", segment.z, layout_.seg_z);
+    put("sync", segment.sync ? 1 : 0, layout_.seg_sync);
+    put("dx", segment.dx, layout_.seg_dx);
+    put("face", segment.face, layout_.seg_face);
   });
 }
 

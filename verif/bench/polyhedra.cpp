@@ -22,8 +22,8 @@ Solid prism(unsigned n) {
   Solid s;
   for (unsigned i = 0; i < n; ++i) {
     const double a = 2 * M_PI * i / n;
-    s.vertices.push_back({std::cos(a), -1, std::sin(a)});
-    s.vertices.push_back({std::cos(a), 1, std::sin(a)});
+    s.vertices.emplace_back(std::cos(a), -1, std::sin(a));
+    s.vertices.emplace_back(std::cos(a), 1, std::sin(a));
   }
   for (unsigned i = 0; i < n; ++i) {
     const unsigned j = (i + 1) % n;
@@ -76,7 +76,7 @@ int main() {
     const double seconds = least_seconds([&] { plan.segments(0, kHeight, lines); });
     std::size_t words = 0;
     for (const auto& l : lines) words += l.size();
-    const auto segments = static_cast<double>(words / Layout(config).words[static_cast<std::size_t>(Kind::SEG)]);
+    const double segments = static_cast<double>(words) / Layout(config).words[static_cast<std::size_t>(Kind::SEG)];
     fmt::print("{:>6} {:>8} {:>9.0f} {:>14.1f} {:>9.1f} {:>11.1f} {:>11.1f} {:>15.1f} {:>12.0f}\n", faces,
                g.polyhedra[0].polygon_count, segments, segments / kHeight, plan_seconds * 1e6, seconds * 1e6,
                seconds * 1e9 / segments, static_cast<double>(words) / kHeight, 0.05 / (plan_seconds + seconds));
