@@ -195,6 +195,13 @@ TEST_CASE("a prism becomes two n-gons and n quads") {
     expected[n] += 2;
     CHECK(m.sizes() == expected);
     check_surface(b.points, b.triangles, m, {0, 0.6, 0});
+    // The plane is the largest triangle's: of a fan, one in its middle.
+    const auto area_of = [&](std::uint32_t t) {
+      const Corners& c = b.triangles[t];
+      return length(area(b.points, {c[0], c[1], c[2]}));
+    };
+    for (std::uint32_t end = 0; end < 2; ++end)
+      for (std::uint32_t t = 0; t < n - 2; ++t) CHECK(area_of(m.polygons[end].triangle) >= area_of(end * (n - 2) + t));
   }
 }
 
@@ -263,6 +270,20 @@ TEST_CASE("triangles of smooth faces stay triangles") {
   const Merged m = merge(b);
   CHECK(m.sizes() == Sizes{{3, 4}, {4, 4}});
   check_surface(b.points, b.triangles, m, kBoxMiddle);
+}
+
+TEST_CASE("one corner's normal or colour keeps a triangle apart") {
+  for (const std::size_t corner : {3, 4, 5})
+    for (const bool color : {false, true}) {
+      Body b;
+      b.points = box_points();
+      for (const Outline& f : kBoxFaces) b.face(f);
+      if (color)
+        b.shading[corner].color = {1, 1, 0};
+      else
+        b.shading[corner].normal = unit(b.shading[corner].normal + glm::dvec3{0, 0.1, 0}, {});
+      CHECK(merge(b).sizes() == Sizes{{3, 2}, {4, 5}});
+    }
 }
 
 TEST_CASE("faces that meet at a flat angle are one within the tolerance, two beyond") {
