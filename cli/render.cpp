@@ -83,7 +83,8 @@ void add_render(CLI::App& app, Action& action) {
   const auto o = std::make_shared<RenderCommand>();
   o->out = "out";
   c->add_option("SCENE", o->input,
-                "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")
+                "a built-in scene (courtyard, knot, inside, edges, polyhedra, fifteen), a file that Assimp reads, or a "
+                "stream file")
       ->required();
   c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
   c->add_flag("--exr", o->exr, "write EXR instead of PNG");

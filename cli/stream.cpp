@@ -47,7 +47,8 @@ void add_stream(CLI::App& app, Action& action) {
                   "what affects no pixel.");
   const auto o = std::make_shared<Options>();
   c->add_option("SCENE", o->input,
-                "a built-in scene (courtyard, knot, inside, edges), a file that Assimp reads, or a stream file")
+                "a built-in scene (courtyard, knot, inside, edges, polyhedra, fifteen), a file that Assimp reads, or a "
+                "stream file")
       ->required();
   c->add_option("--out", o->out, "the stream file")->required()->type_name("FILE");
   option_size(*c, *o);

@@ -299,9 +299,12 @@ class Builder {
     return unsnapped_plane(t[0], t[1], t[2]);
   }
 
-  // The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap, at
-  // the depths that the cap has there, and the vertex furthest from it; so that it leaves the cap exactly at their
-  // common edge.
+  static std::int64_t slope(const ScreenPlane& p) { return std::abs(p.a) + std::abs(p.b); }
+
+  // The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap and
+  // the vertex furthest from it. On the edge it has the depths that the cap has there, so that it leaves the cap
+  // exactly at their common edge. But a cap steeper than the side is further off its own corners there than the side's
+  // slope allows for, and would move the side's shadow far away: then the side has the corners' depths.
   ScreenPlane side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
     const ClipPoint pa = view_.to_clip(a);
     const ClipPoint pb = view_.to_clip(b);
@@ -317,9 +320,12 @@ class Builder {
           furthest = &p;
         }
       }
+      const auto plane = plane_through({depth_vertex(pa), depth_vertex(pb), depth_vertex(*furthest)});
       const ScreenPlane& at = out_.polygons[cap.first].depth;
-      if (const auto plane = plane_through({on_plane(at, sa), on_plane(at, sb), depth_vertex(*furthest)}))
-        return *plane;
+      if (plane && slope(at) <= slope(*plane))
+        if (const auto joined = plane_through({on_plane(at, sa), on_plane(at, sb), depth_vertex(*furthest)}))
+          return *joined;
+      if (plane) return *plane;
     }
     return unsnapped_plane(a, b, c);
   }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The built-in scenes: as their script writes them, as their descriptions promise, and the same bits everywhere.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <set>
 
 #include "catch.hpp"
 #include "scene/transform.hpp"
@@ -60,6 +62,23 @@ std::uint64_t digest(const Scene& scene) {
   return d.value();
 }
 
+std::set<std::uint32_t> corners_of(const SceneFrame& f, const Component& c) {
+  std::set<std::uint32_t> out;
+  for (std::uint32_t t = c.first; t < c.first + c.count; ++t)
+    out.insert(f.triangles[t].vertex.begin(), f.triangles[t].vertex.end());
+  return out;
+}
+
+// Of a convex component.
+bool inside(const SceneFrame& f, const Component& c, const glm::dvec3& p) {
+  for (std::uint32_t t = c.first; t < c.first + c.count; ++t) {
+    const auto& v = f.triangles[t].vertex;
+    const glm::dvec3 n = scene::cross(f.vertices[v[1]] - f.vertices[v[0]], f.vertices[v[2]] - f.vertices[v[0]]);
+    if (dot(n, p - f.vertices[v[0]]) >= 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 TEST_CASE("scenes/make writes exactly the committed files") {
@@ -72,10 +91,9 @@ TEST_CASE("scenes/make writes exactly the committed files") {
 
 TEST_CASE("a scene is the same, bit by bit, for every compiler and every Debian") {
   // Where this fails after scenes/make or the import changed on purpose, put in what it prints.
-  const std::map<std::string, std::uint64_t> expected{{"courtyard", 0xe03c4a6a2885fa12u},
-                                                      {"knot", 0xffbe8a8d51fa1be9u},
-                                                      {"inside", 0x1f75d211220dd0bbu},
-                                                      {"edges", 0xfccbbac39be2e5f9u}};
+  const std::map<std::string, std::uint64_t> expected{
+      {"courtyard", 0xe03c4a6a2885fa12u}, {"knot", 0xffbe8a8d51fa1be9u},      {"inside", 0x1f75d211220dd0bbu},
+      {"edges", 0xfccbbac39be2e5f9u},     {"polyhedra", 0x98d09a49450b03b8u}, {"fifteen", 0xf6668fabcfd9b442u}};
   for (const std::string& name : builtin_scenes()) {
     INFO(name);
     CHECK(digest(Scene::load(name)) == expected.at(name));
@@ -83,7 +101,8 @@ TEST_CASE("a scene is the same, bit by bit, for every compiler and every Debian"
 }
 
 TEST_CASE("every built-in scene: frames, orthonormal cameras, nothing left out") {
-  const std::map<std::string, int> frames{{"courtyard", 8}, {"knot", 8}, {"inside", 8}, {"edges", 2}};
+  const std::map<std::string, int> frames{{"courtyard", 8}, {"knot", 8},      {"inside", 8},
+                                          {"edges", 2},     {"polyhedra", 8}, {"fifteen", 8}};
   for (const std::string& name : builtin_scenes()) {
     INFO(name);
     const Scene s = Scene::load(name);
@@ -177,6 +196,88 @@ TEST_CASE("inside: the eye within volumes, the near plane cut by several") {
   }
   CHECK(whole);
   CHECK(most_cut >= 4);
+}
+
+TEST_CASE("polyhedra: convex bodies of 4 to 126 faces, through each other and out of the picture on each side") {
+  const Scene s = Scene::load("polyhedra");
+  std::set<std::uint32_t> counts;
+  // By side: left, right, below, above. Out: seen in one frame and gone past that side in another, in either order.
+  std::array<bool, 4> cut{};
+  std::array<std::set<std::size_t>, 4> past;
+  std::set<std::size_t> seen;
+  std::size_t pierced = 0;
+  for (int i = 0; i < 8; ++i) {
+    const SceneFrame f = s.frame(i, 8);
+    REQUIRE(f.components.size() == 45);
+    CHECK(f.light.directional);
+    for (std::size_t n = 0; n < f.components.size(); ++n) {
+      const Component& c = f.components[n];
+      CHECK(c.convex);
+      CHECK(c.polygon_count >= 4);
+      CHECK(c.polygon_count <= 126);
+      if (i == 0) counts.insert(c.polygon_count);
+      const std::set<std::uint32_t> corners = corners_of(f, c);
+      std::array<std::size_t, 4> outside{};
+      for (const std::uint32_t v : corners) {
+        const glm::dvec3 e = f.vertices[v] - f.camera.eye;
+        const double w = dot(e, f.camera.forward);
+        CHECK(w > f.camera.near);  // so that every frame of every body can go through a unit
+        const double x = dot(e, f.camera.right) / (w * f.camera.half_height * 4 / 3);
+        const double y = dot(e, f.camera.up) / (w * f.camera.half_height);
+        outside[0] += x < -1 ? 1 : 0;
+        outside[1] += x > 1 ? 1 : 0;
+        outside[2] += y < -1 ? 1 : 0;
+        outside[3] += y > 1 ? 1 : 0;
+      }
+      bool gone = false;
+      for (std::size_t side = 0; side < 4; ++side) {
+        if (outside[side] == corners.size()) past[side].insert(n);
+        gone = gone || outside[side] == corners.size();
+        cut[side] = cut[side] || (outside[side] > 0 && outside[side] < corners.size());
+      }
+      if (!gone) seen.insert(n);
+      // Some corner of another body lies inside this one.
+      bool holds = false;
+      for (std::size_t m = 0; m < f.components.size() && !holds; ++m) {
+        if (m == n) continue;
+        for (const std::uint32_t v : corners_of(f, f.components[m])) holds = holds || inside(f, c, f.vertices[v]);
+      }
+      pierced += holds ? 1 : 0;
+    }
+  }
+  CHECK(counts.size() >= 15);
+  CHECK(*counts.begin() == 4);
+  CHECK(*counts.rbegin() == 126);
+  for (std::size_t side = 0; side < 4; ++side) {
+    CAPTURE(side);
+    CHECK(cut[side]);
+    CHECK(std::any_of(past[side].begin(), past[side].end(), [&](std::size_t n) { return seen.count(n) > 0; }));
+  }
+  CHECK(pierced >= 8 * 8);
+}
+
+TEST_CASE("fifteen: eight bodies of fifteen faces, one before another") {
+  const Scene s = Scene::load("fifteen");
+  for (int i = 0; i < 8; ++i) {
+    const SceneFrame f = s.frame(i, 8);
+    REQUIRE(f.components.size() == 8);
+    for (const Component& c : f.components) {
+      CHECK(c.convex);
+      CHECK(c.polygon_count == 15);
+    }
+    // Bodies on the stage that have a corner behind another body.
+    std::size_t hidden = 0;
+    for (std::size_t n = 1; n < f.components.size(); ++n) {
+      bool behind = false;
+      for (const std::uint32_t v : corners_of(f, f.components[n]))
+        for (std::size_t m = 1; m < f.components.size(); ++m)
+          for (int step = 100; m != n && step < 200; ++step)
+            behind =
+                behind || inside(f, f.components[m], f.camera.eye + (f.vertices[v] - f.camera.eye) * (step / 200.0));
+      hidden += behind ? 1 : 0;
+    }
+    CHECK(hidden >= 3);
+  }
 }
 
 TEST_CASE("edges: vertices on pixel centres in the first frame, half a pixel away in the second") {

@@ -94,7 +94,7 @@ struct SceneFrame {
 /// A scene loaded from a file.
 class Scene {
  public:
-  /// Load any file that Assimp reads, or a built-in scene by its name (`courtyard`, `knot`, `inside`, `edges`).
+  /// Load any file that Assimp reads, or a built-in scene by its name (`builtin_scenes()`).
   /// Import runs in a child process with limits of time and memory; its death is an Error like any other. The child is
   /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
   /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
