@@ -274,7 +274,7 @@ module frame_control #(
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
   if (UNITS > 0) begin : gen_tree
-    logic is_face, is_seg, seg_pass, is_fault;
+    logic is_face, is_seg, seg_pass, seg_goes, is_fault;
     logic [UnitBits-1:0] fault_unit;
     logic [31:0] fault_token;
     assign is_face = kind == KindFace;
@@ -289,11 +289,12 @@ module frame_control #(
     assign tree_flush_o = bad && !token_header_i;
     assign tree_claim_o = emit_tree;
     assign tree_face_valid_o = good && !token_header_i && is_face;
-    assign tree_seg_valid_o = token_valid_i && state_q == StBody && seg_pass && body_error == ErrNone;
+    assign seg_goes = seg_pass && body_error == ErrNone;
+    assign tree_seg_valid_o = token_valid_i && state_q == StBody && seg_goes;
 
     assign frame_free = tree_frame_ready_i;
     // FACE and SEG pass a command that waits: the units fill while the pixels work.
-    assign body_free = is_seg ? !seg_pass || tree_seg_ready_i : is_face || cmd_free;
+    assign body_free = is_seg ? !seg_goes || tree_seg_ready_i : is_face || cmd_free;
 
     // What a TREE raises has its own place.
     assign is_fault = !token_header_i && tree_error && error_code == tree_code;
