@@ -33,8 +33,11 @@ using Words = std::vector<std::uint32_t>;
 Words sound(Random& random, const Config& c, std::uint32_t number) {
   FrameStyle style{.most_opaque = 12, .most_volumes = 4, .most_in_volume = 8, .port = true};
   if (random.chance(0.2)) style.most_opaque = style.most_in_volume = 60;
+  if (random.chance(0.2)) style.most_opaque = style.most_volumes = 0;  // line upon line, and all that a line needs
   Words words;
-  const int width = random.chance(0.3) ? c.max_width : random.in(1, std::min(c.max_width, 70));
+  const int width = random.chance(0.2)   ? random.in(1, std::min(c.max_width, 4))
+                    : random.chance(0.3) ? c.max_width
+                                         : random.in(1, std::min(c.max_width, 70));
   random_frame(random, c, width, random.in(1, random.chance(0.1) ? 12 : 4), words, number, style);
   return words;
 }
