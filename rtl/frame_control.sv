@@ -174,12 +174,13 @@ module frame_control #(
   end
 
   // ---- what happens in this clock ----------------------------------------------------------------------------------
-  logic
-      cmd_free, eol_free, accept, bad, good, body_eol, blank_eol, emit_eol, emit_span, emit_tree, body_free, frame_free;
+  logic cmd_free, eol_free, accept, bad, good, body_eol, blank_eol, emit_eol, emit_span;
+  logic emit_tree, body_free, frame_free;
   logic [3:0] error_code;
   assign cmd_free = !cmd_valid_o || cmd_ready_i;
   assign eol_free = cmd_free && line_ready_i;
-  assign token_ready_o = (state_q == StHeader && frame_free) || (state_q == StBody && body_free && (line_ready_i || !is_eol));
+  assign token_ready_o = (state_q == StHeader && frame_free) ||
+      (state_q == StBody && body_free && (line_ready_i || !is_eol));
   assign accept = token_valid_i && token_ready_o;
   assign error_code = token_header_i ? head_error : body_error;
   assign bad = accept && error_code != ErrNone;

@@ -259,7 +259,8 @@ module kage_top #(
     );
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_frame_start, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_unit, tree_face,
+    assign unused_tree = ^{tree_frame_start, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_unit,
+                           tree_face,
                            tree_entry, tree_seg_z, tree_dx, tree_ready};
     assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_z, tree_lit, tree_color, tree_last, tree_drop} = '0;
     assign {tree_moving, tree_wait, tree_wait_unit} = '0;

@@ -91,8 +91,10 @@ module pixel_banked #(
   assign walk_eol = walk_kind_q == KindEol;
   assign walk_at_end = walk_group_q == walk_end_q;
   assign step = walk_valid_q && !walk_at_end;
-  assign take3 = set_valid_q[2] && !step && (next_kind != KindEol || exit_free_i) && (UNITS == 0 || next_kind != KindTree || tree_here);
-  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o || tree_moving;
+  assign take3 = set_valid_q[2] && !step && (next_kind != KindEol || exit_free_i) &&
+      (UNITS == 0 || next_kind != KindTree || tree_here);
+  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o ||
+      tree_moving;
   assign exit_take_o = take3 && next_kind == KindEol;
 
   always_ff @(posedge clk_i) begin

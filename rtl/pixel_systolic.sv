@@ -36,7 +36,8 @@ module pixel_systolic #(
   logic [X_BITS-1:0] leaving_q;  // pixels of the leaving line that its EOL has not reached
   logic sweep_q;  // that EOL is the one of reset
   assign is_eol = cmd_kind_i == KindEol;
-  assign cmd_ready_o = (!is_eol || (exit_free_i && leaving_q == '0)) && (UNITS == 0 || cmd_kind_i != KindTree || tree_here);
+  assign cmd_ready_o = (!is_eol || (exit_free_i && leaving_q == '0)) &&
+      (UNITS == 0 || cmd_kind_i != KindTree || tree_here);
   assign enter = cmd_valid_i && cmd_ready_o;
   assign exit_take_o = enter && is_eol;
 
