@@ -231,9 +231,10 @@ module expansion_unit #(
     if (clear) mid_line_q <= 1'b0;
     else if (px_valid_o && px_ready_i) mid_line_q <= !px_last_o;
     if (rst_ni) begin
-      // 1. A segment has pixels and stays in its line, and the line in its half.
+      // 1. A segment has pixels and stays in its line, and the line in its half: behind the last place nothing comes. (What is in the
+      // last place may leave the line short: that line will not be completed.)
       assert (!seg_take || (seg_dx_i != '0 && 16'(sum_q) + 16'(seg_dx_i) <= 16'(width_i)));
-      assert (!seg_take || line_complete || !(&wr_at_q));
+      assert (!seg_take || wr_at_q != '0 || sum_q == '0);
       // 2. No frame begins in the middle of a line.
       assert (!frame_start_i || flush_i || sum_q == '0);
       // 3. A line has no bubble.

@@ -5,10 +5,14 @@
 // Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o waits for
 //   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command, so lines and
 //   EOL commands come in the same order.
-// Commands: OP, SP, NC, EV with 0 <= xl < xr <= width, and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE take
+// Commands: OP, SP, NC, EV with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE take
 //   their clock here and go no further: cmd_count_o brings the line's bias with EV and EOL.
 // Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands
 //   clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
+// Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its unit by
+//   tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose unit is at fault goes
+//   nowhere. tree_claim_o, one clock, says that a TREE became a command; tree_flush_o, one clock, that there will be no more of this
+//   frame. segment_check has the rules. Without units these outputs are 0 and the inputs do not matter.
 // Latency: 1 clock from token to command. Throughput: a token a clock.
 `default_nettype none
 
@@ -54,16 +58,31 @@ module frame_control #(
     output logic      [ RgbBits-1:0] line_background_o,
     output logic      [SHADE_FRAC:0] line_shade_o,
 
+    // to the units and the tree; the width is line_width_o
+    output logic                      tree_frame_start_o,
+    input  wire logic                 tree_frame_ready_i,
+    output logic                      tree_flush_o,
+    output logic                      tree_claim_o,
+    output logic                      tree_face_valid_o,
+    output logic                      tree_seg_valid_o,
+    input  wire logic                 tree_seg_ready_i,
+    output logic      [ UnitBits-1:0] tree_unit_o,         // of FACE and SEG, as the next
+    output logic      [FACE_BITS-1:0] tree_face_o,
+    output logic      [EntryBits-1:0] tree_entry_o,
+    output logic      [DepthBits-1:0] tree_z_o,
+    output logic      [  DX_BITS-1:0] tree_dx_o,
+
     // to the registers
     output logic        open_o,         // a frame's header has been taken and the frame has not ended
     output logic        hungry_o,       // waits for a token or for TLAST
     output logic        draining_o,     // input is being dropped after an error
     output logic        frame_end_o,    // one clock
-    output logic        error_o,        // one clock, with the next four
+    output logic        error_o,        // one clock, with the next five
     output logic [ 3:0] error_code_o,
     output logic [31:0] error_frame_o,
     output logic [15:0] error_line_o,
-    output logic [31:0] error_token_o
+    output logic [31:0] error_token_o,
+    output logic [ 5:0] error_unit_o
 );
   `include "kage_layout.svh"
 
@@ -89,7 +108,7 @@ module frame_control #(
 
   // ---- decode ------------------------------------------------------------------------------------------------------
   logic [3:0] kind;
-  logic is_shade, is_op, is_sp, is_nc, is_if, is_ev, is_resolve, is_eol, is_end, is_span;
+  logic is_shade, is_op, is_sp, is_nc, is_if, is_ev, is_resolve, is_eol, is_end, is_span, is_tree;
   logic [X_BITS-1:0] xl, xr;
   logic [CountBits-1:0] w;
   logic [ SHADE_FRAC:0] shade;
@@ -104,6 +123,7 @@ module frame_control #(
   assign is_resolve = kind == KindResolve;
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
+  assign is_tree = UNITS > 0 && kind == KindTree;
   assign is_span = is_op || is_sp || is_nc || is_ev;
   assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC and EV
   assign xr = token_i[OpXrLsb+:X_BITS];
@@ -126,11 +146,13 @@ module frame_control #(
 
   // ---- order, range, line ------------------------------------------------------------------------------------------
   logic lines_done, in_order, in_range, in_line;
-  logic [3:0] body_error;
+  logic tree_order_error, tree_range_error, tree_error;  // those of FACE, SEG and TREE; see gen_tree below
+  logic [3:0] body_error, tree_code;
+  logic shade_seen_q;
   assign lines_done = line_q == height_q;
   always_comb begin
     unique case (kind)
-      KindShade: in_order = index_q == 32'd1;
+      KindShade: in_order = UNITS > 0 ? !shade_seen_q : index_q == 32'd1;
       KindOp: in_order = phase_q == PhaseOpaque;
       KindSp, KindNc, KindIf: in_order = phase_q != PhaseResolved;
       KindEv: in_order = phase_q == PhaseVolume && volume_open_q;
@@ -138,24 +160,27 @@ module frame_control #(
       KindEol: in_order = phase_q != PhaseVolume;
       default: in_order = 1'b1;
     endcase
-    if (lines_done && !is_end) in_order = 1'b0;
-    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade > ShadeMost);
+    if ((lines_done && !is_end) || tree_order_error) in_order = 1'b0;
+    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade > ShadeMost) && !tree_range_error;
     in_line  = !(is_eol && token_i[EolYLsb+:16] != 16'(line_q)) && !(is_end && !lines_done);
     if (token_cut_i) body_error = ErrLastEarly;
     else if (token_lacking_i) body_error = ErrKind;
     else if (!in_order) body_error = ErrOrder;
     else if (!in_range) body_error = ErrRange;
     else if (!in_line) body_error = ErrLine;
+    else if (tree_error) body_error = tree_code;
     else if (is_end && !token_at_last_i) body_error = ErrLastLate;
     else body_error = ErrNone;
   end
 
   // ---- what happens in this clock ----------------------------------------------------------------------------------
   logic cmd_free, eol_free, accept, bad, good, body_eol, blank_eol, emit_eol, emit_span;
+  logic emit_tree, body_free, frame_free;
   logic [3:0] error_code;
   assign cmd_free = !cmd_valid_o || cmd_ready_i;
   assign eol_free = cmd_free && line_ready_i;
-  assign token_ready_o = state_q == StHeader || (state_q == StBody && cmd_free && (line_ready_i || !is_eol));
+  assign token_ready_o = (state_q == StHeader && frame_free) ||
+      (state_q == StBody && body_free && (line_ready_i || !is_eol));
   assign accept = token_valid_i && token_ready_o;
   assign error_code = token_header_i ? head_error : body_error;
   assign bad = accept && error_code != ErrNone;
@@ -164,6 +189,7 @@ module frame_control #(
   assign blank_eol = state_q == StBlank && !lines_done && eol_free;
   assign emit_eol = body_eol || blank_eol;
   assign emit_span = good && !token_header_i && is_span && xl != xr;
+  assign emit_tree = good && !token_header_i && is_tree;
   assign drop_o = bad && !token_final_i;
 
   assign line_valid_o = emit_eol;
@@ -181,7 +207,6 @@ module frame_control #(
   assign error_code_o = error_code;
   assign error_frame_o = token_header_i ? (token_cut_i ? 32'd0 : token_i[159:128]) : frame_q;
   assign error_line_o = token_header_i ? 16'd0 : 16'(line_q);
-  assign error_token_o = token_header_i ? 32'd0 : index_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -232,11 +257,11 @@ module frame_control #(
   // ---- command register --------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
     if (!rst_ni) cmd_valid_o <= 1'b0;
-    else if (cmd_free) cmd_valid_o <= emit_eol || emit_span;
+    else if (cmd_free) cmd_valid_o <= emit_eol || emit_span || emit_tree;
     if (cmd_free) begin
       cmd_kind_o <= emit_eol ? KindEol : kind;
-      cmd_xl_o <= emit_eol ? '0 : xl;
-      cmd_xr_o <= emit_eol ? width_q : xr;
+      cmd_xl_o <= emit_eol || emit_tree ? '0 : xl;
+      cmd_xr_o <= emit_eol || emit_tree ? width_q : xr;
       cmd_z_o <= DSF_BITS > 0 && is_sp ? token_i[SpZLsb+:DepthBits] : token_i[OpZLsb+:DepthBits];
       cmd_dz_o <= DSF_BITS > 0 && is_sp ? token_i[SpDzLsb+:DepthBits] : token_i[OpDzLsb+:DepthBits];
       cmd_color_o <= token_i[OpColorLsb+:ColorBits];
@@ -246,6 +271,92 @@ module frame_control #(
       else if (is_op) cmd_count_o <= CountBits'(token_i[OpLitLsb]);
       else cmd_count_o <= w;
     end
+  end
+
+  // ---- units and tree ----------------------------------------------------------------------------------------------
+  if (UNITS > 0) begin : gen_tree
+    logic is_face, is_seg, seg_pass, seg_goes, is_fault;
+    logic [UnitBits-1:0] fault_unit;
+    logic [31:0] fault_token;
+    assign is_face = kind == KindFace;
+    assign is_seg = kind == KindSeg;
+    assign tree_unit_o = is_face ? token_i[FaceUnitLsb+:UnitBits] : token_i[SegUnitLsb+:UnitBits];
+    assign tree_face_o = is_face ? token_i[FaceFaceLsb+:FACE_BITS] : token_i[SegFaceLsb+:FACE_BITS];
+    assign tree_entry_o = token_i[FaceIndexLsb+:EntryBits];
+    assign tree_z_o = DepthBits'(token_i[SegZLsb+:SegZBits]);
+    assign tree_dx_o = token_i[SegDxLsb+:DX_BITS];
+
+    assign tree_frame_start_o = good && token_header_i;
+    assign tree_flush_o = bad && !token_header_i;
+    assign tree_claim_o = emit_tree;
+    assign tree_face_valid_o = good && !token_header_i && is_face;
+    assign seg_goes = seg_pass && body_error == ErrNone;
+    assign tree_seg_valid_o = token_valid_i && state_q == StBody && seg_goes;
+
+    assign frame_free = tree_frame_ready_i;
+    // FACE and SEG pass a command that waits: the units fill while the pixels work.
+    assign body_free = is_seg ? !seg_goes || tree_seg_ready_i : is_face || cmd_free;
+
+    // What a TREE raises has its own place.
+    assign is_fault = !token_header_i && tree_error && error_code == tree_code;
+    assign error_token_o = token_header_i ? 32'd0 : is_fault ? fault_token : index_q;
+    assign error_unit_o = is_fault ? 6'(fault_unit) : '0;
+
+    always_ff @(posedge clk_i) begin
+      if (accept && token_header_i) shade_seen_q <= 1'b0;
+      else if (good && is_shade) shade_seen_q <= 1'b1;
+    end
+
+    segment_check #(
+        .X_BITS(X_BITS),
+        .Z_BITS(Z_BITS),
+        .Z_FRAC(Z_FRAC),
+        .UNITS(UNITS),
+        .FACE_BITS(FACE_BITS),
+        .DX_BITS(DX_BITS),
+        .SEG_BITS(SEG_BITS),
+        .ORDER_BITS(ORDER_BITS),
+        .CLASSIC(CLASSIC)
+    ) u_check (
+        .clk_i,
+        .rst_ni,
+        .frame_start_i(tree_frame_start_o),
+        .take_i       (good && !token_header_i),
+        .is_shade_i   (is_shade),
+        .is_face_i    (is_face),
+        .is_seg_i     (is_seg),
+        .is_tree_i    (is_tree),
+        .is_eol_i     (is_eol),
+        .is_other_i   (!(is_shade || is_face || is_seg || is_tree || is_eol || is_end)),
+        .width_i      (width_q),
+        .lines_left_i (height_q - line_q),
+        .token_i      (index_q),
+        .unit_i       (tree_unit_o),
+        .face_i       (tree_face_o),
+        .sync_i       (token_i[SegSyncLsb]),
+        .dx_i         (tree_dx_o),
+        .order_error_o(tree_order_error),
+        .range_error_o(tree_range_error),
+        .seg_pass_o   (seg_pass),
+        .tree_error_o (tree_error),
+        .tree_code_o  (tree_code),
+        .tree_unit_o  (fault_unit),
+        .tree_token_o (fault_token),
+        // verilator lint_off PINCONNECTEMPTY
+        .tree_o       (),
+        .due_o        ()
+        // verilator lint_on PINCONNECTEMPTY
+    );
+  end else begin : gen_no_tree
+    logic unused_tree;
+    assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i;
+    assign {tree_order_error, tree_range_error, tree_error, tree_code, shade_seen_q} = '0;
+    assign {tree_frame_start_o, tree_flush_o, tree_claim_o, tree_face_valid_o, tree_seg_valid_o} = '0;
+    assign {tree_unit_o, tree_face_o, tree_entry_o, tree_z_o, tree_dx_o} = '0;
+    assign frame_free = 1'b1;
+    assign body_free = cmd_free;
+    assign error_token_o = token_header_i ? 32'd0 : index_q;
+    assign error_unit_o = '0;
   end
 
   // ---- assertions --------------------------------------------------------------------------------------------------

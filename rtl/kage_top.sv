@@ -3,6 +3,7 @@
 //
 //   s_axis -> token_reader -> frame_control -> pixel_core -> line_out -> m_axis
 //                                    \---- lines ----^          registers on s_axil
+//                     frame_control -> tree_core -> pixel_core      (UNITS > 0)
 //
 // Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of s_axis and
 //   s_axil, which rst_ni keeps low.
@@ -65,6 +66,9 @@ module kage_top #(
   if (MAX_WIDTH > 2 ** X_BITS - 1) begin : gen_bad_width_for_x
     $fatal(1, "MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width");
   end
+  if (CLASSIC > 0 && (Z_BITS != 15 || Z_FRAC != 0 || FACE_BITS != 7 || DX_BITS != 9)) begin : gen_bad_classic
+    $fatal(1, "CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9: the paper's segment");
+  end
 
   localparam int FrontWords = TokenWords > HeaderWords ? TokenWords : HeaderWords;
   localparam int ExitLanes = ARRANGEMENT == 1 ? LANES : 1;
@@ -118,7 +122,15 @@ module kage_top #(
   logic [ RgbBits-1:0] queue_background;
   logic [SHADE_FRAC:0] queue_shade;
 
+  logic tree_frame_start, tree_frame_ready, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_seg_ready;
+  logic [ UnitBits-1:0] tree_unit;
+  logic [FACE_BITS-1:0] tree_face;
+  logic [EntryBits-1:0] tree_entry;
+  logic [DepthBits-1:0] tree_seg_z;
+  logic [  DX_BITS-1:0] tree_dx;
+
   logic frame_open, hungry, draining, frame_end, error;
+  logic [5:0] error_unit;
   logic [3:0] error_code;
   logic [31:0] error_frame, error_token;
   logic [15:0] error_line;
@@ -130,42 +142,55 @@ module kage_top #(
   ) u_control (
       .clk_i,
       .rst_ni,
-      .token_valid_i    (token_valid),
-      .token_ready_o    (token_ready),
-      .token_i          (token),
-      .token_header_i   (token_header),
-      .token_lacking_i  (token_lacking),
-      .token_cut_i      (token_cut),
-      .token_final_i    (token_final),
-      .token_at_last_i  (token_at_last),
-      .drop_o           (drop),
-      .dropping_i       (dropping),
-      .cmd_valid_o      (cmd_valid),
-      .cmd_ready_i      (cmd_ready),
-      .cmd_kind_o       (cmd_kind),
-      .cmd_xl_o         (cmd_xl),
-      .cmd_xr_o         (cmd_xr),
-      .cmd_count_o      (cmd_count),
-      .cmd_z_o          (cmd_z),
-      .cmd_dz_o         (cmd_dz),
-      .cmd_color_o      (cmd_color),
-      .cmd_dcolor_o     (cmd_dcolor),
-      .line_valid_o     (line_valid),
-      .line_ready_i     (line_ready),
-      .line_first_o     (line_first),
-      .line_blank_o     (line_blank),
-      .line_width_o     (line_width),
-      .line_background_o(line_background),
-      .line_shade_o     (line_shade),
-      .open_o           (frame_open),
-      .hungry_o         (hungry),
-      .draining_o       (draining),
-      .frame_end_o      (frame_end),
-      .error_o          (error),
-      .error_code_o     (error_code),
-      .error_frame_o    (error_frame),
-      .error_line_o     (error_line),
-      .error_token_o    (error_token)
+      .token_valid_i     (token_valid),
+      .token_ready_o     (token_ready),
+      .token_i           (token),
+      .token_header_i    (token_header),
+      .token_lacking_i   (token_lacking),
+      .token_cut_i       (token_cut),
+      .token_final_i     (token_final),
+      .token_at_last_i   (token_at_last),
+      .drop_o            (drop),
+      .dropping_i        (dropping),
+      .cmd_valid_o       (cmd_valid),
+      .cmd_ready_i       (cmd_ready),
+      .cmd_kind_o        (cmd_kind),
+      .cmd_xl_o          (cmd_xl),
+      .cmd_xr_o          (cmd_xr),
+      .cmd_count_o       (cmd_count),
+      .cmd_z_o           (cmd_z),
+      .cmd_dz_o          (cmd_dz),
+      .cmd_color_o       (cmd_color),
+      .cmd_dcolor_o      (cmd_dcolor),
+      .line_valid_o      (line_valid),
+      .line_ready_i      (line_ready),
+      .line_first_o      (line_first),
+      .line_blank_o      (line_blank),
+      .line_width_o      (line_width),
+      .line_background_o (line_background),
+      .line_shade_o      (line_shade),
+      .tree_frame_start_o(tree_frame_start),
+      .tree_frame_ready_i(tree_frame_ready),
+      .tree_flush_o      (tree_flush),
+      .tree_claim_o      (tree_claim),
+      .tree_face_valid_o (tree_face_valid),
+      .tree_seg_valid_o  (tree_seg_valid),
+      .tree_seg_ready_i  (tree_seg_ready),
+      .tree_unit_o       (tree_unit),
+      .tree_face_o       (tree_face),
+      .tree_entry_o      (tree_entry),
+      .tree_z_o          (tree_seg_z),
+      .tree_dx_o         (tree_dx),
+      .open_o            (frame_open),
+      .hungry_o          (hungry),
+      .draining_o        (draining),
+      .frame_end_o       (frame_end),
+      .error_o           (error),
+      .error_code_o      (error_code),
+      .error_frame_o     (error_frame),
+      .error_line_o      (error_line),
+      .error_token_o     (error_token),
+      .error_unit_o      (error_unit)
   );
 
   // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer.
@@ -182,6 +207,64 @@ module kage_top #(
       .out_ready_i(queue_ready),
       .out_data_o ({queue_first, queue_blank, queue_width, queue_background, queue_shade})
   );
+
+  // ---- faces and segments to the tree's lines ----------------------------------------------------------------------
+  logic tree_valid, tree_ready, tree_lit, tree_last, tree_drop, tree_moving, tree_wait;
+  logic [Z_BITS-1:0] tree_z;
+  logic [RgbBits-1:0] tree_color;
+  logic [5:0] tree_wait_unit;
+  if (UNITS > 0) begin : gen_tree
+    logic [UnitBits-1:0] wait_unit;
+    assign tree_wait_unit = 6'(wait_unit);
+    tree_core #(
+        .X_BITS(X_BITS),
+        .Z_BITS(Z_BITS),
+        .Z_FRAC(Z_FRAC),
+        .CHANNELS(CHANNELS),
+        .DSF_BITS(DSF_BITS),
+        .UNITS(UNITS),
+        .FACE_BITS(FACE_BITS),
+        .DX_BITS(DX_BITS),
+        .SEG_BITS(SEG_BITS),
+        .ORDER_BITS(ORDER_BITS),
+        .CLASSIC(CLASSIC)
+    ) u_tree (
+        .clk_i,
+        .rst_ni,
+        .frame_start_i(tree_frame_start),
+        .frame_ready_o(tree_frame_ready),
+        .flush_i      (tree_flush),
+        .claim_i      (tree_claim),
+        .width_i      (line_width),
+        .face_valid_i (tree_face_valid),
+        .face_unit_i  (tree_unit),
+        .face_number_i(tree_face),
+        .face_entry_i (tree_entry),
+        .seg_valid_i  (tree_seg_valid),
+        .seg_ready_o  (tree_seg_ready),
+        .seg_unit_i   (tree_unit),
+        .seg_z_i      (tree_seg_z),
+        .seg_dx_i     (tree_dx),
+        .seg_face_i   (tree_face),
+        .line_valid_o (tree_valid),
+        .line_ready_i (tree_ready),
+        .line_z_o     (tree_z),
+        .line_lit_o   (tree_lit),
+        .line_color_o (tree_color),
+        .line_last_o  (tree_last),
+        .drop_o       (tree_drop),
+        .moving_o     (tree_moving),
+        .wait_o       (tree_wait),
+        .wait_unit_o  (wait_unit)
+    );
+  end else begin : gen_no_tree
+    logic unused_tree;
+    assign unused_tree = ^{tree_frame_start, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_unit,
+                           tree_face,
+                           tree_entry, tree_seg_z, tree_dx, tree_ready};
+    assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_z, tree_lit, tree_color, tree_last, tree_drop} = '0;
+    assign {tree_moving, tree_wait, tree_wait_unit} = '0;
+  end
 
   // ---- commands to pixels ------------------------------------------------------------------------------------------
   logic exit_free, exit_take, exit_valid, exit_last, pixels_moving, out_moving;
@@ -205,6 +288,13 @@ module kage_top #(
       .cmd_dz_i    (cmd_dz),
       .cmd_color_i (cmd_color),
       .cmd_dcolor_i(cmd_dcolor),
+      .tree_valid_i(tree_valid),
+      .tree_ready_o(tree_ready),
+      .tree_z_i    (tree_z),
+      .tree_lit_i  (tree_lit),
+      .tree_color_i(tree_color),
+      .tree_last_i (tree_last),
+      .tree_drop_i (tree_drop),
       .exit_free_i (exit_free),
       .exit_take_o (exit_take),
       .exit_valid_o(exit_valid),
@@ -257,7 +347,7 @@ module kage_top #(
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
   // if one of them does.
   assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
-      frame_end || line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving ||
+      frame_end || line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving || tree_moving ||
       (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
@@ -294,7 +384,10 @@ module kage_top #(
       .error_code_i    (error_code),
       .error_frame_i   (error_frame),
       .error_line_i    (error_line),
-      .error_token_i   (error_token)
+      .error_token_i   (error_token),
+      .error_unit_i    (error_unit),
+      .tree_wait_i     (tree_wait),
+      .tree_wait_unit_i(tree_wait_unit)
   );
 
   // ---- assertions --------------------------------------------------------------------------------------------------

@@ -4,12 +4,16 @@
 // Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL starts its pass when exit_free_i is high, takes the
 //   buffer by a clock of exit_take_o, and then brings the line's groups in order by exit_valid_o, without stops; the last with
 //   exit_last_o. Pixels past the line's width in the last group are void.
+// Tree (UNITS > 0): a second line buffer of {Z, colour, lit} is filled one pixel a clock from tree_*, whether or not a TREE is near.
+//   A TREE waits until a line is in it whole, then reads it group by group along with the state; the next line comes in right behind.
+//   tree_drop_i forgets a part of a line.
 // Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL takes one per group of
 //   the line and leaves cleared state behind. After reset a sweep of all groups comes first: what the RAM held never matters.
 // Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1.
 // Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the newest in
-//   front of the comparison, the two older ones in front of the register behind the RAM.
-// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port.
+//   front of the comparison, the two older ones in front of the register behind the RAM. The tree's buffer needs none: see there.
+// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units another of as
+//   many words.
 `default_nettype none
 
 module pixel_banked #(
@@ -41,7 +45,7 @@ module pixel_banked #(
   logic [FlatBits-1:0] flat;
   logic [AddrBits-1:0] group_first, group_last;
   logic [OffBits-1:0] lane_first, lane_last;
-  logic take3;
+  logic take3, tree_here, tree_moving;  // the tree's line is in its buffer; something of it moves
 
   assign x_last = cmd_xr_i - 1'b1;
   assign flat = SMOOTH > 0 ? '0 : cmd_color_i[FlatBits-1:0];
@@ -87,8 +91,10 @@ module pixel_banked #(
   assign walk_eol = walk_kind_q == KindEol;
   assign walk_at_end = walk_group_q == walk_end_q;
   assign step = walk_valid_q && !walk_at_end;
-  assign take3 = set_valid_q[2] && !step && (next_kind != KindEol || exit_free_i);
-  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o;
+  assign take3 = set_valid_q[2] && !step && (next_kind != KindEol || exit_free_i) &&
+      (UNITS == 0 || next_kind != KindTree || tree_here);
+  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o ||
+      tree_moving;
   assign exit_take_o = take3 && next_kind == KindEol;
 
   always_ff @(posedge clk_i) begin
@@ -221,6 +227,102 @@ module pixel_banked #(
   logic now_at_end, now_leaves;
   assign {now_kind, now_count, now_lanes, now_addr, now_at_end, now_leaves} = info_q[(Last-1)*InfoBits+:InfoBits];
 
+  // ---- the tree's line ---------------------------------------------------------------------------------------------
+  // Depth, colour and count of each lane: the span's, or what the tree has there.
+  logic [LANES*Z_BITS-1:0] now_z;
+  logic [LANES*RgbBits-1:0] now_color;
+  logic [LANES*CountBits-1:0] now_counts;
+
+  if (UNITS > 0) begin : gen_tree
+    localparam int PaintBits = Z_BITS + RgbBits + LitBits;
+    // A pixel comes in a clock. The group's pixels gather in a register, which is written when it is complete.
+    logic full_q, in_take, in_write_q;
+    logic [Levels:0] passes_q, passes;  // bit k: a pass of TREE began k clocks ago; q: k + 1
+    logic [OffBits-1:0] in_lane_q;
+    logic [AddrBits-1:0] in_group_q, in_addr_q;
+    logic [PaintBits-1:0] in_pixel;
+    logic [LANES*PaintBits-1:0] in_word_q, tree_word, tree_q;
+    logic in_lane_end;
+    if (DSF_BITS > 0) begin : gen_lit
+      assign in_pixel = {tree_lit_i, tree_color_i, tree_z_i};
+    end else begin : gen_no_lit
+      logic unused_lit;
+      assign unused_lit = tree_lit_i;
+      assign in_pixel   = {tree_color_i, tree_z_i};
+    end
+    assign tree_ready_o = !full_q;
+    assign in_take = tree_valid_i && tree_ready_o && !tree_drop_i;
+    assign in_lane_end = in_lane_q == OffBits'(LANES - 1) || tree_last_i;
+    assign tree_moving = in_take;
+
+    // The pass that starts now reads its group g in Levels + g clocks. The next line comes in after Levels clocks, when group 0 is
+    // read: its group g, even if it ends there with one pixel, is written 2 + g clocks later at the earliest, so the pass is ahead of
+    // it all the way. Until then full_q speaks of the old line.
+    assign passes = (Levels + 1)'({passes_q, take3 && next_kind == KindTree});
+    assign tree_here = full_q && passes_q == '0;
+
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) begin
+        full_q <= 1'b0;
+        passes_q <= '0;
+        in_write_q <= 1'b0;
+        in_lane_q <= '0;
+        in_group_q <= '0;
+      end else begin
+        passes_q   <= passes;
+        in_write_q <= in_take && in_lane_end;
+        if (in_take && tree_last_i) full_q <= 1'b1;
+        else if (passes[Levels]) full_q <= 1'b0;
+        if (tree_drop_i || (in_take && tree_last_i)) begin
+          in_lane_q  <= '0;
+          in_group_q <= '0;
+        end else if (in_take) begin
+          in_lane_q <= in_lane_end ? '0 : in_lane_q + 1'b1;
+          if (in_lane_end) in_group_q <= in_group_q + 1'b1;
+        end
+      end
+      in_addr_q <= in_group_q;
+      for (int l = 0; l < LANES; l++) begin
+        if (in_take && in_lane_q == OffBits'(l)) in_word_q[l*PaintBits+:PaintBits] <= in_pixel;
+      end
+    end
+
+    ram_1r1w #(
+        .BITS (LANES * PaintBits),
+        .WORDS(Groups)
+    ) u_line (
+        .clk_i,
+        .wr_en_i  (in_write_q),
+        .wr_addr_i(in_addr_q),
+        .wr_data_i(in_word_q),
+        .rd_en_i  (valid[Last-2]),
+        .rd_addr_i(addr_read),
+        .rd_data_o(tree_word)
+    );
+    always_ff @(posedge clk_i) tree_q <= tree_word;
+
+    always_comb begin
+      now_z = lane_z;
+      now_color = lane_color;
+      now_counts = {LANES{now_count}};
+      if (now_kind == KindTree) begin
+        for (int l = 0; l < LANES; l++) begin
+          now_z[l*Z_BITS+:Z_BITS] = tree_q[l*PaintBits+:Z_BITS];
+          now_color[l*RgbBits+:RgbBits] = tree_q[l*PaintBits+Z_BITS+:RgbBits];
+          if (DSF_BITS > 0) now_counts[l*CountBits+:CountBits] = CountBits'(tree_q[l*PaintBits+PaintBits-1]);
+        end
+      end
+    end
+  end else begin : gen_no_tree
+    logic unused_tree;
+    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_lit_i, tree_color_i, tree_last_i, tree_drop_i};
+    assign tree_ready_o = 1'b0;
+    assign {tree_here, tree_moving} = '0;
+    assign now_z = lane_z;
+    assign now_color = lane_color;
+    assign now_counts = {LANES{now_count}};
+  end
+
   // ---- read, next state, write -------------------------------------------------------------------------------------
   logic [WordBits-1:0] ram_data, word_q, word, next, done_q, done2_q;
   logic [AddrBits-1:0] done_addr_q;
@@ -256,8 +358,13 @@ module pixel_banked #(
     next = word;
     for (int l = 0; l < LANES; l++) begin
       if (now_lanes[l]) begin
-        next[l*PixelBits+:PixelBits] = pixel_next(word[l*PixelBits+:PixelBits], now_kind, lane_z[l*Z_BITS+:Z_BITS],
-                                                  lane_color[l*RgbBits+:RgbBits], now_count);
+        next[l*PixelBits+:PixelBits] = pixel_next(
+          word[l*PixelBits+:PixelBits],
+          now_kind,
+          now_z[l*Z_BITS+:Z_BITS],
+          now_color[l*RgbBits+:RgbBits],
+          now_counts[l*CountBits+:CountBits]
+        );
       end
     end
   end

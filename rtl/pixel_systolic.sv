@@ -5,6 +5,9 @@
 // Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL can be made to wait: for exit_free_i, and for the
 //   line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's pixels then leave one a clock by
 //   exit_valid_o, without stops; the last with exit_last_o. The next line's commands follow right behind the EOL.
+// Tree (UNITS > 0): a TREE enters when tree_* offers its line's first pixel, and takes one a clock from then on, in step with its way
+//   down the chain: the pixel that was taken a clock ago stands before all processors, and it is that of the one TREE is at. So it needs a
+//   line without bubbles, and no buffer. The next TREE waits until the line is through, at most its width.
 // Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 2 clocks.
 // Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels leave.
 // After reset an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted; commands
@@ -29,11 +32,12 @@ module pixel_systolic #(
   localparam int Segments = (N + Segment - 1) / Segment;
 
   // ---- entry -------------------------------------------------------------------------------------------------------
-  logic is_eol, enter;
+  logic is_eol, enter, tree_here, tree_moving;  // a TREE may enter; its line moves
   logic [X_BITS-1:0] leaving_q;  // pixels of the leaving line that its EOL has not reached
   logic sweep_q;  // that EOL is the one of reset
   assign is_eol = cmd_kind_i == KindEol;
-  assign cmd_ready_o = !is_eol || (exit_free_i && leaving_q == '0);
+  assign cmd_ready_o = (!is_eol || (exit_free_i && leaving_q == '0)) &&
+      (UNITS == 0 || cmd_kind_i != KindTree || tree_here);
   assign enter = cmd_valid_i && cmd_ready_o;
   assign exit_take_o = enter && is_eol;
 
@@ -86,11 +90,48 @@ module pixel_systolic #(
     end
   endfunction
 
+  // ---- the tree's line ---------------------------------------------------------------------------------------------
+  logic [Z_BITS-1:0] tree_z;
+  logic [RgbBits-1:0] tree_color;
+  logic [CountBits-1:0] tree_count;
+  if (UNITS > 0) begin : gen_tree
+    logic flows_q, take;  // a line has begun to come and not ended
+    logic [Z_BITS-1:0] z1_q;
+    logic [RgbBits-1:0] color1_q;
+    logic lit1_q;
+    logic unused_drop;
+    assign unused_drop = tree_drop_i;  // nothing is taken ahead of its TREE
+    assign tree_here = tree_valid_i && !flows_q;
+    assign tree_ready_o = flows_q || (enter && cmd_kind_i == KindTree);
+    assign tree_moving = flows_q;
+    assign take = tree_valid_i && tree_ready_o;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) flows_q <= 1'b0;
+      else if (take) flows_q <= !tree_last_i;
+      z1_q <= tree_z_i;
+      color1_q <= tree_color_i;
+      lit1_q <= tree_lit_i;
+    end
+    assign tree_z = z1_q;
+    assign tree_color = color1_q;
+    assign tree_count = CountBits'(lit1_q);
+`ifndef SYNTHESIS
+    // 1. A line that has begun to come has no bubble.
+    always_ff @(posedge clk_i) if (rst_ni) assert (!flows_q || tree_valid_i);
+`endif
+  end else begin : gen_no_tree
+    logic unused_tree;
+    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_lit_i, tree_color_i, tree_last_i, tree_drop_i};
+    assign tree_ready_o = 1'b0;
+    assign {tree_here, tree_moving, tree_z, tree_color, tree_count} = '0;
+  end
+
   // The processor that the loop is at.
   logic begins;
   logic [3:0] kind;
   logic [CountBits-1:0] count;
   logic [DepthBits-1:0] z;
+  logic [Z_BITS-1:0] depth;
   logic [RgbBits-1:0] color;
   logic [PixelBits-1:0] pixel;
   logic [ExitBits-1:0] leaving;
@@ -99,7 +140,7 @@ module pixel_systolic #(
     pixel_d = pixel_q;
     z_d = z_q;
     joined_d = '0;
-    {begins, kind, count, z, color, pixel, leaving} = '0;
+    {begins, kind, count, z, depth, color, pixel, leaving} = '0;
     for (int i = 0; i < N; i++) begin
       begins = begun_q[i] || xl_q[i*X_BITS+:X_BITS] == X_BITS'(i);
       hit[i] = valid_q[i] && begins && xr_q[i*X_BITS+:X_BITS] != X_BITS'(i);
@@ -108,9 +149,11 @@ module pixel_systolic #(
         count = count_q[i*CountBits+:CountBits];
         z = z_q[i*DepthBits+:DepthBits];
         color = clamp_color(color_q[i*ColorBits+:ColorBits]);
+        depth = clamp_z(z[Z_FRAC+:Z_BITS+2]);
+        if (UNITS > 0 && kind == KindTree) {depth, color, count} = {tree_z, tree_color, tree_count};
         pixel = pixel_q[i*PixelBits+:PixelBits];
         z_d[i*DepthBits+:DepthBits] = z + dz_q[i*DepthBits+:DepthBits];
-        pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, clamp_z(z[Z_FRAC+:Z_BITS+2]), color, count);
+        pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, depth, color, count);
         // Of the EOLs in the chain only one is among its line's pixels: the OR of all exits is that one's.
         if (kind == KindEol) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count);
@@ -165,7 +208,7 @@ module pixel_systolic #(
   end
   assign at_last  = leaving_q == '0;
   // Commands other than EOL need not be counted: nothing waits for them but the EOL behind them.
-  assign moving_o = leaving_q != '0 || at_q || joined_valid_q || exit_valid_o;
+  assign moving_o = leaving_q != '0 || at_q || joined_valid_q || exit_valid_o || tree_moving;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       at_q <= 1'b0;

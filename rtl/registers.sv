@@ -49,7 +49,10 @@ module registers #(
     input wire logic [ 3:0] error_code_i,
     input wire logic [31:0] error_frame_i,
     input wire logic [15:0] error_line_i,
-    input wire logic [31:0] error_token_i
+    input wire logic [31:0] error_token_i,
+    input wire logic [ 5:0] error_unit_i,
+    input wire logic        tree_wait_i,
+    input wire logic [ 5:0] tree_wait_unit_i
 );
   `include "kage_layout.svh"
   `include "kage_registers.svh"
@@ -57,7 +60,7 @@ module registers #(
   localparam logic [31:0] Shape = {1'(ARRANGEMENT), 5'd0, 4'(BEAT_WORDS), 6'(LANES), 16'(MAX_WIDTH)};
   localparam logic [1:0] RespOkay = 2'b00;
   localparam logic [1:0] RespSlverr = 2'b10;
-  localparam logic [7:0] RegLast = RegBlocked;
+  localparam logic [7:0] RegLast = RegTree;
 
   // ---- write channel -----------------------------------------------------------------------------------------------
   logic aw_held_q, w_held_q, write;
@@ -96,6 +99,7 @@ module registers #(
   logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
   logic [15:0] error_line_q;
   logic [ 3:0] error_code_q;
+  logic [ 5:0] error_unit_q;
   logic bite, write_control, write_irq, write_limit;
 
   assign write_control = write && aw_addr_q[7:2] == RegControl[7:2];
@@ -115,6 +119,7 @@ module registers #(
       error_line_q <= '0;
       error_frame_q <= '0;
       error_token_q <= '0;
+      error_unit_q <= '0;
       errors_q <= '0;
       frames_q <= '0;
       cycles_q <= '0;
@@ -132,6 +137,7 @@ module registers #(
         error_line_q <= error_line_i;
         error_frame_q <= error_frame_i;
         error_token_q <= error_token_i;
+        error_unit_q <= error_unit_i;
         errors_q <= errors_q + 32'd1;
       end
       if (frame_end_i) frames_q <= frames_q + 32'd1;
@@ -163,6 +169,8 @@ module registers #(
       RegCycles: value = cycles_q;
       RegStarved: value = starved_q;
       RegBlocked: value = blocked_q;
+      RegErrorUnit: value = 32'(error_unit_q);
+      RegTree: value = {tree_wait_i, 25'd0, tree_wait_unit_i};
       default: value = '0;
     endcase
   end

@@ -4,13 +4,14 @@
 // In: face_* takes an entry a clock; seg_* is valid/ready, and seg_ready_o, which depends on seg_unit_i, waits for that unit only.
 //   Both bring sound ones only: segment_check sees to it. width_i is the frame's, and matters with segments only.
 // Out: line_* is valid/ready: Z, lit bit and colour of the nearest face at each pixel, line_last_o at a line's last. Z all ones: none.
-//   A line is offered as soon as all units have it, before it is asked for.
+//   A line is offered as soon as all units have it, before it is asked for, but for its last pixel: that waits for the claim.
 // Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All units have the
-//   line complete by then.
+//   line complete by then. drop_o, one clock, says that a line of which a part has been taken will not come; nothing taken then counts.
 // Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be leaving then,
 //   none of the one before that. After a frame with an error flush_i, one clock or more, drops what has not been claimed: lines claimed
 //   leave first, and frame_ready_o is low until the rest is gone. No face, segment or claim comes from flush_i until the next frame_start_i.
-// Status: wait_o says that a unit has no pixel while another has one, and wait_unit_o is the lowest such unit; 1 clock late.
+// Status: wait_o says that a unit has no pixel while another has one, and wait_unit_o is the lowest such unit; 1 clock late. moving_o:
+//   a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its work.
 // Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of the tree.
 // Throughput: a pixel a clock, no bubble in a line.
 // Needs UNITS > 0: a core without units leaves it out.
@@ -48,7 +49,9 @@ module tree_core #(
     output logic                    line_lit_o,
     output logic      [RgbBits-1:0] line_color_o,
     output logic                    line_last_o,
+    output logic                    drop_o,
 
+    output logic                moving_o,
     output logic                wait_o,
     output logic [UnitBits-1:0] wait_unit_o
 );
@@ -56,11 +59,16 @@ module tree_core #(
   // ---- lines claimed, flush ----------------------------------------------------------------------------------------
   logic [ClaimBits-1:0] claimed_q, claimed;  // lines asked for that have not left
   logic [ClaimBits-1:0] old_q;  // those of them that belong to earlier frames
-  logic flushing_q, flush, line_left;
+  logic flushing_q, flush, line_left, point_valid, point_ready, held;
   assign line_left = line_valid_o && line_ready_i && line_last_o;
   assign claimed = claimed_q + ClaimBits'(claim_i) - ClaimBits'(line_left);
   assign flush = flushing_q && claimed_q == '0;
   assign frame_ready_o = !flushing_q && old_q == '0;
+  assign drop_o = flush;
+  assign held = line_last_o && claimed_q == '0;
+  assign line_valid_o = point_valid && !held;
+  assign point_ready = line_ready_i && !held;
+  assign moving_o = flush || (claimed_q != '0 && (line_ready_i || !point_valid));
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -131,8 +139,8 @@ module tree_core #(
       .in_ready_o (px_ready),
       .in_data_i  (px_data),
       .in_last_i  (px_last),
-      .out_valid_o(line_valid_o),
-      .out_ready_i(line_ready_i),
+      .out_valid_o(point_valid),
+      .out_ready_i(point_ready),
       .out_data_o (point),
       .out_last_o (line_last_o)
   );
@@ -161,7 +169,7 @@ module tree_core #(
       // 1. A frame starts when it may.
       assert (!frame_start_i || frame_ready_o);
       // 2. No line leaves that was not claimed, and no more are claimed than fit.
-      assert (!line_left || claimed_q != '0 || claim_i);
+      assert (!line_left || claimed_q != '0);
       assert (claimed_q <= ClaimBits'(16));
       // 3. Nothing is given between flush_i and the next frame.
       assert (!flushing_q || !(face_valid_i || seg_valid_i || claim_i));

@@ -14,8 +14,8 @@ localparam int PixelFsfAt = FSF > 0 ? PixelDsfAt + DSF_BITS : 0;
 localparam logic [PixelBits-1:0] PixelClear = {{(PixelBits - Z_BITS) {1'b0}}, {Z_BITS{1'b1}}};
 /* verilator lint_on UNUSEDPARAM */
 
-// Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel; `count` is the lit bit for OP, w
-// for SP and NC, the line's bias for EV. EOL clears.
+// Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel, or the tree's; `count` is the lit bit
+// for OP and TREE, w for SP and NC, the line's bias for EV. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [3:0] kind,
                                                     input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
                                                     input logic [CountBits-1:0] count);
@@ -25,7 +25,8 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
     in_front = z < pixel[Z_BITS-1:0];
     sum = pixel[PixelDsfAt+:CountBits] + count;
     pixel_next = pixel;
-    unique case (kind)
+    // TREE does what OP does.
+    unique case (UNITS > 0 && kind == KindTree ? KindOp : kind)
       KindOp:
       if (in_front) begin
         pixel_next[Z_BITS-1:0] = z;

@@ -16,6 +16,15 @@
     input  wire logic [ColorBits-1:0] cmd_color_i,
     input  wire logic [SlopeBits-1:0] cmd_dcolor_i,
 
+    // from tree_core: the line that the next TREE takes. Without units nothing of this matters.
+    input  wire logic               tree_valid_i,
+    output logic                    tree_ready_o,
+    input  wire logic [ Z_BITS-1:0] tree_z_i,
+    input  wire logic               tree_lit_i,
+    input  wire logic [RgbBits-1:0] tree_color_i,
+    input  wire logic               tree_last_i,
+    input  wire logic               tree_drop_i,
+
     // to line_out
     input  wire logic                          exit_free_i,
     output logic                               exit_take_o,

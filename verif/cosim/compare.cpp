@@ -83,6 +83,7 @@ std::optional<Difference> FrameComparison::finish(const FrameEnd& e, const Frame
   if (es.frame != as.frame) return whole(line, "error_frame", es.frame, as.frame);
   if (es.line != as.line) return whole(line, "error_line", es.line, as.line);
   if (es.token != as.token) return whole(line, "error_token", es.token, as.token);
+  if (es.unit != as.unit) return whole(line, "error_unit", es.unit, as.unit);
   if (e.misconduct != a.misconduct) return whole(-1, "port", 0, 1);
   return std::nullopt;
 }

@@ -19,7 +19,7 @@ struct Difference {
   int line = -1;      ///< -1: of the frame as a whole
   int x = -1;         ///< -1: not at a pixel
   std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
-                      ///< "error", "error_frame", "error_line", "error_token"
+                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"
   std::int64_t expected = 0;
   std::int64_t actual = 0;
   std::string remark;  ///< more in words, or empty

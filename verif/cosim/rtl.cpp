@@ -188,6 +188,7 @@ class Rtl : public Core {
     s.line = error >> 16;
     s.frame = read(KAGE_REG_ERROR_FRAME);
     s.token = read(KAGE_REG_ERROR_TOKEN);
+    s.unit = read(KAGE_REG_ERROR_UNIT);
     return s;
   }
 

@@ -17,9 +17,15 @@ namespace {
 
 using namespace kage;
 
-/// Clocks for a frame of one line of this width with `tokens` spans [xl, xr), from the first beat to the last pixel.
+/// What a frame has of units: faces of each, and segments of each one's line; without segments it has no tree.
+struct Units {
+  int faces = 0;
+  int segments = 0;
+};
+
+/// Clocks for a frame of lines of this width with `tokens` spans [xl, xr) each, from the first beat to the last pixel.
 std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int height, int tokens, int xl, int xr,
-                     int frames = 1) {
+                     int frames = 1, const Units& units = {}) {
   std::vector<std::uint32_t> words;
   TokenWriter out(c, words);
   out.header({width, height, 0, 1});
@@ -27,7 +33,24 @@ std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int 
   s.xl = xl;
   s.xr = xr;
   s.z = std::int64_t{1} << (c.z_bits + c.z_frac - 1);  // the middle, whatever the width
+  SegmentToken face;
+  for (face.unit = 0; face.unit < c.units; ++face.unit)
+    for (face.face = 0; face.face < units.faces; ++face.face) out.face(face);
+  SegmentToken seg;
+  seg.face = (1 << c.face_bits) - 1;
+  const auto segments = [&] {
+    for (seg.unit = 0; seg.unit < c.units; ++seg.unit) {
+      for (int i = 0; i < units.segments; ++i) {
+        seg.sync = i == 0;
+        seg.dx = width * (i + 1) / units.segments - width * i / units.segments;
+        out.seg(seg);
+      }
+    }
+  };
+  if (units.segments > 0) segments();
   for (int y = 0; y < height; ++y) {
+    if (units.segments > 0 && y + 1 < height) segments();  // a line ahead, as a front end writes them
+    if (units.segments > 0) out.tree();
     for (int i = 0; i < tokens; ++i) out.op(s);
     out.eol(y);
   }
@@ -100,6 +123,30 @@ int main(int argc, char** argv) {
     good = good && empty <= width + 1;
     const auto frame = static_cast<double>(clocks(api, c, 1, 1, 0, 0, 1, 21) - clocks(api, c, 1, 1, 0, 0, 1, 1)) / 20;
     std::printf("  a frame of one pixel: %.1f clocks\n", frame);
+    if (c.units == 0) continue;
+
+    // Faces, segments, TREE: between tokens enough that neither the video port nor the tree's pixel a clock limits.
+    const auto words_of = [&](Kind k) { return static_cast<double>(layout.words[static_cast<std::size_t>(k)]); };
+    const auto report = [&](const char* what, double extra, double promised) {
+      std::printf("  %s: %.3f clocks, promised %.3f\n", what, extra, promised);
+      good = good && extra <= promised * 1.001;
+    };
+    const auto lines = [&](const Units& u) {
+      return static_cast<double>(clocks(api, c, width, 21, tokens, 0, 1, 1, u) -
+                                 clocks(api, c, width, 1, tokens, 0, 1, 1, u)) /
+             20;
+    };
+    const int faces = (1 << c.face_bits) - 1;
+    const auto with_faces = clocks(api, c, width, 1, 0, 0, 1, 1, {faces, 0});
+    report("FACE", static_cast<double>(with_faces - clocks(api, c, width, 1, 0, 0, 1)) / (faces * c.units),
+           std::max(1.0, words_of(Kind::FACE) / c.beat_words));
+    const int longest = (1 << c.dx_bits) - 1;
+    const int few = (width + longest - 1) / longest, many = std::min(1 << c.seg_bits, width);
+    const double one_seg = std::max(1.0, words_of(Kind::SEG) / c.beat_words);
+    const double with_few = lines({0, few});
+    report("SEG", (lines({0, many}) - with_few) / ((many - few) * c.units), one_seg);
+    const int groups = banked ? (width + lanes - 1) / lanes : 1;
+    report("TREE", with_few - line - few * c.units * one_seg, groups);
   }
   return good ? 0 : 1;
 }

@@ -33,8 +33,11 @@ using Words = std::vector<std::uint32_t>;
 Words sound(Random& random, const Config& c, std::uint32_t number) {
   FrameStyle style{.most_opaque = 12, .most_volumes = 4, .most_in_volume = 8, .port = true};
   if (random.chance(0.2)) style.most_opaque = style.most_in_volume = 60;
+  if (random.chance(0.2)) style.most_opaque = style.most_volumes = 0;  // line upon line, and all that a line needs
   Words words;
-  const int width = random.chance(0.3) ? c.max_width : random.in(1, std::min(c.max_width, 70));
+  const int width = random.chance(0.2)   ? random.in(1, std::min(c.max_width, 4))
+                    : random.chance(0.3) ? c.max_width
+                                         : random.in(1, std::min(c.max_width, 70));
   random_frame(random, c, width, random.in(1, random.chance(0.1) ? 12 : 4), words, number, style);
   return words;
 }
@@ -43,7 +46,9 @@ Words sound(Random& random, const Config& c, std::uint32_t number) {
 Words malformed(Random& random, const Config& c, std::uint32_t number) {
   for (;;) {
     Words words = sound(random, c, number);
-    damage(random, words);
+    const bool to_tree = c.units > 0 && random.chance(0.6);
+    if (to_tree) damage_tree(random, c, words);
+    if (!to_tree || random.chance(0.1)) damage(random, words);
     if (!words.empty() && (words.size() == 1 || words[1] >> 16 <= 40 || words[1] >> 16 > 32767)) return words;
   }
 }
@@ -185,11 +190,13 @@ struct Trial {
       if (newest.error != ErrorCode::NONE) {
         const std::uint32_t e = reg(m, KAGE_REG_ERROR);
         if ((e & 15U) != static_cast<std::uint32_t>(newest.error) || e >> 16 != newest.line ||
-            reg(m, KAGE_REG_ERROR_FRAME) != newest.frame || reg(m, KAGE_REG_ERROR_TOKEN) != newest.token)
+            reg(m, KAGE_REG_ERROR_FRAME) != newest.frame || reg(m, KAGE_REG_ERROR_TOKEN) != newest.token ||
+            reg(m, KAGE_REG_ERROR_UNIT) != newest.unit)
           return fails("error " + std::to_string(e & 15U) + " line " + std::to_string(e >> 16) + " token " +
-                       std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) + ", not " +
+                       std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) + " unit " +
+                       std::to_string(reg(m, KAGE_REG_ERROR_UNIT)) + ", not " +
                        std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) +
-                       " token " + std::to_string(newest.token) + ":" + story);
+                       " token " + std::to_string(newest.token) + " unit " + std::to_string(newest.unit) + ":" + story);
       }
       if ((reg(m, KAGE_REG_STATUS) & 3U) != 0) return fails("STATUS says that a frame is open:" + story);
       stall();

@@ -22,6 +22,7 @@ class Axil {
   void quiet() {
     top->open_i = top->draining_i = top->waiting_input_i = top->waiting_output_i = 0;
     top->progress_i = top->frame_end_i = top->error_i = 0;
+    top->error_unit_i = top->tree_wait_i = top->tree_wait_unit_i = 0;
   }
   void clock() {
     top.settle();
@@ -110,9 +111,9 @@ TEST_CASE("Constants and values after reset", "[registers]") {
     CHECK(a.read(KAGE_REG_VERSION) == kage::kStreamVersion);
     CHECK(a.read(KAGE_REG_PARAM_HASH) == kage::param_hash(kage::Config{}));
     CHECK(a.read(KAGE_REG_SHAPE) == (640U | 4U << 16 | 4U << 22 | 1U << 31));
-    for (const std::uint32_t r :
-         {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR, KAGE_REG_ERROR_FRAME,
-          KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES, KAGE_REG_STARVED, KAGE_REG_BLOCKED})
+    for (const std::uint32_t r : {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR,
+                                  KAGE_REG_ERROR_FRAME, KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES,
+                                  KAGE_REG_STARVED, KAGE_REG_BLOCKED, KAGE_REG_ERROR_UNIT, KAGE_REG_TREE})
       CHECK(a.read(r) == 0);
   });
 }
@@ -127,9 +128,10 @@ TEST_CASE("Writes: byte strobes, read-only registers, addresses without a regist
     CHECK(a.read(KAGE_REG_CONTROL) == 7);
     a.write(KAGE_REG_ID, 5);
     CHECK(a.read(KAGE_REG_ID) == 0x4B414745);
-    a.write(0x40, 1, kSlverr);
+    a.write(KAGE_REG_TREE, 1);
+    a.write(0x48, 1, kSlverr);
     a.write(0xFC, 1, kSlverr);
-    a.read(0x40, kSlverr);
+    a.read(0x48, kSlverr);
   });
 }
 
@@ -141,6 +143,7 @@ TEST_CASE("Errors, frames and the interrupt", "[registers]") {
     a.top->error_frame_i = 77;
     a.top->error_line_i = 0x7001;
     a.top->error_token_i = 123456;
+    a.top->error_unit_i = 61;
     a.clock();
     a.quiet();
     a.top->frame_end_i = 1;
@@ -149,6 +152,7 @@ TEST_CASE("Errors, frames and the interrupt", "[registers]") {
     CHECK(a.read(KAGE_REG_ERROR) == (0x70010000U | 6U));
     CHECK(a.read(KAGE_REG_ERROR_FRAME) == 77);
     CHECK(a.read(KAGE_REG_ERROR_TOKEN) == 123456);
+    CHECK(a.read(KAGE_REG_ERROR_UNIT) == 61);
     CHECK(a.read(KAGE_REG_ERRORS) == 1);
     CHECK(a.read(KAGE_REG_FRAMES) == 1);
     CHECK(a.read(KAGE_REG_IRQ) == 3);
@@ -167,6 +171,10 @@ TEST_CASE("Errors, frames and the interrupt", "[registers]") {
 TEST_CASE("Counters and status", "[registers]") {
   each_seed(3, [](Dice& dice) {
     Axil a(dice);
+    a.top->tree_wait_i = 1;
+    a.top->tree_wait_unit_i = 37;
+    CHECK(a.read(KAGE_REG_TREE) == (1U << 31 | 37U));
+    a.quiet();
     a.top->waiting_input_i = 1;
     for (int i = 0; i < 5; ++i) a.clock();
     a.quiet();

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "kage/stream.hpp"
@@ -21,6 +23,8 @@ struct FrameStyle {
   /// Spans as a port takes them: accumulators may wrap, which a file may not have, and many spans meet at the same few
   /// pixels and depths, which is what forwarding is for.
   bool port = false;
+  /// Frames with a tree, where the configuration has units: 0 none, 1 all that are narrow enough.
+  double trees = 0.7;
 };
 
 /// A two's complement field of so many bits: any magnitude is as likely as any other.
@@ -91,6 +95,120 @@ inline int random_weight(Random& random, const Config& c) {
   return random.chance(0.8) ? (random.chance(0.5) ? 1 : -1) : random.in(-(1 << c.dsf_bits), (1 << c.dsf_bits) - 1);
 }
 
+/// The faces and segments of a frame with a tree, in one of the orders that the contract allows.
+class RandomTree {
+ public:
+  /// The widest line that any unit can hold.
+  static int widest(const Config& c) { return ((1 << c.dx_bits) - 1) << c.seg_bits; }
+
+  RandomTree(Random& random, const Config& c, int width, int height, bool port)
+      : random_(&random), config_(c), width_(width), todo_(static_cast<std::size_t>(c.units)), faces_(todo_.size()) {
+    for (std::size_t u = 0; u < todo_.size(); ++u) {
+      const int blank = (1 << c.face_bits) - 1;
+      const int count = random.chance(0.1) ? std::min(blank, 20) : random.in(0, std::min(blank, 4));
+      for (int f = 0; f < count; ++f) faces_[u].push_back(face(static_cast<int>(u), f, port));
+      for (int y = 0; y < height; ++y) line(u, y, port);
+    }
+  }
+
+  /// Each unit's in order, but the units in any.
+  void write_faces(TokenWriter& w, std::uint64_t& count) {
+    std::vector<std::size_t> units;
+    for (std::size_t u = 0; u < faces_.size(); ++u) units.insert(units.end(), faces_[u].size(), u);
+    random_->shuffle(units);
+    std::vector<std::size_t> next(faces_.size());
+    for (const std::size_t u : units) w.face(faces_[u][next[u]++]);
+    count += units.size();
+  }
+
+  /// What is left of line y's segments, and some of the next line's.
+  void write_segments(TokenWriter& w, int y, std::uint64_t& count) {
+    const double eager = random_->chance(0.3) ? 0 : random_->chance(0.2) ? 1 : random_->real(0, 1);
+    std::vector<std::size_t> units;  // a place for each segment that may come
+    for (std::size_t u = 0; u < todo_.size(); ++u)
+      for (const auto& [of, segment] : todo_[u])
+        if (of == y || (of == y + 1 && random_->chance(eager))) units.push_back(u);
+    if (random_->chance(0.7)) random_->shuffle(units);
+    for (const std::size_t u : units) {
+      w.seg(todo_[u].front().second);
+      todo_[u].pop_front();
+    }
+    count += units.size();
+  }
+
+ private:
+  [[nodiscard]] int depth_bits() const { return config_.z_bits + config_.z_frac + 2; }
+
+  SegmentToken face(int unit, int number, bool port) {
+    SegmentToken t;
+    t.unit = unit;
+    t.face = number;
+    const int most = (1 << config_.order_bits) - 1;
+    t.index = random_->chance(0.6) ? random_->in(0, std::min(most, 2)) : random_->in(0, most);
+    t.lit = config_.dsf_bits > 0 && random_->chance(0.8);
+    // A slope along which no run of this width can leave the accumulator; at a port, any.
+    const std::int64_t steepest = ((std::int64_t{1} << (depth_bits() - 2)) - 1) / width_;
+    t.dz = random_->chance(0.3) ? 0 : random_->integer(-steepest, steepest);
+    if (port && random_->chance(0.3)) t.dz = random_field(*random_, depth_bits());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(config_.channels); ++i) t.color[i] = random_->in(0, 255);
+    return t;
+  }
+
+  std::int64_t depth(bool port) {
+    const std::int64_t one = std::int64_t{1} << config_.z_frac;
+    const std::int64_t middle = (std::int64_t{1} << (config_.z_bits - 1)) * one;
+    if (random_->chance(0.4)) return middle + random_->in(-2, 2) * one;
+    if (config_.classic != 0) return random_->integer(0, 32767);
+    if (port && random_->chance(0.3)) return random_field(*random_, depth_bits());
+    return random_->integer(0, 2 * middle - 1);
+  }
+
+  void line(std::size_t unit, int y, bool port) {
+    const int blank = (1 << config_.face_bits) - 1;
+    const int longest = (1 << config_.dx_bits) - 1;
+    const int manner = random_->in(0, 5);
+    int segments = 1 << config_.seg_bits;
+    SegmentToken t;
+    t.unit = static_cast<int>(unit);
+    t.face = blank;
+    t.sync = true;
+    for (int left = width_; left > 0; left -= t.dx, t.sync = false, --segments) {
+      const SegmentToken before = t;
+      // The segments that may still come must be enough for the rest.
+      const std::int64_t others = std::int64_t{segments - 1} * longest;
+      const int least = static_cast<int>(std::max<std::int64_t>(1, left - others));
+      const int most = std::min(left, longest);
+      t.dx = manner < 2    ? least
+             : manner == 2 ? most
+                           : random_->in(least, random_->chance(0.5) ? most : std::min(most, least + 4));
+      const bool run = !before.sync || left < width_;
+      const auto& faces = faces_[unit];
+      if (manner == 5 || faces.empty() || random_->chance(0.2)) {
+        t.face = blank;
+        t.z = 0;
+      } else if (run && before.face != blank && random_->chance(0.4)) {
+        // One run in two segments: the second starts at what the sum has reached.
+        const std::uint64_t sum = static_cast<std::uint64_t>(before.z) +
+                                  static_cast<std::uint64_t>(before.dx) *
+                                      static_cast<std::uint64_t>(faces[static_cast<std::size_t>(before.face)].dz);
+        const int spare = 64 - depth_bits();
+        t.z = static_cast<std::int64_t>(sum << spare) >> spare;
+        if (config_.classic != 0) t.z &= 32767;
+      } else {
+        t.face = random_->in(0, static_cast<int>(faces.size()) - 1);
+        t.z = depth(port);
+      }
+      todo_[unit].emplace_back(y, t);
+    }
+  }
+
+  Random* random_;
+  Config config_;
+  int width_;
+  std::vector<std::deque<std::pair<int, SegmentToken>>> todo_;  // with the line it belongs to
+  std::vector<std::vector<SegmentToken>> faces_;
+};
+
 /// Append a valid frame; returns how many tokens of each kind it has.
 inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height,
                                                   std::vector<std::uint32_t>& words, std::uint32_t number = 0,
@@ -100,11 +218,23 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
   const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
   TokenWriter w(c, words);
   w.header({width, height, static_cast<std::uint32_t>(random.in(0, 0xFFFFFF)), number});
+  const bool has_tree = c.units > 0 && width <= RandomTree::widest(c) && random.chance(style.trees);
+  RandomTree tree(random, c, width, has_tree ? height : 0, style.port);
+  // Faces may come without a tree, before SHADE or after it.
+  const bool has_faces = has_tree || (c.units > 0 && random.chance(0.2));
+  const bool faces_first = random.chance(0.5);
+  if (has_faces && faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)]);
   if (c.dsf_bits > 0 && random.chance(0.8)) {
     w.shade(static_cast<std::uint32_t>(random.in(0, 1 << c.shade_frac)));
     add(Kind::SHADE);
   }
+  if (has_faces && !faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)]);
   for (int y = 0; y < height; ++y) {
+    if (has_tree) {
+      tree.write_segments(w, y, count[static_cast<std::size_t>(Kind::SEG)]);
+      w.tree();
+      add(Kind::TREE);
+    }
     const int home = style.port ? random.in(0, width - 1) : 0;
     for (int i = random.in(0, style.most_opaque); i > 0; --i) {
       w.op(random_span(random, c, width, style, home));
@@ -189,6 +319,105 @@ inline void damage(Random& random, std::vector<std::uint32_t>& words) {
         break;
       default:
         word ^= 1U << random.in(0, 31);
+    }
+  }
+}
+
+/// Damage that a frame with a tree is made for: one to three faces, segments or TREEs that are not what they should be.
+/// The words must be a valid frame; one without units or tree stays as it is.
+inline void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& words) {
+  const Layout layout(c);
+  using At = std::vector<std::uint32_t>::difference_type;
+  const auto put = [&words](At at, Field f, std::uint64_t value) {
+    for (unsigned i = 0; i < f.bits; ++i) {
+      std::uint32_t& word = words[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
+      const unsigned bit = (f.lsb + i) % 32;
+      word = (word & ~(1U << bit)) | static_cast<std::uint32_t>(value >> i & 1U) << bit;
+    }
+  };
+  const auto get = [&words](At at, Field f) {
+    std::uint64_t value = 0;
+    for (unsigned i = 0; i < f.bits; ++i) {
+      const std::uint32_t word = words[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
+      value |= std::uint64_t{word >> ((f.lsb + i) % 32) & 1U} << i;
+    }
+    return value;
+  };
+  for (int round = random.chance(0.7) ? 1 : random.in(2, 3); round > 0; --round) {
+    std::array<std::vector<At>, 16> places;
+    std::vector<At> all;
+    for (std::size_t at = 5; at < words.size();) {
+      const std::size_t kind = words[at] & 15U;
+      if (layout.words[kind] == 0) return;
+      places[kind].push_back(static_cast<At>(at));
+      all.push_back(static_cast<At>(at));
+      at += static_cast<std::size_t>(layout.words[kind]);
+    }
+    const auto any = [&random](const std::vector<At>& of) {
+      return of[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(of.size()) - 1))];
+    };
+    const auto& segs = places[static_cast<std::size_t>(Kind::SEG)];
+    const auto& trees = places[static_cast<std::size_t>(Kind::TREE)];
+    const auto& faces = places[static_cast<std::size_t>(Kind::FACE)];
+    if (segs.empty() || trees.empty()) return;
+    const At length = layout.words[static_cast<std::size_t>(Kind::SEG)];
+    const At seg = any(segs);
+    const auto copy = [&words](At from, At n, At to) {
+      const std::vector<std::uint32_t> token(words.begin() + from, words.begin() + from + n);
+      words.insert(words.begin() + to, token.begin(), token.end());
+    };
+    switch (random.in(0, 13)) {
+      case 0:
+        put(seg, layout.seg_dx, 0);
+        break;
+      case 1:
+        put(seg, layout.seg_sync, get(seg, layout.seg_sync) ^ 1U);
+        break;
+      case 2:
+        put(seg, layout.seg_face, static_cast<std::uint64_t>(random.in(0, (1 << c.face_bits) - 1)));
+        break;
+      case 3:  // too few pixels
+        words.erase(words.begin() + seg, words.begin() + seg + length);
+        break;
+      case 4:  // too many
+        copy(seg, length, seg);
+        break;
+      case 5:
+        put(seg, layout.seg_dx, get(seg, layout.seg_dx) + static_cast<std::uint64_t>(random.in(-2, 2)));
+        break;
+      case 6: {  // too many segments: as many as it has pixels
+        const std::uint64_t dx = get(seg, layout.seg_dx);
+        put(seg, layout.seg_dx, 1);
+        for (std::uint64_t i = 1; i < dx; ++i) copy(seg, length, seg + length);
+        for (std::uint64_t i = 1; i < dx; ++i) put(seg + static_cast<At>(i) * length, layout.seg_sync, 0);
+        break;
+      }
+      case 7:
+        put(seg, layout.seg_unit, static_cast<std::uint64_t>(random.in(0, (1 << layout.seg_unit.bits) - 1)));
+        break;
+      case 8:  // out of phase, or past the last line
+        copy(seg, length, any(all));
+        break;
+      case 9: {  // whole lines of a unit too early, or too many of them
+        const std::vector<std::uint32_t> line(words.begin() + segs.front(), words.begin() + trees.front());
+        words.insert(words.begin() + any(random.chance(0.5) ? trees : segs), line.begin(), line.end());
+        break;
+      }
+      case 10:
+        words.erase(words.begin() + any(trees));
+        break;
+      case 11:
+        copy(any(trees), 1, any(random.chance(0.5) ? trees : all));
+        break;
+      case 12:
+        if (faces.empty()) break;
+        copy(any(faces), layout.words[static_cast<std::size_t>(Kind::FACE)], any(random.chance(0.7) ? faces : all));
+        break;
+      default: {
+        if (faces.empty()) break;
+        const At face = any(faces);
+        words.erase(words.begin() + face, words.begin() + face + layout.words[static_cast<std::size_t>(Kind::FACE)]);
+      }
     }
   }
 }

@@ -211,7 +211,7 @@ TEST_CASE("lost lines and pixels, lines too many, another size, another status: 
     CHECK(r.first_difference->field == "height");
     CHECK(r.first_difference->actual == 6);
   }
-  for (const char* field : {"error", "error_frame", "error_line", "error_token", "port"}) {
+  for (const char* field : {"error", "error_frame", "error_line", "error_token", "error_unit", "port"}) {
     const std::string name = field;
     FakeCore bad;
     bad.spoil_end = [&](std::uint32_t, FrameEnd& end) {
@@ -219,6 +219,7 @@ TEST_CASE("lost lines and pixels, lines too many, another size, another status: 
       if (name == "error_frame") end.status.frame = 1;
       if (name == "error_line") end.status.line = 1;
       if (name == "error_token") end.status.token = 1;
+      if (name == "error_unit") end.status.unit = 1;
       if (name == "port") end.misconduct = "TUSER";
     };
     CHECK(difference(bad).field == name);
