@@ -45,6 +45,8 @@ Source::Source(const Options& options) : threads_(options.threads) {
 
 void Source::open_stream(const Options& options) {
   if (options.size_given) throw Error(fmt::format("{}: --size: a stream has its own size", options.input));
+  if (options.units_only)
+    throw Error(fmt::format("{}: --units-only: in a stream it is settled what goes to units", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
   name_ = std::filesystem::path(options.input).stem().string();
@@ -199,14 +201,24 @@ Json Source::ways() const {
 Json ways_of(const StreamFile& file) {
   const Json origin = Json::parse(file.origin(), nullptr, false);
   if (!origin.is_object() || !origin.contains("polyhedra") || !origin["polyhedra"].is_array()) return nullptr;
-  // Whoever wrote the file: what is not of this form is not taken.
-  for (const Json& w : origin["polyhedra"])
-    if (!w.is_object() || !w.contains("object") || !w["object"].is_string() || !w.contains("component") ||
-        !w["component"].is_number_unsigned() || !w.contains("unit_frames") || !w["unit_frames"].is_number_integer() ||
-        !w.contains("span_frames") || !w["span_frames"].is_number_integer() || !w.contains("why") ||
+  // Whoever wrote the file: what is not of this form is not taken, and nothing else is copied.
+  const auto number = [](const Json& w, const char* key, std::uint64_t most) {
+    return w.contains(key) && w[key].is_number_unsigned() && w[key].get<std::uint64_t>() <= most;
+  };
+  const auto frames = static_cast<std::uint64_t>(file.frame_count());
+  Json list = Json::array();
+  for (const Json& w : origin["polyhedra"]) {
+    if (!w.is_object() || !w.contains("object") || !w["object"].is_string() || !number(w, "component", ~0U) ||
+        !number(w, "unit_frames", frames) || !number(w, "span_frames", frames) || !w.contains("why") ||
         !(w["why"].is_string() || w["why"].is_null()))
       return nullptr;
-  return origin["polyhedra"];
+    list.push_back({{"object", w["object"].get<std::string>()},
+                    {"component", w["component"].get<std::uint64_t>()},
+                    {"unit_frames", w["unit_frames"].get<std::uint64_t>()},
+                    {"span_frames", w["span_frames"].get<std::uint64_t>()},
+                    {"why", w["why"].is_null() ? Json(nullptr) : Json(w["why"].get<std::string>())}});
+  }
+  return list;
 }
 
 void print_notes(const Source& source, const Options& options) {

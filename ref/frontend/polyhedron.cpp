@@ -9,7 +9,8 @@ PolyhedronScanner::PolyhedronScanner(const FrameGeometry& geometry, const Config
     : g_(&geometry),
       setup_(config.z_frac, config.z_bits + config.z_frac + 2),
       z_bits_(config.z_bits),
-      z_frac_(config.z_frac) {
+      z_frac_(config.z_frac),
+      max_dx_((1 << config.dx_bits) - 1) {
   const int bits = config.z_bits + config.z_frac + 2;
   least_z_ = config.classic != 0 ? 0 : -(std::int64_t{1} << (bits - 1));
   most_z_ = config.classic != 0 ? 32767 : (std::int64_t{1} << (bits - 1)) - 1;
@@ -111,7 +112,9 @@ void PolyhedronScanner::settle() {
             [](const Part& a, const Part& b) { return a.xl != b.xl ? a.xl < b.xl : a.polygon < b.polygon; });
   const auto put = [&](const Part& p, int xl, int xr) {
     const std::int64_t z = p.ramp.start + (xl - p.xl) * p.ramp.step;
-    if (z < least_z_ || z > most_z_) representable_ = false;
+    // A long run is split: the last segment starts this far on. In between, sums lie in between.
+    const std::int64_t last = z + static_cast<std::int64_t>((xr - xl - 1) / max_dx_) * max_dx_ * p.ramp.step;
+    if (z < least_z_ || z > most_z_ || last < least_z_ || last > most_z_) representable_ = false;
     runs_.push_back({xl, xr, p.polygon, z});
   };
   for (std::size_t i = 0; i < parts_.size();) {

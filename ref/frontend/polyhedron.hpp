@@ -78,6 +78,7 @@ class PolyhedronScanner {
   SpanSetup setup_;
   int z_bits_;
   int z_frac_;
+  int max_dx_;
   std::int64_t least_z_;  // of a segment's start
   std::int64_t most_z_;
   std::vector<Edge> edges_;  // by the line on which they enter

@@ -40,6 +40,10 @@ std::optional<std::vector<int>> assign_all(std::span<const UnitNeed> needs, cons
   std::vector<Unit> units;
   for (const std::uint32_t i : order) {
     const UnitNeed& need = needs[i];
+    if (need.end == 0) {  // not to be seen: it asks for nothing
+      unit_of[i] = 0;
+      continue;
+    }
     const auto has_room = [&](const Unit& u) {
       return u.faces + need.faces <= room.faces && segments_with(u, needs, need, room) <= room.segments &&
              std::none_of(u.members.begin(), u.members.end(), [&](std::uint32_t m) { return meet(needs[m], need); });
@@ -58,11 +62,19 @@ std::optional<std::vector<int>> assign_all(std::span<const UnitNeed> needs, cons
 
 std::vector<int> assign_units(std::span<const UnitNeed> needs, const UnitRoom& room) {
   if (auto all = assign_all(needs, room)) return *all;
+  // How many fit: with n they do, with one more they do not. First fit is not monotone, so there may be more such n;
+  // bisection finds one, always the same.
   std::vector<int> best;
-  for (std::size_t n = 1; n < needs.size(); ++n) {
-    auto some = assign_all(needs.first(n), room);
-    if (!some) break;
-    best = std::move(*some);
+  std::size_t fits = 0;
+  std::size_t too_many = needs.size();
+  while (fits + 1 < too_many) {
+    const std::size_t n = fits + (too_many - fits) / 2;
+    if (auto some = assign_all(needs.first(n), room)) {
+      best = std::move(*some);
+      fits = n;
+    } else {
+      too_many = n;
+    }
   }
   return best;
 }

@@ -37,7 +37,7 @@ struct UnitRoom {
 /// The unit of each, or nothing if one finds none.
 std::optional<std::vector<int>> assign_all(std::span<const UnitNeed> needs, const UnitRoom& room);
 
-/// The longest run from the start, in draw order, of polyhedra that all find a unit: their units.
+/// The units of polyhedra from the start, in draw order, up to one that finds none with all before it placed.
 std::vector<int> assign_units(std::span<const UnitNeed> needs, const UnitRoom& room);
 
 }  // namespace kage

@@ -191,8 +191,11 @@ class Builder {
     ScreenPolygon base;
     base.lit = lit;
     base.source = index;
-    base.depth =
-        face_plane(corners.size(), {eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]});
+    // Three corners are the face's own, even where it was put together from more triangles.
+    base.depth = corners.size() == 3
+                     ? face_plane(3, {eye_points_[corners[0]], eye_points_[corners[1]], eye_points_[corners[2]]})
+                     : face_plane(corners.size(),
+                                  {eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]});
     for (std::size_t c = 0; c < 3; ++c)
       base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
     if (config_->smooth == 0 || same_color) {

@@ -128,6 +128,7 @@ class Merger {
         const std::uint32_t other = across(a, b);
         if (other == kNone || group_[other] != seed) border.push_back({a, b});
       }
+    if (border.empty()) return {};  // a body as thin as the tolerance, all of it in one plane
     std::sort(border.begin(), border.end());
     std::vector<std::uint32_t> outline;
     std::uint32_t at = border[0][0];

@@ -174,6 +174,7 @@ struct StreamFile::Data {
   Config config;
   std::vector<Frame> frames;
   std::string origin;
+  bool origin_seen = false;
 
   Data() = default;
   Data(const Data&) = delete;
@@ -226,12 +227,15 @@ struct StreamFile::Data {
       // Frames are summed when they are asked for, so that opening a large file is quick.
       if (tag == "FRAM") {
         if (h.size % 4 != 0) fail(at, "a frame is not of whole words");
+        if (origin_seen) fail(at, "a frame behind section ORIG");
         frames.push_back({payload, h.size, h.crc});
       } else if (crc(0, base + payload, h.size) != h.crc) {
         fail(at, fmt::format("checksum of section {} is wrong", printable(tag)));
       }
       if (tag == "ORIG") {
-        if (!origin.empty()) fail(at, "a second ORIG section");
+        if (origin_seen) fail(at, "a second ORIG section");
+        if (frames.empty()) fail(at, "section ORIG before the frames");
+        origin_seen = true;
         origin.assign(base + payload, h.size);
       }
       if (tag == "CONF") {
