@@ -72,6 +72,9 @@ void validate(const Config& config, const std::string& where) {
   }
   if (config.fsf != 0 && config.dsf_bits == 0) throw Error(fmt::format("{}: FSF needs DSF_BITS > 0", where));
   if (config.color_frac != 0 && config.smooth == 0) throw Error(fmt::format("{}: COLOR_FRAC > 0 needs SMOOTH", where));
+  if (config.classic != 0 &&
+      (config.z_bits != 15 || config.z_frac != 0 || config.face_bits != 7 || config.dx_bits != 9))
+    throw Error(fmt::format("{}: CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9", where));
   if (config.max_width > (1 << config.x_bits) - 1)
     throw Error(fmt::format("{}: MAX_WIDTH is {}, X_BITS = {} holds {}", where, config.max_width, config.x_bits,
                             (1 << config.x_bits) - 1));
