@@ -18,6 +18,12 @@ inline Config random_config(Random& random, int width = 4096) {
   }
   if (c.dsf_bits == 0) c.fsf = 0;
   if (c.smooth == 0) c.color_frac = 0;
+  if (c.classic != 0) {  // the paper's segment
+    c.z_bits = 15;
+    c.z_frac = 0;
+    c.face_bits = 7;
+    c.dx_bits = 9;
+  }
   c.max_width = std::min(width, (1 << c.x_bits) - 1);
   validate(c, "random configuration");
   return c;

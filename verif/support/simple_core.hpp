@@ -29,6 +29,7 @@ class SimpleCore {
     if (words_[2] != param_hash(c_)) return fail(ErrorCode::PARAMS);
     status_.width = width;
     status_.height = height;
+    units_.resize(static_cast<std::size_t>(c_.units));
     clear();
     at_ = 5;
     token_ = 1;
@@ -82,10 +83,11 @@ class SimpleCore {
     return (v >= 0 ? v : v - (unit - 1)) / unit;
   }
 
-  [[nodiscard]] std::int64_t depth(Field z, Field dz, int k) const {
+  [[nodiscard]] std::int64_t depth(Field z, Field dz, int k) const { return depth(field(z), field(dz), k); }
+
+  [[nodiscard]] std::int64_t depth(std::int64_t z, std::int64_t dz, int k) const {
     const int bits = c_.z_bits + c_.z_frac + 2;
-    const std::int64_t v =
-        shift_down(wrap(static_cast<Int128>(field(z)) + static_cast<Int128>(k) * field(dz), bits), c_.z_frac);
+    const std::int64_t v = shift_down(wrap(static_cast<Int128>(z) + static_cast<Int128>(k) * dz, bits), c_.z_frac);
     const std::int64_t top = (std::int64_t{1} << c_.z_bits) - 2;
     return v < 1 ? 1 : v > top ? top : v;
   }
@@ -107,6 +109,93 @@ class SimpleCore {
     ++line_;
   }
 
+  struct Face {
+    std::int64_t index, dz;
+    bool lit;
+    std::array<std::int64_t, 3> color;
+  };
+
+  struct TreePixel {
+    std::int64_t z, index;
+    bool lit;
+    std::array<std::int64_t, 3> color;
+  };
+
+  struct Unit {
+    std::vector<Face> faces;
+    std::vector<std::vector<TreePixel>> lines;  // complete
+    std::vector<TreePixel> line;                // under way
+    int segments = 0;                           // in it
+    ErrorCode fault = ErrorCode::NONE;
+    int fault_line = 0;
+    std::uint32_t fault_token = 0;
+  };
+
+  void seg(Unit& u) {
+    const std::int64_t blank = (1 << c_.face_bits) - 1;
+    const std::int64_t dx = field(l_.seg_dx);
+    const std::int64_t number = field(l_.seg_face);
+    const auto fault = [&](ErrorCode code, int of_line) {
+      u.fault = code;
+      u.fault_line = of_line;
+      u.fault_token = token_;
+    };
+    if (u.fault != ErrorCode::NONE) return;
+    const auto line = static_cast<int>(u.lines.size());
+    if (line > line_ + 1) return fault(ErrorCode::UNIT_LONG, line_ + 1);
+    const bool unknown = number != blank && number >= static_cast<std::int64_t>(u.faces.size());
+    if ((field(l_.seg_sync) != 0) != u.line.empty() || dx == 0 || unknown) return fault(ErrorCode::SEGMENT, line);
+    if (static_cast<std::int64_t>(u.line.size()) + dx > status_.width || u.segments == 1 << c_.seg_bits)
+      return fault(ErrorCode::UNIT_LONG, line);
+    for (int k = 0; k < dx; ++k) {
+      if (number == blank) {
+        u.line.push_back({(std::int64_t{1} << c_.z_bits) - 1, 0, false, {}});
+        continue;
+      }
+      const Face& f = u.faces[static_cast<std::size_t>(number)];
+      u.line.push_back({depth(field(l_.seg_z), f.dz, k), f.index, f.lit, f.color});
+    }
+    ++u.segments;
+    if (u.line.size() < static_cast<std::size_t>(status_.width)) return;
+    u.lines.push_back(u.line);
+    u.line.clear();
+    u.segments = 0;
+  }
+
+  // False if a unit is at fault.
+  bool tree() {
+    const Unit* first = nullptr;
+    for (const Unit& u : units_)
+      if (u.fault != ErrorCode::NONE && u.fault_line <= line_ &&
+          (first == nullptr || u.fault_token < first->fault_token))
+        first = &u;
+    ErrorCode code = first != nullptr ? first->fault : ErrorCode::NONE;
+    for (const Unit& u : units_) {
+      if (code != ErrorCode::NONE || static_cast<int>(u.lines.size()) > line_) continue;
+      first = &u;
+      code = ErrorCode::UNIT_SHORT;
+    }
+    if (code != ErrorCode::NONE) {
+      if (code != ErrorCode::UNIT_SHORT) token_ = first->fault_token;
+      fail(code);
+      status_.unit = static_cast<std::uint32_t>(first - units_.data());
+      return false;
+    }
+    for (std::size_t x = 0; x < pixels_.size(); ++x) {
+      const TreePixel* best = nullptr;
+      for (const Unit& u : units_) {
+        const TreePixel& t = u.lines[static_cast<std::size_t>(line_)][x];
+        if (best == nullptr || t.z < best->z || (t.z == best->z && t.index < best->index)) best = &t;
+      }
+      Pixel& p = pixels_[x];
+      if (best->z >= p.z) continue;
+      p.z = best->z;
+      p.lit = best->lit;
+      p.color = best->color;
+    }
+    return true;
+  }
+
   // One token; false at the end of the frame or at an error.
   bool step() {
     const std::size_t n = words_.size();
@@ -121,7 +210,34 @@ class SimpleCore {
     const auto order = [this] { return fail(ErrorCode::ORDER), false; };
     const auto range = [this] { return fail(ErrorCode::RANGE), false; };
     const auto bad_range = [&](Field xl, Field xr) { return field(xl) > field(xr) || field(xr) > width; };
+    if (due_ && kind != Kind::SEG && kind != Kind::TREE && kind != Kind::END) return order();
     switch (kind) {
+      case Kind::FACE: {
+        if (all_lines || begun_) return order();
+        if (field(l_.face_unit) >= c_.units) return range();
+        auto& faces = units_[static_cast<std::size_t>(field(l_.face_unit))].faces;
+        const auto next = static_cast<std::int64_t>(faces.size());
+        if (field(l_.face_face) != next || next == (1 << c_.face_bits) - 1) return range();
+        Face f{field(l_.face_index), field(l_.face_dz), field(l_.face_lit) != 0, {}};
+        for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
+          f.color[ch] = field(l_.face_color[ch]);
+        faces.push_back(f);
+        break;
+      }
+      case Kind::SEG: {
+        if (all_lines || (begun_ && !due_)) return order();
+        if (field(l_.seg_unit) >= c_.units) return range();
+        Unit& u = units_[static_cast<std::size_t>(field(l_.seg_unit))];
+        if (static_cast<int>(u.lines.size()) == status_.height) return order();
+        begun_ = has_tree_ = due_ = true;
+        seg(u);
+        break;
+      }
+      case Kind::TREE:
+        if (all_lines || !due_) return order();
+        if (!tree()) return false;
+        due_ = false;
+        break;
       case Kind::SHADE:
         if (begun_ || shade_seen_) return order();
         if (field(l_.shade_shade) > (1 << c_.shade_frac)) return range();
@@ -200,6 +316,7 @@ class SimpleCore {
         open_ = false;
         phase_ = 0;
         end_line();
+        due_ = has_tree_;
         break;
       case Kind::END:
         if (!all_lines) return fail(ErrorCode::LINE), false;
@@ -226,6 +343,9 @@ class SimpleCore {
   bool begun_ = false;
   bool open_ = false;
   bool shade_seen_ = false;
+  bool has_tree_ = false;
+  bool due_ = false;  // this line's TREE has not come yet
+  std::vector<Unit> units_;
   std::int64_t shade_ = 0;
   unsigned bias_ = 0;
 };

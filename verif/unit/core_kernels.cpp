@@ -28,7 +28,8 @@ TEST_CASE(
       const Config c = random_config(random, 200);
       std::vector<std::uint32_t> words;
       random_frame(random, c, random.in(1, 150), random.in(1, 5), words, static_cast<std::uint32_t>(round));
-      if (round % 2 == 1) damage(random, words);
+      if (round % 4 == 1) damage_tree(random, c, words);
+      if (round % 4 == 3 || (round % 4 == 1 && c.units == 0)) damage(random, words);
       CAPTURE(target, round, to_yaml(c));
       std::vector<std::uint8_t> fast;
       GoldenCore core(c);

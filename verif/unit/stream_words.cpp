@@ -147,6 +147,19 @@ TEST_CASE("a value that its field does not hold is refused, never cut, and nothi
   CHECK_THROWS_WITH(w.op(s), "OP: z is 68719476736, which signed 37 bits do not hold");
 }
 
+TEST_CASE("the paper's segments need the paper's widths") {
+  Config c;
+  c.classic = 1;
+  c.z_bits = 15;
+  c.z_frac = 0;
+  CHECK_NOTHROW(validate(c, "c"));
+  for (int Config::*member : {&Config::z_bits, &Config::z_frac, &Config::face_bits, &Config::dx_bits}) {
+    Config other = c;
+    ++(other.*member);
+    CHECK_THROWS_WITH(validate(other, "c"), "c: CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9");
+  }
+}
+
 TEST_CASE("a valid frame passes; its counts are what was written") {
   Random random(test_seed());
   CAPTURE(test_seed());
@@ -174,7 +187,8 @@ TEST_CASE("faults are named with frame, line, token and byte") {
   w.eol(1);
   w.end();
   CHECK(cause(c, words) ==
-        "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, or shade > 2^SHADE_FRAC (RANGE)");
+        "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, "
+        "or a face out of turn (RANGE)");
 
   const auto with = [&](auto change) {
     std::vector<std::uint32_t> v;
