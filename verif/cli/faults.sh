@@ -9,6 +9,8 @@ count=0
 for patch in "$source"/verif/faults/*.patch; do
   [ -e "$patch" ] || continue
   name=$(basename "$patch" .patch)
+  # Defects of the tree need ties, or a line ahead of time, which this scene has not: ctest rtl/fault_NAME finds those.
+  if grep -qE '^(\+\+\+ .*(compare|tree|expansion)|The tree)' "$patch"; then continue; fi
   if grep -q '^Not a fault' "$patch"; then
     expect 0 "$kage" cosim c.kage --fault "$name" --idle 30 --backpressure 30 --out "$name"
     continue

@@ -60,7 +60,8 @@ TEST_CASE("the meshes of CGAL's demo below 50000 faces: coverage, surfaces and s
           0);
   const Config config = wide();
   std::set<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(dir / "data/meshes")) files.insert(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(dir / "data/meshes"))
+    if (entry.is_regular_file()) files.insert(entry.path());  // Debian 13 has a folder among them
   std::size_t judged = 0;
   std::size_t large = 0;
   std::set<std::string> refused;

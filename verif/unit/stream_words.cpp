@@ -156,7 +156,7 @@ TEST_CASE("the paper's segments need the paper's widths") {
   for (int Config::*member : {&Config::z_bits, &Config::z_frac, &Config::face_bits, &Config::dx_bits}) {
     Config other = c;
     ++(other.*member);
-    CHECK_THROWS_WITH(validate(other, "c"), "c: CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9");
+    CHECK_THROWS_WITH(validate(other, "c"), "c: CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9");
   }
 }
 
