@@ -171,17 +171,25 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
                    : reason == SpanReason::cut ? "the near plane or the guard band cuts it"
                                                : "a face has more than one colour";
   }
+  const Way* stopped = nullptr;
   for (std::size_t i = 0; i < geometry.polyhedra.size(); ++i) {
     Way& way = ways_[geometry.polyhedra[i].component];
-    if (report.unit_of[i] >= 0) {
+    if (report.unit_of[i] == PolyhedraReport::kUnseen) continue;
+    if (report.unit_of[i] != PolyhedraReport::kSpans) {
       ++way.unit_frames;
       continue;
     }
     ++way.span_frames;
-    way.why = "it or one before it finds no unit";
+    using Stop = PolyhedraReport::Stop;
+    const std::string cause = report.stop == Stop::no_unit ? fmt::format("no unit of {} has room for it", units)
+                              : report.stop == Stop::depth ? "its depth does not go on by a step that segments have"
+                                                           : "ORDER_BITS holds no draw index for it";
+    // The first one stopped the assignment; the others went with it.
+    if (stopped == nullptr) stopped = &way;
+    way.why = stopped == &way ? cause : fmt::format("behind '{}' in draw order: {}", stopped->object, cause);
     if (units_only_)
-      throw Error(fmt::format("{}: frame {}: object '{}', component {}: no unit of {} has room for it (--units-only)",
-                              name_, index, way.object, geometry.polyhedra[i].component, units));
+      throw Error(fmt::format("{}: frame {}: object '{}', component {}: {} (--units-only)", name_, index, way.object,
+                              geometry.polyhedra[i].component, cause));
   }
 }
 

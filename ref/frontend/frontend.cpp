@@ -124,7 +124,7 @@ class Band {
         y0_(band * kBandLines),
         y1_(std::min(y0_ + kBandLines, g_->height)),
         writer_(*frame.config, words_),
-        depth_(frame.config->z_frac, frame.config->z_bits + frame.config->z_frac + 2),
+        depth_(SpanSetup::depth(*frame.config)),
         color_(frame.config->color_frac, 10 + frame.config->color_frac) {}
 
   std::vector<std::uint32_t> make() {

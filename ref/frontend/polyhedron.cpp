@@ -7,7 +7,7 @@ namespace kage {
 
 PolyhedronScanner::PolyhedronScanner(const FrameGeometry& geometry, const Config& config)
     : g_(&geometry),
-      setup_(config.z_frac, config.z_bits + config.z_frac + 2),
+      setup_(SpanSetup::depth(config)),
       z_bits_(config.z_bits),
       z_frac_(config.z_frac),
       max_dx_((1 << config.dx_bits) - 1) {
@@ -36,6 +36,8 @@ void PolyhedronScanner::load(const Polyhedron& p, int y0, int y1) {
   std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.first < b.first; });
   active_.clear();
   entered_ = 0;
+  first_polygon_ = p.first_polygon;
+  faces_.assign(p.polygon_count, {});
 }
 
 // The edges that cross line y, from left to right. From line to line few enter, leave or change places, so sorting by
@@ -55,31 +57,30 @@ void PolyhedronScanner::cross(int y) {
 
 void PolyhedronScanner::add(std::uint32_t polygon, int winding) {
   if (polygon == PolyhedronEdge::kNoPolygon) return;
-  for (Open& o : open_)
-    if (o.polygon == polygon) {
-      o.change += winding;
-      return;
-    }
-  open_.push_back({polygon, 0, winding, 0});
+  Face& f = faces_[polygon - first_polygon_];
+  f.change += winding;
+  if (f.touched) return;
+  f.touched = true;
+  touched_.push_back(polygon);
 }
 
-void PolyhedronScanner::close(Open& o, int x, int y) {
-  if (o.winding == 0 || x <= o.from) return;
-  const ScreenPlane& plane = g_->polygons[o.polygon].depth;
+void PolyhedronScanner::close(std::uint32_t polygon, const Face& f, int x, int y) {
+  if (f.winding == 0 || x <= f.from) return;
+  const ScreenPlane& plane = g_->polygons[polygon].depth;
   const std::int64_t step = setup_.step(plane);
   int pieces = 0;
-  setup_.each(plane, o.from, x, y, [&](int xl, int xr, SpanSetup::Ramp ramp) {
+  setup_.each(plane, f.from, x, y, [&](int xl, int xr, SpanSetup::Ramp ramp) {
     ++pieces;
     if (xr - xl > 1 && ramp.step != step) representable_ = false;
-    parts_.push_back({xl, xr, o.polygon, ramp});
+    parts_.push_back({xl, xr, polygon, ramp});
   });
   if (pieces > 1) representable_ = false;
 }
 
+// Outlines are closed, and crossings beyond the last pixel count at it: every face is closed when the line ends.
 void PolyhedronScanner::fill(int y) {
   runs_.clear();
   parts_.clear();
-  open_.clear();
   const auto at = [&](std::size_t i) { return std::clamp(active_[i].walker.x(), 0, g_->width); };
   for (std::size_t i = 0; i < active_.size();) {
     const int x = at(i);
@@ -87,16 +88,17 @@ void PolyhedronScanner::fill(int y) {
       add(active_[i].along, active_[i].walker.winding());
       add(active_[i].against, -active_[i].walker.winding());
     }
-    for (Open& o : open_) {
-      if (o.change == 0) continue;
-      close(o, x, y);
-      o.winding += o.change;
-      o.change = 0;
-      o.from = x;
+    for (const std::uint32_t polygon : touched_) {
+      Face& f = faces_[polygon - first_polygon_];
+      f.touched = false;
+      if (f.change == 0) continue;
+      close(polygon, f, x, y);
+      f.winding += f.change;
+      f.change = 0;
+      f.from = x;
     }
-    std::erase_if(open_, [](const Open& o) { return o.winding == 0; });
+    touched_.clear();
   }
-  for (Open& o : open_) close(o, g_->width, y);
   settle();
 }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "frontend/edge_walker.hpp"
-#include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
 #include "kage/geometry.hpp"
 
@@ -52,11 +51,11 @@ class PolyhedronScanner {
     std::uint32_t against;
     int first = 0;  // line on which it enters
   };
-  struct Open {
-    std::uint32_t polygon;
+  struct Face {
     int winding = 0;
     int change = 0;  // at the crossing at hand
     int from = 0;    // where its span began
+    bool touched = false;
   };
   // A span of one face, before overlaps are settled.
   struct Part {
@@ -70,7 +69,7 @@ class PolyhedronScanner {
   void cross(int y);
   void fill(int y);
   void add(std::uint32_t polygon, int winding);
-  void close(Open& open, int x, int y);
+  void close(std::uint32_t polygon, const Face& face, int x, int y);
   void settle();
   [[nodiscard]] std::int64_t depth(const Part& p, int x) const;
 
@@ -84,7 +83,9 @@ class PolyhedronScanner {
   std::vector<Edge> edges_;  // by the line on which they enter
   std::size_t entered_ = 0;
   std::vector<Edge> active_;  // from left to right
-  std::vector<Open> open_;
+  std::uint32_t first_polygon_ = 0;
+  std::vector<Face> faces_;             // of the polyhedron, by polygon
+  std::vector<std::uint32_t> touched_;  // polygons at the crossing at hand
   std::vector<Part> parts_;
   std::vector<Run> runs_;
   int first_ = 0;

@@ -25,6 +25,9 @@ class SpanSetup {
         limit_(std::int64_t{1} << (bits - 1)),
         half_(frac > 0 ? std::int64_t{1} << (frac - 1) : 0) {}
 
+  /// For the depth of spans and segments.
+  static SpanSetup depth(const Config& config) { return {config.z_frac, config.z_bits + config.z_frac + 2}; }
+
   struct Ramp {
     std::int64_t start;
     std::int64_t step;

@@ -14,7 +14,10 @@ int pieces(int length, int max_dx) { return (length + max_dx - 1) / max_dx; }
 }  // namespace
 
 TreePlan::TreePlan(const FrameGeometry& g, const Config& config)
-    : g_(&g), config_(&config), unit_of_(g.polyhedra.size(), -1), members_(static_cast<std::size_t>(config.units)) {
+    : g_(&g),
+      config_(&config),
+      unit_of_(g.polyhedra.size(), PolyhedraReport::kSpans),
+      members_(static_cast<std::size_t>(config.units)) {
   if (config.units == 0) return;
   const int max_dx = (1 << config.dx_bits) - 1;
   PolyhedronScanner scanner(g, config);
@@ -28,23 +31,33 @@ TreePlan::TreePlan(const FrameGeometry& g, const Config& config)
       need.first = std::min(need.first, y);
       need.end = y + 1;
       int segments = 0;
+      int at = runs[0].xl;
       for (const Run& r : runs) {
-        segments += pieces(r.xr - r.xl, max_dx);
+        // A gap within the body, which the snap can leave, is blank segments.
+        segments += pieces(r.xl - at, max_dx) + pieces(r.xr - r.xl, max_dx);
+        at = r.xr;
         need.left = std::min(need.left, r.xl);
         need.right = std::max(need.right, r.xr);
       }
       need.segments = std::max(need.segments, segments);
     });
     // Where one cannot be segments, it and all behind it are spans, so that ties stay as they are.
-    if (!scanner.representable()) break;
+    if (!scanner.representable()) {
+      stop_ = PolyhedraReport::Stop::depth;
+      break;
+    }
     if (need.end > 0) need.faces = static_cast<int>(g.polyhedra[i].polygon_count);
     needs.push_back(need);
   }
   const UnitRoom room{config.units, blank(), 1 << config.seg_bits, max_dx, g.width};
   const std::vector<int> units = assign_units(needs, room);
+  if (units.size() < needs.size())
+    stop_ = PolyhedraReport::Stop::no_unit;
+  else if (stop_ == PolyhedraReport::Stop::none && most < g.polyhedra.size())
+    stop_ = PolyhedraReport::Stop::index;
   std::vector<int> faces(members_.size(), 0);
   for (std::uint32_t i = 0; i < units.size(); ++i) {
-    unit_of_[i] = units[i];
+    unit_of_[i] = needs[i].end == 0 ? PolyhedraReport::kUnseen : units[i];
     first_span_polygon_ = g.polyhedra[i].first_polygon + g.polyhedra[i].polygon_count;
     if (needs[i].end == 0) continue;  // not to be seen
     any_ = true;
@@ -55,10 +68,10 @@ TreePlan::TreePlan(const FrameGeometry& g, const Config& config)
 }
 
 void TreePlan::faces(TokenWriter& writer) const {
+  const SpanSetup setup = SpanSetup::depth(*config_);
   for (std::size_t u = 0; u < members_.size(); ++u)
     for (const Member& m : members_[u]) {
       const Polyhedron& p = g_->polyhedra[m.polyhedron];
-      const SpanSetup setup(config_->z_frac, config_->z_bits + config_->z_frac + 2);
       for (std::uint32_t k = 0; k < p.polygon_count; ++k) {
         const ScreenPolygon& polygon = g_->polygons[p.first_polygon + k];
         SegmentToken t;
@@ -79,11 +92,13 @@ void TreePlan::segments(int y0, int y1, std::vector<std::vector<std::uint32_t>>&
     int face;
     std::int64_t step;
   };
-  const SpanSetup setup(config_->z_frac, config_->z_bits + config_->z_frac + 2);
+  const SpanSetup setup = SpanSetup::depth(*config_);
   const int max_dx = (1 << config_->dx_bits) - 1;
   PolyhedronScanner scanner(*g_, *config_);
   std::vector<std::vector<FaceRun>> runs;
   lines.assign(static_cast<std::size_t>(y1 - y0), {});
+  std::vector<std::uint32_t> none;
+  TokenWriter writer(*config_, none);
   for (std::size_t u = 0; u < members_.size(); ++u) {
     runs.assign(lines.size(), {});
     for (const Member& m : members_[u]) {
@@ -98,7 +113,7 @@ void TreePlan::segments(int y0, int y1, std::vector<std::vector<std::uint32_t>>&
     }
     for (std::size_t i = 0; i < lines.size(); ++i) {
       std::sort(runs[i].begin(), runs[i].end(), [](const FaceRun& a, const FaceRun& b) { return a.run.xl < b.run.xl; });
-      TokenWriter writer(*config_, lines[i]);
+      writer.write_to(lines[i]);
       SegmentToken t;
       t.unit = static_cast<int>(u);
       int at = 0;
@@ -124,6 +139,7 @@ void TreePlan::segments(int y0, int y1, std::vector<std::vector<std::uint32_t>>&
 PolyhedraReport TreePlan::report() const {
   PolyhedraReport r;
   r.unit_of = unit_of_;
+  r.stop = stop_;
   for (const auto& m : members_) r.units += m.empty() ? 0 : 1;
   return r;
 }

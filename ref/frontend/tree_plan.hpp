@@ -42,7 +42,8 @@ class TreePlan {
 
   const FrameGeometry* g_;
   const Config* config_;
-  std::vector<int> unit_of_;                  // of each polyhedron: -1 if it is drawn by spans
+  std::vector<int> unit_of_;  // as in PolyhedraReport
+  PolyhedraReport::Stop stop_ = PolyhedraReport::Stop::none;
   std::vector<std::vector<Member>> members_;  // of each unit, in draw order
   std::uint32_t first_span_polygon_ = 0;
   bool any_ = false;

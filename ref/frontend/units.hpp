@@ -22,7 +22,7 @@ struct UnitNeed {
   int left = 0;  ///< columns [left, right)
   int right = 0;
   int faces = 0;     ///< visible ones
-  int segments = 0;  ///< most on a line, blank ones not counted
+  int segments = 0;  ///< most on a line, with blank ones between them
 };
 
 /// What there is.

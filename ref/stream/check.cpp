@@ -45,6 +45,7 @@ struct FrameChecker::Data {
   TokenRules rules;
   WordCutter cutter;
   TokenCounts counts;
+  std::vector<std::vector<std::int64_t>> faces;  // dz, of each unit
   FrameHeader header;
   bool header_seen = false;
   bool ended = false;
@@ -70,8 +71,17 @@ struct FrameChecker::Data {
     header = {width, height, words[3], words[4]};
     header_seen = true;
     rules.start(config, width, height);
+    faces.assign(static_cast<std::size_t>(config.units), {});
     at = kHeaderWords;
     token = 1;
+  }
+
+  void check_segment(const SegmentToken& s, std::span<const std::uint32_t> body) const {
+    if (!rules.outcome().taken) fail(rules.outcome().fault);
+    if (extract(body, layout.seg_pad) != 0) fail("the segment's pad is not zero");
+    if (s.face == (1 << config.face_bits) - 1) return;
+    const std::int64_t dz = faces[static_cast<std::size_t>(s.unit)][static_cast<std::size_t>(s.face)];
+    if (!span_fits(s.z, dz, s.dx, layout.op_z.bits)) fail("the segment's depth overflows");
   }
 
   void check_token(std::span<const std::uint32_t> body) {
@@ -79,7 +89,8 @@ struct FrameChecker::Data {
     const Token t = decode(config, layout, body);
     if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) fail(e);
     if (!padding_is_zero(body, layout.bits[kind])) fail("bits past the last field are not zero");
-    if (t.kind == Kind::SEG && !rules.outcome().taken) fail(rules.outcome().fault);
+    if (t.kind == Kind::FACE) faces[static_cast<std::size_t>(t.segment.unit)].push_back(t.segment.dz);
+    if (t.kind == Kind::SEG) check_segment(t.segment, body);
     ++counts.of_kind[kind];
     if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC) {
       const SpanToken& s = t.span;

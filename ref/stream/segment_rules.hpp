@@ -5,7 +5,6 @@
 // same.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 

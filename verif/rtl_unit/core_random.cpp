@@ -101,7 +101,8 @@ struct Trial {
     announce(m, words);
     words.resize(words.size() - 1);  // no END, no TLAST
     api.submit(m, words.data(), words.size(), 0);
-    api.run(m, UINT64_MAX, 50'000'000);
+    if (api.run(m, UINT64_MAX, 50'000'000) == KAGE_RTL_ASSERT)
+      return fails("did not come to rest: standstill reason 4");
     if (config.beat_words == 1) {  // else the fill is an error, and the core waits for TLAST: the same standstill
       if ((reg(m, KAGE_REG_STATUS) & 15U) != 5U) return fails("STATUS does not say that a frame waits for input");
     } else if ((reg(m, KAGE_REG_STATUS) & 13U) != 5U) {

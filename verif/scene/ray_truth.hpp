@@ -129,14 +129,52 @@ class RayScene {
   std::vector<Face> faces_;
 };
 
-/// Whether moving vertices lets the pixel show the face, or nothing if it is kNothing.
-inline bool possible_face(const Oracle& oracle, const FrameGeometry& g, int x, std::uint32_t face) {
+/// Whether moving each vertex by half a subpixel in x and in y can change which way a polygon faces. A thin face of a
+/// polyhedron that the snap alone turned away is not drawn, and may yet be what a ray sees.
+inline bool either_way(std::span<const ScreenVertex> outline) {
+  const std::size_t n = outline.size();
+  std::int64_t area = 0;   // twice
+  std::int64_t moves = 0;  // twice as far as it can change: by its corners one at a time, and by two that move at once
+  for (std::size_t i = 0; i < n; ++i) {
+    const ScreenVertex& a = outline[i];
+    const ScreenVertex& b = outline[(i + 1) % n];
+    const ScreenVertex& c = outline[(i + 2) % n];
+    area += std::int64_t{a.x} * b.y - std::int64_t{b.x} * a.y;
+    moves += std::abs(std::int64_t{c.x} - a.x) + std::abs(std::int64_t{c.y} - a.y) + 1;
+  }
+  return 2 * std::abs(area) <= moves;
+}
+
+/// Whether moving each vertex by half a subpixel can bring an edge of a polygon to the centre of pixel (x, y). Where a
+/// ray passes a closed body's outline it meets, at one depth, a face that is drawn and one that is turned away.
+inline bool at_outline(std::span<const ScreenVertex> outline, int x, int y) {
+  const std::int64_t px = 256 * std::int64_t{x} + 128;
+  const std::int64_t py = 256 * std::int64_t{y} + 128;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const ScreenVertex& a = outline[i];
+    const ScreenVertex& b = outline[(i + 1) % outline.size()];
+    const std::int64_t bx = b.x - std::int64_t{a.x};
+    const std::int64_t by = b.y - std::int64_t{a.y};
+    const std::int64_t side = bx * (py - a.y) - by * (px - a.x);
+    // The edge's vector moves by a whole subpixel, its start by half of one; the last term is both at once.
+    const std::int64_t moves = 2 * (std::abs(px - a.x) + std::abs(py - a.y)) + (std::abs(bx) + std::abs(by)) + 2;
+    const auto within = [](std::int64_t p, std::int64_t u, std::int64_t v) {
+      return p >= std::min(u, v) - 1 && p <= std::max(u, v) + 1;
+    };
+    if (2 * std::abs(side) <= moves && within(px, a.x, b.x) && within(py, a.y, b.y)) return true;
+  }
+  return false;
+}
+
+/// Whether moving vertices lets pixel (x, y) show the face, or nothing if it is kNothing. The oracle is at line y.
+inline bool possible_face(const Oracle& oracle, const FrameGeometry& g, int x, int y, std::uint32_t face) {
   if (face == kNothing) return oracle.possible_surface(x, -1, Errors::depth_and_snap);
-  // Of all polygons, not only the drawn ones: a thin face of a polyhedron may be turned away by the snap alone.
-  for (std::uint32_t i = 0; i < g.polygons.size(); ++i)
-    if (g.polygons[i].source == face &&
-        oracle.possible_surface(x, static_cast<std::int32_t>(i), Errors::depth_and_snap))
-      return true;
+  for (std::uint32_t i = 0; i < g.polygons.size(); ++i) {
+    if (g.polygons[i].source != face) continue;
+    const auto outline = g.outline(g.polygons[i]);
+    if (i >= g.drawn && !either_way(outline) && !at_outline(outline, x, y)) continue;
+    if (oracle.possible_surface(x, static_cast<std::int32_t>(i), Errors::depth_and_snap)) return true;
+  }
   return false;
 }
 
@@ -184,7 +222,7 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       const auto polygon = seen[at] == kNothing ? -1 : static_cast<std::int32_t>(seen[at]);
       const std::uint32_t shown = polygon < 0 ? kNothing : whole.polygons[static_cast<std::uint32_t>(polygon)].source;
       if (shown != surface) {
-        if (possible_face(oracle, whole, x, surface)) {
+        if (possible_face(oracle, whole, x, y, surface)) {
           ++count.near_surface;
         } else {
           ++count.wrong_surface;

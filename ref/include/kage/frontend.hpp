@@ -18,8 +18,20 @@ using WordSink = std::function<void(std::span<const std::uint32_t> words)>;
 
 /// How the polyhedra of a frame went.
 struct PolyhedraReport {
-  std::vector<int> unit_of;  ///< of each of FrameGeometry::polyhedra: its unit, or -1 if it became spans
+  static constexpr int kSpans = -1;   ///< it became spans
+  static constexpr int kUnseen = -2;  ///< it covers no pixel
+
+  /// Why polyhedra became spans: one stopped the assignment, and all behind it in draw order went with it.
+  enum class Stop : std::uint8_t {
+    none,
+    no_unit,  ///< no unit has room for it: pixels, faces or segments
+    depth,    ///< its depth goes on by no step that segments have
+    index,    ///< ORDER_BITS holds no draw index for it
+  };
+
+  std::vector<int> unit_of;  ///< of each of FrameGeometry::polyhedra: its unit, kSpans or kUnseen
   int units = 0;             ///< units with at least one
+  Stop stop = Stop::none;
 };
 
 /// Make the frame's words from first to last. Lines are made in bands, on up to `threads` threads (0: all there are),
