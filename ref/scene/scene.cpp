@@ -50,7 +50,8 @@ void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, 
     frame.triangles.push_back({{vertex + v[0], vertex + v[1], vertex + v[2]},
                                {shading + s[0], shading + s[1], shading + s[2]},
                                object,
-                               mesh.faces[i]});
+                               mesh.faces[i],
+                               mesh.alphas[i]});
   }
   const auto corner = static_cast<std::uint32_t>(frame.corners.size());
   for (const std::uint32_t v : mesh.corners) frame.corners.push_back(vertex + v);
@@ -127,7 +128,7 @@ void Scene::Data::place_objects() {
     std::string called = scene::one_line(node.name.empty() ? raw.meshes[number].name : node.name, 80);
     object_names.push_back(called.empty() ? "object " + std::to_string(objects.size() - 1) : std::move(called));
     for (const scene::MeshComponent& c : mesh.components)
-      components.push_back({triangles + c.first, c.count, c.closed, c.convex, polygons + c.first_polygon,
+      components.push_back({triangles + c.first, c.count, c.closed, c.translucent, c.convex, polygons + c.first_polygon,
                             c.polygon_count, c.reason.text(vertices, triangles + c.first)});
     vertices += static_cast<std::uint32_t>(mesh.vertices.size());
     triangles += static_cast<std::uint32_t>(mesh.triangles.size());
