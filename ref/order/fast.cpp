@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The fast way (docs/order.md, "The fast way"). The order is an array. Top nodes and clusters know where in it their
-// subtrees begin. A step tests sides in vectors; then either exchanges the two parts of each top node that flipped,
-// top down, and looks flipped clusters up anew; or places all again in one pass from the root, which costs the same
-// whatever flipped. Which is cheaper, costs measured on this very tree say.
+// The fast way (docs/order.md). The order is an array, and each part (parts.hpp) knows where in it its subtree begins. A
+// step tests sides in vectors; then either exchanges the two subtrees of each top that flipped, top down, and looks
+// flipped clusters up anew; or places all parts again, run by run, which costs the same whatever flipped. Which is
+// cheaper, costs measured on this very tree say.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "order/clusters.hpp"
+#include "order/parts.hpp"
 #include "order/sides.hpp"
 #include "order/ways.hpp"
 
@@ -23,6 +23,9 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 
 /// Steps after which the blocks' margins are measured again.
 constexpr int kMarginAge = 32;
+
+/// Steps after which the cost of an exchange is counted again, flip by flip.
+constexpr int kCountAge = 16;
 
 /// Exchanges that should take longer than this are measured: seconds, well above what reading the clock takes.
 constexpr double kMeasured = 2e-6;
@@ -42,19 +45,18 @@ double least_seconds(Work work) {
 /// Seconds on this tree and machine.
 struct Costs {
   double rebuild = 0;  ///< all
-  double flip = 0;     ///< finding what a flip concerns
   double cluster = 0;  ///< looking one up
   double swap = 0;     ///< exchanging two parts,
   double moved = 0;    ///< and for each node that they have
-  double scale = 2;    ///< exchanges as they went, against the three before
+  double scale = 2;    ///< exchanges as they went, against the sum of these three
 };
 
 class Fast final : public VisibilityOrder {
  public:
   explicit Fast(const OrderTree::Data& data)
-      : data_(data), eye_(data), clusters_(data), blocks_((data.nodes() + kBlock - 1) / kBlock), sides_(blocks_ + 1),
-        flips_(blocks_), unsure_(blocks_), limits_(blocks_), place_(clusters_.parts()),
-        order_(data.nodes() + kClusterNodes) {
+      : data_(data), eye_(data), parts_(data), blocks_((data.nodes() + kBlock - 1) / kBlock), sides_(blocks_ + 1),
+        flips_(blocks_), unsure_(blocks_), limits_(blocks_), place_(parts_.parts().size() + 1),
+        order_(data.nodes()) {
     if (data.nodes() != 0) calibrate();
   }
 
@@ -65,41 +67,42 @@ class Fast final : public VisibilityOrder {
   }
 
   [[nodiscard]] std::uint64_t bytes() const override {
-    return tree_bytes(data_, true) + clusters_.bytes() + (sides_.size() + flips_.size() + unsure_.size()) * 8 +
+    return tree_bytes(data_, true) + parts_.bytes() + (sides_.size() + flips_.size() + unsure_.size()) * 8 +
            limits_.size() * sizeof(double) + (place_.size() + order_.size() + spare_.capacity()) * 4 +
-           (top_flips_.capacity() + touched_.capacity()) * 4;
+           touched_.capacity() * 4;
   }
 
  private:
   void test(double way);
   void decide_unsure(const EyeSides& eye);
-  /// Lists flipped tops and clusters as long as exchanging is cheaper than a rebuild; whether it is to the end.
-  bool collect();
+  bool exchange_is_cheaper();
+  /// What exchanging costs by costs_, as far as it is not more than `limit`.
+  double exchange_cost(double limit);
   void exchange();
-  void swap_parts(std::uint32_t top);
+  void swap_subtrees(std::uint32_t node, std::uint32_t part);
   void rebuild();
   void calibrate();
 
   [[nodiscard]] bool side(std::uint32_t node) const { return (sides_[node / kBlock] >> (node % kBlock) & 1U) != 0; }
-  std::uint32_t* cluster_places() { return place_.data() + clusters_.tops().size(); }
 
   const OrderTree::Data& data_;
   EyeSides eye_;
-  Clusters clusters_;
+  Parts parts_;
   std::size_t blocks_;
   std::vector<std::uint64_t> sides_;  // a bit per node, and a word more
   std::vector<std::uint64_t> flips_;
   std::vector<std::uint64_t> unsure_;
   std::vector<double> limits_;        // by block: length of the eye's way up to which nothing flips
-  std::vector<std::uint32_t> place_;  // by part: where in order_ its subtree begins
+  std::vector<std::uint32_t> place_;  // by part, and one for what does not exist: where in order_ its subtree begins
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> spare_;      // the smaller of two parts that change places
-  std::vector<std::uint32_t> top_flips_;  // of this step, top down
-  std::vector<std::uint32_t> touched_;    // clusters of this step
+  std::vector<std::uint32_t> touched_;    // clusters, by part
   Costs costs_;
   double path_ = 0;
   double margin_ = std::numeric_limits<double>::infinity();  // mean of the blocks', when last measured,
   int since_margin_ = 0;                                     // so many steps ago
+  double flip_cost_ = 0;   // of an exchange, by flip, as counted up to now,
+  int since_counted_ = 0;  // so many steps ago
   bool placed_ = false;
 };
 
@@ -127,15 +130,11 @@ void Fast::move_to(const Eye& eye) {
     step_.why = "no side changed";
     return;
   }
-  const bool exchanging = placed_ && collect();
-  for (std::size_t b = 0; b < blocks_; ++b) sides_[b] ^= flips_[b];
   step_.rebuild_cost = costs_.rebuild;
+  const bool exchanging = placed_ && exchange_is_cheaper();
+  for (std::size_t b = 0; b < blocks_; ++b) sides_[b] ^= flips_[b];
   if (exchanging) {
-    const bool measured = step_.exchange_cost > kMeasured;
-    const auto start = measured ? Clock::now() : Clock::time_point();
     exchange();
-    // Misses and mispredictions are not in the calibration. A bit at a time, so that one interrupt changes little.
-    if (measured) costs_.scale *= seconds_since(start) > step_.exchange_cost ? 1.05 : 1 / 1.05;
     step_.change = OrderStep::Change::kExchange;
     step_.why = "exchanging what changed costs less than a rebuild";
   } else {
@@ -192,53 +191,63 @@ void Fast::decide_unsure(const EyeSides& eye) {
   step_.exact = exact.exact() - eye.exact();
 }
 
-bool Fast::collect() {
-  top_flips_.clear();
-  touched_.clear();
-  const double per_flip = std::min(costs_.cluster, costs_.swap) / kClusterNodes + costs_.flip;
-  step_.exchange_cost = static_cast<double>(step_.flips) * per_flip * costs_.scale;
-  if (step_.exchange_cost > costs_.rebuild) return false;  // at the very least so much
+bool Fast::exchange_is_cheaper() {
+  // By what a flip cost on the average; only if that leaves a doubt, one by one. Every now and then that is done anyway,
+  // since the average comes from it.
+  const double guess = static_cast<double>(step_.flips) * flip_cost_ * costs_.scale;
+  step_.exchange_cost = guess;
+  const bool sure = guess * 4 < costs_.rebuild || guess > costs_.rebuild * 2;
+  if (sure && ++since_counted_ < kCountAge) return guess < costs_.rebuild;
+  since_counted_ = 0;
+  step_.exchange_cost = costs_.scale * exchange_cost(costs_.rebuild / costs_.scale);
+  return step_.exchange_cost < costs_.rebuild;
+}
+
+double Fast::exchange_cost(double limit) {
   double cost = 0;
-  std::uint32_t last = kNoNode;
+  std::uint64_t flips = 0;
   for (std::size_t b = 0; b < blocks_; ++b) {
     for (std::uint64_t left = flips_[b]; left != 0; left &= left - 1) {
       const auto node = static_cast<std::uint32_t>(b * kBlock) + static_cast<std::uint32_t>(__builtin_ctzll(left));
-      cost += costs_.flip;
-      if (clusters_.is_top(node)) {
-        const std::uint32_t t = clusters_.tops_below(node);
-        const Top& top = clusters_.tops()[t];
-        cost += costs_.swap + costs_.moved * (top.front_size + top.back_size);
-        top_flips_.push_back(t);
-      } else if (const std::uint32_t c = clusters_.clusters_below(node + 1) - 1; c != last) {
-        last = c;
-        cost += costs_.cluster;
-        touched_.push_back(c);
-      }
+      const std::uint32_t size = data_.size[node];
+      cost += size > kClusterNodes ? costs_.swap + costs_.moved * size : costs_.cluster;
+      ++flips;
     }
-    if (cost * costs_.scale > costs_.rebuild) {
-      step_.exchange_cost = cost * costs_.scale;
-      return false;
-    }
+    if (cost > limit) break;
   }
-  step_.exchange_cost = cost * costs_.scale;
-  return true;
+  flip_cost_ += (cost / static_cast<double>(flips) - flip_cost_) / 4;
+  return cost;
 }
 
 void Fast::exchange() {
-  for (const std::uint32_t t : top_flips_) swap_parts(t);
-  place_some(clusters_.clusters().data(), touched_.data(), touched_.size(), cluster_places(), sides_.data(),
-             clusters_.table().data(), order_.data());
+  const bool measured = step_.exchange_cost > kMeasured;
+  const auto start = measured ? Clock::now() : Clock::time_point();
+  touched_.clear();
+  std::uint32_t last = kNoNode;
+  for (std::size_t b = 0; b < blocks_; ++b)
+    for (std::uint64_t left = flips_[b]; left != 0; left &= left - 1) {
+      const auto node = static_cast<std::uint32_t>(b * kBlock) + static_cast<std::uint32_t>(__builtin_ctzll(left));
+      const std::uint32_t part = parts_.of(node);
+      if (data_.size[node] > kClusterNodes)
+        swap_subtrees(node, part);
+      else if (part != last)
+        touched_.push_back(last = part);
+    }
+  place_clusters(parts_.parts().data(), touched_.data(), touched_.size(), place_.data(), sides_.data(),
+                 parts_.table().data(), order_.data());
+  // Misses and mispredictions are not in the calibration. A bit at a time, so that one interrupt changes little.
+  if (measured) costs_.scale *= seconds_since(start) > step_.exchange_cost ? 1.05 : 1 / 1.05;
 }
 
-// [X][node][Y] becomes [Y][node][X]. Subtrees of X and Y keep their own order, and begin elsewhere.
-void Fast::swap_parts(std::uint32_t t) {
-  const Top& top = clusters_.tops()[t];
-  const std::uint32_t at = place_[t];
+// [X][node][Y] becomes [Y][node][X]. X and Y keep their own order, and begin elsewhere.
+void Fast::swap_subtrees(std::uint32_t node, std::uint32_t part) {
+  const std::uint32_t back_size = parts_.parts()[part].b;
+  const std::uint32_t front_size = data_.size[node] - 1 - back_size;
   // The side is the new one: the eye's side is drawn last, and was first up to now.
-  const bool front_was_first = side(top.node);
-  const std::uint32_t x = front_was_first ? top.front_size : top.back_size;
-  const std::uint32_t y = front_was_first ? top.back_size : top.front_size;
-  std::uint32_t* const order = order_.data() + at;
+  const bool front_was_first = side(node);
+  const std::uint32_t x = front_was_first ? front_size : back_size;
+  const std::uint32_t y = front_was_first ? back_size : front_size;
+  std::uint32_t* const order = order_.data() + place_[part];
   if (spare_.size() < std::min(x, y)) spare_.resize(std::min(x, y));
   if (x <= y) {
     std::copy_n(order, x, spare_.data());
@@ -249,41 +258,44 @@ void Fast::swap_parts(std::uint32_t t) {
     std::memmove(order + y + 1, order, x * sizeof(std::uint32_t));
     std::copy_n(spare_.data(), y, order);
   }
-  order[y] = top.node;
+  order[y] = node;
 
-  const std::uint32_t front = top.node + 1;
-  const std::uint32_t back = front + top.front_size;
-  const std::uint32_t end = back + top.back_size;
-  const auto shift = [&](std::uint32_t first, std::uint32_t past, std::uint32_t by) {
-    const std::uint32_t tops = clusters_.tops_below(first);
-    add_to(place_.data() + tops, clusters_.tops_below(past) - tops, by);
-    const std::uint32_t begin = clusters_.clusters_below(first);
-    add_to(cluster_places() + begin, clusters_.clusters_below(past) - begin, by);
-  };
-  const std::uint32_t later = y + 1;     // X begins so much later,
+  const std::uint32_t front = part + 1;
+  const std::uint32_t back = parts_.below(node + 1 + front_size);
+  const std::uint32_t end = parts_.below(node + 1 + front_size + back_size);
+  const std::uint32_t later = y + 1;          // X begins so much later,
   const std::uint32_t sooner = 0U - (x + 1);  // Y so much sooner
-  shift(front, back, front_was_first ? later : sooner);
-  shift(back, end, front_was_first ? sooner : later);
+  add_to(place_.data() + front, back - front, front_was_first ? later : sooner);
+  add_to(place_.data() + back, end - back, front_was_first ? sooner : later);
 }
 
 void Fast::rebuild() {
-  const std::vector<Top>& tops = clusters_.tops();
+  const Part* const parts = parts_.parts().data();
   std::uint32_t* const place = place_.data();
   std::uint32_t* const order = order_.data();
-  place[0] = 0;  // the root's part, be it the first top or the only cluster
-  for (std::size_t t = 0; t < tops.size(); ++t) {
-    const Top top = tops[t];
-    const std::uint32_t at = place[t];
-    const std::uint32_t front_last = 0U - static_cast<std::uint32_t>(sides_[top.node / kBlock] >> (top.node % kBlock) & 1U);
-    // Masks instead of branches: sides are as good as chance.
-    const std::uint32_t before_front = (top.back_size + 1) & front_last;
-    const std::uint32_t before_back = (top.front_size + 1) & ~front_last;
-    place[top.front] = at + before_front;
-    place[top.back] = at + before_back;
-    order[at + (before_front | before_back) - 1] = top.node;
+  place[0] = 0;
+  for (const Run& run : parts_.runs()) {
+    std::uint32_t at = place[run.part];
+    std::uint32_t front = data_.size[run.node];  // nodes of what is still to be placed
+    std::uint32_t node = run.node;
+    const std::uint32_t end = run.part + run.tops;
+    for (std::uint32_t part = run.part; part < end; ++part, ++node) {
+      // Masks instead of branches: sides are as good as chance.
+      const std::uint32_t back = parts[part].b;
+      const std::uint32_t front_last =
+          0U - static_cast<std::uint32_t>(sides_[node / kBlock] >> (node % kBlock) & 1U);
+      front -= back + 1;
+      const std::uint32_t behind = front & ~front_last;  // drawn before the back
+      const std::uint32_t first = back & front_last;     // drawn before the front
+      place[part] = at;
+      place[parts[part].a] = at + behind + (1 & ~front_last);
+      order[at + behind + first] = node;
+      at += first + (1 & front_last);
+    }
+    place[end] = at;  // the cluster that ends the run
   }
-  place_clusters(clusters_.clusters().data(), clusters_.clusters().size(), cluster_places(), sides_.data(),
-                 clusters_.table().data(), order);
+  place_clusters(parts, parts_.clusters().data(), parts_.clusters().size(), place, sides_.data(),
+                 parts_.table().data(), order);
 }
 
 void Fast::calibrate() {
@@ -294,32 +306,27 @@ void Fast::calibrate() {
     sides_[b] = random ^ random >> 29U;
   }
   costs_.rebuild = least_seconds([&] { rebuild(); });
-  const std::size_t count = clusters_.clusters().size();
-  touched_.resize(count);
-  for (std::size_t c = 0; c < count; ++c) touched_[c] = static_cast<std::uint32_t>(c);
-  costs_.cluster = least_seconds([&] { exchange(); }) / static_cast<double>(count);
-  costs_.flip = costs_.cluster;  // a few operations on words that lie side by side, much as a look-up
-  const std::vector<Top>& tops = clusters_.tops();
-  if (!tops.empty()) {
-    const auto swapped = [&](std::uint32_t t) {
-      sides_[tops[t].node / kBlock] ^= std::uint64_t{1} << (tops[t].node % kBlock);
-      swap_parts(t);
+  const std::vector<std::uint32_t>& clusters = parts_.clusters();
+  costs_.cluster = 2 * least_seconds([&] {  // as much again for finding them
+                     place_clusters(parts_.parts().data(), clusters.data(), clusters.size(), place_.data(),
+                                    sides_.data(), parts_.table().data(), order_.data());
+                   }) /
+                   static_cast<double>(clusters.size());
+  flip_cost_ = costs_.cluster;
+  if (!parts_.runs().empty()) {
+    const auto swap = [&](std::uint32_t node) {
+      sides_[node / kBlock] ^= std::uint64_t{1} << (node % kBlock);
+      swap_subtrees(node, parts_.of(node));
     };
-    const auto smallest = static_cast<std::uint32_t>(
-        std::min_element(tops.begin(), tops.end(),
-                         [](const Top& p, const Top& q) {
-                           return p.front_size + p.back_size < q.front_size + q.back_size;
-                         }) -
-        tops.begin());
+    const Run& last = parts_.runs().back();
+    const std::uint32_t smallest = last.node + last.tops - 1;  // or nearly
     costs_.swap = least_seconds([&] {
-                    for (int i = 0; i < 64; ++i) swapped(smallest);
+                    for (int i = 0; i < 64; ++i) swap(smallest);
                   }) /
                   64;
-    costs_.moved = least_seconds([&] { swapped(0); }) / (tops[0].front_size + tops[0].back_size);
+    costs_.moved = least_seconds([&] { swap(0); }) / data_.size[0];
   }
   std::fill(sides_.begin(), sides_.end(), 0);
-  top_flips_.clear();
-  touched_.clear();
 }
 
 }  // namespace

@@ -101,34 +101,28 @@ SideCounts TestBlocks(const float* HWY_RESTRICT planes, std::size_t blocks, cons
   return counts;
 }
 
-HWY_INLINE void place(const Cluster& c, std::uint32_t at, const std::uint64_t* HWY_RESTRICT sides,
+HWY_INLINE void place_one(const Part& c, std::uint32_t at, const std::uint64_t* HWY_RESTRICT sides,
                       const std::uint64_t* HWY_RESTRICT table, std::uint32_t* HWY_RESTRICT order) {
   const D8 d;
   const hn::Rebind<std::uint8_t, D8> d_bytes;
-  const std::uint32_t nodes = c.shape & 15U;
-  const std::uint32_t shift = c.first & 63U;
-  const std::uint64_t* const word = sides + (c.first >> 6U);
+  const std::uint32_t nodes = c.b & 15U;
+  const std::uint32_t shift = c.a & 63U;
+  const std::uint64_t* const word = sides + (c.a >> 6U);
   const std::uint64_t bits = word[0] >> shift | (word[1] << 1U) << (63U - shift);
-  const std::uint64_t* const entry = table + (c.shape >> 4U) + (bits & ((1U << nodes) - 1));
+  const std::uint64_t* const entry = table + (c.b >> 4U) + (bits & ((1U << nodes) - 1));
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(entry);
-  const auto first = hn::Set(d, c.first);
-  for (std::size_t i = 0; i < kClusterNodes; i += hn::Lanes(d)) {
+  const auto first = hn::Set(d, c.a);
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
     if (i >= nodes) break;
     const auto v = hn::Add(hn::PromoteTo(d, hn::LoadU(d_bytes, bytes + i)), first);
     hn::BlendedStore(v, hn::FirstN(d, nodes - i), d, order + at + i);
   }
 }
 
-void PlaceClusters(const Cluster* HWY_RESTRICT clusters, std::size_t count, const std::uint32_t* HWY_RESTRICT at,
-                   const std::uint64_t* HWY_RESTRICT sides, const std::uint64_t* HWY_RESTRICT table,
-                   std::uint32_t* HWY_RESTRICT order) {
-  for (std::size_t i = 0; i < count; ++i) place(clusters[i], at[i], sides, table, order);
-}
-
-void PlaceSome(const Cluster* HWY_RESTRICT clusters, const std::uint32_t* HWY_RESTRICT listed, std::size_t count,
-               const std::uint32_t* HWY_RESTRICT at, const std::uint64_t* HWY_RESTRICT sides,
-               const std::uint64_t* HWY_RESTRICT table, std::uint32_t* HWY_RESTRICT order) {
-  for (std::size_t i = 0; i < count; ++i) place(clusters[listed[i]], at[listed[i]], sides, table, order);
+void PlaceClusters(const Part* HWY_RESTRICT parts, const std::uint32_t* HWY_RESTRICT listed, std::size_t count,
+                   const std::uint32_t* HWY_RESTRICT place, const std::uint64_t* HWY_RESTRICT sides,
+                   const std::uint64_t* HWY_RESTRICT table, std::uint32_t* HWY_RESTRICT order) {
+  for (std::size_t i = 0; i < count; ++i) place_one(parts[listed[i]], place[listed[i]], sides, table, order);
 }
 
 void AddTo(std::uint32_t* HWY_RESTRICT values, std::size_t count, std::uint32_t addend) {
@@ -148,7 +142,6 @@ namespace kage::order {
 HWY_EXPORT(TestAll);
 HWY_EXPORT(TestBlocks);
 HWY_EXPORT(PlaceClusters);
-HWY_EXPORT(PlaceSome);
 HWY_EXPORT(AddTo);
 
 SideCounts test_all(const float* planes, std::size_t blocks, const SideQuery& query, const std::uint64_t* sides,
@@ -159,13 +152,9 @@ SideCounts test_blocks(const float* planes, std::size_t blocks, const SideQuery&
                        std::uint64_t* flips, std::uint64_t* unsure, double path, double* limits) {
   return HWY_DYNAMIC_DISPATCH(TestBlocks)(planes, blocks, query, sides, flips, unsure, path, limits);
 }
-void place_clusters(const Cluster* clusters, std::size_t count, const std::uint32_t* place, const std::uint64_t* sides,
-                    const std::uint64_t* table, std::uint32_t* order) {
-  HWY_DYNAMIC_DISPATCH(PlaceClusters)(clusters, count, place, sides, table, order);
-}
-void place_some(const Cluster* clusters, const std::uint32_t* listed, std::size_t count, const std::uint32_t* place,
-                const std::uint64_t* sides, const std::uint64_t* table, std::uint32_t* order) {
-  HWY_DYNAMIC_DISPATCH(PlaceSome)(clusters, listed, count, place, sides, table, order);
+void place_clusters(const Part* parts, const std::uint32_t* listed, std::size_t count, const std::uint32_t* place,
+                    const std::uint64_t* sides, const std::uint64_t* table, std::uint32_t* order) {
+  HWY_DYNAMIC_DISPATCH(PlaceClusters)(parts, listed, count, place, sides, table, order);
 }
 void add_to(std::uint32_t* values, std::size_t count, std::uint32_t addend) {
   HWY_DYNAMIC_DISPATCH(AddTo)(values, count, addend);

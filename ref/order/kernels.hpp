@@ -35,22 +35,19 @@ SideCounts test_all(const float* planes, std::size_t blocks, const SideQuery& qu
 SideCounts test_blocks(const float* planes, std::size_t blocks, const SideQuery& query, const std::uint64_t* sides,
                        std::uint64_t* flips, std::uint64_t* unsure, double path, double* limits);
 
-/// A subtree of up to kClusterNodes nodes.
-struct Cluster {
-  std::uint32_t first = 0;  ///< node; the others follow
-  std::uint32_t shape = 0;  ///< nodes + 16 * where the shape's orders begin in the table
+/// A piece of the tree (parts.hpp). Of a top node: the part that its second child begins, and that child's nodes. Of a
+/// cluster: its first node, and nodes + 16 * where the orders of its shape begin in the table.
+struct Part {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
 };
-inline constexpr std::uint32_t kClusterNodes = 6;
+inline constexpr std::uint32_t kClusterNodes = 7;  ///< below 8: an order is a word, and shapes take four bits a node
 
-/// Writes the nodes of `count` clusters in order. `place[i]`: where in `order` cluster i begins. An entry of `table` is
+/// Writes the nodes of the listed clusters in order. `place[p]`: where in `order` part p begins. An entry of `table` is
 /// the order of a shape for the sides of its nodes (bit k: the k-th), a byte per node. `sides` may be read a word past
-/// its end, `order` kClusterNodes elements.
-void place_clusters(const Cluster* clusters, std::size_t count, const std::uint32_t* place, const std::uint64_t* sides,
-                    const std::uint64_t* table, std::uint32_t* order);
-
-/// The same for those listed.
-void place_some(const Cluster* clusters, const std::uint32_t* listed, std::size_t count, const std::uint32_t* place,
-                const std::uint64_t* sides, const std::uint64_t* table, std::uint32_t* order);
+/// its end.
+void place_clusters(const Part* parts, const std::uint32_t* listed, std::size_t count, const std::uint32_t* place,
+                    const std::uint64_t* sides, const std::uint64_t* table, std::uint32_t* order);
 
 /// Adds to each.
 void add_to(std::uint32_t* values, std::size_t count, std::uint32_t addend);
