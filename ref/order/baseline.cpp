@@ -1,35 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "order/baseline.hpp"
 
-#include <cstdlib>
 #include "order/sides.hpp"
 
 namespace kage::order {
 namespace {
 
+/// The order in which [Tanaka 2005] figure 2.4 makes nodes: both subtrees, then the node that combines them.
 std::vector<std::uint32_t> build_order(const OrderTree::Data& data) {
-  const char* e = std::getenv("AORD");
-  const std::string_view m = e ? e : "post";
-  std::vector<std::uint32_t> order;
-  if (m == "post") {
-    // children first: reverse of (node, second, first)
-    std::vector<std::uint32_t> stack;
-    if (data.nodes()) stack.push_back(0);
-    while (!stack.empty()) {
-      auto v = stack.back(); stack.pop_back();
-      order.push_back(v);
-      for (const std::uint32_t c : {data.first_child(v), data.second_child(v)})
-        if (c != kNoNode) stack.push_back(c);
-    }
-    return {order.rbegin(), order.rend()};
+  std::vector<std::uint32_t> order;  // backwards
+  std::vector<std::uint32_t> stack;
+  if (data.nodes() != 0) stack.push_back(0);
+  while (!stack.empty()) {
+    const std::uint32_t v = stack.back();
+    stack.pop_back();
+    order.push_back(v);
+    for (const std::uint32_t c : {data.first_child(v), data.second_child(v)})
+      if (c != kNoNode) stack.push_back(c);
   }
-  if (m == "pre") { for (std::uint32_t v = 0; v < data.nodes(); ++v) order.push_back(v); return order; }
-  if (data.nodes() != 0) order.push_back(0);
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (const std::uint32_t c : {data.first_child(order[i]), data.second_child(order[i])})
-      if (c != kNoNode) order.push_back(c);
-  if (m == "shuffle") { for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i-1], order[static_cast<std::size_t>(rand()) % i]); }
-  return order;
+  return {order.rbegin(), order.rend()};
 }
 
 }  // namespace
@@ -40,14 +29,14 @@ BaselineA::Polygon* BaselineA::polygons_of(const OrderTree::Data& data, std::uin
     const FragmentRecord& r = data.fragments[f];
     const auto from = data.points.begin() + r.first_edge;
     const auto to = data.points.begin() + data.fragments[f + std::size_t{1}].first_edge;
-    polygons_.push_back(
-        std::make_unique<Polygon>(Polygon{node, r.face, std::vector<OrderPoint>(from, to), root}));
+    polygons_.push_back(std::make_unique<Polygon>(Polygon{node, r.face, std::vector<OrderPoint>(from, to), root}));
     root = polygons_.back().get();
   }
   return root;
 }
 
-BaselineA::BaselineA(const OrderTree::Data& data) : scale_(data.faces.scale), nodes_(data.nodes()), order_(data.nodes()) {
+BaselineA::BaselineA(const OrderTree::Data& data)
+    : scale_(data.faces.scale), nodes_(data.nodes()), order_(data.nodes()) {
   for (const std::uint32_t v : build_order(data)) {
     Polygon* const root = polygons_of(data, v);
     const std::array<std::uint32_t, 3> p = data.plane_vertices(v);
@@ -89,8 +78,7 @@ std::span<const BaselineA::Polygon* const> BaselineA::update(const Eye& eye) {
 BaselineB::BaselineB(const OrderTree::Data& data) : data_(data), order_(data.nodes()), stack_(data.stats.depth + 2) {
   for (std::uint32_t v = 0; v < data.nodes(); ++v) {
     const float* const p = data.blocks.data() + v / kBlock * kBlock * 4 + v % kBlock;
-    nodes_.push_back(
-        {p[0], p[kBlock], p[2 * kBlock], p[3 * kBlock], data.first_child(v), data.second_child(v)});
+    nodes_.push_back({p[0], p[kBlock], p[2 * kBlock], p[3 * kBlock], data.first_child(v), data.second_child(v)});
   }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the ways are measured against, for measuring only: side tests are plain doubles and floats, so a node whose plane
-// nearly holds the eye may be taken for the wrong side.
+// What the ways are measured against, for measuring only: side tests are plain doubles and floats, so a node whose
+// plane nearly holds the eye may be taken for the wrong side.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace kage::order {
 
-/// A: [Tanaka 2005] figures 2.3 to 2.5. Nodes with their polygons, each from the heap as the build makes them, walked by
-/// a function that calls itself.
+/// A: [Tanaka 2005] figures 2.3 to 2.5. Nodes with their polygons, each from the heap as the build makes them, walked
+/// by a function that calls itself.
 class BaselineA {
  public:
   struct Polygon {

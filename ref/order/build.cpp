@@ -95,9 +95,15 @@ class Builder {
     const Splitter plane(faces_, node.face);
     for (BuildFragment& f : set) {
       switch (classifier.classify(f, plane)) {
-        case Side::kFront: front.push_back(std::move(f)); break;
-        case Side::kBack: back.push_back(std::move(f)); break;
-        case Side::kOn: node.fragments.push_back(std::move(f)); break;
+        case Side::kFront:
+          front.push_back(std::move(f));
+          break;
+        case Side::kBack:
+          back.push_back(std::move(f));
+          break;
+        case Side::kOn:
+          node.fragments.push_back(std::move(f));
+          break;
         case Side::kBoth: {
           check_limit(total_.fetch_add(1) + 1);
           auto [before, behind] = classifier.split(f, plane, &node);

@@ -17,8 +17,8 @@ class Maker {
 
   Faces run() {
     if (mesh_.polygons.size() >= 0x40000000 || mesh_.vertices.size() >= kNoNode)
-      throw Error(fmt::format("{} polygons over {} vertices are more than fit", mesh_.polygons.size(),
-                              mesh_.vertices.size()));
+      throw Error(
+          fmt::format("{} polygons over {} vertices are more than fit", mesh_.polygons.size(), mesh_.vertices.size()));
     out_.vertices = mesh_.vertices;
     for (std::size_t i = 0; i < mesh_.polygons.size(); ++i) add(static_cast<std::uint32_t>(i));
     // Vertices that no face has may be anything.
@@ -34,7 +34,9 @@ class Maker {
 
  private:
   [[nodiscard]] const OrderPoint& at(std::uint32_t v) const { return mesh_.vertices[v]; }
-  [[nodiscard]] PlanePoints points(const std::array<std::uint32_t, 3>& p) const { return {at(p[0]), at(p[1]), at(p[2])}; }
+  [[nodiscard]] PlanePoints points(const std::array<std::uint32_t, 3>& p) const {
+    return {at(p[0]), at(p[1]), at(p[2])};
+  }
 
   void add(std::uint32_t polygon) {
     const OrderMesh::Polygon& p = mesh_.polygons[polygon];

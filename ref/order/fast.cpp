@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The fast way (docs/order.md). The order is an array, and each part (parts.hpp) knows where in it its subtree begins. A
-// step tests sides in vectors; then either exchanges the two subtrees of each top that flipped, top down, and looks
+// The fast way (docs/order.md). The order is an array, and each part (parts.hpp) knows where in it its subtree begins.
+// A step tests sides in vectors; then either exchanges the two subtrees of each top that flipped, top down, and looks
 // flipped clusters up anew; or places all parts again, run by run, which costs the same whatever flipped. Which is
 // cheaper, costs measured on this very tree say.
 #include <algorithm>
@@ -54,8 +54,15 @@ struct Costs {
 class Fast final : public VisibilityOrder {
  public:
   explicit Fast(const OrderTree::Data& data)
-      : data_(data), eye_(data), parts_(data), blocks_((data.nodes() + kBlock - 1) / kBlock), sides_(blocks_ + 1),
-        flips_(blocks_), unsure_(blocks_), limits_(blocks_), place_(parts_.parts().size() + 1),
+      : data_(data),
+        eye_(data),
+        parts_(data),
+        blocks_((data.nodes() + kBlock - 1) / kBlock),
+        sides_(blocks_ + 1),
+        flips_(blocks_),
+        unsure_(blocks_),
+        limits_(blocks_),
+        place_(parts_.parts().size() + 1),
         order_(data.nodes()) {
     if (data.nodes() != 0) calibrate();
   }
@@ -95,14 +102,14 @@ class Fast final : public VisibilityOrder {
   std::vector<double> limits_;        // by block: length of the eye's way up to which nothing flips
   std::vector<std::uint32_t> place_;  // by part, and one for what does not exist: where in order_ its subtree begins
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> spare_;      // the smaller of two parts that change places
-  std::vector<std::uint32_t> touched_;    // clusters, by part
+  std::vector<std::uint32_t> spare_;    // the smaller of two parts that change places
+  std::vector<std::uint32_t> touched_;  // clusters, by part
   Costs costs_;
   double path_ = 0;
   double margin_ = std::numeric_limits<double>::infinity();  // mean of the blocks', when last measured,
   int since_margin_ = 0;                                     // so many steps ago
-  double flip_cost_ = 0;   // of an exchange, by flip, as counted up to now,
-  int since_counted_ = 0;  // so many steps ago
+  double flip_cost_ = 0;                                     // of an exchange, by flip, as counted up to now,
+  int since_counted_ = 0;                                    // so many steps ago
   bool placed_ = false;
 };
 
@@ -192,8 +199,8 @@ void Fast::decide_unsure(const EyeSides& eye) {
 }
 
 bool Fast::exchange_is_cheaper() {
-  // By what a flip cost on the average; only if that leaves a doubt, one by one. Every now and then that is done anyway,
-  // since the average comes from it.
+  // By what a flip cost on the average; only if that leaves a doubt, one by one. Every now and then that is done
+  // anyway, since the average comes from it.
   const double guess = static_cast<double>(step_.flips) * flip_cost_ * costs_.scale;
   step_.exchange_cost = guess;
   const bool sure = guess * 4 < costs_.rebuild || guess > costs_.rebuild * 2;
@@ -282,8 +289,7 @@ void Fast::rebuild() {
     for (std::uint32_t part = run.part; part < end; ++part, ++node) {
       // Masks instead of branches: sides are as good as chance.
       const std::uint32_t back = parts[part].b;
-      const std::uint32_t front_last =
-          0U - static_cast<std::uint32_t>(sides_[node / kBlock] >> (node % kBlock) & 1U);
+      const std::uint32_t front_last = 0U - static_cast<std::uint32_t>(sides_[node / kBlock] >> (node % kBlock) & 1U);
       front -= back + 1;
       const std::uint32_t behind = front & ~front_last;  // drawn before the back
       const std::uint32_t first = back & front_last;     // drawn before the front
@@ -294,8 +300,8 @@ void Fast::rebuild() {
     }
     place[end] = at;  // the cluster that ends the run
   }
-  place_clusters(parts, parts_.clusters().data(), parts_.clusters().size(), place, sides_.data(),
-                 parts_.table().data(), order);
+  place_clusters(parts, parts_.clusters().data(), parts_.clusters().size(), place, sides_.data(), parts_.table().data(),
+                 order);
 }
 
 void Fast::calibrate() {

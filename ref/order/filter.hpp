@@ -98,8 +98,8 @@ class FilterPlane {
   int flat_ = -1;
 };
 
-/// Where the way from p to q meets a plane; `at_p`, `at_q`: the plane's values there, `error_p`, `error_q` their errors.
-/// The true values have unlike signs. The bound is docs/order.md's.
+/// Where the way from p to q meets a plane; `at_p`, `at_q`: the plane's values there, `error_p`, `error_q` their
+/// errors. The true values have unlike signs. The bound is docs/order.md's.
 inline NearPoint meet(const NearPoint& p, double at_p, double error_p, const NearPoint& q, double at_q,
                       double error_q) {
   double way = 0;

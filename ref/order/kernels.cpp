@@ -22,7 +22,10 @@ using D8 = hn::CappedTag<std::uint32_t, 8>;
 
 struct Query {
   explicit Query(const SideQuery& q)
-      : x(hn::Set(DF(), q.x)), y(hn::Set(DF(), q.y)), z(hn::Set(DF(), q.z)), w(hn::Set(DF(), q.w)),
+      : x(hn::Set(DF(), q.x)),
+        y(hn::Set(DF(), q.y)),
+        z(hn::Set(DF(), q.z)),
+        w(hn::Set(DF(), q.w)),
         threshold(hn::Set(DF(), q.threshold)) {}
   hn::Vec<DF> x, y, z, w, threshold;
 };
@@ -90,7 +93,8 @@ SideCounts TestBlocks(const float* HWY_RESTRICT planes, std::size_t blocks, cons
     flips[b] = (s.front ^ sides[b]) & ~s.unsure;
     unsure[b] = s.unsure;
     // Rounded down; not positive, or no number, where a node is unsure.
-    const double margin = (static_cast<double>(s.least) - static_cast<double>(query.threshold)) * (1 - 0x1p-20) - 0x1p-41;
+    const double margin =
+        (static_cast<double>(s.least) - static_cast<double>(query.threshold)) * (1 - 0x1p-20) - 0x1p-41;
     const bool known = s.unsure == 0 && margin > 0;
     limits[b] = known ? path + margin : path;
     if (known) counts.margins += margin;
@@ -102,7 +106,7 @@ SideCounts TestBlocks(const float* HWY_RESTRICT planes, std::size_t blocks, cons
 }
 
 HWY_INLINE void place_one(const Part& c, std::uint32_t at, const std::uint64_t* HWY_RESTRICT sides,
-                      const std::uint64_t* HWY_RESTRICT table, std::uint32_t* HWY_RESTRICT order) {
+                          const std::uint64_t* HWY_RESTRICT table, std::uint32_t* HWY_RESTRICT order) {
   const D8 d;
   const hn::Rebind<std::uint8_t, D8> d_bytes;
   const std::uint32_t nodes = c.b & 15U;

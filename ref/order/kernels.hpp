@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Inner loops over nodes, compiled for every instruction set that Highway knows for this machine and chosen once at run
-// time. Floats differ in the last bits between instruction sets (fused or not); no answer depends on them, since what is
-// not certain is said to be unsure.
+// time. Floats differ in the last bits between instruction sets (fused or not); no answer depends on them, since what
+// is not certain is said to be unsure.
 #pragma once
 
 #include <cstddef>

@@ -52,8 +52,8 @@ std::uint64_t depth_of(const OrderTree::Data& data) {
 }
 
 void add_fragment(const BuildFragment& f, OrderTree::Data& data) {
-  data.fragments.push_back({f.face, static_cast<std::uint32_t>(data.cuts.size()),
-                            static_cast<std::uint32_t>(data.edges.size())});
+  data.fragments.push_back(
+      {f.face, static_cast<std::uint32_t>(data.cuts.size()), static_cast<std::uint32_t>(data.edges.size())});
   const Faces& faces = data.faces;
   const Face& face = faces.faces[f.face];
   if (!f.piece) {
@@ -94,8 +94,8 @@ void lay_out(BuildTree tree, OrderTree::Data& data) {
   data.first_fragment.push_back(static_cast<std::uint32_t>(data.fragments.size()));
   data.stats.nodes = data.nodes();
   data.stats.fragments = data.fragments.size();
-  data.fragments.push_back({0, static_cast<std::uint32_t>(data.cuts.size()),
-                            static_cast<std::uint32_t>(data.edges.size())});
+  data.fragments.push_back(
+      {0, static_cast<std::uint32_t>(data.cuts.size()), static_cast<std::uint32_t>(data.edges.size())});
   data.stats.depth = depth_of(data);
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The tree as the fast way has it. Subtrees of up to kClusterNodes nodes that lie in no other such subtree are clusters:
-// their order is looked up, by shape and sides. The nodes above are tops. Tops and clusters are parts, numbered in
-// preorder, so that a subtree's parts are consecutive. The larger child comes first, and if a child is a top then so is
-// the larger: a run is the tops from one to the next first child and so on. Its nodes are consecutive, its parts too.
+// The tree as the fast way has it. Subtrees of up to kClusterNodes nodes that lie in no other such subtree are
+// clusters: their order is looked up, by shape and sides. The nodes above are tops. Tops and clusters are parts,
+// numbered in preorder, so that a subtree's parts are consecutive. The larger child comes first, and if a child is a
+// top then so is the larger: a run is the tops from one to the next first child and so on. Its nodes are consecutive,
+// its parts too.
 #pragma once
 
 #include <cstdint>

@@ -79,8 +79,7 @@ Side Classifier::classify(const BuildFragment& f, const Splitter& plane) {
   bool back = false;
   const std::size_t n = f.piece ? f.piece->vertices.size() : face.count;
   for (std::size_t i = 0; i < n; ++i) {
-    at_.push_back(f.piece ? test_vertex(face, *f.piece, i, plane)
-                          : test_corner(faces_.corners[face.first + i], plane));
+    at_.push_back(f.piece ? test_vertex(face, *f.piece, i, plane) : test_corner(faces_.corners[face.first + i], plane));
     front = front || at_.back().sign > 0;
     back = back || at_.back().sign < 0;
   }

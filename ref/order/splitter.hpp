@@ -32,8 +32,8 @@ class SplitterChoice {
   [[nodiscard]] double cost(std::uint32_t face, double least) const;
 
   const Faces& faces_;
-  std::vector<OrderPoint> points_;      // of the sample
-  std::vector<std::uint32_t> ends_;     // of each sampled fragment in points_
+  std::vector<OrderPoint> points_;   // of the sample
+  std::vector<std::uint32_t> ends_;  // of each sampled fragment in points_
   std::vector<std::uint32_t> tried_;
 };
 

@@ -5,9 +5,12 @@ namespace kage {
 
 std::unique_ptr<VisibilityOrder> make_order(const OrderTree& tree, OrderWay way) {
   switch (way) {
-    case OrderWay::kRecursion: return order::make_recursion(tree.data());
-    case OrderWay::kSwitchingList: return order::make_switching_list(tree.data());
-    case OrderWay::kFast: break;
+    case OrderWay::kRecursion:
+      return order::make_recursion(tree.data());
+    case OrderWay::kSwitchingList:
+      return order::make_switching_list(tree.data());
+    case OrderWay::kFast:
+      break;
   }
   return order::make_fast(tree.data());
 }

@@ -3,10 +3,10 @@
 // Visibility order: polygons back to front for any eye, exactly [Tanaka 2005]. A library of its own (target
 // kage::order), which knows nothing of scenes and pixels. docs/order.md has the method and its proofs.
 //
-// Conventions, for all of this header: coordinates are doubles, taken as the exact numbers that they are; every decision
-// is that of exact arithmetic. The plane of three points a, b, c has its front where they are seen counter-clockwise,
-// (b - a) x (c - a) . (p - a) > 0. An OrderTree does not change once built, and any number of threads and
-// VisibilityOrders may use it at once; a VisibilityOrder belongs to one thread at a time.
+// Conventions, for all of this header: coordinates are doubles, taken as the exact numbers that they are; every
+// decision is that of exact arithmetic. The plane of three points a, b, c has its front where they are seen
+// counter-clockwise, (b - a) x (c - a) . (p - a) > 0. An OrderTree does not change once built, and any number of
+// threads and VisibilityOrders may use it at once; a VisibilityOrder belongs to one thread at a time.
 #pragma once
 
 #include <array>
@@ -40,18 +40,18 @@ struct OrderBuildOptions {
   std::uint64_t seed = 1;
   int threads = 0;                           ///< 0: one per processor. The tree does not depend on it
   std::uint64_t max_fragments = 50'000'000;  ///< Error past it
-  /// Called now and then with a share of the work, 0 .. 1, never from two threads at once. What it throws ends the build
-  /// and reaches the caller.
+  /// Called now and then with a share of the work, 0 .. 1, never from two threads at once. What it throws ends the
+  /// build and reaches the caller.
   std::function<void(double)> progress;
 };
 
 struct OrderBuildStats {
-  std::uint64_t polygons = 0;     ///< given
-  std::uint64_t flat = 0;         ///< of those, dropped because their area is exactly 0
-  std::uint64_t bent = 0;         ///< of those, not plane, so cut into triangles
-  std::uint64_t faces = 0;        ///< convex plane polygons that the tree was built from
+  std::uint64_t polygons = 0;  ///< given
+  std::uint64_t flat = 0;      ///< of those, dropped because their area is exactly 0
+  std::uint64_t bent = 0;      ///< of those, not plane, so cut into triangles
+  std::uint64_t faces = 0;     ///< convex plane polygons that the tree was built from
   std::uint64_t nodes = 0;
-  std::uint64_t fragments = 0;    ///< faces + splits
+  std::uint64_t fragments = 0;  ///< faces + splits
   std::uint64_t splits = 0;
   std::uint64_t depth = 0;        ///< nodes on the longest way down
   std::uint64_t side_tests = 0;   ///< of vertices against planes
@@ -65,8 +65,8 @@ struct OrderFragment {
     std::uint32_t node = 0;
     bool front = false;
   };
-  std::uint32_t face = 0;         ///< into OrderTree::face()
-  std::span<const Cut> cuts;      ///< in the order of the way down
+  std::uint32_t face = 0;     ///< into OrderTree::face()
+  std::span<const Cut> cuts;  ///< in the order of the way down
   /// Edge i goes from vertex i to the next. Below kCutEdge: along the face's edge from that corner to the next; else
   /// along the plane of cuts[edge - kCutEdge]. So vertex i is exactly where edge i - 1 and edge i meet: a corner of the
   /// face, a point of its edge on a node's plane, or the point of its plane on two nodes' planes.
@@ -82,9 +82,9 @@ struct OrderFace {
   std::array<std::uint32_t, 3> plane{};    ///< three vertices, not on a line, whose plane is the face's, same front
 };
 
-/// A BSP tree. Nodes are numbered in preorder, the child with more nodes first, so that a subtree is a range of numbers.
-/// A node's plane is that of a face, or its reverse: `front` is the side where the larger child lies. All fragments in
-/// the plane lie in the node, duplicates and those of either facing too, in the order of the mesh.
+/// A BSP tree. Nodes are numbered in preorder, the child with more nodes first, so that a subtree is a range of
+/// numbers. A node's plane is that of a face, or its reverse: `front` is the side where the larger child lies. All
+/// fragments in the plane lie in the node, duplicates and those of either facing too, in the order of the mesh.
 class OrderTree {
  public:
   /// Throws Error that names the polygon if a coordinate is not finite, a corner is out of range, or a plane polygon is
@@ -95,7 +95,7 @@ class OrderTree {
   /// Throws Error that names file and place if the file is not what save() wrote.
   static OrderTree load(const std::filesystem::path& path);
 
-  /// The file appears whole or not at all.
+  /// A file that cannot be written whole is removed.
   void save(const std::filesystem::path& path) const;
 
   ~OrderTree();
@@ -150,13 +150,14 @@ struct OrderStep {
   enum class Change { kNone, kExchange, kRebuild };
   Tests tests = Tests::kAll;
   Change change = Change::kRebuild;
-  std::uint64_t tested = 0;    ///< nodes
-  std::uint64_t unsure = 0;    ///< of those, not decided by the vector test
-  std::uint64_t exact = 0;     ///< of those, decided by integers
-  std::uint64_t flips = 0;     ///< nodes whose side changed
-  double exchange_cost = 0;    ///< seconds that exchanging would take by the costs measured on this tree, as far as summed
-  double rebuild_cost = 0;     ///< seconds that a rebuild takes by the same
-  std::string_view why;        ///< in words
+  std::uint64_t tested = 0;  ///< nodes
+  std::uint64_t unsure = 0;  ///< of those, not decided by the vector test
+  std::uint64_t exact = 0;   ///< of those, decided by integers
+  std::uint64_t flips = 0;   ///< nodes whose side changed
+  double exchange_cost =
+      0;                    ///< seconds that exchanging would take by the costs measured on this tree, as far as summed
+  double rebuild_cost = 0;  ///< seconds that a rebuild takes by the same
+  std::string_view why;     ///< in words
 };
 
 /// The order for an eye that moves.
