@@ -26,18 +26,6 @@ void on_signal(int number) {
   signalled = 1;
 }
 
-void write_text(TempFiles& files, const std::string& path, const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code ec;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
-    throw Error(fmt::format("{}: cannot be written: no such folder", path));
-  errno = 0;
-  std::ofstream out(files.add(path), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
-}
-
 }  // namespace
 
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples) {
@@ -124,6 +112,18 @@ void check_json(const Options& options) {
   if (options.json.empty() || json_only(options)) return;
   TempFiles file;
   write_text(file, options.json, "");
+}
+
+void write_text(TempFiles& files, const std::string& path, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code ec;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
+    throw Error(fmt::format("{}: cannot be written: no such folder", path));
+  errno = 0;
+  std::ofstream out(files.add(path), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 void write_json(const Options& options, const Json& value, TempFiles& files) {

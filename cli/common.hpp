@@ -37,6 +37,7 @@ void add_stream(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_model(CLI::App& app, Action& action);
+void add_order(CLI::App& app, Action& action);
 
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);
@@ -82,6 +83,9 @@ bool json_only(const Options& options);
 
 /// Throws Error if what --json names cannot be written: before the work, not after it.
 void check_json(const Options& options);
+
+/// Writes a text file, which gets its name with the others of `files`. Throws Error if it cannot be written.
+void write_text(TempFiles& files, const std::string& path, const std::string& text);
 
 /// Writes `value` where --json says, if it was given, and gives all of `files` their names: all appear or none.
 void write_json(const Options& options, const Json& value, TempFiles& files);
