@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
 
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
@@ -98,6 +99,18 @@ void option_degrade(CLI::App& command, Options& options) {
 void option_units_only(CLI::App& command, Options& options) {
   command.add_flag("--units-only", options.units_only,
                    "refuse a frame in which a polyhedron finds no expansion unit, instead of drawing it by spans");
+}
+
+void option_order(CLI::App& command, Options& options) {
+  static const std::map<std::string, TranslucentWay> kWays{{"exact", TranslucentWay::exact},
+                                                           {"centroid", TranslucentWay::centroid},
+                                                           {"submission", TranslucentWay::submission}};
+  command
+      .add_option_function<std::string>(
+          "--order", [&options](const std::string& name) { options.order = kWays.at(name); },
+          "order of translucent faces: exact, or as others do it: centroid, submission")
+      ->option_text("WAY (exact)")
+      ->check(CLI::IsMember({"exact", "centroid", "submission"}));
 }
 
 void option_threads(CLI::App& command, Options& options) {

@@ -16,6 +16,7 @@
 
 #include "image/temp_file.hpp"
 #include "kage/defs.hpp"
+#include "kage/geometry.hpp"
 
 namespace kage::cli {
 
@@ -67,6 +68,7 @@ struct Options {
   int threads = 0;  ///< 0: one per processor
   bool degrade = false;
   bool units_only = false;  ///< polyhedra that find no unit are an error
+  TranslucentWay order = TranslucentWay::exact;
 };
 
 void option_size(CLI::App& command, Options& options);
@@ -76,6 +78,7 @@ void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 void option_degrade(CLI::App& command, Options& options);
 void option_units_only(CLI::App& command, Options& options);
+void option_order(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
 
 /// Whether `--json -` claims standard output for itself.

@@ -269,7 +269,7 @@ bool Scene::needs_smooth() const { return data_->smooth; }
 const std::string& Scene::name() const { return data_->name; }
 
 const std::vector<std::string>& builtin_scenes() {
-  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges", "polyhedra", "fifteen"};
+  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges", "polyhedra", "fifteen", "glass"};
   return kNames;
 }
 
