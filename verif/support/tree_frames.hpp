@@ -42,43 +42,49 @@ struct Picture {
   }
 };
 
+/// The golden core's pixels of a frame's words.
+inline std::vector<std::uint32_t> pixels_of(const std::vector<std::uint32_t>& words, const Config& config) {
+  std::vector<std::uint32_t> pixels;
+  GoldenCore core(config);
+  const FrameStatus status = core.frame(words, [&](int, std::span<const std::uint8_t> line) {
+    for (std::size_t i = 0; i < line.size(); i += static_cast<std::size_t>(config.channels))
+      pixels.push_back(config.channels == 1 ? line[i]
+                                            : line[i] | static_cast<std::uint32_t>(line[i + 1]) << 8 |
+                                                  static_cast<std::uint32_t>(line[i + 2]) << 16);
+  });
+  REQUIRE(status.error == ErrorCode::NONE);
+  return pixels;
+}
+
 inline Picture picture(const FrameGeometry& g, const Config& config) {
   Picture p;
   make_frame(
       g, config, 0, [&](std::span<const std::uint32_t> w) { p.words.insert(p.words.end(), w.begin(), w.end()); }, 1,
       &p.report);
   p.counts = check_frame(config, p.words, "front end", 0);
-  GoldenCore core(config);
-  const FrameStatus status = core.frame(p.words, [&](int, std::span<const std::uint8_t> line) {
-    for (std::size_t i = 0; i < line.size(); i += static_cast<std::size_t>(config.channels))
-      p.pixels.push_back(config.channels == 1 ? line[i]
-                                              : line[i] | static_cast<std::uint32_t>(line[i + 1]) << 8 |
-                                                    static_cast<std::uint32_t>(line[i + 2]) << 16);
-  });
-  REQUIRE(status.error == ErrorCode::NONE);
+  p.pixels = pixels_of(p.words, config);
   return p;
 }
 
-/// A frame's tokens of one kind, in order.
-inline std::vector<SegmentToken> tokens_of(const Picture& p, const Config& config, Kind kind) {
+/// Calls what(token, place of its first word) for a frame's tokens of one kind, in order.
+template <class What>
+void each_token(const std::vector<std::uint32_t>& words, const Config& config, Kind kind, What what) {
   const Layout layout(config);
-  std::vector<SegmentToken> found;
-  for (std::size_t at = kHeaderWords; at < p.words.size();) {
-    const auto k = static_cast<Kind>(p.words[at] & 15U);
-    if (k == kind) found.push_back(decode(config, layout, std::span(p.words).subspan(at)).segment);
+  for (std::size_t at = kHeaderWords; at < words.size();) {
+    const auto k = static_cast<Kind>(words[at] & 15U);
+    if (k == kind) what(decode(config, layout, std::span(words).subspan(at)), at);
     at += static_cast<std::size_t>(layout.words[static_cast<std::size_t>(k)]);
   }
-  return found;
 }
 
 /// The segments of each unit's lines: [unit][line], of a frame that has a tree.
 inline std::vector<std::vector<std::vector<SegmentToken>>> segments_of(const Picture& p, const Config& config) {
   std::vector<std::vector<std::vector<SegmentToken>>> lines(static_cast<std::size_t>(config.units));
-  for (const SegmentToken& t : tokens_of(p, config, Kind::SEG)) {
-    auto& unit = lines.at(static_cast<std::size_t>(t.unit));
-    if (t.sync || unit.empty()) unit.emplace_back();
-    unit.back().push_back(t);
-  }
+  each_token(p.words, config, Kind::SEG, [&](const Token& t, std::size_t) {
+    auto& unit = lines.at(static_cast<std::size_t>(t.segment.unit));
+    if (t.segment.sync || unit.empty()) unit.emplace_back();
+    unit.back().push_back(t.segment);
+  });
   return lines;
 }
 
