@@ -68,14 +68,18 @@ tree_parts() { # prints two tables; exit 1 if a tree is smaller than one of fewe
   echo
   echo "The whole core, \`kage_top $base UNITS=N\`:"
   echo
-  echo "| N | LUT4 | flip-flops | RAM 4k | LUT4 a unit | flip-flops a unit | RAM 4k a unit |"
-  echo "| --- | --- | --- | --- | --- | --- | --- |"
+  echo "| N | LUT4 | flip-flops | RAM 4k | LUT4 a further unit | flip-flops a further unit |"
+  echo "| --- | --- | --- | --- | --- | --- |"
+  # The tree's line buffer of 2 lanes: depth, colour and lit bit, in blocks of 16 bits.
+  local buffer=$(((2 * (24 + 24 + 1) + 15) / 16)) before=0
   for units in 0 1 2 4 8; do
     name=core$units
-    awk -v n=$units -v lut="$(luts $name)" -v ff="$(ffs $name)" -v ram="$(rams $name)" -v lut0="$(luts core0)" -v ff0="$(ffs core0)" -v ram0="$(rams core0)" 'BEGIN{
+    awk -v n=$units -v m=$before -v lut="$(luts $name)" -v ff="$(ffs $name)" -v ram="$(rams $name)" -v lut0="$(luts core$before)" -v ff0="$(ffs core$before)" 'BEGIN{
       printf "| %d | %d | %d | %d |", n, lut, ff, ram
-      if (n) printf " %.0f | %.0f | %.1f |\n", (lut - lut0) / n, (ff - ff0) / n, (ram - ram0) / n; else print "  |  |  |"}'
-    [ "$(rams $name)" = $(($(rams core0) + units * $(rams small-unit))) ] || { echo "cells.sh: $name: $(rams $name) block RAMs are not those of its units" >&2; bad=1; }
+      if (n > 1) printf " %.0f | %.0f |\n", (lut - lut0) / (n - m), (ff - ff0) / (n - m); else print "  |  |"}'
+    [ $units = 0 ] || [ "$(rams $name)" = $(($(rams core0) + buffer + units * $(rams small-unit))) ] ||
+      { echo "cells.sh: $name: $(rams $name) block RAMs are not those of its units and the tree's line" >&2; bad=1; }
+    before=$units
   done
   return $bad
 }
