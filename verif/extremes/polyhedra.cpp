@@ -118,7 +118,7 @@ TEST_CASE("family 31: edges on lines, edge-on faces, one-pixel faces, bodies lea
       {"leaving above", block(20, 30, -10, 10), 10, 100},
       {"leaving below", block(20, 30, kHeight - 10, kHeight + 10), 10, 100},
       {"leaving at a corner", block(kWidth - 10, kWidth + 10, -10, 10), 10, 100},
-      {"leaving on all sides", block(-10, kWidth + 10, -10, kHeight + 10), kHeight, kWidth * kHeight},
+      {"leaving on all sides", block(-10, kWidth + 10, -10, kHeight + 10), kHeight, std::uint64_t{kWidth} * kHeight},
       {"touching the left edge from outside", block(-10, 0, 20, 30), 0, 0},
       {"touching the lower edge from outside", block(20, 30, kHeight, kHeight + 10), 0, 0},
   };
@@ -282,6 +282,21 @@ TEST_CASE("family 34: polyhedra that never meet share a unit; those that do not 
       const Picture p = picture(make_geometry(f, c, kWidth, kHeight), c);
       for (int i = 0; i < 9; ++i) CHECK((p.report.unit_of[static_cast<std::size_t>(i)] >= 0) == (apart || i < n.units));
     }
+  }
+}
+
+TEST_CASE("family 34: polyhedra past those that ORDER_BITS can number become spans, however many units there are") {
+  SceneFrame f;
+  for (int i = 0; i < 9; ++i) add_solid(f, box_solid(), {0, 0, -0.2 * i}, glm::dvec3(0.3), Turn{}, {1, 0.1 * i, 0.2});
+  look_at(f.camera, {0, 0, 6}, {0, 0, 0});
+  for (const int order_bits : {1, 3, 4}) {
+    CAPTURE(order_bits);
+    Config c;
+    c.order_bits = order_bits;
+    for (const SegmentCount& n : either_way(f, c)) CHECK(n.by_segments == std::min({n.units, 1 << order_bits, 9}));
+    c.units = 9;
+    CHECK((picture(make_geometry(f, c, kWidth, kHeight), c).report.stop == PolyhedraReport::Stop::index) ==
+          (order_bits < 4));
   }
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage_top with expansion units, at its ports: what kage_top.cpp demands of cores without; errors of units and whom the
 // tree waits for, as the registers tell them.
+#include <algorithm>
+#include <numeric>
+
 #include "Vkage_units3.h"
 #include "Vkage_units5.h"
 #include "top_bench.hpp"
@@ -92,8 +95,8 @@ TreeFrame tree_frame(Dice& dice, const kage::Config& c, int width, int height, c
 }
 
 std::vector<int> random_order(Dice& dice, int units) {
-  std::vector<int> order;
-  for (int u = 0; u < units; ++u) order.push_back(u);
+  std::vector<int> order(static_cast<std::size_t>(units));
+  std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size(); i > 1; --i)
     std::swap(order[i - 1], order[static_cast<std::size_t>(dice.below(static_cast<int>(i)))]);
   return order;

@@ -48,7 +48,7 @@ Told tell(const SceneFrame& f, const FrameGeometry& g) {
 
 /// Right as it is, and drawn by segments, so that what is told is a defect of those.
 FrameGeometry sound(const SceneFrame& f) {
-  const FrameGeometry g = make_geometry(f, eight_units(), kWidth, kHeight);
+  FrameGeometry g = make_geometry(f, eight_units(), kWidth, kHeight);
   REQUIRE(picture(g, eight_units()).by_segments() > 0);
   const Told truth = tell(f, g);
   INFO(truth.judge.text() << truth.rays.text());

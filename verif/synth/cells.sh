@@ -15,8 +15,10 @@ trap 'rm -rf "$work"' EXIT
 
 part() { # NAME TOP PARAM=VALUE...: prints a row
   local name=$1 top=$2 sets= p
+  local -A value=() # a parameter named twice has its last value
   shift 2
-  for p in "$@"; do sets+=" -chparam ${p%%=*} ${p#*=}"; done
+  for p in "$@"; do value[${p%%=*}]=${p#*=}; done
+  for p in "${!value[@]}"; do sets+=" -chparam $p ${value[$p]}"; done
   # Deferred, since a part that the top leaves out may not exist with the defaults (tree_core of no units).
   yosys -q -l "$work/$name.log" -p "read_verilog -defer -sv -Irtl/include rtl/*.sv; hierarchy -top $top$sets; synth_ice40 -top $top; tee -o $work/$name.stat stat" \
     >"$work/$name.out" 2>&1 || { echo "cells.sh: $name: yosys failed" >&2; tail -5 "$work/$name.log" >&2; exit 2; }
