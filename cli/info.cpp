@@ -51,7 +51,8 @@ int run(const Options& o) {
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
     for (const Json& w : ways.is_array() ? ways : Json::array())
-      fmt::print("\n{}, component {}: by segments in {}, by spans in {}{}", w.value("object", "?"),
+      fmt::print("\n{}, {} {}: by segments in {}, by spans in {}{}", w.value("object", "?"),
+                 w.value("components", 1) == 1 ? "component" : counted(w.value("components", 1), "component") + " from",
                  w.value("component", 0), counted(w.value("unit_frames", 0), "frame"),
                  counted(w.value("span_frames", 0), "frame"),
                  w["why"].is_string() ? fmt::format(": {}", w["why"].get<std::string>()) : std::string());

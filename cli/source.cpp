@@ -169,12 +169,13 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
     return scene_->objects()[frame.triangles[frame.components[c].first].object];
   };
   if (ways_.empty())
-    for (std::size_t c = 0; c < frame.components.size(); ++c) ways_.push_back({object(c), 0, 0, {}});
+    for (std::size_t c = 0; c < frame.components.size(); ++c) ways_.push_back({object(c), 0, 0, SpanReason::none, {}});
   units_ = std::max(units_, report.units);
   for (std::size_t c = 0; c < frame.components.size(); ++c) {
     const SpanReason reason = geometry.span_reasons[c];
     if (reason == SpanReason::none) continue;  // below
     ++ways_[c].span_frames;
+    ways_[c].reason = reason;
     ways_[c].why = reason == SpanReason::not_closed || reason == SpanReason::not_convex ? frame.components[c].reason
                    : reason == SpanReason::cut         ? "the near plane or the guard band cuts it"
                    : reason == SpanReason::translucent ? "it is translucent"
@@ -206,12 +207,20 @@ Json Source::ways() const {
   if (stream_) return ways_of(*stream_);
   if (config_.config.units == 0) return nullptr;
   Json list = Json::array();
-  for (std::size_t c = 0; c < ways_.size(); ++c)
-    list.push_back({{"object", ways_[c].object},
+  for (std::size_t c = 0; c < ways_.size();) {
+    const Way& w = ways_[c];
+    std::size_t end = c + 1;
+    while (w.reason != SpanReason::none && w.unit_frames == 0 && end < ways_.size() && ways_[end].object == w.object &&
+           ways_[end].reason == w.reason && ways_[end].unit_frames == 0 && ways_[end].span_frames == w.span_frames)
+      ++end;
+    list.push_back({{"object", w.object},
                     {"component", c},
-                    {"unit_frames", ways_[c].unit_frames},
-                    {"span_frames", ways_[c].span_frames},
-                    {"why", ways_[c].why.empty() ? Json(nullptr) : Json(ways_[c].why)}});
+                    {"components", end - c},
+                    {"unit_frames", w.unit_frames},
+                    {"span_frames", w.span_frames},
+                    {"why", w.why.empty() ? Json(nullptr) : Json(w.why)}});
+    c = end;
+  }
   return list;
 }
 
@@ -226,11 +235,12 @@ Json ways_of(const StreamFile& file) {
   Json list = Json::array();
   for (const Json& w : origin["polyhedra"]) {
     if (!w.is_object() || !w.contains("object") || !w["object"].is_string() || !number(w, "component", ~0U) ||
-        !number(w, "unit_frames", frames) || !number(w, "span_frames", frames) || !w.contains("why") ||
-        !(w["why"].is_string() || w["why"].is_null()))
+        !number(w, "components", ~0U) || !number(w, "unit_frames", frames) || !number(w, "span_frames", frames) ||
+        !w.contains("why") || !(w["why"].is_string() || w["why"].is_null()))
       return nullptr;
     list.push_back({{"object", w["object"].get<std::string>()},
                     {"component", w["component"].get<std::uint64_t>()},
+                    {"components", w["components"].get<std::uint64_t>()},
                     {"unit_frames", w["unit_frames"].get<std::uint64_t>()},
                     {"span_frames", w["span_frames"].get<std::uint64_t>()},
                     {"why", w["why"].is_null() ? Json(nullptr) : Json(w["why"].get<std::string>())}});

@@ -9,6 +9,7 @@
 #include "common.hpp"
 #include "kage/config.hpp"
 #include "kage/frontend.hpp"
+#include "kage/geometry.hpp"
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
 
@@ -40,8 +41,9 @@ class Source {
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 
   /// How each component of the scene went in the frames made so far, if the configuration has units: object, component,
-  /// in how many frames a unit had it and in how many it became spans, and why in the last of those. Of a stream: as
-  /// the file has it, else null.
+  /// in how many frames a unit had it and in how many it became spans, and why in the last of those. Neighbours that
+  /// can be no polyhedron for the same reason are one entry, with their number and the first one's why: a soup of
+  /// triangles has as many components as faces. Of a stream: as the file has it, else null.
   [[nodiscard]] Json ways() const;
 
   /// Most units in use in a frame.
@@ -76,6 +78,7 @@ class Source {
     std::string object;
     int unit_frames = 0;
     int span_frames = 0;
+    SpanReason reason = SpanReason::none;
     std::string why;
   };
   std::vector<Way> ways_;  // by component

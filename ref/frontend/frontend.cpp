@@ -11,56 +11,13 @@
 #include "frontend/cut.hpp"
 #include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
+#include "frontend/sweep.hpp"
 #include "frontend/tree_plan.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {
 namespace {
-
-constexpr int kBandLines = 16;
-
-/// What each band of lines touches, in the order of their numbers, band after band from the top. Every thing is held
-/// once, however many bands it touches.
-class Sweep {
- public:
-  Sweep(int bands, int height, std::span<const LineRange> ranges)
-      : start_(static_cast<std::size_t>(bands) + 1, 0), end_band_(ranges.size(), 0) {
-    const auto each = [&](auto what) {
-      for (std::size_t i = 0; i < ranges.size(); ++i) {
-        const int first = std::max(ranges[i].first, 0);
-        const int end = std::min(ranges[i].end, height);
-        if (first < end) what(i, static_cast<std::size_t>(first / kBandLines), (end - 1) / kBandLines + 1);
-      }
-    };
-    each([this](std::size_t, std::size_t band, int) { ++start_[band + 1]; });
-    for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
-    items_.resize(start_.back());
-    std::vector<std::size_t> at(start_.begin(), start_.end() - 1);
-    each([&](std::size_t i, std::size_t band, int end) {
-      items_[at[band]++] = static_cast<std::uint32_t>(i);
-      end_band_[i] = end;
-    });
-  }
-
-  /// What the next band touches.
-  const std::vector<std::uint32_t>& next() {
-    std::erase_if(active_, [this](std::uint32_t i) { return end_band_[i] <= band_; });
-    const auto b = static_cast<std::size_t>(band_++);
-    const auto old = static_cast<std::ptrdiff_t>(active_.size());
-    active_.insert(active_.end(), items_.begin() + static_cast<std::ptrdiff_t>(start_[b]),
-                   items_.begin() + static_cast<std::ptrdiff_t>(start_[b + 1]));
-    std::inplace_merge(active_.begin(), active_.begin() + old, active_.end());
-    return active_;
-  }
-
- private:
-  std::vector<std::size_t> start_;    // in items_, by the band in which things begin
-  std::vector<std::uint32_t> items_;  // by first band, then by number
-  std::vector<int> end_band_;
-  std::vector<std::uint32_t> active_;
-  int band_ = 0;
-};
 
 /// What all bands share.
 struct Frame {
@@ -72,6 +29,7 @@ struct Frame {
   Sweep polygons;
   Sweep faces;
   Sweep edges;
+  Sweep tree_edges;
   Sweep fragments;
 };
 
@@ -80,6 +38,7 @@ struct BandWork {
   std::vector<std::uint32_t> polygons;
   std::vector<std::uint32_t> faces;
   std::vector<std::uint32_t> edges;
+  std::vector<std::uint32_t> tree_edges;  // of the lines ahead: one further down than the band's
   std::vector<std::uint32_t> fragments;
 };
 
@@ -99,17 +58,21 @@ Frame prepare(const FrameGeometry& g, const Config& config) {
   std::vector<LineRange> edges;
   edges.reserve(g.near_edges.size());
   for (const NearEdge& e : g.near_edges) edges.push_back(lines_of(std::array{e.from, e.to}));
+  TreePlan tree(g, config);
+  std::vector<LineRange> ahead = tree.edge_lines();
+  for (LineRange& r : ahead) --r.first, --r.end;
   std::vector<LineRange> fragments;
   fragments.reserve(g.fragments.size());
   for (const ScreenFragment& f : g.fragments) fragments.push_back({f.first_line, f.end_line});
   Frame f{&g,
           &config,
-          TreePlan(g, config),
+          std::move(tree),
           {},
           {},
           {bands, g.height, std::span(all).first(g.drawn)},
           {bands, g.height, faces},
           {bands, g.height, edges},
+          {bands, g.height, ahead},
           {bands, g.height, fragments}};
   f.volume_of_face.resize(g.volume_faces.size());
   f.volume_of_edge.resize(g.near_edges.size());
@@ -140,7 +103,7 @@ class Band {
     if (f_->config->translucency > 0) translucent();
     const bool tree = f_->tree.any();
     std::vector<std::vector<std::uint32_t>> ahead;  // segments of line y + 1 at y - y0_
-    if (tree) f_->tree.segments(y0_ + 1, std::min(y1_ + 1, g_->height), ahead);
+    if (tree) f_->tree.segments(y0_ + 1, std::min(y1_ + 1, g_->height), work_->tree_edges, ahead);
     for (int y = y0_; y < y1_; ++y) {
       const Line& line = at(y);
       if (tree) {
@@ -377,7 +340,8 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   if (frame.tree.any()) {
     frame.tree.faces(writer);
     std::vector<std::vector<std::uint32_t>> first;
-    frame.tree.segments(0, 1, first);
+    const auto lines = frame.tree.edge_lines();
+    frame.tree.segments(0, 1, Sweep(1, 1, lines).next(), first);
     words.insert(words.end(), first[0].begin(), first[0].end());
   }
   sink(words);
@@ -394,7 +358,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
     const int end = std::min(first + wave, bands);
     for (int b = first; b < end; ++b)
       work[static_cast<std::size_t>(b - first)] = {frame.polygons.next(), frame.faces.next(), frame.edges.next(),
-                                                   frame.fragments.next()};
+                                                   frame.tree_edges.next(), frame.fragments.next()};
     const auto make = [&](int b) {
       const auto i = static_cast<std::size_t>(b - first);
       made[i] = Band(frame, work[i], b).make();

@@ -16,28 +16,30 @@ PolyhedronScanner::PolyhedronScanner(const FrameGeometry& geometry, const Config
   most_z_ = config.classic != 0 ? 32767 : (std::int64_t{1} << (bits - 1)) - 1;
 }
 
-void PolyhedronScanner::load(const Polyhedron& p, int y0, int y1) {
+void PolyhedronScanner::begin(const Polyhedron& p, int y0, int y1) {
   representable_ = true;
   edges_.clear();
-  first_ = y1;
-  end_ = y0;
-  for (const PolyhedronEdge& e : std::span(g_->polyhedron_edges).subspan(p.first_edge, p.edge_count)) {
-    if (e.from.y == e.to.y) continue;
-    Edge edge{EdgeWalker(e.from, e.to), e.along, e.against};
-    const int from = std::max(edge.walker.first(), y0);
-    const int to = std::min(edge.walker.end(), y1);
-    if (from >= to) continue;
-    edge.walker.start(from);
-    edge.first = from;
-    edges_.push_back(edge);
-    first_ = std::min(first_, from);
-    end_ = std::max(end_, to);
-  }
-  std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.first < b.first; });
   active_.clear();
   entered_ = 0;
+  first_ = y1;
+  end_ = y0;
   first_polygon_ = p.first_polygon;
-  faces_.assign(p.polygon_count, {});
+  if (faces_.size() < p.polygon_count) faces_.resize(p.polygon_count);
+}
+
+void PolyhedronScanner::load(const PolyhedronEdge& e, int y0, int y1) {
+  if (e.from.y == e.to.y) return;
+  Edge edge{EdgeWalker(e.from, e.to), e.along, e.against};
+  const int from = std::max(edge.walker.first(), y0);
+  const int to = std::min(edge.walker.end(), y1);
+  if (from >= to) return;
+  edge.walker.start(from);
+  edge.first = from;
+  edges_.push_back(edge);
+  first_ = std::min(first_, from);
+  end_ = std::max(end_, to);
+  for (const std::uint32_t polygon : {e.along, e.against})
+    if (polygon != PolyhedronEdge::kNoPolygon) faces_[polygon - first_polygon_] = {};
 }
 
 // The edges that cross line y, from left to right. From line to line few enter, leave or change places, so sorting by

@@ -5,6 +5,7 @@
 // half-open rule and the ramps that spans have, so a polyhedron gives the same bits either way.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -32,12 +33,18 @@ class PolyhedronScanner {
   /// right and do not overlap.
   template <class Emit>
   void scan(const Polyhedron& p, int y0, int y1, Emit emit) {
-    load(p, y0, y1);
-    for (int y = first_; y < end_; ++y) {
-      cross(y);
-      fill(y);
-      if (!runs_.empty()) emit(y, std::span<const Run>(runs_));
-    }
+    begin(p, y0, y1);
+    for (std::uint32_t i = 0; i < p.edge_count; ++i) load(g_->polyhedron_edges[p.first_edge + i], y0, y1);
+    lines(emit);
+  }
+
+  /// The same, where it is known which edges touch those lines: `touching` are all of the polyhedron's that do, into
+  /// FrameGeometry::polyhedron_edges. Others are not looked at.
+  template <class Emit>
+  void scan(const Polyhedron& p, std::span<const std::uint32_t> touching, int y0, int y1, Emit emit) {
+    begin(p, y0, y1);
+    for (const std::uint32_t i : touching) load(g_->polyhedron_edges[i], y0, y1);
+    lines(emit);
   }
 
   /// False if a run's depth does not go on by its face's own step from pixel to pixel, or does not fit a segment: then
@@ -65,7 +72,18 @@ class PolyhedronScanner {
     SpanSetup::Ramp ramp;
   };
 
-  void load(const Polyhedron& p, int y0, int y1);
+  template <class Emit>
+  void lines(Emit emit) {
+    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.first < b.first; });
+    for (int y = first_; y < end_; ++y) {
+      cross(y);
+      fill(y);
+      if (!runs_.empty()) emit(y, std::span<const Run>(runs_));
+    }
+  }
+
+  void begin(const Polyhedron& p, int y0, int y1);
+  void load(const PolyhedronEdge& e, int y0, int y1);
   void cross(int y);
   void fill(int y);
   void add(std::uint32_t polygon, int winding);
@@ -84,7 +102,7 @@ class PolyhedronScanner {
   std::size_t entered_ = 0;
   std::vector<Edge> active_;  // from left to right
   std::uint32_t first_polygon_ = 0;
-  std::vector<Face> faces_;             // of the polyhedron, by polygon
+  std::vector<Face> faces_;             // of the polyhedron, by polygon; those that no edge has loaded are stale
   std::vector<std::uint32_t> touched_;  // polygons at the crossing at hand
   std::vector<Part> parts_;
   std::vector<Run> runs_;

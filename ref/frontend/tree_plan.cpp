@@ -2,6 +2,7 @@
 #include "frontend/tree_plan.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "frontend/units.hpp"
 
@@ -62,7 +63,7 @@ TreePlan::TreePlan(const FrameGeometry& g, const Config& config)
     if (needs[i].end == 0) continue;  // not to be seen
     any_ = true;
     const auto u = static_cast<std::size_t>(units[i]);
-    members_[u].push_back({i, faces[u], needs[i].first, needs[i].end});
+    members_[u].push_back({i, faces[u]});
     faces[u] += needs[i].faces;
   }
 }
@@ -86,7 +87,19 @@ void TreePlan::faces(TokenWriter& writer) const {
     }
 }
 
-void TreePlan::segments(int y0, int y1, std::vector<std::vector<std::uint32_t>>& lines) const {
+std::vector<LineRange> TreePlan::edge_lines() const {
+  std::vector<LineRange> lines(g_->polyhedron_edges.size());
+  for (const auto& unit : members_)
+    for (const Member& m : unit) {
+      const Polyhedron& p = g_->polyhedra[m.polyhedron];
+      for (std::uint32_t i = p.first_edge; i < p.first_edge + p.edge_count; ++i)
+        lines[i] = lines_of(std::array{g_->polyhedron_edges[i].from, g_->polyhedron_edges[i].to});
+    }
+  return lines;
+}
+
+void TreePlan::segments(int y0, int y1, std::span<const std::uint32_t> edges,
+                        std::vector<std::vector<std::uint32_t>>& lines) const {
   struct FaceRun {
     Run run;
     int face;
@@ -96,15 +109,19 @@ void TreePlan::segments(int y0, int y1, std::vector<std::vector<std::uint32_t>>&
   const int max_dx = (1 << config_->dx_bits) - 1;
   PolyhedronScanner scanner(*g_, *config_);
   std::vector<std::vector<FaceRun>> runs;
-  lines.assign(static_cast<std::size_t>(y1 - y0), {});
+  lines.resize(static_cast<std::size_t>(y1 - y0));
+  for (auto& line : lines) line.clear();
   std::vector<std::uint32_t> none;
   TokenWriter writer(*config_, none);
   for (std::size_t u = 0; u < members_.size(); ++u) {
-    runs.assign(lines.size(), {});
+    runs.resize(lines.size());
+    for (auto& line : runs) line.clear();
     for (const Member& m : members_[u]) {
-      if (m.end_line <= y0 || m.first_line >= y1) continue;
       const Polyhedron& p = g_->polyhedra[m.polyhedron];
-      scanner.scan(p, y0, y1, [&](int y, std::span<const Run> found) {
+      const auto first = std::lower_bound(edges.begin(), edges.end(), p.first_edge);
+      const auto end = std::lower_bound(first, edges.end(), p.first_edge + p.edge_count);
+      if (first == end) continue;
+      scanner.scan(p, {first, end}, y0, y1, [&](int y, std::span<const Run> found) {
         for (const Run& r : found)
           runs[static_cast<std::size_t>(y - y0)].push_back(
               {r, m.first_face + static_cast<int>(r.polygon - p.first_polygon),

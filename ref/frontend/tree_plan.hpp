@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "frontend/polyhedron.hpp"
+#include "frontend/scan.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
 
@@ -25,8 +27,13 @@ class TreePlan {
   /// The FACE tokens of the frame.
   void faces(TokenWriter& writer) const;
 
-  /// The SEG tokens of lines [y0, y1), lines[0] being y0's.
-  void segments(int y0, int y1, std::vector<std::vector<std::uint32_t>>& lines) const;
+  /// Lines that each of FrameGeometry::polyhedron_edges touches; none, if its polyhedron has no unit.
+  [[nodiscard]] std::vector<LineRange> edge_lines() const;
+
+  /// The SEG tokens of lines [y0, y1), lines[0] being y0's. `edges` are those that touch these lines, in the order of
+  /// their numbers.
+  void segments(int y0, int y1, std::span<const std::uint32_t> edges,
+                std::vector<std::vector<std::uint32_t>>& lines) const;
 
   [[nodiscard]] PolyhedraReport report() const;
 
@@ -34,8 +41,6 @@ class TreePlan {
   struct Member {
     std::uint32_t polyhedron;
     int first_face;  // in its unit's table
-    int first_line;
-    int end_line;
   };
 
   [[nodiscard]] int blank() const { return (1 << config_->face_bits) - 1; }

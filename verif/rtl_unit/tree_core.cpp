@@ -84,13 +84,13 @@ std::deque<Event> random_frame(Dice& dice, const TreeShape& s, int width) {
     events.push_back({Event::kFace, static_cast<int>(u), defined[u]++, face, {}, {}});
   }
   const auto lines = static_cast<std::size_t>(dice.between(0, 5));
-  std::vector<std::deque<std::pair<std::size_t, Segment>>> todo(n);  // with the line it belongs to
+  std::vector<std::deque<std::pair<std::size_t, Segment>>> waiting(n);  // with the line it belongs to
   std::vector<Lines> points(lines, Lines(n));
   for (std::size_t u = 0; u < n; ++u) {
     for (std::size_t y = 0; y < lines; ++y) {
       const auto line = random_line(dice, s, width, static_cast<int>(faces[u].size()));
       points[y][u] = expand(s, faces[u], line);
-      for (const Segment& segment : line) todo[u].emplace_back(y, segment);
+      for (const Segment& segment : line) waiting[u].emplace_back(y, segment);
     }
   }
   for (std::size_t y = 0; y < lines; ++y) {
@@ -98,16 +98,16 @@ std::deque<Event> random_frame(Dice& dice, const TreeShape& s, int width) {
     for (;;) {
       std::vector<std::size_t> due, next;
       for (std::size_t u = 0; u < n; ++u) {
-        if (todo[u].empty()) continue;
-        if (todo[u].front().first == y) due.push_back(u);
-        if (todo[u].front().first == y + 1) next.push_back(u);
+        if (waiting[u].empty()) continue;
+        if (waiting[u].front().first == y) due.push_back(u);
+        if (waiting[u].front().first == y + 1) next.push_back(u);
       }
       if (due.empty() && (next.empty() || !dice.percent(eager))) break;
       const bool ahead = due.empty() || (!next.empty() && dice.percent(eager));
       const auto& from = ahead ? next : due;
       const std::size_t u = from[static_cast<std::size_t>(dice.below(static_cast<int>(from.size())))];
-      events.push_back({Event::kSegment, static_cast<int>(u), 0, {}, todo[u].front().second, {}});
-      todo[u].pop_front();
+      events.push_back({Event::kSegment, static_cast<int>(u), 0, {}, waiting[u].front().second, {}});
+      waiting[u].pop_front();
     }
     events.push_back({Event::kClaim, 0, 0, {}, {}, merge(points[y])});
   }

@@ -222,7 +222,10 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       const auto polygon = seen[at] == kNothing ? -1 : static_cast<std::int32_t>(seen[at]);
       const std::uint32_t shown = polygon < 0 ? kNothing : whole.polygons[static_cast<std::uint32_t>(polygon)].source;
       if (shown != surface) {
-        if (possible_face(oracle, whole, x, y, surface)) {
+        // Both answers must be possible: what the geometry cannot show is no near tie, though the rays' answer is one
+        // that it can.
+        if (oracle.possible_surface(x, polygon, Errors::depth_and_snap) &&
+            possible_face(oracle, whole, x, y, surface)) {
           ++count.near_surface;
         } else {
           ++count.wrong_surface;
@@ -246,7 +249,7 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       }
       const PossibleShadow possible =
           oracle.possible_shadow(x, static_cast<std::uint32_t>(polygon), Errors::depth_and_snap);
-      if (blocked ? possible.shadowed : possible.lit) {
+      if (possible.shadowed && possible.lit) {
         ++count.near_shadow;
       } else {
         ++count.wrong_shadow;

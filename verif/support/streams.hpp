@@ -110,8 +110,12 @@ class RandomTree {
   static int widest(const Config& c) { return ((1 << c.dx_bits) - 1) << c.seg_bits; }
 
   RandomTree(Random& random, const Config& c, int width, int height, bool port)
-      : random_(&random), config_(c), width_(width), todo_(static_cast<std::size_t>(c.units)), faces_(todo_.size()) {
-    for (std::size_t u = 0; u < todo_.size(); ++u) {
+      : random_(&random),
+        config_(c),
+        width_(width),
+        waiting_(static_cast<std::size_t>(c.units)),
+        faces_(waiting_.size()) {
+    for (std::size_t u = 0; u < waiting_.size(); ++u) {
       const int blank = (1 << c.face_bits) - 1;
       const int count = random.chance(0.1) ? std::min(blank, 20) : random.in(0, std::min(blank, 4));
       for (int f = 0; f < count; ++f) faces_[u].push_back(face(static_cast<int>(u), f, port));
@@ -133,13 +137,13 @@ class RandomTree {
   void write_segments(TokenWriter& w, int y, std::uint64_t& count) {
     const double eager = random_->chance(0.3) ? 0 : random_->chance(0.2) ? 1 : random_->real(0, 1);
     std::vector<std::size_t> units;  // a place for each segment that may come
-    for (std::size_t u = 0; u < todo_.size(); ++u)
-      for (const auto& [of, segment] : todo_[u])
+    for (std::size_t u = 0; u < waiting_.size(); ++u)
+      for (const auto& [of, segment] : waiting_[u])
         if (of == y || (of == y + 1 && random_->chance(eager))) units.push_back(u);
     if (random_->chance(0.7)) random_->shuffle(units);
     for (const std::size_t u : units) {
-      w.seg(todo_[u].front().second);
-      todo_[u].pop_front();
+      w.seg(waiting_[u].front().second);
+      waiting_[u].pop_front();
     }
     count += units.size();
   }
@@ -206,14 +210,14 @@ class RandomTree {
         t.face = random_->in(0, static_cast<int>(faces.size()) - 1);
         t.z = depth(port);
       }
-      todo_[unit].emplace_back(y, t);
+      waiting_[unit].emplace_back(y, t);
     }
   }
 
   Random* random_;
   Config config_;
   int width_;
-  std::vector<std::deque<std::pair<int, SegmentToken>>> todo_;  // with the line it belongs to
+  std::vector<std::deque<std::pair<int, SegmentToken>>> waiting_;  // with the line it belongs to
   std::vector<std::vector<SegmentToken>> faces_;
 };
 

@@ -5,7 +5,7 @@
 #
 # usage: verif/synth/cells.sh [--quick | --tree | NAME PARAM=VALUE...]
 #   without arguments the table below; --quick: base, no-shadow, one-channel and small-z only; NAME ...: one configuration;
-#   --tree: the parts of the compare tree alone
+#   --tree: the parts of the compare tree alone, cells per compare cell, and the whole core with 1, 2, 4 and 8 units against none
 # Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take, or if it
 # is not smaller (smooth: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
 set -euo pipefail
@@ -13,53 +13,77 @@ cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-cells() { # NAME PARAM=VALUE...: prints a row
-  local name=$1 sets= p
-  shift
-  for p in "$@"; do sets+=" -set ${p%%=*} ${p#*=}"; done
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -Irtl/include rtl/*.sv; chparam$sets kage_top; synth_ice40 -top kage_top; tee -o $work/$name.stat stat" \
-    >"$work/$name.out" 2>&1 || { echo "cells.sh: $name: yosys failed" >&2; tail -5 "$work/$name.log" >&2; exit 2; }
-  if grep -q "Warning" "$work/$name.out"; then echo "cells.sh: $name: yosys warns" >&2; grep -m3 Warning "$work/$name.out" >&2; fi
-  awk -v name="$name" -v params="$*" -v base="$base" '
-    / SB_LUT4 /{lut=$2} / SB_CARRY /{carry=$2} / SB_DFF/{ff+=$2} / SB_RAM40/{ram+=$2}
-    END{
-      if (name != "base" && index(params, base " ") == 1) params = "base, " substr(params, length(base) + 2)
-      printf "| %s | %d | %d | %d | %d | `%s` |\n", name, lut, ff, carry, ram, params
-    }' "$work/$name.stat"
-}
-
-base="LANES=2 MAX_WIDTH=64 X_BITS=7 Z_FRAC=7"
-export -f cells
-export work base
-# ---- the compare tree's parts alone ----
 part() { # NAME TOP PARAM=VALUE...: prints a row
   local name=$1 top=$2 sets= p
+  local -A value=() # a parameter named twice has its last value
   shift 2
-  for p in "$@"; do sets+=" -set ${p%%=*} ${p#*=}"; done
-  [ -z "$sets" ] || sets="chparam$sets $top;"
-  yosys -q -l "$work/$name.log" -p "read_verilog -sv -Irtl/include rtl/*.sv; $sets synth_ice40 -top $top; tee -o $work/$name.stat stat" \
+  for p in "$@"; do value[${p%%=*}]=${p#*=}; done
+  for p in "${!value[@]}"; do sets+=" -chparam $p ${value[$p]}"; done
+  # Deferred, since a part that the top leaves out may not exist with the defaults (tree_core of no units).
+  yosys -q -l "$work/$name.log" -p "read_verilog -defer -sv -Irtl/include rtl/*.sv; hierarchy -top $top$sets; synth_ice40 -top $top; tee -o $work/$name.stat stat" \
     >"$work/$name.out" 2>&1 || { echo "cells.sh: $name: yosys failed" >&2; tail -5 "$work/$name.log" >&2; exit 2; }
   if grep -q "Warning" "$work/$name.out"; then echo "cells.sh: $name: yosys warns" >&2; grep -m3 Warning "$work/$name.out" >&2; fi
   awk -v name="$name" -v params="$top${*:+ $*}" '
     / SB_LUT4 /{lut=$2} / SB_CARRY /{carry=$2} / SB_DFF/{ff+=$2} / SB_RAM40/{ram+=$2}
     END{printf "| %s | %d | %d | %d | %d | `%s` |\n", name, lut, ff, carry, ram, params}' "$work/$name.stat"
 }
-tree_parts() { # prints the table; exit 1 if a tree is smaller than one of fewer units
-  local last=0 luts units row
-  echo "| part | LUT4 | flip-flops | carry | RAM 4k | module and parameters |"
-  echo "| --- | --- | --- | --- | --- | --- |"
-  part cell compare_cell
-  part unit expansion_unit UNITS=2
-  part unit-classic expansion_unit UNITS=2 CLASSIC=1 Z_BITS=15 Z_FRAC=0
+cells() { # NAME PARAM=VALUE...: a row of the core
+  local name=$1
+  shift
+  # shellcheck disable=SC2016
+  part "$name" kage_top "$@" | if [ "$name" = base ]; then sed 's/`kage_top /`/'; else sed "s/\`kage_top $base /\`base, /; s/\`kage_top /\`/"; fi
+}
+
+base="LANES=2 MAX_WIDTH=64 X_BITS=7 Z_FRAC=7"
+export -f cells part
+export work base
+# ---- the compare tree's parts alone ----
+column() { awk -F'|' -v c="$2" '{print $c + 0}' "$work/$1.row"; } # NAME COLUMN
+luts() { column "$1" 3; }
+ffs() { column "$1" 4; }
+rams() { column "$1" 6; }
+
+tree_parts() { # prints two tables; exit 1 if a tree is smaller than one of fewer units, or a core has not its units' block RAMs
+  local last=0 units name bad=0
+  local header="LUT4 | flip-flops | carry | RAM 4k | module and parameters |" line="| --- | --- | --- | --- | --- |"
+  local small=${base#LANES=2 MAX_WIDTH=64 } # what of the base the parts have
+  local jobs=(
+    "cell compare_cell" "unit expansion_unit UNITS=2" "unit-classic expansion_unit UNITS=2 CLASSIC=1 Z_BITS=15 Z_FRAC=0"
+    "check1 segment_check UNITS=1" "check2 segment_check UNITS=2" "check4 segment_check UNITS=4" "check8 segment_check UNITS=8"
+    "check64 segment_check UNITS=64" "small-unit expansion_unit UNITS=2 $small"
+  )
+  for units in 2 4 8 16 32 64; do jobs+=("tree$units compare_tree UNITS=$units"); done
+  for units in 0 1 2 4 8; do jobs+=("core$units kage_top $base UNITS=$units"); done
+  printf '%s\n' "${jobs[@]}" | xargs -P 2 -I{} bash -c 'set -euo pipefail; set -- {}; part "$@" >"$work/$1.row"'
+
+  printf '| part | %s\n| --- %s\n' "$header" "$line"
+  for name in cell unit unit-classic small-unit tree2 tree4 tree8 tree16 tree32 tree64 check1 check2 check4 check8 check64; do cat "$work/$name.row"; done
+  echo
+  echo "| units | LUT4 a compare cell | flip-flops a compare cell |"
+  echo "| --- | --- | --- |"
   for units in 2 4 8 16 32 64; do
-    row=$(part tree$units compare_tree UNITS=$units)
-    echo "$row"
-    luts=$(awk -F'|' '{print $3 + 0}' <<<"$row")
-    [ "$luts" -gt "$last" ] || { echo "cells.sh: tree$units has no more LUTs than half of it" >&2; exit 1; }
-    last=$luts
+    name=tree$units
+    awk -v n=$units -v lut="$(luts $name)" -v ff="$(ffs $name)" 'BEGIN{printf "| %d | %.1f | %.1f |\n", n, lut / (n - 1), ff / (n - 1)}'
+    [ "$(luts $name)" -gt "$last" ] || { echo "cells.sh: $name has no more LUTs than half of it" >&2; bad=1; }
+    last=$(luts $name)
   done
-  part check4 segment_check UNITS=4
-  part check64 segment_check UNITS=64
+  echo
+  echo "The whole core, \`kage_top $base UNITS=N\`:"
+  echo
+  echo "| N | LUT4 | flip-flops | RAM 4k | LUT4 a further unit | flip-flops a further unit |"
+  echo "| --- | --- | --- | --- | --- | --- |"
+  # The tree's line buffer of 2 lanes: depth, colour and lit bit, in blocks of 16 bits.
+  local buffer=$(((2 * (24 + 24 + 1) + 15) / 16)) before=0
+  for units in 0 1 2 4 8; do
+    name=core$units
+    awk -v n=$units -v m=$before -v lut="$(luts $name)" -v ff="$(ffs $name)" -v ram="$(rams $name)" -v lut0="$(luts core$before)" -v ff0="$(ffs core$before)" 'BEGIN{
+      printf "| %d | %d | %d | %d |", n, lut, ff, ram
+      if (n > 1) printf " %.0f | %.0f |\n", (lut - lut0) / (n - m), (ff - ff0) / (n - m); else print "  |  |"}'
+    [ $units = 0 ] || [ "$(rams $name)" = $(($(rams core0) + buffer + units * $(rams small-unit))) ] ||
+      { echo "cells.sh: $name: $(rams $name) block RAMs are not those of its units and the tree's line" >&2; bad=1; }
+    before=$units
+  done
+  return $bad
 }
 if [ "${1:-}" = --tree ]; then tree_parts; exit; fi
 
@@ -84,11 +108,6 @@ echo "| configuration | LUT4 | flip-flops | carry | RAM 4k | parameters |"
 echo "| --- | --- | --- | --- | --- | --- |"
 printf '%s\n' "${rows[@]}" | xargs -P 2 -I{} bash -c 'set -euo pipefail; set -- {}; cells "$@" >"$work/$1.row"'
 for row in "${rows[@]}"; do cat "$work/${row%% *}.row"; done
-
-column() { awk -F'|' -v c="$2" '{print $c + 0}' "$work/$1.row"; } # NAME COLUMN
-luts() { column "$1" 3; }
-ffs() { column "$1" 4; }
-rams() { column "$1" 6; }
 
 # ---- block RAMs: exactly those of the line's state (banked) and of the way out's two lines ------------------------------------------
 # A block holds 256 words of 16 bits, 512 of 8, 1024 of 4 or 2048 of 2.
