@@ -101,7 +101,7 @@ void option_units_only(CLI::App& command, Options& options) {
                    "refuse a frame in which a polyhedron finds no expansion unit, instead of drawing it by spans");
 }
 
-void option_order(CLI::App& command, Options& options) {
+void option_translucent(CLI::App& command, Options& options) {
   static const std::map<std::string, TranslucentWay> kWays{{"exact", TranslucentWay::exact},
                                                            {"centroid", TranslucentWay::centroid},
                                                            {"submission", TranslucentWay::submission}};
@@ -110,7 +110,11 @@ void option_order(CLI::App& command, Options& options) {
           "--order", [&options](const std::string& name) { options.order = kWays.at(name); },
           "order of translucent faces: exact, or as others do it: centroid, submission")
       ->option_text("WAY (exact)")
-      ->check(CLI::IsMember({"exact", "centroid", "submission"}));
+      ->check(CLI::IsMember({"exact", "centroid", "submission"}))
+      ->type_name("WAY");
+  command.add_option("--alpha", options.alpha, "multiply the alpha of every material: below 1 all is translucent")
+      ->check(CLI::Range(1.0 / 255, 1.0))
+      ->type_name("A");
 }
 
 void option_threads(CLI::App& command, Options& options) {

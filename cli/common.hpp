@@ -69,6 +69,7 @@ struct Options {
   bool degrade = false;
   bool units_only = false;  ///< polyhedra that find no unit are an error
   TranslucentWay order = TranslucentWay::exact;
+  double alpha = 1;
 };
 
 void option_size(CLI::App& command, Options& options);
@@ -78,7 +79,8 @@ void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 void option_degrade(CLI::App& command, Options& options);
 void option_units_only(CLI::App& command, Options& options);
-void option_order(CLI::App& command, Options& options);
+/// --order and --alpha.
+void option_translucent(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
 
 /// Whether `--json -` claims standard output for itself.

@@ -54,6 +54,7 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --units-only: in a stream it is settled what goes to units", options.input));
   if (options.order != TranslucentWay::exact)
     throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
+  if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
   name_ = std::filesystem::path(options.input).stem().string();
@@ -71,7 +72,7 @@ void Source::open_stream(const Options& options) {
 }
 
 void Source::open_scene(const Options& options) {
-  scene_.emplace(Scene::load(options.input));
+  scene_.emplace(Scene::load(options.input, options.alpha));
   name_ = std::filesystem::path(scene_->name()).stem().string();
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();

@@ -179,7 +179,7 @@ void Scene::Data::measure() {
     notes.emplace_back("the scene is so far from the origin, for its size, that its numbers are noticeably rounded");
 }
 
-Scene Scene::load(const std::string& name_or_path) {
+Scene Scene::load(const std::string& name_or_path, double alpha) {
   namespace fs = std::filesystem;
   auto data = std::make_unique<Data>();
   const std::vector<std::string>& builtin = builtin_scenes();
@@ -198,6 +198,8 @@ Scene Scene::load(const std::string& name_or_path) {
     throw Error(shown + ": no such file, and no built-in scene of that name (there are " + names + ")");
   }
   data->raw = scene::import_in_child(path, shown);
+  for (scene::RawMesh& mesh : data->raw.meshes)
+    for (scene::RawPrimitive& p : mesh.primitives) p.alpha *= alpha;
   try {
     data->end_time = scene::end_time(data->raw);
     data->build_meshes();

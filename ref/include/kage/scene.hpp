@@ -101,7 +101,8 @@ class Scene {
   /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
   /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
   /// limit of time. So load before other threads start, or while they rest. Several threads may load at once.
-  static Scene load(const std::string& name_or_path);
+  /// `alpha`, 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent.
+  static Scene load(const std::string& name_or_path, double alpha = 1);
 
   ~Scene();
   Scene(Scene&&) noexcept;
