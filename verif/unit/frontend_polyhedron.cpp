@@ -79,7 +79,8 @@ TEST_CASE("polyhedra: where faces of one overlap, each pixel is the nearest one'
           one.add({outline.begin(), outline.end()});
           if (one.at(x, y) != 0) there.push_back(g.polygons[i].color[0]);
         }
-        const std::uint32_t seen = spans[static_cast<std::size_t>(y * kWidth + x)] & 0xFFU;
+        const auto at = static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x);
+        const std::uint32_t seen = spans[at] & 0xFFU;
         not_first += seen != there.front() ? 1 : 0;
         not_last += seen != there.back() ? 1 : 0;
       }
