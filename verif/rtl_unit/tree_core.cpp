@@ -115,8 +115,8 @@ std::deque<Event> random_frame(Dice& dice, const TreeShape& s, int width) {
 }
 
 template <class Model>
-void random_test(const TreeShape& s) {
-  each_seed(25, [&](Dice& dice) {
+void random_test(const TreeShape& s, int seeds = 25) {
+  each_seed(seeds, [&](Dice& dice) {
     Bench<Model> top(dice);
     const bool flushes = dice.percent(50);
     const int out_stall = stall_percent(dice);
@@ -267,6 +267,7 @@ TEST_CASE("tree_core of 2 units", "[tree_core]") { random_test<Vcore2>(small(2))
 TEST_CASE("tree_core of 3 units, the paper's segments", "[tree_core]") { random_test<Vcore3>(kClassic); }
 TEST_CASE("tree_core of 5 units", "[tree_core]") { random_test<Vcore5>(small(5)); }
 TEST_CASE("tree_core of 8 units", "[tree_core]") { random_test<Vcore8>(small(8)); }
+TEST_CASE("tree_core of 64 units", "[tree_core]") { random_test<Vcore64>(small(64), 3); }
 
 TEST_CASE("tree_core takes a line's width and its latency", "[tree_core]") {
   clocks_test<Vcore1>(1);
