@@ -39,6 +39,7 @@ int run(const Options& o) {
   j["spans"] = counts.spans;
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
+  j["units"] = counts.units;
   const Json ways = ways_of(file);
   j["polyhedra"] = ways;
   j["bytes"] = file.bytes();

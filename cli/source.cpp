@@ -118,6 +118,7 @@ std::vector<std::string> Source::notes() const {
 TokenCounts Source::frame(int index, const WordSink& sink) {
   const TokenCounts counts = stream_ ? frame_of_stream(index, sink) : frame_of_scene(index, sink);
   ++made_;
+  units_ = std::max(units_, counts.units);
   if (counts.of_kind[static_cast<std::size_t>(Kind::OP)] + counts.of_kind[static_cast<std::size_t>(Kind::TREE)] == 0)
     ++blank_;
   return counts;
@@ -171,7 +172,6 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
   };
   if (ways_.empty())
     for (std::size_t c = 0; c < frame.components.size(); ++c) ways_.push_back({object(c), 0, 0, SpanReason::none, {}});
-  units_ = std::max(units_, report.units);
   for (std::size_t c = 0; c < frame.components.size(); ++c) {
     const SpanReason reason = geometry.span_reasons[c];
     if (reason == SpanReason::none) continue;  // below

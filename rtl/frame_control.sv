@@ -86,7 +86,10 @@ module frame_control #(
     output logic [31:0] error_frame_o,
     output logic [15:0] error_line_o,
     output logic [31:0] error_token_o,
-    output logic [ 5:0] error_unit_o
+    output logic [ 5:0] error_unit_o,
+    output logic        behind_o,       // a unit has less of the frame than another, with the next two; 1 clock late
+    output logic [ 5:0] behind_unit_o,
+    output logic [14:0] behind_line_o   // its first line that is not whole; without units the line at hand
 );
   `include "kage_layout.svh"
 
@@ -336,7 +339,9 @@ module frame_control #(
   // ---- units and tree ----------------------------------------------------------------------------------------------
   if (UNITS > 0) begin : gen_tree
     logic is_face, is_seg, seg_pass, seg_goes, is_fault;
-    logic [UnitBits-1:0] fault_unit;
+    logic [UnitBits-1:0] fault_unit, unit_of_behind;
+    logic [1:0] ahead_of_behind;
+    logic unit_behind;
     logic [31:0] fault_token;
     assign is_face = kind == KindFace;
     assign is_seg = kind == KindSeg;
@@ -380,33 +385,41 @@ module frame_control #(
     ) u_check (
         .clk_i,
         .rst_ni,
-        .frame_start_i(tree_frame_start_o),
-        .take_i       (good && !token_header_i),
-        .is_shade_i   (is_shade),
-        .is_face_i    (is_face),
-        .is_seg_i     (is_seg),
-        .is_tree_i    (is_tree),
-        .is_eol_i     (is_eol),
-        .is_other_i   (!(is_shade || is_face || is_seg || is_tree || is_eol || is_end)),
-        .width_i      (width_q),
-        .lines_left_i (height_q - line_q),
-        .token_i      (index_q),
-        .unit_i       (tree_unit_o),
-        .face_i       (tree_face_o),
-        .sync_i       (token_i[SegSyncLsb]),
-        .dx_i         (tree_dx_o),
-        .order_error_o(tree_order_error),
-        .range_error_o(tree_range_error),
-        .seg_pass_o   (seg_pass),
-        .tree_error_o (tree_error),
-        .tree_code_o  (tree_code),
-        .tree_unit_o  (fault_unit),
-        .tree_token_o (fault_token),
+        .frame_start_i (tree_frame_start_o),
+        .take_i        (good && !token_header_i),
+        .is_shade_i    (is_shade),
+        .is_face_i     (is_face),
+        .is_seg_i      (is_seg),
+        .is_tree_i     (is_tree),
+        .is_eol_i      (is_eol),
+        .is_other_i    (!(is_shade || is_face || is_seg || is_tree || is_eol || is_end)),
+        .width_i       (width_q),
+        .lines_left_i  (height_q - line_q),
+        .token_i       (index_q),
+        .unit_i        (tree_unit_o),
+        .face_i        (tree_face_o),
+        .sync_i        (token_i[SegSyncLsb]),
+        .dx_i          (tree_dx_o),
+        .order_error_o (tree_order_error),
+        .range_error_o (tree_range_error),
+        .seg_pass_o    (seg_pass),
+        .tree_error_o  (tree_error),
+        .tree_code_o   (tree_code),
+        .tree_unit_o   (fault_unit),
+        .tree_token_o  (fault_token),
         // verilator lint_off PINCONNECTEMPTY
-        .tree_o       (),
-        .due_o        ()
+        .tree_o        (),
+        .due_o         (),
         // verilator lint_on PINCONNECTEMPTY
+        .behind_o      (unit_behind),
+        .behind_unit_o (unit_of_behind),
+        .behind_ahead_o(ahead_of_behind)
     );
+    // None while a frame ends or is dropped: what the units hold then is not waited for.
+    assign behind_o = unit_behind && state_q == StBody;
+    assign behind_unit_o = 6'(unit_of_behind);
+    assign behind_line_o = behind_o ? line_q + 15'(ahead_of_behind) : line_q;
+
   end else begin : gen_no_tree
     logic unused_tree;
     assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i;
@@ -416,7 +429,8 @@ module frame_control #(
     assign frame_free = 1'b1;
     assign body_free = cmd_free;
     assign error_token_o = token_header_i ? 32'd0 : index_q;
-    assign error_unit_o = '0;
+    assign {error_unit_o, behind_o, behind_unit_o} = '0;
+    assign behind_line_o = line_q;
   end
 
   // ---- assertions --------------------------------------------------------------------------------------------------

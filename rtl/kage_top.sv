@@ -131,8 +131,10 @@ module kage_top #(
   logic [  DX_BITS-1:0] tree_dx;
 
   logic frame_open, hungry, draining, painting, frame_end, error;
-  logic [5:0] error_unit;
-  logic [3:0] error_code;
+  logic behind;
+  logic [5:0] error_unit, behind_unit;
+  logic [14:0] behind_line;
+  logic [ 3:0] error_code;
   logic [31:0] error_frame, error_token;
   logic [15:0] error_line;
 
@@ -194,7 +196,10 @@ module kage_top #(
       .error_frame_o     (error_frame),
       .error_line_o      (error_line),
       .error_token_o     (error_token),
-      .error_unit_o      (error_unit)
+      .error_unit_o      (error_unit),
+      .behind_o          (behind),
+      .behind_unit_o     (behind_unit),
+      .behind_line_o     (behind_line)
   );
 
   // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer.
@@ -213,13 +218,10 @@ module kage_top #(
   );
 
   // ---- faces and segments to the tree's lines ----------------------------------------------------------------------
-  logic tree_valid, tree_ready, tree_lit, tree_last, tree_drop, tree_moving, tree_wait;
-  logic [Z_BITS-1:0] tree_z;
+  logic tree_valid, tree_ready, tree_lit, tree_last, tree_drop, tree_moving;
+  logic [ Z_BITS-1:0] tree_z;
   logic [RgbBits-1:0] tree_color;
-  logic [5:0] tree_wait_unit;
   if (UNITS > 0) begin : gen_tree
-    logic [UnitBits-1:0] wait_unit;
-    assign tree_wait_unit = 6'(wait_unit);
     tree_core #(
         .X_BITS(X_BITS),
         .Z_BITS(Z_BITS),
@@ -257,9 +259,7 @@ module kage_top #(
         .line_color_o (tree_color),
         .line_last_o  (tree_last),
         .drop_o       (tree_drop),
-        .moving_o     (tree_moving),
-        .wait_o       (tree_wait),
-        .wait_unit_o  (wait_unit)
+        .moving_o     (tree_moving)
     );
   end else begin : gen_no_tree
     logic unused_tree;
@@ -267,7 +267,7 @@ module kage_top #(
                            tree_face,
                            tree_entry, tree_seg_z, tree_dx, tree_ready};
     assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_z, tree_lit, tree_color, tree_last, tree_drop} = '0;
-    assign {tree_moving, tree_wait, tree_wait_unit} = '0;
+    assign tree_moving = 1'b0;
   end
 
   // ---- commands to pixels ------------------------------------------------------------------------------------------
@@ -392,8 +392,9 @@ module kage_top #(
       .error_line_i    (error_line),
       .error_token_i   (error_token),
       .error_unit_i    (error_unit),
-      .tree_wait_i     (tree_wait),
-      .tree_wait_unit_i(tree_wait_unit)
+      .behind_i        (behind),
+      .behind_unit_i   (behind_unit),
+      .behind_line_i   (behind_line)
   );
 
   // ---- assertions --------------------------------------------------------------------------------------------------

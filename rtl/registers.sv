@@ -51,8 +51,9 @@ module registers #(
     input wire logic [15:0] error_line_i,
     input wire logic [31:0] error_token_i,
     input wire logic [ 5:0] error_unit_i,
-    input wire logic        tree_wait_i,
-    input wire logic [ 5:0] tree_wait_unit_i
+    input wire logic        behind_i,          // a unit has less of the frame than another, with the next two
+    input wire logic [ 5:0] behind_unit_i,
+    input wire logic [14:0] behind_line_i      // without such a unit the line at hand
 );
   `include "kage_layout.svh"
   `include "kage_registers.svh"
@@ -60,7 +61,7 @@ module registers #(
   localparam logic [31:0] Shape = {1'(ARRANGEMENT), 5'd0, 4'(BEAT_WORDS), 6'(LANES), 16'(MAX_WIDTH)};
   localparam logic [1:0] RespOkay = 2'b00;
   localparam logic [1:0] RespSlverr = 2'b10;
-  localparam logic [7:0] RegLast = RegTree;
+  localparam logic [7:0] RegLast = RegStall;
 
   // ---- write channel -----------------------------------------------------------------------------------------------
   logic aw_held_q, w_held_q, write;
@@ -100,12 +101,14 @@ module registers #(
   logic [15:0] error_line_q;
   logic [ 3:0] error_code_q;
   logic [ 5:0] error_unit_q;
-  logic bite, write_control, write_irq, write_limit;
+  logic [31:0] stall_q;
+  logic bite, unit_waited, write_control, write_irq, write_limit;
 
   assign write_control = write && aw_addr_q[7:2] == RegControl[7:2];
   assign write_irq = write && aw_addr_q[7:2] == RegIrq[7:2];
   assign write_limit = write && aw_addr_q[7:2] == RegWatchdog[7:2];
   assign bite = limit_q != '0 && open_i && !progress_i && idle_q == limit_q - 32'd1;
+  assign unit_waited = waiting_input_i && behind_i;
   assign irq_set = {bite, error_i, frame_end_i};
   assign irq_o = (irq_q & control_q) != '0;
 
@@ -120,6 +123,7 @@ module registers #(
       error_frame_q <= '0;
       error_token_q <= '0;
       error_unit_q <= '0;
+      stall_q <= '0;
       errors_q <= '0;
       frames_q <= '0;
       cycles_q <= '0;
@@ -139,6 +143,11 @@ module registers #(
         error_token_q <= error_token_i;
         error_unit_q <= error_unit_i;
         errors_q <= errors_q + 32'd1;
+      end
+      if (bite) begin
+        stall_q <= {
+          unit_waited, behind_line_i, 6'd0, waiting_output_i, waiting_input_i, 2'd0, unit_waited ? behind_unit_i : 6'd0
+        };
       end
       if (frame_end_i) frames_q <= frames_q + 32'd1;
       cycles_q <= cycles_q + 32'd1;
@@ -170,7 +179,8 @@ module registers #(
       RegStarved: value = starved_q;
       RegBlocked: value = blocked_q;
       RegErrorUnit: value = 32'(error_unit_q);
-      RegTree: value = {tree_wait_i, 25'd0, tree_wait_unit_i};
+      RegTree: value = unit_waited ? {1'b1, behind_line_i, 10'd0, behind_unit_i} : '0;
+      RegStall: value = stall_q;
       default: value = '0;
     endcase
   end

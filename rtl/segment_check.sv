@@ -13,6 +13,8 @@
 //   seg_pass_o      SEG: it goes to its unit; otherwise it is swallowed: its unit is or becomes at fault
 //   tree_error_o    TREE: a unit is at fault for this line; tree_code_o, tree_unit_o and tree_token_o say how
 // State: tree_o, the frame has a tree; due_o, the line's TREE has not been taken yet, so only SEG and TREE may come.
+//   behind_o, some unit has been given more than another: behind_unit_o is the lowest of those that have fewest lines complete, and
+//   behind_ahead_o how many of them more than have ended. 1 clock late.
 // Two faults are kept, the first SEG at fault for this line and for the next: no SEG can be at fault for a later one, and none
 //   is left from an earlier one, because that line's TREE has raised it.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
@@ -56,7 +58,11 @@ module segment_check #(
     output logic [        31:0] tree_token_o,
 
     output logic tree_o,
-    output logic due_o
+    output logic due_o,
+
+    output logic                behind_o,
+    output logic [UnitBits-1:0] behind_unit_o,
+    output logic [         1:0] behind_ahead_o
 );
   `include "kage_layout.svh"
 
@@ -154,6 +160,28 @@ module segment_check #(
         for (int u = 0; u < UNITS; u++) ahead_q[u*2+:2] <= ahead_q[u*2+:2] - 2'd1;
       end
     end
+  end
+
+  // ---- who is behind -----------------------------------------------------------------------------------------------
+  logic [1:0] least;
+  logic [UnitBits-1:0] least_unit;
+  logic uneven;
+  always_comb begin
+    least = 2'd3;
+    least_unit = '0;
+    for (int u = UNITS - 1; u >= 0; u--) begin
+      if (ahead_q[u*2+:2] <= least) begin
+        least = ahead_q[u*2+:2];
+        least_unit = UnitBits'(u);
+      end
+    end
+    uneven = sum_q != '0;
+    for (int u = 0; u < UNITS; u++) if (ahead_q[u*2+:2] != least) uneven = 1'b1;
+  end
+  always_ff @(posedge clk_i) begin
+    behind_o <= rst_ni && tree_q && uneven;
+    behind_unit_o <= least_unit;
+    behind_ahead_o <= least;
   end
 
   // ---- faults kept for this line and the next ----------------------------------------------------------------------

@@ -10,8 +10,7 @@
 // Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be leaving then,
 //   none of the one before that. After a frame with an error flush_i, one clock or more, drops what has not been claimed: lines claimed
 //   leave first, and frame_ready_o is low until the rest is gone. No face, segment or claim comes from flush_i until the next frame_start_i.
-// Status: wait_o says that a unit has no pixel while another has one, and wait_unit_o is the lowest such unit; 1 clock late. moving_o:
-//   a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its work.
+// Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its work.
 // Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of the tree.
 // Throughput: a pixel a clock, no bubble in a line.
 // Needs UNITS > 0: a core without units leaves it out.
@@ -51,9 +50,7 @@ module tree_core #(
     output logic                    line_last_o,
     output logic                    drop_o,
 
-    output logic                moving_o,
-    output logic                wait_o,
-    output logic [UnitBits-1:0] wait_unit_o
+    output logic moving_o
 );
 
   // ---- lines claimed, flush ----------------------------------------------------------------------------------------
@@ -150,17 +147,6 @@ module tree_core #(
   assign line_z_o = point[PointBits-1-:Z_BITS];
   assign line_color_o = point[LitBits+:RgbBits];
   assign line_lit_o = DSF_BITS > 0 && point[0];
-
-  // ---- status ------------------------------------------------------------------------------------------------------
-  logic [UnitBits-1:0] lowest;
-  always_comb begin
-    lowest = '0;
-    for (int u = UNITS - 1; u >= 0; u--) if (!px_valid[u]) lowest = UnitBits'(u);
-  end
-  always_ff @(posedge clk_i) begin
-    wait_o <= rst_ni && !flush && |px_valid && !(&px_valid);
-    wait_unit_o <= lowest;
-  end
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS

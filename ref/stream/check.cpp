@@ -2,6 +2,8 @@
 // The strict check of a frame, as files get it.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
@@ -32,6 +34,7 @@ TokenCounts& TokenCounts::operator+=(const TokenCounts& other) {
   words += other.words;
   spans += other.spans;
   span_pixels += other.span_pixels;
+  units = std::max(units, other.units);
   return *this;
 }
 
@@ -89,7 +92,11 @@ struct FrameChecker::Data {
     const Token t = decode(config, layout, body);
     if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) fail(e);
     if (!padding_is_zero(body, layout.bits[kind])) fail("bits past the last field are not zero");
-    if (t.kind == Kind::FACE) faces[static_cast<std::size_t>(t.segment.unit)].push_back(t.segment.dz);
+    if (t.kind == Kind::FACE) {
+      auto& of_unit = faces[static_cast<std::size_t>(t.segment.unit)];
+      if (of_unit.empty()) ++counts.units;
+      of_unit.push_back(t.segment.dz);
+    }
     if (t.kind == Kind::SEG) check_segment(t.segment, body);
     ++counts.of_kind[kind];
     if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::TP) {

@@ -20,4 +20,5 @@ localparam logic [7:0] RegStarved = 8'h38;  // ro
 localparam logic [7:0] RegBlocked = 8'h3c;  // ro
 localparam logic [7:0] RegErrorUnit = 8'h40;  // ro
 localparam logic [7:0] RegTree = 8'h44;  // ro
+localparam logic [7:0] RegStall = 8'h48;  // ro
 /* verilator lint_on UNUSEDPARAM */

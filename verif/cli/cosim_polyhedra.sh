@@ -35,6 +35,11 @@ arrangement lanes8 "$small, UNITS: 4, LANES: 8, BEAT_WORDS: 4"
 arrangement systolic "$small, UNITS: 4, ARRANGEMENT: 0, BEAT_WORDS: 2"
 printf 'clocks of fifteen: %s\n' "${cycles[*]}"
 
+# Of a stream file the same is said as of its scene.
+expect 0 "$kage" stream fifteen --size 48x36 --frames 2 --config lanes4.yaml --out fifteen.kage
+expect 0 "$kage" cosim fifteen.kage --json of_stream.json --out of_stream
+json of_stream.json 'j["same"] is True and j["units"]==4 and all(j[k]==json.load(open("lanes4.json"))[k] for k in ("segments", "polyhedra", "spans"))'
+
 # The paper's format has other depths, so its pictures are those of its own golden model; it agrees with the RTL all the same.
 printf '{%s, UNITS: 3, CLASSIC: 1, Z_BITS: 15, Z_FRAC: 0, LANES: 4}\n' "$small" >classic.yaml
 for scene in polyhedra fifteen; do

@@ -31,6 +31,7 @@ OBJ
 ways='[(w["object"], w["component"], w["components"], w["unit_frames"], w["span_frames"]) for w in j["polyhedra"]]==[("soup",0,3,0,1),("tetrahedron",3,1,1,0)]'
 expect 0 "$kage" stream mixed.obj --config polyhedra --size 64x48 --frames 1 --out mixed.kage
 expect 0 "$kage" info mixed.kage --json info.json
+json info.json 'j["units"]==1 and j["segments"]>48'
 json info.json "$ways and 'belongs to one face only' in j['polyhedra'][0]['why'] and j['polyhedra'][1]['why'] is None"
 expect 0 "$kage" info mixed.kage
 grep -q '^soup, 3 components from 0: by segments in 0 frames, by spans in 1 frame: ' stdout || fail "info does not join the soup: $(cat stdout)"

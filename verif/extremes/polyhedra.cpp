@@ -204,7 +204,8 @@ TEST_CASE("family 32: runs longer than a segment are split, whatever the length 
         c.max_width = 2047;
         c.dx_bits = dx_bits;
         c.seg_bits = 10;
-        const RunCount runs = count_runs(make_geometry(f, c, width, 24), c);
+        const FrameGeometry g = make_geometry(f, c, width, 24);
+        const RunCount runs = count_runs(g, c);
         const int longest = (1 << dx_bits) - 1;
         CHECK((runs.longest == width) == whole_lines);
         for (const SegmentCount& n : same_either_way(f, c, width, 24)) {
@@ -216,6 +217,23 @@ TEST_CASE("family 32: runs longer than a segment are split, whatever the length 
           // A unit without polyhedra has blank lines, split likewise; a front that fills the line takes as many.
           if (whole_lines || n.units > 1) CHECK(n.most >= static_cast<std::size_t>((width + longest - 1) / longest));
         }
+        // No picture shows a fraction of an LSB: the next segment goes on with the very sum that the run has reached.
+        c.units = 1;
+        const Picture p = picture(g, c);
+        std::vector<std::int64_t> steps;  // of the faces
+        each_token(p.words, c, Kind::FACE, [&](const Token& t, std::size_t) { steps.push_back(t.segment.dz); });
+        std::uint64_t joints = 0;
+        std::uint64_t wrong = 0;
+        const auto units = segments_of(p, c);
+        for (const auto& line : units[0])
+          for (std::size_t i = 1; i < line.size(); ++i) {
+            const SegmentToken& s = line[i - 1];
+            if (line[i].face != s.face || s.face == (1 << c.face_bits) - 1) continue;
+            ++joints;
+            wrong += line[i].z != s.z + s.dx * steps.at(static_cast<std::size_t>(s.face)) ? 1 : 0;
+          }
+        CHECK((joints > 0) == (runs.longest > longest));
+        CHECK(wrong == 0);
       }
   }
 }

@@ -12,7 +12,8 @@ using namespace kage::rtl;
 
 namespace {
 
-constexpr std::uint32_t kTreeWaits = 1U << 31, kIrqError = 2, kIrqWatchdog = 4;
+constexpr std::uint32_t kTreeWaits = 1U << 31, kStallsForInput = 1U << 8, kStallsForOutput = 1U << 9;
+constexpr std::uint32_t kIrqError = 2, kIrqWatchdog = 4;
 
 kage::Config with_units(int units) {
   kage::Config c;
@@ -47,8 +48,8 @@ struct Fault {
 /// before its TREE, so that a unit may be short without the next line's being at fault.
 struct TreeFrame {
   std::vector<std::uint32_t> words;
-  std::vector<std::size_t> unit_ends;  ///< words up to the end of each unit's segments of line 0
-  std::uint32_t seg = 0, tree = 0;     ///< index of the faulty SEG, and of the TREE of its line
+  std::vector<std::vector<std::size_t>> unit_ends;  ///< of each line: words up to the end of each unit's segments
+  std::uint32_t seg = 0, tree = 0;                  ///< index of the faulty SEG, and of the TREE of its line
 };
 
 TreeFrame tree_frame(Dice& dice, const kage::Config& c, int width, int height, const std::vector<int>& order,
@@ -65,6 +66,7 @@ TreeFrame tree_frame(Dice& dice, const kage::Config& c, int width, int height, c
     ++token;
   }
   for (int y = 0; y < height; ++y) {
+    f.unit_ends.emplace_back();
     for (const int unit : order) {
       t.unit = unit;
       const bool faulty = fault.kind != Fault::kNone && fault.unit == unit && fault.line == y;
@@ -82,7 +84,7 @@ TreeFrame tree_frame(Dice& dice, const kage::Config& c, int width, int height, c
         ++token;
         if (faulty && last) f.seg = token;
       }
-      if (y == 0) f.unit_ends.push_back(f.words.size());
+      f.unit_ends.back().push_back(f.words.size());
     }
     w.tree();
     ++token;
@@ -142,18 +144,18 @@ void waiting_test(const kage::Config& c) {
   each_seed(20, [&](Dice& dice) {
     const int limit = dice.between(1, 50);
     const auto order = random_order(dice, c.units);
-    const TreeFrame f = tree_frame(dice, c, dice.between(6, 15), 3, order, 0);
+    // Of any width that segments have, with lines shorter than the tree has levels too.
+    const TreeFrame f = tree_frame(dice, c, dice.between(3, 15), 3, order, 0);
+    const int line = dice.below(3);
+    const auto& ends = f.unit_ends[static_cast<std::size_t>(line)];
     // Up to the beat in which one unit's segments end; those of the next may end in it too, of the last they do not.
     const auto beat = static_cast<std::size_t>(c.beat_words);
-    const auto beats_for = [&](int units) {
-      return (f.unit_ends[static_cast<std::size_t>(units) - 1] + beat - 1) / beat;
-    };
+    const auto beats_for = [&](int units) { return (ends[static_cast<std::size_t>(units) - 1] + beat - 1) / beat; };
     const std::size_t beats = beats_for(dice.between(1, c.units - 2));
-    const auto there =
-        std::count_if(f.unit_ends.begin(), f.unit_ends.end(), [&](std::size_t end) { return end <= beats * beat; });
+    const auto there = std::count_if(ends.begin(), ends.end(), [&](std::size_t end) { return end <= beats * beat; });
     REQUIRE(there < c.units);
     const int missing = *std::min_element(order.begin() + there, order.end());
-    CAPTURE(limit, there, missing);
+    CAPTURE(limit, there, missing, line);
     Core<Model> core(dice, c);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
     core.write(KAGE_REG_CONTROL, kIrqWatchdog);
@@ -166,9 +168,11 @@ void waiting_test(const kage::Config& c) {
       core.clock();
     }
     for (int n = 0; n < 40; ++n) core.clock();
-    REQUIRE(core.read(KAGE_REG_TREE) == (kTreeWaits | static_cast<std::uint32_t>(missing)));
+    const std::uint32_t waits =
+        kTreeWaits | static_cast<std::uint32_t>(line) << 16 | static_cast<std::uint32_t>(missing);
+    REQUIRE(core.read(KAGE_REG_TREE) == waits);
+    REQUIRE(core.read(KAGE_REG_STALL) == (waits | kStallsForInput));
     REQUIRE((core.read(KAGE_REG_STATUS) & (kWaitsForInput | kWaitsForOutput)) == kWaitsForInput);
-    REQUIRE(core.pixels.empty());
     core.write(KAGE_REG_IRQ, kIrqWatchdog);
     for (int n = 0; n < 10 * limit + 100; ++n) core.clock();
     REQUIRE(core.bites == 1);
@@ -202,6 +206,7 @@ void full_units_test(const kage::Config& c) {
     REQUIRE(core.beats_left() == left);
     REQUIRE((core.read(KAGE_REG_STATUS) & (kWaitsForInput | kWaitsForOutput)) == kWaitsForOutput);
     REQUIRE((core.read(KAGE_REG_TREE) & kTreeWaits) == 0);
+    REQUIRE((core.read(KAGE_REG_STALL) & (kTreeWaits | kStallsForInput | kStallsForOutput)) == kStallsForOutput);
     REQUIRE(core.bites == 1);
     core.out.held = false;
     core.finish();

@@ -22,7 +22,7 @@ class Axil {
   void quiet() {
     top->open_i = top->draining_i = top->waiting_input_i = top->waiting_output_i = 0;
     top->progress_i = top->frame_end_i = top->error_i = 0;
-    top->error_unit_i = top->tree_wait_i = top->tree_wait_unit_i = 0;
+    top->error_unit_i = top->behind_i = top->behind_unit_i = top->behind_line_i = 0;
   }
   void clock() {
     top.settle();
@@ -111,9 +111,10 @@ TEST_CASE("Constants and values after reset", "[registers]") {
     CHECK(a.read(KAGE_REG_VERSION) == kage::kStreamVersion);
     CHECK(a.read(KAGE_REG_PARAM_HASH) == kage::param_hash(kage::Config{}));
     CHECK(a.read(KAGE_REG_SHAPE) == (640U | 4U << 16 | 4U << 22 | 1U << 31));
-    for (const std::uint32_t r : {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR,
-                                  KAGE_REG_ERROR_FRAME, KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES,
-                                  KAGE_REG_STARVED, KAGE_REG_BLOCKED, KAGE_REG_ERROR_UNIT, KAGE_REG_TREE})
+    for (const std::uint32_t r :
+         {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR, KAGE_REG_ERROR_FRAME,
+          KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES, KAGE_REG_STARVED, KAGE_REG_BLOCKED,
+          KAGE_REG_ERROR_UNIT, KAGE_REG_TREE, KAGE_REG_STALL})
       CHECK(a.read(r) == 0);
   });
 }
@@ -129,9 +130,9 @@ TEST_CASE("Writes: byte strobes, read-only registers, addresses without a regist
     a.write(KAGE_REG_ID, 5);
     CHECK(a.read(KAGE_REG_ID) == 0x4B414745);
     a.write(KAGE_REG_TREE, 1);
-    a.write(0x48, 1, kSlverr);
+    a.write(0x4C, 1, kSlverr);
     a.write(0xFC, 1, kSlverr);
-    a.read(0x48, kSlverr);
+    a.read(0x4C, kSlverr);
   });
 }
 
@@ -171,9 +172,6 @@ TEST_CASE("Errors, frames and the interrupt", "[registers]") {
 TEST_CASE("Counters and status", "[registers]") {
   each_seed(3, [](Dice& dice) {
     Axil a(dice);
-    a.top->tree_wait_i = 1;
-    a.top->tree_wait_unit_i = 37;
-    CHECK(a.read(KAGE_REG_TREE) == (1U << 31 | 37U));
     a.quiet();
     a.top->waiting_input_i = 1;
     for (int i = 0; i < 5; ++i) a.clock();
@@ -191,6 +189,14 @@ TEST_CASE("Counters and status", "[registers]") {
     a.top->open_i = a.top->draining_i = a.top->waiting_input_i = 1;
     a.top->waiting_output_i = 0;
     CHECK(a.read(KAGE_REG_STATUS) == 0b0111);
+    a.quiet();
+    a.top->behind_i = 1;
+    a.top->behind_unit_i = 37;
+    a.top->behind_line_i = 12345;
+    a.top->waiting_input_i = 0;
+    CHECK(a.read(KAGE_REG_TREE) == 0);  // the stream is not waited for
+    a.top->waiting_input_i = 1;
+    CHECK(a.read(KAGE_REG_TREE) == (1U << 31 | 12345U << 16 | 37U));
   });
 }
 
@@ -201,6 +207,7 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.write(KAGE_REG_CONTROL, 4);
     for (int i = 0; i < 100; ++i) a.clock();  // no frame is open
     CHECK(!a.top->irq_o);
+    CHECK(a.read(KAGE_REG_STALL) == 0);
     a.top->open_i = 1;
     for (int i = 0; i < 200; ++i) {  // progress now and then
       a.top->progress_i = i % 20 == 0 ? 1 : 0;
@@ -210,20 +217,30 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.top->progress_i = 1;
     a.clock();
     a.top->progress_i = 0;
+    a.top->behind_i = a.top->waiting_input_i = 1;
+    a.top->behind_unit_i = 5;
+    a.top->behind_line_i = 77;
     for (int i = 0; i < 19; ++i) {
       a.clock();
       REQUIRE(!a.top->irq_o);
     }
     a.clock();
     CHECK(a.top->irq_o);
+    // What was waited for then, whatever has come since.
+    a.top->behind_unit_i = 6;
+    a.top->behind_i = a.top->waiting_input_i = 0;
+    CHECK(a.read(KAGE_REG_STALL) == (1U << 31 | 77U << 16 | 1U << 8 | 5U));
+    CHECK(a.read(KAGE_REG_TREE) == 0);
     a.write(KAGE_REG_IRQ, 4);
     for (int i = 0; i < 100; ++i) a.clock();
     CHECK(!a.top->irq_o);  // one bite for one standstill
     a.top->progress_i = 1;
     a.clock();
     a.top->progress_i = 0;
+    a.top->waiting_output_i = 1;
     for (int i = 0; i < 20; ++i) a.clock();
     CHECK(a.top->irq_o);
+    CHECK(a.read(KAGE_REG_STALL) == (77U << 16 | 1U << 9));
     a.write(KAGE_REG_WATCHDOG, 0);
     a.write(KAGE_REG_IRQ, 4);
     for (int i = 0; i < 100; ++i) a.clock();

@@ -115,8 +115,8 @@ std::deque<Event> random_frame(Dice& dice, const TreeShape& s, int width) {
 }
 
 template <class Model>
-void random_test(const TreeShape& s) {
-  each_seed(25, [&](Dice& dice) {
+void random_test(const TreeShape& s, int seeds = 25) {
+  each_seed(seeds, [&](Dice& dice) {
     Bench<Model> top(dice);
     const bool flushes = dice.percent(50);
     const int out_stall = stall_percent(dice);
@@ -267,6 +267,7 @@ TEST_CASE("tree_core of 2 units", "[tree_core]") { random_test<Vcore2>(small(2))
 TEST_CASE("tree_core of 3 units, the paper's segments", "[tree_core]") { random_test<Vcore3>(kClassic); }
 TEST_CASE("tree_core of 5 units", "[tree_core]") { random_test<Vcore5>(small(5)); }
 TEST_CASE("tree_core of 8 units", "[tree_core]") { random_test<Vcore8>(small(8)); }
+TEST_CASE("tree_core of 64 units", "[tree_core]") { random_test<Vcore64>(small(64), 3); }
 
 TEST_CASE("tree_core takes a line's width and its latency", "[tree_core]") {
   clocks_test<Vcore1>(1);
@@ -283,39 +284,6 @@ TEST_CASE("tree_core sends buffered lines without a gap", "[tree_core]") {
   two_lines_test<Vcore1>(1);
   two_lines_test<Vcore5>(5);
   two_lines_test<Vcore64>(64);
-}
-
-TEST_CASE("tree_core names the lowest unit that it waits for", "[tree_core]") {
-  each_seed(10, [](Dice& dice) {
-    Bench<Vcore5> top(dice);
-    const auto clock = [&](int unit) {
-      quiet(*top, 3);
-      if (unit >= 0) {
-        top->seg_valid_i = 1;
-        top->seg_unit_i = static_cast<CData>(unit);
-        put_segment(*top, {0, 3, small(5).blank()});
-      }
-      top.settle();
-      top.edge();
-    };
-    std::vector<int> order{0, 1, 2, 3, 4};
-    for (std::size_t i = 5; i > 1; --i)
-      std::swap(order[i - 1], order[static_cast<std::size_t>(dice.below(static_cast<int>(i)))]);
-    std::vector<bool> has(5, false);
-    for (int i = 0; i < 20; ++i) clock(-1);
-    REQUIRE(!top->wait_o);  // nobody has a pixel
-    for (const int unit : order) {
-      clock(unit);
-      has[static_cast<std::size_t>(unit)] = true;
-      for (int i = 0; i < 20; ++i) clock(-1);
-      int lowest = 0;
-      while (lowest < 5 && has[static_cast<std::size_t>(lowest)]) ++lowest;
-      // The tree's cells have taken the pixels of those units whose neighbour has some too: only a pixel that waits
-      // counts.
-      REQUIRE(top->wait_o == (lowest < 5 ? 1 : 0));
-      if (lowest < 5) REQUIRE(top->wait_unit_o == lowest);
-    }
-  });
 }
 
 TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next frame until then", "[tree_core]") {

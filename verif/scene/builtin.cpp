@@ -10,6 +10,7 @@
 #include "scene/judge.hpp"
 #include "scene/layer_truth.hpp"
 #include "scene/ray_truth.hpp"
+#include "support/tree_frames.hpp"
 
 namespace kage::verif {
 namespace {
@@ -83,19 +84,38 @@ TEST_CASE("built-in scenes: layers of translucent faces are what rays say of the
   CHECK(count.near * 100 < count.pixels);
 }
 
+TEST_CASE("built-in scenes: polyhedra by segments and by spans give the same bits in every frame") {
+  for (const std::string& name : builtin_scenes()) {
+    const Scene scene = Scene::load(name);
+    int by_segments = 0;
+    for (int i = 0; i < scene.frame_count(); ++i) {
+      CAPTURE(name, i);
+      Config c;
+      c.smooth = i % 2;
+      c.color_frac = 8 * c.smooth;
+      c.translucency = translucent(scene) ? 1 : 0;
+      for (const SegmentCount& n : same_either_way(scene.frame(i, scene.frame_count()), c, 128, 96))
+        by_segments += n.by_segments;
+    }
+    CAPTURE(name);
+    CHECK(by_segments > 0);
+  }
+}
+
 TEST_CASE("built-in scenes: streams have the same bytes with every compiler, number of threads and Debian") {
-  // CRC-32 over the words of all frames at 320x240, flat and smooth. After a change that is meant to change them: run
-  // this test and copy what it prints.
-  const std::map<std::string, std::array<std::uint32_t, 2>> expected{
+  // CRC-32 over the words of all frames at 320x240, flat, smooth and with 16 units. After a change that is meant to
+  // change them: run this test and copy what it prints.
+  const std::map<std::string, std::array<std::uint32_t, 3>> expected{
 #include "scene/stream_checksums.inc"
   };
   for (const std::string& name : builtin_scenes()) {
     const Scene scene = Scene::load(name);
-    std::array<std::uint32_t, 2> sums{};
-    for (const int smooth : {0, 1}) {
+    std::array<std::uint32_t, 3> sums{};
+    for (std::size_t kind = 0; kind < sums.size(); ++kind) {
       Config c = wide_enough();
-      c.smooth = smooth;
-      c.color_frac = 8 * smooth;
+      c.smooth = kind == 1 ? 1 : 0;
+      c.color_frac = 8 * c.smooth;
+      c.units = kind == 2 ? 16 : 0;
       c.translucency = translucent(scene) ? 1 : 0;
       for (int i = 0; i < scene.frame_count(); ++i) {
         const FrameGeometry g = make_geometry(scene.frame(i, scene.frame_count()), c, 320, 240);
@@ -104,11 +124,11 @@ TEST_CASE("built-in scenes: streams have the same bytes with every compiler, num
         std::vector<std::uint32_t> threaded;
         make_frame(g, c, static_cast<std::uint32_t>(i), threaded, 2);
         CHECK(words == threaded);
-        auto& sum = sums[static_cast<std::size_t>(smooth)];
+        auto& sum = sums[kind];
         sum = static_cast<std::uint32_t>(crc32_z(sum, reinterpret_cast<const Bytef*>(words.data()), words.size() * 4));
       }
     }
-    INFO(fmt::format("{{\"{}\", {{{:#010x}, {:#010x}}}}},", name, sums[0], sums[1]));
+    INFO(fmt::format("{{\"{}\", {{{:#010x}, {:#010x}, {:#010x}}}}},", name, sums[0], sums[1], sums[2]));
     const auto it = expected.find(name);
     CHECK((it != expected.end() && it->second == sums));
   }

@@ -414,7 +414,7 @@ inline void damage_tree(Random& random, const Config& c, std::vector<std::uint32
       case 8:  // out of phase, or past the last line
         copy(seg, length, any(all));
         break;
-      case 9: {  // whole lines of a unit too early, or too many of them
+      case 9: {                                   // whole lines of a unit too early, or too many of them
         if (trees.front() < segs.front()) break;  // by an earlier round's damage
         const std::vector<std::uint32_t> line(words.begin() + segs.front(), words.begin() + trees.front());
         words.insert(words.begin() + any(random.chance(0.5) ? trees : segs), line.begin(), line.end());

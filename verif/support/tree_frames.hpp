@@ -110,6 +110,7 @@ inline SegmentCount count_segments(const Picture& p, const FrameGeometry& g, con
   c.by_spans = p.by_spans();
   c.unseen = p.unseen();
   c.units_used = p.report.units;
+  CHECK(p.counts.units == p.report.units);
   CHECK(c.by_segments + c.by_spans + c.unseen == static_cast<int>(g.polyhedra.size()));
   // A frame has a tree if and only if a polyhedron goes to it.
   CHECK(p.count(Kind::TREE) == (c.by_segments > 0 ? static_cast<std::uint64_t>(g.height) : 0));

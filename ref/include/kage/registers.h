@@ -21,7 +21,8 @@
 #define KAGE_REG_STARVED 0x38u /* ro: clocks inside a frame in which the core waited for input */
 #define KAGE_REG_BLOCKED 0x3Cu /* ro: clocks in which a pixel waited for the output's ready */
 #define KAGE_REG_ERROR_UNIT 0x40u /* ro: unit of the newest error, if it is SEGMENT, UNIT_LONG or UNIT_SHORT */
-#define KAGE_REG_TREE 0x44u /* ro: bits 5-0 the lowest unit that the compare tree waits for, bit 31 it waits for one */
+#define KAGE_REG_TREE 0x44u /* ro: bit 31 input is waited for while a unit has less of the frame than another; bits 5-0 the lowest unit that has least, bits 30-16 its line */
+#define KAGE_REG_STALL 0x48u /* ro: at the watchdog's last bite: bits 31-16 and 5-0 as TREE, without a unit the line at hand; bit 8 input, bit 9 output was waited for */
 
 #define KAGE_ERR_NONE 0u /* no error */
 #define KAGE_ERR_HEADER 1u /* magic or version is not this core's */

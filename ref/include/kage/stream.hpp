@@ -106,6 +106,7 @@ struct TokenCounts {
   std::uint64_t words = 0;
   std::uint64_t spans = 0;        ///< OP, SP, NC, TP
   std::uint64_t span_pixels = 0;  ///< pixels in them
+  int units = 0;                  ///< units with faces; of several frames, the most
 
   TokenCounts& operator+=(const TokenCounts& other);
 };
