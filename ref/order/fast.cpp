@@ -163,7 +163,7 @@ void Fast::test(double way) {
   const SideQuery query = eye_.query();
   SideCounts counts;
   // Limits cost a little where they are made, and pay where a block is then left out every third time or more.
-  if (way < 2 * margin_ || ++since_margin_ == kMarginAge) {
+  if (!placed_ || way < 2 * margin_ || ++since_margin_ == kMarginAge) {
     since_margin_ = 0;
     counts = test_blocks(data_.blocks.data(), blocks_, query, sides_.data(), flips_.data(), unsure_.data(), path_,
                          limits_.data());
