@@ -87,6 +87,7 @@ class Fast final : public VisibilityOrder {
   double exchange_cost(double limit);
   void exchange();
   void swap_subtrees(std::uint32_t node, std::uint32_t part);
+  void shift_places(std::uint32_t first, std::uint32_t end, std::uint32_t by);
   void rebuild();
   void calibrate();
 
@@ -272,8 +273,15 @@ void Fast::swap_subtrees(std::uint32_t node, std::uint32_t part) {
   const std::uint32_t end = parts_.below(node + 1 + front_size + back_size);
   const std::uint32_t later = y + 1;          // X begins so much later,
   const std::uint32_t sooner = 0U - (x + 1);  // Y so much sooner
-  add_to(place_.data() + front, back - front, front_was_first ? later : sooner);
-  add_to(place_.data() + back, end - back, front_was_first ? sooner : later);
+  shift_places(front, back, front_was_first ? later : sooner);
+  shift_places(back, end, front_was_first ? sooner : later);
+}
+
+void Fast::shift_places(std::uint32_t first, std::uint32_t end, std::uint32_t by) {
+  if (end - first > 16)
+    add_to(place_.data() + first, end - first, by);
+  else
+    for (std::uint32_t p = first; p < end; ++p) place_[p] += by;
 }
 
 void Fast::rebuild() {

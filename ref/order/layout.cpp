@@ -72,10 +72,10 @@ void add_fragment(const BuildFragment& f, OrderTree::Data& data) {
 
 }  // namespace
 
-void lay_out(BuildTree tree, OrderTree::Data& data) {
+void lay_out(const BuildTree& tree, OrderTree::Data& data) {
   const std::vector<BuildNode*> top_down = preorder(tree.root);
-  for (auto n = top_down.rbegin(); n != top_down.rend(); ++n) {  // children before parents
-    BuildNode& node = **n;
+  for (std::size_t i = top_down.size(); i-- > 0;) {  // children before parents
+    BuildNode& node = *top_down[i];
     node.size = 1 + size_of(node.child[0]) + size_of(node.child[1]);
     node.reversed = !before(node.child[0], node.child[1]);
     set_shape(node);
