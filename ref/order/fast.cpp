@@ -204,7 +204,7 @@ bool Fast::exchange_is_cheaper() {
   // anyway, since the average comes from it.
   const double guess = static_cast<double>(step_.flips) * flip_cost_ * costs_.scale;
   step_.exchange_cost = guess;
-  const bool sure = guess * 4 < costs_.rebuild || guess > costs_.rebuild * 2;
+  const bool sure = guess * 2 < costs_.rebuild || guess > costs_.rebuild * 1.25;
   if (sure && ++since_counted_ < kCountAge) return guess < costs_.rebuild;
   since_counted_ = 0;
   step_.exchange_cost = costs_.scale * exchange_cost(costs_.rebuild / costs_.scale);

@@ -33,7 +33,7 @@ bool within_bound(const OrderTree& tree) {
   return s.fragments <= bound(s.faces) && s.nodes <= s.fragments;
 }
 
-OrderMesh joined(std::vector<OrderMesh> parts) {
+OrderMesh joined(const std::vector<OrderMesh>& parts) {
   OrderMesh all;
   for (const OrderMesh& m : parts)
     for (const OrderMesh::Polygon& p : m.polygons) {
