@@ -153,7 +153,7 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
   constexpr double kWidth = 480;
   constexpr double kHeight = 300;
   double low = 1e300;
-  double high = 0;
+  double high = -1e300;
   using Pick = double (*)(const order::MeasureRow&);
   struct Line {
     const char* name;

@@ -3,12 +3,15 @@
 // Sets of fragments are cut, one after the other, by a plane of one of their faces. Each set has its own chance, drawn
 // from its parent's, and nothing else passes between sets: so the tree is the same whichever thread takes which.
 #include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 #include "kage/error.hpp"
 #include "order/build_node.hpp"
@@ -37,6 +40,10 @@ class Builder {
     all.fragments.resize(faces_.faces.size());
     for (std::size_t f = 0; f < all.fragments.size(); ++f) all.fragments[f].face = static_cast<std::uint32_t>(f);
     if (all.fragments.empty()) return std::move(tree_);
+    // As many as asked for, even if there are fewer processors.
+    std::optional<tbb::global_control> allowed;
+    if (options_.threads > tbb::info::default_concurrency())
+      allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
     tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
     arena.execute([&] {
       spawn(std::move(all));

@@ -31,7 +31,7 @@ struct BuildTree {
 /// Cuts faces into a tree; counts splits and tests.
 BuildTree build_tree(const Faces& faces, const OrderBuildOptions& options, OrderBuildStats& stats);
 
-/// Numbers the nodes and moves all into flat arrays; `data.faces` is there already.
-void lay_out(BuildTree tree, OrderTree::Data& data);
+/// Numbers the nodes and takes all out of them into flat arrays; `data.faces` is there already.
+void lay_out(const BuildTree& tree, OrderTree::Data& data);
 
 }  // namespace kage::order

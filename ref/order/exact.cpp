@@ -86,18 +86,22 @@ int sign(const Int& x) {
   return x.sign();
 }
 
+/// The point as weights of known points: the sum of weight[i] * point[i] over the sum of the weights.
 template <class Int>
-int side(const Grid& grid, const ExactVertex& v, const PlanePoints& plane) {
-  const Plane<Int> q = on_grid<Int>(plane, grid);
-  if (v.kind == ExactVertex::Kind::kCorner) return sign<Int>(value<Int>(q, on_grid<Int>(v.p, grid)));
+struct Weighted {
+  Point<Int> weight;
+  std::array<Point<Int>, 3> point;
+  [[nodiscard]] Int sum() const { return weight[0] + weight[1] + weight[2]; }
+};
+
+template <class Int>
+Weighted<Int> weighted(const Grid& grid, const ExactVertex& v) {
   const Plane<Int> first = on_grid<Int>(v.first, grid);
   if (v.kind == ExactVertex::Kind::kOnEdge) {
-    // The point is (s p' - s' p) / (s - s') with s, s' the plane's values at the ends p, p'.
+    // (s p' - s' p) / (s - s') with s, s' the plane's values at the ends p, p'.
     const Point<Int> p = on_grid<Int>(v.p, grid);
-    const Point<Int> p2 = on_grid<Int>(v.q, grid);
-    const Int s = value<Int>(first, p);
-    const Int s2 = value<Int>(first, p2);
-    return sign<Int>(s * value<Int>(q, p2) - s2 * value<Int>(q, p)) * sign<Int>(s - s2);
+    const Point<Int> q = on_grid<Int>(v.q, grid);
+    return {{Int(-value<Int>(first, q)), value<Int>(first, p), Int(0)}, {p, q, p}};
   }
   // Barycentric in the face's three points, a plane's value is linear: the point is where both nodes' rows are 0.
   const Plane<Int> second = on_grid<Int>(v.second, grid);
@@ -106,8 +110,32 @@ int side(const Grid& grid, const ExactVertex& v, const PlanePoints& plane) {
   const auto row = [&](const Plane<Int>& n) {
     return Point<Int>{value<Int>(n, corners[0]), value<Int>(n, corners[1]), value<Int>(n, corners[2])};
   };
-  const Point<Int> both = cross<Int>(row(first), row(second));
-  return sign<Int>(dot<Int>(row(q), both)) * sign<Int>(Int(both[0] + both[1] + both[2]));
+  return {cross<Int>(row(first), row(second)), corners};
+}
+
+template <class Int>
+int side(const Grid& grid, const ExactVertex& v, const PlanePoints& plane) {
+  const Plane<Int> q = on_grid<Int>(plane, grid);
+  if (v.kind == ExactVertex::Kind::kCorner) return sign<Int>(value<Int>(q, on_grid<Int>(v.p, grid)));
+  const Weighted<Int> w = weighted<Int>(grid, v);
+  Int sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) sum += w.weight[i] * value<Int>(q, w.point[i]);
+  return sign<Int>(sum) * sign<Int>(w.sum());
+}
+
+/// Cut off after 64 bits or so.
+double quotient(Wide dividend, Wide divisor) {
+  if (dividend.is_zero()) return 0;
+  const bool negative = (dividend.sign() < 0) != (divisor.sign() < 0);
+  dividend = abs(dividend);
+  divisor = abs(divisor);
+  const int shift = 64 - static_cast<int>(msb(dividend)) + static_cast<int>(msb(divisor));
+  if (shift >= 0)
+    dividend <<= static_cast<unsigned>(shift);
+  else
+    divisor <<= static_cast<unsigned>(-shift);
+  const double x = std::ldexp(Wide(dividend / divisor).convert_to<double>(), -shift);
+  return negative ? -x : x;
 }
 
 }  // namespace
@@ -136,6 +164,16 @@ int exact_side(const PlanePoints& plane, const OrderPoint& p) {
   ExactVertex v;
   v.p = p;
   return exact_side(grid_of(std::array<OrderPoint, 4>{plane.a, plane.b, plane.c, p}), v, plane);
+}
+
+OrderPoint exact_point(const Grid& grid, const ExactVertex& v) {
+  const Weighted<Wide> w = weighted<Wide>(grid, v);
+  OrderPoint p{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Wide sum = w.weight[0] * w.point[0][k] + w.weight[1] * w.point[1][k] + w.weight[2] * w.point[2][k];
+    p[k] = std::ldexp(quotient(sum, w.sum()), grid.exponent);
+  }
+  return p;
 }
 
 int exact_facing(const PlanePoints& plane, const OrderPoint& direction) {

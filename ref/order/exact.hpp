@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Signs by integers: slow, always right, asked where the filters (filter.hpp) cannot tell. A double is an integer times
-// a power of two, so all coordinates are integers on one grid fine enough. No point is ever made: every sign is that of
-// a polynomial in the given coordinates.
+// a power of two, so all coordinates are integers on one grid fine enough. No sign comes from a point that was made:
+// each is that of a polynomial in the given coordinates.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +43,9 @@ int exact_side(const Grid& grid, const ExactVertex& v, const PlanePoints& plane)
 
 /// The same for any four points.
 int exact_side(const PlanePoints& plane, const OrderPoint& p);
+
+/// The point that kOnEdge and kInside name, each coordinate within 2^-52 of its size.
+OrderPoint exact_point(const Grid& grid, const ExactVertex& v);
 
 /// Sign of (b - a) x (c - a) . direction.
 int exact_facing(const PlanePoints& plane, const OrderPoint& direction);

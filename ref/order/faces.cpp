@@ -9,6 +9,9 @@
 namespace kage::order {
 namespace {
 
+/// A node's plane is a face and a bit.
+constexpr std::size_t kMost = 0x7fffffff;
+
 using Corners = std::vector<std::uint32_t>;
 
 class Maker {
@@ -16,11 +19,13 @@ class Maker {
   Maker(const OrderMesh& mesh, OrderBuildStats& stats) : mesh_(mesh), stats_(stats) {}
 
   Faces run() {
-    if (mesh_.polygons.size() >= 0x40000000 || mesh_.vertices.size() >= kNoNode)
+    if (mesh_.polygons.size() > kMost || mesh_.vertices.size() >= kNoNode)
       throw Error(
           fmt::format("{} polygons over {} vertices are more than fit", mesh_.polygons.size(), mesh_.vertices.size()));
     out_.vertices = mesh_.vertices;
     for (std::size_t i = 0; i < mesh_.polygons.size(); ++i) add(static_cast<std::uint32_t>(i));
+    if (out_.faces.size() > kMost || out_.corners.size() >= kNoNode)
+      throw Error(fmt::format("{} triangles are more than fit", out_.faces.size()));
     // Vertices that no face has may be anything.
     std::vector<bool> used(out_.vertices.size());
     for (const std::uint32_t c : out_.corners) used[c] = true;

@@ -87,6 +87,7 @@ class Fast final : public VisibilityOrder {
   double exchange_cost(double limit);
   void exchange();
   void swap_subtrees(std::uint32_t node, std::uint32_t part);
+  void shift_places(std::uint32_t first, std::uint32_t end, std::uint32_t by);
   void rebuild();
   void calibrate();
 
@@ -163,7 +164,7 @@ void Fast::test(double way) {
   const SideQuery query = eye_.query();
   SideCounts counts;
   // Limits cost a little where they are made, and pay where a block is then left out every third time or more.
-  if (way < 2 * margin_ || ++since_margin_ == kMarginAge) {
+  if (!placed_ || way < 2 * margin_ || ++since_margin_ == kMarginAge) {
     since_margin_ = 0;
     counts = test_blocks(data_.blocks.data(), blocks_, query, sides_.data(), flips_.data(), unsure_.data(), path_,
                          limits_.data());
@@ -203,7 +204,7 @@ bool Fast::exchange_is_cheaper() {
   // anyway, since the average comes from it.
   const double guess = static_cast<double>(step_.flips) * flip_cost_ * costs_.scale;
   step_.exchange_cost = guess;
-  const bool sure = guess * 4 < costs_.rebuild || guess > costs_.rebuild * 2;
+  const bool sure = guess * 2 < costs_.rebuild || guess > costs_.rebuild * 1.25;
   if (sure && ++since_counted_ < kCountAge) return guess < costs_.rebuild;
   since_counted_ = 0;
   step_.exchange_cost = costs_.scale * exchange_cost(costs_.rebuild / costs_.scale);
@@ -272,8 +273,15 @@ void Fast::swap_subtrees(std::uint32_t node, std::uint32_t part) {
   const std::uint32_t end = parts_.below(node + 1 + front_size + back_size);
   const std::uint32_t later = y + 1;          // X begins so much later,
   const std::uint32_t sooner = 0U - (x + 1);  // Y so much sooner
-  add_to(place_.data() + front, back - front, front_was_first ? later : sooner);
-  add_to(place_.data() + back, end - back, front_was_first ? sooner : later);
+  shift_places(front, back, front_was_first ? later : sooner);
+  shift_places(back, end, front_was_first ? sooner : later);
+}
+
+void Fast::shift_places(std::uint32_t first, std::uint32_t end, std::uint32_t by) {
+  if (end - first > 16)
+    add_to(place_.data() + first, end - first, by);
+  else
+    for (std::uint32_t p = first; p < end; ++p) place_[p] += by;
 }
 
 void Fast::rebuild() {

@@ -30,38 +30,47 @@ struct Query {
   hn::Vec<DF> x, y, z, w, threshold;
 };
 
-struct BlockSides {
-  std::uint64_t front = 0;
-  std::uint64_t unsure = 0;
-  float least = 0;  // distance
-};
-
-HWY_INLINE std::uint64_t bits_of(hn::Mask<DF> m) {
-  std::uint8_t bytes[8] = {};
-  (void)hn::StoreMaskBits(DF(), m, bytes);
-  std::uint64_t bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
+HWY_INLINE void store_bits(hn::Mask<DF> m, std::size_t first, std::uint64_t* HWY_RESTRICT word) {
+  const DF d;
+  if (hn::Lanes(d) >= 8) {
+    (void)hn::StoreMaskBits(d, m, reinterpret_cast<std::uint8_t*>(word) + first / 8);
+  } else {
+    std::uint8_t bits[8] = {};
+    (void)hn::StoreMaskBits(d, m, bits);
+    *word |= std::uint64_t{bits[0]} << first;
+  }
 }
 
+// Writes which nodes are in front and which are unsure; returns the least distance, if it is asked for.
 template <bool kMargin>
-HWY_INLINE BlockSides test_block(const float* HWY_RESTRICT p, const Query& q) {
+HWY_INLINE float test_block(const float* HWY_RESTRICT p, const Query& q, std::uint64_t* HWY_RESTRICT front,
+                            std::uint64_t* HWY_RESTRICT unsure) {
   const DF d;
-  BlockSides s;
   auto least = hn::Set(d, 3e38F);
+  *front = 0;
+  *unsure = 0;
   for (std::size_t i = 0; i < kNodes; i += hn::Lanes(d)) {
     auto v = hn::Mul(hn::LoadU(d, p + 3 * kNodes + i), q.w);
     v = hn::MulAdd(hn::LoadU(d, p + i), q.x, v);
     v = hn::MulAdd(hn::LoadU(d, p + kNodes + i), q.y, v);
     v = hn::MulAdd(hn::LoadU(d, p + 2 * kNodes + i), q.z, v);
     const auto size = hn::Abs(v);
-    s.front |= bits_of(hn::Gt(v, hn::Zero(d))) << i;
+    store_bits(hn::Gt(v, hn::Zero(d)), i, front);
     // Not "<=": of a NaN nothing is certain.
-    s.unsure |= bits_of(hn::Not(hn::Gt(size, q.threshold))) << i;
+    store_bits(hn::Not(hn::Gt(size, q.threshold)), i, unsure);
     if (kMargin) least = hn::Min(least, size);
   }
-  if (kMargin) s.least = hn::GetLane(hn::MinOfLanes(d, least));
-  return s;
+  return kMargin ? hn::GetLane(hn::MinOfLanes(d, least)) : 0;
+}
+
+// From sides as tested to flips. Apart from the tests, so that no word is read while its bytes are still on their way.
+void count_flips(std::size_t blocks, const std::uint64_t* HWY_RESTRICT sides, std::uint64_t* HWY_RESTRICT flips,
+                 const std::uint64_t* HWY_RESTRICT unsure, SideCounts& counts) {
+  for (std::size_t b = 0; b < blocks; ++b) {
+    flips[b] = (flips[b] ^ sides[b]) & ~unsure[b];
+    counts.flips += static_cast<std::uint64_t>(hwy::PopCount(flips[b]));
+    counts.unsure += unsure[b] != 0 ? 1U : 0U;
+  }
 }
 
 SideCounts TestAll(const float* HWY_RESTRICT planes, std::size_t blocks, const SideQuery& query,
@@ -70,13 +79,8 @@ SideCounts TestAll(const float* HWY_RESTRICT planes, std::size_t blocks, const S
   const Query q(query);
   SideCounts counts;
   counts.blocks = blocks;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const BlockSides s = test_block<false>(planes + b * kNodes * 4, q);
-    flips[b] = (s.front ^ sides[b]) & ~s.unsure;
-    unsure[b] = s.unsure;
-    counts.flips += static_cast<std::uint64_t>(hwy::PopCount(flips[b]));
-    counts.unsure += s.unsure != 0 ? 1U : 0U;
-  }
+  for (std::size_t b = 0; b < blocks; ++b) (void)test_block<false>(planes + b * kNodes * 4, q, flips + b, unsure + b);
+  count_flips(blocks, sides, flips, unsure, counts);
   return counts;
 }
 
@@ -86,22 +90,20 @@ SideCounts TestBlocks(const float* HWY_RESTRICT planes, std::size_t blocks, cons
   const Query q(query);
   SideCounts counts;
   for (std::size_t b = 0; b < blocks; ++b) {
-    flips[b] = 0;
-    unsure[b] = 0;
-    if (limits[b] > path) continue;
-    const BlockSides s = test_block<true>(planes + b * kNodes * 4, q);
-    flips[b] = (s.front ^ sides[b]) & ~s.unsure;
-    unsure[b] = s.unsure;
-    // Rounded down; not positive, or no number, where a node is unsure.
-    const double margin =
-        (static_cast<double>(s.least) - static_cast<double>(query.threshold)) * (1 - 0x1p-20) - 0x1p-41;
-    const bool known = s.unsure == 0 && margin > 0;
+    if (limits[b] > path) {
+      flips[b] = sides[b];
+      unsure[b] = 0;
+      continue;
+    }
+    const float least = test_block<true>(planes + b * kNodes * 4, q, flips + b, unsure + b);
+    // Rounded down; not positive where a node is unsure. Infinities and NaNs come with an infinite threshold.
+    const double margin = (static_cast<double>(least) - static_cast<double>(query.threshold)) * (1 - 0x1p-20) - 0x1p-41;
+    const bool known = margin > 0;
     limits[b] = known ? path + margin : path;
     if (known) counts.margins += margin;
     ++counts.blocks;
-    counts.flips += static_cast<std::uint64_t>(hwy::PopCount(flips[b]));
-    counts.unsure += s.unsure != 0 ? 1U : 0U;
   }
+  count_flips(blocks, sides, flips, unsure, counts);
   return counts;
 }
 

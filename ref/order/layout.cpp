@@ -4,18 +4,21 @@
 // the tree is; of equal ones the one with the larger shape, so that small subtrees come in few shapes (clusters.hpp).
 #include <algorithm>
 
+#include "kage/error.hpp"
 #include "order/build_node.hpp"
+#include "order/kernels.hpp"
 
 namespace kage::order {
 namespace {
 
-constexpr std::uint32_t kShapeNodes = 8;
+/// Cuts and edges, with room for those of a node.
+constexpr std::size_t kMost = 0xf0000000;
 
 std::uint32_t size_of(const BuildNode* n) { return n == nullptr ? 0 : n->size; }
 
-/// Sizes of the subtree in preorder, a hexadecimal digit each, the root's highest; 0 past kShapeNodes nodes.
+/// Sizes of the subtree in preorder, a hexadecimal digit each, the root's highest; 0 past kClusterNodes nodes.
 void set_shape(BuildNode& n) {
-  if (n.size > kShapeNodes) return;
+  if (n.size > kClusterNodes) return;
   n.shape = n.size;
   for (const BuildNode* c : {n.child[n.reversed ? 1 : 0], n.child[n.reversed ? 0 : 1]})
     if (c != nullptr) n.shape = n.shape << (4 * c->size) | c->shape;
@@ -72,10 +75,10 @@ void add_fragment(const BuildFragment& f, OrderTree::Data& data) {
 
 }  // namespace
 
-void lay_out(BuildTree tree, OrderTree::Data& data) {
+void lay_out(const BuildTree& tree, OrderTree::Data& data) {
   const std::vector<BuildNode*> top_down = preorder(tree.root);
-  for (auto n = top_down.rbegin(); n != top_down.rend(); ++n) {  // children before parents
-    BuildNode& node = **n;
+  for (std::size_t i = top_down.size(); i-- > 0;) {  // children before parents
+    BuildNode& node = *top_down[i];
     node.size = 1 + size_of(node.child[0]) + size_of(node.child[1]);
     node.reversed = !before(node.child[0], node.child[1]);
     set_shape(node);
@@ -83,6 +86,7 @@ void lay_out(BuildTree tree, OrderTree::Data& data) {
   const std::vector<BuildNode*> nodes = preorder(tree.root);
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i]->number = static_cast<std::uint32_t>(i);
   for (BuildNode* n : nodes) {
+    if (data.cuts.size() > kMost || data.edges.size() > kMost) throw Error("the fragments' edges are more than fit");
     data.size.push_back(n->size);
     data.plane.push_back(n->face << 1U | (n->reversed ? 1U : 0U));
     data.first_fragment.push_back(static_cast<std::uint32_t>(data.fragments.size()));

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "order/measure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "kage/error.hpp"
 #include "order/baseline.hpp"
 #include "order/splitter.hpp"
 
 namespace kage::order {
 namespace {
+
+/// Calls of BaselineA that surely fit a stack of 8 MiB.
+constexpr std::uint64_t kDeepest = 60'000;
 
 using Clock = std::chrono::steady_clock;
 
@@ -178,6 +184,9 @@ std::vector<Eye> eyes_round(const OrderTree& tree, const MeasureOptions& options
 
 Measured measure(const OrderTree& tree, const MeasureOptions& options) {
   if (tree.node_count() == 0 || options.eyes < 2 || options.repeats < 1) return {};
+  if (tree.stats().depth > kDeepest)
+    throw Error(fmt::format("the tree is {} nodes deep, the recursion to compare with may go {} deep",
+                            tree.stats().depth, kDeepest));
   return Measurement(tree, options).run();
 }
 

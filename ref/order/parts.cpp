@@ -11,7 +11,7 @@ std::uint64_t order_of(const std::uint32_t* size, std::uint32_t sides) {
   constexpr std::uint32_t kFarDone = 16;
   std::uint64_t order = 0;
   unsigned written = 0;
-  std::array<std::uint32_t, 2 * kClusterNodes> stack{};
+  std::array<std::uint32_t, std::size_t{2} * kClusterNodes> stack{};
   std::size_t height = 1;
   while (height != 0) {
     const std::uint32_t entry = stack[--height];

@@ -8,6 +8,9 @@ namespace {
 
 constexpr std::uint32_t kCut = OrderFragment::kCutEdge;
 
+/// Points less certain than this, as of planes that hardly differ, are made by integers.
+constexpr double kPoor = 0x1p-30;
+
 bool has(const std::array<std::uint32_t, 3>& plane, std::uint32_t v) {
   return v == plane[0] || v == plane[1] || v == plane[2];
 }
@@ -56,17 +59,21 @@ ExactVertex Classifier::exact_vertex(const Face& face, const Piece& piece, std::
   std::uint32_t before = piece.edges[(i + n - 1) % n];
   std::uint32_t after = piece.edges[i];
   if (before < after) std::swap(before, after);  // a cut first
-  const auto plane_of = [&](std::uint32_t edge) { return faces_.plane(faces_.faces[piece.cuts[edge - kCut].face]); };
+  return exact_vertex(face, piece, after, faces_.plane(faces_.faces[piece.cuts[before - kCut].face]));
+}
+
+ExactVertex Classifier::exact_vertex(const Face& face, const Piece& piece, std::uint32_t edge,
+                                     const PlanePoints& plane) const {
   ExactVertex v;
-  v.first = plane_of(before);
-  if (after < kCut) {
+  v.first = plane;
+  if (edge < kCut) {
     v.kind = ExactVertex::Kind::kOnEdge;
-    v.p = faces_.vertices[faces_.corner(face, after)];
-    v.q = faces_.vertices[faces_.corner(face, after + 1)];
+    v.p = faces_.vertices[faces_.corner(face, edge)];
+    v.q = faces_.vertices[faces_.corner(face, edge + 1)];
   } else {
     v.kind = ExactVertex::Kind::kInside;
     v.face = faces_.plane(face);
-    v.second = plane_of(after);
+    v.second = faces_.plane(faces_.faces[piece.cuts[edge - kCut].face]);
   }
   return v;
 }
@@ -100,7 +107,8 @@ Piece Classifier::whole(const Face& face) const {
 
 std::pair<BuildFragment, BuildFragment> Classifier::split(const BuildFragment& f, const Splitter& plane,
                                                           BuildNode* node) {
-  const Piece piece = f.piece ? *f.piece : whole(faces_.faces[f.face]);
+  const Face& face = faces_.faces[f.face];
+  const Piece piece = f.piece ? *f.piece : whole(face);
   const std::size_t n = piece.vertices.size();
   const auto cut_edge = kCut + static_cast<std::uint32_t>(piece.cuts.size());
   std::array<Piece, 2> part;  // front, back
@@ -120,8 +128,10 @@ std::pair<BuildFragment, BuildFragment> Classifier::split(const BuildFragment& f
       }
       if (here * next >= 0) continue;
       // Both parts get the very same point: it is made from the edge as the piece has it.
-      const NearPoint x = meet(piece.vertices[i].point, at_[i].value, at_[i].error, piece.vertices[j].point,
-                               at_[j].value, at_[j].error);
+      NearPoint x = meet(piece.vertices[i].point, at_[i].value, at_[i].error, piece.vertices[j].point, at_[j].value,
+                         at_[j].error);
+      if (x.radius > kPoor)
+        x = {faces_.scale(exact_point(faces_.grid, exact_vertex(face, piece, piece.edges[i], plane.points))), 0x1p-50};
       out.vertices.push_back({x, kNoNode});
       out.edges.push_back(here > 0 ? cut_edge : piece.edges[i]);
     }

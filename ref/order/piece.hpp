@@ -71,6 +71,9 @@ class Classifier {
   Test test_corner(std::uint32_t v, const Splitter& plane);
   Test test_vertex(const Face& face, const Piece& piece, std::size_t i, const Splitter& plane);
   [[nodiscard]] ExactVertex exact_vertex(const Face& face, const Piece& piece, std::size_t i) const;
+  /// Where an edge of a piece meets a plane.
+  [[nodiscard]] ExactVertex exact_vertex(const Face& face, const Piece& piece, std::uint32_t edge,
+                                         const PlanePoints& plane) const;
   [[nodiscard]] Piece whole(const Face& face) const;
 
   const Faces& faces_;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t kSample = 256;
 constexpr std::size_t kCandidates = 64;
-constexpr double kSplitCost = 8;  // against one fragment more on the larger side; docs/order.md has what others give
+constexpr double kSplitCost =
+    8;  // against one fragment more on the larger side; 4 and 16 gave more nodes on real meshes
 
 }  // namespace
 

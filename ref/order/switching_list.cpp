@@ -3,8 +3,9 @@
 // [Tanaka 2005] section 3: one doubly linked list of all nodes in drawing order. Each node knows first and last element
 // of the sublists drawn before it (LL, LR) and after it (RL, RR); when the eye changes sides, the two sublists change
 // places. Departures from the paper (docs/order.md): its four exchanges need both sublists, so here the stretch from LL
-// to RR is taken out and put back as RL .. RR, node, LL .. LR, whichever are empty; and its changeParent() is left
-// open: here an ancestor's ends change only while the stretch is the beginning or the end of the ancestor's.
+// to RR is taken out and put back as RL .. RR, node, LL .. LR, whichever are empty. Its changeParent() is left open:
+// here children come before their parents, and a node whose ends changed tells its parent, once a step; so a step
+// touches no node twice, and no ancestor whose ends stay.
 #include "order/sides.hpp"
 #include "order/ways.hpp"
 
@@ -34,10 +35,15 @@ class SwitchingList final : public VisibilityOrder {
     if (first) make();
     for (const std::uint32_t v : switching_) {
       const bool front = eye_.front(v);
-      if (front == front_[v]) continue;
-      front_[v] = front;
-      exchange(v);
-      ++step_.flips;
+      if (front != front_[v]) {
+        exchange(v);
+        front_[v] = front;
+        ++step_.flips;
+      } else if (!moved_[v]) {
+        continue;
+      }
+      moved_[v] = false;
+      tell_parent(v);
     }
     step_.tested = switching_.size();
     step_.exact = eye_.exact() - exact;
@@ -57,7 +63,7 @@ class SwitchingList final : public VisibilityOrder {
   }
 
   [[nodiscard]] std::uint64_t bytes() const override {
-    return tree_bytes(data_, false) + list_.size() * sizeof(Element) + front_.size() / 8 +
+    return tree_bytes(data_, false) + list_.size() * sizeof(Element) + front_.size() / 4 +
            (switching_.size() + order_.capacity()) * sizeof(std::uint32_t);
   }
 
@@ -68,14 +74,15 @@ class SwitchingList final : public VisibilityOrder {
     const std::uint32_t n = data_.nodes();
     list_.resize(n);
     front_.assign(n, false);
+    moved_.assign(n, false);
     if (n == 0) return;
     for (std::uint32_t v = 0; v < n; ++v) {
       for (const std::uint32_t c : {data_.first_child(v), data_.second_child(v)})
         if (c != kNoNode) list_[c].parent = v;
-      if (data_.size[v] > 1) switching_.push_back(v);  // a leaf's side is of no account
     }
     for (std::uint32_t v = n; v-- > 0;) {  // children before parents
       Element& e = list_[v];
+      if (data_.size[v] > 1) switching_.push_back(v);  // a leaf's side is of no account
       if (const std::uint32_t c = data_.first_child(v); c != kNoNode) {
         e.ll = first_of(c);
         e.lr = last_of(c);
@@ -111,35 +118,22 @@ class SwitchingList final : public VisibilityOrder {
     if (e.rr != kNoNode) link(v, e.rl);
     link(last_of(v), after);
     if (before == kNoNode) head_ = first_of(v);
-    change_parents(e.parent, first, first_of(v), last, last_of(v));
   }
 
-  // The stretch that began with `old_first` and ended with `old_last` has other ends now.
-  void change_parents(std::uint32_t p, std::uint32_t old_first, std::uint32_t first, std::uint32_t old_last,
-                      std::uint32_t last) {
-    bool first_moves = old_first != first;
-    bool last_moves = old_last != last;
-    while (p != kNoNode && (first_moves || last_moves)) {
-      Element& e = list_[p];
-      // A stretch is one of its parent's two; which, its unchanged or its old ends tell.
-      const bool drawn_before = (first_moves ? e.ll == old_first : e.ll == first) && e.ll != kNoNode;
-      if (drawn_before) {
-        e.ll = first;
-        e.lr = last;
-        last_moves = false;
-      } else {
-        e.rl = first;
-        e.rr = last;
-        first_moves = false;
-      }
-      // What goes on up is the parent's own stretch.
-      if (first_moves) {
-        last = old_last = last_of(p);
-      } else if (last_moves) {
-        first = old_first = first_of(p);
-      }
-      p = e.parent;
-    }
+  // The parent's ends of this stretch, if they are others now.
+  void tell_parent(std::uint32_t v) {
+    const std::uint32_t p = list_[v].parent;
+    if (p == kNoNode) return;
+    Element& e = list_[p];
+    // The parent comes later, so its own two are still as its old side has them: the child before its plane is drawn
+    // first if the eye is behind.
+    const bool drawn_before = (v == p + 1) != front_[p];
+    std::uint32_t& first = drawn_before ? e.ll : e.rl;
+    std::uint32_t& last = drawn_before ? e.lr : e.rr;
+    if (first == first_of(v) && last == last_of(v)) return;
+    first = first_of(v);
+    last = last_of(v);
+    moved_[p] = true;
   }
 
   const OrderTree::Data& data_;
@@ -147,6 +141,7 @@ class SwitchingList final : public VisibilityOrder {
   std::vector<Element> list_;
   std::vector<std::uint32_t> switching_;
   std::vector<bool> front_;
+  std::vector<bool> moved_;  // the ends of a child's stretch changed in this step
   std::vector<std::uint32_t> order_;
   std::uint32_t head_ = kNoNode;
   bool fresh_ = false;
