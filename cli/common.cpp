@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <map>
 
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
@@ -24,18 +25,6 @@ volatile std::sig_atomic_t signalled = 0;
 void on_signal(int number) {
   if (signalled != 0) _exit(128 + number);
   signalled = 1;
-}
-
-void write_text(TempFiles& files, const std::string& path, const std::string& text) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code ec;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
-    throw Error(fmt::format("{}: cannot be written: no such folder", path));
-  errno = 0;
-  std::ofstream out(files.add(path), std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 }  // namespace
@@ -112,6 +101,22 @@ void option_units_only(CLI::App& command, Options& options) {
                    "refuse a frame in which a polyhedron finds no expansion unit, instead of drawing it by spans");
 }
 
+void option_translucent(CLI::App& command, Options& options) {
+  static const std::map<std::string, TranslucentWay> kWays{{"exact", TranslucentWay::exact},
+                                                           {"centroid", TranslucentWay::centroid},
+                                                           {"submission", TranslucentWay::submission}};
+  command
+      .add_option_function<std::string>(
+          "--order", [&options](const std::string& name) { options.order = kWays.at(name); },
+          "order of translucent faces: exact, or as others do it: centroid, submission")
+      ->option_text("WAY (exact)")
+      ->check(CLI::IsMember({"exact", "centroid", "submission"}))
+      ->type_name("WAY");
+  command.add_option("--alpha", options.alpha, "multiply the alpha of every material: below 1 all is translucent")
+      ->check(CLI::Range(1.0 / 255, 1.0))
+      ->type_name("A");
+}
+
 void option_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
       ->check(CLI::Range(1, 1024))
@@ -124,6 +129,18 @@ void check_json(const Options& options) {
   if (options.json.empty() || json_only(options)) return;
   TempFiles file;
   write_text(file, options.json, "");
+}
+
+void write_text(TempFiles& files, const std::string& path, const std::string& text) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code ec;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
+    throw Error(fmt::format("{}: cannot be written: no such folder", path));
+  errno = 0;
+  std::ofstream out(files.add(path), std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 void write_json(const Options& options, const Json& value, TempFiles& files) {

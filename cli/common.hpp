@@ -16,6 +16,7 @@
 
 #include "image/temp_file.hpp"
 #include "kage/defs.hpp"
+#include "kage/geometry.hpp"
 
 namespace kage::cli {
 
@@ -37,6 +38,7 @@ void add_stream(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_model(CLI::App& app, Action& action);
+void add_order(CLI::App& app, Action& action);
 
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);
@@ -66,6 +68,8 @@ struct Options {
   int threads = 0;  ///< 0: one per processor
   bool degrade = false;
   bool units_only = false;  ///< polyhedra that find no unit are an error
+  TranslucentWay order = TranslucentWay::exact;
+  double alpha = 1;
 };
 
 void option_size(CLI::App& command, Options& options);
@@ -75,6 +79,8 @@ void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 void option_degrade(CLI::App& command, Options& options);
 void option_units_only(CLI::App& command, Options& options);
+/// --order and --alpha.
+void option_translucent(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
 
 /// Whether `--json -` claims standard output for itself.
@@ -82,6 +88,9 @@ bool json_only(const Options& options);
 
 /// Throws Error if what --json names cannot be written: before the work, not after it.
 void check_json(const Options& options);
+
+/// Writes a text file, which gets its name with the others of `files`. Throws Error if it cannot be written.
+void write_text(TempFiles& files, const std::string& path, const std::string& text);
 
 /// Writes `value` where --json says, if it was given, and gives all of `files` their names: all appear or none.
 void write_json(const Options& options, const Json& value, TempFiles& files);

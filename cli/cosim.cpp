@@ -120,6 +120,7 @@ void add_cosim(CLI::App& app, Action& action) {
   option_config(*c, *o);
   option_degrade(*c, *o);
   option_units_only(*c, *o);
+  option_translucent(*c, *o);
   option_seed(*c, *o);
   option_json(*c, *o);
   option_threads(*c, *o);

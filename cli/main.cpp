@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   add_info(app, action);
   add_diff(app, action);
   add_model(app, action);
+  add_order(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

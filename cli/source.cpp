@@ -25,9 +25,14 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size) {
   Needs needs;
   needs.width = size.width;
   needs.height = size.height;
-  needs.shadows = !frame.triangles.empty();
-  needs.several_volumes = frame.components.size() > 1 || std::any_of(frame.components.begin(), frame.components.end(),
-                                                                     [](const Component& c) { return !c.convex; });
+  std::size_t casters = 0;
+  for (const Component& c : frame.components) {
+    needs.translucency = needs.translucency || c.translucent;
+    if (c.translucent) continue;
+    ++casters;
+    needs.several_volumes = needs.several_volumes || casters > 1 || !c.convex;
+  }
+  needs.shadows = casters > 0;
   needs.smooth = scene.needs_smooth();
   needs.color = !is_grey(frame.light.color) || std::any_of(frame.shading.begin(), frame.shading.end(),
                                                            [](const ShadingVertex& v) { return !is_grey(v.color); });
@@ -47,6 +52,9 @@ void Source::open_stream(const Options& options) {
   if (options.size_given) throw Error(fmt::format("{}: --size: a stream has its own size", options.input));
   if (options.units_only)
     throw Error(fmt::format("{}: --units-only: in a stream it is settled what goes to units", options.input));
+  if (options.order != TranslucentWay::exact)
+    throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
+  if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
   name_ = std::filesystem::path(options.input).stem().string();
@@ -64,12 +72,13 @@ void Source::open_stream(const Options& options) {
 }
 
 void Source::open_scene(const Options& options) {
-  scene_.emplace(Scene::load(options.input));
+  scene_.emplace(Scene::load(options.input, options.alpha));
   name_ = std::filesystem::path(scene_->name()).stem().string();
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
   size_ = options.size;
   units_only_ = options.units_only;
+  look_.translucent = options.order;
   if (size_.width > kMaxSize || size_.height > kMaxSize)
     throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
   Needs needs = needs_of(*scene_, scene_->frame(0, frames_), size_);
@@ -88,7 +97,7 @@ void Source::open_scene(const Options& options) {
   std::vector<std::string> missing = lacks(config_.config, needs);
   if (!missing.empty() && options.degrade) {
     degraded_ = missing;
-    needs.shadows = needs.smooth = needs.color = false;
+    needs.shadows = needs.smooth = needs.color = needs.translucency = false;
     missing = lacks(config_.config, needs);
     std::erase_if(degraded_,
                   [&](const std::string& m) { return std::find(missing.begin(), missing.end(), m) != missing.end(); });
@@ -134,7 +143,7 @@ TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
 TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
   const SceneFrame frame = scene_->frame(index, frames_);
-  const FrameGeometry geometry = make_geometry(frame, config_.config, size_.width, size_.height);
+  const FrameGeometry geometry = make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_);
   PolyhedraReport report;
   bool recorded = false;
   make_frame(
@@ -169,8 +178,9 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
     ++ways_[c].span_frames;
     ways_[c].reason = reason;
     ways_[c].why = reason == SpanReason::not_closed || reason == SpanReason::not_convex ? frame.components[c].reason
-                   : reason == SpanReason::cut ? "the near plane or the guard band cuts it"
-                                               : "a face has more than one colour";
+                   : reason == SpanReason::cut         ? "the near plane or the guard band cuts it"
+                   : reason == SpanReason::translucent ? "it is translucent"
+                                                       : "a face has more than one colour";
   }
   const Way* stopped = nullptr;
   for (std::size_t i = 0; i < geometry.polyhedra.size(); ++i) {

@@ -67,6 +67,8 @@ class Source {
   std::vector<std::string> degraded_;
   std::optional<StreamFile> stream_;
   std::optional<Scene> scene_;
+  Look look_;
+  TranslucentOrder order_;
   Size size_;
   int threads_ = 0;
   bool units_only_ = false;

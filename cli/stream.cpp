@@ -56,6 +56,7 @@ void add_stream(CLI::App& app, Action& action) {
   option_config(*c, *o);
   option_degrade(*c, *o);
   option_units_only(*c, *o);
+  option_translucent(*c, *o);
   option_threads(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

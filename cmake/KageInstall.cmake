@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kage)
 
-install(TARGETS kage EXPORT kageTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
+install(TARGETS kage kage_order EXPORT kageTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
 install(EXPORT kageTargets NAMESPACE kage:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/kageConfig.cmake.in ${PROJECT_BINARY_DIR}/kageConfig.cmake
                               INSTALL_DESTINATION ${package_dir})

@@ -5,8 +5,9 @@
 // Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o waits for
 //   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command, so lines and
 //   EOL commands come in the same order.
-// Commands: OP, SP, NC, EV with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE take
-//   their clock here and go no further: cmd_count_o brings the line's bias with EV and EOL.
+// Commands: OP, SP, NC, EV, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE
+//   take their clock here and go no further: cmd_count_o brings the line's bias with EV and EOL. A line's first TP is preceded by the
+//   command RESOLVE, which has no token: over the whole line, with the background as its colour. It costs a clock.
 // Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands
 //   clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
 // Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its unit by
@@ -43,17 +44,19 @@ module frame_control #(
     output logic      [          3:0] cmd_kind_o,
     output logic      [   X_BITS-1:0] cmd_xl_o,
     output logic      [   X_BITS-1:0] cmd_xr_o,
-    output logic      [CountBits-1:0] cmd_count_o,  // lit of OP, w of SP and NC, bias of EV and EOL
+    output logic      [CountBits-1:0] cmd_count_o,   // lit of OP, w of SP and NC, bias of EV, RESOLVE, EOL
     output logic      [DepthBits-1:0] cmd_z_o,
     output logic      [DepthBits-1:0] cmd_dz_o,
     output logic      [ColorBits-1:0] cmd_color_o,
     output logic      [SlopeBits-1:0] cmd_dcolor_o,
+    output logic      [ShareBits-1:0] cmd_share_o,   // alpha of TP, shade of RESOLVE
 
     // to the way out: the lines in order
     output logic                     line_valid_o,
     input  wire logic                line_ready_i,
     output logic                     line_first_o,       // of its frame
     output logic                     line_blank_o,       // background from its first pixel
+    output logic                     line_painted_o,     // every pixel has its colour: uncovered ones the background's
     output logic      [  X_BITS-1:0] line_width_o,
     output logic      [ RgbBits-1:0] line_background_o,
     output logic      [SHADE_FRAC:0] line_shade_o,
@@ -76,6 +79,7 @@ module frame_control #(
     output logic        open_o,         // a frame's header has been taken and the frame has not ended
     output logic        hungry_o,       // waits for a token or for TLAST
     output logic        draining_o,     // input is being dropped after an error
+    output logic        painting_o,     // one clock: a TP waits while the RESOLVE before it becomes a command
     output logic        frame_end_o,    // one clock
     output logic        error_o,        // one clock, with the next five
     output logic [ 3:0] error_code_o,
@@ -98,10 +102,12 @@ module frame_control #(
   localparam logic [1:0] PhaseOpaque = 2'd0;
   localparam logic [1:0] PhaseVolume = 2'd1;
   localparam logic [1:0] PhaseResolved = 2'd2;
+  localparam logic [1:0] PhaseTranslucent = 2'd3;
 
   // ---- state -------------------------------------------------------------------------------------------------------
   logic [1:0] state_q, phase_q;
   logic volume_open_q;  // an SP, NC or IF came after the last EV
+  logic painted_q;  // the line's colours are ready for TPs
   logic [X_BITS-1:0] width_q;
   logic [14:0] height_q, line_q;
   logic [31:0] frame_q, index_q;
@@ -111,7 +117,7 @@ module frame_control #(
 
   // ---- decode ------------------------------------------------------------------------------------------------------
   logic [3:0] kind;
-  logic is_shade, is_op, is_sp, is_nc, is_if, is_ev, is_resolve, is_eol, is_end, is_span, is_tree;
+  logic is_shade, is_op, is_sp, is_nc, is_if, is_ev, is_resolve, is_eol, is_end, is_span, is_tree, is_tp;
   logic [X_BITS-1:0] xl, xr;
   logic [CountBits-1:0] w;
   logic [ SHADE_FRAC:0] shade;
@@ -127,8 +133,9 @@ module frame_control #(
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_tree = UNITS > 0 && kind == KindTree;
-  assign is_span = is_op || is_sp || is_nc || is_ev;
-  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC and EV
+  assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
+  assign is_span = is_op || is_sp || is_nc || is_ev || is_tp;
+  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC, EV and TP
   assign xr = token_i[OpXrLsb+:X_BITS];
   assign w = is_if ? token_i[IfWLsb+:CountBits] : token_i[SpWLsb+:CountBits];
   assign shade = token_i[ShadeShadeLsb+:SHADE_FRAC+1];
@@ -157,10 +164,10 @@ module frame_control #(
     unique case (kind)
       KindShade: in_order = UNITS > 0 ? !shade_seen_q : index_q == 32'd1;
       KindOp: in_order = phase_q == PhaseOpaque;
-      KindSp, KindNc, KindIf: in_order = phase_q != PhaseResolved;
+      KindSp, KindNc, KindIf: in_order = phase_q == PhaseOpaque || phase_q == PhaseVolume;
       KindEv: in_order = phase_q == PhaseVolume && volume_open_q;
       KindResolve: in_order = phase_q == PhaseVolume && !(FSF > 0 && volume_open_q);
-      KindEol: in_order = phase_q != PhaseVolume;
+      KindTp, KindEol: in_order = phase_q != PhaseVolume;
       default: in_order = 1'b1;
     endcase
     if ((lines_done && !is_end) || tree_order_error) in_order = 1'b0;
@@ -178,12 +185,12 @@ module frame_control #(
 
   // ---- what happens in this clock ----------------------------------------------------------------------------------
   logic cmd_free, eol_free, accept, bad, good, body_eol, blank_eol, emit_eol, emit_span;
-  logic emit_tree, body_free, frame_free;
+  logic emit_tree, emit_paint, body_free, frame_free, must_paint;
   logic [3:0] error_code;
   assign cmd_free = !cmd_valid_o || cmd_ready_i;
   assign eol_free = cmd_free && line_ready_i;
   assign token_ready_o = (state_q == StHeader && frame_free) ||
-      (state_q == StBody && body_free && (line_ready_i || !is_eol));
+      (state_q == StBody && body_free && (line_ready_i || !is_eol) && !must_paint);
   assign accept = token_valid_i && token_ready_o;
   assign error_code = token_header_i ? head_error : body_error;
   assign bad = accept && error_code != ErrNone;
@@ -193,17 +200,23 @@ module frame_control #(
   assign emit_eol = body_eol || blank_eol;
   assign emit_span = good && !token_header_i && is_span && xl != xr;
   assign emit_tree = good && !token_header_i && is_tree;
+  // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line is blank, and
+  // to the latter it does no harm.
+  assign must_paint = is_tp && !painted_q;
+  assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free;
   assign drop_o = bad && !token_final_i;
 
   assign line_valid_o = emit_eol;
   assign line_first_o = line_q == '0;
   assign line_blank_o = blank_eol;
+  assign line_painted_o = painted_q;
   assign line_width_o = width_q;
   assign line_background_o = background_q;
   assign line_shade_o = shade_q;
 
   assign open_o = state_q != StHeader;
   assign hungry_o = state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done);
+  assign painting_o = emit_paint;
   assign draining_o = state_q == StBlank && dropping_i;
   assign frame_end_o = (good && !token_header_i && is_end) || (state_q == StBlank && lines_done && !dropping_i);
   assign error_o = bad;
@@ -232,6 +245,7 @@ module frame_control #(
       phase_q <= PhaseOpaque;
       volume_open_q <= 1'b0;
       bias_q <= '0;
+      painted_q <= 1'b0;
       shade_q <= '0;
     end else begin
       if (good) index_q <= index_q + 32'd1;
@@ -240,7 +254,13 @@ module frame_control #(
         phase_q <= PhaseOpaque;
         volume_open_q <= 1'b0;
         bias_q <= '0;
+        painted_q <= 1'b0;
       end
+      if (emit_paint) begin
+        bias_q <= '0;
+        painted_q <= 1'b1;
+      end
+      if (good && is_tp) phase_q <= PhaseTranslucent;
       if (DSF_BITS > 0 && good) begin
         if (is_shade) shade_q <= shade;
         if (is_sp || is_nc || is_if) begin
@@ -257,20 +277,60 @@ module frame_control #(
     end
   end
 
+  // The background's colour as a span has it.
+  logic [ColorBits-1:0] background;
+  always_comb begin
+    for (int c = 0; c < CHANNELS; c++) begin
+      background[c*RampBits+:RampBits] = RampBits'(background_q[c*8+:8]) << COLOR_FRAC;
+    end
+  end
+
+  // TP's fields lie beyond the longest token of a core without it.
+  logic [DepthBits-1:0] tp_z, tp_dz;
+  logic [ColorBits-1:0] tp_color;
+  logic [SlopeBits-1:0] tp_dcolor;
+  logic [ShareBits-1:0] tp_share;
+  if (TRANSLUCENCY > 0) begin : gen_tp
+    assign tp_z = token_i[TpZLsb+:DepthBits];
+    assign tp_dz = token_i[TpDzLsb+:DepthBits];
+    assign tp_color = token_i[TpColorLsb+:ColorBits];
+    assign tp_dcolor = SMOOTH > 0 ? token_i[TpDcolorLsb+:SlopeBits] : '0;
+    assign tp_share = ShareBits'(token_i[TpAlphaLsb+:8]);
+  end else begin : gen_no_tp
+    assign {tp_z, tp_dz, tp_color, tp_dcolor, tp_share} = '0;
+  end
+
   // ---- command register --------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
     if (!rst_ni) cmd_valid_o <= 1'b0;
-    else if (cmd_free) cmd_valid_o <= emit_eol || emit_span || emit_tree;
+    else if (cmd_free) cmd_valid_o <= emit_eol || emit_span || emit_tree || emit_paint;
     if (cmd_free) begin
-      cmd_kind_o <= emit_eol ? KindEol : kind;
-      cmd_xl_o <= emit_eol || emit_tree ? '0 : xl;
-      cmd_xr_o <= emit_eol || emit_tree ? width_q : xr;
-      cmd_z_o <= DSF_BITS > 0 && is_sp ? token_i[SpZLsb+:DepthBits] : token_i[OpZLsb+:DepthBits];
-      cmd_dz_o <= DSF_BITS > 0 && is_sp ? token_i[SpDzLsb+:DepthBits] : token_i[OpDzLsb+:DepthBits];
+      cmd_kind_o <= emit_eol ? KindEol : emit_paint ? KindResolve : kind;
+      cmd_xl_o <= emit_eol || emit_tree || emit_paint ? '0 : xl;
+      cmd_xr_o <= emit_eol || emit_tree || emit_paint ? width_q : xr;
+      cmd_z_o <= token_i[OpZLsb+:DepthBits];
+      cmd_dz_o <= token_i[OpDzLsb+:DepthBits];
       cmd_color_o <= token_i[OpColorLsb+:ColorBits];
       cmd_dcolor_o <= SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
+      cmd_share_o <= TRANSLUCENCY == 0 ? '0 : ShareBits'(shade_q);
+      if (DSF_BITS > 0 && is_sp) begin
+        cmd_z_o  <= token_i[SpZLsb+:DepthBits];
+        cmd_dz_o <= token_i[SpDzLsb+:DepthBits];
+      end
+      if (is_tp) begin
+        cmd_z_o <= tp_z;
+        cmd_dz_o <= tp_dz;
+        cmd_color_o <= tp_color;
+        cmd_dcolor_o <= tp_dcolor;
+        cmd_share_o <= tp_share;
+      end
+      if (emit_paint) begin
+        cmd_color_o  <= background;
+        cmd_dcolor_o <= '0;
+        cmd_share_o  <= ShareBits'(shade_q);
+      end
       if (DSF_BITS == 0) cmd_count_o <= '0;
-      else if (emit_eol || is_ev) cmd_count_o <= bias_q;
+      else if (emit_eol || emit_paint || is_ev) cmd_count_o <= bias_q;
       else if (is_op) cmd_count_o <= CountBits'(token_i[OpLitLsb]);
       else cmd_count_o <= w;
     end

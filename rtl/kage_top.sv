@@ -111,13 +111,14 @@ module kage_top #(
   logic [DepthBits-1:0] cmd_z, cmd_dz;
   logic [ColorBits-1:0] cmd_color;
   logic [SlopeBits-1:0] cmd_dcolor;
+  logic [ShareBits-1:0] cmd_share;
 
-  localparam int LineBits = 2 + X_BITS + RgbBits + SHADE_FRAC + 1;
-  logic line_valid, line_ready, line_first, line_blank;
+  localparam int LineBits = 3 + X_BITS + RgbBits + SHADE_FRAC + 1;
+  logic line_valid, line_ready, line_first, line_blank, line_painted;
   logic [  X_BITS-1:0] line_width;
   logic [ RgbBits-1:0] line_background;
   logic [SHADE_FRAC:0] line_shade;
-  logic queue_valid, queue_ready, queue_first, queue_blank;
+  logic queue_valid, queue_ready, queue_first, queue_blank, queue_painted;
   logic [  X_BITS-1:0] queue_width;
   logic [ RgbBits-1:0] queue_background;
   logic [SHADE_FRAC:0] queue_shade;
@@ -129,7 +130,7 @@ module kage_top #(
   logic [DepthBits-1:0] tree_seg_z;
   logic [  DX_BITS-1:0] tree_dx;
 
-  logic frame_open, hungry, draining, frame_end, error;
+  logic frame_open, hungry, draining, painting, frame_end, error;
   logic behind;
   logic [5:0] error_unit, behind_unit;
   logic [14:0] behind_line;
@@ -164,10 +165,12 @@ module kage_top #(
       .cmd_dz_o          (cmd_dz),
       .cmd_color_o       (cmd_color),
       .cmd_dcolor_o      (cmd_dcolor),
+      .cmd_share_o       (cmd_share),
       .line_valid_o      (line_valid),
       .line_ready_i      (line_ready),
       .line_first_o      (line_first),
       .line_blank_o      (line_blank),
+      .line_painted_o    (line_painted),
       .line_width_o      (line_width),
       .line_background_o (line_background),
       .line_shade_o      (line_shade),
@@ -186,6 +189,7 @@ module kage_top #(
       .open_o            (frame_open),
       .hungry_o          (hungry),
       .draining_o        (draining),
+      .painting_o        (painting),
       .frame_end_o       (frame_end),
       .error_o           (error),
       .error_code_o      (error_code),
@@ -207,10 +211,10 @@ module kage_top #(
       .rst_ni,
       .in_valid_i (line_valid),
       .in_ready_o (line_ready),
-      .in_data_i  ({line_first, line_blank, line_width, line_background, line_shade}),
+      .in_data_i  ({line_first, line_blank, line_painted, line_width, line_background, line_shade}),
       .out_valid_o(queue_valid),
       .out_ready_i(queue_ready),
-      .out_data_o ({queue_first, queue_blank, queue_width, queue_background, queue_shade})
+      .out_data_o ({queue_first, queue_blank, queue_painted, queue_width, queue_background, queue_shade})
   );
 
   // ---- faces and segments to the tree's lines ----------------------------------------------------------------------
@@ -288,6 +292,7 @@ module kage_top #(
       .cmd_dz_i    (cmd_dz),
       .cmd_color_i (cmd_color),
       .cmd_dcolor_i(cmd_dcolor),
+      .cmd_share_i (cmd_share),
       .tree_valid_i(tree_valid),
       .tree_ready_o(tree_ready),
       .tree_z_i    (tree_z),
@@ -319,6 +324,7 @@ module kage_top #(
       .line_ready_o     (queue_ready),
       .line_first_i     (queue_first),
       .line_blank_i     (queue_blank),
+      .line_painted_i   (queue_painted),
       .line_width_i     (queue_width),
       .line_background_i(queue_background),
       .line_shade_i     (queue_shade),
@@ -347,7 +353,7 @@ module kage_top #(
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
   // if one of them does.
   assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
-      frame_end || line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving || tree_moving ||
+      painting || frame_end || line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving || tree_moving ||
       (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(

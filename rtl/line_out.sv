@@ -5,7 +5,7 @@
 // Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by exit_valid_i
 //   (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's width and colours, in the
 //   order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's last.
-// Pixel: background if the line is blank or the pixel not covered; else its colour, times 1 - shade if it is dark, rounded once:
+// Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour, times 1 - shade if it is dark, rounded once:
 //   (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC.
 // Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so the one
 //   multiplier per channel here does the work of LANES of them in the pass that empties the line.
@@ -34,6 +34,7 @@ module line_out #(
     output logic                     line_ready_o,
     input  wire logic                line_first_i,
     input  wire logic                line_blank_i,
+    input  wire logic                line_painted_i,
     input  wire logic [  X_BITS-1:0] line_width_i,
     input  wire logic [ RgbBits-1:0] line_background_i,
     input  wire logic [SHADE_FRAC:0] line_shade_i,
@@ -92,7 +93,7 @@ module line_out #(
   logic start, sending_q, issue, issue_last;
   logic [  X_BITS-1:0] x_q;
   logic [LaneBits-1:0] lane;
-  logic first_q, blank_q;
+  logic first_q, blank_q, painted_q;
   logic [X_BITS-1:0] width_q;
   logic [RgbBits-1:0] background_q;
   logic [SHADE_FRAC:0] keep_q;  // 1 - shade
@@ -119,6 +120,7 @@ module line_out #(
       x_q <= '0;
       first_q <= line_first_i;
       blank_q <= line_blank_i;
+      painted_q <= TRANSLUCENCY > 0 && line_painted_i;
       width_q <= line_width_i;
       if (line_first_i) background_q <= line_background_i;
       if (line_first_i) keep_q <= {1'b1, {SHADE_FRAC{1'b0}}} - line_shade_i;
@@ -141,7 +143,7 @@ module line_out #(
 
   // What goes along with a pixel, one set of bits a stage, the first stage lowest.
   logic [Depth-1:0] user_q, last_q;
-  logic [2:0] blank_at_q;
+  logic [2:0] blank_at_q, painted_at_q;
   logic [2*LaneBits-1:0] lane_at_q;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) valid_q <= '0;
@@ -150,6 +152,7 @@ module line_out #(
       user_q <= {user_q[Depth-2:0], first_q && x_q == '0};
       last_q <= {last_q[Depth-2:0], issue_last};
       blank_at_q <= {blank_at_q[1:0], blank_q};
+      painted_at_q <= {painted_at_q[1:0], painted_q};
       lane_at_q <= {lane_at_q[LaneBits-1:0], lane};
     end
   end
@@ -188,7 +191,7 @@ module line_out #(
 
   // ---- stages 4 and 5: resolve, background -------------------------------------------------------------------------
   logic [RgbBits-1:0] plain_q, dimmed, color_q;
-  logic show_q, dark_q;  // the pixel is covered, in a line that is not blank; and in shadow
+  logic show_q, dark_q;  // the pixel has a colour, in a line that is not blank; and is in shadow
   if (DSF_BITS > 0) begin : gen_resolve
     logic [CHANNELS*(SHADE_FRAC+9)-1:0] product_q;
     always_ff @(posedge clk_i) begin
@@ -212,7 +215,7 @@ module line_out #(
   always_ff @(posedge clk_i) begin
     if (go) begin
       plain_q <= pixel_q[RgbBits-1:0];
-      show_q  <= pixel_q[RgbBits] && !blank_at_q[2];
+      show_q  <= (pixel_q[RgbBits] || painted_at_q[2]) && !blank_at_q[2];
       if (!show_q) color_q <= background_q;
       else color_q <= dark_q ? dimmed : plain_q;
     end

@@ -36,9 +36,9 @@ module pixel_banked #(
   localparam int Last = Levels + 2;  // the stage at which a group's next state is computed; the walker is stage 0
 
   // ---- set-up stages -----------------------------------------------------------------------------------------------
-  // What goes along unchanged: {kind, count, colour, first group, last group, first lane, last lane}.
+  // What goes along unchanged: {kind, count, share, colour, first group, last group, first lane, last lane}.
   localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
-  localparam int SetBits = 4 + CountBits + FlatBits + 2 * AddrBits + 2 * OffBits;
+  localparam int SetBits = 4 + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
   logic [SetBits-1:0] set_d, set1_q, set2_q, set3_q;
   logic [2:0] set_valid_q, set_en;
   logic [  X_BITS-1:0] x_last;
@@ -53,7 +53,7 @@ module pixel_banked #(
   assign group_last = AddrBits'(x_last >> Levels);
   assign lane_first = LANES > 1 ? OffBits'(cmd_xl_i) : '0;
   assign lane_last = LANES > 1 ? OffBits'(x_last) : '0;
-  assign set_d = {cmd_kind_i, cmd_count_i, flat, group_first, group_last, lane_first, lane_last};
+  assign set_d = {cmd_kind_i, cmd_count_i, cmd_share_i, flat, group_first, group_last, lane_first, lane_last};
   assign set_en[2] = !set_valid_q[2] || take3;
   assign set_en[1] = set_valid_q[2:1] != 2'b11 || take3;
   assign set_en[0] = set_valid_q != 3'b111 || take3;
@@ -75,14 +75,16 @@ module pixel_banked #(
   // ---- walker, stage 0 ---------------------------------------------------------------------------------------------
   logic [3:0] next_kind;
   logic [CountBits-1:0] next_count;
+  logic [ShareBits-1:0] next_share;
   logic [FlatBits-1:0] next_flat;
   logic [AddrBits-1:0] next_group, next_end;
   logic [OffBits-1:0] next_lane_first, next_lane_last;
-  assign {next_kind, next_count, next_flat, next_group, next_end, next_lane_first, next_lane_last} = set3_q;
+  assign {next_kind, next_count, next_share, next_flat, next_group, next_end, next_lane_first, next_lane_last} = set3_q;
 
   logic walk_valid_q, walk_first_q, walk_sweep_q, walk_at_end, step;
   logic [3:0] walk_kind_q;
   logic [CountBits-1:0] walk_count_q;
+  logic [ShareBits-1:0] walk_share_q;
   logic [FlatBits-1:0] walk_flat_q;
   logic [AddrBits-1:0] walk_group_q, walk_end_q;
   logic [OffBits-1:0] walk_lane_first_q, walk_lane_last_q;
@@ -115,6 +117,7 @@ module pixel_banked #(
         walk_sweep_q <= 1'b0;
         walk_kind_q <= next_kind;
         walk_count_q <= next_count;
+        walk_share_q <= next_share;
         walk_flat_q <= next_flat;
         walk_group_q <= next_group;
         walk_end_q <= next_end;
@@ -184,15 +187,15 @@ module pixel_banked #(
   end
 
   // ---- what goes along with a group, stage 1 .. Last ---------------------------------------------------------------
-  // {kind, count, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
-  localparam int InfoBits = 4 + CountBits + LANES + AddrBits + 2;
+  // {kind, count, share, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
+  localparam int InfoBits = 4 + CountBits + ShareBits + LANES + AddrBits + 2;
   logic [Last*InfoBits-1:0] info_q;
   logic [Last:0] valid;  // bit k: stage k holds a group
   logic [Last-1:0] valid_q;
   logic [InfoBits-1:0] info_walk;
   logic leaves;
   assign leaves = walk_eol && !walk_sweep_q;
-  assign info_walk = {walk_kind_q, walk_count_q, walk_lanes, walk_group_q, walk_at_end, leaves};
+  assign info_walk = {walk_kind_q, walk_count_q, walk_share_q, walk_lanes, walk_group_q, walk_at_end, leaves};
   assign valid = {valid_q, walk_valid_q};
 
   always_ff @(posedge clk_i) begin
@@ -222,10 +225,11 @@ module pixel_banked #(
 
   logic [3:0] now_kind;
   logic [CountBits-1:0] now_count;
+  logic [ShareBits-1:0] now_share;
   logic [LANES-1:0] now_lanes;
   logic [AddrBits-1:0] now_addr;
   logic now_at_end, now_leaves;
-  assign {now_kind, now_count, now_lanes, now_addr, now_at_end, now_leaves} = info_q[(Last-1)*InfoBits+:InfoBits];
+  assign {now_kind, now_count, now_share, now_lanes, now_addr, now_at_end, now_leaves} = info_q[(Last-1)*InfoBits+:InfoBits];
 
   // ---- the tree's line ---------------------------------------------------------------------------------------------
   // Depth, colour and count of each lane: the span's, or what the tree has there.
@@ -363,7 +367,8 @@ module pixel_banked #(
           now_kind,
           now_z[l*Z_BITS+:Z_BITS],
           now_color[l*RgbBits+:RgbBits],
-          now_counts[l*CountBits+:CountBits]
+          now_counts[l*CountBits+:CountBits],
+          now_share
         );
       end
     end

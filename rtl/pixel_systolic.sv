@@ -63,6 +63,7 @@ module pixel_systolic #(
   logic [N*CountBits-1:0] count_q;
   logic [N*DepthBits-1:0] z_q, dz_q, z_d;
   logic [N*ColorBits-1:0] color_q, color_d;
+  logic [N*ShareBits-1:0] share_q;
   logic [N*PixelBits-1:0] pixel_q, pixel_d;
   logic [Segments*ExitBits-1:0] joined_d, joined_q;
 
@@ -153,7 +154,7 @@ module pixel_systolic #(
         if (UNITS > 0 && kind == KindTree) {depth, color, count} = {tree_z, tree_color, tree_count};
         pixel = pixel_q[i*PixelBits+:PixelBits];
         z_d[i*DepthBits+:DepthBits] = z + dz_q[i*DepthBits+:DepthBits];
-        pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, depth, color, count);
+        pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, depth, color, count, share_q[i*ShareBits+:ShareBits]);
         // Of the EOLs in the chain only one is among its line's pixels: the OR of all exits is that one's.
         if (kind == KindEol) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count);
@@ -195,6 +196,7 @@ module pixel_systolic #(
     z_q     <= (N * DepthBits)'({z_d, cmd_z_i});
     dz_q    <= (N * DepthBits)'({dz_q, cmd_dz_i});
     color_q <= (N * ColorBits)'({color_d, cmd_color_i});
+    share_q <= (N * ShareBits)'({share_q, cmd_share_i});
     pixel_q <= pixel_d;
   end
 

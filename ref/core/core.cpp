@@ -64,6 +64,9 @@ struct GoldenCore::Data {
       case Kind::SP:
         pixels.sp(t.span);
         break;
+      case Kind::TP:
+        pixels.tp(t.span);
+        break;
       case Kind::NC:
         pixels.nc(t.span.xl, t.span.xr, t.span.w);
         break;

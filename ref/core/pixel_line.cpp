@@ -2,9 +2,6 @@
 #include "core/pixel_line.hpp"
 
 #include <algorithm>
-#include <array>
-
-#include "core/span_kernels.hpp"
 
 namespace kage {
 namespace {
@@ -33,6 +30,7 @@ void PixelLine::start(int width, std::uint32_t background, std::uint32_t shade) 
   shade_ = shade;
   bias_ = 0;
   shadow_touched_ = false;
+  painted_ = false;
   std::fill(zb_.begin(), zb_.end(), (1 << config_.z_bits) - 1);
   std::fill(dsf_.begin(), dsf_.end(), 0U);
   std::fill(fsf_.begin(), fsf_.end(), 0U);
@@ -57,12 +55,18 @@ void PixelLine::op(const SpanToken& s) {
     span_op_flat(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, color | lit);
     return;
   }
-  const int spare = 32 - (10 + config_.color_frac);
+  span_op_smooth(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, lit, color_ramps(s).data(),
+                 config_.channels);
+}
+
+// Without SMOOTH a ramp that does not rise: 8 bits on top of 22, as the kernels have it.
+std::array<ColorRamp, 3> PixelLine::color_ramps(const SpanToken& s) const {
+  const int spare = config_.smooth == 0 ? 22 : 32 - (10 + config_.color_frac);
   std::array<ColorRamp, 3> ramps{};
   for (std::size_t c = 0; c < 3; ++c)
     ramps[c] = {static_cast<std::int32_t>(static_cast<std::uint32_t>(s.color[c]) << spare),
                 static_cast<std::int32_t>(static_cast<std::uint32_t>(s.dcolor[c]) << spare)};
-  span_op_smooth(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, lit, ramps.data(), config_.channels);
+  return ramps;
 }
 
 void PixelLine::sp(const SpanToken& s) {
@@ -100,12 +104,23 @@ void PixelLine::resolve() {
   bias_ = 0;
 }
 
+void PixelLine::tp(const SpanToken& s) {
+  if (!painted_) {
+    const std::int32_t clear = (1 << config_.z_bits) - 1;
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x)
+      attr_[x] = zb_[x] == clear ? background_ : attr_[x];
+    painted_ = true;
+  }
+  span_tp(depth_ramp(config_, s), s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, color_ramps(s).data(),
+          config_.channels, s.alpha);
+}
+
 void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
   const std::int32_t clear = (1 << config_.z_bits) - 1;
   const auto width = static_cast<std::size_t>(width_);
   std::uint8_t* to = out.data();
   for (std::size_t x = 0; x < width; ++x) {
-    const std::uint32_t a = blank || zb_[x] == clear ? background_ : attr_[x];
+    const std::uint32_t a = blank || (zb_[x] == clear && !painted_) ? background_ : attr_[x];
     *to++ = static_cast<std::uint8_t>(a);
     if (config_.channels > 1) {
       *to++ = static_cast<std::uint8_t>(a >> 8);
@@ -119,6 +134,7 @@ void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
     shadow_touched_ = false;
   }
   bias_ = 0;
+  painted_ = false;
 }
 
 }  // namespace kage

@@ -3,11 +3,13 @@
 // The pixels of one line, and what spans do to them: the golden counterpart of pixel_next.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/expansion_unit.hpp"
+#include "core/span_kernels.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {
@@ -27,11 +29,14 @@ class PixelLine {
   void inside(int w);               ///< IF: bias += w
   void ev(int xl, int xr);          ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
   void resolve();                   ///< darken what is lit and in shadow
+  void tp(const SpanToken& s);      ///< where Z < ZB: colour is blended
 
   /// The line's pixels as bytes; all state is cleared. `blank`: the line is background whatever was drawn.
   void finish(bool blank, std::span<std::uint8_t> out);
 
  private:
+  [[nodiscard]] std::array<ColorRamp, 3> color_ramps(const SpanToken& s) const;
+
   Config config_;
   int width_ = 0;
   std::uint32_t background_ = 0;
@@ -39,6 +44,7 @@ class PixelLine {
   std::uint32_t dsf_mask_ = 0;
   std::uint32_t bias_ = 0;
   bool shadow_touched_ = false;
+  bool painted_ = false;  // translucent spans have come: uncovered pixels have the background's colour
   // A pixel's state, one array a field. Arrays reach past the width by the longest vector, so that kernels need no
   // scalar tail.
   std::vector<std::int32_t> zb_;

@@ -148,6 +148,39 @@ void Ev(int count, std::uint32_t* HWY_RESTRICT dsf, std::uint32_t* HWY_RESTRICT 
   }
 }
 
+// The old channel from bit `at` of attr, and the new value, blended into the same place.
+HWY_INLINE hn::Vec<DU32> blend(hn::Vec<DU32> attr, int at, hn::Vec<DU32> value, hn::Vec<D32> alpha) {
+  const D32 d;
+  const DU32 du;
+  const auto old = hn::BitCast(d, hn::And(hn::ShiftRightSame(attr, at), hn::Set(du, 255U)));
+  // 255 old + alpha (new - old) + 128 is at least 128 and less than 2^16; adding its own 1/256 makes the division by
+  // 256 one by 255, rounded.
+  const auto difference = hn::Sub(hn::BitCast(d, value), old);
+  const auto sum = hn::Add(hn::Add(hn::Sub(hn::ShiftLeft<8>(old), old), hn::Set(d, 128)), hn::Mul(difference, alpha));
+  return hn::ShiftLeftSame(hn::BitCast(du, hn::ShiftRight<8>(hn::Add(sum, hn::ShiftRight<8>(sum)))), at);
+}
+
+void Tp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
+        const ColorRamp* color, int channels, int alpha) {
+  const D32 d;
+  const DU32 du;
+  Depths depths(ramp);
+  Colors c0(color[0]);
+  Colors c1(color[1]);
+  Colors c2(color[2]);
+  const auto a = hn::Set(d, alpha);
+  const auto rest = hn::Set(du, channels > 1 ? 0xFF000000U : 0xFFFFFF00U);
+  const int n = static_cast<int>(hn::Lanes(d));
+  for (int x = 0; x < count; x += n) {
+    auto in_front = hn::Lt(depths.next(), hn::LoadU(d, zb + x));
+    if (count - x < n) in_front = hn::And(in_front, lanes_left(x, count));
+    const auto old = hn::LoadU(du, attr + x);
+    auto mixed = hn::Or(hn::And(old, rest), blend(old, 0, c0.next(), a));
+    if (channels > 1) mixed = hn::Or(mixed, hn::Or(blend(old, 8, c1.next(), a), blend(old, 16, c2.next(), a)));
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(du, in_front), mixed, old), du, attr + x);
+  }
+}
+
 }  // namespace kage::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -158,6 +191,7 @@ HWY_EXPORT(OpFlat);
 HWY_EXPORT(OpSmooth);
 HWY_EXPORT(Sp);
 HWY_EXPORT(Ev);
+HWY_EXPORT(Tp);
 
 void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value) {
   HWY_DYNAMIC_DISPATCH(OpFlat)(ramp, count, zb, attr, value);
@@ -171,6 +205,10 @@ void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* d
 }
 void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask) {
   HWY_DYNAMIC_DISPATCH(Ev)(count, dsf, fsf, bias, mask);
+}
+void span_tp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
+             int channels, int alpha) {
+  HWY_DYNAMIC_DISPATCH(Tp)(ramp, count, zb, attr, color, channels, alpha);
 }
 
 }  // namespace kage

@@ -41,4 +41,8 @@ void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* d
 /// fsf |= ((dsf + bias) & mask) != 0; dsf = 0.
 void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask);
 
+/// Where Z < zb: each channel of attr = round((old * (255 - alpha) + new * alpha) / 255). Depth stays.
+void span_tp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
+             int channels, int alpha);
+
 }  // namespace kage

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 
+#include "frontend/cut.hpp"
 #include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
 #include "frontend/sweep.hpp"
@@ -29,6 +30,7 @@ struct Frame {
   Sweep faces;
   Sweep edges;
   Sweep tree_edges;
+  Sweep fragments;
 };
 
 /// What a band touches.
@@ -37,6 +39,7 @@ struct BandWork {
   std::vector<std::uint32_t> faces;
   std::vector<std::uint32_t> edges;
   std::vector<std::uint32_t> tree_edges;  // of the lines ahead: one further down than the band's
+  std::vector<std::uint32_t> fragments;
 };
 
 std::vector<LineRange> ranges_of_polygons(const FrameGeometry& g, std::size_t count) {
@@ -58,6 +61,9 @@ Frame prepare(const FrameGeometry& g, const Config& config) {
   TreePlan tree(g, config);
   std::vector<LineRange> ahead = tree.edge_lines();
   for (LineRange& r : ahead) --r.first, --r.end;
+  std::vector<LineRange> fragments;
+  fragments.reserve(g.fragments.size());
+  for (const ScreenFragment& f : g.fragments) fragments.push_back({f.first_line, f.end_line});
   Frame f{&g,
           &config,
           std::move(tree),
@@ -66,7 +72,8 @@ Frame prepare(const FrameGeometry& g, const Config& config) {
           {bands, g.height, std::span(all).first(g.drawn)},
           {bands, g.height, faces},
           {bands, g.height, edges},
-          {bands, g.height, ahead}};
+          {bands, g.height, ahead},
+          {bands, g.height, fragments}};
   f.volume_of_face.resize(g.volume_faces.size());
   f.volume_of_edge.resize(g.near_edges.size());
   for (std::uint32_t v = 0; v < g.volumes.size(); ++v) {
@@ -93,6 +100,7 @@ class Band {
   std::vector<std::uint32_t> make() {
     opaque();
     if (f_->config->dsf_bits > 0) volumes();
+    if (f_->config->translucency > 0) translucent();
     const bool tree = f_->tree.any();
     std::vector<std::vector<std::uint32_t>> ahead;  // segments of line y + 1 at y - y0_
     if (tree) f_->tree.segments(y0_ + 1, std::min(y1_ + 1, g_->height), work_->tree_edges, ahead);
@@ -108,6 +116,7 @@ class Band {
       words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
       writer_.write_to(words_);
       if (!line.shadow.empty()) writer_.resolve();
+      words_.insert(words_.end(), line.translucent.begin(), line.translucent.end());
       writer_.eol(y);
     }
     return std::move(words_);
@@ -117,6 +126,7 @@ class Band {
   struct Line {
     std::vector<std::uint32_t> opaque;
     std::vector<std::uint32_t> shadow;
+    std::vector<std::uint32_t> translucent;
     // Of the volume being worked on:
     std::vector<Crossing> near;
     int touched_from = 0;
@@ -129,7 +139,12 @@ class Band {
   /// same.
   template <class Emit>
   void spans(const ScreenPolygon& p, Emit emit) {
-    scanner_.scan(g_->outline(p), y0_, y1_, g_->width, [&](int y, int xl, int xr, int winding) {
+    spans(p, y0_, y1_, emit);
+  }
+
+  template <class Emit>
+  void spans(const ScreenPolygon& p, int y0, int y1, Emit emit) {
+    scanner_.scan(g_->outline(p), y0, y1, g_->width, [&](int y, int xl, int xr, int winding) {
       depth_.each(p.depth, xl, xr, y, [&](int from, int to, SpanSetup::Ramp z) {
         SpanToken s;
         s.xl = from;
@@ -141,28 +156,60 @@ class Band {
     });
   }
 
-  void opaque() {
-    const bool smooth = f_->config->smooth != 0;
+  /// The colour of a span of the polygon on line y.
+  void paint(const ScreenPolygon& p, int y, SpanToken& s) {
     const auto channels = static_cast<std::size_t>(f_->config->channels);
+    for (std::size_t c = 0; c < channels; ++c) {
+      if (f_->config->smooth == 0) {
+        s.color[c] = p.color[c];
+        continue;
+      }
+      const ScreenPlane plane = p.color_planes < 0 ? ScreenPlane{0, 0, std::int64_t{p.color[c]} << kPlaneFrac, 0, 0}
+                                                   : g_->color_planes[static_cast<std::size_t>(p.color_planes) + c];
+      const SpanSetup::Ramp r = color_.at(plane, s.xl, y, s.xr - s.xl);
+      s.color[c] = static_cast<std::int32_t>(r.start);
+      s.dcolor[c] = static_cast<std::int32_t>(r.step);
+    }
+  }
+
+  void opaque() {
     for (const std::uint32_t i : work_->polygons) {
       if (i < f_->tree.first_span_polygon()) continue;
       const ScreenPolygon& p = g_->polygons[i];
       spans(p, [&](int y, SpanToken& s, int) {
         s.lit = p.lit;
-        for (std::size_t c = 0; c < channels; ++c) {
-          if (!smooth) {
-            s.color[c] = p.color[c];
-            continue;
-          }
-          const ScreenPlane plane = p.color_planes < 0 ? ScreenPlane{0, 0, std::int64_t{p.color[c]} << kPlaneFrac, 0, 0}
-                                                       : g_->color_planes[static_cast<std::size_t>(p.color_planes) + c];
-          const SpanSetup::Ramp r = color_.at(plane, s.xl, y, s.xr - s.xl);
-          s.color[c] = static_cast<std::int32_t>(r.start);
-          s.dcolor[c] = static_cast<std::int32_t>(r.step);
-        }
+        paint(p, y, s);
         writer_.write_to(at(y).opaque);
         writer_.op(s);
       });
+    }
+  }
+
+  // A fragment's span is a part of its face's, with the face's depth and colour there, bit for bit.
+  void translucent() {
+    for (const std::uint32_t i : work_->fragments) {
+      const ScreenFragment& f = g_->fragments[i];
+      const auto cuts = std::span(g_->cuts).subspan(f.first_cut, f.cut_count);
+      const int y0 = std::max(y0_, f.first_line);
+      const int y1 = std::min(y1_, f.end_line);
+      for (std::uint32_t k = f.first_polygon; k < f.first_polygon + f.polygon_count; ++k) {
+        const ScreenPolygon& p = g_->polygons[k];
+        spans(p, y0, y1, [&](int y, SpanToken& s, int) {
+          int xl = s.xl;
+          int xr = s.xr;
+          for (const FragmentCut& cut : cuts) restrict_to(g_->cut_lines[cut.line], cut.front, y, xl, xr);
+          if (xl >= xr) return;
+          s.alpha = p.alpha;
+          paint(p, y, s);
+          const std::int64_t on = xl - s.xl;
+          s.z += on * s.dz;
+          for (std::size_t c = 0; c < 3; ++c) s.color[c] += static_cast<std::int32_t>(on) * s.dcolor[c];
+          s.xl = xl;
+          s.xr = xr;
+          writer_.write_to(at(y).translucent);
+          writer_.tp(s);
+        });
+      }
     }
   }
 
@@ -299,6 +346,8 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   }
   sink(words);
 
+  if (config.translucency == 0 && !g.fragments.empty())
+    throw Error("translucent faces need TRANSLUCENCY, which the configuration lacks");
   const int bands = (g.height + kBandLines - 1) / kBandLines;
   // A few bands at a time, handed on in order: memory holds no more than those.
   const int wave = threads == 1 ? 1 : 8;
@@ -309,7 +358,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
     const int end = std::min(first + wave, bands);
     for (int b = first; b < end; ++b)
       work[static_cast<std::size_t>(b - first)] = {frame.polygons.next(), frame.faces.next(), frame.edges.next(),
-                                                   frame.tree_edges.next()};
+                                                   frame.tree_edges.next(), frame.fragments.next()};
     const auto make = [&](int b) {
       const auto i = static_cast<std::size_t>(b - first);
       made[i] = Band(frame, work[i], b).make();

@@ -14,6 +14,7 @@
 #include "geometry/plane.hpp"
 #include "geometry/shade.hpp"
 #include "geometry/shadow_volume.hpp"
+#include "geometry/translucent.hpp"
 #include "geometry/view.hpp"
 #include "kage/error.hpp"
 #include "number/int128.hpp"
@@ -29,8 +30,10 @@ struct DrawnRange {
 
 class Builder {
  public:
-  Builder(const SceneFrame& frame, const Config& config, int width, int height, const Look& look)
+  Builder(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
+          TranslucentOrder& order)
       : frame_(&frame),
+        order_(&order),
         config_(&config),
         look_(&look),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
@@ -54,6 +57,7 @@ class Builder {
     if (config_->dsf_bits > 0)
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) caster_.each([this](const WorldVolume& v) { add_volume(v); });
+    if (config_->translucency > 0) draw_translucent();
     return std::move(out_);
   }
 
@@ -70,16 +74,41 @@ class Builder {
   // changes no tie.
   void draw_all() {
     for (std::uint32_t c = 0; c < frame_->components.size(); ++c) out_.span_reasons.push_back(draw_polyhedron(c));
-    for (std::uint32_t c = 0; c < frame_->components.size(); ++c) {
-      if (out_.span_reasons[c] == SpanReason::none) continue;
-      const Component& part = frame_->components[c];
-      for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) draw(i);
+    for (std::uint32_t c = 0; c < frame_->components.size(); ++c)
+      if (out_.span_reasons[c] != SpanReason::none && !frame_->components[c].translucent) draw_component(c);
+    if (config_->translucency > 0) return;
+    for (std::uint32_t c = 0; c < frame_->components.size(); ++c)
+      if (frame_->components[c].translucent) draw_component(c);
+  }
+
+  void draw_component(std::uint32_t component) {
+    const Component& part = frame_->components[component];
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) draw(i);
+  }
+
+  // Faces that the eye sees edge-on cover nothing, whatever the snap makes of them; nor do those of alpha 0.
+  void draw_translucent() {
+    std::vector<std::uint32_t> faces;
+    for (const Component& part : frame_->components)
+      for (std::uint32_t i = part.first_polygon; part.translucent && i < part.first_polygon + part.polygon_count; ++i)
+        if (frame_->triangles[frame_->polygons[i].triangle].alpha > 0) faces.push_back(i);
+    if (faces.empty()) return;
+    for (const std::uint32_t i : faces) {
+      const auto corners = frame_->outline(frame_->polygons[i]);
+      if (eye_side(frame_->camera, frame_->vertices[corners[0]], frame_->vertices[corners[1]],
+                   frame_->vertices[corners[2]]) != 0)
+        draw(i);
     }
+    FragmentMaker(*frame_, view_, order_->data(), faces)
+        .make(
+            look_->translucent,
+            [this](std::uint32_t face) { return std::pair(drawn_[face].first, drawn_[face].count); }, out_);
   }
 
   // Nothing is drawn unless the component is a polyhedron.
   SpanReason draw_polyhedron(std::uint32_t component) {
     const Component& part = frame_->components[component];
+    if (part.translucent) return SpanReason::translucent;
     if (!part.closed) return SpanReason::not_closed;
     if (!part.convex) return SpanReason::not_convex;
     const auto faces = std::span(frame_->polygons).subspan(part.first_polygon, part.polygon_count);
@@ -190,6 +219,7 @@ class Builder {
     if (polygon_.empty()) return;
     ScreenPolygon base;
     base.lit = lit;
+    base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
     base.source = index;
     // Three corners are the face's own, even where it was put together from more triangles.
     base.depth = corners.size() == 3
@@ -371,6 +401,7 @@ class Builder {
   }
 
   const SceneFrame* frame_;
+  TranslucentOrder* order_;
   const Config* config_;
   const Look* look_;
   View view_;
@@ -402,12 +433,14 @@ void check_finite(const SceneFrame& frame) {
 
 }  // namespace
 
-FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look) {
+FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
+                            TranslucentOrder* order) {
   if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
     throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
   if (frame.polygons.empty()) throw Error("the scene has no faces");
   check_finite(frame);
-  return Builder(frame, config, width, height, look).build();
+  TranslucentOrder fresh;
+  return Builder(frame, config, width, height, look, order != nullptr ? *order : fresh).build();
 }
 
 }  // namespace kage

@@ -62,6 +62,7 @@ class ShadowCaster {
     WorldVolume v;
     for (std::size_t c = 0; c < frame_->components.size(); ++c) {
       const Component& part = frame_->components[c];
+      if (part.translucent) continue;
       v.component = static_cast<std::uint32_t>(c);
       if (part.convex && light_outside(part) && make_convex(part, v)) {
         emit(static_cast<const WorldVolume&>(v));

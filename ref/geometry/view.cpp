@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/view.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace kage {
@@ -64,6 +65,17 @@ std::optional<ScreenPlane> View::depth_plane(const glm::dvec3& normal, const Eye
   p.b = to_fixed(slope_y, kPlaneFrac);
   p.c = to_fixed(depth(anchor.w) + slope_x * (p.x0 + 0.5 - x) + slope_y * (p.y0 + 0.5 - y), kPlaneFrac);
   return p;
+}
+
+CutLine View::line(const glm::dvec3& l) const {
+  const double a = l.x * per_pixel_x_;
+  const double b = -l.y * per_pixel_y_;
+  const double c = l.z + a * (0.5 - half_w_) + b * (0.5 - half_h_);
+  const double scale = std::max(std::abs(a), std::abs(b)) * 0x1p-30;
+  // Parallel to the picture, or nothing but rounding: everything lies on one side.
+  if (!(scale > 0) || !std::isfinite(scale)) return {0, 0, c < 0 ? -1 : 0};
+  const double limit = 0x1p58;
+  return {to_fixed(a / scale, 0), to_fixed(b / scale, 0), to_fixed(std::clamp(c / scale, -limit, limit), 0)};
 }
 
 ScreenPlane View::flat_plane(double value) { return {0, 0, to_fixed(value, kPlaneFrac), 0, 0}; }

@@ -48,6 +48,11 @@ class View {
   [[nodiscard]] std::optional<ScreenPlane> depth_plane(const glm::dvec3& normal, const EyePoint& point,
                                                        const ClipPoint& anchor) const;
 
+  /// The line where l . (ex, ey, 1) = 0, (ex, ey) being a pixel's place in eye space at w = 1 (perspective) or anywhere
+  /// (parallel), each coefficient rounded to nearest. Scaled so that the larger of a and b is 2^30: over a picture of
+  /// 2^15 pixels it is off by less than 2^-15 of one.
+  [[nodiscard]] CutLine line(const glm::dvec3& l) const;
+
   /// A plane of constant depth.
   [[nodiscard]] static ScreenPlane flat_plane(double value);
 

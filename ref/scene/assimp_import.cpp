@@ -55,7 +55,9 @@ class Reader {
   std::int32_t mesh_of(const aiNode& node);
   void read_mesh(const aiMesh& mesh, RawMesh& out);
   void read_faces(const aiMesh& mesh, RawPrimitive& p);
-  glm::dvec3 read_material(unsigned index);
+  void read_material(unsigned index, RawPrimitive& p);
+  /// As the file has it, or 1 where that is no share.
+  [[nodiscard]] double opacity(const aiMaterial& material) const;
   void read_cameras();
   void read_lights();
   void read_animation();
@@ -139,7 +141,7 @@ void Reader::read_mesh(const aiMesh& mesh, RawMesh& out) {
     if (mesh.mNormals != nullptr) push(p.normals, mesh.mNormals[i].x, mesh.mNormals[i].y, mesh.mNormals[i].z);
     if (mesh.mColors[0] != nullptr) push(p.colors, mesh.mColors[0][i].r, mesh.mColors[0][i].g, mesh.mColors[0][i].b);
   }
-  p.color = read_material(mesh.mMaterialIndex);
+  read_material(mesh.mMaterialIndex, p);
   alpha_meshes_ += translucent ? 1 : 0;
   skins_ += mesh.HasBones() ? 1 : 0;
   morphs_ += mesh.mNumAnimMeshes > 0 ? 1 : 0;
@@ -171,16 +173,24 @@ void Reader::read_faces(const aiMesh& mesh, RawPrimitive& p) {
   }
 }
 
-glm::dvec3 Reader::read_material(unsigned index) {
-  if (index >= in_.mNumMaterials || in_.mMaterials[index] == nullptr) return {1, 1, 1};
+// Several formats, and readers, say 0 and mean that nothing was said: what is drawn at all is not wholly invisible.
+double Reader::opacity(const aiMaterial& material) const {
+  ai_real value = 1;
+  if (material.Get(AI_MATKEY_OPACITY, value) != AI_SUCCESS || !(value > 0 && value < 1)) return 1;
+  return static_cast<double>(value);
+}
+
+void Reader::read_material(unsigned index, RawPrimitive& p) {
+  if (index >= in_.mNumMaterials || in_.mMaterials[index] == nullptr) return;
   materials_.insert(index);
   const aiMaterial& material = *in_.mMaterials[index];
+  p.alpha = opacity(material);
   aiColor4D color(1, 1, 1, 1);
   if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != AI_SUCCESS &&
       material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS)
-    return {1, 1, 1};
+    return;
   const glm::dvec3 c{color.r, color.g, color.b};
-  return is_finite(c) ? c : glm::dvec3{1, 1, 1};
+  if (is_finite(c)) p.color = c;
 }
 
 void Reader::read_cameras() {
@@ -306,20 +316,21 @@ void Reader::read_node_animation(const aiNodeAnim& channel) {
 void Reader::write_notes() {
   std::size_t textures = in_.mNumTextures;  // embedded ones; named ones are counted by the slots that use them
   std::size_t slots = 0;
-  std::size_t alpha = 0;
+  std::size_t invisible = 0;
   for (const unsigned i : materials_) {
     const aiMaterial& m = *in_.mMaterials[i];
     for (int type = aiTextureType_NONE + 1; type <= AI_TEXTURE_TYPE_MAX; ++type)
       slots += m.GetTextureCount(static_cast<aiTextureType>(type));
-    ai_real opacity = 1;
-    if (m.Get(AI_MATKEY_OPACITY, opacity) == AI_SUCCESS && opacity < 1) ++alpha;
+    ai_real value = 1;
+    if (m.Get(AI_MATKEY_OPACITY, value) == AI_SUCCESS && !(value > 0)) ++invisible;
   }
   const auto add = [this](std::size_t count, const char* one, const char* many, const char* rest) {
     if (count > 0) out_.notes.push_back(counted(count, one, many) + rest);
   };
   add(std::max(textures, slots), "texture is", "textures are", " ignored");
-  add(alpha, "material has", "materials have", " alpha, which is ignored: drawn opaque");
-  add(alpha_meshes_, "mesh's vertices have", "meshes' vertices have", " alpha, which is ignored: drawn opaque");
+  add(invisible, "material has", "materials have", " opacity 0, which is ignored: drawn opaque");
+  add(alpha_meshes_, "mesh's vertices have", "meshes' vertices have",
+      " alpha of their own, which is ignored: the material's is used");
   add(thin_faces_, "point or line is", "points or lines are", " ignored");
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
   add(morphs_, "mesh has", "meshes have", " morph targets, which are ignored");

@@ -47,7 +47,7 @@ class Importer {
   std::int32_t read_mesh(std::uint64_t index);
   void read_primitive(const Json& json, RawMesh& mesh, const std::string& place);
   void read_corners(const Json& json, RawPrimitive& primitive, const std::string& place);
-  glm::dvec3 material_color(const Json& primitive, const std::string& place);
+  void read_material(const Json& primitive, RawPrimitive& p, const std::string& place);
   void read_camera(std::uint64_t index, std::uint32_t node);
   void read_light(std::uint64_t index, std::uint32_t node);
   void read_animation();
@@ -67,7 +67,7 @@ class Importer {
   std::size_t bare_primitives_ = 0;
   std::size_t instanced_ = 0;
   std::size_t alpha_primitives_ = 0;  // by the colours of their vertices
-  std::set<std::uint64_t> alpha_materials_;
+  std::set<std::uint64_t> mask_materials_;
   std::string camera_name_;
   std::string light_name_;
   std::string light_type_;
@@ -203,7 +203,7 @@ void Importer::read_primitive(const Json& json, RawMesh& mesh, const std::string
         translucent = translucent || c.values[i] < 1;
     alpha_primitives_ += translucent ? 1 : 0;
   }
-  p.color = material_color(json, place);
+  read_material(json, p, place);
   read_corners(json, p, place);
   mesh.primitives.push_back(std::move(p));
 }
@@ -228,9 +228,9 @@ void Importer::read_corners(const Json& json, RawPrimitive& p, const std::string
   p.face_count = static_cast<std::uint32_t>(triangles);
 }
 
-glm::dvec3 Importer::material_color(const Json& primitive, const std::string& place) {
+void Importer::read_material(const Json& primitive, RawPrimitive& p, const std::string& place) {
   const auto index = file_.integer(primitive, "material", place);
-  if (!index) return {1, 1, 1};
+  if (!index) return;
   const std::string here = "material " + std::to_string(*index);
   const Json& material = file_.item("materials", *index, place);
   const Json& metal = file_.object(material, "pbrMetallicRoughness");
@@ -239,8 +239,9 @@ glm::dvec3 Importer::material_color(const Json& primitive, const std::string& pl
   if (factor.empty()) factor = file_.numbers(gloss, "diffuseFactor", 4, here);
   if (factor.empty()) factor = {1, 1, 1, 1};
   const std::string mode = file_.text(material, "alphaMode");
-  if (mode == "BLEND" || mode == "MASK") alpha_materials_.insert(*index);
-  return vec3(factor);
+  if (mode == "BLEND") p.alpha = std::clamp(factor[3], 0.0, 1.0);
+  if (mode == "MASK") mask_materials_.insert(*index);
+  p.color = vec3(factor);
 }
 
 void Importer::read_camera(std::uint64_t index, std::uint32_t node) {
@@ -349,9 +350,9 @@ void Importer::write_notes() {
     if (count > 0) notes.push_back(counted(count, singular, plural) + rest);
   };
   add(file_.count("textures"), "texture is", "textures are", " ignored");
-  add(alpha_materials_.size(), "material has", "materials have", " alpha, which is ignored: drawn opaque");
+  add(mask_materials_.size(), "material has", "materials have", " an alpha mask, which is ignored: drawn opaque");
   add(alpha_primitives_, "primitive's vertices have", "primitives' vertices have",
-      " alpha, which is ignored: drawn opaque");
+      " alpha of their own, which is ignored: the material's is used");
   add(thin_primitives_, "primitive of points or lines is", "primitives of points or lines are", " ignored");
   add(bare_primitives_, "primitive without positions is", "primitives without positions are", " ignored");
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");

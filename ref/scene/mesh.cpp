@@ -32,22 +32,14 @@ class Builder {
 
   Mesh run() {
     collect();
-    const Topology topology = analyse(mesh_.vertices, welded_, budget_);
-    mesh_.components = topology.components;
-    mesh_.turned = topology.turned;
-    mesh_.inside_out = topology.inside_out;
-    for (const std::uint32_t t : topology.order) {
-      const bool reversed = topology.reversed[t];
-      mesh_.triangles.push_back(turned(welded_[t], reversed));
-      mesh_.faces.push_back(faces_[t]);
-      ordered_.push_back({sources_[t].primitive, turned(sources_[t].vertex, reversed)});
-    }
+    assemble(false);
+    assemble(true);
     shade();
     for (MeshComponent& c : mesh_.components) {
       c.first_polygon = static_cast<std::uint32_t>(mesh_.polygons.size());
       append_polygons(mesh_.vertices, std::span(mesh_.triangles).subspan(c.first, c.count),
-                      std::span(mesh_.shading_corners).subspan(c.first, c.count), mesh_.shading, c.first, c.convex,
-                      mesh_.polygons, mesh_.corners);
+                      std::span(mesh_.shading_corners).subspan(c.first, c.count), mesh_.shading, c.first,
+                      c.convex && !c.translucent, mesh_.polygons, mesh_.corners);
       c.polygon_count = static_cast<std::uint32_t>(mesh_.polygons.size()) - c.first_polygon;
     }
     for (std::size_t t = 0; t < mesh_.triangles.size() && !mesh_.has_area; ++t)
@@ -59,6 +51,7 @@ class Builder {
   static Corners turned(const Corners& c, bool reversed) { return reversed ? Corners{c[0], c[2], c[1]} : c; }
 
   void collect();
+  void assemble(bool translucent);
   void keep_used_vertices();
   void shade();
   void shade_component(const MeshComponent& c);
@@ -68,6 +61,9 @@ class Builder {
   /// The file's normal at a corner, of length 1, or 0 where it has none to speak of.
   [[nodiscard]] glm::dvec3 file_normal(const Source& s, std::size_t corner) const;
   [[nodiscard]] glm::dvec3 color(const Source& s, std::size_t corner) const;
+  [[nodiscard]] std::uint8_t alpha(const Source& s) const {
+    return static_cast<std::uint8_t>(std::clamp(raw_.primitives[s.primitive].alpha, 0.0, 1.0) * 255 + 0.5);
+  }
   std::uint32_t add(const ShadingVertex& v) {
     mesh_.shading.push_back(v);
     return static_cast<std::uint32_t>(mesh_.shading.size() - 1);
@@ -110,6 +106,35 @@ void Builder::collect() {
     first_face += p.face_count;
   }
   keep_used_vertices();
+}
+
+// What is opaque and what is translucent do not hang together: glass in a wall leaves a hole in it.
+void Builder::assemble(bool translucent) {
+  std::vector<std::uint32_t> of;
+  std::vector<Corners> triangles;
+  for (std::uint32_t t = 0; t < welded_.size(); ++t) {
+    if ((alpha(sources_[t]) < 255) != translucent) continue;
+    of.push_back(t);
+    triangles.push_back(welded_[t]);
+  }
+  if (of.empty()) return;
+  const Topology topology = analyse(mesh_.vertices, triangles, budget_);
+  const auto first = static_cast<std::uint32_t>(mesh_.triangles.size());
+  for (MeshComponent c : topology.components) {
+    c.first += first;
+    c.translucent = translucent;
+    mesh_.components.push_back(c);
+  }
+  mesh_.turned += topology.turned;
+  mesh_.inside_out += topology.inside_out;
+  for (const std::uint32_t i : topology.order) {
+    const bool reversed = topology.reversed[i];
+    const std::uint32_t t = of[i];
+    mesh_.triangles.push_back(turned(welded_[t], reversed));
+    mesh_.faces.push_back(faces_[t]);
+    mesh_.alphas.push_back(alpha(sources_[t]));
+    ordered_.push_back({sources_[t].primitive, turned(sources_[t].vertex, reversed)});
+  }
 }
 
 // Vertices of points, lines and dropped triangles would only blow up the bounds.

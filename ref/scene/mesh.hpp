@@ -19,6 +19,7 @@ struct Mesh {
   std::vector<Corners> triangles;        ///< corners into vertices, by component
   std::vector<Corners> shading_corners;  ///< corners into shading
   std::vector<std::uint32_t> faces;      ///< the file's face of each triangle
+  std::vector<std::uint8_t> alphas;      ///< of each triangle; 255 is opaque
   std::vector<MeshComponent> components;
   std::vector<Polygon> polygons;       ///< of the components, in their order
   std::vector<std::uint32_t> corners;  ///< of polygons, into vertices

@@ -18,6 +18,7 @@ namespace kage::scene {
 /// Corners that share one material. Attributes lie in the order of the file's vertices.
 struct RawPrimitive {
   glm::dvec3 color{1, 1, 1};           ///< base or diffuse colour
+  double alpha = 1;                    ///< of the material, 0 .. 1; below 1 it is translucent
   std::vector<float> positions;        ///< x, y, z of each vertex
   std::vector<float> normals;          ///< as many, or none
   std::vector<float> colors;           ///< red, green, blue of each vertex, or none

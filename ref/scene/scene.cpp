@@ -50,7 +50,8 @@ void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, 
     frame.triangles.push_back({{vertex + v[0], vertex + v[1], vertex + v[2]},
                                {shading + s[0], shading + s[1], shading + s[2]},
                                object,
-                               mesh.faces[i]});
+                               mesh.faces[i],
+                               mesh.alphas[i]});
   }
   const auto corner = static_cast<std::uint32_t>(frame.corners.size());
   for (const std::uint32_t v : mesh.corners) frame.corners.push_back(vertex + v);
@@ -127,7 +128,7 @@ void Scene::Data::place_objects() {
     std::string called = scene::one_line(node.name.empty() ? raw.meshes[number].name : node.name, 80);
     object_names.push_back(called.empty() ? "object " + std::to_string(objects.size() - 1) : std::move(called));
     for (const scene::MeshComponent& c : mesh.components)
-      components.push_back({triangles + c.first, c.count, c.closed, c.convex, polygons + c.first_polygon,
+      components.push_back({triangles + c.first, c.count, c.closed, c.translucent, c.convex, polygons + c.first_polygon,
                             c.polygon_count, c.reason.text(vertices, triangles + c.first)});
     vertices += static_cast<std::uint32_t>(mesh.vertices.size());
     triangles += static_cast<std::uint32_t>(mesh.triangles.size());
@@ -178,7 +179,7 @@ void Scene::Data::measure() {
     notes.emplace_back("the scene is so far from the origin, for its size, that its numbers are noticeably rounded");
 }
 
-Scene Scene::load(const std::string& name_or_path) {
+Scene Scene::load(const std::string& name_or_path, double alpha) {
   namespace fs = std::filesystem;
   auto data = std::make_unique<Data>();
   const std::vector<std::string>& builtin = builtin_scenes();
@@ -197,6 +198,8 @@ Scene Scene::load(const std::string& name_or_path) {
     throw Error(shown + ": no such file, and no built-in scene of that name (there are " + names + ")");
   }
   data->raw = scene::import_in_child(path, shown);
+  for (scene::RawMesh& mesh : data->raw.meshes)
+    for (scene::RawPrimitive& p : mesh.primitives) p.alpha *= alpha;
   try {
     data->end_time = scene::end_time(data->raw);
     data->build_meshes();
@@ -268,7 +271,7 @@ bool Scene::needs_smooth() const { return data_->smooth; }
 const std::string& Scene::name() const { return data_->name; }
 
 const std::vector<std::string>& builtin_scenes() {
-  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges", "polyhedra", "fifteen"};
+  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges", "polyhedra", "fifteen", "glass"};
   return kNames;
 }
 

@@ -42,6 +42,7 @@ struct MeshComponent {
   std::uint32_t count = 0;
   bool closed = false;
   bool convex = false;
+  bool translucent = false;
   Reason reason;
   std::uint32_t first_polygon = 0;  ///< of its faces as polygons
   std::uint32_t polygon_count = 0;

@@ -76,7 +76,7 @@ template <typename Archive, typename P>
 void fields(Archive& ar, P& v) {
   using T = std::remove_const_t<P>;
   if constexpr (std::is_same_v<T, RawPrimitive>)
-    ar(v.color, v.positions, v.normals, v.colors, v.corners, v.faces, v.face_count);
+    ar(v.color, v.alpha, v.positions, v.normals, v.colors, v.corners, v.faces, v.face_count);
   else if constexpr (std::is_same_v<T, RawMesh>)
     ar(v.name, v.primitives);
   else if constexpr (std::is_same_v<T, RawNode>)

@@ -99,13 +99,13 @@ struct FrameChecker::Data {
     }
     if (t.kind == Kind::SEG) check_segment(t.segment, body);
     ++counts.of_kind[kind];
-    if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC) {
+    if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::TP) {
       const SpanToken& s = t.span;
       const int count = s.xr - s.xl;
       ++counts.spans;
       counts.span_pixels += static_cast<std::uint64_t>(count);
       if (!span_fits(s.z, s.dz, count, layout.op_z.bits)) fail("the span's depth overflows");
-      if (config.smooth != 0 && t.kind == Kind::OP)
+      if (config.smooth != 0 && (t.kind == Kind::OP || t.kind == Kind::TP))
         for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
           if (!span_fits(s.color[c], s.dcolor[c], count, layout.op_color[c].bits)) fail("the span's colour overflows");
     }

@@ -115,6 +115,7 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   if (needs.shadows && config.dsf_bits == 0) missing.emplace_back("shadows (DSF_BITS > 0)");
   if (needs.shadows && needs.several_volumes && config.fsf == 0) missing.emplace_back("several volumes (FSF)");
   if (needs.smooth && config.smooth == 0) missing.emplace_back("smooth colour (SMOOTH)");
+  if (needs.translucency && config.translucency == 0) missing.emplace_back("translucency (TRANSLUCENCY)");
   if (needs.color && config.channels == 1) missing.emplace_back("colour (CHANNELS = 3)");
   if (needs.width > config.max_width) missing.push_back(fmt::format("MAX_WIDTH >= {}", needs.width));
   return missing;

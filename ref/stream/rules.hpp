@@ -48,7 +48,7 @@ class TokenRules {
   [[nodiscard]] int line() const { return line_; }
 
  private:
-  enum class Phase { state, ahead, opaque, volume, resolved };
+  enum class Phase { state, ahead, opaque, volume, resolved, translucent };
 
   [[nodiscard]] bool in_order(Kind k) const {
     if (k == Kind::END) return true;
@@ -74,8 +74,9 @@ class TokenRules {
         return phase_ == Phase::volume && volume_open_;
       case Kind::RESOLVE:
         return phase_ == Phase::volume && (config_->fsf == 0 || !volume_open_);
+      case Kind::TP:
       case Kind::EOL:
-        return opaque || phase_ == Phase::resolved;
+        return opaque || phase_ == Phase::resolved || phase_ == Phase::translucent;
       default:
         return false;
     }
@@ -89,6 +90,7 @@ class TokenRules {
       case Kind::SP:
       case Kind::NC:
       case Kind::EV:
+      case Kind::TP:
         return t.span.xl <= t.span.xr && t.span.xr <= width_;
       default:
         return true;
@@ -134,6 +136,9 @@ class TokenRules {
         break;
       case Kind::RESOLVE:
         phase_ = Phase::resolved;
+        break;
+      case Kind::TP:
+        phase_ = Phase::translucent;
         break;
       case Kind::EOL:
         phase_ = Phase::ahead;

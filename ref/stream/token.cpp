@@ -122,6 +122,19 @@ void TokenWriter::ev(int xl, int xr) {
 
 void TokenWriter::resolve() { out_->push_back(code(Kind::RESOLVE)); }
 
+void TokenWriter::tp(const SpanToken& s) {
+  pack(Kind::TP, [&](auto put) {
+    put("xl", s.xl, layout_.tp_xl);
+    put("xr", s.xr, layout_.tp_xr);
+    put("alpha", s.alpha, layout_.tp_alpha);
+    put("z", s.z, layout_.tp_z);
+    put("dz", s.dz, layout_.tp_dz);
+    const auto channels = static_cast<std::size_t>(config_.channels);
+    for (std::size_t c = 0; c < channels; ++c) put("color", s.color[c], layout_.tp_color[c]);
+    for (std::size_t c = 0; c < channels; ++c) put("dcolor", s.dcolor[c], layout_.tp_dcolor[c]);
+  });
+}
+
 void TokenWriter::eol(int y) {
   pack(Kind::EOL, [&](auto put) { put("y", y, layout_.eol_y); });
 }
@@ -154,14 +167,21 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
       t.segment.sync = get(l.seg_sync) != 0;
       break;
     case Kind::OP:
-      t.span = {geti(l.op_xl), geti(l.op_xr), get(l.op_z), get(l.op_dz), 0, get(l.op_lit) != 0, {}, {}};
+      t.span = {geti(l.op_xl), geti(l.op_xr), get(l.op_z), get(l.op_dz), 0, get(l.op_lit) != 0, {}, {}, 0};
       for (std::size_t c = 0; c < channels; ++c) {
         t.span.color[c] = geti(l.op_color[c]);
         t.span.dcolor[c] = geti(l.op_dcolor[c]);
       }
       break;
     case Kind::SP:
-      t.span = {geti(l.sp_xl), geti(l.sp_xr), get(l.sp_z), get(l.sp_dz), geti(l.sp_w), false, {}, {}};
+      t.span = {geti(l.sp_xl), geti(l.sp_xr), get(l.sp_z), get(l.sp_dz), geti(l.sp_w), false, {}, {}, 0};
+      break;
+    case Kind::TP:
+      t.span = {geti(l.tp_xl), geti(l.tp_xr), get(l.tp_z), get(l.tp_dz), 0, false, {}, {}, geti(l.tp_alpha)};
+      for (std::size_t c = 0; c < channels; ++c) {
+        t.span.color[c] = geti(l.tp_color[c]);
+        t.span.dcolor[c] = geti(l.tp_dcolor[c]);
+      }
       break;
     case Kind::NC:
       t.span.xl = geti(l.nc_xl);
@@ -207,7 +227,8 @@ std::string to_string(const Config& config, const Token& t) {
                : fmt::format(" face {} z {}", g.face, static_cast<double>(g.z) * z_unit);
       return s + (g.sync ? " sync" : "");
     }
-    case Kind::OP: {
+    case Kind::OP:
+    case Kind::TP: {
       s += fmt::format(" [{}, {}) z {} dz {} color", p.xl, p.xr, static_cast<double>(p.z) * z_unit,
                        static_cast<double>(p.dz) * z_unit);
       const double c_unit = std::ldexp(1.0, -config.color_frac);
@@ -215,6 +236,7 @@ std::string to_string(const Config& config, const Token& t) {
         s += fmt::format("{}{}", c == 0 ? " " : ",", p.color[c] * c_unit);
         if (config.smooth != 0) s += fmt::format("{:+}", p.dcolor[c] * c_unit);
       }
+      if (t.kind == Kind::TP) return s + fmt::format(" alpha {}", p.alpha);
       return s + (config.dsf_bits == 0 ? "" : p.lit ? " lit" : " unlit");
     }
     case Kind::SP:

@@ -29,6 +29,9 @@ end
 if (SHADE_FRAC < 1 || SHADE_FRAC > 16) begin : gen_bad_shade_frac
   $fatal(1, "SHADE_FRAC must be 1 .. 16");
 end
+if (TRANSLUCENCY < 0 || TRANSLUCENCY > 1) begin : gen_bad_translucency
+  $fatal(1, "TRANSLUCENCY must be 0 .. 1");
+end
 if (UNITS < 0 || UNITS > 64) begin : gen_bad_units
   $fatal(1, "UNITS must be 0 .. 64");
 end

@@ -123,8 +123,22 @@ localparam int EsBits = 4;
 localparam int EsWords = (0) != 0 ? (EsBits + 31) / 32 : 0;
 localparam int ResolveBits = 4;
 localparam int ResolveWords = (DSF_BITS > 0) != 0 ? (ResolveBits + 31) / 32 : 0;
-localparam int TpBits = 4;
-localparam int TpWords = (0) != 0 ? (TpBits + 31) / 32 : 0;
+localparam int TpXlLsb = 4;
+localparam int TpXlBits = X_BITS;
+localparam int TpXrLsb = TpXlLsb + TpXlBits;
+localparam int TpXrBits = X_BITS;
+localparam int TpAlphaLsb = TpXrLsb + TpXrBits;
+localparam int TpAlphaBits = 8;
+localparam int TpZLsb = TpAlphaLsb + TpAlphaBits;
+localparam int TpZBits = Z_BITS + Z_FRAC + 2;
+localparam int TpDzLsb = TpZLsb + TpZBits;
+localparam int TpDzBits = Z_BITS + Z_FRAC + 2;
+localparam int TpColorLsb = TpDzLsb + TpDzBits;
+localparam int TpColorBits = SMOOTH > 0 ? 10 + COLOR_FRAC : 8;
+localparam int TpDcolorLsb = TpColorLsb + TpColorBits * CHANNELS;
+localparam int TpDcolorBits = SMOOTH > 0 ? 10 + COLOR_FRAC : 0;
+localparam int TpBits = TpDcolorLsb + TpDcolorBits * CHANNELS;
+localparam int TpWords = (TRANSLUCENCY > 0) != 0 ? (TpBits + 31) / 32 : 0;
 localparam int EolYLsb = 4;
 localparam int EolYBits = 16;
 localparam int EolBits = EolYLsb + EolYBits;
@@ -159,13 +173,14 @@ localparam logic [31:0] ParamHash6 = (ParamHash5 ^ 32'(COLOR_FRAC)) * 32'd167776
 localparam logic [31:0] ParamHash7 = (ParamHash6 ^ 32'(DSF_BITS)) * 32'd16777619;
 localparam logic [31:0] ParamHash8 = (ParamHash7 ^ 32'(FSF)) * 32'd16777619;
 localparam logic [31:0] ParamHash9 = (ParamHash8 ^ 32'(SHADE_FRAC)) * 32'd16777619;
-localparam logic [31:0] ParamHash10 = (ParamHash9 ^ 32'(UNITS)) * 32'd16777619;
-localparam logic [31:0] ParamHash11 = (ParamHash10 ^ 32'(FACE_BITS)) * 32'd16777619;
-localparam logic [31:0] ParamHash12 = (ParamHash11 ^ 32'(DX_BITS)) * 32'd16777619;
-localparam logic [31:0] ParamHash13 = (ParamHash12 ^ 32'(SEG_BITS)) * 32'd16777619;
-localparam logic [31:0] ParamHash14 = (ParamHash13 ^ 32'(ORDER_BITS)) * 32'd16777619;
-localparam logic [31:0] ParamHash15 = (ParamHash14 ^ 32'(CLASSIC)) * 32'd16777619;
-localparam logic [31:0] ParamHash = ParamHash15;  // what a header must carry
+localparam logic [31:0] ParamHash10 = (ParamHash9 ^ 32'(TRANSLUCENCY)) * 32'd16777619;
+localparam logic [31:0] ParamHash11 = (ParamHash10 ^ 32'(UNITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash12 = (ParamHash11 ^ 32'(FACE_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash13 = (ParamHash12 ^ 32'(DX_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash14 = (ParamHash13 ^ 32'(SEG_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash15 = (ParamHash14 ^ 32'(ORDER_BITS)) * 32'd16777619;
+localparam logic [31:0] ParamHash16 = (ParamHash15 ^ 32'(CLASSIC)) * 32'd16777619;
+localparam logic [31:0] ParamHash = ParamHash16;  // what a header must carry
 
 // Words of a token of this kind; 0: the configuration lacks it.
 function automatic logic [4:0] token_words(input logic [3:0] kind);

@@ -15,6 +15,7 @@
     input  wire logic [DepthBits-1:0] cmd_dz_i,
     input  wire logic [ColorBits-1:0] cmd_color_i,
     input  wire logic [SlopeBits-1:0] cmd_dcolor_i,
+    input  wire logic [ShareBits-1:0] cmd_share_i,
 
     // from tree_core: the line that the next TREE takes. Without units nothing of this matters.
     input  wire logic               tree_valid_i,

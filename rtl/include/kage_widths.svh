@@ -7,6 +7,7 @@ localparam int RampBits = SMOOTH > 0 ? 10 + COLOR_FRAC : 8,  // one channel of a
 localparam int ColorBits = CHANNELS * RampBits,
 localparam int SlopeBits = SMOOTH > 0 ? ColorBits : 1,
 localparam int CountBits = DSF_BITS > 0 ? DSF_BITS : 1,  // shadow counter, bias, or the lit bit of OP
+localparam int ShareBits = TRANSLUCENCY == 0 ? 1 : SHADE_FRAC > 7 ? SHADE_FRAC + 1 : 8,  // TP's alpha, or RESOLVE's shade
 localparam int RgbBits = 8 * CHANNELS,  // one pixel's colour
 localparam int ExitBits = RgbBits + (DSF_BITS > 0 ? 2 : 1),  // a pixel that leaves: {dark, covered, colour}
 localparam int LitBits = DSF_BITS > 0 ? 1 : 0,  // the lit bit of a face and of the tree's pixel

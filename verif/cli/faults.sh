@@ -4,24 +4,27 @@
 # A patch with a line that begins with "Not a fault" must change nothing. verif/unit/cosim_faults.cpp knows the places beforehand.
 . "$(dirname "$0")/common.bash"
 
-expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --out c.kage
+expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --out courtyard.kage
+expect 0 "$kage" stream glass --size 160x120 --frames 2 --out glass.kage
 count=0
 for patch in "$source"/verif/faults/*.patch; do
   [ -e "$patch" ] || continue
   name=$(basename "$patch" .patch)
   # Defects of the tree need ties, or a line ahead of time, which this scene has not: ctest rtl/fault_NAME finds those.
   if grep -qE '^(\+\+\+ .*(compare|tree|expansion)|The tree)' "$patch"; then continue; fi
+  frames=courtyard.kage
+  case $name in blend_*) frames=glass.kage ;; esac
   if grep -q '^Not a fault' "$patch"; then
-    expect 0 "$kage" cosim c.kage --fault "$name" --idle 30 --backpressure 30 --out "$name"
+    expect 0 "$kage" cosim "$frames" --fault "$name" --idle 30 --backpressure 30 --out "$name"
     continue
   fi
   count=$((count + 1))
-  expect 1 "$kage" cosim c.kage --fault "$name" --idle 30 --backpressure 30 --out "$name" --json "$name.json"
+  expect 1 "$kage" cosim "$frames" --fault "$name" --idle 30 --backpressure 30 --out "$name" --json "$name.json"
   echo "$name: $(grep '^first difference' stdout)"
   json "$name.json" 'j["same"] is False and j["first_difference"]["frame"] is not None and j["first_difference"]["field"]'
   [ -n "$(find "$name" -name '*_expected.png')" ] && [ -n "$(find "$name" -name '*_difference.png')" ] || fail "$name: no pictures of the difference"
   expect 1 "$kage" diff "$name"/*_expected.png "$name"/*_actual.png --json d.json
   json d.json 'j["first"]["y"]=='"$(python3 -c "import json; d=json.load(open('$name.json'))['first_difference']; print(d['line'], 'and j[\"first\"][\"x\"]==', d['x'])")"
 done
-[ $count -ge 3 ] || fail "only $count faults to try"
+[ $count -ge 4 ] || fail "only $count faults to try"
 done_testing

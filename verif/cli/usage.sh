@@ -5,7 +5,7 @@
 
 expect 0 "$kage" --help
 expect 0 "$kage" --version
-for command in cosim render stream info diff model; do
+for command in cosim render stream info diff model order; do
   expect 0 "$kage" $command --help
   grep -q Examples: stdout || fail "$command --help has no examples"
 done

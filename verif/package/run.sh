@@ -11,6 +11,7 @@ cmake -S "$source/verif/package" -B "$temp/build" -G Ninja -DCMAKE_CXX_COMPILER=
   -DCMAKE_PREFIX_PATH="$temp/prefix" ${KAGE_PACKAGE_FLAGS:+-DCMAKE_CXX_FLAGS="$KAGE_PACKAGE_FLAGS"}
 cmake --build "$temp/build"
 KAGE_DATA_DIR="$temp/prefix/share/kage" "$temp/build/consumer"
+"$temp/build/order_consumer"
 for file in rtl/defs/kage.yaml rtl/configs.yaml; do
   [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
 done

@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "Vframe_control.h"
+#include "Vframe_control_glass.h"
 #include "bench.hpp"
 #include "kage/defs.hpp"
 
@@ -15,6 +16,11 @@ using kage::Kind;
 namespace {
 
 constexpr kage::Config kConfig{};
+constexpr kage::Config kGlass = [] {
+  kage::Config c;
+  c.translucency = 1;
+  return c;
+}();
 constexpr int kMaxWidth = 64;
 
 struct Token {
@@ -27,10 +33,10 @@ void set(Token& t, int lsb, int bits, std::uint64_t value) {
     if ((value >> i & 1) != 0) t.words[static_cast<std::size_t>((lsb + i) / 32)] |= 1U << ((lsb + i) % 32);
 }
 
-Token header(std::uint32_t width, std::uint32_t height, std::uint32_t frame) {
+Token header(std::uint32_t width, std::uint32_t height, std::uint32_t frame, const kage::Config& config = kConfig) {
   Token t;
   t.header = true;
-  t.words = {kage::kStreamMagic << 16 | kage::kStreamVersion, width | height << 16, kage::param_hash(kConfig), 0x0A0B0C,
+  t.words = {kage::kStreamMagic << 16 | kage::kStreamVersion, width | height << 16, kage::param_hash(config), 0x0A0B0C,
              frame};
   return t;
 }
@@ -63,6 +69,14 @@ Token token(Kind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c
       set(t, 28, 37, 0x11111111);
       set(t, 65, 37, 0x22222222);
       break;
+    case Kind::TP:  // alpha, then z, dz, colour
+      set(t, 4, 11, a);
+      set(t, 15, 11, b);
+      set(t, 26, 8, c);
+      set(t, 34, 37, 0x0F1234567);
+      set(t, 71, 37, 0x0A9876543);
+      set(t, 108, 24, 0x665544);
+      break;
     case Kind::NC:
       set(t, 26, 2, c);
       [[fallthrough]];
@@ -93,12 +107,15 @@ struct Line {
 struct Outcome {
   std::vector<Command> commands;
   std::vector<Line> lines;
+  std::vector<bool> painted;                         // of each line
+  std::vector<unsigned> shares;                      // of each command
   std::vector<std::array<std::uint32_t, 4>> errors;  // code, frame, line, token
   int frames = 0, drops = 0;
 };
 
+template <class Model = Vframe_control>
 Outcome run(Dice& dice, const std::vector<Token>& tokens) {
-  Bench<Vframe_control> top(dice);
+  Bench<Model> top(dice);
   Offer offer(stall_percent(dice));
   const int cmd_stall = stall_percent(dice);
   const int line_stall = stall_percent(dice);
@@ -124,12 +141,20 @@ Outcome run(Dice& dice, const std::vector<Token>& tokens) {
     top.settle();
     if (top->cmd_valid_o && top->cmd_ready_i) {
       const auto kind = static_cast<Kind>(top->cmd_kind_o);
-      out.commands.push_back({kind, top->cmd_xl_o, top->cmd_xr_o, top->cmd_count_o});
+      // TP has no count.
+      out.commands.push_back({kind, top->cmd_xl_o, top->cmd_xr_o, kind == Kind::TP ? 0U : top->cmd_count_o});
       if (kind == Kind::OP) {
         REQUIRE(get(top->cmd_z_o, 0, 37) == 0x123456789);
         REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0FEDCBA98);
         REQUIRE(top->cmd_color_o == 0x332211);
       }
+      out.shares.push_back(top->cmd_share_o);
+      if (kind == Kind::TP) {
+        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x0F1234567);
+        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0A9876543);
+        REQUIRE(top->cmd_color_o == 0x665544);
+      }
+      if (kind == Kind::RESOLVE) REQUIRE(top->cmd_color_o == 0x0A0B0C);
       if (kind == Kind::SP) {
         REQUIRE(get(top->cmd_z_o, 0, 37) == 0x11111111);
         REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x22222222);
@@ -140,6 +165,7 @@ Outcome run(Dice& dice, const std::vector<Token>& tokens) {
       out.lines.push_back({static_cast<bool>(top->line_first_o), static_cast<bool>(top->line_blank_o),
                            top->line_width_o, top->line_background_o, top->line_shade_o});
     }
+    if (top->line_valid_o) out.painted.push_back(top->line_painted_o != 0);
     if (top->error_o)
       out.errors.push_back({top->error_code_o, top->error_frame_o, top->error_line_o, top->error_token_o});
     if (top->frame_end_o) ++out.frames;
@@ -213,6 +239,63 @@ TEST_CASE("A frame becomes commands and lines; bias goes with EV and is cleared 
                                                  {Kind::EOL, 0, 20, 0}});
     REQUIRE(out.lines == std::vector<Line>{{true, false, 20, 0x0A0B0C, 256}, {false, false, 20, 0x0A0B0C, 256}});
   });
+}
+
+TEST_CASE("A line's first TP is preceded by a RESOLVE over the line, with bias, shade and background",
+          "[frame_control]") {
+  each_seed(20, [](Dice& dice) {
+    const auto out = run<Vframe_control_glass>(
+        dice, {header(20, 4, 7, kGlass), token(Kind::SHADE, 200), token(Kind::OP, 3, 9, 1), token(Kind::TP, 1, 2, 77),
+               token(Kind::TP, 4, 4, 78), token(Kind::TP, 0, 20, 255), kEol0, token(Kind::SP, 0, 20, 1),
+               token(Kind::EV, 0, 20), token(Kind::RESOLVE), kEol1, token(Kind::NC, 5, 6, 1), token(Kind::EV, 0, 20),
+               token(Kind::RESOLVE), token(Kind::TP, 19, 20, 0), token(Kind::EOL, 2), token(Kind::TP, 3, 3, 1),
+               token(Kind::EOL, 3), kEnd});
+    REQUIRE(out.errors.empty());
+    REQUIRE(out.commands == std::vector<Command>{{Kind::OP, 3, 9, 1},
+                                                 {Kind::RESOLVE, 0, 20, 0},
+                                                 {Kind::TP, 1, 2, 0},
+                                                 {Kind::TP, 0, 20, 0},
+                                                 {Kind::EOL, 0, 20, 0},
+                                                 {Kind::SP, 0, 20, 1},
+                                                 {Kind::EV, 0, 20, 0},
+                                                 {Kind::EOL, 0, 20, 0},
+                                                 {Kind::NC, 5, 6, 1},
+                                                 {Kind::EV, 0, 20, 0},
+                                                 {Kind::RESOLVE, 0, 20, 0},
+                                                 {Kind::TP, 19, 20, 0},
+                                                 {Kind::EOL, 0, 20, 0},
+                                                 {Kind::RESOLVE, 0, 20, 0},
+                                                 {Kind::EOL, 0, 20, 0}});
+    REQUIRE(out.painted == std::vector<bool>{true, false, true, true});
+    REQUIRE(out.shares[1] == 200);
+    REQUIRE(out.shares[2] == 77);
+    REQUIRE(out.shares[3] == 255);
+    REQUIRE(out.shares[10] == 200);
+    REQUIRE(out.shares[11] == 0);
+  });
+}
+
+TEST_CASE("TP comes after RESOLVE, and nothing but TP and EOL after it", "[frame_control]") {
+  const auto expect_order = [](std::vector<Token> body, std::uint32_t index, std::uint32_t line = 0) {
+    each_seed(4, [&](Dice& dice) {
+      CAPTURE(index);
+      const auto out = run<Vframe_control_glass>(dice, std::vector<Token>{header(20, 1, 7, kGlass)} + body);
+      REQUIRE(out.errors.size() == 1);
+      REQUIRE(out.errors[0] == std::array<std::uint32_t, 4>{static_cast<std::uint32_t>(ErrorCode::ORDER), 7, line, index});
+      REQUIRE(out.lines.size() == 1);
+      REQUIRE(out.lines[0].blank == (line == 0));
+    });
+  };
+  const Token tp = token(Kind::TP, 0, 20, 128);
+  expect_order({token(Kind::SP, 0, 1), tp}, 2);
+  expect_order({token(Kind::SP, 0, 1), token(Kind::EV, 0, 1), tp}, 3);
+  expect_order({tp, token(Kind::OP, 0, 1)}, 2);
+  expect_order({tp, token(Kind::SP, 0, 1)}, 2);
+  expect_order({tp, token(Kind::NC, 0, 1)}, 2);
+  expect_order({tp, token(Kind::IF, 1)}, 2);
+  expect_order({tp, token(Kind::EV, 0, 1)}, 2);
+  expect_order({tp, token(Kind::RESOLVE)}, 2);
+  expect_order({kEol0, tp}, 2, 1);
 }
 
 TEST_CASE("SHADE holds for its frame only", "[frame_control]") {

@@ -13,10 +13,11 @@ namespace {
 
 struct Shape {
   int lanes, max_width, shade_frac;
+  bool translucent;
 };
 
 struct Line {
-  bool first, blank;
+  bool first, blank, painted;
   int width;
   std::uint32_t background, shade;
   std::vector<std::uint32_t> pixels;  // {dark, covered, colour}
@@ -52,6 +53,7 @@ void line_test(const Shape& s) {
         }
         --left;
         l.blank = dice.percent(20);
+        l.painted = dice.percent(30);
         l.width = width;
         l.background = background;
         l.shade = shade;
@@ -65,7 +67,7 @@ void line_test(const Shape& s) {
               color |= (((p >> ch & 255) * ((1U << s.shade_frac) - shade) + (1U << (s.shade_frac - 1))) >> s.shade_frac)
                        << ch;
           }
-          if (l.blank || (p >> 24 & 1) == 0) color = background;
+          if (l.blank || ((p >> 24 & 1) == 0 && !(s.translucent && l.painted))) color = background;
           expected.push_back({color, l.first && x == 0, x == width - 1});
         }
         announced.push_back(l);
@@ -77,6 +79,7 @@ void line_test(const Shape& s) {
         const Line& l = announced.front();
         top->line_first_i = l.first ? 1 : 0;
         top->line_blank_i = l.blank ? 1 : 0;
+        top->line_painted_i = l.painted ? 1 : 0;
         top->line_width_i = static_cast<CData>(l.width);
         top->line_background_i = l.background;
         top->line_shade_i = static_cast<SData>(l.shade);
@@ -133,8 +136,8 @@ void line_test(const Shape& s) {
 
 }  // namespace
 
-TEST_CASE("line_out, groups of four", "[line_out]") { line_test<Vline_out4>({4, 21, 8}); }
-TEST_CASE("line_out, single pixels", "[line_out]") { line_test<Vline_out1>({1, 21, 3}); }
+TEST_CASE("line_out, groups of four", "[line_out]") { line_test<Vline_out4>({4, 21, 8, true}); }
+TEST_CASE("line_out, single pixels", "[line_out]") { line_test<Vline_out1>({1, 21, 3, false}); }
 
 TEST_CASE("line_out sends the lines of a frame without a gap", "[line_out]") {
   each_seed(2, [](Dice& dice) {

@@ -6,6 +6,8 @@
 
 #include "Vpixel_banked1.h"
 #include "Vpixel_banked4.h"
+#include "Vpixel_glass4.h"
+#include "Vpixel_glass_systolic.h"
 #include "Vpixel_systolic.h"
 #include "bench.hpp"
 #include "kage/defs.hpp"
@@ -18,6 +20,7 @@ namespace {
 struct Shape {
   int lanes;  // of the exit; 0: systolic
   int width, x_bits, z_bits, z_frac, channels, smooth, color_frac, dsf_bits, fsf;
+  int shade_frac;  // 0: no translucency
 };
 
 struct Command {
@@ -25,6 +28,7 @@ struct Command {
   int xl, xr;
   std::uint64_t count, z, dz;
   std::uint64_t color[3], dcolor[3];
+  std::uint64_t share;  // alpha of TP, shade of RESOLVE
 };
 
 struct Pixel {
@@ -51,13 +55,23 @@ class Reference {
           if (z >= p.z) break;
           p.z = z;
           p.lit = c.count & 1;
-          for (int ch = 0; ch < s_.channels; ++ch)
-            p.color[ch] =
-                s_.smooth == 0
-                    ? c.color[ch]
-                    : static_cast<std::uint64_t>(std::clamp<std::int64_t>(
-                          wrap(c.color[ch] + dx * c.dcolor[ch], 10 + s_.color_frac) >> s_.color_frac, 0, 255));
+          for (int ch = 0; ch < s_.channels; ++ch) p.color[ch] = color(c, ch, dx);
           break;
+        case Kind::TP:  // (under (255 - alpha) + over alpha) / 255, to the nearest
+          for (int ch = 0; z < p.z && ch < s_.channels; ++ch)
+            p.color[ch] = (2 * (p.color[ch] * (255 - c.share) + color(c, ch, dx) * c.share) + 255) / 510;
+          break;
+        case Kind::RESOLVE: {
+          const std::uint64_t one = std::uint64_t{1} << s_.shade_frac;
+          for (int ch = 0; ch < s_.channels; ++ch) {
+            if (!covered(p))
+              p.color[ch] = color(c, ch, dx);
+            else if (shadow(p, c.count) && p.lit != 0)
+              p.color[ch] = (2 * p.color[ch] * (one - c.share) + one) / (2 * one);
+          }
+          p.dsf = p.fsf = 0;
+          break;
+        }
         case Kind::SP:
           if (z < p.z) p.dsf = (p.dsf + static_cast<unsigned>(c.count)) & mask;
           break;
@@ -69,10 +83,9 @@ class Reference {
           p.dsf = 0;
           break;
         default: {
-          const bool covered = p.z != (1U << s_.z_bits) - 1;
-          const bool shadow = s_.fsf != 0 ? p.fsf != 0 : ((p.dsf + c.count) & mask) != 0;
-          std::uint64_t value = static_cast<std::uint64_t>(covered) << (8 * s_.channels);
-          if (s_.dsf_bits > 0) value |= static_cast<std::uint64_t>(shadow && p.lit != 0) << (8 * s_.channels + 1);
+          std::uint64_t value = static_cast<std::uint64_t>(covered(p)) << (8 * s_.channels);
+          if (s_.dsf_bits > 0)
+            value |= static_cast<std::uint64_t>(shadow(p, c.count) && p.lit != 0) << (8 * s_.channels + 1);
           for (int ch = 0; ch < s_.channels; ++ch) value |= p.color[ch] << (8 * ch);
           out.push_back(value);
         }
@@ -82,6 +95,16 @@ class Reference {
   }
 
  private:
+  [[nodiscard]] bool covered(const Pixel& p) const { return p.z != (1U << s_.z_bits) - 1; }
+  [[nodiscard]] bool shadow(const Pixel& p, std::uint64_t bias) const {
+    return s_.fsf != 0 ? p.fsf != 0 : ((p.dsf + bias) & ((1U << s_.dsf_bits) - 1)) != 0;
+  }
+  [[nodiscard]] std::uint64_t color(const Command& c, int ch, std::uint64_t dx) const {
+    if (s_.smooth == 0) return c.color[ch];
+    return static_cast<std::uint64_t>(
+        std::clamp<std::int64_t>(wrap(c.color[ch] + dx * c.dcolor[ch], 10 + s_.color_frac) >> s_.color_frac, 0, 255));
+  }
+
   void clear() {
     for (Pixel& p : line_) p = {(1U << s_.z_bits) - 1, {}, 0, 0, 0};
   }
@@ -111,6 +134,26 @@ Command random_command(Dice& dice, const Shape& s, int width, int home) {
   return c;
 }
 
+/// RESOLVE before a line's first TP, TP or any other command after it.
+Command translucent(Dice& dice, const Shape& s, Command c, int width, bool& painted) {
+  if (painted && dice.percent(30)) return c;
+  if (painted) {
+    c.kind = Kind::TP;
+    c.share = dice.percent(30) ? 255 * dice.bits(1) : dice.bits(8);
+    return c;
+  }
+  painted = true;
+  c.kind = Kind::RESOLVE;
+  c.xl = 0;
+  c.xr = width;
+  c.share = dice.percent(20) ? 1ULL << s.shade_frac : dice.bits(s.shade_frac);
+  for (int ch = 0; ch < s.channels; ++ch) {
+    c.color[ch] = dice.bits(8) << s.color_frac;
+    c.dcolor[ch] = 0;
+  }
+  return c;
+}
+
 template <class Model>
 void set_command(Model& top, const Shape& s, const Command& c) {
   const int ramp = s.smooth != 0 ? 10 + s.color_frac : 8;
@@ -120,6 +163,7 @@ void set_command(Model& top, const Shape& s, const Command& c) {
   put(top.cmd_count_i, c.count);
   put(top.cmd_z_i, c.z);
   put(top.cmd_dz_i, c.dz);
+  put(top.cmd_share_i, c.share);
   for (int ch = 0; ch < s.channels; ++ch) {
     put(top.cmd_color_i, ch * ramp, ramp, c.color[ch]);
     if (s.smooth != 0) put(top.cmd_dcolor_i, ch * ramp, ramp, c.dcolor[ch]);
@@ -136,15 +180,17 @@ void pixel_test(const Shape& s) {
     const int exit_bits = 8 * s.channels + (s.dsf_bits > 0 ? 2 : 1);
     Reference reference(s);
     std::deque<std::uint64_t> expected;
-    std::deque<int> widths;  // of lines that have not left
+    std::deque<int> widths;    // of lines that have not left
+    std::deque<bool> colored;  // whether their uncovered pixels have a colour too
     int width = dice.between(1, s.width), home = 0, left = 0, lines = 0, x = 0;
     Command c{};
-    bool have = false;
+    bool have = false, painted = false;
     for (int clock = 0; lines < 12 || !widths.empty(); ++clock) {
       REQUIRE(clock < 200000);
       if (!have && lines < 12) {
         if (left-- > 0) {
           c = random_command(dice, s, width, home);
+          if (s.shade_frac > 0 && (painted || dice.percent(10))) c = translucent(dice, s, c, width, painted);
         } else {
           c = Command{};
           c.kind = Kind::EOL;
@@ -169,12 +215,13 @@ void pixel_test(const Shape& s) {
           expected.pop_front();
           const std::uint64_t covered = want >> (8 * s.channels) & 1;
           REQUIRE((got >> (8 * s.channels) & 1) == covered);
-          if (covered != 0) REQUIRE(got == want);  // an uncovered pixel has any colour
+          if (covered != 0 || colored.front()) REQUIRE(got == want);  // else an uncovered pixel has any colour
         }
         REQUIRE(static_cast<bool>(top->exit_last_o) == (x == w));
         if (x == w) {
           x = 0;
           widths.pop_front();
+          colored.pop_front();
         }
       }
       top.edge();
@@ -184,6 +231,8 @@ void pixel_test(const Shape& s) {
         reference.apply(c, expected);
         if (c.kind == Kind::EOL) {
           widths.push_back(width);
+          colored.push_back(painted);
+          painted = false;
           width = dice.percent(30) ? s.width : dice.between(1, s.width);
           home = dice.below(width);
           left = dice.percent(30) ? 0 : dice.below(40);
@@ -215,15 +264,22 @@ int clocks_of(Dice& dice, const Shape& s, int xl, int xr, int n) {
   return clock - 1 - first;
 }
 
-constexpr Shape kBanked1{1, 21, 5, 10, 3, 3, 1, 6, 2, 1};
-constexpr Shape kBanked4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1};
-constexpr Shape kSystolic{0, 21, 5, 10, 3, 3, 1, 6, 3, 0};
+constexpr Shape kBanked1{1, 21, 5, 10, 3, 3, 1, 6, 2, 1, 0};
+constexpr Shape kBanked4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 0};
+constexpr Shape kSystolic{0, 21, 5, 10, 3, 3, 1, 6, 3, 0, 0};
+constexpr Shape kGlass4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 8};
+constexpr Shape kGlassSystolic{0, 21, 5, 10, 3, 3, 1, 6, 3, 0, 12};
 
 }  // namespace
 
 TEST_CASE("Banked, one lane, smooth, counting", "[pixel_core]") { pixel_test<Vpixel_banked1>(kBanked1); }
 TEST_CASE("Banked, four lanes, flat, parity", "[pixel_core]") { pixel_test<Vpixel_banked4>(kBanked4); }
 TEST_CASE("Systolic, smooth, counting, no FSF", "[pixel_core]") { pixel_test<Vpixel_systolic>(kSystolic); }
+
+TEST_CASE("Banked, four lanes, translucent", "[pixel_core]") { pixel_test<Vpixel_glass4>(kGlass4); }
+TEST_CASE("Systolic, smooth, translucent, no FSF", "[pixel_core]") {
+  pixel_test<Vpixel_glass_systolic>(kGlassSystolic);
+}
 
 TEST_CASE("Clocks per command: groups touched, or one", "[pixel_core]") {
   each_seed(1, [](Dice& dice) {

@@ -2,11 +2,13 @@
 // The built-in scenes: the golden core's pictures against the oracle, and the bytes of their streams.
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 
 #include "catch.hpp"
 #include "scene/judge.hpp"
+#include "scene/layer_truth.hpp"
 #include "scene/ray_truth.hpp"
 #include "support/tree_frames.hpp"
 
@@ -17,6 +19,11 @@ Config wide_enough() {
   Config c;
   c.max_width = 2047;
   return c;
+}
+
+bool translucent(const Scene& scene) {
+  const SceneFrame f = scene.frame(0, scene.frame_count());
+  return std::any_of(f.components.begin(), f.components.end(), [](const Component& c) { return c.translucent; });
 }
 
 }  // namespace
@@ -58,6 +65,25 @@ TEST_CASE("built-in scenes: surfaces and shadows are what rays say of the unsnap
   }
 }
 
+TEST_CASE("built-in scenes: layers of translucent faces are what rays say of the unsnapped scene") {
+  LayerCount count;
+  for (const std::string& name : builtin_scenes()) {
+    const Scene scene = Scene::load(name);
+    if (!translucent(scene)) continue;
+    Config c = wide_enough();
+    c.translucency = 1;
+    for (int i = 0; i < scene.frame_count(); ++i) {
+      const SceneFrame f = scene.frame(i, scene.frame_count());
+      count += compare_layers(f, make_geometry(f, c, 320, 240), c, 3);
+    }
+  }
+  INFO(count.text());
+  CHECK(count.wrong == 0);
+  CHECK(count.layered > 5000);
+  CHECK(count.most >= 6);
+  CHECK(count.near * 100 < count.pixels);
+}
+
 TEST_CASE("built-in scenes: polyhedra by segments and by spans give the same bits in every frame") {
   for (const std::string& name : builtin_scenes()) {
     const Scene scene = Scene::load(name);
@@ -67,6 +93,7 @@ TEST_CASE("built-in scenes: polyhedra by segments and by spans give the same bit
       Config c;
       c.smooth = i % 2;
       c.color_frac = 8 * c.smooth;
+      c.translucency = translucent(scene) ? 1 : 0;
       for (const SegmentCount& n : same_either_way(scene.frame(i, scene.frame_count()), c, 128, 96))
         by_segments += n.by_segments;
     }
@@ -89,6 +116,7 @@ TEST_CASE("built-in scenes: streams have the same bytes with every compiler, num
       c.smooth = kind == 1 ? 1 : 0;
       c.color_frac = 8 * c.smooth;
       c.units = kind == 2 ? 16 : 0;
+      c.translucency = translucent(scene) ? 1 : 0;
       for (int i = 0; i < scene.frame_count(); ++i) {
         const FrameGeometry g = make_geometry(scene.frame(i, scene.frame_count()), c, 320, 240);
         std::vector<std::uint32_t> words;

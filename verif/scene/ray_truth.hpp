@@ -241,7 +241,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       const double reach = f.light.directional ? INFINITY : 1;
       bool blocked = false;
       rays.meet(point, to_light, [&](double t, std::uint32_t face) {
-        if (face != surface && t > 0 && t < reach) blocked = true;
+        const bool casts = f.triangles[f.polygons[face].triangle].alpha == 255;
+        if (face != surface && casts && t > 0 && t < reach) blocked = true;
       });
       if ((shadow[at] == 0) == blocked) {
         ++(blocked ? count.shadowed : count.lit);

@@ -65,9 +65,13 @@ inline Solid octahedron_solid() {
           {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 }
 
+/// A rectangle from -1 to 1 in x and y.
+inline Solid pane_solid() { return {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}}; }
+
 /// Add a solid as one component: p -> centre + turn(scale * p).
 inline void add_solid(SceneFrame& f, const Solid& s, const glm::dvec3& centre, const glm::dvec3& scale,
-                      const Turn& turn, const glm::dvec3& color, bool convex = true, bool closed = true) {
+                      const Turn& turn, const glm::dvec3& color, bool convex = true, bool closed = true,
+                      std::uint8_t alpha = 255) {
   const auto base = static_cast<std::uint32_t>(f.vertices.size());
   for (const glm::dvec3& p : s.vertices) f.vertices.push_back(centre + turn(p * scale));
   Component c;
@@ -75,6 +79,7 @@ inline void add_solid(SceneFrame& f, const Solid& s, const glm::dvec3& centre, c
   c.count = static_cast<std::uint32_t>(s.faces.size());
   c.closed = closed;
   c.convex = convex;
+  c.translucent = alpha < 255;
   std::vector<scene::Corners> triangles;
   std::vector<scene::Corners> shading_corners;
   for (const auto& face : s.faces) {
@@ -86,14 +91,22 @@ inline void add_solid(SceneFrame& f, const Solid& s, const glm::dvec3& centre, c
     const auto shading = static_cast<std::uint32_t>(f.shading.size());
     f.shading.push_back({n / std::sqrt(glm::dot(n, n)), color});
     t.shading = {shading, shading, shading};
+    t.alpha = alpha;
     shading_corners.push_back(t.shading);
     f.triangles.push_back(t);
   }
   c.first_polygon = static_cast<std::uint32_t>(f.polygons.size());
-  scene::append_polygons(f.vertices, triangles, shading_corners, f.shading, c.first, convex && closed, f.polygons,
-                         f.corners);
+  scene::append_polygons(f.vertices, triangles, shading_corners, f.shading, c.first, convex && closed && alpha == 255,
+                         f.polygons, f.corners);
   c.polygon_count = static_cast<std::uint32_t>(f.polygons.size()) - c.first_polygon;
   f.components.push_back(c);
+}
+
+/// Add a translucent solid; a pane is neither closed nor convex.
+inline void add_glass(SceneFrame& f, const Solid& s, const glm::dvec3& centre, const glm::dvec3& scale,
+                      const Turn& turn, const glm::dvec3& color, std::uint8_t alpha) {
+  const bool closed = s.faces.size() > 2;
+  add_solid(f, s, centre, scale, turn, color, closed, closed, alpha);
 }
 
 inline void look_at(Camera& c, const glm::dvec3& eye, const glm::dvec3& target) {

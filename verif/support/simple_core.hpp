@@ -94,17 +94,27 @@ class SimpleCore {
 
   void clear() {
     pixels_.assign(static_cast<std::size_t>(status_.width),
-                   Pixel{(std::int64_t{1} << c_.z_bits) - 1, {}, false, 0, false});
+                   Pixel{(std::int64_t{1} << c_.z_bits) - 1, background(), false, 0, false});
     bias_ = 0;
+  }
+
+  [[nodiscard]] std::array<std::int64_t, 3> background() const {
+    return {words_[3] & 255U, words_[3] >> 8 & 255U, words_[3] >> 16 & 255U};
+  }
+
+  /// A channel of a span k pixels from its start.
+  [[nodiscard]] std::int64_t color(Field start, Field step, int k) const {
+    if (c_.smooth == 0) return field(start);
+    const std::int64_t v =
+        shift_down(wrap(static_cast<Int128>(field(start)) + static_cast<Int128>(k) * field(step), 10 + c_.color_frac),
+                   c_.color_frac);
+    return v < 0 ? 0 : v > 255 ? 255 : v;
   }
 
   void end_line() {
     for (const Pixel& p : pixels_)
-      for (int ch = 0; ch < c_.channels; ++ch)
-        out_->push_back(
-            static_cast<std::uint8_t>(p.z == (std::int64_t{1} << c_.z_bits) - 1
-                                          ? words_[3] >> (8 * ch)
-                                          : static_cast<std::uint32_t>(p.color[static_cast<std::size_t>(ch)])));
+      for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
+        out_->push_back(static_cast<std::uint8_t>(p.color[ch]));
     clear();
     ++line_;
   }
@@ -255,15 +265,24 @@ class SimpleCore {
           if (z >= p.z) continue;
           p.z = z;
           p.lit = field(l_.op_lit) != 0;
-          for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch) {
-            p.color[ch] = field(l_.op_color[ch]);
-            if (c_.smooth == 0) continue;
-            const std::int64_t v =
-                shift_down(wrap(static_cast<Int128>(p.color[ch]) + static_cast<Int128>(k) * field(l_.op_dcolor[ch]),
-                                10 + c_.color_frac),
-                           c_.color_frac);
-            p.color[ch] = v < 0 ? 0 : v > 255 ? 255 : v;
-          }
+          for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
+            p.color[ch] = color(l_.op_color[ch], l_.op_dcolor[ch], k);
+        }
+        break;
+      case Kind::TP:
+        if (all_lines || phase_ == 1) return order();
+        if (bad_range(l_.tp_xl, l_.tp_xr)) return range();
+        begun_ = true;
+        phase_ = 3;
+        for (std::int64_t x = field(l_.tp_xl); x < field(l_.tp_xr); ++x) {
+          Pixel& p = pixels_[static_cast<std::size_t>(x)];
+          const int k = static_cast<int>(x - field(l_.tp_xl));
+          if (depth(l_.tp_z, l_.tp_dz, k) >= p.z) continue;
+          const std::int64_t alpha = field(l_.tp_alpha);
+          // Nearest whole number: there is never one as far above as below, since 255 is odd.
+          for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
+            p.color[ch] =
+                (2 * (p.color[ch] * (255 - alpha) + color(l_.tp_color[ch], l_.tp_dcolor[ch], k) * alpha) + 255) / 510;
         }
         break;
       case Kind::SP:

@@ -17,9 +17,10 @@ namespace kage::verif {
 
 /// What a frame is made of.
 struct FrameStyle {
-  int most_opaque = 8;     ///< OPs of a line
-  int most_volumes = 3;    ///< of a line, with FSF
-  int most_in_volume = 5;  ///< SP, NC and IF of a volume
+  int most_opaque = 8;       ///< OPs of a line
+  int most_volumes = 3;      ///< of a line, with FSF
+  int most_in_volume = 5;    ///< SP, NC and IF of a volume
+  int most_translucent = 5;  ///< TPs of a line
   /// Spans as a port takes them: accumulators may wrap, which a file may not have, and many spans meet at the same few
   /// pixels and depths, which is what forwarding is for.
   bool port = false;
@@ -88,6 +89,13 @@ inline SpanToken random_span(Random& random, const Config& c, int width, const F
     s.color[i] = static_cast<std::int32_t>(random_field(random, 10 + c.color_frac));
     s.dcolor[i] = static_cast<std::int32_t>(random_field(random, 10 + c.color_frac));
   }
+  return s;
+}
+
+/// A translucent span: any span, often one that is not blended at all or nothing but itself.
+inline SpanToken random_translucent(Random& random, const Config& c, int width, const FrameStyle& style, int home) {
+  SpanToken s = random_span(random, c, width, style, home);
+  s.alpha = random.chance(0.3) ? random.in(0, 1) * 255 : random.in(0, 255);
   return s;
 }
 
@@ -276,6 +284,10 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
     if (volumes > 0) {
       w.resolve();
       add(Kind::RESOLVE);
+    }
+    for (int i = c.translucency != 0 && random.chance(0.7) ? random.in(0, style.most_translucent) : 0; i > 0; --i) {
+      w.tp(random_translucent(random, c, width, style, home));
+      add(Kind::TP);
     }
     w.eol(y);
     add(Kind::EOL);

@@ -7,7 +7,7 @@
 #   without arguments the table below; --quick: base, no-shadow, one-channel and small-z only; NAME ...: one configuration;
 #   --tree: the parts of the compare tree alone, cells per compare cell, and the whole core with 1, 2, 4 and 8 units against none
 # Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take, or if it
-# is not smaller (smooth: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
+# is not smaller (smooth, glass: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
@@ -98,6 +98,7 @@ rows=(
   "one-channel $base CHANNELS=1"
   "small-z $base Z_BITS=12"
   "smooth $base SMOOTH=1 COLOR_FRAC=7"
+  "glass $base TRANSLUCENCY=1"
   "one-lane $base LANES=1"
   "one-word-beats $base BEAT_WORDS=1"
   "systolic16 $base MAX_WIDTH=16 ARRANGEMENT=0"
@@ -131,7 +132,7 @@ print((blocks(groups, lanes * state) if p["ARRANGEMENT"] == 1 else 0) + blocks(2
 PY
 }
 
-# ---- what a feature's state implies: the least number of LUTs and flip-flops that go (smooth: come) with it ---------------------------
+# ---- what a feature's state implies: the least number of LUTs and flip-flops that go (smooth, glass: come) with it ---------------------------
 # Counted are only what no optimizer can share or drop, in the base's numbers: L = 2 lanes, 24 bits of depth, 3 x 8 of colour,
 # S = 9 bits of shade, `Last` = 3 stages behind the walker.
 #   A bit of a pixel's state, per lane: flip-flops word_q, done_q, done2_q (3); LUTs of word_q's three sources (2), of word (1), of
@@ -164,6 +165,9 @@ implied() { # NAME: "LUTs flip-flops"
     smooth)
       bits=17
       echo $((3 * (4 * bits + 8 * l))) $((3 * (9 * bits + l * (bits - 7) + 2 * 8 * l) + 3 * (bits - 8) + 3 * bits + 27 - 24 * (4 + last))) ;;
+    # A blender's product a channel and lane; the share in cmd, three set-up stages, walker and stages; that a line is painted in
+    # frame_control, the queue's four words, and four times in line_out.
+    glass) echo $((3 * l * product_lut)) $((s * (5 + last) + 1 + 4 + 4)) ;;
     # A lane's 51 bits of state with its comparison, its 26 bits of exit_data_o and group_q, the choice among lanes, two leaves, and
     # a stage of flat colour.
     one-lane) echo $((51 * 4 + 24 + 26 + 24)) $((51 * 3 + 2 * 26 + 2 * (33 - 7) + 2 * 24 + 24)) ;;
@@ -185,7 +189,7 @@ for row in "${rows[@]}"; do
     [ "$(ffs "$name")" -ge $least ] || { echo "cells.sh: $name: $(ffs "$name") flip-flops, its processors hold $least" >&2; bad=1; }
     continue
   fi
-  [ "$name" != smooth ] || { lut=$((-lut)); ff=$((-ff)); }
+  case $name in smooth | glass) lut=$((-lut)) ff=$((-ff)) ;; esac
   read -r least_lut least_ff < <(implied "$name")
   echo "cells.sh: $name: $lut LUTs, at least $least_lut; $ff flip-flops, at least $least_ff" >&2
   [ "$least_lut" = 0 ] || [ "$lut" -ge "$least_lut" ] || bad=1

@@ -155,11 +155,17 @@ TEST_CASE("materials of other formats give their diffuse colour; textures are no
   text.replace(text.find("f 4 1 5 8"), 0, "usemtl glass\n");
   const Scene s = Scene::load(dir.write("cube.obj", text));
   const SceneFrame f = s.frame(0, 1);
-  CHECK(f.components.size() == 1);  // two materials, one solid
-  CHECK(f.components[0].convex);
+  // Two materials, one solid; but where one is translucent, what is left is open.
+  REQUIRE(f.components.size() == 2);
+  CHECK_FALSE(f.components[0].translucent);
+  CHECK_FALSE(f.components[0].closed);
+  CHECK(f.components[1].translucent);
+  CHECK(f.triangles[f.components[0].first].alpha == 255);
+  CHECK(f.triangles[f.components[1].first].alpha == 128);
+  CHECK(Scene::load(dir.write("cube2.obj", text), 0.5).frame(0, 1).triangles[f.components[1].first].alpha == 64);
   CHECK(f.shading[f.triangles[0].shading[0]].color == glm::dvec3{0.5, 0.25, 0.125});
   CHECK(test::has_note(s, "1 texture is ignored"));
-  CHECK(test::has_note(s, "alpha"));
+  CHECK_FALSE(test::has_note(s, "alpha"));
 }
 
 TEST_CASE("camera, light and animation of another format") {

@@ -130,7 +130,32 @@ TEST_CASE("colours: factor times vertex colour; smooth where they differ within 
   CHECK(f.shading[f.triangles[0].shading[1]].color == glm::dvec3{0, 0.25, 0});
   CHECK(distance(f.shading[f.triangles[0].shading[2]].color, {0.1, 0.05, 0.4}) < 1e-7);
   CHECK(test::has_note(s, "2 textures are ignored"));
-  CHECK(test::has_note(s, "alpha"));
+  CHECK_FALSE(test::has_note(s, "alpha"));
+  CHECK(f.triangles[0].alpha == 128);
+  CHECK(f.components[0].translucent);
+}
+
+TEST_CASE("alpha: of the material where it blends, 255 where that is opaque; masks and vertices have none") {
+  const auto alpha = [](const std::string& material, const std::string& note) {
+    std::string text = triangle_gltf(R"("materials": [)" + material + "], " + kNode);
+    const std::string attributes = R"("attributes": {"POSITION": 0})";
+    REQUIRE(text.find(attributes) != std::string::npos);
+    text.insert(text.find(attributes), R"("material": 0, )");
+    const Scene s = load(text);
+    CHECK(test::has_note(s, "alpha") == !note.empty());
+    CHECK((note.empty() || test::has_note(s, note)));
+    const SceneFrame f = s.frame(0, 1);
+    CHECK(f.components[0].translucent == (f.triangles[0].alpha < 255));
+    return static_cast<int>(f.triangles[0].alpha);
+  };
+  const std::string factor = R"("pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )";
+  CHECK(alpha("{" + factor + R"(0.2]}, "alphaMode": "BLEND"})", "") == 51);
+  CHECK(alpha("{" + factor + R"(0]}, "alphaMode": "BLEND"})", "") == 0);
+  CHECK(alpha("{" + factor + R"(1]}, "alphaMode": "BLEND"})", "") == 255);
+  CHECK(alpha("{" + factor + R"(0.9979]}, "alphaMode": "BLEND"})", "") == 254);
+  CHECK(alpha("{" + factor + R"(0.9981]}, "alphaMode": "BLEND"})", "") == 255);
+  CHECK(alpha("{" + factor + R"(0.2]}})", "") == 255);
+  CHECK(alpha("{" + factor + R"(0.2]}, "alphaMode": "MASK"})", "alpha mask") == 255);
 }
 
 TEST_CASE("a perspective camera: field of view, clip planes, its node's frame without the scale") {

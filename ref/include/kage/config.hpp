@@ -39,6 +39,7 @@ struct Needs {
   bool several_volumes = false;  ///< more than one volume on some line
   bool smooth = false;           ///< colour varies within a polygon
   bool color = false;            ///< some colour is not grey
+  bool translucency = false;     ///< something is translucent
 };
 
 /// What `config` lacks of `needs`: one word or phrase each ("SMOOTH", "MAX_WIDTH >= 1280"), empty if nothing.

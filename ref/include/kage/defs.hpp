@@ -24,6 +24,7 @@ struct Config {
   int dsf_bits = 1;  ///< bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows
   int fsf = 1;  ///< 1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE
   int shade_frac = 8;  ///< fraction bits of SHADE, the darkening of a shadowed pixel
+  int translucency = 0;  ///< 1: translucent spans are blended over what is drawn; 0: a core without blender
   int units = 0;  ///< expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree
   int face_bits = 7;  ///< bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank
   int dx_bits = 9;  ///< bits of a segment's length, 1 .. 2^DX_BITS - 1 pixels
@@ -50,7 +51,7 @@ struct ParamInfo {
   std::string_view doc;
 };
 
-inline constexpr std::array<ParamInfo, 19> kParams{{
+inline constexpr std::array<ParamInfo, 20> kParams{{
     {"X_BITS", &Config::x_bits, 11, 4, 15, true, 0x0, "bits of a pixel position; a line holds at most 2^X_BITS - 1 pixels"},
     {"Z_BITS", &Config::z_bits, 24, 4, 28, true, 0x0, "bits of stored depth; all ones is clear, drawn depth lies in 1 .. 2^Z_BITS - 2"},
     {"Z_FRAC", &Config::z_frac, 11, 0, 16, true, 0x0, "fraction bits of a span's depth; at least ceil(log2 width) keeps the error near half an LSB"},
@@ -60,6 +61,7 @@ inline constexpr std::array<ParamInfo, 19> kParams{{
     {"DSF_BITS", &Config::dsf_bits, 1, 0, 8, true, 0x0, "bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows"},
     {"FSF", &Config::fsf, 1, 0, 1, true, 0x0, "1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE"},
     {"SHADE_FRAC", &Config::shade_frac, 8, 1, 16, true, 0x0, "fraction bits of SHADE, the darkening of a shadowed pixel"},
+    {"TRANSLUCENCY", &Config::translucency, 0, 0, 1, true, 0x0, "1: translucent spans are blended over what is drawn; 0: a core without blender"},
     {"UNITS", &Config::units, 0, 0, 64, true, 0x0, "expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree"},
     {"FACE_BITS", &Config::face_bits, 7, 2, 12, true, 0x0, "bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank"},
     {"DX_BITS", &Config::dx_bits, 9, 2, 15, true, 0x0, "bits of a segment's length, 1 .. 2^DX_BITS - 1 pixels"},
@@ -94,7 +96,7 @@ enum class Kind : std::uint8_t {
   EV = 10,  ///< end of a volume
   ES = 11,  ///< end of a light sample
   RESOLVE = 12,  ///< darken what is in shadow
-  TP = 13,  ///< translucent span
+  TP = 13,  ///< translucent span, back to front
   EOL = 14,  ///< end of the line with number y
   END = 15,  ///< end of the frame
 };
@@ -178,6 +180,13 @@ struct Layout {
   Field if_w;
   Field ev_xl;
   Field ev_xr;
+  Field tp_xl;
+  Field tp_xr;
+  Field tp_alpha;
+  Field tp_z;
+  Field tp_dz;
+  Field tp_color[3];
+  Field tp_dcolor[3];
   Field eol_y;
   std::array<std::uint8_t, 16> words{};   ///< words of a token of each kind; 0: the configuration lacks the kind
   std::array<std::uint16_t, 16> bits{};   ///< bits in use of a token of each kind
@@ -256,8 +265,15 @@ struct Layout {
     bits[12] = static_cast<std::uint16_t>(at);
     words[12] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);
     at = 4;  // TP
+    put(tp_xl, c.x_bits, false);
+    put(tp_xr, c.x_bits, false);
+    put(tp_alpha, 8, false);
+    put(tp_z, c.z_bits + c.z_frac + 2, true);
+    put(tp_dz, c.z_bits + c.z_frac + 2, true);
+    for (int i = 0; i < c.channels; ++i) put(tp_color[i], c.smooth > 0 ? 10 + c.color_frac : 8, (c.smooth) != 0);
+    for (int i = 0; i < c.channels; ++i) put(tp_dcolor[i], c.smooth > 0 ? 10 + c.color_frac : 0, true);
     bits[13] = static_cast<std::uint16_t>(at);
-    words[13] = static_cast<std::uint8_t>((0) ? (at + 31) / 32 : 0);
+    words[13] = static_cast<std::uint8_t>((c.translucency > 0) ? (at + 31) / 32 : 0);
     at = 4;  // EOL
     put(eol_y, 16, false);
     bits[14] = static_cast<std::uint16_t>(at);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -53,6 +54,32 @@ struct ScreenPolygon {
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
   bool lit = false;                     ///< eye and light are on the same side of it
   std::uint32_t source = 0;             ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
+  std::uint8_t alpha = 255;             ///< below 255: translucent
+};
+
+/// A line over the screen where a node's plane of the visibility order cuts a translucent polygon: a pixel (x, y) lies
+/// before the plane if a x + b y + c >= 0. |a|, |b| <= 2^30, |c| <= 2^58.
+struct CutLine {
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+  std::int64_t c = 0;
+};
+
+/// A fragment of a translucent face: of the face's polygons what lies on the given sides of lines. The fragments of a
+/// face share the lines that part them, so that each of its pixels belongs to exactly one.
+struct ScreenFragment {
+  std::uint32_t first_polygon = 0;  ///< into FrameGeometry::polygons; of one face
+  std::uint32_t polygon_count = 0;
+  std::uint32_t first_cut = 0;  ///< into FrameGeometry::cuts
+  std::uint32_t cut_count = 0;
+  std::int32_t first_line = 0;  ///< it has pixels on no other lines than [first_line, end_line)
+  std::int32_t end_line = 0;
+};
+
+/// A side of a line.
+struct FragmentCut {
+  std::uint32_t line = 0;  ///< into FrameGeometry::cut_lines
+  bool front = false;
 };
 
 /// A polygon of a shadow volume.
@@ -104,6 +131,7 @@ enum class SpanReason : std::uint8_t {
   not_convex,
   cut,     ///< by the near plane or the guard band
   colors,  ///< more than one within a face
+  translucent,
 };
 
 /// A frame on the screen.
@@ -113,19 +141,30 @@ struct FrameGeometry {
   std::uint32_t background = 0;
   std::uint32_t shade = 0;  ///< darkening of a shadowed pixel, in 2^-SHADE_FRAC
   std::vector<ScreenVertex> vertices;
-  std::vector<ScreenPolygon> polygons;    ///< first the drawn ones, in draw order, then other faces of volumes
-  std::uint32_t drawn = 0;                ///< number of the drawn ones
+  /// First the opaque drawn ones, in draw order, then other faces of volumes, then translucent ones.
+  std::vector<ScreenPolygon> polygons;
+  std::uint32_t drawn = 0;                ///< number of the opaque drawn ones
   std::vector<ScreenPlane> color_planes;  ///< value in units of an 8-bit colour
   std::vector<VolumeFace> volume_faces;
   std::vector<NearEdge> near_edges;
   std::vector<ShadowVolume> volumes;
   std::vector<Polyhedron> polyhedra;  ///< in draw order; their polygons are the first of the drawn ones
   std::vector<PolyhedronEdge> polyhedron_edges;
-  std::vector<SpanReason> span_reasons;  ///< of each of SceneFrame::components
+  std::vector<SpanReason> span_reasons;   ///< of each of SceneFrame::components
+  std::vector<ScreenFragment> fragments;  ///< translucent ones, back to front
+  std::vector<FragmentCut> cuts;
+  std::vector<CutLine> cut_lines;
 
   [[nodiscard]] std::span<const ScreenVertex> outline(const ScreenPolygon& p) const {
     return std::span(vertices).subspan(p.first_vertex, p.vertex_count);
   }
+};
+
+/// How translucent faces are put in order.
+enum class TranslucentWay : std::uint8_t {
+  exact,       ///< by a BSP tree, cut where they must be: every pixel's layers back to front [Tanaka 2005]
+  centroid,    ///< whole, by the distance of the mean of their corners along the view: what most renderers do
+  submission,  ///< whole, as the file has them
 };
 
 /// What the picture's maker decides.
@@ -134,12 +173,30 @@ struct Look {
   double darkening = 0.55;  ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
   double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
+  TranslucentWay translucent = TranslucentWay::exact;
+};
+
+/// Keeps the visibility order of a scene's translucent faces from frame to frame, so that what does not move is put in
+/// a tree once. It changes no frame. Not for several threads at once.
+class TranslucentOrder {
+ public:
+  TranslucentOrder();
+  ~TranslucentOrder();
+  TranslucentOrder(TranslucentOrder&&) noexcept;
+  TranslucentOrder& operator=(TranslucentOrder&&) noexcept;
+
+  struct Data;
+  [[nodiscard]] Data& data() { return *data_; }
+
+ private:
+  std::unique_ptr<Data> data_;
 };
 
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
-/// polygon has the mean of its corners), whether it is grey, and whether shadows are wanted. Throws Error if width or
-/// height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the camera is not finite.
-FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height,
-                            const Look& look = {});
+/// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, and whether translucent faces
+/// are blended (else they are opaque and drawn last). `order`, if given, is that of frames before. Throws Error if
+/// width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the camera is not finite.
+FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
+                            TranslucentOrder* order = nullptr);
 
 }  // namespace kage

@@ -44,6 +44,7 @@ struct Triangle {
   std::array<std::uint32_t, 3> shading;  ///< into SceneFrame::shading
   std::uint32_t object = 0;              ///< into Scene::objects()
   std::uint32_t face = 0;                ///< number of the face within its object, as in the file
+  std::uint8_t alpha = 255;              ///< 255 is opaque, 0 not to be seen
 };
 
 /// A face as it is drawn, counter-clockwise seen from outside: a triangle, or, of convex bodies, triangles in one plane
@@ -60,12 +61,13 @@ struct ShadingVertex {
   glm::dvec3 color;   ///< base colour times vertex colour
 };
 
-/// A maximal set of triangles joined by shared edges, within one object.
+/// A maximal set of triangles joined by shared edges, within one object, all of them opaque or all translucent.
 struct Component {
   std::uint32_t first = 0;  ///< first of its triangles; they are consecutive in SceneFrame::triangles
   std::uint32_t count = 0;
   bool closed =
       false;  ///< every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0
+  bool translucent = false;  ///< its triangles have alpha < 255: they are drawn last, cast no shadow and take none
   bool convex = false;  ///< closed, and no vertex is further than the stated tolerance outside a face's plane
   std::uint32_t first_polygon = 0;  ///< its polygons are consecutive in SceneFrame::polygons
   std::uint32_t polygon_count = 0;
@@ -99,7 +101,8 @@ class Scene {
   /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
   /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
   /// limit of time. So load before other threads start, or while they rest. Several threads may load at once.
-  static Scene load(const std::string& name_or_path);
+  /// `alpha`, 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent.
+  static Scene load(const std::string& name_or_path, double alpha = 1);
 
   ~Scene();
   Scene(Scene&&) noexcept;

@@ -24,7 +24,7 @@ struct FrameHeader {
   std::uint32_t frame = 0;
 };
 
-/// A span with depth: OP and SP. Colour is used by OP only.
+/// A span with depth: OP, SP and TP. Colour is used by OP and TP only.
 struct SpanToken {
   int xl = 0;
   int xr = 0;                            ///< half open, xl <= xr <= width
@@ -32,8 +32,9 @@ struct SpanToken {
   std::int64_t dz = 0;                   ///< per pixel
   int w = 0;                             ///< SP: signed multiplicity
   bool lit = false;                      ///< OP: faces the light
-  std::array<std::int32_t, 3> color{};   ///< OP: at xl, COLOR_FRAC fraction bits with SMOOTH, else 0 .. 255
-  std::array<std::int32_t, 3> dcolor{};  ///< OP, SMOOTH: per pixel
+  std::array<std::int32_t, 3> color{};   ///< at xl, COLOR_FRAC fraction bits with SMOOTH, else 0 .. 255
+  std::array<std::int32_t, 3> dcolor{};  ///< SMOOTH: per pixel
+  int alpha = 0;                         ///< TP: 0 (not to be seen) .. 255 (opaque)
 };
 
 /// FACE and SEG: an entry of a unit's face table, and a run of pixels of one face (docs/stream.md, "Units and the
@@ -71,6 +72,7 @@ class TokenWriter {
   void inside(int w);  ///< IF
   void ev(int xl, int xr);
   void resolve();
+  void tp(const SpanToken& span);
   void eol(int y);
   void end();
 
@@ -102,7 +104,7 @@ std::string to_string(const Config& config, const Token& token);
 struct TokenCounts {
   std::array<std::uint64_t, 16> of_kind{};
   std::uint64_t words = 0;
-  std::uint64_t spans = 0;        ///< OP, SP, NC
+  std::uint64_t spans = 0;        ///< OP, SP, NC, TP
   std::uint64_t span_pixels = 0;  ///< pixels in them
   int units = 0;                  ///< units with faces; of several frames, the most
 

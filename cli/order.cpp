@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage order MESH: polygons back to front, the fast way against recursion.
+#include "kage/order.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <memory>
+
+#include "common.hpp"
+#include "kage/error.hpp"
+#include "order/baseline.hpp"
+#include "order/measure.hpp"
+#include "scene/order_mesh.hpp"
+
+namespace kage::cli {
+namespace {
+
+struct OrderCommand : Options {
+  int eyes = 200;
+  int repeats = 5;
+  std::uint64_t max_fragments = OrderBuildOptions{}.max_fragments;
+  std::string save;
+  std::string plot;
+};
+
+bool is_tree(const std::string& path) {
+  std::error_code ec;
+  if (!std::filesystem::is_regular_file(path, ec)) return false;
+  std::array<char, 7> magic{};
+  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
+  return std::string_view(magic.data(), magic.size()) == "KAGEBSP";
+}
+
+OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) {
+  if (is_tree(o.input)) return OrderTree::load(o.input);
+  progress.show("reading");
+  const Scene scene = Scene::load(o.input);
+  const OrderMesh mesh = scene::order_mesh(scene.frame(0, scene.frame_count()));
+  OrderBuildOptions options;
+  options.seed = o.seed;
+  options.threads = o.threads;
+  options.max_fragments = o.max_fragments;
+  options.progress = [&](double done) {
+    check_interrupt();
+    progress.show(fmt::format("tree: {:.0f} %", 100 * done));
+  };
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    OrderTree tree = OrderTree::build(mesh, options);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return tree;
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}: {}", o.input, e.what()));
+  }
+}
+
+std::string name_of(double degrees) {
+  return degrees == order::MeasureOptions::kRandom ? "random" : fmt::format("{:g}", degrees);
+}
+
+double ratio(double a, double b) { return b > 0 ? a / b : 0; }
+
+Json number(double x) { return x > 0 ? Json(x) : Json(nullptr); }
+
+Json to_json(const OrderTree& tree, const order::Measured& m, const OrderCommand& o, double build_seconds) {
+  const OrderBuildStats& s = tree.stats();
+  Json rows = Json::array();
+  for (const order::MeasureRow& r : m.rows) {
+    Json j;
+    j["polygons"] = s.polygons;
+    j["nodes"] = s.nodes;
+    if (r.degrees == order::MeasureOptions::kRandom)
+      j["step_degrees"] = "random";
+    else
+      j["step_degrees"] = r.degrees;
+    j["eyes"] = o.eyes;
+    j["recursion_seconds"] = r.baseline_a.order;
+    j["switching_seconds"] = r.fast.order;
+    j["speedup"] = number(ratio(r.baseline_a.order, r.fast.order));
+    j["flips_share"] = r.flips_share;
+    j["bsp_bytes"] = m.baseline_a_bytes;
+    j["list_bytes"] = m.fast_bytes;
+    j["identical"] = r.identical;
+    j["steps"] = r.steps;
+    j["recursion_walk_seconds"] = r.baseline_a.walk;
+    j["switching_walk_seconds"] = r.fast.walk;
+    j["preorder_seconds"] = r.baseline_b.order;
+    j["preorder_walk_seconds"] = r.baseline_b.walk;
+    j["paper_list_seconds"] = r.list.order;
+    j["paper_list_walk_seconds"] = r.list.walk;
+    j["preorder_speedup"] = number(ratio(r.baseline_b.order, r.fast.order));
+    j["tested_share"] = r.tested_share;
+    j["rebuilds"] = r.rebuilds;
+    j["exchanges"] = r.exchanges;
+    j["unsure_tests"] = r.unsure;
+    j["exact_tests"] = r.exact;
+    j["faces"] = s.faces;
+    j["fragments"] = s.fragments;
+    j["splits"] = s.splits;
+    j["depth"] = s.depth;
+    j["build_seconds"] = number(build_seconds);
+    j["paper_list_bytes"] = m.list_bytes;
+    j["seed"] = o.seed;
+    rows.push_back(j);
+  }
+  return rows;
+}
+
+void print(const OrderTree& tree, const order::Measured& m, const OrderCommand& o, double build_seconds) {
+  const OrderBuildStats& s = tree.stats();
+  const auto per_face = [&](std::uint64_t n) { return ratio(static_cast<double>(n), static_cast<double>(s.faces)); };
+  const auto per_node = [&](std::uint64_t n) { return ratio(static_cast<double>(n), static_cast<double>(s.nodes)); };
+  fmt::print("{}: {}, {} ({:.2f} per face), {} ({:.2f} per face), {}, depth {}\n", o.input, counted(s.faces, "face"),
+             counted(s.nodes, "node"), per_face(s.nodes), counted(s.fragments, "fragment"), per_face(s.fragments),
+             counted(s.splits, "split"), s.depth);
+  if (s.flat != 0) fmt::print("{} without area left out\n", counted(s.flat, "polygon"));
+  if (s.bent != 0) fmt::print("{} not plane, cut into triangles\n", counted(s.bent, "polygon"));
+  if (build_seconds > 0)
+    fmt::print("built in {:.2f} s: {} of vertices, {} decided by integers; seed {}\n", build_seconds,
+               counted(s.side_tests, "side test"), s.exact_tests, o.seed);
+  if (m.rows.empty()) return;
+  fmt::print("bytes per node: A {:.1f}, B {:.1f}, the paper's list {:.1f}, the fast way {:.1f}, each with its tree\n",
+             per_node(m.baseline_a_bytes), per_node(m.baseline_b_bytes), per_node(m.list_bytes),
+             per_node(m.fast_bytes));
+  fmt::print("A: {}\n", order::BaselineA::kNodeText);
+  fmt::print("microseconds a step, order alone | with a walk over it; {} steps, median of {}\n", m.rows[0].steps,
+             o.repeats);
+  fmt::print("{:>7} {:>8} {:>8} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", "degrees", "flips %", "tested %",
+             "A recursion", "B preorder", "paper's list", "fast way", "A / fast", "B / fast", "identical");
+  for (const order::MeasureRow& r : m.rows) {
+    const auto pair = [&](const order::WaySeconds& w) {
+      return fmt::format("{:.1f} | {:.1f}", w.order / r.steps * 1e6, w.walk / r.steps * 1e6);
+    };
+    const auto times = [&](const order::WaySeconds& w) {
+      return fmt::format("{:.1f} | {:.1f}", ratio(w.order, r.fast.order), ratio(w.walk, r.fast.walk));
+    };
+    fmt::print("{:>7} {:>8.3f} {:>8.1f} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", name_of(r.degrees),
+               100 * r.flips_share, 100 * r.tested_share, pair(r.baseline_a), pair(r.baseline_b), pair(r.list),
+               pair(r.fast), times(r.baseline_a), times(r.baseline_b), r.identical ? "yes" : "NO");
+  }
+}
+
+/// Time a step against the step angle, both logarithmic.
+std::string plot(const order::Measured& m, const OrderTree& tree, const std::string& name) {
+  std::vector<const order::MeasureRow*> rows;
+  for (const order::MeasureRow& r : m.rows)
+    if (r.degrees > 0) rows.push_back(&r);
+  constexpr double kLeft = 80;
+  constexpr double kTop = 50;
+  constexpr double kWidth = 480;
+  constexpr double kHeight = 300;
+  double low = 1e300;
+  double high = -1e300;
+  using Pick = double (*)(const order::MeasureRow&);
+  struct Line {
+    const char* name;
+    const char* color;
+    Pick seconds;
+  };
+  const std::array<Line, 4> lines{{
+      {"A, recursion", "#b33", [](const order::MeasureRow& r) { return r.baseline_a.order / r.steps; }},
+      {"B, preorder", "#c80", [](const order::MeasureRow& r) { return r.baseline_b.order / r.steps; }},
+      {"paper's list", "#38c", [](const order::MeasureRow& r) { return r.list.order / r.steps; }},
+      {"fast way", "#283", [](const order::MeasureRow& r) { return r.fast.order / r.steps; }},
+  }};
+  for (const auto* r : rows)
+    for (const Line& l : lines) {
+      low = std::min(low, std::log10(l.seconds(*r)));
+      high = std::max(high, std::log10(l.seconds(*r)));
+    }
+  low = std::floor(low);
+  high = std::max(std::ceil(high), low + 1);
+  const double first = std::log10(rows.front()->degrees);
+  const double last = std::log10(rows.back()->degrees);
+  const auto x = [&](double degrees) { return kLeft + kWidth * (std::log10(degrees) - first) / (last - first); };
+  const auto y = [&](double log) { return kTop + kHeight * (high - log) / (high - low); };
+  std::string title;
+  for (const char c : std::filesystem::path(name).filename().string())
+    title += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 410\" font-family=\"DejaVu Sans, Helvetica, Arial, "
+      "sans-serif\" font-size=\"13\">\n  <title>Time of a step against its angle</title>\n"
+      "  <rect width=\"720\" height=\"410\" fill=\"#fff\"/>\n  <text x=\"{}\" y=\"28\">{}, {} nodes: time a "
+      "step</text>\n",
+      kLeft, title, tree.node_count());
+  for (double log = low; log <= high; ++log)
+    svg += fmt::format(
+        "  <path d=\"M{} {:.1f} h{}\" stroke=\"#ddd\"/>\n  <text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:g} "
+        "us</text>\n",
+        kLeft, y(log), kWidth, kLeft - 8, y(log) + 4, std::pow(10, log + 6));
+  for (const auto* r : rows)
+    svg += fmt::format("  <text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}°</text>\n", x(r->degrees),
+                       kTop + kHeight + 22, r->degrees);
+  for (const Line& l : lines) {
+    std::string path;
+    for (const auto* r : rows)
+      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", x(r->degrees), y(std::log10(l.seconds(*r))));
+    svg += fmt::format("  <path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, l.color);
+    svg += fmt::format("  <text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n", kLeft + kWidth + 10,
+                       y(std::log10(l.seconds(*rows.back()))) + 4, l.color, l.name);
+  }
+  return svg + "</svg>\n";
+}
+
+int run(const OrderCommand& o) {
+  check_json(o);
+  TempFiles files;
+  const std::filesystem::path saved = o.save.empty() ? std::filesystem::path() : files.add(o.save);
+  if (!o.plot.empty()) {
+    TempFiles probe;
+    write_text(probe, o.plot, "");
+  }
+  Progress progress;
+  double build_seconds = 0;
+  const OrderTree tree = make_tree(o, progress, build_seconds);
+  if (tree.node_count() == 0) throw Error(fmt::format("{}: no polygon has an area", o.input));
+  if (!saved.empty()) tree.save(saved);
+
+  order::MeasureOptions options;
+  options.seed = o.seed;
+  options.eyes = o.eyes;
+  options.repeats = o.repeats;
+  options.progress = [&](double degrees) {
+    check_interrupt();
+    progress.show(fmt::format("measuring: {}", degrees < 0 ? "random eyes" : name_of(degrees) + " degrees"));
+  };
+  const order::Measured measured = order::measure(tree, options);
+  progress.clear();
+  if (!o.plot.empty()) write_text(files, o.plot, plot(measured, tree, o.input));
+  write_json(o, to_json(tree, measured, o, build_seconds), files);
+  if (!json_only(o)) print(tree, measured, o, build_seconds);
+  for (const order::MeasureRow& r : measured.rows)
+    if (!r.identical) return kDifferent;
+  return kSame;
+}
+
+}  // namespace
+
+void add_order(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(
+      app, "order", "Put a mesh's polygons in order, back to front, from many eyes, and measure each way to do it",
+      "  kage order horse.3ds\n"
+      "  kage order horse.3ds --save horse.bsp --plot horse.svg --json horse.json\n"
+      "  kage order horse.bsp --eyes 1000 --seed 7\n"
+      "Exit code 0: all ways gave the same order after every step; 1: they did not.");
+  const auto o = std::make_shared<OrderCommand>();
+  c->add_option("MESH", o->input, "a mesh or scene, as for render, or a tree that --save wrote")->required();
+  c->add_option("--eyes", o->eyes, "eyes for each step angle, default 200")
+      ->check(CLI::Range(2, 1000000))
+      ->type_name("N");
+  c->add_option("--repeats", o->repeats, "times are the median of N runs, default 5")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("N");
+  c->add_option("--max-fragments", o->max_fragments, "give up past N fragments, default 50000000")
+      ->check(whole_number())
+      ->type_name("N");
+  c->add_option("--save", o->save, "write the tree")->type_name("FILE");
+  c->add_option("--plot", o->plot, "write a plot of time against step angle, SVG")->type_name("FILE");
+  option_seed(*c, *o);
+  option_threads(*c, *o);
+  option_json(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Visibility order: polygons back to front for any eye, exactly [Tanaka 2005]. A library of its own (target
+// kage::order), which knows nothing of scenes and pixels. docs/order.md has the method and its proofs.
+//
+// Conventions, for all of this header: coordinates are doubles, taken as the exact numbers that they are; every
+// decision is that of exact arithmetic. The plane of three points a, b, c has its front where they are seen
+// counter-clockwise, (b - a) x (c - a) . (p - a) > 0. An OrderTree does not change once built, and any number of
+// threads and VisibilityOrders may use it at once; a VisibilityOrder belongs to one thread at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kage {
+
+using OrderPoint = std::array<double, 3>;
+
+inline constexpr std::uint32_t kNoNode = 0xffffffff;
+
+/// Polygons over common vertices. Each is convex and plane, or is cut into triangles from its first corner.
+struct OrderMesh {
+  struct Polygon {
+    std::uint32_t first = 0;  ///< of its corners
+    std::uint32_t count = 0;  ///< at least 3
+  };
+  std::vector<OrderPoint> vertices;
+  std::vector<std::uint32_t> corners;  ///< into vertices
+  std::vector<Polygon> polygons;
+};
+
+struct OrderBuildOptions {
+  std::uint64_t seed = 1;
+  int threads = 0;                           ///< 0: one per processor. The tree does not depend on it
+  std::uint64_t max_fragments = 50'000'000;  ///< Error past it
+  /// Called now and then with a share of the work, 0 .. 1, never from two threads at once. What it throws ends the
+  /// build and reaches the caller.
+  std::function<void(double)> progress;
+};
+
+struct OrderBuildStats {
+  std::uint64_t polygons = 0;  ///< given
+  std::uint64_t flat = 0;      ///< of those, dropped because their area is exactly 0
+  std::uint64_t bent = 0;      ///< of those, not plane, so cut into triangles
+  std::uint64_t faces = 0;     ///< convex plane polygons that the tree was built from
+  std::uint64_t nodes = 0;
+  std::uint64_t fragments = 0;  ///< faces + splits
+  std::uint64_t splits = 0;
+  std::uint64_t depth = 0;        ///< nodes on the longest way down
+  std::uint64_t side_tests = 0;   ///< of vertices against planes
+  std::uint64_t exact_tests = 0;  ///< of those, decided by integers
+};
+
+/// A convex piece of a face: where the face lies on the given sides of some nodes' planes.
+struct OrderFragment {
+  /// A node's plane that really cut the face on the way down, and on which side of it the fragment lies.
+  struct Cut {
+    std::uint32_t node = 0;
+    bool front = false;
+  };
+  std::uint32_t face = 0;     ///< into OrderTree::face()
+  std::span<const Cut> cuts;  ///< in the order of the way down
+  /// Edge i goes from vertex i to the next. Below kCutEdge: along the face's edge from that corner to the next; else
+  /// along the plane of cuts[edge - kCutEdge]. So vertex i is exactly where edge i - 1 and edge i meet: a corner of the
+  /// face, a point of its edge on a node's plane, or the point of its plane on two nodes' planes.
+  std::span<const std::uint32_t> edges;
+  std::span<const OrderPoint> vertices;  ///< rounded, for drawing; counter-clockwise as the face
+  static constexpr std::uint32_t kCutEdge = 0x80000000;
+};
+
+/// What the tree was built from: a polygon of the mesh, or a triangle of one.
+struct OrderFace {
+  std::uint32_t polygon = 0;               ///< into OrderMesh::polygons
+  std::span<const std::uint32_t> corners;  ///< into vertices(); consecutive ones at unlike places
+  std::array<std::uint32_t, 3> plane{};    ///< three vertices, not on a line, whose plane is the face's, same front
+};
+
+/// A BSP tree. Nodes are numbered in preorder, the child with more nodes first, so that a subtree is a range of
+/// numbers. A node's plane is that of a face, or its reverse: `front` is the side where the larger child lies. All
+/// fragments in the plane lie in the node, duplicates and those of either facing too, in the order of the mesh.
+class OrderTree {
+ public:
+  /// Throws Error that names the polygon if a coordinate is not finite, a corner is out of range, or a plane polygon is
+  /// not convex; and past options.max_fragments. Open, self-intersecting and overlapping meshes are fine. n faces give
+  /// at most n (n^2 - n + 2) / 2 fragments, and no more nodes than fragments.
+  static OrderTree build(const OrderMesh& mesh, const OrderBuildOptions& options = {});
+
+  /// Throws Error that names file and place if the file is not what save() wrote.
+  static OrderTree load(const std::filesystem::path& path);
+
+  /// A file that cannot be written whole is removed.
+  void save(const std::filesystem::path& path) const;
+
+  ~OrderTree();
+  OrderTree(OrderTree&&) noexcept;
+  OrderTree& operator=(OrderTree&&) noexcept;
+
+  [[nodiscard]] std::uint32_t node_count() const;
+  [[nodiscard]] std::uint32_t subtree_size(std::uint32_t node) const;  ///< the node counted
+  [[nodiscard]] std::uint32_t front(std::uint32_t node) const;         ///< child before the plane, or kNoNode
+  [[nodiscard]] std::uint32_t back(std::uint32_t node) const;          ///< child behind the plane, or kNoNode
+
+  /// Three vertices whose plane is the node's, with its front.
+  [[nodiscard]] std::array<std::uint32_t, 3> plane(std::uint32_t node) const;
+
+  /// The node's fragments are first_fragment(node) .. first_fragment(node + 1) - 1; at least one.
+  [[nodiscard]] std::uint32_t first_fragment(std::uint32_t node) const;
+  [[nodiscard]] std::uint32_t fragment_count() const;
+  [[nodiscard]] OrderFragment fragment(std::uint32_t fragment) const;
+
+  [[nodiscard]] std::uint32_t face_count() const;
+  [[nodiscard]] OrderFace face(std::uint32_t face) const;
+  [[nodiscard]] const std::vector<OrderPoint>& vertices() const;
+
+  [[nodiscard]] const OrderBuildStats& stats() const;
+
+  struct Data;
+  [[nodiscard]] const Data& data() const { return *data_; }
+
+ private:
+  explicit OrderTree(std::unique_ptr<const Data> data);
+  std::unique_ptr<const Data> data_;
+};
+
+/// Where one looks from. Exactly on a node's plane counts as before it, in all ways.
+struct Eye {
+  bool perspective = true;
+  OrderPoint at{0, 0, 0};  ///< the eye; parallel: the direction in which one looks, of any length but 0
+  static Eye point(const OrderPoint& p) { return {true, p}; }
+  static Eye parallel(const OrderPoint& forward) { return {false, forward}; }
+};
+
+/// The ways to the order. All give the same.
+enum class OrderWay {
+  kRecursion,      ///< the whole tree walked, every node tested: the reference
+  kSwitchingList,  ///< [Tanaka 2005] section 3, with docs/order.md's corrections
+  kFast,           ///< vector tests, then exchange of what changed or a rebuild, whichever is cheaper
+};
+
+/// What one step did, and why.
+struct OrderStep {
+  enum class Tests { kAll, kBlocks };  ///< every node; only blocks that the eye's way may have changed
+  enum class Change { kNone, kExchange, kRebuild };
+  Tests tests = Tests::kAll;
+  Change change = Change::kRebuild;
+  std::uint64_t tested = 0;  ///< nodes
+  std::uint64_t unsure = 0;  ///< of those, not decided by the vector test
+  std::uint64_t exact = 0;   ///< of those, decided by integers
+  std::uint64_t flips = 0;   ///< nodes whose side changed
+  double exchange_cost =
+      0;                    ///< seconds that exchanging would take by the costs measured on this tree, as far as summed
+  double rebuild_cost = 0;  ///< seconds that a rebuild takes by the same
+  std::string_view why;     ///< in words
+};
+
+/// The order for an eye that moves.
+class VisibilityOrder {
+ public:
+  virtual ~VisibilityOrder() = default;
+
+  /// Puts everything in order for `eye`. Throws Error if a coordinate is not finite, or a direction 0.
+  virtual void move_to(const Eye& eye) = 0;
+
+  /// All nodes, back to front, as of the last move_to(); before the first, empty. Valid up to the next move.
+  [[nodiscard]] virtual std::span<const std::uint32_t> order() = 0;
+
+  std::span<const std::uint32_t> update(const Eye& eye) {
+    move_to(eye);
+    return order();
+  }
+
+  /// Of the last move_to(). Recursion and the switching list fill in `tested`, `flips` and `exact`.
+  [[nodiscard]] const OrderStep& last_step() const { return step_; }
+
+  /// Bytes that this holds, and the tree's own nodes with it; polygons, fragments and vertices are not counted.
+  [[nodiscard]] virtual std::uint64_t bytes() const = 0;
+
+ protected:
+  OrderStep step_;
+};
+
+/// `tree` must outlive the result.
+std::unique_ptr<VisibilityOrder> make_order(const OrderTree& tree, OrderWay way);
+
+}  // namespace kage

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Sets of fragments are cut, one after the other, by a plane of one of their faces. Each set has its own chance, drawn
+// from its parent's, and nothing else passes between sets: so the tree is the same whichever thread takes which.
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+#include "kage/error.hpp"
+#include "order/build_node.hpp"
+#include "order/splitter.hpp"
+
+namespace kage::order {
+namespace {
+
+/// Sets at least this large may go to another thread.
+constexpr std::size_t kTask = 1024;
+
+struct Set {
+  std::vector<BuildFragment> fragments;
+  BuildNode** link;
+  std::uint64_t random;
+};
+
+class Builder {
+ public:
+  Builder(const Faces& faces, const OrderBuildOptions& options, OrderBuildStats& stats)
+      : faces_(faces), options_(options), stats_(stats), total_(faces.faces.size()) {}
+
+  BuildTree run() {
+    check_limit(total_);
+    Set all{{}, &tree_.root, options_.seed};
+    all.fragments.resize(faces_.faces.size());
+    for (std::size_t f = 0; f < all.fragments.size(); ++f) all.fragments[f].face = static_cast<std::uint32_t>(f);
+    if (all.fragments.empty()) return std::move(tree_);
+    // As many as asked for, even if there are fewer processors.
+    std::optional<tbb::global_control> allowed;
+    if (options_.threads > tbb::info::default_concurrency())
+      allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
+    tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+      spawn(std::move(all));
+      group_.wait();
+    });
+    stats_.splits = total_ - faces_.faces.size();
+    return std::move(tree_);
+  }
+
+ private:
+  void spawn(Set set) {
+    // task_group copies what it runs.
+    auto shared = std::make_shared<Set>(std::move(set));
+    group_.run([this, shared] { work(std::move(*shared)); });
+  }
+
+  /// Takes a set and all that comes of it, but for what it gives to other threads.
+  void work(Set first) {
+    std::deque<BuildNode> nodes;
+    Classifier classifier(faces_);
+    SplitterChoice choice(faces_);
+    std::vector<Set> stack;
+    stack.push_back(std::move(first));
+    std::uint64_t done = 0;
+    while (!stack.empty()) {
+      Set set = std::move(stack.back());
+      stack.pop_back();
+      BuildNode& node = nodes.emplace_back();
+      *set.link = &node;
+      node.face = choice.choose(set.fragments, set.random);
+      std::array<Set, 2> side{Set{{}, &node.child[0], next_random(set.random)},
+                              Set{{}, &node.child[1], next_random(set.random)}};
+      divide(set.fragments, node, classifier, side[0].fragments, side[1].fragments);
+      done += node.fragments.size();
+      if (done >= 1024) {
+        report(done);
+        done = 0;
+      }
+      for (Set& s : side) {
+        if (s.fragments.empty()) continue;
+        if (s.fragments.size() >= kTask && !stack.empty())
+          spawn(std::move(s));
+        else
+          stack.push_back(std::move(s));
+      }
+    }
+    report(done);
+    const std::scoped_lock lock(mutex_);
+    stats_.side_tests += classifier.tests();
+    stats_.exact_tests += classifier.exact();
+    tree_.nodes.push_back(std::move(nodes));
+  }
+
+  void divide(std::vector<BuildFragment>& set, BuildNode& node, Classifier& classifier,
+              std::vector<BuildFragment>& front, std::vector<BuildFragment>& back) {
+    const Splitter plane(faces_, node.face);
+    for (BuildFragment& f : set) {
+      switch (classifier.classify(f, plane)) {
+        case Side::kFront:
+          front.push_back(std::move(f));
+          break;
+        case Side::kBack:
+          back.push_back(std::move(f));
+          break;
+        case Side::kOn:
+          node.fragments.push_back(std::move(f));
+          break;
+        case Side::kBoth: {
+          check_limit(total_.fetch_add(1) + 1);
+          auto [before, behind] = classifier.split(f, plane, &node);
+          front.push_back(std::move(before));
+          back.push_back(std::move(behind));
+          break;
+        }
+      }
+    }
+    std::vector<BuildFragment>().swap(set);
+  }
+
+  void check_limit(std::uint64_t fragments) const {
+    if (fragments > options_.max_fragments)
+      throw Error(fmt::format("the order needs more than {} fragments", options_.max_fragments));
+  }
+
+  void report(std::uint64_t done) {
+    const std::scoped_lock lock(mutex_);
+    placed_ += done;
+    if (options_.progress) options_.progress(static_cast<double>(placed_) / static_cast<double>(total_));
+  }
+
+  const Faces& faces_;
+  const OrderBuildOptions& options_;
+  OrderBuildStats& stats_;
+  std::atomic<std::uint64_t> total_;
+  tbb::task_group group_;
+  std::mutex mutex_;
+  BuildTree tree_;
+  std::uint64_t placed_ = 0;
+};
+
+}  // namespace
+
+BuildTree build_tree(const Faces& faces, const OrderBuildOptions& options, OrderBuildStats& stats) {
+  return Builder(faces, options, stats).run();
+}
+
+}  // namespace kage::order

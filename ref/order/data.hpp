@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a tree holds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kage/order.hpp"
+#include "order/exact.hpp"
+#include "order/filter.hpp"
+
+namespace kage::order {
+
+/// A convex plane polygon over vertices.
+struct Face {
+  std::uint32_t polygon = 0;
+  std::uint32_t first = 0;  ///< of its corners
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, 3> plane{};  ///< three corners not on a line
+};
+
+/// The mesh as it is built from: corners checked, polygons plane and convex and not flat.
+struct Faces {
+  std::vector<OrderPoint> vertices;
+  std::vector<OrderPoint> scaled;  ///< by `scale`
+  Scale scale;
+  Grid grid;
+  std::vector<std::uint32_t> corners;
+  std::vector<Face> faces;
+
+  /// Of what vertices, corners and faces hold already.
+  void derive() {
+    scale = scale_of(vertices);
+    grid = grid_of(vertices);
+    scaled.clear();
+    scaled.reserve(vertices.size());
+    for (const OrderPoint& p : vertices) scaled.push_back(scale(p));
+  }
+  [[nodiscard]] std::uint32_t corner(const Face& f, std::uint32_t i) const {
+    return corners[f.first + (i < f.count ? i : i - f.count)];
+  }
+  [[nodiscard]] PlanePoints plane(const Face& f) const {
+    return {vertices[f.plane[0]], vertices[f.plane[1]], vertices[f.plane[2]]};
+  }
+  [[nodiscard]] FilterPlane filter(const Face& f) const {
+    return {scaled[f.plane[0]], scaled[f.plane[1]], scaled[f.plane[2]]};
+  }
+};
+
+/// Throws Error naming the polygon. Counts polygons, flat, bent and faces.
+Faces make_faces(const OrderMesh& mesh, OrderBuildStats& stats);
+
+struct FragmentRecord {
+  std::uint32_t face = 0;
+  std::uint32_t first_cut = 0;
+  std::uint32_t first_edge = 0;
+};
+
+inline constexpr std::size_t kBlock = 64;  ///< nodes whose sides are one word
+
+}  // namespace kage::order
+
+namespace kage {
+
+struct OrderTree::Data {
+  order::Faces faces;
+  // By node, in preorder.
+  std::vector<std::uint32_t> size;            // of the subtree
+  std::vector<std::uint32_t> plane;           // face * 2 + whether the plane is turned round
+  std::vector<std::uint32_t> first_fragment;  // and the number of fragments
+  // By fragment, and one past the last.
+  std::vector<order::FragmentRecord> fragments;
+  std::vector<OrderFragment::Cut> cuts;
+  std::vector<std::uint32_t> edges;
+  std::vector<OrderPoint> points;
+  OrderBuildStats stats;
+
+  // Made of the above: unit normals and offsets for the vector tests, in blocks of 64 nodes, a of all, b of all, c, d.
+  std::vector<float> blocks;
+  OrderPoint centre{};  // that offsets are from, scaled
+  double radius = 0;    // of the mesh about it, scaled; no offset is larger
+
+  [[nodiscard]] std::uint32_t nodes() const { return static_cast<std::uint32_t>(size.size()); }
+  [[nodiscard]] std::uint32_t first_child(std::uint32_t v) const { return size[v] > 1 ? v + 1 : kNoNode; }
+  [[nodiscard]] std::uint32_t second_child(std::uint32_t v) const {
+    return size[v] > 1 && 1 + size[v + 1] < size[v] ? v + 1 + size[v + 1] : kNoNode;
+  }
+  [[nodiscard]] std::array<std::uint32_t, 3> plane_vertices(std::uint32_t v) const {
+    std::array<std::uint32_t, 3> p = faces.faces[plane[v] >> 1U].plane;
+    if ((plane[v] & 1U) != 0) std::swap(p[1], p[2]);
+    return p;
+  }
+
+  /// Makes `blocks`, `centre`, `radius`.
+  void derive();
+};
+
+}  // namespace kage
