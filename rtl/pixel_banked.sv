@@ -229,7 +229,9 @@ module pixel_banked #(
   logic [LANES-1:0] now_lanes;
   logic [AddrBits-1:0] now_addr;
   logic now_at_end, now_leaves;
-  assign {now_kind, now_count, now_share, now_lanes, now_addr, now_at_end, now_leaves} = info_q[(Last-1)*InfoBits+:InfoBits];
+  logic [InfoBits-1:0] info_now;
+  assign info_now = info_q[(Last-1)*InfoBits+:InfoBits];
+  assign {now_kind, now_count, now_share, now_lanes, now_addr, now_at_end, now_leaves} = info_now;
 
   // ---- the tree's line ---------------------------------------------------------------------------------------------
   // Depth, colour and count of each lane: the span's, or what the tree has there.
