@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +16,26 @@
 namespace {
 
 using namespace kage;
+
+/// How a build grows: the first faces of a mesh, which lie together.
+void grow(const std::filesystem::path& path) {
+  const Scene scene = Scene::load(path.string());
+  const OrderMesh whole = scene::order_mesh(scene.frame(0, 1));
+  fmt::print("\n{:<22} {:>7} {:>8} {:>6} {:>7} {:>15}\n", "first faces of", "nodes", "per face", "depth", "build s",
+             "us a face");
+  for (std::size_t n = 5000;; n *= 2) {
+    OrderMesh part = whole;
+    part.polygons.resize(std::min(n, whole.polygons.size()));
+    const auto start = std::chrono::steady_clock::now();
+    const OrderTree tree = OrderTree::build(part);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto faces = static_cast<double>(part.polygons.size());
+    fmt::print("{:<22} {:>7} {:>8.2f} {:>6} {:>7.2f} {:>15.1f}\n", fmt::format("{} {}", path.stem().string(), faces),
+               tree.stats().nodes, static_cast<double>(tree.stats().nodes) / faces, tree.stats().depth, seconds,
+               1e6 * seconds / faces);
+    if (n >= whole.polygons.size()) break;
+  }
+}
 
 int run(const std::filesystem::path& cgal) {
   fmt::print("A: {}, {} bytes\nB: the best recursion in preorder, {} bytes a node\n", order::BaselineA::kNodeText,
@@ -44,6 +65,7 @@ int run(const std::filesystem::path& cgal) {
                rows.back().name, s.faces, s.nodes, per(s.nodes, s.faces), s.fragments, per(s.fragments, s.faces),
                s.splits, s.depth, seconds, s.exact_tests, per(m.baseline_a_bytes, s.nodes), per(m.fast_bytes, s.nodes));
   }
+  grow(cgal / "refined_elephant.off");
   fmt::print(
       "\nmicroseconds a step, from the eye to the order; in brackets with a walk over it; median of 5 times 199 "
       "steps\n");
