@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "catch.hpp"
+#include "kage/error.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
 #include "support/shapes.hpp"
@@ -137,6 +138,15 @@ TEST_CASE("an order kept from other frames changes no frame, whatever moved mean
     before = words;
   }
   CHECK(changed > 60);
+}
+
+TEST_CASE("fragments for a core without a blender are refused before the first word") {
+  Random random(test_seed(42));
+  const FrameGeometry g = make_geometry(random_glass(random, 4, 0), glass(), kWidth, kHeight);
+  CHECK(!g.fragments.empty());
+  std::vector<std::uint32_t> words;
+  CHECK_THROWS_AS(make_frame(g, Config{}, 0, words, 1), Error);
+  CHECK(words.empty());
 }
 
 TEST_CASE("family 37: faces in one plane are drawn in the order of the mesh, from either side") {
