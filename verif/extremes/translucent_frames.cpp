@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Translucent faces from frame to frame, in smooth colour, in one plane, and at every scale.
-#include <map>
-#include <tuple>
-
 #include "catch.hpp"
 #include "kage/error.hpp"
-#include "kage/frontend.hpp"
-#include "kage/stream.hpp"
+#include "scene/face_pixels.hpp"
 #include "support/shapes.hpp"
 
 namespace kage::verif {
@@ -38,38 +34,6 @@ SceneFrame random_glass(Random& random, int panes, int bodies) {
   return f;
 }
 
-std::vector<std::uint32_t> words_of(const FrameGeometry& g, const Config& config, int threads = 1) {
-  std::vector<std::uint32_t> words;
-  make_frame(g, config, 0, words, threads);
-  check_frame(config, words, "front end", 0);
-  return words;
-}
-
-/// By face, y, x: how often it is drawn there, its depth and its colour. Alphas are the faces' numbers.
-using Pixels = std::map<std::tuple<int, int, int>, std::tuple<int, std::int64_t, std::array<std::int64_t, 3>>>;
-
-Pixels pixels_of_faces(FrameGeometry g, const Config& config) {
-  for (ScreenPolygon& p : g.polygons)
-    if (p.source != ~0U) p.alpha = static_cast<std::uint8_t>(p.source);
-  const auto words = words_of(g, config);
-  const Layout layout(config);
-  Pixels pixels;
-  int y = 0;
-  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) {
-    const Token t = decode(config, layout, std::span(words).subspan(at));
-    if (t.kind == Kind::EOL) ++y;
-    if (t.kind != Kind::TP) continue;
-    for (int x = t.span.xl; x < t.span.xr; ++x) {
-      const std::int64_t on = x - t.span.xl;
-      auto& [count, z, color] = pixels[{t.span.alpha, y, x}];
-      ++count;
-      z = t.span.z + on * t.span.dz;
-      for (std::size_t c = 0; c < 3; ++c) color[c] = t.span.color[c] + on * t.span.dcolor[c];
-    }
-  }
-  return pixels;
-}
-
 }  // namespace
 
 TEST_CASE("family 14: a fragment of smooth colour has its face's colour and depth at every pixel") {
@@ -85,7 +49,7 @@ TEST_CASE("family 14: a fragment of smooth colour has its face's colour and dept
     look.translucent = TranslucentWay::submission;
     const FrameGeometry parts = make_geometry(f, config, kWidth, kHeight);
     const FrameGeometry whole = make_geometry(f, config, kWidth, kHeight, look);
-    const Pixels pixels = pixels_of_faces(parts, config);
+    const FacePixels pixels = pixels_of_faces(parts, config);
     CHECK(pixels == pixels_of_faces(whole, config));
     int twice = 0;
     for (const auto& p : pixels) twice += std::get<0>(p.second) == 1 ? 0 : 1;
