@@ -16,6 +16,7 @@
 
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
+#include "kage/scene.hpp"
 
 namespace kage::cli {
 namespace {
@@ -90,10 +91,19 @@ void option_json(CLI::App& command, Options& options) {
       ->type_name("FILE");
 }
 
+void option_scene(CLI::App& command, Options& options) {
+  command
+      .add_option("SCENE", options.input,
+                  fmt::format("a built-in scene ({}), a file that Assimp reads, or a stream file",
+                              fmt::join(builtin_scenes(), ", ")))
+      ->required();
+}
+
 void option_degrade(CLI::App& command, Options& options) {
   command.add_flag(
       "--degrade", options.degrade,
-      "draw what the configuration lacks without it: no shadows, flat or grey instead of smooth or coloured");
+      "draw what the configuration lacks without it: no shadows, flat, grey or opaque instead of smooth, coloured "
+      "or translucent");
 }
 
 void option_units_only(CLI::App& command, Options& options) {

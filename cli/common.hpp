@@ -77,6 +77,7 @@ void option_frames(CLI::App& command, Options& options);
 void option_config(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
+void option_scene(CLI::App& command, Options& options);  // SCENE, a positional
 void option_degrade(CLI::App& command, Options& options);
 void option_units_only(CLI::App& command, Options& options);
 /// --order and --alpha.

@@ -110,10 +110,7 @@ void add_cosim(CLI::App& app, Action& action) {
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   const auto o = std::make_shared<CosimCommand>();
   o->out = "out";
-  c->add_option("SCENE", o->input,
-                "a built-in scene (courtyard, knot, inside, edges, polyhedra, fifteen), a file that Assimp reads, or a "
-                "stream file")
-      ->required();
+  option_scene(*c, *o);
   c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
   option_size(*c, *o);
   option_frames(*c, *o);

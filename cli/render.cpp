@@ -82,10 +82,7 @@ void add_render(CLI::App& app, Action& action) {
                             "The pictures appear together when the last one is drawn.");
   const auto o = std::make_shared<RenderCommand>();
   o->out = "out";
-  c->add_option("SCENE", o->input,
-                "a built-in scene (courtyard, knot, inside, edges, polyhedra, fifteen), a file that Assimp reads, or a "
-                "stream file")
-      ->required();
+  option_scene(*c, *o);
   c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
   c->add_flag("--exr", o->exr, "write EXR instead of PNG");
   option_size(*c, *o);

@@ -119,8 +119,8 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   const TokenCounts counts = stream_ ? frame_of_stream(index, sink) : frame_of_scene(index, sink);
   ++made_;
   units_ = std::max(units_, counts.units);
-  if (counts.of_kind[static_cast<std::size_t>(Kind::OP)] + counts.of_kind[static_cast<std::size_t>(Kind::TREE)] == 0)
-    ++blank_;
+  const auto none = [&](Kind kind) { return counts.of_kind[static_cast<std::size_t>(kind)] == 0; };
+  if (none(Kind::OP) && none(Kind::TREE) && none(Kind::TP)) ++blank_;
   return counts;
 }
 

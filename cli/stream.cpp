@@ -46,10 +46,7 @@ void add_stream(CLI::App& app, Action& action) {
                   "A stream file is checked and copied: --frames takes its first ones, and --config may change\n"
                   "what affects no pixel.");
   const auto o = std::make_shared<Options>();
-  c->add_option("SCENE", o->input,
-                "a built-in scene (courtyard, knot, inside, edges, polyhedra, fifteen), a file that Assimp reads, or a "
-                "stream file")
-      ->required();
+  option_scene(*c, *o);
   c->add_option("--out", o->out, "the stream file")->required()->type_name("FILE");
   option_size(*c, *o);
   option_frames(*c, *o);

@@ -330,6 +330,8 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   const bool shadows = config.dsf_bits > 0 && !g.volumes.empty();
   if (shadows && config.fsf == 0 && g.volumes.size() > 1)
     throw Error(fmt::format("{} shadow volumes need FSF, which the configuration lacks", g.volumes.size()));
+  if (config.translucency == 0 && !g.fragments.empty())
+    throw Error("translucent faces need TRANSLUCENCY, which the configuration lacks");
 
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
@@ -346,8 +348,6 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   }
   sink(words);
 
-  if (config.translucency == 0 && !g.fragments.empty())
-    throw Error("translucent faces need TRANSLUCENCY, which the configuration lacks");
   const int bands = (g.height + kBandLines - 1) / kBandLines;
   // A few bands at a time, handed on in order: memory holds no more than those.
   const int wave = threads == 1 ? 1 : 8;

@@ -35,6 +35,7 @@ printf 'newmtl veil\nKd 0.9 0.3 0.1\nd 0.02\n' >layers.mtl
 for i in 1 2; do
   expect 0 "$kage" cosim layers.obj --size 24x18 --frames 2 --config "arranged$i.yaml" --out layers --json layers.json
   json layers.json 'j["same"] is True and j["frames"]==2'
+  grep -q "nothing is to be seen" stdout stderr && fail "layers of glass are nothing to be seen"
 done
 expect 0 "$kage" stream layers.obj --size 24x18 --frames 1 --config arranged1.yaml --out layers.kage
 expect 0 "$kage" info layers.kage --json info.json

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Translucent faces on the screen: fragments part their faces exactly, and every pixel's layers come back to front.
 #include <algorithm>
-#include <compare>
-#include <map>
 
 #include "catch.hpp"
+#include "scene/face_pixels.hpp"
 #include "scene/layer_truth.hpp"
 #include "support/shapes.hpp"
 #include "support/simple_core.hpp"
@@ -35,39 +34,6 @@ SceneFrame random_glass(Random& random, int panes, int bodies, int opaque) {
   return f;
 }
 
-struct Point {
-  std::uint32_t face;
-  int y;
-  int x;
-  auto operator<=>(const Point&) const = default;
-};
-
-/// The depth, and how often, of every pixel of every face's translucent spans. Colours are the faces' numbers.
-std::map<Point, std::pair<std::int64_t, int>> pixels_of_faces(FrameGeometry g, const Config& config) {
-  for (ScreenPolygon& p : g.polygons)
-    if (p.source != ~0U)
-      p.color = {static_cast<std::uint8_t>(p.source), static_cast<std::uint8_t>(p.source >> 8),
-                 static_cast<std::uint8_t>(p.source >> 16)};
-  std::vector<std::uint32_t> words;
-  make_frame(g, config, 0, words, 1);
-  check_frame(config, words, "front end", 0);
-  const Layout layout(config);
-  std::map<Point, std::pair<std::int64_t, int>> pixels;
-  int y = 0;
-  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) {
-    const Token t = decode(config, layout, std::span(words).subspan(at));
-    if (t.kind == Kind::EOL) ++y;
-    if (t.kind != Kind::TP) continue;
-    const auto face = static_cast<std::uint32_t>(t.span.color[0] | t.span.color[1] << 8 | t.span.color[2] << 16);
-    for (int x = t.span.xl; x < t.span.xr; ++x) {
-      auto& p = pixels[{face, y, x}];
-      p.first = t.span.z + (x - t.span.xl) * t.span.dz;
-      ++p.second;
-    }
-  }
-  return pixels;
-}
-
 }  // namespace
 
 TEST_CASE("family 14: the fragments of a face part its pixels exactly, with its depths") {
@@ -86,7 +52,7 @@ TEST_CASE("family 14: the fragments of a face part its pixels exactly, with its 
     faces += uncut.fragments.size();
     const auto pixels = pixels_of_faces(cut, glass());
     CHECK(pixels == pixels_of_faces(uncut, glass()));
-    CHECK(std::all_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.second.second == 1; }));
+    CHECK(std::all_of(pixels.begin(), pixels.end(), [](const auto& p) { return std::get<0>(p.second) == 1; }));
   }
   CHECK(2 * fragments > 3 * faces);  // they were cut
 }
@@ -206,7 +172,7 @@ TEST_CASE("family 37: coplanar, nearly coplanar and duplicate panes, and panes t
     whole.translucent = TranslucentWay::submission;
     const auto pixels = pixels_of_faces(make_geometry(same, glass(), kWidth, kHeight), glass());
     CHECK(pixels == pixels_of_faces(make_geometry(same, glass(), kWidth, kHeight, whole), glass()));
-    CHECK(std::all_of(pixels.begin(), pixels.end(), [](const auto& p) { return p.second.second == 1; }));
+    CHECK(std::all_of(pixels.begin(), pixels.end(), [](const auto& p) { return std::get<0>(p.second) == 1; }));
   }
 }
 
