@@ -195,9 +195,9 @@ class Builder {
     const glm::dvec3& p = frame_->vertices[t.vertex[0]];
     const glm::dvec3 normal = glm::cross(frame_->vertices[t.vertex[1]] - p, frame_->vertices[t.vertex[2]] - p);
     const Camera& camera = frame_->camera;
-    const double eye_side = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
+    const double facing = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
     const int light_side = caster_.facing(face);
-    const bool lit = (eye_side > 0 && light_side > 0) || (eye_side < 0 && light_side < 0);
+    const bool lit = (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
 
     polygon_.clear();
     glm::dvec3 mean{0, 0, 0};
@@ -205,7 +205,7 @@ class Builder {
       polygon_.push_back(view_.to_clip(eye_points_[corners[i]]));
       // More corners than a triangle's share one look.
       const ShadingVertex& s = frame_->shading[t.shading[corners.size() == 3 ? i : 0]];
-      const glm::dvec3 towards_eye = eye_side < 0 ? -s.normal : s.normal;
+      const glm::dvec3 towards_eye = facing < 0 ? -s.normal : s.normal;
       polygon_.back().color =
           light_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
       mean += polygon_.back().color;

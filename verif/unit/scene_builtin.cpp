@@ -91,13 +91,10 @@ TEST_CASE("scenes/make writes exactly the committed files") {
 
 TEST_CASE("a scene is the same, bit by bit, for every compiler and every Debian") {
   // Where this fails after scenes/make or the import changed on purpose, put in what it prints.
-  const std::map<std::string, std::uint64_t> expected{{"courtyard", 0xe03c4a6a2885fa12u},
-                                                      {"knot", 0xffbe8a8d51fa1be9u},
-                                                      {"inside", 0x1f75d211220dd0bbu},
-                                                      {"edges", 0xfccbbac39be2e5f9u},
-                                                      {"polyhedra", 0x98d09a49450b03b8u},
-                                                      {"fifteen", 0xf6668fabcfd9b442u},
-                                                      {"glass", 0x44e07587028ae038u}};
+  const std::map<std::string, std::uint64_t> expected{
+      {"courtyard", 0xe03c4a6a2885fa12u}, {"knot", 0xffbe8a8d51fa1be9u},      {"inside", 0x1f75d211220dd0bbu},
+      {"edges", 0xfccbbac39be2e5f9u},     {"polyhedra", 0x98d09a49450b03b8u}, {"fifteen", 0xf6668fabcfd9b442u},
+      {"glass", 0x44e07587028ae038u}};
   for (const std::string& name : builtin_scenes()) {
     INFO(name);
     CHECK(digest(Scene::load(name)) == expected.at(name));
