@@ -281,7 +281,8 @@ TEST_CASE("TP comes after RESOLVE, and nothing but TP and EOL after it", "[frame
       CAPTURE(index);
       const auto out = run<Vframe_control_glass>(dice, std::vector<Token>{header(20, 1, 7, kGlass)} + body);
       REQUIRE(out.errors.size() == 1);
-      REQUIRE(out.errors[0] == std::array<std::uint32_t, 4>{static_cast<std::uint32_t>(ErrorCode::ORDER), 7, line, index});
+      REQUIRE(out.errors[0] ==
+              std::array<std::uint32_t, 4>{static_cast<std::uint32_t>(ErrorCode::ORDER), 7, line, index});
       REQUIRE(out.lines.size() == 1);
       REQUIRE(out.lines[0].blank == (line == 0));
     });

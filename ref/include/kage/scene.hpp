@@ -68,7 +68,7 @@ struct Component {
   bool closed =
       false;  ///< every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0
   bool translucent = false;  ///< its triangles have alpha < 255: they are drawn last, cast no shadow and take none
-  bool convex = false;  ///< closed, and no vertex is further than the stated tolerance outside a face's plane
+  bool convex = false;       ///< closed, and no vertex is further than the stated tolerance outside a face's plane
   std::uint32_t first_polygon = 0;  ///< its polygons are consecutive in SceneFrame::polygons
   std::uint32_t polygon_count = 0;
   std::string reason;  ///< why it is not closed or not convex, naming the edge or vertex; empty if it is both
