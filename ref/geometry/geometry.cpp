@@ -93,13 +93,13 @@ class Builder {
       for (std::uint32_t i = part.first_polygon; part.translucent && i < part.first_polygon + part.polygon_count; ++i)
         if (frame_->triangles[frame_->polygons[i].triangle].alpha > 0) faces.push_back(i);
     if (faces.empty()) return;
+    std::vector<int> sides;
+    sides.reserve(faces.size());
     for (const std::uint32_t i : faces) {
-      const auto corners = frame_->outline(frame_->polygons[i]);
-      if (eye_side(frame_->camera, frame_->vertices[corners[0]], frame_->vertices[corners[1]],
-                   frame_->vertices[corners[2]]) != 0)
-        draw(i);
+      sides.push_back(eye_side(frame_->camera, triangle_of(*frame_, i)));
+      if (sides.back() != 0) draw(i);
     }
-    FragmentMaker(*frame_, view_, order_->data(), faces)
+    FragmentMaker(*frame_, view_, order_->data(), faces, sides)
         .make(
             look_->translucent,
             [this](std::uint32_t face) { return std::pair(drawn_[face].first, drawn_[face].count); }, out_);

@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
 
 #include "order/exact.hpp"
 #include "order/filter.hpp"
+#include "scene/order_mesh.hpp"
 
 namespace kage {
 
@@ -42,16 +42,19 @@ bool same(const OrderMesh& a, const OrderMesh& b) {
 
 }  // namespace
 
-int eye_side(const Camera& camera, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const order::FilterPlane plane(point(a), point(b), point(c));
-  if (camera.perspective) {
-    const double value = plane.value(point(camera.eye));
-    if (std::abs(value) > plane.error(point(camera.eye)) && std::isfinite(value)) return value > 0 ? 1 : -1;
-    return order::exact_side({point(a), point(b), point(c)}, point(camera.eye));
-  }
-  const double value = -plane.slope(point(camera.forward));
-  if (std::abs(value) > plane.slope_error(point(camera.forward)) && std::isfinite(value)) return value > 0 ? 1 : -1;
-  return -order::exact_facing({point(a), point(b), point(c)}, point(camera.forward));
+int eye_side(const Camera& camera, const std::array<glm::dvec3, 3>& face) {
+  std::array<OrderPoint, 4> p{point(face[0]), point(face[1]), point(face[2]), point(camera.eye)};
+  const std::array<OrderPoint, 4> given = p;
+  // The filter's bound is for coordinates up to 1.
+  const order::Scale scale = order::scale_of(std::span(p).first(camera.perspective ? 4 : 3));
+  for (OrderPoint& q : p) q = scale(q);
+  const order::FilterPlane plane(p[0], p[1], p[2]);
+  const OrderPoint forward = point(camera.forward);
+  const double value = camera.perspective ? plane.value(p[3]) : -plane.slope(forward);
+  const double error = camera.perspective ? plane.error(p[3]) : plane.slope_error(forward);
+  if (std::abs(value) > error) return value > 0 ? 1 : -1;
+  const order::PlanePoints exact{given[0], given[1], given[2]};
+  return camera.perspective ? order::exact_side(exact, given[3]) : -order::exact_facing(exact, forward);
 }
 
 // A point before the camera is eye + t (ex right + ey up + forward) (perspective) or eye + ex right + ey up + t forward
@@ -81,39 +84,24 @@ CutLine cut_line(const View& view, const Camera& camera, const std::array<glm::d
 }
 
 FragmentMaker::FragmentMaker(const SceneFrame& frame, const View& view, TranslucentOrder::Data& kept,
-                             std::span<const std::uint32_t> faces)
-    : frame_(&frame), view_(&view), kept_(&kept), faces_(faces) {}
-
-std::array<glm::dvec3, 3> FragmentMaker::corners(std::uint32_t face) const {
-  const auto outline = frame_->outline(frame_->polygons[face]);
-  return {frame_->vertices[outline[0]], frame_->vertices[outline[1]], frame_->vertices[outline[2]]};
-}
+                             std::span<const std::uint32_t> faces, std::span<const int> sides)
+    : frame_(&frame), view_(&view), kept_(&kept), faces_(faces), sides_(sides) {}
 
 std::vector<std::uint32_t> FragmentMaker::whole(TranslucentWay way) const {
-  std::vector<std::uint32_t> order(faces_.begin(), faces_.end());
+  std::vector<std::uint32_t> order(faces_.size());
+  std::iota(order.begin(), order.end(), 0U);
   if (way == TranslucentWay::submission) return order;
-  std::vector<double> depth(frame_->polygons.size());
+  std::vector<double> depth;
   for (const std::uint32_t f : faces_) {
-    const auto p = corners(f);
-    depth[f] = glm::dot((p[0] + p[1] + p[2]) / 3.0 - frame_->camera.eye, frame_->camera.forward);
+    const auto p = triangle_of(*frame_, f);
+    depth.push_back(glm::dot((p[0] + p[1] + p[2]) / 3.0 - frame_->camera.eye, frame_->camera.forward));
   }
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return depth[a] > depth[b]; });
   return order;
 }
 
 std::span<const std::uint32_t> FragmentMaker::nodes() {
-  OrderMesh mesh;
-  std::unordered_map<std::uint32_t, std::uint32_t> number;
-  for (const std::uint32_t f : faces_) {
-    const auto outline = frame_->outline(frame_->polygons[f]);
-    mesh.polygons.push_back(
-        {static_cast<std::uint32_t>(mesh.corners.size()), static_cast<std::uint32_t>(outline.size())});
-    for (const std::uint32_t v : outline) {
-      const auto [it, fresh] = number.emplace(v, static_cast<std::uint32_t>(mesh.vertices.size()));
-      if (fresh) mesh.vertices.push_back(point(frame_->vertices[v]));
-      mesh.corners.push_back(it->second);
-    }
-  }
+  OrderMesh mesh = scene::order_mesh(*frame_, faces_);
   if (!kept_->tree || !same(mesh, kept_->mesh)) {
     kept_->order.reset();
     kept_->tree = OrderTree::build(mesh);
@@ -135,8 +123,7 @@ std::uint32_t FragmentMaker::line_of(std::uint32_t face, std::uint32_t node, Fra
     const OrderPoint& p = tree().vertices()[numbers[i]];
     plane[i] = {p[0], p[1], p[2]};
   }
-  const auto p = corners(face);
-  out.cut_lines.push_back(cut_line(*view_, frame_->camera, p, eye_side(frame_->camera, p[0], p[1], p[2]), plane));
+  out.cut_lines.push_back(cut_line(*view_, frame_->camera, triangle_of(*frame_, faces_[face]), sides_[face], plane));
   return it->second;
 }
 

@@ -18,6 +18,17 @@ constexpr unsigned code(Kind k) { return static_cast<unsigned>(k); }
                           f.is_signed ? "signed " : "", f.bits));
 }
 
+/// Depth and colour, which OP and TP have alike: call put with name, value and Field of each in turn.
+template <class Put>
+void put_ramps(Put put, const Config& config, const SpanToken& s, Field z, Field dz, const Field (&color)[3],
+               const Field (&dcolor)[3]) {
+  put("z", s.z, z);
+  put("dz", s.dz, dz);
+  const auto channels = static_cast<std::size_t>(config.channels);
+  for (std::size_t c = 0; c < channels; ++c) put("color", s.color[c], color[c]);
+  for (std::size_t c = 0; c < channels; ++c) put("dcolor", s.dcolor[c], dcolor[c]);
+}
+
 }  // namespace
 
 TokenWriter::TokenWriter(const Config& config, std::vector<std::uint32_t>& out)
@@ -83,11 +94,7 @@ void TokenWriter::op(const SpanToken& s) {
     put("xl", s.xl, layout_.op_xl);
     put("xr", s.xr, layout_.op_xr);
     put("lit", s.lit && layout_.op_lit.bits != 0 ? 1 : 0, layout_.op_lit);
-    put("z", s.z, layout_.op_z);
-    put("dz", s.dz, layout_.op_dz);
-    const auto channels = static_cast<std::size_t>(config_.channels);
-    for (std::size_t c = 0; c < channels; ++c) put("color", s.color[c], layout_.op_color[c]);
-    for (std::size_t c = 0; c < channels; ++c) put("dcolor", s.dcolor[c], layout_.op_dcolor[c]);
+    put_ramps(put, config_, s, layout_.op_z, layout_.op_dz, layout_.op_color, layout_.op_dcolor);
   });
 }
 
@@ -127,11 +134,7 @@ void TokenWriter::tp(const SpanToken& s) {
     put("xl", s.xl, layout_.tp_xl);
     put("xr", s.xr, layout_.tp_xr);
     put("alpha", s.alpha, layout_.tp_alpha);
-    put("z", s.z, layout_.tp_z);
-    put("dz", s.dz, layout_.tp_dz);
-    const auto channels = static_cast<std::size_t>(config_.channels);
-    for (std::size_t c = 0; c < channels; ++c) put("color", s.color[c], layout_.tp_color[c]);
-    for (std::size_t c = 0; c < channels; ++c) put("dcolor", s.dcolor[c], layout_.tp_dcolor[c]);
+    put_ramps(put, config_, s, layout_.tp_z, layout_.tp_dz, layout_.tp_color, layout_.tp_dcolor);
   });
 }
 
@@ -147,6 +150,12 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
   const auto get = [&](Field f) { return extract(words, f); };
   const auto geti = [&](Field f) { return static_cast<int>(extract(words, f)); };
   const auto channels = static_cast<std::size_t>(config.channels);
+  const auto colors = [&](const Field(&color)[3], const Field(&dcolor)[3]) {
+    for (std::size_t c = 0; c < channels; ++c) {
+      t.span.color[c] = geti(color[c]);
+      t.span.dcolor[c] = geti(dcolor[c]);
+    }
+  };
   switch (t.kind) {
     case Kind::SHADE:
       t.shade = static_cast<std::uint32_t>(get(l.shade_shade));
@@ -168,20 +177,14 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
       break;
     case Kind::OP:
       t.span = {geti(l.op_xl), geti(l.op_xr), get(l.op_z), get(l.op_dz), 0, get(l.op_lit) != 0, {}, {}, 0};
-      for (std::size_t c = 0; c < channels; ++c) {
-        t.span.color[c] = geti(l.op_color[c]);
-        t.span.dcolor[c] = geti(l.op_dcolor[c]);
-      }
+      colors(l.op_color, l.op_dcolor);
       break;
     case Kind::SP:
       t.span = {geti(l.sp_xl), geti(l.sp_xr), get(l.sp_z), get(l.sp_dz), geti(l.sp_w), false, {}, {}, 0};
       break;
     case Kind::TP:
       t.span = {geti(l.tp_xl), geti(l.tp_xr), get(l.tp_z), get(l.tp_dz), 0, false, {}, {}, geti(l.tp_alpha)};
-      for (std::size_t c = 0; c < channels; ++c) {
-        t.span.color[c] = geti(l.tp_color[c]);
-        t.span.dcolor[c] = geti(l.tp_dcolor[c]);
-      }
+      colors(l.tp_color, l.tp_dcolor);
       break;
     case Kind::NC:
       t.span.xl = geti(l.nc_xl);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "catch.hpp"
+#include "core/span_kernels.hpp"
 #include "scene/face_pixels.hpp"
 #include "scene/layer_truth.hpp"
 #include "support/shapes.hpp"
@@ -221,6 +222,27 @@ TEST_CASE("family 20: alpha 0 and 255 are identities, and 1000 layers are off by
     (void)simple_core(c, words, plain);
     CHECK(plain == line);
   }
+}
+
+TEST_CASE("family 20: every colour over every colour at every alpha is rounded to the nearest") {
+  std::vector<std::int32_t> zb(256 + kKernelSlack, 100);
+  std::vector<std::uint32_t> attr(zb.size());
+  const DepthRamp before{std::int64_t{10} << 32, 0, 0, 1 << 20};
+  int wrong = 0;
+  for (std::int32_t alpha = 0; alpha < 256; ++alpha)
+    for (std::int32_t over = 0; over < 256; ++over) {
+      for (std::uint32_t x = 0; x < 256; ++x) attr[x] = x | (255 - x) << 8 | x << 16;
+      const ColorRamp ramp{over << 22, 0};
+      const std::array<ColorRamp, 3> ramps{ramp, ramp, ramp};
+      span_tp(before, 256, zb.data(), attr.data(), ramps.data(), 3, alpha);
+      const auto blended = [&](std::uint32_t under) {
+        const auto sum = under * static_cast<std::uint32_t>(255 - alpha) + static_cast<std::uint32_t>(over * alpha);
+        return (2 * sum + 255) / 510;
+      };
+      for (std::uint32_t x = 0; x < 256; ++x)
+        wrong += attr[x] == (blended(x) | blended(255 - x) << 8 | blended(x) << 16) ? 0 : 1;
+    }
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("translucent faces cast no shadow and take none; what is opaque beneath them keeps its own") {
