@@ -34,7 +34,7 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size) {
   }
   needs.shadows = casters > 0;
   needs.smooth = scene.needs_smooth();
-  needs.color = !is_grey(frame.light.color) || std::any_of(frame.shading.begin(), frame.shading.end(),
+  needs.color = !is_grey(frame.lights[0].color) || std::any_of(frame.shading.begin(), frame.shading.end(),
                                                            [](const ShadingVertex& v) { return !is_grey(v.color); });
   return needs;
 }

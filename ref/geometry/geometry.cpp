@@ -10,23 +10,16 @@
 #include <span>
 #include <tuple>
 
-#include "geometry/clip.hpp"
-#include "geometry/plane.hpp"
+#include "geometry/screen_faces.hpp"
 #include "geometry/shade.hpp"
 #include "geometry/shadow_volume.hpp"
 #include "geometry/translucent.hpp"
-#include "geometry/view.hpp"
+#include "geometry/volume_maker.hpp"
 #include "kage/error.hpp"
 #include "number/int128.hpp"
 
 namespace kage {
 namespace {
-
-// Drawn polygons of a face: consecutive in FrameGeometry::polygons. Smooth colour may need several.
-struct DrawnRange {
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
-};
 
 class Builder {
  public:
@@ -37,9 +30,10 @@ class Builder {
         config_(&config),
         look_(&look),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
-        caster_(frame, view_.near_corners(), look.extrusion),
-        light_(frame.light, frame.camera.up),
-        clipper_(view_.near(), view_.volume_end()) {
+        caster_(frame, frame.lights[0], view_.near_corners(), look.extrusion),
+        light_(frame.lights[0], frame.camera.up),
+        clipper_(view_.near(), view_.volume_end()),
+        faces_(view_, clipper_, out_) {
     out_.width = width;
     out_.height = height;
     for (unsigned c = 0; c < 3; ++c) out_.background |= static_cast<std::uint32_t>(look.background[c]) << (8 * c);
@@ -56,7 +50,10 @@ class Builder {
     // What is turned away may still be a cap.
     if (config_->dsf_bits > 0)
       for (const std::uint32_t i : turned_away_) draw(i);
-    if (config_->dsf_bits > 0) caster_.each([this](const WorldVolume& v) { add_volume(v); });
+    if (config_->dsf_bits > 0) {
+      VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
+      caster_.each([&maker](const WorldVolume& v) { maker.add(v, 0); });
+    }
     if (config_->translucency > 0) draw_translucent();
     return std::move(out_);
   }
@@ -223,13 +220,15 @@ class Builder {
     base.source = index;
     // Three corners are the face's own, even where it was put together from more triangles.
     base.depth = corners.size() == 3
-                     ? face_plane(3, {eye_points_[corners[0]], eye_points_[corners[1]], eye_points_[corners[2]]})
-                     : face_plane(corners.size(),
-                                  {eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]});
+                     ? faces_.face_plane(3, {eye_points_[corners[0]], eye_points_[corners[1]], eye_points_[corners[2]]},
+                                         polygon_)
+                     : faces_.face_plane(corners.size(),
+                                         {eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]},
+                                         polygon_);
     for (std::size_t c = 0; c < 3; ++c)
       base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
     if (config_->smooth == 0 || same_color) {
-      add_outline(base, polygon_);
+      faces_.add(base, polygon_);
     } else {
       // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one
       // depth plane.
@@ -238,139 +237,10 @@ class Builder {
         ScreenPolygon piece = base;
         piece.color_planes = static_cast<std::int32_t>(out_.color_planes.size());
         for (int c = 0; c < 3; ++c) out_.color_planes.push_back(color_plane(piece_, c));
-        add_outline(piece, piece_);
+        faces_.add(piece, piece_);
       }
     }
     drawn_[index].count = static_cast<std::uint32_t>(out_.polygons.size()) - drawn_[index].first;
-  }
-
-  void add_volume(const WorldVolume& w) {
-    ShadowVolume v;
-    v.first_face = static_cast<std::uint32_t>(out_.volume_faces.size());
-    v.first_near = static_cast<std::uint32_t>(out_.near_edges.size());
-    v.component = w.component;
-    for (const CapFace& cap : w.caps) {
-      const DrawnRange& range = drawn_[cap.polygon];
-      for (std::uint32_t i = 0; i < range.count; ++i)
-        out_.volume_faces.push_back({range.first + i, cap.turned ? -1 : 1});
-      points_.clear();
-      for (const std::uint32_t c : frame_->outline(frame_->polygons[cap.polygon])) points_.push_back(eye_points_[c]);
-      if (cap.turned) std::reverse(points_.begin(), points_.end());
-      cut_only();
-    }
-    for (const SideFace& s : w.sides) add_side(s);
-    for (const auto& f : w.far_end) {
-      points_.clear();
-      for (const glm::dvec3& p : f) points_.push_back(view_.to_eye(p));
-      if (look_->far_ends)
-        add_face([&] { return unsnapped_plane(points_[0], points_[1], points_[2]); });
-      else
-        cut_only();
-    }
-    v.face_count = static_cast<std::uint32_t>(out_.volume_faces.size()) - v.first_face;
-    v.near_count = static_cast<std::uint32_t>(out_.near_edges.size()) - v.first_near;
-    if (v.face_count + v.near_count > 0) out_.volumes.push_back(v);
-  }
-
-  void add_side(const SideFace& s) {
-    points_.assign({view_.to_eye(s.a), view_.to_eye(s.far_a), view_.to_eye(s.far_b), view_.to_eye(s.b)});
-    add_face([&] { return side_plane(drawn_[s.polygon], points_[0], points_[3], points_[1]); });
-  }
-
-  // A face of a volume that is not drawn: the polygon in points_, with the plane that make_plane() gives once it is
-  // clipped.
-  template <class MakePlane>
-  void add_face(MakePlane make_plane) {
-    polygon_.clear();
-    for (const EyePoint& e : points_) polygon_.push_back(view_.to_clip(e));
-    clip_and_cut();
-    if (polygon_.empty()) return;
-    ScreenPolygon face;
-    face.source = ~0U;
-    face.depth = make_plane();
-    out_.volume_faces.push_back({static_cast<std::uint32_t>(out_.polygons.size()), 1});
-    add_outline(face, polygon_);
-  }
-
-  // Only the section with the near plane of the polygon in points_, which is never a span, or is one already.
-  void cut_only() {
-    const bool crosses =
-        std::any_of(points_.begin(), points_.end(), [this](const EyePoint& e) { return e.z < view_.near(); });
-    if (!crosses) return;
-    polygon_.clear();
-    for (const EyePoint& e : points_) polygon_.push_back(view_.to_clip(e));
-    clip_and_cut();
-  }
-
-  void clip_and_cut() {
-    cuts_.clear();
-    clipper_.clip(polygon_, &cuts_, !look_->far_ends);
-    for (const NearCut& cut : cuts_) clipper_.snap_cut(cut, out_.near_edges);
-  }
-
-  void add_outline(ScreenPolygon p, const std::vector<ClipPoint>& points) {
-    p.first_vertex = static_cast<std::uint32_t>(out_.vertices.size());
-    p.vertex_count = static_cast<std::uint32_t>(points.size());
-    for (const ClipPoint& c : points) out_.vertices.push_back(snap(c));
-    out_.polygons.push_back(p);
-  }
-
-  [[nodiscard]] DepthVertex depth_vertex(const ClipPoint& p) const {
-    return {snap(p), to_fixed(view_.depth(p.w), kVertexFrac)};
-  }
-
-  // The plane of a drawn face, in polygon_ after clipping. A triangle's goes through its snapped vertices if they are
-  // all there. More vertices than three do not lie in one plane once they are snapped: theirs is the unsnapped one, by
-  // three of the points.
-  ScreenPlane face_plane(std::size_t corners, const std::array<EyePoint, 3>& t) const {
-    if (corners == 3) {
-      const std::array<ClipPoint, 3> p{view_.to_clip(t[0]), view_.to_clip(t[1]), view_.to_clip(t[2])};
-      if (clipper_.keeps(p[0]) && clipper_.keeps(p[1]) && clipper_.keeps(p[2]))
-        if (const auto plane = plane_through({depth_vertex(p[0]), depth_vertex(p[1]), depth_vertex(p[2])}))
-          return *plane;
-    }
-    return unsnapped_plane(t[0], t[1], t[2]);
-  }
-
-  static std::int64_t slope(const ScreenPlane& p) { return std::abs(p.a) + std::abs(p.b); }
-
-  // The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap and
-  // the vertex furthest from it. On the edge it has the depths that the cap has there, so that it leaves the cap
-  // exactly at their common edge. But a cap steeper than the side is further off its own corners there than the side's
-  // slope allows for, and would move the side's shadow far away: then the side has the corners' depths.
-  ScreenPlane side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
-    const ClipPoint pa = view_.to_clip(a);
-    const ClipPoint pb = view_.to_clip(b);
-    if (cap.count > 0 && clipper_.keeps(pa) && clipper_.keeps(pb)) {
-      const ScreenVertex sa = snap(pa);
-      const ScreenVertex sb = snap(pb);
-      const ClipPoint* furthest = &polygon_[0];
-      std::int64_t most = 0;
-      for (const ClipPoint& p : polygon_) {
-        const std::int64_t area = std::abs(double_area(sa, sb, snap(p)));
-        if (area > most) {
-          most = area;
-          furthest = &p;
-        }
-      }
-      const auto plane = plane_through({depth_vertex(pa), depth_vertex(pb), depth_vertex(*furthest)});
-      const ScreenPlane& at = out_.polygons[cap.first].depth;
-      if (plane && slope(at) <= slope(*plane))
-        if (const auto joined = plane_through({on_plane(at, sa), on_plane(at, sb), depth_vertex(*furthest)}))
-          return *joined;
-      if (plane) return *plane;
-    }
-    return unsnapped_plane(a, b, c);
-  }
-
-  // The plane of three points of a polygon that is in polygon_, clipped. A plane too steep is one seen edge-on: within
-  // half a subpixel every depth of the polygon is in reach, and the mean of its vertices' is taken.
-  ScreenPlane unsnapped_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c) const {
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    if (const auto plane = view_.depth_plane(normal, a, polygon_[0])) return *plane;
-    double sum = 0;
-    for (const ClipPoint& p : polygon_) sum += view_.depth(p.w);
-    return View::flat_plane(sum / static_cast<double>(polygon_.size()));
   }
 
   static ScreenPlane color_plane(const std::vector<ClipPoint>& p, int channel) {
@@ -409,13 +279,12 @@ class Builder {
   LightView light_;
   Clipper clipper_;
   FrameGeometry out_;
+  ScreenFaces faces_;
   std::vector<EyePoint> eye_points_;
   std::vector<DrawnRange> drawn_;
   std::vector<std::uint32_t> turned_away_;  // polygons of polyhedra, into SceneFrame::polygons
-  std::vector<EyePoint> points_;
   std::vector<ClipPoint> polygon_;
   std::vector<ClipPoint> piece_;
-  std::vector<NearCut> cuts_;
 };
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -427,7 +296,7 @@ void check_finite(const SceneFrame& frame) {
   if (!finite(c.eye) || !finite(c.right) || !finite(c.up) || !finite(c.forward) || !(c.near > 0) ||
       !std::isfinite(c.near) || !(c.half_height > 0) || !std::isfinite(c.half_height))
     throw Error("the camera is not finite, or its near plane or field of view is not positive");
-  const Light& l = frame.light;
+  const Light& l = frame.lights[0];
   if (!finite(l.directional ? l.direction : l.position)) throw Error("the light is not finite");
 }
 

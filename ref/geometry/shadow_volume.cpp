@@ -38,9 +38,9 @@ struct Box {
 
 }  // namespace
 
-ShadowCaster::ShadowCaster(const SceneFrame& frame, std::span<const glm::dvec3> near_corners, double extrusion)
-    : frame_(&frame) {
-  const Light& light = frame.light;
+ShadowCaster::ShadowCaster(const SceneFrame& frame, const LightPoint& light, std::span<const glm::dvec3> near_corners,
+                           double extrusion)
+    : frame_(&frame), light_(light) {
   Box box;
   double distance = 0;
   const auto add = [&](const glm::dvec3& p) {
@@ -68,8 +68,7 @@ double ShadowCaster::light_distance(const Polygon& p) const {
   const glm::dvec3 normal = glm::cross(u, v);
   const double n = length(normal);
   if (!(n > 0)) return 0;
-  return frame_->light.directional ? -glm::dot(normal, frame_->light.direction) / n
-                                   : glm::dot(normal, frame_->light.position - a) / n;
+  return light_.directional ? -glm::dot(normal, light_.direction) / n : glm::dot(normal, light_.position - a) / n;
 }
 
 int ShadowCaster::facing(const Polygon& p) const {
@@ -78,24 +77,23 @@ int ShadowCaster::facing(const Polygon& p) const {
 }
 
 bool ShadowCaster::light_outside(const Component& part) const {
-  if (frame_->light.directional) return true;
+  if (light_.directional) return true;
   // Outside the box is surely outside; within it a component is treated as if the light were inside, which is right as
   // well.
   Box box;
   for (std::uint32_t t = part.first; t < part.first + part.count; ++t)
     for (const std::uint32_t v : frame_->triangles[t].vertex) box.add(frame_->vertices[v]);
-  return !box.contains(frame_->light.position);
+  return !box.contains(light_.position);
 }
 
 glm::dvec3 ShadowCaster::far_point(const glm::dvec3& p, double factor) const {
-  return frame_->light.directional ? p + frame_->light.direction * factor
-                                   : frame_->light.position + (p - frame_->light.position) * factor;
+  return light_.directional ? p + light_.direction * factor : light_.position + (p - light_.position) * factor;
 }
 
 // Directional: the length of the volume. Point: a point of the shadow of a face at distance d from the light's plane is
 // at most reach / d times as far from the light as the face is along its ray.
 double ShadowCaster::far_factor(double distance) const {
-  return frame_->light.directional ? reach_ : std::max(reach_ / distance, kMargin);
+  return light_.directional ? reach_ : std::max(reach_ / distance, kMargin);
 }
 
 // The far end of a cap whose corners go round it seen from the light, and sides at its border edges.

@@ -45,18 +45,19 @@ struct WorldVolume {
   }
 };
 
-/// Casts the shadows of one frame.
+/// Casts the shadows of one frame that one point of a light makes.
 class ShadowCaster {
  public:
   /// `near_corners`: the picture's corners on the near plane; volumes reach past them too. `extrusion`: how many times
   /// as far as they must volumes reach, >= 1.
-  ShadowCaster(const SceneFrame& frame, std::span<const glm::dvec3> near_corners, double extrusion);
+  ShadowCaster(const SceneFrame& frame, const LightPoint& light, std::span<const glm::dvec3> near_corners,
+               double extrusion);
 
   /// The polygon's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts
   /// nothing).
   [[nodiscard]] int facing(const Polygon& p) const;
 
-  /// Call `emit` with every volume of the frame, in order of components and polygons.
+  /// Call `emit` with every volume, in order of components and polygons.
   template <class Emit>
   void each(Emit emit) const {
     WorldVolume v;
@@ -86,6 +87,7 @@ class ShadowCaster {
   [[nodiscard]] double far_factor(double distance) const;
 
   const SceneFrame* frame_;
+  LightPoint light_;
   double edge_on_;  // a face whose plane is no further from the light is edge-on
   // No two points of the scene and the near corners (directional), or one of them and the light (point), are further
   // apart.

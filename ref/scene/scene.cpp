@@ -260,8 +260,8 @@ SceneFrame Scene::frame(int index, int count) const {
     throw Error(d.place + ": " + node + e.what());
   }
   if (!scene::is_finite(frame.camera.eye)) throw Error(d.place + ": the camera's position is not finite");
-  frame.light = d.raw.light ? scene::file_light(*d.raw.light, world[d.raw.light->node]) : scene::default_light();
-  if (!scene::is_finite(frame.light.position)) throw Error(d.place + ": the light's position is not finite");
+  frame.lights[0] = d.raw.light ? scene::file_light(*d.raw.light, world[d.raw.light->node]) : scene::default_light();
+  if (!scene::is_finite(frame.lights[0].position)) throw Error(d.place + ": the light's position is not finite");
   return frame;
 }
 

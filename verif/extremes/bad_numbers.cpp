@@ -15,7 +15,7 @@ SceneFrame scene() {
   SceneFrame f;
   add_solid(f, box_solid(), {0, -2, 0}, {4, 0.2, 4}, Turn{}, {1, 1, 1});
   add_solid(f, octahedron_solid(), {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1});
-  f.light.direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
+  f.lights[0].direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
   look_at(f.camera, {3, 2, 4}, {0, -1, 0});
   return f;
 }
@@ -42,7 +42,7 @@ TEST_CASE("family 10: a position, camera or light that is not finite is an error
     CHECK_THAT(said([](SceneFrame& f, double v) { f.camera.forward.z = v; }), ContainsSubstring("camera"));
     CHECK_THAT(said([](SceneFrame& f, double v) { f.camera.half_height = v; }), ContainsSubstring("camera"));
     CHECK_THAT(said([](SceneFrame& f, double v) { f.camera.near = v; }), ContainsSubstring("camera"));
-    CHECK_THAT(said([](SceneFrame& f, double v) { f.light.direction.x = v; }), ContainsSubstring("light"));
+    CHECK_THAT(said([](SceneFrame& f, double v) { f.lights[0].direction.x = v; }), ContainsSubstring("light"));
   }
   for (const int size : {0, -1, kMaxSize + 1, 1 << 30}) {
     CHECK_THROWS_AS(make_geometry(scene(), Config{}, size, 48), Error);

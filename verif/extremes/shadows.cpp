@@ -83,7 +83,7 @@ TEST_CASE("rays tell a lost volume, a lost face of one, a lost polygon and a mov
   add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
   add_solid(f, box_solid(), {0, 0, 0}, {1, 0.5, 1}, Turn{}, {1, 1, 1});
   look_at(f.camera, {4, 5, 6}, {0, -1, 0});
-  f.light.direction = glm::normalize(glm::dvec3(0.4, -1, 0.3));
+  f.lights[0].direction = glm::normalize(glm::dvec3(0.4, -1, 0.3));
   const Config config;
   const FrameGeometry whole = make_geometry(f, config, kWidth, kHeight);
   REQUIRE(whole.volumes.size() == 2);
@@ -130,7 +130,7 @@ TEST_CASE("family 22: nested, overlapping and touching casters in any order give
         else
           add_solid(f, box_solid(), centre, glm::dvec3(i % 3 == 0 ? 0.2 : 0.3), Turn{}, {1, 1, 1});
       }
-      f.light.direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
+      f.lights[0].direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
       look_at(f.camera, {5, 6, 7}, {0, -1, 0});
       judge_all(f);
       const auto pixels = draw(make_geometry(f, Config{}, kWidth, kHeight), Config{});
@@ -149,7 +149,7 @@ TEST_CASE(
   add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
   add_solid(f, box_solid(), {0, 2, 0}, {1, 0.5, 1}, Turn{}, {1, 1, 1});
   add_solid(f, octahedron_solid(), {2.5, 1, 0}, {1, 1, 1}, Turn{}, {1, 1, 1});
-  f.light.direction = {0, -1, 0};  // shadow planes of the box: x = +-1, z = +-1
+  f.lights[0].direction = {0, -1, 0};  // shadow planes of the box: x = +-1, z = +-1
   for (const double near : {0.01, 0.5, 2.0})
     for (const double x : {std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0), 0.0, 1.7, -1.0})
       for (const double z : {-1.0, std::nextafter(-1.0, 0.0), 0.3, 1.0}) {
@@ -165,7 +165,7 @@ TEST_CASE("family 24: a section with the near plane that covers the whole line i
   SceneFrame f;
   add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
   add_solid(f, box_solid(), {0, 2, 0}, {1, 0.5, 1}, Turn{}, {1, 1, 1});
-  f.light.direction = {0, -1, 0};
+  f.lights[0].direction = {0, -1, 0};
   const auto counts = [&f](const glm::dvec3& eye) {
     look_at(f.camera, eye, eye + glm::dvec3(0, -0.5, 1));
     std::vector<std::uint32_t> words;
@@ -187,11 +187,11 @@ TEST_CASE("family 25: light on a face's plane plus and minus one ulp, inside the
   add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
   add_solid(f, box_solid(), {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1});
   look_at(f.camera, {4, 3, 5}, {0, -1, 0});
-  f.light.directional = false;
+  f.lights[0].directional = false;
   for (const double y : {1.0, std::nextafter(1.0, 0.0), std::nextafter(1.0, 2.0), 1.0 + 1e-7, 0.0, 5.0, 1e6})
     for (const double x : {0.0, 1.0, 3.0, 30.0}) {
       CAPTURE(x, y);
-      f.light.position = {x, y, 0.25};
+      f.lights[0].position = {x, y, 0.25};
       judge_all(f);
       sums_are_zero(f);
     }
@@ -240,7 +240,7 @@ TEST_CASE("family 27: a face that is the cap of its own volume has no acne, at a
     else
       add_solid(f, octahedron_solid(), {0, 0, 0}, {1, 1, 1}, random_turn(random), {1, 1, 1});
     look_at(f.camera, {0, 0, 3}, {0, 0, 0});
-    f.light.direction = random_direction(random);
+    f.lights[0].direction = random_direction(random);
     const FrameGeometry g = make_geometry(f, Config{}, kWidth, kHeight);
     Oracle oracle(g, Config{});
     std::uint64_t lit_and_shadowed = 0;
@@ -271,9 +271,9 @@ TEST_CASE("family 28: open, non-manifold and inverted casters shadow as rays say
     if (random.chance(0.5)) open.faces.push_back({0, 3, 5});                // a fin: edges with three faces
     add_solid(f, open, {0, 0, 0}, {1.2, 1.2, 1.2}, random_turn(random), {1, 1, 1}, false, false);
     look_at(f.camera, {random.real(-4, 4), random.real(0, 4), random.real(2, 5)}, {0, -1, 0});
-    f.light.directional = random.chance(0.5);
-    f.light.direction = glm::normalize(glm::dvec3(random.real(-1, 1), -1.5, random.real(-1, 1)));
-    f.light.position = {random.real(-2, 2), 4, random.real(-2, 2)};
+    f.lights[0].directional = random.chance(0.5);
+    f.lights[0].direction = glm::normalize(glm::dvec3(random.real(-1, 1), -1.5, random.real(-1, 1)));
+    f.lights[0].position = {random.real(-2, 2), 4, random.real(-2, 2)};
     judge_all(f);
     const RayCount count = compare_with_rays(f, kWidth, kHeight);
     INFO(count.text());

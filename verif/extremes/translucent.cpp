@@ -253,8 +253,8 @@ TEST_CASE("translucent faces cast no shadow and take none; what is opaque beneat
   add_glass(with, pane_solid(), {0, 0.2, 1.2}, {1.5, 1, 1}, Turn{}, {0.2, 0.4, 0.9}, 100);
   for (SceneFrame* s : {&f, &with}) {
     look_at(s->camera, {0, 1.5, 5}, {0, -0.3, 0});
-    s->light.directional = true;
-    s->light.direction = glm::normalize(glm::dvec3{-0.6, -0.7, 0.1});
+    s->lights[0].directional = true;
+    s->lights[0].direction = glm::normalize(glm::dvec3{-0.6, -0.7, 0.1});
   }
   const FrameGeometry bare = make_geometry(f, glass(), kWidth, kHeight);
   const FrameGeometry g = make_geometry(with, glass(), kWidth, kHeight);

@@ -142,7 +142,7 @@ TEST_CASE("the same scene, larger or smaller by any power of two, is the same fr
       scaled.camera.eye *= scale;
       scaled.camera.near *= scale;
       if (!f.camera.perspective) scaled.camera.half_height *= scale;
-      scaled.light.position *= scale;
+      scaled.lights[0].position *= scale;
       const FrameGeometry s = make_geometry(scaled, glass(), kWidth, kHeight);
       CHECK(pixels_of_faces(s, glass()) == pixels_of_faces(g, glass()));
     }

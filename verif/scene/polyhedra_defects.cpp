@@ -33,7 +33,7 @@ SceneFrame pierced() {
   add_solid(f, octahedron_solid(), {0.2, 0.1, 1.1}, {1.1, 1.1, 1.1}, random_turn(random), {0.2, 0.6, 1});
   add_solid(f, box_solid(), {0, -2, 0}, {4, 0.2, 4}, Turn{}, {1, 1, 1});
   look_at(f.camera, {1.2, 1.6, 5}, {0, -0.2, 0});
-  f.light.direction = glm::normalize(glm::dvec3(-0.5, -1, -0.3));
+  f.lights[0].direction = glm::normalize(glm::dvec3(-0.5, -1, -0.3));
   return f;
 }
 

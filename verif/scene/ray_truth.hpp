@@ -237,8 +237,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       // A face seen from its unlit side is not lit anyway: nothing to compare, as the core darkens only what is lit.
       if (polygon < 0 || !whole.polygons[static_cast<std::uint32_t>(polygon)].lit) continue;
       const glm::dvec3 point = origin + nearest * direction;
-      const glm::dvec3 to_light = f.light.directional ? -f.light.direction : f.light.position - point;
-      const double reach = f.light.directional ? INFINITY : 1;
+      const glm::dvec3 to_light = f.lights[0].directional ? -f.lights[0].direction : f.lights[0].position - point;
+      const double reach = f.lights[0].directional ? INFINITY : 1;
       bool blocked = false;
       rays.meet(point, to_light, [&](double t, std::uint32_t face) {
         const bool casts = f.triangles[f.polygons[face].triangle].alpha == 255;

@@ -134,9 +134,9 @@ inline SceneFrame random_scene(Random& random, int solids, bool convex_flag = tr
   f.camera.perspective = random.chance(0.8);
   f.camera.half_height = f.camera.perspective ? random.real(0.2, 1.2) : random.real(1, 4);
   f.camera.near = random.real(0.02, 1.5);
-  f.light.directional = random.chance(0.5);
-  f.light.direction = random_direction(random);
-  f.light.position = {random.real(-4, 4), random.real(-2, 5), random.real(-4, 4)};
+  f.lights[0].directional = random.chance(0.5);
+  f.lights[0].direction = random_direction(random);
+  f.lights[0].position = {random.real(-4, 4), random.real(-2, 5), random.real(-4, 4)};
   return f;
 }
 

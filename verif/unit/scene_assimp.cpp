@@ -180,9 +180,9 @@ TEST_CASE("camera, light and animation of another format") {
   CHECK(f.camera.eye == glm::dvec3{0, 0, 5});
   CHECK(f.camera.forward == glm::dvec3{0, 0, -1});
   CHECK(f.camera.up == glm::dvec3{0, 1, 0});
-  CHECK_FALSE(f.light.directional);
-  CHECK(f.light.position == glm::dvec3{3, 4, 5});
-  CHECK(f.light.color == glm::dvec3{1, 0.5, 0});
+  CHECK_FALSE(f.lights[0].directional);
+  CHECK(f.lights[0].position == glm::dvec3{3, 4, 5});
+  CHECK(f.lights[0].color == glm::dvec3{1, 0.5, 0});
   CHECK(s.objects() == std::vector<std::string>{"mover"});
   CHECK(s.frame_count() == 8);
   CHECK(s.frame(0, 2).vertices[0] == glm::dvec3{0, 0, 0});

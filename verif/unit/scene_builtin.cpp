@@ -41,8 +41,8 @@ std::uint64_t digest(const Scene& scene) {
   Digest d;
   for (int i = 0; i < scene.frame_count(); ++i) {
     const SceneFrame f = scene.frame(i, scene.frame_count());
-    for (const glm::dvec3& v : {f.camera.eye, f.camera.right, f.camera.up, f.camera.forward, f.light.direction,
-                                f.light.position, f.light.color})
+    for (const glm::dvec3& v : {f.camera.eye, f.camera.right, f.camera.up, f.camera.forward, f.lights[0].direction,
+                                f.lights[0].position, f.lights[0].color})
       d.add(v);
     for (const double v : {f.camera.half_height, f.camera.near, f.camera.far}) d.add(v);
     for (const glm::dvec3& v : f.vertices) d.add(v);
@@ -149,7 +149,7 @@ TEST_CASE("knot: one closed part that is not convex, over a floor that is") {
   CHECK_FALSE(f.components[1].convex);
   CHECK(f.components[1].count >= 1500);
   CHECK(f.components[1].count <= 3000);
-  CHECK_FALSE(f.light.directional);
+  CHECK_FALSE(f.lights[0].directional);
 }
 
 TEST_CASE("inside: the eye within volumes, the near plane cut by several") {
@@ -170,7 +170,7 @@ TEST_CASE("inside: the eye within volumes, the near plane cut by several") {
       const double x = ((column + 0.5) * 2 / kX - 1) * c.half_height * kX / kY;
       const double y = ((row + 0.5) * 2 / kY - 1) * c.half_height;
       const glm::dvec3 p = c.eye + (c.forward + c.right * x + c.up * y) * c.near;
-      const glm::dvec3 ray = f.light.position - p;
+      const glm::dvec3 ray = f.lights[0].position - p;
       for (std::size_t n = 0; n < f.components.size(); ++n) {
         // Convex: the ray is cut down by each face's plane.
         double enter = 0;
@@ -210,7 +210,7 @@ TEST_CASE("polyhedra: convex bodies of 4 to 126 faces, through each other and ou
   for (int i = 0; i < 8; ++i) {
     const SceneFrame f = s.frame(i, 8);
     REQUIRE(f.components.size() == 45);
-    CHECK(f.light.directional);
+    CHECK(f.lights[0].directional);
     for (std::size_t n = 0; n < f.components.size(); ++n) {
       const Component& c = f.components[n];
       CHECK(c.convex);

@@ -55,9 +55,9 @@ TEST_CASE("a triangle: what is added is noted") {
   const SceneFrame f = s.frame(0, 1);
   CHECK(f.shading[f.triangles[0].shading[0]].normal == glm::dvec3{0, 0, 1});
   CHECK(f.components[0].reason.find("one face only") != std::string::npos);
-  CHECK(f.light.directional);
-  CHECK(scene::length(f.light.direction) == Approx(1).epsilon(1e-15));
-  CHECK(f.light.direction.y < 0);
+  CHECK(f.lights[0].directional);
+  CHECK(scene::length(f.lights[0].direction) == Approx(1).epsilon(1e-15));
+  CHECK(f.lights[0].direction.y < 0);
 }
 
 TEST_CASE("matrices are by columns; parents come first; a mirrored node keeps its outside") {
@@ -201,7 +201,7 @@ TEST_CASE("lights: directional, point, spot read as point, the first of several"
   const std::string node = R"({"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [1, 2, 3],
       "rotation": [-0.70710678118654752, 0, 0, 0.70710678118654752]})";
   const Scene sun = with(R"({"type": "directional", "color": [0.25, 0.5, 0]})", node);
-  const Light l = sun.frame(0, 1).light;
+  const Light l = sun.frame(0, 1).lights[0];
   CHECK(l.directional);
   CHECK(distance(l.direction, {0, -1, 0}) < 1e-15);
   CHECK(l.color == glm::dvec3{0.5, 1, 0});
@@ -209,8 +209,8 @@ TEST_CASE("lights: directional, point, spot read as point, the first of several"
   const Scene spot = with(
       R"({"type": "spot", "name": "lamp"}, {"type": "point"})",
       node.substr(0, node.size() - 1) + R"(, "children": [2]}, {"extensions": {"KHR_lights_punctual": {"light": 1}}})");
-  CHECK_FALSE(spot.frame(0, 1).light.directional);
-  CHECK(spot.frame(0, 1).light.position == glm::dvec3{1, 2, 3});
+  CHECK_FALSE(spot.frame(0, 1).lights[0].directional);
+  CHECK(spot.frame(0, 1).lights[0].position == glm::dvec3{1, 2, 3});
   CHECK(test::has_note(spot, "the light 'lamp' is a spot, read as a point light"));
   CHECK(test::has_note(spot, "1 light is ignored"));
 }

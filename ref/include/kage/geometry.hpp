@@ -101,6 +101,7 @@ struct ShadowVolume {
   std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
   std::uint32_t near_count = 0;
   std::uint32_t component = 0;  ///< of the caster, into SceneFrame::components
+  std::uint32_t sample = 0;     ///< of light that it keeps out
 };
 
 /// An edge of a polyhedron. Of the polygons at its two sides, `along` has it in its outline from `from` to `to`,

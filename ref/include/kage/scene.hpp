@@ -30,12 +30,28 @@ struct Camera {
   double far = 0;            ///< distance of the far plane, > near; 0: not given. Geometry cuts nothing there
 };
 
-/// The light. One, directional or point.
-struct Light {
+/// A point that light comes from, or, at infinity, a direction: what casts one set of shadows.
+struct LightPoint {
   bool directional = true;
   glm::dvec3 direction{0, -1, 0};  ///< directional: unit vector the light travels along
-  glm::dvec3 position{0, 0, 0};    ///< point
-  glm::dvec3 color{1, 1, 1};       ///< largest channel 1: intensity and fall-off are not modelled
+  glm::dvec3 position{0, 0, 0};    ///< else
+};
+
+/// What a light that is no point extends over: the disc or rectangle that two half axes span, or a ball.
+enum class LightShape : std::uint8_t { point, disc, rectangle, sphere };
+
+/// A light. Its intensity is in `color`; fall-off and cone are as glTF's KHR_lights_punctual has them.
+struct Light : LightPoint {
+  glm::dvec3 color{1, 1, 1};  ///< >= 0. Of a file: such that all lights of the scene add up to 1 (docs/shadows.md)
+  bool falls_off = false;     ///< with the square of the distance; never if directional
+  double range = 0;           ///< distance at which the fall-off ends; 0: nowhere
+  bool spot = false;          ///< a cone round `direction`
+  double inner_cosine = 1;    ///< spot: full intensity within,
+  double outer_cosine = 0;    ///< none outside; < inner_cosine
+  LightShape shape = LightShape::point;
+  glm::dvec3 axis_u{0, 0, 0};  ///< disc, rectangle: half axes; sphere: (radius, 0, 0)
+  glm::dvec3 axis_v{0, 0, 0};
+  double reference = 1;  ///< falls_off: distance at which intensity is `color`
 };
 
 /// A triangle, counter-clockwise seen from outside.
@@ -79,7 +95,7 @@ struct Component {
 /// coordinates. Triangles of inside-out closed components are turned so that they face outward.
 struct SceneFrame {
   Camera camera;
-  Light light;
+  std::vector<Light> lights{Light{}};  ///< at least one
   std::vector<glm::dvec3> vertices;
   std::vector<ShadingVertex> shading;
   std::vector<Triangle>

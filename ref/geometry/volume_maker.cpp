@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/volume_maker.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace kage {
+namespace {
+
+std::int64_t slope(const ScreenPlane& p) { return std::abs(p.a) + std::abs(p.b); }
+
+}  // namespace
+
+void VolumeMaker::add(const WorldVolume& w, std::uint32_t sample) {
+  ShadowVolume v;
+  v.first_face = static_cast<std::uint32_t>(out_->volume_faces.size());
+  v.first_near = static_cast<std::uint32_t>(out_->near_edges.size());
+  v.component = w.component;
+  v.sample = sample;
+  for (const CapFace& cap : w.caps) {
+    const DrawnRange& range = drawn_[cap.polygon];
+    for (std::uint32_t i = 0; i < range.count; ++i)
+      out_->volume_faces.push_back({range.first + i, cap.turned ? -1 : 1});
+    points_.clear();
+    for (const std::uint32_t c : frame_->outline(frame_->polygons[cap.polygon])) points_.push_back(eye_points_[c]);
+    if (cap.turned) std::reverse(points_.begin(), points_.end());
+    cut_only();
+  }
+  for (const SideFace& s : w.sides) add_side(s);
+  for (const auto& f : w.far_end) {
+    points_.clear();
+    for (const glm::dvec3& p : f) points_.push_back(view_->to_eye(p));
+    if (far_ends_)
+      add_face([&] { return faces_.unsnapped_plane(points_[0], points_[1], points_[2], polygon_); });
+    else
+      cut_only();
+  }
+  v.face_count = static_cast<std::uint32_t>(out_->volume_faces.size()) - v.first_face;
+  v.near_count = static_cast<std::uint32_t>(out_->near_edges.size()) - v.first_near;
+  if (v.face_count + v.near_count > 0) out_->volumes.push_back(v);
+}
+
+void VolumeMaker::add_side(const SideFace& s) {
+  points_.assign({view_->to_eye(s.a), view_->to_eye(s.far_a), view_->to_eye(s.far_b), view_->to_eye(s.b)});
+  add_face([&] { return side_plane(drawn_[s.polygon], points_[0], points_[3], points_[1]); });
+}
+
+// A face of a volume that is not drawn: the polygon in points_, with the plane that make_plane() gives once it is
+// clipped.
+template <class MakePlane>
+void VolumeMaker::add_face(MakePlane make_plane) {
+  polygon_.clear();
+  for (const EyePoint& e : points_) polygon_.push_back(view_->to_clip(e));
+  clip_and_cut();
+  if (polygon_.empty()) return;
+  ScreenPolygon face;
+  face.source = ~0U;
+  face.depth = make_plane();
+  out_->volume_faces.push_back({static_cast<std::uint32_t>(out_->polygons.size()), 1});
+  faces_.add(face, polygon_);
+}
+
+// Only the section with the near plane of the polygon in points_, which is never a span, or is one already.
+void VolumeMaker::cut_only() {
+  const bool crosses =
+      std::any_of(points_.begin(), points_.end(), [this](const EyePoint& e) { return e.z < view_->near(); });
+  if (!crosses) return;
+  polygon_.clear();
+  for (const EyePoint& e : points_) polygon_.push_back(view_->to_clip(e));
+  clip_and_cut();
+}
+
+void VolumeMaker::clip_and_cut() {
+  cuts_.clear();
+  clipper_->clip(polygon_, &cuts_, !far_ends_);
+  for (const NearCut& cut : cuts_) clipper_->snap_cut(cut, out_->near_edges);
+}
+
+// The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap and
+// the vertex furthest from it. On the edge it has the depths that the cap has there, so that it leaves the cap exactly
+// at their common edge. But a cap steeper than the side is further off its own corners there than the side's slope
+// allows for, and would move the side's shadow far away: then the side has the corners' depths.
+ScreenPlane VolumeMaker::side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b,
+                                    const EyePoint& c) const {
+  const ClipPoint pa = view_->to_clip(a);
+  const ClipPoint pb = view_->to_clip(b);
+  if (cap.count > 0 && clipper_->keeps(pa) && clipper_->keeps(pb)) {
+    const ScreenVertex sa = snap(pa);
+    const ScreenVertex sb = snap(pb);
+    const ClipPoint* furthest = &polygon_[0];
+    std::int64_t most = 0;
+    for (const ClipPoint& p : polygon_) {
+      const std::int64_t area = std::abs(double_area(sa, sb, snap(p)));
+      if (area > most) {
+        most = area;
+        furthest = &p;
+      }
+    }
+    const auto plane =
+        plane_through({faces_.depth_vertex(pa), faces_.depth_vertex(pb), faces_.depth_vertex(*furthest)});
+    const ScreenPlane& at = out_->polygons[cap.first].depth;
+    if (plane && slope(at) <= slope(*plane))
+      if (const auto joined = plane_through({on_plane(at, sa), on_plane(at, sb), faces_.depth_vertex(*furthest)}))
+        return *joined;
+    if (plane) return *plane;
+  }
+  return faces_.unsnapped_plane(a, b, c, polygon_);
+}
+
+}  // namespace kage
