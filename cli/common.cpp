@@ -16,6 +16,7 @@
 
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
+#include "kage/light.hpp"
 #include "kage/scene.hpp"
 
 namespace kage::cli {
@@ -100,10 +101,10 @@ void option_scene(CLI::App& command, Options& options) {
 }
 
 void option_degrade(CLI::App& command, Options& options) {
-  command.add_flag(
-      "--degrade", options.degrade,
-      "draw what the configuration lacks without it: no shadows, flat, grey or opaque instead of smooth, coloured "
-      "or translucent");
+  command.add_flag("--degrade", options.degrade,
+                   "draw what the configuration lacks without it: no shadows, those of one light, hard ones, flat, "
+                   "grey or opaque instead of smooth, coloured "
+                   "or translucent");
 }
 
 void option_units_only(CLI::App& command, Options& options) {
@@ -125,6 +126,23 @@ void option_translucent(CLI::App& command, Options& options) {
   command.add_option("--alpha", options.alpha, "multiply the alpha of every material: below 1 all is translucent")
       ->check(CLI::Range(1.0 / 255, 1.0))
       ->type_name("A");
+}
+
+void option_lights(CLI::App& command, Options& options) {
+  command
+      .add_option("--samples", options.samples,
+                  fmt::format("points that stand for a light that is no point itself: a disc, rectangle or sphere; "
+                              "default {}",
+                              options.samples))
+      ->check(CLI::Range(1, kMaxSamples))
+      ->type_name("N");
+  command
+      .add_option(
+          "--classes", options.classes,
+          "classes that normals are put in for a table of several lights, default: as many as the configuration "
+          "has, at most 1024")
+      ->check(CLI::Range(1, 2047))
+      ->type_name("N");
 }
 
 void option_threads(CLI::App& command, Options& options) {

@@ -70,6 +70,8 @@ struct Options {
   bool units_only = false;  ///< polyhedra that find no unit are an error
   TranslucentWay order = TranslucentWay::exact;
   double alpha = 1;
+  int samples = Look{}.samples;  ///< of a light that is no point
+  int classes = 0;               ///< of normals; 0: as many as the configuration has
 };
 
 void option_size(CLI::App& command, Options& options);
@@ -83,6 +85,8 @@ void option_units_only(CLI::App& command, Options& options);
 /// --order and --alpha.
 void option_translucent(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
+/// --samples and --classes.
+void option_lights(CLI::App& command, Options& options);
 
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -16,6 +18,7 @@
 #include "geometry/translucent.hpp"
 #include "geometry/volume_maker.hpp"
 #include "kage/error.hpp"
+#include "kage/light.hpp"
 #include "number/int128.hpp"
 
 namespace kage {
@@ -30,15 +33,18 @@ class Builder {
         config_(&config),
         look_(&look),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
-        caster_(frame, frame.lights[0], view_.near_corners(), look.extrusion),
-        light_(frame.lights[0], frame.camera.up),
+        lighting_(frame.lights, frame.camera.up),
         clipper_(view_.near(), view_.volume_end()),
         faces_(view_, clipper_, out_) {
     out_.width = width;
     out_.height = height;
     for (unsigned c = 0; c < 3; ++c) out_.background |= static_cast<std::uint32_t>(look.background[c]) << (8 * c);
     if (config.channels == 1) out_.background = look.background[1];
-    out_.shade = static_cast<std::uint32_t>(to_fixed(look.darkening, config.shade_frac));
+    for (const Light& l : frame.lights) casters_.emplace_back(frame, l, view_.near_corners(), look.extrusion);
+    // Without table all lights shine, and the first casts.
+    casting_ = config.dsf_bits > 0 ? std::min(frame.lights.size(), static_cast<std::size_t>(config.lights)) : 0;
+    sample_lights();
+    share_out();
   }
 
   FrameGeometry build() {
@@ -52,7 +58,10 @@ class Builder {
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
-      caster_.each([&maker](const WorldVolume& v) { maker.add(v, 0); });
+      for (std::uint32_t i = 0; i < samples_.size(); ++i)
+        ShadowCaster(*frame_, samples_[i], view_.near_corners(), look_->extrusion).each([&](const WorldVolume& v) {
+          maker.add(v, i);
+        });
     }
     if (config_->translucency > 0) draw_translucent();
     return std::move(out_);
@@ -65,6 +74,51 @@ class Builder {
     for (const glm::dvec3& p : frame.vertices)
       far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
     return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
+  }
+
+  void sample_lights() {
+    for (std::size_t l = 0; l < casting_; ++l) {
+      const int wanted = config_->count_bits > 0 ? look_->samples : 1;
+      const auto points = light_points(frame_->lights[l], wanted, look_->seed + l);
+      samples_.insert(samples_.end(), points.begin(), points.end());
+      samples_of_.push_back(static_cast<int>(points.size()));
+      out_.sample_light.insert(out_.sample_light.end(), points.size(), static_cast<std::uint8_t>(l));
+      if (points.size() >> config_->count_bits > 0 && config_->count_bits > 0)
+        throw Error(
+            fmt::format("{} samples of a light do not fit COUNT_BITS = {}", points.size(), config_->count_bits));
+    }
+  }
+
+  // What a shadowed sample takes of a pixel's colour. With a table: of each class of normals the darkening, shared out
+  // among the lights by what such a surface gets of each in the middle of the scene.
+  void share_out() {
+    const auto fixed = [this](double share) {
+      return static_cast<std::uint32_t>(to_fixed(share, config_->shade_frac));
+    };
+    if (casting_ > 0) out_.shade = fixed(look_->darkening / samples_of_[0]);
+    if (config_->class_bits < 2) return;
+    const int most = std::min((1 << config_->class_bits) - 1, look_->classes > 0 ? look_->classes : 1024);
+    classes_.emplace(most);
+    const glm::dvec3 middle = middle_of(frame_->vertices);
+    for (int c = 1; c <= most; ++c) {
+      const auto parts = light_shares(frame_->lights, middle, classes_->normal(c), config_->channels == 1);
+      for (std::size_t l = 0; l < static_cast<std::size_t>(config_->lights); ++l) {
+        auto& entry = out_.shares.emplace_back();
+        for (int k = 0; k < 3 && l < casting_; ++k)
+          entry[static_cast<std::size_t>(k)] = fixed(look_->darkening * parts[l][k] / samples_of_[l]);
+      }
+    }
+  }
+
+  static glm::dvec3 middle_of(const std::vector<glm::dvec3>& points) {
+    glm::dvec3 low = points[0];
+    glm::dvec3 high = points[0];
+    for (const glm::dvec3& p : points)
+      for (int i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], p[i]);
+        high[i] = std::max(high[i], p[i]);
+      }
+    return low + (high - low) / 2.0;
   }
 
   // Polyhedra first, then the rest, each in the scene's order: whether a polyhedron goes to a unit or becomes spans
@@ -193,19 +247,26 @@ class Builder {
     const glm::dvec3 normal = glm::cross(frame_->vertices[t.vertex[1]] - p, frame_->vertices[t.vertex[2]] - p);
     const Camera& camera = frame_->camera;
     const double facing = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
-    const int light_side = caster_.facing(face);
-    const bool lit = (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
+    std::bitset<kMaxLights> lit;
+    bool takes_shadow = false;
+    for (std::size_t l = 0; l < casters_.size(); ++l) {
+      const int light_side = casters_[l].facing(face);
+      lit[l] = (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
+      takes_shadow = takes_shadow || (lit[l] && l < casting_);
+    }
 
     polygon_.clear();
     glm::dvec3 mean{0, 0, 0};
+    glm::dvec3 mean_normal{0, 0, 0};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       polygon_.push_back(view_.to_clip(eye_points_[corners[i]]));
       // More corners than a triangle's share one look.
       const ShadingVertex& s = frame_->shading[t.shading[corners.size() == 3 ? i : 0]];
       const glm::dvec3 towards_eye = facing < 0 ? -s.normal : s.normal;
       polygon_.back().color =
-          light_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
+          lighting_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
       mean += polygon_.back().color;
+      mean_normal += towards_eye;
     }
     const bool same_color =
         std::all_of(polygon_.begin(), polygon_.end(), [&](const ClipPoint& c) { return c.color == polygon_[0].color; });
@@ -215,7 +276,12 @@ class Builder {
     clipper_.clip(polygon_, nullptr, false);
     if (polygon_.empty()) return;
     ScreenPolygon base;
-    base.lit = lit;
+    base.lit = takes_shadow;
+    if (classes_ && takes_shadow) {
+      const double length = std::sqrt(glm::dot(mean_normal, mean_normal));
+      base.normal_class =
+          static_cast<std::uint16_t>(classes_->nearest(length > 0 ? mean_normal / length : mean_normal));
+    }
     base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
     base.source = index;
     // Three corners are the face's own, even where it was put together from more triangles.
@@ -275,8 +341,12 @@ class Builder {
   const Config* config_;
   const Look* look_;
   View view_;
-  ShadowCaster caster_;
-  LightView light_;
+  std::vector<ShadowCaster> casters_;  // of the lights' middles
+  std::size_t casting_ = 0;            // so many lights, the first ones, cast shadows
+  Lighting lighting_;
+  std::vector<LightPoint> samples_;
+  std::vector<int> samples_of_;  // of each light that casts
+  std::optional<NormalClasses> classes_;
   Clipper clipper_;
   FrameGeometry out_;
   ScreenFaces faces_;
@@ -296,8 +366,10 @@ void check_finite(const SceneFrame& frame) {
   if (!finite(c.eye) || !finite(c.right) || !finite(c.up) || !finite(c.forward) || !(c.near > 0) ||
       !std::isfinite(c.near) || !(c.half_height > 0) || !std::isfinite(c.half_height))
     throw Error("the camera is not finite, or its near plane or field of view is not positive");
-  const Light& l = frame.lights[0];
-  if (!finite(l.directional ? l.direction : l.position)) throw Error("the light is not finite");
+  if (frame.lights.empty() || frame.lights.size() > kMaxLights)
+    throw Error(fmt::format("{} lights: there must be 1 .. {}", frame.lights.size(), kMaxLights));
+  for (const Light& l : frame.lights)
+    if (!finite(l.directional ? l.direction : l.position) || !finite(l.color)) throw Error("the light is not finite");
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "kage/light.hpp"
+
 namespace kage {
 namespace {
 
@@ -25,18 +27,29 @@ double srgb_encode(double linear) {
   return 0.653986 * s1 + 0.688709 * s2 - 0.318471 * s3 - 0.020188 * x - 0.004036;
 }
 
-glm::dvec3 LightView::displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base, bool lit,
-                                bool grey) const {
+glm::dvec3 Lighting::displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base,
+                               const std::bitset<kMaxLights>& lit, bool grey) const {
   glm::dvec3 light = glm::dvec3(kAmbient + kSky * 0.5 * (1.0 + glm::dot(normal, up_)));
-  if (lit) {
-    const glm::dvec3 to = towards(point);
-    const double length = std::sqrt(glm::dot(to, to));
-    const double cosine = length > 0 ? glm::dot(to, normal) / length : 0;
-    light += light_.color * ((1.0 - kAmbient) * std::max(cosine, 0.0));
-  }
+  for (std::size_t l = 0; l < lights_.size(); ++l)
+    if (lit[l]) light += received(lights_[l], point, normal) * (1.0 - kAmbient);
   glm::dvec3 linear = base * light;
   if (grey) linear = glm::dvec3(0.2126 * linear.x + 0.7152 * linear.y + 0.0722 * linear.z);
   return 255.0 * glm::dvec3(srgb_encode(linear.x), srgb_encode(linear.y), srgb_encode(linear.z));
+}
+
+std::vector<glm::dvec3> light_shares(std::span<const Light> lights, const glm::dvec3& point, const glm::dvec3& normal,
+                                     bool grey) {
+  std::vector<glm::dvec3> parts;
+  glm::dvec3 sum{0, 0, 0};
+  for (const Light& l : lights) {
+    glm::dvec3 part = received(l, point, normal);
+    if (grey) part = glm::dvec3(0.2126 * part.x + 0.7152 * part.y + 0.0722 * part.z);
+    parts.push_back(part);
+    sum += part;
+  }
+  for (glm::dvec3& part : parts)
+    for (int c = 0; c < 3; ++c) part[c] = sum[c] > 0 ? part[c] / sum[c] : 0;
+  return parts;
 }
 
 }  // namespace kage

@@ -114,6 +114,11 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   std::vector<std::string> missing;
   if (needs.shadows && config.dsf_bits == 0) missing.emplace_back("shadows (DSF_BITS > 0)");
   if (needs.shadows && needs.several_volumes && config.fsf == 0) missing.emplace_back("several volumes (FSF)");
+  if (needs.shadows && needs.lights > config.lights)
+    missing.push_back(fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
+  if (needs.shadows && needs.samples > 1 && needs.samples >> config.count_bits != 0)
+    missing.push_back(
+        fmt::format("soft shadows (COUNT_BITS >= {})", std::bit_width(static_cast<unsigned>(needs.samples))));
   if (needs.smooth && config.smooth == 0) missing.emplace_back("smooth colour (SMOOTH)");
   if (needs.translucency && config.translucency == 0) missing.emplace_back("translucency (TRANSLUCENCY)");
   if (needs.color && config.channels == 1) missing.emplace_back("colour (CHANNELS = 3)");

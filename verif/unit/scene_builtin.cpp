@@ -41,9 +41,11 @@ std::uint64_t digest(const Scene& scene) {
   Digest d;
   for (int i = 0; i < scene.frame_count(); ++i) {
     const SceneFrame f = scene.frame(i, scene.frame_count());
-    for (const glm::dvec3& v : {f.camera.eye, f.camera.right, f.camera.up, f.camera.forward, f.lights[0].direction,
-                                f.lights[0].position, f.lights[0].color})
-      d.add(v);
+    for (const glm::dvec3& v : {f.camera.eye, f.camera.right, f.camera.up, f.camera.forward}) d.add(v);
+    for (const Light& l : f.lights) {
+      for (const glm::dvec3& v : {l.direction, l.position, l.color, l.axis_u, l.axis_v}) d.add(v);
+      for (const double v : {l.range, l.inner_cosine, l.outer_cosine}) d.add(v);
+    }
     for (const double v : {f.camera.half_height, f.camera.near, f.camera.far}) d.add(v);
     for (const glm::dvec3& v : f.vertices) d.add(v);
     for (const ShadingVertex& v : f.shading) {

@@ -40,6 +40,8 @@ struct Needs {
   bool smooth = false;           ///< colour varies within a polygon
   bool color = false;            ///< some colour is not grey
   bool translucency = false;     ///< something is translucent
+  int lights = 1;                ///< that cast shadows
+  int samples = 1;               ///< of a light, at most
 };
 
 /// What `config` lacks of `needs`: one word or phrase each ("SMOOTH", "MAX_WIDTH >= 1280"), empty if nothing.

@@ -52,9 +52,10 @@ struct ScreenPolygon {
   ScreenPlane depth;
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
-  bool lit = false;                     ///< eye and light are on the same side of it
-  std::uint32_t source = 0;             ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
-  std::uint8_t alpha = 255;             ///< below 255: translucent
+  bool lit = false;                     ///< eye and some light that casts shadows are on the same side of it
+  std::uint16_t normal_class = 0;  ///< of its normal, from 1; 0 if it is not lit, or the configuration has no table
+  std::uint32_t source = 0;        ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
+  std::uint8_t alpha = 255;        ///< below 255: translucent
 };
 
 /// A line over the screen where a node's plane of the visibility order cuts a translucent polygon: a pixel (x, y) lies
@@ -101,7 +102,7 @@ struct ShadowVolume {
   std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
   std::uint32_t near_count = 0;
   std::uint32_t component = 0;  ///< of the caster, into SceneFrame::components
-  std::uint32_t sample = 0;     ///< of light that it keeps out
+  std::uint32_t sample = 0;     ///< of light that it keeps out, into FrameGeometry::sample_light
 };
 
 /// An edge of a polyhedron. Of the polygons at its two sides, `along` has it in its outline from `from` to `to`,
@@ -140,7 +141,10 @@ struct FrameGeometry {
   int width = 0;
   int height = 0;
   std::uint32_t background = 0;
-  std::uint32_t shade = 0;  ///< darkening of a shadowed pixel, in 2^-SHADE_FRAC
+  std::uint32_t shade = 0;  ///< darkening of a pixel by one shadowed sample, in 2^-SHADE_FRAC; without table
+  /// The same by class and light: entry (class - 1) LIGHTS + light. Empty without table.
+  std::vector<std::array<std::uint32_t, 3>> shares;
+  std::vector<std::uint8_t> sample_light;  ///< of each light sample its light; samples of a light are consecutive
   std::vector<ScreenVertex> vertices;
   /// First the opaque drawn ones, in draw order, then other faces of volumes, then translucent ones.
   std::vector<ScreenPolygon> polygons;
@@ -148,7 +152,7 @@ struct FrameGeometry {
   std::vector<ScreenPlane> color_planes;  ///< value in units of an 8-bit colour
   std::vector<VolumeFace> volume_faces;
   std::vector<NearEdge> near_edges;
-  std::vector<ShadowVolume> volumes;
+  std::vector<ShadowVolume> volumes;  ///< in order of their samples
   std::vector<Polyhedron> polyhedra;  ///< in draw order; their polygons are the first of the drawn ones
   std::vector<PolyhedronEdge> polyhedron_edges;
   std::vector<SpanReason> span_reasons;   ///< of each of SceneFrame::components
@@ -175,6 +179,9 @@ struct Look {
   double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
   TranslucentWay translucent = TranslucentWay::exact;
+  int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
+  std::uint64_t seed = 1;  ///< of their pattern
+  int classes = 0;         ///< of normals, as far as CLASS_BITS holds them; 0: as many as it holds, at most 1024
 };
 
 /// Keeps the visibility order of a scene's translucent faces from frame to frame, so that what does not move is put in
@@ -194,9 +201,10 @@ class TranslucentOrder {
 };
 
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
-/// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, and whether translucent faces
-/// are blended (else they are opaque and drawn last). `order`, if given, is that of frames before. Throws Error if
-/// width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the camera is not finite.
+/// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, of how many lights and
+/// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order`, if given, is that
+/// of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the
+/// camera is not finite.
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
                             TranslucentOrder* order = nullptr);
 
