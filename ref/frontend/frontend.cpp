@@ -115,7 +115,10 @@ class Band {
       words_.insert(words_.end(), line.opaque.begin(), line.opaque.end());
       words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
       writer_.write_to(words_);
-      if (!line.shadow.empty()) writer_.resolve();
+      if (!line.shadow.empty()) {
+        if (f_->config->count_bits > 0) writer_.es(0, g_->width, 0);
+        writer_.resolve();
+      }
       words_.insert(words_.end(), line.translucent.begin(), line.translucent.end());
       writer_.eol(y);
     }
@@ -177,7 +180,7 @@ class Band {
       if (i < f_->tree.first_span_polygon()) continue;
       const ScreenPolygon& p = g_->polygons[i];
       spans(p, [&](int y, SpanToken& s, int) {
-        s.lit = p.lit;
+        s.normal_class = p.lit ? 1 : 0;
         paint(p, y, s);
         writer_.write_to(at(y).opaque);
         writer_.op(s);
@@ -336,7 +339,16 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
   writer.header({g.width, g.height, g.background, number});
-  if (shadows) writer.shade(g.shade);
+  if (config.class_bits > 1) {
+    // One light with one sample: lit polygons are of one class, whose pixels lose the same of each channel.
+    for (int light = 0; light < config.lights; ++light) {
+      TableToken entry{1, light, {}};
+      if (light == 0) entry.share = {g.shade, g.shade, g.shade};
+      writer.table(entry);
+    }
+  } else if (shadows) {
+    writer.shade(g.shade);
+  }
   Frame frame = prepare(g, config);
   if (report != nullptr) *report = frame.tree.report();
   if (frame.tree.any()) {
