@@ -331,7 +331,7 @@ module frame_control #(
       end
       if (DSF_BITS == 0) cmd_count_o <= '0;
       else if (emit_eol || emit_paint || is_ev) cmd_count_o <= bias_q;
-      else if (is_op) cmd_count_o <= CountBits'(token_i[OpLitLsb]);
+      else if (is_op) cmd_count_o <= CountBits'(token_i[OpClassLsb]);
       else cmd_count_o <= w;
     end
   end

@@ -60,6 +60,18 @@ module kage_top #(
   if (FSF > 0 && DSF_BITS == 0) begin : gen_bad_fsf_alone
     $fatal(1, "FSF needs DSF_BITS > 0: it collects what DSF counts");
   end
+  if (COUNT_BITS > 0 && DSF_BITS == 0) begin : gen_bad_count_alone
+    $fatal(1, "COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow");
+  end
+  if (CLASS_BITS > 1 && COUNT_BITS == 0) begin : gen_bad_class_alone
+    $fatal(1, "CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample");
+  end
+  if (LIGHTS > 1 && (COUNT_BITS == 0 || CLASS_BITS == 1)) begin : gen_bad_lights_alone
+    $fatal(1, "LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table");
+  end
+  if (COUNT_BITS > 0) begin : gen_no_counters_yet
+    $fatal(1, "COUNT_BITS > 0 is not built yet");
+  end
   if (COLOR_FRAC > 0 && SMOOTH == 0) begin : gen_bad_color_frac_alone
     $fatal(1, "COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction");
   end

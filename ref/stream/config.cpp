@@ -71,6 +71,12 @@ void validate(const Config& config, const std::string& where) {
       throw Error(fmt::format("{}: {} is {}, legal are {}", where, p.name, v, allowed_values(p)));
   }
   if (config.fsf != 0 && config.dsf_bits == 0) throw Error(fmt::format("{}: FSF needs DSF_BITS > 0", where));
+  if (config.count_bits != 0 && config.dsf_bits == 0)
+    throw Error(fmt::format("{}: COUNT_BITS > 0 needs DSF_BITS > 0", where));
+  if (config.class_bits > 1 && config.count_bits == 0)
+    throw Error(fmt::format("{}: CLASS_BITS > 1 needs COUNT_BITS > 0", where));
+  if (config.lights > 1 && (config.count_bits == 0 || config.class_bits == 1))
+    throw Error(fmt::format("{}: LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1", where));
   if (config.color_frac != 0 && config.smooth == 0) throw Error(fmt::format("{}: COLOR_FRAC > 0 needs SMOOTH", where));
   if (config.classic != 0 &&
       (config.z_bits != 15 || config.z_frac != 0 || config.face_bits != 7 || config.dx_bits != 9))

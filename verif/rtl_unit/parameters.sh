@@ -37,6 +37,13 @@ refuses "LANES must be" LANES=64
 refuses "MAX_WIDTH must be" MAX_WIDTH=2048
 refuses "BEAT_WORDS must be" BEAT_WORDS=3
 refuses "FSF needs DSF_BITS" DSF_BITS=0
+refuses "COUNT_BITS must be" COUNT_BITS=9
+refuses "LIGHTS must be" LIGHTS=9 COUNT_BITS=1 CLASS_BITS=2
+refuses "CLASS_BITS must be" CLASS_BITS=12 COUNT_BITS=1
+refuses "COUNT_BITS > 0 needs DSF_BITS" COUNT_BITS=1 DSF_BITS=0 FSF=0
+refuses "CLASS_BITS > 1 needs COUNT_BITS" CLASS_BITS=2
+refuses "LIGHTS > 1 needs" LIGHTS=2
+refuses "LIGHTS > 1 needs" LIGHTS=2 COUNT_BITS=1
 refuses "COLOR_FRAC > 0 needs SMOOTH" COLOR_FRAC=4
 refuses "UNITS must be" UNITS=65
 refuses "CLASSIC needs" CLASSIC=1 UNITS=2

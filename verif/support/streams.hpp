@@ -21,6 +21,7 @@ struct FrameStyle {
   int most_volumes = 3;      ///< of a line, with FSF
   int most_in_volume = 5;    ///< SP, NC and IF of a volume
   int most_translucent = 5;  ///< TPs of a line
+  int most_samples = 4;      ///< of a line, with COUNT_BITS
   /// Spans as a port takes them: accumulators may wrap, which a file may not have, and many spans meet at the same few
   /// pixels and depths, which is what forwarding is for.
   bool port = false;
@@ -48,8 +49,15 @@ inline void random_ramp(Random& random, int bits, int count, std::int64_t& start
   }
 }
 
+/// A class that a table of so many has, or, without table, lit or not.
+inline int random_class(Random& random, const Config& c, int classes) {
+  if (c.dsf_bits == 0 || random.chance(0.2)) return 0;
+  return c.class_bits == 1 ? 1 : random.in(0, classes);
+}
+
 /// `home` is the pixel round which the spans of a crowded line meet.
-inline SpanToken random_span(Random& random, const Config& c, int width, const FrameStyle& style = {}, int home = 0) {
+inline SpanToken random_span(Random& random, const Config& c, int width, const FrameStyle& style = {}, int home = 0,
+                             int classes = 0) {
   SpanToken s;
   s.xl = random.in(0, width);
   s.xr = random.chance(0.2)   ? width
@@ -60,7 +68,7 @@ inline SpanToken random_span(Random& random, const Config& c, int width, const F
   const int count = s.xr - s.xl;
   const int depth_bits = c.z_bits + c.z_frac + 2;
   random_ramp(random, depth_bits, count, s.z, s.dz);
-  s.lit = c.dsf_bits > 0 && random.chance(0.8);
+  s.normal_class = random_class(random, c, classes);
   for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i) {
     if (c.smooth == 0) {
       s.color[i] = random.in(0, 255);
@@ -109,10 +117,11 @@ class RandomTree {
   /// The widest line that any unit can hold.
   static int widest(const Config& c) { return ((1 << c.dx_bits) - 1) << c.seg_bits; }
 
-  RandomTree(Random& random, const Config& c, int width, int height, bool port)
+  RandomTree(Random& random, const Config& c, int width, int height, bool port, int classes)
       : random_(&random),
         config_(c),
         width_(width),
+        classes_(classes),
         waiting_(static_cast<std::size_t>(c.units)),
         faces_(waiting_.size()) {
     for (std::size_t u = 0; u < waiting_.size(); ++u) {
@@ -157,7 +166,7 @@ class RandomTree {
     t.face = number;
     const int most = (1 << config_.order_bits) - 1;
     t.index = random_->chance(0.6) ? random_->in(0, std::min(most, 2)) : random_->in(0, most);
-    t.lit = config_.dsf_bits > 0 && random_->chance(0.8);
+    t.normal_class = random_class(*random_, config_, classes_);
     // A slope along which no run of this width can leave the accumulator; at a port, any.
     const std::int64_t steepest = ((std::int64_t{1} << (depth_bits() - 2)) - 1) / width_;
     t.dz = random_->chance(0.3) ? 0 : random_->integer(-steepest, steepest);
@@ -217,9 +226,73 @@ class RandomTree {
   Random* random_;
   Config config_;
   int width_;
+  int classes_;
   std::vector<std::deque<std::pair<int, SegmentToken>>> waiting_;  // with the line it belongs to
   std::vector<std::vector<SegmentToken>> faces_;
 };
+
+/// A table of so many classes, and often some of another's entries: returns how many entries it has.
+inline std::uint64_t random_table(Random& random, const Config& c, TokenWriter& w, int classes) {
+  const int most = 1 << c.shade_frac;
+  // Shares that black out at once, and such that take many samples.
+  const int usual = random.chance(0.5) ? most : std::max(1, most >> c.count_bits);
+  std::uint64_t entries = 0;
+  const int begun = classes < (1 << c.class_bits) - 1 ? random.in(0, c.lights - 1) : 0;  // of a class never whole
+  for (int k = 1; k <= classes + 1; ++k)
+    for (int light = 0; light < (k <= classes ? c.lights : begun); ++light) {
+      TableToken t{k, light, {}};
+      for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i)
+        t.share[i] = static_cast<std::uint32_t>(random.chance(0.1) ? most : random.in(0, usual));
+      w.table(t);
+      ++entries;
+    }
+  return entries;
+}
+
+/// The volumes of a sample of a light, or of the only one there is; false if there are none.
+inline bool random_sample(Random& random, const Config& c, int width, TokenWriter& w,
+                          std::array<std::uint64_t, 16>& count, const FrameStyle& style, int home) {
+  const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
+  const int volumes = c.fsf != 0 ? random.in(0, style.most_volumes) : random.in(0, 1);
+  for (int v = 0; v < volumes; ++v) {
+    for (int i = random.in(1, style.most_in_volume); i > 0; --i) {
+      SpanToken s = random_span(random, c, width, style, home);
+      s.w = random_weight(random, c);
+      switch (random.in(0, 9)) {
+        case 0:
+          w.inside(s.w);
+          add(Kind::IF);
+          break;
+        case 1:
+        case 2:
+          w.nc(s.xl, s.xr, s.w);
+          add(Kind::NC);
+          break;
+        default:
+          w.sp(s);
+          add(Kind::SP);
+      }
+    }
+    if (c.fsf != 0) {
+      const SpanToken s = random_span(random, c, width, style, home);
+      if (random.chance(0.6))
+        w.ev(0, width);
+      else
+        w.ev(s.xl, s.xr);
+      add(Kind::EV);
+    }
+  }
+  if (volumes > 0 && c.count_bits != 0) {
+    const SpanToken s = random_span(random, c, width, style, home);
+    const int light = random.in(0, c.lights - 1);
+    if (random.chance(0.7))
+      w.es(0, width, light);
+    else
+      w.es(s.xl, s.xr, light);
+    add(Kind::ES);
+  }
+  return volumes > 0;
+}
 
 /// Append a valid frame; returns how many tokens of each kind it has.
 inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height,
@@ -231,12 +304,16 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
   TokenWriter w(c, words);
   w.header({width, height, static_cast<std::uint32_t>(random.in(0, 0xFFFFFF)), number});
   const bool has_tree = c.units > 0 && width <= RandomTree::widest(c) && random.chance(style.trees);
-  RandomTree tree(random, c, width, has_tree ? height : 0, style.port);
+  // The table comes before all faces that need it; it may be empty, or end within a class.
+  const int most_classes = c.class_bits == 1 ? 0 : (1 << c.class_bits) - 1;
+  const int classes = random.chance(0.02) ? most_classes : random.in(0, std::min(most_classes, 9));
+  RandomTree tree(random, c, width, has_tree ? height : 0, style.port, classes);
+  if (most_classes > 0) count[static_cast<std::size_t>(Kind::TABLE)] += random_table(random, c, w, classes);
   // Faces may come without a tree, before SHADE or after it.
   const bool has_faces = has_tree || (c.units > 0 && random.chance(0.2));
   const bool faces_first = random.chance(0.5);
   if (has_faces && faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)]);
-  if (c.dsf_bits > 0 && random.chance(0.8)) {
+  if (c.dsf_bits > 0 && most_classes == 0 && random.chance(0.8)) {
     w.shade(static_cast<std::uint32_t>(random.in(0, 1 << c.shade_frac)));
     add(Kind::SHADE);
   }
@@ -249,39 +326,14 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
     }
     const int home = style.port ? random.in(0, width - 1) : 0;
     for (int i = random.in(0, style.most_opaque); i > 0; --i) {
-      w.op(random_span(random, c, width, style, home));
+      w.op(random_span(random, c, width, style, home, classes));
       add(Kind::OP);
     }
-    const int volumes = c.dsf_bits == 0 ? 0 : c.fsf != 0 ? random.in(0, style.most_volumes) : random.in(0, 1);
-    for (int v = 0; v < volumes; ++v) {
-      for (int i = random.in(1, style.most_in_volume); i > 0; --i) {
-        SpanToken s = random_span(random, c, width, style, home);
-        s.w = random_weight(random, c);
-        switch (random.in(0, 9)) {
-          case 0:
-            w.inside(s.w);
-            add(Kind::IF);
-            break;
-          case 1:
-          case 2:
-            w.nc(s.xl, s.xr, s.w);
-            add(Kind::NC);
-            break;
-          default:
-            w.sp(s);
-            add(Kind::SP);
-        }
-      }
-      if (c.fsf != 0) {
-        const SpanToken s = random_span(random, c, width, style, home);
-        if (random.chance(0.6))
-          w.ev(0, width);
-        else
-          w.ev(s.xl, s.xr);
-        add(Kind::EV);
-      }
-    }
-    if (volumes > 0) {
+    const int samples = c.dsf_bits == 0 ? 0 : c.count_bits == 0 ? 1 : random.in(0, style.most_samples);
+    bool any_volume = false;
+    for (int sample = 0; sample < samples; ++sample)
+      any_volume |= random_sample(random, c, width, w, count, style, home);
+    if (any_volume) {
       w.resolve();
       add(Kind::RESOLVE);
     }
