@@ -137,10 +137,9 @@ void option_lights(CLI::App& command, Options& options) {
       ->check(CLI::Range(1, kMaxSamples))
       ->type_name("N");
   command
-      .add_option(
-          "--classes", options.classes,
-          "classes that normals are put in for a table of several lights, default: as many as the configuration "
-          "has, at most 1024")
+      .add_option("--classes", options.classes,
+                  fmt::format("normals that the table of several lights tells apart, spread evenly; default {}",
+                              options.classes))
       ->check(CLI::Range(1, 2047))
       ->type_name("N");
 }

@@ -71,7 +71,7 @@ struct Options {
   TranslucentWay order = TranslucentWay::exact;
   double alpha = 1;
   int samples = Look{}.samples;  ///< of a light that is no point
-  int classes = 0;               ///< of normals; 0: as many as the configuration has
+  int classes = Look{}.classes;  ///< of normals
 };
 
 void option_size(CLI::App& command, Options& options);

@@ -58,7 +58,7 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --units-only: in a stream it is settled what goes to units", options.input));
   if (options.order != TranslucentWay::exact)
     throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
-  if (options.samples != Options{}.samples || options.classes != 0)
+  if (options.samples != Options{}.samples || options.classes != Options{}.classes)
     throw Error(fmt::format("{}: --samples, --classes: in a stream they are settled", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   guard_mapped(options.input);

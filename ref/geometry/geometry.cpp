@@ -12,6 +12,7 @@
 #include <span>
 #include <tuple>
 
+#include "geometry/light_table.hpp"
 #include "geometry/screen_faces.hpp"
 #include "geometry/shade.hpp"
 #include "geometry/shadow_volume.hpp"
@@ -44,7 +45,9 @@ class Builder {
     // Without table all lights shine, and the first casts.
     casting_ = config.dsf_bits > 0 ? std::min(frame.lights.size(), static_cast<std::size_t>(config.lights)) : 0;
     sample_lights();
-    share_out();
+    if (casting_ > 0)
+      out_.shade = static_cast<std::uint32_t>(to_fixed(look.darkening / samples_of_[0], config.shade_frac));
+    table_.emplace(config, look, frame.lights, lighting_, samples_of_);
   }
 
   FrameGeometry build() {
@@ -58,12 +61,11 @@ class Builder {
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
-      for (std::uint32_t i = 0; i < samples_.size(); ++i)
-        ShadowCaster(*frame_, samples_[i], view_.near_corners(), look_->extrusion).each([&](const WorldVolume& v) {
-          maker.add(v, i);
-        });
+      for (std::uint32_t i = 0; i < sample_casters_.size(); ++i)
+        sample_casters_[i].each([&](const WorldVolume& v) { maker.add(v, i); });
     }
     if (config_->translucency > 0) draw_translucent();
+    table_->finish(out_);
     return std::move(out_);
   }
 
@@ -80,45 +82,14 @@ class Builder {
     for (std::size_t l = 0; l < casting_; ++l) {
       const int wanted = config_->count_bits > 0 ? look_->samples : 1;
       const auto points = light_points(frame_->lights[l], wanted, look_->seed + l);
-      samples_.insert(samples_.end(), points.begin(), points.end());
+      for (const LightPoint& p : points)
+        sample_casters_.emplace_back(*frame_, p, view_.near_corners(), look_->extrusion);
       samples_of_.push_back(static_cast<int>(points.size()));
       out_.sample_light.insert(out_.sample_light.end(), points.size(), static_cast<std::uint8_t>(l));
       if (points.size() >> config_->count_bits > 0 && config_->count_bits > 0)
         throw Error(
             fmt::format("{} samples of a light do not fit COUNT_BITS = {}", points.size(), config_->count_bits));
     }
-  }
-
-  // What a shadowed sample takes of a pixel's colour. With a table: of each class of normals the darkening, shared out
-  // among the lights by what such a surface gets of each in the middle of the scene.
-  void share_out() {
-    const auto fixed = [this](double share) {
-      return static_cast<std::uint32_t>(to_fixed(share, config_->shade_frac));
-    };
-    if (casting_ > 0) out_.shade = fixed(look_->darkening / samples_of_[0]);
-    if (config_->class_bits < 2) return;
-    const int most = std::min((1 << config_->class_bits) - 1, look_->classes > 0 ? look_->classes : 1024);
-    classes_.emplace(most);
-    const glm::dvec3 middle = middle_of(frame_->vertices);
-    for (int c = 1; c <= most; ++c) {
-      const auto parts = light_shares(frame_->lights, middle, classes_->normal(c), config_->channels == 1);
-      for (std::size_t l = 0; l < static_cast<std::size_t>(config_->lights); ++l) {
-        auto& entry = out_.shares.emplace_back();
-        for (int k = 0; k < 3 && l < casting_; ++k)
-          entry[static_cast<std::size_t>(k)] = fixed(look_->darkening * parts[l][k] / samples_of_[l]);
-      }
-    }
-  }
-
-  static glm::dvec3 middle_of(const std::vector<glm::dvec3>& points) {
-    glm::dvec3 low = points[0];
-    glm::dvec3 high = points[0];
-    for (const glm::dvec3& p : points)
-      for (int i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
-      }
-    return low + (high - low) / 2.0;
   }
 
   // Polyhedra first, then the rest, each in the scene's order: whether a polyhedron goes to a unit or becomes spans
@@ -239,6 +210,19 @@ class Builder {
     return area > 0;
   }
 
+  static bool same_side(double facing, int light_side) {
+    return (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
+  }
+
+  // Whether shadows darken the face: with a table if some light reaches it. Without, only if all samples do: where some
+  // are behind it, it shadows itself, and a constant share would darken what is nearly unlit anyway, face by face.
+  bool takes_shadow(double facing, const Polygon& face, const std::bitset<kMaxLights>& lit) const {
+    if (casting_ == 0) return lit[0];
+    if (table_->exists()) return (lit << (kMaxLights - casting_)).any();
+    return std::all_of(sample_casters_.begin(), sample_casters_.end(),
+                       [&](const ShadowCaster& c) { return same_side(facing, c.facing(face)); });
+  }
+
   void draw(std::uint32_t index) {
     const Polygon& face = frame_->polygons[index];
     const auto corners = frame_->outline(face);
@@ -248,16 +232,12 @@ class Builder {
     const Camera& camera = frame_->camera;
     const double facing = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
     std::bitset<kMaxLights> lit;
-    bool takes_shadow = false;
-    for (std::size_t l = 0; l < casters_.size(); ++l) {
-      const int light_side = casters_[l].facing(face);
-      lit[l] = (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
-      takes_shadow = takes_shadow || (lit[l] && l < casting_);
-    }
+    for (std::size_t l = 0; l < casters_.size(); ++l) lit[l] = same_side(facing, casters_[l].facing(face));
 
     polygon_.clear();
     glm::dvec3 mean{0, 0, 0};
     glm::dvec3 mean_normal{0, 0, 0};
+    glm::dvec3 middle{0, 0, 0};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       polygon_.push_back(view_.to_clip(eye_points_[corners[i]]));
       // More corners than a triangle's share one look.
@@ -267,6 +247,7 @@ class Builder {
           lighting_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
       mean += polygon_.back().color;
       mean_normal += towards_eye;
+      middle += frame_->vertices[corners[i]];
     }
     const bool same_color =
         std::all_of(polygon_.begin(), polygon_.end(), [&](const ClipPoint& c) { return c.color == polygon_[0].color; });
@@ -276,11 +257,12 @@ class Builder {
     clipper_.clip(polygon_, nullptr, false);
     if (polygon_.empty()) return;
     ScreenPolygon base;
-    base.lit = takes_shadow;
-    if (classes_ && takes_shadow) {
+    base.lit = takes_shadow(facing, face, lit);
+    if (table_->exists() && base.lit) {
       const double length = std::sqrt(glm::dot(mean_normal, mean_normal));
-      base.normal_class =
-          static_cast<std::uint16_t>(classes_->nearest(length > 0 ? mean_normal / length : mean_normal));
+      const double area = std::sqrt(glm::dot(normal, normal));
+      const auto n = static_cast<double>(corners.size());
+      base.normal_class = table_->classify(length > 0 ? mean_normal / length : mean_normal, middle / n, area, lit);
     }
     base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
     base.source = index;
@@ -344,9 +326,9 @@ class Builder {
   std::vector<ShadowCaster> casters_;  // of the lights' middles
   std::size_t casting_ = 0;            // so many lights, the first ones, cast shadows
   Lighting lighting_;
-  std::vector<LightPoint> samples_;
-  std::vector<int> samples_of_;  // of each light that casts
-  std::optional<NormalClasses> classes_;
+  std::vector<ShadowCaster> sample_casters_;  // of their samples
+  std::vector<int> samples_of_;               // of each light that casts
+  std::optional<LightTable> table_;
   Clipper clipper_;
   FrameGeometry out_;
   ScreenFaces faces_;

@@ -27,14 +27,16 @@ class Lighting {
   [[nodiscard]] glm::dvec3 displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base,
                                      const std::bitset<kMaxLights>& lit, bool grey) const;
 
+  /// Share of its displayed colour that a white surface there loses where all of a light is kept out, of each light and
+  /// channel: of what it loses where all lights are, as much as the light gives of all that it gets directly.
+  [[nodiscard]] std::vector<glm::dvec3> shares(const glm::dvec3& point, const glm::dvec3& normal,
+                                               const std::bitset<kMaxLights>& lit, bool grey) const;
+
  private:
+  [[nodiscard]] double ambient(const glm::dvec3& normal) const;
+
   std::span<const Light> lights_;
   glm::dvec3 up_;
 };
-
-/// Of all that a surface at `point` facing along `normal` gets directly, the share of each light and channel; 0 where
-/// it gets nothing.
-std::vector<glm::dvec3> light_shares(std::span<const Light> lights, const glm::dvec3& point, const glm::dvec3& normal,
-                                     bool grey);
 
 }  // namespace kage

@@ -53,9 +53,9 @@ struct ScreenPolygon {
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
   bool lit = false;                     ///< eye and some light that casts shadows are on the same side of it
-  std::uint16_t normal_class = 0;  ///< of its normal, from 1; 0 if it is not lit, or the configuration has no table
-  std::uint32_t source = 0;        ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
-  std::uint8_t alpha = 255;        ///< below 255: translucent
+  std::uint32_t normal_class = 0;       ///< into the light table, from 1; 0 if it is not lit or there is no table
+  std::uint32_t source = 0;             ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
+  std::uint8_t alpha = 255;             ///< below 255: translucent
 };
 
 /// A line over the screen where a node's plane of the visibility order cuts a translucent polygon: a pixel (x, y) lies
@@ -181,7 +181,7 @@ struct Look {
   TranslucentWay translucent = TranslucentWay::exact;
   int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;  ///< of their pattern
-  int classes = 0;         ///< of normals, as far as CLASS_BITS holds them; 0: as many as it holds, at most 1024
+  int classes = 1024;  ///< normals that a light table tells apart, 1 .. 2047; fewer if it has no room for those in use
 };
 
 /// Keeps the visibility order of a scene's translucent faces from frame to frame, so that what does not move is put in
