@@ -12,6 +12,23 @@
 namespace kage::cli {
 namespace {
 
+/// "gem, component 2: by segments in 7 frames, by spans in 1 frame: why"; frames in which it is not seen are in
+/// neither.
+std::string describe_way(const Json& w) {
+  const auto first = w.value("component", std::uint64_t{0});
+  const auto count = w.value("components", std::uint64_t{1});
+  std::string text = fmt::format(
+      "{}, {}: ", w.value("object", "?"),
+      count == 1 ? fmt::format("component {}", first) : fmt::format("components {} to {}", first, first + count - 1));
+  const auto by_units = w.value("unit_frames", 0);
+  const auto by_spans = w.value("span_frames", 0);
+  if (by_units > 0) text += "by segments in " + counted(by_units, "frame") + (by_spans > 0 ? ", " : "");
+  if (by_spans > 0) text += "by spans in " + counted(by_spans, "frame");
+  if (by_units == 0 && by_spans == 0) text += "not seen";
+  if (w["why"].is_string()) text += ": " + w["why"].get<std::string>();
+  return text;
+}
+
 int run(const Options& o) {
   check_json(o);
   guard_mapped(o.input);
@@ -51,12 +68,7 @@ int run(const Options& o) {
                counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
-    for (const Json& w : ways.is_array() ? ways : Json::array())
-      fmt::print("\n{}, {} {}: by segments in {}, by spans in {}{}", w.value("object", "?"),
-                 w.value("components", 1) == 1 ? "component" : counted(w.value("components", 1), "component") + " from",
-                 w.value("component", 0), counted(w.value("unit_frames", 0), "frame"),
-                 counted(w.value("span_frames", 0), "frame"),
-                 w["why"].is_string() ? fmt::format(": {}", w["why"].get<std::string>()) : std::string());
+    for (const Json& w : ways.is_array() ? ways : Json::array()) fmt::print("\n{}", describe_way(w));
     fmt::print("\nconfiguration:");
     for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
     fmt::print("\n");

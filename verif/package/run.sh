@@ -3,6 +3,7 @@
 # Installs the build into a temporary prefix, then configures, builds and runs a project that knows nothing but that prefix.
 # usage: run.sh BUILD SOURCE CXX
 set -euo pipefail
+[ $# = 3 ] || { echo "usage: run.sh BUILD SOURCE CXX" >&2; exit 2; }
 build=$1 source=$2 cxx=$3
 temp=$(mktemp -d)
 trap 'rm -rf "$temp"' EXIT
