@@ -2,15 +2,21 @@
 // kage info STREAM: describes and checks a stream file.
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 
 #include "common.hpp"
+#include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
 namespace {
+
+struct InfoCommand : Options {
+  int tokens = -1;  // the frame whose tokens are printed
+};
 
 /// "gem, component 2: by segments in 7 frames, by spans in 1 frame: why"; frames in which it is not seen are in
 /// neither.
@@ -29,10 +35,30 @@ std::string describe_way(const Json& w) {
   return text;
 }
 
-int run(const Options& o) {
+/// Frame `frame` token by token, with the indices by which errors name them. file.frame() has found the frame sound.
+void print_tokens(const StreamFile& file, int frame) {
+  const Config& config = file.config();
+  const Layout layout (config);
+  auto words = file.frame(frame);
+  fmt::print("frame {}:\n{:>8}  header: {}x{}, background {:#08x}, frame number {}\n", frame, 0, words[1] & 0xffff,
+             words[1] >> 16, words[3], words[4]);
+  words = words.subspan(kHeaderWords);
+  for (std::uint64_t index = 1; !words.empty(); ++index) {
+    if (index % 4096 == 0) check_interrupt();
+    const Token token = decode(config, layout, words);
+    fmt::print("{:>8}  {}\n", index, to_string(config, token));
+    words = words.subspan(layout.words[static_cast<std::size_t>(token.kind)]);
+  }
+  check_mapped();
+}
+
+int run(const InfoCommand& o) {
   check_json(o);
   guard_mapped(o.input);
   const StreamFile file(o.input);
+  if (o.tokens >= file.frame_count())
+    throw Error(
+        fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
   TokenCounts counts;
   Progress progress;
   for (int i = 0; i < file.frame_count(); ++i) {
@@ -72,6 +98,7 @@ int run(const Options& o) {
     fmt::print("\nconfiguration:");
     for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
     fmt::print("\n");
+    if (o.tokens >= 0) print_tokens(file, o.tokens);
   }
   return kSame;
 }
@@ -79,11 +106,17 @@ int run(const Options& o) {
 }  // namespace
 
 void add_info(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "info", "Describe and check a stream file",
-                            "  kage info courtyard.kage\n"
-                            "  kage info courtyard.kage --json -");
-  const auto o = std::make_shared<Options>();
+  CLI::App* c =
+      add_command(app, "info", "Describe and check a stream file",
+                  "  kage info courtyard.kage\n"
+                  "  kage info courtyard.kage --json -\n"
+                  "  kage info courtyard.kage --tokens 0 | less\n"
+                  "A token's index is the one by which errors name it; docs/stream.md says what tokens mean.");
+  const auto o = std::make_shared<InfoCommand>();
   c->add_option("STREAM", o->input, "a stream file, as kage stream writes it")->required();
+  c->add_option("--tokens", o->tokens, "print frame N, from 0, token by token (not with --json -)")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->type_name("N");
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
