@@ -129,7 +129,10 @@ void option_translucent(CLI::App& command, Options& options) {
       ->option_text("exact|centroid|submission")
       ->check(CLI::IsMember({"exact", "centroid", "submission"}))
       ->type_name("WAY");
-  command.add_option("--alpha", options.alpha, "multiply the alpha of every material; below 1 all is translucent")
+  command
+      .add_option("--alpha", options.alpha,
+                  "multiply the alpha of every material by A, 1/255 to 1; below 1 all is translucent")
+      ->option_text("A")
       ->check(CLI::Range(1.0 / 255, 1.0))
       ->type_name("A");
 }

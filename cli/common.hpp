@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ void add_order(CLI::App& app, Action& action);
 
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);
+
+/// What writes --help: lines that are too long go on under where their text began.
+std::shared_ptr<CLI::Formatter> help_formatter();
 
 /// What is wrong with a command line that `app` refused, and the help to read: one line.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);

@@ -38,7 +38,7 @@ std::string describe_way(const Json& w) {
 /// Frame `frame` token by token, with the indices by which errors name them. file.frame() has found the frame sound.
 void print_tokens(const StreamFile& file, int frame) {
   const Config& config = file.config();
-  const Layout layout (config);
+  const Layout layout(config);
   auto words = file.frame(frame);
   fmt::print("frame {}:\n{:>8}  header: {}x{}, background {:#08x}, frame number {}\n", frame, 0, words[1] & 0xffff,
              words[1] >> 16, words[3], words[4]);
