@@ -57,9 +57,10 @@ void option_size(CLI::App& command, Options& options) {
             Size size;
             const auto w = std::from_chars(text.data(), end, size.width);
             if (w.ec != std::errc{} || w.ptr == end || *w.ptr != 'x')
-              throw CLI::ValidationError("--size", text + " is not WxH");
+              throw CLI::ValidationError("--size", text + " is not WxH, like 640x480");
             const auto h = std::from_chars(w.ptr + 1, end, size.height);
-            if (h.ec != std::errc{} || h.ptr != end) throw CLI::ValidationError("--size", text + " is not WxH");
+            if (h.ec != std::errc{} || h.ptr != end)
+              throw CLI::ValidationError("--size", text + " is not WxH, like 640x480");
             if (size.width < 1 || size.width > kMaxSize || size.height < 1 || size.height > kMaxSize)
               throw CLI::ValidationError("--size", fmt::format("{}: width and height are 1 .. {}", text, kMaxSize));
             options.size = size;
@@ -70,14 +71,18 @@ void option_size(CLI::App& command, Options& options) {
 }
 
 void option_frames(CLI::App& command, Options& options) {
-  command.add_option("--frames", options.frames, "number of frames along the camera path, default: the scene's own")
+  command
+      .add_option("--frames", options.frames,
+                  "number of frames, spread over the animation or the camera path, default: the scene's own")
       ->check(CLI::Range(1, 1000000))
       ->type_name("N");
 }
 
 void option_config(CLI::App& command, Options& options) {
   command
-      .add_option("--config", options.config, "configuration of the core: a name in rtl/configs.yaml or a YAML file")
+      .add_option("--config", options.config,
+                  "the core's parameters: a name in rtl/configs.yaml or a YAML file, default: the first name that can "
+                  "draw it all")
       ->type_name("NAME|FILE");
 }
 
@@ -94,22 +99,24 @@ void option_json(CLI::App& command, Options& options) {
 
 void option_scene(CLI::App& command, Options& options) {
   command
-      .add_option("SCENE", options.input,
-                  fmt::format("a built-in scene ({}), a file that Assimp reads, or a stream file",
-                              fmt::join(builtin_scenes(), ", ")))
+      .add_option(
+          "SCENE", options.input,
+          fmt::format("a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), or a stream file",
+                      fmt::join(builtin_scenes(), ", ")))
       ->required();
 }
 
 void option_degrade(CLI::App& command, Options& options) {
-  command.add_flag("--degrade", options.degrade,
-                   "draw what the configuration lacks without it: no shadows, those of one light, hard ones, flat, "
-                   "grey or opaque instead of smooth, coloured "
-                   "or translucent");
+  command.add_flag(
+      "--degrade", options.degrade,
+      "where the configuration lacks something, draw without it (no shadows, those of one light, hard ones; flat, grey "
+      "or opaque instead of smooth, coloured or translucent) instead of refusing");
 }
 
 void option_units_only(CLI::App& command, Options& options) {
-  command.add_flag("--units-only", options.units_only,
-                   "refuse a frame in which a polyhedron finds no expansion unit, instead of drawing it by spans");
+  command.add_flag(
+      "--units-only", options.units_only,
+      "refuse a frame in which a convex polyhedron finds no expansion unit, instead of drawing it by spans");
 }
 
 void option_translucent(CLI::App& command, Options& options) {
@@ -119,11 +126,14 @@ void option_translucent(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--order", [&options](const std::string& name) { options.order = kWays.at(name); },
-          "order of translucent faces: exact, or as others do it: centroid, submission")
-      ->option_text("WAY (exact)")
+          "order of translucent faces, default exact; the others show what cheaper orders get wrong")
+      ->option_text("exact|centroid|submission")
       ->check(CLI::IsMember({"exact", "centroid", "submission"}))
       ->type_name("WAY");
-  command.add_option("--alpha", options.alpha, "multiply the alpha of every material: below 1 all is translucent")
+  command
+      .add_option("--alpha", options.alpha,
+                  "multiply the alpha of every material by A, 1/255 to 1; below 1 all is translucent")
+      ->option_text("A")
       ->check(CLI::Range(1.0 / 255, 1.0))
       ->type_name("A");
 }
@@ -148,6 +158,12 @@ void option_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
+}
+
+void option_fault(CLI::App& command, std::string& fault) {
+  command
+      .add_option("--fault", fault, "build the RTL with a deliberate defect, to see it found: a patch of verif/faults")
+      ->type_name("NAME");
 }
 
 bool json_only(const Options& options) { return options.json == "-"; }

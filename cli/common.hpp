@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -42,6 +43,9 @@ void add_order(CLI::App& app, Action& action);
 
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);
+
+/// What writes --help: lines that are too long go on under where their text began.
+std::shared_ptr<CLI::Formatter> help_formatter();
 
 /// What is wrong with a command line that `app` refused, and the help to read: one line.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
@@ -87,6 +91,7 @@ void option_translucent(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
 /// --samples and --classes.
 void option_lights(CLI::App& command, Options& options);
+void option_fault(CLI::App& command, std::string& fault);
 
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);
@@ -123,6 +128,11 @@ class OutFolder {
 template <std::integral Count>
 std::string counted(Count count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+/// ", 3 segments" for a line that tells spans; nothing where there are none, as in a core without units.
+inline std::string and_segments(std::uint64_t segments) {
+  return segments == 0 ? std::string() : ", " + counted(segments, "segment");
 }
 
 /// Ctrl-C and SIGTERM set a flag; loops ask it, so that files are whole or absent. A second one ends the program at

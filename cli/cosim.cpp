@@ -33,6 +33,13 @@ Json to_json(const std::optional<cosim::Difference>& d) {
   return j;
 }
 
+/// Where the pictures are; after a difference, which to look at.
+std::string pictures_of(const cosim::Report& r, const std::string& folder) {
+  const std::string& last = r.pictures.back();
+  if (r.same) return folder;
+  return last + (last.ends_with("_difference.png") ? ", with _expected and _actual beside it" : "");
+}
+
 int run(CosimCommand& o) {
   const OutFolder folder(o.out);
   check_json(o);
@@ -87,12 +94,12 @@ int run(CosimCommand& o) {
   write_json(o, j);
   print_notes(source, o);
   if (!json_only(o)) {
-    fmt::print("{}: {}, {}x{}, {} compared, {}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n",
+    fmt::print("{}: {}, {}x{}, {} compared, {}{}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n",
                r.same ? "same" : "different", counted(r.frames, "frame"), r.width, r.height,
-               counted(r.pixels_compared, "pixel"), counted(r.spans, "span"), counted(r.cycles, "cycle"),
-               r.expected_seconds, r.actual_seconds, o.seed);
+               counted(r.pixels_compared, "pixel"), counted(r.spans, "span"), and_segments(r.segments),
+               counted(r.cycles, "cycle"), r.expected_seconds, r.actual_seconds, o.seed);
     if (r.first_difference) fmt::print("first difference: {}\n", cosim::describe(*r.first_difference));
-    if (!r.same && !r.pictures.empty()) fmt::print("pictures: {}\n", r.pictures.back());
+    if (!r.pictures.empty()) fmt::print("pictures: {}\n", pictures_of(r, o.out));
   }
   return r.same ? kSame : kDifferent;
 }
@@ -105,8 +112,9 @@ void add_cosim(CLI::App& app, Action& action) {
       "  kage cosim courtyard\n"
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
-      "The RTL model of a configuration is built on first use and kept in ~/.cache/kage/models.\n"
-      "The pictures appear together when there is a verdict.\n"
+      "  kage cosim courtyard --fault wrong_compare\n"
+      "The RTL model of a configuration is built on first use, and anew when the RTL has changed; it is kept in\n"
+      "~/.cache/kage/models. The pictures appear together when there is a verdict.\n"
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   const auto o = std::make_shared<CosimCommand>();
   o->out = "out";
@@ -129,7 +137,7 @@ void add_cosim(CLI::App& app, Action& action) {
                 "percent of clocks at random in which no output is taken, default 0")
       ->check(CLI::Range(0, 95))
       ->type_name("P");
-  c->add_option("--fault", o->fault, "build the RTL with a deliberate defect, to see it found")->type_name("NAME");
+  option_fault(*c, o->fault);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

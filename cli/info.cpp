@@ -2,9 +2,11 @@
 // kage info STREAM: describes and checks a stream file.
 #include <fmt/format.h>
 
+#include <limits>
 #include <memory>
 
 #include "common.hpp"
+#include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
 #include "source.hpp"
@@ -12,10 +14,51 @@
 namespace kage::cli {
 namespace {
 
-int run(const Options& o) {
+struct InfoCommand : Options {
+  int tokens = -1;  // the frame whose tokens are printed
+};
+
+/// "gem, component 2: by segments in 7 frames, by spans in 1 frame: why"; frames in which it is not seen are in
+/// neither.
+std::string describe_way(const Json& w) {
+  const auto first = w.value("component", std::uint64_t{0});
+  const auto count = w.value("components", std::uint64_t{1});
+  std::string text = fmt::format(
+      "{}, {}: ", w.value("object", "?"),
+      count == 1 ? fmt::format("component {}", first) : fmt::format("components {} to {}", first, first + count - 1));
+  const auto by_units = w.value("unit_frames", 0);
+  const auto by_spans = w.value("span_frames", 0);
+  if (by_units > 0) text += "by segments in " + counted(by_units, "frame") + (by_spans > 0 ? ", " : "");
+  if (by_spans > 0) text += "by spans in " + counted(by_spans, "frame");
+  if (by_units == 0 && by_spans == 0) text += "not seen";
+  if (w["why"].is_string()) text += ": " + w["why"].get<std::string>();
+  return text;
+}
+
+/// Frame `frame` token by token, with the indices by which errors name them. file.frame() has found the frame sound.
+void print_tokens(const StreamFile& file, int frame) {
+  const Config& config = file.config();
+  const Layout layout(config);
+  auto words = file.frame(frame);
+  fmt::print("frame {}:\n{:>8}  header: {}x{}, background {:#08x}, frame number {}\n", frame, 0, words[1] & 0xffff,
+             words[1] >> 16, words[3], words[4]);
+  words = words.subspan(kHeaderWords);
+  for (std::uint64_t index = 1; !words.empty(); ++index) {
+    if (index % 4096 == 0) check_interrupt();
+    const Token token = decode(config, layout, words);
+    fmt::print("{:>8}  {}\n", index, to_string(config, token));
+    words = words.subspan(layout.words[static_cast<std::size_t>(token.kind)]);
+  }
+  check_mapped();
+}
+
+int run(const InfoCommand& o) {
   check_json(o);
   guard_mapped(o.input);
   const StreamFile file(o.input);
+  if (o.tokens >= file.frame_count())
+    throw Error(
+        fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
   TokenCounts counts;
   Progress progress;
   for (int i = 0; i < file.frame_count(); ++i) {
@@ -51,15 +94,11 @@ int run(const Options& o) {
                counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
-    for (const Json& w : ways.is_array() ? ways : Json::array())
-      fmt::print("\n{}, {} {}: by segments in {}, by spans in {}{}", w.value("object", "?"),
-                 w.value("components", 1) == 1 ? "component" : counted(w.value("components", 1), "component") + " from",
-                 w.value("component", 0), counted(w.value("unit_frames", 0), "frame"),
-                 counted(w.value("span_frames", 0), "frame"),
-                 w["why"].is_string() ? fmt::format(": {}", w["why"].get<std::string>()) : std::string());
+    for (const Json& w : ways.is_array() ? ways : Json::array()) fmt::print("\n{}", describe_way(w));
     fmt::print("\nconfiguration:");
     for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
     fmt::print("\n");
+    if (o.tokens >= 0) print_tokens(file, o.tokens);
   }
   return kSame;
 }
@@ -67,11 +106,17 @@ int run(const Options& o) {
 }  // namespace
 
 void add_info(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "info", "Describe and check a stream file",
-                            "  kage info courtyard.kage\n"
-                            "  kage info courtyard.kage --json -");
-  const auto o = std::make_shared<Options>();
+  CLI::App* c =
+      add_command(app, "info", "Describe and check a stream file",
+                  "  kage info courtyard.kage\n"
+                  "  kage info courtyard.kage --json -\n"
+                  "  kage info courtyard.kage --tokens 0 | less\n"
+                  "A token's index is the one by which errors name it; docs/stream.md says what tokens mean.");
+  const auto o = std::make_shared<InfoCommand>();
   c->add_option("STREAM", o->input, "a stream file, as kage stream writes it")->required();
+  c->add_option("--tokens", o->tokens, "print frame N, from 0, token by token (not with --json -)")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->type_name("N");
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -34,8 +34,11 @@ void find_data() {
 
 int run(int argc, char** argv) {
   CLI::App app("kage: a span-stream rendering core, its golden model and its co-simulation", "kage");
+  app.formatter(help_formatter());
   app.set_version_flag("--version", "kage " KAGE_VERSION);
-  app.footer("kage COMMAND --help explains a command. Exit codes: 0 same or done, 1 different, 2 trouble.");
+  app.footer(
+      "kage cosim courtyard is a good start; kage COMMAND --help explains a command.\n"
+      "Exit codes: 0 same or done, 1 different, 2 trouble.");
   app.require_subcommand(0, 1);
   app.option_defaults()->multi_option_policy(
       CLI::MultiOptionPolicy::TakeLast);  // scripts set defaults that a person overrides

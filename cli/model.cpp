@@ -55,7 +55,7 @@ void add_model(CLI::App& app, Action& action) {
   c->add_option("CONFIG", o->configs, "names in rtl/configs.yaml or YAML files, default: all names")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
-  c->add_option("--fault", o->fault, "with a deliberate defect")->type_name("NAME");
+  option_fault(*c, o->fault);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

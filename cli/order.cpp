@@ -122,12 +122,18 @@ void print(const OrderTree& tree, const order::Measured& m, const OrderCommand& 
     fmt::print("built in {:.2f} s: {} of vertices, {} decided by integers; seed {}\n", build_seconds,
                counted(s.side_tests, "side test"), s.exact_tests, o.seed);
   if (m.rows.empty()) return;
-  fmt::print("bytes per node: A {:.1f}, B {:.1f}, the paper's list {:.1f}, the fast way {:.1f}, each with its tree\n",
-             per_node(m.baseline_a_bytes), per_node(m.baseline_b_bytes), per_node(m.list_bytes),
-             per_node(m.fast_bytes));
-  fmt::print("A: {}\n", order::BaselineA::kNodeText);
-  fmt::print("microseconds a step, order alone | with a walk over it; {} steps, median of {}\n", m.rows[0].steps,
-             o.repeats);
+  fmt::print("ways to the order, with their bytes per node, tree included:\n");
+  const auto way = [&](const char* name, std::uint64_t bytes, const std::string& what) {
+    fmt::print("  {:<12} {:>6.1f}  {}\n", name, per_node(bytes), what);
+  };
+  way("A recursion", m.baseline_a_bytes, fmt::format("over {}, each from the heap", order::BaselineA::kNodeText));
+  way("B preorder", m.baseline_b_bytes, "recursion over packed nodes, with a stack of its own");
+  way("paper's list", m.list_bytes, "[Tanaka 2005]: a linked list, relinked where the eye has changed sides");
+  way("fast way", m.fast_bytes, "kage::order's: an array, moved or made again where the eye has changed sides");
+  fmt::print(
+      "microseconds for an eye step of so many degrees: order alone | with a walk over it; {} steps, median of {}\n",
+      m.rows[0].steps, o.repeats);
+  fmt::print("flips: nodes whose side the eye changed; tested: nodes whose side the fast way looked at\n");
   fmt::print("{:>7} {:>8} {:>8} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", "degrees", "flips %", "tested %",
              "A recursion", "B preorder", "paper's list", "fast way", "A / fast", "B / fast", "identical");
   for (const order::MeasureRow& r : m.rows) {

@@ -67,8 +67,9 @@ int run(const RenderCommand& o) {
   write_json(o, j, files);
   print_notes(source, o);
   if (!json_only(o))
-    fmt::print("{}, {}x{}, {} over {}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
-               counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"), o.out);
+    fmt::print("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
+               counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
+               and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), o.out);
   return kSame;
 }
 

@@ -30,8 +30,9 @@ int run(const Options& o) {
   if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
   writer.finish();
   print_notes(source, o);
-  fmt::print("{}: {}, {} over {}, {}\n", o.out, counted(source.frames(), "frame"), counted(counts.spans, "span"),
-             counted(counts.span_pixels, "pixel"), counted(counts.words, "word"));
+  fmt::print("{}: {}, {} over {}{}, {}\n", o.out, counted(source.frames(), "frame"), counted(counts.spans, "span"),
+             counted(counts.span_pixels, "pixel"), and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]),
+             counted(counts.words, "word"));
   return kSame;
 }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,7 +79,27 @@ std::string unexpected(const CLI::App& app, const CLI::App* command) {
   return fmt::format("{}: an argument too many", text);
 }
 
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    constexpr std::size_t kColumns = 100;
+    const std::string indent(get_column_width(), ' ');
+    std::istringstream help(CLI::Formatter::make_help(app, std::move(name), mode));
+    std::string text;
+    for (std::string line; std::getline(help, line); text.append(line).append("\n"))
+      while (line.size() > kColumns && line.front() == ' ') {
+        const std::size_t blank = line.rfind(' ', kColumns);
+        if (blank <= indent.size()) break;
+        text.append(line, 0, blank).append("\n");
+        line.replace(0, blank + 1, indent);
+      }
+    return text;
+  }
+};
+
 }  // namespace
+
+std::shared_ptr<CLI::Formatter> help_formatter() { return std::make_shared<HelpFormatter>(); }
 
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();

@@ -368,7 +368,7 @@ RawScene import_assimp(const std::filesystem::path& path, const std::string& nam
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr) {
-    const std::string cause = one_line(importer.GetErrorString());
+    const std::string cause = cause_of(importer.GetErrorString());
     if (cause.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp turns it into this text
     throw Error(name + ": " + (cause.empty() ? "Assimp cannot read it" : cause));
   }

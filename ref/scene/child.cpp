@@ -131,7 +131,7 @@ void answer(int fd, std::uint8_t kind, std::string_view text) {
   } catch (const Error& e) {
     answer(fd, kError, e.what());
   } catch (const std::exception& e) {
-    answer(fd, kError, name + ": " + one_line(e.what()));
+    answer(fd, kError, name + ": " + cause_of(e.what()));
   } catch (...) {
     answer(fd, kError, name + ": unknown exception");
   }
@@ -163,7 +163,7 @@ void check_file(const std::filesystem::path& path, const std::string& name) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) throw Error(name + ": no such file");
-  if (error) throw Error(name + ": " + one_line(error.message()));
+  if (error) throw Error(name + ": " + cause_of(error.message()));
   if (fs::is_directory(status)) throw Error(name + ": is a directory");
   if (!fs::is_regular_file(status)) throw Error(name + ": is not a regular file");
   if (fs::file_size(path, error) == 0 && !error) throw Error(name + ": is empty");

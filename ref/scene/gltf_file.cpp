@@ -151,7 +151,7 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(
   } catch (const Json::parse_error& e) {
     throw Error(name_ + ": byte " + std::to_string(e.byte) + ": not JSON, or cut off");
   } catch (const Json::exception& e) {
-    throw Error(name_ + ": not JSON: " + one_line(e.what()));
+    throw Error(name_ + ": not JSON: " + cause_of(e.what()));
   }
   if (!root_.is_object()) fail("JSON", "the outermost value is not an object");
   const std::string version = this->text(object(root_, "asset"), "version");

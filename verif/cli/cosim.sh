@@ -4,7 +4,8 @@
 . "$(dirname "$0")/common.bash"
 
 expect 0 "$kage" cosim courtyard --size 160x120 --frames 3 --out out --json r.json
-tail -n 1 stdout | grep -q '^same: 3 frames, 160x120, 57600 pixels compared' || fail "the last line does not say same: $(tail -n 1 stdout)"
+grep -q '^same: 3 frames, 160x120, 57600 pixels compared' stdout || fail "does not say same: $(cat stdout)"
+[ "$(tail -n 1 stdout)" = "pictures: out" ] || fail "the last line does not say where the pictures are: $(tail -n 1 stdout)"
 json r.json 'j["same"] is True and j["frames"]==3 and (j["width"],j["height"])==(160,120) and j["pixels_compared"]==57600'
 json r.json 'j["first_difference"] is None and j["cycles"]>0 and j["spans"]>0 and j["span_pixels"]>=j["spans"]//2 and j["seed"]==1'
 json r.json 'all(k in j for k in ("golden_seconds","rtl_seconds","build_seconds")) and set(j["stalled"])=={"input_starved","output_blocked"}'
@@ -44,7 +45,7 @@ expect 0 "$kage" diff systolic/courtyard_0001.png banked/courtyard_0001.png
 # Bad input leaves nothing.
 trouble nowhere.obj "$kage" cosim nowhere.obj --out none
 trouble "lacks" "$kage" cosim courtyard --config tiny --size 64x48 --out none
-trouble "no such fault" "$kage" cosim courtyard --size 64x48 --fault nonsense --out none
+trouble "no such fault (there are blend_rounding, " "$kage" cosim courtyard --size 64x48 --fault nonsense --out none
 printf 'LANES: 3\n' >three.yaml
 trouble three.yaml "$kage" cosim courtyard --config three.yaml --out none
 # No pixel compared is no verdict.

@@ -27,4 +27,11 @@ for patch in "$source"/verif/faults/*.patch; do
   json d.json 'j["first"]["y"]=='"$(python3 -c "import json; d=json.load(open('$name.json'))['first_difference']; print(d['line'], 'and j[\"first\"][\"x\"]==', d['x'])")"
 done
 [ $count -ge 4 ] || fail "only $count faults to try"
+
+# README shows what the first of them looks like, as a change of the very line of RTL.
+expect 1 "$kage" cosim courtyard --fault wrong_compare
+for line in "$(cut -d, -f1-3 stdout | grep '^different')" "$(grep '^first difference' stdout)" "$(grep '^pictures' stdout)"; do
+  grep -qF -- "$line" "$source/README.md" || fail "README.md does not show '$line'"
+done
+grep -qF 'in_front = z < pixel' "$source/rtl/include/kage_pixel_next.svh" || fail "README.md changes a line that is not there"
 done_testing

@@ -8,6 +8,14 @@ expect 0 "$kage" stream courtyard "${small[@]}" --out c.kage
 expect 0 "$kage" info c.kage --json info.json
 json info.json 'j["frames"]==2 and j["lines"]==128 and j["checksum_ok"] is True and j["tokens"]["EOL"]==128 and j["tokens"]["END"]==2'
 json info.json 'j["config"]["Z_BITS"]>=4 and j["bytes"]>0 and j["version"]==1'
+# Token by token: as many lines as --json counts tokens, each with its index, from header to END.
+expect 0 "$kage" info c.kage --json - && cp stdout counts.json
+expect 0 "$kage" info c.kage --tokens 0 && cp stdout first
+expect 0 "$kage" info c.kage --tokens 1
+cat first stdout | grep -c '^ *[1-9][0-9]*  [A-Z]' >lines
+json counts.json "sum(j['tokens'].values())==$(cat lines)"
+grep -q '^       0  header: 96x64, ' stdout && [ "$(tail -n 2 stdout | tr -s ' ' | cut -d ' ' -f 3- | paste -sd,)" = "EOL 63,END" ] || fail "--tokens prints no frame: $(tail -n 2 stdout)"
+trouble "the stream has frames 0 to 1" "$kage" info c.kage --tokens 2
 expect 0 "$kage" render courtyard "${small[@]}" --out direct --json -
 cp stdout r.json
 json r.json 'j["frames"]==2 and j["width"]==96 and j["height"]==64 and len(j["files"])==2'

@@ -1,24 +1,32 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# docs/stream.md, Files: its command makes the bytes it shows, and its Python reads them, and refuses a changed file.
+# docs/stream.md: the commands of its first example print the line it reads aloud. Files: its command makes the bytes it
+# shows, and its Python reads them, and refuses a changed file.
 . "$(dirname "$0")/common.bash"
 
-# block LANGUAGE N: the Nth code block of that language under "By hand".
+# block LANGUAGE N HEADING: the Nth code block of that language from that heading on.
 block() {
-  awk -v lang="\`\`\`$1" -v n="$2" '/^### By hand/ { on = 1 } on && inside && /^```$/ { inside = 0; next }
+  awk -v lang="\`\`\`$1" -v n="$2" -v from="$3" '$0 == from { on = 1 } on && inside && /^```$/ { inside = 0; next }
     on && !inside && /^```/ { inside = 1; take = ($0 == lang && ++seen == n); next } inside && take' "$source/docs/stream.md"
 }
 
-block sh 1 >commands
-[ "$(wc -l <commands)" = 2 ] || fail "not two commands: $(cat commands)"
+block sh 1 "## One line, read aloud" >commands
 mkdir bin && ln -s "$kage" bin/kage
 expect 0 env PATH="$temp/bin:$PATH" sh -e commands
+sed -n '/EOL 0$/,$p' stdout >made
+block "" 1 "## One line, read aloud" >shown
+[ "$(wc -l <shown)" = 13 ] || fail "no line in docs/stream.md"
+diff shown made || fail "docs/stream.md shows another line than its commands print"
+
+block sh 1 "### By hand" >commands
+[ "$(wc -l <commands)" = 2 ] || fail "not two commands: $(cat commands)"
+expect 0 env PATH="$temp/bin:$PATH" sh -e commands
 sed -n '/^000000/,$p' stdout >made
-block "" 1 >shown
+block "" 1 "### By hand" >shown
 [ "$(wc -l <shown)" -gt 10 ] || fail "no dump in docs/stream.md"
 diff shown made || fail "docs/stream.md shows other bytes than its command makes"
 
-block python 1 >read.py
+block python 1 "### By hand" >read.py
 expect 0 python3 read.py pixel.kage
 [ "$(cat stdout)" = "frame 0: 1x1, 10 words" ] || fail "the reader prints $(cat stdout)"
 grep -qF "$(cat stdout)" "$source/docs/stream.md" || fail "docs/stream.md says that the reader prints something else"

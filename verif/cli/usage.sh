@@ -4,10 +4,12 @@
 . "$(dirname "$0")/common.bash"
 
 expect 0 "$kage" --help
+[ "$(wc -L <stdout)" -le 110 ] || fail "--help has long lines"
 expect 0 "$kage" --version
 for command in cosim render stream info diff model order; do
   expect 0 "$kage" $command --help
   grep -q Examples: stdout || fail "$command --help has no examples"
+  [ "$(wc -L <stdout)" -le 110 ] || fail "$command --help has long lines"
 done
 
 # The last of an option given twice counts.

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <openssl/evp.h>
 #include <sys/file.h>
 #include <sys/wait.h>
@@ -71,6 +72,16 @@ std::string output_of(const char* command) {
   return text;
 }
 
+/// The names that --fault takes.
+std::vector<std::string> faults(const fs::path& data) {
+  std::vector<std::string> names;
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(data / "verif/faults", ec))
+    if (entry.path().extension() == ".patch") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::string key_of(const fs::path& data, const Config& config, const std::string& fault) {
   std::vector<fs::path> files;  // what build.py --sources names, and perhaps a file more
   for (const char* folder : {"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"}) {
@@ -85,7 +96,7 @@ std::string key_of(const fs::path& data, const Config& config, const std::string
   if (!fault.empty()) {
     files.push_back(fs::path("verif/faults") / (fault + ".patch"));
     if (fault.find('/') != std::string::npos || !fs::exists(data / files.back()))
-      throw Error(fmt::format("{}: no such fault, there is no {}", fault, (data / files.back()).string()));
+      throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(faults(data), ", ")));
   }
   std::sort(files.begin(), files.end());
   Sha256 hash;
@@ -231,8 +242,12 @@ Model find_model(const Config& config, const std::string& fault, const BuildProg
   Process build(command, log);
   bool ok = false;
   while (!build.ended(ok)) wait();
-  if (!ok || !fs::exists(work.path / "model.so"))
-    throw Error(fmt::format("RTL model: the build failed: {} (log: {})", last_line(log), log.string()));
+  if (!ok || !fs::exists(work.path / "model.so")) {
+    const std::string cause = last_line(log);
+    std::error_code ec;  // what build.py said is less than its log has, if it got as far as having one
+    fs::rename(work.path / "build/build.log", log, ec);
+    throw Error(fmt::format("RTL model: the build failed: {} (log: {})", cause, log.string()));
+  }
   fs::rename(work.path / "model.so", library);
   return {library, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }

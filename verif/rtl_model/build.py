@@ -43,10 +43,9 @@ def run(step, command, log, cwd=None):
         except OSError as e:
             fail(f"{step}: {command[0]}: {e.strerror}")
     if done.returncode != 0:
-        saved = pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"
-        shutil.copyfile(log, saved)
-        wanted = [line for line in saved.read_text(errors="replace").splitlines() if "rror" in line or "FAILED" in line or line.startswith("%Warning")]
-        fail(f"{step} failed (log: {saved}){': ' + wanted[0].strip() if wanted else ''}")
+        wanted = [line for line in log.read_text(errors="replace").splitlines() if "rror" in line or "FAILED" in line or line.startswith("%Warning")]
+        print(f"build.py: the log is {log}", file=sys.stderr)
+        fail(f"{step} failed{': ' + wanted[0].strip() if wanted else ''}")
 
 
 def parameters(arguments):
@@ -100,7 +99,7 @@ def main():
 
 
 def build(out, values, args, work):
-    log = work / "build.log"
+    log = work / "build.log" if args.keep else pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"  # outlives a failure
     log.write_text("")
     rtl = RTL
     if args.fault:
@@ -147,6 +146,8 @@ def build(out, values, args, work):
         os.replace(partial, out)
     finally:
         partial.unlink(missing_ok=True)
+    if not args.keep:
+        log.unlink()
 
 
 def needs_threads(obj):

@@ -9,6 +9,11 @@
 # Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take, or if it
 # is not smaller (smooth, glass: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
 set -euo pipefail
+case ${1:-} in
+  --quick | --tree | [!-]* | '') ;;
+  --help) sed -n '3,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  *) echo "cells.sh: $1: no such option; see --help" >&2; exit 2 ;;
+esac
 cd "$(dirname "$0")/../.."
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -241,7 +241,8 @@ TEST_CASE("lights: all of them, with cone, fall-off and shape, and one factor fo
   CHECK(test::has_note(black, "no light"));
 
   using Catch::Matchers::ContainsSubstring;
-  CHECK_THAT(refusal(R"({"type": "point", "intensity": -1})", node), ContainsSubstring("light 0: colour times intensity"));
+  CHECK_THAT(refusal(R"({"type": "point", "intensity": -1})", node),
+             ContainsSubstring("light 0: colour times intensity"));
   CHECK_THAT(refusal(R"({"type": "point", "range": 0})", node), ContainsSubstring("'range' is not above 0"));
   CHECK_THAT(refusal(R"({"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.5}})", node),
              ContainsSubstring("cone"));
