@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "kage/core.hpp"
 #include "support/configs.hpp"
+#include "support/damage.hpp"
 #include "support/random.hpp"
 #include "support/simple_core.hpp"
 #include "support/streams.hpp"
@@ -29,6 +30,7 @@ TEST_CASE(
       std::vector<std::uint32_t> words;
       random_frame(random, c, random.in(1, 150), random.in(1, 5), words, static_cast<std::uint32_t>(round));
       if (round % 4 == 1) damage_tree(random, c, words);
+      if (round % 8 == 2) damage_light(random, c, words);
       if (round % 4 == 3 || (round % 4 == 1 && c.units == 0)) damage(random, words);
       CAPTURE(target, round, to_yaml(c));
       std::vector<std::uint8_t> fast;
