@@ -132,7 +132,7 @@ module kage_top #(
   logic [ RgbBits-1:0] queue_background;
   logic [SHADE_FRAC:0] queue_shade;
 
-  logic table_valid, load_valid, load_ready, load_last, loads_done;
+  logic table_free, table_valid, load_valid, load_ready, load_last, loads_done;
   logic [    CLASS_BITS-1:0] table_class;
   logic [     LightBits-1:0] table_light;
   logic [EntryShareBits-1:0] table_share;
@@ -197,7 +197,7 @@ module kage_top #(
       .line_width_o      (line_width),
       .line_background_o (line_background),
       .line_shade_o      (line_shade),
-      .table_free_i      (lines_q == '0),
+      .table_free_i      (table_free),
       .table_valid_o     (table_valid),
       .table_class_o     (table_class),
       .table_light_o     (table_light),
@@ -413,6 +413,7 @@ module kage_top #(
 
   // ---- status ------------------------------------------------------------------------------------------------------
   logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
+  assign table_free = lines_q == '0;
   assign line_gone = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) lines_q <= '0;
