@@ -60,7 +60,7 @@ class Fast final : public VisibilityOrder {
         eye_(data),
         parts_(data),
         blocks_((data.nodes() + kBlock - 1) / kBlock),
-        sides_(2 * (blocks_ + 1)),
+        sides_(2 * blocks_ + 8),
         unsure_(2 * blocks_),
         limits_(blocks_ + kBlock, std::numeric_limits<float>::infinity()),
         listed_(blocks_ + kBlock),
@@ -106,7 +106,7 @@ class Fast final : public VisibilityOrder {
   std::vector<float> limits_;           // by block: length of the eye's way up to which nothing flips
   std::vector<std::uint32_t> listed_;   // blocks
   std::vector<std::uint32_t> flipped_;  // nodes
-  std::vector<std::uint32_t> place_;    // by part, and one for what does not exist: where in order_ its subtree begins
+  std::vector<std::uint32_t, LineAllocator<std::uint32_t>> place_;  // by part, and one for what does not exist: where in order_ its subtree begins
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> spare_;  // the smaller of two subtrees that change places
   Costs costs_;

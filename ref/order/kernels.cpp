@@ -45,7 +45,10 @@ HWY_INLINE void list_bits(std::uint32_t bits, std::uint32_t first, std::uint32_t
     const std::uint32_t some = bits >> i;
     std::memcpy(bytes, &some, sizeof some);
     const auto nodes = hn::Iota(d, first + static_cast<std::uint32_t>(i));
-    out += hn::CompressStore(nodes, hn::LoadMaskBits(d, bytes), d, out);
+    // Not CompressStore(), which some processors take a hundred cycles for.
+    const auto set = hn::LoadMaskBits(d, bytes);
+    hn::StoreU(hn::Compress(nodes, set), d, out);
+    out += hn::CountTrue(d, set);
   }
 }
 
@@ -80,37 +83,43 @@ template <bool kMargin, class BlockOf>
 HWY_INLINE SideCounts test(const SideBlocks& to, const SideQuery& query, std::size_t count, double path,
                            BlockOf block_of) {
   const Query q(query);
-  SideCounts counts;
-  counts.blocks = count;
+  const float* const HWY_RESTRICT planes = to.planes;
+  std::uint8_t* const HWY_RESTRICT all_sides = to.sides;
+  float* const HWY_RESTRICT limits = to.limits;
+  std::uint32_t* const HWY_RESTRICT flipped = to.flipped;
+  const std::size_t room = to.room;
+  const double threshold = query.threshold;
+  std::uint64_t flip_count = 0;
+  std::uint64_t unsure_count = 0;
+  double margins = 0;
   const std::size_t last = (to.nodes - 1) / kBlock;
   const std::uint32_t last_valid = 0xffffU >> (kBlock - 1 - (to.nodes - 1) % kBlock);
   for (std::size_t n = 0; n < count; ++n) {
     const std::uint32_t b = block_of(n);
-    const Signs signs = test_block<kMargin>(to.planes + b * (4 * kBlock), q);
+    const Signs signs = test_block<kMargin>(planes + b * (4 * kBlock), q);
     std::uint16_t sides = 0;
-    std::memcpy(&sides, to.sides + std::size_t{2} * b, sizeof sides);
+    std::memcpy(&sides, all_sides + std::size_t{2} * b, sizeof sides);
     const std::uint32_t valid = b == last ? last_valid : 0xffffU;
     const std::uint32_t unsure = signs.unsure & valid;
     const std::uint32_t flips = (signs.front ^ sides) & ~signs.unsure & valid;
     sides = static_cast<std::uint16_t>(sides ^ flips);
-    std::memcpy(to.sides + std::size_t{2} * b, &sides, sizeof sides);
-    if (counts.flips <= to.room) list_bits(flips, b * static_cast<std::uint32_t>(kBlock), to.flipped + counts.flips);
-    counts.flips += static_cast<std::uint64_t>(hwy::PopCount(flips));
+    std::memcpy(all_sides + std::size_t{2} * b, &sides, sizeof sides);
+    if (flip_count <= room) list_bits(flips, b * static_cast<std::uint32_t>(kBlock), flipped + flip_count);
+    flip_count += static_cast<std::uint64_t>(hwy::PopCount(flips));
     if (HWY_UNLIKELY(unsure != 0)) {
       const auto bits = static_cast<std::uint16_t>(unsure);
       std::memcpy(to.unsure + std::size_t{2} * b, &bits, sizeof bits);
-      to.listed[counts.unsure++] = b;
+      to.listed[unsure_count++] = b;
     }
     if (kMargin) {
       // Rounded down; not positive where a node is unsure. Infinities and NaNs come with an infinite threshold.
-      const double margin =
-          (static_cast<double>(signs.least) - static_cast<double>(query.threshold)) * (1 - 0x1p-20) - 0x1p-41;
+      const double margin = (static_cast<double>(signs.least) - threshold) * (1 - 0x1p-20) - 0x1p-41;
       const bool known = margin > 0;
-      to.limits[b] = known ? static_cast<float>((path + margin) * (1 - 0x1p-22)) : -1;
-      counts.margins += known ? margin : 0;
+      limits[b] = known ? static_cast<float>((path + margin) * (1 - 0x1p-22)) : -1;
+      margins += known ? margin : 0;
     }
   }
-  return counts;
+  return {count, flip_count, unsure_count, margins};
 }
 
 SideCounts TestAll(const SideBlocks& to, const SideQuery& query) {
@@ -127,9 +136,10 @@ SideCounts TestBlocks(const SideBlocks& to, const SideQuery& query, double path)
   std::uint32_t* const listed = to.listed;
   std::size_t count = 0;
   for (std::size_t b = 0; b < blocks; b += hn::Lanes(d)) {
-    const auto due = hn::Le(hn::LoadU(d, to.limits + b), reached);
+    const auto due = hn::RebindMask(d_list, hn::Le(hn::LoadU(d, to.limits + b), reached));
     const auto numbers = hn::Iota(d_list, static_cast<std::uint32_t>(b));
-    count += hn::CompressStore(numbers, hn::RebindMask(d_list, due), d_list, listed + count);
+    hn::StoreU(hn::Compress(numbers, due), d_list, listed + count);
+    count += hn::CountTrue(d_list, due);
   }
   return test<true>(to, query, count, path, [listed](std::size_t n) { return listed[n]; });
 }

@@ -47,8 +47,8 @@ Parts::Parts(const OrderTree::Data& data) {
       continue;
     }
     const std::uint32_t back = data.second_child(v);
-    parts_[part] = back == kNoNode ? Part{none, 0} : Part{below(back), data.size[back]};
-    largest_back_ = std::max(largest_back_, parts_[part].b);
+    parts_[part] = back == kNoNode ? Part{none, 1} : Part{below(back), data.size[back] + 1};
+    largest_back_ = std::max(largest_back_, parts_[part].b - 1);
     // The first child of a top follows it, so a run goes on as long as tops follow one another.
     if (runs_.empty() || runs_.back().node + runs_.back().tops != v)
       runs_.push_back({v, part, 1});

@@ -51,32 +51,43 @@ HWY_INLINE void place_cluster(const Placing& to, std::uint32_t part) {
 }
 
 void PlaceClusters(const Placing& to, const std::uint32_t* HWY_RESTRICT listed, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) place_cluster(to, listed[i]);
+  const Placing kept = to;  // a copy that no store can change
+  for (std::size_t i = 0; i < count; ++i) place_cluster(kept, listed[i]);
 }
 
-/// Adds to each; may read past the end.
-HWY_INLINE void add_to(std::uint32_t* values, std::size_t count, std::uint32_t addend) {
+/// Adds `first` to values[begin .. middle - 1] and `second` from there to end - 1. In whole vectors from an address that
+/// is a multiple of theirs, so that what a store has just written is read as it was written.
+HWY_INLINE void add_to(std::uint32_t* HWY_RESTRICT values, std::size_t begin, std::size_t middle, std::size_t end,
+                       std::uint32_t first, std::uint32_t second) {
   const D16 d;
-  const auto a = hn::Set(d, addend);
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) hn::StoreU(hn::Add(hn::LoadU(d, values + i), a), d, values + i);
-  hn::BlendedStore(hn::Add(hn::LoadU(d, values + i), a), hn::FirstN(d, count - i), d, values + i);
+  const std::size_t lanes = hn::Lanes(d);
+  const auto one = hn::Set(d, first);
+  const auto other = hn::Set(d, second);
+  const auto some = [&](std::size_t i) {
+    const auto up_to = [&](std::size_t n) { return hn::FirstN(d, n < i ? 0 : std::min(n - i, lanes)); };
+    const auto addends = hn::IfThenElse(up_to(middle), one, other);
+    const auto inside = hn::IfThenZeroElse(up_to(begin), hn::IfThenElseZero(up_to(end), addends));
+    hn::Store(hn::Add(hn::Load(d, values + i), inside), d, values + i);
+  };
+  std::size_t i = begin - begin % lanes;
+  some(i);
+  for (i += lanes; i + lanes <= middle; i += lanes) hn::Store(hn::Add(hn::Load(d, values + i), one), d, values + i);
+  for (; i < end; i += lanes) some(i);
 }
 
-/// memmove of words; may read past the end. From the end that is not overwritten first, without a branch on which.
+/// memmove of words; may read past the end. From the end that is not overwritten first, without a branch on which. What
+/// is no whole vector is read before and written after all else.
 HWY_INLINE void move_words(std::uint32_t* to, const std::uint32_t* from, std::size_t count) {
   const D16 d;
   const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d));
   const auto rest = static_cast<std::ptrdiff_t>(count) % lanes;
+  const auto whole = static_cast<std::ptrdiff_t>(count) - rest;
+  const auto last = hn::LoadU(d, from + whole);
   const bool up = to > from;
   const std::ptrdiff_t step = up ? -lanes : lanes;
-  const std::ptrdiff_t shift = to - from;
-  const std::uint32_t* p = up ? from + count - lanes : from;
-  for (std::size_t n = count / static_cast<std::size_t>(lanes); n != 0; --n, p += step)
-    hn::StoreU(hn::LoadU(d, p), d, const_cast<std::uint32_t*>(p) + shift);
-  p = up ? from : p;
-  hn::BlendedStore(hn::LoadU(d, p), hn::FirstN(d, static_cast<std::size_t>(rest)), d,
-                   const_cast<std::uint32_t*>(p) + shift);
+  std::ptrdiff_t i = up ? whole - lanes : 0;
+  for (std::ptrdiff_t left = whole; left != 0; left -= lanes, i += step) hn::StoreU(hn::LoadU(d, from + i), d, to + i);
+  hn::BlendedStore(last, hn::FirstN(d, static_cast<std::size_t>(rest)), d, to + whole);
 }
 
 // [front][node][back] becomes [back][node][front], or the reverse. Both keep their own order, and begin elsewhere. The
@@ -88,7 +99,7 @@ HWY_INLINE void swap_subtrees(const Placing& to, std::uint32_t node) {
   const std::uint32_t end = parts_below(to.starts, node + nodes);
   const Part p = to.parts[part];
   const std::uint32_t back_part = std::min(p.a, end);
-  const std::uint32_t back = p.b;
+  const std::uint32_t back = p.b - 1;
   const std::uint32_t front = nodes - 1 - back;
   // The side is the new one: the eye's side is drawn last, and was first up to now.
   const std::uint32_t front_first = front_mask(to.sides, node);
@@ -110,8 +121,8 @@ HWY_INLINE void swap_subtrees(const Placing& to, std::uint32_t node) {
   }
   order[front_first != 0 ? back : front] = node;
   // Where the front was first it begins so much later, the back so much sooner; or the reverse.
-  add_to(to.place + part + 1, back_part - part - 1, ((back + 1) ^ ~front_first) - ~front_first);
-  add_to(to.place + back_part, end - back_part, ((front + 1) ^ front_first) - front_first);
+  add_to(to.place, part + 1, back_part, end, ((back + 1) ^ ~front_first) - ~front_first,
+         ((front + 1) ^ front_first) - front_first);
 }
 
 void Exchange(const Placing& to, std::uint32_t* HWY_RESTRICT flipped, std::size_t count) {
@@ -141,30 +152,36 @@ void Exchange(const Placing& to, std::uint32_t* HWY_RESTRICT flipped, std::size_
 
 void PlaceAll(const Placing& to, const Run* HWY_RESTRICT runs, std::size_t run_count,
               const std::uint32_t* HWY_RESTRICT clusters, std::size_t cluster_count) {
-  const Part* HWY_RESTRICT parts = to.parts;
-  std::uint32_t* HWY_RESTRICT place = to.place;
-  std::uint32_t* HWY_RESTRICT order = to.order;
-  const std::uint8_t* HWY_RESTRICT sides = to.sides;
+  constexpr std::size_t kWindow = 57;  // sides that a word surely holds from any bit of its first byte
+  std::uint32_t* const HWY_RESTRICT place = to.place;
+  std::uint32_t* const HWY_RESTRICT order = to.order;
   place[0] = 0;
   for (std::size_t r = 0; r < run_count; ++r) {
     const Run run = runs[r];
-    std::uint32_t at = place[run.part];
-    std::uint32_t front = to.size[run.node];  // nodes of what is still to be placed
-    std::uint32_t node = run.node;
-    const std::uint32_t end = run.part + run.tops;
-    for (std::uint32_t part = run.part; part < end; ++part, ++node) {
-      // Masks instead of branches: sides are as good as chance.
-      const std::uint32_t back = parts[part].b;
-      const std::uint32_t front_last = front_mask(sides, node);
-      front -= back + 1;
-      const std::uint32_t behind = front & ~front_last;  // drawn before the back
-      const std::uint32_t first = back & front_last;     // drawn before the front
-      place[part] = at;
-      place[parts[part].a] = at + behind + (1 & ~front_last);
-      order[at + behind + first] = node;
-      at += first + (1 & front_last);
+    const Part* const HWY_RESTRICT parts = to.parts + run.part;
+    std::size_t at = place[run.part];
+    std::size_t front = std::size_t{to.size[run.node]} + 1;  // nodes of the first child, and one
+    std::size_t i = 0;
+    while (i < run.tops) {
+      const std::size_t node = run.node + i;
+      std::uint64_t window = 0;
+      std::memcpy(&window, to.sides + node / 8, sizeof window);
+      window >>= node % 8;
+      for (const std::size_t end = std::min<std::size_t>(run.tops, i + kWindow); i < end; ++i) {
+        // Masks instead of branches: sides are as good as chance. One of the two is 0, the other a child and the node.
+        const std::size_t back = parts[i].b;  // and one here, too
+        const std::size_t front_last = std::size_t{0} - (window & 1U);
+        window >>= 1U;
+        front -= back;
+        const std::size_t before_front = back & front_last;
+        const std::size_t before_back = front & ~front_last;
+        place[run.part + i] = static_cast<std::uint32_t>(at);
+        place[parts[i].a] = static_cast<std::uint32_t>(at + before_back);
+        order[at + before_front + before_back - 1] = static_cast<std::uint32_t>(run.node + i);
+        at += before_front;
+      }
     }
-    place[end] = at;  // the cluster that ends the run
+    place[run.part + run.tops] = static_cast<std::uint32_t>(at);  // the cluster that ends the run
   }
   PlaceClusters(to, clusters, cluster_count);
 }

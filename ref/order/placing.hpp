@@ -9,7 +9,7 @@
 namespace kage::order {
 
 /// A piece of the tree (parts.hpp). Of a top node: the part that its second child begins, or one past all parts, and
-/// that child's nodes. Of a cluster: its first node, and nodes + 16 * where the orders of its shape begin in the table.
+/// its nodes with that child's. Of a cluster: its first node, and nodes + 16 * where the orders of its shape begin in the table.
 struct Part {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
