@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The fast way (docs/order.md). The order is an array, and each part (parts.hpp) knows where in it its subtree begins.
-// A step tests sides in vectors; then either exchanges the two subtrees of each top that flipped, top down, and looks
-// flipped clusters up anew; or places all parts again, run by run, which costs the same whatever flipped. Which is
-// cheaper, costs measured on this very tree say.
+// A step tests sides in vectors, which lists what flipped; then either looks flipped clusters up anew and exchanges the
+// two subtrees of each top that flipped, top down; or places all parts again, run by run, which costs the same whatever
+// flipped. Which is cheaper, costs measured on this very tree say.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -64,7 +64,7 @@ class Fast final : public VisibilityOrder {
         unsure_(2 * blocks_),
         limits_(blocks_ + kBlock, std::numeric_limits<float>::infinity()),
         listed_(blocks_ + kBlock),
-        flipped_(data.nodes() / 4 + 3 * kBlock),
+        flipped_(data.nodes() / 4 + 2 * kBlock),
         place_(parts_.parts().size() + 1 + kPlacingSlack),
         order_(data.nodes() + kPlacingSlack),
         spare_(parts_.largest_back() > kPlacingSlack ? parts_.largest_back() + kPlacingSlack : 0) {
@@ -92,6 +92,9 @@ class Fast final : public VisibilityOrder {
   void rebuild();
   void calibrate();
 
+  /// Flips that can be listed. More are not worth exchanging: at four nodes a flip a rebuild costs less.
+  [[nodiscard]] std::size_t room() const { return flipped_.size() - kBlock; }
+
   [[nodiscard]] Placing placing() {
     return {data_.size.data(), parts_.parts().data(), parts_.starts().data(), parts_.table().data(),
             sides_.data(),     place_.data(),         order_.data(),          spare_.data()};
@@ -105,8 +108,9 @@ class Fast final : public VisibilityOrder {
   std::vector<std::uint8_t> unsure_;    // the same, of blocks that are listed
   std::vector<float> limits_;           // by block: length of the eye's way up to which nothing flips
   std::vector<std::uint32_t> listed_;   // blocks
-  std::vector<std::uint32_t> flipped_;  // nodes
-  std::vector<std::uint32_t, LineAllocator<std::uint32_t>> place_;  // by part, and one for what does not exist: where in order_ its subtree begins
+  std::vector<std::uint32_t> flipped_;  // nodes, ascending
+  std::vector<std::uint32_t, LineAllocator<std::uint32_t>>
+      place_;  // by part, and one for what does not exist: where in order_ its subtree begins
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> spare_;  // the smaller of two subtrees that change places
   Costs costs_;
@@ -164,10 +168,10 @@ void Fast::test(double way) {
   }
   const SideQuery query = eye_.query();
   const SideBlocks blocks{data_.blocks.data(), data_.nodes(),  sides_.data(),   unsure_.data(),
-                          limits_.data(),      listed_.data(), flipped_.data(), flipped_.size() - 2 * kBlock};
+                          limits_.data(),      listed_.data(), flipped_.data(), room()};
   SideCounts counts;
-  // Limits cost a little where they are made, and pay where a block is then left out every third time or more.
-  if (!placed_ || way < 2 * margin_ || ++since_margin_ == kMarginAge) {
+  // Limits cost as much as a test, and pay where a block is then left out every other time or more.
+  if (!placed_ || way < margin_ || ++since_margin_ == kMarginAge) {
     since_margin_ = 0;
     counts = test_blocks(blocks, query, path_);
     if (counts.blocks * 2 > blocks_) margin_ = counts.margins / static_cast<double>(counts.blocks);
@@ -183,7 +187,6 @@ void Fast::test(double way) {
 
 void Fast::decide_unsure(std::uint64_t blocks) {
   EyeSides exact = eye_;
-  const std::size_t room = flipped_.size() - 2 * kBlock;
   for (std::uint64_t i = 0; i < blocks; ++i) {
     const std::size_t b = listed_[i];
     for (std::size_t k = 0; k < kBlock; ++k) {
@@ -194,7 +197,7 @@ void Fast::decide_unsure(std::uint64_t blocks) {
       if (exact.front(node) == ((sides_[byte] >> (k % 8) & 1U) != 0)) continue;
       sides_[byte] ^= static_cast<std::uint8_t>(1U << (k % 8));
       // The list stays in order.
-      if (step_.flips < room) {
+      if (step_.flips < room()) {
         const auto end = flipped_.begin() + static_cast<std::ptrdiff_t>(step_.flips);
         const auto at = std::lower_bound(flipped_.begin(), end, node);
         std::copy_backward(at, end, end + 1);
@@ -207,7 +210,7 @@ void Fast::decide_unsure(std::uint64_t blocks) {
 }
 
 bool Fast::exchange_is_cheaper() {
-  if (step_.flips > flipped_.size() - 2 * kBlock) {  // not all are listed
+  if (step_.flips > room()) {  // not all are listed
     step_.exchange_cost = std::numeric_limits<double>::infinity();
     return false;
   }
@@ -248,9 +251,9 @@ void Fast::rebuild() {
 void Fast::calibrate() {
   // Sides as chance has them, so that a rebuild is measured as it will be.
   std::uint64_t random = 1;
-  for (std::size_t i = 0; i < sides_.size(); ++i) {
+  for (std::uint8_t& eight : sides_) {
     random = random * 6364136223846793005U + 1442695040888963407U;
-    sides_[i] = static_cast<std::uint8_t>(random >> 56U);
+    eight = static_cast<std::uint8_t>(random >> 56U);
   }
   costs_.rebuild = least_seconds([&] { rebuild(); });
   const std::vector<std::uint32_t>& clusters = parts_.clusters();

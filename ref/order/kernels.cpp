@@ -1,7 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "order/kernels.hpp"
 
+#include <array>
 #include <cstring>
+
+#ifndef KAGE_ORDER_SET_BITS
+#define KAGE_ORDER_SET_BITS
+namespace kage::order {
+
+/// For each byte the numbers of the bits that are set in it, a byte each. Highway's Compress() does the same; some
+/// releases copy its table to the stack at every use.
+constexpr std::array<std::uint64_t, 256> set_bits() {
+  std::array<std::uint64_t, 256> table{};
+  for (std::uint64_t byte = 0; byte < table.size(); ++byte) {
+    unsigned n = 0;
+    for (std::uint64_t bit = 0; bit < 8; ++bit)
+      if ((byte >> bit & 1U) != 0) table[byte] |= bit << (8 * n++);
+  }
+  return table;
+}
+inline constexpr std::array<std::uint64_t, 256> kSetBits = set_bits();
+
+}  // namespace kage::order
+#endif
 
 // The plain fallback: EMU128 knows every operation, SCALAR does not.
 #define HWY_DISABLED_TARGETS HWY_SCALAR
@@ -17,7 +38,6 @@ namespace kage::order::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using DF = hn::CappedTag<float, kBlock>;
-using DU = hn::RebindToUnsigned<DF>;
 
 struct Query {
   explicit Query(const SideQuery& q)
@@ -37,19 +57,19 @@ HWY_INLINE std::uint32_t bits_of(hn::Mask<DF> m) {
   return bits;
 }
 
-// Writes first + i for every bit i that is set, and whatever else up to a vector past that.
-HWY_INLINE void list_bits(std::uint32_t bits, std::uint32_t first, std::uint32_t* HWY_RESTRICT out) {
-  const DU d;
-  for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
-    std::uint8_t bytes[8] = {};
-    const std::uint32_t some = bits >> i;
-    std::memcpy(bytes, &some, sizeof some);
-    const auto nodes = hn::Iota(d, first + static_cast<std::uint32_t>(i));
-    // Not CompressStore(), which some processors take a hundred cycles for.
-    const auto set = hn::LoadMaskBits(d, bytes);
-    hn::StoreU(hn::Compress(nodes, set), d, out);
-    out += hn::CountTrue(d, set);
+// Writes first + i for every bit i of the lowest kBlock that is set, and up to 8 words more. Returns past the last.
+HWY_INLINE std::uint32_t* list_bits(std::uint32_t bits, std::uint32_t first, std::uint32_t* HWY_RESTRICT out) {
+  const hn::CappedTag<std::uint32_t, 8> d;
+  const hn::Rebind<std::uint8_t, decltype(d)> d_bytes;
+  for (std::uint32_t i = 0; i < kBlock; i += 8) {
+    const std::uint32_t some = bits >> i & 0xffU;
+    const auto* const set = reinterpret_cast<const std::uint8_t*>(&kSetBits[some]);
+    const auto from = hn::Set(d, first + i);
+    for (std::size_t k = 0; k < 8; k += hn::Lanes(d))
+      hn::StoreU(hn::Add(hn::PromoteTo(d, hn::LoadU(d_bytes, set + k)), from), d, out + k);
+    out += hwy::PopCount(some);
   }
+  return out;
 }
 
 struct Signs {
@@ -104,7 +124,7 @@ HWY_INLINE SideCounts test(const SideBlocks& to, const SideQuery& query, std::si
     const std::uint32_t flips = (signs.front ^ sides) & ~signs.unsure & valid;
     sides = static_cast<std::uint16_t>(sides ^ flips);
     std::memcpy(all_sides + std::size_t{2} * b, &sides, sizeof sides);
-    if (flip_count <= room) list_bits(flips, b * static_cast<std::uint32_t>(kBlock), flipped + flip_count);
+    if (flip_count <= room) (void)list_bits(flips, b * static_cast<std::uint32_t>(kBlock), flipped + flip_count);
     flip_count += static_cast<std::uint64_t>(hwy::PopCount(flips));
     if (HWY_UNLIKELY(unsure != 0)) {
       const auto bits = static_cast<std::uint16_t>(unsure);
@@ -130,17 +150,17 @@ SideCounts TestAll(const SideBlocks& to, const SideQuery& query) {
 SideCounts TestBlocks(const SideBlocks& to, const SideQuery& query, double path) {
   // First which blocks, without a branch; then those. Their numbers lie where test() lists them again, further on.
   const DF d;
-  const DU d_list;
   const std::size_t blocks = (to.nodes + kBlock - 1) / kBlock;
   const auto reached = hn::Set(d, static_cast<float>(path * (1 + 0x1p-22)));
   std::uint32_t* const listed = to.listed;
-  std::size_t count = 0;
-  for (std::size_t b = 0; b < blocks; b += hn::Lanes(d)) {
-    const auto due = hn::RebindMask(d_list, hn::Le(hn::LoadU(d, to.limits + b), reached));
-    const auto numbers = hn::Iota(d_list, static_cast<std::uint32_t>(b));
-    hn::StoreU(hn::Compress(numbers, due), d_list, listed + count);
-    count += hn::CountTrue(d_list, due);
+  std::uint32_t* end = listed;
+  for (std::size_t b = 0; b < blocks; b += kBlock) {
+    std::uint32_t due = 0;
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d))
+      due |= bits_of(hn::Le(hn::LoadU(d, to.limits + b + i), reached)) << i;
+    end = list_bits(due, static_cast<std::uint32_t>(b), end);
   }
+  const auto count = static_cast<std::size_t>(end - listed);
   return test<true>(to, query, count, path, [listed](std::size_t n) { return listed[n]; });
 }
 

@@ -36,14 +36,14 @@ struct SideBlocks {
   float* limits = nullptr;           ///< by block; above all numbers past the last
   std::uint32_t* listed = nullptr;   ///< blocks with unsure nodes, ascending
   std::uint32_t* flipped = nullptr;  ///< nodes whose side changed, ascending, as far as there is room
-  std::size_t room = 0;              ///< and for 2 kBlock more
+  std::size_t room = 0;              ///< and for kBlock more
 };
 
 /// Tests all nodes.
 SideCounts test_all(const SideBlocks& to, const SideQuery& query);
 
 /// Tests only blocks with limits[b] <= path, whose limit becomes path plus how far the eye may go before a plane of
-/// theirs can change its side. path is at most 2^9.
+/// theirs can change its side.
 SideCounts test_blocks(const SideBlocks& to, const SideQuery& query, double path);
 
 }  // namespace kage::order

@@ -55,8 +55,8 @@ void PlaceClusters(const Placing& to, const std::uint32_t* HWY_RESTRICT listed, 
   for (std::size_t i = 0; i < count; ++i) place_cluster(kept, listed[i]);
 }
 
-/// Adds `first` to values[begin .. middle - 1] and `second` from there to end - 1. In whole vectors from an address that
-/// is a multiple of theirs, so that what a store has just written is read as it was written.
+/// Adds `first` to values[begin .. middle - 1] and `second` from there to end - 1. In whole vectors from an address
+/// that is a multiple of theirs, so that what a store has just written is read as it was written.
 HWY_INLINE void add_to(std::uint32_t* HWY_RESTRICT values, std::size_t begin, std::size_t middle, std::size_t end,
                        std::uint32_t first, std::uint32_t second) {
   const D16 d;

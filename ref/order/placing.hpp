@@ -8,8 +8,9 @@
 
 namespace kage::order {
 
-/// A piece of the tree (parts.hpp). Of a top node: the part that its second child begins, or one past all parts, and
-/// its nodes with that child's. Of a cluster: its first node, and nodes + 16 * where the orders of its shape begin in the table.
+/// A piece of the tree (parts.hpp). Of a top node: the part that its second child begins, or one past all parts; and
+/// that child's nodes and one. Of a cluster: its first node; and nodes + 16 * where the orders of its shape begin in
+/// the table.
 struct Part {
   std::uint32_t a = 0;
   std::uint32_t b = 0;
@@ -36,10 +37,11 @@ struct Placing {
   const std::uint32_t* size = nullptr;  ///< by node, of the subtree
   const Part* parts = nullptr;
   const Starts* starts = nullptr;  ///< for every 64 nodes, and the end
-  const std::uint64_t* table =
-      nullptr;  ///< orders of shapes for the sides of their nodes (bit k: the k-th), a byte a node
-  const std::uint8_t* sides = nullptr;  ///< a bit per node, and a word more
-  std::uint32_t* place = nullptr;  ///< by part, and one for what does not exist: where in `order` its subtree begins
+  /// Orders of shapes for the sides of their nodes (bit k: the k-th), a byte per node.
+  const std::uint64_t* table = nullptr;
+  const std::uint8_t* sides = nullptr;  ///< a bit per node, and 8 bytes more
+  /// By part, and one for what does not exist: where in `order` its subtree begins. On a cache line of its own.
+  std::uint32_t* place = nullptr;
   std::uint32_t* order = nullptr;
   std::uint32_t* spare = nullptr;  ///< room for the smaller of two subtrees, and kPlacingSlack
 };
