@@ -265,7 +265,7 @@ class Band {
     const int to = std::min(walker.end(), y1_);
     if (from >= to) return;
     walker.start(from);
-    for (int y = from; y < to; ++y, walker.next()) at(y).near.push_back({walker.x(), walker.winding()});
+    for (int y = from; y < to; ++y, walker.next()) at(y).near.push_back({walker.x(), walker.winding() * e.w});
   }
 
   void close_volume() {

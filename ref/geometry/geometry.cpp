@@ -15,12 +15,12 @@
 #include "geometry/light_table.hpp"
 #include "geometry/screen_faces.hpp"
 #include "geometry/shade.hpp"
-#include "geometry/shadow_volume.hpp"
 #include "geometry/translucent.hpp"
 #include "geometry/volume_maker.hpp"
 #include "kage/error.hpp"
 #include "kage/light.hpp"
 #include "number/int128.hpp"
+#include "shadow/volumes.hpp"
 
 namespace kage {
 namespace {
@@ -61,8 +61,11 @@ class Builder {
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
+      VolumeCaster volumes(*frame_, config_->dsf_bits, look_->volumes);
       for (std::uint32_t i = 0; i < sample_casters_.size(); ++i)
-        sample_casters_[i].each([&](const WorldVolume& v) { maker.add(v, i); });
+        volumes.make(sample_casters_[i], [&](const WorldVolume& v, std::uint32_t component) {
+          maker.add(v, sample_casters_[i], i, component);
+        });
     }
     if (config_->translucency > 0) draw_translucent();
     table_->finish(out_);

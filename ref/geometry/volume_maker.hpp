@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/screen_faces.hpp"
-#include "geometry/shadow_volume.hpp"
+#include "shadow/shadow_caster.hpp"
 
 namespace kage {
 
@@ -26,15 +26,19 @@ class VolumeMaker {
         faces_(view, clipper, out),
         out_(&out) {}
 
-  /// Append the volume, which light sample `sample` makes, to the geometry, unless nothing of it is there.
-  void add(const WorldVolume& w, std::uint32_t sample);
+  /// Append the volume to the geometry, unless nothing of it is there. `caster` is that of light sample `sample`;
+  /// `component`: that of the volume's first caster.
+  void add(const WorldVolume& w, const ShadowCaster& caster, std::uint32_t sample, std::uint32_t component);
 
  private:
-  void add_side(const SideFace& s);
+  void add_cap(const CapFace& cap);
+  void add_side(const SideEdge& s);
+  void add_far_end(const CapFace& cap);
   template <class MakePlane>
-  void add_face(MakePlane make_plane);
+  void add_face(std::int32_t w, MakePlane make_plane);
   void cut_only();
-  void clip_and_cut();
+  void clip_and_cut(std::int32_t w);
+  [[nodiscard]] EyePoint far_point(std::uint32_t vertex) const;
   [[nodiscard]] ScreenPlane side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b,
                                        const EyePoint& c) const;
 
@@ -46,6 +50,8 @@ class VolumeMaker {
   bool far_ends_;
   ScreenFaces faces_;
   FrameGeometry* out_;
+  const ShadowCaster* caster_ = nullptr;  // of the volume being made
+  double factor_ = 1;
   std::vector<EyePoint> points_;
   std::vector<ClipPoint> polygon_;
   std::vector<NearCut> cuts_;

@@ -297,8 +297,7 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
   return compare_with_rays(f, whole, config, RayScene(f), step);
 }
 
-inline RayCount compare_with_rays(const SceneFrame& f, int width, int height, int step = 1) {
-  Config config;
+inline RayCount compare_with_rays(const SceneFrame& f, int width, int height, int step = 1, Config config = {}) {
   config.max_width = std::max(config.max_width, width);
   return compare_with_rays(f, make_geometry(f, config, width, height), config, step);
 }

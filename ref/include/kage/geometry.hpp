@@ -86,22 +86,26 @@ struct FragmentCut {
 /// A polygon of a shadow volume.
 struct VolumeFace {
   std::uint32_t polygon = 0;  ///< into FrameGeometry::polygons; a cap is the very polygon that is drawn
-  std::int32_t w = 1;         ///< factor of its winding number: -1 where the drawn polygon faces into the volume
+  /// Factor of its winding number: -1 where the drawn polygon faces into the volume, above 1 for as many sides in one.
+  std::int32_t w = 1;
 };
 
-/// A piece of a volume's section with the near plane; the section is to the right of edges that go down, with w = +1.
+/// A piece of the outline of a volume's section with the near plane: right of an edge that goes down w more, right of
+/// one that goes up w less.
 struct NearEdge {
   ScreenVertex from;
   ScreenVertex to;
+  std::int32_t w = 1;
 };
 
-/// A shadow volume: all that delimits it before the far end, which lies behind everything drawn.
+/// A shadow volume: all that delimits it before the far end, which lies behind everything drawn. With DSF_BITS = 1 no
+/// ray to the light meets two of its caps, with more at most 2^DSF_BITS - 1.
 struct ShadowVolume {
   std::uint32_t first_face = 0;  ///< into FrameGeometry::volume_faces
   std::uint32_t face_count = 0;
   std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
   std::uint32_t near_count = 0;
-  std::uint32_t component = 0;  ///< of the caster, into SceneFrame::components
+  std::uint32_t component = 0;  ///< of its first caster, into SceneFrame::components
   std::uint32_t sample = 0;     ///< of light that it keeps out, into FrameGeometry::sample_light
 };
 
@@ -172,12 +176,19 @@ enum class TranslucentWay : std::uint8_t {
   submission,  ///< whole, as the file has them
 };
 
+/// How many volumes casters have.
+enum class VolumeWay : std::uint8_t {
+  fewest,    ///< as few as DSF_BITS allows
+  per_face,  ///< one for each face of what is not convex, which changes no picture but in near ties; for tests
+};
+
 /// What the picture's maker decides.
 struct Look {
   std::array<std::uint8_t, 3> background{38, 44, 56};
   double darkening = 0.55;  ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
   double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
+  VolumeWay volumes = VolumeWay::fewest;
   TranslucentWay translucent = TranslucentWay::exact;
   int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;  ///< of their pattern

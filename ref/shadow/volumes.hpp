@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The shadow volumes of a frame, for one point of a light after the other.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "kage/geometry.hpp"
+#include "shadow/light_space.hpp"
+#include "shadow/shadow_caster.hpp"
+#include "shadow/world_volume.hpp"
+
+namespace kage {
+
+/// Takes a volume and the component of its first caster.
+using VolumeSink = std::function<void(const WorldVolume&, std::uint32_t component)>;
+
+class VolumeCaster {
+ public:
+  /// Refers to `frame`. `dsf_bits`: bits that the core counts with, >= 1.
+  VolumeCaster(const SceneFrame& frame, int dsf_bits, VolumeWay way)
+      : frame_(&frame), edges_(frame), limit_((1 << dsf_bits) - 1), way_(way) {}
+
+  /// Call `sink` with every volume, in order of their first casters. No ray of light meets more than 2^dsf_bits - 1
+  /// caps of a volume. With one bit a convex component with the light outside is a volume, and so is each patch
+  /// (make_patches()) of another. With more, all casters are one volume if bound_count() says that they may be; else
+  /// components are put together, each to the first volume that it fits in, and those that fit in none by themselves
+  /// are first parted into patches.
+  void make(const ShadowCaster& caster, const VolumeSink& sink);
+
+ private:
+  /// What goes whole into a volume.
+  struct Part {
+    std::vector<CapFace> caps;
+    std::uint32_t component = 0;
+    int most = 1;  // caps on a ray of light, at most
+    LightBox box;
+  };
+  struct Group {
+    std::vector<const Part*> parts;
+    std::vector<CapFace> caps;
+  };
+
+  void make_parity(const ShadowCaster& caster, const VolumeSink& sink);
+  void make_counting(const ShadowCaster& caster, const VolumeSink& sink);
+  void emit(std::span<const CapFace> caps, std::uint32_t component, const VolumeSink& sink);
+  [[nodiscard]] bool once(const ShadowCaster& caster, const Component& part) const;
+  [[nodiscard]] int most(const LightSpace& space, std::span<const CapFace> caps);
+  void add_parts(const LightSpace& space, const ShadowCaster& caster, std::uint32_t component,
+                 const std::vector<CapFace>& caps, std::vector<Part>& parts);
+  [[nodiscard]] bool fits(const LightSpace& space, const Group& group, const Part& part, std::uint64_t& budget);
+
+  const SceneFrame* frame_;
+  EdgeTable edges_;
+  int limit_;
+  VolumeWay way_;
+  WorldVolume volume_;
+  std::vector<SideEdge> sides_;
+};
+
+}  // namespace kage
