@@ -414,7 +414,7 @@ module kage_top #(
   // ---- status ------------------------------------------------------------------------------------------------------
   logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
   assign table_free = lines_q == '0;
-  assign line_gone = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
+  assign line_gone  = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) lines_q <= '0;
     else lines_q <= lines_q + LinesBits'(line_valid) - LinesBits'(line_gone) - LinesBits'(loads_done);

@@ -32,24 +32,28 @@ module light_resolve #(
     output logic      [CHANNELS*FactorBits-1:0] factor_o
 );
 
+  // At least 1, so that the file can be read with its defaults.
+  localparam int Stages = LightStages > 0 ? LightStages : 1;
+  localparam int CountOne = COUNT_BITS > 0 ? COUNT_BITS : 1;
+  localparam int Counts = LIGHTS * CountOne;
   localparam int Shares = CLASS_BITS > 1 ? CHANNELS : 1;  // of a light: without a table all channels have one
-  localparam int ProductBits = COUNT_BITS + FactorBits;
+  localparam int ProductBits = CountOne + FactorBits;
   localparam int SumBits = ProductBits + $clog2(LIGHTS);
   localparam int Passed = RgbBits + 1;
 
   // ---- the colour goes along ---------------------------------------------------------------------------------------
-  logic [LightStages*Passed-1:0] passed_q;
+  logic [Stages*Passed-1:0] passed_q;
   always_ff @(posedge clk_i) begin
-    if (go_i) passed_q <= (LightStages * Passed)'({passed_q, pixel_i[Passed-1:0]});
+    if (go_i) passed_q <= (Stages * Passed)'({passed_q, pixel_i[Passed-1:0]});
   end
-  assign pixel_o = passed_q[(LightStages-1)*Passed+:Passed];
+  assign pixel_o = passed_q[(Stages-1)*Passed+:Passed];
 
   // ---- share of each light and channel, with the counts ------------------------------------------------------------
   logic [LIGHTS*Shares*FactorBits-1:0] shares;
-  logic [TallyBits-1:0] counts;
+  logic [Counts-1:0] counts;
   if (CLASS_BITS > 1) begin : gen_table
     logic [LIGHTS*EntryShareBits-1:0] entries, entries_q;
-    logic [2*TallyBits-1:0] counts_q;
+    logic [2*Counts-1:0] counts_q;
     logic unused_shade;
     assign unused_shade = ^shade_i;
     for (genvar l = 0; l < LIGHTS; l++) begin : gen_light
@@ -69,16 +73,16 @@ module light_resolve #(
     always_ff @(posedge clk_i) begin
       if (go_i) begin
         entries_q <= entries;
-        counts_q  <= {counts_q[TallyBits-1:0], pixel_i[ExitCountAt+:TallyBits]};
+        counts_q  <= {counts_q[Counts-1:0], pixel_i[ExitCountAt+:Counts]};
       end
     end
     assign shares = entries_q;
-    assign counts = counts_q[TallyBits+:TallyBits];
+    assign counts = counts_q[Counts+:Counts];
   end else begin : gen_shade
     logic unused_table;
     assign unused_table = ^{table_valid_i, table_class_i, table_light_i, table_share_i};
     assign shares = shade_i;
-    assign counts = pixel_i[ExitCountAt+:TallyBits];
+    assign counts = pixel_i[ExitCountAt+:Counts];
   end
 
   // ---- products ----------------------------------------------------------------------------------------------------
@@ -88,7 +92,7 @@ module light_resolve #(
       for (int l = 0; l < LIGHTS; l++) begin
         for (int c = 0; c < Shares; c++) begin
           products_q[(l*Shares+c)*ProductBits+:ProductBits] <=
-              ProductBits'(counts[l*COUNT_BITS+:COUNT_BITS]) *
+              ProductBits'(counts[l*CountOne+:CountOne]) *
               ProductBits'(shares[(l*Shares+c)*FactorBits+:FactorBits]);
         end
       end

@@ -165,9 +165,13 @@ int main(int argc, char** argv) {
       if (c.class_bits > 1)
         report("TABLE", (of(1, {entries, 0, 1, 0}) - of(1, {1, 0, 1, 0})) / (entries - 1), of_token(Kind::TABLE, 1));
       if (c.translucency > 0) {
-        // The way out sends the line twice, back to the pixels and to the video.
-        report("a line that comes back as loads", (of(21, {0, 1, 1, 1}) - of(1, {0, 1, 1, 1})) / 20, 2 * width + 32);
-        report("a line with TP but without RESOLVE", (of(21, {0, 0, 1, 1}) - of(1, {0, 0, 1, 1})) / 20, width + 1);
+        // The way out sends the line twice, to the video and back to the pixels; loads also wait for two passes, that
+        // of the line before and their own.
+        const int passes = banked ? 2 * groups : 2;
+        report("a line that comes back as loads", (of(21, {0, 1, 1, 1}) - of(1, {0, 1, 1, 1})) / 20,
+               width + std::max(width, passes) + 32);
+        report("a line with TP but without RESOLVE", (of(21, {0, 0, 1, 1}) - of(1, {0, 0, 1, 1})) / 20,
+               std::max(width, passes) + 1);
       }
     }
     if (c.units == 0) continue;
