@@ -45,8 +45,9 @@ inline bool open_to_errors(const FrameGeometry& g, const Config& config, int x, 
   return p.lit && p.shadowed;
 }
 
-/// Where the pictures of two geometries of a frame differ, one of them is a near tie.
-inline void same_but_near_ties(const FrameGeometry& a, const Config& ca, const FrameGeometry& b, const Config& cb) {
+/// Where the pictures of two geometries of a frame differ, one of them is a near tie. Returns how many pixels do.
+inline std::size_t same_but_near_ties(const FrameGeometry& a, const Config& ca, const FrameGeometry& b,
+                                      const Config& cb) {
   const auto p = draw(a, ca);
   const auto q = draw(b, cb);
   REQUIRE(p.size() == q.size());
@@ -61,6 +62,7 @@ inline void same_but_near_ties(const FrameGeometry& a, const Config& ca, const F
   }
   CAPTURE(different);
   CHECK(different * 200 < p.size());
+  return different;
 }
 
 }  // namespace kage::verif
