@@ -35,4 +35,34 @@ inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, 
   CHECK(wrong == 0);
 }
 
+/// Whether the stated errors leave open what is to be seen at a pixel or whether it lies in shadow.
+inline bool open_to_errors(const FrameGeometry& g, const Config& config, int x, int y) {
+  Oracle oracle(g, config);
+  oracle.line(y);
+  const std::int32_t surface = oracle.at(x).surface;
+  if (surface < 0) return false;
+  const PossibleShadow p = oracle.possible_shadow(x, static_cast<std::uint32_t>(surface), Errors::depth_and_snap);
+  return p.lit && p.shadowed;
+}
+
+/// Where the pictures of two geometries of a frame differ, one of them is a near tie. Returns how many pixels do.
+inline std::size_t same_but_near_ties(const FrameGeometry& a, const Config& ca, const FrameGeometry& b,
+                                      const Config& cb) {
+  const auto p = draw(a, ca);
+  const auto q = draw(b, cb);
+  REQUIRE(p.size() == q.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p[i] == q[i]) continue;
+    ++different;
+    const int x = static_cast<int>(i) % a.width;
+    const int y = static_cast<int>(i) / a.width;
+    CAPTURE(x, y);
+    CHECK((open_to_errors(a, ca, x, y) || open_to_errors(b, cb, x, y)));
+  }
+  CAPTURE(different);
+  CHECK(different * 200 < p.size());
+  return different;
+}
+
 }  // namespace kage::verif
