@@ -11,10 +11,10 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/shade.hpp"
-#include "geometry/shadow_volume.hpp"
 #include "geometry/view.hpp"
 #include "kage/light.hpp"
 #include "scene/light_truth.hpp"
+#include "shadow/shadow_caster.hpp"
 
 namespace {
 
