@@ -75,7 +75,7 @@ Caster caster_of(const Solid& s, const LightPoint& light) {
   add_solid(c.frame, s, {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1}, false, false);
   c.light = light;
   ShadowCaster(c.frame, light, {}, 1).caps(c.frame.components[0], c.caps);
-  EdgeTable(c.frame).sides(c.caps, c.sides);
+  EdgeTable(c.frame).sides(c.frame, c.caps, c.sides);
   return c;
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("the bound holds all round a light: closed bodies about it, one in ano
       all.insert(all.end(), caps.begin(), caps.end());
     }
     std::vector<SideEdge> sides;
-    EdgeTable(f).sides(all, sides);
+    EdgeTable(f).sides(f, all, sides);
     CHECK(sides.empty());
     const CountRange r = LightSpace(f, light, all).count(all, sides, 0);
     // Each body once in every direction.
@@ -204,7 +204,7 @@ TEST_CASE("the bound holds where bodies stand round a light") {
       all.insert(all.end(), caps.begin(), caps.end());
     }
     std::vector<SideEdge> sides;
-    EdgeTable(f).sides(all, sides);
+    EdgeTable(f).sides(f, all, sides);
     const LightSpace space(f, light, all);
     const CountRange r = space.count(all, sides, 0);
     // Rays of light, towards all corners and between them.
