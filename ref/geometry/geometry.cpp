@@ -20,6 +20,7 @@
 #include "kage/error.hpp"
 #include "kage/light.hpp"
 #include "number/int128.hpp"
+#include "shadow/receivers.hpp"
 #include "shadow/volumes.hpp"
 
 namespace kage {
@@ -63,10 +64,14 @@ class Builder {
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
       VolumeCaster volumes(*frame_, config_->dsf_bits, look_->volumes, shadows_->data());
-      for (std::uint32_t i = 0; i < sample_casters_.size(); ++i)
-        volumes.make(i, sample_casters_[i], [&](const WorldVolume& v, std::uint32_t component) {
-          maker.add(v, sample_casters_[i], i, component);
-        });
+      const Receivers receivers(*frame_, out_.width, out_.height, config_->translucency == 0);
+      std::vector<bool> casts(frame_->components.size(), true);
+      for (std::uint32_t i = 0; i < sample_casters_.size(); ++i) {
+        const ShadowCaster& caster = sample_casters_[i];
+        if (look_->leave_out) casts = receivers.reached(caster.light());
+        volumes.make(i, caster,
+                     [&](const WorldVolume& v, std::uint32_t component) { maker.add(v, caster, i, component, casts); });
+      }
     }
     if (config_->translucency > 0) draw_translucent();
     table_->finish(out_);

@@ -189,6 +189,7 @@ struct Look {
   double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
   VolumeWay volumes = VolumeWay::fewest;
+  bool leave_out = true;  ///< shadows that can meet nothing seen, which changes no picture
   TranslucentWay translucent = TranslucentWay::exact;
   int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;  ///< of their pattern
