@@ -108,7 +108,7 @@ TEST_CASE("family 21: counting gives the shadow that a ray to the light says") {
 TEST_CASE("family 22: one counting volume of nested, overlapping, touching casters gives what one for each gives") {
   Random random(test_seed(3));
   CAPTURE(test_seed(3));
-  for (int k = 0; k <= 64; k += k < 8 ? 1 : 7) {
+  for (int k = 0; k <= 64; ++k) {
     std::vector<int> order(static_cast<std::size_t>(k));
     for (int i = 0; i < k; ++i) order[static_cast<std::size_t>(i)] = i;
     random.shuffle(order);
