@@ -78,6 +78,63 @@ TEST_CASE("kept shadow volumes change no word, whatever moves, appears, goes or 
   }
 }
 
+TEST_CASE(
+    "what is kept is made again when the light turns, a corner moves, or a face becomes edge-on by the scene's size") {
+  // A sheet folded three times, whose folds lie over each other as the light sees them, or do not.
+  SceneFrame f;
+  add_solid(f, box_solid(), {0, -3, 0}, {6, 0.2, 6}, Turn{}, {1, 1, 1});
+  Solid s;
+  for (int i = 0; i <= 3; ++i)
+    for (const double z : {-1.0, 1.0}) s.vertices.emplace_back(i % 2 == 0 ? -1 : 1, 0.7 * i, z);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    s.faces.push_back({2 * i, 2 * i + 1, 2 * i + 3});
+    s.faces.push_back({2 * i, 2 * i + 3, 2 * i + 2});
+  }
+  const std::size_t first = f.vertices.size();
+  add_solid(f, s, {0, -1, 0}, {1, 1, 1}, Turn{}, {1, 1, 1}, false, false);
+  look_at(f.camera, {4, 5, 6}, {0, -2, 0});
+  f.lights[0].direction = glm::normalize(glm::dvec3(0.05, -1, 0.04));
+  for (const int bits : {1, 2}) {
+    CAPTURE(bits);
+    Config c;
+    c.dsf_bits = bits;
+    ShadowCache kept;
+    const auto same = [&](const SceneFrame& frame) {
+      const auto words = words_of(frame, c, &kept);
+      CHECK(words == words_of(frame, c, nullptr));
+      return words;
+    };
+    SceneFrame now = f;
+    const auto before = same(now);
+    now.lights[0].direction = glm::normalize(glm::dvec3(1, -0.4, 0.3));
+    CHECK(same(now) != before);
+    now = f;
+    CHECK(same(now) == before);
+    for (std::size_t v : {first + 6, first + 7}) now.vertices[v] += glm::dvec3(-6, 0, 0);  // unfolded at the top
+    CHECK(same(now) != before);
+    for (std::size_t v : {first + 2, first + 3}) now.vertices[v] += glm::dvec3(-6, 0, 0);
+    same(now);
+  }
+  // The plane of a face passes the light at 1e-8: far enough in a small scene, not in a large one.
+  SceneFrame e;
+  add_solid(e, Solid{{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, -1, 1}}, {{0, 2, 1}, {1, 2, 3}}}, {0, 0, 0}, {1, 1, 1},
+            Turn{}, {1, 1, 1}, false, false);
+  add_solid(e, box_solid(), {0, -2, 0}, {1, 0.1, 1}, Turn{}, {1, 1, 1}, false, true);
+  look_at(e.camera, {3, 1, 4}, {0, -1, 0});
+  e.lights[0].directional = false;
+  e.lights[0].position = {-2, 1e-8, -2};
+  Look all;
+  all.leave_out = false;
+  ShadowCache kept;
+  const auto caps_and_sides = [&](ShadowCache* c) {
+    return make_geometry(e, Config{}, 64, 48, all, nullptr, c).volume_faces.size();
+  };
+  const std::size_t with = caps_and_sides(&kept);
+  move(e, 1, {0, 0, -50});
+  CHECK(caps_and_sides(&kept) < with);
+  CHECK(caps_and_sides(&kept) == caps_and_sides(nullptr));
+}
+
 TEST_CASE("a configuration that counts may do without FSF, and is refused where one volume will not do") {
   Needs needs;
   needs.shadows = needs.several_volumes = true;

@@ -98,7 +98,7 @@ struct Component {
 /// coordinates. Triangles of inside-out closed components are turned so that they face outward.
 struct SceneFrame {
   Camera camera;
-  std::vector<Light> lights{Light{}};  ///< 1 to kMaxLights
+  std::vector<Light> lights = std::vector<Light>(1);  ///< 1 to kMaxLights
   std::vector<glm::dvec3> vertices;
   std::vector<ShadingVertex> shading;
   std::vector<Triangle>
