@@ -91,10 +91,18 @@ void VolumeMaker::clip_and_cut(std::int32_t w) {
   for (const NearCut& cut : cuts_) clipper_->snap_cut(cut, w, out_->near_edges);
 }
 
+// Whether the cap's plane is the stand-in of ScreenFaces::unsnapped_plane(): of one depth, where its corner's is
+// another. A plane that is truly square to the view has its corners' depths to an LSB.
+bool VolumeMaker::is_edge_on(const ScreenPlane& cap, const ScreenVertex& at, const ClipPoint& corner) const {
+  return cap.a == 0 && cap.b == 0 &&
+         std::abs(on_plane(cap, at).z - faces_.depth_vertex(corner).z) > std::int64_t{1} << kVertexFrac;
+}
+
 // The plane of a volume's side, in polygon_ after clipping: through the snapped edge that it shares with its cap and
 // the vertex furthest from it. On the edge it has the depths that the cap has there, so that it leaves the cap exactly
 // at their common edge. But a cap steeper than the side is further off its own corners there than the side's slope
 // allows for, and would move the side's shadow far away: then the side has the corners' depths.
+// A cap seen edge-on has one depth all over, the mean of its corners', and none of it is any use.
 ScreenPlane VolumeMaker::side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b,
                                     const EyePoint& c) const {
   const ClipPoint pa = view_->to_clip(a);
@@ -114,7 +122,7 @@ ScreenPlane VolumeMaker::side_plane(const DrawnRange& cap, const EyePoint& a, co
     const auto plane =
         plane_through({faces_.depth_vertex(pa), faces_.depth_vertex(pb), faces_.depth_vertex(*furthest)});
     const ScreenPlane& at = out_->polygons[cap.first].depth;
-    if (plane && slope(at) <= slope(*plane))
+    if (plane && slope(at) <= slope(*plane) && !is_edge_on(at, sa, pa) && !is_edge_on(at, sb, pb))
       if (const auto joined = plane_through({on_plane(at, sa), on_plane(at, sb), faces_.depth_vertex(*furthest)}))
         return *joined;
     if (plane) return *plane;

@@ -46,6 +46,7 @@ class VolumeMaker {
   void cut_only();
   void clip_and_cut(std::int32_t w);
   [[nodiscard]] EyePoint far_point(std::uint32_t vertex) const;
+  [[nodiscard]] bool is_edge_on(const ScreenPlane& cap, const ScreenVertex& at, const ClipPoint& corner) const;
   [[nodiscard]] ScreenPlane side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b,
                                        const EyePoint& c) const;
 

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "kage/order.hpp"
 #include "order/exact.hpp"
 #include "order/filter.hpp"
+#include "order/kernels.hpp"
 
 namespace kage::order {
 
@@ -57,7 +59,20 @@ struct FragmentRecord {
   std::uint32_t first_edge = 0;
 };
 
-inline constexpr std::size_t kBlock = 64;  ///< nodes whose sides are one word
+/// Vectors that begin where a cache line does.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  LineAllocator() = default;
+  template <class U>
+  explicit LineAllocator(const LineAllocator<U>& /*other*/) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kLine)); }
+  void deallocate(T* p, std::size_t /*n*/) { ::operator delete(p, kLine); }
+  bool operator==(const LineAllocator& /*other*/) const { return true; }
+
+ private:
+  static constexpr std::align_val_t kLine{64};
+};
 
 }  // namespace kage::order
 
@@ -76,8 +91,9 @@ struct OrderTree::Data {
   std::vector<OrderPoint> points;
   OrderBuildStats stats;
 
-  // Made of the above: unit normals and offsets for the vector tests, in blocks of 64 nodes, a of all, b of all, c, d.
-  std::vector<float> blocks;
+  // Made of the above: unit normals and offsets for the vector tests, in blocks of kBlock nodes, a of all, b of all, c,
+  // d. Past the last node, its plane again.
+  std::vector<float, order::LineAllocator<float>> blocks;
   OrderPoint centre{};  // that offsets are from, scaled
   double radius = 0;    // of the mesh about it, scaled; no offset is larger
 

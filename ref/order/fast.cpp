@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The fast way (docs/order.md). The order is an array, and each part (parts.hpp) knows where in it its subtree begins.
-// A step tests sides in vectors; then either exchanges the two subtrees of each top that flipped, top down, and looks
-// flipped clusters up anew; or places all parts again, run by run, which costs the same whatever flipped. Which is
-// cheaper, costs measured on this very tree say.
+// A step tests sides in vectors, which lists what flipped; then either looks flipped clusters up anew and exchanges the
+// two subtrees of each top that flipped, top down; or places all parts again, run by run, which costs the same whatever
+// flipped. Which is cheaper, costs measured on this very tree say.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "order/parts.hpp"
@@ -51,6 +50,9 @@ struct Costs {
   double scale = 2;    ///< exchanges as they went, against the sum of these three
 };
 
+/// Longest way of the eye after which limits are forgotten: they are floats, and no finer than 2^-18 there.
+constexpr double kLongestPath = 64;
+
 class Fast final : public VisibilityOrder {
  public:
   explicit Fast(const OrderTree::Data& data)
@@ -58,12 +60,14 @@ class Fast final : public VisibilityOrder {
         eye_(data),
         parts_(data),
         blocks_((data.nodes() + kBlock - 1) / kBlock),
-        sides_(blocks_ + 1),
-        flips_(blocks_),
-        unsure_(blocks_),
-        limits_(blocks_),
-        place_(parts_.parts().size() + 1),
-        order_(data.nodes()) {
+        sides_(2 * blocks_ + 8),
+        unsure_(2 * blocks_),
+        limits_(blocks_ + kBlock, std::numeric_limits<float>::infinity()),
+        listed_(blocks_ + kBlock),
+        flipped_(data.nodes() / 4 + 2 * kBlock),
+        place_(parts_.parts().size() + 1 + kPlacingSlack),
+        order_(data.nodes() + kPlacingSlack),
+        spare_(parts_.largest_back() > kPlacingSlack ? parts_.largest_back() + kPlacingSlack : 0) {
     if (data.nodes() != 0) calibrate();
   }
 
@@ -74,39 +78,43 @@ class Fast final : public VisibilityOrder {
   }
 
   [[nodiscard]] std::uint64_t bytes() const override {
-    return tree_bytes(data_, true) + parts_.bytes() + (sides_.size() + flips_.size() + unsure_.size()) * 8 +
-           limits_.size() * sizeof(double) + (place_.size() + order_.size() + spare_.capacity()) * 4 +
-           touched_.capacity() * 4;
+    return tree_bytes(data_, true) + parts_.bytes() + sides_.size() + unsure_.size() +
+           (limits_.size() + listed_.size() + flipped_.size() + place_.size() + order_.size() + spare_.size()) * 4;
   }
 
  private:
   void test(double way);
-  void decide_unsure(const EyeSides& eye);
+  void decide_unsure(std::uint64_t blocks);
   bool exchange_is_cheaper();
   /// What exchanging costs by costs_, as far as it is not more than `limit`.
   double exchange_cost(double limit);
   void exchange();
-  void swap_subtrees(std::uint32_t node, std::uint32_t part);
-  void shift_places(std::uint32_t first, std::uint32_t end, std::uint32_t by);
   void rebuild();
   void calibrate();
 
-  [[nodiscard]] bool side(std::uint32_t node) const { return (sides_[node / kBlock] >> (node % kBlock) & 1U) != 0; }
+  /// Flips that can be listed. More are not worth exchanging: at four nodes a flip a rebuild costs less.
+  [[nodiscard]] std::size_t room() const { return flipped_.size() - kBlock; }
+
+  [[nodiscard]] Placing placing() {
+    return {data_.size.data(), parts_.parts().data(), parts_.starts().data(), parts_.table().data(),
+            sides_.data(),     place_.data(),         order_.data(),          spare_.data()};
+  }
 
   const OrderTree::Data& data_;
   EyeSides eye_;
   Parts parts_;
   std::size_t blocks_;
-  std::vector<std::uint64_t> sides_;  // a bit per node, and a word more
-  std::vector<std::uint64_t> flips_;
-  std::vector<std::uint64_t> unsure_;
-  std::vector<double> limits_;        // by block: length of the eye's way up to which nothing flips
-  std::vector<std::uint32_t> place_;  // by part, and one for what does not exist: where in order_ its subtree begins
+  std::vector<std::uint8_t> sides_;     // a bit per node, and a block more
+  std::vector<std::uint8_t> unsure_;    // the same, of blocks that are listed
+  std::vector<float> limits_;           // by block: length of the eye's way up to which nothing flips
+  std::vector<std::uint32_t> listed_;   // blocks
+  std::vector<std::uint32_t> flipped_;  // nodes, ascending
+  std::vector<std::uint32_t, LineAllocator<std::uint32_t>>
+      place_;  // by part, and one for what does not exist: where in order_ its subtree begins
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> spare_;    // the smaller of two parts that change places
-  std::vector<std::uint32_t> touched_;  // clusters, by part
+  std::vector<std::uint32_t> spare_;  // the smaller of two subtrees that change places
   Costs costs_;
-  double path_ = 0;
+  double path_ = 2 * kLongestPath;
   double margin_ = std::numeric_limits<double>::infinity();  // mean of the blocks', when last measured,
   int since_margin_ = 0;                                     // so many steps ago
   double flip_cost_ = 0;                                     // of an exchange, by flip, as counted up to now,
@@ -139,9 +147,7 @@ void Fast::move_to(const Eye& eye) {
     return;
   }
   step_.rebuild_cost = costs_.rebuild;
-  const bool exchanging = placed_ && exchange_is_cheaper();
-  for (std::size_t b = 0; b < blocks_; ++b) sides_[b] ^= flips_[b];
-  if (exchanging) {
+  if (placed_ && exchange_is_cheaper()) {
     exchange();
     step_.change = OrderStep::Change::kExchange;
     step_.why = "exchanging what changed costs less than a rebuild";
@@ -154,52 +160,60 @@ void Fast::move_to(const Eye& eye) {
 }
 
 void Fast::test(double way) {
-  // Past this length, sums would round off more than EyeSides::way_from allows for.
-  if (!(path_ + way < 0x1p9)) {
+  path_ += way;
+  // Not ">": of ways that are not known, nothing is.
+  if (!(path_ <= kLongestPath)) {
     path_ = 0;
-    std::fill(limits_.begin(), limits_.end(), -1.0);
-  } else {
-    path_ += way;
+    std::fill_n(limits_.begin(), blocks_, -1.0F);
   }
   const SideQuery query = eye_.query();
+  const SideBlocks blocks{data_.blocks.data(), data_.nodes(),  sides_.data(),   unsure_.data(),
+                          limits_.data(),      listed_.data(), flipped_.data(), room()};
   SideCounts counts;
-  // Limits cost a little where they are made, and pay where a block is then left out every third time or more.
-  if (!placed_ || way < 2 * margin_ || ++since_margin_ == kMarginAge) {
+  // Limits cost as much as a test, and pay where a block is then left out every other time or more.
+  if (!placed_ || way < margin_ || ++since_margin_ == kMarginAge) {
     since_margin_ = 0;
-    counts = test_blocks(data_.blocks.data(), blocks_, query, sides_.data(), flips_.data(), unsure_.data(), path_,
-                         limits_.data());
+    counts = test_blocks(blocks, query, path_);
     if (counts.blocks * 2 > blocks_) margin_ = counts.margins / static_cast<double>(counts.blocks);
     step_.tests = OrderStep::Tests::kBlocks;
   } else {
-    counts = test_all(data_.blocks.data(), blocks_, query, sides_.data(), flips_.data(), unsure_.data());
+    counts = test_all(blocks, query);
     step_.tests = OrderStep::Tests::kAll;
   }
   step_.tested = std::min<std::uint64_t>(counts.blocks * kBlock, data_.nodes());
   step_.flips = counts.flips;
-  if (data_.nodes() % kBlock != 0) {  // past the last node
-    const std::uint64_t valid = (std::uint64_t{1} << (data_.nodes() % kBlock)) - 1;
-    step_.flips -= static_cast<std::uint64_t>(__builtin_popcountll(flips_.back() & ~valid));
-    flips_.back() &= valid;
-    unsure_.back() &= valid;
-  }
-  if (counts.unsure != 0) decide_unsure(eye_);
+  if (counts.unsure != 0) decide_unsure(counts.unsure);
 }
 
-void Fast::decide_unsure(const EyeSides& eye) {
-  EyeSides exact = eye;
-  for (std::size_t b = 0; b < blocks_; ++b)
-    for (std::uint64_t left = unsure_[b]; left != 0; left &= left - 1) {
-      const auto bit = static_cast<std::uint32_t>(__builtin_ctzll(left));
-      const auto node = static_cast<std::uint32_t>(b * kBlock) + bit;
+void Fast::decide_unsure(std::uint64_t blocks) {
+  EyeSides exact = eye_;
+  for (std::uint64_t i = 0; i < blocks; ++i) {
+    const std::size_t b = listed_[i];
+    for (std::size_t k = 0; k < kBlock; ++k) {
+      const std::size_t byte = 2 * b + k / 8;
+      if ((unsure_[byte] >> (k % 8) & 1U) == 0) continue;
+      const auto node = static_cast<std::uint32_t>(b * kBlock + k);
       ++step_.unsure;
-      if (exact.front(node) == side(node)) continue;
-      flips_[b] |= std::uint64_t{1} << bit;
+      if (exact.front(node) == ((sides_[byte] >> (k % 8) & 1U) != 0)) continue;
+      sides_[byte] ^= static_cast<std::uint8_t>(1U << (k % 8));
+      // The list stays in order.
+      if (step_.flips < room()) {
+        const auto end = flipped_.begin() + static_cast<std::ptrdiff_t>(step_.flips);
+        const auto at = std::lower_bound(flipped_.begin(), end, node);
+        std::copy_backward(at, end, end + 1);
+        *at = node;
+      }
       ++step_.flips;
     }
-  step_.exact = exact.exact() - eye.exact();
+  }
+  step_.exact = exact.exact() - eye_.exact();
 }
 
 bool Fast::exchange_is_cheaper() {
+  if (step_.flips > room()) {  // not all are listed
+    step_.exchange_cost = std::numeric_limits<double>::infinity();
+    return false;
+  }
   // By what a flip cost on the average; only if that leaves a doubt, one by one. Every now and then that is done
   // anyway, since the average comes from it.
   const double guess = static_cast<double>(step_.flips) * flip_cost_ * costs_.scale;
@@ -213,124 +227,46 @@ bool Fast::exchange_is_cheaper() {
 
 double Fast::exchange_cost(double limit) {
   double cost = 0;
-  std::uint64_t flips = 0;
-  for (std::size_t b = 0; b < blocks_; ++b) {
-    for (std::uint64_t left = flips_[b]; left != 0; left &= left - 1) {
-      const auto node = static_cast<std::uint32_t>(b * kBlock) + static_cast<std::uint32_t>(__builtin_ctzll(left));
-      const std::uint32_t size = data_.size[node];
-      cost += size > kClusterNodes ? costs_.swap + costs_.moved * size : costs_.cluster;
-      ++flips;
-    }
-    if (cost > limit) break;
+  std::size_t i = 0;
+  for (; i < step_.flips && cost <= limit; ++i) {
+    const std::uint32_t size = data_.size[flipped_[i]];
+    cost += size > kClusterNodes ? costs_.swap + costs_.moved * size : costs_.cluster;
   }
-  flip_cost_ += (cost / static_cast<double>(flips) - flip_cost_) / 4;
+  flip_cost_ += (cost / static_cast<double>(i) - flip_cost_) / 4;
   return cost;
 }
 
 void Fast::exchange() {
   const bool measured = step_.exchange_cost > kMeasured;
   const auto start = measured ? Clock::now() : Clock::time_point();
-  touched_.clear();
-  std::uint32_t last = kNoNode;
-  for (std::size_t b = 0; b < blocks_; ++b)
-    for (std::uint64_t left = flips_[b]; left != 0; left &= left - 1) {
-      const auto node = static_cast<std::uint32_t>(b * kBlock) + static_cast<std::uint32_t>(__builtin_ctzll(left));
-      const std::uint32_t part = parts_.of(node);
-      if (data_.size[node] > kClusterNodes)
-        swap_subtrees(node, part);
-      else if (part != last)
-        touched_.push_back(last = part);
-    }
-  place_clusters(parts_.parts().data(), touched_.data(), touched_.size(), place_.data(), sides_.data(),
-                 parts_.table().data(), order_.data());
+  order::exchange(placing(), flipped_.data(), step_.flips);
   // Misses and mispredictions are not in the calibration. A bit at a time, so that one interrupt changes little.
   if (measured) costs_.scale *= seconds_since(start) > step_.exchange_cost ? 1.05 : 1 / 1.05;
 }
 
-// [X][node][Y] becomes [Y][node][X]. X and Y keep their own order, and begin elsewhere.
-void Fast::swap_subtrees(std::uint32_t node, std::uint32_t part) {
-  const std::uint32_t back_size = parts_.parts()[part].b;
-  const std::uint32_t front_size = data_.size[node] - 1 - back_size;
-  // The side is the new one: the eye's side is drawn last, and was first up to now.
-  const bool front_was_first = side(node);
-  const std::uint32_t x = front_was_first ? front_size : back_size;
-  const std::uint32_t y = front_was_first ? back_size : front_size;
-  std::uint32_t* const order = order_.data() + place_[part];
-  if (spare_.size() < std::min(x, y)) spare_.resize(std::min(x, y));
-  if (x <= y) {
-    std::copy_n(order, x, spare_.data());
-    std::memmove(order, order + x + 1, y * sizeof(std::uint32_t));
-    std::copy_n(spare_.data(), x, order + y + 1);
-  } else {
-    std::copy_n(order + x + 1, y, spare_.data());
-    std::memmove(order + y + 1, order, x * sizeof(std::uint32_t));
-    std::copy_n(spare_.data(), y, order);
-  }
-  order[y] = node;
-
-  const std::uint32_t front = part + 1;
-  const std::uint32_t back = parts_.below(node + 1 + front_size);
-  const std::uint32_t end = parts_.below(node + 1 + front_size + back_size);
-  const std::uint32_t later = y + 1;          // X begins so much later,
-  const std::uint32_t sooner = 0U - (x + 1);  // Y so much sooner
-  shift_places(front, back, front_was_first ? later : sooner);
-  shift_places(back, end, front_was_first ? sooner : later);
-}
-
-void Fast::shift_places(std::uint32_t first, std::uint32_t end, std::uint32_t by) {
-  if (end - first > 16)
-    add_to(place_.data() + first, end - first, by);
-  else
-    for (std::uint32_t p = first; p < end; ++p) place_[p] += by;
-}
-
 void Fast::rebuild() {
-  const Part* const parts = parts_.parts().data();
-  std::uint32_t* const place = place_.data();
-  std::uint32_t* const order = order_.data();
-  place[0] = 0;
-  for (const Run& run : parts_.runs()) {
-    std::uint32_t at = place[run.part];
-    std::uint32_t front = data_.size[run.node];  // nodes of what is still to be placed
-    std::uint32_t node = run.node;
-    const std::uint32_t end = run.part + run.tops;
-    for (std::uint32_t part = run.part; part < end; ++part, ++node) {
-      // Masks instead of branches: sides are as good as chance.
-      const std::uint32_t back = parts[part].b;
-      const std::uint32_t front_last = 0U - static_cast<std::uint32_t>(sides_[node / kBlock] >> (node % kBlock) & 1U);
-      front -= back + 1;
-      const std::uint32_t behind = front & ~front_last;  // drawn before the back
-      const std::uint32_t first = back & front_last;     // drawn before the front
-      place[part] = at;
-      place[parts[part].a] = at + behind + (1 & ~front_last);
-      order[at + behind + first] = node;
-      at += first + (1 & front_last);
-    }
-    place[end] = at;  // the cluster that ends the run
-  }
-  place_clusters(parts, parts_.clusters().data(), parts_.clusters().size(), place, sides_.data(), parts_.table().data(),
-                 order);
+  place_all(placing(), parts_.runs().data(), parts_.runs().size(), parts_.clusters().data(), parts_.clusters().size());
 }
 
 void Fast::calibrate() {
   // Sides as chance has them, so that a rebuild is measured as it will be.
   std::uint64_t random = 1;
-  for (std::size_t b = 0; b < blocks_; ++b) {
+  for (std::uint8_t& eight : sides_) {
     random = random * 6364136223846793005U + 1442695040888963407U;
-    sides_[b] = random ^ random >> 29U;
+    eight = static_cast<std::uint8_t>(random >> 56U);
   }
   costs_.rebuild = least_seconds([&] { rebuild(); });
   const std::vector<std::uint32_t>& clusters = parts_.clusters();
   costs_.cluster = 2 * least_seconds([&] {  // as much again for finding them
-                     place_clusters(parts_.parts().data(), clusters.data(), clusters.size(), place_.data(),
-                                    sides_.data(), parts_.table().data(), order_.data());
+                     place_clusters(placing(), clusters.data(), clusters.size());
                    }) /
                    static_cast<double>(clusters.size());
   flip_cost_ = costs_.cluster;
   if (!parts_.runs().empty()) {
     const auto swap = [&](std::uint32_t node) {
-      sides_[node / kBlock] ^= std::uint64_t{1} << (node % kBlock);
-      swap_subtrees(node, parts_.of(node));
+      sides_[node / 8] ^= static_cast<std::uint8_t>(1U << (node % 8));
+      flipped_[0] = node;
+      order::exchange(placing(), flipped_.data(), 1);
     };
     const Run& last = parts_.runs().back();
     const std::uint32_t smallest = last.node + last.tops - 1;  // or nearly

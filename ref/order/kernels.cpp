@@ -1,7 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "order/kernels.hpp"
 
+#include <array>
 #include <cstring>
+
+#ifndef KAGE_ORDER_SET_BITS
+#define KAGE_ORDER_SET_BITS
+namespace kage::order {
+
+/// For each byte the numbers of the bits that are set in it, a byte each. Highway's Compress() does the same; some
+/// releases copy its table to the stack at every use.
+constexpr std::array<std::uint64_t, 256> set_bits() {
+  std::array<std::uint64_t, 256> table{};
+  for (std::uint64_t byte = 0; byte < table.size(); ++byte) {
+    unsigned n = 0;
+    for (std::uint64_t bit = 0; bit < 8; ++bit)
+      if ((byte >> bit & 1U) != 0) table[byte] |= bit << (8 * n++);
+  }
+  return table;
+}
+inline constexpr std::array<std::uint64_t, 256> kSetBits = set_bits();
+
+}  // namespace kage::order
+#endif
 
 // The plain fallback: EMU128 knows every operation, SCALAR does not.
 #define HWY_DISABLED_TARGETS HWY_SCALAR
@@ -16,9 +37,7 @@ HWY_BEFORE_NAMESPACE();
 namespace kage::order::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kNodes = 64;  // of a block
-using DF = hn::CappedTag<float, 16>;
-using D8 = hn::CappedTag<std::uint32_t, 8>;
+using DF = hn::CappedTag<float, kBlock>;
 
 struct Query {
   explicit Query(const SideQuery& q)
@@ -30,113 +49,119 @@ struct Query {
   hn::Vec<DF> x, y, z, w, threshold;
 };
 
-HWY_INLINE void store_bits(hn::Mask<DF> m, std::size_t first, std::uint64_t* HWY_RESTRICT word) {
-  const DF d;
-  if (hn::Lanes(d) >= 8) {
-    (void)hn::StoreMaskBits(d, m, reinterpret_cast<std::uint8_t*>(word) + first / 8);
-  } else {
-    std::uint8_t bits[8] = {};
-    (void)hn::StoreMaskBits(d, m, bits);
-    *word |= std::uint64_t{bits[0]} << first;
-  }
+HWY_INLINE std::uint32_t bits_of(hn::Mask<DF> m) {
+  std::uint8_t bytes[8] = {};
+  (void)hn::StoreMaskBits(DF(), m, bytes);
+  std::uint16_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
 }
 
-// Writes which nodes are in front and which are unsure; returns the least distance, if it is asked for.
+// Writes first + i for every bit i of the lowest kBlock that is set, and up to 8 words more. Returns past the last.
+HWY_INLINE std::uint32_t* list_bits(std::uint32_t bits, std::uint32_t first, std::uint32_t* HWY_RESTRICT out) {
+  const hn::CappedTag<std::uint32_t, 8> d;
+  const hn::Rebind<std::uint8_t, decltype(d)> d_bytes;
+  for (std::uint32_t i = 0; i < kBlock; i += 8) {
+    const std::uint32_t some = bits >> i & 0xffU;
+    const auto* const set = reinterpret_cast<const std::uint8_t*>(&kSetBits[some]);
+    const auto from = hn::Set(d, first + i);
+    for (std::size_t k = 0; k < 8; k += hn::Lanes(d))
+      hn::StoreU(hn::Add(hn::PromoteTo(d, hn::LoadU(d_bytes, set + k)), from), d, out + k);
+    out += hwy::PopCount(some);
+  }
+  return out;
+}
+
+struct Signs {
+  std::uint32_t front = 0;
+  std::uint32_t unsure = 0;
+  float least = 0;  // distance, if it is asked for
+};
+
 template <bool kMargin>
-HWY_INLINE float test_block(const float* HWY_RESTRICT p, const Query& q, std::uint64_t* HWY_RESTRICT front,
-                            std::uint64_t* HWY_RESTRICT unsure) {
+HWY_INLINE Signs test_block(const float* HWY_RESTRICT p, const Query& q) {
   const DF d;
+  Signs signs;
   auto least = hn::Set(d, 3e38F);
-  *front = 0;
-  *unsure = 0;
-  for (std::size_t i = 0; i < kNodes; i += hn::Lanes(d)) {
-    auto v = hn::Mul(hn::LoadU(d, p + 3 * kNodes + i), q.w);
+  for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d)) {
+    auto v = hn::Mul(hn::LoadU(d, p + 3 * kBlock + i), q.w);
     v = hn::MulAdd(hn::LoadU(d, p + i), q.x, v);
-    v = hn::MulAdd(hn::LoadU(d, p + kNodes + i), q.y, v);
-    v = hn::MulAdd(hn::LoadU(d, p + 2 * kNodes + i), q.z, v);
+    v = hn::MulAdd(hn::LoadU(d, p + kBlock + i), q.y, v);
+    v = hn::MulAdd(hn::LoadU(d, p + 2 * kBlock + i), q.z, v);
     const auto size = hn::Abs(v);
-    store_bits(hn::Gt(v, hn::Zero(d)), i, front);
+    signs.front |= bits_of(hn::Gt(v, hn::Zero(d))) << i;
     // Not "<=": of a NaN nothing is certain.
-    store_bits(hn::Not(hn::Gt(size, q.threshold)), i, unsure);
+    signs.unsure |= bits_of(hn::Not(hn::Gt(size, q.threshold))) << i;
     if (kMargin) least = hn::Min(least, size);
   }
-  return kMargin ? hn::GetLane(hn::MinOfLanes(d, least)) : 0;
+  if (kMargin) signs.least = hn::GetLane(hn::MinOfLanes(d, least));
+  return signs;
 }
 
-// From sides as tested to flips. Apart from the tests, so that no word is read while its bytes are still on their way.
-void count_flips(std::size_t blocks, const std::uint64_t* HWY_RESTRICT sides, std::uint64_t* HWY_RESTRICT flips,
-                 const std::uint64_t* HWY_RESTRICT unsure, SideCounts& counts) {
-  for (std::size_t b = 0; b < blocks; ++b) {
-    flips[b] = (flips[b] ^ sides[b]) & ~unsure[b];
-    counts.flips += static_cast<std::uint64_t>(hwy::PopCount(flips[b]));
-    counts.unsure += unsure[b] != 0 ? 1U : 0U;
-  }
-}
-
-SideCounts TestAll(const float* HWY_RESTRICT planes, std::size_t blocks, const SideQuery& query,
-                   const std::uint64_t* HWY_RESTRICT sides, std::uint64_t* HWY_RESTRICT flips,
-                   std::uint64_t* HWY_RESTRICT unsure) {
+// Tests blocks, the n-th of `count` being block_of(n).
+template <bool kMargin, class BlockOf>
+HWY_INLINE SideCounts test(const SideBlocks& to, const SideQuery& query, std::size_t count, double path,
+                           BlockOf block_of) {
   const Query q(query);
-  SideCounts counts;
-  counts.blocks = blocks;
-  for (std::size_t b = 0; b < blocks; ++b) (void)test_block<false>(planes + b * kNodes * 4, q, flips + b, unsure + b);
-  count_flips(blocks, sides, flips, unsure, counts);
-  return counts;
-}
-
-SideCounts TestBlocks(const float* HWY_RESTRICT planes, std::size_t blocks, const SideQuery& query,
-                      const std::uint64_t* HWY_RESTRICT sides, std::uint64_t* HWY_RESTRICT flips,
-                      std::uint64_t* HWY_RESTRICT unsure, double path, double* HWY_RESTRICT limits) {
-  const Query q(query);
-  SideCounts counts;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    if (limits[b] > path) {
-      flips[b] = sides[b];
-      unsure[b] = 0;
-      continue;
+  const float* const HWY_RESTRICT planes = to.planes;
+  std::uint8_t* const HWY_RESTRICT all_sides = to.sides;
+  float* const HWY_RESTRICT limits = to.limits;
+  std::uint32_t* const HWY_RESTRICT flipped = to.flipped;
+  const std::size_t room = to.room;
+  const double threshold = query.threshold;
+  std::uint64_t flip_count = 0;
+  std::uint64_t unsure_count = 0;
+  double margins = 0;
+  const std::size_t last = (to.nodes - 1) / kBlock;
+  const std::uint32_t last_valid = 0xffffU >> (kBlock - 1 - (to.nodes - 1) % kBlock);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::uint32_t b = block_of(n);
+    const Signs signs = test_block<kMargin>(planes + b * (4 * kBlock), q);
+    std::uint16_t sides = 0;
+    std::memcpy(&sides, all_sides + std::size_t{2} * b, sizeof sides);
+    const std::uint32_t valid = b == last ? last_valid : 0xffffU;
+    const std::uint32_t unsure = signs.unsure & valid;
+    const std::uint32_t flips = (signs.front ^ sides) & ~signs.unsure & valid;
+    sides = static_cast<std::uint16_t>(sides ^ flips);
+    std::memcpy(all_sides + std::size_t{2} * b, &sides, sizeof sides);
+    if (flip_count <= room) (void)list_bits(flips, b * static_cast<std::uint32_t>(kBlock), flipped + flip_count);
+    flip_count += static_cast<std::uint64_t>(hwy::PopCount(flips));
+    if (HWY_UNLIKELY(unsure != 0)) {
+      const auto bits = static_cast<std::uint16_t>(unsure);
+      std::memcpy(to.unsure + std::size_t{2} * b, &bits, sizeof bits);
+      to.listed[unsure_count++] = b;
     }
-    const float least = test_block<true>(planes + b * kNodes * 4, q, flips + b, unsure + b);
-    // Rounded down; not positive where a node is unsure. Infinities and NaNs come with an infinite threshold.
-    const double margin = (static_cast<double>(least) - static_cast<double>(query.threshold)) * (1 - 0x1p-20) - 0x1p-41;
-    const bool known = margin > 0;
-    limits[b] = known ? path + margin : path;
-    if (known) counts.margins += margin;
-    ++counts.blocks;
+    if (kMargin) {
+      // Rounded down; not positive where a node is unsure. Infinities and NaNs come with an infinite threshold.
+      const double margin = (static_cast<double>(signs.least) - threshold) * (1 - 0x1p-20) - 0x1p-41;
+      const bool known = margin > 0;
+      limits[b] = known ? static_cast<float>((path + margin) * (1 - 0x1p-22)) : -1;
+      margins += known ? margin : 0;
+    }
   }
-  count_flips(blocks, sides, flips, unsure, counts);
-  return counts;
+  return {count, flip_count, unsure_count, margins};
 }
 
-HWY_INLINE void place_one(const Part& c, std::uint32_t at, const std::uint64_t* HWY_RESTRICT sides,
-                          const std::uint64_t* HWY_RESTRICT table, std::uint32_t* HWY_RESTRICT order) {
-  const D8 d;
-  const hn::Rebind<std::uint8_t, D8> d_bytes;
-  const std::uint32_t nodes = c.b & 15U;
-  const std::uint32_t shift = c.a & 63U;
-  const std::uint64_t* const word = sides + (c.a >> 6U);
-  const std::uint64_t bits = word[0] >> shift | (word[1] << 1U) << (63U - shift);
-  const std::uint64_t* const entry = table + (c.b >> 4U) + (bits & ((1U << nodes) - 1));
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(entry);
-  const auto first = hn::Set(d, c.a);
-  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
-    if (i >= nodes) break;
-    const auto v = hn::Add(hn::PromoteTo(d, hn::LoadU(d_bytes, bytes + i)), first);
-    hn::BlendedStore(v, hn::FirstN(d, nodes - i), d, order + at + i);
+SideCounts TestAll(const SideBlocks& to, const SideQuery& query) {
+  return test<false>(to, query, (to.nodes + kBlock - 1) / kBlock, 0,
+                     [](std::size_t n) { return static_cast<std::uint32_t>(n); });
+}
+
+SideCounts TestBlocks(const SideBlocks& to, const SideQuery& query, double path) {
+  // First which blocks, without a branch; then those. Their numbers lie where test() lists them again, further on.
+  const DF d;
+  const std::size_t blocks = (to.nodes + kBlock - 1) / kBlock;
+  const auto reached = hn::Set(d, static_cast<float>(path * (1 + 0x1p-22)));
+  std::uint32_t* const listed = to.listed;
+  std::uint32_t* end = listed;
+  for (std::size_t b = 0; b < blocks; b += kBlock) {
+    std::uint32_t due = 0;
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(d))
+      due |= bits_of(hn::Le(hn::LoadU(d, to.limits + b + i), reached)) << i;
+    end = list_bits(due, static_cast<std::uint32_t>(b), end);
   }
-}
-
-void PlaceClusters(const Part* HWY_RESTRICT parts, const std::uint32_t* HWY_RESTRICT listed, std::size_t count,
-                   const std::uint32_t* HWY_RESTRICT place, const std::uint64_t* HWY_RESTRICT sides,
-                   const std::uint64_t* HWY_RESTRICT table, std::uint32_t* HWY_RESTRICT order) {
-  for (std::size_t i = 0; i < count; ++i) place_one(parts[listed[i]], place[listed[i]], sides, table, order);
-}
-
-void AddTo(std::uint32_t* HWY_RESTRICT values, std::size_t count, std::uint32_t addend) {
-  const hn::ScalableTag<std::uint32_t> d;
-  const auto a = hn::Set(d, addend);
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) hn::StoreU(hn::Add(hn::LoadU(d, values + i), a), d, values + i);
-  for (; i < count; ++i) values[i] += addend;
+  const auto count = static_cast<std::size_t>(end - listed);
+  return test<true>(to, query, count, path, [listed](std::size_t n) { return listed[n]; });
 }
 
 }  // namespace kage::order::HWY_NAMESPACE
@@ -147,23 +172,10 @@ namespace kage::order {
 
 HWY_EXPORT(TestAll);
 HWY_EXPORT(TestBlocks);
-HWY_EXPORT(PlaceClusters);
-HWY_EXPORT(AddTo);
 
-SideCounts test_all(const float* planes, std::size_t blocks, const SideQuery& query, const std::uint64_t* sides,
-                    std::uint64_t* flips, std::uint64_t* unsure) {
-  return HWY_DYNAMIC_DISPATCH(TestAll)(planes, blocks, query, sides, flips, unsure);
-}
-SideCounts test_blocks(const float* planes, std::size_t blocks, const SideQuery& query, const std::uint64_t* sides,
-                       std::uint64_t* flips, std::uint64_t* unsure, double path, double* limits) {
-  return HWY_DYNAMIC_DISPATCH(TestBlocks)(planes, blocks, query, sides, flips, unsure, path, limits);
-}
-void place_clusters(const Part* parts, const std::uint32_t* listed, std::size_t count, const std::uint32_t* place,
-                    const std::uint64_t* sides, const std::uint64_t* table, std::uint32_t* order) {
-  HWY_DYNAMIC_DISPATCH(PlaceClusters)(parts, listed, count, place, sides, table, order);
-}
-void add_to(std::uint32_t* values, std::size_t count, std::uint32_t addend) {
-  HWY_DYNAMIC_DISPATCH(AddTo)(values, count, addend);
+SideCounts test_all(const SideBlocks& to, const SideQuery& query) { return HWY_DYNAMIC_DISPATCH(TestAll)(to, query); }
+SideCounts test_blocks(const SideBlocks& to, const SideQuery& query, double path) {
+  return HWY_DYNAMIC_DISPATCH(TestBlocks)(to, query, path);
 }
 
 }  // namespace kage::order

@@ -6,7 +6,7 @@
 
 #include "kage/error.hpp"
 #include "order/build_node.hpp"
-#include "order/kernels.hpp"
+#include "order/placing.hpp"
 
 namespace kage::order {
 namespace {

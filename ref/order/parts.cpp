@@ -35,7 +35,7 @@ std::uint64_t order_of(const std::uint32_t* size, std::uint32_t sides) {
 
 Parts::Parts(const OrderTree::Data& data) {
   mark(data);
-  parts_.resize(before_.back() + static_cast<std::uint32_t>(__builtin_popcountll(starts_.back())));
+  parts_.resize(below(data.nodes()));
   const auto none = static_cast<std::uint32_t>(parts_.size());
   std::vector<std::pair<std::uint32_t, std::uint32_t>> known;
   std::uint32_t part = 0;
@@ -47,7 +47,8 @@ Parts::Parts(const OrderTree::Data& data) {
       continue;
     }
     const std::uint32_t back = data.second_child(v);
-    parts_[part] = back == kNoNode ? Part{none, 0} : Part{below(back), data.size[back]};
+    parts_[part] = back == kNoNode ? Part{none, 1} : Part{below(back), data.size[back] + 1};
+    largest_back_ = std::max(largest_back_, parts_[part].b - 1);
     // The first child of a top follows it, so a run goes on as long as tops follow one another.
     if (runs_.empty() || runs_.back().node + runs_.back().tops != v)
       runs_.push_back({v, part, 1});
@@ -62,17 +63,16 @@ Parts::Parts(const OrderTree::Data& data) {
 
 void Parts::mark(const OrderTree::Data& data) {
   const std::uint32_t n = data.nodes();
-  starts_.assign(n / kBlock + 1, 0);
+  starts_.assign(n / 64 + 1, {});
   for (std::uint32_t v = 0; v < n;) {
-    starts_[v / kBlock] |= std::uint64_t{1} << (v % kBlock);
+    starts_[v / 64].bits |= std::uint64_t{1} << (v % 64);
     v += data.size[v] > kClusterNodes ? 1 : data.size[v];
   }
-  std::uint32_t sum = 0;
-  for (const std::uint64_t s : starts_) {
-    before_.push_back(sum);
-    sum += static_cast<std::uint32_t>(__builtin_popcountll(s));
+  std::uint64_t sum = 0;
+  for (Starts& s : starts_) {
+    s.before = sum;
+    sum += static_cast<std::uint64_t>(__builtin_popcountll(s.bits));
   }
-  before_.shrink_to_fit();
 }
 
 std::uint32_t Parts::shape_entry(const OrderTree::Data& data, std::uint32_t first,
@@ -90,7 +90,7 @@ std::uint32_t Parts::shape_entry(const OrderTree::Data& data, std::uint32_t firs
 
 std::uint64_t Parts::bytes() const {
   return parts_.capacity() * sizeof(Part) + runs_.capacity() * sizeof(Run) + clusters_.capacity() * 4 +
-         table_.capacity() * 8 + starts_.capacity() * 8 + before_.capacity() * 4;
+         table_.capacity() * 8 + starts_.capacity() * sizeof(Starts);
 }
 
 }  // namespace kage::order

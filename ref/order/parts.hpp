@@ -11,15 +11,9 @@
 #include <vector>
 
 #include "order/data.hpp"
-#include "order/kernels.hpp"
+#include "order/placing.hpp"
 
 namespace kage::order {
-
-struct Run {
-  std::uint32_t node = 0;  ///< the first
-  std::uint32_t part = 0;  ///< the first
-  std::uint32_t tops = 0;
-};
 
 class Parts {
  public:
@@ -28,20 +22,20 @@ class Parts {
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
   [[nodiscard]] const std::vector<std::uint32_t>& clusters() const { return clusters_; }  ///< parts that are clusters
-  [[nodiscard]] const std::vector<std::uint64_t>& table() const { return table_; }        ///< for place_clusters()
-
-  /// Number of parts that begin below `node`: its own, if it begins one.
-  [[nodiscard]] std::uint32_t below(std::uint32_t node) const {
-    const std::uint64_t low = starts_[node / kBlock] & ((std::uint64_t{1} << (node % kBlock)) - 1);
-    return before_[node / kBlock] + static_cast<std::uint32_t>(__builtin_popcountll(low));
-  }
-  /// The part that has it.
-  [[nodiscard]] std::uint32_t of(std::uint32_t node) const { return below(node + 1) - 1; }
+  [[nodiscard]] const std::vector<std::uint64_t>& table() const { return table_; }        ///< for Placing
+  [[nodiscard]] const std::vector<Starts>& starts() const { return starts_; }
+  [[nodiscard]] std::uint32_t largest_back() const { return largest_back_; }  ///< nodes of a top's second child
 
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
   void mark(const OrderTree::Data& data);
+  /// Number of parts that begin below `node`.
+  [[nodiscard]] std::uint32_t below(std::uint32_t node) const {
+    const std::uint64_t low = starts_[node / 64].bits & ((std::uint64_t{1} << (node % 64)) - 1);
+    return static_cast<std::uint32_t>(starts_[node / 64].before) +
+           static_cast<std::uint32_t>(__builtin_popcountll(low));
+  }
   std::uint32_t shape_entry(const OrderTree::Data& data, std::uint32_t first,
                             std::vector<std::pair<std::uint32_t, std::uint32_t>>& known);
 
@@ -49,8 +43,8 @@ class Parts {
   std::vector<Run> runs_;
   std::vector<std::uint32_t> clusters_;
   std::vector<std::uint64_t> table_;
-  std::vector<std::uint64_t> starts_;  // a bit per node that begins a part, and one past the last
-  std::vector<std::uint32_t> before_;  // bits set in the words before
+  std::vector<Starts> starts_;
+  std::uint32_t largest_back_ = 0;
 };
 
 }  // namespace kage::order

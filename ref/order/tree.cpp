@@ -38,6 +38,11 @@ void OrderTree::Data::derive() {
     }
     at[3 * kBlock] = static_cast<float>(offset);
   }
+  if (nodes() == 0) return;
+  float* const last = blocks.data() + blocks.size() - 4 * kBlock;
+  const std::size_t used = (nodes() - 1) % kBlock + 1;
+  for (std::size_t i = 0; i < 4; ++i)
+    std::fill(last + i * kBlock + used, last + (i + 1) * kBlock, last[i * kBlock + used - 1]);
 }
 
 OrderTree::OrderTree(std::unique_ptr<const Data> data) : data_(std::move(data)) {}

@@ -192,6 +192,36 @@ TEST_CASE("a step says what it did, and standing still costs no tests") {
   }
 }
 
+TEST_CASE("after a long way, a plane crossed by tiny steps is still seen to be crossed") {
+  // How far the eye may go is kept in floats; where the way is long they are coarse, and must err to the safe side.
+  Random random(test_seed(7));
+  const OrderTree tree = OrderTree::build(bumpy_ball(random, 12, 24));
+  const auto fast = make_order(tree, OrderWay::kFast);
+  const auto recursion = make_order(tree, OrderWay::kRecursion);
+  std::uint64_t flips = 0;
+  int skipped = 0;
+  int differing = 0;
+  for (int round = 0; round < 40; ++round) {
+    // Beside a face, from a little behind its plane to as little before it.
+    const std::uint32_t node = static_cast<std::uint32_t>(random.in(0, static_cast<int>(tree.node_count()) - 1));
+    const std::array<std::uint32_t, 3> plane = tree.plane(node);
+    const OrderPoint& a = tree.vertices()[plane[0]];
+    const OrderPoint& b = tree.vertices()[plane[1]];
+    const double step = std::pow(10.0, random.in(-7, -3));
+    for (int i = -20; i < 20; ++i) {
+      OrderPoint eye;
+      for (std::size_t k = 0; k < 3; ++k) eye[k] = a[k] + 0.7 * (a[k] - b[k]) + (i + 0.5) * step * a[k];
+      if (!same(fast->update(Eye::point(eye)), recursion->update(Eye::point(eye)))) ++differing;
+      if (i == -20) continue;
+      flips += recursion->last_step().flips;
+      skipped += fast->last_step().tested < tree.node_count() ? 1 : 0;
+    }
+  }
+  CHECK(differing == 0);
+  CHECK(flips >= 40);
+  CHECK(skipped > 1000);
+}
+
 TEST_CASE("eyes that are none are refused, and the order stays") {
   Random random(test_seed(5));
   const OrderTree tree = OrderTree::build(crossing_triangles(random, 10));

@@ -234,6 +234,31 @@ TEST_CASE("the table comes in order, and no class is used before it is whole") {
   CHECK_THAT(said([&](W& t) { entries(t, 6), t.table({3, 0, {}}); }), ContainsSubstring("(RANGE)"));
 }
 
+TEST_CASE("tokens of light say what they are") {
+  Config c;
+  c.count_bits = 2;
+  c.class_bits = 4;
+  c.lights = 3;
+  const Layout l(c);
+  const auto text = [&](auto write) {
+    std::vector<std::uint32_t> words;
+    TokenWriter w(c, words);
+    write(w);
+    return to_string(c, decode(c, l, words));
+  };
+  CHECK(text([](TokenWriter& w) { w.table({9, 2, {0, 256, 7}}); }) == "TABLE class 9 light 2 share 0,256,7/256");
+  CHECK(text([](TokenWriter& w) { w.es(3, 40, 1); }) == "ES [3, 40) light 1");
+  SpanToken s;
+  s.xr = 2;
+  s.normal_class = 15;
+  CHECK(text([&](TokenWriter& w) { w.op(s); }) == "OP [0, 2) z 0 dz 0 color 0,0,0 class 15");
+  c = Config{};
+  s.normal_class = 1;
+  std::vector<std::uint32_t> words;
+  TokenWriter(c, words).op(s);
+  CHECK(to_string(c, decode(c, Layout(c), words)) == "OP [0, 2) z 0 dz 0 color 0,0,0 lit");
+}
+
 TEST_CASE("a sample is ended once, and RESOLVE waits for that") {
   Config c;
   c.count_bits = 2;

@@ -154,8 +154,9 @@ struct OrderStep {
   std::uint64_t unsure = 0;  ///< of those, not decided by the vector test
   std::uint64_t exact = 0;   ///< of those, decided by integers
   std::uint64_t flips = 0;   ///< nodes whose side changed
-  double exchange_cost =
-      0;                    ///< seconds that exchanging would take by the costs measured on this tree, as far as summed
+  /// Seconds that exchanging would take by the costs measured on this tree, as far as summed; may be infinite if
+  /// more than a quarter of the nodes flipped.
+  double exchange_cost = 0;
   double rebuild_cost = 0;  ///< seconds that a rebuild takes by the same
   std::string_view why;     ///< in words
 };
