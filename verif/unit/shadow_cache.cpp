@@ -100,7 +100,7 @@ TEST_CASE(
     c.dsf_bits = bits;
     ShadowCache kept;
     const auto same = [&](const SceneFrame& frame) {
-      const auto words = words_of(frame, c, &kept);
+      auto words = words_of(frame, c, &kept);
       CHECK(words == words_of(frame, c, nullptr));
       return words;
     };

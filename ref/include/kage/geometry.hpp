@@ -231,8 +231,8 @@ class ShadowCache {
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
 /// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, of how many lights and
 /// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order` and `shadows`, if
-/// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the
-/// camera is not finite.
+/// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or
+/// if a vertex or the camera is not finite.
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
                             TranslucentOrder* order = nullptr, ShadowCache* shadows = nullptr);
 
