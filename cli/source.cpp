@@ -153,7 +153,8 @@ TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
 TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
   const SceneFrame frame = scene_->frame(index, frames_);
-  const FrameGeometry geometry = make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_);
+  const FrameGeometry geometry =
+      make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
   PolyhedraReport report;
   bool recorded = false;
   make_frame(

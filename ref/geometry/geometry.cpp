@@ -20,6 +20,7 @@
 #include "kage/error.hpp"
 #include "kage/light.hpp"
 #include "number/int128.hpp"
+#include "shadow/receivers.hpp"
 #include "shadow/volumes.hpp"
 
 namespace kage {
@@ -28,9 +29,10 @@ namespace {
 class Builder {
  public:
   Builder(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
-          TranslucentOrder& order)
+          TranslucentOrder& order, ShadowCache& shadows)
       : frame_(&frame),
         order_(&order),
+        shadows_(&shadows),
         config_(&config),
         look_(&look),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
@@ -61,11 +63,15 @@ class Builder {
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
-      VolumeCaster volumes(*frame_, config_->dsf_bits, look_->volumes);
-      for (std::uint32_t i = 0; i < sample_casters_.size(); ++i)
-        volumes.make(sample_casters_[i], [&](const WorldVolume& v, std::uint32_t component) {
-          maker.add(v, sample_casters_[i], i, component);
-        });
+      VolumeCaster volumes(*frame_, config_->dsf_bits, look_->volumes, shadows_->data());
+      const Receivers receivers(*frame_, out_.width, out_.height, config_->translucency == 0);
+      std::vector<bool> casts(frame_->components.size(), true);
+      for (std::uint32_t i = 0; i < sample_casters_.size(); ++i) {
+        const ShadowCaster& caster = sample_casters_[i];
+        if (look_->leave_out) casts = receivers.reached(caster.light());
+        volumes.make(i, caster,
+                     [&](const WorldVolume& v, std::uint32_t component) { maker.add(v, caster, i, component, casts); });
+      }
     }
     if (config_->translucency > 0) draw_translucent();
     table_->finish(out_);
@@ -323,6 +329,7 @@ class Builder {
 
   const SceneFrame* frame_;
   TranslucentOrder* order_;
+  ShadowCache* shadows_;
   const Config* config_;
   const Look* look_;
   View view_;
@@ -360,13 +367,16 @@ void check_finite(const SceneFrame& frame) {
 }  // namespace
 
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
-                            TranslucentOrder* order) {
+                            TranslucentOrder* order, ShadowCache* shadows) {
   if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
     throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
   if (frame.polygons.empty()) throw Error("the scene has no faces");
   check_finite(frame);
-  TranslucentOrder fresh;
-  return Builder(frame, config, width, height, look, order != nullptr ? *order : fresh).build();
+  TranslucentOrder fresh_order;
+  ShadowCache fresh_shadows;
+  return Builder(frame, config, width, height, look, order != nullptr ? *order : fresh_order,
+                 shadows != nullptr ? *shadows : fresh_shadows)
+      .build();
 }
 
 }  // namespace kage

@@ -11,7 +11,9 @@ std::int64_t slope(const ScreenPlane& p) { return std::abs(p.a) + std::abs(p.b);
 
 }  // namespace
 
-void VolumeMaker::add(const WorldVolume& w, const ShadowCaster& caster, std::uint32_t sample, std::uint32_t component) {
+void VolumeMaker::add(const WorldVolume& w, const ShadowCaster& caster, std::uint32_t sample, std::uint32_t component,
+                      const std::vector<bool>& casts) {
+  const auto wanted = [&](std::uint32_t polygon) { return casts[component_of_[polygon]]; };
   caster_ = &caster;
   factor_ = caster.far_factor(w.caps);
   ShadowVolume v;
@@ -19,9 +21,12 @@ void VolumeMaker::add(const WorldVolume& w, const ShadowCaster& caster, std::uin
   v.first_near = static_cast<std::uint32_t>(out_->near_edges.size());
   v.component = component;
   v.sample = sample;
-  for (const CapFace& cap : w.caps) add_cap(cap);
-  for (const SideEdge& s : w.sides) add_side(s);
-  for (const CapFace& cap : w.caps) add_far_end(cap);
+  for (const CapFace& cap : w.caps)
+    if (wanted(cap.polygon)) add_cap(cap);
+  for (const SideEdge& s : w.sides)
+    if (wanted(s.polygon)) add_side(s);
+  for (const CapFace& cap : w.caps)
+    if (wanted(cap.polygon)) add_far_end(cap);
   v.face_count = static_cast<std::uint32_t>(out_->volume_faces.size()) - v.first_face;
   v.near_count = static_cast<std::uint32_t>(out_->near_edges.size()) - v.first_near;
   if (v.face_count + v.near_count > 0) out_->volumes.push_back(v);

@@ -3,6 +3,7 @@
 // Shadow volumes on the screen: their faces as snapped polygons, and their section with the near plane.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -24,11 +25,17 @@ class VolumeMaker {
         drawn_(drawn),
         far_ends_(far_ends),
         faces_(view, clipper, out),
-        out_(&out) {}
+        out_(&out),
+        component_of_(frame.polygons.size()) {
+    for (std::uint32_t c = 0; c < frame.components.size(); ++c)
+      std::fill_n(component_of_.begin() + frame.components[c].first_polygon, frame.components[c].polygon_count, c);
+  }
 
   /// Append the volume to the geometry, unless nothing of it is there. `caster` is that of light sample `sample`;
-  /// `component`: that of the volume's first caster.
-  void add(const WorldVolume& w, const ShadowCaster& caster, std::uint32_t sample, std::uint32_t component);
+  /// `component`: that of the volume's first caster. `casts`: by component whether its part of the volume is wanted,
+  /// which is closed by itself.
+  void add(const WorldVolume& w, const ShadowCaster& caster, std::uint32_t sample, std::uint32_t component,
+           const std::vector<bool>& casts);
 
  private:
   void add_cap(const CapFace& cap);
@@ -51,7 +58,8 @@ class VolumeMaker {
   bool far_ends_;
   ScreenFaces faces_;
   FrameGeometry* out_;
-  const ShadowCaster* caster_ = nullptr;  // of the volume being made
+  std::vector<std::uint32_t> component_of_;  // of each polygon
+  const ShadowCaster* caster_ = nullptr;     // of the volume being made
   double factor_ = 1;
   std::vector<EyePoint> points_;
   std::vector<ClipPoint> polygon_;

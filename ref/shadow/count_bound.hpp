@@ -14,7 +14,8 @@ struct ChartPoint {
   std::int64_t x = 0;
   std::int64_t y = 0;
 
-  auto operator<=>(const ChartPoint&) const = default;
+  bool operator==(const ChartPoint&) const = default;
+  bool operator<(const ChartPoint& o) const { return x != o.x ? x < o.x : y < o.y; }
 };
 
 /// Left of the way from a to b w more than right of it.

@@ -40,13 +40,15 @@ class ShadowCaster {
   [[nodiscard]] glm::dvec3 far_point(const glm::dvec3& p, double factor) const;
 
   [[nodiscard]] const LightPoint& light() const { return light_; }
+  /// A face whose plane is no further from the light (directional: whose sine is no larger) is edge-on.
+  [[nodiscard]] double edge_on() const { return edge_on_; }
 
  private:
   [[nodiscard]] double light_distance(const Polygon& p) const;
 
   const SceneFrame* frame_;
   LightPoint light_;
-  double edge_on_;  // a face whose plane is no further from the light is edge-on
+  double edge_on_;
   // No two points of the scene and the near corners (directional), or one of them and the light (point), are further
   // apart.
   double reach_;

@@ -15,18 +15,37 @@ constexpr std::uint64_t kTrials = 2'000'000;
 
 }  // namespace
 
-void VolumeCaster::make(const ShadowCaster& caster, const VolumeSink& sink) {
-  if (limit_ == 1 || way_ == VolumeWay::per_face)
-    make_parity(caster, sink);
-  else
-    make_counting(caster, sink);
+VolumeCaster::VolumeCaster(const SceneFrame& frame, int dsf_bits, VolumeWay way, ShadowCache::Data& kept)
+    : frame_(&frame), kept_(&kept), limit_((1 << dsf_bits) - 1), way_(way) {
+  kept.take(frame, limit_, way);
 }
 
-void VolumeCaster::emit(std::span<const CapFace> caps, std::uint32_t component, const VolumeSink& sink) {
-  if (caps.empty()) return;
-  volume_.caps.assign(caps.begin(), caps.end());
-  edges_.sides(caps, volume_.sides);
-  sink(volume_, component);
+void VolumeCaster::make(std::size_t sample, const ShadowCaster& caster, const VolumeSink& sink) {
+  sample_ = &kept_->sample(sample, caster);
+  if (!sample_->volumes) {
+    made_.clear();
+    if (limit_ == 1 || way_ == VolumeWay::per_face)
+      make_parity(caster);
+    else
+      make_counting(caster);
+    sample_->volumes = std::move(made_);  // whole, or not at all
+  }
+  for (const KeptSample::Volume& v : *sample_->volumes) sink(v.volume, v.component);
+}
+
+void VolumeCaster::add(std::span<const CapFace> caps, std::uint32_t component) {
+  KeptSample::Volume& v = made_.emplace_back();
+  v.volume.caps.assign(caps.begin(), caps.end());
+  kept_->edges().sides(*frame_, caps, v.volume.sides);
+  v.component = component;
+}
+
+const std::vector<std::vector<CapFace>>& VolumeCaster::patches(const LightSpace& space, const ShadowCaster& caster,
+                                                               std::uint32_t component,
+                                                               const std::vector<CapFace>& caps) {
+  auto& kept = sample_->patches[component];
+  if (!kept) kept = make_patches(*frame_, caster.light(), kept_->edges(), space, caps);
+  return *kept;
 }
 
 // Whether no ray of light meets two caps of the component, which is convex.
@@ -34,7 +53,7 @@ bool VolumeCaster::once(const ShadowCaster& caster, const Component& part) const
   return part.convex && caster.light_outside(part);
 }
 
-void VolumeCaster::make_parity(const ShadowCaster& caster, const VolumeSink& sink) {
+void VolumeCaster::make_parity(const ShadowCaster& caster) {
   std::vector<CapFace> caps;
   for (std::uint32_t c = 0; c < frame_->components.size(); ++c) {
     const Component& part = frame_->components[c];
@@ -42,22 +61,22 @@ void VolumeCaster::make_parity(const ShadowCaster& caster, const VolumeSink& sin
     caster.caps(part, caps);
     if (caps.empty()) continue;
     if (once(caster, part)) {
-      emit(caps, c, sink);
+      add(caps, c);
     } else if (way_ == VolumeWay::per_face) {
-      for (const CapFace& cap : caps) emit(std::span(&cap, 1), c, sink);
+      for (const CapFace& cap : caps) add(std::span(&cap, 1), c);
     } else {
       const LightSpace space(*frame_, caster.light(), caps);
-      for (const auto& patch : make_patches(*frame_, caster.light(), edges_, space, caps)) emit(patch, c, sink);
+      for (const auto& patch : patches(space, caster, c, caps)) add(patch, c);
     }
   }
 }
 
 int VolumeCaster::most(const LightSpace& space, std::span<const CapFace> caps) {
-  edges_.sides(caps, sides_);
+  kept_->edges().sides(*frame_, caps, sides_);
   return space.count(caps, sides_, limit_).high;
 }
 
-void VolumeCaster::make_counting(const ShadowCaster& caster, const VolumeSink& sink) {
+void VolumeCaster::make_counting(const ShadowCaster& caster) {
   std::vector<std::vector<CapFace>> of_component(frame_->components.size());
   std::vector<CapFace> all;
   std::uint32_t first = ~0U;
@@ -71,7 +90,7 @@ void VolumeCaster::make_counting(const ShadowCaster& caster, const VolumeSink& s
   if (all.empty()) return;
   const LightSpace space(*frame_, caster.light(), all);
   if (most(space, all) <= limit_) {
-    emit(all, first, sink);
+    add(all, first);
     return;
   }
   std::vector<Part> parts;
@@ -85,15 +104,15 @@ void VolumeCaster::make_counting(const ShadowCaster& caster, const VolumeSink& s
     it->parts.push_back(&part);
     it->caps.insert(it->caps.end(), part.caps.begin(), part.caps.end());
   }
-  for (const Group& g : groups) emit(g.caps, g.parts.front()->component, sink);
+  for (const Group& g : groups) add(g.caps, g.parts.front()->component);
 }
 
 // A component, or, where too many of its caps may lie behind one another, its patches.
 void VolumeCaster::add_parts(const LightSpace& space, const ShadowCaster& caster, std::uint32_t component,
                              const std::vector<CapFace>& caps, std::vector<Part>& parts) {
-  const auto add = [&](std::vector<CapFace> of_part, int count) {
+  const auto add_part = [&](const std::vector<CapFace>& of_part, int count) {
     Part p;
-    p.caps = std::move(of_part);
+    p.caps = of_part;
     p.component = component;
     p.most = count;
     p.box = space.box(frame_->polygons[p.caps.front().polygon]);
@@ -102,10 +121,10 @@ void VolumeCaster::add_parts(const LightSpace& space, const ShadowCaster& caster
   };
   const int count = once(caster, frame_->components[component]) ? 1 : most(space, caps);
   if (count <= limit_) {
-    add(caps, count);
+    add_part(caps, count);
     return;
   }
-  for (auto& patch : make_patches(*frame_, caster.light(), edges_, space, caps)) add(std::move(patch), 1);
+  for (const auto& patch : patches(space, caster, component, caps)) add_part(patch, 1);
 }
 
 // On a ray of light in the part's rectangle lie at most its own caps and those of the parts whose rectangles overlap

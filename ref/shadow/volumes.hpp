@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kage/geometry.hpp"
+#include "shadow/kept.hpp"
 #include "shadow/light_space.hpp"
 #include "shadow/shadow_caster.hpp"
 #include "shadow/world_volume.hpp"
@@ -18,16 +19,16 @@ using VolumeSink = std::function<void(const WorldVolume&, std::uint32_t componen
 
 class VolumeCaster {
  public:
-  /// Refers to `frame`. `dsf_bits`: bits that the core counts with, >= 1.
-  VolumeCaster(const SceneFrame& frame, int dsf_bits, VolumeWay way)
-      : frame_(&frame), edges_(frame), limit_((1 << dsf_bits) - 1), way_(way) {}
+  /// Refers to `frame` and `kept`, which is that of frames before. `dsf_bits`: bits that the core counts with, >= 1.
+  VolumeCaster(const SceneFrame& frame, int dsf_bits, VolumeWay way, ShadowCache::Data& kept);
 
-  /// Call `sink` with every volume, in order of their first casters. No ray of light meets more than 2^dsf_bits - 1
-  /// caps of a volume. With one bit a convex component with the light outside is a volume, and so is each patch
-  /// (make_patches()) of another. With more, all casters are one volume if bound_count() says that they may be; else
-  /// components are put together, each to the first volume that it fits in, and those that fit in none by themselves
-  /// are first parted into patches.
-  void make(const ShadowCaster& caster, const VolumeSink& sink);
+  /// Call `sink` with every volume of a light sample, in order of their first casters. No ray of light meets more than
+  /// 2^dsf_bits - 1 caps of a volume. `sample`: its number.
+  /// With one bit a convex component with the light outside is a volume, and so is each patch (make_patches()) of
+  /// another. With more, all casters are one volume if bound_count() says that they may be; else components are put
+  /// together, each to the first volume that it fits in, and those that fit in none by themselves are first parted into
+  /// patches.
+  void make(std::size_t sample, const ShadowCaster& caster, const VolumeSink& sink);
 
  private:
   /// What goes whole into a volume.
@@ -42,9 +43,12 @@ class VolumeCaster {
     std::vector<CapFace> caps;
   };
 
-  void make_parity(const ShadowCaster& caster, const VolumeSink& sink);
-  void make_counting(const ShadowCaster& caster, const VolumeSink& sink);
-  void emit(std::span<const CapFace> caps, std::uint32_t component, const VolumeSink& sink);
+  void make_parity(const ShadowCaster& caster);
+  void make_counting(const ShadowCaster& caster);
+  void add(std::span<const CapFace> caps, std::uint32_t component);
+  [[nodiscard]] const std::vector<std::vector<CapFace>>& patches(const LightSpace& space, const ShadowCaster& caster,
+                                                                 std::uint32_t component,
+                                                                 const std::vector<CapFace>& caps);
   [[nodiscard]] bool once(const ShadowCaster& caster, const Component& part) const;
   [[nodiscard]] int most(const LightSpace& space, std::span<const CapFace> caps);
   void add_parts(const LightSpace& space, const ShadowCaster& caster, std::uint32_t component,
@@ -52,10 +56,11 @@ class VolumeCaster {
   [[nodiscard]] bool fits(const LightSpace& space, const Group& group, const Part& part, std::uint64_t& budget);
 
   const SceneFrame* frame_;
-  EdgeTable edges_;
+  ShadowCache::Data* kept_;
+  KeptSample* sample_ = nullptr;  // the one being made
+  std::vector<KeptSample::Volume> made_;
   int limit_;
   VolumeWay way_;
-  WorldVolume volume_;
   std::vector<SideEdge> sides_;
 };
 

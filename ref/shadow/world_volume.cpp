@@ -6,7 +6,7 @@
 
 namespace kage {
 
-EdgeTable::EdgeTable(const SceneFrame& frame) : frame_(&frame), half_edges_(frame.corners.size()) {
+EdgeTable::EdgeTable(const SceneFrame& frame) : half_edges_(frame.corners.size()) {
   struct Half {
     std::uint64_t ends;
     std::uint32_t corner;
@@ -37,18 +37,18 @@ EdgeTable::EdgeTable(const SceneFrame& frame) : frame_(&frame), half_edges_(fram
   first_.push_back(static_cast<std::uint32_t>(all.size()));
 }
 
-void EdgeTable::sides(std::span<const CapFace> caps, std::vector<SideEdge>& out) {
+void EdgeTable::sides(const SceneFrame& frame, std::span<const CapFace> caps, std::vector<SideEdge>& out) {
   out.clear();
   const auto rising = [this](const CapFace& cap, std::uint32_t corner) {
     return ((half_edges_[corner] & 1U) != 0) == cap.turned;
   };
   for (const CapFace& cap : caps) {
-    const Polygon& p = frame_->polygons[cap.polygon];
+    const Polygon& p = frame.polygons[cap.polygon];
     for (std::uint32_t k = p.first; k < p.first + p.count; ++k) net_[half_edges_[k] >> 1] += rising(cap, k) ? 1 : -1;
   }
   for (const CapFace& cap : caps) {
-    const Polygon& p = frame_->polygons[cap.polygon];
-    const auto corners = frame_->outline(p);
+    const Polygon& p = frame.polygons[cap.polygon];
+    const auto corners = frame.outline(p);
     for (std::uint32_t i = 0; i < p.count; ++i) {
       // Corners in the order in which they go round seen from the light.
       const std::uint32_t k = cap.turned ? p.count - 1 - i : i;

@@ -47,8 +47,9 @@ class EdgeTable {
  public:
   explicit EdgeTable(const SceneFrame& frame);
 
-  /// The sides of a volume with these caps, in order of caps and corners.
-  void sides(std::span<const CapFace> caps, std::vector<SideEdge>& out);
+  /// The sides of a volume with these caps, in order of caps and corners. The frame has the same polygons as that which
+  /// the table was made of.
+  void sides(const SceneFrame& frame, std::span<const CapFace> caps, std::vector<SideEdge>& out);
 
   /// The opaque polygons that have the edge from corner k (into SceneFrame::corners) to the next, in either direction.
   [[nodiscard]] std::span<const std::uint32_t> polygons_at(std::size_t k) const {
@@ -57,7 +58,6 @@ class EdgeTable {
   }
 
  private:
-  const SceneFrame* frame_;
   // Of each corner the edge to the next: twice its number, plus 1 if it goes from the greater vertex to the lesser.
   std::vector<std::uint32_t> half_edges_;
   std::vector<std::uint32_t> first_;  // of each edge's polygons

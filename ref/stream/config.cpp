@@ -119,7 +119,9 @@ std::string to_yaml(const Config& config) {
 std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   std::vector<std::string> missing;
   if (needs.shadows && config.dsf_bits == 0) missing.emplace_back("shadows (DSF_BITS > 0)");
-  if (needs.shadows && needs.several_volumes && config.fsf == 0) missing.emplace_back("several volumes (FSF)");
+  // Counting may do with one volume; whether it does is known once it is made.
+  if (needs.shadows && needs.several_volumes && config.fsf == 0 && config.dsf_bits <= 1)
+    missing.emplace_back("several volumes (FSF)");
   if (needs.shadows && needs.lights > config.lights)
     missing.push_back(fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
   if (needs.shadows && needs.samples > 1 && needs.samples >> config.count_bits != 0)

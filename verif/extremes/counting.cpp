@@ -108,7 +108,7 @@ TEST_CASE("family 21: counting gives the shadow that a ray to the light says") {
 TEST_CASE("family 22: one counting volume of nested, overlapping, touching casters gives what one for each gives") {
   Random random(test_seed(3));
   CAPTURE(test_seed(3));
-  for (int k = 0; k <= 64; k += k < 8 ? 1 : 7) {
+  for (int k = 0; k <= 64; ++k) {
     std::vector<int> order(static_cast<std::size_t>(k));
     for (int i = 0; i < k; ++i) order[static_cast<std::size_t>(i)] = i;
     random.shuffle(order);
@@ -191,7 +191,9 @@ TEST_CASE("family 24: where the eye is in several shadows, IF has their number")
   look_at(f.camera, {0, 0, 0}, {0, -0.5, 1});
   const Config config = counting(3);
   std::vector<std::uint32_t> words;
-  make_frame(make_geometry(f, config, kWidth, kHeight), config, 0, words, 1);
+  Look look;
+  look.leave_out = false;  // they fall behind the eye
+  make_frame(make_geometry(f, config, kWidth, kHeight, look), config, 0, words, 1);
   const Layout layout(config);
   int inside = 0;
   for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) {

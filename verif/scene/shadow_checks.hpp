@@ -19,6 +19,7 @@ inline void judge_all(const SceneFrame& f, const Config& config, int width, int 
 inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, int height) {
   Look look;
   look.far_ends = true;
+  look.leave_out = false;
   const FrameGeometry g = make_geometry(f, config, width, height, look);
   Oracle oracle(g, config);
   std::uint64_t wrong = 0;

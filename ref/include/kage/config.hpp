@@ -36,7 +36,7 @@ struct Needs {
   int width = 1;
   int height = 1;
   bool shadows = false;
-  bool several_volumes = false;  ///< more than one volume on some line
+  bool several_volumes = false;  ///< by parity more than one volume; with DSF_BITS > 1 one may do
   bool smooth = false;           ///< colour varies within a polygon
   bool color = false;            ///< some colour is not grey
   bool translucency = false;     ///< something is translucent

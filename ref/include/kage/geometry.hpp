@@ -189,6 +189,7 @@ struct Look {
   double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
   VolumeWay volumes = VolumeWay::fewest;
+  bool leave_out = true;  ///< shadows that can meet nothing seen, which changes no picture
   TranslucentWay translucent = TranslucentWay::exact;
   int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;  ///< of their pattern
@@ -211,12 +212,28 @@ class TranslucentOrder {
   std::unique_ptr<Data> data_;
 };
 
+/// Keeps what a scene's shadow volumes are made of from frame to frame, so that it is not found again for a light and
+/// casters that have not moved. It changes no frame. Not for several threads at once.
+class ShadowCache {
+ public:
+  ShadowCache();
+  ~ShadowCache();
+  ShadowCache(ShadowCache&&) noexcept;
+  ShadowCache& operator=(ShadowCache&&) noexcept;
+
+  struct Data;
+  [[nodiscard]] Data& data() { return *data_; }
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
 /// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, of how many lights and
-/// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order`, if given, is that
-/// of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the
-/// camera is not finite.
+/// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order` and `shadows`, if
+/// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or
+/// if a vertex or the camera is not finite.
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
-                            TranslucentOrder* order = nullptr);
+                            TranslucentOrder* order = nullptr, ShadowCache* shadows = nullptr);
 
 }  // namespace kage
