@@ -16,6 +16,7 @@
 
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
+#include "kage/light.hpp"
 #include "kage/scene.hpp"
 
 namespace kage::cli {
@@ -108,8 +109,8 @@ void option_scene(CLI::App& command, Options& options) {
 void option_degrade(CLI::App& command, Options& options) {
   command.add_flag(
       "--degrade", options.degrade,
-      "where the configuration lacks something, draw without it (no shadows; flat, grey or opaque instead of smooth, "
-      "coloured or translucent) instead of refusing");
+      "where the configuration lacks something, draw without it (no shadows, those of one light, hard ones; flat, grey "
+      "or opaque instead of smooth, coloured or translucent) instead of refusing");
 }
 
 void option_units_only(CLI::App& command, Options& options) {
@@ -135,6 +136,22 @@ void option_translucent(CLI::App& command, Options& options) {
       ->option_text("A")
       ->check(CLI::Range(1.0 / 255, 1.0))
       ->type_name("A");
+}
+
+void option_lights(CLI::App& command, Options& options) {
+  command
+      .add_option("--samples", options.samples,
+                  fmt::format("points that stand for a light that is no point itself: a disc, rectangle or sphere; "
+                              "default {}",
+                              options.samples))
+      ->check(CLI::Range(1, kMaxSamples))
+      ->type_name("N");
+  command
+      .add_option("--classes", options.classes,
+                  fmt::format("normals that the table of several lights tells apart, spread evenly; default {}",
+                              options.classes))
+      ->check(CLI::Range(1, 2047))
+      ->type_name("N");
 }
 
 void option_threads(CLI::App& command, Options& options) {

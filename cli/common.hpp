@@ -74,6 +74,8 @@ struct Options {
   bool units_only = false;  ///< polyhedra that find no unit are an error
   TranslucentWay order = TranslucentWay::exact;
   double alpha = 1;
+  int samples = Look{}.samples;  ///< of a light that is no point
+  int classes = Look{}.classes;  ///< of normals
 };
 
 void option_size(CLI::App& command, Options& options);
@@ -87,6 +89,8 @@ void option_units_only(CLI::App& command, Options& options);
 /// --order and --alpha.
 void option_translucent(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
+/// --samples and --classes.
+void option_lights(CLI::App& command, Options& options);
 void option_fault(CLI::App& command, std::string& fault);
 
 /// Whether `--json -` claims standard output for itself.

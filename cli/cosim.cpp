@@ -126,6 +126,7 @@ void add_cosim(CLI::App& app, Action& action) {
   option_degrade(*c, *o);
   option_units_only(*c, *o);
   option_translucent(*c, *o);
+  option_lights(*c, *o);
   option_seed(*c, *o);
   option_json(*c, *o);
   option_threads(*c, *o);

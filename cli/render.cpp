@@ -92,6 +92,8 @@ void add_render(CLI::App& app, Action& action) {
   option_degrade(*c, *o);
   option_units_only(*c, *o);
   option_translucent(*c, *o);
+  option_lights(*c, *o);
+  option_seed(*c, *o);
   option_json(*c, *o);
   option_threads(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

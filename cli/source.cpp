@@ -21,7 +21,7 @@ constexpr std::size_t kPieceWords = 4096;
 bool is_grey(const glm::dvec3& c) { return c.x == c.y && c.y == c.z; }
 
 /// What drawing `scene` takes, judged by the frame at hand.
-Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size) {
+Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, int samples) {
   Needs needs;
   needs.width = size.width;
   needs.height = size.height;
@@ -34,8 +34,12 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size) {
   }
   needs.shadows = casters > 0;
   needs.smooth = scene.needs_smooth();
-  needs.color = !is_grey(frame.lights[0].color) || std::any_of(frame.shading.begin(), frame.shading.end(),
-                                                           [](const ShadingVertex& v) { return !is_grey(v.color); });
+  needs.lights = static_cast<int>(frame.lights.size());
+  const auto any_light = [&](auto what) { return std::any_of(frame.lights.begin(), frame.lights.end(), what); };
+  if (any_light([](const Light& l) { return l.shape != LightShape::point; })) needs.samples = samples;
+  needs.color =
+      any_light([](const Light& l) { return !is_grey(l.color); }) ||
+      std::any_of(frame.shading.begin(), frame.shading.end(), [](const ShadingVertex& v) { return !is_grey(v.color); });
   return needs;
 }
 
@@ -54,6 +58,8 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --units-only: in a stream it is settled what goes to units", options.input));
   if (options.order != TranslucentWay::exact)
     throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
+  if (options.samples != Options{}.samples || options.classes != Options{}.classes)
+    throw Error(fmt::format("{}: --samples, --classes: in a stream they are settled", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
@@ -79,9 +85,12 @@ void Source::open_scene(const Options& options) {
   size_ = options.size;
   units_only_ = options.units_only;
   look_.translucent = options.order;
+  look_.samples = options.samples;
+  look_.seed = options.seed;
+  look_.classes = options.classes;
   if (size_.width > kMaxSize || size_.height > kMaxSize)
     throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
-  Needs needs = needs_of(*scene_, scene_->frame(0, frames_), size_);
+  Needs needs = needs_of(*scene_, scene_->frame(0, frames_), size_, options.samples);
   if (options.config.empty()) {
     try {
       config_ = choose_config(needs);
@@ -98,6 +107,7 @@ void Source::open_scene(const Options& options) {
   if (!missing.empty() && options.degrade) {
     degraded_ = missing;
     needs.shadows = needs.smooth = needs.color = needs.translucency = false;
+    needs.lights = needs.samples = 1;
     missing = lacks(config_.config, needs);
     std::erase_if(degraded_,
                   [&](const std::string& m) { return std::find(missing.begin(), missing.end(), m) != missing.end(); });
@@ -143,7 +153,8 @@ TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
 TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
   const SceneFrame frame = scene_->frame(index, frames_);
-  const FrameGeometry geometry = make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_);
+  const FrameGeometry geometry =
+      make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
   PolyhedraReport report;
   bool recorded = false;
   make_frame(

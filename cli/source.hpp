@@ -69,6 +69,7 @@ class Source {
   std::optional<Scene> scene_;
   Look look_;
   TranslucentOrder order_;
+  ShadowCache shadows_;
   Size size_;
   int threads_ = 0;
   bool units_only_ = false;

@@ -55,6 +55,8 @@ void add_stream(CLI::App& app, Action& action) {
   option_degrade(*c, *o);
   option_units_only(*c, *o);
   option_translucent(*c, *o);
+  option_lights(*c, *o);
+  option_seed(*c, *o);
   option_threads(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

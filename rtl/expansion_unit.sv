@@ -8,7 +8,7 @@
 //   table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs while they leave: whoever
 //   gives frame_start_i sees to it that no line is left of the frame before that one, and that no line is half filled.
 // Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >> Z_FRAC, 1, 2^Z_BITS - 2), with the
-//   face's index, colour and lit bit. Face all ones is blank: Z and index all ones, colour and lit bit 0. px_data_o = {Z, index, colour, lit}.
+//   face's index, colour and class. Face all ones is blank: Z and index all ones, colour and class 0. px_data_o = {Z, index, colour, class}.
 // flush_i drops all lines, in one clock; the table stays.
 // width_i matters with segments only, and holds still while a line comes in.
 // Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that are buffered without a gap.
@@ -170,16 +170,16 @@ module expansion_unit #(
   );
 
   // ---- Z generator: the registers Z, X and DEF, and what the segment's pixels share --------------------------------
-  localparam int PaintBits = RgbBits + LitBits;
+  localparam int PaintBits = RgbBits + ClassBits;
   logic busy_q, step, x_end, end_seg_q, blank_q;
   logic [DepthBits-1:0] z_q, def_q;
   logic [DX_BITS-1:0] x_q;  // pixels left
   logic [ORDER_BITS-1:0] index_q;
   logic [PaintBits-1:0] paint, paint_q;
 
-  if (DSF_BITS > 0) begin : gen_lit
-    assign paint = {entry[EntryBits-1-:RgbBits], entry[ORDER_BITS]};
-  end else begin : gen_no_lit
+  if (DSF_BITS > 0) begin : gen_class
+    assign paint = {entry[EntryBits-1-:RgbBits], entry[ORDER_BITS+:CLASS_BITS]};
+  end else begin : gen_no_class
     assign paint = entry[EntryBits-1-:RgbBits];
   end
 
@@ -194,7 +194,7 @@ module expansion_unit #(
     if (load) begin
       z_q <= DepthBits'(z3_q);
       x_q <= dx3_q;
-      def_q <= entry[ORDER_BITS+LitBits+:DepthBits];
+      def_q <= entry[ORDER_BITS+ClassBits+:DepthBits];
       index_q <= entry[ORDER_BITS-1:0];
       paint_q <= paint;
       blank_q <= blank3_q;

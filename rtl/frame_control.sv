@@ -5,9 +5,13 @@
 // Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o waits for
 //   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command, so lines and
 //   EOL commands come in the same order.
-// Commands: OP, SP, NC, EV, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE
-//   take their clock here and go no further: cmd_count_o brings the line's bias with EV and EOL. A line's first TP is preceded by the
+// Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE
+//   take their clock here and go no further: cmd_count_o brings the line's bias with EV, ES and EOL. A line's first TP is preceded by the
 //   command RESOLVE, which has no token: over the whole line, with the background as its colour. It costs a clock.
+//   With counters, if there was a RESOLVE to do, it is preceded by the command CmdOut instead: the line's pixels leave, by a line that says
+//   line_load_o, and come back as loads. Nothing is taken or given until loads_done_i, one clock, says that they have.
+// Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they are taken, and wait for table_free_i: that
+//   nothing of the frame before is left there. table_check has the rules.
 // Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands
 //   clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
 // Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its unit by
@@ -44,22 +48,31 @@ module frame_control #(
     output logic      [          3:0] cmd_kind_o,
     output logic      [   X_BITS-1:0] cmd_xl_o,
     output logic      [   X_BITS-1:0] cmd_xr_o,
-    output logic      [CountBits-1:0] cmd_count_o,   // lit of OP, w of SP and NC, bias of EV, RESOLVE, EOL
+    output logic      [CountBits-1:0] cmd_count_o,   // as pixel_next has it
     output logic      [DepthBits-1:0] cmd_z_o,
     output logic      [DepthBits-1:0] cmd_dz_o,
     output logic      [ColorBits-1:0] cmd_color_o,
     output logic      [SlopeBits-1:0] cmd_dcolor_o,
     output logic      [ShareBits-1:0] cmd_share_o,   // alpha of TP, shade of RESOLVE
+    input  wire logic                 loads_done_i,
 
     // to the way out: the lines in order
     output logic                     line_valid_o,
     input  wire logic                line_ready_i,
     output logic                     line_first_o,       // of its frame
     output logic                     line_blank_o,       // background from its first pixel
+    output logic                     line_load_o,        // not for the video: it comes back to the pixels
     output logic                     line_painted_o,     // every pixel has its colour: uncovered ones the background's
     output logic      [  X_BITS-1:0] line_width_o,
     output logic      [ RgbBits-1:0] line_background_o,
     output logic      [SHADE_FRAC:0] line_shade_o,
+
+    // to the way out: entries of the light table
+    input  wire logic                      table_free_i,
+    output logic                           table_valid_o,
+    output logic      [    CLASS_BITS-1:0] table_class_o,
+    output logic      [     LightBits-1:0] table_light_o,
+    output logic      [EntryShareBits-1:0] table_share_o,
 
     // to the units and the tree; the width is line_width_o
     output logic                      tree_frame_start_o,
@@ -79,7 +92,7 @@ module frame_control #(
     output logic        open_o,         // a frame's header has been taken and the frame has not ended
     output logic        hungry_o,       // waits for a token or for TLAST
     output logic        draining_o,     // input is being dropped after an error
-    output logic        painting_o,     // one clock: a TP waits while the RESOLVE before it becomes a command
+    output logic        painting_o,     // one clock: a TP waits while the RESOLVE or CmdOut before it becomes a command
     output logic        frame_end_o,    // one clock
     output logic        error_o,        // one clock, with the next five
     output logic [ 3:0] error_code_o,
@@ -99,45 +112,36 @@ module frame_control #(
 
   localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
 
-  localparam logic [1:0] PhaseOpaque = 2'd0;
-  localparam logic [1:0] PhaseVolume = 2'd1;
-  localparam logic [1:0] PhaseResolved = 2'd2;
-  localparam logic [1:0] PhaseTranslucent = 2'd3;
-
   // ---- state -------------------------------------------------------------------------------------------------------
-  logic [1:0] state_q, phase_q;
-  logic volume_open_q;  // an SP, NC or IF came after the last EV
+  logic [1:0] state_q;
   logic painted_q;  // the line's colours are ready for TPs
+  logic loading_q;  // they are on their way out and back
   logic [X_BITS-1:0] width_q;
   logic [14:0] height_q, line_q;
   logic [31:0] frame_q, index_q;
   logic [RgbBits-1:0] background_q;
   logic [SHADE_FRAC:0] shade_q;
-  logic [CountBits-1:0] bias_q;
 
   // ---- decode ------------------------------------------------------------------------------------------------------
   logic [3:0] kind;
-  logic is_shade, is_op, is_sp, is_nc, is_if, is_ev, is_resolve, is_eol, is_end, is_span, is_tree, is_tp;
+  logic is_shade, is_op, is_sp, is_nc, is_ev, is_eol, is_end, is_span, is_tree, is_tp, is_es, is_table;
   logic [X_BITS-1:0] xl, xr;
-  logic [CountBits-1:0] w;
-  logic [ SHADE_FRAC:0] shade;
+  logic [SHADE_FRAC:0] shade;
 
   assign kind = token_i[3:0];
   assign is_shade = kind == KindShade;
   assign is_op = kind == KindOp;
   assign is_sp = kind == KindSp;
   assign is_nc = kind == KindNc;
-  assign is_if = kind == KindIf;
   assign is_ev = kind == KindEv;
-  assign is_resolve = kind == KindResolve;
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_tree = UNITS > 0 && kind == KindTree;
   assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
-  assign is_span = is_op || is_sp || is_nc || is_ev || is_tp;
-  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC, EV and TP
+  assign is_es = COUNT_BITS > 0 && kind == KindEs;
+  assign is_span = is_op || is_sp || is_nc || is_ev || is_es || is_tp;
+  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC, EV, ES and TP
   assign xr = token_i[OpXrLsb+:X_BITS];
-  assign w = is_if ? token_i[IfWLsb+:CountBits] : token_i[SpWLsb+:CountBits];
   assign shade = token_i[ShadeShadeLsb+:SHADE_FRAC+1];
 
   // ---- header ------------------------------------------------------------------------------------------------------
@@ -155,24 +159,23 @@ module frame_control #(
   end
 
   // ---- order, range, line ------------------------------------------------------------------------------------------
-  logic lines_done, in_order, in_range, in_line;
+  logic lines_done, in_phase, in_order, in_range, in_line, resolved;
   logic tree_order_error, tree_range_error, tree_error;  // those of FACE, SEG and TREE; see gen_tree below
+  logic table_order_error, table_range_error, light_lacking;  // those of TABLE and classes, see gen_table; of ES
   logic [3:0] body_error, tree_code;
   logic shade_seen_q;
   assign lines_done = line_q == height_q;
+  assign light_lacking = is_es && 32'(token_i[EsLightLsb+:LightBits]) >= 32'(LIGHTS);
   always_comb begin
     unique case (kind)
       KindShade: in_order = UNITS > 0 ? !shade_seen_q : index_q == 32'd1;
-      KindOp: in_order = phase_q == PhaseOpaque;
-      KindSp, KindNc, KindIf: in_order = phase_q == PhaseOpaque || phase_q == PhaseVolume;
-      KindEv: in_order = phase_q == PhaseVolume && volume_open_q;
-      KindResolve: in_order = phase_q == PhaseVolume && !(FSF > 0 && volume_open_q);
-      KindTp, KindEol: in_order = phase_q != PhaseVolume;
-      default: in_order = 1'b1;
+      KindTable: in_order = !table_order_error;
+      default:   in_order = in_phase;
     endcase
     if ((lines_done && !is_end) || tree_order_error) in_order = 1'b0;
-    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade > ShadeMost) && !tree_range_error;
-    in_line  = !(is_eol && token_i[EolYLsb+:16] != 16'(line_q)) && !(is_end && !lines_done);
+    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade > ShadeMost) && !light_lacking;
+    if (tree_range_error || table_range_error) in_range = 1'b0;
+    in_line = !(is_eol && token_i[EolYLsb+:16] != 16'(line_q)) && !(is_end && !lines_done);
     if (token_cut_i) body_error = ErrLastEarly;
     else if (token_lacking_i) body_error = ErrKind;
     else if (!in_order) body_error = ErrOrder;
@@ -185,12 +188,12 @@ module frame_control #(
 
   // ---- what happens in this clock ----------------------------------------------------------------------------------
   logic cmd_free, eol_free, accept, bad, good, body_eol, blank_eol, emit_eol, emit_span;
-  logic emit_tree, emit_paint, body_free, frame_free, must_paint;
+  logic emit_tree, emit_paint, emit_out, body_free, frame_free, must_paint;
+  logic by_loads;
   logic [3:0] error_code;
-  assign cmd_free = !cmd_valid_o || cmd_ready_i;
   assign eol_free = cmd_free && line_ready_i;
   assign token_ready_o = (state_q == StHeader && frame_free) ||
-      (state_q == StBody && body_free && (line_ready_i || !is_eol) && !must_paint);
+      (state_q == StBody && body_free && (line_ready_i || !is_eol) && (table_free_i || !is_table) && !must_paint);
   assign accept = token_valid_i && token_ready_o;
   assign error_code = token_header_i ? head_error : body_error;
   assign bad = accept && error_code != ErrNone;
@@ -203,10 +206,15 @@ module frame_control #(
   // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line is blank, and
   // to the latter it does no harm.
   assign must_paint = is_tp && !painted_q;
-  assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free;
+  assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
+      (line_ready_i || !by_loads);
+  // With counters only the way out can darken; a line without RESOLVE has nothing to darken.
+  assign by_loads = TRANSLUCENCY > 0 && COUNT_BITS > 0 && resolved;
+  assign emit_out = emit_paint && by_loads;
   assign drop_o = bad && !token_final_i;
 
-  assign line_valid_o = emit_eol;
+  assign line_valid_o = emit_eol || emit_out;
+  assign line_load_o = emit_out;
   assign line_first_o = line_q == '0;
   assign line_blank_o = blank_eol;
   assign line_painted_o = painted_q;
@@ -242,98 +250,115 @@ module frame_control #(
       frame_q <= token_i[159:128];
       line_q <= '0;
       index_q <= 32'd1;
-      phase_q <= PhaseOpaque;
-      volume_open_q <= 1'b0;
-      bias_q <= '0;
       painted_q <= 1'b0;
+      loading_q <= 1'b0;
       shade_q <= '0;
     end else begin
       if (good) index_q <= index_q + 32'd1;
       if (emit_eol) begin
         line_q <= line_q + 15'd1;
-        phase_q <= PhaseOpaque;
-        volume_open_q <= 1'b0;
-        bias_q <= '0;
         painted_q <= 1'b0;
       end
       if (emit_paint) begin
-        bias_q <= '0;
+        if (by_loads) loading_q <= 1'b1;
+        else painted_q <= 1'b1;
+      end
+      if (TRANSLUCENCY > 0 && COUNT_BITS > 0 && loads_done_i) begin
+        loading_q <= 1'b0;
         painted_q <= 1'b1;
       end
-      if (good && is_tp) phase_q <= PhaseTranslucent;
-      if (DSF_BITS > 0 && good) begin
-        if (is_shade) shade_q <= shade;
-        if (is_sp || is_nc || is_if) begin
-          phase_q <= PhaseVolume;
-          volume_open_q <= 1'b1;
-        end
-        if (is_if) bias_q <= bias_q + w;
-        if (is_resolve) phase_q <= PhaseResolved;
-        if (FSF > 0 && is_ev) begin
-          volume_open_q <= 1'b0;
-          bias_q <= '0;
-        end
-      end
+      if (DSF_BITS > 0 && good && is_shade) shade_q <= shade;
     end
   end
 
-  // The background's colour as a span has it.
-  logic [ColorBits-1:0] background;
-  always_comb begin
-    for (int c = 0; c < CHANNELS; c++) begin
-      background[c*RampBits+:RampBits] = RampBits'(background_q[c*8+:8]) << COLOR_FRAC;
-    end
-  end
-
-  // TP's fields lie beyond the longest token of a core without it.
-  logic [DepthBits-1:0] tp_z, tp_dz;
-  logic [ColorBits-1:0] tp_color;
-  logic [SlopeBits-1:0] tp_dcolor;
-  logic [ShareBits-1:0] tp_share;
-  if (TRANSLUCENCY > 0) begin : gen_tp
-    assign tp_z = token_i[TpZLsb+:DepthBits];
-    assign tp_dz = token_i[TpDzLsb+:DepthBits];
-    assign tp_color = token_i[TpColorLsb+:ColorBits];
-    assign tp_dcolor = SMOOTH > 0 ? token_i[TpDcolorLsb+:SlopeBits] : '0;
-    assign tp_share = ShareBits'(token_i[TpAlphaLsb+:8]);
-  end else begin : gen_no_tp
-    assign {tp_z, tp_dz, tp_color, tp_dcolor, tp_share} = '0;
-  end
+  logic [DsfBits-1:0] bias;
+  line_phase #(
+      .TRANSLUCENCY(TRANSLUCENCY),
+      .DSF_BITS(DSF_BITS),
+      .FSF(FSF),
+      .COUNT_BITS(COUNT_BITS)
+  ) u_phase (
+      .clk_i,
+      .start_i     ((accept && token_header_i) || emit_eol),
+      .take_i      (good && !token_header_i),
+      .clear_bias_i(emit_paint),
+      .kind_i      (kind),
+      .w_i         (token_i[IfWLsb+:DsfBits]),
+      .in_order_o  (in_phase),
+      .resolved_o  (resolved),
+      .bias_o      (bias)
+  );
 
   // ---- command register --------------------------------------------------------------------------------------------
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) cmd_valid_o <= 1'b0;
-    else if (cmd_free) cmd_valid_o <= emit_eol || emit_span || emit_tree || emit_paint;
-    if (cmd_free) begin
-      cmd_kind_o <= emit_eol ? KindEol : emit_paint ? KindResolve : kind;
-      cmd_xl_o <= emit_eol || emit_tree || emit_paint ? '0 : xl;
-      cmd_xr_o <= emit_eol || emit_tree || emit_paint ? width_q : xr;
-      cmd_z_o <= token_i[OpZLsb+:DepthBits];
-      cmd_dz_o <= token_i[OpDzLsb+:DepthBits];
-      cmd_color_o <= token_i[OpColorLsb+:ColorBits];
-      cmd_dcolor_o <= SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
-      cmd_share_o <= TRANSLUCENCY == 0 ? '0 : ShareBits'(shade_q);
-      if (DSF_BITS > 0 && is_sp) begin
-        cmd_z_o  <= token_i[SpZLsb+:DepthBits];
-        cmd_dz_o <= token_i[SpDzLsb+:DepthBits];
-      end
-      if (is_tp) begin
-        cmd_z_o <= tp_z;
-        cmd_dz_o <= tp_dz;
-        cmd_color_o <= tp_color;
-        cmd_dcolor_o <= tp_dcolor;
-        cmd_share_o <= tp_share;
-      end
-      if (emit_paint) begin
-        cmd_color_o  <= background;
-        cmd_dcolor_o <= '0;
-        cmd_share_o  <= ShareBits'(shade_q);
-      end
-      if (DSF_BITS == 0) cmd_count_o <= '0;
-      else if (emit_eol || emit_paint || is_ev) cmd_count_o <= bias_q;
-      else if (is_op) cmd_count_o <= CountBits'(token_i[OpLitLsb]);
-      else cmd_count_o <= w;
+  token_command #(
+      `include "kage_pixel_param_map.svh"
+      .TOKEN_WORDS(TOKEN_WORDS)
+  ) u_command (
+      .clk_i,
+      .rst_ni,
+      .token_i,
+      .width_i     (width_q),
+      .share_i     (TRANSLUCENCY > 0 && COUNT_BITS == 0 ? ShareBits'(shade_q) : '0),
+      .bias_i      (bias),
+      .background_i(background_q),
+      .free_o      (cmd_free),
+      .make_span_i (emit_span),
+      .make_tree_i (emit_tree),
+      .make_eol_i  (emit_eol),
+      .make_paint_i(emit_paint && !emit_out),
+      .make_out_i  (emit_out),
+      .cmd_valid_o,
+      .cmd_ready_i,
+      .cmd_kind_o,
+      .cmd_xl_o,
+      .cmd_xr_o,
+      .cmd_count_o,
+      .cmd_z_o,
+      .cmd_dz_o,
+      .cmd_color_o,
+      .cmd_dcolor_o,
+      .cmd_share_o
+  );
+
+  // ---- light table -------------------------------------------------------------------------------------------------
+  assign table_class_o = token_i[TableClassLsb+:CLASS_BITS];
+  assign table_light_o = token_i[TableLightLsb+:LightBits];
+  assign table_share_o = token_i[TableShareLsb+:EntryShareBits];
+  if (CLASS_BITS > 1) begin : gen_table
+    logic lacking, class_used, entry_error;
+    logic [CLASS_BITS-1:0] span_class;
+    assign is_table = kind == KindTable;
+    if (UNITS > 0) begin : gen_faces
+      assign class_used = is_op || kind == KindFace;
+      assign span_class = is_op ? token_i[OpClassLsb+:CLASS_BITS] : token_i[FaceClassLsb+:CLASS_BITS];
+    end else begin : gen_no_faces
+      assign class_used = is_op;
+      assign span_class = token_i[OpClassLsb+:CLASS_BITS];
     end
+    assign table_valid_o = good && !token_header_i && is_table;
+    table_check #(
+        .SHADE_FRAC(SHADE_FRAC),
+        .CHANNELS(CHANNELS),
+        .LIGHTS(LIGHTS),
+        .CLASS_BITS(CLASS_BITS)
+    ) u_table (
+        .clk_i,
+        .frame_start_i(good && token_header_i),
+        .take_table_i (table_valid_o),
+        .take_other_i (good && !token_header_i && !is_table && !(UNITS > 0 && kind == KindFace)),
+        .class_i      (table_class_o),
+        .light_i      (table_light_o),
+        .share_i      (table_share_o),
+        .span_class_i (span_class),
+        .order_error_o(table_order_error),
+        .range_error_o(entry_error),
+        .lacking_o    (lacking)
+    );
+    assign table_range_error = is_table ? entry_error : class_used && lacking;
+  end else begin : gen_no_table
+    logic unused_table;
+    assign unused_table = table_free_i;
+    assign {is_table, table_valid_o, table_order_error, table_range_error} = '0;
   end
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
@@ -387,12 +412,12 @@ module frame_control #(
         .rst_ni,
         .frame_start_i (tree_frame_start_o),
         .take_i        (good && !token_header_i),
-        .is_shade_i    (is_shade),
+        .is_shade_i    (is_shade || is_table),
         .is_face_i     (is_face),
         .is_seg_i      (is_seg),
         .is_tree_i     (is_tree),
         .is_eol_i      (is_eol),
-        .is_other_i    (!(is_shade || is_face || is_seg || is_tree || is_eol || is_end)),
+        .is_other_i    (!(is_shade || is_table || is_face || is_seg || is_tree || is_eol || is_end)),
         .width_i       (width_q),
         .lines_left_i  (height_q - line_q),
         .token_i       (index_q),

@@ -60,6 +60,15 @@ module kage_top #(
   if (FSF > 0 && DSF_BITS == 0) begin : gen_bad_fsf_alone
     $fatal(1, "FSF needs DSF_BITS > 0: it collects what DSF counts");
   end
+  if (COUNT_BITS > 0 && DSF_BITS == 0) begin : gen_bad_count_alone
+    $fatal(1, "COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow");
+  end
+  if (CLASS_BITS > 1 && COUNT_BITS == 0) begin : gen_bad_class_alone
+    $fatal(1, "CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample");
+  end
+  if (LIGHTS > 1 && (COUNT_BITS == 0 || CLASS_BITS == 1)) begin : gen_bad_lights_alone
+    $fatal(1, "LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table");
+  end
   if (COLOR_FRAC > 0 && SMOOTH == 0) begin : gen_bad_color_frac_alone
     $fatal(1, "COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction");
   end
@@ -113,15 +122,27 @@ module kage_top #(
   logic [SlopeBits-1:0] cmd_dcolor;
   logic [ShareBits-1:0] cmd_share;
 
-  localparam int LineBits = 3 + X_BITS + RgbBits + SHADE_FRAC + 1;
-  logic line_valid, line_ready, line_first, line_blank, line_painted;
+  localparam int LineBits = 4 + X_BITS + RgbBits + SHADE_FRAC + 1;
+  logic line_valid, line_ready, line_first, line_blank, line_load, line_painted;
   logic [  X_BITS-1:0] line_width;
   logic [ RgbBits-1:0] line_background;
   logic [SHADE_FRAC:0] line_shade;
-  logic queue_valid, queue_ready, queue_first, queue_blank, queue_painted;
+  logic queue_valid, queue_ready, queue_first, queue_blank, queue_load, queue_painted;
   logic [  X_BITS-1:0] queue_width;
   logic [ RgbBits-1:0] queue_background;
   logic [SHADE_FRAC:0] queue_shade;
+
+  logic table_free, table_valid, load_valid, load_ready, load_last, loads_done;
+  logic [    CLASS_BITS-1:0] table_class;
+  logic [     LightBits-1:0] table_light;
+  logic [EntryShareBits-1:0] table_share;
+  logic [        X_BITS-1:0] load_x;
+  logic [       RgbBits-1:0] load_color;
+
+  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each has one
+  // pixel, 5 + LightStages in line_out's pipeline and 2 behind it. So is one that comes back as loads, until its last has been taken.
+  localparam int LinesBits = COUNT_BITS > 0 ? 5 : 4;
+  logic [LinesBits-1:0] lines_q;
 
   logic tree_frame_start, tree_frame_ready, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_seg_ready;
   logic [ UnitBits-1:0] tree_unit;
@@ -166,14 +187,21 @@ module kage_top #(
       .cmd_color_o       (cmd_color),
       .cmd_dcolor_o      (cmd_dcolor),
       .cmd_share_o       (cmd_share),
+      .loads_done_i      (loads_done),
       .line_valid_o      (line_valid),
       .line_ready_i      (line_ready),
       .line_first_o      (line_first),
       .line_blank_o      (line_blank),
+      .line_load_o       (line_load),
       .line_painted_o    (line_painted),
       .line_width_o      (line_width),
       .line_background_o (line_background),
       .line_shade_o      (line_shade),
+      .table_free_i      (table_free),
+      .table_valid_o     (table_valid),
+      .table_class_o     (table_class),
+      .table_light_o     (table_light),
+      .table_share_o     (table_share),
       .tree_frame_start_o(tree_frame_start),
       .tree_frame_ready_i(tree_frame_ready),
       .tree_flush_o      (tree_flush),
@@ -211,15 +239,16 @@ module kage_top #(
       .rst_ni,
       .in_valid_i (line_valid),
       .in_ready_o (line_ready),
-      .in_data_i  ({line_first, line_blank, line_painted, line_width, line_background, line_shade}),
+      .in_data_i  ({line_first, line_blank, line_load, line_painted, line_width, line_background, line_shade}),
       .out_valid_o(queue_valid),
       .out_ready_i(queue_ready),
-      .out_data_o ({queue_first, queue_blank, queue_painted, queue_width, queue_background, queue_shade})
+      .out_data_o ({queue_first, queue_blank, queue_load, queue_painted, queue_width, queue_background, queue_shade})
   );
 
   // ---- faces and segments to the tree's lines ----------------------------------------------------------------------
-  logic tree_valid, tree_ready, tree_lit, tree_last, tree_drop, tree_moving;
-  logic [ Z_BITS-1:0] tree_z;
+  logic tree_valid, tree_ready, tree_last, tree_drop, tree_moving;
+  logic [CLASS_BITS-1:0] tree_class;
+  logic [Z_BITS-1:0] tree_z;
   logic [RgbBits-1:0] tree_color;
   if (UNITS > 0) begin : gen_tree
     tree_core #(
@@ -228,6 +257,7 @@ module kage_top #(
         .Z_FRAC(Z_FRAC),
         .CHANNELS(CHANNELS),
         .DSF_BITS(DSF_BITS),
+        .CLASS_BITS(CLASS_BITS),
         .UNITS(UNITS),
         .FACE_BITS(FACE_BITS),
         .DX_BITS(DX_BITS),
@@ -255,7 +285,7 @@ module kage_top #(
         .line_valid_o (tree_valid),
         .line_ready_i (tree_ready),
         .line_z_o     (tree_z),
-        .line_lit_o   (tree_lit),
+        .line_class_o (tree_class),
         .line_color_o (tree_color),
         .line_last_o  (tree_last),
         .drop_o       (tree_drop),
@@ -266,13 +296,48 @@ module kage_top #(
     assign unused_tree = ^{tree_frame_start, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_unit,
                            tree_face,
                            tree_entry, tree_seg_z, tree_dx, tree_ready};
-    assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_z, tree_lit, tree_color, tree_last, tree_drop} = '0;
+    assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_z, tree_class, tree_color, tree_last, tree_drop} = '0;
     assign tree_moving = 1'b0;
   end
 
   // ---- commands to pixels ------------------------------------------------------------------------------------------
   logic exit_free, exit_take, exit_valid, exit_last, pixels_moving, out_moving;
   logic [ExitLanes*ExitBits-1:0] exit_data;
+  logic pixel_valid, pixel_ready;
+  logic [3:0] pixel_kind;
+  logic [X_BITS-1:0] pixel_xl, pixel_xr;
+  logic [ColorBits-1:0] pixel_color;
+  logic [SlopeBits-1:0] pixel_dcolor;
+
+  pixel_loads #(
+      .X_BITS(X_BITS),
+      .CHANNELS(CHANNELS),
+      .SMOOTH(SMOOTH),
+      .COLOR_FRAC(COLOR_FRAC),
+      .COUNT_BITS(COUNT_BITS),
+      .TRANSLUCENCY(TRANSLUCENCY)
+  ) u_loads (
+      .in_valid_i  (cmd_valid),
+      .in_ready_o  (cmd_ready),
+      .in_kind_i   (cmd_kind),
+      .in_xl_i     (cmd_xl),
+      .in_xr_i     (cmd_xr),
+      .in_color_i  (cmd_color),
+      .in_dcolor_i (cmd_dcolor),
+      .load_valid_i(load_valid),
+      .load_ready_o(load_ready),
+      .load_x_i    (load_x),
+      .load_color_i(load_color),
+      .load_last_i (load_last),
+      .done_o      (loads_done),
+      .out_valid_o (pixel_valid),
+      .out_ready_i (pixel_ready),
+      .out_kind_o  (pixel_kind),
+      .out_xl_o    (pixel_xl),
+      .out_xr_o    (pixel_xr),
+      .out_color_o (pixel_color),
+      .out_dcolor_o(pixel_dcolor)
+  );
 
   pixel_core #(
       `include "kage_pixel_param_map.svh"
@@ -282,21 +347,21 @@ module kage_top #(
   ) u_pixels (
       .clk_i,
       .rst_ni,
-      .cmd_valid_i (cmd_valid),
-      .cmd_ready_o (cmd_ready),
-      .cmd_kind_i  (cmd_kind),
-      .cmd_xl_i    (cmd_xl),
-      .cmd_xr_i    (cmd_xr),
+      .cmd_valid_i (pixel_valid),
+      .cmd_ready_o (pixel_ready),
+      .cmd_kind_i  (pixel_kind),
+      .cmd_xl_i    (pixel_xl),
+      .cmd_xr_i    (pixel_xr),
       .cmd_count_i (cmd_count),
       .cmd_z_i     (cmd_z),
       .cmd_dz_i    (cmd_dz),
-      .cmd_color_i (cmd_color),
-      .cmd_dcolor_i(cmd_dcolor),
+      .cmd_color_i (pixel_color),
+      .cmd_dcolor_i(pixel_dcolor),
       .cmd_share_i (cmd_share),
       .tree_valid_i(tree_valid),
       .tree_ready_o(tree_ready),
       .tree_z_i    (tree_z),
-      .tree_lit_i  (tree_lit),
+      .tree_class_i(tree_class),
       .tree_color_i(tree_color),
       .tree_last_i (tree_last),
       .tree_drop_i (tree_drop),
@@ -324,10 +389,20 @@ module kage_top #(
       .line_ready_o     (queue_ready),
       .line_first_i     (queue_first),
       .line_blank_i     (queue_blank),
+      .line_load_i      (queue_load),
       .line_painted_i   (queue_painted),
       .line_width_i     (queue_width),
       .line_background_i(queue_background),
       .line_shade_i     (queue_shade),
+      .table_valid_i    (table_valid),
+      .table_class_i    (table_class),
+      .table_light_i    (table_light),
+      .table_share_i    (table_share),
+      .load_valid_o     (load_valid),
+      .load_ready_i     (load_ready),
+      .load_x_o         (load_x),
+      .load_color_o     (load_color),
+      .load_last_o      (load_last),
       .m_valid_o        (m_axis_tvalid_o),
       .m_ready_i        (m_axis_tready_i),
       .m_data_o         (m_axis_tdata_o),
@@ -337,14 +412,12 @@ module kage_top #(
   );
 
   // ---- status ------------------------------------------------------------------------------------------------------
-  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each has one
-  // pixel, 5 in line_out's pipeline and 2 behind it.
-  logic [3:0] lines_q;
   logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
-  assign line_gone = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
+  assign table_free = lines_q == '0;
+  assign line_gone  = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) lines_q <= '0;
-    else lines_q <= lines_q + 4'(line_valid) - 4'(line_gone);
+    else lines_q <= lines_q + LinesBits'(line_valid) - LinesBits'(line_gone) - LinesBits'(loads_done);
   end
   assign in_frame = reader_busy || frame_open;
   assign frame_here = in_frame || lines_q != '0;
@@ -353,8 +426,8 @@ module kage_top #(
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
   // if one of them does.
   assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
-      painting || frame_end || line_valid || (cmd_valid && cmd_ready) || pixels_moving || out_moving || tree_moving ||
-      (m_axis_tvalid_o && m_axis_tready_i);
+      painting || frame_end || line_valid || (pixel_valid && pixel_ready) || pixels_moving || out_moving ||
+      tree_moving || (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
       `include "kage_pixel_param_map.svh"

@@ -6,11 +6,12 @@
 //   (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's width and colours, in the
 //   order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's last.
 // Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour, times 1 - shade if it is dark, rounded once:
-//   (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC.
+//   (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC. With counters every pixel has a factor of its own: light_resolve, which table_* loads.
+// Loads (counters and translucency): a line with line_load_i leaves by load_*, valid/ready, not by m_*: each pixel's place and colour.
 // Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so the one
 //   multiplier per channel here does the work of LANES of them in the pass that empties the line.
-// Latency: 8 clocks from a line's first group to its first pixel.
-// Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without shadows).
+// Latency: 8 clocks from a line's first group to its first pixel, and with counters LightStages more.
+// Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without shadows), light_resolve.
 `default_nettype none
 
 module line_out #(
@@ -34,10 +35,24 @@ module line_out #(
     output logic                     line_ready_o,
     input  wire logic                line_first_i,
     input  wire logic                line_blank_i,
+    input  wire logic                line_load_i,
     input  wire logic                line_painted_i,
     input  wire logic [  X_BITS-1:0] line_width_i,
     input  wire logic [ RgbBits-1:0] line_background_i,
     input  wire logic [SHADE_FRAC:0] line_shade_i,
+
+    // from frame_control: entries of the light table
+    input wire logic                      table_valid_i,
+    input wire logic [    CLASS_BITS-1:0] table_class_i,
+    input wire logic [     LightBits-1:0] table_light_i,
+    input wire logic [EntryShareBits-1:0] table_share_i,
+
+    // back to the pixels
+    output logic                    load_valid_o,
+    input  wire logic               load_ready_i,
+    output logic      [ X_BITS-1:0] load_x_o,
+    output logic      [RgbBits-1:0] load_color_o,
+    output logic                    load_last_o,
 
     // video
     output logic                    m_valid_o,
@@ -88,15 +103,16 @@ module line_out #(
   end
 
   // ---- emptying: one pixel a clock goes into the pipeline ----------------------------------------------------------
-  localparam int Depth = 5;  // RAM, register, lane, product, colour
+  localparam int Depth = 5 + LightStages;  // RAM, register, lane, factor, product, colour
+  localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   logic go;  // the pipeline moves
   logic start, sending_q, issue, issue_last;
   logic [  X_BITS-1:0] x_q;
   logic [LaneBits-1:0] lane;
-  logic first_q, blank_q, painted_q;
+  logic first_q, blank_q, load_q, painted_q;
   logic [X_BITS-1:0] width_q;
   logic [RgbBits-1:0] background_q;
-  logic [SHADE_FRAC:0] keep_q;  // 1 - shade
+  logic [SHADE_FRAC:0] keep_q;  // 1 - shade; with counters shade
   logic [Depth-1:0] valid_q;
 
   // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake them.
@@ -123,7 +139,8 @@ module line_out #(
       painted_q <= TRANSLUCENCY > 0 && line_painted_i;
       width_q <= line_width_i;
       if (line_first_i) background_q <= line_background_i;
-      if (line_first_i) keep_q <= {1'b1, {SHADE_FRAC{1'b0}}} - line_shade_i;
+      load_q <= HasLoads && line_load_i;
+      if (line_first_i) keep_q <= COUNT_BITS > 0 ? line_shade_i : {1'b1, {SHADE_FRAC{1'b0}}} - line_shade_i;
     end else if (go && issue) begin
       x_q <= x_q + 1'b1;
     end
@@ -142,8 +159,8 @@ module line_out #(
   assign moving_o = start || (go && (sending_q || valid_q != '0));
 
   // What goes along with a pixel, one set of bits a stage, the first stage lowest.
-  logic [Depth-1:0] user_q, last_q;
-  logic [2:0] blank_at_q, painted_at_q;
+  logic [Depth-1:0] user_q, last_q, load_at_q;
+  logic [LightStages+2:0] blank_at_q, painted_at_q;
   logic [2*LaneBits-1:0] lane_at_q;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) valid_q <= '0;
@@ -151,8 +168,9 @@ module line_out #(
     if (go) begin
       user_q <= {user_q[Depth-2:0], first_q && x_q == '0};
       last_q <= {last_q[Depth-2:0], issue_last};
-      blank_at_q <= {blank_at_q[1:0], blank_q};
-      painted_at_q <= {painted_at_q[1:0], painted_q};
+      load_at_q <= {load_at_q[Depth-2:0], load_q};
+      blank_at_q <= {blank_at_q[LightStages+1:0], blank_q};
+      painted_at_q <= {painted_at_q[LightStages+1:0], painted_q};
       lane_at_q <= {lane_at_q[LaneBits-1:0], lane};
     end
   end
@@ -189,16 +207,51 @@ module line_out #(
   end
   always_ff @(posedge clk_i) if (go) pixel_q <= pixel_d;
 
-  // ---- stages 4 and 5: resolve, background -------------------------------------------------------------------------
+  // ---- counts and class to factors ---------------------------------------------------------------------------------
+  logic [RgbBits:0] colored;  // {covered, colour}
+  logic is_dark;
+  logic [CHANNELS*(SHADE_FRAC+1)-1:0] factor;
+  if (COUNT_BITS > 0) begin : gen_light
+    light_resolve #(
+        .CHANNELS(CHANNELS),
+        .DSF_BITS(DSF_BITS),
+        .FSF(FSF),
+        .SHADE_FRAC(SHADE_FRAC),
+        .COUNT_BITS(COUNT_BITS),
+        .LIGHTS(LIGHTS),
+        .CLASS_BITS(CLASS_BITS)
+    ) u_light (
+        .clk_i,
+        .table_valid_i,
+        .table_class_i,
+        .table_light_i,
+        .table_share_i,
+        .shade_i (keep_q),
+        .go_i    (go),
+        .pixel_i (pixel_q),
+        .pixel_o (colored),
+        .factor_o(factor)
+    );
+    assign is_dark = 1'b1;  // by a factor of 1, if it is not
+  end else begin : gen_dark
+    logic unused_table;
+    assign unused_table = ^{table_valid_i, table_class_i, table_light_i, table_share_i};
+    assign colored = pixel_q[RgbBits:0];
+    assign is_dark = DSF_BITS > 0 && pixel_q[ExitBits-1];
+    assign factor = {CHANNELS{keep_q}};
+  end
+
+  // ---- the last two stages: resolve, background --------------------------------------------------------------------
   logic [RgbBits-1:0] plain_q, dimmed, color_q;
   logic show_q, dark_q;  // the pixel has a colour, in a line that is not blank; and is in shadow
   if (DSF_BITS > 0) begin : gen_resolve
     logic [CHANNELS*(SHADE_FRAC+9)-1:0] product_q;
     always_ff @(posedge clk_i) begin
       if (go) begin
-        dark_q <= pixel_q[ExitBits-1];
+        dark_q <= is_dark;
         for (int c = 0; c < CHANNELS; c++) begin
-          product_q[c*(SHADE_FRAC+9)+:SHADE_FRAC+9] <= (SHADE_FRAC + 9)'(pixel_q[c*8+:8]) * (SHADE_FRAC + 9)'(keep_q) +
+          product_q[c*(SHADE_FRAC+9)+:SHADE_FRAC+9] <=
+              (SHADE_FRAC + 9)'(colored[c*8+:8]) * (SHADE_FRAC + 9)'(factor[c*(SHADE_FRAC+1)+:SHADE_FRAC+1]) +
               (SHADE_FRAC + 9)'(1 << (SHADE_FRAC - 1));
         end
       end
@@ -208,27 +261,45 @@ module line_out #(
     end
   end else begin : gen_no_resolve
     logic unused_keep;
-    assign unused_keep = ^keep_q;
+    assign unused_keep = ^{factor, is_dark};
     assign dark_q = 1'b0;
     assign dimmed = '0;
   end
   always_ff @(posedge clk_i) begin
     if (go) begin
-      plain_q <= pixel_q[RgbBits-1:0];
-      show_q  <= (pixel_q[RgbBits] || painted_at_q[2]) && !blank_at_q[2];
+      plain_q <= colored[RgbBits-1:0];
+      show_q  <= (colored[RgbBits] || painted_at_q[LightStages+2]) && !blank_at_q[LightStages+2];
       if (!show_q) color_q <= background_q;
       else color_q <= dark_q ? dimmed : plain_q;
     end
   end
 
   // ---- output ------------------------------------------------------------------------------------------------------
+  logic video_go;
+  if (HasLoads) begin : gen_loads
+    logic [X_BITS-1:0] load_x_q;
+    assign load_valid_o = valid_q[Depth-1] && load_at_q[Depth-1];
+    assign load_color_o = color_q;
+    assign load_last_o = last_q[Depth-1];
+    assign load_x_o = load_x_q;
+    assign go = load_valid_o ? load_ready_i : video_go;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) load_x_q <= '0;
+      else if (load_valid_o && load_ready_i) load_x_q <= load_last_o ? '0 : load_x_q + 1'b1;
+    end
+  end else begin : gen_no_loads
+    logic unused_load;
+    assign unused_load = ^{load_ready_i, line_load_i};
+    assign {load_valid_o, load_x_o, load_color_o, load_last_o} = '0;
+    assign go = video_go;
+  end
   skid_buffer #(
       .BITS(RgbBits + 2)
   ) u_out (
       .clk_i,
       .rst_ni,
-      .in_valid_i (valid_q[Depth-1]),
-      .in_ready_o (go),
+      .in_valid_i (valid_q[Depth-1] && !load_at_q[Depth-1]),
+      .in_ready_o (video_go),
       .in_data_i  ({last_q[Depth-1], user_q[Depth-1], color_q}),
       .out_valid_o(m_valid_o),
       .out_ready_i(m_ready_i),

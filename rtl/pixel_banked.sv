@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels of a line in block RAM, LANES to a word: spans are walked one aligned group of LANES pixels a clock.
 //
-// Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL starts its pass when exit_free_i is high, takes the
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL, or a CmdOut, starts its pass when exit_free_i is high, takes the
 //   buffer by a clock of exit_take_o, and then brings the line's groups in order by exit_valid_o, without stops; the last with
 //   exit_last_o. Pixels past the line's width in the last group are void.
-// Tree (UNITS > 0): a second line buffer of {Z, colour, lit} is filled one pixel a clock from tree_*, whether or not a TREE is near.
+// Tree (UNITS > 0): a second line buffer of {Z, colour, class} is filled one pixel a clock from tree_*, whether or not a TREE is near.
 //   A TREE waits until a line is in it whole, then reads it group by group along with the state; the next line comes in right behind.
 //   tree_drop_i forgets a part of a line.
-// Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL takes one per group of
-//   the line and leaves cleared state behind. After reset a sweep of all groups comes first: what the RAM held never matters.
+// Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut takes one per group of
+//   the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first: what the RAM held never matters.
 // Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1.
 // Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the newest in
 //   front of the comparison, the two older ones in front of the register behind the RAM. The tree's buffer needs none: see there.
@@ -33,6 +33,7 @@ module pixel_banked #(
   localparam int Levels = $clog2(LANES);
   localparam int OffBits = LANES > 1 ? Levels : 1;
   localparam int WordBits = LANES * PixelBits;
+  localparam bit HasOut = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   localparam int Last = Levels + 2;  // the stage at which a group's next state is computed; the walker is stage 0
 
   // ---- set-up stages -----------------------------------------------------------------------------------------------
@@ -88,16 +89,17 @@ module pixel_banked #(
   logic [FlatBits-1:0] walk_flat_q;
   logic [AddrBits-1:0] walk_group_q, walk_end_q;
   logic [OffBits-1:0] walk_lane_first_q, walk_lane_last_q;
-  logic walk_eol;
+  logic walk_eol, next_leaves;  // a pass in which the line's pixels leave, of EOL or CmdOut, is next
 
   assign walk_eol = walk_kind_q == KindEol;
+  assign next_leaves = next_kind == KindEol || (HasOut && next_kind == CmdOut);
   assign walk_at_end = walk_group_q == walk_end_q;
   assign step = walk_valid_q && !walk_at_end;
-  assign take3 = set_valid_q[2] && !step && (next_kind != KindEol || exit_free_i) &&
+  assign take3 = set_valid_q[2] && !step && (!next_leaves || exit_free_i) &&
       (UNITS == 0 || next_kind != KindTree || tree_here);
   assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o ||
       tree_moving;
-  assign exit_take_o = take3 && next_kind == KindEol;
+  assign exit_take_o = take3 && next_leaves;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -194,7 +196,7 @@ module pixel_banked #(
   logic [Last-1:0] valid_q;
   logic [InfoBits-1:0] info_walk;
   logic leaves;
-  assign leaves = walk_eol && !walk_sweep_q;
+  assign leaves = (walk_eol && !walk_sweep_q) || (HasOut && walk_kind_q == CmdOut);
   assign info_walk = {walk_kind_q, walk_count_q, walk_share_q, walk_lanes, walk_group_q, walk_at_end, leaves};
   assign valid = {valid_q, walk_valid_q};
 
@@ -240,7 +242,7 @@ module pixel_banked #(
   logic [LANES*CountBits-1:0] now_counts;
 
   if (UNITS > 0) begin : gen_tree
-    localparam int PaintBits = Z_BITS + RgbBits + LitBits;
+    localparam int PaintBits = Z_BITS + RgbBits + ClassBits;
     // A pixel comes in a clock. The group's pixels gather in a register, which is written when it is complete.
     logic full_q, in_take, in_write_q;
     logic [Levels:0] passes_q, passes;  // bit k: a pass of TREE began k clocks ago; q: k + 1
@@ -249,12 +251,12 @@ module pixel_banked #(
     logic [PaintBits-1:0] in_pixel;
     logic [LANES*PaintBits-1:0] in_word_q, tree_word, tree_q;
     logic in_lane_end;
-    if (DSF_BITS > 0) begin : gen_lit
-      assign in_pixel = {tree_lit_i, tree_color_i, tree_z_i};
-    end else begin : gen_no_lit
-      logic unused_lit;
-      assign unused_lit = tree_lit_i;
-      assign in_pixel   = {tree_color_i, tree_z_i};
+    if (DSF_BITS > 0) begin : gen_class
+      assign in_pixel = {tree_class_i, tree_color_i, tree_z_i};
+    end else begin : gen_no_class
+      logic unused_class;
+      assign unused_class = ^tree_class_i;
+      assign in_pixel = {tree_color_i, tree_z_i};
     end
     assign tree_ready_o = !full_q;
     assign in_take = tree_valid_i && tree_ready_o && !tree_drop_i;
@@ -315,13 +317,13 @@ module pixel_banked #(
         for (int l = 0; l < LANES; l++) begin
           now_z[l*Z_BITS+:Z_BITS] = tree_q[l*PaintBits+:Z_BITS];
           now_color[l*RgbBits+:RgbBits] = tree_q[l*PaintBits+Z_BITS+:RgbBits];
-          if (DSF_BITS > 0) now_counts[l*CountBits+:CountBits] = CountBits'(tree_q[l*PaintBits+PaintBits-1]);
+          if (DSF_BITS > 0) now_counts[l*CountBits+:CountBits] = CountBits'(tree_q[(l+1)*PaintBits-1-:CLASS_BITS]);
         end
       end
     end
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_lit_i, tree_color_i, tree_last_i, tree_drop_i};
+    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_class_i, tree_color_i, tree_last_i, tree_drop_i};
     assign tree_ready_o = 1'b0;
     assign {tree_here, tree_moving} = '0;
     assign now_z = lane_z;
@@ -393,7 +395,7 @@ module pixel_banked #(
     else exit_valid_o <= valid[Last] && now_leaves;
     exit_last_o <= now_at_end;
     for (int l = 0; l < LANES; l++) begin
-      exit_data_o[l*ExitBits+:ExitBits] <= pixel_exit(word[l*PixelBits+:PixelBits], now_count);
+      exit_data_o[l*ExitBits+:ExitBits] <= pixel_exit(word[l*PixelBits+:PixelBits], now_count[DsfBits-1:0]);
     end
   end
 

@@ -2,7 +2,7 @@
 // The pixels of a line as a chain of processors, one a pixel: commands move one processor a clock, as in Matsumoto's line of
 // pixel processors, and a new one may enter every clock, whatever its length.
 //
-// Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL can be made to wait: for exit_free_i, and for the
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL or CmdOut can be made to wait: for exit_free_i, and for the
 //   line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's pixels then leave one a clock by
 //   exit_valid_o, without stops; the last with exit_last_o. The next line's commands follow right behind the EOL.
 // Tree (UNITS > 0): a TREE enters when tree_* offers its line's first pixel, and takes one a clock from then on, in step with its way
@@ -27,19 +27,20 @@ module pixel_systolic #(
   `include "kage_layout.svh"
   `include "kage_pixel_next.svh"
 
+  localparam bit HasOut = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   localparam int N = MAX_WIDTH;
   localparam int Segment = 16;  // pixels whose exits are joined in one clock
   localparam int Segments = (N + Segment - 1) / Segment;
 
   // ---- entry -------------------------------------------------------------------------------------------------------
-  logic is_eol, enter, tree_here, tree_moving;  // a TREE may enter; its line moves
+  logic is_leaving, enter, tree_here, tree_moving;  // a TREE may enter; its line moves
   logic [X_BITS-1:0] leaving_q;  // pixels of the leaving line that its EOL has not reached
   logic sweep_q;  // that EOL is the one of reset
-  assign is_eol = cmd_kind_i == KindEol;
-  assign cmd_ready_o = (!is_eol || (exit_free_i && leaving_q == '0)) &&
+  assign is_leaving = cmd_kind_i == KindEol || (HasOut && cmd_kind_i == CmdOut);
+  assign cmd_ready_o = (!is_leaving || (exit_free_i && leaving_q == '0)) &&
       (UNITS == 0 || cmd_kind_i != KindTree || tree_here);
   assign enter = cmd_valid_i && cmd_ready_o;
-  assign exit_take_o = enter && is_eol;
+  assign exit_take_o = enter && is_leaving;
 
   // An EOL moves on every clock, so counting says where it is: no sign from the processors is needed.
   always_ff @(posedge clk_i) begin
@@ -99,7 +100,7 @@ module pixel_systolic #(
     logic flows_q, take;  // a line has begun to come and not ended
     logic [Z_BITS-1:0] z1_q;
     logic [RgbBits-1:0] color1_q;
-    logic lit1_q;
+    logic [CLASS_BITS-1:0] class1_q;
     logic unused_drop;
     assign unused_drop = tree_drop_i;  // nothing is taken ahead of its TREE
     assign tree_here = tree_valid_i && !flows_q;
@@ -111,18 +112,18 @@ module pixel_systolic #(
       else if (take) flows_q <= !tree_last_i;
       z1_q <= tree_z_i;
       color1_q <= tree_color_i;
-      lit1_q <= tree_lit_i;
+      class1_q <= tree_class_i;
     end
     assign tree_z = z1_q;
     assign tree_color = color1_q;
-    assign tree_count = CountBits'(lit1_q);
+    assign tree_count = CountBits'(class1_q);
 `ifndef SYNTHESIS
     // 1. A line that has begun to come has no bubble.
     always_ff @(posedge clk_i) if (rst_ni) assert (!flows_q || tree_valid_i);
 `endif
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_lit_i, tree_color_i, tree_last_i, tree_drop_i};
+    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_class_i, tree_color_i, tree_last_i, tree_drop_i};
     assign tree_ready_o = 1'b0;
     assign {tree_here, tree_moving, tree_z, tree_color, tree_count} = '0;
   end
@@ -155,9 +156,9 @@ module pixel_systolic #(
         pixel = pixel_q[i*PixelBits+:PixelBits];
         z_d[i*DepthBits+:DepthBits] = z + dz_q[i*DepthBits+:DepthBits];
         pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, depth, color, count, share_q[i*ShareBits+:ShareBits]);
-        // Of the EOLs in the chain only one is among its line's pixels: the OR of all exits is that one's.
-        if (kind == KindEol) begin
-          leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count);
+        // Of the EOLs and CmdOuts in the chain only one is among its line's pixels: the OR of all exits is that one's.
+        if (kind == KindEol || (HasOut && kind == CmdOut)) begin
+          leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count[DsfBits-1:0]);
           joined_d[(i/Segment)*ExitBits+:ExitBits] = leaving;
         end
       end

@@ -7,7 +7,7 @@
 // Acts: frame_start_i, one clock, at a good header. take_i, one clock, when the token was good and has been taken; a token that is refused by
 //   any check must not be taken, and then nothing but the next frame_start_i counts.
 // Answers, in the order of the checks:
-//   order_error_o   FACE, SEG, TREE, SHADE, EOL, or any other token but END (is_other_i), where its phase does not allow it: as far as the
+//   order_error_o   FACE, SEG, TREE, SHADE, TABLE, EOL, or any other token but END (is_other_i), where its phase does not allow it: as far as the
 //                   tree is concerned; lines, volumes and the number of SHADEs are frame_control's
 //   range_error_o   FACE or SEG of a unit that the core lacks, FACE out of turn
 //   seg_pass_o      SEG: it goes to its unit; otherwise it is swallowed: its unit is or becomes at fault
@@ -33,7 +33,7 @@ module segment_check #(
     input wire logic frame_start_i,
     input wire logic take_i,
 
-    input wire logic              is_shade_i,
+    input wire logic              is_shade_i,    // SHADE or TABLE: other frame state
     input wire logic              is_face_i,
     input wire logic              is_seg_i,
     input wire logic              is_tree_i,
@@ -69,7 +69,7 @@ module segment_check #(
   localparam int SumBits = (X_BITS > DX_BITS ? X_BITS : DX_BITS) + 1;
 
   // ---- the frame: has it a tree? -----------------------------------------------------------------------------------
-  logic state_q;  // only SHADE and FACE since the header: a SEG begins the tree, any other token rules it out
+  logic state_q;  // only SHADE, TABLE and FACE since the header: a SEG begins the tree, any other token rules it out
   logic tree_q, due_q;
   assign tree_o = tree_q;
   assign due_o  = due_q;

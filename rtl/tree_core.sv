@@ -3,7 +3,7 @@
 //
 // In: face_* takes an entry a clock; seg_* is valid/ready, and seg_ready_o, which depends on seg_unit_i, waits for that unit only.
 //   Both bring sound ones only: segment_check sees to it. width_i is the frame's, and matters with segments only.
-// Out: line_* is valid/ready: Z, lit bit and colour of the nearest face at each pixel, line_last_o at a line's last. Z all ones: none.
+// Out: line_* is valid/ready: Z, class and colour of the nearest face at each pixel, line_last_o at a line's last. Z all ones: none.
 //   A line is offered as soon as all units have it, before it is asked for, but for its last pixel: that waits for the claim.
 // Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All units have the
 //   line complete by then. drop_o, one clock, says that a line of which a part has been taken will not come; nothing taken then counts.
@@ -42,13 +42,13 @@ module tree_core #(
     input  wire logic [  DX_BITS-1:0] seg_dx_i,
     input  wire logic [FACE_BITS-1:0] seg_face_i,
 
-    output logic                    line_valid_o,
-    input  wire logic               line_ready_i,
-    output logic      [ Z_BITS-1:0] line_z_o,
-    output logic                    line_lit_o,
-    output logic      [RgbBits-1:0] line_color_o,
-    output logic                    line_last_o,
-    output logic                    drop_o,
+    output logic                       line_valid_o,
+    input  wire logic                  line_ready_i,
+    output logic      [    Z_BITS-1:0] line_z_o,
+    output logic      [CLASS_BITS-1:0] line_class_o,
+    output logic      [   RgbBits-1:0] line_color_o,
+    output logic                       line_last_o,
+    output logic                       drop_o,
 
     output logic moving_o
 );
@@ -97,6 +97,7 @@ module tree_core #(
         .Z_FRAC(Z_FRAC),
         .CHANNELS(CHANNELS),
         .DSF_BITS(DSF_BITS),
+        .CLASS_BITS(CLASS_BITS),
         .FACE_BITS(FACE_BITS),
         .DX_BITS(DX_BITS),
         .SEG_BITS(SEG_BITS),
@@ -145,8 +146,8 @@ module tree_core #(
   logic unused_index;
   assign unused_index = ^point[PointBits-Z_BITS-1-:ORDER_BITS];
   assign line_z_o = point[PointBits-1-:Z_BITS];
-  assign line_color_o = point[LitBits+:RgbBits];
-  assign line_lit_o = DSF_BITS > 0 && point[0];
+  assign line_color_o = point[ClassBits+:RgbBits];
+  assign line_class_o = DSF_BITS > 0 ? point[CLASS_BITS-1:0] : '0;
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS

@@ -49,6 +49,9 @@ struct GoldenCore::Data {
       case Kind::SHADE:
         pixels.set_shade(t.shade);
         break;
+      case Kind::TABLE:
+        pixels.add_share(t.table);
+        break;
       case Kind::FACE:
         tree.add_face(t.segment);
         break;
@@ -75,6 +78,9 @@ struct GoldenCore::Data {
         break;
       case Kind::EV:
         pixels.ev(t.span.xl, t.span.xr);
+        break;
+      case Kind::ES:
+        pixels.es(t.span.xl, t.span.xr, t.table.light);
         break;
       case Kind::RESOLVE:
         pixels.resolve();
@@ -115,7 +121,7 @@ struct GoldenCore::Data {
     status.width = static_cast<int>(h[1] & 0xFFFFU);
     status.height = static_cast<int>(h[1] >> 16);
     rules.start(config, status.width, status.height);
-    pixels.start(status.width, h[3], 0);
+    pixels.start(status.width, h[3]);
     tree.start(status.width);
     out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(config.channels));
     taken = kHeaderWords;

@@ -12,7 +12,7 @@ void ExpansionUnit::start() {
 }
 
 void ExpansionUnit::add_face(const SegmentToken& f) {
-  std::uint32_t attr = f.lit ? 1U << 24 : 0;
+  std::uint64_t attr = static_cast<std::uint64_t>(f.normal_class) << 24;
   for (unsigned c = 0; c < 3; ++c) attr |= static_cast<std::uint32_t>(f.color[c]) << (8 * c);
   faces_.push_back({f.dz, static_cast<std::uint32_t>(f.index), attr});
 }
@@ -35,7 +35,7 @@ void ExpansionUnit::expand(TreeLine& out) {
     const auto n = static_cast<std::size_t>(s.dx);
     if (s.face == (1 << config_.face_bits) - 1) {
       std::fill_n(out.key.begin() + static_cast<std::ptrdiff_t>(x), n, clear);
-      std::fill_n(out.attr.begin() + static_cast<std::ptrdiff_t>(x), n, 0U);
+      std::fill_n(out.attr.begin() + static_cast<std::ptrdiff_t>(x), n, std::uint64_t{0});
     } else {
       // Registers of the Z generator: Z wraps at its own width, which is kept at the top of 64 bits.
       const Face& f = faces_[static_cast<std::size_t>(s.face)];

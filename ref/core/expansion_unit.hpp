@@ -16,7 +16,7 @@ namespace kage {
 /// A line of pixels on its way through the tree. A pixel's key is its depth above its draw index: the least key wins.
 struct TreeLine {
   std::vector<std::uint64_t> key;
-  std::vector<std::uint32_t> attr;  ///< colour in bits 0-23, lit in bit 24
+  std::vector<std::uint64_t> attr;  ///< colour in bits 0-23, class above
 
   void resize(std::size_t width) {
     key.resize(width);
@@ -44,7 +44,7 @@ class ExpansionUnit {
   struct Face {
     std::int64_t dz = 0;
     std::uint32_t index = 0;
-    std::uint32_t attr = 0;
+    std::uint64_t attr = 0;
   };
   struct Segment {
     std::int64_t z = 0;

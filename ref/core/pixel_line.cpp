@@ -22,41 +22,47 @@ PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_((1U << c
   attr_.resize(n);
   dsf_.resize(n);
   fsf_.resize(n);
+  if (config.class_bits > 1) class_.resize(n);
+  if (config.count_bits > 0) counts_.assign(static_cast<std::size_t>(config.lights), std::vector<std::uint32_t>(n));
 }
 
-void PixelLine::start(int width, std::uint32_t background, std::uint32_t shade) {
+void PixelLine::start(int width, std::uint32_t background) {
   width_ = width;
   background_ = background;
-  shade_ = shade;
+  shade_ = 0;
+  shares_.clear();
   bias_ = 0;
   shadow_touched_ = false;
   painted_ = false;
   std::fill(zb_.begin(), zb_.end(), (1 << config_.z_bits) - 1);
   std::fill(dsf_.begin(), dsf_.end(), 0U);
   std::fill(fsf_.begin(), fsf_.end(), 0U);
+  clear_counts();
 }
 
 void PixelLine::tree(const TreeLine& line) {
   for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
     const auto z = static_cast<std::int32_t>(line.key[x] >> TreeLine::kIndexBits);
     const bool front = z < zb_[x];
-    attr_[x] = front ? line.attr[x] : attr_[x];
+    attr_[x] = front ? static_cast<std::uint32_t>(line.attr[x]) : attr_[x];
+    if (front && !class_.empty()) class_[x] = static_cast<std::uint32_t>(line.attr[x] >> 24);
     zb_[x] = front ? z : zb_[x];
   }
 }
 
 void PixelLine::op(const SpanToken& s) {
   const DepthRamp ramp = depth_ramp(config_, s);
-  const std::uint32_t lit = s.lit ? kLit : 0;
+  const std::uint32_t lit = s.normal_class != 0 ? kLit : 0;
+  const ClassSpan classes{class_.empty() ? nullptr : class_.data() + s.xl, static_cast<std::uint32_t>(s.normal_class)};
   if (config_.smooth == 0) {
     std::uint32_t color = static_cast<std::uint32_t>(s.color[0]);
     if (config_.channels > 1)
       color |= static_cast<std::uint32_t>(s.color[1]) << 8 | static_cast<std::uint32_t>(s.color[2]) << 16;
-    span_op_flat(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, color | lit);
+    span_op_flat(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, color | lit, classes);
     return;
   }
   span_op_smooth(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, lit, color_ramps(s).data(),
-                 config_.channels);
+                 config_.channels, classes);
 }
 
 // Without SMOOTH a ramp that does not rise: 8 bits on top of 22, as the kernels have it.
@@ -89,7 +95,37 @@ void PixelLine::ev(int xl, int xr) {
   bias_ = 0;
 }
 
+void PixelLine::es(int xl, int xr, int light) {
+  std::uint32_t* counts = counts_[static_cast<std::size_t>(light)].data() + xl;
+  const std::uint32_t most = (1U << config_.count_bits) - 1U;
+  if (config_.fsf != 0)
+    span_es(xr - xl, fsf_.data() + xl, counts, 0, 1, most);
+  else
+    span_es(xr - xl, dsf_.data() + xl, counts, bias_, dsf_mask_, most);
+  bias_ = 0;
+  any_count_ = true;
+}
+
+void PixelLine::clear_counts() {
+  any_count_ = false;
+  for (auto& counts : counts_) std::fill(counts.begin(), counts.end(), 0U);
+}
+
+// What a pixel keeps of a channel, in 2^-SHADE_FRAC.
+std::uint32_t PixelLine::factor(std::size_t x, std::size_t channel) const {
+  const std::uint32_t one = 1U << config_.shade_frac;
+  std::uint32_t lost = 0;
+  if (config_.class_bits == 1) {
+    if ((attr_[x] & kLit) != 0) lost = counts_[0][x] * shade_;
+  } else if (class_[x] != 0) {
+    const std::size_t first = (class_[x] - 1) * counts_.size();
+    for (std::size_t i = 0; i < counts_.size(); ++i) lost += counts_[i][x] * shares_[first + i][channel];
+  }
+  return lost < one ? one - lost : 0;
+}
+
 void PixelLine::resolve() {
+  if (config_.count_bits > 0) return resolve_counts();
   const std::uint32_t keep = (1U << config_.shade_frac) - shade_;
   const std::uint32_t half = 1U << (config_.shade_frac - 1);
   const std::int32_t clear = (1 << config_.z_bits) - 1;
@@ -102,6 +138,23 @@ void PixelLine::resolve() {
     attr_[x] = darkened | kLit;
   }
   bias_ = 0;
+}
+
+void PixelLine::resolve_counts() {
+  bias_ = 0;
+  if (!any_count_) return;
+  const std::uint32_t half = 1U << (config_.shade_frac - 1);
+  const std::int32_t clear = (1 << config_.z_bits) - 1;
+  for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
+    std::uint32_t any = 0;
+    for (const auto& counts : counts_) any |= counts[x];
+    if (any == 0 || zb_[x] == clear) continue;
+    std::uint32_t darkened = attr_[x] & kLit;
+    for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
+      darkened |= (((attr_[x] >> 8 * c & 255U) * factor(x, c) + half) >> config_.shade_frac) << 8 * c;
+    attr_[x] = darkened;
+  }
+  clear_counts();
 }
 
 void PixelLine::tp(const SpanToken& s) {
@@ -133,6 +186,7 @@ void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
     std::fill_n(fsf_.begin(), width, 0U);
     shadow_touched_ = false;
   }
+  if (any_count_) clear_counts();
   bias_ = 0;
   painted_ = false;
 }

@@ -19,38 +19,47 @@ class PixelLine {
   explicit PixelLine(const Config& config);
 
   /// A new frame: every pixel is cleared.
-  void start(int width, std::uint32_t background, std::uint32_t shade);
+  void start(int width, std::uint32_t background);
   void set_shade(std::uint32_t shade) { shade_ = shade; }
+  void add_share(const TableToken& entry) { shares_.push_back(entry.share); }  ///< the table's next entry
 
-  void tree(const TreeLine& line);  ///< as OP over the whole line
-  void op(const SpanToken& s);      ///< where Z < ZB: Z, colour and lit are written
-  void sp(const SpanToken& s);      ///< where Z < ZB: DSF += w
-  void nc(int xl, int xr, int w);   ///< DSF += w
-  void inside(int w);               ///< IF: bias += w
-  void ev(int xl, int xr);          ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
-  void resolve();                   ///< darken what is lit and in shadow
-  void tp(const SpanToken& s);      ///< where Z < ZB: colour is blended
+  void tree(const TreeLine& line);     ///< as OP over the whole line
+  void op(const SpanToken& s);         ///< where Z < ZB: Z, colour and class are written
+  void sp(const SpanToken& s);         ///< where Z < ZB: DSF += w
+  void nc(int xl, int xr, int w);      ///< DSF += w
+  void inside(int w);                  ///< IF: bias += w
+  void ev(int xl, int xr);             ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
+  void es(int xl, int xr, int light);  ///< count[light] += FSF; FSF = 0; bias = 0
+  void resolve();                      ///< darken what is lit and in shadow
+  void tp(const SpanToken& s);         ///< where Z < ZB: colour is blended
 
   /// The line's pixels as bytes; all state is cleared. `blank`: the line is background whatever was drawn.
   void finish(bool blank, std::span<std::uint8_t> out);
 
  private:
+  [[nodiscard]] std::uint32_t factor(std::size_t x, std::size_t channel) const;
+  void resolve_counts();
+  void clear_counts();
   [[nodiscard]] std::array<ColorRamp, 3> color_ramps(const SpanToken& s) const;
 
   Config config_;
   int width_ = 0;
   std::uint32_t background_ = 0;
   std::uint32_t shade_ = 0;
+  std::vector<std::array<std::uint32_t, 3>> shares_;  // the frame's table, by class - 1, then light
   std::uint32_t dsf_mask_ = 0;
   std::uint32_t bias_ = 0;
   bool shadow_touched_ = false;
-  bool painted_ = false;  // translucent spans have come: uncovered pixels have the background's colour
+  bool any_count_ = false;  // a counter of the line may be other than 0
+  bool painted_ = false;    // translucent spans have come: uncovered pixels have the background's colour
   // A pixel's state, one array a field. Arrays reach past the width by the longest vector, so that kernels need no
   // scalar tail.
   std::vector<std::int32_t> zb_;
-  std::vector<std::uint32_t> attr_;  // colour in bits 0-23, lit in bit 24
+  std::vector<std::uint32_t> attr_;   // colour in bits 0-23; without a table lit in bit 24
+  std::vector<std::uint32_t> class_;  // with a table only
   std::vector<std::uint32_t> dsf_;
   std::vector<std::uint32_t> fsf_;
+  std::vector<std::vector<std::uint32_t>> counts_;  // of each light, with COUNT_BITS only
 };
 
 }  // namespace kage

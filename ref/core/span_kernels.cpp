@@ -78,8 +78,16 @@ class Colors {
 // Mask of the lanes from `x` that still belong to the span.
 HWY_INLINE hn::Mask<D32> lanes_left(int x, int count) { return hn::FirstN(D32(), static_cast<std::size_t>(count - x)); }
 
+// The class of the pixels that `nearer` says.
+HWY_INLINE void put_class(ClassSpan classes, int x, hn::Mask<DU32> nearer) {
+  const DU32 du;
+  if (classes.at == nullptr) return;
+  const auto old = hn::LoadU(du, classes.at + x);
+  hn::StoreU(hn::IfThenElse(nearer, hn::Set(du, classes.value), old), du, classes.at + x);
+}
+
 void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
-            std::uint32_t value) {
+            std::uint32_t value, ClassSpan classes) {
   const D32 d;
   const DU32 du;
   Depths depths(ramp);
@@ -93,11 +101,12 @@ void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint3
     hn::StoreU(hn::IfThenElse(nearer, z, old), d, zb + x);
     const auto mask_u = hn::RebindMask(du, nearer);
     hn::StoreU(hn::IfThenElse(mask_u, v, hn::LoadU(du, attr + x)), du, attr + x);
+    put_class(classes, x, mask_u);
   }
 }
 
 void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
-              std::uint32_t value, const ColorRamp* color, int channels) {
+              std::uint32_t value, const ColorRamp* color, int channels, ClassSpan classes) {
   const D32 d;
   const DU32 du;
   Depths depths(ramp);
@@ -114,7 +123,9 @@ void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uin
     hn::StoreU(hn::IfThenElse(nearer, z, old), d, zb + x);
     auto a = hn::Or(v, c0.next());
     if (channels > 1) a = hn::Or(a, hn::Or(hn::ShiftLeft<8>(c1.next()), hn::ShiftLeft<16>(c2.next())));
-    hn::StoreU(hn::IfThenElse(hn::RebindMask(du, nearer), a, hn::LoadU(du, attr + x)), du, attr + x);
+    const auto mask_u = hn::RebindMask(du, nearer);
+    hn::StoreU(hn::IfThenElse(mask_u, a, hn::LoadU(du, attr + x)), du, attr + x);
+    put_class(classes, x, mask_u);
   }
 }
 
@@ -145,6 +156,23 @@ void Ev(int count, std::uint32_t* HWY_RESTRICT dsf, std::uint32_t* HWY_RESTRICT 
     const auto inside = hn::And(in, hn::Ne(hn::And(hn::Add(old, b), m), hn::Zero(du)));
     hn::StoreU(hn::Or(hn::LoadU(du, fsf + x), hn::IfThenElseZero(inside, hn::Set(du, 1))), du, fsf + x);
     hn::StoreU(hn::IfThenZeroElse(in, old), du, dsf + x);
+  }
+}
+
+void Es(int count, std::uint32_t* HWY_RESTRICT flag, std::uint32_t* HWY_RESTRICT counts, std::uint32_t bias,
+        std::uint32_t mask, std::uint32_t most) {
+  const DU32 du;
+  const auto b = hn::Set(du, bias);
+  const auto m = hn::Set(du, mask);
+  const int n = static_cast<int>(hn::Lanes(du));
+  for (int x = 0; x < count; x += n) {
+    const auto in = hn::FirstN(du, static_cast<std::size_t>(count - x));
+    const auto old = hn::LoadU(du, flag + x);
+    const auto sum = hn::LoadU(du, counts + x);
+    const auto shadowed = hn::And(hn::Ne(hn::And(hn::Add(old, b), m), hn::Zero(du)), hn::Lt(sum, hn::Set(du, most)));
+    const auto one = hn::IfThenElseZero(hn::And(in, shadowed), hn::Set(du, 1));
+    hn::StoreU(hn::Add(sum, one), du, counts + x);
+    hn::StoreU(hn::IfThenZeroElse(in, old), du, flag + x);
   }
 }
 
@@ -191,20 +219,26 @@ HWY_EXPORT(OpFlat);
 HWY_EXPORT(OpSmooth);
 HWY_EXPORT(Sp);
 HWY_EXPORT(Ev);
+HWY_EXPORT(Es);
 HWY_EXPORT(Tp);
 
-void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value) {
-  HWY_DYNAMIC_DISPATCH(OpFlat)(ramp, count, zb, attr, value);
+void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                  ClassSpan classes) {
+  HWY_DYNAMIC_DISPATCH(OpFlat)(ramp, count, zb, attr, value, classes);
 }
 void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
-                    const ColorRamp* color, int channels) {
-  HWY_DYNAMIC_DISPATCH(OpSmooth)(ramp, count, zb, attr, value, color, channels);
+                    const ColorRamp* color, int channels, ClassSpan classes) {
+  HWY_DYNAMIC_DISPATCH(OpSmooth)(ramp, count, zb, attr, value, color, channels, classes);
 }
 void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w) {
   HWY_DYNAMIC_DISPATCH(Sp)(ramp, count, zb, dsf, w);
 }
 void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask) {
   HWY_DYNAMIC_DISPATCH(Ev)(count, dsf, fsf, bias, mask);
+}
+void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_t bias, std::uint32_t mask,
+             std::uint32_t most) {
+  HWY_DYNAMIC_DISPATCH(Es)(count, flag, counts, bias, mask, most);
 }
 void span_tp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha) {

@@ -28,18 +28,29 @@ struct ColorRamp {
 /// Arrays may be read and written up to this many elements past `count`, with the old values.
 inline constexpr std::size_t kKernelSlack = 64;
 
-/// Where Z < zb: zb = Z, attr = value.
-void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value);
+/// Where a span's class goes: an array of the line, nullptr without a table.
+struct ClassSpan {
+  std::uint32_t* at;
+  std::uint32_t value;
+};
 
-/// Where Z < zb: zb = Z, attr = channels (lowest first) | value.
+/// Where Z < zb: zb = Z, attr = value, and the class is written.
+void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                  ClassSpan classes);
+
+/// Where Z < zb: zb = Z, attr = channels (lowest first) | value, and the class is written.
 void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
-                    const ColorRamp* color, int channels);
+                    const ColorRamp* color, int channels, ClassSpan classes);
 
 /// Where Z < zb: dsf += w.
 void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w);
 
 /// fsf |= ((dsf + bias) & mask) != 0; dsf = 0.
 void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask);
+
+/// Where ((flag + bias) & mask) != 0: counts + 1, at most `most`; flag = 0.
+void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_t bias, std::uint32_t mask,
+             std::uint32_t most);
 
 /// Where Z < zb: each channel of attr = round((old * (255 - alpha) + new * alpha) / 255). Depth stays.
 void span_tp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,

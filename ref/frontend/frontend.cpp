@@ -123,14 +123,25 @@ class Band {
   }
 
  private:
+  /// Pixels that shadow tokens have touched.
+  struct Touched {
+    int from = 0;
+    int to = 0;
+
+    [[nodiscard]] bool none() const { return from == to; }
+    void add(int xl, int xr) {
+      from = none() ? xl : std::min(from, xl);
+      to = std::max(to, xr);
+    }
+  };
+
   struct Line {
     std::vector<std::uint32_t> opaque;
     std::vector<std::uint32_t> shadow;
     std::vector<std::uint32_t> translucent;
-    // Of the volume being worked on:
-    std::vector<Crossing> near;
-    int touched_from = 0;
-    int touched_to = 0;
+    std::vector<Crossing> near;  // of the volume being worked on
+    Touched volume;
+    Touched sample;  // of light
   };
 
   Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
@@ -177,7 +188,7 @@ class Band {
       if (i < f_->tree.first_span_polygon()) continue;
       const ScreenPolygon& p = g_->polygons[i];
       spans(p, [&](int y, SpanToken& s, int) {
-        s.lit = p.lit;
+        s.normal_class = span_class(p, *f_->config);
         paint(p, y, s);
         writer_.write_to(at(y).opaque);
         writer_.op(s);
@@ -218,30 +229,24 @@ class Band {
     const auto& edges = work_->edges;
     std::size_t face = 0;
     std::size_t edge = 0;
+    std::uint32_t sample = 0;
     while (face < faces.size() || edge < edges.size()) {
       std::uint32_t v = ~0U;
       if (face < faces.size()) v = f_->volume_of_face[faces[face]];
       if (edge < edges.size()) v = std::min(v, f_->volume_of_edge[edges[edge]]);
+      if (g_->volumes[v].sample != sample) close_sample(sample);
+      sample = g_->volumes[v].sample;
       for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face)
         volume_face(g_->volume_faces[faces[face]]);
       for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge)
         near_edge(g_->near_edges[edges[edge]]);
       close_volume();
     }
+    close_sample(sample);
   }
 
   // w modulo 2^DSF_BITS, its sign kept where it fits; 0 if it has no effect.
   [[nodiscard]] int weight(int w) const { return w % (1 << f_->config->dsf_bits); }
-
-  static void touch(Line& line, int xl, int xr) {
-    if (line.touched_from == line.touched_to) {
-      line.touched_from = xl;
-      line.touched_to = xr;
-    } else {
-      line.touched_from = std::min(line.touched_from, xl);
-      line.touched_to = std::max(line.touched_to, xr);
-    }
-  }
 
   void volume_face(const VolumeFace& face) {
     spans(g_->polygons[face.polygon], [&](int y, SpanToken& s, int winding) {
@@ -250,7 +255,7 @@ class Band {
       Line& line = at(y);
       writer_.write_to(line.shadow);
       writer_.sp(s);
-      touch(line, s.xl, s.xr);
+      line.volume.add(s.xl, s.xr);
     });
   }
 
@@ -260,19 +265,31 @@ class Band {
     const int to = std::min(walker.end(), y1_);
     if (from >= to) return;
     walker.start(from);
-    for (int y = from; y < to; ++y, walker.next()) at(y).near.push_back({walker.x(), walker.winding()});
+    for (int y = from; y < to; ++y, walker.next()) at(y).near.push_back({walker.x(), walker.winding() * e.w});
   }
 
   void close_volume() {
     for (int y = y0_; y < y1_; ++y) {
       Line& line = at(y);
       if (!line.near.empty()) near_cap(line);
-      if (line.touched_from == line.touched_to) continue;
+      if (line.volume.none()) continue;
       if (f_->config->fsf != 0) {
         writer_.write_to(line.shadow);
-        writer_.ev(line.touched_from, line.touched_to);
+        writer_.ev(line.volume.from, line.volume.to);
       }
-      line.touched_from = line.touched_to = 0;
+      line.sample.add(line.volume.from, line.volume.to);
+      line.volume = {};
+    }
+  }
+
+  void close_sample(std::uint32_t sample) {
+    if (f_->config->count_bits == 0) return;
+    for (int y = y0_; y < y1_; ++y) {
+      Line& line = at(y);
+      if (line.sample.none()) continue;
+      writer_.write_to(line.shadow);
+      writer_.es(line.sample.from, line.sample.to, g_->sample_light[sample]);
+      line.sample = {};
     }
   }
 
@@ -287,7 +304,7 @@ class Band {
         writer_.inside(w);
       else
         writer_.nc(xl, xr, w);
-      touch(line, xl, xr);
+      line.volume.add(xl, xr);
     });
     line.near.clear();
   }
@@ -319,6 +336,23 @@ void check_guard(const FrameGeometry& g) {
   }
 }
 
+// Without FSF a sample has one volume, without counters there is one sample.
+void check_volumes(const FrameGeometry& g, const Config& config) {
+  if (config.dsf_bits == 0) return;
+  for (std::size_t i = 1; i < g.volumes.size(); ++i) {
+    if (config.count_bits == 0 && g.volumes[i].sample != g.volumes[0].sample)
+      throw Error("several light samples need COUNT_BITS, which the configuration lacks");
+    if (config.fsf == 0 && g.volumes[i].sample == g.volumes[i - 1].sample)
+      throw Error("several shadow volumes need FSF, which the configuration lacks");
+  }
+}
+
+void write_table(const FrameGeometry& g, const Config& config, TokenWriter& writer) {
+  const auto lights = static_cast<std::size_t>(config.lights);
+  for (std::size_t i = 0; i < g.shares.size(); ++i)
+    writer.table({static_cast<int>(i / lights) + 1, static_cast<int>(i % lights), g.shares[i]});
+}
+
 }  // namespace
 
 void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink, int threads,
@@ -328,15 +362,17 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
                             (1 << config.x_bits) - 1));
   check_guard(g);
   const bool shadows = config.dsf_bits > 0 && !g.volumes.empty();
-  if (shadows && config.fsf == 0 && g.volumes.size() > 1)
-    throw Error(fmt::format("{} shadow volumes need FSF, which the configuration lacks", g.volumes.size()));
+  check_volumes(g, config);
   if (config.translucency == 0 && !g.fragments.empty())
     throw Error("translucent faces need TRANSLUCENCY, which the configuration lacks");
 
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
   writer.header({g.width, g.height, g.background, number});
-  if (shadows) writer.shade(g.shade);
+  if (config.class_bits > 1)
+    write_table(g, config, writer);
+  else if (shadows)
+    writer.shade(g.shade);
   Frame frame = prepare(g, config);
   if (report != nullptr) *report = frame.tree.report();
   if (frame.tree.any()) {

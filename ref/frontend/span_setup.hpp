@@ -11,6 +11,12 @@
 
 namespace kage {
 
+/// The class of a polygon's spans: of its normal, or, without table, whether it is lit.
+inline int span_class(const ScreenPolygon& p, const Config& config) {
+  if (config.class_bits > 1) return p.normal_class;
+  return p.lit ? 1 : 0;
+}
+
 /// A plane's value at a pixel centre, exactly, in 2^-24.
 inline Int128 value_at(const ScreenPlane& p, int x, int y) {
   return static_cast<Int128>(p.c) + static_cast<Int128>(p.a) * (x - p.x0) + static_cast<Int128>(p.b) * (y - p.y0);

@@ -79,7 +79,7 @@ void TreePlan::faces(TokenWriter& writer) const {
         t.unit = static_cast<int>(u);
         t.face = m.first_face + static_cast<int>(k);
         t.index = static_cast<int>(m.polyhedron);
-        t.lit = polygon.lit;
+        t.normal_class = span_class(polygon, *config_);
         t.dz = setup.step(polygon.depth);
         for (std::size_t c = 0; c < 3; ++c) t.color[c] = polygon.color[c];
         writer.face(t);

@@ -134,9 +134,9 @@ bool Clipper::keeps(const ClipPoint& p) const {
   return true;
 }
 
-void Clipper::snap_cut(const NearCut& cut, std::vector<NearEdge>& edges) const {
-  const auto add = [&edges](ScreenVertex from, ScreenVertex to) {
-    if (from.y != to.y) edges.push_back({to, from});  // level edges bound nothing
+void Clipper::snap_cut(const NearCut& cut, std::int32_t w, std::vector<NearEdge>& edges) const {
+  const auto add = [&](ScreenVertex from, ScreenVertex to) {
+    if (from.y != to.y) edges.push_back({to, from, w});  // level edges bound nothing
   };
   ClipPoint a = cut.from;
   ClipPoint b = cut.to;

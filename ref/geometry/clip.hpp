@@ -30,8 +30,8 @@ class Clipper {
 
   /// The pieces of a near cut as snapped edges, appended to `edges` in reverse direction (a section closes what the
   /// polygons leave open): cut in y as the polygon is, but in x outside the guard band only moved onto it, so that what
-  /// lies left of the screen still counts.
-  void snap_cut(const NearCut& cut, std::vector<NearEdge>& edges) const;
+  /// lies left of the screen still counts. `w`: their weight.
+  void snap_cut(const NearCut& cut, std::int32_t w, std::vector<NearEdge>& edges) const;
 
  private:
   double near_;

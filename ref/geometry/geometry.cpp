@@ -5,18 +5,23 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <span>
 #include <tuple>
 
+#include "geometry/light_table.hpp"
 #include "geometry/screen_faces.hpp"
 #include "geometry/shade.hpp"
-#include "geometry/shadow_volume.hpp"
 #include "geometry/translucent.hpp"
 #include "geometry/volume_maker.hpp"
 #include "kage/error.hpp"
+#include "kage/light.hpp"
 #include "number/int128.hpp"
+#include "shadow/receivers.hpp"
+#include "shadow/volumes.hpp"
 
 namespace kage {
 namespace {
@@ -24,21 +29,27 @@ namespace {
 class Builder {
  public:
   Builder(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
-          TranslucentOrder& order)
+          TranslucentOrder& order, ShadowCache& shadows)
       : frame_(&frame),
         order_(&order),
+        shadows_(&shadows),
         config_(&config),
         look_(&look),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
-        caster_(frame, frame.lights[0], view_.near_corners(), look.extrusion),
-        light_(frame.lights[0], frame.camera.up),
+        lighting_(frame.lights, frame.camera.up),
         clipper_(view_.near(), view_.volume_end()),
         faces_(view_, clipper_, out_) {
     out_.width = width;
     out_.height = height;
     for (unsigned c = 0; c < 3; ++c) out_.background |= static_cast<std::uint32_t>(look.background[c]) << (8 * c);
     if (config.channels == 1) out_.background = look.background[1];
-    out_.shade = static_cast<std::uint32_t>(to_fixed(look.darkening, config.shade_frac));
+    for (const Light& l : frame.lights) casters_.emplace_back(frame, l, view_.near_corners(), look.extrusion);
+    // Without table all lights shine, and the first casts.
+    casting_ = config.dsf_bits > 0 ? std::min(frame.lights.size(), static_cast<std::size_t>(config.lights)) : 0;
+    sample_lights();
+    if (casting_ > 0)
+      out_.shade = static_cast<std::uint32_t>(to_fixed(look.darkening / samples_of_[0], config.shade_frac));
+    table_.emplace(config, look, frame.lights, lighting_, samples_of_);
   }
 
   FrameGeometry build() {
@@ -52,9 +63,18 @@ class Builder {
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
-      caster_.each([&maker](const WorldVolume& v) { maker.add(v, 0); });
+      VolumeCaster volumes(*frame_, config_->dsf_bits, look_->volumes, shadows_->data());
+      const Receivers receivers(*frame_, out_.width, out_.height, config_->translucency == 0);
+      std::vector<bool> casts(frame_->components.size(), true);
+      for (std::uint32_t i = 0; i < sample_casters_.size(); ++i) {
+        const ShadowCaster& caster = sample_casters_[i];
+        if (look_->leave_out) casts = receivers.reached(caster.light());
+        volumes.make(i, caster,
+                     [&](const WorldVolume& v, std::uint32_t component) { maker.add(v, caster, i, component, casts); });
+      }
     }
     if (config_->translucency > 0) draw_translucent();
+    table_->finish(out_);
     return std::move(out_);
   }
 
@@ -65,6 +85,20 @@ class Builder {
     for (const glm::dvec3& p : frame.vertices)
       far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
     return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
+  }
+
+  void sample_lights() {
+    for (std::size_t l = 0; l < casting_; ++l) {
+      const int wanted = config_->count_bits > 0 ? look_->samples : 1;
+      const auto points = light_points(frame_->lights[l], wanted, look_->seed + l);
+      for (const LightPoint& p : points)
+        sample_casters_.emplace_back(*frame_, p, view_.near_corners(), look_->extrusion);
+      samples_of_.push_back(static_cast<int>(points.size()));
+      out_.sample_light.insert(out_.sample_light.end(), points.size(), static_cast<std::uint8_t>(l));
+      if (points.size() >> config_->count_bits > 0 && config_->count_bits > 0)
+        throw Error(
+            fmt::format("{} samples of a light do not fit COUNT_BITS = {}", points.size(), config_->count_bits));
+    }
   }
 
   // Polyhedra first, then the rest, each in the scene's order: whether a polyhedron goes to a unit or becomes spans
@@ -185,6 +219,19 @@ class Builder {
     return area > 0;
   }
 
+  static bool same_side(double facing, int light_side) {
+    return (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
+  }
+
+  // Whether shadows darken the face: with a table if some light reaches it. Without, only if all samples do: where some
+  // are behind it, it shadows itself, and a constant share would darken what is nearly unlit anyway, face by face.
+  bool takes_shadow(double facing, const Polygon& face, const std::bitset<kMaxLights>& lit) const {
+    if (casting_ == 0) return lit[0];
+    if (table_->exists()) return (lit << (kMaxLights - casting_)).any();
+    return std::all_of(sample_casters_.begin(), sample_casters_.end(),
+                       [&](const ShadowCaster& c) { return same_side(facing, c.facing(face)); });
+  }
+
   void draw(std::uint32_t index) {
     const Polygon& face = frame_->polygons[index];
     const auto corners = frame_->outline(face);
@@ -193,19 +240,23 @@ class Builder {
     const glm::dvec3 normal = glm::cross(frame_->vertices[t.vertex[1]] - p, frame_->vertices[t.vertex[2]] - p);
     const Camera& camera = frame_->camera;
     const double facing = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
-    const int light_side = caster_.facing(face);
-    const bool lit = (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
+    std::bitset<kMaxLights> lit;
+    for (std::size_t l = 0; l < casters_.size(); ++l) lit[l] = same_side(facing, casters_[l].facing(face));
 
     polygon_.clear();
     glm::dvec3 mean{0, 0, 0};
+    glm::dvec3 mean_normal{0, 0, 0};
+    glm::dvec3 middle{0, 0, 0};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       polygon_.push_back(view_.to_clip(eye_points_[corners[i]]));
       // More corners than a triangle's share one look.
       const ShadingVertex& s = frame_->shading[t.shading[corners.size() == 3 ? i : 0]];
       const glm::dvec3 towards_eye = facing < 0 ? -s.normal : s.normal;
       polygon_.back().color =
-          light_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
+          lighting_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
       mean += polygon_.back().color;
+      mean_normal += towards_eye;
+      middle += frame_->vertices[corners[i]];
     }
     const bool same_color =
         std::all_of(polygon_.begin(), polygon_.end(), [&](const ClipPoint& c) { return c.color == polygon_[0].color; });
@@ -215,7 +266,13 @@ class Builder {
     clipper_.clip(polygon_, nullptr, false);
     if (polygon_.empty()) return;
     ScreenPolygon base;
-    base.lit = lit;
+    base.lit = takes_shadow(facing, face, lit);
+    if (table_->exists() && base.lit) {
+      const double length = std::sqrt(glm::dot(mean_normal, mean_normal));
+      const double area = std::sqrt(glm::dot(normal, normal));
+      const auto n = static_cast<double>(corners.size());
+      base.normal_class = table_->classify(length > 0 ? mean_normal / length : mean_normal, middle / n, area, lit);
+    }
     base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
     base.source = index;
     // Three corners are the face's own, even where it was put together from more triangles.
@@ -272,11 +329,16 @@ class Builder {
 
   const SceneFrame* frame_;
   TranslucentOrder* order_;
+  ShadowCache* shadows_;
   const Config* config_;
   const Look* look_;
   View view_;
-  ShadowCaster caster_;
-  LightView light_;
+  std::vector<ShadowCaster> casters_;  // of the lights' middles
+  std::size_t casting_ = 0;            // so many lights, the first ones, cast shadows
+  Lighting lighting_;
+  std::vector<ShadowCaster> sample_casters_;  // of their samples
+  std::vector<int> samples_of_;               // of each light that casts
+  std::optional<LightTable> table_;
   Clipper clipper_;
   FrameGeometry out_;
   ScreenFaces faces_;
@@ -296,20 +358,25 @@ void check_finite(const SceneFrame& frame) {
   if (!finite(c.eye) || !finite(c.right) || !finite(c.up) || !finite(c.forward) || !(c.near > 0) ||
       !std::isfinite(c.near) || !(c.half_height > 0) || !std::isfinite(c.half_height))
     throw Error("the camera is not finite, or its near plane or field of view is not positive");
-  const Light& l = frame.lights[0];
-  if (!finite(l.directional ? l.direction : l.position)) throw Error("the light is not finite");
+  if (frame.lights.empty() || frame.lights.size() > kMaxLights)
+    throw Error(fmt::format("{} lights: there must be 1 .. {}", frame.lights.size(), kMaxLights));
+  for (const Light& l : frame.lights)
+    if (!finite(l.directional ? l.direction : l.position) || !finite(l.color)) throw Error("the light is not finite");
 }
 
 }  // namespace
 
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
-                            TranslucentOrder* order) {
+                            TranslucentOrder* order, ShadowCache* shadows) {
   if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
     throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
   if (frame.polygons.empty()) throw Error("the scene has no faces");
   check_finite(frame);
-  TranslucentOrder fresh;
-  return Builder(frame, config, width, height, look, order != nullptr ? *order : fresh).build();
+  TranslucentOrder fresh_order;
+  ShadowCache fresh_shadows;
+  return Builder(frame, config, width, height, look, order != nullptr ? *order : fresh_order,
+                 shadows != nullptr ? *shadows : fresh_shadows)
+      .build();
 }
 
 }  // namespace kage

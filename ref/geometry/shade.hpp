@@ -3,9 +3,10 @@
 // Lighting: base colours to displayed colours.
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <bitset>
 #include <glm/vec3.hpp>
+#include <span>
+#include <vector>
 
 #include "kage/scene.hpp"
 
@@ -15,24 +16,26 @@ namespace kage {
 /// 1/255 of the exact one, and exact at 0 and 1. `linear` is clamped to 0 .. 1; the outcome is 0 .. 1.
 double srgb_encode(double linear);
 
-/// Where the light is, seen from a point.
-class LightView {
+/// The lights of a frame, as they shine on its surfaces where there is no shadow.
+class Lighting {
  public:
-  /// `up`: the side from which a little more ambient light comes.
-  LightView(const Light& light, const glm::dvec3& up) : light_(light), up_(up) {}
-
-  /// Vector to the light, not normalised.
-  [[nodiscard]] glm::dvec3 towards(const glm::dvec3& point) const {
-    return light_.directional ? -light_.direction : light_.position - point;
-  }
+  /// `up`: the side from which a little more ambient light comes. Refers to `lights`.
+  Lighting(std::span<const Light> lights, const glm::dvec3& up) : lights_(lights), up_(up) {}
 
   /// Displayed colour, 0 .. 255 a channel, of a surface point with no shadow on it. `normal` is turned to the eye
-  /// already; `lit`: eye and light are on the same side of the face.
+  /// already; `lit`: of each light whether eye and light are on the same side of the face.
   [[nodiscard]] glm::dvec3 displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base,
-                                     bool lit, bool grey) const;
+                                     const std::bitset<kMaxLights>& lit, bool grey) const;
+
+  /// Share of its displayed colour that a white surface there loses where all of a light is kept out, of each light and
+  /// channel: of what it loses where all lights are, as much as the light gives of all that it gets directly.
+  [[nodiscard]] std::vector<glm::dvec3> shares(const glm::dvec3& point, const glm::dvec3& normal,
+                                               const std::bitset<kMaxLights>& lit, bool grey) const;
 
  private:
-  Light light_;
+  [[nodiscard]] double ambient(const glm::dvec3& normal) const;
+
+  std::span<const Light> lights_;
   glm::dvec3 up_;
 };
 

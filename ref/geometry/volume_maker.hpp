@@ -3,11 +3,12 @@
 // Shadow volumes on the screen: their faces as snapped polygons, and their section with the near plane.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "geometry/screen_faces.hpp"
-#include "geometry/shadow_volume.hpp"
+#include "shadow/shadow_caster.hpp"
 
 namespace kage {
 
@@ -24,17 +25,28 @@ class VolumeMaker {
         drawn_(drawn),
         far_ends_(far_ends),
         faces_(view, clipper, out),
-        out_(&out) {}
+        out_(&out),
+        component_of_(frame.polygons.size()) {
+    for (std::uint32_t c = 0; c < frame.components.size(); ++c)
+      std::fill_n(component_of_.begin() + frame.components[c].first_polygon, frame.components[c].polygon_count, c);
+  }
 
-  /// Append the volume, which light sample `sample` makes, to the geometry, unless nothing of it is there.
-  void add(const WorldVolume& w, std::uint32_t sample);
+  /// Append the volume to the geometry, unless nothing of it is there. `caster` is that of light sample `sample`;
+  /// `component`: that of the volume's first caster. `casts`: by component whether its part of the volume is wanted,
+  /// which is closed by itself.
+  void add(const WorldVolume& w, const ShadowCaster& caster, std::uint32_t sample, std::uint32_t component,
+           const std::vector<bool>& casts);
 
  private:
-  void add_side(const SideFace& s);
+  void add_cap(const CapFace& cap);
+  void add_side(const SideEdge& s);
+  void add_far_end(const CapFace& cap);
   template <class MakePlane>
-  void add_face(MakePlane make_plane);
+  void add_face(std::int32_t w, MakePlane make_plane);
   void cut_only();
-  void clip_and_cut();
+  void clip_and_cut(std::int32_t w);
+  [[nodiscard]] EyePoint far_point(std::uint32_t vertex) const;
+  [[nodiscard]] bool is_edge_on(const ScreenPlane& cap, const ScreenVertex& at, const ClipPoint& corner) const;
   [[nodiscard]] ScreenPlane side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b,
                                        const EyePoint& c) const;
 
@@ -46,6 +58,9 @@ class VolumeMaker {
   bool far_ends_;
   ScreenFaces faces_;
   FrameGeometry* out_;
+  std::vector<std::uint32_t> component_of_;  // of each polygon
+  const ShadowCaster* caster_ = nullptr;     // of the volume being made
+  double factor_ = 1;
   std::vector<EyePoint> points_;
   std::vector<ClipPoint> polygon_;
   std::vector<NearCut> cuts_;

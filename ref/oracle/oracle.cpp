@@ -131,7 +131,7 @@ Oracle::Sure Oracle::surely_covers(std::uint32_t polygon, int x, Errors errors) 
 int Oracle::near_cap(const Volume& v, int x) const {
   int sum = 0;
   for (const NearEdge& e : v.near)
-    sum += edge_winding(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128);
+    sum += e.w * edge_winding(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128);
   return sum;
 }
 

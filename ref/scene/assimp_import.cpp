@@ -60,6 +60,8 @@ class Reader {
   [[nodiscard]] double opacity(const aiMaterial& material) const;
   void read_cameras();
   void read_lights();
+  static void read_cone(const aiLight& l, Light& light);
+  static void read_area(const aiLight& l, Light& light);
   void read_animation();
   void read_node_animation(const aiNodeAnim& channel);
   void write_notes();
@@ -80,7 +82,6 @@ class Reader {
   std::size_t skins_ = 0;
   std::size_t morphs_ = 0;
   std::size_t cameras_ = 0;
-  std::size_t lights_ = 0;
 };
 
 void Reader::walk() {
@@ -237,21 +238,45 @@ void Reader::read_lights() {
       out_.notes.push_back("the light '" + name + "' is ambient or of no kind, and ignored");
       continue;
     }
-    if (++lights_ > 1) continue;
-    RawLight light;
-    light.node = node_named(text(l.mName));
+    RawLight raw;
+    raw.node = node_named(text(l.mName));
+    Light& light = raw.light;
     light.directional = l.mType == aiLightSource_DIRECTIONAL;
     light.direction = vec3(l.mDirection);
     light.position = vec3(l.mPosition);
     light.color = rgb(l.mColorDiffuse);
-    if (l.mType == aiLightSource_SPOT)
-      out_.notes.push_back("the light '" + name + "' is a spot, read as a point light");
-    if (l.mType == aiLightSource_AREA)
-      out_.notes.push_back("the light '" + name + "' is an area, read as a point light");
-    if (!is_finite(light.direction) || !is_finite(light.position))
+    for (int c = 0; c < 3; ++c) light.color[c] = std::max(light.color[c], 0.0);
+    if (l.mType == aiLightSource_SPOT) read_cone(l, light);
+    if (l.mType == aiLightSource_AREA) read_area(l, light);
+    if (!is_finite(light.direction) || !is_finite(light.position) || !is_finite(light.color) ||
+        !is_finite(light.axis_u) || !is_finite(light.axis_v))
       throw Error(file_ + ": light '" + name + "' is not finite");
-    out_.light = light;
+    if (light.color == glm::dvec3(0)) {
+      out_.notes.push_back("the light '" + name + "' is black, and ignored");
+      continue;
+    }
+    if (out_.lights.size() == kMaxLights)
+      throw Error(file_ + ": there are more than " + std::to_string(kMaxLights) + " lights");
+    out_.lights.push_back(raw);
   }
+}
+
+// Assimp's angles are those of the whole cone.
+void Reader::read_cone(const aiLight& l, Light& light) {
+  const double outer = std::clamp(static_cast<double>(l.mAngleOuterCone) / 2, 0.0, portable::kPi / 2);
+  const double inner = std::clamp(static_cast<double>(l.mAngleInnerCone) / 2, 0.0, outer);
+  if (!(outer > 0)) return;  // no cone is given
+  light.spot = true;
+  light.inner_cosine = portable::cos(inner);
+  light.outer_cosine = portable::cos(outer);
+}
+
+void Reader::read_area(const aiLight& l, Light& light) {
+  const glm::dvec3 up = unit(vec3(l.mUp), {0, 1, 0});
+  const glm::dvec3 side = unit(cross(vec3(l.mDirection), up), {1, 0, 0});
+  light.axis_u = side * (static_cast<double>(l.mSize.x) / 2);
+  light.axis_v = up * (static_cast<double>(l.mSize.y) / 2);
+  if (light.axis_u != glm::dvec3(0) && light.axis_v != glm::dvec3(0)) light.shape = LightShape::rectangle;
 }
 
 void Reader::read_animation() {
@@ -335,7 +360,6 @@ void Reader::write_notes() {
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
   add(morphs_, "mesh has", "meshes have", " morph targets, which are ignored");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
-  add(lights_ > 1 ? lights_ - 1 : 0, "light is", "lights are", " ignored: the first is used");
 }
 
 }  // namespace

@@ -50,6 +50,8 @@ class Importer {
   void read_material(const Json& primitive, RawPrimitive& p, const std::string& place);
   void read_camera(std::uint64_t index, std::uint32_t node);
   void read_light(std::uint64_t index, std::uint32_t node);
+  void read_cone(const Json& json, Light& light, const std::string& place);
+  void read_shape(const Json& json, Light& light, const std::string& place);
   void read_animation();
   void read_channel(const Json& animation, const Json& channel, const std::string& place);
   void write_notes();
@@ -59,7 +61,7 @@ class Importer {
   std::map<std::uint64_t, std::int32_t> mesh_of_;   // file's mesh -> ours
   std::map<std::uint64_t, std::uint32_t> node_of_;  // file's node -> ours
   std::size_t cameras_ = 0;
-  std::size_t lights_ = 0;
+  std::size_t black_lights_ = 0;
   std::size_t skins_ = 0;
   std::size_t morphs_ = 0;
   std::size_t morph_channels_ = 0;
@@ -69,8 +71,6 @@ class Importer {
   std::size_t alpha_primitives_ = 0;  // by the colours of their vertices
   std::set<std::uint64_t> mask_materials_;
   std::string camera_name_;
-  std::string light_name_;
-  std::string light_type_;
 };
 
 void Importer::refuse_compression() const {
@@ -272,23 +272,74 @@ void Importer::read_camera(std::uint64_t index, std::uint32_t node) {
 }
 
 void Importer::read_light(std::uint64_t index, std::uint32_t node) {
-  if (++lights_ > 1) return;
   const std::string place = "light " + std::to_string(index);
   const Json& all =
       file_.array(file_.object(file_.object(file_.root(), "extensions"), "KHR_lights_punctual"), "lights", place);
   if (index >= all.size() || !all[static_cast<std::size_t>(index)].is_object())
     file_.fail(place, "asked for, but there are " + std::to_string(all.size()));
   const Json& json = all[static_cast<std::size_t>(index)];
-  light_type_ = file_.text(json, "type");
-  light_name_ = file_.text(json, "name");
-  if (light_type_ != "directional" && light_type_ != "point" && light_type_ != "spot")
-    file_.fail(place, "type '" + one_line(light_type_, 40) + "' is unknown");
-  RawLight light;
-  light.node = node;
-  light.directional = light_type_ == "directional";
+  const std::string type = file_.text(json, "type");
+  if (type != "directional" && type != "point" && type != "spot")
+    file_.fail(place, "type '" + one_line(type, 40) + "' is unknown");
+  RawLight raw;
+  raw.node = node;
+  Light& light = raw.light;
+  light.directional = type == "directional";
+  light.falls_off = !light.directional;
   const std::vector<double> color = file_.numbers(json, "color", 3, place);
   if (!color.empty()) light.color = vec3(color);
-  scene_.light = light;
+  light.color *= file_.number(json, "intensity", place).value_or(1);
+  for (int c = 0; c < 3; ++c)
+    if (!(light.color[c] >= 0) || !std::isfinite(light.color[c]))
+      file_.fail(place, "colour times intensity is negative or not finite");
+  const auto range = file_.number(json, "range", place);
+  if (range && !(*range > 0)) file_.fail(place, "'range' is not above 0");
+  if (light.falls_off) light.range = range.value_or(0);
+  if (type == "spot") read_cone(json, light, place);
+  if (!light.directional) read_shape(json, light, place);
+  if (light.color == glm::dvec3(0)) {
+    ++black_lights_;
+    return;
+  }
+  if (scene_.lights.size() == kMaxLights)
+    file_.fail(place, "there are more than " + std::to_string(kMaxLights) + " lights");
+  scene_.lights.push_back(raw);
+}
+
+void Importer::read_cone(const Json& json, Light& light, const std::string& place) {
+  const Json& spot = file_.object(json, "spot");
+  const double inner = file_.number(spot, "innerConeAngle", place).value_or(0);
+  const double outer = file_.number(spot, "outerConeAngle", place).value_or(portable::kPi / 4);
+  if (!(inner >= 0 && inner < outer && outer <= portable::kPi / 2))
+    file_.fail(place, "its cone is not 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+  light.spot = true;
+  light.inner_cosine = portable::cos(inner);
+  light.outer_cosine = portable::cos(outer);
+}
+
+// The format knows no lights that extend over something: kage's own words for them are in `extras`.
+void Importer::read_shape(const Json& json, Light& light, const std::string& place) {
+  const Json& own = file_.object(file_.object(json, "extras"), "kage");
+  if (!own.contains("shape")) return;
+  const std::string shape = file_.text(own, "shape");
+  const auto size = [&](const char* key) {
+    const double v = file_.number(own, key, place).value_or(0);
+    if (!(v > 0))
+      file_.fail(place, "extras.kage: '" + std::string(key) + "' of a " + one_line(shape, 40) + " is not above 0");
+    return v;
+  };
+  if (shape == "disc" || shape == "sphere") {
+    const double radius = size("radius");
+    light.shape = shape == "disc" ? LightShape::disc : LightShape::sphere;
+    light.axis_u = {radius, 0, 0};
+    light.axis_v = {0, shape == "disc" ? radius : 0, 0};
+  } else if (shape == "rectangle") {
+    light.shape = LightShape::rectangle;
+    light.axis_u = {size("width") / 2, 0, 0};
+    light.axis_v = {0, size("height") / 2, 0};
+  } else {
+    file_.fail(place, "extras.kage: shape '" + one_line(shape, 40) + "' is none of disc, rectangle and sphere");
+  }
 }
 
 void Importer::read_animation() {
@@ -360,9 +411,7 @@ void Importer::write_notes() {
   add(morph_channels_, "morph animation is", "morph animations are", " ignored");
   add(instanced_, "node's", "nodes'", " GPU instances are ignored: drawn once");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
-  add(lights_ > 1 ? lights_ - 1 : 0, "light is", "lights are", " ignored: the first is used");
-  if (light_type_ == "spot")
-    notes.push_back("the light '" + one_line(light_name_, 60) + "' is a spot, read as a point light");
+  add(black_lights_, "light is", "lights are", " black, and ignored");
 }
 
 }  // namespace

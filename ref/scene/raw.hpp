@@ -13,6 +13,8 @@
 
 #include "transform.hpp"
 
+#include "kage/scene.hpp"
+
 namespace kage::scene {
 
 /// Corners that share one material. Attributes lie in the order of the file's vertices.
@@ -75,13 +77,10 @@ struct RawCamera {
   double far = 0;            ///< 0: not given
 };
 
-/// A light in the frame of its node.
+/// A light in the frame of its node; `color` times intensity is the file's own.
 struct RawLight {
   std::uint32_t node = 0;
-  bool directional = true;
-  glm::dvec3 direction{0, 0, -1};
-  glm::dvec3 position{0, 0, 0};
-  glm::dvec3 color{1, 1, 1};
+  Light light{{true, {0, 0, -1}, {0, 0, 0}}};
 };
 
 struct RawScene {
@@ -90,7 +89,7 @@ struct RawScene {
   std::vector<RawTrack> tracks;
   double start_time = 0;  ///< of the animation; its end is the last key
   std::optional<RawCamera> camera;
-  std::optional<RawLight> light;
+  std::vector<RawLight> lights;  ///< none is black; at most kMaxLights
   std::uint32_t frames = 0;  ///< as the file asks (extras.kage.frames); 0: it does not
   std::vector<std::string> notes;
 };

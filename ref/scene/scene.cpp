@@ -76,6 +76,7 @@ struct Scene::Data {
   std::vector<Component> components;  // of all objects, as in every frame
   std::vector<std::string> notes;
   scene::Bounds bounds;
+  double exposure = 1;
   double end_time = 0;
   bool smooth = false;
 
@@ -83,6 +84,7 @@ struct Scene::Data {
   void place_objects();
   void describe();
   void measure();
+  [[nodiscard]] std::vector<Light> lights(const std::vector<Affine>& world) const;
   [[nodiscard]] double time(int index, int count) const {
     return raw.start_time + (end_time - raw.start_time) * index / count;
   }
@@ -144,7 +146,7 @@ void Scene::Data::place_objects() {
 void Scene::Data::describe() {
   notes.insert(notes.begin(), raw.notes.begin(), raw.notes.end());
   if (!raw.camera) notes.emplace_back("no camera: an orbit round the scene is added");
-  if (!raw.light) notes.emplace_back("no light: a directional one is added");
+  if (raw.lights.empty()) notes.emplace_back("no light: a directional one is added");
 }
 
 // The ball that holds all frames: what moves, by the corners of its box at a number of times.
@@ -179,6 +181,13 @@ void Scene::Data::measure() {
     notes.emplace_back("the scene is so far from the origin, for its size, that its numbers are noticeably rounded");
 }
 
+std::vector<Light> Scene::Data::lights(const std::vector<Affine>& world) const {
+  if (raw.lights.empty()) return {scene::default_light()};
+  std::vector<Light> all;
+  for (const scene::RawLight& l : raw.lights) all.push_back(scene::file_light(l, world[l.node]));
+  return all;
+}
+
 Scene Scene::load(const std::string& name_or_path, double alpha) {
   namespace fs = std::filesystem;
   auto data = std::make_unique<Data>();
@@ -206,6 +215,7 @@ Scene Scene::load(const std::string& name_or_path, double alpha) {
     data->place_objects();
     data->describe();
     data->measure();
+    data->exposure = scene::exposure(data->lights(scene::pose(data->raw, data->time(0, 1))), data->bounds);
   } catch (const Error& e) {
     throw Error(shown + ": " + e.what());
   }
@@ -260,8 +270,13 @@ SceneFrame Scene::frame(int index, int count) const {
     throw Error(d.place + ": " + node + e.what());
   }
   if (!scene::is_finite(frame.camera.eye)) throw Error(d.place + ": the camera's position is not finite");
-  frame.lights[0] = d.raw.light ? scene::file_light(*d.raw.light, world[d.raw.light->node]) : scene::default_light();
-  if (!scene::is_finite(frame.lights[0].position)) throw Error(d.place + ": the light's position is not finite");
+  frame.lights = d.lights(world);
+  for (Light& l : frame.lights) {
+    l.color *= d.exposure;
+    if (!scene::is_finite(l.position) || !scene::is_finite(l.axis_u) || !scene::is_finite(l.axis_v) ||
+        !scene::is_finite(l.color))
+      throw Error(d.place + ": a light's position, size or intensity is not finite");
+  }
   return frame;
 }
 
@@ -271,7 +286,8 @@ bool Scene::needs_smooth() const { return data_->smooth; }
 const std::string& Scene::name() const { return data_->name; }
 
 const std::vector<std::string>& builtin_scenes() {
-  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges", "polyhedra", "fifteen", "glass"};
+  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges", "polyhedra", "fifteen",
+                                               "glass",     "penumbra", "three-lights", "canopy", "cutaway"};
   return kNames;
 }
 

@@ -74,16 +74,24 @@ Camera orbit_camera(const Bounds& bounds, int index, int count) {
 }
 
 Light file_light(const RawLight& raw, const Affine& world) {
-  Light light;
-  light.directional = raw.directional;
-  light.direction = unit(world.vector(raw.direction), {0, -1, 0});
-  light.position = world.point(raw.position);
-  const double largest = std::max({raw.color.x, raw.color.y, raw.color.z});
-  if (largest > 0 && std::isfinite(largest)) {
-    light.color = raw.color / largest;
-    light.color = {std::max(light.color.x, 0.0), std::max(light.color.y, 0.0), std::max(light.color.z, 0.0)};
-  }
+  Light light = raw.light;
+  light.direction = unit(world.vector(raw.light.direction), {0, -1, 0});
+  light.position = world.point(raw.light.position);
+  light.axis_u = world.vector(raw.light.axis_u);
+  light.axis_v = world.vector(raw.light.axis_v);
+  if (light.shape == LightShape::sphere) light.axis_u = {length(light.axis_u), 0, 0};
   return light;
+}
+
+double exposure(const std::vector<Light>& lights, const Bounds& bounds) {
+  glm::dvec3 sum{0, 0, 0};
+  for (const Light& l : lights) {
+    // A light in the middle of the scene is judged from a little way off.
+    const double distance = std::max(length(l.position - bounds.center), bounds.radius / 16);
+    sum += l.falls_off ? l.color / (distance * distance) : l.color;
+  }
+  const double largest = std::max({sum.x, sum.y, sum.z});
+  return largest > 0 && std::isfinite(1 / largest) ? 1 / largest : 1;
 }
 
 Light default_light() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The camera and the light of a frame: the file's, or the default ones.
+// The camera and the lights of a frame: the file's, or the default ones.
 #pragma once
 
 #include <vector>
@@ -26,6 +26,9 @@ Camera file_camera(const RawCamera& raw, const Affine& world, const Bounds& boun
 Camera orbit_camera(const Bounds& bounds, int index, int count);
 
 Light file_light(const RawLight& raw, const Affine& world);
+
+/// The factor that intensities are scaled by (Scene::load).
+double exposure(const std::vector<Light>& lights, const Bounds& bounds);
 
 /// Where the file has no light: directional, oblique, from above, at rest while the orbit turns.
 Light default_light();

@@ -84,7 +84,7 @@ void fields(Archive& ar, P& v) {
   else if constexpr (std::is_same_v<T, RawTrack>)
     ar(v.node, v.path, v.interpolation, v.times, v.values);
   else
-    ar(v.meshes, v.nodes, v.tracks, v.start_time, v.camera, v.light, v.frames, v.notes);
+    ar(v.meshes, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.notes);
 }
 
 // Of fixed size and without pointers: its bytes are its value.

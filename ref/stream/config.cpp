@@ -71,6 +71,12 @@ void validate(const Config& config, const std::string& where) {
       throw Error(fmt::format("{}: {} is {}, legal are {}", where, p.name, v, allowed_values(p)));
   }
   if (config.fsf != 0 && config.dsf_bits == 0) throw Error(fmt::format("{}: FSF needs DSF_BITS > 0", where));
+  if (config.count_bits != 0 && config.dsf_bits == 0)
+    throw Error(fmt::format("{}: COUNT_BITS > 0 needs DSF_BITS > 0", where));
+  if (config.class_bits > 1 && config.count_bits == 0)
+    throw Error(fmt::format("{}: CLASS_BITS > 1 needs COUNT_BITS > 0", where));
+  if (config.lights > 1 && (config.count_bits == 0 || config.class_bits == 1))
+    throw Error(fmt::format("{}: LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1", where));
   if (config.color_frac != 0 && config.smooth == 0) throw Error(fmt::format("{}: COLOR_FRAC > 0 needs SMOOTH", where));
   if (config.classic != 0 &&
       (config.z_bits != 15 || config.z_frac != 0 || config.face_bits != 7 || config.dx_bits != 9))
@@ -113,7 +119,14 @@ std::string to_yaml(const Config& config) {
 std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   std::vector<std::string> missing;
   if (needs.shadows && config.dsf_bits == 0) missing.emplace_back("shadows (DSF_BITS > 0)");
-  if (needs.shadows && needs.several_volumes && config.fsf == 0) missing.emplace_back("several volumes (FSF)");
+  // Counting may do with one volume; whether it does is known once it is made.
+  if (needs.shadows && needs.several_volumes && config.fsf == 0 && config.dsf_bits <= 1)
+    missing.emplace_back("several volumes (FSF)");
+  if (needs.shadows && needs.lights > config.lights)
+    missing.push_back(fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
+  if (needs.shadows && needs.samples > 1 && needs.samples >> config.count_bits != 0)
+    missing.push_back(
+        fmt::format("soft shadows (COUNT_BITS >= {})", std::bit_width(static_cast<unsigned>(needs.samples))));
   if (needs.smooth && config.smooth == 0) missing.emplace_back("smooth colour (SMOOTH)");
   if (needs.translucency && config.translucency == 0) missing.emplace_back("translucency (TRANSLUCENCY)");
   if (needs.color && config.channels == 1) missing.emplace_back("colour (CHANNELS = 3)");

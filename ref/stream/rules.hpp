@@ -4,6 +4,8 @@
 // the golden core and the file reader share.
 #pragma once
 
+#include <algorithm>
+
 #include "kage/stream.hpp"
 #include "stream/segment_rules.hpp"
 
@@ -20,7 +22,10 @@ class TokenRules {
     phase_ = Phase::state;
     shade_seen_ = false;
     volume_open_ = false;
+    sample_open_ = false;
     has_tree_ = false;
+    next_class_ = 1;
+    next_light_ = 0;
     segments_.start(config, width, height);
     outcome_ = {};
     fault_ = {};
@@ -58,6 +63,7 @@ class TokenRules {
     switch (k) {
       case Kind::SHADE:
         return phase_ == Phase::state && !shade_seen_;
+      case Kind::TABLE:
       case Kind::FACE:
         return phase_ == Phase::state;
       case Kind::SEG:
@@ -73,7 +79,10 @@ class TokenRules {
       case Kind::EV:
         return phase_ == Phase::volume && volume_open_;
       case Kind::RESOLVE:
-        return phase_ == Phase::volume && (config_->fsf == 0 || !volume_open_);
+        return phase_ == Phase::volume && (config_->fsf == 0 || !volume_open_) &&
+               (config_->count_bits == 0 || !sample_open_);
+      case Kind::ES:
+        return phase_ == Phase::volume && (config_->fsf == 0 || !volume_open_) && sample_open_;
       case Kind::TP:
       case Kind::EOL:
         return opaque || phase_ == Phase::resolved || phase_ == Phase::translucent;
@@ -86,15 +95,30 @@ class TokenRules {
     switch (t.kind) {
       case Kind::SHADE:
         return t.shade <= (1U << config_->shade_frac);
+      case Kind::TABLE:
+        return t.table.normal_class == next_class_ && t.table.light == next_light_ &&
+               std::ranges::all_of(t.table.share, [this](auto s) { return s <= (1U << config_->shade_frac); });
+      case Kind::FACE:
+        return has_class(t.segment.normal_class);
       case Kind::OP:
+        return in_line(t.span) && has_class(t.span.normal_class);
+      case Kind::ES:
+        return in_line(t.span) && t.table.light < config_->lights;
       case Kind::SP:
       case Kind::NC:
       case Kind::EV:
       case Kind::TP:
-        return t.span.xl <= t.span.xr && t.span.xr <= width_;
+        return in_line(t.span);
       default:
         return true;
     }
+  }
+
+  [[nodiscard]] bool in_line(const SpanToken& s) const { return s.xl <= s.xr && s.xr <= width_; }
+
+  /// Whether the frame's table has this class whole; without a table there is nothing to have.
+  [[nodiscard]] bool has_class(int normal_class) const {
+    return config_->class_bits == 1 || normal_class < next_class_;
   }
 
   ErrorCode accept_segment(const Token& t, std::uint32_t token) {
@@ -117,6 +141,11 @@ class TokenRules {
       case Kind::SHADE:
         shade_seen_ = true;
         break;
+      case Kind::TABLE:
+        if (++next_light_ < config_->lights) break;
+        next_light_ = 0;
+        ++next_class_;
+        break;
       case Kind::SEG:
         phase_ = Phase::ahead;
         has_tree_ = true;
@@ -130,6 +159,10 @@ class TokenRules {
       case Kind::IF:
         phase_ = Phase::volume;
         volume_open_ = true;
+        sample_open_ = true;
+        break;
+      case Kind::ES:
+        sample_open_ = false;
         break;
       case Kind::EV:
         volume_open_ = false;
@@ -143,6 +176,7 @@ class TokenRules {
       case Kind::EOL:
         phase_ = Phase::ahead;
         volume_open_ = false;
+        sample_open_ = false;
         ++line_;
         break;
       default:
@@ -157,6 +191,9 @@ class TokenRules {
   Phase phase_ = Phase::state;
   bool shade_seen_ = false;
   bool volume_open_ = false;
+  bool sample_open_ = false;  // an SP, NC or IF came after the last ES
+  int next_class_ = 1;        // of the table's next entry
+  int next_light_ = 0;
   bool has_tree_ = false;
   SegmentRules segments_;
   SegmentRules::Outcome outcome_;

@@ -29,6 +29,13 @@ void put_ramps(Put put, const Config& config, const SpanToken& s, Field z, Field
   for (std::size_t c = 0; c < channels; ++c) put("dcolor", s.dcolor[c], dcolor[c]);
 }
 
+/// What a class says at the end of OP and FACE: nothing in a core without shadows.
+std::string class_text(const Config& config, int normal_class) {
+  if (config.dsf_bits == 0) return "";
+  if (config.class_bits == 1) return normal_class != 0 ? " lit" : " unlit";
+  return fmt::format(" class {}", normal_class);
+}
+
 }  // namespace
 
 TokenWriter::TokenWriter(const Config& config, std::vector<std::uint32_t>& out)
@@ -64,12 +71,21 @@ void TokenWriter::shade(std::uint32_t shade) {
   pack(Kind::SHADE, [&](auto put) { put("shade", shade, layout_.shade_shade); });
 }
 
+void TokenWriter::table(const TableToken& entry) {
+  pack(Kind::TABLE, [&](auto put) {
+    put("class", entry.normal_class, layout_.table_class);
+    put("light", entry.light, layout_.table_light);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c)
+      put("share", entry.share[c], layout_.table_share[c]);
+  });
+}
+
 void TokenWriter::face(const SegmentToken& face) {
   pack(Kind::FACE, [&](auto put) {
     put("unit", face.unit, layout_.face_unit);
     put("face", face.face, layout_.face_face);
     put("index", face.index, layout_.face_index);
-    put("lit", face.lit && layout_.face_lit.bits != 0 ? 1 : 0, layout_.face_lit);
+    put("class", layout_.face_class.bits != 0 ? face.normal_class : 0, layout_.face_class);
     put("dz", face.dz, layout_.face_dz);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c)
       put("color", face.color[c], layout_.face_color[c]);
@@ -93,7 +109,7 @@ void TokenWriter::op(const SpanToken& s) {
   pack(Kind::OP, [&](auto put) {
     put("xl", s.xl, layout_.op_xl);
     put("xr", s.xr, layout_.op_xr);
-    put("lit", s.lit && layout_.op_lit.bits != 0 ? 1 : 0, layout_.op_lit);
+    put("class", layout_.op_class.bits != 0 ? s.normal_class : 0, layout_.op_class);
     put_ramps(put, config_, s, layout_.op_z, layout_.op_dz, layout_.op_color, layout_.op_dcolor);
   });
 }
@@ -124,6 +140,14 @@ void TokenWriter::ev(int xl, int xr) {
   pack(Kind::EV, [&](auto put) {
     put("xl", xl, layout_.ev_xl);
     put("xr", xr, layout_.ev_xr);
+  });
+}
+
+void TokenWriter::es(int xl, int xr, int light) {
+  pack(Kind::ES, [&](auto put) {
+    put("xl", xl, layout_.es_xl);
+    put("xr", xr, layout_.es_xr);
+    put("light", light, layout_.es_light);
   });
 }
 
@@ -160,11 +184,16 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
     case Kind::SHADE:
       t.shade = static_cast<std::uint32_t>(get(l.shade_shade));
       break;
+    case Kind::TABLE:
+      t.table.normal_class = geti(l.table_class);
+      t.table.light = geti(l.table_light);
+      for (std::size_t c = 0; c < channels; ++c) t.table.share[c] = static_cast<std::uint32_t>(get(l.table_share[c]));
+      break;
     case Kind::FACE:
       t.segment.unit = geti(l.face_unit);
       t.segment.face = geti(l.face_face);
       t.segment.index = geti(l.face_index);
-      t.segment.lit = get(l.face_lit) != 0;
+      t.segment.normal_class = geti(l.face_class);
       t.segment.dz = get(l.face_dz);
       for (std::size_t c = 0; c < channels; ++c) t.segment.color[c] = geti(l.face_color[c]);
       break;
@@ -176,14 +205,14 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
       t.segment.sync = get(l.seg_sync) != 0;
       break;
     case Kind::OP:
-      t.span = {geti(l.op_xl), geti(l.op_xr), get(l.op_z), get(l.op_dz), 0, get(l.op_lit) != 0, {}, {}, 0};
+      t.span = {geti(l.op_xl), geti(l.op_xr), get(l.op_z), get(l.op_dz), 0, geti(l.op_class), {}, {}, 0};
       colors(l.op_color, l.op_dcolor);
       break;
     case Kind::SP:
-      t.span = {geti(l.sp_xl), geti(l.sp_xr), get(l.sp_z), get(l.sp_dz), geti(l.sp_w), false, {}, {}, 0};
+      t.span = {geti(l.sp_xl), geti(l.sp_xr), get(l.sp_z), get(l.sp_dz), geti(l.sp_w), 0, {}, {}, 0};
       break;
     case Kind::TP:
-      t.span = {geti(l.tp_xl), geti(l.tp_xr), get(l.tp_z), get(l.tp_dz), 0, false, {}, {}, geti(l.tp_alpha)};
+      t.span = {geti(l.tp_xl), geti(l.tp_xr), get(l.tp_z), get(l.tp_dz), 0, 0, {}, {}, geti(l.tp_alpha)};
       colors(l.tp_color, l.tp_dcolor);
       break;
     case Kind::NC:
@@ -197,6 +226,11 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
     case Kind::EV:
       t.span.xl = geti(l.ev_xl);
       t.span.xr = geti(l.ev_xr);
+      break;
+    case Kind::ES:
+      t.span.xl = geti(l.es_xl);
+      t.span.xr = geti(l.es_xr);
+      t.table.light = geti(l.es_light);
       break;
     case Kind::EOL:
       t.y = geti(l.eol_y);
@@ -214,13 +248,18 @@ std::string to_string(const Config& config, const Token& t) {
   switch (t.kind) {
     case Kind::SHADE:
       return s + fmt::format(" {}/{}", t.shade, 1U << config.shade_frac);
+    case Kind::TABLE:
+      s += fmt::format(" class {} light {} share", t.table.normal_class, t.table.light);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+        s += fmt::format("{}{}", c == 0 ? " " : ",", t.table.share[c]);
+      return s + fmt::format("/{}", 1U << config.shade_frac);
     case Kind::FACE: {
       const SegmentToken& f = t.segment;
       s += fmt::format(" unit {} face {} index {} dz {} color", f.unit, f.face, f.index,
                        static_cast<double>(f.dz) * z_unit);
       for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
         s += fmt::format("{}{}", c == 0 ? " " : ",", f.color[c]);
-      return s + (config.dsf_bits == 0 ? "" : f.lit ? " lit" : " unlit");
+      return s + class_text(config, f.normal_class);
     }
     case Kind::SEG: {
       const SegmentToken& g = t.segment;
@@ -240,7 +279,7 @@ std::string to_string(const Config& config, const Token& t) {
         if (config.smooth != 0) s += fmt::format("{:+}", p.dcolor[c] * c_unit);
       }
       if (t.kind == Kind::TP) return s + fmt::format(" alpha {}", p.alpha);
-      return s + (config.dsf_bits == 0 ? "" : p.lit ? " lit" : " unlit");
+      return s + class_text(config, p.normal_class);
     }
     case Kind::SP:
       return s + fmt::format(" [{}, {}) w {:+} z {} dz {}", p.xl, p.xr, p.w, static_cast<double>(p.z) * z_unit,
@@ -251,6 +290,8 @@ std::string to_string(const Config& config, const Token& t) {
       return s + fmt::format(" w {:+}", p.w);
     case Kind::EV:
       return s + fmt::format(" [{}, {})", p.xl, p.xr);
+    case Kind::ES:
+      return s + fmt::format(" [{}, {}) light {}", p.xl, p.xr, t.table.light);
     case Kind::EOL:
       return s + fmt::format(" {}", t.y);
     default:

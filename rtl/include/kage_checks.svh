@@ -29,6 +29,15 @@ end
 if (SHADE_FRAC < 1 || SHADE_FRAC > 16) begin : gen_bad_shade_frac
   $fatal(1, "SHADE_FRAC must be 1 .. 16");
 end
+if (COUNT_BITS < 0 || COUNT_BITS > 8) begin : gen_bad_count_bits
+  $fatal(1, "COUNT_BITS must be 0 .. 8");
+end
+if (LIGHTS < 1 || LIGHTS > 8) begin : gen_bad_lights
+  $fatal(1, "LIGHTS must be 1 .. 8");
+end
+if (CLASS_BITS < 1 || CLASS_BITS > 11) begin : gen_bad_class_bits
+  $fatal(1, "CLASS_BITS must be 1 .. 11");
+end
 if (TRANSLUCENCY < 0 || TRANSLUCENCY > 1) begin : gen_bad_translucency
   $fatal(1, "TRANSLUCENCY must be 0 .. 1");
 end

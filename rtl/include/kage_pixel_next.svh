@@ -3,14 +3,15 @@
 //
 // What a token does to one pixel: the only place in the RTL that says so. Both arrangements loop over these functions.
 //
-// A pixel's state is one word, ZB lowest, then colour, then lit, DSF and FSF as far as the configuration has them.
+// A pixel's state is one word, ZB lowest, then colour, then class, DSF, FSF and counters as far as the configuration has them.
 /* verilator lint_off UNUSEDPARAM */
-localparam int PixelLitBits = DSF_BITS > 0 ? 1 : 0;
-localparam int PixelBits = Z_BITS + RgbBits + PixelLitBits + DSF_BITS + FSF;
+localparam int PixelBits = Z_BITS + RgbBits + ClassBits + DSF_BITS + FSF + TallyBits;
 // Places of the optional fields; 0, and never read, when they are absent.
-localparam int PixelLitAt = DSF_BITS > 0 ? Z_BITS + RgbBits : 0;
-localparam int PixelDsfAt = DSF_BITS > 0 ? PixelLitAt + 1 : 0;
+localparam int PixelClassAt = DSF_BITS > 0 ? Z_BITS + RgbBits : 0;
+localparam int PixelDsfAt = DSF_BITS > 0 ? PixelClassAt + ClassBits : 0;
 localparam int PixelFsfAt = FSF > 0 ? PixelDsfAt + DSF_BITS : 0;
+localparam int PixelCountAt = COUNT_BITS > 0 ? PixelDsfAt + DSF_BITS + FSF : 0;
+localparam int TallyOne = COUNT_BITS > 0 ? COUNT_BITS : 1;  // one counter
 localparam logic [PixelBits-1:0] PixelClear = {{(PixelBits - Z_BITS) {1'b0}}, {Z_BITS{1'b1}}};
 /* verilator lint_on UNUSEDPARAM */
 
@@ -41,27 +42,29 @@ endfunction
 
 // Whether a pixel is in shadow, with the line's bias. A line that has shadow flags is resolved before they are asked for (frame_control
 // sees to it), and one that has none has no flags set.
-function automatic logic pixel_shadow(input logic [PixelBits-1:0] pixel, input logic [CountBits-1:0] bias);
-  pixel_shadow = FSF > 0 ? pixel[PixelFsfAt] : (pixel[PixelDsfAt+:CountBits] + bias) != '0;
+function automatic logic pixel_shadow(input logic [PixelBits-1:0] pixel, input logic [DsfBits-1:0] bias);
+  pixel_shadow = FSF > 0 ? pixel[PixelFsfAt] : (pixel[PixelDsfAt+:DsfBits] + bias) != '0;
 endfunction
 
 // Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel, or the tree's, of RESOLVE the
-// background; `count` is the lit bit for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE; `share` is TP's alpha
-// and RESOLVE's shade. RESOLVE comes only where TPs follow: else the way out darkens. EOL clears.
+// background; `count` is the class for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE, {light, bias} for ES; `share`
+// is TP's alpha and RESOLVE's shade. RESOLVE comes only where TPs follow: else the way out darkens. With counters it darkens nothing: where
+// there is something to darken CmdOut lets the line go to the way out and CmdLoad brings its colours back. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [3:0] kind,
                                                     input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
                                                     input logic [CountBits-1:0] count,
                                                     input logic [ShareBits-1:0] share);
-  logic in_front, clear, dark;
-  logic [CountBits-1:0] sum;
+  logic in_front, clear, dark, shadow;
+  logic [DsfBits-1:0] sum;
   logic [  RgbBits-1:0] blended;
   begin
     in_front = z < pixel[Z_BITS-1:0];
     clear = pixel[Z_BITS-1:0] == {Z_BITS{1'b1}};
-    sum = pixel[PixelDsfAt+:CountBits] + count;
-    dark = DSF_BITS > 0 && pixel[PixelLitAt] && pixel_shadow(pixel, count);
+    sum = pixel[PixelDsfAt+:DsfBits] + count[DsfBits-1:0];
+    shadow = DSF_BITS > 0 && pixel_shadow(pixel, count[DsfBits-1:0]);
+    dark = COUNT_BITS == 0 && shadow && pixel[PixelClassAt];
     blended = '0;
-    if (TRANSLUCENCY > 0) blended = pixel_blend(pixel[Z_BITS+:RgbBits], color, share, kind == KindResolve);
+    if (TRANSLUCENCY > 0) blended = pixel_blend(pixel[Z_BITS+:RgbBits], color, share, COUNT_BITS == 0 && kind == KindResolve);
     pixel_next = pixel;
     // TREE does what OP does.
     unique case (UNITS > 0 && kind == KindTree ? KindOp : kind)
@@ -69,21 +72,39 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
       if (in_front) begin
         pixel_next[Z_BITS-1:0] = z;
         pixel_next[Z_BITS+:RgbBits] = color;
-        if (DSF_BITS > 0) pixel_next[PixelLitAt] = count[0];
+        if (DSF_BITS > 0) pixel_next[PixelClassAt+:CLASS_BITS] = count[CLASS_BITS-1:0];
       end
-      KindSp:  if (DSF_BITS > 0 && in_front) pixel_next[PixelDsfAt+:CountBits] = sum;
-      KindNc:  if (DSF_BITS > 0) pixel_next[PixelDsfAt+:CountBits] = sum;
+      KindSp:  if (DSF_BITS > 0 && in_front) pixel_next[PixelDsfAt+:DsfBits] = sum;
+      KindNc:  if (DSF_BITS > 0) pixel_next[PixelDsfAt+:DsfBits] = sum;
       KindEv:
       if (FSF > 0) begin
         if (sum != '0) pixel_next[PixelFsfAt] = 1'b1;
-        pixel_next[PixelDsfAt+:CountBits] = '0;
+        pixel_next[PixelDsfAt+:DsfBits] = '0;
       end
+      KindEs:
+      if (COUNT_BITS > 0) begin
+        for (int l = 0; l < LIGHTS; l++) begin
+          if (shadow && (LIGHTS == 1 || count[(LIGHTS>1?LightAt : 0)+:(LIGHTS>1?LightBits : 1)] == LightBits'(l)) &&
+              !(&pixel[PixelCountAt+l*TallyOne+:TallyOne])) begin
+            pixel_next[PixelCountAt+l*TallyOne+:TallyOne] = pixel[PixelCountAt+l*TallyOne+:TallyOne] + 1'b1;
+          end
+        end
+        if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
+        else pixel_next[PixelDsfAt+:DsfBits] = '0;
+      end
+      CmdOut:
+      if (TRANSLUCENCY > 0 && COUNT_BITS > 0) begin
+        pixel_next[PixelDsfAt+:DsfBits] = '0;
+        if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
+        for (int l = 0; l < LIGHTS; l++) pixel_next[PixelCountAt+l*TallyOne+:TallyOne] = '0;
+      end
+      CmdLoad: if (TRANSLUCENCY > 0 && COUNT_BITS > 0) pixel_next[Z_BITS+:RgbBits] = color;
       KindTp:  if (TRANSLUCENCY > 0 && in_front) pixel_next[Z_BITS+:RgbBits] = blended;
       KindResolve:
       if (TRANSLUCENCY > 0) begin
         if (clear) pixel_next[Z_BITS+:RgbBits] = color;
         else if (dark) pixel_next[Z_BITS+:RgbBits] = blended;
-        if (DSF_BITS > 0) pixel_next[PixelDsfAt+:CountBits] = '0;
+        if (DSF_BITS > 0) pixel_next[PixelDsfAt+:DsfBits] = '0;
         if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
       end
       KindEol: pixel_next = PixelClear;
@@ -92,13 +113,22 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
   end
 endfunction
 
-// What leaves a pixel at the end of its line: {dark, covered, colour}, without dark in a core without shadows. `bias` is the
-// line's.
-function automatic logic [ExitBits-1:0] pixel_exit(input logic [PixelBits-1:0] pixel, input logic [CountBits-1:0] bias);
+// What leaves a pixel at the end of its line: {dark, covered, colour}, without dark in a core without shadows; with counters
+// {counts, class, covered, colour}, counts of 0 where the class is. `bias` is the line's.
+function automatic logic [ExitBits-1:0] pixel_exit(input logic [PixelBits-1:0] pixel, input logic [DsfBits-1:0] bias);
   begin
     pixel_exit = '0;
     pixel_exit[RgbBits-1:0] = pixel[Z_BITS+:RgbBits];
     pixel_exit[RgbBits] = pixel[Z_BITS-1:0] != {Z_BITS{1'b1}};
-    if (DSF_BITS > 0) pixel_exit[ExitBits-1] = pixel[PixelLitAt] && pixel_shadow(pixel, bias);
+    if (COUNT_BITS > 0) begin
+      if (CLASS_BITS > 1) pixel_exit[ExitClassAt+:CLASS_BITS] = pixel[PixelClassAt+:CLASS_BITS];
+      for (int l = 0; l < LIGHTS; l++) begin
+        if (pixel[PixelClassAt+:CLASS_BITS] != '0) begin
+          pixel_exit[ExitCountAt+l*TallyOne+:TallyOne] = pixel[PixelCountAt+l*TallyOne+:TallyOne];
+        end
+      end
+    end else if (DSF_BITS > 0) begin
+      pixel_exit[ExitBits-1] = pixel[PixelClassAt] && pixel_shadow(pixel, bias);
+    end
   end
 endfunction

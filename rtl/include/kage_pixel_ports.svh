@@ -21,7 +21,7 @@
     input  wire logic               tree_valid_i,
     output logic                    tree_ready_o,
     input  wire logic [ Z_BITS-1:0] tree_z_i,
-    input  wire logic               tree_lit_i,
+    input  wire logic [CLASS_BITS-1:0] tree_class_i,
     input  wire logic [RgbBits-1:0] tree_color_i,
     input  wire logic               tree_last_i,
     input  wire logic               tree_drop_i,

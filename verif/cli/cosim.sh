@@ -33,6 +33,12 @@ expect 0 "$kage" cosim knot --size 3840x32 --frames 1 --idle 20 --backpressure 2
 json wide.json 'j["config"]["MAX_WIDTH"]==3840 and j["pixels_compared"]==3840*32'
 expect 0 "$kage" cosim courtyard --config systolic64 --size 64x48 --frames 2 --out systolic
 expect 0 "$kage" cosim inside --config systolic64 --size 64x48 --frames 2 --out systolic
+# Counters with one sample of one light: default's pixels, but for SHADE's rounding. A table says what a face really loses.
+expect 0 "$kage" render courtyard --config default --size 64x48 --frames 1 --out one
+for name in soft lights; do
+  expect 0 "$kage" cosim courtyard --config $name --size 64x48 --frames 1 --out $name --idle 20 --backpressure 20
+done
+expect 0 "$kage" diff soft/courtyard_0000.png one/courtyard_0000.png --lsb 1
 # Wider than any of them, by a file of one's own (the line that docs/stream.md shows).
 printf '{X_BITS: 13, Z_FRAC: 12, LANES: 8, MAX_WIDTH: 4096}\n' >wide.yaml
 grep -qF "$(cat wide.yaml)" "$source/docs/stream.md" || fail "docs/stream.md shows another line"

@@ -6,14 +6,18 @@
 
 expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --out courtyard.kage
 expect 0 "$kage" stream glass --size 160x120 --frames 2 --out glass.kage
+echo '{SMOOTH: 1, COLOR_FRAC: 8, COUNT_BITS: 2, LIGHTS: 3, CLASS_BITS: 8, SHADE_FRAC: 12, MAX_WIDTH: 160}' >three.yaml
+expect 0 "$kage" stream three-lights --size 160x120 --frames 2 --samples 3 --config three.yaml --out lights.kage
 count=0
 for patch in "$source"/verif/faults/*.patch; do
   [ -e "$patch" ] || continue
   name=$(basename "$patch" .patch)
   # Defects of the tree need ties, or a line ahead of time, which this scene has not: ctest rtl/fault_NAME finds those.
   if grep -qE '^(\+\+\+ .*(compare|tree|expansion)|The tree)' "$patch"; then continue; fi
+  # No scene has more samples than a counter holds, and a table comes early only where the way out is slow: ctest rtl/fault_NAME.
+  case $name in count_wraps | early_table) continue ;; esac
   frames=courtyard.kage
-  case $name in blend_*) frames=glass.kage ;; esac
+  case $name in blend_*) frames=glass.kage ;; sample_* | *_light) frames=lights.kage ;; esac
   if grep -q '^Not a fault' "$patch"; then
     expect 0 "$kage" cosim "$frames" --fault "$name" --idle 30 --backpressure 30 --out "$name"
     continue

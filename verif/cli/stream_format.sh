@@ -33,7 +33,7 @@ grep -qF "$(cat stdout)" "$source/docs/stream.md" || fail "docs/stream.md says t
 expect 0 "$kage" stream courtyard --size 96x64 --frames 3 --out c.kage
 expect 0 python3 read.py c.kage
 [ "$(grep -c ': 96x64, ' stdout)" = 3 ] || fail "the reader finds other frames: $(cat stdout)"
-for at in 20 270 286 300 341; do
+for at in 20 310 326 340 381; do
   python3 -c "import sys; d=bytearray(open('pixel.kage','rb').read()); d[int(sys.argv[1])]^=1; open('bad.kage','wb').write(d)" $at
   expect 1 python3 read.py bad.kage
   trouble bad.kage "$kage" info bad.kage

@@ -23,9 +23,18 @@ struct Units {
   int segments = 0;
 };
 
+/// What a frame has of light: entries of its table, and in each line so many samples, each of an NC and an EV of a
+/// pixel and an ES [0, es_xr), and so many TPs of a pixel.
+struct Light {
+  int entries = 0;
+  int samples = 0;
+  int es_xr = 1;
+  int translucent = 0;
+};
+
 /// Clocks for a frame of lines of this width with `tokens` spans [xl, xr) each, from the first beat to the last pixel.
 std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int height, int tokens, int xl, int xr,
-                     int frames = 1, const Units& units = {}) {
+                     int frames = 1, const Units& units = {}, const Light& light = {}) {
   std::vector<std::uint32_t> words;
   TokenWriter out(c, words);
   out.header({width, height, 0, 1});
@@ -33,6 +42,7 @@ std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int 
   s.xl = xl;
   s.xr = xr;
   s.z = std::int64_t{1} << (c.z_bits + c.z_frac - 1);  // the middle, whatever the width
+  for (int i = 0; i < light.entries; ++i) out.table({i / c.lights + 1, i % c.lights, {}});
   SegmentToken face;
   for (face.unit = 0; face.unit < c.units; ++face.unit)
     for (face.face = 0; face.face < units.faces; ++face.face) out.face(face);
@@ -52,6 +62,16 @@ std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int 
     if (units.segments > 0 && y + 1 < height) segments();  // a line ahead, as a front end writes them
     if (units.segments > 0) out.tree();
     for (int i = 0; i < tokens; ++i) out.op(s);
+    for (int i = 0; i < light.samples; ++i) {
+      out.nc(0, 1, 1);
+      if (c.fsf != 0) out.ev(0, 1);
+      out.es(0, light.es_xr, 0);
+    }
+    if (light.samples > 0) out.resolve();
+    SpanToken glass = s;
+    glass.xl = 0;
+    glass.xr = 1;
+    for (int i = 0; i < light.translucent; ++i) out.tp(glass);
     out.eol(y);
   }
   out.end();
@@ -123,14 +143,40 @@ int main(int argc, char** argv) {
     good = good && empty <= width + 1;
     const auto frame = static_cast<double>(clocks(api, c, 1, 1, 0, 0, 1, 21) - clocks(api, c, 1, 1, 0, 0, 1, 1)) / 20;
     std::printf("  a frame of one pixel: %.1f clocks\n", frame);
-    if (c.units == 0) continue;
-
-    // Faces, segments, TREE: between tokens enough that neither the video port nor the tree's pixel a clock limits.
     const auto words_of = [&](Kind k) { return static_cast<double>(layout.words[static_cast<std::size_t>(k)]); };
     const auto report = [&](const char* what, double extra, double promised) {
       std::printf("  %s: %.3f clocks, promised %.3f\n", what, extra, promised);
       good = good && extra <= promised * 1.001;
     };
+    if (c.count_bits > 0) {
+      const auto of = [&](int height, const Light& light) {
+        return static_cast<double>(clocks(api, c, width, height, 0, 0, 1, 1, {}, light));
+      };
+      const auto of_token = [&](Kind k, int groups) {
+        return std::max({1.0, static_cast<double>(banked ? groups : 1), words_of(k) / c.beat_words});
+      };
+      const int groups = (width + lanes - 1) / lanes;
+      const double volume = of_token(Kind::NC, 1) + (c.fsf != 0 ? of_token(Kind::EV, 1) : 0);
+      report("a sample, ES of a pixel", (of(1, {0, 1100, 1, 0}) - of(1, {0, 100, 1, 0})) / 1000,
+             volume + of_token(Kind::ES, 1));
+      report("a sample, ES of the line", (of(1, {0, 1100, width, 0}) - of(1, {0, 100, width, 0})) / 1000,
+             volume + of_token(Kind::ES, groups));
+      const int entries = ((1 << c.class_bits) - 1) * c.lights;
+      if (c.class_bits > 1)
+        report("TABLE", (of(1, {entries, 0, 1, 0}) - of(1, {1, 0, 1, 0})) / (entries - 1), of_token(Kind::TABLE, 1));
+      if (c.translucency > 0) {
+        // The way out sends the line twice, to the video and back to the pixels; loads also wait for two passes, that
+        // of the line before and their own.
+        const int passes = banked ? 2 * groups : 2;
+        report("a line that comes back as loads", (of(21, {0, 1, 1, 1}) - of(1, {0, 1, 1, 1})) / 20,
+               width + std::max(width, passes) + 32);
+        report("a line with TP but without RESOLVE", (of(21, {0, 0, 1, 1}) - of(1, {0, 0, 1, 1})) / 20,
+               std::max(width, passes) + 1);
+      }
+    }
+    if (c.units == 0) continue;
+
+    // Faces, segments, TREE: between tokens enough that neither the video port nor the tree's pixel a clock limits.
     const auto lines = [&](const Units& u) {
       return static_cast<double>(clocks(api, c, width, 21, tokens, 0, 1, 1, u) -
                                  clocks(api, c, width, 1, tokens, 0, 1, 1, u)) /

@@ -20,6 +20,7 @@
 #include "kage/registers.h"
 #include "kage/stream.hpp"
 #include "rtl_model/rtl_model.h"
+#include "support/damage.hpp"
 #include "support/random.hpp"
 #include "support/streams.hpp"
 
@@ -33,6 +34,10 @@ using Words = std::vector<std::uint32_t>;
 Words sound(Random& random, const Config& c, std::uint32_t number) {
   FrameStyle style{.most_opaque = 12, .most_volumes = 4, .most_in_volume = 8, .port = true};
   if (random.chance(0.2)) style.most_opaque = style.most_in_volume = 60;
+  if (random.chance(0.05)) {  // more samples than a counter holds, and little else
+    style.most_samples = 3 << c.count_bits;
+    style.most_opaque = style.most_volumes = style.most_in_volume = 2;
+  }
   if (random.chance(0.2)) style.most_opaque = style.most_volumes = 0;  // line upon line, and all that a line needs
   Words words;
   const int width = random.chance(0.2)   ? random.in(1, std::min(c.max_width, 4))
@@ -47,8 +52,10 @@ Words malformed(Random& random, const Config& c, std::uint32_t number) {
   for (;;) {
     Words words = sound(random, c, number);
     const bool to_tree = c.units > 0 && random.chance(0.6);
+    const bool to_light = !to_tree && c.count_bits > 0 && random.chance(0.4);
     if (to_tree) damage_tree(random, c, words);
-    if (!to_tree || random.chance(0.1)) damage(random, words);
+    if (to_light) damage_light(random, c, words);
+    if ((!to_tree && !to_light) || random.chance(0.1)) damage(random, words);
     if (!words.empty() && (words.size() == 1 || words[1] >> 16 <= 40 || words[1] >> 16 > 32767)) return words;
   }
 }

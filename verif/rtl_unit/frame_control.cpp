@@ -2,12 +2,10 @@
 // frame_control: the commands and lines that a frame becomes, and each error with its code, line and token. Default
 // configuration (X_BITS 11, Z 24.11, three flat channels, DSF_BITS 1, FSF), MAX_WIDTH 64.
 #include <array>
-#include <deque>
 
 #include "Vframe_control.h"
 #include "Vframe_control_glass.h"
-#include "bench.hpp"
-#include "kage/defs.hpp"
+#include "frame_control_bench.hpp"
 
 using namespace kage::rtl;
 using kage::ErrorCode;
@@ -15,192 +13,12 @@ using kage::Kind;
 
 namespace {
 
-constexpr kage::Config kConfig{};
-constexpr kage::Config kGlass = [] {
-  kage::Config c;
-  c.translucency = 1;
-  return c;
-}();
-constexpr int kMaxWidth = 64;
-
-struct Token {
-  std::array<std::uint32_t, 5> words{};
-  bool header = false, lacking = false, cut = false, final = false, at_last = false;
-};
-
-void set(Token& t, int lsb, int bits, std::uint64_t value) {
-  for (int i = 0; i < bits; ++i)
-    if ((value >> i & 1) != 0) t.words[static_cast<std::size_t>((lsb + i) / 32)] |= 1U << ((lsb + i) % 32);
-}
-
-Token header(std::uint32_t width, std::uint32_t height, std::uint32_t frame, const kage::Config& config = kConfig) {
-  Token t;
-  t.header = true;
-  t.words = {kage::kStreamMagic << 16 | kage::kStreamVersion, width | height << 16, kage::param_hash(config), 0x0A0B0C,
-             frame};
-  return t;
-}
-
-Token token(Kind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c = 0) {
-  Token t;
-  set(t, 0, 4, static_cast<std::uint64_t>(kind));
-  switch (kind) {
-    case Kind::SHADE:
-      set(t, 4, 9, a);
-      break;
-    case Kind::EOL:
-      set(t, 4, 16, a);
-      break;
-    case Kind::IF:
-      set(t, 4, 2, a);
-      break;
-    case Kind::OP:  // lit, then z, dz, colour
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      set(t, 26, 1, c);
-      set(t, 27, 37, 0x123456789);
-      set(t, 64, 37, 0x0FEDCBA98);
-      set(t, 101, 24, 0x332211);
-      break;
-    case Kind::SP:  // w, then z, dz
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      set(t, 26, 2, c);
-      set(t, 28, 37, 0x11111111);
-      set(t, 65, 37, 0x22222222);
-      break;
-    case Kind::TP:  // alpha, then z, dz, colour
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      set(t, 26, 8, c);
-      set(t, 34, 37, 0x0F1234567);
-      set(t, 71, 37, 0x0A9876543);
-      set(t, 108, 24, 0x665544);
-      break;
-    case Kind::NC:
-      set(t, 26, 2, c);
-      [[fallthrough]];
-    case Kind::EV:
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      break;
-    default:
-      break;
-  }
-  t.final = kind == Kind::END;
-  t.at_last = true;
-  return t;
-}
-
-struct Command {
-  Kind kind;
-  unsigned xl, xr, count;
-  bool operator==(const Command&) const = default;
-};
-
-struct Line {
-  bool first, blank;
-  unsigned width, background, shade;
-  bool operator==(const Line&) const = default;
-};
-
-struct Outcome {
-  std::vector<Command> commands;
-  std::vector<Line> lines;
-  std::vector<bool> painted;                         // of each line
-  std::vector<unsigned> shares;                      // of each command
-  std::vector<std::array<std::uint32_t, 4>> errors;  // code, frame, line, token
-  int frames = 0, drops = 0;
-};
-
-template <class Model = Vframe_control>
-Outcome run(Dice& dice, const std::vector<Token>& tokens) {
-  Bench<Model> top(dice);
-  Offer offer(stall_percent(dice));
-  const int cmd_stall = stall_percent(dice);
-  const int line_stall = stall_percent(dice);
-  Outcome out;
-  int dropping = 0;
-  std::size_t at = 0;
-  for (int clock = 0, quiet = 0; quiet < 200; ++clock) {
-    REQUIRE(clock < 100000);
-    const bool offered = dropping == 0 && offer(dice, at < tokens.size());
-    top->token_valid_i = offered ? 1 : 0;
-    if (offered) {
-      const Token& t = tokens[at];
-      for (int i = 0; i < 5; ++i) put(top->token_i, 32 * i, 32, t.words[static_cast<std::size_t>(i)]);
-      top->token_header_i = t.header ? 1 : 0;
-      top->token_lacking_i = t.lacking ? 1 : 0;
-      top->token_cut_i = t.cut ? 1 : 0;
-      top->token_final_i = t.final ? 1 : 0;
-      top->token_at_last_i = t.at_last ? 1 : 0;
-    }
-    top->dropping_i = dropping > 0 ? 1 : 0;
-    top->cmd_ready_i = dice.percent(cmd_stall) ? 0 : 1;
-    top->line_ready_i = dice.percent(line_stall) ? 0 : 1;
-    top.settle();
-    if (top->cmd_valid_o && top->cmd_ready_i) {
-      const auto kind = static_cast<Kind>(top->cmd_kind_o);
-      // TP has no count.
-      out.commands.push_back({kind, top->cmd_xl_o, top->cmd_xr_o, kind == Kind::TP ? 0U : top->cmd_count_o});
-      if (kind == Kind::OP) {
-        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x123456789);
-        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0FEDCBA98);
-        REQUIRE(top->cmd_color_o == 0x332211);
-      }
-      out.shares.push_back(top->cmd_share_o);
-      if (kind == Kind::TP) {
-        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x0F1234567);
-        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0A9876543);
-        REQUIRE(top->cmd_color_o == 0x665544);
-      }
-      if (kind == Kind::RESOLVE) REQUIRE(top->cmd_color_o == 0x0A0B0C);
-      if (kind == Kind::SP) {
-        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x11111111);
-        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x22222222);
-      }
-    }
-    if (top->line_valid_o) {
-      REQUIRE(top->line_ready_i);
-      out.lines.push_back({static_cast<bool>(top->line_first_o), static_cast<bool>(top->line_blank_o),
-                           top->line_width_o, top->line_background_o, top->line_shade_o});
-    }
-    if (top->line_valid_o) out.painted.push_back(top->line_painted_o != 0);
-    if (top->error_o)
-      out.errors.push_back({top->error_code_o, top->error_frame_o, top->error_line_o, top->error_token_o});
-    if (top->frame_end_o) ++out.frames;
-    if (dropping > 0) --dropping;
-    const bool taken = offered && top->token_ready_o;
-    if (top->drop_o) {
-      REQUIRE(taken);
-      REQUIRE(!tokens[at].final);
-      ++out.drops;
-      dropping = dice.between(1, 9);
-    }
-    quiet = taken || top->cmd_valid_o || top->line_valid_o ? 0 : quiet + 1;
-    top.edge();
-    if (!taken) continue;
-    offer.taken();
-    const bool dropped = dropping > 0;
-    ++at;
-    while (dropped && at < tokens.size() && !tokens[at].header) ++at;
-  }
-  REQUIRE(at == tokens.size());
-  REQUIRE(!top->open_o);
-  return out;
-}
-
-std::vector<Token> operator+(std::vector<Token> a, const std::vector<Token>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 /// A frame of 2 lines with this as line 0; what the error is, and that the rest is blank.
 void expect_error(std::vector<Token> body, ErrorCode code, unsigned line, unsigned index, unsigned height = 2) {
   each_seed(6, [&](Dice& dice) {
     CAPTURE(static_cast<int>(code), line, index);
     const std::vector<Token> next = {header(1, 1, 8), token(Kind::EOL, 0), token(Kind::END)};
-    const Outcome out = run(dice, std::vector<Token>{header(20, height, 7)} + body + next);
+    const auto out = run<Vframe_control>(dice, std::vector<Token>{header(20, height, 7)} + body + next);
     REQUIRE(out.errors.size() == 1);
     REQUIRE(out.errors[0] == std::array<std::uint32_t, 4>{static_cast<std::uint32_t>(code), 7, line, index});
     REQUIRE(out.frames == 2);
@@ -222,10 +40,10 @@ const Token kEnd = token(Kind::END);
 
 TEST_CASE("A frame becomes commands and lines; bias goes with EV and is cleared by it", "[frame_control]") {
   each_seed(20, [](Dice& dice) {
-    const Outcome out =
-        run(dice, {header(20, 2, 7), token(Kind::SHADE, 256), token(Kind::OP, 3, 9, 1), token(Kind::OP, 4, 4, 1),
-                   token(Kind::SP, 0, 20, 1), token(Kind::IF, 1), token(Kind::EV, 1, 19), token(Kind::NC, 2, 3, 3),
-                   token(Kind::EV, 0, 20), token(Kind::RESOLVE), kEol0, token(Kind::OP, 19, 20, 0), kEol1, kEnd});
+    const auto out = run<Vframe_control>(
+        dice, {header(20, 2, 7), token(Kind::SHADE, 256), token(Kind::OP, 3, 9, 1), token(Kind::OP, 4, 4, 1),
+               token(Kind::SP, 0, 20, 1), token(Kind::IF, 1), token(Kind::EV, 1, 19), token(Kind::NC, 2, 3, 3),
+               token(Kind::EV, 0, 20), token(Kind::RESOLVE), kEol0, token(Kind::OP, 19, 20, 0), kEol1, kEnd});
     REQUIRE(out.errors.empty());
     REQUIRE(out.frames == 1);
     REQUIRE(out.drops == 0);
@@ -301,7 +119,8 @@ TEST_CASE("TP comes after RESOLVE, and nothing but TP and EOL after it", "[frame
 
 TEST_CASE("SHADE holds for its frame only", "[frame_control]") {
   each_seed(5, [](Dice& dice) {
-    const Outcome out = run(dice, {header(1, 1, 1), token(Kind::SHADE, 9), kEol0, kEnd, header(1, 1, 2), kEol0, kEnd});
+    const auto out =
+        run<Vframe_control>(dice, {header(1, 1, 1), token(Kind::SHADE, 9), kEol0, kEnd, header(1, 1, 2), kEol0, kEnd});
     REQUIRE(out.lines.size() == 2);
     REQUIRE(out.lines[0].shade == 9);
     REQUIRE(out.lines[1].shade == 0);
@@ -367,7 +186,7 @@ TEST_CASE("A bad header gives no pixels and is named", "[frame_control]") {
         Case{header(1, 32768, 5), ErrorCode::SIZE, 5}, Case{params, ErrorCode::PARAMS, 5},
         Case{cut, ErrorCode::LAST_EARLY, 0}}) {
     each_seed(4, [&](Dice& dice) {
-      const Outcome out = run(dice, {c.header, header(kMaxWidth, 1, 6), kEol0, kEnd});
+      const auto out = run<Vframe_control>(dice, {c.header, header(kMaxWidth, 1, 6), kEol0, kEnd});
       REQUIRE(out.errors ==
               std::vector<std::array<std::uint32_t, 4>>{{static_cast<std::uint32_t>(c.code), c.frame, 0, 0}});
       REQUIRE(out.lines.size() == 1);

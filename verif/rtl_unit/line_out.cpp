@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_out: what comes out of lines that go in, under any back-pressure: background, RESOLVE's rounding, TUSER and
-// TLAST, no gap.
+// line_out: what comes out of lines that go in, under any back-pressure: background, RESOLVE's rounding, with counters
+// and light table or without, TUSER and TLAST, no gap; and what goes back to the pixels.
+#include <algorithm>
+#include <array>
 #include <deque>
 
 #include "Vline_out1.h"
 #include "Vline_out4.h"
+#include "Vline_out_lights4.h"
+#include "Vline_out_soft1.h"
 #include "bench.hpp"
 
 using namespace kage::rtl;
@@ -14,19 +18,65 @@ namespace {
 struct Shape {
   int lanes, max_width, shade_frac;
   bool translucent;
+  int count_bits = 0, lights = 1, class_bits = 1;
+
+  [[nodiscard]] int pixel_bits() const {
+    return count_bits == 0 ? 26 : 25 + (class_bits > 1 ? class_bits : 0) + lights * count_bits;
+  }
 };
 
 struct Line {
-  bool first, blank, painted;
+  bool first, blank, load, painted;
   int width;
   std::uint32_t background, shade;
-  std::vector<std::uint32_t> pixels;  // {dark, covered, colour}
+  std::vector<std::uint64_t> pixels;  // {dark, covered, colour} or {counts, class, covered, colour}
 };
 
 struct Out {
   std::uint32_t color;
   bool user, last;
 };
+
+using Table = std::vector<std::array<std::array<std::uint32_t, 3>, 8>>;  // share by class, light, channel
+
+/// What a pixel keeps of a channel, in 2^-shade_frac.
+std::uint32_t factor(const Shape& s, std::uint64_t pixel, const Table& table, std::uint32_t shade,
+                     std::size_t channel) {
+  const std::int64_t one = std::int64_t{1} << s.shade_frac;
+  std::int64_t kept = one;
+  if (s.count_bits == 0) {
+    if ((pixel >> 25 & 1) != 0) kept -= shade;
+    return static_cast<std::uint32_t>(kept);
+  }
+  pixel >>= 25;
+  const std::size_t normal_class = s.class_bits > 1 ? pixel & ((1U << s.class_bits) - 1) : 1;
+  if (s.class_bits > 1) pixel >>= s.class_bits;
+  for (std::size_t light = 0; light < static_cast<std::size_t>(s.lights); ++light, pixel >>= s.count_bits) {
+    const std::int64_t share = s.class_bits > 1 ? table[normal_class][light][channel] : shade;
+    kept -= share * static_cast<std::int64_t>(pixel & ((1U << s.count_bits) - 1));
+  }
+  return static_cast<std::uint32_t>(std::max<std::int64_t>(kept, 0));
+}
+
+/// Write a whole table, an entry a clock.
+template <class Model>
+void load_table(Bench<Model>& top, Dice& dice, const Shape& s, Table& table) {
+  table.resize(std::size_t{1} << s.class_bits);
+  top->line_valid_i = top->exit_take_i = top->exit_valid_i = 0;
+  top->table_valid_i = 1;
+  for (std::size_t k = 1; k < table.size(); ++k)
+    for (std::size_t light = 0; light < static_cast<std::size_t>(s.lights); ++light) {
+      put(top->table_class_i, k);
+      put(top->table_light_i, light);
+      for (std::size_t c = 0; c < 3; ++c) {
+        table[k][light][c] = dice.percent(20) ? 1U << s.shade_frac
+                                              : static_cast<std::uint32_t>(dice.bits(s.shade_frac)) >> dice.below(4);
+        put(top->table_share_i, static_cast<int>(c) * (s.shade_frac + 1), s.shade_frac + 1, table[k][light][c]);
+      }
+      top.edge();
+    }
+  top->table_valid_i = 0;
+}
 
 template <class Model>
 void line_test(const Shape& s) {
@@ -35,14 +85,20 @@ void line_test(const Shape& s) {
     const int in_stall = stall_percent(dice);
     const int out_stall = stall_percent(dice);
     std::deque<Line> announced, to_fill;
-    std::deque<Out> expected;
+    std::deque<Out> expected, loads;
+    std::deque<std::size_t> load_places;
+    Table table;
+    const bool has_loads = s.translucent && s.count_bits > 0;
     std::uint32_t background = 0, shade = 0;
     int made = 0, width = 1, left = 0, taken_lines = 0, filled = 0;
     bool waited = false;
     Out before{};
-    for (int clock = 0; made < 14 || !expected.empty(); ++clock) {
+    for (int clock = 0; made < 14 || !expected.empty() || !loads.empty(); ++clock) {
       REQUIRE(clock < 100000);
-      if (made < 14 && announced.size() < 3) {
+      // A new table waits for all lines of the frame before.
+      const bool empty = announced.empty() && to_fill.empty() && expected.empty() && loads.empty();
+      if (s.class_bits > 1 && left == 0 && made < 14 && empty) load_table(top, dice, s, table);
+      if (made < 14 && announced.size() < 3 && (s.class_bits == 1 || left > 0 || empty)) {
         Line l{};
         l.first = left == 0;
         if (l.first) {
@@ -53,22 +109,25 @@ void line_test(const Shape& s) {
         }
         --left;
         l.blank = dice.percent(20);
-        l.painted = dice.percent(30);
+        l.load = has_loads && dice.percent(30);
+        l.painted = !l.load && dice.percent(30);
         l.width = width;
         l.background = background;
         l.shade = shade;
         for (int x = 0; x < width; ++x) {
-          const auto p = static_cast<std::uint32_t>(dice.bits(26));
+          std::uint64_t p = dice.bits(s.pixel_bits());
+          const int class_at = 25;  // counts are 0 where the class is
+          if (s.class_bits > 1 && (p >> class_at & ((1U << s.class_bits) - 1)) == 0) p &= (1U << class_at) - 1;
           l.pixels.push_back(p);
-          std::uint32_t color = p & 0xFFFFFF;
-          if ((p >> 25 & 1) != 0) {
-            color = 0;
-            for (int ch = 0; ch < 24; ch += 8)
-              color |= (((p >> ch & 255) * ((1U << s.shade_frac) - shade) + (1U << (s.shade_frac - 1))) >> s.shade_frac)
-                       << ch;
-          }
+          std::uint32_t color = 0;
+          for (std::size_t c = 0; c < 3; ++c)
+            color |=
+                static_cast<std::uint32_t>(
+                    ((p >> 8 * c & 255) * factor(s, p, table, shade, c) + (1U << (s.shade_frac - 1))) >> s.shade_frac)
+                << 8 * c;
           if (l.blank || ((p >> 24 & 1) == 0 && !(s.translucent && l.painted))) color = background;
-          expected.push_back({color, l.first && x == 0, x == width - 1});
+          if (l.load) load_places.push_back(static_cast<std::size_t>(x));
+          (l.load ? loads : expected).push_back({color, l.first && x == 0, x == width - 1});
         }
         announced.push_back(l);
         to_fill.push_back(l);
@@ -80,6 +139,7 @@ void line_test(const Shape& s) {
         top->line_first_i = l.first ? 1 : 0;
         top->line_blank_i = l.blank ? 1 : 0;
         top->line_painted_i = l.painted ? 1 : 0;
+        top->line_load_i = l.load ? 1 : 0;
         top->line_width_i = static_cast<CData>(l.width);
         top->line_background_i = l.background;
         top->line_shade_i = static_cast<SData>(l.shade);
@@ -96,11 +156,13 @@ void line_test(const Shape& s) {
         top->exit_valid_i = 1;
         for (int lane = 0; lane < s.lanes; ++lane) {
           const int x = filled + lane;
-          put(top->exit_data_i, 26 * lane, 26, x < l.width ? l.pixels[static_cast<std::size_t>(x)] : dice.bits(26));
+          put(top->exit_data_i, s.pixel_bits() * lane, s.pixel_bits(),
+              x < l.width ? l.pixels[static_cast<std::size_t>(x)] : dice.bits(s.pixel_bits()));
         }
         top->exit_last_i = filled + s.lanes >= l.width ? 1 : 0;
       }
       top->m_ready_i = dice.percent(out_stall) ? 0 : 1;
+      top->load_ready_i = dice.percent(out_stall) ? 0 : 1;
       top.settle();
       if (waited) {
         REQUIRE(top->m_valid_o);
@@ -114,6 +176,14 @@ void line_test(const Shape& s) {
         REQUIRE(static_cast<bool>(top->m_user_o) == expected.front().user);
         REQUIRE(static_cast<bool>(top->m_last_o) == expected.front().last);
         expected.pop_front();
+      }
+      if (top->load_valid_o) REQUIRE(!loads.empty());
+      if (top->load_valid_o && top->load_ready_i) {
+        REQUIRE(top->load_color_o == loads.front().color);
+        REQUIRE(top->load_x_o == load_places.front());
+        REQUIRE(static_cast<bool>(top->load_last_o) == loads.front().last);
+        loads.pop_front();
+        load_places.pop_front();
       }
       const bool line_taken = top->line_valid_i && top->line_ready_o;
       const bool take = top->exit_take_i;
@@ -138,6 +208,11 @@ void line_test(const Shape& s) {
 
 TEST_CASE("line_out, groups of four", "[line_out]") { line_test<Vline_out4>({4, 21, 8, true}); }
 TEST_CASE("line_out, single pixels", "[line_out]") { line_test<Vline_out1>({1, 21, 3, false}); }
+
+TEST_CASE("line_out, one counter, no table", "[line_out]") { line_test<Vline_out_soft1>({1, 21, 8, false, 4}); }
+TEST_CASE("line_out, counters of three lights, table, loads", "[line_out]") {
+  line_test<Vline_out_lights4>({4, 21, 6, true, 3, 3, 4});
+}
 
 TEST_CASE("line_out sends the lines of a frame without a gap", "[line_out]") {
   each_seed(2, [](Dice& dice) {

@@ -2,12 +2,16 @@
 // pixel_core in both arrangements against an array of pixels: random commands, buffers that are not free, back-to-back
 // work on the same pixels, and the clocks that commands take.
 #include <algorithm>
+#include <array>
 #include <deque>
 
 #include "Vpixel_banked1.h"
 #include "Vpixel_banked4.h"
 #include "Vpixel_glass4.h"
+#include "Vpixel_glass_lights4.h"
 #include "Vpixel_glass_systolic.h"
+#include "Vpixel_lights_systolic.h"
+#include "Vpixel_soft_systolic.h"
 #include "Vpixel_systolic.h"
 #include "bench.hpp"
 #include "kage/defs.hpp"
@@ -17,10 +21,22 @@ using kage::Kind;
 
 namespace {
 
+// Commands without token (kage_widths.svh): one pixel's colour comes back; the line's pixels leave but stay.
+constexpr Kind kLoad = Kind::SHADE;
+constexpr Kind kOut = Kind::TABLE;
+
 struct Shape {
   int lanes;  // of the exit; 0: systolic
   int width, x_bits, z_bits, z_frac, channels, smooth, color_frac, dsf_bits, fsf;
   int shade_frac;  // 0: no translucency
+  int count_bits = 0, lights = 1, class_bits = 1;
+
+  [[nodiscard]] int light_at() const { return fsf != 0 ? 0 : dsf_bits; }  // of ES's light in the count
+  [[nodiscard]] int exit_bits() const {
+    if (dsf_bits == 0) return 8 * channels + 1;
+    if (count_bits == 0) return 8 * channels + 2;
+    return 8 * channels + 1 + (class_bits > 1 ? class_bits : 0) + lights * count_bits;
+  }
 };
 
 struct Command {
@@ -33,12 +49,13 @@ struct Command {
 
 struct Pixel {
   std::uint64_t z, color[3];
-  unsigned lit, dsf, fsf;
+  unsigned normal_class, dsf, fsf;
+  std::array<std::uint64_t, 8> counts;
 };
 
 std::int64_t wrap(std::uint64_t v, int bits) { return static_cast<std::int64_t>(v << (64 - bits)) >> (64 - bits); }
 
-/// The pixels, and the pixels that leave as {dark, covered, colour}.
+/// The pixels, and the pixels that leave as {dark, covered, colour}, with counters {counts, class, covered, colour}.
 class Reference {
  public:
   explicit Reference(const Shape& s) : s_(s), line_(static_cast<std::size_t>(s.width)) { clear(); }
@@ -54,7 +71,7 @@ class Reference {
         case Kind::OP:
           if (z >= p.z) break;
           p.z = z;
-          p.lit = c.count & 1;
+          p.normal_class = static_cast<unsigned>(c.count & ((1U << s_.class_bits) - 1));
           for (int ch = 0; ch < s_.channels; ++ch) p.color[ch] = color(c, ch, dx);
           break;
         case Kind::TP:  // (under (255 - alpha) + over alpha) / 255, to the nearest
@@ -66,7 +83,7 @@ class Reference {
           for (int ch = 0; ch < s_.channels; ++ch) {
             if (!covered(p))
               p.color[ch] = color(c, ch, dx);
-            else if (shadow(p, c.count) && p.lit != 0)
+            else if (s_.count_bits == 0 && shadow(p, c.count) && p.normal_class != 0)
               p.color[ch] = (2 * p.color[ch] * (one - c.share) + one) / (2 * one);
           }
           p.dsf = p.fsf = 0;
@@ -82,19 +99,41 @@ class Reference {
           if (((p.dsf + c.count) & mask) != 0) p.fsf = 1;
           p.dsf = 0;
           break;
-        default: {
-          std::uint64_t value = static_cast<std::uint64_t>(covered(p)) << (8 * s_.channels);
-          if (s_.dsf_bits > 0)
-            value |= static_cast<std::uint64_t>(shadow(p, c.count) && p.lit != 0) << (8 * s_.channels + 1);
-          for (int ch = 0; ch < s_.channels; ++ch) value |= p.color[ch] << (8 * ch);
-          out.push_back(value);
+        case Kind::ES: {
+          const std::uint64_t light = s_.lights > 1 ? c.count >> s_.light_at() : 0;
+          std::uint64_t& count = p.counts[light];
+          if (shadow(p, c.count)) count = std::min<std::uint64_t>(count + 1, (1U << s_.count_bits) - 1);
+          if (s_.fsf == 0) p.dsf = 0;
+          p.fsf = 0;
+          break;
         }
+        case kLoad:
+          for (int ch = 0; ch < s_.channels; ++ch) p.color[ch] = color(c, ch, 0);
+          break;
+        default:  // EOL and kOut
+          out.push_back(leaving(p, c.count));
+          p.dsf = p.fsf = 0;
+          p.counts = {};
       }
     }
     if (c.kind == Kind::EOL) clear();
   }
 
  private:
+  [[nodiscard]] std::uint64_t leaving(const Pixel& p, std::uint64_t bias) const {
+    int at = 8 * s_.channels;
+    std::uint64_t value = static_cast<std::uint64_t>(covered(p)) << at++;
+    for (int ch = 0; ch < s_.channels; ++ch) value |= p.color[ch] << (8 * ch);
+    if (s_.count_bits == 0) {
+      if (s_.dsf_bits > 0) value |= static_cast<std::uint64_t>(shadow(p, bias) && p.normal_class != 0) << at;
+      return value;
+    }
+    if (s_.class_bits > 1) value |= static_cast<std::uint64_t>(p.normal_class) << at;
+    if (s_.class_bits > 1) at += s_.class_bits;
+    for (int light = 0; light < s_.lights && p.normal_class != 0; ++light)
+      value |= p.counts[static_cast<std::size_t>(light)] << (at + light * s_.count_bits);
+    return value;
+  }
   [[nodiscard]] bool covered(const Pixel& p) const { return p.z != (1U << s_.z_bits) - 1; }
   [[nodiscard]] bool shadow(const Pixel& p, std::uint64_t bias) const {
     return s_.fsf != 0 ? p.fsf != 0 : ((p.dsf + bias) & ((1U << s_.dsf_bits) - 1)) != 0;
@@ -106,7 +145,7 @@ class Reference {
   }
 
   void clear() {
-    for (Pixel& p : line_) p = {(1U << s_.z_bits) - 1, {}, 0, 0, 0};
+    for (Pixel& p : line_) p = {(1U << s_.z_bits) - 1, {}, 0, 0, 0, {}};
   }
   Shape s_;
   std::vector<Pixel> line_;
@@ -116,6 +155,7 @@ Command random_command(Dice& dice, const Shape& s, int width, int home) {
   static constexpr Kind kKinds[] = {Kind::OP, Kind::OP, Kind::OP, Kind::SP, Kind::SP, Kind::NC, Kind::EV};
   Command c{};
   c.kind = s.dsf_bits == 0 ? Kind::OP : kKinds[dice.below(s.fsf != 0 ? 7 : 6)];
+  if (s.count_bits > 0 && dice.percent(20)) c.kind = Kind::ES;
   c.xl = dice.below(width);
   if (dice.percent(60)) c.xl = std::min(width - 1, home + dice.below(3));
   c.xr = dice.percent(60) ? std::min(width, c.xl + dice.between(1, 9)) : dice.between(c.xl + 1, width);
@@ -127,6 +167,9 @@ Command random_command(Dice& dice, const Shape& s, int width, int home) {
   if (dice.percent(20)) c.z = dice.bits(bits);
   if (dice.percent(20)) c.dz = dice.bits(bits);
   c.count = dice.bits(std::max(s.dsf_bits, 1));
+  if (c.kind == Kind::OP) c.count = dice.percent(20) ? 0 : dice.bits(s.class_bits);
+  if (c.kind == Kind::ES && s.fsf != 0) c.count = 0;
+  if (c.kind == Kind::ES && s.lights > 1) c.count |= static_cast<std::uint64_t>(dice.below(s.lights)) << s.light_at();
   for (int ch = 0; ch < s.channels; ++ch) {
     c.color[ch] = dice.bits(s.smooth != 0 ? 10 + s.color_frac : 8);
     c.dcolor[ch] = s.smooth != 0 ? dice.bits(10 + s.color_frac) : 0;
@@ -134,18 +177,28 @@ Command random_command(Dice& dice, const Shape& s, int width, int home) {
   return c;
 }
 
-/// RESOLVE before a line's first TP, TP or any other command after it.
-Command translucent(Dice& dice, const Shape& s, Command c, int width, bool& painted) {
+/// RESOLVE before a line's first TP, TP or any other command after it. With counters also kOut, and then a kLoad for
+/// each pixel from `loads` on.
+Command translucent(Dice& dice, const Shape& s, Command c, int width, bool& painted, int& loads) {
   if (painted && dice.percent(30)) return c;
   if (painted) {
     c.kind = Kind::TP;
     c.share = dice.percent(30) ? 255 * dice.bits(1) : dice.bits(8);
     return c;
   }
-  painted = true;
-  c.kind = Kind::RESOLVE;
-  c.xl = 0;
-  c.xr = width;
+  if (loads >= 0) {
+    c.kind = kLoad;
+    c.xl = loads++;
+    c.xr = loads;
+    painted = loads == width;
+  } else {
+    const bool out = s.count_bits > 0 && dice.percent(70);
+    c.kind = out ? kOut : Kind::RESOLVE;
+    c.xl = 0;
+    c.xr = width;
+    loads = out ? 0 : -1;
+    painted = !out;
+  }
   c.share = dice.percent(20) ? 1ULL << s.shade_frac : dice.bits(s.shade_frac);
   for (int ch = 0; ch < s.channels; ++ch) {
     c.color[ch] = dice.bits(8) << s.color_frac;
@@ -177,20 +230,22 @@ void pixel_test(const Shape& s) {
     Offer offer(stall_percent(dice));
     const int free_percent = 100 - stall_percent(dice);
     const int lanes = std::max(s.lanes, 1);
-    const int exit_bits = 8 * s.channels + (s.dsf_bits > 0 ? 2 : 1);
+    const int exit_bits = s.exit_bits();
     Reference reference(s);
     std::deque<std::uint64_t> expected;
     std::deque<int> widths;    // of lines that have not left
     std::deque<bool> colored;  // whether their uncovered pixels have a colour too
-    int width = dice.between(1, s.width), home = 0, left = 0, lines = 0, x = 0;
+    int width = dice.between(1, s.width), home = 0, left = 0, lines = 0, x = 0, loads = -1;
     Command c{};
     bool have = false, painted = false;
     for (int clock = 0; lines < 12 || !widths.empty(); ++clock) {
       REQUIRE(clock < 200000);
       if (!have && lines < 12) {
-        if (left-- > 0) {
+        const bool loading = loads >= 0 && !painted;
+        if (left-- > 0 || loading) {
           c = random_command(dice, s, width, home);
-          if (s.shade_frac > 0 && (painted || dice.percent(10))) c = translucent(dice, s, c, width, painted);
+          if (s.shade_frac > 0 && (painted || loading || dice.percent(10)))
+            c = translucent(dice, s, c, width, painted, loads);
         } else {
           c = Command{};
           c.kind = Kind::EOL;
@@ -229,7 +284,12 @@ void pixel_test(const Shape& s) {
         offer.taken();
         have = false;
         reference.apply(c, expected);
+        if (c.kind == kOut) {
+          widths.push_back(width);
+          colored.push_back(false);
+        }
         if (c.kind == Kind::EOL) {
+          loads = -1;
           widths.push_back(width);
           colored.push_back(painted);
           painted = false;
@@ -269,6 +329,9 @@ constexpr Shape kBanked4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 0};
 constexpr Shape kSystolic{0, 21, 5, 10, 3, 3, 1, 6, 3, 0, 0};
 constexpr Shape kGlass4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 8};
 constexpr Shape kGlassSystolic{0, 21, 5, 10, 3, 3, 1, 6, 3, 0, 12};
+constexpr Shape kGlassLights4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 8, 2, 3, 5};
+constexpr Shape kLightsSystolic{0, 21, 5, 10, 3, 1, 1, 6, 3, 0, 12, 1, 8, 2};
+constexpr Shape kSoftSystolic{0, 21, 5, 10, 3, 3, 0, 0, 2, 1, 0, 4};
 
 }  // namespace
 
@@ -280,6 +343,14 @@ TEST_CASE("Banked, four lanes, translucent", "[pixel_core]") { pixel_test<Vpixel
 TEST_CASE("Systolic, smooth, translucent, no FSF", "[pixel_core]") {
   pixel_test<Vpixel_glass_systolic>(kGlassSystolic);
 }
+
+TEST_CASE("Banked, four lanes, counters of three lights, loads", "[pixel_core]") {
+  pixel_test<Vpixel_glass_lights4>(kGlassLights4);
+}
+TEST_CASE("Systolic, no FSF, counters of eight lights, loads", "[pixel_core]") {
+  pixel_test<Vpixel_lights_systolic>(kLightsSystolic);
+}
+TEST_CASE("Systolic, one counter, no table", "[pixel_core]") { pixel_test<Vpixel_soft_systolic>(kSoftSystolic); }
 
 TEST_CASE("Clocks per command: groups touched, or one", "[pixel_core]") {
   each_seed(1, [](Dice& dice) {

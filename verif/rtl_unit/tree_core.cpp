@@ -30,7 +30,7 @@ struct Pixel {
 
 template <class Top>
 Pixel pixel_of(const Top& top) {
-  return {top.line_z_o, top.line_color_o, top.line_lit_o, top.line_last_o != 0};
+  return {top.line_z_o, top.line_color_o, top.line_class_o, top.line_last_o != 0};
 }
 
 using Lines = std::vector<std::vector<Point>>;  // of each unit

@@ -10,7 +10,7 @@
 
 #include "catch.hpp"
 #include "kage/error.hpp"
-#include "scene/judge.hpp"
+#include "scene/shadow_checks.hpp"
 
 namespace kage::verif {
 namespace {
@@ -34,14 +34,17 @@ Config wide() {
 }  // namespace
 
 TEST_CASE("real meshes: coverage, surfaces and shadows are the oracle's") {
-  const Config config = wide();
   for (const char* file : {"horse.3ds", "bunny.obj", "cat.3ds", "asteroid-high.3ds", "asteroid-low.3ds"}) {
     const std::string path = std::string("/usr/share/glmark2/models/") + file;
     if (!present(path)) continue;
     const Scene scene = Scene::load(path);
-    for (const int frame : {0, 3}) {
-      CAPTURE(path, frame);
-      const Judgement j = judge(make_geometry(scene.frame(frame, 8), config, 64, 48), config);
+    for (const auto& [frame, bits] : {std::pair{0, 1}, {3, 1}, {0, 2}, {3, 2}, {3, 3}, {0, 8}}) {
+      Config config = wide();
+      config.dsf_bits = bits;
+      CAPTURE(path, frame, bits);
+      const FrameGeometry g = make_geometry(scene.frame(frame, 8), config, 64, 48);
+      if (bits == 8) CHECK(g.volumes.size() == 1);
+      const Judgement j = judge(g, config);
       INFO(j.text());
       CHECK(j.good());
       CHECK(j.covered > 100);
@@ -79,6 +82,16 @@ TEST_CASE("the meshes of CGAL's demo below 50000 faces: coverage, surfaces and s
       CHECK(j.good());
       CHECK(j.covered > 50);
       CHECK((j.surface_near + j.shadow_near) * 50 < j.covered);
+      // However many faces have a volume, the picture is the same.
+      Look per_face;
+      per_face.volumes = VolumeWay::per_face;
+      const FrameGeometry simple = make_geometry(frame, config, 48, 36, per_face);
+      for (const int bits : {1, 2, 4}) {
+        CAPTURE(bits);
+        Config counting = wide();
+        counting.dsf_bits = bits;
+        same_but_near_ties(simple, config, make_geometry(frame, counting, 48, 36), counting);
+      }
       ++judged;
     } catch (const Error&) {
       refused.insert(name);

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/judge.hpp"
@@ -53,6 +54,7 @@ struct RayCount {
   std::uint64_t near_shadow = 0;
   std::uint64_t wrong_surface = 0;
   std::uint64_t wrong_shadow = 0;
+  std::uint64_t wrong_rays = 0;  ///< rays in single precision that more exact ones put right
   std::string first_wrong;
 
   RayCount& operator+=(const RayCount& o) {
@@ -63,6 +65,7 @@ struct RayCount {
     near_shadow += o.near_shadow;
     wrong_surface += o.wrong_surface;
     wrong_shadow += o.wrong_shadow;
+    wrong_rays += o.wrong_rays;
     if (first_wrong.empty()) first_wrong = o.first_wrong;
     return *this;
   }
@@ -79,6 +82,7 @@ class RayScene {
  public:
   explicit RayScene(const SceneFrame& f) {
     for (std::uint32_t p = 0; p < f.polygons.size(); ++p) {
+      opaque_.push_back(f.triangles[f.polygons[p].triangle].alpha == 255);
       const auto outline = f.outline(f.polygons[p]);
       for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
         Face face;
@@ -90,6 +94,26 @@ class RayScene {
         faces_.push_back(face);
       }
     }
+  }
+
+  /// The polygon that the line origin + t direction meets first from t = `least` on, and t; kNothing if there is none.
+  [[nodiscard]] std::pair<double, std::uint32_t> nearest(const glm::dvec3& origin, const glm::dvec3& direction,
+                                                         double least) const {
+    std::pair<double, std::uint32_t> found{INFINITY, kNothing};
+    meet(origin, direction, [&](double t, std::uint32_t face) {
+      if (t >= least && t < found.first) found = {t, face};
+    });
+    return found;
+  }
+
+  /// Whether an opaque polygon other than `own` crosses the line at 0 < t < reach.
+  [[nodiscard]] bool blocked(const glm::dvec3& origin, const glm::dvec3& direction, double reach,
+                             std::uint32_t own) const {
+    bool found = false;
+    meet(origin, direction, [&](double t, std::uint32_t face) {
+      if (face != own && opaque_[face] && t > 0 && t < reach) found = true;
+    });
+    return found;
   }
 
   /// Calls hit(t, polygon) for every polygon that the line origin + t direction meets.
@@ -127,6 +151,7 @@ class RayScene {
     double radius2 = 0;
   };
   std::vector<Face> faces_;
+  std::vector<bool> opaque_;  // by polygon
 };
 
 /// Whether moving each vertex by half a subpixel in x and in y can change which way a polygon faces. A thin face of a
@@ -178,9 +203,21 @@ inline bool possible_face(const Oracle& oracle, const FrameGeometry& g, int x, i
   return false;
 }
 
-/// Compares the golden core's picture of `whole`, made from frame `f`, with rays through `f`, at every `step`th pixel
-/// of every `step`th line.
-inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whole, const Config& config, int step = 1) {
+/// Whether what the ray meets first is kept from the light.
+inline bool exact_shadow(const RayScene& rays, const glm::dvec3& origin, const glm::dvec3& direction, double near,
+                         const LightPoint& light) {
+  const auto [t, face] = rays.nearest(origin, direction, near);
+  const glm::dvec3 point = origin + t * direction;
+  return rays.blocked(point, light.directional ? -light.direction : light.position - point,
+                      light.directional ? INFINITY : 1, face);
+}
+
+/// Compares the golden core's picture of `whole`, made from frame `f`, with rays through `f`, which `rays` follows, at
+/// every `step`th pixel of every `step`th line. Where the picture differs, is no near tie, and `exact`, if given, says
+/// what the picture says, the rays were wrong.
+template <class Rays>
+RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whole, const Config& config, const Rays& rays,
+                           int step = 1, const RayScene* exact = nullptr) {
   const int width = whole.width;
   const int height = whole.height;
   FrameGeometry g = whole;
@@ -198,7 +235,6 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
 
   const Camera& camera = f.camera;
   const double unit = 2 * camera.half_height / height;
-  const RayScene rays(f);
   Oracle oracle(whole, config);
   RayCount count;
   for (int y = 0; y < height; y += step) {
@@ -212,13 +248,7 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       const glm::dvec3 origin = camera.perspective ? camera.eye : camera.eye + across;
       const glm::dvec3 direction = camera.perspective ? camera.forward + across : camera.forward;
       // direction has length 1 along forward, so t is the distance that the near plane is measured in.
-      double nearest = INFINITY;
-      std::uint32_t surface = kNothing;
-      rays.meet(origin, direction, [&](double t, std::uint32_t face) {
-        if (t < camera.near || t >= nearest) return;
-        nearest = t;
-        surface = face;
-      });
+      const auto [nearest, surface] = rays.nearest(origin, direction, camera.near);
       const auto polygon = seen[at] == kNothing ? -1 : static_cast<std::int32_t>(seen[at]);
       const std::uint32_t shown = polygon < 0 ? kNothing : whole.polygons[static_cast<std::uint32_t>(polygon)].source;
       if (shown != surface) {
@@ -227,6 +257,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
         if (oracle.possible_surface(x, polygon, Errors::depth_and_snap) &&
             possible_face(oracle, whole, x, y, surface)) {
           ++count.near_surface;
+        } else if (exact != nullptr && exact->nearest(origin, direction, camera.near).second == shown) {
+          ++count.wrong_rays;
         } else {
           ++count.wrong_surface;
           if (count.first_wrong.empty())
@@ -239,11 +271,7 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
       const glm::dvec3 point = origin + nearest * direction;
       const glm::dvec3 to_light = f.lights[0].directional ? -f.lights[0].direction : f.lights[0].position - point;
       const double reach = f.lights[0].directional ? INFINITY : 1;
-      bool blocked = false;
-      rays.meet(point, to_light, [&](double t, std::uint32_t face) {
-        const bool casts = f.triangles[f.polygons[face].triangle].alpha == 255;
-        if (face != surface && casts && t > 0 && t < reach) blocked = true;
-      });
+      const bool blocked = rays.blocked(point, to_light, reach, surface);
       if ((shadow[at] == 0) == blocked) {
         ++(blocked ? count.shadowed : count.lit);
         continue;
@@ -252,6 +280,8 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
           oracle.possible_shadow(x, static_cast<std::uint32_t>(polygon), Errors::depth_and_snap);
       if (possible.shadowed && possible.lit) {
         ++count.near_shadow;
+      } else if (exact != nullptr && exact_shadow(*exact, origin, direction, camera.near, f.lights[0]) != blocked) {
+        ++count.wrong_rays;
       } else {
         ++count.wrong_shadow;
         if (count.first_wrong.empty())
@@ -263,8 +293,11 @@ inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whol
   return count;
 }
 
-inline RayCount compare_with_rays(const SceneFrame& f, int width, int height, int step = 1) {
-  Config config;
+inline RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whole, const Config& config, int step = 1) {
+  return compare_with_rays(f, whole, config, RayScene(f), step);
+}
+
+inline RayCount compare_with_rays(const SceneFrame& f, int width, int height, int step = 1, Config config = {}) {
   config.max_width = std::max(config.max_width, width);
   return compare_with_rays(f, make_geometry(f, config, width, height), config, step);
 }

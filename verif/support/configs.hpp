@@ -17,6 +17,9 @@ inline Config random_config(Random& random, int width = 4096) {
     c.*(p.member) = v;
   }
   if (c.dsf_bits == 0) c.fsf = 0;
+  if (c.dsf_bits == 0 || random.chance(0.4)) c.count_bits = 0;
+  if (c.count_bits == 0 || random.chance(0.4)) c.class_bits = 1;
+  if (c.class_bits == 1) c.lights = 1;
   if (c.smooth == 0) c.color_frac = 0;
   if (c.classic != 0) {  // the paper's segment
     c.z_bits = 15;

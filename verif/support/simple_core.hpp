@@ -4,6 +4,7 @@
 // For tests of the golden core.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -46,9 +47,10 @@ class SimpleCore {
   struct Pixel {
     std::int64_t z;
     std::array<std::int64_t, 3> color;
-    bool lit;
+    std::int64_t normal_class;
     unsigned dsf;
     bool fsf;
+    std::array<std::int64_t, 8> count;
   };
 
   FrameStatus fail(ErrorCode e) {
@@ -94,7 +96,7 @@ class SimpleCore {
 
   void clear() {
     pixels_.assign(static_cast<std::size_t>(status_.width),
-                   Pixel{(std::int64_t{1} << c_.z_bits) - 1, background(), false, 0, false});
+                   Pixel{(std::int64_t{1} << c_.z_bits) - 1, background(), 0, 0, false, {}});
     bias_ = 0;
   }
 
@@ -120,14 +122,12 @@ class SimpleCore {
   }
 
   struct Face {
-    std::int64_t index, dz;
-    bool lit;
+    std::int64_t index, dz, normal_class;
     std::array<std::int64_t, 3> color;
   };
 
   struct TreePixel {
-    std::int64_t z, index;
-    bool lit;
+    std::int64_t z, index, normal_class;
     std::array<std::int64_t, 3> color;
   };
 
@@ -159,11 +159,11 @@ class SimpleCore {
       return fault(ErrorCode::UNIT_LONG, line);
     for (int k = 0; k < dx; ++k) {
       if (number == blank) {
-        u.line.push_back({(std::int64_t{1} << c_.z_bits) - 1, 0, false, {}});
+        u.line.push_back({(std::int64_t{1} << c_.z_bits) - 1, 0, 0, {}});
         continue;
       }
       const Face& f = u.faces[static_cast<std::size_t>(number)];
-      u.line.push_back({depth(field(l_.seg_z), f.dz, k), f.index, f.lit, f.color});
+      u.line.push_back({depth(field(l_.seg_z), f.dz, k), f.index, f.normal_class, f.color});
     }
     ++u.segments;
     if (u.line.size() < static_cast<std::size_t>(status_.width)) return;
@@ -200,10 +200,31 @@ class SimpleCore {
       Pixel& p = pixels_[x];
       if (best->z >= p.z) continue;
       p.z = best->z;
-      p.lit = best->lit;
+      p.normal_class = best->normal_class;
       p.color = best->color;
     }
     return true;
+  }
+
+  [[nodiscard]] std::int64_t largest_count() const { return (1 << c_.count_bits) - 1; }
+
+  [[nodiscard]] bool lacks_class(std::int64_t normal_class) const {
+    return c_.class_bits > 1 && normal_class > static_cast<std::int64_t>(table_.size()) / c_.lights;
+  }
+
+  /// RESOLVE with counters.
+  void resolve(Pixel& p) const {
+    if (p.normal_class == 0 || p.z == (std::int64_t{1} << c_.z_bits) - 1) return;
+    const std::int64_t one = std::int64_t{1} << c_.shade_frac;
+    for (std::size_t ch = 0; ch < 3; ++ch) {
+      std::int64_t factor = one;
+      for (std::int64_t light = 0; light < c_.lights; ++light) {
+        const std::int64_t share =
+            c_.class_bits > 1 ? table_[static_cast<std::size_t>((p.normal_class - 1) * c_.lights + light)][ch] : shade_;
+        factor -= p.count[static_cast<std::size_t>(light)] * share;
+      }
+      p.color[ch] = (p.color[ch] * std::max(factor, std::int64_t{0}) + one / 2) / one;
+    }
   }
 
   // One token; false at the end of the frame or at an error.
@@ -228,7 +249,8 @@ class SimpleCore {
         auto& faces = units_[static_cast<std::size_t>(field(l_.face_unit))].faces;
         const auto next = static_cast<std::int64_t>(faces.size());
         if (field(l_.face_face) != next || next == (1 << c_.face_bits) - 1) return range();
-        Face f{field(l_.face_index), field(l_.face_dz), field(l_.face_lit) != 0, {}};
+        if (lacks_class(field(l_.face_class))) return range();
+        Face f{field(l_.face_index), field(l_.face_dz), field(l_.face_class), {}};
         for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
           f.color[ch] = field(l_.face_color[ch]);
         faces.push_back(f);
@@ -254,9 +276,22 @@ class SimpleCore {
         shade_ = field(l_.shade_shade);
         shade_seen_ = true;
         break;
+      case Kind::TABLE: {
+        if (all_lines || begun_) return order();
+        const auto entries = static_cast<std::int64_t>(table_.size());
+        if (field(l_.table_class) != entries / c_.lights + 1 || field(l_.table_light) != entries % c_.lights)
+          return range();
+        std::array<std::int64_t, 3> share{};
+        for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch) {
+          share[ch] = field(l_.table_share[ch]);
+          if (share[ch] > (1 << c_.shade_frac)) return range();
+        }
+        table_.push_back(share);
+        break;
+      }
       case Kind::OP:
         if (all_lines || phase_ > 0) return order();
-        if (bad_range(l_.op_xl, l_.op_xr)) return range();
+        if (bad_range(l_.op_xl, l_.op_xr) || lacks_class(field(l_.op_class))) return range();
         begun_ = true;
         for (std::int64_t x = field(l_.op_xl); x < field(l_.op_xr); ++x) {
           Pixel& p = pixels_[static_cast<std::size_t>(x)];
@@ -264,7 +299,7 @@ class SimpleCore {
           const std::int64_t z = depth(l_.op_z, l_.op_dz, k);
           if (z >= p.z) continue;
           p.z = z;
-          p.lit = field(l_.op_lit) != 0;
+          p.normal_class = field(l_.op_class);
           for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
             p.color[ch] = color(l_.op_color[ch], l_.op_dcolor[ch], k);
         }
@@ -292,7 +327,7 @@ class SimpleCore {
         const Field xl = sp ? l_.sp_xl : l_.nc_xl;
         const Field xr = sp ? l_.sp_xr : l_.nc_xr;
         if (bad_range(xl, xr)) return range();
-        begun_ = open_ = true;
+        begun_ = open_ = sample_ = true;
         phase_ = 1;
         for (std::int64_t x = field(xl); x < field(xr); ++x) {
           Pixel& p = pixels_[static_cast<std::size_t>(x)];
@@ -303,7 +338,7 @@ class SimpleCore {
       }
       case Kind::IF:
         if (all_lines || phase_ > 1) return order();
-        begun_ = open_ = true;
+        begun_ = open_ = sample_ = true;
         phase_ = 1;
         bias_ = (bias_ + static_cast<unsigned>(field(l_.if_w))) % modulus;
         break;
@@ -318,12 +353,30 @@ class SimpleCore {
         }
         bias_ = 0;
         break;
+      case Kind::ES:
+        if (all_lines || phase_ != 1 || !sample_ || (c_.fsf != 0 && open_)) return order();
+        if (bad_range(l_.es_xl, l_.es_xr) || field(l_.es_light) >= c_.lights) return range();
+        sample_ = false;
+        for (std::int64_t x = field(l_.es_xl); x < field(l_.es_xr); ++x) {
+          Pixel& p = pixels_[static_cast<std::size_t>(x)];
+          std::int64_t& count = p.count[static_cast<std::size_t>(field(l_.es_light))];
+          if (c_.fsf != 0 ? p.fsf : (p.dsf + bias_) % modulus != 0) count = std::min(count + 1, largest_count());
+          if (c_.fsf == 0) p.dsf = 0;
+          p.fsf = false;
+        }
+        bias_ = 0;
+        break;
       case Kind::RESOLVE:
         if (all_lines || phase_ != 1 || (c_.fsf != 0 && open_)) return order();
+        if (c_.count_bits != 0 && sample_) return order();
         phase_ = 2;
         for (Pixel& p : pixels_) {
+          if (c_.count_bits != 0) {
+            resolve(p);
+            continue;
+          }
           const bool shadowed = c_.fsf != 0 ? p.fsf : (p.dsf + bias_) % modulus != 0;
-          if (!shadowed || !p.lit || p.z == (std::int64_t{1} << c_.z_bits) - 1) continue;
+          if (!shadowed || p.normal_class == 0 || p.z == (std::int64_t{1} << c_.z_bits) - 1) continue;
           for (std::int64_t& v : p.color)
             v = (v * ((1 << c_.shade_frac) - shade_) + (1 << (c_.shade_frac - 1))) >> c_.shade_frac;
         }
@@ -332,7 +385,7 @@ class SimpleCore {
         if (all_lines || phase_ == 1) return order();
         if (field(l_.eol_y) != line_) return fail(ErrorCode::LINE), false;
         begun_ = true;
-        open_ = false;
+        open_ = sample_ = false;
         phase_ = 0;
         end_line();
         due_ = has_tree_;
@@ -361,11 +414,13 @@ class SimpleCore {
   int phase_ = 0;
   bool begun_ = false;
   bool open_ = false;
+  bool sample_ = false;
   bool shade_seen_ = false;
   bool has_tree_ = false;
   bool due_ = false;  // this line's TREE has not come yet
   std::vector<Unit> units_;
   std::int64_t shade_ = 0;
+  std::vector<std::array<std::int64_t, 3>> table_;
   unsigned bias_ = 0;
 };
 

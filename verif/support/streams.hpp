@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Random frames of tokens: valid ones, as files hold them or as a port takes them, and what can happen to them on the
-// way.
+// Random frames of tokens: valid ones, as files hold them or as a port takes them.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +20,7 @@ struct FrameStyle {
   int most_volumes = 3;      ///< of a line, with FSF
   int most_in_volume = 5;    ///< SP, NC and IF of a volume
   int most_translucent = 5;  ///< TPs of a line
+  int most_samples = 4;      ///< of a line, with COUNT_BITS
   /// Spans as a port takes them: accumulators may wrap, which a file may not have, and many spans meet at the same few
   /// pixels and depths, which is what forwarding is for.
   bool port = false;
@@ -48,8 +48,15 @@ inline void random_ramp(Random& random, int bits, int count, std::int64_t& start
   }
 }
 
+/// A class that a table of so many has, or, without table, lit or not.
+inline int random_class(Random& random, const Config& c, int classes) {
+  if (c.dsf_bits == 0 || random.chance(0.2)) return 0;
+  return c.class_bits == 1 ? 1 : random.in(0, classes);
+}
+
 /// `home` is the pixel round which the spans of a crowded line meet.
-inline SpanToken random_span(Random& random, const Config& c, int width, const FrameStyle& style = {}, int home = 0) {
+inline SpanToken random_span(Random& random, const Config& c, int width, const FrameStyle& style = {}, int home = 0,
+                             int classes = 0) {
   SpanToken s;
   s.xl = random.in(0, width);
   s.xr = random.chance(0.2)   ? width
@@ -60,7 +67,7 @@ inline SpanToken random_span(Random& random, const Config& c, int width, const F
   const int count = s.xr - s.xl;
   const int depth_bits = c.z_bits + c.z_frac + 2;
   random_ramp(random, depth_bits, count, s.z, s.dz);
-  s.lit = c.dsf_bits > 0 && random.chance(0.8);
+  s.normal_class = random_class(random, c, classes);
   for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i) {
     if (c.smooth == 0) {
       s.color[i] = random.in(0, 255);
@@ -109,10 +116,11 @@ class RandomTree {
   /// The widest line that any unit can hold.
   static int widest(const Config& c) { return ((1 << c.dx_bits) - 1) << c.seg_bits; }
 
-  RandomTree(Random& random, const Config& c, int width, int height, bool port)
+  RandomTree(Random& random, const Config& c, int width, int height, bool port, int classes)
       : random_(&random),
         config_(c),
         width_(width),
+        classes_(classes),
         waiting_(static_cast<std::size_t>(c.units)),
         faces_(waiting_.size()) {
     for (std::size_t u = 0; u < waiting_.size(); ++u) {
@@ -157,7 +165,7 @@ class RandomTree {
     t.face = number;
     const int most = (1 << config_.order_bits) - 1;
     t.index = random_->chance(0.6) ? random_->in(0, std::min(most, 2)) : random_->in(0, most);
-    t.lit = config_.dsf_bits > 0 && random_->chance(0.8);
+    t.normal_class = random_class(*random_, config_, classes_);
     // A slope along which no run of this width can leave the accumulator; at a port, any.
     const std::int64_t steepest = ((std::int64_t{1} << (depth_bits() - 2)) - 1) / width_;
     t.dz = random_->chance(0.3) ? 0 : random_->integer(-steepest, steepest);
@@ -217,9 +225,73 @@ class RandomTree {
   Random* random_;
   Config config_;
   int width_;
+  int classes_;
   std::vector<std::deque<std::pair<int, SegmentToken>>> waiting_;  // with the line it belongs to
   std::vector<std::vector<SegmentToken>> faces_;
 };
+
+/// A table of so many classes, and often some of another's entries: returns how many entries it has.
+inline std::uint64_t random_table(Random& random, const Config& c, TokenWriter& w, int classes) {
+  const int most = 1 << c.shade_frac;
+  // Shares that black out at once, and such that take many samples.
+  const int usual = random.chance(0.5) ? most : std::max(1, most >> c.count_bits);
+  std::uint64_t entries = 0;
+  const int begun = classes < (1 << c.class_bits) - 1 ? random.in(0, c.lights - 1) : 0;  // of a class never whole
+  for (int k = 1; k <= classes + 1; ++k)
+    for (int light = 0; light < (k <= classes ? c.lights : begun); ++light) {
+      TableToken t{k, light, {}};
+      for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i)
+        t.share[i] = static_cast<std::uint32_t>(random.chance(0.1) ? most : random.in(0, usual));
+      w.table(t);
+      ++entries;
+    }
+  return entries;
+}
+
+/// The volumes of a sample of a light, or of the only one there is; false if there are none.
+inline bool random_sample(Random& random, const Config& c, int width, TokenWriter& w,
+                          std::array<std::uint64_t, 16>& count, const FrameStyle& style, int home) {
+  const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
+  const int volumes = c.fsf != 0 ? random.in(0, style.most_volumes) : random.in(0, 1);
+  for (int v = 0; v < volumes; ++v) {
+    for (int i = random.in(1, style.most_in_volume); i > 0; --i) {
+      SpanToken s = random_span(random, c, width, style, home);
+      s.w = random_weight(random, c);
+      switch (random.in(0, 9)) {
+        case 0:
+          w.inside(s.w);
+          add(Kind::IF);
+          break;
+        case 1:
+        case 2:
+          w.nc(s.xl, s.xr, s.w);
+          add(Kind::NC);
+          break;
+        default:
+          w.sp(s);
+          add(Kind::SP);
+      }
+    }
+    if (c.fsf != 0) {
+      const SpanToken s = random_span(random, c, width, style, home);
+      if (random.chance(0.6))
+        w.ev(0, width);
+      else
+        w.ev(s.xl, s.xr);
+      add(Kind::EV);
+    }
+  }
+  if (volumes > 0 && c.count_bits != 0) {
+    const SpanToken s = random_span(random, c, width, style, home);
+    const int light = random.in(0, c.lights - 1);
+    if (random.chance(0.7))
+      w.es(0, width, light);
+    else
+      w.es(s.xl, s.xr, light);
+    add(Kind::ES);
+  }
+  return volumes > 0;
+}
 
 /// Append a valid frame; returns how many tokens of each kind it has.
 inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height,
@@ -231,12 +303,16 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
   TokenWriter w(c, words);
   w.header({width, height, static_cast<std::uint32_t>(random.in(0, 0xFFFFFF)), number});
   const bool has_tree = c.units > 0 && width <= RandomTree::widest(c) && random.chance(style.trees);
-  RandomTree tree(random, c, width, has_tree ? height : 0, style.port);
+  // The table comes before all faces that need it; it may be empty, or end within a class.
+  const int most_classes = c.class_bits == 1 ? 0 : (1 << c.class_bits) - 1;
+  const int classes = random.chance(0.02) ? most_classes : random.in(0, std::min(most_classes, 9));
+  RandomTree tree(random, c, width, has_tree ? height : 0, style.port, classes);
+  if (most_classes > 0) count[static_cast<std::size_t>(Kind::TABLE)] += random_table(random, c, w, classes);
   // Faces may come without a tree, before SHADE or after it.
   const bool has_faces = has_tree || (c.units > 0 && random.chance(0.2));
   const bool faces_first = random.chance(0.5);
   if (has_faces && faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)]);
-  if (c.dsf_bits > 0 && random.chance(0.8)) {
+  if (c.dsf_bits > 0 && most_classes == 0 && random.chance(0.8)) {
     w.shade(static_cast<std::uint32_t>(random.in(0, 1 << c.shade_frac)));
     add(Kind::SHADE);
   }
@@ -249,39 +325,14 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
     }
     const int home = style.port ? random.in(0, width - 1) : 0;
     for (int i = random.in(0, style.most_opaque); i > 0; --i) {
-      w.op(random_span(random, c, width, style, home));
+      w.op(random_span(random, c, width, style, home, classes));
       add(Kind::OP);
     }
-    const int volumes = c.dsf_bits == 0 ? 0 : c.fsf != 0 ? random.in(0, style.most_volumes) : random.in(0, 1);
-    for (int v = 0; v < volumes; ++v) {
-      for (int i = random.in(1, style.most_in_volume); i > 0; --i) {
-        SpanToken s = random_span(random, c, width, style, home);
-        s.w = random_weight(random, c);
-        switch (random.in(0, 9)) {
-          case 0:
-            w.inside(s.w);
-            add(Kind::IF);
-            break;
-          case 1:
-          case 2:
-            w.nc(s.xl, s.xr, s.w);
-            add(Kind::NC);
-            break;
-          default:
-            w.sp(s);
-            add(Kind::SP);
-        }
-      }
-      if (c.fsf != 0) {
-        const SpanToken s = random_span(random, c, width, style, home);
-        if (random.chance(0.6))
-          w.ev(0, width);
-        else
-          w.ev(s.xl, s.xr);
-        add(Kind::EV);
-      }
-    }
-    if (volumes > 0) {
+    const int samples = c.dsf_bits == 0 ? 0 : c.count_bits == 0 ? 1 : random.in(0, style.most_samples);
+    bool any_volume = false;
+    for (int sample = 0; sample < samples; ++sample)
+      any_volume |= random_sample(random, c, width, w, count, style, home);
+    if (any_volume) {
       w.resolve();
       add(Kind::RESOLVE);
     }
@@ -295,148 +346,6 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
   w.end();
   add(Kind::END);
   return count;
-}
-
-/// Damage a frame, once to three times: cut it, lengthen it, drop or double a word, flip a bit anywhere, in a kind or
-/// in the header, put noise in a word's place, make it a little wider, narrower, higher or lower. It may even survive
-/// that.
-inline void damage(Random& random, std::vector<std::uint32_t>& words) {
-  const auto noise = [&random] { return static_cast<std::uint32_t>(random.integer(0, UINT32_MAX)); };
-  for (int i = random.in(1, 3); i > 0 && !words.empty(); --i) {
-    const auto at = static_cast<std::ptrdiff_t>(random.integer(0, static_cast<std::int64_t>(words.size()) - 1));
-    std::uint32_t& word = words[static_cast<std::size_t>(at)];
-    switch (random.in(0, 9)) {
-      case 0:
-        words.resize(static_cast<std::size_t>(at));
-        break;
-      case 1:
-        for (int n = random.chance(0.2) ? random.in(10, 40) : random.in(1, 9); n > 0; --n) words.push_back(noise());
-        break;
-      case 2:
-        words.erase(words.begin() + at);
-        break;
-      case 3:
-        words.insert(words.begin() + at, word);
-        break;
-      case 4:
-        word ^= 1U << random.in(0, 3);
-        break;
-      case 5:
-        words[std::min<std::size_t>(words.size() - 1, static_cast<std::size_t>(random.in(0, 2)))] ^=
-            1U << random.in(0, 31);
-        break;
-      case 6:
-        word = noise();
-        break;
-      case 7:
-        if (words.size() > 1)
-          words[1] = static_cast<std::uint32_t>(random.in(0, 6)) << 16 |
-                     static_cast<std::uint32_t>(random.in(0, static_cast<int>(words[1] & 0xFFFFU) + 1));
-        break;
-      default:
-        word ^= 1U << random.in(0, 31);
-    }
-  }
-}
-
-/// Damage that a frame with a tree is made for: one to three faces, segments or TREEs that are not what they should be.
-/// The words must be a valid frame; one without units or tree stays as it is.
-inline void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& words) {
-  const Layout layout(c);
-  using At = std::vector<std::uint32_t>::difference_type;
-  const auto put = [&words](At at, Field f, std::uint64_t value) {
-    for (unsigned i = 0; i < f.bits; ++i) {
-      std::uint32_t& word = words[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
-      const unsigned bit = (f.lsb + i) % 32;
-      word = (word & ~(1U << bit)) | static_cast<std::uint32_t>(value >> i & 1U) << bit;
-    }
-  };
-  const auto get = [&words](At at, Field f) {
-    std::uint64_t value = 0;
-    for (unsigned i = 0; i < f.bits; ++i) {
-      const std::uint32_t word = words[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
-      value |= std::uint64_t{word >> ((f.lsb + i) % 32) & 1U} << i;
-    }
-    return value;
-  };
-  for (int round = random.chance(0.7) ? 1 : random.in(2, 3); round > 0; --round) {
-    std::array<std::vector<At>, 16> places;
-    std::vector<At> all;
-    for (std::size_t at = 5; at < words.size();) {
-      const std::size_t kind = words[at] & 15U;
-      if (layout.words[kind] == 0) return;
-      places[kind].push_back(static_cast<At>(at));
-      all.push_back(static_cast<At>(at));
-      at += static_cast<std::size_t>(layout.words[kind]);
-    }
-    const auto any = [&random](const std::vector<At>& of) {
-      return of[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(of.size()) - 1))];
-    };
-    const auto& segs = places[static_cast<std::size_t>(Kind::SEG)];
-    const auto& trees = places[static_cast<std::size_t>(Kind::TREE)];
-    const auto& faces = places[static_cast<std::size_t>(Kind::FACE)];
-    if (segs.empty() || trees.empty()) return;
-    const At length = layout.words[static_cast<std::size_t>(Kind::SEG)];
-    const At seg = any(segs);
-    const auto copy = [&words](At from, At n, At to) {
-      const std::vector<std::uint32_t> token(words.begin() + from, words.begin() + from + n);
-      words.insert(words.begin() + to, token.begin(), token.end());
-    };
-    switch (random.in(0, 13)) {
-      case 0:
-        put(seg, layout.seg_dx, 0);
-        break;
-      case 1:
-        put(seg, layout.seg_sync, get(seg, layout.seg_sync) ^ 1U);
-        break;
-      case 2:
-        put(seg, layout.seg_face, static_cast<std::uint64_t>(random.in(0, (1 << c.face_bits) - 1)));
-        break;
-      case 3:  // too few pixels
-        words.erase(words.begin() + seg, words.begin() + seg + length);
-        break;
-      case 4:  // too many
-        copy(seg, length, seg);
-        break;
-      case 5:
-        put(seg, layout.seg_dx, get(seg, layout.seg_dx) + static_cast<std::uint64_t>(random.in(-2, 2)));
-        break;
-      case 6: {  // too many segments: as many as it has pixels
-        const std::uint64_t dx = get(seg, layout.seg_dx);
-        put(seg, layout.seg_dx, 1);
-        for (std::uint64_t i = 1; i < dx; ++i) copy(seg, length, seg + length);
-        for (std::uint64_t i = 1; i < dx; ++i) put(seg + static_cast<At>(i) * length, layout.seg_sync, 0);
-        break;
-      }
-      case 7:
-        put(seg, layout.seg_unit, static_cast<std::uint64_t>(random.in(0, (1 << layout.seg_unit.bits) - 1)));
-        break;
-      case 8:  // out of phase, or past the last line
-        copy(seg, length, any(all));
-        break;
-      case 9: {                                   // whole lines of a unit too early, or too many of them
-        if (trees.front() < segs.front()) break;  // by an earlier round's damage
-        const std::vector<std::uint32_t> line(words.begin() + segs.front(), words.begin() + trees.front());
-        words.insert(words.begin() + any(random.chance(0.5) ? trees : segs), line.begin(), line.end());
-        break;
-      }
-      case 10:
-        words.erase(words.begin() + any(trees));
-        break;
-      case 11:
-        copy(any(trees), 1, any(random.chance(0.5) ? trees : all));
-        break;
-      case 12:
-        if (faces.empty()) break;
-        copy(any(faces), layout.words[static_cast<std::size_t>(Kind::FACE)], any(random.chance(0.7) ? faces : all));
-        break;
-      default: {
-        if (faces.empty()) break;
-        const At face = any(faces);
-        words.erase(words.begin() + face, words.begin() + face + layout.words[static_cast<std::size_t>(Kind::FACE)]);
-      }
-    }
-  }
 }
 
 }  // namespace kage::verif

@@ -7,7 +7,7 @@
 #   without arguments the table below; --quick: base, no-shadow, one-channel and small-z only; NAME ...: one configuration;
 #   --tree: the parts of the compare tree alone, cells per compare cell, and the whole core with 1, 2, 4 and 8 units against none
 # Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take, or if it
-# is not smaller (smooth, glass: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
+# is not smaller (smooth, glass, counter, table2: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
 set -euo pipefail
 case ${1:-} in
   --quick | --tree | [!-]* | '') ;;
@@ -104,6 +104,9 @@ rows=(
   "small-z $base Z_BITS=12"
   "smooth $base SMOOTH=1 COLOR_FRAC=7"
   "glass $base TRANSLUCENCY=1"
+  "counter $base COUNT_BITS=4"
+  "table2 $base COUNT_BITS=4 LIGHTS=2 CLASS_BITS=5"
+  "glass-table2 $base TRANSLUCENCY=1 COUNT_BITS=4 LIGHTS=2 CLASS_BITS=5"
   "one-lane $base LANES=1"
   "one-word-beats $base BEAT_WORDS=1"
   "systolic16 $base MAX_WIDTH=16 ARRANGEMENT=0"
@@ -115,7 +118,7 @@ echo "| --- | --- | --- | --- | --- | --- |"
 printf '%s\n' "${rows[@]}" | xargs -P 2 -I{} bash -c 'set -euo pipefail; set -- {}; cells "$@" >"$work/$1.row"'
 for row in "${rows[@]}"; do cat "$work/${row%% *}.row"; done
 
-# ---- block RAMs: exactly those of the line's state (banked) and of the way out's two lines ------------------------------------------
+# ---- block RAMs: exactly those of the line's state (banked), the way out's two lines, the light table ------------------------------------------
 # A block holds 256 words of 16 bits, 512 of 8, 1024 of 4 or 2048 of 2.
 expected_rams() { # PARAM=VALUE...
   python3 - "$@" <<'PY'
@@ -126,18 +129,22 @@ p.update((a.split("=")[0], int(a.split("=")[1])) for a in sys.argv[1:])
 lanes = p["LANES"] if p["ARRANGEMENT"] == 1 else 1
 groups = -(-p["MAX_WIDTH"] // lanes)
 shadows = p["DSF_BITS"] > 0
-state = p["Z_BITS"] + 8 * p["CHANNELS"] + shadows + p["DSF_BITS"] + p["FSF"]
-leaving = 8 * p["CHANNELS"] + 1 + shadows
+classes = p["CLASS_BITS"] if shadows else 0
+counts = p["LIGHTS"] * p["COUNT_BITS"]
+table = p["CLASS_BITS"] > 1
+state = p["Z_BITS"] + 8 * p["CHANNELS"] + classes + p["DSF_BITS"] + p["FSF"] + counts
+leaving = 8 * p["CHANNELS"] + 1 + (counts + table * classes if counts else shadows)
 def blocks(words, bits):
     if words * bits <= 16 * 16:  # so little goes into flip-flops
         return 0
     width = next(w for w, depth in ((16, 256), (8, 512), (4, 1024), (2, 2048)) if words <= depth)
     return -(-bits // width)
-print((blocks(groups, lanes * state) if p["ARRANGEMENT"] == 1 else 0) + blocks(2 * groups, lanes * leaving))
+shares = p["LIGHTS"] * blocks(2 ** p["CLASS_BITS"], p["CHANNELS"] * (p["SHADE_FRAC"] + 1)) if table else 0
+print(shares + (blocks(groups, lanes * state) if p["ARRANGEMENT"] == 1 else 0) + blocks(2 * groups, lanes * leaving))
 PY
 }
 
-# ---- what a feature's state implies: the least number of LUTs and flip-flops that go (smooth, glass: come) with it ---------------------------
+# ---- what a feature's state implies: the least number of LUTs and flip-flops that go (smooth, glass, counters: come) with it ---------------------------
 # Counted are only what no optimizer can share or drop, in the base's numbers: L = 2 lanes, 24 bits of depth, 3 x 8 of colour,
 # S = 9 bits of shade, `Last` = 3 stages behind the walker.
 #   A bit of a pixel's state, per lane: flip-flops word_q, done_q, done2_q (3); LUTs of word_q's three sources (2), of word (1), of
@@ -173,6 +180,18 @@ implied() { # NAME: "LUTs flip-flops"
     # A blender's product a channel and lane; the share in cmd, three set-up stages, walker and stages; that a line is painted in
     # frame_control, the queue's four words, and four times in line_out.
     glass) echo $((3 * l * product_lut)) $((s * (5 + last) + 1 + 4 + 4)) ;;
+    # Four bits of state, three more that leave than dark; two stages of colour and flags; product, factor; two flags of frame_control and
+    # the top. Less plain_q, dark_q and the choice between them: every pixel has a factor. LUTs: the product, and 1 - it.
+    counter) echo $((4 * state_lut + 3 * s + s - 24)) $((4 * state_ff + 3 * (2 * l + 1) + 2 * (25 + 4) + (4 + s) + s + 2 - 25)) ;;
+    # Twelve bits of state and of what leaves; 4 of a command's count in cmd, three set-up stages, walker, stages; five stages of colour and flags;
+    # counts twice, entries, products, sums, factors; table_check. Less shade in frame_control, line_out and the queue.
+    table2)
+      echo $((12 * state_lut + 6 * 3 * s + 3 * (s + 4) - 24 - 2 * s)) \
+        $((12 * state_ff + 12 * (2 * l + 1) + 4 * (5 + last) + 5 * (25 + 4) + 2 * 8 + 6 * s + 6 * (4 + s) + 3 * (5 + s) + 3 * s + 8 + 2 - 25 - 6 * s)) ;;
+    # table2, a blender without shade's products, and the place of a load.
+    glass-table2)
+      echo $((12 * state_lut + 6 * 3 * s + 3 * (s + 4) - 24 - 2 * s + 3 * l * 7 * 8)) \
+        $((12 * state_ff + 12 * (2 * l + 1) + 4 * (5 + last) + 5 * (25 + 6) + 2 * 8 + 6 * s + 6 * (4 + s) + 3 * (5 + s) + 3 * s + 8 + 2 - 25 - 6 * s + 8 * (5 + last) + 7)) ;;
     # A lane's 51 bits of state with its comparison, its 26 bits of exit_data_o and group_q, the choice among lanes, two leaves, and
     # a stage of flat colour.
     one-lane) echo $((51 * 4 + 24 + 26 + 24)) $((51 * 3 + 2 * 26 + 2 * (33 - 7) + 2 * 24 + 24)) ;;
@@ -194,7 +213,7 @@ for row in "${rows[@]}"; do
     [ "$(ffs "$name")" -ge $least ] || { echo "cells.sh: $name: $(ffs "$name") flip-flops, its processors hold $least" >&2; bad=1; }
     continue
   fi
-  case $name in smooth | glass) lut=$((-lut)) ff=$((-ff)) ;; esac
+  case $name in smooth | glass | counter | *table2) lut=$((-lut)) ff=$((-ff)) ;; esac
   read -r least_lut least_ff < <(implied "$name")
   echo "cells.sh: $name: $lut LUTs, at least $least_lut; $ff flip-flops, at least $least_ff" >&2
   [ "$least_lut" = 0 ] || [ "$lut" -ge "$least_lut" ] || bad=1

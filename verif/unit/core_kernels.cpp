@@ -8,6 +8,7 @@
 #include "catch.hpp"
 #include "kage/core.hpp"
 #include "support/configs.hpp"
+#include "support/damage.hpp"
 #include "support/random.hpp"
 #include "support/simple_core.hpp"
 #include "support/streams.hpp"
@@ -20,6 +21,7 @@ TEST_CASE(
   CAPTURE(test_seed());
   std::size_t targets = 0;
   std::array<int, 16> errors{};
+  std::array<std::uint64_t, 16> tokens{};
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     ++targets;
     hwy::SetSupportedTargetsForTest(target);
@@ -27,8 +29,11 @@ TEST_CASE(
     for (int round = 0; round < 800; ++round) {
       const Config c = random_config(random, 200);
       std::vector<std::uint32_t> words;
-      random_frame(random, c, random.in(1, 150), random.in(1, 5), words, static_cast<std::uint32_t>(round));
+      const auto count =
+          random_frame(random, c, random.in(1, 150), random.in(1, 5), words, static_cast<std::uint32_t>(round));
+      for (std::size_t k = 0; k < tokens.size(); ++k) tokens[k] += count[k];
       if (round % 4 == 1) damage_tree(random, c, words);
+      if (round % 8 == 2) damage_light(random, c, words);
       if (round % 4 == 3 || (round % 4 == 1 && c.units == 0)) damage(random, words);
       CAPTURE(target, round, to_yaml(c));
       std::vector<std::uint8_t> fast;
@@ -50,7 +55,11 @@ TEST_CASE(
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   CHECK(targets >= 1);
-  // The damage reached every error there is.
+  // Every kind of token there is took part, and the damage reached every error.
+  for (std::size_t k = 1; k < kKindNames.size(); ++k) {
+    CAPTURE(kKindNames[k]);
+    CHECK(tokens[k] > 0);
+  }
   for (std::size_t e = 0; e < kErrorNames.size(); ++e) {
     CAPTURE(kErrorNames[e]);
     CHECK(errors[e] > 0);

@@ -30,7 +30,7 @@ SpanToken span(int xl, int xr, std::int64_t z, int grey) {
   s.xl = xl;
   s.xr = xr;
   s.z = z << config().z_frac;
-  s.lit = true;
+  s.normal_class = 1;
   s.color = {grey, grey, grey};
   return s;
 }

@@ -192,27 +192,68 @@ TEST_CASE("an orthographic camera") {
   CHECK(c.forward == glm::dvec3{0, 0, -1});
 }
 
-TEST_CASE("lights: directional, point, spot read as point, the first of several") {
+TEST_CASE("lights: all of them, with cone, fall-off and shape, and one factor for their intensities") {
   const auto with = [](const std::string& lights, const std::string& nodes) {
     return load(triangle_gltf(
         R"("extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [)" + lights +
         R"(]}}, "nodes": [{"mesh": 0}, )" + nodes + R"(], "scenes": [{"nodes": [0, 1]}])"));
   };
+  const auto refusal = [](const std::string& light, const std::string& node) {
+    return refused(triangle_gltf(
+        R"("extensionsUsed": ["KHR_lights_punctual"], "extensions": {"KHR_lights_punctual": {"lights": [)" + light +
+        R"(]}}, "nodes": [{"mesh": 0}, )" + node + R"(], "scenes": [{"nodes": [0, 1]}])"));
+  };
   const std::string node = R"({"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [1, 2, 3],
       "rotation": [-0.70710678118654752, 0, 0, 0.70710678118654752]})";
-  const Scene sun = with(R"({"type": "directional", "color": [0.25, 0.5, 0]})", node);
+  const std::string two =
+      node.substr(0, node.size() - 1) + R"(, "children": [2]}, {"extensions": {"KHR_lights_punctual": {"light": 1}}})";
+
+  const Scene sun = with(R"({"type": "directional", "color": [0.25, 0.5, 0], "intensity": 7})", node);
+  REQUIRE(sun.frame(0, 1).lights.size() == 1);
   const Light l = sun.frame(0, 1).lights[0];
   CHECK(l.directional);
+  CHECK_FALSE(l.falls_off);
   CHECK(distance(l.direction, {0, -1, 0}) < 1e-15);
   CHECK(l.color == glm::dvec3{0.5, 1, 0});
   CHECK_FALSE(test::has_note(sun, "light"));
-  const Scene spot = with(
-      R"({"type": "spot", "name": "lamp"}, {"type": "point"})",
-      node.substr(0, node.size() - 1) + R"(, "children": [2]}, {"extensions": {"KHR_lights_punctual": {"light": 1}}})");
-  CHECK_FALSE(spot.frame(0, 1).lights[0].directional);
-  CHECK(spot.frame(0, 1).lights[0].position == glm::dvec3{1, 2, 3});
-  CHECK(test::has_note(spot, "the light 'lamp' is a spot, read as a point light"));
-  CHECK(test::has_note(spot, "1 light is ignored"));
+
+  const Scene both = with(
+      R"({"type": "spot", "intensity": 3, "range": 20, "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}},
+         {"type": "point", "intensity": 1, "extras": {"kage": {"shape": "disc", "radius": 0.5}}})",
+      two);
+  const SceneFrame f = both.frame(0, 1);
+  REQUIRE(f.lights.size() == 2);
+  CHECK(f.lights[0].spot);
+  CHECK(f.lights[0].falls_off);
+  CHECK(f.lights[0].range == 20);
+  CHECK(f.lights[0].inner_cosine == Approx(std::cos(0.25)).epsilon(1e-14));
+  CHECK(f.lights[0].outer_cosine == Approx(std::cos(0.5)).epsilon(1e-14));
+  CHECK(f.lights[0].position == glm::dvec3{1, 2, 3});
+  CHECK(distance(f.lights[0].direction, {0, -1, 0}) < 1e-15);
+  CHECK(f.lights[0].color.x == Approx(3 * f.lights[1].color.x).epsilon(1e-14));
+  CHECK(f.lights[1].shape == LightShape::disc);
+  CHECK(distance(f.lights[1].axis_u, {0.5, 0, 0}) < 1e-15);
+  CHECK(distance(f.lights[1].axis_v, {0, 0, -0.5}) < 1e-15);  // in the plane of the node's x and y
+
+  const Scene black = with(R"({"type": "point", "intensity": 0})", node);
+  CHECK(black.frame(0, 1).lights.size() == 1);
+  CHECK(test::has_note(black, "1 light is black, and ignored"));
+  CHECK(test::has_note(black, "no light"));
+
+  using Catch::Matchers::ContainsSubstring;
+  CHECK_THAT(refusal(R"({"type": "point", "intensity": -1})", node),
+             ContainsSubstring("light 0: colour times intensity"));
+  CHECK_THAT(refusal(R"({"type": "point", "range": 0})", node), ContainsSubstring("'range' is not above 0"));
+  CHECK_THAT(refusal(R"({"type": "spot", "spot": {"innerConeAngle": 1, "outerConeAngle": 0.5}})", node),
+             ContainsSubstring("cone"));
+  CHECK_THAT(refusal(R"({"type": "spot", "spot": {"outerConeAngle": 1.6}})", node), ContainsSubstring("cone"));
+  CHECK_THAT(refusal(R"({"type": "point", "extras": {"kage": {"shape": "blob"}}})", node),
+             ContainsSubstring("none of disc, rectangle and sphere"));
+  CHECK_THAT(refusal(R"({"type": "point", "extras": {"kage": {"shape": "sphere"}}})", node),
+             ContainsSubstring("'radius' of a sphere"));
+  CHECK_THAT(refusal(R"({"type": "beam"})", node), ContainsSubstring("type 'beam' is unknown"));
+  // What others keep in extras is nothing to kage.
+  CHECK(with(R"({"type": "point", "extras": "anything"})", node).frame(0, 1).lights.size() == 1);
 }
 
 TEST_CASE("the scene that the file names; all roots where it has none") {

@@ -106,7 +106,7 @@ TEST_CASE("a packed scene survives, and damage to it is noticed") {
   CHECK(t.meshes[1].primitives[0].positions[2] == 3);
   CHECK(t.nodes[2].name == "node");
   CHECK(t.camera->half_height == 0.125);
-  CHECK_FALSE(t.light.has_value());
+  CHECK(t.lights.empty());
   CHECK(t.notes == s.notes);
   for (std::size_t cut = 0; cut < bytes.size(); ++cut)
     CHECK_THROWS_AS(scene::unpacked(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(cut))), Error);
@@ -120,7 +120,7 @@ TEST_CASE("files that are none") {
   const std::string missing = (dir.path() / "missing.obj").string();
   const std::string none =
       ": no such file, and no built-in scene of that name (there are courtyard, knot, inside, edges, polyhedra, "
-      "fifteen, glass)";
+      "fifteen, glass, penumbra, three-lights, canopy, cutaway)";
   CHECK(refusal(missing) == missing + none);
   CHECK(refusal("courtyrad") == "courtyrad" + none);
   CHECK(refusal(dir.path().string()) == dir.path().string() + ": is a directory");

@@ -10,6 +10,7 @@
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "support/configs.hpp"
+#include "support/damage.hpp"
 #include "support/random.hpp"
 #include "support/simple_core.hpp"
 #include "support/streams.hpp"

@@ -40,15 +40,15 @@ TEST_CASE("every field of every token survives its way through the words, at its
     s.xr = std::max(s.xl, static_cast<int>(pick(l.op_xr)));
     s.z = pick(l.op_z);
     s.dz = pick(l.op_dz);
-    s.lit = c.dsf_bits > 0 && random.chance(0.5);
+    s.normal_class = c.dsf_bits == 0 ? 0 : static_cast<int>(pick(l.op_class));
     s.w = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i) {
       s.color[i] = static_cast<std::int32_t>(pick(l.op_color[i]));
       if (c.smooth != 0) s.dcolor[i] = static_cast<std::int32_t>(pick(l.op_dcolor[i]));
     }
     const auto same = [](const SpanToken& a, const SpanToken& b) {
-      return a.xl == b.xl && a.xr == b.xr && a.z == b.z && a.dz == b.dz && a.lit == b.lit && a.w == b.w &&
-             a.color == b.color && a.dcolor == b.dcolor;
+      return a.xl == b.xl && a.xr == b.xr && a.z == b.z && a.dz == b.dz && a.normal_class == b.normal_class &&
+             a.w == b.w && a.color == b.color && a.dcolor == b.dcolor;
     };
     std::vector<std::uint32_t> words;
     TokenWriter w(c, words);
@@ -58,7 +58,7 @@ TEST_CASE("every field of every token survives its way through the words, at its
     REQUIRE(same(decode(c, l, words).span, s));
     if (c.dsf_bits == 0) continue;
     s.w = static_cast<int>(pick(l.sp_w));
-    s.lit = false;
+    s.normal_class = 0;
     s.color = s.dcolor = {};
     words.clear();
     w.sp(s);
@@ -67,6 +67,19 @@ TEST_CASE("every field of every token survives its way through the words, at its
     w.nc(s.xl, s.xr, s.w);
     const Token nc = decode(c, l, words);
     REQUIRE((nc.kind == Kind::NC && nc.span.xl == s.xl && nc.span.xr == s.xr && nc.span.w == s.w));
+    words.clear();
+    const int light = static_cast<int>(pick(l.es_light));
+    w.es(s.xl, s.xr, light);
+    const Token es = decode(c, l, words);
+    REQUIRE((es.kind == Kind::ES && es.span.xl == s.xl && es.span.xr == s.xr && es.table.light == light));
+    words.clear();
+    TableToken entry{static_cast<int>(pick(l.table_class)), light, {}};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i)
+      entry.share[i] = static_cast<std::uint32_t>(pick(l.table_share[i]));
+    w.table(entry);
+    const Token table = decode(c, l, words);
+    REQUIRE((table.kind == Kind::TABLE && table.table.normal_class == entry.normal_class));
+    REQUIRE((table.table.light == light && table.table.share == entry.share));
     words.clear();
     w.inside(s.w);
     REQUIRE(decode(c, l, words).span.w == s.w);
@@ -117,6 +130,8 @@ TEST_CASE("a value that its field does not hold is refused, never cut, and nothi
     refused_span(l.op_dz, dz, true);
     refused_span(l.op_xl, xl, true);
     refused_span(l.op_xr, xr, true);
+    refused_span(
+        l.op_class, [](SpanToken& s, std::int64_t v) { s.normal_class = static_cast<int>(v); }, true);
     refused_span(l.sp_z, z, false);
     refused_span(l.sp_dz, dz, false);
     refused_span(l.sp_xl, xl, false);
@@ -135,6 +150,17 @@ TEST_CASE("a value that its field does not hold is refused, never cut, and nothi
     refused(l.if_w, [&](int v) { w.inside(v); });
     refused(l.ev_xl, [&](int v) { w.ev(v, 0); });
     refused(l.ev_xr, [&](int v) { w.ev(0, v); });
+    refused(l.es_xl, [&](int v) { w.es(v, 0, 0); });
+    refused(l.es_xr, [&](int v) { w.es(0, v, 0); });
+    refused(l.es_light, [&](int v) { w.es(0, 0, v); });
+    refused(l.table_class, [&](int v) { w.table({v, 0, {}}); });
+    refused(l.table_light, [&](int v) { w.table({0, v, {}}); });
+    for (std::size_t i = 0; i < 3; ++i)
+      refused(l.table_share[i], [&](int v) {
+        TableToken entry;
+        entry.share[i] = static_cast<std::uint32_t>(v);
+        w.table(entry);
+      });
     refused(l.eol_y, [&](int v) { w.eol(v); });
     refused(l.shade_shade, [&](int v) { w.shade(static_cast<std::uint32_t>(v)); });
     refused(Field{0, 16, false}, [&](int v) { w.header({v, 1, 0, 0}); });
@@ -145,6 +171,128 @@ TEST_CASE("a value that its field does not hold is refused, never cut, and nothi
   SpanToken s;
   s.z = std::int64_t{1} << 36;
   CHECK_THROWS_WITH(w.op(s), "OP: z is 68719476736, which signed 37 bits do not hold");
+}
+
+TEST_CASE("counters need DSF, a table counters, several lights both") {
+  Config c;
+  c.count_bits = 2;
+  c.class_bits = 3;
+  c.lights = 4;
+  CHECK_NOTHROW(validate(c, "c"));
+  c.class_bits = 1;
+  CHECK_THROWS_WITH(validate(c, "c"), "c: LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1");
+  c.class_bits = 2;
+  c.count_bits = 0;
+  CHECK_THROWS_WITH(validate(c, "c"), "c: CLASS_BITS > 1 needs COUNT_BITS > 0");
+  c = Config{};
+  c.count_bits = 1;
+  CHECK_NOTHROW(validate(c, "c"));
+  c.dsf_bits = c.fsf = 0;
+  CHECK_THROWS_WITH(validate(c, "c"), "c: COUNT_BITS > 0 needs DSF_BITS > 0");
+}
+
+TEST_CASE("the table comes in order, and no class is used before it is whole") {
+  Config c;
+  c.count_bits = 2;
+  c.class_bits = 2;
+  c.lights = 2;
+  using W = TokenWriter;
+  const auto said = [&](auto change) {
+    std::vector<std::uint32_t> words;
+    W t(c, words);
+    t.header({8, 1, 0, 0});
+    change(t);
+    return cause(c, words);
+  };
+  using Catch::Matchers::ContainsSubstring;
+  const auto entries = [](W& t, int count) {
+    for (int i = 0; i < count; ++i) t.table({i / 2 + 1, i % 2, {256, 0, 7}});
+  };
+  const auto op = [](W& t, int normal_class) {
+    SpanToken s;
+    s.xr = 8;
+    s.normal_class = normal_class;
+    t.op(s);
+  };
+  const auto rest = [](W& t) {
+    t.eol(0);
+    t.end();
+  };
+  CHECK(said([&](W& t) { entries(t, 3), op(t, 1), op(t, 0), rest(t); }).empty());
+  CHECK(said([&](W& t) { entries(t, 6), op(t, 3), rest(t); }).empty());
+  CHECK(said([&](W& t) { op(t, 0), rest(t); }).empty());
+  CHECK_THAT(said([&](W& t) { entries(t, 3), op(t, 2); }),
+             ContainsSubstring("token 4") && ContainsSubstring("(RANGE)"));
+  CHECK_THAT(said([&](W& t) { op(t, 1); }), ContainsSubstring("(RANGE)"));
+  CHECK_THAT(said([&](W& t) { t.table({1, 1, {}}); }), ContainsSubstring("(RANGE)"));
+  CHECK_THAT(said([&](W& t) { t.table({0, 0, {}}); }), ContainsSubstring("(RANGE)"));
+  CHECK_THAT(said([&](W& t) { entries(t, 2), t.table({1, 0, {}}); }), ContainsSubstring("(RANGE)"));
+  CHECK_THAT(said([&](W& t) { entries(t, 1), t.table({1, 1, {0, 257, 0}}); }), ContainsSubstring("(RANGE)"));
+  CHECK_THAT(said([&](W& t) { entries(t, 2), op(t, 1), t.table({2, 0, {}}); }), ContainsSubstring("(ORDER)"));
+  CHECK_THAT(said([&](W& t) { t.shade(1); }), ContainsSubstring("(KIND)"));
+  // Past the last class there is no number to say.
+  CHECK_THAT(said([&](W& t) { entries(t, 6), t.table({3, 0, {}}); }), ContainsSubstring("(RANGE)"));
+}
+
+TEST_CASE("tokens of light say what they are") {
+  Config c;
+  c.count_bits = 2;
+  c.class_bits = 4;
+  c.lights = 3;
+  const Layout l(c);
+  const auto text = [&](auto write) {
+    std::vector<std::uint32_t> words;
+    TokenWriter w(c, words);
+    write(w);
+    return to_string(c, decode(c, l, words));
+  };
+  CHECK(text([](TokenWriter& w) { w.table({9, 2, {0, 256, 7}}); }) == "TABLE class 9 light 2 share 0,256,7/256");
+  CHECK(text([](TokenWriter& w) { w.es(3, 40, 1); }) == "ES [3, 40) light 1");
+  SpanToken s;
+  s.xr = 2;
+  s.normal_class = 15;
+  CHECK(text([&](TokenWriter& w) { w.op(s); }) == "OP [0, 2) z 0 dz 0 color 0,0,0 class 15");
+  c = Config{};
+  s.normal_class = 1;
+  std::vector<std::uint32_t> words;
+  TokenWriter(c, words).op(s);
+  CHECK(to_string(c, decode(c, Layout(c), words)) == "OP [0, 2) z 0 dz 0 color 0,0,0 lit");
+}
+
+TEST_CASE("a sample is ended once, and RESOLVE waits for that") {
+  Config c;
+  c.count_bits = 2;
+  using W = TokenWriter;
+  const auto said = [&](auto change) {
+    std::vector<std::uint32_t> words;
+    W t(c, words);
+    t.header({8, 1, 0, 0});
+    change(t);
+    t.eol(0);
+    t.end();
+    return cause(c, words);
+  };
+  using Catch::Matchers::ContainsSubstring;
+  for (const int fsf : {0, 1}) {
+    c.fsf = fsf;
+    const auto volume = [&](W& t) {
+      t.inside(1);
+      if (fsf != 0) t.ev(0, 8);
+    };
+    CHECK(said([&](W& t) { volume(t), t.es(0, 8, 0), volume(t), t.es(1, 1, 0), t.resolve(); }).empty());
+    CHECK_THAT(said([&](W& t) { t.es(0, 8, 0); }), ContainsSubstring("token 1,") && ContainsSubstring("(ORDER)"));
+    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 0), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
+    CHECK_THAT(said([&](W& t) { volume(t), t.resolve(); }), ContainsSubstring("(ORDER)"));
+    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
+    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 9, 0); }), ContainsSubstring("(RANGE)"));
+    CHECK_THAT(said([&](W& t) { volume(t), t.es(3, 2, 0); }), ContainsSubstring("(RANGE)"));
+    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 1); }), ContainsSubstring("(RANGE)"));
+    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 0), t.resolve(), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
+  }
+  c.fsf = 1;
+  CHECK_THAT(said([&](W& t) { t.inside(1), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
+  c.count_bits = 0;
+  CHECK_THAT(said([&](W& t) { t.inside(1), t.ev(0, 8), t.es(0, 8, 0); }), ContainsSubstring("(KIND)"));
 }
 
 TEST_CASE("the paper's segments need the paper's widths") {
@@ -186,9 +334,10 @@ TEST_CASE("faults are named with frame, line, token and byte") {
   w.op(s);
   w.eol(1);
   w.end();
-  CHECK(cause(c, words) ==
-        "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, "
-        "or a face out of turn (RANGE)");
+  CHECK(
+      cause(c, words) ==
+      "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, shade or share > 2^SHADE_FRAC, a unit or light that "
+      "the core lacks, a face or table entry out of turn, or a class that the table lacks (RANGE)");
 
   const auto with = [&](auto change) {
     std::vector<std::uint32_t> v;

@@ -36,10 +36,12 @@ struct Needs {
   int width = 1;
   int height = 1;
   bool shadows = false;
-  bool several_volumes = false;  ///< more than one volume on some line
+  bool several_volumes = false;  ///< by parity more than one volume; with DSF_BITS > 1 one may do
   bool smooth = false;           ///< colour varies within a polygon
   bool color = false;            ///< some colour is not grey
   bool translucency = false;     ///< something is translucent
+  int lights = 1;                ///< that cast shadows
+  int samples = 1;               ///< of a light, at most
 };
 
 /// What `config` lacks of `needs`: one word or phrase each ("SMOOTH", "MAX_WIDTH >= 1280"), empty if nothing.

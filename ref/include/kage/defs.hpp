@@ -23,7 +23,10 @@ struct Config {
   int color_frac = 0;  ///< fraction bits of a span's colour; 0 without SMOOTH
   int dsf_bits = 1;  ///< bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows
   int fsf = 1;  ///< 1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE
-  int shade_frac = 8;  ///< fraction bits of SHADE, the darkening of a shadowed pixel
+  int shade_frac = 8;  ///< fraction bits of SHADE and of the table's shares, the darkening of a shadowed pixel
+  int count_bits = 0;  ///< bits of a pixel's counters of shadowed samples, one counter a light (needs DSF_BITS > 0); 0: one sample, no counter
+  int lights = 1;  ///< lights that counters and table tell apart; more than 1 needs COUNT_BITS > 0 and CLASS_BITS > 1
+  int class_bits = 1;  ///< bits of a span's class; 1: lit or not, and no table; more: the light's share is looked up in a table by class (needs COUNT_BITS > 0)
   int translucency = 0;  ///< 1: translucent spans are blended over what is drawn; 0: a core without blender
   int units = 0;  ///< expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree
   int face_bits = 7;  ///< bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank
@@ -51,7 +54,7 @@ struct ParamInfo {
   std::string_view doc;
 };
 
-inline constexpr std::array<ParamInfo, 20> kParams{{
+inline constexpr std::array<ParamInfo, 23> kParams{{
     {"X_BITS", &Config::x_bits, 11, 4, 15, true, 0x0, "bits of a pixel position; a line holds at most 2^X_BITS - 1 pixels"},
     {"Z_BITS", &Config::z_bits, 24, 4, 28, true, 0x0, "bits of stored depth; all ones is clear, drawn depth lies in 1 .. 2^Z_BITS - 2"},
     {"Z_FRAC", &Config::z_frac, 11, 0, 16, true, 0x0, "fraction bits of a span's depth; at least ceil(log2 width) keeps the error near half an LSB"},
@@ -60,7 +63,10 @@ inline constexpr std::array<ParamInfo, 20> kParams{{
     {"COLOR_FRAC", &Config::color_frac, 0, 0, 16, true, 0x0, "fraction bits of a span's colour; 0 without SMOOTH"},
     {"DSF_BITS", &Config::dsf_bits, 1, 0, 8, true, 0x0, "bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows"},
     {"FSF", &Config::fsf, 1, 0, 1, true, 0x0, "1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE"},
-    {"SHADE_FRAC", &Config::shade_frac, 8, 1, 16, true, 0x0, "fraction bits of SHADE, the darkening of a shadowed pixel"},
+    {"SHADE_FRAC", &Config::shade_frac, 8, 1, 16, true, 0x0, "fraction bits of SHADE and of the table's shares, the darkening of a shadowed pixel"},
+    {"COUNT_BITS", &Config::count_bits, 0, 0, 8, true, 0x0, "bits of a pixel's counters of shadowed samples, one counter a light (needs DSF_BITS > 0); 0: one sample, no counter"},
+    {"LIGHTS", &Config::lights, 1, 1, 8, true, 0x0, "lights that counters and table tell apart; more than 1 needs COUNT_BITS > 0 and CLASS_BITS > 1"},
+    {"CLASS_BITS", &Config::class_bits, 1, 1, 11, true, 0x0, "bits of a span's class; 1: lit or not, and no table; more: the light's share is looked up in a table by class (needs COUNT_BITS > 0)"},
     {"TRANSLUCENCY", &Config::translucency, 0, 0, 1, true, 0x0, "1: translucent spans are blended over what is drawn; 0: a core without blender"},
     {"UNITS", &Config::units, 0, 0, 64, true, 0x0, "expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree"},
     {"FACE_BITS", &Config::face_bits, 7, 2, 12, true, 0x0, "bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank"},
@@ -84,8 +90,8 @@ constexpr std::uint32_t param_hash(const Config& c) {
 
 /// Kinds of tokens, bits 0-3 of a token's first word.
 enum class Kind : std::uint8_t {
-  SHADE = 1,  ///< frame state: share of the light's colour that a shadow takes, in 2^-SHADE_FRAC
-  TABLE = 2,  ///< frame state: entry of the light table
+  SHADE = 1,  ///< frame state: share of its colour that a pixel in shadow loses, in 2^-SHADE_FRAC; with COUNT_BITS > 0 for each sample
+  TABLE = 2,  ///< frame state: entry of the light table, in order: share of its colour that a pixel of the class loses for each sample of the light
   FACE = 3,  ///< frame state: entry of a unit's face table, in order from 0
   SEG = 4,  ///< segment of a convex polyhedron on the line ahead
   TREE = 5,  ///< take the compare tree's line
@@ -112,7 +118,7 @@ enum class ErrorCode : std::uint8_t {
   PARAMS = 3,  ///< param_hash is not this core's
   KIND = 4,  ///< kind 0, or a token that the configuration lacks
   ORDER = 5,  ///< a token where its phase does not allow it
-  RANGE = 6,  ///< xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, or a face out of turn
+  RANGE = 6,  ///< xl > xr, xr > width, shade or share > 2^SHADE_FRAC, a unit or light that the core lacks, a face or table entry out of turn, or a class that the table lacks
   LINE = 7,  ///< EOL with another line number, or END before the last line
   LAST_EARLY = 8,  ///< TLAST before END
   LAST_LATE = 9,  ///< no TLAST at END's beat
@@ -131,7 +137,7 @@ inline constexpr std::array<std::string_view, 13> kErrorTexts{
     "param_hash is not this core's",
     "kind 0, or a token that the configuration lacks",
     "a token where its phase does not allow it",
-    "xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, or a face out of turn",
+    "xl > xr, xr > width, shade or share > 2^SHADE_FRAC, a unit or light that the core lacks, a face or table entry out of turn, or a class that the table lacks",
     "EOL with another line number, or END before the last line",
     "TLAST before END",
     "no TLAST at END's beat",
@@ -150,10 +156,13 @@ struct Field {
 /// Places of all fields for one configuration. An absent field has no bits.
 struct Layout {
   Field shade_shade;
+  Field table_class;
+  Field table_light;
+  Field table_share[3];
   Field face_unit;
   Field face_face;
   Field face_index;
-  Field face_lit;
+  Field face_class;
   Field face_dz;
   Field face_color[3];
   Field seg_unit;
@@ -164,7 +173,7 @@ struct Layout {
   Field seg_face;
   Field op_xl;
   Field op_xr;
-  Field op_lit;
+  Field op_class;
   Field op_z;
   Field op_dz;
   Field op_color[3];
@@ -180,6 +189,9 @@ struct Layout {
   Field if_w;
   Field ev_xl;
   Field ev_xr;
+  Field es_xl;
+  Field es_xr;
+  Field es_light;
   Field tp_xl;
   Field tp_xr;
   Field tp_alpha;
@@ -200,15 +212,18 @@ struct Layout {
     at = 4;  // SHADE
     put(shade_shade, c.shade_frac + 1, false);
     bits[1] = static_cast<std::uint16_t>(at);
-    words[1] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);
+    words[1] = static_cast<std::uint8_t>((c.class_bits > 1 ? 0 : c.dsf_bits > 0) ? (at + 31) / 32 : 0);
     at = 4;  // TABLE
+    put(table_class, c.class_bits, false);
+    put(table_light, c.lights > 4 ? 3 : (c.lights > 2 ? 2 : 1), false);
+    for (int i = 0; i < c.channels; ++i) put(table_share[i], c.shade_frac + 1, false);
     bits[2] = static_cast<std::uint16_t>(at);
-    words[2] = static_cast<std::uint8_t>((0) ? (at + 31) / 32 : 0);
+    words[2] = static_cast<std::uint8_t>((c.class_bits > 1) ? (at + 31) / 32 : 0);
     at = 4;  // FACE
     put(face_unit, c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))), false);
     put(face_face, c.face_bits, false);
     put(face_index, c.order_bits, false);
-    put(face_lit, c.dsf_bits > 0 ? 1 : 0, false);
+    put(face_class, c.dsf_bits > 0 ? c.class_bits : 0, false);
     put(face_dz, c.z_bits + c.z_frac + 2, true);
     for (int i = 0; i < c.channels; ++i) put(face_color[i], 8, false);
     bits[3] = static_cast<std::uint16_t>(at);
@@ -228,7 +243,7 @@ struct Layout {
     at = 4;  // OP
     put(op_xl, c.x_bits, false);
     put(op_xr, c.x_bits, false);
-    put(op_lit, c.dsf_bits > 0 ? 1 : 0, false);
+    put(op_class, c.dsf_bits > 0 ? c.class_bits : 0, false);
     put(op_z, c.z_bits + c.z_frac + 2, true);
     put(op_dz, c.z_bits + c.z_frac + 2, true);
     for (int i = 0; i < c.channels; ++i) put(op_color[i], c.smooth > 0 ? 10 + c.color_frac : 8, (c.smooth) != 0);
@@ -259,8 +274,11 @@ struct Layout {
     bits[10] = static_cast<std::uint16_t>(at);
     words[10] = static_cast<std::uint8_t>((c.fsf > 0) ? (at + 31) / 32 : 0);
     at = 4;  // ES
+    put(es_xl, c.x_bits, false);
+    put(es_xr, c.x_bits, false);
+    put(es_light, c.lights > 4 ? 3 : (c.lights > 2 ? 2 : 1), false);
     bits[11] = static_cast<std::uint16_t>(at);
-    words[11] = static_cast<std::uint8_t>((0) ? (at + 31) / 32 : 0);
+    words[11] = static_cast<std::uint8_t>((c.count_bits > 0) ? (at + 31) / 32 : 0);
     at = 4;  // RESOLVE
     bits[12] = static_cast<std::uint16_t>(at);
     words[12] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);

@@ -52,7 +52,8 @@ struct ScreenPolygon {
   ScreenPlane depth;
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
-  bool lit = false;                     ///< eye and light are on the same side of it
+  bool lit = false;                     ///< eye and some light that casts shadows are on the same side of it
+  std::uint32_t normal_class = 0;       ///< into the light table, from 1; 0 if it is not lit or there is no table
   std::uint32_t source = 0;             ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
   std::uint8_t alpha = 255;             ///< below 255: translucent
 };
@@ -85,23 +86,27 @@ struct FragmentCut {
 /// A polygon of a shadow volume.
 struct VolumeFace {
   std::uint32_t polygon = 0;  ///< into FrameGeometry::polygons; a cap is the very polygon that is drawn
-  std::int32_t w = 1;         ///< factor of its winding number: -1 where the drawn polygon faces into the volume
+  /// Factor of its winding number: -1 where the drawn polygon faces into the volume, above 1 for as many sides in one.
+  std::int32_t w = 1;
 };
 
-/// A piece of a volume's section with the near plane; the section is to the right of edges that go down, with w = +1.
+/// A piece of the outline of a volume's section with the near plane: right of an edge that goes down w more, right of
+/// one that goes up w less.
 struct NearEdge {
   ScreenVertex from;
   ScreenVertex to;
+  std::int32_t w = 1;
 };
 
-/// A shadow volume: all that delimits it before the far end, which lies behind everything drawn.
+/// A shadow volume: all that delimits it before the far end, which lies behind everything drawn. With DSF_BITS = 1 no
+/// ray to the light meets two of its caps, with more at most 2^DSF_BITS - 1.
 struct ShadowVolume {
   std::uint32_t first_face = 0;  ///< into FrameGeometry::volume_faces
   std::uint32_t face_count = 0;
   std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
   std::uint32_t near_count = 0;
-  std::uint32_t component = 0;  ///< of the caster, into SceneFrame::components
-  std::uint32_t sample = 0;     ///< of light that it keeps out
+  std::uint32_t component = 0;  ///< of its first caster, into SceneFrame::components
+  std::uint32_t sample = 0;     ///< of light that it keeps out, into FrameGeometry::sample_light
 };
 
 /// An edge of a polyhedron. Of the polygons at its two sides, `along` has it in its outline from `from` to `to`,
@@ -140,7 +145,10 @@ struct FrameGeometry {
   int width = 0;
   int height = 0;
   std::uint32_t background = 0;
-  std::uint32_t shade = 0;  ///< darkening of a shadowed pixel, in 2^-SHADE_FRAC
+  std::uint32_t shade = 0;  ///< darkening of a pixel by one shadowed sample, in 2^-SHADE_FRAC; without table
+  /// The same by class and light: entry (class - 1) LIGHTS + light. Empty without table.
+  std::vector<std::array<std::uint32_t, 3>> shares;
+  std::vector<std::uint8_t> sample_light;  ///< of each light sample its light; samples of a light are consecutive
   std::vector<ScreenVertex> vertices;
   /// First the opaque drawn ones, in draw order, then other faces of volumes, then translucent ones.
   std::vector<ScreenPolygon> polygons;
@@ -148,7 +156,7 @@ struct FrameGeometry {
   std::vector<ScreenPlane> color_planes;  ///< value in units of an 8-bit colour
   std::vector<VolumeFace> volume_faces;
   std::vector<NearEdge> near_edges;
-  std::vector<ShadowVolume> volumes;
+  std::vector<ShadowVolume> volumes;  ///< in order of their samples
   std::vector<Polyhedron> polyhedra;  ///< in draw order; their polygons are the first of the drawn ones
   std::vector<PolyhedronEdge> polyhedron_edges;
   std::vector<SpanReason> span_reasons;   ///< of each of SceneFrame::components
@@ -168,13 +176,24 @@ enum class TranslucentWay : std::uint8_t {
   submission,  ///< whole, as the file has them
 };
 
+/// How many volumes casters have.
+enum class VolumeWay : std::uint8_t {
+  fewest,    ///< as few as DSF_BITS allows
+  per_face,  ///< one for each face of what is not convex, which changes no picture but in near ties; for tests
+};
+
 /// What the picture's maker decides.
 struct Look {
   std::array<std::uint8_t, 3> background{38, 44, 56};
   double darkening = 0.55;  ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
   double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
+  VolumeWay volumes = VolumeWay::fewest;
+  bool leave_out = true;  ///< shadows that can meet nothing seen, which changes no picture
   TranslucentWay translucent = TranslucentWay::exact;
+  int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
+  std::uint64_t seed = 1;  ///< of their pattern
+  int classes = 1024;  ///< normals that a light table tells apart, 1 .. 2047; fewer if it has no room for those in use
 };
 
 /// Keeps the visibility order of a scene's translucent faces from frame to frame, so that what does not move is put in
@@ -193,11 +212,28 @@ class TranslucentOrder {
   std::unique_ptr<Data> data_;
 };
 
+/// Keeps what a scene's shadow volumes are made of from frame to frame, so that it is not found again for a light and
+/// casters that have not moved. It changes no frame. Not for several threads at once.
+class ShadowCache {
+ public:
+  ShadowCache();
+  ~ShadowCache();
+  ShadowCache(ShadowCache&&) noexcept;
+  ShadowCache& operator=(ShadowCache&&) noexcept;
+
+  struct Data;
+  [[nodiscard]] Data& data() { return *data_; }
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
-/// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, and whether translucent faces
-/// are blended (else they are opaque and drawn last). `order`, if given, is that of frames before. Throws Error if
-/// width or height is not 1 .. kMaxSize, if there are no faces, or if a vertex or the camera is not finite.
+/// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, of how many lights and
+/// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order` and `shadows`, if
+/// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or
+/// if a vertex or the camera is not finite.
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
-                            TranslucentOrder* order = nullptr);
+                            TranslucentOrder* order = nullptr, ShadowCache* shadows = nullptr);
 
 }  // namespace kage

@@ -30,7 +30,7 @@
 #define KAGE_ERR_PARAMS 3u /* param_hash is not this core's */
 #define KAGE_ERR_KIND 4u /* kind 0, or a token that the configuration lacks */
 #define KAGE_ERR_ORDER 5u /* a token where its phase does not allow it */
-#define KAGE_ERR_RANGE 6u /* xl > xr, xr > width, shade > 2^SHADE_FRAC, a unit that the core lacks, or a face out of turn */
+#define KAGE_ERR_RANGE 6u /* xl > xr, xr > width, shade or share > 2^SHADE_FRAC, a unit or light that the core lacks, a face or table entry out of turn, or a class that the table lacks */
 #define KAGE_ERR_LINE 7u /* EOL with another line number, or END before the last line */
 #define KAGE_ERR_LAST_EARLY 8u /* TLAST before END */
 #define KAGE_ERR_LAST_LATE 9u /* no TLAST at END's beat */

@@ -40,19 +40,22 @@ struct LightPoint {
 /// What a light that is no point extends over: the disc or rectangle that two half axes span, or a ball.
 enum class LightShape : std::uint8_t { point, disc, rectangle, sphere };
 
-/// A light. Its intensity is in `color`; fall-off and cone are as glTF's KHR_lights_punctual has them.
+/// A light. Fall-off and cone are those of glTF's KHR_lights_punctual. What is not a point shines as from its middle;
+/// only its shadows are soft.
 struct Light : LightPoint {
-  glm::dvec3 color{1, 1, 1};  ///< >= 0. Of a file: such that all lights of the scene add up to 1 (docs/shadows.md)
-  bool falls_off = false;     ///< with the square of the distance; never if directional
-  double range = 0;           ///< distance at which the fall-off ends; 0: nowhere
-  bool spot = false;          ///< a cone round `direction`
-  double inner_cosine = 1;    ///< spot: full intensity within,
-  double outer_cosine = 0;    ///< none outside; < inner_cosine
+  glm::dvec3 color{1, 1, 1};  ///< >= 0, times intensity; a scene's lights are scaled by one factor (Scene::load)
+  bool falls_off = false;     ///< not directional: with the square of the distance; `color` is that at distance 1
+  double range = 0;           ///< falls_off: distance from which on it does not shine; 0: none
+  bool spot = false;          ///< not directional: it shines in a cone round `direction`,
+  double inner_cosine = 1;    ///< fully within this angle,
+  double outer_cosine = 0;    ///< not outside this one
   LightShape shape = LightShape::point;
-  glm::dvec3 axis_u{0, 0, 0};  ///< disc, rectangle: half axes; sphere: (radius, 0, 0)
+  glm::dvec3 axis_u{0, 0, 0};  ///< disc, rectangle: half axes; sphere: its radius in x
   glm::dvec3 axis_v{0, 0, 0};
-  double reference = 1;  ///< falls_off: distance at which intensity is `color`
 };
+
+/// Most lights of a scene.
+inline constexpr std::size_t kMaxLights = 64;
 
 /// A triangle, counter-clockwise seen from outside.
 struct Triangle {
@@ -95,7 +98,7 @@ struct Component {
 /// coordinates. Triangles of inside-out closed components are turned so that they face outward.
 struct SceneFrame {
   Camera camera;
-  std::vector<Light> lights{Light{}};  ///< at least one
+  std::vector<Light> lights = std::vector<Light>(1);  ///< 1 to kMaxLights
   std::vector<glm::dvec3> vertices;
   std::vector<ShadingVertex> shading;
   std::vector<Triangle>
@@ -118,6 +121,8 @@ class Scene {
   /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
   /// limit of time. So load before other threads start, or while they rest. Several threads may load at once.
   /// `alpha`, 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent.
+  /// Intensities of lights are scaled by one factor, the same in all frames: at the middle of the scene, in the first
+  /// frame, light that meets a surface head-on from all of them (cones aside) adds up to 1 in the largest channel.
   static Scene load(const std::string& name_or_path, double alpha = 1);
 
   ~Scene();

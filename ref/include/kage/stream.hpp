@@ -31,7 +31,7 @@ struct SpanToken {
   std::int64_t z = 0;                    ///< at xl, Z_FRAC fraction bits, half an LSB included
   std::int64_t dz = 0;                   ///< per pixel
   int w = 0;                             ///< SP: signed multiplicity
-  bool lit = false;                      ///< OP: faces the light
+  int normal_class = 0;                  ///< OP: 0 is unlit; without a table 1 is lit, with one the table's class
   std::array<std::int32_t, 3> color{};   ///< at xl, COLOR_FRAC fraction bits with SMOOTH, else 0 .. 255
   std::array<std::int32_t, 3> dcolor{};  ///< SMOOTH: per pixel
   int alpha = 0;                         ///< TP: 0 (not to be seen) .. 255 (opaque)
@@ -46,14 +46,21 @@ struct SegmentToken {
   int dx = 0;                           ///< SEG: pixels, at least 1
   bool sync = false;                    ///< SEG: first of its unit's line
   int index = 0;                        ///< FACE: draw index of the polyhedron
-  bool lit = false;                     ///< FACE: faces the light
+  int normal_class = 0;                 ///< FACE: as OP's
   std::int64_t dz = 0;                  ///< FACE: depth per pixel
   std::array<std::int32_t, 3> color{};  ///< FACE: 0 .. 255
 };
 
+/// TABLE: what a pixel of a class loses for each shadowed sample of a light.
+struct TableToken {
+  int normal_class = 0;                  ///< 1 .. 2^CLASS_BITS - 1
+  int light = 0;                         ///< 0 .. LIGHTS - 1
+  std::array<std::uint32_t, 3> share{};  ///< of each channel, in 2^-SHADE_FRAC, at most 2^SHADE_FRAC
+};
+
 /// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and to what the
 /// fields mean (check_frame() judges both). A value that its field cannot hold is never cut: Error names token, field
-/// and value, and the words are as they were. `lit` is left out where the configuration has no shadows.
+/// and value, and the words are as they were. The class is left out where the configuration has no shadows.
 class TokenWriter {
  public:
   TokenWriter(const Config& config, std::vector<std::uint32_t>& out);
@@ -63,6 +70,7 @@ class TokenWriter {
 
   void header(const FrameHeader& header);
   void shade(std::uint32_t shade);
+  void table(const TableToken& entry);
   void face(const SegmentToken& face);
   void seg(const SegmentToken& segment);
   void tree();
@@ -71,6 +79,7 @@ class TokenWriter {
   void nc(int xl, int xr, int w);
   void inside(int w);  ///< IF
   void ev(int xl, int xr);
+  void es(int xl, int xr, int light);
   void resolve();
   void tp(const SpanToken& span);
   void eol(int y);
@@ -85,11 +94,12 @@ class TokenWriter {
   std::vector<std::uint32_t>* out_;
 };
 
-/// Any token, decoded. `span.xl`, `span.xr` and `span.w` are also those of NC, IF and EV.
+/// Any token, decoded. `span.xl`, `span.xr` and `span.w` are also those of NC, IF, EV and ES.
 struct Token {
   Kind kind{};
   SpanToken span;
   SegmentToken segment;  ///< FACE and SEG
+  TableToken table;      ///< TABLE; its light is also that of ES
   std::uint32_t shade = 0;
   int y = 0;  ///< EOL
 };

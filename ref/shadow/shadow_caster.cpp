@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geometry/shadow_volume.hpp"
+#include "shadow/shadow_caster.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <unordered_set>
-#include <utility>
 
 namespace kage {
 namespace {
@@ -92,62 +90,20 @@ glm::dvec3 ShadowCaster::far_point(const glm::dvec3& p, double factor) const {
 
 // Directional: the length of the volume. Point: a point of the shadow of a face at distance d from the light's plane is
 // at most reach / d times as far from the light as the face is along its ray.
-double ShadowCaster::far_factor(double distance) const {
-  return light_.directional ? reach_ : std::max(reach_ / distance, kMargin);
-}
-
-// The far end of a cap whose corners go round it seen from the light, and sides at its border edges.
-template <class Border>
-void ShadowCaster::extrude(std::span<const std::uint32_t> corners, const CapFace& cap, double factor, WorldVolume& v,
-                           Border border) const {
-  const std::size_t n = corners.size();
-  std::vector<glm::dvec3> far(n);
-  for (std::size_t i = 0; i < n; ++i) far[i] = far_point(frame_->vertices[corners[i]], factor);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = (i + 1) % n;
-    if (!border(corners[i], corners[j])) continue;
-    v.sides.push_back({cap.polygon, frame_->vertices[corners[i]], frame_->vertices[corners[j]], far[i], far[j]});
-  }
-  std::reverse(far.begin(), far.end());
-  v.far_end.push_back(std::move(far));
-}
-
-bool ShadowCaster::make_convex(const Component& part, WorldVolume& v) const {
-  v.clear();
-  // A border edge is one of a lit face whose twin is not a lit face's.
-  std::unordered_set<std::uint64_t> lit_edges;
-  const auto key = [](std::uint32_t a, std::uint32_t b) { return static_cast<std::uint64_t>(a) << 32 | b; };
+double ShadowCaster::far_factor(std::span<const CapFace> caps) const {
+  if (light_.directional) return reach_;
   double nearest = INFINITY;
-  for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
-    const Polygon& polygon = frame_->polygons[i];
-    if (facing(polygon) <= 0) continue;
-    v.caps.push_back({i, false});
-    nearest = std::min(nearest, light_distance(polygon));
-    const auto corners = frame_->outline(polygon);
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      lit_edges.insert(key(corners[k], corners[(k + 1) % corners.size()]));
-  }
-  if (v.caps.empty()) return false;
-  const double factor = far_factor(nearest);
-  for (const CapFace& cap : v.caps)
-    extrude(frame_->outline(frame_->polygons[cap.polygon]), cap, factor, v,
-            [&](std::uint32_t a, std::uint32_t b) { return lit_edges.count(key(b, a)) == 0; });
-  return true;
+  for (const CapFace& cap : caps) nearest = std::min(nearest, std::abs(light_distance(frame_->polygons[cap.polygon])));
+  return std::max(reach_ / nearest, kMargin);
 }
 
-bool ShadowCaster::make_face(std::uint32_t index, bool lit_only, WorldVolume& v) const {
-  const Polygon& polygon = frame_->polygons[index];
-  const int side = facing(polygon);
-  if (side == 0 || (lit_only && side < 0)) return false;
-  v.clear();
-  const CapFace cap{index, side < 0};
-  v.caps.push_back(cap);
-  const auto outline = frame_->outline(polygon);
-  std::vector<std::uint32_t> corners(outline.begin(), outline.end());
-  if (cap.turned) std::reverse(corners.begin(), corners.end());
-  extrude(corners, cap, far_factor(std::abs(light_distance(polygon))), v,
-          [](std::uint32_t, std::uint32_t) { return true; });
-  return true;
+void ShadowCaster::caps(const Component& part, std::vector<CapFace>& out) const {
+  out.clear();
+  const bool lit_only = part.closed && light_outside(part);
+  for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
+    const int side = facing(frame_->polygons[i]);
+    if (side > 0 || (side < 0 && !lit_only)) out.push_back({i, side < 0});
+  }
 }
 
 }  // namespace kage

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kage/light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scene/functions.hpp"
+
+namespace kage {
+namespace {
+
+/// 2^64 / golden ratio: multiples of it, modulo 2^64, are spread most evenly.
+constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15U;
+
+/// A number whose bits all depend on all bits of x.
+std::uint64_t mixed(std::uint64_t x) {
+  x = (x ^ x >> 30U) * 0xBF58476D1CE4E5B9U;
+  x = (x ^ x >> 27U) * 0x94D049BB133111EBU;
+  return x ^ x >> 31U;
+}
+
+/// 0 .. 1 from the upper bits.
+double share(std::uint64_t x) { return static_cast<double>(x >> 11U) * 0x1p-53; }
+
+struct Direction {
+  explicit Direction(std::uint64_t turn) {
+    const double angle = 2 * portable::kPi * share(turn);
+    cosine = portable::cos(angle);
+    sine = portable::sin(angle);
+  }
+  double cosine;
+  double sine;
+};
+
+double squared(const glm::dvec3& v) { return glm::dot(v, v); }
+
+}  // namespace
+
+std::vector<LightPoint> light_points(const Light& light, int samples, std::uint64_t seed) {
+  const LightPoint middle = light;
+  if (light.shape == LightShape::point || light.directional || samples < 2) return {middle};
+  std::vector<LightPoint> points;
+  const std::uint64_t start = mixed(seed);
+  for (int i = 0; i < samples; ++i) {
+    const double along = (i + 0.5) / samples;
+    const std::uint64_t turn = start + kGolden * static_cast<std::uint64_t>(i);
+    glm::dvec3 off{0, 0, 0};
+    if (light.shape == LightShape::rectangle) {
+      off = light.axis_u * (2 * along - 1) + light.axis_v * (2 * share(turn) - 1);
+    } else {
+      const Direction d(turn);
+      if (light.shape == LightShape::disc) {
+        const double radius = std::sqrt(along);
+        off = light.axis_u * (radius * d.cosine) + light.axis_v * (radius * d.sine);
+      } else {
+        const double z = 1 - 2 * along;
+        const double radius = std::sqrt(1 - z * z);
+        off = glm::dvec3(radius * d.cosine, radius * d.sine, z) * light.axis_u.x;
+      }
+    }
+    points.push_back(middle);
+    points.back().position += off;
+  }
+  return points;
+}
+
+double attenuation(const Light& light, const glm::dvec3& point) {
+  if (light.directional) return 1;
+  const glm::dvec3 from = point - light.position;
+  const double distance2 = squared(from);
+  if (!(distance2 > 0)) return 0;
+  double a = 1;
+  if (light.falls_off) {
+    a = std::min(1 / distance2, 1e100);  // so that no product is infinite
+    if (light.range > 0) {
+      const double q = distance2 / (light.range * light.range);
+      a *= std::clamp(1 - q * q, 0.0, 1.0);
+    }
+  }
+  if (light.spot) {
+    const double cosine = glm::dot(from, light.direction) / std::sqrt(distance2);
+    const double t =
+        std::clamp((cosine - light.outer_cosine) / std::max(0.001, light.inner_cosine - light.outer_cosine), 0.0, 1.0);
+    a *= t * t;
+  }
+  return a;
+}
+
+glm::dvec3 received(const Light& light, const glm::dvec3& point, const glm::dvec3& normal) {
+  const glm::dvec3 to = light.directional ? -light.direction : light.position - point;
+  const double length = std::sqrt(squared(to));
+  const double cosine = length > 0 ? glm::dot(to, normal) / length : 0;
+  return light.color * (attenuation(light, point) * std::max(cosine, 0.0));
+}
+
+NormalClasses::NormalClasses(int count) {
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - (2 * i + 1.0) / count;
+    const double radius = std::sqrt(1 - z * z);
+    const Direction d(kGolden * static_cast<std::uint64_t>(i));
+    normals_.emplace_back(radius * d.cosine, radius * d.sine, z);
+  }
+}
+
+int NormalClasses::nearest(const glm::dvec3& unit) const {
+  // From the one next in z outwards, until z alone is further off than the best.
+  const auto n = static_cast<std::ptrdiff_t>(normals_.size());
+  const auto start =
+      std::clamp(static_cast<std::ptrdiff_t>((1 - unit.z) / 2 * static_cast<double>(n)), std::ptrdiff_t{0}, n - 1);
+  double best = INFINITY;
+  std::ptrdiff_t number = start;
+  for (const std::ptrdiff_t step : {-1, 1})
+    for (std::ptrdiff_t i = step < 0 ? start : start + 1; i >= 0 && i < n; i += step) {
+      const glm::dvec3& normal = normals_[static_cast<std::size_t>(i)];
+      const double off = normal.z - unit.z;
+      if (off * off > best) break;
+      const double distance = squared(normal - unit);
+      if (distance < best || (distance == best && i < number)) {
+        best = distance;
+        number = i;
+      }
+    }
+  return static_cast<int>(number) + 1;
+}
+
+}  // namespace kage

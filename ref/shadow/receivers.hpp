@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which casters can shadow anything that is seen.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kage/scene.hpp"
+
+namespace kage {
+
+/// What of a frame's faces lies in the picture.
+class Receivers {
+ public:
+  /// `translucent`: whether translucent faces are drawn opaque, and take shadow. Refers to `frame`.
+  Receivers(const SceneFrame& frame, int width, int height, bool translucent);
+
+  /// By component: false only if its shadow, without end, meets nothing that is seen. A shadow is left out if it lies
+  /// beyond one of these planes, all of which have all that is seen on one side: those of the picture, of the box round
+  /// what is seen, and of the same as the light sees it.
+  [[nodiscard]] std::vector<bool> reached(const LightPoint& light) const;
+
+ private:
+  /// normal . p <= limit for all that is seen.
+  struct HalfSpace {
+    glm::dvec3 normal;
+    double limit;
+  };
+  struct Box {
+    glm::dvec3 low;
+    glm::dvec3 high;
+  };
+
+  void add_picture(int width, int height);
+  void see(std::vector<glm::dvec3>& polygon);
+  void add_bound(const glm::dvec3& normal, std::vector<HalfSpace>& to) const;
+  [[nodiscard]] static bool beyond(const HalfSpace& s, const Box& b, const LightPoint& light);
+
+  const SceneFrame* frame_;
+  std::vector<HalfSpace> planes_;
+  std::vector<glm::dvec3> seen_;  // corners of what is
+  std::vector<Box> boxes_;        // of components
+  std::vector<glm::dvec3> buffer_;
+};
+
+}  // namespace kage

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// What shadow volumes cost by the way they are made: a volume per face, patches, and counting with 2, 3, 4 and 8 bits.
+// Meshes stand on a floor; the sun is high (steep) or low (flat); 640x480, views round the mesh, all sums a frame.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "kage/core.hpp"
+#include "kage/frontend.hpp"
+#include "kage/stream.hpp"
+
+namespace {
+
+using namespace kage;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kFrames = 4;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A square under the scene, twice as wide.
+void add_floor(SceneFrame& f) {
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high = -low;
+  for (const glm::dvec3& v : f.vertices)
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], v[i]);
+      high[i] = std::max(high[i], v[i]);
+    }
+  const glm::dvec3 middle = (low + high) * 0.5;
+  const double half = std::max(high.x - low.x, high.z - low.z);
+  const double y = low.y - 0.01 * (high.y - low.y);
+  const auto first = static_cast<std::uint32_t>(f.vertices.size());
+  const auto shading = static_cast<std::uint32_t>(f.shading.size());
+  for (const auto& [x, z] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}})
+    f.vertices.emplace_back(middle.x + half * x, y, middle.z + half * z);
+  f.shading.push_back({{0, 1, 0}, {0.6, 0.6, 0.6}});
+  Component c;
+  c.first = static_cast<std::uint32_t>(f.triangles.size());
+  c.count = 2;
+  c.first_polygon = static_cast<std::uint32_t>(f.polygons.size());
+  c.polygon_count = 2;
+  for (const std::uint32_t k : {1U, 2U}) {
+    Triangle t;
+    t.vertex = {first, first + k, first + k + 1};
+    t.shading = {shading, shading, shading};
+    f.polygons.push_back(
+        {static_cast<std::uint32_t>(f.corners.size()), 3, static_cast<std::uint32_t>(f.triangles.size())});
+    f.corners.insert(f.corners.end(), t.vertex.begin(), t.vertex.end());
+    f.triangles.push_back(t);
+  }
+  f.components.push_back(c);
+}
+
+struct Sum {
+  std::uint64_t volumes = 0;
+  std::uint64_t sides = 0;
+  std::uint64_t spans = 0;
+  std::uint64_t pixels = 0;
+  std::uint64_t ends = 0;
+  std::uint64_t end_pixels = 0;
+  double geometry = 0;
+  double again = 0;
+  double front_end = 0;
+  double core = 0;
+};
+
+void count_tokens(const Config& config, std::span<const std::uint32_t> words, Sum& sum) {
+  const Layout layout(config);
+  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) {
+    const Token t = decode(config, layout, words.subspan(at));
+    const auto pixels = static_cast<std::uint64_t>(t.span.xr - t.span.xl);
+    if (t.kind == Kind::SP || t.kind == Kind::NC) {
+      ++sum.spans;
+      sum.pixels += pixels;
+    } else if (t.kind == Kind::EV) {
+      ++sum.ends;
+      sum.end_pixels += pixels;
+    }
+  }
+}
+
+void measure(const Scene& scene, const glm::dvec3& sun, const char* called, int bits, VolumeWay way) {
+  Config config;
+  config.dsf_bits = bits;
+  Look look;
+  look.volumes = way;
+  Sum sum;
+  for (int i = 0; i < kFrames; ++i) {
+    SceneFrame f = scene.frame(i, kFrames);
+    f.lights.resize(1);
+    f.lights[0] = {};
+    f.lights[0].direction = sun;
+    add_floor(f);
+    auto start = Clock::now();
+    const FrameGeometry g = make_geometry(f, config, 640, 480, look);
+    sum.geometry += since(start);
+    // The next frame's, with casters and light where they are.
+    ShadowCache kept;
+    (void)make_geometry(f, config, 640, 480, look, nullptr, &kept);
+    start = Clock::now();
+    (void)make_geometry(f, config, 640, 480, look, nullptr, &kept);
+    sum.again += since(start);
+    sum.volumes += g.volumes.size();
+    for (const VolumeFace& face : g.volume_faces) sum.sides += g.polygons[face.polygon].source == ~0U ? 1 : 0;
+    std::vector<std::uint32_t> words;
+    start = Clock::now();
+    make_frame(g, config, 0, words, 1);
+    sum.front_end += since(start);
+    count_tokens(config, words, sum);
+    GoldenCore core(config);
+    start = Clock::now();
+    (void)core.frame(words, [](int, std::span<const std::uint8_t>) {});
+    sum.core += since(start);
+  }
+  fmt::print("  {:<16}{:>8}{:>8}{:>9}{:>11}{:>8}{:>10}{:>10.1f}{:>7.1f}{:>11.1f}{:>9.1f}\n", called,
+             sum.volumes / kFrames, sum.sides / kFrames, sum.spans / kFrames, sum.pixels / kFrames, sum.ends / kFrames,
+             sum.end_pixels / kFrames, 1e3 * sum.geometry / kFrames, 1e3 * sum.again / kFrames,
+             1e3 * sum.front_end / kFrames, 1e3 * sum.core / kFrames);
+}
+
+void compare(const std::string& name) {
+  const Scene scene = Scene::load(name);
+  for (const auto& [sun, height] : {std::pair{glm::dvec3(0.3, -1, 0.2), "high"}, {glm::dvec3(-1, -0.3, 0.3), "low"}}) {
+    fmt::print("{}, {} faces, sun {}\n", std::filesystem::path(name).filename().string(),
+               scene.frame(0, kFrames).polygons.size(), height);
+    fmt::print("  {:<16}{:>8}{:>8}{:>9}{:>11}{:>8}{:>10}{:>10}{:>7}{:>11}{:>9}\n", "", "volumes", "sides", "SP, NC",
+               "pixels", "EV", "pixels", "geometry", "kept", "front end", "core ms");
+    const glm::dvec3 direction = glm::normalize(sun);
+    measure(scene, direction, "volume per face", 1, VolumeWay::per_face);
+    measure(scene, direction, "patches", 1, VolumeWay::fewest);
+    for (const int bits : {2, 3, 4, 8})
+      measure(scene, direction, fmt::format("{} bits", bits).c_str(), bits, VolumeWay::fewest);
+  }
+}
+
+}  // namespace
+
+int main() {
+  compare("knot");
+  for (const char* mesh : {"horse.3ds", "cat.3ds", "bunny.obj"})
+    if (const std::string path = std::string("/usr/share/glmark2/models/") + mesh; std::filesystem::exists(path))
+      compare(path);
+  return 0;
+}

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the tests of frame_control share: tokens as token_reader gives them, and what they become under any stalls.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "bench.hpp"
+#include "kage/defs.hpp"
+
+namespace kage::rtl {
+
+inline constexpr kage::Config kConfig{};
+inline constexpr kage::Config kGlass = [] {
+  kage::Config c;
+  c.translucency = 1;
+  return c;
+}();
+inline constexpr Kind kOut =
+    Kind::TABLE;  // a command without token: the line's pixels leave and come back (kage_widths.svh)
+inline constexpr int kMaxWidth = 64;
+
+struct Token {
+  std::array<std::uint32_t, 5> words{};
+  bool header = false, lacking = false, cut = false, final = false, at_last = false;
+};
+
+inline void set(Token& t, int lsb, int bits, std::uint64_t value) {
+  for (int i = 0; i < bits; ++i)
+    if ((value >> i & 1) != 0) t.words[static_cast<std::size_t>((lsb + i) / 32)] |= 1U << ((lsb + i) % 32);
+}
+
+inline Token header(std::uint32_t width, std::uint32_t height, std::uint32_t frame,
+                    const kage::Config& config = kConfig) {
+  Token t;
+  t.header = true;
+  t.words = {kage::kStreamMagic << 16 | kage::kStreamVersion, width | height << 16, kage::param_hash(config), 0x0A0B0C,
+             frame};
+  return t;
+}
+
+inline Token token(Kind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c = 0) {
+  Token t;
+  set(t, 0, 4, static_cast<std::uint64_t>(kind));
+  switch (kind) {
+    case Kind::SHADE:
+      set(t, 4, 9, a);
+      break;
+    case Kind::EOL:
+      set(t, 4, 16, a);
+      break;
+    case Kind::IF:
+      set(t, 4, 2, a);
+      break;
+    case Kind::OP:  // lit, then z, dz, colour
+      set(t, 4, 11, a);
+      set(t, 15, 11, b);
+      set(t, 26, 1, c);
+      set(t, 27, 37, 0x123456789);
+      set(t, 64, 37, 0x0FEDCBA98);
+      set(t, 101, 24, 0x332211);
+      break;
+    case Kind::SP:  // w, then z, dz
+      set(t, 4, 11, a);
+      set(t, 15, 11, b);
+      set(t, 26, 2, c);
+      set(t, 28, 37, 0x11111111);
+      set(t, 65, 37, 0x22222222);
+      break;
+    case Kind::TP:  // alpha, then z, dz, colour
+      set(t, 4, 11, a);
+      set(t, 15, 11, b);
+      set(t, 26, 8, c);
+      set(t, 34, 37, 0x0F1234567);
+      set(t, 71, 37, 0x0A9876543);
+      set(t, 108, 24, 0x665544);
+      break;
+    case Kind::NC:
+      set(t, 26, 2, c);
+      [[fallthrough]];
+    case Kind::EV:
+      set(t, 4, 11, a);
+      set(t, 15, 11, b);
+      break;
+    default:
+      break;
+  }
+  t.final = kind == Kind::END;
+  t.at_last = true;
+  return t;
+}
+
+struct Entry {
+  unsigned normal_class, light;
+  std::uint64_t share;
+  bool operator==(const Entry&) const = default;
+};
+
+struct Command {
+  Kind kind;
+  unsigned xl, xr, count;
+  bool operator==(const Command&) const = default;
+};
+
+struct Line {
+  bool first, blank;
+  unsigned width, background, shade;
+  bool operator==(const Line&) const = default;
+};
+
+struct Outcome {
+  std::vector<Command> commands;
+  std::vector<Line> lines;
+  std::vector<bool> painted;  // of each line
+  std::vector<bool> loads;    // of each line
+  std::vector<Entry> table;
+  std::vector<unsigned> shares;                      // of each command
+  std::vector<std::array<std::uint32_t, 4>> errors;  // code, frame, line, token
+  int frames = 0, drops = 0;
+};
+
+/// `fields`: spans have the fields that token() gives them.
+template <class Model>
+Outcome run(Dice& dice, const std::vector<Token>& tokens, bool fields = true) {
+  Bench<Model> top(dice);
+  Offer offer(stall_percent(dice));
+  const int cmd_stall = stall_percent(dice);
+  const int line_stall = stall_percent(dice);
+  Outcome out;
+  int dropping = 0;
+  int loading = 0;  // clocks until the loads of a line have come back
+  const int table_stall = stall_percent(dice);
+  std::size_t at = 0;
+  for (int clock = 0, quiet = 0; quiet < 200; ++clock) {
+    REQUIRE(clock < 100000);
+    const bool offered = dropping == 0 && offer(dice, at < tokens.size());
+    top->token_valid_i = offered ? 1 : 0;
+    if (offered) {
+      const Token& t = tokens[at];
+      for (int i = 0; i < 5; ++i) put(top->token_i, 32 * i, 32, t.words[static_cast<std::size_t>(i)]);
+      top->token_header_i = t.header ? 1 : 0;
+      top->token_lacking_i = t.lacking ? 1 : 0;
+      top->token_cut_i = t.cut ? 1 : 0;
+      top->token_final_i = t.final ? 1 : 0;
+      top->token_at_last_i = t.at_last ? 1 : 0;
+    }
+    top->dropping_i = dropping > 0 ? 1 : 0;
+    top->cmd_ready_i = dice.percent(cmd_stall) ? 0 : 1;
+    top->line_ready_i = dice.percent(line_stall) ? 0 : 1;
+    top->table_free_i = dice.percent(table_stall) ? 0 : 1;
+    top->loads_done_i = loading == 1 ? 1 : 0;
+    top.settle();
+    if (loading > 0) {
+      REQUIRE_FALSE(top->cmd_valid_o);
+      REQUIRE_FALSE(top->line_valid_o);
+      REQUIRE_FALSE((top->token_valid_i && top->token_ready_o));
+      --loading;
+    }
+    if (top->table_valid_o) {
+      REQUIRE(top->table_free_i);
+      out.table.push_back({top->table_class_o, top->table_light_o, get(top->table_share_o, 0, 27)});
+    }
+    if (top->cmd_valid_o && top->cmd_ready_i) {
+      const auto kind = static_cast<Kind>(top->cmd_kind_o);
+      if (kind == kOut) loading = dice.between(1, 20);
+      // TP has no count.
+      out.commands.push_back({kind, top->cmd_xl_o, top->cmd_xr_o, kind == Kind::TP ? 0U : top->cmd_count_o});
+      if (kind == Kind::OP && fields) {
+        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x123456789);
+        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0FEDCBA98);
+        REQUIRE(top->cmd_color_o == 0x332211);
+      }
+      out.shares.push_back(top->cmd_share_o);
+      if (kind == Kind::TP && fields) {
+        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x0F1234567);
+        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0A9876543);
+        REQUIRE(top->cmd_color_o == 0x665544);
+      }
+      if (kind == Kind::RESOLVE) REQUIRE(top->cmd_color_o == 0x0A0B0C);
+      if (kind == Kind::SP) {
+        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x11111111);
+        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x22222222);
+      }
+    }
+    if (top->line_valid_o) {
+      REQUIRE(top->line_ready_i);
+      out.lines.push_back({static_cast<bool>(top->line_first_o), static_cast<bool>(top->line_blank_o),
+                           top->line_width_o, top->line_background_o, top->line_shade_o});
+    }
+    if (top->line_valid_o) out.painted.push_back(top->line_painted_o != 0);
+    if (top->line_valid_o) out.loads.push_back(top->line_load_o != 0);
+    if (top->error_o)
+      out.errors.push_back({top->error_code_o, top->error_frame_o, top->error_line_o, top->error_token_o});
+    if (top->frame_end_o) ++out.frames;
+    if (dropping > 0) --dropping;
+    const bool taken = offered && top->token_ready_o;
+    if (top->drop_o) {
+      REQUIRE(taken);
+      REQUIRE(!tokens[at].final);
+      ++out.drops;
+      dropping = dice.between(1, 9);
+    }
+    quiet = taken || top->cmd_valid_o || top->line_valid_o ? 0 : quiet + 1;
+    top.edge();
+    if (!taken) continue;
+    offer.taken();
+    const bool dropped = dropping > 0;
+    ++at;
+    while (dropped && at < tokens.size() && !tokens[at].header) ++at;
+  }
+  REQUIRE(at == tokens.size());
+  REQUIRE(!top->open_o);
+  return out;
+}
+
+inline std::vector<Token> operator+(std::vector<Token> a, const std::vector<Token>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+}  // namespace kage::rtl

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What can happen to a frame's words on the way: anywhere, or to the tokens of a tree or of light samples.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "kage/stream.hpp"
+#include "support/random.hpp"
+
+namespace kage::verif {
+
+/// Damage a frame, once to three times: cut it, lengthen it, drop or double a word, flip a bit anywhere, in a kind or
+/// in the header, put noise in a word's place, make it a little wider, narrower, higher or lower. It may even survive
+/// that.
+inline void damage(Random& random, std::vector<std::uint32_t>& words) {
+  const auto noise = [&random] { return static_cast<std::uint32_t>(random.integer(0, UINT32_MAX)); };
+  for (int i = random.in(1, 3); i > 0 && !words.empty(); --i) {
+    const auto at = static_cast<std::ptrdiff_t>(random.integer(0, static_cast<std::int64_t>(words.size()) - 1));
+    std::uint32_t& word = words[static_cast<std::size_t>(at)];
+    switch (random.in(0, 9)) {
+      case 0:
+        words.resize(static_cast<std::size_t>(at));
+        break;
+      case 1:
+        for (int n = random.chance(0.2) ? random.in(10, 40) : random.in(1, 9); n > 0; --n) words.push_back(noise());
+        break;
+      case 2:
+        words.erase(words.begin() + at);
+        break;
+      case 3:
+        words.insert(words.begin() + at, word);
+        break;
+      case 4:
+        word ^= 1U << random.in(0, 3);
+        break;
+      case 5:
+        words[std::min<std::size_t>(words.size() - 1, static_cast<std::size_t>(random.in(0, 2)))] ^=
+            1U << random.in(0, 31);
+        break;
+      case 6:
+        word = noise();
+        break;
+      case 7:
+        if (words.size() > 1)
+          words[1] = static_cast<std::uint32_t>(random.in(0, 6)) << 16 |
+                     static_cast<std::uint32_t>(random.in(0, static_cast<int>(words[1] & 0xFFFFU) + 1));
+        break;
+      default:
+        word ^= 1U << random.in(0, 31);
+    }
+  }
+}
+
+/// A frame's words, taken apart for damage: its fields, and where its tokens of each kind begin.
+class TokenPlaces {
+ public:
+  using At = std::vector<std::uint32_t>::difference_type;
+
+  TokenPlaces(const Config& c, std::vector<std::uint32_t>& words) : layout_(c), words_(&words) {
+    for (std::size_t at = 5; at < words.size();) {
+      const std::size_t kind = words[at] & 15U;
+      if (layout_.words[kind] == 0) return;
+      places_[kind].push_back(static_cast<At>(at));
+      all_.push_back(static_cast<At>(at));
+      at += static_cast<std::size_t>(layout_.words[kind]);
+    }
+    whole_ = true;
+  }
+
+  /// False if an earlier damage has left a word that is no token.
+  [[nodiscard]] bool whole() const { return whole_; }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const std::vector<At>& all() const { return all_; }
+  [[nodiscard]] const std::vector<At>& of(Kind k) const { return places_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] At length(Kind k) const { return layout_.words[static_cast<std::size_t>(k)]; }
+
+  void put(At at, Field f, std::uint64_t value) {
+    for (unsigned i = 0; i < f.bits; ++i) {
+      std::uint32_t& word = (*words_)[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
+      const unsigned bit = (f.lsb + i) % 32;
+      word = (word & ~(1U << bit)) | static_cast<std::uint32_t>(value >> i & 1U) << bit;
+    }
+  }
+  [[nodiscard]] std::uint64_t get(At at, Field f) const {
+    std::uint64_t value = 0;
+    for (unsigned i = 0; i < f.bits; ++i) {
+      const std::uint32_t word = (*words_)[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
+      value |= std::uint64_t{word >> ((f.lsb + i) % 32) & 1U} << i;
+    }
+    return value;
+  }
+  /// A token's copy in front of another; places are those of before.
+  void copy(At from, At n, At to) {
+    const std::vector<std::uint32_t> token(words_->begin() + from, words_->begin() + from + n);
+    words_->insert(words_->begin() + to, token.begin(), token.end());
+  }
+  void erase(At at, At n) { words_->erase(words_->begin() + at, words_->begin() + at + n); }
+
+ private:
+  Layout layout_;
+  std::vector<std::uint32_t>* words_;
+  std::array<std::vector<At>, 16> places_;
+  std::vector<At> all_;
+  bool whole_ = false;
+};
+
+/// Damage that samples, classes and the light table are made for: one to three tokens that are not what they should be.
+/// The words must be a valid frame; one without counters stays as it is.
+inline void damage_light(Random& random, const Config& c, std::vector<std::uint32_t>& words) {
+  for (int round = random.chance(0.7) ? 1 : random.in(2, 3); round > 0; --round) {
+    TokenPlaces places(c, words);
+    if (c.count_bits == 0 || !places.whole()) return;
+    const Layout& layout = places.layout();
+    const auto any = [&random](const std::vector<TokenPlaces::At>& of) {
+      return of[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(of.size()) - 1))];
+    };
+    const auto bits = [&random](Field f) { return static_cast<std::uint64_t>(random.in(0, (1 << f.bits) - 1)); };
+    const std::array<Kind, 5> kinds{Kind::ES, Kind::ES, Kind::TABLE, Kind::OP, Kind::FACE};
+    const Kind kind = kinds[static_cast<std::size_t>(random.in(0, 4))];
+    if (places.of(kind).empty()) continue;
+    const TokenPlaces::At at = any(places.of(kind));
+    switch (random.in(0, 3)) {
+      case 0:  // lost
+        places.erase(at, places.length(kind));
+        break;
+      case 1:  // doubled, here or anywhere
+        places.copy(at, places.length(kind), random.chance(0.5) ? at : any(places.all()));
+        break;
+      case 2:  // another class
+        if (kind == Kind::TABLE) places.put(at, layout.table_class, bits(layout.table_class));
+        if (kind == Kind::OP) places.put(at, layout.op_class, bits(layout.op_class));
+        if (kind == Kind::FACE) places.put(at, layout.face_class, bits(layout.face_class));
+        if (kind == Kind::ES) places.put(at, layout.es_xl, bits(layout.es_xl));
+        break;
+      default:  // another light, or share
+        if (kind == Kind::ES) places.put(at, layout.es_light, bits(layout.es_light));
+        if (kind == Kind::TABLE && random.chance(0.5)) places.put(at, layout.table_light, bits(layout.table_light));
+        if (kind == Kind::TABLE) places.put(at, layout.table_share[0], bits(layout.table_share[0]));
+    }
+  }
+}
+
+/// Damage that a frame with a tree is made for: one to three faces, segments or TREEs that are not what they should be.
+/// The words must be a valid frame; one without units or tree stays as it is.
+inline void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& words) {
+  using At = TokenPlaces::At;
+  for (int round = random.chance(0.7) ? 1 : random.in(2, 3); round > 0; --round) {
+    TokenPlaces places(c, words);
+    if (!places.whole()) return;
+    const Layout& layout = places.layout();
+    const auto put = [&places](At at, Field f, std::uint64_t value) { places.put(at, f, value); };
+    const auto get = [&places](At at, Field f) { return places.get(at, f); };
+    const auto copy = [&places](At from, At n, At to) { places.copy(from, n, to); };
+    const std::vector<At>& all = places.all();
+    const auto any = [&random](const std::vector<At>& of) {
+      return of[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(of.size()) - 1))];
+    };
+    const auto& segs = places.of(Kind::SEG);
+    const auto& trees = places.of(Kind::TREE);
+    const auto& faces = places.of(Kind::FACE);
+    if (segs.empty() || trees.empty()) return;
+    const At length = places.length(Kind::SEG);
+    const At seg = any(segs);
+    switch (random.in(0, 13)) {
+      case 0:
+        put(seg, layout.seg_dx, 0);
+        break;
+      case 1:
+        put(seg, layout.seg_sync, get(seg, layout.seg_sync) ^ 1U);
+        break;
+      case 2:
+        put(seg, layout.seg_face, static_cast<std::uint64_t>(random.in(0, (1 << c.face_bits) - 1)));
+        break;
+      case 3:  // too few pixels
+        words.erase(words.begin() + seg, words.begin() + seg + length);
+        break;
+      case 4:  // too many
+        copy(seg, length, seg);
+        break;
+      case 5:
+        put(seg, layout.seg_dx, get(seg, layout.seg_dx) + static_cast<std::uint64_t>(random.in(-2, 2)));
+        break;
+      case 6: {  // too many segments: as many as it has pixels
+        const std::uint64_t dx = get(seg, layout.seg_dx);
+        put(seg, layout.seg_dx, 1);
+        for (std::uint64_t i = 1; i < dx; ++i) copy(seg, length, seg + length);
+        for (std::uint64_t i = 1; i < dx; ++i) put(seg + static_cast<At>(i) * length, layout.seg_sync, 0);
+        break;
+      }
+      case 7:
+        put(seg, layout.seg_unit, static_cast<std::uint64_t>(random.in(0, (1 << layout.seg_unit.bits) - 1)));
+        break;
+      case 8:  // out of phase, or past the last line
+        copy(seg, length, any(all));
+        break;
+      case 9: {                                   // whole lines of a unit too early, or too many of them
+        if (trees.front() < segs.front()) break;  // by an earlier round's damage
+        const std::vector<std::uint32_t> line(words.begin() + segs.front(), words.begin() + trees.front());
+        words.insert(words.begin() + any(random.chance(0.5) ? trees : segs), line.begin(), line.end());
+        break;
+      }
+      case 10:
+        words.erase(words.begin() + any(trees));
+        break;
+      case 11:
+        copy(any(trees), 1, any(random.chance(0.5) ? trees : all));
+        break;
+      case 12:
+        if (faces.empty()) break;
+        copy(any(faces), places.length(Kind::FACE), any(random.chance(0.7) ? faces : all));
+        break;
+      default: {
+        if (faces.empty()) break;
+        const At face = any(faces);
+        words.erase(words.begin() + face, words.begin() + face + places.length(Kind::FACE));
+      }
+    }
+  }
+}
+
+}  // namespace kage::verif

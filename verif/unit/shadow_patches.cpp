@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patches: their faces are free of overlap in rational numbers, each is in one of them, and they are as large as can
+// be.
+#include <set>
+
+#include "catch.hpp"
+#include "shadow/patches.hpp"
+#include "support/light_oracle.hpp"
+
+namespace kage::verif {
+namespace {
+
+std::vector<std::vector<CapFace>> patches_of(const Caster& c) {
+  return make_patches(c.frame, c.light, EdgeTable(c.frame), LightSpace(c.frame, c.light, c.caps), c.caps);
+}
+
+/// n x n squares of a height field with bumps `steep` high.
+Solid field(Random& random, int n, double steep) {
+  Solid s;
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) s.vertices.emplace_back(x, -5 + random.real(0, steep), y);
+  const auto at = [n](int x, int y) { return static_cast<std::uint32_t>(y * (n + 1) + x); };
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      s.faces.push_back({at(x, y), at(x, y + 1), at(x + 1, y)});
+      s.faces.push_back({at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)});
+    }
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("no two faces of a patch overlap as the light sees them, and each face is in one patch") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  std::size_t faces = 0;
+  std::size_t patches = 0;
+  for (int i = 0; i < 400; ++i) {
+    CAPTURE(i);
+    const bool directional = i % 2 == 0;
+    const Caster c = caster_of(random_faces(random, directional, i % 4 < 2, 24), above(directional));
+    std::set<std::uint32_t> seen;
+    for (const auto& patch : patches_of(c)) {
+      CHECK(exact_from_above(c, patch) == 1);
+      for (const CapFace& cap : patch) CHECK(seen.insert(cap.polygon).second);
+      ++patches;
+    }
+    CHECK(seen.size() == c.caps.size());
+    faces += c.caps.size();
+  }
+  CAPTURE(faces, patches);
+  CHECK(patches < faces);
+}
+
+TEST_CASE("a height field under a light straight above is one patch, turned faces and all") {
+  Random random(test_seed(2));
+  CAPTURE(test_seed(2));
+  for (const double steep : {0.0, 1.0, 50.0}) {
+    Solid s = field(random, 20, steep);
+    CHECK(patches_of(caster_of(s, above(true))).size() == 1);
+    for (auto& f : s.faces)
+      if (random.chance(0.5)) std::swap(f[0], f[1]);
+    CHECK(patches_of(caster_of(s, above(true))).size() == 1);
+  }
+}
+
+TEST_CASE("a sheet folded n times is n patches, however thin its folds") {
+  for (const double thin : {1.0, 1e-3, 1e-9, 0x1p-40})
+    for (int n = 1; n < 9; ++n) {
+      CAPTURE(thin, n);
+      Solid s;
+      for (int i = 0; i <= n; ++i)
+        for (const double z : {-1.0, 1.0}) s.vertices.emplace_back(i % 2 == 0 ? -1 : 1, -2 - thin * i, z);
+      for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(n); ++i) {
+        s.faces.push_back({2 * i, 2 * i + 1, 2 * i + 3});
+        s.faces.push_back({2 * i, 2 * i + 3, 2 * i + 2});
+      }
+      CHECK(patches_of(caster_of(s, above(true))).size() == static_cast<std::size_t>(n));
+    }
+}
+
+TEST_CASE("on which side of an edge a corner lies is exact") {
+  SceneFrame f;
+  const double up = std::nextafter(1.0, 2.0);
+  f.vertices = {{0, 0, 0}, {3, 0, 3}, {1, 7, 1}, {1, -3, up}, {up, 5, 1}};
+  LightPoint light;  // straight down: x to the right, -z up
+  CHECK(light_turn(f, light, 0, 1, 2) == 0);
+  CHECK(light_turn(f, light, 0, 1, 3) == -1);
+  CHECK(light_turn(f, light, 0, 1, 4) == 1);
+  CHECK(light_turn(f, light, 1, 0, 4) == -1);
+  light.directional = false;
+  light.position = {0, 20, 0};
+  CHECK(light_turn(f, light, 0, 1, 2) == 0);
+  CHECK(light_turn(f, light, 0, 1, 3) == -1);
+  CHECK(light_turn(f, light, 0, 1, 4) == 1);
+}
+
+}  // namespace kage::verif
