@@ -21,10 +21,15 @@
 
 namespace kage::verif {
 
+/// What a scene for Embree is made for: to be right, or to be fast. Only the former leaves out a ray's own face and
+/// what is translucent (nearest(), blocked()).
+enum class EmbreeUse { truth, speed };
+
 class EmbreeScene {
  public:
-  explicit EmbreeScene(const SceneFrame& f) : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-    rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilter));
+  explicit EmbreeScene(const SceneFrame& f, EmbreeUse use = EmbreeUse::truth)
+      : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
+    if (use == EmbreeUse::truth) rtcSetSceneFlags(scene_, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | kFilter));
     std::size_t triangles = 0;
     for (const Polygon& p : f.polygons) triangles += p.count - 2;
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -45,7 +50,7 @@ class EmbreeScene {
       }
     }
     rtcSetGeometryUserData(geometry, this);
-    rtcSetGeometryOccludedFilterFunction(geometry, pass);
+    if (use == EmbreeUse::truth) rtcSetGeometryOccludedFilterFunction(geometry, pass);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
@@ -58,6 +63,12 @@ class EmbreeScene {
   }
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
+
+  /// For rays of the caller's own; no longer than this object.
+  [[nodiscard]] RTCScene handle() const { return scene_; }
+
+  /// The polygon, of SceneFrame::polygons, that Embree's triangle is part of.
+  [[nodiscard]] std::uint32_t polygon(std::uint32_t triangle) const { return polygon_[triangle]; }
 
   /// As RayScene::nearest().
   [[nodiscard]] std::pair<double, std::uint32_t> nearest(const glm::dvec3& origin, const glm::dvec3& direction,
