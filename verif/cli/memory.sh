@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Frames and bands of lines flow through: peak memory grows neither with a frame's height nor with the number of frames.
-# The tall frames hold 14 MB of pixels, or 28 MB of words (knot): what keeps either is seen. Programs begin at some 130 MB, nearly all
+# A large mesh with shadows stays below 1 GiB. The tall frames hold 14 MB of pixels, or 28 MB of words (knot): what keeps either is seen. Programs begin at some 130 MB, nearly all
 # of it shared libraries.
 . "$(dirname "$0")/common.bash"
 
@@ -47,4 +47,30 @@ flat() {
 flat 7680 "$kage" cosim courtyard --size '640x{H}' --frames '{N}' --out c
 flat 7680 "$kage" render courtyard --size '640x{H}' --frames '{N}' --out r
 flat 3840 "$kage" stream knot --size '640x{H}' --frames '{N}' --out s.kage
+
+# A mesh of 102,400 faces that is not convex, on a sheet, with shadows.
+python3 - >big.obj <<'PY'
+import math
+n, m = 320, 160
+points = []
+for j in range(m + 1):
+    for i in range(n):
+        a, b = 2 * math.pi * i / n, math.pi * j / m
+        r = 1 + 0.12 * math.sin(7 * a) * math.sin(5 * b) + 0.05 * math.sin(23 * a + 3 * b) * math.sin(b)
+        points.append((r * math.sin(b) * math.cos(a), r * math.cos(b), r * math.sin(b) * math.sin(a)))
+points += [(-3, -1.3, -3), (-3, -1.3, 3), (3, -1.3, 3), (3, -1.3, -3)]
+for p in points:
+    print("v %.6f %.6f %.6f" % p)
+for j in range(m):
+    for i in range(n):
+        k = (i + 1) % n
+        a, b, c, d = j * n + i + 1, j * n + k + 1, (j + 1) * n + k + 1, (j + 1) * n + i + 1
+        print("f %d %d %d\nf %d %d %d" % (a, b, c, a, c, d))
+print("f %d %d %d %d" % tuple(len(points) - k for k in (3, 2, 1, 0)))
+PY
+for command in render cosim; do
+  peak "$kage" $command big.obj --size 1280x720 --frames 1 --out big
+  echo "$command: $kib KiB for 102,400 faces at 1280x720"
+  [ "$kib" -le 1048576 ] || fail "$command of a large mesh: $kib KiB"
+done
 done_testing
