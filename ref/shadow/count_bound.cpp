@@ -71,8 +71,8 @@ class Bound {
     std::uint64_t visits = kVisits * edges_.size() + kVisitsMore;
     for (;;) {
       const Cell& top = cells_.front();
-      if (top.bound <= std::max(low_, target_) || top.log <= kLeastCell || visits < top.edges.size())
-        return {low_, top.bound};
+      const bool told = top.bound <= std::max(low_, target_) || (target_ >= 0 && low_ > target_);
+      if (told || top.log <= kLeastCell || visits < top.edges.size()) return {low_, top.bound};
       std::pop_heap(cells_.begin(), cells_.end());
       const Cell cell = std::move(cells_.back());
       cells_.pop_back();

@@ -37,8 +37,9 @@ struct CountRange {
 
 /// The largest count over the square, but for the edges themselves. `base`: the count at its lower left corner. Inside
 /// the square edges end only where others go on, so that the count is the same whichever way it is followed. Stops once
-/// high is no larger than `target` or than low, or where cells get no smaller, or after a stated amount of work: high
-/// is an upper bound in any case. Changes the order of `edges` and puts equal ones together.
+/// high <= target or low > target (target < 0: not before they are equal), or where cells get no smaller, or after a
+/// stated amount of work: high is an upper bound in any case. Changes the order of `edges` and puts equal ones
+/// together.
 CountRange bound_count(std::vector<ChartEdge>& edges, int base, int target);
 
 }  // namespace kage

@@ -33,7 +33,7 @@ class LightSpace {
   LightSpace(const SceneFrame& frame, const LightPoint& light, std::span<const CapFace> caps);
 
   /// The most of `caps` that one ray of light meets, whose sides are `sides`. high is an upper bound, as close as it
-  /// takes to tell whether it is beyond `target` (bound_count()).
+  /// takes to tell whether it is beyond `target`, or, if that is below 0, as close as can be (bound_count()).
   [[nodiscard]] CountRange count(std::span<const CapFace> caps, std::span<const SideEdge> sides, int target) const;
 
   /// A rectangle round a face. Faces whose rectangles are apart have no ray of light in common.

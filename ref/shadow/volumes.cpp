@@ -128,17 +128,18 @@ void VolumeCaster::add_parts(const LightSpace& space, const ShadowCaster& caster
 }
 
 // On a ray of light in the part's rectangle lie at most its own caps and those of the parts whose rectangles overlap
-// it; on any other as many as before. Where that is too many to tell, the edges are asked.
+// it; on any other as many as before. Where that is too many to tell, the edges of those parts are asked.
 bool VolumeCaster::fits(const LightSpace& space, const Group& group, const Part& part, std::uint64_t& budget) {
   int sum = part.most;
+  std::vector<CapFace> caps = part.caps;
   for (const Part* p : group.parts)
-    if (p->box.overlaps(part.box)) sum += p->most;
+    if (p->box.overlaps(part.box)) {
+      sum += p->most;
+      caps.insert(caps.end(), p->caps.begin(), p->caps.end());
+    }
   if (sum <= limit_) return true;
-  const std::uint64_t cost = group.caps.size() + part.caps.size();
-  if (cost > budget) return false;
-  budget -= cost;
-  std::vector<CapFace> caps = group.caps;
-  caps.insert(caps.end(), part.caps.begin(), part.caps.end());
+  if (caps.size() > budget) return false;
+  budget -= caps.size();
   return most(space, caps) <= limit_;
 }
 

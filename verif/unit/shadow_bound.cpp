@@ -30,14 +30,18 @@ TEST_CASE("the bound on caps that light meets is never below the exact number, a
     const Caster c = caster_of(s, above(directional));
     if (c.caps.empty()) continue;
     const int exact = exact_from_above(c, c.caps);
-    const CountRange r = bound(c, 0);
+    const CountRange r = bound(c, -1);
     CAPTURE(exact, r.low, r.high);
     CHECK(r.high >= exact);
     // Edges that ought to touch may overlap by the rounding of light space.
     if (!coarse) CHECK(r.low <= exact);
     ++above_by[static_cast<std::size_t>(std::clamp(r.high - exact, 0, 7))];
     // What a target asks for is answered, whichever way.
-    for (const int target : {1, 3}) CHECK(bound(c, target).high >= std::min(exact, r.high));
+    for (const int target : {0, 1, 3}) {
+      const CountRange told = bound(c, target);
+      CHECK(told.high >= exact);
+      CHECK((told.high <= target) == (r.high <= target));
+    }
   }
   INFO("above by 0 .. 7 and more: " << above_by[0] << ' ' << above_by[1] << ' ' << above_by[2] << ' ' << above_by[3]
                                     << ' ' << above_by[4] << ' ' << above_by[5] << ' ' << above_by[6] << ' '
@@ -69,7 +73,7 @@ TEST_CASE("the bound holds all round a light: closed bodies about it, one in ano
     std::vector<SideEdge> sides;
     EdgeTable(f).sides(f, all, sides);
     CHECK(sides.empty());
-    const CountRange r = LightSpace(f, light, all).count(all, sides, 0);
+    const CountRange r = LightSpace(f, light, all).count(all, sides, -1);
     // Each body once in every direction.
     CHECK(r.high == n);
   }
@@ -101,7 +105,7 @@ TEST_CASE("the bound holds where bodies stand round a light") {
     std::vector<SideEdge> sides;
     EdgeTable(f).sides(f, all, sides);
     const LightSpace space(f, light, all);
-    const CountRange r = space.count(all, sides, 0);
+    const CountRange r = space.count(all, sides, -1);
     // Rays of light, towards all corners and between them.
     int most = 0;
     for (int k = 0; k < 3000; ++k) {
