@@ -3,10 +3,32 @@
 // What must hold of any frame with shadow volumes.
 #pragma once
 
+#include <span>
+
 #include "catch.hpp"
 #include "scene/judge.hpp"
+#include "support/shapes.hpp"
 
 namespace kage::verif {
+
+/// Boxes over a floor, in threes and in this order: a box, one round it, and one that overlaps or touches them, `aside`
+/// of them.
+inline SceneFrame box_threes(std::span<const int> order, double aside) {
+  SceneFrame f;
+  add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
+  for (const int i : order) {
+    const int column = i / 3 % 5;
+    const int row = i / 15;
+    const glm::dvec3 centre{column * 1.5 - 3, 0, row * 1.5 - 3};
+    if (i % 3 == 2)
+      add_solid(f, box_solid(), centre + glm::dvec3(aside, 0, 0), {0.2, 0.2, 0.2}, Turn{}, {1, 1, 1});
+    else
+      add_solid(f, box_solid(), centre, glm::dvec3(i % 3 == 0 ? 0.2 : 0.3), Turn{}, {1, 1, 1});
+  }
+  f.lights[0].direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
+  look_at(f.camera, {5, 6, 7}, {0, -1, 0});
+  return f;
+}
 
 /// The golden core's picture is the oracle's.
 inline void judge_all(const SceneFrame& f, const Config& config, int width, int height, const Look& look = {}) {
