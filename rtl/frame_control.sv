@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame: checks header and tokens as docs/stream.md demands, keeps line number, phase and bias, and turns tokens into
-// commands for the pixels and lines for the way out. What is downstream never sees a malformed stream.
+// The frame: checks its header, asks token_check about its tokens, keeps the line's number, and turns tokens into commands for the
+// pixels and lines for the way out. What is downstream never sees a malformed stream.
 //
 // Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o waits for
 //   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command, so lines and
@@ -11,13 +11,13 @@
 //   With counters, if there was a RESOLVE to do, it is preceded by the command CmdOut instead: the line's pixels leave, by a line that says
 //   line_load_o, and come back as loads. Nothing is taken or given until loads_done_i, one clock, says that they have.
 // Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they are taken, and wait for table_free_i: that
-//   nothing of the frame before is left there. table_check has the rules.
+//   nothing of the frame before is left there.
 // Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands
 //   clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
 // Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its unit by
 //   tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose unit is at fault goes
 //   nowhere. tree_claim_o, one clock, says that a TREE became a command; tree_flush_o, one clock, that there will be no more of this
-//   frame. segment_check has the rules. Without units these outputs are 0 and the inputs do not matter.
+//   frame. Without units these outputs are 0 and the inputs do not matter.
 // Latency: 1 clock from token to command. Throughput: a token a clock.
 `default_nettype none
 
@@ -110,8 +110,6 @@ module frame_control #(
   localparam logic [1:0] StBody = 2'd1;  // tokens of an error-free frame
   localparam logic [1:0] StBlank = 2'd2;  // after an error: the rest is background
 
-  localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
-
   // ---- state -------------------------------------------------------------------------------------------------------
   logic [1:0] state_q;
   logic painted_q;  // the line's colours are ready for TPs
@@ -124,12 +122,9 @@ module frame_control #(
 
   // ---- decode ------------------------------------------------------------------------------------------------------
   logic [3:0] kind;
-  logic is_shade, is_op, is_sp, is_nc, is_ev, is_eol, is_end, is_span, is_tree, is_tp, is_es, is_table;
-  logic [X_BITS-1:0] xl, xr;
-  logic [SHADE_FRAC:0] shade;
+  logic is_op, is_sp, is_nc, is_ev, is_eol, is_end, is_span, is_tree, is_tp, is_es, is_table;
 
   assign kind = token_i[3:0];
-  assign is_shade = kind == KindShade;
   assign is_op = kind == KindOp;
   assign is_sp = kind == KindSp;
   assign is_nc = kind == KindNc;
@@ -139,10 +134,8 @@ module frame_control #(
   assign is_tree = UNITS > 0 && kind == KindTree;
   assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
   assign is_es = COUNT_BITS > 0 && kind == KindEs;
+  assign is_table = CLASS_BITS > 1 && kind == KindTable;
   assign is_span = is_op || is_sp || is_nc || is_ev || is_es || is_tp;
-  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC, EV, ES and TP
-  assign xr = token_i[OpXrLsb+:X_BITS];
-  assign shade = token_i[ShadeShadeLsb+:SHADE_FRAC+1];
 
   // ---- header ------------------------------------------------------------------------------------------------------
   logic [15:0] head_width, head_height;
@@ -158,37 +151,49 @@ module frame_control #(
     else head_error = ErrNone;
   end
 
-  // ---- order, range, line ------------------------------------------------------------------------------------------
-  logic lines_done, in_phase, in_order, in_range, in_line, resolved;
-  logic tree_order_error, tree_range_error, tree_error;  // those of FACE, SEG and TREE; see gen_tree below
-  logic table_order_error, table_range_error, light_lacking;  // those of TABLE and classes, see gen_table; of ES
-  logic [3:0] body_error, tree_code;
-  logic shade_seen_q;
+  // ---- body --------------------------------------------------------------------------------------------------------
+  logic accept, good, emit_eol, emit_paint;  // what happens in this clock, see below
+  logic lines_done, resolved, seg_goes, unit_behind;
+  logic [3:0] body_error;
+  logic [31:0] fault_token;
+  logic [5:0] fault_unit;
+  logic [1:0] ahead_of_behind;
+  logic [DsfBits-1:0] bias;
   assign lines_done = line_q == height_q;
-  assign light_lacking = is_es && 32'(token_i[EsLightLsb+:LightBits]) >= 32'(LIGHTS);
-  always_comb begin
-    unique case (kind)
-      KindShade: in_order = UNITS > 0 ? !shade_seen_q : index_q == 32'd1;
-      KindTable: in_order = !table_order_error;
-      default:   in_order = in_phase;
-    endcase
-    if ((lines_done && !is_end) || tree_order_error) in_order = 1'b0;
-    in_range = !(is_span && (xl > xr || xr > width_q)) && !(is_shade && shade > ShadeMost) && !light_lacking;
-    if (tree_range_error || table_range_error) in_range = 1'b0;
-    in_line = !(is_eol && token_i[EolYLsb+:16] != 16'(line_q)) && !(is_end && !lines_done);
-    if (token_cut_i) body_error = ErrLastEarly;
-    else if (token_lacking_i) body_error = ErrKind;
-    else if (!in_order) body_error = ErrOrder;
-    else if (!in_range) body_error = ErrRange;
-    else if (!in_line) body_error = ErrLine;
-    else if (tree_error) body_error = tree_code;
-    else if (is_end && !token_at_last_i) body_error = ErrLastLate;
-    else body_error = ErrNone;
-  end
+
+  token_check #(
+      `include "kage_pixel_param_map.svh"
+      .TOKEN_WORDS(TOKEN_WORDS)
+  ) u_check (
+      .clk_i,
+      .rst_ni,
+      .token_i,
+      .token_lacking_i,
+      .token_cut_i,
+      .token_at_last_i,
+      .width_i       (width_q),
+      .line_i        (line_q),
+      .lines_left_i  (height_q - line_q),
+      .lines_done_i  (lines_done),
+      .index_i       (index_q),
+      .header_i      (accept && token_header_i),
+      .start_i       (good && token_header_i),
+      .take_i        (good && !token_header_i),
+      .eol_i         (emit_eol),
+      .clear_bias_i  (emit_paint),
+      .code_o        (body_error),
+      .fault_unit_o  (fault_unit),
+      .fault_token_o (fault_token),
+      .seg_goes_o    (seg_goes),
+      .bias_o        (bias),
+      .resolved_o    (resolved),
+      .behind_o      (unit_behind),
+      .behind_unit_o (behind_unit_o),
+      .behind_ahead_o(ahead_of_behind)
+  );
 
   // ---- what happens in this clock ----------------------------------------------------------------------------------
-  logic cmd_free, eol_free, accept, bad, good, body_eol, blank_eol, emit_eol, emit_span;
-  logic emit_tree, emit_paint, emit_out, body_free, frame_free, must_paint;
+  logic cmd_free, eol_free, bad, body_eol, blank_eol, emit_span, emit_tree, emit_out, body_free, frame_free, must_paint;
   logic by_loads;
   logic [3:0] error_code;
   assign eol_free = cmd_free && line_ready_i;
@@ -201,7 +206,7 @@ module frame_control #(
   assign body_eol = good && !token_header_i && is_eol;
   assign blank_eol = state_q == StBlank && !lines_done && eol_free;
   assign emit_eol = body_eol || blank_eol;
-  assign emit_span = good && !token_header_i && is_span && xl != xr;
+  assign emit_span = good && !token_header_i && is_span && token_i[OpXlLsb+:X_BITS] != token_i[OpXrLsb+:X_BITS];
   assign emit_tree = good && !token_header_i && is_tree;
   // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line is blank, and
   // to the latter it does no harm.
@@ -231,6 +236,11 @@ module frame_control #(
   assign error_code_o = error_code;
   assign error_frame_o = token_header_i ? (token_cut_i ? 32'd0 : token_i[159:128]) : frame_q;
   assign error_line_o = token_header_i ? 16'd0 : 16'(line_q);
+  assign error_token_o = token_header_i ? 32'd0 : fault_token;
+  assign error_unit_o = token_header_i ? 6'd0 : fault_unit;
+  // None while a frame ends or is dropped: what the units hold then is not waited for.
+  assign behind_o = unit_behind && state_q == StBody;
+  assign behind_line_o = behind_o ? line_q + 15'(ahead_of_behind) : line_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -267,27 +277,9 @@ module frame_control #(
         loading_q <= 1'b0;
         painted_q <= 1'b1;
       end
-      if (DSF_BITS > 0 && good && is_shade) shade_q <= shade;
+      if (DSF_BITS > 0 && good && kind == KindShade) shade_q <= token_i[ShadeShadeLsb+:SHADE_FRAC+1];
     end
   end
-
-  logic [DsfBits-1:0] bias;
-  line_phase #(
-      .TRANSLUCENCY(TRANSLUCENCY),
-      .DSF_BITS(DSF_BITS),
-      .FSF(FSF),
-      .COUNT_BITS(COUNT_BITS)
-  ) u_phase (
-      .clk_i,
-      .start_i     ((accept && token_header_i) || emit_eol),
-      .take_i      (good && !token_header_i),
-      .clear_bias_i(emit_paint),
-      .kind_i      (kind),
-      .w_i         (token_i[IfWLsb+:DsfBits]),
-      .in_order_o  (in_phase),
-      .resolved_o  (resolved),
-      .bias_o      (bias)
-  );
 
   // ---- command register --------------------------------------------------------------------------------------------
   token_command #(
@@ -324,50 +316,11 @@ module frame_control #(
   assign table_class_o = token_i[TableClassLsb+:CLASS_BITS];
   assign table_light_o = token_i[TableLightLsb+:LightBits];
   assign table_share_o = token_i[TableShareLsb+:EntryShareBits];
-  if (CLASS_BITS > 1) begin : gen_table
-    logic lacking, class_used, entry_error;
-    logic [CLASS_BITS-1:0] span_class;
-    assign is_table = kind == KindTable;
-    if (UNITS > 0) begin : gen_faces
-      assign class_used = is_op || kind == KindFace;
-      assign span_class = is_op ? token_i[OpClassLsb+:CLASS_BITS] : token_i[FaceClassLsb+:CLASS_BITS];
-    end else begin : gen_no_faces
-      assign class_used = is_op;
-      assign span_class = token_i[OpClassLsb+:CLASS_BITS];
-    end
-    assign table_valid_o = good && !token_header_i && is_table;
-    table_check #(
-        .SHADE_FRAC(SHADE_FRAC),
-        .CHANNELS(CHANNELS),
-        .LIGHTS(LIGHTS),
-        .CLASS_BITS(CLASS_BITS)
-    ) u_table (
-        .clk_i,
-        .frame_start_i(good && token_header_i),
-        .take_table_i (table_valid_o),
-        .take_other_i (good && !token_header_i && !is_table && !(UNITS > 0 && kind == KindFace)),
-        .class_i      (table_class_o),
-        .light_i      (table_light_o),
-        .share_i      (table_share_o),
-        .span_class_i (span_class),
-        .order_error_o(table_order_error),
-        .range_error_o(entry_error),
-        .lacking_o    (lacking)
-    );
-    assign table_range_error = is_table ? entry_error : class_used && lacking;
-  end else begin : gen_no_table
-    logic unused_table;
-    assign unused_table = table_free_i;
-    assign {is_table, table_valid_o, table_order_error, table_range_error} = '0;
-  end
+  assign table_valid_o = good && !token_header_i && is_table;
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
   if (UNITS > 0) begin : gen_tree
-    logic is_face, is_seg, seg_pass, seg_goes, is_fault;
-    logic [UnitBits-1:0] fault_unit, unit_of_behind;
-    logic [1:0] ahead_of_behind;
-    logic unit_behind;
-    logic [31:0] fault_token;
+    logic is_face, is_seg;
     assign is_face = kind == KindFace;
     assign is_seg = kind == KindSeg;
     assign tree_unit_o = is_face ? token_i[FaceUnitLsb+:UnitBits] : token_i[SegUnitLsb+:UnitBits];
@@ -380,82 +333,18 @@ module frame_control #(
     assign tree_flush_o = bad && !token_header_i;
     assign tree_claim_o = emit_tree;
     assign tree_face_valid_o = good && !token_header_i && is_face;
-    assign seg_goes = seg_pass && body_error == ErrNone;
     assign tree_seg_valid_o = token_valid_i && state_q == StBody && seg_goes;
 
     assign frame_free = tree_frame_ready_i;
     // FACE and SEG pass a command that waits: the units fill while the pixels work.
     assign body_free = is_seg ? !seg_goes || tree_seg_ready_i : is_face || cmd_free;
-
-    // What a TREE raises has its own place.
-    assign is_fault = !token_header_i && tree_error && error_code == tree_code;
-    assign error_token_o = token_header_i ? 32'd0 : is_fault ? fault_token : index_q;
-    assign error_unit_o = is_fault ? 6'(fault_unit) : '0;
-
-    always_ff @(posedge clk_i) begin
-      if (accept && token_header_i) shade_seen_q <= 1'b0;
-      else if (good && is_shade) shade_seen_q <= 1'b1;
-    end
-
-    segment_check #(
-        .X_BITS(X_BITS),
-        .Z_BITS(Z_BITS),
-        .Z_FRAC(Z_FRAC),
-        .UNITS(UNITS),
-        .FACE_BITS(FACE_BITS),
-        .DX_BITS(DX_BITS),
-        .SEG_BITS(SEG_BITS),
-        .ORDER_BITS(ORDER_BITS),
-        .CLASSIC(CLASSIC)
-    ) u_check (
-        .clk_i,
-        .rst_ni,
-        .frame_start_i (tree_frame_start_o),
-        .take_i        (good && !token_header_i),
-        .is_shade_i    (is_shade || is_table),
-        .is_face_i     (is_face),
-        .is_seg_i      (is_seg),
-        .is_tree_i     (is_tree),
-        .is_eol_i      (is_eol),
-        .is_other_i    (!(is_shade || is_table || is_face || is_seg || is_tree || is_eol || is_end)),
-        .width_i       (width_q),
-        .lines_left_i  (height_q - line_q),
-        .token_i       (index_q),
-        .unit_i        (tree_unit_o),
-        .face_i        (tree_face_o),
-        .sync_i        (token_i[SegSyncLsb]),
-        .dx_i          (tree_dx_o),
-        .order_error_o (tree_order_error),
-        .range_error_o (tree_range_error),
-        .seg_pass_o    (seg_pass),
-        .tree_error_o  (tree_error),
-        .tree_code_o   (tree_code),
-        .tree_unit_o   (fault_unit),
-        .tree_token_o  (fault_token),
-        // verilator lint_off PINCONNECTEMPTY
-        .tree_o        (),
-        .due_o         (),
-        // verilator lint_on PINCONNECTEMPTY
-        .behind_o      (unit_behind),
-        .behind_unit_o (unit_of_behind),
-        .behind_ahead_o(ahead_of_behind)
-    );
-    // None while a frame ends or is dropped: what the units hold then is not waited for.
-    assign behind_o = unit_behind && state_q == StBody;
-    assign behind_unit_o = 6'(unit_of_behind);
-    assign behind_line_o = behind_o ? line_q + 15'(ahead_of_behind) : line_q;
-
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i;
-    assign {tree_order_error, tree_range_error, tree_error, tree_code, shade_seen_q} = '0;
+    assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i ^ seg_goes;
     assign {tree_frame_start_o, tree_flush_o, tree_claim_o, tree_face_valid_o, tree_seg_valid_o} = '0;
     assign {tree_unit_o, tree_face_o, tree_entry_o, tree_z_o, tree_dx_o} = '0;
     assign frame_free = 1'b1;
     assign body_free = cmd_free;
-    assign error_token_o = token_header_i ? 32'd0 : index_q;
-    assign {error_unit_o, behind_o, behind_unit_o} = '0;
-    assign behind_line_o = line_q;
   end
 
   // ---- assertions --------------------------------------------------------------------------------------------------

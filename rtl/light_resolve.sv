@@ -6,7 +6,7 @@
 //   go_i later pixel_o is its {covered, colour}, and factor_o each channel's factor in 2^-SHADE_FRAC, channel 0 lowest:
 //   max(0, 2^SHADE_FRAC - sum over lights of count x share), where without a table share is shade_i, which holds still while pixels are within.
 // Table (CLASS_BITS > 1): table_valid_i writes the entry of a class and a light. No pixel within may be of a frame before: frame_control
-//   waits for the way out to be empty. What has not been written is never looked up with a count other than 0.
+//   waits for the way out to be empty. What has not been written is never looked up with a count other than 0. No share is more than 1.
 // Latency: with a table 5 clocks: RAM, the register behind it, products, sums, factors; without one 2: product, factor. Throughput: a pixel a clock.
 // Cost: with a table a RAM of 2^CLASS_BITS x CHANNELS x (SHADE_FRAC + 1) bits and CHANNELS products of COUNT_BITS x (SHADE_FRAC + 1) bits for
 //   each light; without one a single product.
@@ -37,7 +37,7 @@ module light_resolve #(
   localparam int CountOne = COUNT_BITS > 0 ? COUNT_BITS : 1;
   localparam int Counts = LIGHTS * CountOne;
   localparam int Shares = CLASS_BITS > 1 ? CHANNELS : 1;  // of a light: without a table all channels have one
-  localparam int ProductBits = CountOne + FactorBits;
+  localparam int ProductBits = CountOne + SHADE_FRAC;  // no share is more than 1, nor a count 2^CountOne
   localparam int SumBits = ProductBits + $clog2(LIGHTS);
   localparam int Passed = RgbBits + 1;
 

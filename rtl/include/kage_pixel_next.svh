@@ -92,10 +92,8 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
         if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
         else pixel_next[PixelDsfAt+:DsfBits] = '0;
       end
-      CmdOut:
+      CmdOut:  // with counters nothing asks for DSF and FSF until EOL clears them
       if (TRANSLUCENCY > 0 && COUNT_BITS > 0) begin
-        pixel_next[PixelDsfAt+:DsfBits] = '0;
-        if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
         for (int l = 0; l < LIGHTS; l++) pixel_next[PixelCountAt+l*TallyOne+:TallyOne] = '0;
       end
       CmdLoad: if (TRANSLUCENCY > 0 && COUNT_BITS > 0) pixel_next[Z_BITS+:RgbBits] = color;

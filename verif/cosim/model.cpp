@@ -72,6 +72,9 @@ std::string output_of(const char* command) {
   return text;
 }
 
+std::string verilator_version() { return output_of("verilator --version 2>/dev/null"); }
+std::string compiler_version() { return output_of("${CXX:-g++} -dumpfullversion 2>/dev/null"); }
+
 /// The names that --fault takes.
 std::vector<std::string> faults(const fs::path& data) {
   std::vector<std::string> names;
@@ -82,9 +85,12 @@ std::vector<std::string> faults(const fs::path& data) {
   return names;
 }
 
-std::string key_of(const fs::path& data, const Config& config, const std::string& fault) {
+std::string key_of(const fs::path& data, const Config& config, const ModelOptions& options) {
+  const std::string& fault = options.fault;
   std::vector<fs::path> files;  // what build.py --sources names, and perhaps a file more
-  for (const char* folder : {"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"}) {
+  std::vector<const char*> folders{"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"};
+  if (options.traced) folders.push_back("verif/monitors");
+  for (const char* folder : folders) {
     if (!fs::is_directory(data / folder))
       throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
     for (const auto& entry : fs::directory_iterator(data / folder)) {
@@ -93,6 +99,7 @@ std::string key_of(const fs::path& data, const Config& config, const std::string
         files.push_back(fs::path(folder) / name);
     }
   }
+  if (options.mutants) files.emplace_back("verif/mutants/mutants.yaml");
   if (!fault.empty()) {
     files.push_back(fs::path("verif/faults") / (fault + ".patch"));
     if (fault.find('/') != std::string::npos || !fs::exists(data / files.back()))
@@ -106,10 +113,12 @@ std::string key_of(const fs::path& data, const Config& config, const std::string
   }
   for (const ParamInfo& p : kParams) hash.add(fmt::format("{}={}", p.name, config.*(p.member)));
   hash.add(fault);
-  const std::string verilator = output_of("verilator --version 2>/dev/null");
+  hash.add(options.traced ? "traced" : "");
+  hash.add(options.mutants ? "mutants" : "");
+  const std::string verilator = verilator_version();
   if (verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
   hash.add(verilator);
-  hash.add(output_of("${CXX:-g++} -dumpfullversion 2>/dev/null"));
+  hash.add(compiler_version());
   return hash.hex();
 }
 
@@ -213,17 +222,17 @@ struct RemoveFolder {
 
 }  // namespace
 
-Model find_model(const Config& config, const std::string& fault, const BuildProgress& progress) {
+Model find_model(const Config& config, const ModelOptions& options) {
   const fs::path data = data_directory();
   const fs::path folder = cache_folder();
-  const std::string key = key_of(data, config, fault);
+  const std::string key = key_of(data, config, options);
   const fs::path library = folder / (key + ".so");
   if (fs::exists(library)) return {library, 0};
 
   const auto start = std::chrono::steady_clock::now();
   const auto wait = [&] {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (progress) progress(seconds);
+    if (options.progress) options.progress(seconds);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     return seconds;
   };
@@ -236,7 +245,9 @@ Model find_model(const Config& config, const std::string& fault, const BuildProg
   fs::create_directories(work.path);
   std::vector<std::string> command{(data / "verif/rtl_model/build.py").string(), (work.path / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
-  if (!fault.empty()) command.insert(command.end(), {"--fault", fault});
+  if (!options.fault.empty()) command.insert(command.end(), {"--fault", options.fault});
+  if (options.traced) command.emplace_back("--trace");
+  if (options.mutants) command.emplace_back("--mutants");
   command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
                                  "--keep", (work.path / "build").string()});
   Process build(command, log);
@@ -250,6 +261,13 @@ Model find_model(const Config& config, const std::string& fault, const BuildProg
   }
   fs::rename(work.path / "model.so", library);
   return {library, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+}
+
+std::vector<std::string> model_tools() {
+  const char* cxx = std::getenv("CXX");
+  const auto line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  return {line(verilator_version()),
+          fmt::format("{} {}", cxx != nullptr && *cxx != '\0' ? cxx : "g++", line(compiler_version()))};
 }
 
 }  // namespace kage::cosim

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "kage/defs.hpp"
 
@@ -19,11 +20,20 @@ struct Model {
 /// build.
 using BuildProgress = std::function<void(double seconds)>;
 
+struct ModelOptions {
+  std::string fault = {};  ///< a deliberate defect of verif/faults; empty for none
+  bool traced = false;     ///< with monitors and waveforms (slower)
+  bool mutants = false;    ///< with all mutants of verif/mutants, behind RtlOptions::mutant (slower)
+  BuildProgress progress = {};
+};
+
 /// The model of `config` from the cache (${XDG_CACHE_HOME:-~/.cache}/kage/models), built first if it is not there. Its
-/// key is the SHA-256 of all sources under rtl/ and verif/rtl_model/, the parameters, `fault`, and the versions of
-/// Verilator and compiler, so that a changed source is another model. Two programs that want the same one build it
-/// once. `fault` names a deliberate defect (verif/rtl_model), empty for none. Throws Error that names the log when the
-/// build fails.
-Model find_model(const Config& config, const std::string& fault = {}, const BuildProgress& progress = {});
+/// key is the SHA-256 of all sources that it is made of, the parameters, the options, and the versions of Verilator and
+/// compiler, so that a changed source is another model. Two programs that want the same one build it once. Throws Error
+/// that names the log when the build fails.
+Model find_model(const Config& config, const ModelOptions& options = {});
+
+/// Names and versions of the tools that make models, a line each: "Verilator 5.006 2023-01-22 rev ...", "g++ 12.2.0".
+std::vector<std::string> model_tools();
 
 }  // namespace kage::cosim

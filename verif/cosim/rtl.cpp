@@ -13,7 +13,6 @@
 #include "cosim/stopwatch.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
-#include "rtl_model/rtl_model.h"
 
 namespace kage::cosim {
 namespace {
@@ -39,7 +38,7 @@ class Library {
   void* handle_;
 };
 
-class Rtl : public Core {
+class Rtl : public RtlCore {
  public:
   Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
       : config_(config), library_(path), table_(library_.table()) {
@@ -50,6 +49,12 @@ class Rtl : public Core {
         throw Error(fmt::format("{}: {} is not that of the configuration", path.string(), p.name));
     model_ = table_->create(options.seed);
     if (model_ == nullptr) throw Error(fmt::format("{}: out of memory", path.string()));
+    table_->assertions(model_, options.assertions ? 1 : 0);
+    if (options.mutant != 0) {
+      if (table_->select(model_, options.mutant) != 0)
+        throw Error(fmt::format("{}: has no mutant {}", path.string(), options.mutant));
+      table_->reset(model_, 3);
+    }
     const auto chance = [](int idle) { return kAlways - kAlways * static_cast<std::uint32_t>(idle) / 100; };
     table_->stalls(model_, chance(options.idle_percent), chance(options.backpressure_percent), options.seed);
   }
@@ -73,6 +78,30 @@ class Rtl : public Core {
     take_pixels(watch.outside(sink));
   }
 
+  [[nodiscard]] bool traced() const override { return table_->traced != 0; }
+  void record(bool on) override { table_->record(model_, on ? 1 : 0); }
+  std::span<const kage_rtl_event> take_events() override {
+    std::uint64_t count = 0;
+    const kage_rtl_event* events = table_->events(model_, &count);
+    events_.assign(events, events + count);
+    table_->clear_events(model_);
+    return events_;
+  }
+  std::uint32_t handshakes() override { return static_cast<std::uint32_t>(table_->handshakes(model_)); }
+  std::uint64_t clock() override { return table_->clock(model_); }
+  void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) override {
+    table_->wave(model_, path.c_str(), first, last);
+  }
+
+  int read_register(std::uint32_t address, std::uint32_t& value) override {
+    return table_->reg_read(model_, address, &value);
+  }
+  int write_register(std::uint32_t address, std::uint32_t value) override {
+    return table_->reg_write(model_, address, value);
+  }
+  [[nodiscard]] bool interrupt() const override { return table_->irq(model_) != 0; }
+  void pass(std::uint64_t clocks) override { (void)checked(table_->run(model_, kForever, clocks)); }
+
   FrameEnd finish(const LineSink& sink) override {
     FrameEnd end;
     {
@@ -88,8 +117,8 @@ class Rtl : public Core {
  private:
   static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
 
-  static int checked(int why) {
-    if (why == KAGE_RTL_ASSERT) throw Error("RTL model: an assertion failed (its message is above)");
+  [[nodiscard]] int checked(int why) const {
+    if (why == KAGE_RTL_ASSERT) throw AssertionError(table_->failure(model_));
     return why;
   }
 
@@ -235,6 +264,7 @@ class Rtl : public Core {
   std::uint32_t frames_ = 0;
   std::uint32_t errors_ = 0;
   bool broken_ = false;
+  std::vector<kage_rtl_event> events_;  // the last ones taken
 
   // Of the frame at hand:
   bool open_ = false;
@@ -251,7 +281,8 @@ class Rtl : public Core {
 
 }  // namespace
 
-std::unique_ptr<Core> make_rtl(const std::filesystem::path& library, const Config& config, const RtlOptions& options) {
+std::unique_ptr<RtlCore> make_rtl(const std::filesystem::path& library, const Config& config,
+                                  const RtlOptions& options) {
   return std::make_unique<Rtl>(library, config, options);
 }
 

@@ -4,8 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
+#include <string>
 
 #include "cosim/core.hpp"
+#include "kage/error.hpp"
+#include "rtl_model/rtl_model.h"
 
 namespace kage::cosim {
 
@@ -13,11 +17,54 @@ struct RtlOptions {
   std::uint64_t seed = 1;        ///< of initial register contents and stalls
   int idle_percent = 0;          ///< share of clocks without input offered
   int backpressure_percent = 0;  ///< share of clocks without output taken
+  int mutant = 0;                ///< of a model that has mutants: which one it is, from 1; 0: none
+  bool assertions = true;        ///< false: go on where the RTL's assertions fail
 };
 
-/// The RTL, simulated by the model library that find_model() gave. Throws Error if the library does not fit, and from
-/// frame() if the core hangs.
-std::unique_ptr<Core> make_rtl(const std::filesystem::path& library, const Config& config,
-                               const RtlOptions& options = {});
+/// An assertion in the RTL failed.
+class AssertionError : public Error {
+ public:
+  /// `where`: "frame_control.sv:312".
+  explicit AssertionError(const std::string& where)
+      : Error("RTL model: an assertion failed: rtl/" + where + " (its message is above)"), where_(where) {}
+  [[nodiscard]] const std::string& where() const { return where_; }
+
+ private:
+  std::string where_;
+};
+
+/// The RTL, simulated. What lies past Core needs a model that was built with tracing.
+class RtlCore : public Core {
+ public:
+  /// An AXI4-Lite access while the streams go on: its response (0 is OKAY), -1 if none comes.
+  virtual int read_register(std::uint32_t address, std::uint32_t& value) = 0;
+  virtual int write_register(std::uint32_t address, std::uint32_t value) = 0;
+  [[nodiscard]] virtual bool interrupt() const = 0;
+
+  /// Let so many clocks pass at most; fewer if nothing moves any more.
+  virtual void pass(std::uint64_t clocks) = 0;
+
+  [[nodiscard]] virtual bool traced() const = 0;
+
+  /// Record events from now on, or no longer.
+  virtual void record(bool on) = 0;
+
+  /// The events since the last call. Valid until the next.
+  virtual std::span<const kage_rtl_event> take_events() = 0;
+
+  /// Who waits for whom: kage_rtl_table::handshakes.
+  virtual std::uint32_t handshakes() = 0;
+
+  /// Clocks of the model's life.
+  virtual std::uint64_t clock() = 0;
+
+  /// Write a waveform of the clocks first .. last to an FST file; it is whole once they have passed, or with the
+  /// model's end.
+  virtual void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) = 0;
+};
+
+/// The RTL, simulated by the model library that find_model() gave. Throws Error if the library does not fit.
+std::unique_ptr<RtlCore> make_rtl(const std::filesystem::path& library, const Config& config,
+                                  const RtlOptions& options = {});
 
 }  // namespace kage::cosim

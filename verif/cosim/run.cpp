@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cosim/picture.hpp"
+#include "kage/diff.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
@@ -39,7 +40,7 @@ class Comparer {
 
   /// False after the first difference: nothing more is wanted.
   bool take(Piece piece) {
-    if (!comparison_) comparison_.emplace(report_.frames, actual_.channels(), !options_.out.empty());
+    if (!comparison_) comparison_.emplace(number(), actual_.channels(), !options_.out.empty());
     comparison_->expect(std::move(piece.lines));
     const LineSink sink = [this](int, std::span<const std::uint8_t> line) { comparison_->actual(line); };
     actual_.feed(piece.words, sink);
@@ -52,9 +53,13 @@ class Comparer {
   void commit() { files_.commit(); }
 
  private:
+  /// That of the frame at hand.
+  [[nodiscard]] int number() const { return options_.steps.first + report_.frames * options_.steps.step; }
+
   bool end_frame(Piece::End& end, const FrameEnd& a) {
     const FrameEnd& e = end.expected;
-    const int frame = report_.frames++;
+    const int frame = number();
+    ++report_.frames;
     report_.width = e.status.width;
     report_.height = e.status.height;
     report_.pixels_compared += static_cast<std::uint64_t>(e.status.width) * static_cast<std::uint64_t>(e.status.height);
@@ -66,8 +71,12 @@ class Comparer {
     report_.blocked += a.blocked;
     report_.expected_seconds += e.seconds;
     report_.actual_seconds += a.seconds;
+    report_.frame_seconds.push_back(e.seconds + a.seconds);
     report_.first_difference = comparison_->finish(e, a);
+    const bool listed = report_.each.size() < kFrameResults || report_.first_difference;
+    if (listed) report_.each.push_back({frame, e.status, end.counts, a.cycles, a.starved, a.blocked, {}});
     if (end.picture && end.picture->drawn()) {
+      if (listed) report_.each.back().picture = end.picture->path().string();
       report_.pictures.push_back(end.picture->path().string());
       if (report_.first_difference) expected_ = load_image(end.picture->temp());
       end.picture->hand_over(files_);
@@ -86,7 +95,7 @@ class Comparer {
   void show_difference(int frame) {
     const Image actual = comparison_->actual_image(expected_);
     Image difference;
-    if (!expected_.data.empty()) (void)diff_images(expected_, actual, {}, &difference);
+    if (!expected_.data.empty()) report_.difference = diff_images(expected_, actual, {}, &difference);
     const auto save = [&](const char* suffix, const Image& image) {
       if (image.data.empty()) return;
       const auto path = options_.out / fmt::format("{}_{:04}{}.png", options_.name, frame, suffix);
@@ -208,7 +217,7 @@ void lead(int frames, const Feed& feed, Core& expected, const RunOptions& option
   const auto hand_on = [&](Piece& piece) {
     if (!take(std::exchange(piece, {}))) throw Enough();
   };
-  for (int i = 0; i < frames; ++i) {
+  for (int i = options.steps.first; i < frames; i += options.steps.step) {
     if (options.begin) options.begin(i);
     Piece piece;
     std::unique_ptr<FramePicture> picture;

@@ -10,10 +10,17 @@
 
 #include "cosim/compare.hpp"
 #include "cosim/core.hpp"
+#include "kage/diff.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
 
 namespace kage::cosim {
+
+/// Which of a scene's frames are run: `first`, `first + step`, ... That is a shard, or all of them.
+struct FrameSteps {
+  int first = 0;
+  int step = 1;
+};
 
 /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts.
 using Feed = std::function<TokenCounts(int index, const WordSink& sink)>;
@@ -21,10 +28,25 @@ using Feed = std::function<TokenCounts(int index, const WordSink& sink)>;
 struct RunOptions {
   std::filesystem::path out;             ///< an existing folder for pictures, or empty for none
   std::string name = "frame";            ///< pictures are NAME_0000.png ...
+  FrameSteps steps;                      ///< of the frames
   bool two_threads = true;               ///< the second core works beside the first
   std::function<void(int frame)> begin;  ///< called before each frame is fed; may throw, which ends the run
   std::function<void()> wait;  ///< called ten times a second while the second core lags; may throw, which ends the run
 };
+
+/// A frame that was compared.
+struct FrameResult {
+  int frame = 0;       ///< its number: with RunOptions::steps frames are left out
+  FrameStatus status;  ///< of the expected core
+  TokenCounts counts;
+  std::uint64_t cycles = 0;  ///< of the actual core, as in FrameEnd
+  std::uint64_t starved = 0;
+  std::uint64_t blocked = 0;
+  std::string picture;  ///< what the expected core drew, or empty
+};
+
+/// So many frames at most are in Report::each, so that memory does not grow with their number.
+inline constexpr std::size_t kFrameResults = 1000;
 
 struct Report {
   bool same = true;
@@ -40,20 +62,24 @@ struct Report {
   std::uint64_t blocked = 0;
   double expected_seconds = 0;  ///< inside the cores, not making words or pictures
   double actual_seconds = 0;
+  std::vector<double> frame_seconds;  ///< inside the cores, of each frame compared
   std::optional<Difference> first_difference;
   std::vector<std::string> pictures;
+  std::vector<FrameResult> each;         ///< the first kFrameResults frames, and the one that is different
+  std::optional<DiffResult> difference;  ///< of its pictures, where there are any
 };
 
 /// The expected core stops when this many bytes of words and of its own lines wait for the actual one. A single piece
 /// may hold more.
 inline constexpr std::size_t kAheadBytes = std::size_t{4} << 20;
 
-/// Send every frame through both cores and compare line by line. Each frame of `expected` is written as a picture; at
-/// the first difference also NAME_0000_expected.png, _actual.png and _difference.png. They appear together when there
-/// is a verdict; without one, what lay in the folder before is untouched. The expected core runs ahead of the actual
-/// one by kAheadBytes at most; memory depends neither on the number of frames nor on their height. Only the three
-/// pictures of the first difference, with which the run ends, are in memory whole. Throws Error where no verdict is
-/// possible: no frames, or a frame that the expected core refuses in its header, so that no pixel could be compared.
+/// Send every frame, 0 .. frames - 1 as options.steps says, through both cores and compare line by line. Each frame of
+/// `expected` is written as a picture; at the first difference also NAME_0000_expected.png, _actual.png and
+/// _difference.png. They appear together when there is a verdict; without one, what lay in the folder before is
+/// untouched. The expected core runs ahead of the actual one by kAheadBytes at most; memory depends neither on the
+/// number of frames nor on their height. Only the three pictures of the first difference, with which the run ends, are
+/// in memory whole. Throws Error where no verdict is possible: no frames, or a frame that the expected core refuses in
+/// its header, so that no pixel could be compared.
 Report run(int frames, const Feed& feed, Core& expected, Core& actual, const RunOptions& options);
 
 }  // namespace kage::cosim

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build the RTL model of one configuration: a shared library with the C interface of rtl_model.h.
 
-usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--jobs N] [--keep DIR] [--sources]
+usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--trace] [--mutants] [--jobs N] [--keep DIR] [--sources]
 
   PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
   --fault NAME   apply verif/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
   --define       a macro for Verilator
+  --trace        with the monitors of verif/monitors and waveforms
+  --mutants      with every mutant of verif/mutants/mutants.yaml behind a select; one whose text the RTL has not exactly once stops the build
   --jobs N       compilers at a time (default 2)
   --keep DIR     build in DIR and leave it there (default: a temporary directory, removed)
   --sources      print the files that the model depends on, one a line, and stop: what a cache key must cover
@@ -15,6 +17,7 @@ The RTL is that of this source tree or of $KAGE_RTL_DIR; $VERILATOR and $CXX nam
 On failure: one line on standard error that names the step and the log, exit status 2.
 """
 import argparse
+import hashlib
 import os
 import pathlib
 import shutil
@@ -27,6 +30,8 @@ import yaml
 HERE = pathlib.Path(__file__).resolve().parent
 RTL = pathlib.Path(os.environ.get("KAGE_RTL_DIR", HERE.parent.parent / "rtl")).resolve()
 FAULTS = HERE.parent / "faults"
+MONITORS = HERE.parent / "monitors"
+MUTANTS = HERE.parent / "mutants/mutants.yaml"
 
 
 def fail(message):
@@ -62,12 +67,45 @@ def parameters(arguments):
     return values
 
 
-def sources(fault=None):
+def sources(fault=None, trace=False, mutants=False):
     files = sorted(p for p in RTL.glob("*.sv")) + sorted((RTL / "include").glob("*.svh"))
     files += [RTL / "defs/kage.yaml", HERE / "rtl_model.h", HERE / "rtl_model.cpp", HERE / "build.py"]
+    if trace:
+        files += sorted(MONITORS.iterdir())
+    if mutants:
+        files.append(MUTANTS)
     if fault:
         files.append(FAULTS / f"{fault}.patch")
     return files
+
+
+def put_in(rtl, package):
+    """Put every mutant into the copy `rtl` behind a select, which `package` holds; return how many there are."""
+    mutants = yaml.safe_load(MUTANTS.read_text())
+    places = {}
+    for number, m in enumerate(mutants, 1):
+        text = (rtl / m["file"]).read_text()
+        around = m.get("in", m["text"])
+        if text.count(around) != 1 or around.count(m["text"]) != 1:
+            fail(f"mutant {m['name']}: rtl/{m['file']} has not exactly once: {around if text.count(around) != 1 else m['text']}")
+        begin = text.index(around) + around.index(m["text"])
+        places.setdefault(m["file"], []).append((begin, begin + len(m["text"]), number, m))
+    for name, of_file in places.items():
+        text = (rtl / name).read_text()
+        of_file.sort(key=lambda p: p[0])
+        for before, after in zip(of_file, of_file[1:]):
+            if before[1] > after[0]:
+                fail(f"mutant {after[3]['name']}: overlaps {before[3]['name']}")
+        for begin, end, number, m in reversed(of_file):
+            text = f"{text[:begin]}(kage_mutants::selected == {number} ? {m['with']} : {text[begin:end]}){text[end:]}"
+        (rtl / name).write_text(text)
+    # Sampled in reset: asked for at each place, it would cost more than the model.
+    top = (rtl / "kage_top.sv").read_text()
+    sample = '  import "DPI-C" function int kage_mutant();\n  always_ff @(posedge clk_i) if (!rst_ni) kage_mutants::selected <= kage_mutant();\n'
+    head, end, tail = top.rpartition("endmodule")
+    (rtl / "kage_top.sv").write_text(head + sample + end + tail)
+    package.write_text("package kage_mutants;\n  int selected;\nendpackage\n")
+    return len(mutants)
 
 
 def main():
@@ -76,6 +114,8 @@ def main():
     parser.add_argument("params", nargs="*")
     parser.add_argument("--fault")
     parser.add_argument("--define", action="append", default=[])
+    parser.add_argument("--trace", action="store_true")
+    parser.add_argument("--mutants", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep")
     parser.add_argument("--sources", action="store_true")
@@ -83,7 +123,7 @@ def main():
     if args.fault and not (FAULTS / f"{args.fault}.patch").exists():
         fail(f"{args.fault}: no {FAULTS / (args.fault + '.patch')}")
     if args.sources:
-        print("\n".join(map(str, sources(args.fault))))
+        print("\n".join(map(str, sources(args.fault, args.trace, args.mutants))))
         return
     if not args.out:
         fail("no OUT.so given")
@@ -102,11 +142,16 @@ def build(out, values, args, work):
     log = work / "build.log" if args.keep else pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"  # outlives a failure
     log.write_text("")
     rtl = RTL
-    if args.fault:
+    mutants = 0
+    if args.fault or args.mutants:
         rtl = work / "rtl"
         shutil.rmtree(rtl, ignore_errors=True)
         shutil.copytree(RTL, rtl)
+    if args.fault:
         run(f"fault {args.fault}", ["patch", "--fuzz=0", "--batch", "-p2", "-d", rtl, "-i", FAULTS / f"{args.fault}.patch"], log)
+
+    if args.mutants:
+        mutants = put_in(rtl, work / "kage_mutants.sv")
 
     names = ", ".join(f'"{n}"' for n in values)
     numbers = ", ".join(str(v) for v in values.values())
@@ -115,6 +160,7 @@ def build(out, values, args, work):
         f"const char* const kParamNames[] = {{{names}}};\n"
         f"const std::int32_t kParamValues[] = {{{numbers}}};\n"
         f'const char* const kFault = "{args.fault or ""}";\n'
+        f"constexpr std::int32_t kMutants = {mutants};\n"
         f"constexpr unsigned kBeatWords = {values['BEAT_WORDS']};\n"
         f"constexpr int kChannels = {values['CHANNELS']};\n"
         f"constexpr unsigned kMaxWidth = {values['MAX_WIDTH']};\n")
@@ -123,31 +169,71 @@ def build(out, values, args, work):
     unroll = values["MAX_WIDTH"] if values["ARRANGEMENT"] == 0 and values["MAX_WIDTH"] <= 128 else 64
     verilator = os.environ.get("VERILATOR", "verilator")
     obj = work / "obj"
+    cflags = "-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP"
     command = [verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", obj, "-O3", "--x-initial", "unique",
-               "--assert", "--unroll-count", str(max(unroll, 64)), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", "-fPIC -fvisibility=hidden -fno-gnu-unique"]
+               "--assert", "--unroll-count", str(max(unroll, 64)), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
-    command += sorted(rtl.glob("*.sv"))
+    if args.trace:
+        command += ["--trace-fst", f"-I{MONITORS}"]
+    if args.mutants:  # what is wrong on purpose may be bad style
+        command += ["-Wno-fatal", work / "kage_mutants.sv"]
+    command += sorted(rtl.glob("*.sv")) + (sorted(MONITORS.glob("*.sv")) if args.trace else [])
     run("verilator", command, log)
 
     cxx = os.environ.get("CXX", "c++")
     make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={cxx}"]
-    run("compiling the model", make + ["Vkage__ALL.a", "verilated.o"], log)
-    extra = [p for p in ("verilated_threads.o",) if needs_threads(obj)]
-    if extra:
-        run("compiling the model", make + extra, log)
+    extra = ["verilated_threads.o"] if needs_threads(obj) else []
+    if args.trace:
+        extra.append("verilated_fst_c.o")
+    if args.trace or args.mutants:
+        extra.append("verilated_dpi.o")
+    runtime = Runtime(verilator, cxx, [*make[-4:], cflags], obj)
+    runtime.take(["verilated.o", *extra])
+    run("compiling the model", make + ["Vkage__ALL.a", "verilated.o", *extra], log)
+    runtime.keep(["verilated.o", *extra])
     include = subprocess.run([verilator, "--getenv", "VERILATOR_ROOT"], capture_output=True, text=True).stdout.strip()
     partial = out.with_name(f".{out.name}.{os.getpid()}")
     out.parent.mkdir(parents=True, exist_ok=True)
     try:
-        run("linking the model", [cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", f"-I{obj}", f"-I{work}",
+        run("linking the model", [cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", *(["-DKAGE_TRACED"] if args.trace else []),
+                                  *(["-DKAGE_MUTANTS"] if args.mutants else []), f"-I{obj}", f"-I{work}",
                                   f"-I{HERE}", "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
                                   HERE / "rtl_model.cpp", obj / "Vkage__ALL.a", obj / "verilated.o", *(obj / e for e in extra),
-                                  "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
+                                  *(["-lz"] if args.trace else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
         os.replace(partial, out)
     finally:
         partial.unlink(missing_ok=True)
     if not args.keep:
         log.unlink()
+
+
+class Runtime:
+    """Verilator's own objects, the same in every model of a tool and its flags: kept beside the models."""
+
+    def __init__(self, verilator, cxx, flags, obj):
+        self.obj = obj
+        versions = [subprocess.run([tool, "--version"], capture_output=True, text=True).stdout for tool in (verilator, cxx)]
+        own = (obj / "Vkage_classes.mk").read_text().split("### Object file lists")[0]  # threads, tracing and the like
+        key = hashlib.sha256("\0".join([*versions, *flags, own]).encode()).hexdigest()[:24]
+        cache = os.environ.get("XDG_CACHE_HOME") or (os.path.join(os.environ["HOME"], ".cache") if os.environ.get("HOME") else None)
+        self.folder = pathlib.Path(cache) / "kage" / "verilator" / key if cache else None
+
+    def take(self, names):
+        for name in names if self.folder else ():
+            try:
+                shutil.copyfile(self.folder / name, self.obj / name)
+            except OSError:
+                pass  # it is compiled
+
+    def keep(self, names):
+        for name in names if self.folder else ():
+            try:
+                self.folder.mkdir(parents=True, exist_ok=True)
+                partial = self.folder / f".{name}.{os.getpid()}"
+                shutil.copyfile(self.obj / name, partial)
+                os.replace(partial, self.folder / name)
+            except OSError:
+                return  # the next one compiles them too
 
 
 def needs_threads(obj):

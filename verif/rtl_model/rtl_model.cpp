@@ -6,11 +6,18 @@
 #include <deque>
 #include <memory>
 #include <new>
+#include <string>
 #include <vector>
 
 #include "Vkage.h"
 #include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
 #include "verilated.h"
+#if defined(KAGE_TRACED) || defined(KAGE_MUTANTS)
+#include "Vkage__Dpi.h"
+#endif
+#ifdef KAGE_TRACED
+#include "verilated_fst_c.h"
+#endif
 
 namespace {
 
@@ -53,6 +60,12 @@ constexpr std::uint64_t kIdleClocks = 8ULL * kMaxWidth + 4096;
 
 }  // namespace
 
+struct kage_rtl;
+
+namespace {
+thread_local kage_rtl* current = nullptr;  // the model that this thread lets work
+}
+
 struct kage_rtl {
   VerilatedContext context;
   std::unique_ptr<Vkage> top;
@@ -71,9 +84,26 @@ struct kage_rtl {
   std::uint32_t waiting_value = 0;
 
   std::uint64_t quiet = 0;
+  std::uint64_t clocks = 0;
   kage_rtl_stats stats{};
 
+  int mutant = 0;
+  std::string failure;  // the first assertion that failed
+
+  bool recording = false;
+  std::vector<kage_rtl_event> events;
+  std::int64_t handshakes = 0;
+#ifdef KAGE_TRACED
+  std::unique_ptr<VerilatedFstC> fst;
+  std::string wave_path;
+  std::uint64_t wave_first = 1, wave_last = 0;
+#endif
+
   explicit kage_rtl(std::uint64_t seed) {
+#ifdef KAGE_TRACED
+    context.traceEverOn(true);
+#endif
+    enter();
     context.randReset(2);
     // Verilator's seed is an int in which 0 means "pick one".
     context.randSeed(static_cast<int>((seed ^ seed >> 31) & 0x3FFFFFFF) + 1);
@@ -88,13 +118,17 @@ struct kage_rtl {
   }
   ~kage_rtl() {
     enter();
+    close_wave();
     top->final();
     top.reset();
   }
 
   // Verilator books failed assertions, and a model's end, to the context of the thread, which is that of the model made
   // last on it. So every call that lets time pass or ends a model begins with this.
-  void enter() { Verilated::threadContextp(&context); }
+  void enter() {
+    Verilated::threadContextp(&context);
+    current = this;
+  }
 
   void idle_inputs() {
     top->s_axis_tvalid_i = 0;
@@ -114,10 +148,35 @@ struct kage_rtl {
   void edge() {
     top->clk_i = 1;
     top->eval();
+    dump(2 * clocks);
     top->clk_i = 0;
     top->eval();
+    dump(2 * clocks + 1);
     context.timeInc(1);
+    ++clocks;
   }
+
+#ifdef KAGE_TRACED
+  void dump(std::uint64_t time) {
+    if (clocks < wave_first || clocks > wave_last) return;
+    if (!fst) {
+      fst = std::make_unique<VerilatedFstC>();
+      top->trace(fst.get(), 99);
+      fst->open(wave_path.c_str());
+    }
+    fst->dump(time);
+    if (time == 2 * wave_last + 1) close_wave();
+  }
+  void close_wave() {
+    if (fst) fst->close();
+    fst.reset();
+    wave_last = 0;
+    wave_first = 1;
+  }
+#else
+  void dump(std::uint64_t) {}
+  void close_wave() {}
+#endif
 
   void reset(std::uint32_t clocks) {
     enter();
@@ -221,6 +280,7 @@ struct kage_rtl {
   }
 
   int run_dry(std::uint64_t max_clocks) {
+    enter();
     quiet = 0;
     for (std::uint64_t n = 0;; ++n) {
       if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
@@ -284,8 +344,21 @@ const kage_rtl_table kTable = {
     kParamNames,
     kParamValues,
     kFault,
+    kMutants,
+#ifdef KAGE_TRACED
+    1,
+#else
+    0,
+#endif
     [](std::uint64_t seed) { return new (std::nothrow) kage_rtl(seed); },
     [](kage_rtl* m) { delete m; },
+    [](kage_rtl* m, int mutant) {
+      if (mutant < 0 || mutant > kMutants) return -1;
+      m->mutant = mutant;
+      return 0;
+    },
+    [](kage_rtl* m, int on) { m->context.assertOn(on != 0); },
+    [](kage_rtl* m) { return m->failure.c_str(); },
     [](kage_rtl* m, std::uint32_t clocks) { m->reset(clocks); },
     [](kage_rtl* m, std::uint32_t input, std::uint32_t output, std::uint64_t seed) { m->stalls(input, output, seed); },
     [](kage_rtl* m, const std::uint32_t* words, std::size_t count, int last) {
@@ -312,9 +385,67 @@ const kage_rtl_table kTable = {
     [](kage_rtl* m) -> int { return m->top->irq_o; },
     [](kage_rtl* m, kage_rtl_stats* out) { *out = m->stats; },
     [](kage_rtl* m) { m->stats = {}; },
-    [](kage_rtl*, const char*) { return -1; },
+    [](kage_rtl* m) { return m->clocks; },
+#ifdef KAGE_TRACED
+    [](kage_rtl* m, int on) {
+      m->recording = on != 0;
+      return 0;
+    },
+#else
+    [](kage_rtl*, int) { return -1; },
+#endif
+    [](kage_rtl* m, std::uint64_t* count) -> const kage_rtl_event* {
+      *count = m->events.size();
+      return m->events.data();
+    },
+    [](kage_rtl* m) { m->events.clear(); },
+#ifdef KAGE_TRACED
+    [](kage_rtl* m) { return m->handshakes; },
+    [](kage_rtl* m, const char* path, std::uint64_t first, std::uint64_t last) {
+      m->close_wave();
+      m->wave_path = path;
+      m->wave_first = first;
+      m->wave_last = last;
+      return 0;
+    },
+#else
+    [](kage_rtl*) -> std::int64_t { return -1; },
+    [](kage_rtl*, const char*, std::uint64_t, std::uint64_t) { return -1; },
+#endif
 };
 
 }  // namespace
+
+#ifdef KAGE_TRACED
+// Called by verif/monitors.
+void kage_trace(int stage, int unit, const svBitVecVal* values) {
+  kage_rtl& m = *current;
+  if (!m.recording) return;
+  if (stage == KAGE_STAGE_HANDSHAKE) {
+    m.handshakes = values[0];
+    return;
+  }
+  kage_rtl_event& e = m.events.emplace_back();
+  e.clock = m.clocks;
+  e.stage = stage;
+  e.unit = unit;
+  for (int i = 0; i < KAGE_RTL_EVENT_VALUES; ++i)
+    e.value[i] = values[2 * i] | static_cast<std::uint64_t>(values[2 * i + 1]) << 32;
+}
+#endif
+
+#ifdef KAGE_MUTANTS
+// Called by kage_top in reset.
+int kage_mutant() { return current->mutant; }
+#endif
+
+// Called by Verilator when an assertion fails, once its message is out.
+void vl_stop(const char* file, int line, const char* /*scope*/) {
+  const std::string path = file == nullptr ? "" : file;
+  if (current->failure.empty()) current->failure = path.substr(path.rfind('/') + 1) + ":" + std::to_string(line);
+  current->context.gotError(true);
+  current->context.gotFinish(true);
+  Verilated::runFlushCallbacks();
+}
 
 extern "C" __attribute__((visibility("default"))) const kage_rtl_table* kage_rtl_api(void) { return &kTable; }

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 2u
+#define KAGE_RTL_ABI 4u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -27,10 +27,58 @@ enum {
   KAGE_RTL_IDLE = 1,   /* all input is taken and nothing moves any more */
   KAGE_RTL_LIMIT = 2,  /* the clocks allowed are used up */
   KAGE_RTL_STUCK = 3,  /* input is waiting, output is ready, and nothing moves: a hang */
-  KAGE_RTL_ASSERT =
-      4,           /* an assertion in the RTL failed (its message is on standard error); only destroy() may follow */
-  KAGE_RTL_DRY = 5 /* every queued beat is taken */
+  KAGE_RTL_ASSERT = 4, /* an assertion in the RTL failed: see failure(); only destroy() may follow */
+  KAGE_RTL_DRY = 5     /* every queued beat is taken */
 };
+
+/* What passes between the modules of the core, and within some; verif/monitors and kage_trace.svh have the same
+ * numbers. Values are as the RTL has them, without sign. */
+enum {
+  KAGE_STAGE_TOKEN = 0,   /* frame_control takes a token: its words, two a value, the first in the lower half; in the
+                             last two values at_last and {header, lacking, cut, final} */
+  KAGE_STAGE_TABLE = 1,   /* an entry of the light table: class, light, shares */
+  KAGE_STAGE_FACE = 2,    /* a face to a unit: face, index, class, dz, colour */
+  KAGE_STAGE_SEGMENT = 3, /* a segment to a unit: z, dx, face */
+  KAGE_STAGE_UNIT = 4,    /* a unit's pixel to the compare tree: z, index, colour, class */
+  KAGE_STAGE_TREE = 5,    /* the tree's pixel: z, colour, class */
+  KAGE_STAGE_LINE = 6,    /* a line to the way out: first, blank, load, painted, width, background, shade */
+  KAGE_STAGE_COMMAND = 7, /* a command to the pixels: kind, xl, xr, count, z, dz, share, 3 colours, 3 slopes */
+  KAGE_STAGE_PIXEL = 8,   /* what it did to pixel `unit`: kind, z and colour that came (all ones: not seen), then the
+                             state: z, colour, class, DSF, FSF, counts */
+  KAGE_STAGE_EXIT = 9,    /* a pixel leaves the core of pixels: colour, covered, dark, class, counts; unit 1: a line's
+                             last group */
+  KAGE_STAGE_LOAD = 10,   /* a pixel's colour comes back from the way out: x, colour */
+  KAGE_STAGE_OUT = 11,    /* a pixel of video: colour, TUSER, TLAST */
+  KAGE_STAGE_ERROR = 12,  /* an error is found: code, frame, line, token, unit */
+  KAGE_STAGE_PART = 13,  /* a small module does not do what its header says, whatever it was given: which (KAGE_PART_*),
+                             the 64 bits from the lowest wrong one on as they should be, as they are */
+  KAGE_STAGE_CLAIM = 14, /* frame_control asks for a line of the tree */
+  KAGE_STAGE_STATE = 15, /* of the line, as EV, ES, EOL or the painting of a line finds it: bias, resolved */
+  KAGE_STAGE_HANDSHAKE = 16 /* not an event: see handshakes() */
+};
+
+/* Modules that are watched from their ports alone. */
+enum {
+  KAGE_PART_RAM_1R1W = 0,
+  KAGE_PART_STREAM_FIFO = 1,
+  KAGE_PART_SKID_BUFFER = 2,
+  KAGE_PART_COMPARE_CELL = 3,
+  KAGE_PART_LIGHT_RESOLVE = 4,
+  KAGE_PART_PIXEL_LOADS = 5,
+  KAGE_PART_LANE_RAMP = 6,
+  KAGE_PART_TOKEN_COMMAND = 7, /* a command changes while it waits */
+  KAGE_PART_PIXELS = 8,        /* pixels leave without a place for them */
+  KAGE_PART_TREE_CORE = 9      /* a unit is given a face out of turn */
+};
+
+#define KAGE_RTL_EVENT_VALUES 13
+
+typedef struct {
+  uint64_t clock; /* since create(); the one at whose end it happens */
+  int32_t stage;
+  int32_t unit;
+  uint64_t value[KAGE_RTL_EVENT_VALUES];
+} kage_rtl_event;
 
 /* All counts are since create() or clear_stats(). */
 typedef struct {
@@ -54,10 +102,23 @@ typedef struct {
   const char* const* param_names;
   const int32_t* param_values;
   const char* fault;
+  int mutants; /* how many are built in, behind select(); 0: none */
+  int traced;  /* built with monitors and waveforms; without, record(), wave() and handshakes() return -1 */
 
   /* A model out of reset, its registers and memories at random values that `seed` decides. NULL if out of memory. */
   kage_rtl* (*create)(uint64_t seed);
   void (*destroy)(kage_rtl*);
+
+  /* Be mutant `mutant` (1 ..), or none (0), from the second clock of the next reset on. -1 if there is no such mutant.
+   */
+  int (*select)(kage_rtl*, int mutant);
+
+  /* Whether assertions of the RTL are looked at; they are from create() on. */
+  void (*assertions)(kage_rtl*, int on);
+
+  /* The file and line of the assertion that failed, "frame_control.sv:312"; "" if none has. Its message is on standard
+   * output. */
+  const char* (*failure)(kage_rtl*);
 
   /* Hold reset for `clocks` (at least 1). Queued beats, expected frames and a half-finished register access are
    * dropped; pixels already delivered stay. */
@@ -96,8 +157,22 @@ typedef struct {
   void (*stats)(kage_rtl*, kage_rtl_stats*);
   void (*clear_stats)(kage_rtl*);
 
-  /* Write a waveform of all that follows; NULL ends it. -1: this model was built without tracing. */
-  int (*trace)(kage_rtl*, const char* path);
+  /* Clocks since create(), those in reset too. */
+  uint64_t (*clock)(kage_rtl*);
+
+  /* Record events from now on (on = 1) or no longer (0). Those recorded stay until clear_events(). */
+  int (*record)(kage_rtl*, int on);
+  const kage_rtl_event* (*events)(kage_rtl*, uint64_t* count);
+  void (*clear_events)(kage_rtl*);
+
+  /* Who waits for whom, as of the last clock that was recorded: pairs {valid, ready}, ready lower, from the lowest:
+   * token, segment, tree, command (before pixel_loads), command (behind it), line, load, video, a frame's header before
+   * the tree, a command that waits before the buffers of the way out. */
+  int64_t (*handshakes)(kage_rtl*);
+
+  /* Write an FST waveform of the clocks `first` to `last` to `path`, which is there whole once they have passed or the
+   * model is destroyed. One time unit is half a clock. */
+  int (*wave)(kage_rtl*, const char* path, uint64_t first, uint64_t last);
 } kage_rtl_table;
 
 /* The library's only symbol, of this type. */

@@ -166,30 +166,25 @@ Outcome run(Dice& dice, const std::vector<Token>& tokens, bool fields = true) {
       if (kind == kOut) loading = dice.between(1, 20);
       // TP has no count.
       out.commands.push_back({kind, top->cmd_xl_o, top->cmd_xr_o, kind == Kind::TP ? 0U : top->cmd_count_o});
-      if (kind == Kind::OP && fields) {
-        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x123456789);
-        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0FEDCBA98);
-        REQUIRE(top->cmd_color_o == 0x332211);
-      }
       out.shares.push_back(top->cmd_share_o);
-      if (kind == Kind::TP && fields) {
-        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x0F1234567);
-        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x0A9876543);
-        REQUIRE(top->cmd_color_o == 0x665544);
-      }
+      const auto ramp = [&](std::uint64_t z, std::uint64_t dz) {
+        REQUIRE(get(top->cmd_z_o, 0, 37) == z);
+        REQUIRE(get(top->cmd_dz_o, 0, 37) == dz);
+      };
+      if (kind == Kind::SP) ramp(0x11111111, 0x22222222);
+      if (kind == Kind::OP && fields) ramp(0x123456789, 0x0FEDCBA98);
+      if (kind == Kind::TP && fields) ramp(0x0F1234567, 0x0A9876543);
+      if (kind == Kind::OP && fields) REQUIRE(top->cmd_color_o == 0x332211);
+      if (kind == Kind::TP && fields) REQUIRE(top->cmd_color_o == 0x665544);
       if (kind == Kind::RESOLVE) REQUIRE(top->cmd_color_o == 0x0A0B0C);
-      if (kind == Kind::SP) {
-        REQUIRE(get(top->cmd_z_o, 0, 37) == 0x11111111);
-        REQUIRE(get(top->cmd_dz_o, 0, 37) == 0x22222222);
-      }
     }
     if (top->line_valid_o) {
       REQUIRE(top->line_ready_i);
       out.lines.push_back({static_cast<bool>(top->line_first_o), static_cast<bool>(top->line_blank_o),
                            top->line_width_o, top->line_background_o, top->line_shade_o});
+      out.painted.push_back(top->line_painted_o != 0);
+      out.loads.push_back(top->line_load_o != 0);
     }
-    if (top->line_valid_o) out.painted.push_back(top->line_painted_o != 0);
-    if (top->line_valid_o) out.loads.push_back(top->line_load_o != 0);
     if (top->error_o)
       out.errors.push_back({top->error_code_o, top->error_frame_o, top->error_line_o, top->error_token_o});
     if (top->frame_end_o) ++out.frames;

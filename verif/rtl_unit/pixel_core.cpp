@@ -110,9 +110,8 @@ class Reference {
         case kLoad:
           for (int ch = 0; ch < s_.channels; ++ch) p.color[ch] = color(c, ch, 0);
           break;
-        default:  // EOL and kOut
+        default:  // EOL and kOut, after which DSF and FSF are of no use
           out.push_back(leaving(p, c.count));
-          p.dsf = p.fsf = 0;
           p.counts = {};
       }
     }

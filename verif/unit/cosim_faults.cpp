@@ -63,7 +63,7 @@ std::vector<std::uint32_t> make(int frame, const LineMaker& opaque, const LineMa
 }
 
 Report compare(const std::string& fault, const LineMaker& opaque, const LineMaker& volumes, int backpressure = 0) {
-  const Model model = find_model(config(), fault);
+  const Model model = find_model(config(), {.fault = fault});
   const auto golden = make_golden(config());
   RtlOptions options;
   options.backpressure_percent = backpressure;

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The first divergence: after a frame has come out different, it is run again with monitors, and what passes between
+// the RTL's modules is held against what the golden core says must.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cosim/rtl.hpp"
+#include "cosim/run.hpp"
+#include "cosim/stages.hpp"
+
+namespace kage::cosim {
+
+/// Where the RTL first departs, in the order in which a token passes the stages, not that of clocks: what a wrong stage
+/// does to those behind it comes later in that order, however early it shows.
+struct Divergence {
+  int frame = 0;
+  int line = 0;
+  int x = -1;  ///< -1: not of a pixel
+  Stage stage{};
+  std::string module;    ///< of rtl/: "pixel_banked"
+  std::string what;      ///< "state of a pixel"
+  std::string field;     ///< "z"; "missing": it never came; "unexpected": nothing more was to come
+  std::string expected;  ///< as a person reads it
+  std::string actual;
+  std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered
+  std::uint32_t token = 0;  ///< index in the frame
+  std::string token_text;   ///< "SP [12, 40) ..."
+  std::string source;       ///< the part of the scene it came from, if the caller knows it: find_divergence() does not
+  std::string waits;        ///< of a core that hangs: who waits for whom
+  std::string waveform;     ///< the FST file, empty if none was written
+  std::string save_file;    ///< the GTKWave save file beside it
+};
+
+struct DivergenceOptions {
+  std::filesystem::path library;  ///< of a traced model
+  RtlOptions rtl;
+  FrameSteps steps;                ///< which frames the run had
+  std::filesystem::path waveform;  ///< FST file to write, empty for none; the save file has .gtkw in its place
+  std::uint64_t before = 100;      ///< clocks of waveform before the divergence
+  std::uint64_t after = 50;        ///< and after it
+  std::function<void()> wait;      ///< called now and then; may throw, which ends the search
+};
+
+/// Run frame `frame` again, alone on a fresh core; if that shows nothing, all frames of the run up to it. Empty if the
+/// stages agree everywhere: then the difference lies where no monitor looks (the registers, the port).
+std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
+                                          const DivergenceOptions& options);
+
+/// What the RTL did to a pixel, where the golden model's history has the same.
+struct RtlTouch {
+  std::uint32_t token = 0;
+  Stage stage{};            ///< pixel, exit or out
+  bool load = false;        ///< its colour came back from the way out
+  std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered
+  bool same = true;
+  std::string text;  ///< the values as a person reads them: "z 812, color 10,20,30, class 1, dsf 1, fsf 0"
+};
+
+/// Run frame `frame` with monitors and tell what they saw of pixel (x, y).
+std::vector<RtlTouch> watch_pixel(int frame, const Feed& feed, const Config& config, const DivergenceOptions& options,
+                                  int x, int y);
+
+/// One line: "frame 0, line 17, x 204: state of a pixel (rtl/pixel_banked.sv), field dsf: expected 1, got 0, ...".
+std::string describe(const Divergence& divergence);
+
+}  // namespace kage::cosim

@@ -1,0 +1,490 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/expected_events.hpp"
+
+#include <algorithm>
+
+#include "core/span_value.hpp"
+
+namespace kage::cosim {
+namespace {
+
+// Commands that no token is: rtl/include/kage_widths.svh.
+constexpr int kCmdLoad = 1;
+constexpr int kCmdOut = 2;
+
+// The order of a token's events. A line that goes out and comes back has its own steps behind those of the token.
+enum Step {
+  of_token,
+  of_control,
+  of_unit,
+  of_tree,
+  of_command,
+  of_pixel,
+  of_exit,
+  of_load,
+  of_load_command,
+  of_loaded,
+  of_out
+};
+
+// Where a token's flags are.
+constexpr std::size_t kTokenFlags = KAGE_RTL_EVENT_VALUES - 1;
+
+std::uint64_t low(std::int64_t value, int bits) {
+  return static_cast<std::uint64_t>(value) & (bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1);
+}
+
+int number(Kind kind) { return static_cast<int>(kind); }
+
+}  // namespace
+
+ExpectedEvents::ExpectedEvents(const Config& config)
+    : config_(config),
+      depth_bits_(config.z_bits + config.z_frac + 2),
+      ramp_bits_(config.smooth != 0 ? 10 + config.color_frac : 8) {
+  for (auto& q : queues_) q.resize(1);
+  queues_[static_cast<std::size_t>(Stage::unit)].resize(static_cast<std::size_t>(std::max(config.units, 1)));
+  queues_[static_cast<std::size_t>(Stage::pixel)].resize(static_cast<std::size_t>(config.max_width));
+}
+
+std::deque<ExpectedEvent>& ExpectedEvents::queue(Stage stage, int unit) {
+  auto& queues = queues_[static_cast<std::size_t>(stage)];
+  const auto i = static_cast<std::size_t>(unit);
+  return queues[stage == Stage::unit || stage == Stage::pixel ? std::min(i, queues.size() - 1) : 0];
+}
+
+ExpectedEvent ExpectedEvents::event(Stage stage, int step) const {
+  ExpectedEvent e;
+  e.stage = stage;
+  e.line = y_;
+  e.token = token_;
+  e.step = step;
+  return e;
+}
+
+ExpectedEvent ExpectedEvents::no_error(int line, std::uint32_t token) {
+  ExpectedEvent e;
+  e.stage = Stage::error;
+  e.line = line;
+  e.token = token;
+  e.step = of_control;
+  e.cares = 1;
+  return e;
+}
+
+void ExpectedEvents::put(ExpectedEvent e) { queue(e.stage, e.unit).push_back(e); }
+
+// Two words a value, the first in the lower half; in the last {header, lacking, cut, final}.
+void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool final) {
+  ExpectedEvent e = event(Stage::token, of_token);
+  for (std::size_t i = 0; i < words.size() && i / 2 < e.value.size(); ++i) {
+    e.value[i / 2] |= std::uint64_t{words[i]} << (i % 2 * 32);
+    e.cares |= 1U << (i / 2);
+  }
+  if (words.size() % 2 != 0) {
+    e.masked = static_cast<int>(words.size() / 2);
+    e.mask = 0xFFFFFFFFU;
+  }
+  e.value[kTokenFlags] = (token_ == 0 ? 8U : 0U) | (final ? 1U : 0U);
+  e.cares |= 1U << kTokenFlags;
+  put(e);
+}
+
+// A token that is refused: its words may not be there, but what token_reader says of them is known.
+void ExpectedEvents::wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words) {
+  ExpectedEvent e = event(Stage::token, of_token);
+  e.token = header ? 0 : token_ + 1;
+  const bool cut = code == ErrorCode::LAST_EARLY;
+  const bool end = !header && !words.empty() && static_cast<Kind>(words[0] & 15U) == Kind::END;
+  e.value[kTokenFlags] =
+      (header ? 8U : 0U) | (code == ErrorCode::KIND ? 4U : 0U) | (cut ? 2U : 0U) | (cut || end ? 1U : 0U);
+  e.cares = 1U << kTokenFlags;
+  put(e);
+}
+
+void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView& line) {
+  for (auto& queues : queues_)
+    for (auto& q : queues) q.clear();
+  failed_ = false;
+  width_ = line.width();
+  height_ = static_cast<int>(words[1] >> 16);
+  y_ = 0;
+  token_ = 0;
+  eol_token_.clear();
+  background_ = low(words[3], 8 * config_.channels);
+  shade_ = 0;
+  resolved_ = painted_ = false;
+  bias_ = 0;
+  token_words(words, false);
+}
+
+std::uint64_t ExpectedEvents::packed(const std::array<std::uint8_t, 3>& color) const {
+  std::uint64_t all = 0;
+  for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c) all |= std::uint64_t{color[c]} << 8 * c;
+  return all;
+}
+
+// kind, xl, xr, count, z, dz, share, 3 colours, 3 slopes.
+void ExpectedEvents::command(int kind, int xl, int xr, int step) {
+  ExpectedEvent e = event(Stage::command, step);
+  e.value[0] = static_cast<std::uint64_t>(kind);
+  e.value[1] = static_cast<std::uint64_t>(xl);
+  e.value[2] = static_cast<std::uint64_t>(xr);
+  e.cares = 7;
+  put(e);
+}
+
+void ExpectedEvents::span_command(const Token& t, const LineView& line) {
+  const SpanToken& s = t.span;
+  command(number(t.kind), s.xl, s.xr, of_command);
+  ExpectedEvent& e = queue(Stage::command, 0).back();
+  const auto say = [&](int index, std::uint64_t value) {
+    e.value[static_cast<std::size_t>(index)] = value;
+    e.cares |= 1U << index;
+  };
+  const int dsf = std::max(config_.dsf_bits, 1);
+  switch (t.kind) {
+    case Kind::OP:
+      say(3, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(s.normal_class) : 0);
+      break;
+    case Kind::SP:
+    case Kind::NC:
+      say(3, low(s.w, dsf));
+      break;
+    case Kind::EV:
+      say(3, line.bias());
+      break;
+    case Kind::ES:
+      say(3, (config_.lights > 1 ? static_cast<std::uint64_t>(t.table.light) << (config_.fsf != 0 ? 0 : dsf) : 0) |
+                 (config_.fsf != 0 ? 0 : line.bias()));
+      break;
+    default:
+      say(6, static_cast<std::uint64_t>(s.alpha));
+      break;
+  }
+  // ES and, with several lights, nothing else of its count: FSF leaves the low bits open.
+  if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP) {
+    say(4, low(s.z, depth_bits_));
+    say(5, low(s.dz, depth_bits_));
+  }
+  if (t.kind != Kind::OP && t.kind != Kind::TP) return;
+  for (int c = 0; c < config_.channels; ++c) {
+    say(7 + c, low(s.color[static_cast<std::size_t>(c)], ramp_bits_));
+    if (config_.smooth != 0) say(10 + c, low(s.dcolor[static_cast<std::size_t>(c)], ramp_bits_));
+  }
+}
+
+// kind, z, colour; z, colour, class, DSF, FSF, counts.
+void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
+  ExpectedEvent e = event(Stage::pixel, step);
+  e.unit = e.x = x;
+  std::uint64_t counts = 0;
+  for (int l = 0; l < config_.lights && config_.count_bits > 0; ++l)
+    counts |= std::uint64_t{after.counts[static_cast<std::size_t>(l)]} << l * config_.count_bits;
+  e.value = {static_cast<std::uint64_t>(kind),
+             0,
+             0,
+             after.z,
+             packed(after.color),
+             config_.dsf_bits > 0 ? after.normal_class : 0,
+             painted_ ? 0 : after.dsf,
+             painted_ ? 0 : after.fsf,
+             counts};
+  // With counters nobody asks for the flags of a painted line.
+  e.cares = painted_ && config_.count_bits > 0 ? 0b100111001 : 0b111111001;
+  put(e);
+}
+
+ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolved) const {
+  Leaving l;
+  l.color = packed(s.color);
+  l.covered = s.z != (1U << config_.z_bits) - 1U;
+  if (config_.count_bits > 0) {
+    l.normal_class = s.normal_class;
+    for (int i = 0; i < config_.lights && s.normal_class != 0; ++i)
+      l.counts |= std::uint64_t{s.counts[static_cast<std::size_t>(i)]} << i * config_.count_bits;
+  } else if (config_.dsf_bits > 0 && !resolved) {
+    const bool shadow =
+        config_.fsf != 0 ? s.fsf != 0 : low(static_cast<std::int64_t>(s.dsf + bias_), config_.dsf_bits) != 0;
+    l.dark = shadow && s.normal_class != 0;
+  }
+  return l;
+}
+
+std::vector<ExpectedEvents::Leaving> ExpectedEvents::all_leaving(const LineView& line) const {
+  std::vector<Leaving> all;
+  for (int x = 0; x < width_; ++x) all.push_back(leaving(line.pixel(x), painted_));
+  return all;
+}
+
+// first, blank, load, painted, width, background, shade.
+void ExpectedEvents::line_event(bool blank, bool load, int step) {
+  ExpectedEvent e = event(Stage::line, step);
+  e.value = {y_ == 0 ? 1U : 0U, blank ? 1U : 0U, load ? 1U : 0U, painted_ ? 1U : 0U, static_cast<std::uint64_t>(width_),
+             background_,       shade_};
+  e.cares = blank ? 0b0110111 : 0b1111111;
+  put(e);
+}
+
+// colour, covered, dark, class, counts. If banked, the pixels past the width in the last group leave too.
+void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
+  const int lanes = config_.arrangement == 1 ? config_.lanes : 1;
+  const int end = (width_ + lanes - 1) / lanes * lanes;
+  for (int x = 0; x < end; ++x) {
+    ExpectedEvent e = event(Stage::exit, of_exit);
+    if (x < width_) e.x = x;
+    e.unit = x == end - 1 ? 1 : 0;
+    if (x < width_ && !blank) {
+      const Leaving& l = pixels[static_cast<std::size_t>(x)];
+      e.value = {l.color, l.covered ? 1U : 0U, l.dark ? 1U : 0U, config_.class_bits > 1 ? l.normal_class : 0, l.counts};
+      // Of a pixel without surface the way out takes the background, unless the line is painted and has it already.
+      e.cares = l.covered || l.color != 0 ? 0b11111 : 0b11110;
+    }
+    put(e);
+  }
+}
+
+// What line_phase says, where that is made use of.
+void ExpectedEvents::state(std::uint64_t bias, bool matters) {
+  ExpectedEvent e = event(Stage::state, of_token);
+  e.value = {bias, resolved_ ? 1U : 0U};
+  e.cares = matters && config_.dsf_bits > 0 ? 1 : 0;
+  put(e);
+}
+
+// What frame_control does before a line's first TP.
+void ExpectedEvents::paint(const LineView& line) {
+  state(bias_, config_.count_bits == 0);
+  if (config_.count_bits > 0) queue(Stage::state, 0).back().cares |= 2;
+  const bool by_loads = config_.count_bits > 0 && resolved_;
+  const auto painted = [&](int x) {
+    PixelState s = line.pixel(x);
+    if (s.z == (1U << config_.z_bits) - 1U)
+      for (unsigned c = 0; c < 3; ++c) s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
+    return s;
+  };
+  if (!by_loads) {
+    command(number(Kind::RESOLVE), 0, width_, of_command);
+    ExpectedEvent& e = queue(Stage::command, 0).back();
+    e.value[3] = bias_;
+    e.cares |= config_.dsf_bits > 0 ? 8U : 0U;
+    if (config_.count_bits == 0 && config_.dsf_bits > 0) {
+      e.value[6] = shade_;
+      e.cares |= 1U << 6;
+    }
+    for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c) {
+      e.value[7 + c] = (background_ >> 8 * c & 255U) << config_.color_frac;
+      e.cares |= 1U << (7 + c);
+    }
+    painted_ = true;
+    for (int x = 0; x < width_; ++x) touch(number(Kind::RESOLVE), x, painted(x), of_pixel);
+    return;
+  }
+  command(kCmdOut, 0, width_, of_command);
+  line_event(false, true, of_command);
+  leave(before_resolve_, false);
+  painted_ = true;
+  for (int x = 0; x < width_; ++x) {
+    const PixelState s = painted(x);
+    ExpectedEvent e = event(Stage::load, of_load);
+    e.x = x;
+    e.value = {static_cast<std::uint64_t>(x), packed(s.color)};
+    e.cares = 3;
+    put(e);
+    command(kCmdLoad, x, x + 1, of_load_command);
+    ExpectedEvent& c = queue(Stage::command, 0).back();
+    c.load = true;
+    c.x = x;
+    for (unsigned i = 0; i < static_cast<unsigned>(config_.channels); ++i) {
+      c.value[7 + i] = std::uint64_t{s.color[i]} << config_.color_frac;
+      c.cares |= 1U << (7 + i);
+    }
+    touch(kCmdLoad, x, s, of_loaded);
+    queue(Stage::pixel, x).back().load = true;
+  }
+}
+
+void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> words,
+                            const LineView& line) {
+  token_ = index;
+  token_words(words, t.kind == Kind::END);
+  switch (t.kind) {
+    case Kind::SHADE:
+      shade_ = t.shade;
+      break;
+    case Kind::TABLE: {
+      ExpectedEvent e = event(Stage::table, of_control);
+      e.value = {static_cast<std::uint64_t>(t.table.normal_class), static_cast<std::uint64_t>(t.table.light)};
+      for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c) e.value[2 + c] = t.table.share[c];
+      e.cares = 0b11111;
+      put(e);
+      break;
+    }
+    case Kind::FACE: {
+      const SegmentToken& f = t.segment;
+      ExpectedEvent e = event(Stage::face, of_control);
+      e.unit = f.unit;
+      e.value = {static_cast<std::uint64_t>(f.face), static_cast<std::uint64_t>(f.index),
+                 config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0, low(f.dz, depth_bits_)};
+      for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
+        e.value[4] |= static_cast<std::uint64_t>(f.color[c]) << 8 * c;
+      e.cares = 0b11111;
+      put(e);
+      break;
+    }
+    case Kind::SEG: {
+      if (!line.segment_taken()) break;
+      const SegmentToken& s = t.segment;
+      ExpectedEvent e = event(Stage::segment, of_control);
+      e.unit = s.unit;
+      e.value = {low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_), static_cast<std::uint64_t>(s.dx),
+                 static_cast<std::uint64_t>(s.face)};
+      e.cares = s.face == (1 << config_.face_bits) - 1 ? 0b110 : 0b111;
+      put(e);
+      break;
+    }
+    case Kind::TREE:
+      put(event(Stage::claim, of_control));
+      queue(Stage::claim, 0).back().cares = 1;
+      break;
+    case Kind::RESOLVE:
+      bias_ = line.bias();
+      before_resolve_ = all_leaving(line);
+      resolved_ = true;
+      break;
+    case Kind::TP:
+      if (!resolved_) bias_ = line.bias();
+      if (!painted_) paint(line);
+      [[fallthrough]];
+    case Kind::OP:
+    case Kind::SP:
+    case Kind::NC:
+    case Kind::EV:
+    case Kind::ES:
+      if (t.kind == Kind::EV || t.kind == Kind::ES) state(line.bias(), t.kind == Kind::EV || config_.fsf == 0);
+      if (t.span.xl < t.span.xr) span_command(t, line);
+      break;
+    case Kind::EOL:
+      if (!resolved_) bias_ = line.bias();
+      state(bias_, !painted_);
+      end_line(&line);
+      break;
+    default:
+      break;
+  }
+}
+
+// `line`: nullptr where it is blank.
+void ExpectedEvents::end_line(const LineView* line) {
+  command(number(Kind::EOL), 0, width_, of_command);
+  if (line != nullptr && config_.dsf_bits > 0) {
+    ExpectedEvent& e = queue(Stage::command, 0).back();
+    e.value[3] = painted_ ? 0 : bias_;
+    e.cares |= 8;
+  }
+  line_event(line == nullptr, false, of_command);
+  if (line == nullptr)
+    leave({}, true);
+  else
+    leave(resolved_ && !painted_ ? before_resolve_ : all_leaving(*line), false);
+  eol_token_.push_back(token_);
+  ++y_;
+  resolved_ = painted_ = false;
+  bias_ = 0;
+}
+
+void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineView& line) {
+  const SpanToken& s = t.span;
+  const int kind = number(t.kind);
+  const auto came = [&](int x, std::uint64_t z, std::uint64_t color, std::uint32_t cares) {
+    ExpectedEvent& e = queue(Stage::pixel, x).back();
+    e.value[1] = z;
+    e.value[2] = color;
+    e.cares |= cares;
+  };
+  switch (t.kind) {
+    case Kind::TREE: {
+      command(kind, 0, width_, of_command);
+      const std::uint64_t clear = (std::uint64_t{1} << config_.z_bits) - 1;
+      for (int x = 0; x < width_; ++x) {
+        for (int u = 0; u < config_.units; ++u) {
+          const auto p = line.unit_pixel(u, x);
+          ExpectedEvent e = event(Stage::unit, of_unit);
+          e.unit = u;
+          e.x = x;
+          e.value = {p.z, p.index, packed(p.color), config_.dsf_bits > 0 ? p.normal_class : 0};
+          e.cares = p.z == clear ? 1 : 0b1111;
+          put(e);
+        }
+        const auto p = line.tree_pixel(x);
+        ExpectedEvent e = event(Stage::tree, of_tree);
+        e.x = x;
+        e.value = {p.z, packed(p.color), config_.dsf_bits > 0 ? p.normal_class : 0};
+        e.cares = p.z == clear ? 1 : 0b111;
+        put(e);
+        touch(kind, x, line.pixel(x), of_pixel);
+        came(x, p.z, packed(p.color), p.z == clear ? 0b10 : 0b110);
+      }
+      break;
+    }
+    case Kind::OP:
+    case Kind::TP:
+    case Kind::SP:
+    case Kind::NC:
+    case Kind::EV:
+    case Kind::ES:
+      for (int x = s.xl; x < s.xr; ++x) {
+        touch(kind, x, line.pixel(x), of_pixel);
+        const bool depth = t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP;
+        const bool colored = t.kind == Kind::OP || t.kind == Kind::TP;
+        came(x, depth ? span_depth(config_, s, x) : 0, colored ? packed(span_color(config_, s, x)) : 0,
+             (depth ? 2U : 0U) | (colored ? 4U : 0U));
+      }
+      break;
+    default:
+      break;
+  }
+}
+
+void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) {
+  failed_ = true;
+  if (status.width == 0) {  // nothing of the frame before is left
+    token_ = 0;
+    y_ = 0;
+  }
+  if (status.error != ErrorCode::LAST_LATE) wrong_token(status.error, status.width == 0, words);
+  ExpectedEvent e = event(Stage::error, of_control);
+  // Where it shows: the token that is to blame may have come before.
+  e.token = status.width == 0 ? 0 : status.error == ErrorCode::LAST_LATE ? token_ : token_ + 1;
+  e.value = {static_cast<std::uint64_t>(status.error), status.frame, status.line, status.token, status.unit};
+  e.cares = 0b11111;
+  put(e);
+  if (status.width == 0) return;
+  token_ = status.token;
+  // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line.
+  if (config_.translucency != 0 && !words.empty() && !painted_ &&
+      (words[0] & 15U) == static_cast<std::uint32_t>(Kind::TP)) {
+    if (!resolved_) bias_ = line.bias();
+    paint(line);
+  }
+  // The line at hand and all others leave as background.
+  while (y_ < height_) end_line(nullptr);
+}
+
+void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
+  const auto channels = static_cast<std::size_t>(config_.channels);
+  for (int x = 0; x < width_; ++x) {
+    ExpectedEvent e = event(Stage::out, of_out);
+    e.line = y;
+    e.token = eol_token_[static_cast<std::size_t>(y)];
+    e.x = x;
+    for (std::size_t c = 0; c < channels; ++c)
+      e.value[0] |= std::uint64_t{pixels[static_cast<std::size_t>(x) * channels + c]} << 8 * c;
+    e.value[1] = x == 0 && y == 0 ? 1 : 0;
+    e.value[2] = x + 1 == width_ ? 1 : 0;
+    e.cares = 7;
+    put(e);
+  }
+}
+
+}  // namespace kage::cosim

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/phases.hpp"
+
+#include <algorithm>
+
+namespace kage::cosim {
+namespace {
+
+Phase phase_of(Kind kind) {
+  switch (kind) {
+    case Kind::OP:
+    case Kind::TREE:
+      return Phase::opaque;
+    case Kind::SP:
+    case Kind::NC:
+    case Kind::IF:
+      return Phase::volumes;
+    case Kind::EV:
+      return Phase::volume_ends;
+    case Kind::ES:
+      return Phase::samples;
+    case Kind::TP:
+      return Phase::translucent;
+    case Kind::EOL:
+      return Phase::line_out;
+    default:
+      return Phase::state;
+  }
+}
+
+}  // namespace
+
+void PhaseCounter::token(const Token& t) {
+  const auto words = static_cast<std::uint64_t>(layout_.words[static_cast<std::size_t>(t.kind)]);
+  const auto beat = static_cast<std::uint64_t>(config_.beat_words);
+  std::uint64_t clocks = std::max<std::uint64_t>(1, (words + beat - 1) / beat);
+  // What the banked arrangement works on in turn; in the systolic one a token enters every clock.
+  const auto groups = [&](int xl, int xr) {
+    return static_cast<std::uint64_t>(
+        config_.arrangement == 0 || xl == xr ? 1 : (xr - 1) / config_.lanes - xl / config_.lanes + 1);
+  };
+  const Phase phase = phase_of(t.kind);
+  PhaseSums::Sum& sum = sums_.of[static_cast<std::size_t>(phase)];
+  if (t.kind == Kind::EOL || t.kind == Kind::TREE) {
+    clocks = groups(0, width_);
+  } else if (phase != Phase::state && t.kind != Kind::IF) {
+    clocks = std::max(clocks, groups(t.span.xl, t.span.xr));
+    sum.pixels += static_cast<std::uint64_t>(t.span.xr - t.span.xl);
+  }
+  ++sum.tokens;
+  sum.clocks += clocks;
+  line_ += clocks;
+  if (t.kind != Kind::EOL) return;
+  const auto width = static_cast<std::uint64_t>(width_);
+  if (line_ < width) sums_.video += width - line_;
+  line_ = 0;
+}
+
+}  // namespace kage::cosim

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the clocks of a frame go by design (docs/rtl.md, "Clocks"): each token's, summed by what it is for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "kage/stream.hpp"
+
+namespace kage::cosim {
+
+enum class Phase : std::uint8_t { state, opaque, volumes, volume_ends, samples, translucent, line_out };
+inline constexpr std::size_t kPhases = 7;
+
+/// What belongs to each: "SP, NC, IF".
+inline constexpr std::array<std::string_view, kPhases> kPhaseTokens{
+    "SHADE, TABLE, FACE, SEG, RESOLVE, END", "OP, TREE", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
+inline constexpr std::array<std::string_view, kPhases> kPhaseNames{
+    "state", "opaque", "volumes", "ends of volumes", "light samples", "translucent", "line out"};
+
+struct PhaseSums {
+  struct Sum {
+    std::uint64_t tokens = 0;
+    std::uint64_t pixels = 0;  ///< in the ranges of spans, EV and ES
+    std::uint64_t clocks = 0;
+  };
+  std::array<Sum, kPhases> of{};
+  std::uint64_t video = 0;  ///< clocks in which a line's pixels take longer to leave than its tokens to come
+
+  [[nodiscard]] std::uint64_t clocks() const {
+    std::uint64_t sum = video;
+    for (const Sum& s : of) sum += s.clocks;
+    return sum;
+  }
+};
+
+/// Adds up the tokens of a frame. Not counted: the header, waiting, and the pass that brings colours back before the
+/// TPs of a line.
+class PhaseCounter {
+ public:
+  explicit PhaseCounter(const Config& config) : config_(config), layout_(config) {}
+
+  /// A frame whose lines are so wide.
+  void start(int width) {
+    width_ = width;
+    line_ = 0;
+    sums_ = {};
+  }
+  void token(const Token& token);
+
+  [[nodiscard]] const PhaseSums& sums() const { return sums_; }
+
+ private:
+  Config config_;
+  Layout layout_;
+  int width_ = 0;
+  std::uint64_t line_ = 0;  // clocks of the line at hand
+  PhaseSums sums_;
+};
+
+}  // namespace kage::cosim

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// lane_ramp from its ports alone: each lane's value by a product, as the contract has it.
+`default_nettype none
+
+module lane_ramp_monitor #(
+    parameter int LANES = 4,
+    parameter int BITS = 37,
+    parameter int FRAC = 11,
+    parameter int LO = 1,
+    parameter int HI = 255,
+    parameter int OUT_BITS = 24,
+    parameter int OFF_BITS = 1
+) (
+    input wire logic                      clk_i,
+    input wire logic [               2:0] set_en_i,
+    input wire logic [          BITS-1:0] start_i,
+    input wire logic [          BITS-1:0] slope_i,
+    input wire logic [      OFF_BITS-1:0] offset_i,
+    input wire logic                      load_i,
+    input wire logic                      step_i,
+    input wire logic [LANES*OUT_BITS-1:0] value_o
+);
+  `include "kage_trace.svh"
+
+  localparam int Delay = $clog2(LANES) + 2;
+  localparam int SetBits = 2 * BITS + OFF_BITS;
+  logic [SetBits-1:0] set1_q, set2_q, set3_q;
+  bit [2:0] set_known_q;  // something has come in
+  logic [BITS-1:0] start_q, slope_q;
+  int place_q;  // of lane 0, from xl
+  bit known_q;
+  logic [OFF_BITS-1:0] offset;
+  logic [LANES*OUT_BITS-1:0] values;
+  logic [LANES-1:0] used;
+  logic [Delay*LANES*OUT_BITS-1:0] values_q;
+  bit [Delay*LANES-1:0] used_q;
+  assign offset = set3_q[OFF_BITS-1:0];
+
+  logic signed [BITS-1:0] sum;
+  int place;
+  always_comb begin
+    sum = '0;
+    place = 0;
+    values = '0;
+    for (int l = 0; l < LANES; l++) begin
+      place = place_q + l;
+      used[l] = known_q && place >= 0;
+      sum = $signed(start_q + slope_q * BITS'(place)) >>> FRAC;
+      values[l*OUT_BITS+:OUT_BITS] = OUT_BITS'(sum);
+      if (sum < BITS'(LO)) values[l*OUT_BITS+:OUT_BITS] = OUT_BITS'(LO);
+      if (sum > BITS'(HI)) values[l*OUT_BITS+:OUT_BITS] = OUT_BITS'(HI);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (set_en_i[0]) {set1_q, set_known_q[0]} <= {start_i, slope_i, offset_i, 1'b1};
+    if (set_en_i[1]) {set2_q, set_known_q[1]} <= {set1_q, set_known_q[0]};
+    if (set_en_i[2]) {set3_q, set_known_q[2]} <= {set2_q, set_known_q[1]};
+    if (load_i) begin
+      {start_q, slope_q} <= set3_q[SetBits-1:OFF_BITS];
+      place_q <= LANES > 1 ? -32'(offset) : 0;
+      known_q <= set_known_q[2];
+    end else if (step_i) begin
+      place_q <= place_q + LANES;
+    end
+    values_q <= (Delay * LANES * OUT_BITS)'({values_q, values});
+    used_q   <= (Delay * LANES)'({used_q, used});
+    for (int l = 0; l < LANES; l++) begin
+      if (used_q[(Delay-1)*LANES+l]) begin
+        trace_part(PartLaneRamp, 512'(values_q[((Delay-1)*LANES+l)*OUT_BITS+:OUT_BITS]),
+                   512'(value_o[l*OUT_BITS+:OUT_BITS]));
+      end
+    end
+  end
+
+endmodule
+
+bind lane_ramp lane_ramp_monitor #(
+    .LANES(LANES),
+    .BITS(BITS),
+    .FRAC(FRAC),
+    .LO(LO),
+    .HI(HI),
+    .OUT_BITS(OUT_BITS),
+    .OFF_BITS(OffBits)
+) u_monitor (.*);
+
+`default_nettype wire
