@@ -26,6 +26,8 @@ struct GoldenCore::Data {
   TokenRules rules;
   WordCutter cutter;
   std::vector<std::uint8_t> out;
+  Token t;  // the one at hand
+  CoreObserver* observer = nullptr;
 
   // Of the frame at hand:
   FrameStatus status;
@@ -44,7 +46,7 @@ struct GoldenCore::Data {
     return words[2] == param_hash(config) ? ErrorCode::NONE : ErrorCode::PARAMS;
   }
 
-  void apply(const Token& t) {
+  void apply() {
     switch (t.kind) {
       case Kind::SHADE:
         pixels.set_shade(t.shade);
@@ -59,7 +61,7 @@ struct GoldenCore::Data {
         if (rules.outcome().taken) tree.add_segment(t.segment);
         break;
       case Kind::TREE:
-        pixels.tree(tree.take_line());
+        pixels.tree(tree.take_line(observer != nullptr));
         break;
       case Kind::OP:
         pixels.op(t.span);
@@ -104,13 +106,14 @@ struct GoldenCore::Data {
   }
 
   /// The frame's error; the lines that have not ended are background.
-  void fail(ErrorCode e, const LineSink& sink) {
+  void fail(ErrorCode e, const LineSink& sink, std::span<const std::uint32_t> words = {}) {
     const bool lines = at == At::lines;
     at = At::failed;
     status.error = e;
     status.frame = number;
     status.line = lines ? static_cast<std::uint32_t>(rules.line()) : 0;
     status.token = token;
+    if (observer != nullptr) observer->failed(status, words, view());
     if (!lines) return;
     for (int y = rules.line(); y < status.height; ++y) emit(y, true, sink);
   }
@@ -127,6 +130,7 @@ struct GoldenCore::Data {
     taken = kHeaderWords;
     token = 1;
     at = At::lines;
+    if (observer != nullptr) observer->header(h, view());
   }
 
   void feed(std::span<const std::uint32_t> piece, const LineSink& sink) {
@@ -142,17 +146,18 @@ struct GoldenCore::Data {
       const std::uint32_t* first = cutter.peek();
       if (first == nullptr) return;
       const std::size_t n = layout.words[*first & 15U];
-      if (n == 0) return fail(ErrorCode::KIND, sink);
+      if (n == 0) return fail(ErrorCode::KIND, sink, std::span(first, 1));
       const auto body = cutter.take(n);
       if (body.empty()) return;
-      const Token t = decode(config, layout, body);
+      decode(config, layout, body, t);
       if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) {
         if (rules.fault().code != ErrorCode::NONE) {
           status.unit = rules.fault().unit;
           token = rules.fault().token;
         }
-        return fail(e, sink);
+        return fail(e, sink, body);
       }
+      if (observer != nullptr) observer->before(token, t, body, view());
       if (t.kind == Kind::END) {
         at = At::ended;
         return;
@@ -160,23 +165,28 @@ struct GoldenCore::Data {
       if (t.kind == Kind::EOL)
         emit(t.y, false, sink);
       else
-        apply(t);
+        apply();
+      if (observer != nullptr) observer->after(token, t, view());
       taken += n;
       ++token;
     }
   }
+
+  [[nodiscard]] LineView view() const { return {pixels, tree, rules}; }
 
   FrameStatus finish(const LineSink& sink) {
     const auto beat = static_cast<std::uint64_t>(config.beat_words);
     constexpr std::array<std::uint32_t, 8> kFill{};
     feed(std::span(kFill).first((beat - came % beat) % beat), sink);
     if (at == At::header || at == At::lines) {
-      fail(ErrorCode::LAST_EARLY, sink);
+      const std::uint32_t* first = at == At::lines ? cutter.peek() : nullptr;
+      fail(ErrorCode::LAST_EARLY, sink, std::span(first, first != nullptr ? 1 : 0));
     } else if (at == At::ended && taken / beat != came / beat - 1) {
       status.error = ErrorCode::LAST_LATE;  // all lines have left
       status.frame = number;
       status.line = static_cast<std::uint32_t>(rules.line());
       status.token = token;
+      if (observer != nullptr) observer->failed(status, {}, view());
     }
     const FrameStatus result = status;
     start();
@@ -188,6 +198,10 @@ GoldenCore::GoldenCore(const Config& config) : data_(std::make_unique<Data>(conf
 GoldenCore::~GoldenCore() = default;
 GoldenCore::GoldenCore(GoldenCore&&) noexcept = default;
 GoldenCore& GoldenCore::operator=(GoldenCore&&) noexcept = default;
+
+void GoldenCore::observe(CoreObserver* observer) { data_->observer = observer; }
+
+LineView GoldenCore::line() const { return data_->view(); }
 
 void GoldenCore::feed(std::span<const std::uint32_t> words, const LineSink& sink) { data_->feed(words, sink); }
 

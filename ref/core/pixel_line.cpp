@@ -168,18 +168,29 @@ void PixelLine::tp(const SpanToken& s) {
           config_.channels, s.alpha);
 }
 
+PixelState PixelLine::state(int x) const {
+  const auto i = static_cast<std::size_t>(x);
+  PixelState s;
+  s.z = static_cast<std::uint32_t>(zb_[i]);
+  const bool clear = zb_[i] == (1 << config_.z_bits) - 1;
+  // What a clear pixel's colour and class were on lines before is never seen.
+  if (!clear || painted_)
+    for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
+      s.color[c] = static_cast<std::uint8_t>(attr_[i] >> 8 * c);
+  if (!clear) s.normal_class = class_.empty() ? (attr_[i] & kLit) / kLit : class_[i];
+  s.dsf = dsf_[i] & dsf_mask_;
+  s.fsf = fsf_[i];
+  for (std::size_t light = 0; light < counts_.size(); ++light) s.counts[light] = counts_[light][i];
+  return s;
+}
+
 void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
   const std::int32_t clear = (1 << config_.z_bits) - 1;
   const auto width = static_cast<std::size_t>(width_);
-  std::uint8_t* to = out.data();
-  for (std::size_t x = 0; x < width; ++x) {
-    const std::uint32_t a = blank || (zb_[x] == clear && !painted_) ? background_ : attr_[x];
-    *to++ = static_cast<std::uint8_t>(a);
-    if (config_.channels > 1) {
-      *to++ = static_cast<std::uint8_t>(a >> 8);
-      *to++ = static_cast<std::uint8_t>(a >> 16);
-    }
-  }
+  if (blank) std::fill_n(attr_.begin(), width, background_);
+  // Painted pixels have the background's colour already where they need it; no depth is below 0.
+  line_bytes(width_, zb_.data(), attr_.data(), painted_ || blank ? -1 : clear, background_, config_.channels,
+             out.data());
   std::fill_n(zb_.begin(), width, clear);
   if (shadow_touched_) {
     std::fill_n(dsf_.begin(), width, 0U);

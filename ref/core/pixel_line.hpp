@@ -10,6 +10,7 @@
 
 #include "core/expansion_unit.hpp"
 #include "core/span_kernels.hpp"
+#include "kage/core.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {
@@ -32,6 +33,12 @@ class PixelLine {
   void es(int xl, int xr, int light);  ///< count[light] += FSF; FSF = 0; bias = 0
   void resolve();                      ///< darken what is lit and in shadow
   void tp(const SpanToken& s);         ///< where Z < ZB: colour is blended
+
+  [[nodiscard]] PixelState state(int x) const;
+  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] std::uint32_t bias() const { return bias_ & dsf_mask_; }
+  [[nodiscard]] std::uint32_t background() const { return background_; }
+  [[nodiscard]] bool painted() const { return painted_; }
 
   /// The line's pixels as bytes; all state is cleared. `blank`: the line is background whatever was drawn.
   void finish(bool blank, std::span<std::uint8_t> out);

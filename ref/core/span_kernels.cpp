@@ -24,11 +24,14 @@ class Depths {
   explicit Depths(const DepthRamp& r) : shift_(r.shift), z_max_(hn::Set(D32(), r.z_max)) {
     const D64 d;
     const std::size_t half = hn::Lanes(d);
-    HWY_ALIGN std::int64_t lanes[hn::MaxLanes(D64())];
-    auto at = static_cast<std::uint64_t>(r.z);
+    // Multiples of the step by its doubles, in registers: a vector just written to memory in parts is slow to read.
     const auto step = static_cast<std::uint64_t>(r.dz);
-    for (std::size_t i = 0; i < half; ++i, at += step) lanes[i] = static_cast<std::int64_t>(at);
-    low_ = hn::Load(d, lanes);
+    const auto lane = hn::Iota(d, 0);
+    low_ = hn::Set(d, r.z);
+    for (std::size_t bit = 1; bit < half; bit *= 2) {
+      const auto odd = hn::TestBit(lane, hn::Set(d, static_cast<std::int64_t>(bit)));
+      low_ = hn::Add(low_, hn::IfThenElseZero(odd, hn::Set(d, static_cast<std::int64_t>(step * bit))));
+    }
     const auto half_step = hn::Set(d, static_cast<std::int64_t>(step * half));
     high_ = hn::Add(low_, half_step);
     full_step_ = hn::Add(half_step, half_step);
@@ -55,12 +58,8 @@ class Colors {
   Colors() = default;
   explicit Colors(const ColorRamp& r) {
     const D32 d;
-    HWY_ALIGN std::int32_t lanes[hn::MaxLanes(D32())];
-    auto at = static_cast<std::uint32_t>(r.c);
-    const auto step = static_cast<std::uint32_t>(r.dc);
-    for (std::size_t i = 0; i < hn::Lanes(d); ++i, at += step) lanes[i] = static_cast<std::int32_t>(at);
-    acc_ = hn::Load(d, lanes);
-    step_ = hn::Set(d, static_cast<std::int32_t>(step * hn::Lanes(d)));
+    acc_ = hn::Add(hn::Set(d, r.c), hn::Mul(hn::Iota(d, 0), hn::Set(d, r.dc)));
+    step_ = hn::Set(d, static_cast<std::int32_t>(static_cast<std::uint32_t>(r.dc) * hn::Lanes(d)));
   }
 
   HWY_INLINE hn::Vec<DU32> next() {
@@ -79,15 +78,15 @@ class Colors {
 HWY_INLINE hn::Mask<D32> lanes_left(int x, int count) { return hn::FirstN(D32(), static_cast<std::size_t>(count - x)); }
 
 // The class of the pixels that `nearer` says.
-HWY_INLINE void put_class(ClassSpan classes, int x, hn::Mask<DU32> nearer) {
+HWY_INLINE void put_class(const ClassSpan& classes, int x, hn::Mask<DU32> nearer) {
   const DU32 du;
   if (classes.at == nullptr) return;
   const auto old = hn::LoadU(du, classes.at + x);
   hn::StoreU(hn::IfThenElse(nearer, hn::Set(du, classes.value), old), du, classes.at + x);
 }
 
-void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
-            std::uint32_t value, ClassSpan classes) {
+void OpFlat(const DepthRamp& ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
+            std::uint32_t value, const ClassSpan& classes) {
   const D32 d;
   const DU32 du;
   Depths depths(ramp);
@@ -105,8 +104,8 @@ void OpFlat(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint3
   }
 }
 
-void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
-              std::uint32_t value, const ColorRamp* color, int channels, ClassSpan classes) {
+void OpSmooth(const DepthRamp& ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
+              std::uint32_t value, const ColorRamp* color, int channels, const ClassSpan& classes) {
   const D32 d;
   const DU32 du;
   Depths depths(ramp);
@@ -129,7 +128,7 @@ void OpSmooth(DepthRamp ramp, int count, std::int32_t* HWY_RESTRICT zb, std::uin
   }
 }
 
-void Sp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT dsf,
+void Sp(const DepthRamp& ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT dsf,
         std::uint32_t w) {
   const D32 d;
   const DU32 du;
@@ -188,7 +187,7 @@ HWY_INLINE hn::Vec<DU32> blend(hn::Vec<DU32> attr, int at, hn::Vec<DU32> value, 
   return hn::ShiftLeftSame(hn::BitCast(du, hn::ShiftRight<8>(hn::Add(sum, hn::ShiftRight<8>(sum)))), at);
 }
 
-void Tp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
+void Tp(const DepthRamp& ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint32_t* HWY_RESTRICT attr,
         const ColorRamp* color, int channels, int alpha) {
   const D32 d;
   const DU32 du;
@@ -209,6 +208,32 @@ void Tp(DepthRamp ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uin
   }
 }
 
+void Bytes(int count, const std::int32_t* HWY_RESTRICT zb, const std::uint32_t* HWY_RESTRICT value, std::int32_t clear,
+           std::uint32_t background, int channels, std::uint8_t* HWY_RESTRICT out) {
+  const D32 d;
+  const DU32 du;
+  const hn::Rebind<std::uint8_t, DU32> d8;
+  const auto mask = hn::Set(du, 255U);
+  const int n = static_cast<int>(hn::Lanes(d));
+  int x = 0;
+  for (; x + n <= count; x += n) {
+    const auto is_clear = hn::RebindMask(du, hn::Eq(hn::LoadU(d, zb + x), hn::Set(d, clear)));
+    const auto v = hn::IfThenElse(is_clear, hn::Set(du, background), hn::LoadU(du, value + x));
+    const auto low = hn::U8FromU32(hn::And(v, mask));
+    if (channels == 1) {
+      hn::StoreU(low, d8, out + x);
+      continue;
+    }
+    const auto middle = hn::U8FromU32(hn::And(hn::ShiftRight<8>(v), mask));
+    hn::StoreInterleaved3(low, middle, hn::U8FromU32(hn::And(hn::ShiftRight<16>(v), mask)), d8,
+                          out + std::ptrdiff_t{3} * x);
+  }
+  for (; x < count; ++x) {
+    const std::uint32_t v = zb[x] == clear ? background : value[x];
+    for (int c = 0; c < channels; ++c) out[channels * x + c] = static_cast<std::uint8_t>(v >> (8 * c));
+  }
+}
+
 }  // namespace kage::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -221,16 +246,17 @@ HWY_EXPORT(Sp);
 HWY_EXPORT(Ev);
 HWY_EXPORT(Es);
 HWY_EXPORT(Tp);
+HWY_EXPORT(Bytes);
 
-void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
-                  ClassSpan classes) {
+void span_op_flat(const DepthRamp& ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                  const ClassSpan& classes) {
   HWY_DYNAMIC_DISPATCH(OpFlat)(ramp, count, zb, attr, value, classes);
 }
-void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
-                    const ColorRamp* color, int channels, ClassSpan classes) {
+void span_op_smooth(const DepthRamp& ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                    const ColorRamp* color, int channels, const ClassSpan& classes) {
   HWY_DYNAMIC_DISPATCH(OpSmooth)(ramp, count, zb, attr, value, color, channels, classes);
 }
-void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w) {
+void span_sp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w) {
   HWY_DYNAMIC_DISPATCH(Sp)(ramp, count, zb, dsf, w);
 }
 void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask) {
@@ -240,9 +266,13 @@ void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_
              std::uint32_t most) {
   HWY_DYNAMIC_DISPATCH(Es)(count, flag, counts, bias, mask, most);
 }
-void span_tp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
+void span_tp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha) {
   HWY_DYNAMIC_DISPATCH(Tp)(ramp, count, zb, attr, color, channels, alpha);
+}
+void line_bytes(int count, const std::int32_t* zb, const std::uint32_t* value, std::int32_t clear,
+                std::uint32_t background, int channels, std::uint8_t* out) {
+  HWY_DYNAMIC_DISPATCH(Bytes)(count, zb, value, clear, background, channels, out);
 }
 
 }  // namespace kage

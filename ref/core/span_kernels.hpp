@@ -35,15 +35,15 @@ struct ClassSpan {
 };
 
 /// Where Z < zb: zb = Z, attr = value, and the class is written.
-void span_op_flat(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
-                  ClassSpan classes);
+void span_op_flat(const DepthRamp& ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                  const ClassSpan& classes);
 
 /// Where Z < zb: zb = Z, attr = channels (lowest first) | value, and the class is written.
-void span_op_smooth(DepthRamp ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
-                    const ColorRamp* color, int channels, ClassSpan classes);
+void span_op_smooth(const DepthRamp& ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
+                    const ColorRamp* color, int channels, const ClassSpan& classes);
 
 /// Where Z < zb: dsf += w.
-void span_sp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w);
+void span_sp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w);
 
 /// fsf |= ((dsf + bias) & mask) != 0; dsf = 0.
 void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask);
@@ -53,7 +53,12 @@ void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_
              std::uint32_t most);
 
 /// Where Z < zb: each channel of attr = round((old * (255 - alpha) + new * alpha) / 255). Depth stays.
-void span_tp(DepthRamp ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
+void span_tp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha);
+
+/// The bytes of a line's pixels, `channels` each, lowest first: those of `value`, or, where zb == clear, of
+/// `background`.
+void line_bytes(int count, const std::int32_t* zb, const std::uint32_t* value, std::int32_t clear,
+                std::uint32_t background, int channels, std::uint8_t* out);
 
 }  // namespace kage

@@ -27,16 +27,22 @@ class TreeCore {
   void add_face(const SegmentToken& t) { units_[static_cast<std::size_t>(t.unit)].add_face(t); }
   void add_segment(const SegmentToken& t) { units_[static_cast<std::size_t>(t.unit)].add_segment(t, width_); }
 
-  /// Every unit has its line: merge them. Valid until the next call.
-  const TreeLine& take_line() {
+  /// Every unit has its line: merge them. Valid until the next call. `keep`: for unit_lines().
+  const TreeLine& take_line(bool keep) {
     for (std::size_t i = 0; i < units_.size(); ++i) units_[i].expand(lines_[i]);
+    if (keep) kept_ = lines_;
     compare_tree(lines_);
     return lines_[0];
   }
 
+  /// The units' lines before they were merged.
+  [[nodiscard]] const std::vector<TreeLine>& unit_lines() const { return kept_; }
+  [[nodiscard]] const TreeLine& line() const { return lines_[0]; }
+
  private:
   std::vector<ExpansionUnit> units_;
   std::vector<TreeLine> lines_;
+  std::vector<TreeLine> kept_;
   int width_ = 0;
 };
 

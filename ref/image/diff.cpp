@@ -1,214 +1,292 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kage/diff.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
-#include <span>
-#include <type_traits>
 
 #include "image/picture.hpp"
+#include "image/regions.hpp"
+#include "image/sample.hpp"
+#include "image/views.hpp"
 #include "kage/error.hpp"
-#include "kage/image.hpp"
 
 namespace kage {
 namespace {
 
-constexpr std::uint64_t kNotANumber = std::numeric_limits<std::uint64_t>::max();
+/// How the pixels of one line came out.
+struct Line {
+  std::vector<bool> compared;
+  std::vector<bool> tolerated;       // differs, but not beyond the threshold
+  std::vector<bool> nan;             // on either side
+  std::vector<int> first;            // the first channel that is different or NaN, or -1
+  std::vector<std::uint64_t> steps;  // the largest distance of all channels
 
-template <typename T>
-T load(const std::byte* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return value;
-}
+  explicit Line(std::size_t width) : compared(width, true), tolerated(width), nan(width), first(width), steps(width) {}
 
-/// Distance of two integers.
-template <typename T>
-struct Integer {
-  static constexpr std::size_t kSize = sizeof(T);
-  static constexpr bool kHasNan = false;
-  static std::uint64_t distance(const std::byte* pa, const std::byte* pb) {
-    using U = std::make_unsigned_t<T>;
-    const T a = load<T>(pa);
-    const T b = load<T>(pb);
-    return a < b ? static_cast<U>(static_cast<U>(b) - static_cast<U>(a))
-                 : static_cast<U>(static_cast<U>(a) - static_cast<U>(b));
-  }
-  static double unit(const std::byte* p) {  // 0 .. 1 for the heat map's background
-    return std::clamp(static_cast<double>(load<T>(p)) / static_cast<double>(std::numeric_limits<T>::max()), 0.0, 1.0);
+  void clear() {
+    tolerated.assign(tolerated.size(), false);
+    nan.assign(nan.size(), false);
+    std::fill(first.begin(), first.end(), -1);
+    std::fill(steps.begin(), steps.end(), 0);
   }
 };
 
-/// Distance of two IEEE numbers of pattern U with `Mantissa` mantissa bits: values in order are patterns in order, once
-/// the patterns of negative numbers are turned round.
-template <typename U, int Mantissa>
-struct Ieee {
-  static constexpr std::size_t kSize = sizeof(U);
-  static constexpr bool kHasNan = true;
-  static constexpr U kSign = static_cast<U>(U{1} << (sizeof(U) * 8 - 1));
-  static constexpr U kInfinity = static_cast<U>(static_cast<U>(kSign - 1) & ~((U{1} << Mantissa) - 1));
-  static bool is_nan(U v) { return static_cast<U>(v & static_cast<U>(~kSign)) > kInfinity; }
-  static U ordered(U v) { return static_cast<U>((v & kSign) != 0 ? ~v : v | kSign); }
-  static std::uint64_t distance(const std::byte* pa, const std::byte* pb) {
-    const U a = load<U>(pa);
-    const U b = load<U>(pb);
-    if (is_nan(a) || is_nan(b)) return kNotANumber;
-    const U oa = ordered(a);
-    const U ob = ordered(b);
-    return oa < ob ? static_cast<U>(ob - oa) : static_cast<U>(oa - ob);
-  }
-  static double unit(const std::byte* p) {
-    double value = 0;
-    if constexpr (sizeof(U) == 8) {
-      value = std::bit_cast<double>(load<U>(p));
-    } else if constexpr (sizeof(U) == 4) {
-      value = static_cast<double>(std::bit_cast<float>(load<U>(p)));
-    } else {
-      const U v = load<U>(p);  // half: good enough for a background, subnormals are black
-      if ((v & kSign) == 0 && v >= 0x400)
-        value = static_cast<double>(std::bit_cast<float>((std::uint32_t{v} << 13) + (112U << 23)));
-    }
-    return value > 0 ? std::min(value, 1.0) : 0.0;  // NaN too is black
-  }
-};
+class Comparison {
+ public:
+  Comparison(const Picture& a, const Picture& b, const DiffOptions& options, DiffResult& result, Image* heat)
+      : a_(a),
+        b_(b),
+        options_(options),
+        result_(result),
+        heat_(heat),
+        box_(options.region.value_or(Box{0, 0, a.width, a.height})),
+        line_(static_cast<std::size_t>(a.width)),
+        finder_(a.width, a.height) {}
 
-/// A pixel's place in the heat map: the dimmed picture where both agree, else red, the brighter the further apart.
-void paint(Image& heat, std::size_t pixel, std::uint64_t distance, bool different, double background) {
-  std::uint8_t* out = &heat.data[pixel * 3];
-  if (!different) {
-    out[0] = out[1] = out[2] = static_cast<std::uint8_t>(background * 80);
-    return;
-  }
-  out[0] = static_cast<std::uint8_t>(std::min(255, 127 + 16 * static_cast<int>(std::bit_width(distance))));
-  out[1] = out[2] = distance == kNotANumber ? 255 : 0;
-}
-
-template <typename Traits>
-void compare(const std::byte* a, const std::byte* b, const DiffOptions& options, DiffResult& r, Image* heat) {
-  const auto channels = static_cast<std::size_t>(r.channels);
-  const std::size_t pixels = static_cast<std::size_t>(r.width) * static_cast<std::size_t>(r.height);
-  for (std::size_t p = 0; p < pixels; ++p) {
-    std::uint64_t worst = 0;
-    int first_channel = -1;
-    bool nan = false;
-    for (std::size_t c = 0; c < channels; ++c) {
-      const std::size_t at = (p * channels + c) * Traits::kSize;
-      const std::uint64_t d = Traits::distance(a + at, b + at);
-      const bool no_number = Traits::kHasNan && d == kNotANumber;
-      if ((no_number || d > options.lsb) && first_channel < 0) first_channel = static_cast<int>(c);
-      if (no_number)
-        nan = true;
-      else
-        worst = std::max(worst, d);
+  void run() {
+    for (const Picture::Channel& c : a_.channels) result_.floats = result_.floats || is_float(c.sample);
+    if (heat_ != nullptr) {
+      background_ = view_of(a_);
+      *heat_ = Image(a_.width, a_.height, 3);
     }
-    r.nan_pixels += nan ? 1 : 0;
-    r.max_lsb = std::max(r.max_lsb, worst);
-    if (first_channel >= 0) {
-      ++r.different_pixels;
-      if (!r.first) {
-        const auto width = static_cast<std::size_t>(r.width);
-        r.first = DiffResult::Position{static_cast<int>(p % width), static_cast<int>(p / width), first_channel};
+    const std::size_t bytes = static_cast<std::size_t>(a_.width) * a_.pixel_bytes;
+    for (int y = 0; y < a_.height; ++y) {
+      select(y);
+      line_.clear();
+      // A line of floats that is equal may hold a NaN.
+      if (result_.floats || std::memcmp(a_.row(y), b_.row(y), bytes) != 0)
+        for (std::size_t c = 0; c < a_.channels.size(); ++c)
+          with_sample(a_.channels[c].sample, [&](auto type) { channel<decltype(type)>(c, y); });
+      gather(y);
+    }
+    result_.regions = finder_.regions();
+    result_.region_count = result_.regions.size();
+    if (result_.regions.size() > kMaxRegions) result_.regions.resize(kMaxRegions);
+    finish();
+  }
+
+ private:
+  [[nodiscard]] bool left_out(std::size_t channel) const {
+    return options_.ignore_alpha && static_cast<int>(channel) == a_.alpha;
+  }
+
+  void select(int y) {
+    const bool inside = y >= box_.y && y - box_.y < box_.height;
+    for (std::size_t x = 0; x < line_.compared.size(); ++x) {
+      const int column = static_cast<int>(x);
+      line_.compared[x] = inside && column >= box_.x && column - box_.x < box_.width &&
+                          (options_.mask.data.empty() || options_.mask.data[options_.mask.index(column, y)] != 0);
+      result_.compared_pixels += line_.compared[x] ? 1 : 0;
+    }
+  }
+
+  template <typename Type>
+  void channel(std::size_t c, int y) {
+    const std::byte* pa = a_.row(y) + a_.channels[c].offset;
+    const std::byte* pb = b_.row(y) + a_.channels[c].offset;
+    const bool ignored = left_out(c);
+    for (std::size_t x = 0; x < line_.compared.size(); ++x, pa += a_.pixel_bytes, pb += a_.pixel_bytes) {
+      if (Type::is_nan(pa) || Type::is_nan(pb)) {
+        line_.nan[x] = true;
+        if (line_.first[x] < 0) line_.first[x] = static_cast<int>(c);
+        continue;
+      }
+      if (ignored || !line_.compared[x]) continue;
+      const std::uint64_t steps = Type::steps(pa, pb);
+      if (steps == 0) continue;
+      line_.steps[x] = std::max(line_.steps[x], steps);
+      if (differs<Type>(steps, pa, pb)) {
+        if (line_.first[x] < 0) line_.first[x] = static_cast<int>(c);
+      } else {
+        line_.tolerated[x] = true;
       }
     }
-    if (heat != nullptr) {
-      double background = 0;
-      for (std::size_t c = 0; c < channels; ++c) background += Traits::unit(a + (p * channels + c) * Traits::kSize);
-      paint(*heat, p, nan ? kNotANumber : worst, first_channel >= 0, background / static_cast<double>(channels));
+  }
+
+  /// Two values with unequal bits, no NaN.
+  template <typename Type>
+  bool differs(std::uint64_t steps, const std::byte* pa, const std::byte* pb) {
+    // Differences of distant 64-bit integers lose bits as doubles: only the measure needs them.
+    const double apart = std::fabs(Type::number(pa) - Type::number(pb));
+    squares_ += apart * apart;
+    if constexpr (Type::kFloat) {
+      max_ulp_ = std::max(max_ulp_, steps);
+      max_abs_ = std::max(max_abs_, apart);
+      if (options_.abs) return *options_.abs == 0 || !(apart <= *options_.abs);
+      return steps > options_.ulp.value_or(0);
+    } else {
+      max_lsb_ = std::max(max_lsb_, steps);
+      return steps > options_.lsb.value_or(0);
     }
   }
-}
 
-void judge(const DiffOptions& options, DiffResult& r) {
-  const double pixels = static_cast<double>(r.width) * static_cast<double>(r.height);
-  const auto n = r.different_pixels;
-  bool within = n == 0;
-  if (options.max_pixels || options.max_percent)
-    within = (!options.max_pixels || n <= *options.max_pixels) &&
-             (!options.max_percent || static_cast<double>(n) * 100 <= *options.max_percent * pixels);
-  r.same = within && r.nan_pixels == 0;
-  if (r.nan_pixels != 0)
-    r.reason = fmt::format("{} pixels hold a NaN", r.nan_pixels);
-  else if (!within)
-    r.reason = fmt::format("{} pixels differ", n);
-}
-
-DiffResult diff_raw(Sample sample, int width, int height, int channels, const std::byte* a, const std::byte* b,
-                    const DiffOptions& options, Image* heat) {
-  DiffResult r;
-  r.width = width;
-  r.height = height;
-  r.channels = channels;
-  if (heat != nullptr) *heat = Image(width, height, 3);
-  switch (sample) {
-    case Sample::kU8:
-      compare<Integer<std::uint8_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kI8:
-      compare<Integer<std::int8_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kU16:
-      compare<Integer<std::uint16_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kI16:
-      compare<Integer<std::int16_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kU32:
-      compare<Integer<std::uint32_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kI32:
-      compare<Integer<std::int32_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kU64:
-      compare<Integer<std::uint64_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kI64:
-      compare<Integer<std::int64_t>>(a, b, options, r, heat);
-      break;
-    case Sample::kHalf:
-      compare<Ieee<std::uint16_t, 10>>(a, b, options, r, heat);
-      break;
-    case Sample::kFloat:
-      compare<Ieee<std::uint32_t, 23>>(a, b, options, r, heat);
-      break;
-    case Sample::kDouble:
-      compare<Ieee<std::uint64_t, 52>>(a, b, options, r, heat);
-      break;
+  void gather(int y) {
+    for (std::size_t x = 0; x < line_.first.size(); ++x) {
+      const int column = static_cast<int>(x);
+      const bool different = line_.first[x] >= 0;
+      if (different) {
+        ++result_.different_pixels;
+        result_.nan_pixels += line_.nan[x] ? 1 : 0;
+        finder_.add(column, y);
+        if (!result_.first) result_.first = DiffResult::Position{column, y, line_.first[x]};
+      }
+      if (heat_ == nullptr) continue;
+      const PixelVerdict verdict = line_.nan[x]         ? PixelVerdict::nan
+                                   : different          ? PixelVerdict::different
+                                   : !line_.compared[x] ? PixelVerdict::left_out
+                                   : line_.tolerated[x] ? PixelVerdict::tolerated
+                                                        : PixelVerdict::same;
+      const std::size_t at = heat_->index(column, y);
+      const std::uint8_t* const p = &background_.data[at];
+      paint(*heat_, at / 3, verdict, line_.steps[x], (p[0] + p[1] + p[2]) / 3);
+    }
   }
-  judge(options, r);
+
+  void finish() {
+    std::uint64_t channels = 0;
+    for (std::size_t c = 0; c < a_.channels.size(); ++c) {
+      if (left_out(c)) continue;
+      ++channels;
+      if (is_float(a_.channels[c].sample)) {
+        result_.max_abs = max_abs_;
+        result_.max_ulp = max_ulp_;
+      } else {
+        result_.max_lsb = max_lsb_;
+      }
+    }
+    if (channels == 0 || result_.compared_pixels == 0)
+      throw Error("nothing is compared: region, mask and ignored alpha leave no value");
+    const double mean = squares_ / (static_cast<double>(result_.compared_pixels) * static_cast<double>(channels));
+    if (mean > 0 && std::isfinite(mean) && result_.nan_pixels == 0) result_.psnr = -10 * std::log10(mean);
+    judge();
+  }
+
+  void judge() {
+    DiffResult& r = result_;
+    const auto n = r.different_pixels;
+    bool within = n == 0;
+    if (options_.max_pixels || options_.max_percent)
+      within = (!options_.max_pixels || n <= *options_.max_pixels) &&
+               (!options_.max_percent ||
+                static_cast<double>(n) * 100 <= *options_.max_percent * static_cast<double>(r.compared_pixels));
+    r.same = within && r.nan_pixels == 0;
+    if (r.nan_pixels != 0)
+      r.reason = fmt::format("{} pixel{} with a NaN", r.nan_pixels, r.nan_pixels == 1 ? "" : "s");
+    else if (!within)
+      r.reason = fmt::format("{} of {} pixels {}", n, r.compared_pixels, n == 1 ? "differs" : "differ");
+  }
+
+  const Picture& a_;
+  const Picture& b_;
+  const DiffOptions& options_;
+  DiffResult& result_;
+  Image* heat_;
+  Box box_;
+  Line line_;
+  RegionFinder finder_;
+  Image background_;
+  double squares_ = 0;
+  double max_abs_ = 0;
+  std::uint64_t max_ulp_ = 0;
+  std::uint64_t max_lsb_ = 0;
+};
+
+/// Refuses what would be judged by a threshold of another sort, or not at all.
+void check_options(const Picture& picture, const DiffOptions& o) {
+  for (const Picture::Channel& c : picture.channels) {
+    if (is_float(c.sample) && o.lsb)
+      throw Error(fmt::format("a threshold in LSB is for integers, and channel {} is {}: take abs or ulp", c.name,
+                              name_of(c.sample)));
+    if (!is_float(c.sample) && (o.abs || o.ulp))
+      throw Error(fmt::format("thresholds abs and ulp are for floats, and channel {} is {}: take lsb", c.name,
+                              name_of(c.sample)));
+  }
+  if (o.abs && o.ulp) throw Error("thresholds abs and ulp are both given: one says what is the same");
+  if (o.abs && !(*o.abs >= 0 && std::isfinite(*o.abs)))
+    throw Error(fmt::format("threshold abs is {}, not a finite number of at least 0", *o.abs));
+  if (o.max_percent && !(*o.max_percent >= 0 && *o.max_percent <= 100))
+    throw Error(fmt::format("{} percent of the pixels are not 0 .. 100", *o.max_percent));
+  if (o.region) {
+    const Box& r = *o.region;
+    if (r.x < 0 || r.y < 0 || r.width < 1 || r.height < 1 || r.x > picture.width - r.width ||
+        r.y > picture.height - r.height)
+      throw Error(fmt::format("region {}x{}+{}+{} is not inside the picture of {}x{}", r.width, r.height, r.x, r.y,
+                              picture.width, picture.height));
+  }
+  if (!o.mask.data.empty() && (o.mask.width != picture.width || o.mask.height != picture.height))
+    throw Error(fmt::format("the mask is {}x{}, the picture {}x{}", o.mask.width, o.mask.height, picture.width,
+                            picture.height));
+}
+
+DiffResult diff_pictures(const Picture& a, const Picture& b, const DiffOptions& options, Image* heat) {
+  DiffResult r;
+  r.reason = unlike(a, b);
+  if (!r.reason.empty()) return r;
+  check_options(a, options);
+  r.width = a.width;
+  r.height = a.height;
+  r.channels = static_cast<int>(a.channels.size());
+  Comparison(a, b, options, r, heat).run();
+  if (options.perceptual)
+    r.perceptual_pixels = perceptual_pixels(a, b, options.region.value_or(Box{0, 0, a.width, a.height}));
   return r;
 }
 
-DiffResult unlike(const std::string& what) {
-  DiffResult r;
-  r.reason = what;
-  return r;
+Picture picture_of(const Image& image) {
+  Picture p;
+  p.width = image.width;
+  p.height = image.height;
+  p.pixel_bytes = static_cast<std::size_t>(image.channels);
+  for (std::size_t c = 0; c < p.pixel_bytes; ++c) p.channels.push_back({fmt::format("{}", c), Sample::kU8, c});
+  const std::byte* const bytes = reinterpret_cast<const std::byte*>(image.data.data());
+  p.data.assign(bytes, bytes + image.data.size());
+  return p;
 }
 
 }  // namespace
 
 DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options,
-                      Image* heat) {
+                      DiffViews* views) {
   const Picture pa = load_picture(a);
   const Picture pb = load_picture(b);
-  if (pa.width != pb.width || pa.height != pb.height)
-    return unlike(fmt::format("sizes are unlike: {}x{} and {}x{}", pa.width, pa.height, pb.width, pb.height));
-  if (pa.x != pb.x || pa.y != pb.y)
-    return unlike(fmt::format("origins are unlike: {},{} and {},{}", pa.x, pa.y, pb.x, pb.y));
-  if (pa.channels != pb.channels || pa.channel_names != pb.channel_names)
-    return unlike(fmt::format("channels are unlike: {} and {}", pa.channel_names, pb.channel_names));
-  if (pa.sample != pb.sample)
-    return unlike(fmt::format("pixel types are unlike: {} and {}", name_of(pa.sample), name_of(pb.sample)));
-  return diff_raw(pa.sample, pa.width, pa.height, pa.channels, pa.data.data(), pb.data.data(), options, heat);
+  if (views != nullptr) *views = {{}, view_of(pa), view_of(pb)};
+  try {
+    DiffResult r = diff_pictures(pa, pb, options, views == nullptr ? nullptr : &views->heat);
+    if (views != nullptr) frame_regions(views->heat, r.regions);
+    return r;
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}: {}", a.string(), e.what()));
+  }
 }
 
 DiffResult diff_images(const Image& a, const Image& b, const DiffOptions& options, Image* heat) {
-  if (a.width != b.width || a.height != b.height)
-    return unlike(fmt::format("sizes are unlike: {}x{} and {}x{}", a.width, a.height, b.width, b.height));
-  if (a.channels != b.channels) return unlike(fmt::format("channels are unlike: {} and {}", a.channels, b.channels));
-  return diff_raw(Sample::kU8, a.width, a.height, a.channels, std::as_bytes(std::span(a.data)).data(),
-                  std::as_bytes(std::span(b.data)).data(), options, heat);
+  return diff_pictures(picture_of(a), picture_of(b), options, heat);
+}
+
+Image load_mask(const std::filesystem::path& path) {
+  const Picture picture = load_picture(path);
+  Image mask(picture.width, picture.height, 1);
+  bool some = false;
+  for (std::size_t c = 0; c < picture.channels.size(); ++c) {
+    // Alpha of a mask is rarely meant: an opaque one would compare everything.
+    if (static_cast<int>(c) == picture.alpha && picture.channels.size() > 1) continue;
+    with_sample(picture.channels[c].sample, [&](auto type) {
+      const std::byte* at = picture.data.data() + picture.channels[c].offset;
+      for (std::uint8_t& pixel : mask.data) {
+        const double value = decltype(type)::number(at);
+        if (std::isnan(value)) throw Error(fmt::format("{}: a NaN says neither compared nor not", path.string()));
+        if (value != 0) pixel = 255;
+        some = some || pixel != 0;
+        at += picture.pixel_bytes;
+      }
+    });
+  }
+  if (!some) throw Error(fmt::format("{}: the mask is 0 everywhere: nothing would be compared", path.string()));
+  return mask;
 }
 
 }  // namespace kage

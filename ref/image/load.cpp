@@ -2,12 +2,14 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
 #include <new>
 
 #include "image/picture.hpp"
+#include "image/png_chunks.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
 
@@ -54,6 +56,41 @@ Sample sample_of(const OIIO::TypeDesc& type, const std::filesystem::path& path) 
   }
 }
 
+/// One of the file's notes as text. Numbers are exact; what is long, as an ICC profile, is its size and checksum.
+std::string note_text(const OIIO::ImageSpec& spec, const char* name) {
+  const OIIO::ParamValue* const value = spec.find_attribute(name);
+  if (value == nullptr) return "";
+  if (value->datasize() > 256)
+    return fmt::format(
+        "{} bytes, CRC-32 {:08x}", value->datasize(),
+        crc32_z(0, static_cast<const Bytef*>(value->data()), static_cast<std::size_t>(value->datasize())));
+  if (value->type().basetype == OIIO::TypeDesc::FLOAT)
+    return fmt::format("{}", fmt::join(static_cast<const float*>(value->data()),
+                                       static_cast<const float*>(value->data()) + value->type().basevalues(), " "));
+  return value->get_string();
+}
+
+/// Of a note for which the format has no place: what OpenImageIO gives then is its guess, and the other file's is
+/// taken.
+constexpr const char* kNoPlace = "no place";
+
+/// What changes the meaning of the same numbers.
+std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks& png, std::string_view format) {
+  const int bits = spec.get_int_attribute("oiio:BitsPerSample", png.bits);
+  const std::string chromaticities = note_text(spec, "chromaticities");
+  std::vector<Picture::Note> notes{
+      {"display window", fmt::format("{}x{} at {},{}", spec.full_width, spec.full_height, spec.full_x, spec.full_y)},
+      {"number of bits", fmt::format("{}", bits == 0 ? static_cast<int>(spec.format.size() * 8) : bits)},
+      {"chromaticity", chromaticities.empty() ? png.chromaticities : chromaticities}};
+  for (const auto& [words, name] : {std::pair{"colour space", "oiio:ColorSpace"},
+                                    {"gamma", "oiio:Gamma"},
+                                    {"CICP", "CICP"},
+                                    {"ICC profile", "ICCProfile"}})
+    notes.emplace_back(words, format == "pnm" ? kNoPlace : note_text(spec, name));
+  notes.emplace_back("unassociated alpha", spec.alpha_channel < 0 ? "" : note_text(spec, "oiio:UnassociatedAlpha"));
+  return notes;
+}
+
 }  // namespace
 
 std::size_t size_of(Sample sample) {
@@ -83,6 +120,38 @@ const char* name_of(Sample sample) {
   return kNames[static_cast<std::size_t>(sample)];
 }
 
+bool is_float(Sample sample) { return sample >= Sample::kHalf; }
+
+std::string channel_names(const Picture& picture) {
+  std::vector<std::string> names;
+  for (const Picture::Channel& c : picture.channels) names.push_back(c.name);
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+std::string sample_names(const Picture& picture) {
+  std::vector<std::string> names;
+  for (const Picture::Channel& c : picture.channels) names.emplace_back(name_of(c.sample));
+  if (std::adjacent_find(names.begin(), names.end(), std::not_equal_to<>()) == names.end()) names.resize(1);
+  return fmt::format("{}", fmt::join(names, ","));
+}
+
+std::string unlike(const Picture& a, const Picture& b) {
+  const auto both = [](const std::string& what, const std::string& in_a, const std::string& in_b) {
+    const auto said = [](const std::string& text) { return text.empty() ? "none" : text; };
+    return fmt::format("{} unlike: {} and {}", what, said(in_a), said(in_b));
+  };
+  if (a.width != b.width || a.height != b.height)
+    return both("sizes are", fmt::format("{}x{}", a.width, a.height), fmt::format("{}x{}", b.width, b.height));
+  if (a.x != b.x || a.y != b.y)
+    return both("origins are", fmt::format("{},{}", a.x, a.y), fmt::format("{},{}", b.x, b.y));
+  if (channel_names(a) != channel_names(b)) return both("channels are", channel_names(a), channel_names(b));
+  if (sample_names(a) != sample_names(b)) return both("pixel types are", sample_names(a), sample_names(b));
+  for (std::size_t i = 0; i < a.notes.size(); ++i)
+    if (a.notes[i] != b.notes[i] && a.notes[i].second != kNoPlace && b.notes[i].second != kNoPlace)
+      return both(a.notes[i].first + " is", a.notes[i].second, b.notes[i].second);
+  return "";
+}
+
 Picture load_picture(const std::filesystem::path& path) {
   std::error_code ec;
   const auto status = std::filesystem::status(path, ec);
@@ -101,20 +170,27 @@ Picture load_picture(const std::filesystem::path& path) {
   picture.y = spec.y;
   picture.width = spec.width;
   picture.height = spec.height;
-  picture.channels = spec.nchannels;
-  picture.channel_names = fmt::format("{}", fmt::join(spec.channelnames, ","));
-  picture.sample = sample_of(spec.format, path);
+  for (int c = 0; c < spec.nchannels; ++c) {
+    const Sample sample = sample_of(spec.channelformat(c), path);
+    picture.channels.push_back({std::string(spec.channel_name(c)), sample, picture.pixel_bytes});
+    picture.pixel_bytes += size_of(sample);
+  }
+  picture.alpha = spec.alpha_channel;
+  const PngChunks png = read_png_chunks(path);
+  if (png.animated) fail(path, "is animated: only files of one picture are compared");
+  picture.notes = notes_of(spec, png, input->format_name());
   constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 33;
-  const std::uint64_t bytes = spec.image_bytes(false);
+  const std::uint64_t bytes = spec.image_bytes(true);
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || bytes > kMaxBytes)
     fail(path, fmt::format("size {}x{} with {} channels is refused", spec.width, spec.height, spec.nchannels));
-  const OIIO::TypeDesc format = spec.format;
   try {
     picture.data.resize(bytes);
   } catch (const std::bad_alloc&) {
     fail(path, fmt::format("size {}x{} does not fit into memory", spec.width, spec.height));
   }
-  if (!input->read_image(0, 0, 0, picture.channels, format, picture.data.data())) fail(path, input->geterror());
+  // Without a type each channel keeps its own: one for all would round the integers of a file that has floats too.
+  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, picture.data.data()))
+    fail(path, input->geterror());
   if (input->seek_subimage(1, 0)) fail(path, "holds several pictures: only files of one are compared");
   (void)input->geterror();
   return picture;
@@ -122,9 +198,10 @@ Picture load_picture(const std::filesystem::path& path) {
 
 Image load_image(const std::filesystem::path& path) {
   const Picture picture = load_picture(path);
-  if (picture.sample != Sample::kU8 || (picture.channels != 1 && picture.channels != 3))
-    fail(path, fmt::format("has {} channels of {}, not 1 or 3 of uint8", picture.channels, name_of(picture.sample)));
-  Image image(picture.width, picture.height, picture.channels);
+  const std::size_t channels = picture.channels.size();
+  if (sample_names(picture) != name_of(Sample::kU8) || (channels != 1 && channels != 3))
+    fail(path, fmt::format("has {} channels of {}, not 1 or 3 of uint8", channels, sample_names(picture)));
+  Image image(picture.width, picture.height, static_cast<int>(channels));
   std::memcpy(image.data.data(), picture.data.data(), image.data.size());
   return image;
 }

@@ -81,7 +81,9 @@ struct FrameChecker::Data {
 
   void check_segment(const SegmentToken& s, std::span<const std::uint32_t> body) const {
     if (!rules.outcome().taken) fail(rules.outcome().fault);
-    if (extract(body, layout.seg_pad) != 0) fail("the segment's pad is not zero");
+    BitUnpacker in(body);
+    for (const Field before : {Field{0, 4, false}, layout.seg_unit}) static_cast<void>(in.take(before));
+    if (in.take(layout.seg_pad) != 0) fail("the segment's pad is not zero");
     if (s.face == (1 << config.face_bits) - 1) return;
     const std::int64_t dz = faces[static_cast<std::size_t>(s.unit)][static_cast<std::size_t>(s.face)];
     if (!span_fits(s.z, dz, s.dx, layout.op_z.bits)) fail("the segment's depth overflows");
@@ -92,6 +94,7 @@ struct FrameChecker::Data {
     const Token t = decode(config, layout, body);
     if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) fail(e);
     if (!padding_is_zero(body, layout.bits[kind])) fail("bits past the last field are not zero");
+    if (t.kind != Kind::TABLE && t.kind != Kind::FACE && rules.class_cut()) fail("the light table ends within a class");
     if (t.kind == Kind::FACE) {
       auto& of_unit = faces[static_cast<std::size_t>(t.segment.unit)];
       if (of_unit.empty()) ++counts.units;

@@ -116,6 +116,17 @@ std::string to_yaml(const Config& config) {
   return text;
 }
 
+namespace {
+
+/// Of any core.
+int most_lights() {
+  for (const ParamInfo& p : kParams)
+    if (p.member == &Config::lights) return p.max;
+  return 0;
+}
+
+}  // namespace
+
 std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   std::vector<std::string> missing;
   if (needs.shadows && config.dsf_bits == 0) missing.emplace_back("shadows (DSF_BITS > 0)");
@@ -123,7 +134,10 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   if (needs.shadows && needs.several_volumes && config.fsf == 0 && config.dsf_bits <= 1)
     missing.emplace_back("several volumes (FSF)");
   if (needs.shadows && needs.lights > config.lights)
-    missing.push_back(fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
+    missing.push_back(
+        needs.lights > most_lights()
+            ? fmt::format("shadows of {} lights (a core has LIGHTS {} at most)", needs.lights, most_lights())
+            : fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
   if (needs.shadows && needs.samples > 1 && needs.samples >> config.count_bits != 0)
     missing.push_back(
         fmt::format("soft shadows (COUNT_BITS >= {})", std::bit_width(static_cast<unsigned>(needs.samples))));
@@ -136,13 +150,19 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
 
 namespace {
 
-/// One line of YAML: `config` made as wide as `needs` asks, or "" if even that does not do.
+/// One line of YAML: `config` made as wide as `needs` asks, and with several lights for as many lights and samples; ""
+/// if even that does not do.
 std::string widened(Config config, const Needs& needs) {
   const auto width = static_cast<unsigned>(needs.width);
-  config.max_width = needs.width;
+  config.max_width = std::max(config.max_width, needs.width);
   config.x_bits = std::max(config.x_bits, static_cast<int>(std::bit_width(width)));
   // ceil(log2 width) keeps the error in depth near half an LSB up to the end of a line.
   config.z_frac = std::max(config.z_frac, static_cast<int>(std::bit_width(width - 1)));
+  if (config.lights > 1) {
+    config.lights = std::max(config.lights, needs.lights);
+    config.count_bits =
+        std::max(config.count_bits, static_cast<int>(std::bit_width(static_cast<unsigned>(needs.samples))));
+  }
   std::string line;
   for (const ParamInfo& p : kParams) {
     if (config.*(p.member) > p.max) return "";
@@ -155,6 +175,11 @@ std::string widened(Config config, const Needs& needs) {
 }  // namespace
 
 NamedConfig choose_config(const Needs& needs) {
+  if (needs.shadows && needs.lights > most_lights())
+    throw Error(
+        fmt::format("{} lights cast shadows, and a core tells at most {} apart; with a configuration given, "
+                    "--degrade lets the first one cast alone",
+                    needs.lights, most_lights()));
   std::string all;
   for (const NamedConfig& n : named_configs()) {
     const auto missing = lacks(n.config, needs);
@@ -166,8 +191,7 @@ NamedConfig choose_config(const Needs& needs) {
 
 std::string widened_config(const Needs& needs) {
   for (const NamedConfig& n : named_configs())
-    if (n.config.max_width < needs.width)
-      if (std::string line = widened(n.config, needs); !line.empty()) return line;
+    if (std::string line = widened(n.config, needs); !line.empty()) return line;
   return "";
 }
 

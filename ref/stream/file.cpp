@@ -172,7 +172,14 @@ struct StreamFile::Data {
   const char* base = nullptr;
   std::uint64_t size = 0;
   Config config;
+  struct Section {
+    std::string tag;
+    int frames_before;
+    std::uint64_t offset;  // of the payload
+    std::uint64_t size;
+  };
   std::vector<Frame> frames;
+  std::vector<Section> sections;  // the others
   std::string origin;
   bool origin_seen = false;
 
@@ -238,6 +245,8 @@ struct StreamFile::Data {
         origin_seen = true;
         origin.assign(base + payload, h.size);
       }
+      if (tag != "CONF" && tag != "FRAM" && tag != "DONE")
+        sections.push_back({printable(tag), static_cast<int>(frames.size()), payload, h.size});
       if (tag == "CONF") {
         config = config_from_text(std::string(base + payload, h.size), name);
       } else if (tag == "DONE") {
@@ -281,6 +290,21 @@ const Config& StreamFile::config() const { return data_->config; }
 int StreamFile::frame_count() const { return static_cast<int>(data_->frames.size()); }
 const std::string& StreamFile::origin() const { return data_->origin; }
 std::uint64_t StreamFile::bytes() const { return data_->size; }
+
+std::vector<StreamSection> StreamFile::sections() const {
+  std::vector<StreamSection> sections;
+  for (const Data::Section& s : data_->sections)
+    sections.push_back({s.tag, s.frames_before, std::string_view(data_->base + s.offset, s.size)});
+  return sections;
+}
+
+void StreamFile::leave(int index) const {
+  const Data::Frame& f = data_->frames.at(static_cast<std::size_t>(index));
+  const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  const std::uint64_t begin = f.offset / page * page;
+  // Advice: where it is not taken, nothing is wrong.
+  (void)::madvise(const_cast<char*>(data_->base) + begin, f.offset + f.size - begin, MADV_DONTNEED);
+}
 
 std::span<const std::uint32_t> StreamFile::frame(int index, TokenCounts* counts) const {
   const Data::Frame& f = data_->frames.at(static_cast<std::size_t>(index));

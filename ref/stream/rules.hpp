@@ -49,6 +49,9 @@ class TokenRules {
   /// The fault that the last TREE raised; its code is NONE if it raised none.
   [[nodiscard]] const SegmentRules::Fault& fault() const { return fault_; }
 
+  /// Whether the light table ends within a class, so far.
+  [[nodiscard]] bool class_cut() const { return next_light_ != 0; }
+
   /// Number of EOLs accepted.
   [[nodiscard]] int line() const { return line_; }
 

@@ -56,15 +56,18 @@ void TokenWriter::header(const FrameHeader& h) {
 /// they go by, with one question at the end.
 template <typename Fields>
 void TokenWriter::pack(Kind kind, const Fields& fields) {
-  BitPacker p;
+  std::array<std::uint32_t, 16> words;  // more than the longest token; only those written are read
+  BitPacker p(words.data());
   p.put(code(kind), Field{0, 4, false});
   fields([&p](const char*, std::int64_t value, Field f) { p.put(value, f); });
+  const std::uint32_t* end = p.close();
   if (!p.whole()) [[unlikely]]
     fields([kind](const char* name, std::int64_t value, Field f) {
       if (beyond(value, f) != 0) refuse(kind, name, value, f);
     });
-  const auto words = p.close();
-  out_->insert(out_->end(), words.begin(), words.end());
+  // Few words: not worth the call that inserting a range is.
+  std::vector<std::uint32_t>& out = *out_;
+  for (const std::uint32_t* w = words.data(); w != end; ++w) out.push_back(*w);
 }
 
 void TokenWriter::shade(std::uint32_t shade) {
@@ -168,17 +171,22 @@ void TokenWriter::eol(int y) {
 
 void TokenWriter::end() { out_->push_back(code(Kind::END)); }
 
-Token decode(const Config& config, const Layout& l, std::span<const std::uint32_t> words) {
-  Token t;
+void decode(const Config& config, const Layout& l, std::span<const std::uint32_t> words, Token& t) {
   t.kind = static_cast<Kind>(words[0] & 15U);
-  const auto get = [&](Field f) { return extract(words, f); };
-  const auto geti = [&](Field f) { return static_cast<int>(extract(words, f)); };
+  BitUnpacker in(words);
+  static_cast<void>(in.take(Field{0, 4, false}));
+  const auto get = [&](Field f) { return in.take(f); };
+  const auto geti = [&](Field f) { return static_cast<int>(in.take(f)); };
   const auto channels = static_cast<std::size_t>(config.channels);
-  const auto colors = [&](const Field(&color)[3], const Field(&dcolor)[3]) {
-    for (std::size_t c = 0; c < channels; ++c) {
-      t.span.color[c] = geti(color[c]);
-      t.span.dcolor[c] = geti(dcolor[c]);
-    }
+  const auto range = [&](Field xl, Field xr) {
+    t.span.xl = geti(xl);
+    t.span.xr = geti(xr);
+  };
+  const auto ramps = [&](Field z, Field dz, const Field(&color)[3], const Field(&dcolor)[3]) {
+    t.span.z = get(z);
+    t.span.dz = get(dz);
+    for (std::size_t c = 0; c < channels; ++c) t.span.color[c] = geti(color[c]);
+    for (std::size_t c = 0; c < channels; ++c) t.span.dcolor[c] = geti(dcolor[c]);
   };
   switch (t.kind) {
     case Kind::SHADE:
@@ -199,37 +207,40 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
       break;
     case Kind::SEG:
       t.segment.unit = geti(l.seg_unit);
-      t.segment.face = geti(l.seg_face);
+      static_cast<void>(get(l.seg_pad));
       t.segment.z = get(l.seg_z);
-      t.segment.dx = geti(l.seg_dx);
       t.segment.sync = get(l.seg_sync) != 0;
+      t.segment.dx = geti(l.seg_dx);
+      t.segment.face = geti(l.seg_face);
       break;
     case Kind::OP:
-      t.span = {geti(l.op_xl), geti(l.op_xr), get(l.op_z), get(l.op_dz), 0, geti(l.op_class), {}, {}, 0};
-      colors(l.op_color, l.op_dcolor);
+      range(l.op_xl, l.op_xr);
+      t.span.normal_class = geti(l.op_class);
+      ramps(l.op_z, l.op_dz, l.op_color, l.op_dcolor);
       break;
     case Kind::SP:
-      t.span = {geti(l.sp_xl), geti(l.sp_xr), get(l.sp_z), get(l.sp_dz), geti(l.sp_w), 0, {}, {}, 0};
+      range(l.sp_xl, l.sp_xr);
+      t.span.w = geti(l.sp_w);
+      t.span.z = get(l.sp_z);
+      t.span.dz = get(l.sp_dz);
       break;
     case Kind::TP:
-      t.span = {geti(l.tp_xl), geti(l.tp_xr), get(l.tp_z), get(l.tp_dz), 0, 0, {}, {}, geti(l.tp_alpha)};
-      colors(l.tp_color, l.tp_dcolor);
+      range(l.tp_xl, l.tp_xr);
+      t.span.alpha = geti(l.tp_alpha);
+      ramps(l.tp_z, l.tp_dz, l.tp_color, l.tp_dcolor);
       break;
     case Kind::NC:
-      t.span.xl = geti(l.nc_xl);
-      t.span.xr = geti(l.nc_xr);
+      range(l.nc_xl, l.nc_xr);
       t.span.w = geti(l.nc_w);
       break;
     case Kind::IF:
       t.span.w = geti(l.if_w);
       break;
     case Kind::EV:
-      t.span.xl = geti(l.ev_xl);
-      t.span.xr = geti(l.ev_xr);
+      range(l.ev_xl, l.ev_xr);
       break;
     case Kind::ES:
-      t.span.xl = geti(l.es_xl);
-      t.span.xr = geti(l.es_xr);
+      range(l.es_xl, l.es_xr);
       t.table.light = geti(l.es_light);
       break;
     case Kind::EOL:
@@ -238,6 +249,11 @@ Token decode(const Config& config, const Layout& l, std::span<const std::uint32_
     default:
       break;
   }
+}
+
+Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words) {
+  Token t;
+  decode(config, layout, words, t);
   return t;
 }
 

@@ -118,6 +118,11 @@ inline void damage_light(Random& random, const Config& c, std::vector<std::uint3
       return of[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(of.size()) - 1))];
     };
     const auto bits = [&random](Field f) { return static_cast<std::uint64_t>(random.in(0, (1 << f.bits) - 1)); };
+    // Any, or the first that the table has not whole.
+    const auto other_class = [&](Field f) {
+      const std::uint64_t lacking = places.of(Kind::TABLE).size() / static_cast<std::size_t>(c.lights) + 1;
+      return random.chance(0.5) && lacking >> f.bits == 0 ? lacking : bits(f);
+    };
     const std::array<Kind, 5> kinds{Kind::ES, Kind::ES, Kind::TABLE, Kind::OP, Kind::FACE};
     const Kind kind = kinds[static_cast<std::size_t>(random.in(0, 4))];
     if (places.of(kind).empty()) continue;
@@ -131,8 +136,8 @@ inline void damage_light(Random& random, const Config& c, std::vector<std::uint3
         break;
       case 2:  // another class
         if (kind == Kind::TABLE) places.put(at, layout.table_class, bits(layout.table_class));
-        if (kind == Kind::OP) places.put(at, layout.op_class, bits(layout.op_class));
-        if (kind == Kind::FACE) places.put(at, layout.face_class, bits(layout.face_class));
+        if (kind == Kind::OP) places.put(at, layout.op_class, other_class(layout.op_class));
+        if (kind == Kind::FACE) places.put(at, layout.face_class, other_class(layout.face_class));
         if (kind == Kind::ES) places.put(at, layout.es_xl, bits(layout.es_xl));
         break;
       default:  // another light, or share

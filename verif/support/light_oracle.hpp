@@ -71,12 +71,25 @@ struct Caster {
   std::vector<SideEdge> sides;
 };
 
+/// The faces of all components that cast, turned to the light.
+inline std::vector<CapFace> casting_faces(const SceneFrame& f, const LightPoint& light) {
+  const ShadowCaster caster(f, light, {}, 1);
+  const std::vector<Box> boxes = component_boxes(f);
+  std::vector<CapFace> all;
+  std::vector<CapFace> caps;
+  for (std::size_t c = 0; c < boxes.size(); ++c) {
+    caster.caps(f.components[c], boxes[c], caps);
+    all.insert(all.end(), caps.begin(), caps.end());
+  }
+  return all;
+}
+
 /// Triangles as one component, with all faces turned to the light.
 inline Caster caster_of(const Solid& s, const LightPoint& light) {
   Caster c;
   add_solid(c.frame, s, {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1}, false, false);
   c.light = light;
-  ShadowCaster(c.frame, light, {}, 1).caps(c.frame.components[0], c.caps);
+  c.caps = casting_faces(c.frame, light);
   EdgeTable(c.frame).sides(c.frame, c.caps, c.sides);
   return c;
 }

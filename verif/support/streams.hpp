@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -131,13 +132,24 @@ class RandomTree {
     }
   }
 
-  /// Each unit's in order, but the units in any.
-  void write_faces(TokenWriter& w, std::uint64_t& count) {
+  /// Each unit's in order, but the units in any; among them the entries of the table, each class before the faces that
+  /// have it.
+  void write_faces(TokenWriter& w, std::uint64_t& count, std::span<const TableToken> table) {
     std::vector<std::size_t> units;
     for (std::size_t u = 0; u < faces_.size(); ++u) units.insert(units.end(), faces_[u].size(), u);
     random_->shuffle(units);
     std::vector<std::size_t> next(faces_.size());
-    for (const std::size_t u : units) w.face(faces_[u][next[u]++]);
+    const double eager = random_->in(0, 2) / 2.0;  // entries as late as they may be, all first, or some
+    std::size_t entry = 0;
+    const auto lacks = [&](const SegmentToken& f) {
+      return static_cast<int>(entry) < (config_.class_bits > 1 ? f.normal_class * config_.lights : 0);
+    };
+    for (const std::size_t u : units) {
+      const SegmentToken& f = faces_[u][next[u]++];
+      while (entry < table.size() && (lacks(f) || random_->chance(eager))) w.table(table[entry++]);
+      w.face(f);
+    }
+    while (entry < table.size()) w.table(table[entry++]);
     count += units.size();
   }
 
@@ -230,20 +242,21 @@ class RandomTree {
   std::vector<std::vector<SegmentToken>> faces_;
 };
 
-/// A table of so many classes, and often some of another's entries: returns how many entries it has.
-inline std::uint64_t random_table(Random& random, const Config& c, TokenWriter& w, int classes) {
+/// The entries of a table of so many classes, at a port often with some of another's.
+inline std::vector<TableToken> random_table(Random& random, const Config& c, int classes, bool port) {
+  if (c.class_bits == 1) return {};
   const int most = 1 << c.shade_frac;
   // Shares that black out at once, and such that take many samples.
   const int usual = random.chance(0.5) ? most : std::max(1, most >> c.count_bits);
-  std::uint64_t entries = 0;
-  const int begun = classes < (1 << c.class_bits) - 1 ? random.in(0, c.lights - 1) : 0;  // of a class never whole
+  std::vector<TableToken> entries;
+  const int begun =
+      port && classes < (1 << c.class_bits) - 1 ? random.in(0, c.lights - 1) : 0;  // of a class never whole
   for (int k = 1; k <= classes + 1; ++k)
     for (int light = 0; light < (k <= classes ? c.lights : begun); ++light) {
       TableToken t{k, light, {}};
       for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i)
         t.share[i] = static_cast<std::uint32_t>(random.chance(0.1) ? most : random.in(0, usual));
-      w.table(t);
-      ++entries;
+      entries.push_back(t);
     }
   return entries;
 }
@@ -303,20 +316,23 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
   TokenWriter w(c, words);
   w.header({width, height, static_cast<std::uint32_t>(random.in(0, 0xFFFFFF)), number});
   const bool has_tree = c.units > 0 && width <= RandomTree::widest(c) && random.chance(style.trees);
-  // The table comes before all faces that need it; it may be empty, or end within a class.
+  // The table may be empty, or, at a port, end within a class.
   const int most_classes = c.class_bits == 1 ? 0 : (1 << c.class_bits) - 1;
   const int classes = random.chance(0.02) ? most_classes : random.in(0, std::min(most_classes, 9));
   RandomTree tree(random, c, width, has_tree ? height : 0, style.port, classes);
-  if (most_classes > 0) count[static_cast<std::size_t>(Kind::TABLE)] += random_table(random, c, w, classes);
+  const std::vector<TableToken> table = random_table(random, c, classes, style.port);
+  count[static_cast<std::size_t>(Kind::TABLE)] += table.size();
   // Faces may come without a tree, before SHADE or after it.
   const bool has_faces = has_tree || (c.units > 0 && random.chance(0.2));
   const bool faces_first = random.chance(0.5);
-  if (has_faces && faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)]);
+  if (has_faces && faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)], table);
   if (c.dsf_bits > 0 && most_classes == 0 && random.chance(0.8)) {
     w.shade(static_cast<std::uint32_t>(random.in(0, 1 << c.shade_frac)));
     add(Kind::SHADE);
   }
-  if (has_faces && !faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)]);
+  if (has_faces && !faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)], table);
+  if (!has_faces)
+    for (const TableToken& entry : table) w.table(entry);
   for (int y = 0; y < height; ++y) {
     if (has_tree) {
       tree.write_segments(w, y, count[static_cast<std::size_t>(Kind::SEG)]);

@@ -147,6 +147,18 @@ TEST_CASE("a cube of quads: faces keep the file's numbers, the solid is closed a
   CHECK_FALSE(s.needs_smooth());
 }
 
+TEST_CASE("an OBJ file of which Assimp would lose vertices is refused") {
+  const TempDirectory dir;
+  const auto load = [&dir](const char* third) {
+    return Scene::load(
+        dir.write("point.obj", std::string("v 0 0 0\nv 1 0 0\nv 0 1 ") + third + "\nv 0 2 2\nf 1 2 3\n"));
+  };
+  CHECK(load("0.5").frame(0, 1).vertices[2].z == 0.5);
+  CHECK(load("-.5").frame(0, 1).vertices[2].z == -0.5);
+  CHECK_THROWS_WITH(load(".5"),
+                    Catch::Matchers::ContainsSubstring("point.obj: line 3: Assimp does not read the number .5"));
+}
+
 TEST_CASE("materials of other formats give their diffuse colour; textures are noted") {
   const TempDirectory dir;
   dir.write("paint.mtl", "newmtl red\nKd 0.5 0.25 0.125\nmap_Kd red.png\nnewmtl glass\nKd 0 0 1\nd 0.5\n");
@@ -242,7 +254,7 @@ TEST_CASE("real meshes") {
     CHECK(counted == f.triangles.size());
     CHECK(f.triangles.size() == e.triangles);
     double worst = 0;
-    for (const ShadingVertex& v : f.shading) worst = std::max(worst, std::abs(scene::length(v.normal) - 1));
+    for (const ShadingVertex& v : f.shading) worst = std::max(worst, std::abs(kage::length(v.normal) - 1));
     CHECK(worst < 1e-12);
   }
 }

@@ -38,7 +38,7 @@ std::vector<glm::dvec3> corners(const Scene& scene) {
   return p;
 }
 
-double distance(const glm::dvec3& a, const glm::dvec3& b) { return scene::length(a - b); }
+double distance(const glm::dvec3& a, const glm::dvec3& b) { return length(a - b); }
 
 const std::string kNode = R"("nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}])";
 
@@ -56,7 +56,7 @@ TEST_CASE("a triangle: what is added is noted") {
   CHECK(f.shading[f.triangles[0].shading[0]].normal == glm::dvec3{0, 0, 1});
   CHECK(f.components[0].reason.find("one face only") != std::string::npos);
   CHECK(f.lights[0].directional);
-  CHECK(scene::length(f.lights[0].direction) == Approx(1).epsilon(1e-15));
+  CHECK(length(f.lights[0].direction) == Approx(1).epsilon(1e-15));
   CHECK(f.lights[0].direction.y < 0);
 }
 
@@ -235,10 +235,24 @@ TEST_CASE("lights: all of them, with cone, fall-off and shape, and one factor fo
   CHECK(distance(f.lights[1].axis_u, {0.5, 0, 0}) < 1e-15);
   CHECK(distance(f.lights[1].axis_v, {0, 0, -0.5}) < 1e-15);  // in the plane of the node's x and y
 
+  // A node's scale is its lights' too: a ball takes that of x.
+  const Scene ball = with(R"({"type": "point", "extras": {"kage": {"shape": "sphere", "radius": 0.5}}})",
+                          node.substr(0, node.size() - 1) + R"(, "scale": [3, 1, 1]})");
+  CHECK(ball.frame(0, 1).lights[0].shape == LightShape::sphere);
+  CHECK(distance(ball.frame(0, 1).lights[0].axis_u, {1.5, 0, 0}) < 1e-15);
+  const Scene window = with(R"({"type": "spot", "extras": {"kage": {"shape": "rectangle", "width": 4, "height": 2}}})",
+                            node.substr(0, node.size() - 1) + R"(, "scale": [1, 3, 1]})");
+  CHECK(window.frame(0, 1).lights[0].shape == LightShape::rectangle);
+  CHECK(distance(window.frame(0, 1).lights[0].axis_u, {2, 0, 0}) < 1e-15);
+  CHECK(distance(window.frame(0, 1).lights[0].axis_v, {0, 0, -3}) < 1e-14);
+
   const Scene black = with(R"({"type": "point", "intensity": 0})", node);
   CHECK(black.frame(0, 1).lights.size() == 1);
   CHECK(test::has_note(black, "1 light is black, and ignored"));
   CHECK(test::has_note(black, "no light"));
+  const Scene shaped = with(R"({"type": "directional", "extras": {"kage": {"shape": "disc", "radius": 0.5}}})", node);
+  CHECK(shaped.frame(0, 1).lights[0].shape == LightShape::point);
+  CHECK(test::has_note(shaped, "1 directional light has a shape, which is ignored"));
 
   using Catch::Matchers::ContainsSubstring;
   CHECK_THAT(refusal(R"({"type": "point", "intensity": -1})", node),

@@ -63,13 +63,7 @@ TEST_CASE("the bound holds all round a light: closed bodies about it, one in ano
     LightPoint light;
     light.directional = false;
     light.position = {random.real(-0.3, 0.3), random.real(-0.3, 0.3), i % 4 == 0 ? 0.0 : random.real(-0.3, 0.3)};
-    const ShadowCaster caster(f, light, {}, 1);
-    std::vector<CapFace> all;
-    std::vector<CapFace> caps;
-    for (const Component& c : f.components) {
-      caster.caps(c, caps);
-      all.insert(all.end(), caps.begin(), caps.end());
-    }
+    const std::vector<CapFace> all = casting_faces(f, light);
     std::vector<SideEdge> sides;
     EdgeTable(f).sides(f, all, sides);
     CHECK(sides.empty());
@@ -77,6 +71,39 @@ TEST_CASE("the bound holds all round a light: closed bodies about it, one in ano
     // Each body once in every direction.
     CHECK(r.high == n);
   }
+}
+
+TEST_CASE("faces that a ray of light meets both have boxes that overlap, all round a light") {
+  Random random(test_seed(4));
+  CAPTURE(test_seed(4));
+  int checked = 0;
+  for (int i = 0; i < 2000; ++i) {
+    CAPTURE(i);
+    SceneFrame f;
+    // A large face, a small one behind a point of it, and one far aside, so that the light has something all round.
+    Solid s;
+    for (int k = 0; k < 3; ++k) s.vertices.push_back(random_direction(random) * random.real(1, 3));
+    double a = random.real(0, 1);
+    double b = random.real(0, 1);
+    if (a + b > 1) a = 1 - a, b = 1 - b;
+    const glm::dvec3 on = s.vertices[0] + a * (s.vertices[1] - s.vertices[0]) + b * (s.vertices[2] - s.vertices[0]);
+    for (int k = 0; k < 3; ++k) s.vertices.push_back(on * random.real(2, 3) + random_direction(random) * 1e-3);
+    for (int k = 0; k < 3; ++k) s.vertices.push_back(-on * 2.0 + random_direction(random));
+    s.faces = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+    LightPoint light;
+    light.directional = false;
+    add_solid(f, s, {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1}, false, false);
+    const std::vector<CapFace> caps = casting_faces(f, light);
+    const LightSpace space(f, light, caps);
+    if (caps.size() != 3 || space.one_chart()) continue;
+    // The ray through `on` may miss the small face, by as much as that is wide.
+    const LightBox large = space.box(f.polygons[0]);
+    LightBox small = space.box(f.polygons[1]);
+    for (std::size_t k = 0; k < 2; ++k) small.low[k] -= 1e-3, small.high[k] += 1e-3;
+    CHECK(large.overlaps(small));
+    ++checked;
+  }
+  CHECK(checked > 1000);
 }
 
 TEST_CASE("the bound holds where bodies stand round a light") {
@@ -95,13 +122,7 @@ TEST_CASE("the bound holds where bodies stand round a light") {
     if (f.components.empty()) continue;
     LightPoint light;
     light.directional = false;
-    const ShadowCaster caster(f, light, {}, 1);
-    std::vector<CapFace> all;
-    std::vector<CapFace> caps;
-    for (const Component& c : f.components) {
-      caster.caps(c, caps);
-      all.insert(all.end(), caps.begin(), caps.end());
-    }
+    const std::vector<CapFace> all = casting_faces(f, light);
     std::vector<SideEdge> sides;
     EdgeTable(f).sides(f, all, sides);
     const LightSpace space(f, light, all);

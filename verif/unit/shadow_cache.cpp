@@ -135,6 +135,49 @@ TEST_CASE(
   CHECK(caps_and_sides(&kept) == caps_and_sides(nullptr));
 }
 
+TEST_CASE(
+    "what is kept is made again when a light or a caster goes and comes back, or volumes are wanted another way") {
+  // The same on both sides of x = 0, so that a light there and its mirror image are as far from everything.
+  SceneFrame f;
+  add_solid(f, box_solid(), {0, -3, 0}, {6, 0.2, 6}, Turn{}, {1, 1, 1});
+  for (const double x : {-1.5, 1.5}) add_solid(f, tetrahedron_solid(), {x, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1}, false);
+  look_at(f.camera, {0.5, 4, 9}, {0, -2, 0});
+  f.lights[0].directional = false;
+  f.lights[0].position = {3, 3, 1};
+  Config c;
+  Look look;
+  ShadowCache kept;
+  const auto same = [&] {
+    const auto words = [&](ShadowCache* cache) {
+      std::vector<std::uint32_t> w;
+      make_frame(make_geometry(f, c, 64, 48, look, nullptr, cache), c, 0, w, 1);
+      return w;
+    };
+    const auto with = words(&kept);
+    CHECK(with == words(nullptr));
+    return with;
+  };
+  const auto first = same();
+  f.lights[0].position.x = -3;
+  CHECK(same() != first);
+  f.lights[0].position.x = 3;
+  CHECK(same() == first);
+  // Turned over, and back.
+  const std::vector<glm::dvec3> vertices = f.vertices;
+  for (std::size_t v = f.vertices.size() - 4; v < f.vertices.size(); ++v) f.vertices[v].y *= -1;
+  CHECK(same() != first);
+  f.vertices = vertices;
+  CHECK(same() == first);
+  look.volumes = VolumeWay::per_face;
+  CHECK(same() != first);
+  look.volumes = VolumeWay::fewest;
+  CHECK(same() == first);
+  for (const int bits : {2, 4, 1, 4}) {
+    c.dsf_bits = bits;
+    same();
+  }
+}
+
 TEST_CASE("a configuration that counts may do without FSF, and is refused where one volume will not do") {
   Needs needs;
   needs.shadows = needs.several_volumes = true;

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "catch.hpp"
+#include "shadow/light_corners.hpp"
 #include "shadow/patches.hpp"
 #include "support/light_oracle.hpp"
 
@@ -14,11 +15,12 @@ std::vector<std::vector<CapFace>> patches_of(const Caster& c) {
   return make_patches(c.frame, c.light, EdgeTable(c.frame), LightSpace(c.frame, c.light, c.caps), c.caps);
 }
 
-/// n x n squares of a height field with bumps `steep` high.
+/// n x n squares of a height field with bumps `steep` high, their corners a little aside.
 Solid field(Random& random, int n, double steep) {
   Solid s;
   for (int y = 0; y <= n; ++y)
-    for (int x = 0; x <= n; ++x) s.vertices.emplace_back(x, -5 + random.real(0, steep), y);
+    for (int x = 0; x <= n; ++x)
+      s.vertices.emplace_back(x + random.real(-0.2, 0.2), -5 + random.real(0, steep), y + random.real(-0.2, 0.2));
   const auto at = [n](int x, int y) { return static_cast<std::uint32_t>(y * (n + 1) + x); };
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
@@ -93,6 +95,65 @@ TEST_CASE("on which side of an edge a corner lies is exact") {
   CHECK(light_turn(f, light, 0, 1, 2) == 0);
   CHECK(light_turn(f, light, 0, 1, 3) == -1);
   CHECK(light_turn(f, light, 0, 1, 4) == 1);
+}
+
+TEST_CASE("corners of caps go round as their vertices do, near or far, thin or not") {
+  Random random(test_seed(3));
+  CAPTURE(test_seed(3));
+  int left = 0;
+  int told = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const bool directional = random.chance(0.5);
+    const double size = std::ldexp(1.0, random.in(-8, 8) * (random.chance(0.1) ? 100 : 1));
+    const double off = random.chance(0.5) ? 0 : std::ldexp(size, random.in(0, 40));
+    const auto point = [&](double away) {
+      return glm::dvec3(away + size * random.real(-1, 1), away + size * random.real(-1, 1),
+                        away + size * random.real(-1, 1));
+    };
+    LightPoint light;
+    light.directional = directional;
+    light.position = point(random.chance(0.5) ? off : 0);
+    light.direction = glm::normalize(glm::dvec3(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)));
+    if (random.chance(0.2)) light.direction = {0, random.chance(0.5) ? 1 : -1, 0};
+    SceneFrame f;
+    for (int i = 0; i < 6; ++i) f.vertices.push_back(point(off));
+    // Some in one plane with the light, but for rounding; some in the same place.
+    for (std::size_t i = 3; i < 6; ++i) {
+      const glm::dvec3 on = glm::mix(f.vertices[0], f.vertices[1], random.real(-1, 2));
+      const glm::dvec3 way = directional ? light.direction * size : on - light.position;
+      if (random.chance(0.4)) f.vertices[i] = on + way * random.real(-0.5, 0.5);
+      if (random.chance(0.1)) f.vertices[i] = f.vertices[1];
+    }
+    f.corners = {0, 1, 2, 3, 4, 5, 1, 0, 3};
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      f.polygons.emplace_back();
+      f.polygons[i].first = 3 * i;
+      f.polygons[i].count = 3;
+    }
+    const std::vector<CapFace> caps{{0, false}, {1, true}, {2, random.chance(0.5)}};
+    const LightCorners corners(f, light, caps);
+    const auto vertex = [&](std::uint32_t cap, std::uint32_t i) {
+      return f.corners[3 * cap + (caps[cap].turned ? 2 - i : i)];
+    };
+    CAPTURE(round, directional, size, off);
+    for (std::uint32_t p = 0; p < 9; ++p)
+      for (std::uint32_t q = 0; q < 9; ++q)
+        for (std::uint32_t r = 0; r < 9; ++r) {
+          const auto number = [&](std::uint32_t k) { return corners.corner(k / 3, k % 3); };
+          const auto of = [&](std::uint32_t k) { return vertex(k / 3, k % 3); };
+          const int turn = light_turn(f, light, of(p), of(q), of(r));
+          REQUIRE(corners.turn(number(p), number(q), number(r)) == turn);
+          const bool sure = corners.surely_not_left(number(p), number(q), number(r));
+          if (sure) REQUIRE(turn <= 0);
+          if (turn < 0 && off == 0) {
+            ++left;
+            told += sure ? 1 : 0;
+          }
+        }
+  }
+  CAPTURE(left, told);
+  CHECK(told > 0.6 * left);
+  CHECK(told < left);
 }
 
 }  // namespace kage::verif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tokens to words and back, and the strict check of frames.
+// Tokens to words and back.
 #include <algorithm>
 
 #include "catch.hpp"
@@ -11,19 +11,6 @@
 #include "support/streams.hpp"
 
 namespace kage::verif {
-namespace {
-
-std::string cause(const Config& c, const std::vector<std::uint32_t>& words) {
-  try {
-    check_frame(c, words, "f", 0);
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
-
-}  // namespace
-
 TEST_CASE("every field of every token survives its way through the words, at its extremes too") {
   Random random(test_seed());
   CAPTURE(test_seed());
@@ -191,49 +178,6 @@ TEST_CASE("counters need DSF, a table counters, several lights both") {
   CHECK_THROWS_WITH(validate(c, "c"), "c: COUNT_BITS > 0 needs DSF_BITS > 0");
 }
 
-TEST_CASE("the table comes in order, and no class is used before it is whole") {
-  Config c;
-  c.count_bits = 2;
-  c.class_bits = 2;
-  c.lights = 2;
-  using W = TokenWriter;
-  const auto said = [&](auto change) {
-    std::vector<std::uint32_t> words;
-    W t(c, words);
-    t.header({8, 1, 0, 0});
-    change(t);
-    return cause(c, words);
-  };
-  using Catch::Matchers::ContainsSubstring;
-  const auto entries = [](W& t, int count) {
-    for (int i = 0; i < count; ++i) t.table({i / 2 + 1, i % 2, {256, 0, 7}});
-  };
-  const auto op = [](W& t, int normal_class) {
-    SpanToken s;
-    s.xr = 8;
-    s.normal_class = normal_class;
-    t.op(s);
-  };
-  const auto rest = [](W& t) {
-    t.eol(0);
-    t.end();
-  };
-  CHECK(said([&](W& t) { entries(t, 3), op(t, 1), op(t, 0), rest(t); }).empty());
-  CHECK(said([&](W& t) { entries(t, 6), op(t, 3), rest(t); }).empty());
-  CHECK(said([&](W& t) { op(t, 0), rest(t); }).empty());
-  CHECK_THAT(said([&](W& t) { entries(t, 3), op(t, 2); }),
-             ContainsSubstring("token 4") && ContainsSubstring("(RANGE)"));
-  CHECK_THAT(said([&](W& t) { op(t, 1); }), ContainsSubstring("(RANGE)"));
-  CHECK_THAT(said([&](W& t) { t.table({1, 1, {}}); }), ContainsSubstring("(RANGE)"));
-  CHECK_THAT(said([&](W& t) { t.table({0, 0, {}}); }), ContainsSubstring("(RANGE)"));
-  CHECK_THAT(said([&](W& t) { entries(t, 2), t.table({1, 0, {}}); }), ContainsSubstring("(RANGE)"));
-  CHECK_THAT(said([&](W& t) { entries(t, 1), t.table({1, 1, {0, 257, 0}}); }), ContainsSubstring("(RANGE)"));
-  CHECK_THAT(said([&](W& t) { entries(t, 2), op(t, 1), t.table({2, 0, {}}); }), ContainsSubstring("(ORDER)"));
-  CHECK_THAT(said([&](W& t) { t.shade(1); }), ContainsSubstring("(KIND)"));
-  // Past the last class there is no number to say.
-  CHECK_THAT(said([&](W& t) { entries(t, 6), t.table({3, 0, {}}); }), ContainsSubstring("(RANGE)"));
-}
-
 TEST_CASE("tokens of light say what they are") {
   Config c;
   c.count_bits = 2;
@@ -257,42 +201,6 @@ TEST_CASE("tokens of light say what they are") {
   std::vector<std::uint32_t> words;
   TokenWriter(c, words).op(s);
   CHECK(to_string(c, decode(c, Layout(c), words)) == "OP [0, 2) z 0 dz 0 color 0,0,0 lit");
-}
-
-TEST_CASE("a sample is ended once, and RESOLVE waits for that") {
-  Config c;
-  c.count_bits = 2;
-  using W = TokenWriter;
-  const auto said = [&](auto change) {
-    std::vector<std::uint32_t> words;
-    W t(c, words);
-    t.header({8, 1, 0, 0});
-    change(t);
-    t.eol(0);
-    t.end();
-    return cause(c, words);
-  };
-  using Catch::Matchers::ContainsSubstring;
-  for (const int fsf : {0, 1}) {
-    c.fsf = fsf;
-    const auto volume = [&](W& t) {
-      t.inside(1);
-      if (fsf != 0) t.ev(0, 8);
-    };
-    CHECK(said([&](W& t) { volume(t), t.es(0, 8, 0), volume(t), t.es(1, 1, 0), t.resolve(); }).empty());
-    CHECK_THAT(said([&](W& t) { t.es(0, 8, 0); }), ContainsSubstring("token 1,") && ContainsSubstring("(ORDER)"));
-    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 0), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
-    CHECK_THAT(said([&](W& t) { volume(t), t.resolve(); }), ContainsSubstring("(ORDER)"));
-    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
-    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 9, 0); }), ContainsSubstring("(RANGE)"));
-    CHECK_THAT(said([&](W& t) { volume(t), t.es(3, 2, 0); }), ContainsSubstring("(RANGE)"));
-    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 1); }), ContainsSubstring("(RANGE)"));
-    CHECK_THAT(said([&](W& t) { volume(t), t.es(0, 8, 0), t.resolve(), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
-  }
-  c.fsf = 1;
-  CHECK_THAT(said([&](W& t) { t.inside(1), t.es(0, 8, 0); }), ContainsSubstring("(ORDER)"));
-  c.count_bits = 0;
-  CHECK_THAT(said([&](W& t) { t.inside(1), t.ev(0, 8), t.es(0, 8, 0); }), ContainsSubstring("(KIND)"));
 }
 
 TEST_CASE("the paper's segments need the paper's widths") {
@@ -320,134 +228,6 @@ TEST_CASE("a valid frame passes; its counts are what was written") {
     REQUIRE(counts.of_kind == written);
     REQUIRE(counts.words == words.size());
   }
-}
-
-TEST_CASE("faults are named with frame, line, token and byte") {
-  const Config c;
-  std::vector<std::uint32_t> words;
-  TokenWriter w(c, words);
-  w.header({8, 2, 0, 77});
-  w.eol(0);
-  SpanToken s;
-  s.xl = 3;
-  s.xr = 9;
-  w.op(s);
-  w.eol(1);
-  w.end();
-  CHECK(
-      cause(c, words) ==
-      "f: frame 77, line 1, token 2, byte 24: xl > xr, xr > width, shade or share > 2^SHADE_FRAC, a unit or light that "
-      "the core lacks, a face or table entry out of turn, or a class that the table lacks (RANGE)");
-
-  const auto with = [&](auto change) {
-    std::vector<std::uint32_t> v;
-    TokenWriter t(c, v);
-    change(t, v);
-    return cause(c, v);
-  };
-  using W = TokenWriter;
-  using V = std::vector<std::uint32_t>;
-  using Catch::Matchers::ContainsSubstring;
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.eol(1);
-             }),
-             ContainsSubstring("(LINE)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.end();
-             }),
-             ContainsSubstring("(LINE)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.eol(0);
-               t.eol(1);
-             }),
-             ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.eol(0);
-             }),
-             ContainsSubstring("(LAST_EARLY)"));
-  CHECK_THAT(with([](W& t, V& v) {
-               t.header({8, 1, 0, 0});
-               v.push_back(0);
-             }),
-             ContainsSubstring("(KIND)"));
-  CHECK_THAT(with([](W& t, V& v) {
-               t.header({8, 1, 0, 0});
-               v.push_back(13);
-             }),
-             ContainsSubstring("(KIND)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.ev(0, 1);
-             }),
-             ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.resolve();
-             }),
-             ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.inside(1);
-               t.resolve();
-             }),
-             ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.inside(1);
-               t.ev(0, 8);
-               t.eol(0);
-             }),
-             ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.shade(0);
-               t.shade(0);
-             }),
-             ContainsSubstring("(ORDER)"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               t.shade(257);
-             }),
-             ContainsSubstring("(RANGE)"));
-  CHECK_THAT(with([](W& t, V& v) {
-               t.header({8, 1, 0, 0});
-               t.eol(0);
-               v.back() |= 1U << 31;
-             }),
-             ContainsSubstring("not zero"));
-  CHECK_THAT(with([](W& t, V& v) {
-               t.header({8, 1, 0, 0});
-               t.eol(0);
-               t.end();
-               v.push_back(0);
-             }),
-             ContainsSubstring("words after END"));
-  CHECK_THAT(with([](W& t, V&) { t.header({0, 1, 0, 0}); }), ContainsSubstring("(SIZE)"));
-  CHECK_THAT(with([](W& t, V& v) {
-               t.header({8, 1, 0, 0});
-               v[0] ^= 1;
-             }),
-             ContainsSubstring("(HEADER)"));
-  CHECK_THAT(with([](W& t, V& v) {
-               t.header({8, 1, 0, 0});
-               v[2] ^= 1;
-             }),
-             ContainsSubstring("(PARAMS)"));
-  CHECK_THAT(with([](W&, V& v) { v.push_back(kStreamMagic << 16 | kStreamVersion); }),
-             ContainsSubstring("the header is cut"));
-  CHECK_THAT(with([](W& t, V&) {
-               t.header({8, 1, 0, 0});
-               SpanToken steep;
-               steep.xr = 8;
-               steep.z = (std::int64_t{1} << 36) - 8;
-               steep.dz = 1 << 20;
-               t.op(steep);
-             }),
-             ContainsSubstring("depth overflows"));
 }
 
 }  // namespace kage::verif

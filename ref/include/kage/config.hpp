@@ -50,8 +50,8 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs);
 /// The first named configuration that lacks nothing; if there is none, Error names what each one lacks.
 NamedConfig choose_config(const Needs& needs);
 
-/// The first named configuration that lacks only width, made as wide as asked: the line of YAML that a file for
-/// load_config() would hold. Empty if there is none.
+/// The first named configuration that lacks only width, or some of its several lights or their samples, with as much of
+/// them as asked: the line of YAML that a file for load_config() would hold. Empty if there is none.
 std::string widened_config(const Needs& needs);
 
 }  // namespace kage

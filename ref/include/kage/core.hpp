@@ -4,6 +4,7 @@
 // It reads the words that the RTL reads and nothing else.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -26,6 +27,76 @@ struct FrameStatus {
   bool operator==(const FrameStatus&) const = default;
 };
 
+/// What a core keeps of a pixel of the line at hand (docs/stream.md, "The pixel's state").
+struct PixelState {
+  std::uint32_t z = 0;                    ///< 2^Z_BITS - 1: clear; then all below is 0 until a TP of the line has come
+  std::array<std::uint8_t, 3> color{};    ///< one channel: the first
+  std::uint32_t normal_class = 0;         ///< 0 is unlit; without a table 1 is lit
+  std::uint32_t dsf = 0;                  ///< modulo 2^DSF_BITS
+  std::uint32_t fsf = 0;                  ///< 0 or 1
+  std::array<std::uint32_t, 8> counts{};  ///< by light
+
+  bool operator==(const PixelState&) const = default;
+};
+
+struct Token;
+class PixelLine;
+class TokenRules;
+class TreeCore;
+
+/// The line at hand, between tokens. Valid while the observer's function runs, or until the core is fed again.
+class LineView {
+ public:
+  LineView(const PixelLine& pixels, const TreeCore& tree, const TokenRules& rules)
+      : pixels_(&pixels), tree_(&tree), rules_(&rules) {}
+
+  [[nodiscard]] int y() const;  ///< lines that have ended; the height after the last
+  [[nodiscard]] int width() const;
+  [[nodiscard]] std::uint32_t bias() const;  ///< modulo 2^DSF_BITS
+  [[nodiscard]] std::uint32_t background() const;
+  [[nodiscard]] bool painted() const;  ///< a TP of the line has come: clear pixels have the background's colour
+  [[nodiscard]] PixelState pixel(int x) const;
+
+  /// Whether the SEG that has just been accepted goes to its unit: those of a line that has failed ahead do not.
+  [[nodiscard]] bool segment_taken() const;
+
+  /// Depth and draw index, colour and class of a unit's pixel before the tree merges them. Only after a TREE.
+  struct UnitPixel {
+    std::uint32_t z = 0;
+    std::uint32_t index = 0;
+    std::array<std::uint8_t, 3> color{};
+    std::uint32_t normal_class = 0;
+  };
+  [[nodiscard]] UnitPixel unit_pixel(int unit, int x) const;
+  [[nodiscard]] UnitPixel tree_pixel(int x) const;  ///< after the tree
+
+ private:
+  const PixelLine* pixels_;
+  const TreeCore* tree_;
+  const TokenRules* rules_;
+};
+
+/// Told what the golden core does, token by token. Costs nothing where there is none.
+class CoreObserver {
+ public:
+  CoreObserver() = default;
+  virtual ~CoreObserver() = default;
+  CoreObserver(const CoreObserver&) = delete;
+  CoreObserver& operator=(const CoreObserver&) = delete;
+
+  /// The header, token 0, has been accepted.
+  virtual void header(std::span<const std::uint32_t> /*words*/, const LineView& /*line*/) {}
+  /// Token `index` of the frame has been accepted and is about to do what it does.
+  virtual void before(std::uint32_t /*index*/, const Token& /*token*/, std::span<const std::uint32_t> /*words*/,
+                      const LineView& /*line*/) {}
+  /// It has done so. After an EOL the line is cleared.
+  virtual void after(std::uint32_t /*index*/, const Token& /*token*/, const LineView& /*line*/) {}
+  /// The frame has an error: the lines that have not ended are background. `words`: of the erroneous token, as many as
+  /// there are.
+  virtual void failed(const FrameStatus& /*status*/, std::span<const std::uint32_t> /*words*/,
+                      const LineView& /*line*/) {}
+};
+
 /// Takes the lines of a frame from top to bottom: `pixels` holds width x CHANNELS bytes.
 using LineSink = std::function<void(int y, std::span<const std::uint8_t> pixels)>;
 
@@ -45,6 +116,13 @@ class GoldenCore {
   /// The frame's words have all been fed, TLAST with the beat of the last. That beat is filled with zeros up to
   /// BEAT_WORDS, as the port does it. What is fed next is the next frame.
   FrameStatus finish(const LineSink& sink);
+
+  /// Tell `observer` what happens from now on; nullptr: no one. It must outlive its use.
+  void observe(CoreObserver* observer);
+
+  /// The line at hand, as the last token that was accepted left it: of an accepted header or later. Valid until the
+  /// core is fed again.
+  [[nodiscard]] LineView line() const;
 
   /// A frame whose words are all there: what was fed before without finish() is forgotten, then feed() and finish().
   FrameStatus frame(std::span<const std::uint32_t> words, const LineSink& sink);

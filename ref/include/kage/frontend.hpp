@@ -34,12 +34,28 @@ struct PolyhedraReport {
   Stop stop = Stop::none;
 };
 
+/// Where a token comes from.
+struct TokenOrigin {
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  std::uint32_t polygon = kNone;  ///< into FrameGeometry::polygons
+  std::uint32_t volume = kNone;   ///< into FrameGeometry::volumes
+};
+
+/// Origins of a frame's spans, in the order of their tokens. Of FACE and SEG the draw index tells: the polyhedra in
+/// FrameGeometry::polyhedra.
+struct FrameOrigins {
+  std::vector<TokenOrigin> opaque;       ///< of each OP
+  std::vector<TokenOrigin> shadow;       ///< of each SP, NC, IF and EV
+  std::vector<TokenOrigin> translucent;  ///< of each TP
+};
+
 /// Make the frame's words from first to last. Lines are made in bands, on up to `threads` threads (0: all there are),
 /// and handed on band by band; the words do not depend on the number of threads. Cost is linear in the spans. Throws
 /// Error if the configuration cannot hold the frame (width, volumes). With UNITS > 0 polyhedra go to units, in draw
-/// order up to the first that finds none; the rest become spans, which changes no pixel. `report` is filled if given.
+/// order up to the first that finds none; the rest become spans, which changes no pixel. `report` and `origins` are
+/// filled if given.
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number, const WordSink& sink,
-                int threads = 0, PolyhedraReport* report = nullptr);
+                int threads = 0, PolyhedraReport* report = nullptr, FrameOrigins* origins = nullptr);
 
 /// The same, appended to `out`.
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number,

@@ -193,7 +193,8 @@ struct Look {
   TranslucentWay translucent = TranslucentWay::exact;
   int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;  ///< of their pattern
-  int classes = 1024;  ///< normals that a light table tells apart, 1 .. 2047; fewer if it has no room for those in use
+  int classes =
+      1024;  ///< normals that a light table tells apart, 1 .. kMaxClasses; fewer if it has no room for those in use
 };
 
 /// Keeps the visibility order of a scene's translucent faces from frame to frame, so that what does not move is put in
@@ -231,8 +232,9 @@ class ShadowCache {
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
 /// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, of how many lights and
 /// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order` and `shadows`, if
-/// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, or
-/// if a vertex or the camera is not finite.
+/// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, if a
+/// vertex, the camera, a light or `look` is not as its type says, or if a light that is not at infinity is more than
+/// 2^40 times as far from the scene, or as large, as that is large.
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
                             TranslucentOrder* order = nullptr, ShadowCache* shadows = nullptr);
 

@@ -13,6 +13,9 @@ namespace kage {
 /// Most samples of a light: what a pixel's counter of 8 bits holds.
 inline constexpr int kMaxSamples = 255;
 
+/// Most normals that a light table tells apart.
+inline constexpr int kMaxClasses = 2047;
+
 /// The points that stand for a light, 1 <= samples <= kMaxSamples: a point or directional light's own one; of another
 /// its middle if `samples` is 1, else that many, spread evenly over its shape: the disc by a golden spiral, the
 /// rectangle by the lattice of the golden ratio, the ball's surface by a golden spiral from pole to pole. `seed` turns
@@ -29,7 +32,7 @@ glm::dvec3 received(const Light& light, const glm::dvec3& point, const glm::dvec
 /// Unit normals spread evenly over the sphere, on a golden spiral from pole to pole, numbered from 1.
 class NormalClasses {
  public:
-  /// 1 <= count <= 2047.
+  /// 1 <= count <= kMaxClasses.
   explicit NormalClasses(int count);
 
   [[nodiscard]] int count() const { return static_cast<int>(normals_.size()); }

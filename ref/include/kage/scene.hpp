@@ -122,7 +122,8 @@ class Scene {
   /// limit of time. So load before other threads start, or while they rest. Several threads may load at once.
   /// `alpha`, 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent.
   /// Intensities of lights are scaled by one factor, the same in all frames: at the middle of the scene, in the first
-  /// frame, light that meets a surface head-on from all of them (cones aside) adds up to 1 in the largest channel.
+  /// frame, light that meets a surface head-on from all of them (cones and ranges aside) adds up to 1 in the largest
+  /// channel.
   static Scene load(const std::string& name_or_path, double alpha = 1);
 
   ~Scene();

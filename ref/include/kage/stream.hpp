@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kage/defs.hpp"
@@ -107,6 +108,9 @@ struct Token {
 /// Decode the token that starts at `words[0]`; `words` must hold it whole.
 Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words);
 
+/// The same for one token after the other: fields that its kind does not have in this configuration stay as they are.
+void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& token);
+
 /// One line that says what the token is: "OP [12, 40) z 123.5 dz -0.25 color 10,20,30 lit".
 std::string to_string(const Config& config, const Token& token);
 
@@ -172,6 +176,14 @@ class StreamFileWriter {
   std::unique_ptr<Data> data_;
 };
 
+/// A section of a stream file that is neither the configuration, a frame nor the end: ORIG, or one that this reader
+/// does not know.
+struct StreamSection {
+  std::string tag;           ///< four characters; those that cannot be printed are ?
+  int frames_before = 0;     ///< frames in the file before it
+  std::string_view payload;  ///< valid as long as the file is open
+};
+
 /// A stream file, mapped: another program must not make it shorter while it is open. Where one does, what is gone
 /// raises SIGBUS on reading, in frame() or in the words it gave, and a program that wants to outlive that has to handle
 /// the signal (kage does, see cli/mapped.hpp). Opening checks magic, version, configuration and the list of sections;
@@ -189,6 +201,13 @@ class StreamFile {
 
   /// The text that StreamFileWriter::origin() took, or nothing.
   [[nodiscard]] const std::string& origin() const;
+
+  /// All sections but configuration, frames and end, in the file's order.
+  [[nodiscard]] std::vector<StreamSection> sections() const;
+
+  /// Frame `index` has been read: its pages need not stay in memory. Its words stay valid, and are read again from the
+  /// file where they are used once more. Without this a file that is read through comes to be in memory whole.
+  void leave(int index) const;
 
   /// Words of frame `index`, valid as long as this object. Checked on every call; counts are added to `counts` if
   /// given.

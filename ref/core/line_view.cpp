@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an observer of the golden core sees of the line at hand.
+#include "core/pixel_line.hpp"
+#include "core/tree_core.hpp"
+#include "kage/core.hpp"
+#include "stream/rules.hpp"
+
+namespace kage {
+
+int LineView::y() const { return rules_->line(); }
+bool LineView::segment_taken() const { return rules_->outcome().taken; }
+int LineView::width() const { return pixels_->width(); }
+std::uint32_t LineView::bias() const { return pixels_->bias(); }
+std::uint32_t LineView::background() const { return pixels_->background(); }
+bool LineView::painted() const { return pixels_->painted(); }
+PixelState LineView::pixel(int x) const { return pixels_->state(x); }
+
+namespace {
+
+LineView::UnitPixel unit_pixel_of(const TreeLine& line, int x) {
+  const std::uint64_t key = line.key[static_cast<std::size_t>(x)];
+  const std::uint64_t attr = line.attr[static_cast<std::size_t>(x)];
+  LineView::UnitPixel p;
+  p.z = static_cast<std::uint32_t>(key >> TreeLine::kIndexBits);
+  p.index = static_cast<std::uint32_t>(key & ((1U << TreeLine::kIndexBits) - 1));
+  for (unsigned c = 0; c < 3; ++c) p.color[c] = static_cast<std::uint8_t>(attr >> 8 * c);
+  p.normal_class = static_cast<std::uint32_t>(attr >> 24);
+  return p;
+}
+
+}  // namespace
+
+LineView::UnitPixel LineView::unit_pixel(int unit, int x) const {
+  return unit_pixel_of(tree_->unit_lines()[static_cast<std::size_t>(unit)], x);
+}
+LineView::UnitPixel LineView::tree_pixel(int x) const { return unit_pixel_of(tree_->line(), x); }
+
+}  // namespace kage

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a span brings to one of its pixels, straight from the definition (docs/stream.md): for those who look at single
+// pixels. The kernels step instead.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "kage/stream.hpp"
+
+namespace kage {
+
+/// The number that the low `bits` of a sum are in two's complement.
+inline std::int64_t wrapped(std::uint64_t sum, int bits) {
+  const int spare = 64 - bits;
+  return static_cast<std::int64_t>(sum << spare) >> spare;
+}
+
+/// Depth at pixel x: 1 .. 2^Z_BITS - 2.
+inline std::uint32_t span_depth(const Config& c, const SpanToken& s, int x) {
+  const std::int64_t sum =
+      wrapped(static_cast<std::uint64_t>(s.z) + static_cast<std::uint64_t>(s.dz) * static_cast<std::uint64_t>(x - s.xl),
+              c.z_bits + c.z_frac + 2);
+  const std::int64_t most = (std::int64_t{1} << c.z_bits) - 2;
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(sum >> c.z_frac, 1, most));
+}
+
+/// Colour at pixel x.
+inline std::array<std::uint8_t, 3> span_color(const Config& c, const SpanToken& s, int x) {
+  std::array<std::uint8_t, 3> color{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i) {
+    if (c.smooth == 0) {
+      color[i] = static_cast<std::uint8_t>(s.color[i]);
+      continue;
+    }
+    const std::int64_t sum =
+        wrapped(static_cast<std::uint64_t>(std::int64_t{s.color[i]} + std::int64_t{s.dcolor[i]} * (x - s.xl)),
+                10 + c.color_frac);
+    color[i] = static_cast<std::uint8_t>(std::clamp<std::int64_t>(sum >> c.color_frac, 0, 255));
+  }
+  return color;
+}
+
+}  // namespace kage

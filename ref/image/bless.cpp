@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "image/temp_file.hpp"
+#include "kage/diff.hpp"
+#include "kage/error.hpp"
+
+namespace kage {
+namespace {
+
+namespace fs = std::filesystem;
+using What = BlessEntry::What;
+
+/// Folders that are made for new pictures, and unmade unless keep() says that there are pictures in them.
+class MadeFolders {
+ public:
+  MadeFolders() = default;
+  ~MadeFolders() {
+    std::error_code ec;
+    for (const fs::path& folder : made_) fs::remove(folder, ec);
+  }
+  MadeFolders(const MadeFolders&) = delete;
+  MadeFolders& operator=(const MadeFolders&) = delete;
+
+  void make(const fs::path& folder) {
+    std::error_code ec;
+    if (folder.empty() || fs::is_directory(folder, ec)) return;
+    make(folder.parent_path());
+    if (!fs::create_directory(folder, ec) || ec)
+      throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), ec ? ec.message() : "it exists"));
+    made_.insert(made_.begin(), folder);
+  }
+  void keep() { made_.clear(); }
+
+ private:
+  std::vector<fs::path> made_;  // the innermost first
+};
+
+/// What is new must be sound: a NaN in a reference would fail every comparison with it from then on.
+void check_fresh(const fs::path& path) {
+  const DiffResult self = diff_files(path, path);
+  if (self.nan_pixels != 0)
+    throw Error(fmt::format("{}: {}: a picture with a NaN is never the same as a reference, so it cannot become one",
+                            path.string(), self.reason));
+}
+
+}  // namespace
+
+std::vector<BlessEntry> plan_bless(const fs::path& fresh, const fs::path& reference,
+                                   const std::function<void(const std::string& name)>& each) {
+  const FolderPair pair = pair_folders(fresh, reference);
+  std::vector<BlessEntry> plan;
+  bool any = false;
+  for (const FolderEntry& entry : pair.pictures) {
+    if (each) each(entry.name);
+    BlessEntry& planned = plan.emplace_back(BlessEntry{entry.name, What::missing, ""});
+    if (!entry.in_a) continue;
+    any = true;
+    check_fresh(fresh / entry.name);
+    if (!entry.in_b) {
+      planned.what = What::added;
+      continue;
+    }
+    try {
+      const DiffResult r = diff_files(fresh / entry.name, reference / entry.name);
+      planned.what = r.same ? What::same : What::changed;
+      planned.reason = r.reason;
+    } catch (const Error& e) {
+      planned.what = What::changed;
+      planned.reason = e.what();
+    }
+  }
+  if (!any) throw Error(fmt::format("{}: holds no picture to take over", fresh.string()));
+  return plan;
+}
+
+void bless(const fs::path& fresh, const fs::path& reference, const std::vector<BlessEntry>& plan, bool prune) {
+  MadeFolders folders;
+  TempFiles files;
+  for (const BlessEntry& entry : plan) {
+    if (entry.what != What::changed && entry.what != What::added) continue;
+    const fs::path target = reference / entry.name;
+    folders.make(target.parent_path());
+    std::error_code ec;
+    if (!fs::copy_file(fresh / entry.name, files.add(target), ec) || ec)
+      throw Error(fmt::format("{}: cannot be written: {}", target.string(), ec.message()));
+  }
+  files.commit();
+  folders.keep();
+  if (!prune) return;
+  for (const BlessEntry& entry : plan) {
+    if (entry.what != What::missing) continue;
+    std::error_code ec;
+    if (!fs::remove(reference / entry.name, ec) || ec)
+      throw Error(fmt::format("{}: cannot be removed: {}", (reference / entry.name).string(), ec.message()));
+  }
+}
+
+}  // namespace kage

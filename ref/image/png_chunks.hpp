@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace kage {
+
+/// What OpenImageIO does not tell of a PNG file.
+struct PngChunks {
+  int bits = 0;                ///< of a stored value, where it is the value's: not with a palette; 0: unknown
+  std::string chromaticities;  ///< cHRM, eight numbers in 1/100000
+  bool animated = false;       ///< more pictures than the first
+};
+
+/// Looks at the chunks before the picture. Of a file that is no PNG, or a broken one, it tells what there is.
+PngChunks read_png_chunks(const std::filesystem::path& path);
+
+}  // namespace kage

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Comparing pictures, and folders of them. docs/diff.md says what each threshold means. All functions throw kage::Error
+// that names the file; that is trouble, and never a verdict.
+//
+// Laws, whatever the options: the verdict is symmetric; with no threshold, "same" is equal bits and likes; a wider
+// threshold never turns "same" into "different". The one exception to "equal to itself" is a picture with a NaN.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kage/image.hpp"
+
+namespace kage {
+
+/// Pixels x .. x + width - 1 of lines y .. y + height - 1, counted from the picture's first pixel.
+struct Box {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+  bool operator==(const Box&) const = default;
+};
+
+/// What is compared, and what is still the same. A value, one channel of a pixel, is the same if its bits are, or if it
+/// is within the threshold given; a pixel is the same if all its compared values are.
+///
+/// Each threshold means one thing, so each belongs to one sort of values, and Error is thrown where a picture holds the
+/// other: `lsb` to integers, `abs` and `ulp` (of which one at most is given) to half, float and double. A threshold of
+/// 0 is the same as none.
+struct DiffOptions {
+  std::optional<std::uint64_t> lsb;  ///< integers: |a - b| <= lsb, in steps of the file's type (1/65535 for 16 bits)
+  std::optional<double> abs;         ///< floats: |a - b| <= abs, computed in double; +0 and -0 are within any abs > 0
+  std::optional<std::uint64_t> ulp;  ///< floats: so many representable numbers further; -0 and +0 are neighbours
+  std::optional<std::uint64_t> max_pixels;  ///< so many different pixels are still "same"
+  std::optional<double> max_percent;  ///< likewise, of all compared pixels; with both, both hold; with neither, none
+  std::optional<Box> region;          ///< only these pixels; Error where they are not all in the picture
+  Image
+      mask;  ///< if not empty, only pixels that are not 0 in it: one channel, as load_mask() makes it; sizes are alike
+  bool ignore_alpha = false;  ///< values of the alpha channel are not compared; pictures still both have one or not
+  bool perceptual = false;    ///< compute DiffResult::perceptual_pixels, which takes time
+};
+
+/// Outcome. Of pictures that are unlike in what no threshold tolerates (size, place, channels, types, colour space)
+/// only `same` and `reason` are set, and width is 0.
+struct DiffResult {
+  struct Position {
+    int x = 0;
+    int y = 0;
+    int channel = 0;
+  };
+  /// The box of differing pixels that lie near each other (in tiles of 8 x 8 pixels that touch), and their number.
+  /// Boxes of one comparison may overlap; each pixel is counted in one.
+  struct Region {
+    Box box;
+    std::uint64_t pixels = 0;
+  };
+  bool same = false;
+  std::string reason;  ///< why not, in words; empty if same
+  int width = 0;
+  int height = 0;
+  int channels = 0;
+  bool floats = false;                 ///< some channel is half, float or double
+  std::uint64_t compared_pixels = 0;   ///< within region and mask
+  std::uint64_t different_pixels = 0;  ///< compared and beyond the threshold, or with a NaN
+  std::uint64_t nan_pixels = 0;        ///< pixels with a NaN on either side, compared or not: never tolerated
+  // Over all compared values, whatever the thresholds; nothing where no such value was compared.
+  std::optional<std::uint64_t> max_lsb;  ///< largest distance of two integers
+  std::optional<double> max_abs;         ///< of two floats; infinite if one is
+  std::optional<std::uint64_t> max_ulp;  ///< of two floats
+  std::optional<Position> first;         ///< first different pixel, line by line, and its first different channel
+  std::vector<Region> regions;           ///< of differing pixels, most pixels first, kMaxRegions at most
+  std::uint64_t region_count = 0;        ///< all of them
+  // Diagnosis only: no verdict ever depends on these.
+  std::optional<double> psnr;  ///< dB over all compared values, peak the type's largest or 1.0; nothing if not finite
+  std::optional<std::uint64_t> perceptual_pixels;  ///< that OpenImageIO's compare_Yee tells apart
+};
+
+inline constexpr std::size_t kMaxRegions = 64;
+
+/// Pictures of a comparison, 8 bits and three channels, for people to look at. Values beyond 8 bits or outside 0 .. 1
+/// are cut to that.
+struct DiffViews {
+  Image heat;  ///< A dimmed; red, the brighter the further apart, where A and B differ; ochre where a threshold
+               ///< tolerates it; pink at a NaN; blue where nothing was compared. Empty if the pictures are unlike
+  Image a;
+  Image b;
+};
+
+/// Compare two picture files of any type OpenImageIO reads, one picture each.
+DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {},
+                      DiffViews* views = nullptr);
+
+/// The same for pictures in memory; `heat` as DiffViews::heat.
+DiffResult diff_images(const Image& a, const Image& b, const DiffOptions& options = {}, Image* heat = nullptr);
+
+/// A mask from a picture of any type: pixels that are not 0 in some channel other than alpha (or in alpha, if that is
+/// all there is) become 255. Throws Error if there is a NaN, or no such pixel.
+Image load_mask(const std::filesystem::path& path);
+
+/// Write `a` and `b` as a picture that shows one after the other, half a second each, for ever: an animated PNG (.png
+/// or .apng), whose first picture, `a`, is what a program shows that knows no animation. Three channels; where sizes
+/// are unlike, black fills up the smaller.
+void save_flip(const std::filesystem::path& path, const Image& a, const Image& b);
+
+/// A picture's name in one or both of two folders, by '/' from the folder, subfolders included.
+struct FolderEntry {
+  std::string name;
+  bool in_a = false;
+  bool in_b = false;
+};
+
+struct FolderPair {
+  std::vector<FolderEntry> pictures;  ///< sorted by name
+  std::vector<std::string> others;    ///< names of files that are no pictures by their extension, in either folder
+};
+
+/// Matches pictures by name. Pictures are what has one of the extensions listed in docs/diff.md; files and folders
+/// whose names begin with a dot are left out. Throws Error if a folder cannot be read.
+FolderPair pair_folders(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// What becomes of a picture of a reference folder.
+struct BlessEntry {
+  enum class What { same, changed, added, missing };
+  std::string name;
+  What what{};
+  std::string reason;  ///< changed: how, in words
+};
+
+/// Compares all pictures of `fresh` with those of the folder `reference`, exactly, and changes nothing. A reference
+/// that cannot be read counts as changed. Throws Error if a picture of `fresh` cannot be read or holds a NaN, or if
+/// there is none. `each` is called before each picture; what it throws goes through.
+std::vector<BlessEntry> plan_bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
+                                   const std::function<void(const std::string& name)>& each = {});
+
+/// Does it: copies what is `changed` or `added` over, byte by byte, and with `prune` removes what is `missing`. Files
+/// that are `same` are not touched. All copies are written under other names before the first one gets its own.
+void bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
+           const std::vector<BlessEntry>& plan, bool prune);
+
+}  // namespace kage

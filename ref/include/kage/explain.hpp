@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The history of a pixel: every token of its frame that touched it, in order, with what it compared and what it left.
+// The golden core itself shows the states, so what is told is what it did.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kage/core.hpp"
+#include "kage/stream.hpp"
+
+namespace kage {
+
+/// What a token did to the pixel.
+struct PixelTouch {
+  std::uint32_t token = 0;                  ///< index in its frame; the header is 0
+  Token what;                               ///< the token
+  std::string text;                         ///< as `kage info --tokens` prints it
+  std::optional<std::uint32_t> z;           ///< the depth that was compared with the pixel's; none where no depth is
+  std::optional<std::uint32_t> polyhedron;  ///< TREE: the draw index of the one that has the pixel in the tree
+  std::string effect;                       ///< in words: "drawn: Z 812 is nearer than 4031"
+  PixelState before;
+  PixelState after;
+  std::uint32_t bias = 0;  ///< of the line, after the token
+};
+
+/// One comparison in the tree of a polyhedra line.
+struct TreeMatch {
+  int level = 0;                    ///< 1 is that of the units
+  LineView::UnitPixel left, right;  ///< the right one is clear where there is none
+  bool right_wins = false;          ///< the lesser depth, then the lesser draw index
+};
+
+struct PixelHistory {
+  int x = 0;
+  int y = 0;
+  FrameStatus status;  ///< how the frame ended; an error leaves background from its line on
+  std::vector<PixelTouch> touches;
+  std::vector<LineView::UnitPixel> units;    ///< what each expansion unit had for the pixel, where a TREE came
+  std::vector<std::vector<TreeMatch>> tree;  ///< the path through the tree, level by level
+  std::array<std::uint8_t, 3> color{};       ///< what left
+  std::string color_text;                    ///< why that colour, in words
+};
+
+/// Run a frame and tell the history of pixel (x, y). Cost: that of the frame once, one pixel looked at per token.
+/// Throws Error if the frame has no such pixel.
+PixelHistory explain_pixel(const Config& config, std::span<const std::uint32_t> words, int x, int y);
+
+/// A pixel's state in words: "Z 812, color 10,20,30, lit, DSF 1".
+std::string describe(const Config& config, const PixelState& state);
+
+/// What the tree of a polyhedra line did at the pixel, in words: a line for each unit that had something there and for
+/// each comparison of its way. Empty if there was none.
+std::vector<std::string> describe_tree(const Config& config, const PixelHistory& history);
+
+}  // namespace kage

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Comparing stream files: configuration, frame by frame, token by token. Always exact; docs/diff.md.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kage/stream.hpp"
+
+namespace kage {
+
+/// Where two frames first differ. Tokens are numbered as errors and `kage info --tokens` number them: 0 is the header.
+struct StreamPlace {
+  int frame = 0;
+  std::optional<int> line;  ///< nothing in the header and in the frame's state, which come before the lines
+  std::uint64_t token = 0;
+  std::string field;  ///< as docs/stream.md names it, "color[1]" for channel 1; "kind" where the tokens are of two
+                      ///< kinds, "token" or "frame" where one of the streams has none there
+  std::string a;      ///< the token in words, as to_string() has it
+  std::string b;
+};
+
+struct FrameDiff {
+  int frame = 0;
+  bool same = false;
+  std::uint64_t different_lines = 0;   ///< those that one stream lacks included
+  std::uint64_t different_tokens = 0;  ///< see StreamDiff
+  std::optional<StreamPlace> first;
+};
+
+/// Outcome. Lines are matched by their number, and in a line all tokens are different from the first to the last one
+/// that is, in the stream that has more of them there: a token put in between counts once.
+struct StreamDiff {
+  struct Parameter {
+    std::string name;
+    int a = 0;
+    int b = 0;
+  };
+  struct Section {
+    std::string tag;
+    std::string how;  ///< "only in A", "only in B", "contents", "place among the frames"
+  };
+  bool same = false;
+  std::string reason;  ///< why not, in words; empty if same
+  int frames_a = 0;
+  int frames_b = 0;
+  std::vector<Parameter> parameters;  ///< of the configurations, those that are unlike
+  bool tokens_compared = false;  ///< not where a parameter that affects pixels is unlike: the same words mean others
+  std::uint64_t different_frames = 0;  ///< those that one stream lacks included
+  std::uint64_t different_lines = 0;
+  std::uint64_t different_tokens = 0;
+  std::optional<StreamPlace> first;
+  std::vector<Section> sections;  ///< those that differ, besides configuration and frames
+};
+
+/// Compares two stream files. Both are checked whole, as StreamFile::frame() does, and Error is thrown where one is
+/// damaged. `each` is called after each frame; what it throws goes through. What is in memory is a frame of each,
+/// whatever the files' length.
+StreamDiff diff_streams(const StreamFile& a, const StreamFile& b,
+                        const std::function<void(const FrameDiff&)>& each = {});
+
+}  // namespace kage

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "kage/stream_diff.hpp"
+#include "number/bits.hpp"
+#include "stream/fields.hpp"
+
+namespace kage {
+namespace {
+
+using Words = std::span<const std::uint32_t>;
+
+/// Tokens that belong together: a frame's state, or a line with its EOL.
+struct Group {
+  std::uint64_t first = 0;  // number of its first token
+  std::vector<Words> tokens;
+};
+
+/// A frame's groups, one after the other. The frame has been checked.
+class GroupReader {
+ public:
+  GroupReader(const Layout& layout, Words frame) : layout_(layout), rest_(frame.subspan(kHeaderWords)) {}
+
+  /// SHADE, TABLE and FACE; may be none.
+  void state(Group& group) {
+    start(group);
+    while (kind() == Kind::SHADE || kind() == Kind::TABLE || kind() == Kind::FACE) take(group);
+  }
+
+  /// The next line; false behind the last one.
+  bool line(Group& group) {
+    start(group);
+    if (kind() == Kind::END) return false;
+    while (kind() != Kind::EOL) take(group);
+    take(group);
+    return true;
+  }
+
+ private:
+  [[nodiscard]] Kind kind() const { return static_cast<Kind>(rest_[0] & 15U); }
+
+  void start(Group& group) const {
+    group.first = number_;
+    group.tokens.clear();
+  }
+
+  void take(Group& group) {
+    const std::size_t words = layout_.words[static_cast<std::size_t>(kind())];
+    group.tokens.push_back(rest_.first(words));
+    rest_ = rest_.subspan(words);
+    ++number_;
+  }
+
+  const Layout& layout_;
+  Words rest_;
+  std::uint64_t number_ = 1;  // 0 is the header
+};
+
+bool equal(Words a, Words b) { return std::equal(a.begin(), a.end(), b.begin(), b.end()); }
+
+class FrameComparer {
+ public:
+  FrameComparer(const Config& config, int frame, Words a, Words b) : config_(config), a_(a), b_(b) {
+    diff_.frame = frame;
+  }
+
+  FrameDiff run() {
+    diff_.same = equal(a_, b_);
+    if (diff_.same) return diff_;
+    header();
+    GroupReader reader_a(layout_, a_);
+    GroupReader reader_b(layout_, b_);
+    Group ga;
+    Group gb;
+    reader_a.state(ga);
+    reader_b.state(gb);
+    (void)group(ga, gb, {});
+    for (int line = 0;; ++line) {
+      const bool in_a = reader_a.line(ga);
+      const bool in_b = reader_b.line(gb);
+      if (!in_a && !in_b) return diff_;
+      if (group(ga, gb, line)) ++diff_.different_lines;
+    }
+  }
+
+ private:
+  void header() {
+    const auto field = [&](const char* name, const std::string& in_a, const std::string& in_b) {
+      if (in_a != in_b) found({}, 0, name, in_a, in_b);
+    };
+    if (equal(a_.first(kHeaderWords), b_.first(kHeaderWords))) return;
+    ++diff_.different_tokens;
+    field("width", fmt::format("{} pixels", a_[1] & 0xffff), fmt::format("{} pixels", b_[1] & 0xffff));
+    field("height", fmt::format("{} lines", a_[1] >> 16), fmt::format("{} lines", b_[1] >> 16));
+    field("background", fmt::format("{:#08x}", a_[3]), fmt::format("{:#08x}", b_[3]));
+    field("frame", fmt::format("frame number {}", a_[4]), fmt::format("frame number {}", b_[4]));
+  }
+
+  /// True if the groups differ.
+  bool group(const Group& a, const Group& b, std::optional<int> line) {
+    const auto [at_a, at_b] = std::mismatch(a.tokens.begin(), a.tokens.end(), b.tokens.begin(), b.tokens.end(), equal);
+    if (at_a == a.tokens.end() && at_b == b.tokens.end()) return false;
+    const auto same_before = static_cast<std::size_t>(at_a - a.tokens.begin());
+    const auto [end_a, end_b] = std::mismatch(a.tokens.rbegin(), std::make_reverse_iterator(at_a), b.tokens.rbegin(),
+                                              std::make_reverse_iterator(at_b), equal);
+    const auto left_a = std::make_reverse_iterator(at_a) - end_a;
+    const auto left_b = std::make_reverse_iterator(at_b) - end_b;
+    diff_.different_tokens += static_cast<std::uint64_t>(std::max(left_a, left_b));
+    const Words ta = at_a == a.tokens.end() ? Words() : *at_a;
+    const Words tb = at_b == b.tokens.end() ? Words() : *at_b;
+    if (!diff_.first) found(line, a.first + same_before, field(ta, tb), words(ta), words(tb));
+    return true;
+  }
+
+  void found(std::optional<int> line, std::uint64_t token, std::string field, std::string a, std::string b) {
+    if (!diff_.first) diff_.first = StreamPlace{diff_.frame, line, token, std::move(field), std::move(a), std::move(b)};
+  }
+
+  [[nodiscard]] std::string words(Words token) const {
+    return token.empty() ? "nothing" : to_string(config_, decode(config_, layout_, token));
+  }
+
+  /// The bits of a field, the lowest first.
+  static std::uint64_t bits_of(Words token, Field f) {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < f.bits; ++i) {
+      const auto at = static_cast<std::size_t>(f.lsb + i);
+      bits |= std::uint64_t{token[at / 32] >> at % 32 & 1U} << i;
+    }
+    return bits;
+  }
+
+  /// The first field in which two unequal tokens differ.
+  [[nodiscard]] std::string field(Words a, Words b) const {
+    if (a.empty() || b.empty()) return "token";
+    if (((a[0] ^ b[0]) & 15U) != 0) return "kind";
+    std::string name;
+    each_field(layout_, static_cast<Kind>(a[0] & 15U), [&](const char* n, int channel, Field f) {
+      if (!name.empty() || bits_of(a, f) == bits_of(b, f)) return;
+      name = channel < 0 ? std::string(n) : fmt::format("{}[{}]", n, channel);
+    });
+    return name;
+  }
+
+  const Config& config_;
+  Layout layout_{config_};
+  Words a_;
+  Words b_;
+  FrameDiff diff_;
+};
+
+/// A frame that only one of the streams has.
+FrameDiff lone_frame(int frame, const TokenCounts& counts, bool in_a) {
+  FrameDiff diff;
+  diff.frame = frame;
+  diff.different_lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)];
+  diff.different_tokens =
+      std::accumulate(counts.of_kind.begin(), counts.of_kind.end(), std::uint64_t{1});  // the header
+  const std::string text = fmt::format("a frame of {} lines", diff.different_lines);
+  diff.first = StreamPlace{frame, {}, 0, "frame", in_a ? text : "nothing", in_a ? "nothing" : text};
+  return diff;
+}
+
+std::vector<StreamDiff::Section> diff_sections(const std::vector<StreamSection>& a,
+                                               const std::vector<StreamSection>& b) {
+  std::vector<StreamDiff::Section> found;
+  std::vector<bool> taken(b.size());
+  for (const StreamSection& s : a) {
+    std::size_t k = 0;
+    while (k < b.size() && (taken[k] || b[k].tag != s.tag)) ++k;
+    if (k == b.size()) {
+      found.push_back({s.tag, "only in A"});
+      continue;
+    }
+    taken[k] = true;
+    if (b[k].payload != s.payload)
+      found.push_back({s.tag, "contents"});
+    else if (b[k].frames_before != s.frames_before)
+      found.push_back({s.tag, "place among the frames"});
+  }
+  for (std::size_t k = 0; k < b.size(); ++k)
+    if (!taken[k]) found.push_back({b[k].tag, "only in B"});
+  return found;
+}
+
+std::string reason_of(const StreamDiff& d) {
+  std::vector<std::string> parts;
+  if (!d.parameters.empty()) {
+    const StreamDiff::Parameter& p = d.parameters.front();
+    parts.push_back(fmt::format("configurations are unlike: {} is {} and {}", p.name, p.a, p.b));
+    if (d.parameters.size() > 1) parts.back() += fmt::format(", and {} more", d.parameters.size() - 1);
+  }
+  if (d.frames_a != d.frames_b) parts.push_back(fmt::format("{} frames and {}", d.frames_a, d.frames_b));
+  if (d.different_frames != 0)
+    parts.push_back(fmt::format("{} of {} frames {}", d.different_frames, std::max(d.frames_a, d.frames_b),
+                                d.different_frames == 1 ? "differs" : "differ"));
+  for (const StreamDiff::Section& s : d.sections) parts.push_back(fmt::format("section {} differs: {}", s.tag, s.how));
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+  return text;
+}
+
+}  // namespace
+
+StreamDiff diff_streams(const StreamFile& a, const StreamFile& b, const std::function<void(const FrameDiff&)>& each) {
+  StreamDiff d;
+  d.frames_a = a.frame_count();
+  d.frames_b = b.frame_count();
+  d.tokens_compared = true;
+  for (const ParamInfo& p : kParams) {
+    if (a.config().*(p.member) == b.config().*(p.member)) continue;
+    d.parameters.push_back({std::string(p.name), a.config().*(p.member), b.config().*(p.member)});
+    d.tokens_compared = d.tokens_compared && !p.affects_pixels;
+  }
+  for (int i = 0; i < std::max(d.frames_a, d.frames_b); ++i) {
+    TokenCounts counts;
+    const Words in_a = i < d.frames_a ? a.frame(i, &counts) : Words();
+    const Words in_b = i < d.frames_b ? b.frame(i, &counts) : Words();
+    const bool both = i < d.frames_a && i < d.frames_b;
+    FrameDiff frame;
+    frame.frame = i;
+    frame.same = true;
+    if (!both)
+      frame = lone_frame(i, counts, i < d.frames_a);
+    else if (d.tokens_compared)
+      frame = FrameComparer(a.config(), i, in_a, in_b).run();
+    if (!frame.same) ++d.different_frames;
+    d.different_lines += frame.different_lines;
+    d.different_tokens += frame.different_tokens;
+    if (!d.first) d.first = frame.first;
+    if (each) each(frame);
+    if (i < d.frames_a) a.leave(i);
+    if (i < d.frames_b) b.leave(i);
+  }
+  d.sections = diff_sections(a.sections(), b.sections());
+  d.reason = reason_of(d);
+  d.same = d.reason.empty();
+  return d;
+}
+
+}  // namespace kage
