@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
+#include <filesystem>
 
 #include "cosim/core.hpp"
 #include "cosim/model.hpp"
 #include "cosim/rtl.hpp"
+#include "cosim/run.hpp"
 #include "kage/config.hpp"
 #include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
@@ -32,6 +35,58 @@ double least(int runs, Work work) {
     best = std::min(best, seconds_since(start));
   }
   return best;
+}
+
+/// Processor time of this process.
+double processor_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
+}
+
+/// What the comparison adds to running both cores, and the monitors to the RTL. Runs take turns, so that all suffer
+/// alike from what else the machine does.
+void compare_cost(const Scene& scene, const Config& config, const std::filesystem::path& library) {
+  std::vector<std::vector<std::uint32_t>> frames;
+  for (int i = 0; i < scene.frame_count(); ++i)
+    make_frame(make_geometry(scene.frame(i, scene.frame_count()), config, 640, 480), config,
+               static_cast<std::uint32_t>(i), frames.emplace_back(), 1);
+  const auto golden = cosim::make_golden(config);
+  const auto rtl = cosim::make_rtl(library, config);
+  const auto traced = cosim::make_rtl(cosim::find_model(config, {.traced = true}).library, config);
+  std::uint64_t sum = 0;  // somebody reads the pixels
+  const LineSink sink = [&sum](int, std::span<const std::uint8_t> pixels) { sum += pixels.back(); };
+  const cosim::Feed feed = [&](int i, const WordSink& out) {
+    out(frames[static_cast<std::size_t>(i)]);
+    return TokenCounts{};
+  };
+  cosim::RunOptions options;
+  options.two_threads = false;
+  double both = 1e300;
+  double compared = 1e300;
+  double watched = 1e300;
+  const auto time = [](double& best, auto work) {
+    const double start = processor_seconds();
+    work();
+    best = std::min(best, processor_seconds() - start);
+  };
+  for (int run = 0; run < 9; ++run) {
+    time(both, [&] {
+      for (const auto& words : frames) {
+        (void)golden->frame(words, sink);
+        (void)rtl->frame(words, sink);
+      }
+    });
+    time(compared, [&] { (void)cosim::run(scene.frame_count(), feed, *golden, *rtl, options); });
+    if (run % 3 == 0)
+      time(watched, [&] {
+        for (const auto& words : frames) (void)traced->frame(words, sink);
+      });
+  }
+  fmt::print(
+      "both cores alone {:.1f} ms a pass, compared {:.1f} ms: the comparison adds {:+.1f} %; RTL built with monitors, "
+      "none read: {:.1f} ms\n",
+      both * 1e3, compared * 1e3, (compared / both - 1) * 100, watched * 1e3);
 }
 
 }  // namespace
@@ -80,6 +135,7 @@ int main() {
     golden_sum += golden_time;
     rtl_sum += rtl_time;
   }
+  compare_cost(scene, config, model.library);
   const double n = scene.frame_count();
   fmt::print(
       "golden: {:.2f} ns per pixel of the frame; RTL / golden: {:.1f}; co-simulation on one thread, pictures not "

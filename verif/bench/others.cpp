@@ -198,14 +198,9 @@ Outcome compare(const std::string& name, const SceneFrame& frame, int width, int
   s.width = width;
   s.height = height;
 
-  glm::dvec3 low(INFINITY);
-  glm::dvec3 high(-INFINITY);
-  for (const glm::dvec3& v : s.frame.vertices)
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], v[i]);
-      high[i] = std::max(high[i], v[i]);
-    }
-  const auto offset = static_cast<float>(1e-5 * glm::length(high - low));
+  Box box;
+  for (const glm::dvec3& v : s.frame.vertices) box.add(v);
+  const auto offset = static_cast<float>(1e-5 * box.diagonal());
 
   std::vector<double> builds;
   for (int i = 0; i < 5; ++i) {

@@ -7,11 +7,12 @@
 #include <chrono>
 #include <filesystem>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
+#include "scene/space.hpp"
+#include "support/shapes.hpp"
 
 namespace {
 
@@ -24,36 +25,13 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 
 /// A square under the scene, twice as wide.
 void add_floor(SceneFrame& f) {
-  glm::dvec3 low(std::numeric_limits<double>::max());
-  glm::dvec3 high = -low;
-  for (const glm::dvec3& v : f.vertices)
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], v[i]);
-      high[i] = std::max(high[i], v[i]);
-    }
-  const glm::dvec3 middle = (low + high) * 0.5;
-  const double half = std::max(high.x - low.x, high.z - low.z);
-  const double y = low.y - 0.01 * (high.y - low.y);
-  const auto first = static_cast<std::uint32_t>(f.vertices.size());
-  const auto shading = static_cast<std::uint32_t>(f.shading.size());
-  for (const auto& [x, z] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}})
-    f.vertices.emplace_back(middle.x + half * x, y, middle.z + half * z);
-  f.shading.push_back({{0, 1, 0}, {0.6, 0.6, 0.6}});
-  Component c;
-  c.first = static_cast<std::uint32_t>(f.triangles.size());
-  c.count = 2;
-  c.first_polygon = static_cast<std::uint32_t>(f.polygons.size());
-  c.polygon_count = 2;
-  for (const std::uint32_t k : {1U, 2U}) {
-    Triangle t;
-    t.vertex = {first, first + k, first + k + 1};
-    t.shading = {shading, shading, shading};
-    f.polygons.push_back(
-        {static_cast<std::uint32_t>(f.corners.size()), 3, static_cast<std::uint32_t>(f.triangles.size())});
-    f.corners.insert(f.corners.end(), t.vertex.begin(), t.vertex.end());
-    f.triangles.push_back(t);
-  }
-  f.components.push_back(c);
+  Box box;
+  for (const glm::dvec3& v : f.vertices) box.add(v);
+  const glm::dvec3 size = box.high - box.low;
+  const glm::dvec3 middle{box.low.x + size.x / 2, box.low.y - 0.01 * size.y, box.low.z + size.z / 2};
+  const double half = std::max(size.x, size.z);
+  const verif::Solid floor{{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}}, {{0, 1, 2}, {0, 2, 3}}};
+  verif::add_solid(f, floor, middle, {half, 1, half}, verif::Turn{}, {0.6, 0.6, 0.6}, false, false);
 }
 
 struct Sum {

@@ -68,11 +68,18 @@ class Looks {
     if (shown_ == Shown::shadow) return look;
     const Triangle& t = frame_->triangles[face.triangle];
     const auto corners = frame_->outline(face);
+    const std::bitset<kMaxLights> lit(look.lit ? 1 : 0);
+    const bool by_place = lighting_.depends_on_place(lit);
     glm::dvec3 sum{0, 0, 0};
+    glm::dvec3 color{0, 0, 0};
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      const ShadingVertex& s = frame_->shading[t.shading[corners.size() == 3 ? i : 0]];
-      sum += lighting_.displayed(frame_->vertices[corners[i]], to_eye < 0 ? -s.normal : s.normal, s.color,
-                                 std::bitset<kMaxLights>(look.lit ? 1 : 0), false);
+      const std::uint32_t of_corner = t.shading[corners.size() == 3 ? i : 0];
+      const ShadingVertex& s = frame_->shading[of_corner];
+      // As kage does it: a corner that looks as the one before is not worked out again.
+      if (i == 0 || by_place || (corners.size() == 3 && of_corner != t.shading[i - 1]))
+        color =
+            lighting_.displayed(frame_->vertices[corners[i]], to_eye < 0 ? -s.normal : s.normal, s.color, lit, false);
+      sum += color;
     }
     for (std::size_t c = 0; c < 3; ++c)
       look.color[c] = static_cast<std::uint8_t>(

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What mutants are tried on: small configurations that between them have everything, and frames for each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cosim/core.hpp"
+#include "cosim/rtl.hpp"
+#include "kage/config.hpp"
+
+namespace kage::verif {
+
+/// A frame, and what the golden core makes of it.
+struct TrialFrame {
+  std::vector<std::uint32_t> words;
+  std::vector<std::vector<std::uint8_t>> lines;
+  cosim::FrameEnd end;
+};
+
+/// Frames that one core takes one after the other.
+struct Sequence {
+  cosim::RtlOptions rtl;  ///< stalls and seed
+  std::vector<TrialFrame> frames;
+};
+
+struct Inputs {
+  std::string name;
+  Config config;
+  std::vector<Sequence> sequences;
+};
+
+/// Names and parameters alone.
+std::vector<Inputs> trial_configurations();
+
+/// Adds the frames: valid and damaged ones, with input always there and output always taken, and with stalls.
+void make_frames(Inputs& inputs, std::uint64_t seed);
+
+}  // namespace kage::verif

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tries mutants of the RTL, prints a table of what became of each, and fails if one lives or is blamed on another
+// module.
+//
+// usage: mutants [--markdown] [--sample N SEED | NAME...]
+//        mutants --speed     what monitors and mutants cost in clocks a second
+//
+// Without names all of verif/mutants/mutants.yaml. Exit code 0: all as they should be; 1: not; 2: trouble.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "cosim/model.hpp"
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+#include "mutants/list.hpp"
+#include "mutants/trial.hpp"
+#include "support/random.hpp"
+
+namespace kage::verif {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// What models print of failed assertions goes nowhere; out() is where this program prints.
+class Quiet {
+ public:
+  Quiet() : out_(fdopen(dup(STDOUT_FILENO), "w")) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    close(nowhere);
+  }
+  ~Quiet() { std::fclose(out_); }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+  [[nodiscard]] FILE* out() const { return out_; }
+
+ private:
+  FILE* out_;
+};
+
+struct Result {
+  Mutant mutant;
+  std::string config;  ///< in which it was found out
+  std::string expected;
+  std::optional<Verdict> verdict;
+
+  [[nodiscard]] bool right() const { return verdict && verdict->module == expected; }
+  [[nodiscard]] bool fine() const { return mutant.equivalent.empty() ? right() : !verdict; }
+};
+
+/// A configuration with its frames and its model, made when first asked for.
+class Trials {
+ public:
+  Trials(FILE* out, std::uint64_t seed) : out_(out), seed_(seed), all_(trial_configurations()) {}
+
+  [[nodiscard]] const std::vector<Inputs>& all() const { return all_; }
+
+  std::optional<Verdict> attempt(std::size_t i, int mutant) {
+    Inputs& inputs = all_[i];
+    if (inputs.sequences.empty()) {
+      libraries_[i] = cosim::find_model(inputs.config, {.traced = true, .mutants = true}).library;
+      make_frames(inputs, seed_);
+      // No mutant selected: the same. Without that no verdict means anything.
+      if (const auto v = try_mutant(libraries_[i], inputs, 0))
+        throw Error(fmt::format("configuration {}: the sound RTL is {}: {}", inputs.name, v->how, v->text));
+      if (const auto text = sound_divergence(libraries_[i], inputs))
+        throw Error(fmt::format("configuration {}: a stage of the sound RTL differs: {}", inputs.name, *text));
+      fmt::print(stderr, "configuration {}: the sound RTL is the same\n", inputs.name);
+    }
+    return try_mutant(libraries_[i], inputs, mutant);
+  }
+
+ private:
+  FILE* out_;
+  std::uint64_t seed_;
+  std::vector<Inputs> all_;
+  std::map<std::size_t, std::filesystem::path> libraries_;
+};
+
+Result run(const Mutant& m, Trials& trials) {
+  Result r{m, "", "", std::nullopt};
+  for (std::size_t i = 0; i < trials.all().size() && !r.verdict; ++i) {
+    const Inputs& inputs = trials.all()[i];
+    if (!m.configs.empty() && std::find(m.configs.begin(), m.configs.end(), inputs.name) == m.configs.end()) continue;
+    r.config = inputs.name;
+    r.expected = m.module_in(inputs.config);
+    r.verdict = trials.attempt(i, m.number);
+  }
+  return r;
+}
+
+std::string end_of(const Result& r) {
+  if (!r.verdict) return r.mutant.equivalent.empty() ? "LIVES" : "equivalent";
+  return r.verdict->how;
+}
+
+void print_row(FILE* out, const Result& r, bool markdown) {
+  const std::string module = r.verdict ? r.verdict->module : "";
+  const std::string named = r.verdict && !r.right() ? fmt::format("{} (not {})", module, r.expected) : module;
+  if (markdown) {
+    fmt::print(out, "| {} | {} | {}: {} | {} | {} | {} |\n", r.mutant.name, r.mutant.file, r.mutant.kind,
+               r.mutant.breaks, r.verdict ? r.config : "", end_of(r), named);
+  } else {
+    fmt::print(out, "{:<22} {:<18} {:<16} {:<10} {}\n", r.mutant.name,
+               std::filesystem::path(r.mutant.file).stem().string(), r.verdict ? r.config : "", end_of(r), named);
+    if (r.verdict && !r.right()) fmt::print(out, "    {}\n", r.verdict->text);
+  }
+  std::fflush(out);
+}
+
+std::vector<Mutant> chosen(std::vector<Mutant> all, const std::vector<std::string>& names, int sample,
+                           std::uint64_t seed) {
+  if (sample > 0) {
+    Random random(seed);
+    random.shuffle(all);
+    all.resize(std::min(all.size(), static_cast<std::size_t>(sample)));
+    std::sort(all.begin(), all.end(), [](const Mutant& a, const Mutant& b) { return a.number < b.number; });
+  }
+  if (names.empty()) return all;
+  std::vector<Mutant> some;
+  for (const std::string& name : names) {
+    const auto it = std::find_if(all.begin(), all.end(), [&](const Mutant& m) { return m.name == name; });
+    if (it == all.end()) throw Error(fmt::format("{}: no such mutant in verif/mutants/mutants.yaml", name));
+    some.push_back(*it);
+  }
+  return some;
+}
+
+// Simulated clocks a second of the first configuration's frames.
+void print_speed() {
+  Inputs inputs = trial_configurations().front();
+  make_frames(inputs, 1);
+  const auto measure = [&](const char* name, const cosim::ModelOptions& options) {
+    const auto library = cosim::find_model(inputs.config, options).library;
+    std::uint64_t clocks = 0;
+    double seconds = 0;
+    for (int round = 0; round < 20; ++round) {
+      const auto rtl = make_rtl(library, inputs.config, inputs.sequences.front().rtl);
+      for (const TrialFrame& f : inputs.sequences.front().frames) {
+        const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
+        rtl->feed(f.words, nowhere);
+        const cosim::FrameEnd end = rtl->finish(nowhere);
+        clocks += end.cycles;
+        seconds += end.seconds;
+      }
+    }
+    fmt::print("{:<28} {:.0f} clocks a second\n", name, static_cast<double>(clocks) / seconds);
+  };
+  measure("plain", {});
+  measure("with mutants", {.mutants = true});
+  measure("with monitors", {.traced = true});
+  measure("with monitors and mutants", {.traced = true, .mutants = true});
+}
+
+int run_all(std::vector<std::string> arguments) {
+  bool markdown = false;
+  int sample = 0;
+  std::uint64_t seed = test_seed();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "--speed") {
+      print_speed();
+      return 0;
+    }
+    if (arguments[i] == "--markdown") {
+      markdown = true;
+    } else if (arguments[i] == "--sample" && i + 2 < arguments.size()) {
+      sample = std::stoi(arguments[++i]);
+      seed = std::stoull(arguments[++i]);
+    } else if (arguments[i].starts_with("--")) {
+      throw Error("usage: mutants [--markdown] [--sample N SEED | NAME...], or --speed");
+    } else {
+      names.push_back(arguments[i]);
+    }
+  }
+  const auto mutants = chosen(load_mutants(data_directory() / "verif/mutants/mutants.yaml"), names, sample, seed);
+  const Quiet quiet;
+  const auto start = Clock::now();
+  Trials trials(quiet.out(), test_seed());
+  if (markdown)
+    fmt::print(
+        quiet.out(),
+        "| mutant | of `rtl/` | what it breaks | configuration | verdict | named |\n|---|---|---|---|---|---|\n");
+  std::vector<Result> results;
+  for (const Mutant& m : mutants) {
+    results.push_back(run(m, trials));
+    print_row(quiet.out(), results.back(), markdown);
+  }
+
+  const auto count = [&](auto is) { return std::count_if(results.begin(), results.end(), is); };
+  const auto equivalent = count([](const Result& r) { return !r.mutant.equivalent.empty(); });
+  const auto killed = count([](const Result& r) { return r.mutant.equivalent.empty() && r.verdict; });
+  const auto right = count([](const Result& r) { return r.mutant.equivalent.empty() && r.right(); });
+  const auto wanted = static_cast<std::ptrdiff_t>(results.size()) - equivalent;
+  fmt::print(
+      quiet.out(),
+      "{}{} mutants, {} of them equivalent; of the other {}: {} killed, {} live; {} named right, {} wrong; {:.0f} s\n",
+      markdown ? "\n" : "", results.size(), equivalent, wanted, killed, wanted - killed, right, killed - right,
+      since(start));
+  return std::all_of(results.begin(), results.end(), [](const Result& r) { return r.fine(); }) ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace kage::verif
+
+int main(int argc, char** argv) {
+  try {
+    return kage::verif::run_all({argv + 1, argv + argc});
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "mutants: {}\n", e.what());
+    return 2;
+  }
+}

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mutants/registers.hpp"
+
+#include <fmt/format.h>
+
+#include "kage/defs.hpp"
+#include "kage/registers.h"
+#include "kage/stream.hpp"
+
+namespace kage::verif {
+namespace {
+
+constexpr int kOkay = 0;
+constexpr int kSlverr = 2;
+constexpr std::uint32_t kWatchdog = 50;  // clocks
+
+struct Wrong {
+  std::string what;
+};
+
+/// Throws Wrong at the first thing that is.
+class Checker {
+ public:
+  Checker(cosim::RtlCore& rtl, const Inputs& inputs) : rtl_(rtl), inputs_(inputs) {}
+
+  void all() {
+    constants();
+    addresses();
+    frames();
+    interrupt();
+    cycles();
+    watchdog();
+  }
+
+ private:
+  static constexpr auto kNowhere = [](int, std::span<const std::uint8_t>) {};
+
+  static void same(const char* name, std::uint32_t expected, std::uint32_t actual) {
+    if (expected != actual) throw Wrong{fmt::format("{}: expected {:#x}, got {:#x}", name, expected, actual)};
+  }
+  std::uint32_t read(const char* name, std::uint32_t address, int response = kOkay) {
+    std::uint32_t value = 0;
+    same(fmt::format("response of {}", name).c_str(), static_cast<std::uint32_t>(response),
+         static_cast<std::uint32_t>(rtl_.read_register(address, value)));
+    return value;
+  }
+  void expect(const char* name, std::uint32_t address, std::uint32_t value) { same(name, value, read(name, address)); }
+  void write(const char* name, std::uint32_t address, std::uint32_t value, int response = kOkay) {
+    same(fmt::format("response of {}", name).c_str(), static_cast<std::uint32_t>(response),
+         static_cast<std::uint32_t>(rtl_.write_register(address, value)));
+  }
+
+  void constants() {
+    const Config& c = inputs_.config;
+    expect("ID", KAGE_REG_ID, 0x4B414745);
+    expect("VERSION", KAGE_REG_VERSION, kStreamVersion);
+    expect("PARAM_HASH", KAGE_REG_PARAM_HASH, param_hash(c));
+    expect("SHAPE", KAGE_REG_SHAPE,
+           static_cast<std::uint32_t>(c.arrangement) << 31 | static_cast<std::uint32_t>(c.beat_words) << 22 |
+               static_cast<std::uint32_t>(c.lanes) << 16 | static_cast<std::uint32_t>(c.max_width));
+  }
+
+  void addresses() {
+    read("an address without register", KAGE_REG_STALL + 4, kSlverr);
+    write("an address without register", KAGE_REG_STALL + 4, 1, kSlverr);
+    for (const std::uint32_t value : {0x12345678U, 0U}) {
+      write("WATCHDOG", KAGE_REG_WATCHDOG, value);
+      expect("WATCHDOG", KAGE_REG_WATCHDOG, value);
+    }
+    write("CONTROL", KAGE_REG_CONTROL, 5);
+    expect("CONTROL", KAGE_REG_CONTROL, 5);
+    write("CONTROL", KAGE_REG_CONTROL, 0);
+    write("ID", KAGE_REG_ID, 0);
+    expect("ID", KAGE_REG_ID, 0x4B414745);
+  }
+
+  void frames() {
+    std::uint32_t count = 0;
+    std::uint32_t errors = 0;
+    for (const TrialFrame& f : inputs_.sequences.front().frames) {
+      if (f.end.status.width == 0) continue;  // its header is refused: the driver resets the core
+      rtl_.feed(f.words, kNowhere);
+      const cosim::FrameEnd end = rtl_.finish(kNowhere);
+      ++count;
+      blocked_ += static_cast<std::uint32_t>(end.blocked);
+      if (f.end.status.error != ErrorCode::NONE) ++errors;
+      expect("FRAMES", KAGE_REG_FRAMES, count);
+      expect("ERRORS", KAGE_REG_ERRORS, errors);
+      if (f.end.status.error == ErrorCode::NONE) continue;
+      expect("ERROR", KAGE_REG_ERROR, f.end.status.line << 16 | static_cast<std::uint32_t>(f.end.status.error));
+      expect("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN, f.end.status.token);
+    }
+    expect("BLOCKED", KAGE_REG_BLOCKED, blocked_);
+    expect("STATUS", KAGE_REG_STATUS, 0);
+    expect("TREE", KAGE_REG_TREE, 0);
+  }
+
+  // Frames have ended, some with an error.
+  void interrupt() {
+    expect("IRQ", KAGE_REG_IRQ, 3);
+    same("irq", 0, rtl_.interrupt() ? 1 : 0);
+    write("CONTROL", KAGE_REG_CONTROL, 2);
+    same("irq", 1, rtl_.interrupt() ? 1 : 0);
+    write("IRQ", KAGE_REG_IRQ, 2);
+    expect("IRQ", KAGE_REG_IRQ, 1);
+    same("irq", 0, rtl_.interrupt() ? 1 : 0);
+    write("IRQ", KAGE_REG_IRQ, 7);
+    expect("IRQ", KAGE_REG_IRQ, 0);
+  }
+
+  void cycles() {
+    const std::uint64_t before = rtl_.clock();
+    const std::uint32_t first = read("CYCLES", KAGE_REG_CYCLES);
+    rtl_.pass(100);
+    const std::uint64_t clocks = rtl_.clock() - before;
+    same("CYCLES", static_cast<std::uint32_t>(clocks), read("CYCLES", KAGE_REG_CYCLES) - first);
+  }
+
+  // A frame whose second half does not come.
+  void watchdog() {
+    const TrialFrame& f = inputs_.sequences.front().frames.front();
+    rtl_.feed(std::span(f.words).first(f.words.size() - static_cast<std::size_t>(inputs_.config.beat_words)), kNowhere);
+    write("WATCHDOG", KAGE_REG_WATCHDOG, kWatchdog);
+    rtl_.pass(4 * std::uint64_t{kWatchdog} + 20 * static_cast<std::uint64_t>(f.end.status.width) * 20);
+    expect("STATUS", KAGE_REG_STATUS, 0b0101);
+    expect("IRQ", KAGE_REG_IRQ, 4);
+    same("STALL", 1U << 8, read("STALL", KAGE_REG_STALL) & 0x300U);
+    rtl_.feed(std::span(f.words).last(static_cast<std::size_t>(inputs_.config.beat_words)), kNowhere);
+    (void)rtl_.finish(kNowhere);
+    const std::uint32_t starved = read("STARVED", KAGE_REG_STARVED);
+    if (starved < kWatchdog) throw Wrong{fmt::format("STARVED: expected at least {}, got {}", kWatchdog, starved)};
+  }
+
+  cosim::RtlCore& rtl_;
+  const Inputs& inputs_;
+  std::uint32_t blocked_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::string> wrong_register(cosim::RtlCore& rtl, const Inputs& inputs) {
+  try {
+    Checker(rtl, inputs).all();
+  } catch (const Wrong& w) {
+    return w.what;
+  }
+  return std::nullopt;
+}
+
+}  // namespace kage::verif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mutants/trial.hpp"
+
+#include "cosim/compare.hpp"
+#include "cosim/divergence.hpp"
+#include "cosim/run.hpp"
+#include "mutants/registers.hpp"
+
+namespace kage::verif {
+namespace {
+
+using cosim::Difference;
+
+std::optional<Difference> compare(cosim::RtlCore& rtl, const TrialFrame& f, int number, int channels) {
+  cosim::FrameComparison comparison(number, channels, false);
+  for (const auto& line : f.lines) {
+    cosim::Lines lines;
+    lines.add(line);
+    comparison.expect(std::move(lines));
+  }
+  const LineSink sink = [&](int, std::span<const std::uint8_t> line) { comparison.actual(line); };
+  rtl.feed(f.words, sink);
+  return comparison.finish(f.end, rtl.finish(sink));
+}
+
+std::string how(const Difference& d) {
+  for (const char* stands_still : {"hangs", "went idle", "does not end"})
+    if (d.remark.find(stands_still) != std::string::npos) return "hang";
+  return d.field.starts_with("error") ? "error" : "different";
+}
+
+// The module by the place of an assertion: "frame_control.sv:312".
+std::string file_of(const std::string& where) { return where.substr(0, where.find('.')); }
+
+// Of the frames up to one; assertions would end that too early.
+std::optional<cosim::Divergence> diverges(int frame, const std::filesystem::path& library, const Inputs& inputs,
+                                          const Sequence& sequence, const cosim::RtlOptions& rtl) {
+  cosim::DivergenceOptions options;
+  options.library = library;
+  options.rtl = rtl;
+  options.rtl.assertions = false;
+  const cosim::Feed feed = [&](int i, const WordSink& sink) {
+    sink(sequence.frames[static_cast<std::size_t>(i)].words);
+    return TokenCounts{};
+  };
+  return cosim::find_divergence(frame, feed, inputs.config, options);
+}
+
+std::optional<Verdict> try_sequence(const std::filesystem::path& library, const Inputs& inputs,
+                                    const Sequence& sequence, int mutant) {
+  cosim::RtlOptions options = sequence.rtl;
+  options.mutant = mutant;
+  const auto rtl = make_rtl(library, inputs.config, options);
+  for (int i = 0; i < static_cast<int>(sequence.frames.size()); ++i) {
+    Verdict v;
+    try {
+      const auto d = compare(*rtl, sequence.frames[static_cast<std::size_t>(i)], i, inputs.config.channels);
+      if (!d) continue;
+      // Where all stages agree, what is wrong is what the registers say of them.
+      v = {how(*d), "registers", describe(*d)};
+    } catch (const cosim::AssertionError& e) {
+      v = {"assertion", file_of(e.where()), e.what()};
+    }
+    if (const auto d = diverges(i, library, inputs, sequence, options)) {
+      v.module = d->module;
+      v.text = describe(*d);
+    }
+    return v;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> sound_divergence(const std::filesystem::path& library, const Inputs& inputs) {
+  for (const Sequence& s : inputs.sequences)
+    if (const auto d = diverges(static_cast<int>(s.frames.size()) - 1, library, inputs, s, s.rtl)) return describe(*d);
+  return std::nullopt;
+}
+
+std::optional<Verdict> try_mutant(const std::filesystem::path& library, const Inputs& inputs, int mutant) {
+  for (const Sequence& s : inputs.sequences)
+    if (auto v = try_sequence(library, inputs, s, mutant)) return v;
+  cosim::RtlOptions options = inputs.sequences.front().rtl;
+  options.backpressure_percent = 50;
+  options.mutant = mutant;
+  const auto rtl = make_rtl(library, inputs.config, options);
+  if (const auto wrong = wrong_register(*rtl, inputs)) return Verdict{"register", "registers", *wrong};
+  return std::nullopt;
+}
+
+}  // namespace kage::verif

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "image/temp_file.hpp"
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+#include "stream/fields.hpp"
+
+namespace kage::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) throw Error(fmt::format("{}: cannot be read", path.string()));
+  return text;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// As text that may stand in a script: a '<' could end it. Bytes that are no UTF-8 (names of files) are replaced.
+std::string text_of(const Json& json) {
+  std::string text;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
+/// The pictures that the page holds: as many as there is room for.
+class Pictures {
+ public:
+  /// null for no picture; else {name, data}: data is its place in the list, null where it does not fit.
+  Json add(const std::string& path) {
+    if (path.empty()) return nullptr;
+    Json j;
+    j["name"] = fs::path(path).filename().string();
+    j["data"] = nullptr;
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    if (error || fs::path(path).extension() != ".png" || bytes_ + size / 3 * 4 + 8 > kPictureBytes) return j;
+    bytes_ += size / 3 * 4 + 8;
+    j["data"] = paths_.size();
+    paths_.emplace_back(path);
+    return j;
+  }
+
+  /// What they take at most.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+  /// The list, one picture in memory at a time.
+  void write(std::ostream& out) const {
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      const std::string file = read_file(paths_[i]);
+      out << (i == 0 ? "\"" : ",\"") << base64({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()})
+          << '"';
+    }
+  }
+
+ private:
+  std::size_t bytes_ = 0;
+  std::vector<fs::path> paths_;
+};
+
+/// The pictures of the different frame: NAME_0000_actual.png and _difference.png.
+std::string picture_that_ends(const cosim::Report& run, std::string_view end) {
+  for (const std::string& p : run.pictures)
+    if (p.ends_with(end)) return p;
+  return {};
+}
+
+Json phases_of(const cosim::PhaseSums& sums) {
+  Json j = Json::array();
+  for (const auto& s : sums.of) j.push_back({s.tokens, s.pixels, s.clocks});
+  return j;
+}
+
+Json frames_of(const Page& page, Pictures& pictures) {
+  const cosim::Report& run = *page.run;
+  // The frame that differs is the last, and its pictures matter most.
+  std::vector<Json> frames(run.each.size());
+  for (std::size_t k = run.each.size(); k-- > 0;) {
+    const cosim::FrameResult& r = run.each[k];
+    const bool different = run.first_difference && k + 1 == run.each.size();
+    const int number = r.frame;
+    Json& j = frames[k];
+    j["number"] = number;
+    j["same"] = !different;
+    j["width"] = r.status.width;
+    j["height"] = r.status.height;
+    j["cycles"] = r.cycles;
+    j["starved"] = r.starved;
+    j["blocked"] = r.blocked;
+    j["spans"] = r.counts.spans;
+    j["span_pixels"] = r.counts.span_pixels;
+    j["segments"] = r.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
+    j["words"] = r.counts.words;
+    j["error"] = r.status.error == ErrorCode::NONE
+                     ? Json(nullptr)
+                     : Json{{"text", cosim::describe(r.status)}, {"line", r.status.line}, {"token", r.status.token}};
+    const auto& known = page.tokens->frames();
+    if (static_cast<std::size_t>(number) < known.size()) {
+      const FrameTokens& t = known[static_cast<std::size_t>(number)];
+      j["tokens"] = t.tokens;
+      j["background"] = t.background;
+      j["phases"] = phases_of(t.phases);
+      j["video"] = t.phases.video;
+      j["designed"] = t.phases.clocks();
+    }
+    j["golden"] = pictures.add(r.picture);
+    j["rtl"] = different ? pictures.add(picture_that_ends(run, "_actual.png")) : Json(nullptr);
+    j["difference"] = different ? pictures.add(picture_that_ends(run, "_difference.png")) : Json(nullptr);
+  }
+  Json j = Json::array();
+  for (Json& f : frames) j.push_back(std::move(f));
+  return j;
+}
+
+/// The list of bands that fit into `room` bytes: those of the different frame first, one in memory at a time.
+void write_bands(std::ostream& out, const Page& page, std::size_t room) {
+  std::set<std::pair<int, int>> there;
+  // After a difference some of the frames behind it may have been made already.
+  const int last = page.run->first_difference ? page.run->first_difference->frame : page.run->frames;
+  for (const TokenStore* store : {page.wanted, page.tokens}) {
+    if (store == nullptr) continue;
+    for (const Band& b : store->bands()) {
+      if (b.frame > last || there.count({b.frame, b.line}) != 0) continue;
+      const std::string text = fmt::format("{}[{},{},{},{},\"{}\"]", there.empty() ? "" : ",", b.frame, b.line, b.token,
+                                           b.ahead, store->text(b));
+      if (text.size() > room) return;
+      room -= text.size();
+      there.insert({b.frame, b.line});
+      out << text;
+    }
+  }
+}
+
+/// Where the fields of each kind are: [[name, channel, lsb, bits, signed], ...], for the script to decode by.
+Json layout_of(const Config& config) {
+  const Layout layout(config);
+  Json j = Json::array();
+  for (std::size_t k = 0; k < kKindNames.size(); ++k) {
+    Json fields = Json::array();
+    if (layout.words[k] != 0)
+      each_field(layout, static_cast<Kind>(k), [&](const char* name, int channel, Field f) {
+        if (f.bits != 0) fields.push_back({name, channel, f.lsb, f.bits, f.is_signed});
+      });
+    j.push_back({{"name", kKindNames[k]}, {"words", layout.words[k]}, {"fields", std::move(fields)}});
+  }
+  return j;
+}
+
+Json told_of(const Page& page) {
+  Json told = Json::array();
+  std::size_t bytes = 0;
+  for (const ToldPixel& p : page.told) {
+    Json touches = Json::array();
+    for (const PixelTouch& t : p.history.touches) {
+      Json j{{"token", t.token}, {"text", t.text}, {"effect", t.effect}};
+      if (t.what.kind == Kind::TREE) j["tree"] = describe_tree(page.config.config, p.history);
+      if (const auto from = p.from.find(t.token); from != p.from.end()) j["from"] = from->second;
+      if (!(t.before == t.after)) j["now"] = describe(page.config.config, t.after);
+      touches.push_back(std::move(j));
+    }
+    Json rtl = Json::array();
+    for (const cosim::RtlTouch& t : p.rtl)
+      rtl.push_back({{"token", t.token},
+                     {"stage", cosim::describe(t.stage)},
+                     {"load", t.load},
+                     {"cycle", t.cycle},
+                     {"same", t.same},
+                     {"text", t.text}});
+    Json j{{"frame", p.frame},
+           {"x", p.history.x},
+           {"y", p.history.y},
+           {"touches", std::move(touches)},
+           {"color_text", p.history.color_text},
+           {"rtl", std::move(rtl)}};
+    bytes += text_of(j).size();
+    if (bytes > kToldBytes) break;
+    told.push_back(std::move(j));
+  }
+  return told;
+}
+
+std::string headline(const Page& page) {
+  const cosim::Report& r = *page.run;
+  return fmt::format("{}: {} {}, {}x{}, {} pixels compared", r.same ? "same" : "different", r.frames,
+                     r.frames == 1 ? "frame" : "frames", r.width, r.height, r.pixels_compared);
+}
+
+Json data_of(const Page& page, Pictures& pictures) {
+  const cosim::Report& run = *page.run;
+  Json j;
+  j["same"] = run.same;
+  j["name"] = page.name;
+  j["headline"] = headline(page);
+  j["first"] = nullptr;
+  if (run.first_difference) {
+    const cosim::Difference& d = *run.first_difference;
+    j["first"] = {{"text", cosim::describe(d)}, {"frame", d.frame}, {"x", d.x}, {"y", d.line}};
+  }
+  j["searched"] = page.searched;
+  j["divergence"] = nullptr;
+  if (page.divergence)
+    j["divergence"] = {{"text", cosim::describe(*page.divergence)},
+                       {"waits", page.divergence->waits},
+                       {"waveform", page.divergence->waveform},
+                       {"save_file", page.divergence->save_file}};
+  j["different_pixels"] = nullptr;
+  j["regions"] = Json::array();
+  if (run.difference) {
+    j["different_pixels"] = run.difference->different_pixels;
+    j["region_count"] = run.difference->region_count;
+    for (const auto& r : run.difference->regions)
+      j["regions"].push_back({r.box.x, r.box.y, r.box.width, r.box.height, r.pixels});
+  }
+  j["frames"] = frames_of(page, pictures);
+  j["compared"] = run.frames;
+  j["told"] = told_of(page);
+  j["phase_names"] = cosim::kPhaseNames;
+  j["phase_tokens"] = cosim::kPhaseTokens;
+  j["config_name"] = page.config.name;
+  j["config"] = Json::object();
+  for (const ParamInfo& p : kParams) j["config"][std::string(p.name)] = page.config.config.*(p.member);
+  j["meanings"] = Json::object();
+  for (const ParamInfo& p : kParams) j["meanings"][std::string(p.name)] = p.doc;
+  j["seed"] = page.seed;
+  j["golden_seconds"] = run.expected_seconds;
+  j["rtl_seconds"] = run.actual_seconds;
+  j["notes"] = page.notes;
+  j["degraded"] = page.degraded;
+  j["versions"] = page.versions;
+  j["again"] = page.again;
+  j["explain"] = page.explain;
+  j["folder"] = page.folder;
+  j["layout"] = layout_of(page.config.config);
+  j["band_lines"] = kBandLines;
+  return j;
+}
+
+}  // namespace
+
+void write_page(const fs::path& path, const Page& page) {
+  const fs::path source = data_directory() / "verif/report/page";
+  std::string html = read_file(source / "page.html");
+  const auto find = [&](std::string_view mark) {
+    const auto at = html.find(mark);
+    if (at == std::string::npos) throw Error(fmt::format("{}: has no {}", (source / "page.html").string(), mark));
+    return at;
+  };
+  const auto put = [&](std::string_view mark, const std::string& text) { html.replace(find(mark), mark.size(), text); };
+  put("<!-- title -->", escaped(headline(page)) + " - " + escaped(page.name));
+  put("/* style */", read_file(source / "page.css"));
+  put("<!-- noscript -->", escaped(headline(page)));
+  for (const char* script : {"explain", "view", "page"})
+    put(fmt::format("/* {} */", script), read_file(source / fmt::format("{}.js", script)));
+
+  Pictures pictures;
+  std::string data = text_of(data_of(page, pictures));
+  data.pop_back();  // the brace: two lists follow
+  constexpr std::string_view kMark = "<!-- data -->";
+  const auto at = find(kMark);
+  TempFiles files;
+  std::ofstream out(files.add(path), std::ios::binary);
+  out << std::string_view(html).substr(0, at) << data << ",\"pictures\":[";
+  pictures.write(out);
+  out << "],\"bands\":[";
+  constexpr std::size_t kRest = 64;  // the brackets
+  const std::size_t taken = html.size() + data.size() + pictures.bytes() + kRest;
+  // Tokens get the room that is left.
+  write_bands(out, page, taken < kPageBytes ? kPageBytes - taken : 0);
+  out << "]}" << std::string_view(html).substr(at + kMark.size());
+  out.close();
+  if (!out) throw Error(fmt::format("{}: cannot be written", path.string()));
+  files.commit();
+}
+
+}  // namespace kage::report

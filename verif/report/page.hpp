@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The report of a run: one HTML page that needs nothing else (docs/report.md).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cosim/divergence.hpp"
+#include "cosim/run.hpp"
+#include "kage/config.hpp"
+#include "kage/explain.hpp"
+#include "report/token_store.hpp"
+
+namespace kage::report {
+
+/// No page is larger.
+inline constexpr std::size_t kPageBytes = 10'000'000;
+/// What pictures may take: those beyond it are named.
+inline constexpr std::size_t kPictureBytes = 6'000'000;
+/// What the histories of told pixels may take: those beyond it are left out.
+inline constexpr std::size_t kToldBytes = 500'000;
+
+/// A pixel with its history, told by the golden model, and by the RTL where it was watched.
+struct ToldPixel {
+  int frame = 0;
+  PixelHistory history;
+  std::vector<cosim::RtlTouch> rtl;
+  std::map<std::uint32_t, std::string> from;  ///< by token: which part of the scene it is of
+};
+
+/// What the page tells. All text may be anything: it is escaped.
+struct Page {
+  std::string name;  ///< of the scene or stream
+  const cosim::Report* run = nullptr;
+  NamedConfig config;
+  std::uint64_t seed = 0;
+  std::optional<cosim::Divergence> divergence;
+  bool searched = true;  ///< after a difference the stage was looked for
+  std::vector<std::string> notes;
+  std::vector<std::string> degraded;
+  std::vector<std::string> versions;
+  std::vector<ToldPixel> told;
+  std::string again;    ///< the command line of the run
+  std::string explain;  ///< that of kage explain, without --frame and --pixel
+  std::string folder;   ///< where both are to be given
+  const TokenStore* tokens = nullptr;
+  const TokenStore* wanted = nullptr;  ///< of the different frame, to be there before all others; or nullptr
+};
+
+/// Writes the page. The file appears under its name when it is whole. Throws Error that names it.
+void write_page(const std::filesystem::path& path, const Page& page);
+
+}  // namespace kage::report

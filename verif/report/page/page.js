@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page: tables, buttons, keys, and the history of the pixel that is chosen. All text is set as text, never as HTML.
+"use strict";
+
+const Report = (() => {
+  const data = Explain.data;
+  const $ = (id) => document.getElementById(id);
+  const channels = data.config.CHANNELS;
+
+  function make(tag, content = "", attributes = {}) {
+    const e = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
+    for (const part of [content].flat()) e.append(part);
+    return e;
+  }
+  const count = (n) => n === undefined || n === null ? "" : n.toLocaleString("en").replaceAll(",", "\u202f");
+  const plural = (n, what) => `${count(n)} ${what}${n === 1 ? "" : "s"}`;
+
+  function table(element, heads, rows, foot) {
+    const row = (cells, tag) => make("tr", cells.map((c) => make(tag, String(c))));
+    element.replaceChildren(make("thead", row(heads, "th")), make("tbody", rows.map((r) => row(r, "td"))));
+    if (foot) element.append(make("tfoot", row(foot, "td")));
+  }
+
+  async function copy(text, code, button) {
+    try {
+      await navigator.clipboard.writeText(text);
+      button.textContent = "Copied";
+    } catch {
+      // Without the right to write to the clipboard the line is selected, ready for the reader's own keys.
+      getSelection().selectAllChildren(code);
+      button.textContent = "Selected";
+    }
+    setTimeout(() => { button.textContent = "Copy"; }, 1500);
+  }
+
+  function command(text) {
+    const code = make("code", text);
+    const button = make("button", "Copy", {type: "button", "aria-label": `Copy: ${text}`});
+    button.addEventListener("click", () => copy(text, code, button));
+    return make("div", [code, button], {class: "command"});
+  }
+
+  // ---- verdict
+
+  function verdict() {
+    $("verdict").className = data.same ? "same" : "different";
+    $("name").textContent = data.name;
+    $("mark").textContent = data.same ? "\u2713" : "\u2717";
+    $("word").textContent = data.same ? "Same" : "Different";
+    $("headline").textContent = data.headline.replace(/^\w+: /, "") + (data.same ? "" : "; a difference ends the run");
+    const list = make("dl");
+    const add = (term, text) => list.append(make("dt", term), make("dd", text));
+    if (data.first) add("First difference", data.first.text);
+    if (data.divergence) {
+      add("First divergence", data.divergence.text);
+      if (data.divergence.waits) add("Who waits", data.divergence.waits);
+      if (data.divergence.waveform) add("Waveform", make("code", `gtkwave ${data.divergence.save_file}`));
+    } else if (data.first && data.searched) {
+      add("First divergence", "no stage differs: look at the registers and the video port");
+    }
+    if (data.different_pixels !== null)
+      add("Differing pixels", `${count(data.different_pixels)} in ${plural(data.region_count, "region")}`);
+    if (data.degraded.length) add("Left out", data.degraded.join("; "));
+    if (list.children.length) $("first").append(list);
+    if (data.first && data.first.x >= 0) {
+      const button = make("button", "Show that pixel", {type: "button", id: "show-first"});
+      button.addEventListener("click", () => {
+        select(data.first.frame, data.first.x, data.first.y, 16);
+        View.canvas.scrollIntoView({block: "center"});
+        View.canvas.focus({preventScroll: true});
+      });
+      $("first").append(button);
+    }
+  }
+
+  // ---- frames and pictures
+
+  let frame = data.frames[0];
+  let mode = "golden";
+  let chosen = null;
+
+  const address = (picture) => `data:image/png;base64,${data.pictures[picture.data]}`;
+
+  async function decoded(picture) {
+    if (!picture || picture.data === null) return undefined;
+    if (picture.shown) return picture.shown;
+    const image = new Image();
+    image.src = address(picture);
+    await image.decode();
+    const canvas = make("canvas");
+    canvas.width = image.naturalWidth;
+    canvas.height = image.naturalHeight;
+    const context = canvas.getContext("2d", {willReadFrequently: true});
+    context.drawImage(image, 0, 0);
+    const color = (x, y) => [...context.getImageData(x, y, 1, 1).data].slice(0, channels);
+    return picture.shown = {canvas, color};
+  }
+
+  const modes = [["golden", "Golden"], ["rtl", "RTL"], ["difference", "Difference"], ["wipe", "Slider"]];
+
+  function setMode(m) {
+    mode = m;
+    for (const b of $("modes").children) {
+      const on = b.dataset.mode === m;
+      b.setAttribute("aria-checked", on);
+      b.tabIndex = on ? 0 : -1;
+    }
+    $("wipe-label").hidden = m !== "wipe";
+    View.mode(m);
+    caption();
+  }
+
+  function caption() {
+    const name = modes.find(([m]) => m === mode)[1];
+    let text = `Frame ${frame.number}, ${mode === "wipe" ? "golden on the left, RTL on the right" : name.replace(/^[GD]/, (s) => s.toLowerCase())}.`;
+    if (!frame.golden) text += " It has no pixels.";
+    else if (frame.golden.data === null) text += ` Its picture is not on this page, which would be too large: see ${frame.golden.name}.`;
+    else if (frame.same) text += " Golden model and RTL are the same, bit for bit.";
+    else if (mode === "difference") text += " Red differs, the brighter the further apart.";
+    if (frame.error) text += ` Both cores ended it with ${frame.error.text}.`;
+    $("caption").textContent = text;
+  }
+
+  async function setFrame(number) {
+    frame = data.frames.find((f) => f.number === number) ?? frame;
+    for (const b of $("strip").children) b.setAttribute("aria-pressed", b.dataset.frame === String(frame.number));
+    const golden = await decoded(frame.golden);
+    const rtl = frame.same ? golden : await decoded(frame.rtl);
+    const difference = frame.same ? golden && {...golden, dim: true} : await decoded(frame.difference);
+    View.set(frame, {golden, rtl, difference});
+    $("x").max = frame.width - 1;
+    $("y").max = frame.height - 1;
+    caption();
+    regions();
+    phases();
+  }
+
+  function step(by) {
+    const at = data.frames.indexOf(frame) + by;
+    if (at < 0 || at >= data.frames.length) return;
+    select(data.frames[at].number, chosen?.x ?? 0, chosen?.y ?? 0);
+    $("strip").children[at].scrollIntoView({block: "nearest", inline: "nearest"});
+  }
+
+  function strip() {
+    for (const f of data.frames) {
+      const picture = f.golden && f.golden.data !== null
+        ? make("img", "", {src: address(f.golden), alt: "", loading: "lazy"})
+        : make("span", "no picture", {class: "none"});
+      const label = make("span", f.same ? `${f.number}: same` : `${f.number}: different`, f.same ? {} : {class: "bad"});
+      const button = make("button", [picture, label], {type: "button", "data-frame": f.number, "aria-pressed": false});
+      button.addEventListener("click", () => select(f.number, chosen?.x ?? 0, chosen?.y ?? 0));
+      $("strip").append(button);
+    }
+    for (const [m, name] of modes) {
+      const b = make("button", name, {type: "button", role: "radio", "data-mode": m, title: `${name} (${modes.findIndex((k) => k[0] === m) + 1})`});
+      b.addEventListener("click", () => setMode(m));
+      $("modes").append(b);
+    }
+    // As radio buttons have it: one stop for Tab, arrows choose.
+    $("modes").addEventListener("keydown", (e) => {
+      const by = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[e.key];
+      if (!by) return;
+      e.preventDefault();
+      const at = modes.findIndex(([m]) => m === mode);
+      setMode(modes[(at + by + modes.length) % modes.length][0]);
+      $("modes").querySelector("[aria-checked=true]").focus();
+    });
+  }
+
+  function regions() {
+    $("regions").replaceChildren();
+    if (frame.same) return;
+    const jump = (text, x, y) => {
+      const b = make("button", text, {type: "button"});
+      b.addEventListener("click", () => select(frame.number, x, y, 16));
+      $("regions").append(b);
+    };
+    const told = data.told.filter((p) => p.frame === frame.number);
+    if (told.length) {
+      $("regions").append("Told with the RTL's values:");
+      for (const p of told) jump(`${p.x},${p.y}`, p.x, p.y);
+    }
+  }
+
+  // ---- the pixel
+
+  const swatch = (name, color) => {
+    const css = color.length === 1 ? [color[0], color[0], color[0]] : color;
+    const box = make("i");
+    box.style.background = `rgb(${css.join(",")})`;
+    return make("span", [box, `${name} ${color.join(",")}`], {class: "swatch"});
+  };
+
+  function touchItem(t, rtl) {
+    const item = make("li", [
+      make("div", `${t.token}  ${t.text}`, {class: "token mono"}),
+      ...t.from ? [make("div", `from ${t.from}`, {class: "from"})] : [],
+      make("div", t.effect),
+    ]);
+    for (const line of t.tree ?? []) item.append(make("div", line, {class: "tree"}));
+    if (t.now) item.append(make("div", `now ${t.now}`, {class: "now"}));
+    for (const r of rtl) item.append(rtlLine(r));
+    return item;
+  }
+
+  function rtlLine(r) {
+    const text = `RTL, cycle ${r.cycle}, ${r.stage}${r.load ? " (its colour comes back)" : ""}: ${r.text}`;
+    return make("div", r.same ? text : [text, make("b", " differs")], {class: r.same ? "rtl" : "rtl bad"});
+  }
+
+  function historyList(h, rtl) {
+    const list = make("ol", "", {class: "history"});
+    for (const t of h.touches) list.append(touchItem(t, rtl.filter((r) => r.token === t.token)));
+    const end = make("li", make("div", h.color_text, {class: "end"}));
+    const last = h.touches.at(-1)?.token;
+    for (const r of rtl) if (!h.touches.some((t) => t.token === r.token)) end.append(rtlLine(r));
+    if (last === undefined) end.prepend(make("div", "no token of the line touches it"));
+    list.append(end);
+    return list;
+  }
+
+  let asked = 0;
+
+  async function explain(number, x, y) {
+    const mine = ++asked;
+    const golden = View.goldenColor(x, y);
+    const rtl = frame.same ? golden : View.rtlColor(x, y);
+    const differs = golden && rtl && golden.some((v, i) => v !== rtl[i]);
+    const parts = [make("p", `Frame ${number}, column ${x}, line ${y}`, {id: "where"})];
+    if (golden) {
+      parts.push(make("div", [swatch("golden", golden), swatch("RTL", rtl ?? golden)], {class: "swatches"}));
+      if (differs) parts.push(make("p", "They differ here.", {class: "badly"}));
+    }
+    let told = Explain.told(number, x, y);
+    let history = told;
+    if (!history) {
+      try {
+        history = await Explain.history(number, x, y);
+      } catch (e) {
+        parts.push(make("p", `The tokens on this page cannot be unpacked: ${e}`, {class: "badly"}));
+      }
+    }
+    if (mine !== asked) return;
+    if (history) {
+      const wrong = golden && history.color && history.color.some((v, i) => v !== golden[i]);
+      if (wrong) parts.push(make("p", `This history ends with ${history.color.join(",")}, and the picture has another ` +
+          "colour: trust the command below.", {class: "badly"}));
+      parts.push(historyList(history, told?.rtl ?? []));
+      parts.push(make("p", "The same in a terminal:", {class: "note"}));
+    } else {
+      parts.push(make("p", "This page has no room for the tokens of this line. This prints the pixel's history:"));
+    }
+    parts.push(command(Explain.command(number, x, y) + (differs ? " --rtl" : "")));
+    $("pixel").replaceChildren(...parts);
+    $("said").textContent = `column ${x}, line ${y}` + (golden ? `, golden ${golden.join(" ")}` : "") +
+        (differs ? `, RTL ${rtl.join(" ")}` : "") + (history ? `, ${history.color_text}` : "");
+    $("pixel").dataset.done = `${number}/${x}/${y}`;
+  }
+
+  async function select(number, x, y, least = 0) {
+    if (number !== frame.number || !$("strip").querySelector("[aria-pressed=true]")) await setFrame(number);
+    chosen = {x: Math.min(Math.max(x, 0), frame.width - 1), y: Math.min(Math.max(y, 0), frame.height - 1)};
+    if (!frame.golden) chosen = null;
+    View.mark(chosen);
+    View.show(least);
+    if (!chosen) return;
+    $("x").value = chosen.x;
+    $("y").value = chosen.y;
+    await explain(frame.number, chosen.x, chosen.y);
+  }
+
+  // ---- tables
+
+  function frames() {
+    const heads = ["frame", "verdict", "clocks", "no input", "output blocked", "spans", "span pixels", "segments", "words"];
+    const sums = (name) => data.frames.reduce((sum, f) => sum + f[name], 0);
+    const numbers = ["cycles", "starved", "blocked", "spans", "span_pixels", "segments", "words"];
+    table($("table"), heads,
+          data.frames.map((f) => [f.number, f.same ? "same" : "different", ...numbers.map((n) => count(f[n]))]),
+          data.frames.length > 1 ? ["all", "", ...numbers.map((n) => count(sums(n)))] : null);
+    data.frames.forEach((f, i) => { if (!f.same) $("table").tBodies[0].rows[i].className = "bad"; });
+    if (data.frames.length < data.compared)
+      $("table").after(make("p", `${plural(data.compared, "frame")} were compared; this page has the first ` +
+          "of them, and one that is different.", {class: "note"}));
+  }
+
+  function phases() {
+    $("phases-title").textContent = `Frame ${frame.number} by phase`;
+    if (!frame.phases) return $("phases").replaceChildren();
+    const share = (n) => frame.cycles ? `${(100 * n / frame.cycles).toFixed(1)} %` : "";
+    const rows = frame.phases.map(([tokens, pixels, clocks], i) =>
+        [data.phase_names[i], count(clocks), share(clocks), count(tokens), count(pixels), data.phase_tokens[i]]);
+    rows.push(["video", count(frame.video), share(frame.video), "", "", ""]);
+    const left = frame.cycles - frame.designed;
+    rows.push(["the rest", count(left), share(left), "", "", ""]);
+    table($("phases"), ["phase", "clocks", "of the frame's", "tokens", "pixels", "which"], rows,
+          ["RTL", count(frame.cycles), "", "", "", ""]);
+    for (const row of $("phases").rows) row.cells[5].className = "words";
+  }
+
+  function rest() {
+    $("again").append(make("p", ["In ", make("code", data.folder), ":"]), command(data.again));
+    $("again").append(make("p", `Seed ${data.seed}. Golden model ${data.golden_seconds.toFixed(3)} s, RTL ` +
+        `${data.rtl_seconds.toFixed(3)} s.`));
+    $("again").append(make("p", `Made by ${data.versions.join("; ")}.`, {class: "note"}));
+    for (const note of data.notes) $("again").append(make("p", note, {class: "note"}));
+    $("config-name").textContent = data.config_name;
+    table($("config"), ["parameter", "value", "meaning"],
+          Object.entries(data.config).map(([name, value]) => [name, value, data.meanings[name]]));
+    for (const row of $("config").rows) row.cells[2].className = "meaning";
+  }
+
+  // ---- keys and buttons
+
+  function key(e) {
+    if (e.ctrlKey || e.metaKey || e.altKey || e.target instanceof HTMLInputElement) return;
+    const onPicture = e.target === View.canvas;
+    const far = e.shiftKey ? 10 : 1;
+    const move = {ArrowLeft: [-far, 0], ArrowRight: [far, 0], ArrowUp: [0, -far], ArrowDown: [0, far]}[e.key];
+    if (onPicture && move && chosen) select(frame.number, chosen.x + move[0], chosen.y + move[1]);
+    else if (onPicture && e.key === " ") setMode(mode === "rtl" ? "golden" : "rtl");
+    else if (["1", "2", "3", "4"].includes(e.key)) setMode(modes[e.key - 1][0]);
+    else if (e.key === "+" || e.key === "=") zoom(2);
+    else if (e.key === "-") zoom(0.5);
+    else if (e.key === "0") View.fit();
+    else if (e.key === "n") step(1);
+    else if (e.key === "p") step(-1);
+    else return;
+    e.preventDefault();
+  }
+
+  // By buttons and keys the chosen pixel is what stays in view.
+  function zoom(factor) {
+    View.zoom(factor);
+    if (chosen && factor > 1) View.show(View.scale());
+  }
+
+  async function start() {
+    verdict();
+    strip();
+    frames();
+    rest();
+    setMode(data.same ? "golden" : "difference");
+    document.addEventListener("keydown", key);
+    View.canvas.addEventListener("pixel", (e) => select(frame.number, e.detail.x, e.detail.y));
+    $("in").addEventListener("click", () => zoom(2));
+    $("out").addEventListener("click", () => zoom(0.5));
+    $("fit").addEventListener("click", () => View.fit());
+    $("wipe").addEventListener("input", () => View.wipe($("wipe").value / 100));
+    $("goto").addEventListener("submit", (e) => {
+      e.preventDefault();
+      select(frame.number, Number($("x").value), Number($("y").value));
+    });
+    const first = data.first && data.first.x >= 0 ? data.first : null;
+    const shown = data.first ? data.first.frame : frame.number;
+    frame = data.frames.find((f) => f.number === shown) ?? frame;
+    await select(frame.number, first ? first.x : Math.floor(frame.width / 2), first ? first.y : Math.floor(frame.height / 2));
+    document.body.dataset.ready = "yes";
+  }
+
+  return {start, select};
+})();
+
+Report.start();

@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clicks and keys on the pages that run.sh had written, held against kage itself."""
+import json
+import os
+import random
+import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from browser import Browser  # noqa: E402
+
+kage, chromium, pictures = sys.argv[1:]
+failures = 0
+
+
+def check(good, what):
+    global failures
+    if not good:
+        failures += 1
+        print("FAILED:", what)
+
+
+def chosen(b):
+    return b.run("document.getElementById('pixel').dataset.done")
+
+
+def panel(b):
+    return b.run("document.getElementById('pixel').innerText")
+
+
+def mode(b):
+    return b.run("document.querySelector('#modes [aria-checked=true]').dataset.mode")
+
+
+def pixel_on_canvas(b, x, y, tap=False):
+    """Clicks or taps the middle of a pixel of a picture that is shown whole."""
+    b.run("document.getElementById('canvas').scrollIntoView({block: 'center'})")
+    left, top, width, height, w, h = b.run(
+        "(() => { const r = View.canvas.getBoundingClientRect(); const f = Explain.data.frames[0];"
+        " return [r.left, r.top, r.width, r.height, f.width, f.height]; })()")
+    s = min(width / w, height / h)
+    (b.tap_at if tap else b.click_at)(left + (width - w * s) / 2 + (x + 0.5) * s, top + (height - h * s) / 2 + (y + 0.5) * s)
+
+
+def overflow(b):
+    return b.run("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+
+
+def at_rest(b, where):
+    b.until(f"document.getElementById('pixel').dataset.done === {json.dumps(where)}")
+
+
+def looks(b, name):
+    for width, height, phone in ((1280, 900, False), (390, 844, True), (320, 568, True)):
+        b.size(width, height, phone)
+        for dark in (False, True):
+            b.dark(dark)
+            check(overflow(b) <= 0, f"{name}: {overflow(b)} pixels too wide for {width}")
+            b.run("scrollTo(0, 0)")
+            b.screenshot(f"{pictures}/{name}-{width}{'-dark' if dark else ''}.png", full=phone)
+    b.dark(False)
+    b.size(1280, 900)
+
+
+def same_run(b):
+    b.open("same/report.html")
+    check(b.run("document.querySelector('h1').innerText").strip().endswith("Same"), "the verdict is not Same")
+    check(b.run("document.querySelectorAll('#strip button').length") == 8, "not eight frames")
+    check(b.run("Explain.data.frames.every(f => Array.from({length: 480}, (_, y) => Explain.has(f.number, y)).every(Boolean))"),
+          "the courtyard's page lacks tokens")
+    # A click tells the pixel that was clicked.
+    for x, y in ((100, 200), (0, 0), (639, 479)):
+        pixel_on_canvas(b, x, y)
+        at_rest(b, f"0/{x}/{y}")
+        check(f"column {x}, line {y}" in panel(b), f"a click on {x},{y} tells {panel(b)[:80]}")
+        check("the pixel leaves with colour" in panel(b) or "background" in panel(b), f"no history of {x},{y}")
+    # Keys on the picture.
+    pixel_on_canvas(b, 100, 200)
+    at_rest(b, "0/100/200")
+    for key, shift, where in (("ArrowRight", False, "0/101/200"), ("ArrowDown", False, "0/101/201"), ("ArrowLeft", True, "0/91/201"),
+                              ("ArrowUp", True, "0/91/191")):
+        b.key(key, shift)
+        at_rest(b, where)
+    for key, wanted in (("2", "rtl"), ("3", "difference"), ("1", "golden"), (" ", "rtl"), (" ", "golden"), ("4", "wipe"), ("1", "golden")):
+        b.key(key)
+        check(mode(b) == wanted, f"key {key!r} gives {mode(b)}")
+    before = b.run("View.scale()")
+    b.key("+")
+    b.key("+")
+    check(b.run("View.scale()") > 3 * before, "+ does not zoom")
+    b.key("-")
+    b.key("0")
+    check(b.run("View.scale()") == before, "0 does not show all")
+    b.key("n")
+    at_rest(b, "1/91/191")
+    b.key("p")
+    at_rest(b, "0/91/191")
+    # Buttons: frames, zoom, modes; the form.
+    b.click("#strip button:nth-child(4)")
+    at_rest(b, "3/91/191")
+    b.click("#in")
+    check(b.run("View.scale()") > before, "the button + does not zoom")
+    b.click("#fit")
+    b.click("#modes button:nth-child(4)")
+    check(b.run("!document.getElementById('wipe-label').hidden"), "no slider")
+    b.run("document.getElementById('wipe').focus()")
+    b.key("ArrowRight")
+    check(b.run("document.getElementById('wipe').value") == "51", "the slider does not take an arrow")
+    b.run("document.getElementById('x').focus(); document.getElementById('x').value = 12; document.getElementById('y').value = 34")
+    b.key("Enter")
+    at_rest(b, "3/12/34")
+    # Tab comes to everything; each stop is seen.
+    b.open("same/report.html")
+    stops = set()
+    for _ in range(40):
+        b.key("Tab")
+        stops.add(b.run("(() => { const e = document.activeElement; return e.id || e.parentElement.id || e.tagName; })()"))
+        check(b.run("document.activeElement === document.body || getComputedStyle(document.activeElement).outlineStyle !== 'none'"),
+              f"no focus to be seen on {stops}")
+    for stop in ("strip", "modes", "out", "in", "fit", "canvas", "x", "y"):
+        check(stop in stops, f"Tab does not come to {stop}: {stops}")
+    # Tables.
+    kept = json.load(open("same.json"))
+    total = b.run("document.querySelector('#table tfoot').innerText").replace("\u202f", "").split()
+    check(str(kept["cycles"]) in total and str(kept["spans"]) in total, f"the table's sums: {total}")
+    phases = dict(line.split("\t")[:2] for line in b.run("document.querySelector('#phases').innerText").replace("\u202f", "").splitlines() if "\t" in line)
+    del phases["phase"]
+    clocks = {name: int(n) for name, n in phases.items()}
+    rtl = clocks.pop("RTL")
+    check(sum(clocks.values()) == rtl and abs(clocks["the rest"]) < 0.01 * rtl, f"clocks by phase: {phases}")
+    check(b.run("document.querySelectorAll('#config tbody tr').length") == len(kept["config"]), "parameters are missing")
+    check(b.run("document.querySelector('#again code').innerText") == os.getcwd(), "not the folder of the run")
+    check("kage cosim courtyard --out same --json same.json" in b.run("document.getElementById('again').innerText"), "not the command line")
+    looks(b, "same")
+
+
+def different_run(b):
+    b.open("different/report.html")
+    check(b.run("document.querySelector('h1').innerText").strip().endswith("Different"), "the verdict is not Different")
+    check("line 116, x 316" in b.run("document.getElementById('verdict').innerText"), "the first difference is not named")
+    check("rtl/pixel_banked.sv" in b.run("document.getElementById('verdict').innerText"), "the stage is not named")
+    at_rest(b, "0/316/116")
+    check("differs" in panel(b) and "RTL, cycle" in panel(b), "the first pixel is not told with the RTL's values")
+    check("from the cap of the shadow of obelisk" in panel(b), "the first pixel is not told with the parts of the scene")
+    check("--fault wrong_compare --frame 0 --pixel 316,116 --rtl" in panel(b), "no command line to copy")
+    # Every differing pixel has its history; a click on another one.
+    check(b.run("""(async () => {
+      const rtl = View.rtlColor, golden = View.goldenColor;
+      for (let y = 0; y < 480; y += 7)
+        for (let x = 0; x < 640; x += 5)
+          if (golden(x, y).some((v, i) => v !== rtl(x, y)[i]) && !Explain.has(0, y)) return false;
+      return true;
+    })()"""), "a differing pixel has no history")
+    looks(b, "different")
+    pixel_on_canvas(b, 400, 400)
+    at_rest(b, "0/400/400")
+    check("They differ here" in panel(b), "400,400 is not told as different")
+    b.size(390, 844, True)
+    pixel_on_canvas(b, 200, 300, tap=True)
+    b.until("/^0\\/(199|200|201)\\/(299|300|301)$/.test(document.getElementById('pixel').dataset.done)")  # a pixel is half a point wide
+    b.size(1280, 900)
+    b.click("#show-first")
+    at_rest(b, "0/316/116")
+    check(b.run("View.scale()") >= 16, "the first pixel is not shown large")
+    b.screenshot(f"{pictures}/different-zoom.png")
+    b.click("#fit")
+    b.key("4")
+    b.screenshot(f"{pictures}/different-slider.png")
+
+
+def full_page(b):
+    """Tokens that do not fit: the command instead, and it is right."""
+    b.open("full/report.html")
+    missing = b.run("(() => { for (const f of Explain.data.frames) for (let y = 0; y < f.height; ++y)"
+                    " if (!Explain.has(f.number, y)) return [f.number, y]; return null; })()")
+    check(missing is not None, "all of polyhedra fits: this test needs a larger run")
+    if missing:
+        frame, y = missing
+        b.run(f"Report.select({frame}, 300, {y})")
+        at_rest(b, f"{frame}/300/{y}")
+        check("has no room for the tokens of this line" in panel(b), "not said that the line is missing")
+        line = b.run("document.querySelector('#pixel code').innerText")
+        r = subprocess.run(["bash", "-c", line.replace("kage ", f"'{kage}' ", 1)], capture_output=True, text=True)
+        check(r.returncode == 0 and f"frame {frame}, pixel 300,{y}:" in r.stdout, f"{line}: {r.stdout[:100]} {r.stderr[:200]}")
+
+
+def odd_name(b):
+    b.open("odd/report.html")
+    name = "a<b>&'\"$x <!-- --> <script>alert(1)"
+    check(b.run("document.getElementById('name').innerText") == name, "the name is another")
+    check(b.run("document.title").endswith(name), "the title is another")
+    line = b.run("document.querySelector('#again .command code').innerText")
+    line = line.replace("kage ", f"'{kage}' ", 1).replace("--out odd", "--out odd-again --json -")
+    r = subprocess.run(["bash", "-c", line], capture_output=True, text=True)
+    check(r.returncode == 0 and json.loads(r.stdout)["seed"] == 9, f"{line}: {r.stderr[:200]}")
+    check(os.path.exists("odd-again/report.html"), "the line did not run the same thing")
+
+
+TELL = """(async () => {
+  const h = await Explain.history(%d, %d, %d);
+  if (h === null) return null;
+  const golden = (await View.goldenColor(%d, %d));
+  return {...h, golden};
+})()"""
+
+
+def as_explain(frame, x, y, h):
+    """What kage explain prints, from what the page tells."""
+    count = len(h["touches"])
+    lines = [f"frame {frame}, pixel {x},{y}: " + ("1 token touches it" if count == 1 else f"{count} tokens touch it")]
+    for t in h["touches"]:
+        lines += [f"{t['token']:>8}  {t['text']}", " " * 12 + t["effect"]]
+        lines += [" " * 12 + line for line in t.get("tree", [])]
+        if "now" in t:
+            lines.append(" " * 12 + "now " + t["now"])
+    return "\n".join(lines + [" " * 12 + h["color_text"]]) + "\n"
+
+
+def histories(b):
+    seed = int(os.environ.get("KAGE_SEED", "1"))
+    chance = random.Random(seed)
+    kinds = set()
+    for folder in ("default", "inside", "soft", "lights", "glass", "polyhedra", "smooth", "tiny", "odd", "different"):
+        b.open(f"{folder}/report.html")
+        width, height, frames = b.run("[Explain.data.frames[0].width, Explain.data.frames[0].height, Explain.data.frames.length]")
+        for k in range(12):
+            frame, x, y = chance.randrange(frames), chance.randrange(width), chance.randrange(height)
+            if k == 0:
+                frame, x, y = frames - 1, 0, height - 1
+            b.run(f"Report.select({frame}, {x}, {y})")
+            h = b.run(TELL % (frame, x, y, x, y))
+            line = b.run(f"Explain.command({frame}, {x}, {y})").replace("kage ", f"'{kage}' ", 1)
+            r = subprocess.run(["bash", "-c", line], capture_output=True, text=True)
+            check(r.returncode == 0, f"{line}: {r.stderr}")
+            kinds |= {t["text"].split()[0] for t in h["touches"]}
+            # After notes; which part of the scene a token is of the page has for told pixels only.
+            told = "".join(s for s in r.stdout[r.stdout.find("frame "):].splitlines(True) if not s.startswith(" " * 12 + "from "))
+            check(as_explain(frame, x, y, h) == told,
+                  f"{folder} (seed {seed}): the page tells\n{as_explain(frame, x, y, h)}but {line} tells\n{told}")
+            check(h["golden"] == h["color"], f"{folder} {frame} {x},{y}: the picture has {h['golden']}, the history {h['color']}")
+    wanted = {"OP", "SP", "NC", "IF", "EV", "ES", "RESOLVE", "TP", "TREE"}
+    check(kinds >= wanted, f"no history with {wanted - kinds} in it: take more pixels")
+
+
+with Browser(chromium) as browser:
+    for part in (same_run, different_run, full_page, odd_name, histories):
+        part(browser)
+    check(not browser.errors, f"the console has errors: {browser.errors[:3]}")
+    outside = [u for u in browser.requests if not u.startswith(("data:", "file:")) or (u.startswith("file:") and not u.endswith("report.html"))]
+    check(not outside, f"the page loads {outside[:3]}")
+sys.exit(failures != 0)
