@@ -48,7 +48,7 @@ CLI::Validator whole_number() {
           "", "whole"};
 }
 
-void option_size(CLI::App& command, Options& options) {
+static void option_size(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--size",
@@ -70,7 +70,7 @@ void option_size(CLI::App& command, Options& options) {
       ->type_name("WxH");
 }
 
-void option_frames(CLI::App& command, Options& options) {
+static void option_frames(CLI::App& command, Options& options) {
   command
       .add_option("--frames", options.frames,
                   "number of frames, spread over the animation or the camera path, default: the scene's own")
@@ -78,7 +78,7 @@ void option_frames(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
-void option_config(CLI::App& command, Options& options) {
+static void option_config(CLI::App& command, Options& options) {
   command
       .add_option("--config", options.config,
                   "the core's parameters: a name in rtl/configs.yaml or a YAML file, default: the first name that can "
@@ -106,20 +106,20 @@ void option_scene(CLI::App& command, Options& options) {
       ->required();
 }
 
-void option_degrade(CLI::App& command, Options& options) {
+static void option_degrade(CLI::App& command, Options& options) {
   command.add_flag(
       "--degrade", options.degrade,
       "where the configuration lacks something, draw without it (no shadows, those of one light, hard ones; flat, grey "
       "or opaque instead of smooth, coloured or translucent) instead of refusing");
 }
 
-void option_units_only(CLI::App& command, Options& options) {
+static void option_units_only(CLI::App& command, Options& options) {
   command.add_flag(
       "--units-only", options.units_only,
       "refuse a frame in which a convex polyhedron finds no expansion unit, instead of drawing it by spans");
 }
 
-void option_translucent(CLI::App& command, Options& options) {
+static void option_translucent(CLI::App& command, Options& options) {
   static const std::map<std::string, TranslucentWay> kWays{{"exact", TranslucentWay::exact},
                                                            {"centroid", TranslucentWay::centroid},
                                                            {"submission", TranslucentWay::submission}};
@@ -138,7 +138,7 @@ void option_translucent(CLI::App& command, Options& options) {
       ->type_name("A");
 }
 
-void option_lights(CLI::App& command, Options& options) {
+static void option_lights(CLI::App& command, Options& options) {
   command
       .add_option("--samples", options.samples,
                   fmt::format("points that stand for a light that is no point itself: a disc, rectangle or sphere; "
@@ -150,7 +150,7 @@ void option_lights(CLI::App& command, Options& options) {
       .add_option("--classes", options.classes,
                   fmt::format("normals that the table of several lights tells apart, spread evenly; default {}",
                               options.classes))
-      ->check(CLI::Range(1, 2047))
+      ->check(CLI::Range(1, kMaxClasses))
       ->type_name("N");
 }
 
@@ -166,6 +166,18 @@ void option_fault(CLI::App& command, std::string& fault) {
       ->type_name("NAME");
 }
 
+void options_of_frames(CLI::App& command, Options& options) {
+  option_size(command, options);
+  option_frames(command, options);
+  option_config(command, options);
+  option_degrade(command, options);
+  option_units_only(command, options);
+  option_translucent(command, options);
+  option_lights(command, options);
+  option_seed(command, options);
+  option_threads(command, options);
+}
+
 bool json_only(const Options& options) { return options.json == "-"; }
 
 void check_json(const Options& options) {
@@ -174,13 +186,20 @@ void check_json(const Options& options) {
   write_text(file, options.json, "");
 }
 
-void write_text(TempFiles& files, const std::string& path, const std::string& text) {
+std::ofstream open_file(TempFiles& files, const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code ec;
   if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
     throw Error(fmt::format("{}: cannot be written: no such folder", path));
   errno = 0;
   std::ofstream out(files.add(path), std::ios::binary);
+  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  return out;
+}
+
+void write_text(TempFiles& files, const std::string& path, const std::string& text) {
+  std::ofstream out = open_file(files, path);
+  errno = 0;
   out << text;
   out.close();
   if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
@@ -250,13 +269,24 @@ void check_interrupt() {
 Progress::Progress() {
   const char* term = std::getenv("TERM");
   terminal_ = isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";
+  const char* const seconds = std::getenv("KAGE_PROGRESS");
+  if (seconds == nullptr) return;
+  double value = 0;
+  const char* const end = seconds + std::strlen(seconds);
+  const auto [stop, error] = std::from_chars(seconds, end, value);
+  if (error == std::errc{} && stop == end && value >= 0 && value < 1e9) pause_ = std::chrono::duration<double>(value);
 }
 
 Progress::~Progress() { clear(); }
 
 void Progress::show(const std::string& text) {
-  if (!terminal_) return;
   const auto now = std::chrono::steady_clock::now();
+  if (!terminal_) {
+    if (pause_.count() == 0 || now - last_ < pause_) return;
+    last_ = now;
+    fmt::print(stderr, "{}\n", text);
+    return;
+  }
   if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   shown_ = true;

@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -37,7 +38,9 @@ void add_cosim(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
 void add_stream(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
+void add_explain(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
+void add_merge(CLI::App& app, Action& action);
 void add_model(CLI::App& app, Action& action);
 void add_order(CLI::App& app, Action& action);
 
@@ -78,19 +81,13 @@ struct Options {
   int classes = Look{}.classes;  ///< of normals
 };
 
-void option_size(CLI::App& command, Options& options);
-void option_frames(CLI::App& command, Options& options);
-void option_config(CLI::App& command, Options& options);
+/// What every command that makes frames takes: --size, --frames, --config, --degrade, --units-only, --order, --alpha,
+/// --samples, --classes, --seed, --threads.
+void options_of_frames(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 void option_scene(CLI::App& command, Options& options);  // SCENE, a positional
-void option_degrade(CLI::App& command, Options& options);
-void option_units_only(CLI::App& command, Options& options);
-/// --order and --alpha.
-void option_translucent(CLI::App& command, Options& options);
 void option_threads(CLI::App& command, Options& options);
-/// --samples and --classes.
-void option_lights(CLI::App& command, Options& options);
 void option_fault(CLI::App& command, std::string& fault);
 
 /// Whether `--json -` claims standard output for itself.
@@ -98,6 +95,9 @@ bool json_only(const Options& options);
 
 /// Throws Error if what --json names cannot be written: before the work, not after it.
 void check_json(const Options& options);
+
+/// Opens a file to write to, which gets its name with the others of `files`. Throws Error if it cannot be written.
+std::ofstream open_file(TempFiles& files, const std::string& path);
 
 /// Writes a text file, which gets its name with the others of `files`. Throws Error if it cannot be written.
 void write_text(TempFiles& files, const std::string& path, const std::string& text);
@@ -144,7 +144,9 @@ bool interrupted();
 struct Interrupted {};
 void check_interrupt();
 
-/// A line on standard error that is written over and over, on a terminal only.
+/// How far work has come, on standard error: on a terminal a line that is written over and over; in a pipe, a file or
+/// on a dumb terminal a line every ten seconds, so none where the work does not last. $KAGE_PROGRESS is another number
+/// of seconds, 0: no lines.
 class Progress {
  public:
   Progress();
@@ -158,7 +160,8 @@ class Progress {
  private:
   bool terminal_ = false;
   bool shown_ = false;
-  std::chrono::steady_clock::time_point last_{};
+  std::chrono::duration<double> pause_{10};  // between lines where there is no terminal
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace kage::cli

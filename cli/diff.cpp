@@ -1,121 +1,170 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage diff A B: compares two pictures.
-#include <fcntl.h>
+// kage diff A B: compares two pictures, folders of pictures or streams, or makes one folder like the other.
+#include "diff.hpp"
+
 #include <fmt/format.h>
-#include <unistd.h>
+#include <fmt/ranges.h>
 
-#include <cstdio>
-#include <memory>
-#include <optional>
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <limits>
 
-#include "common.hpp"
-#include "image/save.hpp"
-#include "kage/image.hpp"
+#include "kage/error.hpp"
+#include "kage/stream.hpp"
 
 namespace kage::cli {
 namespace {
 
-struct DiffCommand : Options {
-  std::string a;
-  std::string b;
-  DiffOptions limits;
-};
+namespace fs = std::filesystem;
 
-std::string describe(const DiffResult& r) {
-  const auto pixels = static_cast<std::uint64_t>(r.width) * static_cast<std::uint64_t>(r.height);
-  if (r.width == 0) return fmt::format("different: {}", r.reason);
-  std::string text =
-      fmt::format("{}: {}x{}, {} compared", r.same ? "same" : "different", r.width, r.height, counted(pixels, "pixel"));
-  if (r.different_pixels != 0) text += fmt::format(", {} differ", r.different_pixels);
-  if (r.max_lsb != 0) text += fmt::format(", by up to {} LSB", r.max_lsb);
-  if (r.nan_pixels != 0) text += fmt::format(", {} hold a NaN", r.nan_pixels);
-  if (r.first) text += fmt::format(", the first at x {}, y {}, channel {}", r.first->x, r.first->y, r.first->channel);
-  return text;
+enum class Sort { nothing, picture, folder, stream };
+
+Sort sort_of(const fs::path& path) {
+  std::error_code ec;
+  const fs::file_status status = fs::status(path, ec);
+  if (!fs::exists(status)) return Sort::nothing;
+  if (fs::is_directory(status)) return Sort::folder;
+  return is_stream_file(path) || path.extension() == ".kage" ? Sort::stream : Sort::picture;
 }
 
-Json to_json(const DiffResult& r) {
-  const bool compared = r.width != 0;
-  const auto number = [&](auto value) { return compared ? Json(value) : Json(nullptr); };
-  Json j;
-  j["same"] = r.same;
-  j["width"] = number(r.width);
-  j["height"] = number(r.height);
-  j["channels"] = number(r.channels);
-  j["different_pixels"] = number(r.different_pixels);
-  j["nan_pixels"] = number(r.nan_pixels);
-  j["max_lsb"] = number(r.max_lsb);
-  j["first"] = r.first ? Json{{"x", r.first->x}, {"y", r.first->y}, {"channel", r.first->channel}} : Json(nullptr);
-  j["reason"] = r.reason.empty() ? Json(nullptr) : Json(r.reason);
-  return j;
+/// Throws Error if one of the options is given that `what` does not take.
+void refuse(const DiffCommand& o, const std::string& what, const std::vector<std::string>& options) {
+  for (const std::string& name : o.given)
+    if (std::find(options.begin(), options.end(), name) != options.end())
+      throw Error(fmt::format("{} is not for {}; see kage diff --help", name, what));
 }
-
-/// Keeps standard error quiet while it lives: libpng writes there by itself what OpenImageIO reports anyway.
-class QuietStderr {
- public:
-  QuietStderr() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
-    const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && null >= 0) dup2(null, STDERR_FILENO);
-    if (null >= 0) close(null);
-  }
-  ~QuietStderr() {
-    if (kept_ < 0) return;
-    std::fflush(stderr);
-    dup2(kept_, STDERR_FILENO);
-    close(kept_);
-  }
-  QuietStderr(const QuietStderr&) = delete;
-  QuietStderr& operator=(const QuietStderr&) = delete;
-
- private:
-  int kept_;
-};
 
 int run(const DiffCommand& o) {
+  Sort sort = sort_of(o.a);
+  Sort other = sort_of(o.b);
+  // What is missing is named by whoever opens it.
+  if (sort == Sort::nothing) sort = other;
+  if (other == Sort::nothing) other = sort;
+  static constexpr const char* kWords[] = {"nothing", "a picture", "a directory", "a stream"};
+  if (sort != other)
+    throw Error(fmt::format("{}: is {}, and {} is {}: there is nothing to compare", o.b,
+                            kWords[static_cast<std::size_t>(other)], o.a, kWords[static_cast<std::size_t>(sort)]));
   check_json(o);
-  Image heat;
-  const DiffResult result = [&] {
-    const QuietStderr quiet;
-    return diff_files(o.a, o.b, o.limits, o.out.empty() ? nullptr : &heat);
-  }();
-  TempFiles files;
-  if (!o.out.empty() && heat.width != 0) save_image(files, o.out, heat);
-  write_json(o, to_json(result), files);
-  if (!json_only(o)) fmt::print("{}\n", describe(result));
-  return result.same ? kSame : kDifferent;
+  check_outputs(o);
+  if (o.bless) {
+    if (sort != Sort::folder) throw Error(fmt::format("{}: is no folder: --bless takes two", o.b));
+    refuse(o, "--bless, which is exact",
+           {"--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--mask", "--ignore-alpha",
+            "--perceptual", "--out", "--flip", "--junit"});
+    return bless_folder(o);
+  }
+  refuse(o, "a comparison without --bless", {"--prune", "--dry-run"});
+  if (sort == Sort::stream) {
+    refuse(o, "streams, which are compared exactly",
+           {"--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--mask", "--ignore-alpha",
+            "--perceptual", "--out", "--flip"});
+    return diff_two_streams(o);
+  }
+  if (sort == Sort::folder) {
+    refuse(o, "folders: --out FOLDER writes flip pictures too", {"--flip"});
+    return diff_two_folders(o);
+  }
+  return diff_two_pictures(o);
+}
+
+/// "64x48+10+20": 64 wide, 48 high, from x 10, y 20.
+Box parse_region(const std::string& text) {
+  Box box;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  static constexpr char kBehind[] = {'x', '+', '+', '\0'};
+  std::size_t i = 0;
+  for (int* const part : {&box.width, &box.height, &box.x, &box.y}) {
+    const auto [stop, error] = std::from_chars(at, end, *part);
+    const char behind = stop == end ? '\0' : *stop;
+    if (error != std::errc{} || *part < 0 || behind != kBehind[i++])
+      throw CLI::ValidationError("--region", text + " is not WxH+X+Y, like 64x48+10+20");
+    at = stop + 1;
+  }
+  return box;
+}
+
+/// A number from 0 to `most`, written as people write it: strtod() would take nan, inf and hexadecimal.
+CLI::Validator number_to(double most) {
+  return {[most](const std::string& text) {
+            const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+            char* stop = nullptr;
+            const double value = plain ? std::strtod(text.c_str(), &stop) : 0;
+            if (!plain || text.empty() || *stop != '\0') return text + " is not a number";
+            return value >= 0 && value <= most ? std::string() : text + fmt::format(" is not in 0 .. {}", most);
+          },
+          "", "number"};
+}
+
+void add_thresholds(CLI::App& c, DiffOptions& limits) {
+  c.add_option("--lsb", limits.lsb, "integers: the same if no further apart than N steps of the files' type")
+      ->check(whole_number())
+      ->type_name("N");
+  CLI::Option* const abs = c.add_option("--abs", limits.abs, "floats: the same if no further apart than X")
+                               ->check(number_to(std::numeric_limits<double>::max()))
+                               ->type_name("X");
+  c.add_option("--ulp", limits.ulp, "floats: the same if no further apart than N representable numbers")
+      ->check(whole_number())
+      ->type_name("N")
+      ->excludes(abs);
+  c.add_option("--max-pixels", limits.max_pixels, "same if at most N pixels differ, default 0")
+      ->check(whole_number())
+      ->type_name("N");
+  c.add_option("--max-percent", limits.max_percent, "same if at most P percent of the compared pixels differ")
+      ->check(number_to(100))
+      ->type_name("P");
+  c.add_option_function<std::string>(
+       "--region", [&limits](const std::string& text) { limits.region = parse_region(text); },
+       "compare only the W x H pixels from column X, line Y")
+      ->type_name("WxH+X+Y");
+  c.add_flag("--ignore-alpha", limits.ignore_alpha, "do not compare the values of alpha");
+  c.add_flag("--perceptual", limits.perceptual,
+             "say too how many pixels OpenImageIO's perceptual measure tells apart; it decides nothing");
 }
 
 }  // namespace
 
 void add_diff(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(
-      app, "diff", "Compare two pictures, exactly unless told otherwise",
-      "  kage diff a.png b.png\n"
-      "  kage diff a.exr b.exr --lsb 1 --max-percent 0.01 --out heat.png --json -\n"
-      "An LSB is one step of the file's pixel type; for floats, of the representable numbers.\n"
-      "A NaN on either side, or unlike size, channels or pixel type, is a difference that no option tolerates.");
+  CLI::App* c =
+      add_command(app, "diff", "Compare pictures, folders of pictures or streams, exactly unless told otherwise",
+                  "  kage diff a.png b.png\n"
+                  "  kage diff a.png b.png --lsb 1 --max-percent 0.01 --out heat.png --flip flip.png --json -\n"
+                  "  kage diff a.exr b.exr --ulp 4 --region 64x48+10+20 --ignore-alpha\n"
+                  "  kage diff reference/ out/ --out differences/ --junit diff.xml\n"
+                  "  kage diff old.kage new.kage\n"
+                  "  kage diff --bless --dry-run out/ reference/\n"
+                  "  kage diff --bless out/ reference/\n"
+                  "No option tolerates a NaN on either side, another size, channels, pixel type or colour space, or a\n"
+                  "picture that one folder lacks. docs/diff.md says what each option means.\n"
+                  "Exit codes: 0 same, 1 different, 2 trouble. With --bless: 0 if B is like A now, 1 if it still\n"
+                  "holds pictures that A lacks (or, with --dry-run, would be changed), 2 trouble: B is as it was.");
   const auto o = std::make_shared<DiffCommand>();
-  const CLI::Validator finite(
-      [](const std::string& text) {
-        return text.find_first_not_of("0123456789.eE+-") == std::string::npos ? std::string()
-                                                                              : text + " is not a number";
-      },
-      "", "finite");
-  c->add_option("A", o->a, "a picture: PNG, EXR or any other that OpenImageIO reads")->required();
-  c->add_option("B", o->b, "another")->required();
-  c->add_option("--lsb", o->limits.lsb, "a pixel is the same if no channel is further apart than N LSB, default 0")
-      ->check(whole_number())
-      ->type_name("N");
-  c->add_option("--max-pixels", o->limits.max_pixels, "same if at most N pixels differ, default 0")
-      ->check(whole_number())
-      ->type_name("N");
-  c->add_option("--max-percent", o->limits.max_percent, "same if at most P percent of the pixels differ")
-      ->check(finite)
-      ->check(CLI::Range(0.0, 100.0))
-      ->type_name("P");
-  c->add_option("--out", o->out, "write a picture of the differences: A dimmed, red where they differ")
+  c->add_option("A", o->a,
+                "a picture (PNG, EXR or any other that OpenImageIO reads), a folder of them, or a stream file")
+      ->required();
+  c->add_option("B", o->b, "another of the same sort")->required();
+  add_thresholds(*c, o->limits);
+  c->add_option("--mask", o->mask, "compare only pixels that are not 0 in this picture; its size is that of A and B")
       ->type_name("FILE");
+  c->add_option(
+       "--out", o->out,
+       "write a heat map: A dimmed, red where they differ; of folders, a folder with heat maps and flip pictures "
+       "of what differs")
+      ->type_name("FILE|FOLDER");
+  c->add_option("--flip", o->flip, "write a picture that shows A and B in turn, as animated PNG")->type_name("FILE");
+  c->add_option("--junit", o->junit, "write JUnit XML: a test case for each picture, or each frame of a stream")
+      ->type_name("FILE");
+  c->add_flag("--bless", o->bless,
+              "make folder B like folder A: copy pictures that are new or differ, leave those that are the same");
+  c->add_flag("--prune", o->prune, "with --bless: remove pictures that A lacks from B");
+  c->add_flag("--dry-run", o->dry_run, "with --bless: only say what would be done");
   option_json(*c, *o);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c->callback([o, c, &action] {
+    for (const CLI::Option* option : c->get_options())
+      if (option->count() > 0 && !option->get_lnames().empty()) o->given.push_back("--" + option->get_lnames().front());
+    action = [o] { return run(*o); };
+  });
 }
 
 }  // namespace kage::cli

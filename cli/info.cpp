@@ -9,6 +9,7 @@
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
+#include "progress.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
@@ -61,9 +62,10 @@ int run(const InfoCommand& o) {
         fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
   TokenCounts counts;
   Progress progress;
+  FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
   for (int i = 0; i < file.frame_count(); ++i) {
     check_interrupt();
-    progress.show(fmt::format("frame {}/{}", i + 1, file.frame_count()));
+    frame_progress.next();
     (void)file.frame(i, &counts);
   }
   check_mapped();

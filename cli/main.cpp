@@ -47,7 +47,9 @@ int run(int argc, char** argv) {
   add_render(app, action);
   add_stream(app, action);
   add_info(app, action);
+  add_explain(app, action);
   add_diff(app, action);
+  add_merge(app, action);
   add_model(app, action);
   add_order(app, action);
   try {

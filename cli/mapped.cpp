@@ -7,6 +7,9 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <vector>
 
 #include "kage/error.hpp"
 
@@ -15,7 +18,17 @@ namespace {
 
 volatile std::sig_atomic_t lost = 0;
 std::uintptr_t page_size = 0;
-std::string file_name;
+
+struct Guarded {
+  std::string name;
+  std::uintmax_t size;
+};
+std::vector<Guarded> files;
+
+std::uintmax_t size_now(const std::string& name) {
+  std::error_code ec;
+  return std::filesystem::file_size(name, ec);
+}
 
 // mmap() is a plain system call on Linux and safe here, though POSIX does not list it.
 void on_bus(int number, siginfo_t* info, void*) {
@@ -34,7 +47,7 @@ void on_bus(int number, siginfo_t* info, void*) {
 }  // namespace
 
 void guard_mapped(const std::string& name) {
-  file_name = name;
+  files.push_back({name, size_now(name)});
   page_size = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
   struct sigaction action = {};
   action.sa_sigaction = on_bus;
@@ -43,7 +56,15 @@ void guard_mapped(const std::string& name) {
 }
 
 std::string lost_mapped() {
-  return lost != 0 ? file_name + ": became shorter, or could not be read, while it was open" : std::string();
+  if (lost == 0) return "";
+  // The page that was lost does not say whose it was; the size does, if the file became shorter.
+  std::string all;
+  std::string changed;
+  for (const Guarded& file : files) {
+    all += (all.empty() ? "" : " or ") + file.name;
+    if (size_now(file.name) != file.size) changed += (changed.empty() ? "" : " and ") + file.name;
+  }
+  return (changed.empty() ? all : changed) + ": became shorter, or could not be read, while it was open";
 }
 
 void check_mapped() {

@@ -9,10 +9,10 @@
 
 namespace kage::cli {
 
-/// To be called before the file is opened; one file a run.
+/// To be called before the file is opened, for each file of a run.
 void guard_mapped(const std::string& name);
 
-/// The error of the guarded file, if pages of it have been lost; otherwise empty.
+/// The error of the guarded files, if pages have been lost; otherwise empty.
 std::string lost_mapped();
 
 /// Throws Error if pages have been lost. To be called after words were read and before anything is made of them.

@@ -27,10 +27,12 @@ int run(const ModelCommand& o) {
   Json j = Json::array();
   for (const NamedConfig& named : list) {
     Progress progress;
-    const cosim::Model model = cosim::find_model(named.config, o.fault, [&](double seconds) {
-      check_interrupt();
-      progress.show(fmt::format("building the RTL model of configuration {}: {:.0f} s", named.name, seconds));
-    });
+    const cosim::Model model = cosim::find_model(
+        named.config,
+        {.fault = o.fault, .progress = [&](double seconds) {
+           check_interrupt();
+           progress.show(fmt::format("building the RTL model of configuration {}: {:.0f} s", named.name, seconds));
+         }});
     progress.clear();
     if (!json_only(o))
       fmt::print("{}: {} ({})\n", named.name, model.library.string(),

@@ -10,6 +10,7 @@
 #include "cosim/core.hpp"
 #include "cosim/picture.hpp"
 #include "kage/error.hpp"
+#include "progress.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
@@ -31,9 +32,10 @@ int run(const RenderCommand& o) {
   Json names = Json::array();
   Size size;
   Progress progress;
+  FrameProgress frame_progress(progress, source.name(), source.frames());
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
-    progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
+    frame_progress.next();
     const auto path =
         std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
     cosim::FramePicture picture(path);
@@ -86,16 +88,8 @@ void add_render(CLI::App& app, Action& action) {
   option_scene(*c, *o);
   c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
   c->add_flag("--exr", o->exr, "write EXR instead of PNG");
-  option_size(*c, *o);
-  option_frames(*c, *o);
-  option_config(*c, *o);
-  option_degrade(*c, *o);
-  option_units_only(*c, *o);
-  option_translucent(*c, *o);
-  option_lights(*c, *o);
-  option_seed(*c, *o);
+  options_of_frames(*c, *o);
   option_json(*c, *o);
-  option_threads(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

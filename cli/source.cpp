@@ -96,8 +96,8 @@ void Source::open_scene(const Options& options) {
       config_ = choose_config(needs);
     } catch (const Error& e) {
       const std::string line = widened_config(needs);
-      throw Error(line.empty() ? e.what()
-                               : fmt::format("{}; --config FILE can, with this line in it: {}", e.what(), line));
+      throw Error(fmt::format("{}: {}{}", options.input, e.what(),
+                              line.empty() ? "" : "; --config FILE can, with this line in it: " + line));
     }
     notes_.push_back(fmt::format("configuration: {}", config_.name));
     return;
@@ -168,6 +168,17 @@ TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
       },
       threads_, &report);
   return checker.finish();
+}
+
+std::optional<Provenance> Source::provenance(int index) {
+  if (!scene_) return std::nullopt;
+  SceneFrame frame = scene_->frame(index, frames_);
+  FrameGeometry geometry = make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
+  FrameOrigins origins;
+  make_frame(
+      geometry, config_.config, static_cast<std::uint32_t>(index),
+      [](std::span<const std::uint32_t>) { check_interrupt(); }, threads_, nullptr, &origins);
+  return Provenance(scene_->objects(), std::move(frame), std::move(geometry), std::move(origins));
 }
 
 // The report is complete before the frame's first words.

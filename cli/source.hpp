@@ -12,6 +12,7 @@
 #include "kage/geometry.hpp"
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
+#include "provenance.hpp"
 
 namespace kage::cli {
 
@@ -52,6 +53,9 @@ class Source {
   /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts. Between the pieces
   /// check_interrupt() may end it.
   TokenCounts frame(int index, const WordSink& sink);
+
+  /// What the tokens of frame `index` come from; nothing if the frames are a stream's.
+  [[nodiscard]] std::optional<Provenance> provenance(int index);
 
  private:
   TokenCounts frame_of_stream(int index, const WordSink& sink);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "common.hpp"
+#include "progress.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
@@ -16,9 +17,10 @@ int run(const Options& o) {
   StreamFileWriter writer(o.out, source.config().config);
   TokenCounts counts;
   Progress progress;
+  FrameProgress frame_progress(progress, source.name(), source.frames());
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
-    progress.show(fmt::format("{}: frame {}/{}", source.name(), i + 1, source.frames()));
+    frame_progress.next();
     writer.begin_frame();
     counts += source.frame(i, [&](std::span<const std::uint32_t> words) { writer.words(words); });
     writer.end_frame();
@@ -49,15 +51,7 @@ void add_stream(CLI::App& app, Action& action) {
   const auto o = std::make_shared<Options>();
   option_scene(*c, *o);
   c->add_option("--out", o->out, "the stream file")->required()->type_name("FILE");
-  option_size(*c, *o);
-  option_frames(*c, *o);
-  option_config(*c, *o);
-  option_degrade(*c, *o);
-  option_units_only(*c, *o);
-  option_translucent(*c, *o);
-  option_lights(*c, *o);
-  option_seed(*c, *o);
-  option_threads(*c, *o);
+  options_of_frames(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -16,12 +16,14 @@ namespace kage {
 constexpr int first_centre(std::int32_t v) { return (v + 127) >> 8; }
 
 /// Quotient rounded down and remainder 0 .. b - 1, for b > 0.
+template <class Int>
 struct Division {
-  std::int64_t quotient;
-  std::int64_t remainder;
+  Int quotient;
+  Int remainder;
 };
-constexpr Division divide_floor(std::int64_t a, std::int64_t b) {
-  Division d{a / b, a % b};
+template <class Int>
+constexpr Division<Int> divide_floor(Int a, Int b) {
+  Division<Int> d{a / b, a % b};
   if (d.remainder < 0) {
     --d.quotient;
     d.remainder += b;
@@ -56,34 +58,35 @@ class EdgeWalker {
     const std::int64_t scale = 256 * dy_;
     // ceil(n / scale) with n / scale = (x - 128) / 256 at the line's centre.
     const std::int64_t n = (top_.x - 128) * dy_ + (std::int64_t{256} * y + 128 - top_.y) * dx_;
-    const Division at = divide_floor(n + scale - 1, scale);
-    const Division step = divide_floor(dx_, dy_);
-    x_ = at.quotient;
-    rest_ = at.remainder;
+    const auto at = divide_floor(n + scale - 1, scale);
+    // 32 bits hold both, and divide faster.
+    const auto step = divide_floor(static_cast<std::int32_t>(dx_), static_cast<std::int32_t>(dy_));
+    x_ = static_cast<std::int32_t>(at.quotient);
+    rest_ = at.remainder - scale;
     step_ = step.quotient;
-    rest_step_ = 256 * step.remainder;
+    rest_step_ = std::int64_t{256} * step.remainder;
     scale_ = scale;
   }
 
+  // Without a branch, for whether the remainder overflows is as good as chance.
   void next() {
-    x_ += step_;
     rest_ += rest_step_;
-    if (rest_ >= scale_) {
-      rest_ -= scale_;
-      ++x_;
-    }
+    const auto over = ~(rest_ >> 63);  // all ones, or 0
+    rest_ -= scale_ & over;
+    x_ += step_ - static_cast<std::int32_t>(over);
   }
 
   /// First pixel at or right of the crossing.
-  [[nodiscard]] int x() const { return static_cast<int>(x_); }
+  [[nodiscard]] int x() const { return x_; }
 
  private:
   ScreenVertex top_;
   std::int64_t dx_ = 0;
   std::int64_t dy_ = 0;
-  std::int64_t x_ = 0;
-  std::int64_t rest_ = 0;
-  std::int64_t step_ = 0;
+  // An edge that crosses a line's centre is less than 2^25 long, so a step is less than 2^25 as well.
+  std::int32_t x_ = 0;
+  std::int32_t step_ = 0;
+  std::int64_t rest_ = 0;  // the remainder less scale_
   std::int64_t rest_step_ = 0;
   std::int64_t scale_ = 1;
   int first_ = 0;

@@ -23,6 +23,11 @@ struct LineRange {
   int end = 0;
 };
 
+/// Those whose centres an edge crosses.
+constexpr LineRange lines_of(const ScreenVertex& a, const ScreenVertex& b) {
+  return {first_centre(std::min(a.y, b.y)), first_centre(std::max(a.y, b.y))};
+}
+
 inline LineRange lines_of(std::span<const ScreenVertex> outline) {
   std::int32_t low = outline[0].y;
   std::int32_t high = low;
@@ -65,35 +70,70 @@ class Scanner {
   /// its neighbours.
   template <class Emit>
   void scan(std::span<const ScreenVertex> outline, int y0, int y1, int width, Emit emit) {
-    edges_.clear();
-    int first = y1;
-    int end = y0;
+    std::size_t count = 0;
+    int y = y1;
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const ScreenVertex& a = outline[i];
       const ScreenVertex& b = outline[i + 1 == outline.size() ? 0 : i + 1];
-      if (a.y == b.y) continue;
-      EdgeWalker e(a, b);
-      const int from = std::max(e.first(), y0);
-      if (from >= std::min(e.end(), y1)) continue;
+      const LineRange lines = lines_of(a, b);
+      const int from = std::max(lines.first, y0);
+      if (from >= std::min(lines.end, y1)) continue;
+      if (count == edges_.size()) edges_.emplace_back();
+      EdgeWalker& e = edges_[count++];
+      e = EdgeWalker(a, b);
       e.start(from);
-      edges_.push_back(e);
-      first = std::min(first, from);
-      end = std::max(end, std::min(e.end(), y1));
+      y = std::min(y, from);
     }
-    for (int y = first; y < end; ++y) {
+    const std::span<EdgeWalker> edges = std::span(edges_).first(count);
+    // Lines on which the same edges are there, until there are none.
+    while (y < y1) {
+      int end = y1;
+      active_.clear();
+      for (EdgeWalker& e : edges) {
+        if (e.active(y)) {
+          active_.push_back(&e);
+          end = std::min(end, e.end());
+        } else if (e.first() > y) {
+          end = std::min(end, e.first());
+        }
+      }
+      if (active_.empty())
+        y = end;
+      else if (active_.size() == 2)
+        between_two(y, end, width, emit);
+      else
+        between_many(y, end, width, emit);
+    }
+  }
+
+ private:
+  // Two edges, one of which goes down and one up, as they do on nearly every line.
+  template <class Emit>
+  void between_two(int& y, int end, int width, Emit emit) {
+    EdgeWalker& a = *active_[0];
+    EdgeWalker& b = *active_[1];
+    for (; y < end; ++y, a.next(), b.next()) {
+      const int xa = std::clamp(a.x(), 0, width);
+      const int xb = std::clamp(b.x(), 0, width);
+      if (xa != xb) emit(y, std::min(xa, xb), std::max(xa, xb), xa < xb ? a.winding() : b.winding());
+    }
+  }
+
+  template <class Emit>
+  void between_many(int& y, int end, int width, Emit emit) {
+    for (; y < end; ++y) {
       crossings_.clear();
-      for (EdgeWalker& e : edges_) {
-        if (!e.active(y)) continue;
-        crossings_.push_back({e.x(), e.winding()});
-        e.next();
+      for (EdgeWalker* e : active_) {
+        crossings_.push_back({e->x(), e->winding()});
+        e->next();
       }
       sort_crossings(crossings_);
       fill_between(crossings_, width, [&](int xl, int xr, int winding) { emit(y, xl, xr, winding); });
     }
   }
 
- private:
-  std::vector<EdgeWalker> edges_;
+  std::vector<EdgeWalker> edges_;  // those of the outline at hand, and room
+  std::vector<EdgeWalker*> active_;
   std::vector<Crossing> crossings_;
 };
 

@@ -13,7 +13,7 @@ namespace kage {
 
 /// The class of a polygon's spans: of its normal, or, without table, whether it is lit.
 inline int span_class(const ScreenPolygon& p, const Config& config) {
-  if (config.class_bits > 1) return p.normal_class;
+  if (config.class_bits > 1) return static_cast<int>(p.normal_class);
   return p.lit ? 1 : 0;
 }
 
@@ -29,7 +29,8 @@ class SpanSetup {
   SpanSetup(int frac, int bits)
       : shift_(kPlaneFrac - frac),
         limit_(std::int64_t{1} << (bits - 1)),
-        half_(frac > 0 ? std::int64_t{1} << (frac - 1) : 0) {}
+        half_(frac > 0 ? std::int64_t{1} << (frac - 1) : 0),
+        round_half_(shift_ > 0 ? std::int64_t{1} << (shift_ - 1) : 0) {}
 
   /// For the depth of spans and segments.
   static SpanSetup depth(const Config& config) { return {config.z_frac, config.z_bits + config.z_frac + 2}; }
@@ -68,7 +69,38 @@ class SpanSetup {
   /// the plane itself does not fit.
   template <class Emit>
   void each(const ScreenPlane& plane, int xl, int xr, int y, Emit emit) const {
-    if (in_range(start(plane, xl, y)) && in_range(start(plane, xr - 1, y))) {
+    if (is_narrow(plane)) {
+      const std::int64_t left = plane.c + plane.a * (xl - plane.x0) + plane.b * (y - plane.y0);
+      const std::int64_t last = xr - 1 - xl;
+      const std::int64_t start = round_narrow(left) + half_;
+      const std::int64_t step = last > 0 ? round_narrow(plane.a) : 0;
+      if (in_range(start) && in_range(round_narrow(left + plane.a * last) + half_) && in_range(step) &&
+          in_range(start + step * last)) {
+        emit(xl, xr, Ramp{start, step});
+        return;
+      }
+    }
+    each_wide(plane, xl, xr, y, emit);
+  }
+
+ private:
+  // Whether 64 bits hold all of a span's sums, as they do for planes that are not very steep. Pixels of a picture and
+  // anchors lie within +-2^15, so x - x0 and y - y0 within 2^16 and c + a (x - x0) + b (y - y0) within 3 * 2^60; the
+  // halves that are added to it are at most 2^23. After rounding, a start in range (2^(bits - 1) <= 2^49) and 2^15
+  // steps of at most 2^44 + 1 stay below 2^60.
+  [[nodiscard]] static bool is_narrow(const ScreenPlane& p) {
+    const auto within = [](std::int64_t v, int log) {
+      return static_cast<std::uint64_t>(v) + (std::uint64_t{1} << log) <= std::uint64_t{2} << log;
+    };
+    return within(p.a, 44) && within(p.b, 44) && within(p.c, 60) && within(p.x0, 15) && within(p.y0, 15);
+  }
+  [[nodiscard]] std::int64_t round_narrow(std::int64_t v) const { return (v + round_half_) >> shift_; }
+  [[nodiscard]] bool in_range(std::int64_t v) const { return v >= -limit_ && v < limit_; }
+
+  // The same as each() for any plane.
+  template <class Emit>
+  [[gnu::noinline]] void each_wide(const ScreenPlane& plane, int xl, int xr, int y, Emit emit) const {
+    if (range_of(start(plane, xl, y)) == 0 && range_of(start(plane, xr - 1, y)) == 0) {
       emit(xl, xr, at(plane, xl, y, xr - xl));
       return;
     }
@@ -76,12 +108,11 @@ class SpanSetup {
       const Int128 first = start(plane, x, y);
       int end = x + 1;
       while (end < xr && range_of(start(plane, end, y)) == range_of(first)) ++end;
-      emit(x, end, in_range(first) ? at(plane, x, y, end - x) : Ramp{static_cast<std::int64_t>(clamp(first)), 0});
+      emit(x, end, range_of(first) == 0 ? at(plane, x, y, end - x) : Ramp{static_cast<std::int64_t>(clamp(first)), 0});
       x = end;
     }
   }
 
- private:
   [[nodiscard]] Int128 start(const ScreenPlane& plane, int x, int y) const {
     return round(value_at(plane, x, y)) + half_;
   }
@@ -89,14 +120,12 @@ class SpanSetup {
     return std::clamp(v, -static_cast<Int128>(limit_), static_cast<Int128>(limit_) - 1);
   }
   [[nodiscard]] int range_of(Int128 v) const { return v < -limit_ ? -1 : v >= limit_ ? 1 : 0; }
-  [[nodiscard]] bool in_range(Int128 v) const { return range_of(v) == 0; }
-  [[nodiscard]] Int128 round(Int128 v) const {
-    return shift_ == 0 ? v : (v + (static_cast<Int128>(1) << (shift_ - 1))) >> shift_;
-  }
+  [[nodiscard]] Int128 round(Int128 v) const { return (v + round_half_) >> shift_; }
 
   int shift_;
   std::int64_t limit_;
   std::int64_t half_;
+  std::int64_t round_half_;
 };
 
 }  // namespace kage

@@ -93,7 +93,7 @@ std::vector<LineRange> TreePlan::edge_lines() const {
     for (const Member& m : unit) {
       const Polyhedron& p = g_->polyhedra[m.polyhedron];
       for (std::uint32_t i = p.first_edge; i < p.first_edge + p.edge_count; ++i)
-        lines[i] = lines_of(std::array{g_->polyhedron_edges[i].from, g_->polyhedron_edges[i].to});
+        lines[i] = lines_of(g_->polyhedron_edges[i].from, g_->polyhedron_edges[i].to);
     }
   return lines;
 }

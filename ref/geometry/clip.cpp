@@ -128,9 +128,10 @@ void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, 
 }
 
 bool Clipper::keeps(const ClipPoint& p) const {
-  if (p.w < near_) return false;
+  // Written as clip() asks, so that a vertex that is not a number is not kept.
+  if (!(p.w - near_ >= 0)) return false;
   for (const Side side : {Side::y_low, Side::y_high, Side::x_low, Side::x_high})
-    if (guard_distance(p, side) < 0) return false;
+    if (!(guard_distance(p, side) >= 0)) return false;
   return true;
 }
 

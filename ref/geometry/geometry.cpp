@@ -43,7 +43,6 @@ class Builder {
     out_.height = height;
     for (unsigned c = 0; c < 3; ++c) out_.background |= static_cast<std::uint32_t>(look.background[c]) << (8 * c);
     if (config.channels == 1) out_.background = look.background[1];
-    for (const Light& l : frame.lights) casters_.emplace_back(frame, l, view_.near_corners(), look.extrusion);
     // Without table all lights shine, and the first casts.
     casting_ = config.dsf_bits > 0 ? std::min(frame.lights.size(), static_cast<std::size_t>(config.lights)) : 0;
     sample_lights();
@@ -55,20 +54,28 @@ class Builder {
   FrameGeometry build() {
     eye_points_.reserve(frame_->vertices.size());
     for (const glm::dvec3& p : frame_->vertices) eye_points_.push_back(view_.to_eye(p));
+    screen_points_.reserve(eye_points_.size());
+    for (const EyePoint& e : eye_points_) screen_points_.push_back(faces_.screen_point(e));
+    out_.polygons.reserve(frame_->polygons.size());
+    out_.vertices.reserve(frame_->corners.size());
     drawn_.resize(frame_->polygons.size());
+    if (table_->exists()) lit_faces_.resize(frame_->polygons.size());
     draw_all();
     out_.drawn = static_cast<std::uint32_t>(out_.polygons.size());
+    if (table_->exists()) classify_drawn();
     // What is turned away may still be a cap.
     if (config_->dsf_bits > 0)
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
-      VolumeCaster volumes(*frame_, config_->dsf_bits, look_->volumes, shadows_->data());
-      const Receivers receivers(*frame_, out_.width, out_.height, config_->translucency == 0);
+      const std::vector<Box> boxes = component_boxes(*frame_);
+      VolumeCaster volumes(*frame_, boxes, config_->dsf_bits, look_->volumes, shadows_->data());
+      std::optional<Receivers> receivers;
+      if (look_->leave_out) receivers.emplace(*frame_, boxes, out_.width, out_.height, config_->translucency == 0);
       std::vector<bool> casts(frame_->components.size(), true);
       for (std::uint32_t i = 0; i < sample_casters_.size(); ++i) {
         const ShadowCaster& caster = sample_casters_[i];
-        if (look_->leave_out) casts = receivers.reached(caster.light());
+        if (receivers) casts = receivers->reached(caster.light());
         volumes.make(i, caster,
                      [&](const WorldVolume& v, std::uint32_t component) { maker.add(v, caster, i, component, casts); });
       }
@@ -88,16 +95,23 @@ class Builder {
   }
 
   void sample_lights() {
-    for (std::size_t l = 0; l < casting_; ++l) {
-      const int wanted = config_->count_bits > 0 ? look_->samples : 1;
-      const auto points = light_points(frame_->lights[l], wanted, look_->seed + l);
-      for (const LightPoint& p : points)
-        sample_casters_.emplace_back(*frame_, p, view_.near_corners(), look_->extrusion);
-      samples_of_.push_back(static_cast<int>(points.size()));
-      out_.sample_light.insert(out_.sample_light.end(), points.size(), static_cast<std::uint8_t>(l));
-      if (points.size() >> config_->count_bits > 0 && config_->count_bits > 0)
-        throw Error(
-            fmt::format("{} samples of a light do not fit COUNT_BITS = {}", points.size(), config_->count_bits));
+    for (std::size_t l = 0; l < frame_->lights.size(); ++l) {
+      std::vector<LightPoint> points{frame_->lights[l]};  // the middle, then the samples unless they are the middle
+      if (l < casting_ && config_->count_bits > 0) {
+        const auto samples = light_points(frame_->lights[l], look_->samples, look_->seed + l);
+        if (samples.size() > 1) points.insert(points.end(), samples.begin(), samples.end());
+        if (samples.size() >> config_->count_bits > 0)
+          throw Error(
+              fmt::format("{} samples of a light do not fit COUNT_BITS = {}", samples.size(), config_->count_bits));
+      }
+      const auto casters = ShadowCaster::of_points(*frame_, points, view_.near_corners(), look_->extrusion);
+      casters_.push_back(casters[0]);
+      if (l >= casting_) continue;
+      const auto first = casters.begin() + (points.size() > 1 ? 1 : 0);
+      sample_casters_.insert(sample_casters_.end(), first, casters.end());
+      const auto samples = static_cast<std::size_t>(casters.end() - first);
+      samples_of_.push_back(static_cast<int>(samples));
+      out_.sample_light.insert(out_.sample_light.end(), samples, static_cast<std::uint8_t>(l));
     }
   }
 
@@ -110,6 +124,19 @@ class Builder {
     if (config_->translucency > 0) return;
     for (std::uint32_t c = 0; c < frame_->components.size(); ++c)
       if (frame_->components[c].translucent) draw_component(c);
+  }
+
+  // Each face that is seen has a class and weighs in it once, however many polygons it was drawn as and however often
+  // it was tried. Translucent ones, drawn later, have none: TP knows no class.
+  void classify_drawn() {
+    std::vector<std::uint32_t> of_face(frame_->polygons.size(), 0);
+    for (ScreenPolygon& p : out_.polygons) {
+      if (!p.lit) continue;
+      std::uint32_t& number = of_face[p.source];
+      const LitFace& face = lit_faces_[p.source];
+      if (number == 0) number = table_->classify(face.normal, face.middle, face.area, face.lit);
+      p.normal_class = number;
+    }
   }
 
   void draw_component(std::uint32_t component) {
@@ -145,7 +172,7 @@ class Builder {
     const auto faces = std::span(frame_->polygons).subspan(part.first_polygon, part.polygon_count);
     for (const Polygon& face : faces)
       for (const std::uint32_t v : frame_->outline(face))
-        if (!clipper_.keeps(view_.to_clip(eye_points_[v]))) return SpanReason::cut;
+        if (!screen_points_[v].kept) return SpanReason::cut;
 
     const std::size_t polygons = out_.polygons.size();
     const std::size_t vertices = out_.vertices.size();
@@ -203,8 +230,8 @@ class Builder {
       const Side& against = sides[i];
       const Side& along = sides[i + 1];
       if (along.polygon == PolyhedronEdge::kNoPolygon && against.polygon == PolyhedronEdge::kNoPolygon) continue;
-      out_.polyhedron_edges.push_back({snap(view_.to_clip(eye_points_[along.low])),
-                                       snap(view_.to_clip(eye_points_[along.high])), along.polygon, against.polygon});
+      out_.polyhedron_edges.push_back(
+          {screen_points_[along.low].vertex.at, screen_points_[along.high].vertex.at, along.polygon, against.polygon});
     }
   }
 
@@ -225,11 +252,11 @@ class Builder {
 
   // Whether shadows darken the face: with a table if some light reaches it. Without, only if all samples do: where some
   // are behind it, it shadows itself, and a constant share would darken what is nearly unlit anyway, face by face.
-  bool takes_shadow(double facing, const Polygon& face, const std::bitset<kMaxLights>& lit) const {
+  bool takes_shadow(double facing, const FacePlane& plane, const std::bitset<kMaxLights>& lit) const {
     if (casting_ == 0) return lit[0];
     if (table_->exists()) return (lit << (kMaxLights - casting_)).any();
     return std::all_of(sample_casters_.begin(), sample_casters_.end(),
-                       [&](const ShadowCaster& c) { return same_side(facing, c.facing(face)); });
+                       [&](const ShadowCaster& c) { return same_side(facing, c.facing(plane)); });
   }
 
   void draw(std::uint32_t index) {
@@ -241,19 +268,29 @@ class Builder {
     const Camera& camera = frame_->camera;
     const double facing = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
     std::bitset<kMaxLights> lit;
-    for (std::size_t l = 0; l < casters_.size(); ++l) lit[l] = same_side(facing, casters_[l].facing(face));
+    const FacePlane plane(*frame_, face);
+    for (std::size_t l = 0; l < casters_.size(); ++l) lit[l] = same_side(facing, casters_[l].facing(plane));
 
     polygon_.clear();
+    snapped_.clear();
+    bool whole = true;
+    const bool by_place = lighting_.depends_on_place(lit);
     glm::dvec3 mean{0, 0, 0};
     glm::dvec3 mean_normal{0, 0, 0};
     glm::dvec3 middle{0, 0, 0};
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      polygon_.push_back(view_.to_clip(eye_points_[corners[i]]));
+      const ScreenPoint& at = screen_points_[corners[i]];
+      polygon_.push_back(at.clip);
+      snapped_.push_back(at.vertex.at);
+      whole = whole && at.kept;
       // More corners than a triangle's share one look.
-      const ShadingVertex& s = frame_->shading[t.shading[corners.size() == 3 ? i : 0]];
+      const std::uint32_t look = t.shading[corners.size() == 3 ? i : 0];
+      const ShadingVertex& s = frame_->shading[look];
       const glm::dvec3 towards_eye = facing < 0 ? -s.normal : s.normal;
-      polygon_.back().color =
-          lighting_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, config_->channels == 1);
+      const bool as_before = i > 0 && !by_place && (corners.size() > 3 || look == t.shading[i - 1]);
+      polygon_.back().color = as_before ? polygon_[i - 1].color
+                                        : lighting_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit,
+                                                              config_->channels == 1);
       mean += polygon_.back().color;
       mean_normal += towards_eye;
       middle += frame_->vertices[corners[i]];
@@ -263,29 +300,25 @@ class Builder {
     mean = same_color ? polygon_[0].color : mean / static_cast<double>(polygon_.size());
 
     drawn_[index].first = static_cast<std::uint32_t>(out_.polygons.size());
-    clipper_.clip(polygon_, nullptr, false);
+    if (!whole) clipper_.clip(polygon_, nullptr, false);
     if (polygon_.empty()) return;
     ScreenPolygon base;
-    base.lit = takes_shadow(facing, face, lit);
-    if (table_->exists() && base.lit) {
-      const double length = std::sqrt(glm::dot(mean_normal, mean_normal));
-      const double area = std::sqrt(glm::dot(normal, normal));
-      const auto n = static_cast<double>(corners.size());
-      base.normal_class = table_->classify(length > 0 ? mean_normal / length : mean_normal, middle / n, area, lit);
+    base.lit = takes_shadow(facing, plane, lit);
+    if (table_->exists()) {
+      const double mean_length = length(mean_normal);
+      lit_faces_[index] = {mean_length > 0 ? mean_normal / mean_length : mean_normal,
+                           middle / static_cast<double>(corners.size()), length(normal), lit};
     }
     base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
     base.source = index;
-    // Three corners are the face's own, even where it was put together from more triangles.
-    base.depth = corners.size() == 3
-                     ? faces_.face_plane(3, {eye_points_[corners[0]], eye_points_[corners[1]], eye_points_[corners[2]]},
-                                         polygon_)
-                     : faces_.face_plane(corners.size(),
-                                         {eye_points_[t.vertex[0]], eye_points_[t.vertex[1]], eye_points_[t.vertex[2]]},
-                                         polygon_);
+    base.depth = depth_plane(corners, t, whole);
     for (std::size_t c = 0; c < 3; ++c)
       base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(mean[static_cast<int>(c)], 0.0, 255.0), 0));
     if (config_->smooth == 0 || same_color) {
-      faces_.add(base, polygon_);
+      if (whole)
+        faces_.add(base, snapped_);
+      else
+        faces_.add(base, polygon_);
     } else {
       // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one
       // depth plane.
@@ -293,38 +326,24 @@ class Builder {
         piece_.assign({polygon_[0], polygon_[i], polygon_[i + 1]});
         ScreenPolygon piece = base;
         piece.color_planes = static_cast<std::int32_t>(out_.color_planes.size());
-        for (int c = 0; c < 3; ++c) out_.color_planes.push_back(color_plane(piece_, c));
+        for (int c = 0; c < 3; ++c) out_.color_planes.push_back(ScreenFaces::color_plane(piece_, c));
         faces_.add(piece, piece_);
       }
     }
     drawn_[index].count = static_cast<std::uint32_t>(out_.polygons.size()) - drawn_[index].first;
   }
 
-  static ScreenPlane color_plane(const std::vector<ClipPoint>& p, int channel) {
-    std::array<double, 3> x{};
-    std::array<double, 3> y{};
-    std::array<double, 3> v{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = p[i].sx / p[i].q;
-      y[i] = p[i].sy / p[i].q;
-      v[i] = p[i].color[channel];
-    }
-    const double dx1 = x[1] - x[0];
-    const double dy1 = y[1] - y[0];
-    const double dx2 = x[2] - x[0];
-    const double dy2 = y[2] - y[0];
-    const double area = dx1 * dy2 - dx2 * dy1;
-    const double a = ((v[1] - v[0]) * dy2 - (v[2] - v[0]) * dy1) / area;
-    const double b = ((v[2] - v[0]) * dx1 - (v[1] - v[0]) * dx2) / area;
-    constexpr double kMaxSlope = 65536.0;  // all of the range within 1/256 pixel
-    if (!(std::abs(a) <= kMaxSlope && std::abs(b) <= kMaxSlope)) return View::flat_plane((v[0] + v[1] + v[2]) / 3.0);
-    ScreenPlane plane;
-    plane.x0 = static_cast<std::int32_t>(std::floor(x[0]));
-    plane.y0 = static_cast<std::int32_t>(std::floor(y[0]));
-    plane.a = to_fixed(a, kPlaneFrac);
-    plane.b = to_fixed(b, kPlaneFrac);
-    plane.c = to_fixed(v[0] + a * (plane.x0 + 0.5 - x[0]) + b * (plane.y0 + 0.5 - y[0]), kPlaneFrac);
-    return plane;
+  // The plane of a drawn face, which is in polygon_ after clipping. A triangle's goes through its snapped vertices if
+  // it is whole. More vertices than three do not lie in one plane once they are snapped: theirs is the unsnapped one,
+  // by the triangle that the face has its plane of. Three corners are the face's own, even where it was put together
+  // from more triangles.
+  ScreenPlane depth_plane(std::span<const std::uint32_t> corners, const Triangle& t, bool whole) const {
+    if (corners.size() == 3 && whole)
+      if (const auto plane = plane_through({screen_points_[corners[0]].vertex, screen_points_[corners[1]].vertex,
+                                            screen_points_[corners[2]].vertex}))
+        return *plane;
+    const auto own = corners.size() == 3 ? corners : std::span<const std::uint32_t>(t.vertex);
+    return faces_.unsnapped_plane(eye_points_[own[0]], eye_points_[own[1]], eye_points_[own[2]], polygon_);
   }
 
   const SceneFrame* frame_;
@@ -342,26 +361,68 @@ class Builder {
   Clipper clipper_;
   FrameGeometry out_;
   ScreenFaces faces_;
-  std::vector<EyePoint> eye_points_;
+  std::vector<EyePoint> eye_points_;        // of the frame's vertices
+  std::vector<ScreenPoint> screen_points_;  // likewise
   std::vector<DrawnRange> drawn_;
+  // What the light table asks of a face.
+  struct LitFace {
+    glm::dvec3 normal;
+    glm::dvec3 middle;
+    double area;
+    std::bitset<kMaxLights> lit;
+  };
+  std::vector<LitFace> lit_faces_;          // of SceneFrame::polygons, if there is a table
   std::vector<std::uint32_t> turned_away_;  // polygons of polyhedra, into SceneFrame::polygons
+  // Of the face being drawn:
   std::vector<ClipPoint> polygon_;
+  std::vector<ScreenVertex> snapped_;
   std::vector<ClipPoint> piece_;
 };
 
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+// Of the light's distance to the scene by that's size: further off, a shadow's sides stray from where they should be by
+// more than 2^-12 of the scene.
+constexpr double kFurthestLight = 0x1p40;
+
+void check_light(const Light& l, std::size_t number, const Box& scene) {
+  const auto refuse = [number](const char* why) { throw Error(fmt::format("light {}: {}", number, why)); };
+  if (!is_finite(l.color) || l.color.x < 0 || l.color.y < 0 || l.color.z < 0)
+    refuse("its colour is negative or not finite");
+  if ((l.directional || l.spot) && !(std::abs(squared(l.direction) - 1) < 1e-6))
+    refuse("its direction is not of length 1");
+  if (l.directional) return;
+  if (!is_finite(l.position)) refuse("its position is not finite");
+  if (!(l.range >= 0)) refuse("its range is negative or not a number");
+  if (l.spot && !(l.inner_cosine <= 1 && l.inner_cosine >= l.outer_cosine && l.outer_cosine >= -1))
+    refuse("its cone is not -1 <= outer cosine <= inner cosine <= 1");
+  if (l.shape != LightShape::point && (!is_finite(l.axis_u) || !is_finite(l.axis_v))) refuse("its size is not finite");
+  const double size = l.shape == LightShape::point ? 0 : length(l.axis_u) + length(l.axis_v);
+  const double far = length(l.position - scene.low) + size;
+  if (scene.diagonal() > 0 && !(far <= kFurthestLight * scene.diagonal()))
+    refuse("it is further from the scene, or larger, than 2^40 times the scene's size: make it directional");
+}
 
 void check_finite(const SceneFrame& frame) {
-  for (std::size_t i = 0; i < frame.vertices.size(); ++i)
-    if (!finite(frame.vertices[i])) throw Error(fmt::format("vertex {}: position is not finite", i));
+  Box box;
+  for (std::size_t i = 0; i < frame.vertices.size(); ++i) {
+    if (!is_finite(frame.vertices[i])) throw Error(fmt::format("vertex {}: position is not finite", i));
+    box.add(frame.vertices[i]);
+  }
   const Camera& c = frame.camera;
-  if (!finite(c.eye) || !finite(c.right) || !finite(c.up) || !finite(c.forward) || !(c.near > 0) ||
+  if (!is_finite(c.eye) || !is_finite(c.right) || !is_finite(c.up) || !is_finite(c.forward) || !(c.near > 0) ||
       !std::isfinite(c.near) || !(c.half_height > 0) || !std::isfinite(c.half_height))
     throw Error("the camera is not finite, or its near plane or field of view is not positive");
   if (frame.lights.empty() || frame.lights.size() > kMaxLights)
     throw Error(fmt::format("{} lights: there must be 1 .. {}", frame.lights.size(), kMaxLights));
-  for (const Light& l : frame.lights)
-    if (!finite(l.directional ? l.direction : l.position) || !finite(l.color)) throw Error("the light is not finite");
+  for (std::size_t i = 0; i < frame.lights.size(); ++i) check_light(frame.lights[i], i, box);
+}
+
+void check_look(const Look& look) {
+  if (look.samples < 1 || look.samples > kMaxSamples)
+    throw Error(fmt::format("{} samples of a light: there must be 1 .. {}", look.samples, kMaxSamples));
+  if (look.classes < 1 || look.classes > kMaxClasses)
+    throw Error(fmt::format("{} classes of normals: there must be 1 .. {}", look.classes, kMaxClasses));
+  if (!(look.darkening >= 0 && look.darkening <= 1)) throw Error("the darkening is not 0 .. 1");
+  if (!(look.extrusion >= 1) || !std::isfinite(look.extrusion)) throw Error("the extrusion is not at least 1");
 }
 
 }  // namespace
@@ -372,6 +433,7 @@ FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int w
     throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
   if (frame.polygons.empty()) throw Error("the scene has no faces");
   check_finite(frame);
+  check_look(look);
   TranslucentOrder fresh_order;
   ShadowCache fresh_shadows;
   return Builder(frame, config, width, height, look, order != nullptr ? *order : fresh_order,

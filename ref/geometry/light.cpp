@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "scene/functions.hpp"
+#include "scene/space.hpp"
 
 namespace kage {
 namespace {
@@ -33,12 +34,10 @@ struct Direction {
   double sine;
 };
 
-double squared(const glm::dvec3& v) { return glm::dot(v, v); }
-
 }  // namespace
 
 std::vector<LightPoint> light_points(const Light& light, int samples, std::uint64_t seed) {
-  const LightPoint middle = light;
+  const LightPoint& middle = light;
   if (light.shape == LightShape::point || light.directional || samples < 2) return {middle};
   std::vector<LightPoint> points;
   const std::uint64_t start = mixed(seed);
@@ -89,8 +88,8 @@ double attenuation(const Light& light, const glm::dvec3& point) {
 
 glm::dvec3 received(const Light& light, const glm::dvec3& point, const glm::dvec3& normal) {
   const glm::dvec3 to = light.directional ? -light.direction : light.position - point;
-  const double length = std::sqrt(squared(to));
-  const double cosine = length > 0 ? glm::dot(to, normal) / length : 0;
+  const double distance = length(to);
+  const double cosine = distance > 0 ? glm::dot(to, normal) / distance : 0;
   return light.color * (attenuation(light, point) * std::max(cosine, 0.0));
 }
 

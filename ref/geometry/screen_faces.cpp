@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geometry/screen_faces.hpp"
 
+#include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace kage {
 
-void ScreenFaces::add(ScreenPolygon p, const std::vector<ClipPoint>& outline) {
-  p.first_vertex = static_cast<std::uint32_t>(out_->vertices.size());
-  p.vertex_count = static_cast<std::uint32_t>(outline.size());
-  for (const ClipPoint& c : outline) out_->vertices.push_back(snap(c));
-  out_->polygons.push_back(p);
+ScreenPoint ScreenFaces::screen_point(const EyePoint& e) const {
+  ScreenPoint p;
+  p.clip = view_->to_clip(e);
+  p.kept = clipper_->keeps(p.clip);
+  if (p.kept) p.vertex = depth_vertex(p.clip);
+  return p;
 }
 
-ScreenPlane ScreenFaces::face_plane(std::size_t corners, const std::array<EyePoint, 3>& t,
-                                    const std::vector<ClipPoint>& clipped) const {
-  if (corners == 3) {
-    const std::array<ClipPoint, 3> p{view_->to_clip(t[0]), view_->to_clip(t[1]), view_->to_clip(t[2])};
-    if (clipper_->keeps(p[0]) && clipper_->keeps(p[1]) && clipper_->keeps(p[2]))
-      if (const auto plane = plane_through({depth_vertex(p[0]), depth_vertex(p[1]), depth_vertex(p[2])})) return *plane;
-  }
-  return unsnapped_plane(t[0], t[1], t[2], clipped);
+void ScreenFaces::add(const ScreenPolygon& p, std::span<const ScreenVertex> outline) {
+  ScreenPolygon& added = out_->polygons.emplace_back(p);
+  added.first_vertex = static_cast<std::uint32_t>(out_->vertices.size());
+  added.vertex_count = static_cast<std::uint32_t>(outline.size());
+  out_->vertices.insert(out_->vertices.end(), outline.begin(), outline.end());
+}
+
+void ScreenFaces::add(const ScreenPolygon& p, const std::vector<ClipPoint>& outline) {
+  snapped_.clear();
+  for (const ClipPoint& c : outline) snapped_.push_back(snap(c));
+  add(p, snapped_);
 }
 
 ScreenPlane ScreenFaces::unsnapped_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c,
@@ -29,6 +35,33 @@ ScreenPlane ScreenFaces::unsnapped_plane(const EyePoint& a, const EyePoint& b, c
   double sum = 0;
   for (const ClipPoint& p : clipped) sum += view_->depth(p.w);
   return View::flat_plane(sum / static_cast<double>(clipped.size()));
+}
+
+ScreenPlane ScreenFaces::color_plane(const std::vector<ClipPoint>& p, int channel) {
+  std::array<double, 3> x{};
+  std::array<double, 3> y{};
+  std::array<double, 3> v{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = p[i].sx / p[i].q;
+    y[i] = p[i].sy / p[i].q;
+    v[i] = p[i].color[channel];
+  }
+  const double dx1 = x[1] - x[0];
+  const double dy1 = y[1] - y[0];
+  const double dx2 = x[2] - x[0];
+  const double dy2 = y[2] - y[0];
+  const double area = dx1 * dy2 - dx2 * dy1;
+  const double a = ((v[1] - v[0]) * dy2 - (v[2] - v[0]) * dy1) / area;
+  const double b = ((v[2] - v[0]) * dx1 - (v[1] - v[0]) * dx2) / area;
+  constexpr double kMaxSlope = 65536.0;  // all of the range within 1/256 pixel
+  if (!(std::abs(a) <= kMaxSlope && std::abs(b) <= kMaxSlope)) return View::flat_plane((v[0] + v[1] + v[2]) / 3.0);
+  ScreenPlane plane;
+  plane.x0 = static_cast<std::int32_t>(std::floor(x[0]));
+  plane.y0 = static_cast<std::int32_t>(std::floor(y[0]));
+  plane.a = to_fixed(a, kPlaneFrac);
+  plane.b = to_fixed(b, kPlaneFrac);
+  plane.c = to_fixed(v[0] + a * (plane.x0 + 0.5 - x[0]) + b * (plane.y0 + 0.5 - y[0]), kPlaneFrac);
+  return plane;
 }
 
 }  // namespace kage

@@ -3,8 +3,8 @@
 // What drawn faces and volumes have in common on their way to the screen: snapped outlines and depth planes.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/clip.hpp"
@@ -19,34 +19,43 @@ struct DrawnRange {
   std::uint32_t count = 0;
 };
 
+/// A vertex of the frame on the screen: the same for every face that has it.
+struct ScreenPoint {
+  ClipPoint clip;
+  bool kept = false;   ///< by clipping
+  DepthVertex vertex;  ///< if it is kept
+};
+
 /// Refers to what it is made of.
 class ScreenFaces {
  public:
   ScreenFaces(const View& view, const Clipper& clipper, FrameGeometry& out)
       : view_(&view), clipper_(&clipper), out_(&out) {}
 
-  /// Append the polygon with this outline, snapped.
-  void add(ScreenPolygon p, const std::vector<ClipPoint>& outline);
+  [[nodiscard]] ScreenPoint screen_point(const EyePoint& e) const;
+
+  /// Append the polygon with this outline, snapped or to be snapped.
+  void add(const ScreenPolygon& p, std::span<const ScreenVertex> outline);
+  void add(const ScreenPolygon& p, const std::vector<ClipPoint>& outline);
 
   [[nodiscard]] DepthVertex depth_vertex(const ClipPoint& p) const {
     return {snap(p), to_fixed(view_->depth(p.w), kVertexFrac)};
   }
-
-  /// The plane of a drawn face, which is `clipped` after clipping. A triangle's goes through its snapped vertices if
-  /// they are all there. More vertices than three do not lie in one plane once they are snapped: theirs is the
-  /// unsnapped one, by three of the points.
-  [[nodiscard]] ScreenPlane face_plane(std::size_t corners, const std::array<EyePoint, 3>& t,
-                                       const std::vector<ClipPoint>& clipped) const;
 
   /// The plane of three points of a polygon, which is `clipped` after clipping. A plane too steep is one seen edge-on:
   /// within half a subpixel every depth of the polygon is in reach, and the mean of its vertices' is taken.
   [[nodiscard]] ScreenPlane unsnapped_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c,
                                             const std::vector<ClipPoint>& clipped) const;
 
+  /// The plane of a colour channel of a clipped triangle, in units of an 8-bit colour. One too steep is the mean of its
+  /// vertices' all over.
+  [[nodiscard]] static ScreenPlane color_plane(const std::vector<ClipPoint>& p, int channel);
+
  private:
   const View* view_;
   const Clipper* clipper_;
   FrameGeometry* out_;
+  std::vector<ScreenVertex> snapped_;
 };
 
 }  // namespace kage

@@ -27,6 +27,13 @@ class Lighting {
   [[nodiscard]] glm::dvec3 displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base,
                                      const std::bitset<kMaxLights>& lit, bool grey) const;
 
+  /// Whether displayed() with these lights depends on the point.
+  [[nodiscard]] bool depends_on_place(const std::bitset<kMaxLights>& lit) const {
+    for (std::size_t l = 0; l < lights_.size(); ++l)
+      if (lit[l] && !lights_[l].directional) return true;
+    return false;
+  }
+
   /// Share of its displayed colour that a white surface there loses where all of a light is kept out, of each light and
   /// channel: of what it loses where all lights are, as much as the light gives of all that it gets directly.
   [[nodiscard]] std::vector<glm::dvec3> shares(const glm::dvec3& point, const glm::dvec3& normal,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,14 +42,15 @@ class VolumeMaker {
   void add_cap(const CapFace& cap);
   void add_side(const SideEdge& s);
   void add_far_end(const CapFace& cap);
-  template <class MakePlane>
-  void add_face(std::int32_t w, MakePlane make_plane);
+  [[nodiscard]] bool clip_face(std::int32_t w);
+  void add_polygon(std::int32_t w, const ScreenPlane& plane, const std::vector<ClipPoint>& outline);
+  [[nodiscard]] bool start_at_cap(const DrawnRange& cap, std::int64_t side_slope);
+  [[nodiscard]] std::optional<ScreenPlane> whole_plane(std::int64_t bound) const;
+  void add_joined(std::int32_t w, const ScreenPlane& truth, std::span<const ScreenVertex> cap);
   void cut_only();
   void clip_and_cut(std::int32_t w);
   [[nodiscard]] EyePoint far_point(std::uint32_t vertex) const;
   [[nodiscard]] bool is_edge_on(const ScreenPlane& cap, const ScreenVertex& at, const ClipPoint& corner) const;
-  [[nodiscard]] ScreenPlane side_plane(const DrawnRange& cap, const EyePoint& a, const EyePoint& b,
-                                       const EyePoint& c) const;
 
   const SceneFrame* frame_;
   const View* view_;
@@ -63,6 +65,8 @@ class VolumeMaker {
   double factor_ = 1;
   std::vector<EyePoint> points_;
   std::vector<ClipPoint> polygon_;
+  std::vector<DepthVertex> ring_;
+  std::vector<ClipPoint> piece_;
   std::vector<NearCut> cuts_;
 };
 

@@ -3,7 +3,6 @@
 // Bit fields in 32-bit words, and integers of stated widths.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,23 +23,6 @@ constexpr bool fits_signed(std::int64_t v, unsigned bits) {
   return v >= -limit && v < limit;
 }
 
-/// A field of a token: unsigned, or sign-extended where the layout says so. 0 for an absent field.
-inline std::int64_t extract(std::span<const std::uint32_t> words, Field f) {
-  if (f.bits == 0) return 0;
-  std::size_t i = f.lsb / 32;
-  unsigned shift = f.lsb % 32;
-  std::uint64_t v = 0;
-  unsigned have = 0;
-  while (have < f.bits) {
-    v |= static_cast<std::uint64_t>(words[i] >> shift) << have;
-    have += 32 - shift;
-    shift = 0;
-    ++i;
-  }
-  return f.is_signed ? sign_extend(v, f.bits)
-                     : static_cast<std::int64_t>(f.bits == 64 ? v : v & ((std::uint64_t{1} << f.bits) - 1));
-}
-
 /// What of a value, counted from the least that fits its field, lies above the field's bits: 0 if it fits. A field of
 /// no bits holds 0.
 constexpr std::uint64_t beyond(std::int64_t value, Field f) {
@@ -48,9 +30,12 @@ constexpr std::uint64_t beyond(std::int64_t value, Field f) {
   return (static_cast<std::uint64_t>(value) + least) >> f.bits;
 }
 
-/// The words of one token: fields of up to 63 bits each, least significant bit first.
+/// Writes the words of one token: fields of up to 63 bits each, least significant bit first. The words lie elsewhere,
+/// so that what is kept here can stay in registers.
 class BitPacker {
  public:
+  explicit BitPacker(std::uint32_t* to) : to_(to) {}
+
   void put(std::int64_t value, Field f) {
     lost_ |= beyond(value, f);
     auto v = static_cast<std::uint64_t>(value);
@@ -66,12 +51,10 @@ class BitPacker {
   /// False if a value did not fit its field.
   [[nodiscard]] bool whole() const { return lost_ == 0; }
 
-  /// The words so far, with zeros up to the end of the last.
-  [[nodiscard]] std::span<const std::uint32_t> close() {
-    if (have_ > 0) words_[count_++] = static_cast<std::uint32_t>(acc_);
-    acc_ = 0;
-    have_ = 0;
-    return std::span(words_).first(count_);
+  /// Write what is left, with zeros above it, and return the end of the words.
+  [[nodiscard]] std::uint32_t* close() {
+    if (have_ > 0) *to_++ = static_cast<std::uint32_t>(acc_);
+    return to_;
   }
 
  private:
@@ -80,16 +63,53 @@ class BitPacker {
     acc_ |= value << have_;
     have_ += bits;
     if (have_ < 32) return;
-    words_[count_++] = static_cast<std::uint32_t>(acc_);
+    *to_++ = static_cast<std::uint32_t>(acc_);
     acc_ >>= 32;
     have_ -= 32;
   }
 
-  std::array<std::uint32_t, 16> words_;  // only the first count_ are ever read
-  std::size_t count_ = 0;
+  std::uint32_t* to_;
   std::uint64_t acc_ = 0;
   unsigned have_ = 0;
   std::uint64_t lost_ = 0;
+};
+
+/// The other way round: takes the fields of a token in their order from the least significant bit up.
+class BitUnpacker {
+ public:
+  explicit BitUnpacker(std::span<const std::uint32_t> words) : next_(words.data()) {}
+
+  /// The next field, sign-extended where the layout says so. 0 for an absent one.
+  [[nodiscard]] std::int64_t take(Field f) {
+    if (f.bits == 0) return 0;
+    unsigned bits = f.bits;
+    std::uint64_t v = 0;
+    if (bits > 32) {
+      v = take_half(32);
+      bits -= 32;
+      v |= take_half(bits) << 32;
+    } else {
+      v = take_half(bits);
+    }
+    return f.is_signed ? sign_extend(v, f.bits) : static_cast<std::int64_t>(v);
+  }
+
+ private:
+  // have_ < 32 between calls, and no word is read before a bit of it is asked for.
+  std::uint64_t take_half(unsigned bits) {
+    if (have_ < bits) {
+      acc_ |= static_cast<std::uint64_t>(*next_++) << have_;
+      have_ += 32;
+    }
+    const std::uint64_t v = acc_ & ((std::uint64_t{1} << bits) - 1);
+    acc_ >>= bits;
+    have_ -= bits;
+    return v;
+  }
+
+  const std::uint32_t* next_;
+  std::uint64_t acc_ = 0;
+  unsigned have_ = 0;
 };
 
 }  // namespace kage

@@ -9,10 +9,13 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <new>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "functions.hpp"
@@ -362,9 +365,31 @@ void Reader::write_notes() {
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
 }
 
+// Assimp's reader of OBJ takes ".5" for no number and drops the vertex, so that faces get other vertices than the
+// file's.
+void refuse_lost_vertices(const std::filesystem::path& path, const std::string& name) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".obj") return;
+  std::ifstream in(path);
+  std::size_t number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.find(" .") == std::string::npos && line.find("\t.") == std::string::npos) continue;
+    std::istringstream words(line);
+    std::string word;
+    if (!(words >> word) || word != "v") continue;
+    while (words >> word)
+      if (word.front() == '.')
+        throw Error(name + ": line " + std::to_string(number) + ": Assimp does not read the number " +
+                    one_line(word, 40) + ": it needs a digit before the point");
+  }
+}
+
 }  // namespace
 
 RawScene import_assimp(const std::filesystem::path& path, const std::string& name) {
+  refuse_lost_vertices(path, name);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr) {

@@ -69,14 +69,9 @@ bool wound_once(const std::vector<glm::dvec3>& positions, const std::vector<Corn
 Reason convexity(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles,
                  const std::vector<SharedEdge>& edges, std::uint64_t& budget) {
   const std::vector<std::uint32_t> vertices = vertices_of(triangles);
-  glm::dvec3 low = positions[vertices[0]];
-  glm::dvec3 high = low;
-  for (const std::uint32_t v : vertices) {
-    const glm::dvec3& p = positions[v];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const double tolerance = kConvexTolerance * length(high - low);
+  Box box;
+  for (const std::uint32_t v : vertices) box.add(positions[v]);
+  const double tolerance = kConvexTolerance * box.diagonal();
 
   std::vector<Plane> planes;
   planes.reserve(triangles.size());
@@ -92,7 +87,7 @@ Reason convexity(const std::vector<glm::dvec3>& positions, const std::vector<Cor
   if (work > std::min(budget, kComponentBudget)) return {Reason::Kind::kLarge, 0, 0, 0};
   budget -= work;
   // By coordinate, relative to the middle of the box, so that the compiler makes vectors of the inner loop.
-  const glm::dvec3 middle = (low + high) * 0.5;
+  const glm::dvec3 middle = (box.low + box.high) * 0.5;
   std::vector<double> x;
   std::vector<double> y;
   std::vector<double> z;

@@ -62,6 +62,7 @@ class Importer {
   std::map<std::uint64_t, std::uint32_t> node_of_;  // file's node -> ours
   std::size_t cameras_ = 0;
   std::size_t black_lights_ = 0;
+  std::size_t shaped_suns_ = 0;  // directional lights with a shape
   std::size_t skins_ = 0;
   std::size_t morphs_ = 0;
   std::size_t morph_channels_ = 0;
@@ -296,7 +297,10 @@ void Importer::read_light(std::uint64_t index, std::uint32_t node) {
   if (range && !(*range > 0)) file_.fail(place, "'range' is not above 0");
   if (light.falls_off) light.range = range.value_or(0);
   if (type == "spot") read_cone(json, light, place);
-  if (!light.directional) read_shape(json, light, place);
+  if (!light.directional)
+    read_shape(json, light, place);
+  else if (file_.object(file_.object(json, "extras"), "kage").contains("shape"))
+    ++shaped_suns_;
   if (light.color == glm::dvec3(0)) {
     ++black_lights_;
     return;
@@ -412,6 +416,8 @@ void Importer::write_notes() {
   add(instanced_, "node's", "nodes'", " GPU instances are ignored: drawn once");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
   add(black_lights_, "light is", "lights are", " black, and ignored");
+  add(shaped_suns_, "directional light has", "directional lights have",
+      " a shape, which is ignored: the shadows are hard");
 }
 
 }  // namespace

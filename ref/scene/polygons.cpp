@@ -31,15 +31,10 @@ class Merger {
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) edges_.push_back({triangles[t][i], triangles[t][(i + 1) % 3], t});
     std::sort(edges_.begin(), edges_.end());
-    glm::dvec3 low = positions[triangles[0][0]];
-    glm::dvec3 high = low;
+    Box box;
     for (const Corners& t : triangles)
-      for (const std::uint32_t v : t)
-        for (int k = 0; k < 3; ++k) {
-          low[k] = std::min(low[k], positions[v][k]);
-          high[k] = std::max(high[k], positions[v][k]);
-        }
-    tolerance_ = kPlanarTolerance * length(high - low);
+      for (const std::uint32_t v : t) box.add(positions[v]);
+    tolerance_ = kPlanarTolerance * box.diagonal();
   }
 
   // The outline of each group, empty for all but the group's lowest triangle.

@@ -11,9 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "transform.hpp"
-
 #include "kage/scene.hpp"
+#include "transform.hpp"
 
 namespace kage::scene {
 
@@ -90,7 +89,7 @@ struct RawScene {
   double start_time = 0;  ///< of the animation; its end is the last key
   std::optional<RawCamera> camera;
   std::vector<RawLight> lights;  ///< none is black; at most kMaxLights
-  std::uint32_t frames = 0;  ///< as the file asks (extras.kage.frames); 0: it does not
+  std::uint32_t frames = 0;      ///< as the file asks (extras.kage.frames); 0: it does not
   std::vector<std::string> notes;
 };
 

@@ -161,23 +161,14 @@ void Scene::Data::measure() {
         for (const glm::dvec3& p : vertices) points.push_back(world[object.node].point(p));
         continue;
       }
-      glm::dvec3 low = vertices[0];
-      glm::dvec3 high = vertices[0];
-      for (const glm::dvec3& p : vertices) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-      }
-      for (int corner = 0; corner < 8; ++corner)
-        points.push_back(
-            world[object.node].point({(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-                                      (corner & 4) != 0 ? high.z : low.z}));
+      Box box;
+      for (const glm::dvec3& p : vertices) box.add(p);
+      for (unsigned corner = 0; corner < 8; ++corner) points.push_back(world[object.node].point(box.corner(corner)));
     }
   }
   bounds = scene::bounds_of(points);
-  if (!std::isfinite(bounds.radius) || !scene::is_finite(bounds.center))
-    throw Error("the scene is too large to be measured");
-  const double distance = std::max({std::abs(bounds.center.x), std::abs(bounds.center.y), std::abs(bounds.center.z)});
-  if (distance > bounds.radius * kFar)
+  if (!std::isfinite(bounds.radius) || !is_finite(bounds.center)) throw Error("the scene is too large to be measured");
+  if (largest(bounds.center) > bounds.radius * kFar)
     notes.emplace_back("the scene is so far from the origin, for its size, that its numbers are noticeably rounded");
 }
 
@@ -249,7 +240,7 @@ SceneFrame Scene::frame(int index, int count) const {
     const std::size_t first = frame.vertices.size();
     append(to_world, mesh, i, frame);
     for (std::size_t v = first; v < frame.vertices.size(); ++v)
-      if (!scene::is_finite(frame.vertices[v]))
+      if (!is_finite(frame.vertices[v]))
         throw Error(d.place + ": object '" + d.object_names[i] + "' vertex " + std::to_string(v) +
                     ": position is not finite");
     const bool flattened = to_world.determinant() == 0;
@@ -269,12 +260,11 @@ SceneFrame Scene::frame(int index, int count) const {
         d.raw.camera ? "node '" + scene::one_line(d.raw.nodes[d.raw.camera->node].name, 60) + "': " : "";
     throw Error(d.place + ": " + node + e.what());
   }
-  if (!scene::is_finite(frame.camera.eye)) throw Error(d.place + ": the camera's position is not finite");
+  if (!is_finite(frame.camera.eye)) throw Error(d.place + ": the camera's position is not finite");
   frame.lights = d.lights(world);
   for (Light& l : frame.lights) {
     l.color *= d.exposure;
-    if (!scene::is_finite(l.position) || !scene::is_finite(l.axis_u) || !scene::is_finite(l.axis_v) ||
-        !scene::is_finite(l.color))
+    if (!is_finite(l.position) || !is_finite(l.axis_u) || !is_finite(l.axis_v) || !is_finite(l.color))
       throw Error(d.place + ": a light's position, size or intensity is not finite");
   }
   return frame;
@@ -286,8 +276,9 @@ bool Scene::needs_smooth() const { return data_->smooth; }
 const std::string& Scene::name() const { return data_->name; }
 
 const std::vector<std::string>& builtin_scenes() {
-  static const std::vector<std::string> kNames{"courtyard", "knot", "inside", "edges", "polyhedra", "fifteen",
-                                               "glass",     "penumbra", "three-lights", "canopy", "cutaway"};
+  static const std::vector<std::string> kNames{"courtyard",    "knot",    "inside", "edges",
+                                               "polyhedra",    "fifteen", "glass",  "penumbra",
+                                               "three-lights", "canopy",  "cutaway"};
   return kNames;
 }
 

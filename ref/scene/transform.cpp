@@ -14,17 +14,13 @@ glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-double length(const glm::dvec3& v) { return std::sqrt(dot(v, v)); }
-
-bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& fallback) {
   if (!is_finite(v)) return fallback;
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (largest == 0) return fallback;
+  const double most = largest(v);
+  if (most == 0) return fallback;
   // Dividing by the largest keeps the squares in range; for most vectors it would only add a rounding.
-  const bool in_range = largest > 1e-100 && largest < 1e100;
-  const glm::dvec3 w = in_range ? v : glm::dvec3{v.x / largest, v.y / largest, v.z / largest};
+  const bool in_range = most > 1e-100 && most < 1e100;
+  const glm::dvec3 w = in_range ? v : glm::dvec3{v.x / most, v.y / most, v.z / most};
   const double l = length(w);
   return {w.x / l, w.y / l, w.z / l};
 }

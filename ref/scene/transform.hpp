@@ -5,6 +5,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "space.hpp"
+
 namespace kage::scene {
 
 /// p -> x * p.x + y * p.y + z * p.z + origin.
@@ -42,8 +44,6 @@ Affine compose(const glm::dvec3& translation, const Quaternion& rotation, const 
 
 double dot(const glm::dvec3& a, const glm::dvec3& b);
 glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b);
-double length(const glm::dvec3& v);
-bool is_finite(const glm::dvec3& v);
 
 /// v / |v|, also where |v|^2 under- or overflows; `fallback` if v is 0 or not finite.
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& fallback);

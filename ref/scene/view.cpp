@@ -31,16 +31,12 @@ void orient(Camera& camera, const glm::dvec3& forward, const glm::dvec3& up) {
 
 Bounds bounds_of(const std::vector<glm::dvec3>& points) {
   if (points.empty()) return {};
-  glm::dvec3 low = points[0];
-  glm::dvec3 high = points[0];
-  for (const glm::dvec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  Box box;
+  for (const glm::dvec3& p : points) box.add(p);
   Bounds b;
-  b.center = {low.x + (high.x - low.x) / 2, low.y + (high.y - low.y) / 2, low.z + (high.z - low.z) / 2};
+  b.center = box.low + (box.high - box.low) * 0.5;
   double square = 0;
-  for (const glm::dvec3& p : points) square = std::max(square, dot(p - b.center, p - b.center));
+  for (const glm::dvec3& p : points) square = std::max(square, squared(p - b.center));
   b.radius = square > 0 ? std::sqrt(square) : 1;
   return b;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scene/space.hpp"
+
 namespace kage {
 namespace {
 
@@ -16,8 +18,6 @@ constexpr double kClip = 1.5;
 constexpr double kMargin = 4;
 // More than all roundings on the way to a direction from the light.
 constexpr double kNear = 1e-9;
-
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
 
 std::array<glm::dvec3, 3> axes(const glm::dvec3& to_light) {
   const glm::dvec3 z = to_light / length(to_light);
@@ -39,20 +39,14 @@ void LightBox::add(const LightBox& o) {
 
 LightSpace::LightSpace(const SceneFrame& frame, const LightPoint& light, std::span<const CapFace> caps)
     : frame_(&frame), light_(light), axes_(axes(-light.direction)) {
-  glm::dvec3 low{INFINITY, INFINITY, INFINITY};
-  glm::dvec3 high = -low;
   const auto each_vertex = [&](auto see) {
     for (const CapFace& cap : caps)
       for (const std::uint32_t v : frame.outline(frame.polygons[cap.polygon])) see(v);
   };
   if (!light.directional) {
-    each_vertex([&](std::uint32_t v) {
-      for (int i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], frame.vertices[v][i]);
-        high[i] = std::max(high[i], frame.vertices[v][i]);
-      }
-    });
-    const glm::dvec3 to = light.position - (low + high) * 0.5;
+    Box bounds;
+    each_vertex([&](std::uint32_t v) { bounds.add(frame.vertices[v]); });
+    const glm::dvec3 to = light.position - (bounds.low + bounds.high) * 0.5;
     axes_ = axes(length(to) > 0 ? to : glm::dvec3(0, 1, 0));
     each_vertex([&](std::uint32_t v) {
       const glm::dvec3 p = place(v);
@@ -182,7 +176,7 @@ LightBox LightSpace::box(const Polygon& p) const {
   }
   double chord2 = 0;
   for (const glm::dvec3& a : unit)
-    for (const glm::dvec3& b : unit) chord2 = std::max(chord2, glm::dot(a - b, a - b));
+    for (const glm::dvec3& b : unit) chord2 = std::max(chord2, squared(a - b));
   const double more = chord2 < 1 ? chord2 + 1e-12 : 2;
   const double margin = charts_ > 1 ? more : 1e-12 * (half_ + std::abs(middle_.x) + std::abs(middle_.y));
   for (std::size_t i = 0; i < 2; ++i) {

@@ -3,59 +3,81 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
-#include "order/exact.hpp"
-#include "order/filter.hpp"
+#include "shadow/light_corners.hpp"
 
 namespace kage {
 namespace {
 
-OrderPoint order_point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
-
-/// Numbers of caps by cells of their boxes.
+/// The caps of a patch by cells of their boxes.
 class Grid {
  public:
   explicit Grid(std::span<const LightBox> boxes) : boxes_(boxes) {
-    all_ = boxes[0];
-    for (const LightBox& b : boxes) all_.add(b);
+    LightBox all = boxes[0];
+    for (const LightBox& b : boxes) all.add(b);
     side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(boxes.size()))), 1, 1024);
+    const auto cell = [&](double v, std::size_t axis) {
+      const double width = all.high[axis] - all.low[axis];
+      const double at = width > 0 ? (v - all.low[axis]) / width * side_ : 0;
+      return static_cast<std::int16_t>(std::clamp(static_cast<int>(at), 0, side_ - 1));
+    };
+    cells_.reserve(boxes.size());
+    for (const LightBox& b : boxes)
+      cells_.push_back({cell(b.low[0], 0), cell(b.low[1], 1), cell(b.high[0], 0), cell(b.high[1], 1)});
     first_.assign(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) + 1, 0);
-    for (const LightBox& b : boxes) each_cell(b, [&](std::size_t c) { ++first_[c + 1]; });
-    for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+    for (const Cells& c : cells_) each_cell(c, [&](std::size_t n) { ++first_[n + 1]; });
+    for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
     caps_.resize(first_.back());
-    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) each_cell(boxes[i], [&](std::size_t c) { caps_[at[c]++] = i; });
+    count_.assign(first_.size() - 1, 0);
   }
 
-  /// Whether some cap whose box overlaps that of cap i satisfies `test`, which may see it more than once.
+  void add(std::uint32_t i) {
+    each_cell(cells_[i], [&](std::size_t n) { caps_[first_[n] + count_[n]++] = i; });
+  }
+
+  /// Forget all in the cells of cap i.
+  void clear(std::uint32_t i) {
+    each_cell(cells_[i], [&](std::size_t n) { count_[n] = 0; });
+  }
+
+  /// Whether some cap that was added, and whose box overlaps that of cap i, satisfies `test`, which sees it once.
   template <class Test>
   [[nodiscard]] bool any(std::uint32_t i, Test test) const {
-    bool found = false;
-    each_cell(boxes_[i], [&](std::size_t c) {
-      for (std::uint32_t k = first_[c]; k < first_[c + 1] && !found; ++k)
-        found = boxes_[caps_[k]].overlaps(boxes_[i]) && test(caps_[k]);
-    });
-    return found;
+    const Cells& own = cells_[i];
+    for (int y = own.y0; y <= own.y1; ++y)
+      for (int x = own.x0; x <= own.x1; ++x) {
+        const std::size_t n = number(x, y);
+        for (std::uint32_t k = first_[n]; k < first_[n] + count_[n]; ++k) {
+          const std::uint32_t o = caps_[k];
+          // Of the cells that both have the first sees to it.
+          if (x != std::max(own.x0, cells_[o].x0) || y != std::max(own.y0, cells_[o].y0)) continue;
+          if (boxes_[o].overlaps(boxes_[i]) && test(o)) return true;
+        }
+      }
+    return false;
   }
 
  private:
+  /// From the first to the last.
+  struct Cells {
+    std::int16_t x0, y0, x1, y1;
+  };
+
+  [[nodiscard]] std::size_t number(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);
+  }
+
   template <class See>
-  void each_cell(const LightBox& b, See see) const {
-    const auto cell = [this](double v, std::size_t axis) {
-      const double width = all_.high[axis] - all_.low[axis];
-      const double at = width > 0 ? (v - all_.low[axis]) / width * side_ : 0;
-      return std::clamp(static_cast<int>(at), 0, side_ - 1);
-    };
-    for (int y = cell(b.low[1], 1); y <= cell(b.high[1], 1); ++y)
-      for (int x = cell(b.low[0], 0); x <= cell(b.high[0], 0); ++x)
-        see(static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x));
+  void each_cell(const Cells& c, See see) const {
+    for (int y = c.y0; y <= c.y1; ++y)
+      for (int x = c.x0; x <= c.x1; ++x) see(number(x, y));
   }
 
   std::span<const LightBox> boxes_;
-  LightBox all_;
   int side_ = 1;
-  std::vector<std::uint32_t> first_;
+  std::vector<Cells> cells_;
+  std::vector<std::uint32_t> first_;  // room for all caps of a cell, in caps_
+  std::vector<std::uint32_t> count_;
   std::vector<std::uint32_t> caps_;
 };
 
@@ -63,69 +85,94 @@ class Patches {
  public:
   Patches(const SceneFrame& frame, const LightPoint& light, const EdgeTable& edges, std::span<const CapFace> caps,
           std::span<const LightBox> boxes)
-      : frame_(&frame), light_(&light), edges_(&edges), caps_(caps), grid_(boxes), patch_of_(caps.size(), kNone) {}
+      : frame_(&frame),
+        edges_(&edges),
+        caps_(caps),
+        corners_(frame, light, caps),
+        grid_(boxes),
+        taken_(caps.size(), 0),
+        goes_round_(caps.size(), kUnknown) {
+    const auto [least, most] = std::ranges::minmax(caps, {}, &CapFace::polygon);
+    first_polygon_ = least.polygon;
+    cap_of_.assign(most.polygon - least.polygon + 1, kNone);
+    for (std::uint32_t i = 0; i < caps.size(); ++i) cap_of_[caps[i].polygon - first_polygon_] = i;
+  }
 
   std::vector<std::vector<CapFace>> make() {
     std::vector<std::vector<CapFace>> patches;
     std::vector<std::uint32_t> tried(caps_.size(), kNone);
     std::vector<std::uint32_t> queue;
     for (std::uint32_t seed = 0; seed < caps_.size(); ++seed) {
-      if (patch_of_[seed] != kNone) continue;
+      if (taken_[seed] != 0) continue;
       const auto patch = static_cast<std::uint32_t>(patches.size());
       patches.emplace_back();
-      patch_of_[seed] = patch;
+      taken_[seed] = 1;
+      grid_.add(seed);
       queue.assign(1, seed);
-      const bool alone = !goes_round(caps_[seed]);
+      const bool alone = !goes_round(seed);
       for (std::size_t i = 0; i < queue.size() && !alone; ++i)
         each_neighbour(caps_[queue[i]], [&](std::uint32_t n) {
-          if (patch_of_[n] != kNone || tried[n] == patch) return;
+          if (taken_[n] != 0 || tried[n] == patch) return;
           tried[n] = patch;
-          if (!goes_round(caps_[n])) return;
-          if (grid_.any(n, [&](std::uint32_t o) { return patch_of_[o] == patch && overlap(caps_[n], caps_[o]); }))
-            return;
-          patch_of_[n] = patch;
+          if (!goes_round(n)) return;
+          if (grid_.any(n, [&](std::uint32_t o) { return overlap(n, o); })) return;
+          taken_[n] = 1;
+          grid_.add(n);
           queue.push_back(n);
         });
       std::sort(queue.begin(), queue.end());
-      for (const std::uint32_t c : queue) patches.back().push_back(caps_[c]);
+      patches.back().reserve(queue.size());
+      for (const std::uint32_t c : queue) {
+        patches.back().push_back(caps_[c]);
+        grid_.clear(c);
+      }
     }
     return patches;
   }
 
  private:
   static constexpr std::uint32_t kNone = ~0U;
-
-  [[nodiscard]] int turn(std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
-    return light_turn(*frame_, *light_, p, q, r);
-  }
-
-  // Corner i, in the order in which they go round seen from the light.
-  [[nodiscard]] std::uint32_t corner(const CapFace& cap, std::size_t i) const {
-    const auto corners = frame_->outline(frame_->polygons[cap.polygon]);
-    const std::size_t k = i % corners.size();
-    return corners[cap.turned ? corners.size() - 1 - k : k];
-  }
-  [[nodiscard]] std::size_t size(const CapFace& cap) const { return frame_->polygons[cap.polygon].count; }
+  static constexpr std::int8_t kUnknown = -1;
 
   // Whether the cap is convex to the light, with an area that is not 0.
-  [[nodiscard]] bool goes_round(const CapFace& cap) const {
-    const std::size_t n = size(cap);
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = i + 2; k < i + n; ++k) {
-        const int t = turn(corner(cap, i), corner(cap, i + 1), corner(cap, k));
-        if (t < 0 || (n == 3 && t == 0)) return false;
-      }
-    return n == 3 || turn(corner(cap, 0), corner(cap, 1), corner(cap, 2)) > 0;
+  [[nodiscard]] bool goes_round(std::uint32_t cap) {
+    std::int8_t& known = goes_round_[cap];
+    if (known == kUnknown) known = find_round(cap) ? 1 : 0;
+    return known != 0;
+  }
+
+  [[nodiscard]] bool find_round(std::uint32_t cap) const {
+    const std::uint32_t n = corners_.size(cap);
+    if (corners_.turn(corners_.corner(cap, 0), corners_.corner(cap, 1), corners_.corner(cap, 2)) <= 0) return false;
+    if (n == 3) return true;
+    for (std::uint32_t i = 0; i < n; ++i)
+      for (std::uint32_t k = i + 2; k < i + n; ++k)
+        if (corners_.turn(corners_.corner(cap, i), corners_.corner(cap, i + 1), corners_.corner(cap, k)) < 0)
+          return false;
+    return true;
   }
 
   // Two convex figures lie apart if, and only if, the line of some edge of one has the other on its outer side.
-  [[nodiscard]] bool overlap(const CapFace& a, const CapFace& b) const { return !parts(a, b) && !parts(b, a); }
+  [[nodiscard]] bool overlap(std::uint32_t a, std::uint32_t b) const {
+    return !surely_parts(a, b) && !surely_parts(b, a) && !parts(a, b) && !parts(b, a);
+  }
 
-  [[nodiscard]] bool parts(const CapFace& a, const CapFace& b) const {
-    for (std::size_t i = 0; i < size(a); ++i) {
+  // What most pairs are told apart by, with fewer surprises for the processor than parts() has.
+  [[nodiscard]] bool surely_parts(std::uint32_t a, std::uint32_t b) const {
+    for (std::uint32_t i = 0; i < corners_.size(a); ++i) {
       bool outside = true;
-      for (std::size_t k = 0; k < size(b) && outside; ++k)
-        outside = turn(corner(a, i), corner(a, i + 1), corner(b, k)) <= 0;
+      for (std::uint32_t k = 0; k < corners_.size(b); ++k)
+        outside &= corners_.surely_not_left(corners_.corner(a, i), corners_.corner(a, i + 1), corners_.corner(b, k));
+      if (outside) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool parts(std::uint32_t a, std::uint32_t b) const {
+    for (std::uint32_t i = 0; i < corners_.size(a); ++i) {
+      bool outside = true;
+      for (std::uint32_t k = 0; k < corners_.size(b) && outside; ++k)
+        outside = corners_.turn(corners_.corner(a, i), corners_.corner(a, i + 1), corners_.corner(b, k)) <= 0;
       if (outside) return true;
     }
     return false;
@@ -136,38 +183,24 @@ class Patches {
     const Polygon& p = frame_->polygons[cap.polygon];
     for (std::uint32_t k = p.first; k < p.first + p.count; ++k)
       for (const std::uint32_t other : edges_->polygons_at(k)) {
-        const auto it = std::lower_bound(caps_.begin(), caps_.end(), other,
-                                         [](const CapFace& c, std::uint32_t polygon) { return c.polygon < polygon; });
-        if (it != caps_.end() && it->polygon == other) see(static_cast<std::uint32_t>(it - caps_.begin()));
+        // Below the first the difference wraps to what is past the last.
+        const std::uint32_t i = other - first_polygon_;
+        if (i < cap_of_.size() && cap_of_[i] != kNone) see(cap_of_[i]);
       }
   }
 
   const SceneFrame* frame_;
-  const LightPoint* light_;
   const EdgeTable* edges_;
   std::span<const CapFace> caps_;
+  LightCorners corners_;
   Grid grid_;
-  std::vector<std::uint32_t> patch_of_;
+  std::uint32_t first_polygon_ = 0;
+  std::vector<std::uint32_t> cap_of_;    // of polygons from that on
+  std::vector<std::int8_t> taken_;       // of each cap whether a patch has it
+  std::vector<std::int8_t> goes_round_;  // of each cap, if it is known
 };
 
 }  // namespace
-
-int light_turn(const SceneFrame& frame, const LightPoint& light, std::uint32_t p, std::uint32_t q, std::uint32_t r) {
-  if (p == q || q == r || r == p) return 0;
-  const order::PlanePoints plane{order_point(frame.vertices[p]), order_point(frame.vertices[q]),
-                                 order_point(frame.vertices[r])};
-  const order::FilterPlane filter(plane.a, plane.b, plane.c);
-  if (light.directional) {
-    const OrderPoint to = order_point(-light.direction);
-    const double s = filter.slope(to);
-    if (std::abs(s) > filter.slope_error(to)) return s > 0 ? 1 : -1;
-    return order::exact_facing(plane, to);
-  }
-  const OrderPoint at = order_point(light.position);
-  const double s = filter.value(at);
-  if (std::abs(s) > filter.error(at)) return s > 0 ? 1 : -1;
-  return order::exact_side(plane, at);
-}
 
 std::vector<std::vector<CapFace>> make_patches(const SceneFrame& frame, const LightPoint& light, const EdgeTable& edges,
                                                const LightSpace& space, std::span<const CapFace> caps) {

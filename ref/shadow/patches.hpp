@@ -19,8 +19,4 @@ namespace kage {
 std::vector<std::vector<CapFace>> make_patches(const SceneFrame& frame, const LightPoint& light, const EdgeTable& edges,
                                                const LightSpace& space, std::span<const CapFace> caps);
 
-/// Sign of the area of p, q, r (vertices of the frame) as the light sees them: 1 if they go round counter-clockwise,
-/// exactly.
-int light_turn(const SceneFrame& frame, const LightPoint& light, std::uint32_t p, std::uint32_t q, std::uint32_t r);
-
 }  // namespace kage

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace kage {
@@ -15,27 +14,14 @@ constexpr double kWider = 1.05;
 // Share of the largest coordinate by which planes stand back from what they bound.
 constexpr double kMargin = 1e-6;
 
-double largest(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 }  // namespace
 
-Receivers::Receivers(const SceneFrame& frame, int width, int height, bool translucent) : frame_(&frame) {
+Receivers::Receivers(const SceneFrame& frame, std::span<const Box> boxes, int width, int height, bool translucent)
+    : frame_(&frame), boxes_(boxes), known_(frame.vertices.size(), false) {
   add_picture(width, height);
-  std::vector<glm::dvec3> polygon;
-  for (const Component& part : frame.components) {
-    Box box{glm::dvec3(INFINITY), glm::dvec3(-INFINITY)};
-    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
-      polygon.clear();
-      for (const std::uint32_t v : frame.outline(frame.polygons[i])) {
-        const glm::dvec3& p = frame.vertices[v];
-        polygon.push_back(p);
-        box.low = glm::min(box.low, p);
-        box.high = glm::max(box.high, p);
-      }
-      if (translucent || !part.translucent) see(polygon);
-    }
-    boxes_.push_back(box);
-  }
+  for (const Component& part : frame.components)
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i)
+      if (translucent || !part.translucent) see(frame.outline(frame.polygons[i]));
   for (int i = 0; i < 3; ++i)
     for (const double s : {-1.0, 1.0}) {
       glm::dvec3 normal{0, 0, 0};
@@ -60,41 +46,47 @@ void Receivers::add_picture(int width, int height) {
 }
 
 // Cut the polygon by the picture's planes, and take note of the corners that are left.
-void Receivers::see(std::vector<glm::dvec3>& polygon) {
+void Receivers::see(std::span<const std::uint32_t> outline) {
+  polygon_.clear();
+  for (const std::uint32_t v : outline) polygon_.push_back(frame_->vertices[v]);
+  bool whole = true;
   for (const HalfSpace& s : planes_) {
     const auto outside = [&s](const glm::dvec3& p) { return glm::dot(s.normal, p) - s.limit; };
-    if (std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return outside(p) <= 0; })) continue;
+    if (std::all_of(polygon_.begin(), polygon_.end(), [&](const glm::dvec3& p) { return outside(p) <= 0; })) continue;
+    whole = false;
     buffer_.clear();
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const glm::dvec3& a = polygon[i];
-      const glm::dvec3& b = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    for (std::size_t i = 0; i < polygon_.size(); ++i) {
+      const glm::dvec3& a = polygon_[i];
+      const glm::dvec3& b = polygon_[i + 1 == polygon_.size() ? 0 : i + 1];
       const double da = outside(a);
       const double db = outside(b);
       if (da <= 0) buffer_.push_back(a);
       if ((da <= 0) != (db <= 0)) buffer_.push_back(a + da / (da - db) * (b - a));
     }
-    polygon.swap(buffer_);
-    if (polygon.empty()) return;
+    polygon_.swap(buffer_);
+    if (polygon_.empty()) return;
   }
-  seen_.insert(seen_.end(), polygon.begin(), polygon.end());
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    sum_ += polygon_[i];
+    if (whole && known_[outline[i]]) continue;
+    if (whole) known_[outline[i]] = true;
+    seen_.push_back(polygon_[i]);
+    size_ = std::max(size_, largest(polygon_[i]));
+  }
+  corners_ += polygon_.size();
 }
 
 void Receivers::add_bound(const glm::dvec3& normal, std::vector<HalfSpace>& to) const {
   double limit = -INFINITY;
-  double size = 0;
-  for (const glm::dvec3& p : seen_) {
-    limit = std::max(limit, glm::dot(normal, p));
-    size = std::max(size, largest(p));
-  }
-  to.push_back({normal, limit + kMargin * size});
+  for (const glm::dvec3& p : seen_) limit = std::max(limit, glm::dot(normal, p));
+  to.push_back({normal, limit + kMargin * size_});
 }
 
 // The shadow of a body's box is beyond if the box is, and the light goes no nearer from there.
 bool Receivers::beyond(const HalfSpace& s, const Box& b, const LightPoint& light) {
   const double margin = kMargin * std::max(largest(b.low), largest(b.high));
   for (unsigned i = 0; i < 8; ++i) {
-    const glm::dvec3 p{(i & 1U) != 0 ? b.high.x : b.low.x, (i & 2U) != 0 ? b.high.y : b.low.y,
-                       (i & 4U) != 0 ? b.high.z : b.low.z};
+    const glm::dvec3 p = b.corner(i);
     const glm::dvec3 way = light.directional ? light.direction : p - light.position;
     // Margins on both: a volume's sides are as far off as rounding may turn the way.
     if (!(glm::dot(s.normal, p) > s.limit + margin) || !(glm::dot(s.normal, way) >= 0)) return false;
@@ -107,17 +99,13 @@ std::vector<bool> Receivers::reached(const LightPoint& light) const {
   if (seen_.empty()) return out;
   std::vector<HalfSpace> planes = planes_;
   glm::dvec3 ahead = light.direction;
-  if (!light.directional) {
-    glm::dvec3 middle{0, 0, 0};
-    for (const glm::dvec3& p : seen_) middle += p / static_cast<double>(seen_.size());
-    ahead = middle - light.position;
-  }
-  const double distance = std::sqrt(glm::dot(ahead, ahead));
+  if (!light.directional) ahead = sum_ / static_cast<double>(corners_) - light.position;
+  const double distance = length(ahead);
   if (distance > 0) {
     ahead /= distance;
     const glm::dvec3 other = std::abs(ahead.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     glm::dvec3 right = glm::cross(ahead, other);
-    right /= std::sqrt(glm::dot(right, right));
+    right /= length(right);
     const glm::dvec3 up = glm::cross(right, ahead);
     add_bound(ahead, planes);
     for (const glm::dvec3& side : {right, -right, up, -up}) {
@@ -131,7 +119,7 @@ std::vector<bool> Receivers::reached(const LightPoint& light) const {
       for (const glm::dvec3& p : seen_) {
         const glm::dvec3 d = p - light.position;
         const double along = glm::dot(d, ahead);
-        before = before && along > 1e-3 * std::sqrt(glm::dot(d, d));
+        before = before && along > 1e-3 * length(d);
         slope = std::max(slope, glm::dot(d, side) / along);
       }
       const glm::dvec3 normal = side - (slope + kMargin * (1 + std::abs(slope))) * ahead;

@@ -3,18 +3,20 @@
 // Which casters can shadow anything that is seen.
 #pragma once
 
-#include <array>
+#include <span>
 #include <vector>
 
 #include "kage/scene.hpp"
+#include "scene/space.hpp"
 
 namespace kage {
 
 /// What of a frame's faces lies in the picture.
 class Receivers {
  public:
-  /// `translucent`: whether translucent faces are drawn opaque, and take shadow. Refers to `frame`.
-  Receivers(const SceneFrame& frame, int width, int height, bool translucent);
+  /// `boxes`: of its components. `translucent`: whether translucent faces are drawn opaque, and take shadow. Refers to
+  /// `frame` and `boxes`.
+  Receivers(const SceneFrame& frame, std::span<const Box> boxes, int width, int height, bool translucent);
 
   /// By component: false only if its shadow, without end, meets nothing that is seen. A shadow is left out if it lies
   /// beyond one of these planes, all of which have all that is seen on one side: those of the picture, of the box round
@@ -27,20 +29,21 @@ class Receivers {
     glm::dvec3 normal;
     double limit;
   };
-  struct Box {
-    glm::dvec3 low;
-    glm::dvec3 high;
-  };
 
   void add_picture(int width, int height);
-  void see(std::vector<glm::dvec3>& polygon);
+  void see(std::span<const std::uint32_t> outline);
   void add_bound(const glm::dvec3& normal, std::vector<HalfSpace>& to) const;
   [[nodiscard]] static bool beyond(const HalfSpace& s, const Box& b, const LightPoint& light);
 
   const SceneFrame* frame_;
   std::vector<HalfSpace> planes_;
-  std::vector<glm::dvec3> seen_;  // corners of what is
-  std::vector<Box> boxes_;        // of components
+  std::span<const Box> boxes_;
+  std::vector<glm::dvec3> seen_;  // corners of what is; of whole faces each vertex once
+  std::vector<bool> known_;       // of vertices: in seen_
+  glm::dvec3 sum_{0, 0, 0};       // of the corners of all faces
+  std::size_t corners_ = 0;       // so many
+  double size_ = 0;               // the largest coordinate of seen_
+  std::vector<glm::dvec3> polygon_;
   std::vector<glm::dvec3> buffer_;
 };
 

@@ -14,74 +14,89 @@ constexpr double kMargin = 1.01;
 // A face is edge-on to a point light nearer to its plane than this share of the light's distance to the furthest
 // vertex.
 constexpr double kEdgeOn = 1e-9;
+// More than all roundings of a distance.
+constexpr double kRounding = 1e-9;
 
-double length(const glm::dvec3& v) { return std::sqrt(glm::dot(v, v)); }
+double furthest(const glm::dvec3& from, std::span<const glm::dvec3> points) {
+  double most = 0;
+  for (const glm::dvec3& p : points) most = std::max(most, squared(p - from));
+  return std::sqrt(most);
+}
 
-struct Box {
-  glm::dvec3 low{INFINITY, INFINITY, INFINITY};
-  glm::dvec3 high{-INFINITY, -INFINITY, -INFINITY};
-
-  void add(const glm::dvec3& p) {
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  }
-  [[nodiscard]] bool contains(const glm::dvec3& p) const {
-    for (int i = 0; i < 3; ++i)
-      if (p[i] < low[i] || p[i] > high[i]) return false;
-    return true;
-  }
-};
+// The points among which is the furthest from each of `from`: whatever is nearer to the first of these than the
+// furthest from it, by twice as much as lies between them, is nearer to the others too.
+std::vector<glm::dvec3> far_ones(std::span<const LightPoint> from, std::span<const glm::dvec3> points) {
+  double spread = 0;
+  for (const LightPoint& l : from) spread = std::max(spread, length(l.position - from[0].position));
+  const double least = furthest(from[0].position, points) * (1 - kRounding) - 2 * spread;
+  std::vector<glm::dvec3> out;
+  for (const glm::dvec3& p : points)
+    if (!(length(p - from[0].position) < least)) out.push_back(p);
+  return out;
+}
 
 }  // namespace
 
-ShadowCaster::ShadowCaster(const SceneFrame& frame, const LightPoint& light, std::span<const glm::dvec3> near_corners,
-                           double extrusion)
-    : frame_(&frame), light_(light) {
-  Box box;
-  double distance = 0;
-  const auto add = [&](const glm::dvec3& p) {
-    box.add(p);
-    distance = std::max(distance, length(p - light.position));
-  };
-  for (const glm::dvec3& p : frame.vertices) add(p);
-  // What is edge-on is the scene's matter, not the camera's.
-  edge_on_ = light.directional ? kEdgeOn : kEdgeOn * distance;
-  for (const glm::dvec3& p : near_corners) add(p);
-  reach_ = (light.directional ? length(box.high - box.low) : distance) * kMargin * extrusion;
+std::vector<Box> component_boxes(const SceneFrame& frame) {
+  std::vector<Box> boxes(frame.components.size());
+  for (std::size_t c = 0; c < boxes.size(); ++c) {
+    const Component& part = frame.components[c];
+    for (std::uint32_t t = part.first; t < part.first + part.count; ++t)
+      for (const std::uint32_t v : frame.triangles[t].vertex) boxes[c].add(frame.vertices[v]);
+  }
+  return boxes;
 }
 
-double ShadowCaster::light_distance(const Polygon& p) const {
-  const Triangle& t = frame_->triangles[p.triangle];
-  const glm::dvec3& a = frame_->vertices[t.vertex[0]];
-  glm::dvec3 u = frame_->vertices[t.vertex[1]] - a;
-  glm::dvec3 v = frame_->vertices[t.vertex[2]] - a;
+FacePlane::FacePlane(const SceneFrame& frame, const Polygon& p) {
+  const Triangle& t = frame.triangles[p.triangle];
+  point = frame.vertices[t.vertex[0]];
+  glm::dvec3 u = frame.vertices[t.vertex[1]] - point;
+  glm::dvec3 v = frame.vertices[t.vertex[2]] - point;
   // Scaled so that neither products nor squares leave the range of doubles, however large or small the scene is.
-  const double scale =
-      std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z), std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(scale > 0)) return 0;
+  const double scale = std::max(largest(u), largest(v));
+  if (!(scale > 0)) return;
   u /= scale;
   v /= scale;
-  const glm::dvec3 normal = glm::cross(u, v);
-  const double n = length(normal);
-  if (!(n > 0)) return 0;
-  return light_.directional ? -glm::dot(normal, light_.direction) / n : glm::dot(normal, light_.position - a) / n;
+  normal = glm::cross(u, v);
+  normal_length = length(normal);
 }
 
-int ShadowCaster::facing(const Polygon& p) const {
-  const double d = light_distance(p);
+ShadowCaster::ShadowCaster(const SceneFrame& frame, const LightPoint& light, std::span<const glm::dvec3> near_corners,
+                           double extrusion)
+    : ShadowCaster(of_points(frame, std::span(&light, 1), near_corners, extrusion)[0]) {}
+
+std::vector<ShadowCaster> ShadowCaster::of_points(const SceneFrame& frame, std::span<const LightPoint> points,
+                                                  std::span<const glm::dvec3> near_corners, double extrusion) {
+  std::vector<ShadowCaster> casters;
+  casters.reserve(points.size());
+  // What is edge-on is the scene's matter, not the camera's.
+  if (points[0].directional) {
+    Box box;
+    for (const glm::dvec3& p : frame.vertices) box.add(p);
+    for (const glm::dvec3& p : near_corners) box.add(p);
+    for (const LightPoint& l : points) casters.push_back({kEdgeOn, box.diagonal() * kMargin * extrusion, frame, l});
+    return casters;
+  }
+  std::vector<glm::dvec3> few;
+  if (points.size() > 1) few = far_ones(points, frame.vertices);
+  const std::span<const glm::dvec3> far = points.size() > 1 ? few : frame.vertices;
+  for (const LightPoint& l : points) {
+    const double distance = furthest(l.position, far);
+    const double reach = std::max(distance, furthest(l.position, near_corners));
+    casters.push_back({kEdgeOn * distance, reach * kMargin * extrusion, frame, l});
+  }
+  return casters;
+}
+
+double ShadowCaster::light_distance(const FacePlane& face) const {
+  if (!(face.normal_length > 0)) return 0;
+  return light_.directional ? -glm::dot(face.normal, light_.direction) / face.normal_length
+                            : glm::dot(face.normal, light_.position - face.point) / face.normal_length;
+}
+
+int ShadowCaster::facing(const FacePlane& face) const {
+  const double d = light_distance(face);
   return d > edge_on_ ? 1 : d < -edge_on_ ? -1 : 0;
-}
-
-bool ShadowCaster::light_outside(const Component& part) const {
-  if (light_.directional) return true;
-  // Outside the box is surely outside; within it a component is treated as if the light were inside, which is right as
-  // well.
-  Box box;
-  for (std::uint32_t t = part.first; t < part.first + part.count; ++t)
-    for (const std::uint32_t v : frame_->triangles[t].vertex) box.add(frame_->vertices[v]);
-  return !box.contains(light_.position);
 }
 
 glm::dvec3 ShadowCaster::far_point(const glm::dvec3& p, double factor) const {
@@ -93,13 +108,16 @@ glm::dvec3 ShadowCaster::far_point(const glm::dvec3& p, double factor) const {
 double ShadowCaster::far_factor(std::span<const CapFace> caps) const {
   if (light_.directional) return reach_;
   double nearest = INFINITY;
-  for (const CapFace& cap : caps) nearest = std::min(nearest, std::abs(light_distance(frame_->polygons[cap.polygon])));
+  for (const CapFace& cap : caps)
+    nearest = std::min(nearest, std::abs(light_distance(FacePlane(*frame_, frame_->polygons[cap.polygon]))));
   return std::max(reach_ / nearest, kMargin);
 }
 
-void ShadowCaster::caps(const Component& part, std::vector<CapFace>& out) const {
+// Outside the box is surely outside; within it a component is treated as if the light were inside, which is right as
+// well.
+void ShadowCaster::caps(const Component& part, const Box& box, std::vector<CapFace>& out) const {
   out.clear();
-  const bool lit_only = part.closed && light_outside(part);
+  const bool lit_only = part.closed && light_outside(box);
   for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
     const int side = facing(frame_->polygons[i]);
     if (side > 0 || (side < 0 && !lit_only)) out.push_back({i, side < 0});

@@ -11,27 +11,47 @@
 #include <span>
 #include <vector>
 
+#include "scene/space.hpp"
 #include "shadow/world_volume.hpp"
 
 namespace kage {
 
+/// Of each component the box round its vertices.
+std::vector<Box> component_boxes(const SceneFrame& frame);
+
+/// A plane of a face, as far as lights ask about it.
+struct FacePlane {
+  FacePlane(const SceneFrame& frame, const Polygon& p);
+
+  glm::dvec3 point;
+  glm::dvec3 normal{0, 0, 0};  ///< outward
+  double normal_length = 0;    ///< 0 if the face has no area
+};
+
 class ShadowCaster {
  public:
-  /// `near_corners`: the picture's corners on the near plane; volumes reach past them too. `extrusion`: how many times
-  /// as far as they must volumes reach, >= 1.
+  /// Refers to `frame`. `near_corners`: the picture's corners on the near plane; volumes reach past them too.
+  /// `extrusion`: how many times as far as they must volumes reach, >= 1.
   ShadowCaster(const SceneFrame& frame, const LightPoint& light, std::span<const glm::dvec3> near_corners,
                double extrusion);
 
-  /// The polygon's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts
-  /// nothing).
-  [[nodiscard]] int facing(const Polygon& p) const;
+  /// Those of all points of a light, in order. What is far from one of them is far from all, so that not every vertex
+  /// is looked at for each.
+  static std::vector<ShadowCaster> of_points(const SceneFrame& frame, std::span<const LightPoint> points,
+                                             std::span<const glm::dvec3> near_corners, double extrusion);
 
-  /// Whether the light is surely outside of the component.
-  [[nodiscard]] bool light_outside(const Component& part) const;
+  /// The face's side of the light: > 0 lit from outside, < 0 from inside, 0 within rounding of edge-on (casts nothing).
+  [[nodiscard]] int facing(const FacePlane& face) const;
+  [[nodiscard]] int facing(const Polygon& p) const { return facing(FacePlane(*frame_, p)); }
+
+  /// Whether the light is surely outside of a component with this box.
+  [[nodiscard]] bool light_outside(const Box& box) const {
+    return light_.directional || !box.contains(light_.position);
+  }
 
   /// The faces of a component that cast, turned to the light: of a closed one with the light outside those lit from
-  /// outside, else all.
-  void caps(const Component& part, std::vector<CapFace>& out) const;
+  /// outside, else all. `box`: the component's.
+  void caps(const Component& part, const Box& box, std::vector<CapFace>& out) const;
 
   /// How far the caps' shadow must reach: far_point()'s factor.
   [[nodiscard]] double far_factor(std::span<const CapFace> caps) const;
@@ -44,7 +64,10 @@ class ShadowCaster {
   [[nodiscard]] double edge_on() const { return edge_on_; }
 
  private:
-  [[nodiscard]] double light_distance(const Polygon& p) const;
+  ShadowCaster(double edge_on, double reach, const SceneFrame& frame, const LightPoint& light)
+      : frame_(&frame), light_(light), edge_on_(edge_on), reach_(reach) {}
+
+  [[nodiscard]] double light_distance(const FacePlane& face) const;
 
   const SceneFrame* frame_;
   LightPoint light_;

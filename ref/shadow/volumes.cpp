@@ -15,8 +15,9 @@ constexpr std::uint64_t kTrials = 2'000'000;
 
 }  // namespace
 
-VolumeCaster::VolumeCaster(const SceneFrame& frame, int dsf_bits, VolumeWay way, ShadowCache::Data& kept)
-    : frame_(&frame), kept_(&kept), limit_((1 << dsf_bits) - 1), way_(way) {
+VolumeCaster::VolumeCaster(const SceneFrame& frame, std::span<const Box> boxes, int dsf_bits, VolumeWay way,
+                           ShadowCache::Data& kept)
+    : frame_(&frame), boxes_(boxes), kept_(&kept), limit_((1 << dsf_bits) - 1), way_(way) {
   kept.take(frame, limit_, way);
 }
 
@@ -49,8 +50,8 @@ const std::vector<std::vector<CapFace>>& VolumeCaster::patches(const LightSpace&
 }
 
 // Whether no ray of light meets two caps of the component, which is convex.
-bool VolumeCaster::once(const ShadowCaster& caster, const Component& part) const {
-  return part.convex && caster.light_outside(part);
+bool VolumeCaster::once(const ShadowCaster& caster, std::uint32_t component) const {
+  return frame_->components[component].convex && caster.light_outside(boxes_[component]);
 }
 
 void VolumeCaster::make_parity(const ShadowCaster& caster) {
@@ -58,9 +59,9 @@ void VolumeCaster::make_parity(const ShadowCaster& caster) {
   for (std::uint32_t c = 0; c < frame_->components.size(); ++c) {
     const Component& part = frame_->components[c];
     if (part.translucent) continue;
-    caster.caps(part, caps);
+    caster.caps(part, boxes_[c], caps);
     if (caps.empty()) continue;
-    if (once(caster, part)) {
+    if (once(caster, c)) {
       add(caps, c);
     } else if (way_ == VolumeWay::per_face) {
       for (const CapFace& cap : caps) add(std::span(&cap, 1), c);
@@ -82,7 +83,7 @@ void VolumeCaster::make_counting(const ShadowCaster& caster) {
   std::uint32_t first = ~0U;
   for (std::uint32_t c = 0; c < frame_->components.size(); ++c) {
     if (frame_->components[c].translucent) continue;
-    caster.caps(frame_->components[c], of_component[c]);
+    caster.caps(frame_->components[c], boxes_[c], of_component[c]);
     if (of_component[c].empty()) continue;
     first = std::min(first, c);
     all.insert(all.end(), of_component[c].begin(), of_component[c].end());
@@ -119,7 +120,7 @@ void VolumeCaster::add_parts(const LightSpace& space, const ShadowCaster& caster
     for (const CapFace& cap : p.caps) p.box.add(space.box(frame_->polygons[cap.polygon]));
     parts.push_back(std::move(p));
   };
-  const int count = once(caster, frame_->components[component]) ? 1 : most(space, caps);
+  const int count = once(caster, component) ? 1 : most(space, caps);
   if (count <= limit_) {
     add_part(caps, count);
     return;

@@ -19,8 +19,10 @@ using VolumeSink = std::function<void(const WorldVolume&, std::uint32_t componen
 
 class VolumeCaster {
  public:
-  /// Refers to `frame` and `kept`, which is that of frames before. `dsf_bits`: bits that the core counts with, >= 1.
-  VolumeCaster(const SceneFrame& frame, int dsf_bits, VolumeWay way, ShadowCache::Data& kept);
+  /// Refers to `frame`, `boxes`, which are those of its components, and `kept`, which is that of frames before.
+  /// `dsf_bits`: bits that the core counts with, >= 1.
+  VolumeCaster(const SceneFrame& frame, std::span<const Box> boxes, int dsf_bits, VolumeWay way,
+               ShadowCache::Data& kept);
 
   /// Call `sink` with every volume of a light sample, in order of their first casters. No ray of light meets more than
   /// 2^dsf_bits - 1 caps of a volume. `sample`: its number.
@@ -49,13 +51,14 @@ class VolumeCaster {
   [[nodiscard]] const std::vector<std::vector<CapFace>>& patches(const LightSpace& space, const ShadowCaster& caster,
                                                                  std::uint32_t component,
                                                                  const std::vector<CapFace>& caps);
-  [[nodiscard]] bool once(const ShadowCaster& caster, const Component& part) const;
+  [[nodiscard]] bool once(const ShadowCaster& caster, std::uint32_t component) const;
   [[nodiscard]] int most(const LightSpace& space, std::span<const CapFace> caps);
   void add_parts(const LightSpace& space, const ShadowCaster& caster, std::uint32_t component,
                  const std::vector<CapFace>& caps, std::vector<Part>& parts);
   [[nodiscard]] bool fits(const LightSpace& space, const Group& group, const Part& part, std::uint64_t& budget);
 
   const SceneFrame* frame_;
+  std::span<const Box> boxes_;
   ShadowCache::Data* kept_;
   KeptSample* sample_ = nullptr;  // the one being made
   std::vector<KeptSample::Volume> made_;

@@ -5,7 +5,8 @@
 
 expect 0 "$kage" cosim courtyard --size 160x120 --frames 3 --out out --json r.json
 grep -q '^same: 3 frames, 160x120, 57600 pixels compared' stdout || fail "does not say same: $(cat stdout)"
-[ "$(tail -n 1 stdout)" = "pictures: out" ] || fail "the last line does not say where the pictures are: $(tail -n 1 stdout)"
+[ "$(tail -n 2 stdout)" = "pictures: out
+report: out/report.html" ] || fail "the last lines do not say where pictures and report are: $(tail -n 2 stdout)"
 json r.json 'j["same"] is True and j["frames"]==3 and (j["width"],j["height"])==(160,120) and j["pixels_compared"]==57600'
 json r.json 'j["first_difference"] is None and j["cycles"]>0 and j["spans"]>0 and j["span_pixels"]>=j["spans"]//2 and j["seed"]==1'
 json r.json 'all(k in j for k in ("golden_seconds","rtl_seconds","build_seconds")) and set(j["stalled"])=={"input_starved","output_blocked"}'

@@ -31,6 +31,36 @@ expect 0 "$kage" diff d/penumbra_0000.png e/penumbra_0000.png
 trouble "three-lights: configuration default lacks shadows of several lights (LIGHTS >= 3), soft shadows (COUNT_BITS >= 4), smooth colour (SMOOTH)" \
   "$kage" render three-lights --config default --out x
 trouble "three-lights: configuration lights lacks soft shadows (COUNT_BITS >= 5)" "$kage" render three-lights --config lights --samples 16 --out x
+
+# As many lights as a core tells apart, and one more; as many as a scene has, and one more.
+many() {
+  python3 - "$source/scenes/three-lights.gltf" "$1" >"many$1.gltf" <<'PY'
+import json, sys
+scene = json.load(open(sys.argv[1]))
+for i in range(int(sys.argv[2]) - 3):
+    node = {"rotation": [-0.4, 0.01 * i, 0, 0.9], "extensions": {"KHR_lights_punctual": {"light": 1}}}
+    scene["scenes"][0]["nodes"].append(len(scene["nodes"]))
+    scene["nodes"].append(node)
+print(json.dumps(scene))
+PY
+}
+for n in 8 9 64 65; do many $n; done
+echo '{SMOOTH: 1, COLOR_FRAC: 8, COUNT_BITS: 2, LIGHTS: 8, CLASS_BITS: 8, SHADE_FRAC: 12, MAX_WIDTH: 160}' >eight.yaml
+expect 0 "$kage" render many8.gltf --config eight.yaml --samples 3 --size 64x48 --frames 1 --out x
+# What no named configuration has, the line that is offered has.
+trouble "many8.gltf: no named configuration can draw this" "$kage" render many8.gltf --samples 31 --size 64x48 --out x
+sed -n 's/.*with this line in it: //p' stderr >offered.yaml
+grep -q 'COUNT_BITS: 5, LIGHTS: 8' offered.yaml || fail "the line offered is another: $(cat offered.yaml)"
+expect 0 "$kage" render many8.gltf --config offered.yaml --samples 31 --size 64x48 --frames 1 --out x
+for n in 9 64; do
+  trouble "$n lights cast shadows, and a core tells at most 8 apart; with a configuration given, --degrade lets the first one cast alone" \
+    "$kage" render many$n.gltf --samples 3 --out x
+  trouble "many$n.gltf: configuration eight.yaml lacks shadows of $n lights (a core has LIGHTS 8 at most)" \
+    "$kage" render many$n.gltf --config eight.yaml --samples 3 --out x
+  expect 0 "$kage" render many$n.gltf --config eight.yaml --samples 3 --degrade --size 64x48 --frames 1 --out x
+done
+trouble "many65.gltf: light 1: there are more than 64 lights" "$kage" render many65.gltf --out x
+
 expect 0 "$kage" render three-lights --config default --degrade --size 160x120 --frames 1 --out degraded --json degraded.json
 json degraded.json 'len(j["degraded"]) == 3'
 expect 0 "$kage" stream penumbra --size 64x48 --frames 1 --samples 3 --out p.kage

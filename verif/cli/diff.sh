@@ -1,14 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage diff: exit codes, JSON, tolerances, bad input.
+# kage diff of two pictures: exit codes, JSON, thresholds, region and mask, heat map and flip picture, JUnit, bad input.
 . "$(dirname "$0")/common.bash"
 
 python3 - <<'PY'
 import struct, zlib
-def png(name, w, h, pixels):
+def chunk(tag, content):
+    return struct.pack(">I", len(content)) + tag + content + struct.pack(">I", zlib.crc32(tag + content))
+def png(name, w, h, pixels, more=b""):
+    """Red, green and blue of 8 bits."""
     raw = b"".join(b"\0" + bytes(pixels[y * w * 3:(y + 1) * w * 3]) for y in range(h))
-    chunk = lambda t, d: struct.pack(">I", len(d)) + t + d + struct.pack(">I", zlib.crc32(t + d))
-    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
+    write(name, w, h, 8, 2, raw, more)
+def grey(name, w, h, bits):
+    write(name, w, h, bits, 0, (b"\0" + bytes(w * bits // 8)) * h, b"")
+def write(name, w, h, bits, colours, raw, more):
+    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", w, h, bits, colours, 0, 0, 0)) +
+                           more + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b""))
 base = [(i * 5) % 250 for i in range(8 * 6 * 3)]
 png("a.png", 8, 6, base)
 other = list(base)
@@ -16,6 +23,12 @@ other[(2 * 8 + 3) * 3 + 1] += 4
 other[(4 * 8 + 1) * 3] += 1
 png("b.png", 8, 6, other)
 png("c.png", 6, 8, base)
+png("mask.png", 8, 6, [255 if i // (8 * 3) == 4 else 0 for i in range(8 * 6 * 3)])
+png("black.png", 8, 6, [0] * (8 * 6 * 3))
+png("gamma.png", 8, 6, base, chunk(b"gAMA", struct.pack(">I", 100000)))
+for bits in (4, 8, 16):
+    grey("grey%d.png" % bits, 8, 6, bits)
+open("nan.pfm", "wb").write(b"Pf\n2 1\n-1\n" + struct.pack("<ff", float("nan"), 1))
 open("cut.png", "wb").write(open("a.png", "rb").read()[:60])
 open("empty.png", "wb")
 PY
@@ -25,7 +38,7 @@ grep -q '^same: 8x6' stdout || fail "the line does not say same"
 expect 1 "$kage" diff a.png b.png --json r.json --out heat.png
 json r.json 'j["same"] is False and (j["width"],j["height"],j["channels"])==(8,6,3) and j["different_pixels"]==2 and j["max_lsb"]==4'
 json r.json 'j["first"]=={"x":3,"y":2,"channel":1}'
-[ -s heat.png ] || fail "no difference picture"
+[ -s heat.png ] || fail "no heat map"
 expect 1 "$kage" diff b.png a.png --json -
 cp stdout s.json
 json s.json 'j["different_pixels"]==2 and j["max_lsb"]==4'
@@ -39,17 +52,105 @@ expect 1 "$kage" diff a.png c.png --max-percent 100 --json -
 cp stdout s.json
 json s.json 'j["same"] is False and j["width"] is None and j["different_pixels"] is None and "8x6" in j["reason"]'
 
+# Where: a region, a mask, and the boxes of what changed.
+expect 1 "$kage" diff a.png b.png --region 4x3+0+0 --json r.json
+json r.json 'j["compared_pixels"]==12 and j["different_pixels"]==1 and j["first"]=={"x":3,"y":2,"channel":1}'
+json r.json 'j["regions"]==[{"x":3,"y":2,"width":1,"height":1,"pixels":1}] and j["region_count"]==1'
+expect 0 "$kage" diff a.png b.png --region 3x4+0+0
+grep -q '12 of 48 pixels compared' stdout || fail "the line does not say how much was compared: $(cat stdout)"
+expect 1 "$kage" diff a.png b.png --mask mask.png --json r.json
+json r.json 'j["compared_pixels"]==8 and j["different_pixels"]==1 and j["first"]["y"]==4'
+for bad in 9x1+0+0 1x1+8+0 0x1+0+0 1x1 1x1+0 axb+0+0 1x1+0+0+0 1x1+0+99999999999; do
+  trouble "$bad" "$kage" diff a.png b.png --region $bad
+done
+trouble black.png "$kage" diff a.png b.png --mask black.png
+trouble "the mask is 6x8" "$kage" diff a.png b.png --mask c.png
+trouble "nothing is compared" "$kage" diff a.png b.png --mask mask.png --region 8x1+0+5
+
+# Thresholds of the other sort of values.
+for t in --abs --ulp; do trouble "take lsb" "$kage" diff a.png b.png $t 1; done
+oiiotool a.png -d float -o a.exr && oiiotool a.png --addc 0.25 -d float -o b.exr || fail "no EXR"
+trouble "LSB is for integers" "$kage" diff a.exr b.exr --lsb 0
+trouble --abs "$kage" diff a.exr b.exr --abs 1 --ulp 1
+for bad in -1 nan inf 1e999 0x1p3 x; do trouble "$bad" "$kage" diff a.exr b.exr --abs $bad; done
+expect 1 "$kage" diff a.exr b.exr --abs 0.24 --json r.json
+json r.json 'j["max_lsb"] is None and 0.2499 < j["max_abs"] < 0.2501 and j["max_ulp"] > 1000 and j["different_pixels"]==48'
+json r.json 'j["psnr"] > 12 and j["perceptual"] is None'
+expect 0 "$kage" diff a.exr b.exr --abs 0.2501 --perceptual --json r.json
+json r.json 'j["same"] is True and j["different_pixels"]==0 and j["reason"] is None and j["perceptual"] is not None'
+expect 1 "$kage" diff nan.pfm nan.pfm --abs 1 --max-percent 100 --json r.json
+json r.json 'j["same"] is False and j["nan_pixels"]==1 and j["max_abs"]==0'
+grep -q '1 holds a NaN' stdout || fail "the line does not name the NaN: $(cat stdout)"
+
+# Types, colour space and depth are compared whatever the thresholds.
+for other in a.exr grey8.png gamma.png; do
+  expect 1 "$kage" diff a.png $other --max-percent 100
+  grep -q unlike stdout || fail "$other: not unlike: $(cat stdout)"
+done
+expect 1 "$kage" diff grey16.png grey8.png
+expect 1 "$kage" diff grey4.png grey8.png
+grep -q 'number of bits is unlike: 4 and 8' stdout || fail "4 bits are taken for 8: $(cat stdout)"
+
+# Files written: all of them or none.
+expect 1 "$kage" diff a.png b.png --out h.png --flip f.png --junit j.xml --json j.json
+for f in h.png f.png j.xml j.json; do [ -s $f ] || fail "no $f"; done
+trouble animated "$kage" diff f.png f.png
+python3 - <<'PY' || fail "flip picture or JUnit are not as they should be"
+import struct, xml.etree.ElementTree as et, zlib
+data, at, chunks = open("f.png", "rb").read(), 8, []
+while at < len(data):
+    size, tag = struct.unpack_from(">I4s", data, at)
+    content = data[at + 8:at + 8 + size]
+    assert struct.unpack_from(">I", data, at + 8 + size)[0] == zlib.crc32(tag + content)
+    chunks.append((tag, content))
+    at += size + 12
+assert [t for t, _ in chunks] == [b"IHDR", b"acTL", b"fcTL", b"IDAT", b"fcTL", b"fdAT", b"IEND"]
+for tag, content in chunks:
+    if tag in (b"IDAT", b"fdAT"):
+        raw = zlib.decompress(content[4 if tag == b"fdAT" else 0:])
+        assert len(raw) == 6 * (8 * 3 + 1)
+        line = raw[2 * 25 + 1:3 * 25]  # differences to the pixel on the left
+        green = sum(line[1:3 * 3 + 2:3]) % 256
+        assert green == ((2 * 8 + 3) * 3 + 1) * 5 % 250 + (4 if tag == b"fdAT" else 0)
+suite = et.parse("j.xml").getroot()[0]
+assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("1", "1", "0")
+assert suite[0].get("name") == "a.png b.png" and "2 differ" in suite[0][0].get("message") and "regions: " in suite[0][0].text
+PY
+expect 0 "$kage" diff a.png a.png --junit j.xml
+junit() { python3 -c "import xml.etree.ElementTree as et; s=et.parse('j.xml').getroot()[0]; assert $1" || fail "JUnit: not so: $1"; }
+junit 's.get("failures")=="0" and len(s)==1 and len(s[0])==0'
+odd='a<&"'$'\x01\xff''.png'
+cp a.png "$odd"
+expect 1 "$kage" diff "$odd" b.png --junit j.xml
+junit 's[0].get("name")=="a<&\"\ufffd\ufffd.png b.png"'
+expect 1 "$kage" diff a.png c.png --out none.png --flip flip.png
+[ ! -e none.png ] && [ -s flip.png ] || fail "unlike pictures: a heat map, or no flip picture"
+
+cp a.png keep.png
 trouble missing.png "$kage" diff a.png missing.png
+trouble missing.png "$kage" diff missing.png a.png
 trouble cut.png "$kage" diff a.png cut.png
 trouble empty.png "$kage" diff a.png empty.png
 trouble "is a directory" "$kage" diff a.png .
+trouble missing.png "$kage" diff a.png b.png --mask missing.png
 trouble nowhere "$kage" diff a.png b.png --out nowhere/heat.png
-trouble nowhere/r.json "$kage" diff a.png b.png --json nowhere/r.json --lsb 9 >/dev/null
+trouble nowhere "$kage" diff a.png b.png --flip nowhere/f.png
+trouble nowhere "$kage" diff a.png b.png --junit nowhere/j.xml
+trouble nowhere/r.json "$kage" diff a.png b.png --json nowhere/r.json --lsb 9
+for option in --out --flip --junit --json; do trouble a.png "$kage" diff a.png b.png $option ./a.png; done
+trouble mask.png "$kage" diff a.png b.png --mask mask.png --out mask.png
+trouble twice "$kage" diff a.png b.png --out x.png --flip ./x.png
+cmp a.png keep.png || fail "an input was written over"
+rm -f h.png j.xml
+trouble cut.png "$kage" diff a.png cut.png --out h.png --junit j.xml
+[ ! -e h.png ] && [ ! -e j.xml ] || fail "trouble left files"
 trouble -1 "$kage" diff a.png b.png --lsb -1
 trouble -1 "$kage" diff a.png b.png --max-pixels -1
 trouble 99999999999999999999 "$kage" diff a.png b.png --lsb 99999999999999999999
 trouble nan "$kage" diff a.png b.png --max-percent nan
+for option in --prune --dry-run; do trouble $option "$kage" diff a.png b.png $option; done
+trouble "no folder" "$kage" diff --bless a.png b.png
 mkfifo pipe.png
 trouble "not a file" "$kage" diff a.png b.png --out pipe.png
-[ -z "$(find . -name '.*.png' -o -name '.*.json')" ] || fail "temporary files are left"
+[ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
 done_testing

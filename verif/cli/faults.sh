@@ -17,13 +17,13 @@ for patch in "$source"/verif/faults/*.patch; do
   # No scene has more samples than a counter holds, and a table comes early only where the way out is slow: ctest rtl/fault_NAME.
   case $name in count_wraps | early_table) continue ;; esac
   frames=courtyard.kage
-  case $name in blend_*) frames=glass.kage ;; sample_* | *_light) frames=lights.kage ;; esac
+  case $name in blend_* | resolve_*) frames=glass.kage ;; sample_* | *_light) frames=lights.kage ;; esac
   if grep -q '^Not a fault' "$patch"; then
     expect 0 "$kage" cosim "$frames" --fault "$name" --idle 30 --backpressure 30 --out "$name"
     continue
   fi
   count=$((count + 1))
-  expect 1 "$kage" cosim "$frames" --fault "$name" --idle 30 --backpressure 30 --out "$name" --json "$name.json"
+  expect 1 "$kage" cosim "$frames" --fault "$name" --no-divergence --idle 30 --backpressure 30 --out "$name" --json "$name.json"
   echo "$name: $(grep '^first difference' stdout)"
   json "$name.json" 'j["same"] is False and j["first_difference"]["frame"] is not None and j["first_difference"]["field"]'
   [ -n "$(find "$name" -name '*_expected.png')" ] && [ -n "$(find "$name" -name '*_difference.png')" ] || fail "$name: no pictures of the difference"
@@ -33,8 +33,11 @@ done
 [ $count -ge 4 ] || fail "only $count faults to try"
 
 # README shows what the first of them looks like, as a change of the very line of RTL.
-expect 1 "$kage" cosim courtyard --fault wrong_compare
-for line in "$(cut -d, -f1-3 stdout | grep '^different')" "$(grep '^first difference' stdout)" "$(grep '^pictures' stdout)"; do
+expect 1 "$kage" cosim courtyard --fault wrong_compare --json w.json
+json w.json '(d:=j["first_difference"]) and d["stage"]=="pixel_banked" and d["divergence"]["file"]=="rtl/pixel_banked.sv" and d["cycle"]>0'
+json w.json '"obelisk" in j["first_difference"]["divergence"]["source"]'
+[ -s out/courtyard_0000.fst ] && [ -s out/courtyard_0000.gtkw ] || fail "no waveform of the first divergence"
+for line in "$(cut -d, -f1-3 stdout | grep '^different')" "$(grep '^first difference' stdout)" "$(grep '^first divergence' stdout)" "$(grep '^pictures' stdout)"; do
   grep -qF -- "$line" "$source/README.md" || fail "README.md does not show '$line'"
 done
 grep -qF 'in_front = z < pixel' "$source/rtl/include/kage_pixel_next.svh" || fail "README.md changes a line that is not there"

@@ -48,6 +48,14 @@ flat 7680 "$kage" cosim courtyard --size '640x{H}' --frames '{N}' --out c
 flat 7680 "$kage" render courtyard --size '640x{H}' --frames '{N}' --out r
 flat 3840 "$kage" stream knot --size '640x{H}' --frames '{N}' --out s.kage
 
+# Two stream files: what is in memory is the frame at hand.
+for n in 1 12; do "$kage" stream knot --size 640x480 --frames $n --out knot$n.kage >/dev/null || fail "no stream"; done
+peak "$kage" diff knot1.kage knot1.kage
+one=$kib
+peak "$kage" diff knot12.kage knot12.kage
+echo "diff: $one KiB for streams of 1 frame, $kib for 12, which are $(($(stat -c %s knot12.kage) / 1024)) KiB each"
+[ $((kib - one)) -le 8192 ] || fail "diff: $((kib - one)) KiB more for streams of 12 frames"
+
 # A mesh of 102,400 faces that is not convex, on a sheet, with shadows.
 python3 - >big.obj <<'PY'
 import math

@@ -112,20 +112,7 @@ TEST_CASE("family 22: one counting volume of nested, overlapping, touching caste
     std::vector<int> order(static_cast<std::size_t>(k));
     for (int i = 0; i < k; ++i) order[static_cast<std::size_t>(i)] = i;
     random.shuffle(order);
-    SceneFrame f;
-    add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
-    // In threes: a box, one around it, and one that touches it.
-    for (const int i : order) {
-      const int column = i / 3 % 5;
-      const int row = i / 15;
-      const glm::dvec3 centre{column * 1.5 - 3, 0, row * 1.5 - 3};
-      if (i % 3 == 2)
-        add_solid(f, box_solid(), centre + glm::dvec3(0.5, 0, 0), {0.2, 0.2, 0.2}, Turn{}, {1, 1, 1});
-      else
-        add_solid(f, box_solid(), centre, glm::dvec3(i % 3 == 0 ? 0.2 : 0.3), Turn{}, {1, 1, 1});
-    }
-    f.lights[0].direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
-    look_at(f.camera, {5, 6, 7}, {0, -1, 0});
+    const SceneFrame f = box_threes(order, 0.5);
     const FrameGeometry parity = make_geometry(f, Config{}, kWidth, kHeight);
     for (const int bits : {2, 4, 8}) {
       CAPTURE(k, bits);

@@ -95,20 +95,7 @@ TEST_CASE("family 22: nested, overlapping and touching casters in any order give
     for (int i = 0; i < k; ++i) order[static_cast<std::size_t>(i)] = i;
     std::vector<std::uint32_t> first;
     for (int round = 0; round < 3; ++round) {
-      SceneFrame f;
-      add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
-      // In threes: a box, one around it, and one that touches it.
-      for (const int i : order) {
-        const int column = i / 3 % 5;
-        const int row = i / 15;
-        const glm::dvec3 centre{column * 1.5 - 3, 0, row * 1.5 - 3};
-        if (i % 3 == 2)
-          add_solid(f, box_solid(), centre + glm::dvec3(0.4, 0, 0), {0.2, 0.2, 0.2}, Turn{}, {1, 1, 1});
-        else
-          add_solid(f, box_solid(), centre, glm::dvec3(i % 3 == 0 ? 0.2 : 0.3), Turn{}, {1, 1, 1});
-      }
-      f.lights[0].direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
-      look_at(f.camera, {5, 6, 7}, {0, -1, 0});
+      const SceneFrame f = box_threes(order, 0.4);
       judge_all(f);
       const auto pixels = draw(make_geometry(f, Config{}, kWidth, kHeight), Config{});
       if (round == 0) first = pixels;
@@ -176,31 +163,22 @@ TEST_CASE("family 25: light on a face's plane plus and minus one ulp, inside the
     }
 }
 
+// Both volumes are the true one with its vertices snapped: where their pictures differ, one of them is unlike the true
+// one's, and what the snap may do to it leaves the pixel open.
 TEST_CASE("family 26: volumes that reach further give the same picture, up to near ties") {
   Random random(test_seed(6));
   CAPTURE(test_seed(6));
-  std::uint64_t different = 0;
-  std::uint64_t pixels = 0;
+  std::size_t different = 0;
+  std::size_t pixels = 0;
   for (int i = 0; i < 40; ++i) {
     CAPTURE(i);
     const SceneFrame f = random_scene(random, 5);
     const Config config;
     Look further;
     further.extrusion = 3;
-    const FrameGeometry g = make_geometry(f, config, kWidth, kHeight);
-    const auto a = draw(g, config);
-    const auto b = draw(make_geometry(f, config, kWidth, kHeight, further), config);
-    for (std::size_t p = 0; p < a.size(); ++p) {
-      ++pixels;
-      if (a[p] == b[p]) continue;
-      ++different;
-      // Both snapped lines lie within sqrt(1/2) subpixel of the one true line, so the centre between them lies within
-      // sqrt(2) of either.
-      const int x = static_cast<int>(p) % kWidth;
-      const int y = static_cast<int>(p) / kWidth;
-      CAPTURE(x, y);
-      CHECK(near_volume_edge(g, x, y, 1.5));
-    }
+    different += same_but_near_ties(make_geometry(f, config, kWidth, kHeight), config,
+                                    make_geometry(f, config, kWidth, kHeight, further), config);
+    pixels += std::size_t{kWidth} * kHeight;
   }
   CAPTURE(different);
   CHECK(different * 1000 < pixels);

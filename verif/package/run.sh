@@ -31,7 +31,10 @@ mv "$temp/prefix" "$temp/moved"
 if [ -x "$temp/moved/bin/kage" ]; then
   cd "$temp"
   env -u KAGE_DATA_DIR moved/bin/kage cosim courtyard --size 64x48 --frames 1 --out pictures
+  [ -s pictures/report.html ] || { echo "no report of an installed kage" >&2; exit 1; }
   env -u KAGE_DATA_DIR moved/bin/kage stream courtyard --size 64x48 --frames 1 --out courtyard.kage
   build/golden_consumer courtyard.kage >courtyard.ppm
+  moved/bin/kage stream courtyard --size 64x48 --frames 1 --config default --out default.kage
+  LD_LIBRARY_PATH=$(dirname "$(find moved -name libkage_golden.so)") build/c_consumer default.kage
   moved/bin/kage diff courtyard.ppm pictures/courtyard_0000.png
 fi

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ci.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include "kage/error.hpp"
+
+namespace kage::cli {
+namespace {
+
+constexpr int kMostShards = 1000000;
+
+/// As GitHub reads it: a message may hold no line break, a property no colon or comma besides.
+std::string escaped(std::string_view text, bool property) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ',')))
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    else
+      out += c;
+  }
+  return out;
+}
+
+bool wants_github(const std::string& annotate) {
+  if (!annotate.empty()) return annotate == "github";
+  const char* const actions = std::getenv("GITHUB_ACTIONS");
+  return actions != nullptr && std::string_view(actions) == "true";
+}
+
+/// The file of the stage that differs first, or "".
+std::string file_of(const Json& difference) {
+  return difference["divergence"].is_null() ? std::string() : difference["divergence"]["file"].get<std::string>();
+}
+
+/// First difference and first divergence, a line each.
+std::string text_of(const Json& difference) {
+  std::string text = difference["text"].get<std::string>();
+  if (!difference["divergence"].is_null())
+    text += "\nfirst divergence: " + difference["divergence"]["text"].get<std::string>();
+  return text;
+}
+
+}  // namespace
+
+void option_shard(CLI::App& command, Shard& shard) {
+  command
+      .add_option_function<std::string>(
+          "--shard",
+          [&shard](const std::string& text) {
+            const char* const end = text.data() + text.size();
+            Shard s;
+            s.given = true;
+            const auto i = std::from_chars(text.data(), end, s.index);
+            const bool slash = i.ec == std::errc{} && i.ptr != end && *i.ptr == '/';
+            const auto n = slash ? std::from_chars(i.ptr + 1, end, s.count) : i;
+            if (!slash || n.ec != std::errc{} || n.ptr != end || s.count < 1 || s.count > kMostShards || s.index < 1 ||
+                s.index > s.count)
+              throw CLI::ValidationError("--shard", text + " is not I/N with I from 1 to N, like 2/4");
+            shard = s;
+          },
+          "run the Ith of N parts of the frames: frame I - 1 and every Nth after it. kage merge joins the reports")
+      ->type_name("I/N");
+}
+
+void option_junit(CLI::App& command, std::string& path) {
+  command.add_option("--junit", path, "write JUnit XML: a test case for each frame")->type_name("FILE");
+}
+
+void option_annotate(CLI::App& command, std::string& annotate) {
+  command
+      .add_option("--annotate", annotate,
+                  "github: print a difference so that GitHub shows it at the RTL's file, default where GITHUB_ACTIONS "
+                  "is true; none: never")
+      ->option_text("github|none")
+      ->check(CLI::IsMember({"github", "none"}))
+      ->type_name("WHERE");
+}
+
+void describe_run(Json& report, const std::string& scene, int total, const Shard& shard, Json options) {
+  report["scene"] = scene;
+  report["total_frames"] = total;
+  report["shard"] = shard.given ? Json{{"index", shard.index}, {"count", shard.count}} : Json(nullptr);
+  report["options"] = std::move(options);
+}
+
+void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards) {
+  const auto count = shards.size() > 1 ? static_cast<int>(shards.size()) : 1;
+  const Json& only = *shards.front();
+  const int total = only["total_frames"].get<int>();
+  // A single report may be that of one shard: it tells of its own frames.
+  const int first = count == 1 && !only["shard"].is_null() ? only["shard"]["index"].get<int>() - 1 : 0;
+  const int step = count == 1 && !only["shard"].is_null() ? only["shard"]["count"].get<int>() : 1;
+  for (int frame = first; frame < total; frame += step) {
+    const Json& shard = *shards[static_cast<std::size_t>(count == 1 ? 0 : frame % count)];
+    const auto place = static_cast<std::size_t>(count == 1 ? (frame - first) / step : frame / count);
+    const Json& seconds = shard["frame_seconds"];
+    const std::string name = fmt::format("frame {}", frame);
+    const Json& difference = shard["first_difference"];
+    if (place >= seconds.size())
+      junit.skip(name, fmt::format("not compared: frame {} is different", difference["frame"].get<int>()));
+    else if (!difference.is_null() && place + 1 == seconds.size())
+      junit.fail(name, seconds[place].get<double>(), difference["text"].get<std::string>(), text_of(difference),
+                 file_of(difference));
+    else
+      junit.pass(name, seconds[place].get<double>());
+  }
+}
+
+void annotate_difference(const std::string& annotate, const Json& report, std::FILE* to) {
+  const Json& difference = report["first_difference"];
+  if (difference.is_null() || !wants_github(annotate)) return;
+  const std::string file = file_of(difference);
+  const std::string title = fmt::format("kage cosim {}: frame {} is different", report["scene"].get<std::string>(),
+                                        difference["frame"].get<int>());
+  fmt::print(to, "::error {}title={}::{}\n", file.empty() ? "" : "file=" + escaped(file, true) + ",",
+             escaped(title, true), escaped(text_of(difference), false));
+}
+
+}  // namespace kage::cli

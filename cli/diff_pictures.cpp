@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage diff of two pictures, and the words for what came of it.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "diff.hpp"
+#include "image/flip.hpp"
+#include "image/save.hpp"
+#include "junit.hpp"
+#include "kage/error.hpp"
+
+namespace kage::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether `path` is `in` or, that being a folder, lies in it.
+bool within(const std::string& path, const std::string& in) {
+  std::error_code ec;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(path, ec), ec);
+  const fs::path part = fs::weakly_canonical(fs::absolute(in, ec), ec);
+  if (ec) return false;
+  return std::mismatch(part.begin(), part.end(), whole.begin(), whole.end()).first == part.end();
+}
+
+}  // namespace
+
+QuietStderr::QuietStderr() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
+  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (kept_ >= 0 && null >= 0) dup2(null, STDERR_FILENO);
+  if (null >= 0) close(null);
+}
+
+QuietStderr::~QuietStderr() {
+  if (kept_ < 0) return;
+  std::fflush(stderr);
+  dup2(kept_, STDERR_FILENO);
+  close(kept_);
+}
+
+void check_outputs(const DiffCommand& o) {
+  std::vector<std::string> written;
+  for (const std::string* path : {&o.out, &o.flip, &o.junit, &o.json}) {
+    if (path->empty() || (path == &o.json && json_only(o))) continue;
+    for (const std::string* read : {&o.a, &o.b, &o.mask})
+      if (!read->empty() && within(*path, *read))
+        throw Error(fmt::format("{}: is one of those compared, or lies in it: it is not written over", *path));
+    for (const std::string& other : written)
+      if (within(*path, other) && within(other, *path)) throw Error(fmt::format("{}: is to be written twice", *path));
+    written.push_back(*path);
+  }
+}
+
+DiffResult compare_files(const fs::path& a, const fs::path& b, const DiffOptions& limits, DiffViews* views) {
+  const QuietStderr quiet;
+  return diff_files(a, b, limits, views);
+}
+
+std::string describe(const DiffResult& r) {
+  if (r.width == 0) return fmt::format("different: {}", r.reason);
+  const auto pixels = static_cast<std::uint64_t>(r.width) * static_cast<std::uint64_t>(r.height);
+  std::string text = fmt::format("{}: {}x{}, ", r.same ? "same" : "different", r.width, r.height);
+  if (r.compared_pixels != pixels) text += fmt::format("{} of ", r.compared_pixels);
+  text += counted(pixels, "pixel") + " compared";
+  if (r.different_pixels != 0)
+    text += fmt::format(", {} {}", r.different_pixels, r.different_pixels == 1 ? "differs" : "differ");
+  if (r.max_lsb.value_or(0) != 0) text += fmt::format(", by up to {} LSB", *r.max_lsb);
+  if (r.max_ulp.value_or(0) != 0) text += fmt::format(", by up to {}, or {} ULP", *r.max_abs, *r.max_ulp);
+  if (r.nan_pixels != 0) text += fmt::format(", {} {} a NaN", r.nan_pixels, r.nan_pixels == 1 ? "holds" : "hold");
+  if (r.first) text += fmt::format(", the first at x {}, y {}, channel {}", r.first->x, r.first->y, r.first->channel);
+  return text;
+}
+
+std::string details(const DiffResult& r) {
+  std::string text;
+  constexpr std::size_t kShown = 4;
+  for (std::size_t i = 0; i < std::min(r.regions.size(), kShown); ++i) {
+    const DiffResult::Region& region = r.regions[i];
+    text += fmt::format("{}{}x{}+{}+{} ({})", i == 0 ? "regions: " : ", ", region.box.width, region.box.height,
+                        region.box.x, region.box.y, counted(region.pixels, "pixel"));
+  }
+  if (r.region_count > kShown) text += fmt::format(", and {} more", r.region_count - kShown);
+  if (!r.regions.empty()) text += "\n";
+  if (r.psnr || r.perceptual_pixels) {
+    text += "for diagnosis:";
+    if (r.psnr) text += fmt::format(" PSNR {:.2f} dB", *r.psnr);
+    if (r.perceptual_pixels)
+      text += fmt::format("{}{} told apart by the perceptual measure", r.psnr ? ", " : " ",
+                          counted(*r.perceptual_pixels, "pixel"));
+    text += "\n";
+  }
+  return text;
+}
+
+Json to_json(const DiffResult& r) {
+  const bool compared = r.width != 0;
+  const auto number = [&](auto value) { return compared ? Json(value) : Json(nullptr); };
+  const auto maybe = [](const auto& value) { return value ? Json(*value) : Json(nullptr); };
+  Json j;
+  j["same"] = r.same;
+  j["width"] = number(r.width);
+  j["height"] = number(r.height);
+  j["channels"] = number(r.channels);
+  j["compared_pixels"] = number(r.compared_pixels);
+  j["different_pixels"] = number(r.different_pixels);
+  j["nan_pixels"] = number(r.nan_pixels);
+  j["max_lsb"] = maybe(r.max_lsb);
+  j["max_abs"] = maybe(r.max_abs);
+  j["max_ulp"] = maybe(r.max_ulp);
+  j["first"] = r.first ? Json{{"x", r.first->x}, {"y", r.first->y}, {"channel", r.first->channel}} : Json(nullptr);
+  j["regions"] = Json::array();
+  for (const DiffResult::Region& region : r.regions)
+    j["regions"].push_back(Json{{"x", region.box.x},
+                                {"y", region.box.y},
+                                {"width", region.box.width},
+                                {"height", region.box.height},
+                                {"pixels", region.pixels}});
+  j["region_count"] = number(r.region_count);
+  j["psnr"] = maybe(r.psnr);
+  j["perceptual"] = maybe(r.perceptual_pixels);
+  j["reason"] = r.reason.empty() ? Json(nullptr) : Json(r.reason);
+  return j;
+}
+
+int diff_two_pictures(const DiffCommand& o) {
+  TempFiles files;
+  JUnitWriter junit(files, o.junit, "kage diff");
+  DiffOptions limits = o.limits;
+  DiffViews views;
+  const Stopwatch watch;
+  const DiffResult result = [&] {
+    const QuietStderr quiet;
+    if (!o.mask.empty()) limits.mask = load_mask(o.mask);
+    return diff_files(o.a, o.b, limits, o.out.empty() && o.flip.empty() ? nullptr : &views);
+  }();
+  const std::string line = describe(result);
+  const std::string name = fmt::format("{} {}", o.a, o.b);
+  if (result.same)
+    junit.pass(name, watch.seconds());
+  else
+    junit.fail(name, watch.seconds(), line, details(result));
+  junit.close();
+  const bool heat = !o.out.empty() && views.heat.width != 0;
+  if (heat) save_image(files, o.out, views.heat);
+  if (!o.flip.empty()) save_flip(files, o.flip, views.a, views.b);
+  write_json(o, to_json(result), files);
+  if (json_only(o)) return result.same ? kSame : kDifferent;
+  fmt::print("{}\n{}", line, details(result));
+  if (heat) fmt::print("heat map: {}\n", o.out);
+  if (!o.out.empty() && !heat) fmt::print("no heat map: the pictures are unlike\n");
+  if (!o.flip.empty()) fmt::print("flip picture: {}\n", o.flip);
+  return result.same ? kSame : kDifferent;
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage explain SCENE --frame N --pixel X,Y: what each token did to one pixel.
+#include "kage/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+
+#include "common.hpp"
+#include "cosim/divergence.hpp"
+#include "cosim/model.hpp"
+#include "kage/error.hpp"
+#include "source.hpp"
+
+namespace kage::cli {
+namespace {
+
+struct ExplainCommand : Options {
+  int frame = 0;
+  std::string pixel;
+  bool rtl = false;
+  std::string fault;
+};
+
+struct Pixel {
+  int x = 0;
+  int y = 0;
+};
+
+Pixel parse_pixel(const std::string& text) {
+  Pixel p;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, p.x);
+  const bool comma = first.ec == std::errc() && first.ptr != end && *first.ptr == ',';
+  const auto second = comma ? std::from_chars(first.ptr + 1, end, p.y) : first;
+  if (!comma || second.ec != std::errc() || second.ptr != end || p.x < 0 || p.y < 0)
+    throw Error(fmt::format("--pixel {}: not X,Y with whole numbers from 0", text));
+  return p;
+}
+
+Json to_json(const PixelState& s, const Config& config) {
+  Json j;
+  j["z"] = s.z;
+  j["color"] = std::vector<int>(s.color.begin(), s.color.begin() + config.channels);
+  j["class"] = s.normal_class;
+  j["dsf"] = s.dsf;
+  j["fsf"] = s.fsf;
+  j["counts"] =
+      std::vector<std::uint32_t>(s.counts.begin(), s.counts.begin() + (config.count_bits > 0 ? config.lights : 0));
+  return j;
+}
+
+Json to_json(const LineView::UnitPixel& p) {
+  return {{"z", p.z}, {"index", p.index}, {"color", p.color}, {"class", p.normal_class}};
+}
+
+void print_rtl(const std::vector<cosim::RtlTouch>& rtl, std::uint32_t token) {
+  for (const cosim::RtlTouch& t : rtl)
+    if (t.token == token)
+      fmt::print("            RTL, cycle {}, {}{}: {}{}\n", t.cycle, cosim::describe(t.stage),
+                 t.load ? " (its colour comes back)" : "", t.text, t.same ? "" : "   <-- differs");
+}
+
+std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, const Pixel& at) {
+  const Config& config = source.config().config;
+  Progress progress;
+  const cosim::Model model = cosim::find_model(
+      config, {.fault = o.fault, .traced = true, .progress = [&](double seconds) {
+                 check_interrupt();
+                 progress.show(fmt::format("building the RTL model with monitors: {:.0f} s", seconds));
+               }});
+  progress.clear();
+  cosim::DivergenceOptions options;
+  options.library = model.library;
+  options.rtl.seed = o.seed;
+  options.wait = check_interrupt;
+  const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
+  return cosim::watch_pixel(o.frame, feed, config, options, at.x, at.y);
+}
+
+int run(const ExplainCommand& o) {
+  check_json(o);
+  const Pixel at = parse_pixel(o.pixel);
+  Source source(o);
+  const Config& config = source.config().config;
+  if (o.frame >= source.frames())
+    throw Error(fmt::format("{}: --frame {}: there are frames 0 to {}", o.input, o.frame, source.frames() - 1));
+  std::vector<std::uint32_t> words;
+  source.frame(o.frame,
+               [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); });
+  PixelHistory h;
+  try {
+    h = explain_pixel(config, words, at.x, at.y);
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}: {}", o.input, e.what()));
+  }
+  const std::optional<Provenance> provenance = source.provenance(o.frame);
+  std::map<std::uint32_t, TokenSource> sources;
+  if (provenance) {
+    std::set<std::uint32_t> wanted;
+    for (const PixelTouch& t : h.touches) wanted.insert(t.token);
+    sources = provenance->of_tokens(config, words, wanted);
+    for (const PixelTouch& t : h.touches)
+      if (t.what.kind == Kind::TREE && t.polyhedron) sources[t.token] = provenance->of_polyhedron(*t.polyhedron);
+  }
+  const std::vector<cosim::RtlTouch> rtl = o.rtl ? watch_rtl(o, source, at) : std::vector<cosim::RtlTouch>();
+
+  Json touches = Json::array();
+  for (const PixelTouch& t : h.touches) {
+    Json j;
+    j["token"] = t.token;
+    j["kind"] = kKindNames[static_cast<std::size_t>(t.what.kind)];
+    j["text"] = t.text;
+    j["z"] = t.z ? Json(*t.z) : Json(nullptr);
+    j["effect"] = t.effect;
+    j["source"] = sources.count(t.token) != 0 ? sources[t.token].json() : Json(nullptr);
+    j["before"] = to_json(t.before, config);
+    j["after"] = to_json(t.after, config);
+    j["bias"] = t.bias;
+    if (t.what.kind == Kind::TREE) {
+      j["units"] = Json::array();
+      for (const auto& u : h.units) j["units"].push_back(to_json(u));
+      j["tree"] = Json::array();
+      for (const auto& level : h.tree)
+        for (const TreeMatch& m : level)
+          j["tree"].push_back({{"level", m.level},
+                               {"left", to_json(m.left)},
+                               {"right", to_json(m.right)},
+                               {"right_wins", m.right_wins}});
+    }
+    touches.push_back(std::move(j));
+  }
+  Json j;
+  j["frame"] = o.frame;
+  j["x"] = at.x;
+  j["y"] = at.y;
+  j["config"] = cli::to_json(config);
+  j["touches"] = std::move(touches);
+  j["color"] = std::vector<int>(h.color.begin(), h.color.begin() + config.channels);
+  j["color_text"] = h.color_text;
+  j["rtl"] = o.rtl ? Json::array() : Json(nullptr);
+  for (const cosim::RtlTouch& t : rtl)
+    j["rtl"].push_back({{"token", t.token},
+                        {"stage", cosim::describe(t.stage)},
+                        {"cycle", t.cycle},
+                        {"same", t.same},
+                        {"text", t.text}});
+  write_json(o, j);
+  print_notes(source, o);
+  if (json_only(o)) return kSame;
+  fmt::print("frame {}, pixel {},{}: {} it\n", o.frame, at.x, at.y,
+             h.touches.size() == 1 ? "1 token touches" : fmt::format("{} tokens touch", h.touches.size()));
+  for (const PixelTouch& t : h.touches) {
+    fmt::print("{:>8}  {}\n", t.token, t.text);
+    if (sources.count(t.token) != 0) fmt::print("            from {}\n", sources[t.token].text());
+    fmt::print("            {}\n", t.effect);
+    if (t.what.kind == Kind::TREE)
+      for (const std::string& line : describe_tree(config, h)) fmt::print("            {}\n", line);
+    if (!(t.before == t.after)) fmt::print("            now {}\n", describe(config, t.after));
+    print_rtl(rtl, t.token);
+  }
+  fmt::print("            {}\n", h.color_text);
+  if (!rtl.empty() && (h.touches.empty() || rtl.back().token != h.touches.back().token))
+    print_rtl(rtl, rtl.back().token);
+  return kSame;
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(app, "explain", "Tell the history of a pixel: every token that touched it, and what it did",
+                            "  kage explain courtyard --frame 2 --pixel 316,116\n"
+                            "  kage explain courtyard.kage --pixel 12,40 --json -\n"
+                            "  kage explain courtyard --pixel 316,116 --rtl --fault wrong_compare\n"
+                            "docs/architecture.md says what the words mean, docs/stream.md what each token does.");
+  const auto o = std::make_shared<ExplainCommand>();
+  option_scene(*c, *o);
+  c->add_option("--frame", o->frame, "number of the frame, from 0, default 0")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->type_name("N");
+  c->add_option("--pixel", o->pixel, "column and line, from 0 at the upper left")->required()->type_name("X,Y");
+  c->add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
+  options_of_frames(*c, *o);
+  option_json(*c, *o);
+  option_fault(*c, o->fault);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

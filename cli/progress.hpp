@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// How far a row of frames has come: how many, at what rate, and how long the rest will take at that rate.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace kage::cli {
+
+class Progress;
+
+/// "courtyard: frame 3/8, 1.6 frames/s, 4 s left". `done` frames took `seconds`; before the first is done, and for less
+/// than a tenth of a second, there is no rate.
+std::string progress_text(const std::string& name, int done, int frames, double seconds);
+
+/// Shows it as frames begin.
+class FrameProgress {
+ public:
+  /// `progress` must outlive it. `name` is what the frames are of.
+  FrameProgress(Progress& progress, std::string name, int frames);
+
+  /// The next frame begins.
+  void next();
+
+ private:
+  Progress& progress_;
+  std::string name_;
+  int frames_;
+  int done_ = -1;
+  std::chrono::steady_clock::time_point start_;
+};
+
+}  // namespace kage::cli

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What in a scene the tokens of a frame come from.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "kage/frontend.hpp"
+#include "kage/geometry.hpp"
+#include "kage/scene.hpp"
+
+namespace kage::cli {
+
+/// The part of the scene that a token draws, or that casts the shadow which it is of.
+struct TokenSource {
+  std::string role;    ///< "face", "polyhedron", "cap", "side", "section with the near plane" or "end"; of a volume but
+                       ///< for the first two
+  std::string object;  ///< its name in the file
+  int component = -1;  ///< of the scene; a volume may be of several, then the first
+  int face = -1;       ///< number in its object, as in the file; -1: of no single face
+  int light = -1;      ///< of a volume, from 0
+  int sample = -1;     ///< of that light, from 0
+
+  [[nodiscard]] std::string text() const;  ///< "the side of the shadow of gem, face 3, light 0 sample 2"
+  [[nodiscard]] Json json() const;
+};
+
+/// A frame's geometry with the names behind it.
+class Provenance {
+ public:
+  Provenance(std::vector<std::string> objects, SceneFrame frame, FrameGeometry geometry, FrameOrigins origins)
+      : objects_(std::move(objects)),
+        frame_(std::move(frame)),
+        geometry_(std::move(geometry)),
+        origins_(std::move(origins)) {}
+
+  /// Of those tokens of the frame that come of a part of the scene: spans, and ends of volumes.
+  [[nodiscard]] std::map<std::uint32_t, TokenSource> of_tokens(const Config& config,
+                                                               std::span<const std::uint32_t> words,
+                                                               const std::set<std::uint32_t>& wanted) const;
+
+  /// Of the polyhedron with a draw index.
+  [[nodiscard]] TokenSource of_polyhedron(std::uint32_t index) const;
+
+ private:
+  [[nodiscard]] TokenSource of_face(std::uint32_t polygon) const;
+  [[nodiscard]] TokenSource of_volume(const TokenOrigin& origin, Kind kind) const;
+  [[nodiscard]] std::string object_of(std::uint32_t component) const;
+
+  std::vector<std::string> objects_;
+  SceneFrame frame_;
+  FrameGeometry geometry_;
+  FrameOrigins origins_;
+};
+
+}  // namespace kage::cli

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "cosim/model.hpp"
+#include "kage/error.hpp"
+
+namespace kage::cli {
+namespace {
+
+/// So many pixels of a different frame are told with what the RTL did: the first, and one of each region.
+constexpr std::size_t kToldPixels = 8;
+/// No further one is begun after so many seconds.
+constexpr double kTellSeconds = 3;
+
+std::string quoted(const std::string& text) {
+  const auto plain = [](char c) {
+    return (std::isalnum(static_cast<unsigned char>(c)) != 0) ||
+           std::string_view("_./,:=+-@%").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'')
+      out += "'\\''";
+    else
+      out += c;
+  }
+  return out + "'";
+}
+
+std::string line_of(const CLI::App& command, const std::string& name,
+                    const std::function<bool(const CLI::Option&)>& keep) {
+  std::string line = "kage " + name;
+  for (const CLI::Option* o : command.get_options()) {
+    if (o->count() == 0 || !keep(*o)) continue;
+    if (o->get_positional()) {
+      for (const std::string& value : o->results()) line += " " + quoted(value);
+      continue;
+    }
+    line += " " + o->get_name();
+    if (o->get_expected_max() == 0) continue;
+    for (const std::string& value : o->results()) line += " " + quoted(value);
+  }
+  return line;
+}
+
+/// The first pixel of each region that differs, the region with most pixels first.
+std::vector<std::pair<int, int>> pixels_of(const cosim::Report& run) {
+  std::vector<std::pair<int, int>> pixels;
+  if (run.first_difference->x >= 0 && run.first_difference->line >= 0)
+    pixels.emplace_back(run.first_difference->x, run.first_difference->line);
+  const auto picture = [&](std::string_view end) {
+    for (const std::string& p : run.pictures)
+      if (p.ends_with(end)) return load_image(p);
+    return Image();
+  };
+  const Image expected = picture("_expected.png");
+  const Image actual = picture("_actual.png");
+  if (!run.difference || expected.data.size() != actual.data.size()) return pixels;
+  const auto differs = [&](int x, int y) {
+    const std::size_t at = expected.index(x, y);
+    return !std::equal(expected.data.begin() + static_cast<std::ptrdiff_t>(at),
+                       expected.data.begin() + static_cast<std::ptrdiff_t>(at) + expected.channels,
+                       actual.data.begin() + static_cast<std::ptrdiff_t>(at));
+  };
+  for (const DiffResult::Region& r : run.difference->regions) {
+    bool found = false;
+    for (int y = r.box.y; y < r.box.y + r.box.height && !found; ++y)
+      for (int x = r.box.x; x < r.box.x + r.box.width && !found; ++x) {
+        found = differs(x, y);
+        if (found && std::find(pixels.begin(), pixels.end(), std::pair(x, y)) == pixels.end())
+          pixels.emplace_back(x, y);
+      }
+  }
+  if (pixels.size() > kToldPixels) pixels.resize(kToldPixels);
+  return pixels;
+}
+
+/// The bands with a line in which the pictures differ.
+std::set<int> bands_that_differ(const cosim::Report& run) {
+  std::set<int> bands;
+  if (!run.difference) return bands;
+  for (const DiffResult::Region& r : run.difference->regions)
+    for (int y = r.box.y; y < r.box.y + r.box.height; ++y) bands.insert(y / report::kBandLines * report::kBandLines);
+  return bands;
+}
+
+}  // namespace
+
+std::string command_line(const CLI::App& command, const std::vector<std::string>& leave_out) {
+  return line_of(command, command.get_name(), [&](const CLI::Option& o) {
+    return std::find(leave_out.begin(), leave_out.end(), o.get_name()) == leave_out.end();
+  });
+}
+
+std::string command_line(const CLI::App& command, const CLI::App& other) {
+  static const std::set<std::string> own{"--json", "--out", "--frame", "--pixel", "--rtl", "--threads"};
+  return line_of(command, other.get_name(), [&](const CLI::Option& o) {
+    return own.count(o.get_name()) == 0 && (o.get_positional() || other.get_option_no_throw(o.get_name()) != nullptr);
+  });
+}
+
+RunReport::RunReport(Source& source, const CLI::App& command)
+    : source_(source), command_(command), tokens_(source.config().config, report::kPageBytes) {}
+
+TokenCounts RunReport::frame(int index, const WordSink& sink) {
+  if (index >= static_cast<int>(cosim::kFrameResults)) return source_.frame(index, sink);
+  tokens_.begin(index);
+  const TokenCounts counts = source_.frame(index, [&](std::span<const std::uint32_t> words) {
+    tokens_.words(words);
+    sink(words);
+  });
+  tokens_.end();
+  return counts;
+}
+
+void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
+  const int frame = page.run->first_difference->frame;
+  const auto pixels = pixels_of(*page.run);
+  if (pixels.empty()) return;
+  std::vector<std::uint32_t> words;
+  const auto feed = [&](int i, const WordSink& sink) { return source_.frame(i, sink); };
+  feed(frame, [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); });
+  const Config& config = page.config.config;
+  const cosim::DivergenceOptions options = watch ? watch() : cosim::DivergenceOptions();
+  const auto provenance = source_.provenance(frame);
+  const auto begin = std::chrono::steady_clock::now();
+  for (const auto& [x, y] : pixels) {
+    check_interrupt();
+    report::ToldPixel told;
+    told.frame = frame;
+    told.history = explain_pixel(config, words, x, y);
+    if (provenance) {
+      std::set<std::uint32_t> wanted;
+      for (const PixelTouch& t : told.history.touches) wanted.insert(t.token);
+      for (const auto& [token, from] : provenance->of_tokens(config, words, wanted)) told.from[token] = from.text();
+      for (const PixelTouch& t : told.history.touches)
+        if (t.what.kind == Kind::TREE && t.polyhedron)
+          told.from[t.token] = provenance->of_polyhedron(*t.polyhedron).text();
+    }
+    try {
+      if (watch) told.rtl = cosim::watch_pixel(frame, feed, config, options, x, y);
+    } catch (const Error& e) {
+      // The verdict stands without it.
+      source_.note(fmt::format("pixel {},{}: the RTL could not be watched: {}", x, y, e.what()));
+    }
+    page.told.push_back(std::move(told));
+    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > kTellSeconds) break;
+  }
+}
+
+std::string RunReport::write(const std::string& folder, const cosim::Report& run, std::uint64_t seed,
+                             const std::optional<cosim::Divergence>& divergence, const Watch& watch) {
+  report::Page page;
+  page.name = source_.name();
+  page.run = &run;
+  page.config = source_.config();
+  page.seed = seed;
+  page.divergence = divergence;
+  page.searched = static_cast<bool>(watch);
+  page.degraded = source_.degraded();
+  page.versions = cosim::model_tools();
+  page.versions.insert(page.versions.begin(), fmt::format("kage {}", KAGE_VERSION));
+  page.again = command_line(command_);
+  const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
+  page.explain = command_line(command_, *explain);
+  page.folder = std::filesystem::current_path().string();
+  page.tokens = &tokens_;
+  std::optional<report::TokenStore> wanted;
+  if (run.first_difference) {
+    const std::set<int> bands = bands_that_differ(run);
+    const int frame = run.first_difference->frame;
+    wanted.emplace(page.config.config, report::kPageBytes);
+    wanted->choose([&](int, int line) { return line < 0 || bands.count(line) != 0; });
+    wanted->begin(frame);
+    source_.frame(frame, [&](std::span<const std::uint32_t> words) { wanted->words(words); });
+    wanted->end();
+    page.wanted = &*wanted;
+    tell_pixels(page, watch);
+  }
+  page.notes = source_.notes();
+  const auto path = std::filesystem::path(folder) / "report.html";
+  report::write_page(path, page);
+  return path.string();
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common.hpp"
+#include "cosim/divergence.hpp"
+#include "cosim/run.hpp"
+#include "report/page.hpp"
+#include "source.hpp"
+
+namespace kage::cli {
+
+/// The command line that `command` was given, quoted for a shell, without the options of `leave_out`.
+std::string command_line(const CLI::App& command, const std::vector<std::string>& leave_out = {});
+
+/// The same input and options for another command: those that it has too.
+std::string command_line(const CLI::App& command, const CLI::App& other);
+
+/// The report page of a run: it listens to the words of the frames, and is written when there is a verdict.
+class RunReport {
+ public:
+  RunReport(Source& source, const CLI::App& command);
+
+  /// As the source gives them.
+  TokenCounts frame(int index, const WordSink& sink);
+
+  using Watch = std::function<cosim::DivergenceOptions()>;
+
+  /// Writes FOLDER/report.html and returns its name. `watch` gives the options to run the RTL with monitors by; it is
+  /// asked only after a difference, and empty where no stage is to be looked for.
+  std::string write(const std::string& folder, const cosim::Report& run, std::uint64_t seed,
+                    const std::optional<cosim::Divergence>& divergence, const Watch& watch);
+
+ private:
+  void tell_pixels(report::Page& page, const Watch& watch);
+
+  Source& source_;
+  const CLI::App& command_;
+  report::TokenStore tokens_;
+};
+
+}  // namespace kage::cli

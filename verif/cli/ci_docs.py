@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: Apache-2.0
+# Runs the CI examples of docs/ci.md as GitHub and GitLab would: jobs in their order, each in a folder of its own, with artifacts
+# handed on. Stubs stand for what belongs to the CI system: containers, apt-get, checkout, caches; and for the build.
+# usage: ci_docs.py KAGE SOURCE github|gitlab sound|broken
+import fnmatch, os, re, shutil, subprocess, sys
+from pathlib import Path
+
+import yaml
+
+kage, source, system, rtl = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4]
+root = Path(f"{system}-{rtl}").resolve()
+real_cmake = shutil.which("cmake")
+cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "kage"
+fewer = ("--frames 64", "--frames 4 --size 64x48 --config default")
+
+
+def example(name):
+    blocks = [b for b in re.findall(r"^```yaml\n(.*?)^```$", (source / "docs/ci.md").read_text(), flags=re.S | re.M) if name in b.splitlines()[0]]
+    assert len(blocks) == 1 and blocks[0].count(fewer[0]) == 1, name
+    return yaml.safe_load(blocks[0].replace(*fewer))
+
+
+def stubs():
+    (root / "bin").mkdir(parents=True)
+    patch = f"patch -s -d kage/share/kage -p1 <{source}/verif/faults/wrong_compare.patch" if rtl == "broken" else ":"
+    build = kage.parent.parent
+    for name, text in {
+        "apt-get": "exit 0",
+        "cmake": f'if [ "$1" = --install ]; then {real_cmake} --install {build} --prefix "$4" >/dev/null; {patch}; fi',
+    }.items():
+        file = root / "bin" / name
+        file.write_text(f"#!/bin/sh\nset -e\n{text}\n")
+        file.chmod(0o755)
+
+
+def checkout(folder):  # a clean one, as a runner has it; the cache of RTL models has been restored
+    (folder / "tools").mkdir(parents=True)
+    (folder / "tools/deps").write_text('#!/bin/sh\n[ "$*" = demo ]\n')
+    (folder / "tools/deps").chmod(0o755)
+    (folder / ".cache").mkdir()
+    cache.mkdir(parents=True, exist_ok=True)
+    (folder / ".cache/kage").symlink_to(cache)
+
+
+def shell(script, folder, env, log):
+    base = {k: v for k, v in os.environ.items() if not k.startswith(("KAGE_", "GITHUB_", "CI_", "XDG_"))}
+    done = subprocess.run(["sh", "-e", "-c", script], cwd=folder, env={**base, "PATH": f"{root}/bin:{base['PATH']}", **env},
+                          capture_output=True, text=True)
+    log.write(f"$ {script}\n{done.stdout}{done.stderr}exit {done.returncode}\n")
+    log.flush()
+    return done.returncode, done.stdout
+
+
+def copy(patterns, start, to):
+    for path in sorted(p for p in start.iterdir() if any(fnmatch.fnmatch(p.name, q.rstrip("/")) for q in patterns)):
+        (shutil.copytree(path, to / path.name, symlinks=True, dirs_exist_ok=True) if path.is_dir() else shutil.copy2(path, to / path.name))
+
+
+def ordered(jobs, needs):
+    done = []
+    while len(done) < len(jobs):
+        ready = [n for n in jobs if n not in done and all(d in done for d in needs(jobs[n]))]
+        assert ready, "jobs wait for each other"
+        done += ready
+    return done
+
+
+def github(log):
+    doc = example(".github/workflows/")
+    assert set(doc) == {"name", True, "jobs"}  # YAML 1.1 reads "on" as true
+    artifacts, codes, annotated = root / "artifacts", {}, 0
+    needs = lambda job: [job["needs"]] if isinstance(job.get("needs"), str) else job.get("needs", [])
+    for name in ordered(doc["jobs"], needs):
+        job = doc["jobs"][name]
+        assert job["container"] == "debian:bookworm" and job["runs-on"]
+        for shard in job.get("strategy", {}).get("matrix", {}).get("shard", [None]):
+            folder, env = root / f"{name}-{shard}", {"GITHUB_ACTIONS": "true", "GITHUB_ENV": str(root / f"{name}-{shard}.env")}
+            folder.mkdir()
+            Path(env["GITHUB_ENV"]).touch()
+            code = 0
+            expand = lambda t: re.sub(r"\$\{\{ ([a-z.]+) \}\}", lambda m: {"matrix.shard": str(shard), "github.sha": "0123abc"}[m[1]], str(t))
+            for step in job["steps"]:
+                if code != 0 and step.get("if") != "success() || failure()":
+                    continue
+                given = {k: expand(v) for k, v in step.get("with", {}).items()}
+                action = step.get("uses", "").split("@")[0]
+                if action == "actions/checkout":
+                    checkout(folder)
+                elif action == "actions/cache":
+                    assert {"path", "key"} <= set(given)
+                elif action == "actions/upload-artifact":
+                    to = artifacts / given["name"]
+                    to.mkdir(parents=True)
+                    copy(given["path"].split(), folder, to)
+                    assert any(to.iterdir()), f"{name}: nothing to upload"
+                elif action == "actions/download-artifact":
+                    for a in artifacts.iterdir():  # one goes where we are, all go to folders of their names
+                        if given.get("name", a.name) == a.name:
+                            copy(["*"], a, folder if "name" in given else Path(shutil.os.makedirs(folder / a.name) or folder / a.name))
+                else:
+                    assert set(step) == {"run"}, step
+                    code, out = shell(expand(step["run"]), folder, env, log)
+                    annotated += len(re.findall(r"^::error file=rtl/pixel_banked\.sv,title=[^\n:]*::[^\n]+$", out, flags=re.M))
+                    env.update(line.split("=", 1) for line in Path(env["GITHUB_ENV"]).read_text().splitlines())
+            codes.setdefault(name, []).append(code)
+    assert annotated == (4 if rtl == "broken" else 0), annotated
+    return codes, artifacts / "cosim"
+
+
+def gitlab(log):
+    doc = example(".gitlab-ci.yml")
+    assert doc["image"] == "debian:bookworm"
+    jobs = {n: j for n, j in doc.items() if n not in ("image", "stages", "variables", "default")}
+    artifacts, codes = root / "artifacts", {}
+    artifacts.mkdir()
+    for name in sorted(jobs, key=lambda n: doc["stages"].index(jobs[n]["stage"])):
+        job = jobs[name]
+        assert job.get("when", "on_success") in ("on_success", "always")
+        if job.get("when") != "always" and any(c for of in codes.values() for c in of):
+            continue
+        before = sorted(artifacts.iterdir())
+        made = root / f"{name}-artifacts"
+        made.mkdir()
+        count = job.get("parallel", 1)
+        for i in range(1, count + 1):
+            folder = root / f"{name}-{i}"
+            checkout(folder)
+            copy([p.name for p in before], artifacts, folder)
+            env = {"CI": "true", "CI_PROJECT_DIR": str(folder), "CI_NODE_INDEX": str(i), "CI_NODE_TOTAL": str(count)}
+            env.update({k: v.replace("$CI_PROJECT_DIR", str(folder)) for k, v in doc["variables"].items()})
+            code, _ = shell("\n".join(doc["default"]["before_script"] + job["script"]), folder, env, log)
+            codes.setdefault(name, []).append(code)
+            assert code == 0 or job["artifacts"]["when"] == "always"
+            copy(job["artifacts"]["paths"], folder, made)
+        copy(["*"], made, artifacts)
+    assert doc["merge"]["artifacts"]["reports"]["junit"] == "cosim.xml"
+    return codes, artifacts
+
+
+stubs()
+with open(root / "log", "w") as log:
+    codes, results = {"github": github, "gitlab": gitlab}[system](log)
+import json, xml.etree.ElementTree as xml
+
+report, suite = json.loads((results / "cosim.json").read_text()), xml.parse(results / "cosim.xml").getroot()[0]
+verdict = 1 if rtl == "broken" else 0
+assert codes == {"build": [0], "cosim": [verdict] * 4, "merge": [verdict]}, codes
+assert report["same"] is (verdict == 0) and report["frames"] == 4 and len(report["shards"]) == 4
+assert (suite.get("tests"), suite.get("failures")) == ("4", "4" if verdict else "0")

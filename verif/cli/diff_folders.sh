@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage diff of two folders of pictures, and --bless: what is missing is a difference, what is written appears whole or
+# not at all, and a reference folder changes only as told.
+. "$(dirname "$0")/common.bash"
+
+for way in exact centroid; do
+  "$kage" render glass --order $way --size 64x48 --frames 3 --out $way >/dev/null || fail "no pictures"
+done
+cp -r exact copy
+expect 0 "$kage" diff exact copy --json r.json --junit j.xml --out none
+grep -q '^same: 3 pictures compared$' stdout || fail "the line does not say same: $(cat stdout)"
+json r.json 'j["same"] is True and (j["width"],j["height"],j["channels"])==(64,48,3) and j["different_pixels"]==0 and j["max_lsb"]==0 and j["first"] is None'
+json r.json '[f["name"] for f in j["frames"]]==["glass_000%d.png"%i for i in range(3)] and all(f["same"] for f in j["frames"])'
+[ ! -e none ] || fail "a folder for pictures that there are not"
+
+cp exact/glass_0000.png centroid
+expect 1 "$kage" diff exact centroid --json r.json --junit j.xml --out views
+json r.json 'j["same"] is False and j["pictures"]==3 and j["different_pictures"]==2 and j["only_in_a"]==0'
+json r.json 'j["different_pixels"]==sum(f["different_pixels"] for f in j["frames"]) and j["max_lsb"]==max(f["max_lsb"] for f in j["frames"])'
+json r.json 'j["first"]=={**j["frames"][1]["first"], "frame": "glass_0001.png"}'
+[ "$(grep -c '^glass_000[12].png: different: ' stdout)" = 2 ] || fail "not a line for each that differs: $(cat stdout)"
+[ "$(echo views/*)" = "$(echo views/glass_000{1,2}.png.{flip,heat}.png)" ] || fail "views: $(echo views/*)"
+python3 - <<'PY' || fail "JUnit is not as it should be"
+import xml.etree.ElementTree as et
+suite = et.parse("j.xml").getroot()[0]
+assert (suite.get("tests"), suite.get("failures")) == ("3", "2")
+assert [(c.get("name"), len(c)) for c in suite] == [("glass_000%d.png" % i, min(i, 1)) for i in range(3)]
+PY
+expect 0 "$kage" diff exact centroid --lsb 255
+expect 1 "$kage" diff exact centroid --lsb 0
+expect 1 "$kage" diff exact centroid --json -
+cp stdout s.json
+json s.json 'j["different_pictures"]==2'
+
+# Missing on either side, in a subfolder too; files that are no pictures are named.
+mkdir copy/more
+mv copy/glass_0001.png copy/more
+echo text >copy/notes.txt
+expect 1 "$kage" diff exact copy --max-percent 100 --json r.json --junit j.xml
+json r.json 'j["only_in_a"]==1 and j["only_in_b"]==1 and j["different_pictures"]==2 and j["not_compared"]==["notes.txt"]'
+json r.json '[(f["name"], f["missing"]) for f in j["frames"] if not f["same"]]==[("glass_0001.png","B"),("more/glass_0001.png","A")]'
+grep -q '^glass_0001.png: different: only in exact$' stdout || fail "the missing picture is not named"
+grep -q '^not compared, no pictures: notes.txt$' stdout || fail "the file that is no picture is not named"
+python3 -c 'import xml.etree.ElementTree as et; assert et.parse("j.xml").getroot()[0].get("failures")=="2"' || fail "JUnit passes what is missing"
+mkdir empty
+expect 1 "$kage" diff exact empty
+trouble empty "$kage" diff empty empty
+trouble missing "$kage" diff exact missing
+trouble "is a directory" "$kage" diff exact/glass_0000.png exact
+trouble flip "$kage" diff exact centroid --flip f.png
+trouble exact/sub "$kage" diff exact centroid --out exact/sub
+trouble centroid "$kage" diff exact centroid --out centroid
+mkdir broken && cp exact/* broken && head -c 90 exact/glass_0002.png >broken/glass_0002.png
+trouble broken/glass_0002.png "$kage" diff centroid broken --out views2 --junit k.xml
+[ ! -e views2 ] && [ ! -e k.xml ] || fail "trouble left files"
+
+# --bless. A dry run changes nothing; NaN changes nothing; what is the same stays untouched.
+cp -r exact reference
+cp -r centroid fresh
+mkdir fresh/new && cp exact/glass_0000.png fresh/new
+cp reference/glass_0000.png reference/old.png
+echo text >reference/README
+state() { (cd reference && find . -type f -exec sha256sum {} + | sort -k2; find . -type f -printf '%p %T@\n' | sort); }
+state >before
+expect 1 "$kage" diff --bless --dry-run fresh reference --json r.json
+json r.json 'j["dry_run"] and not j["same"] and j["unchanged"]==1 and j["changed"]==["glass_0001.png","glass_0002.png"] and j["added"]==["new/glass_0000.png"] and j["missing"]==["old.png"] and j["removed"]==[]'
+state >after
+cmp before after || fail "a dry run changes something"
+printf 'PF\n1 1\n-1\n\0\0\300\177\0\0\0\0\0\0\0\0' >fresh/z.pfm
+trouble fresh/z.pfm "$kage" diff --bless fresh reference
+state >after
+cmp before after || fail "a NaN is blessed, or what came before it"
+rm fresh/z.pfm
+expect 1 "$kage" diff --bless fresh reference
+grep -q '^changed: glass_0001.png: ' stdout || fail "no word of what changed: $(cat stdout)"
+grep -q '^reference: 1 the same, 2 changed, 1 added, 1 missing$' stdout || fail "no summary: $(cat stdout)"
+state >after
+for name in glass_0000.png old.png README; do
+  [ "$(grep -F "./$name" before)" = "$(grep -F "./$name" after)" ] || fail "$name is touched"
+done
+expect 0 "$kage" diff --bless --prune fresh reference --json r.json
+json r.json 'j["same"] and j["removed"]==["old.png"] and j["missing"]==[] and j["unchanged"]==4'
+[ ! -e reference/old.png ] && [ -e reference/README ] || fail "--prune removes something else"
+expect 0 "$kage" diff fresh reference
+expect 0 "$kage" diff --bless --dry-run fresh reference
+trouble "is exact" "$kage" diff --bless --lsb 1 fresh reference
+trouble missing "$kage" diff --bless fresh missing
+[ ! -e missing ] || fail "a mistyped reference is made"
+trouble "one folder" "$kage" diff --bless fresh ./fresh
+trouble empty "$kage" diff --bless --prune empty reference
+[ -e reference/glass_0000.png ] || fail "an empty folder pruned the reference"
+[ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
+done_testing

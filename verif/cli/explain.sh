@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage explain: the history of a pixel, in words and JSON, of scenes and streams, with the RTL beside it; bad input.
+. "$(dirname "$0")/common.bash"
+
+# An obelisk's edge: drawn, a cap that ties and one behind, the end of the volume, RESOLVE.
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --json e.json
+grep -q 'tokens touch it' stdout || fail "no count of tokens"
+grep -q 'from obelisk, face 12' stdout || fail "the span's object and face are missing"
+grep -q 'from the cap of the shadow of obelisk, face 10, light 0' stdout || fail "the shadow's object is missing"
+grep -q 'no nearer: equal, and the first stays' stdout || fail "the tie is not told"
+json e.json '(j["frame"],j["x"],j["y"])==(0,316,116) and [t["kind"] for t in j["touches"]]==["OP","SP","SP","EV","RESOLVE"]'
+json e.json 'j["touches"][0]["source"]["object"]=="obelisk" and j["touches"][0]["after"]["color"]==j["color"] and j["rtl"] is None'
+json e.json 'all(a["after"]==b["before"] for a,b in zip(j["touches"],j["touches"][1:]))'
+
+# A stream says the same but for the names.
+expect 0 "$kage" stream courtyard --config default --frames 8 --out c.kage
+expect 0 "$kage" explain c.kage --pixel 316,116 --json s.json
+python3 - e.json s.json <<'PY' || fail "a stream's history is not its scene's"
+import json, sys
+a, b = (json.load(open(f))["touches"] for f in sys.argv[1:])
+for t in a + b: t.pop("source")
+sys.exit(a != b)
+PY
+
+# The path through the tree.
+expect 0 "$kage" explain polyhedra --config polyhedra --pixel 300,240
+grep -q 'level 3: Z [0-9]* of index [0-9]* against nothing: the first wins' stdout || fail "no path through the tree"
+grep -q 'by segments' stdout || fail "the polyhedron has no name"
+
+# Beside the RTL: all the same, and with a defect the token that it shows at.
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --json r.json
+json r.json 'len(j["rtl"])>=6 and all(t["same"] for t in j["rtl"])'
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --fault wrong_compare --json r.json
+json r.json '[t["token"] for t in j["rtl"] if not t["same"]][0]==j["touches"][2]["token"]'
+grep -q 'differs' stdout || fail "the difference is not marked"
+
+trouble "316;116" "$kage" explain courtyard --pixel "316;116"
+trouble "-1,0" "$kage" explain courtyard --pixel=-1,0
+trouble "1,2,3" "$kage" explain courtyard --pixel 1,2,3
+trouble "640,0" "$kage" explain courtyard --pixel 640,0
+trouble "--frame 8" "$kage" explain c.kage --frame 8 --pixel 0,0
+trouble "--pixel" "$kage" explain courtyard
+expect 0 "$kage" explain courtyard --pixel 0,0
+grep -q 'pixel 0,0: [01] token' stdout || fail "what touches the background is not counted"
+trouble nowhere/e.json "$kage" explain courtyard --pixel 0,0 --json nowhere/e.json
+done_testing
