@@ -186,25 +186,6 @@ void check_json(const Options& options) {
   write_text(file, options.json, "");
 }
 
-std::ofstream open_file(TempFiles& files, const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code ec;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
-    throw Error(fmt::format("{}: cannot be written: no such folder", path));
-  errno = 0;
-  std::ofstream out(files.add(path), std::ios::binary);
-  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
-  return out;
-}
-
-void write_text(TempFiles& files, const std::string& path, const std::string& text) {
-  std::ofstream out = open_file(files, path);
-  errno = 0;
-  out << text;
-  out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
-}
-
 void write_json(const Options& options, const Json& value, TempFiles& files) {
   const std::string text = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   if (!options.json.empty() && !json_only(options)) write_text(files, options.json, text);

@@ -96,12 +96,6 @@ bool json_only(const Options& options);
 /// Throws Error if what --json names cannot be written: before the work, not after it.
 void check_json(const Options& options);
 
-/// Opens a file to write to, which gets its name with the others of `files`. Throws Error if it cannot be written.
-std::ofstream open_file(TempFiles& files, const std::string& path);
-
-/// Writes a text file, which gets its name with the others of `files`. Throws Error if it cannot be written.
-void write_text(TempFiles& files, const std::string& path, const std::string& text);
-
 /// Writes `value` where --json says, if it was given, and gives all of `files` their names: all appear or none.
 void write_json(const Options& options, const Json& value, TempFiles& files);
 void write_json(const Options& options, const Json& value);

@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 
 #include "kage/error.hpp"
@@ -29,6 +31,25 @@ void TempFile::commit() {
   std::filesystem::rename(temp_, target_, ec);
   if (ec) throw Error(fmt::format("{}: cannot be written: {}", target_.string(), ec.message()));
   temp_.clear();
+}
+
+std::ofstream open_file(TempFiles& files, const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code ec;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ec))
+    throw Error(fmt::format("{}: cannot be written: no such folder", path));
+  errno = 0;
+  std::ofstream out(files.add(path), std::ios::binary);
+  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  return out;
+}
+
+void write_text(TempFiles& files, const std::string& path, const std::string& text) {
+  std::ofstream out = open_file(files, path);
+  errno = 0;
+  out << text;
+  out.close();
+  if (!out) throw Error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 }  // namespace kage

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -47,5 +49,11 @@ class TempFiles {
  private:
   std::vector<std::unique_ptr<TempFile>> files_;
 };
+
+/// Opens a file to write to, which gets its name with the others of `files`. Throws Error if it cannot be written.
+std::ofstream open_file(TempFiles& files, const std::string& path);
+
+/// Writes a text file, which gets its name with the others of `files`. Throws Error if it cannot be written.
+void write_text(TempFiles& files, const std::string& path, const std::string& text);
 
 }  // namespace kage

@@ -5,8 +5,7 @@
 #include <numeric>
 
 #include "kage/stream_diff.hpp"
-#include "number/bits.hpp"
-#include "stream/fields.hpp"
+#include "stream/field_diff.hpp"
 
 namespace kage {
 namespace {
@@ -123,26 +122,10 @@ class FrameComparer {
     return token.empty() ? "nothing" : to_string(config_, decode(config_, layout_, token));
   }
 
-  /// The bits of a field, the lowest first.
-  static std::uint64_t bits_of(Words token, Field f) {
-    std::uint64_t bits = 0;
-    for (int i = 0; i < f.bits; ++i) {
-      const auto at = static_cast<std::size_t>(f.lsb + i);
-      bits |= std::uint64_t{token[at / 32] >> at % 32 & 1U} << i;
-    }
-    return bits;
-  }
-
   /// The first field in which two unequal tokens differ.
   [[nodiscard]] std::string field(Words a, Words b) const {
     if (a.empty() || b.empty()) return "token";
-    if (((a[0] ^ b[0]) & 15U) != 0) return "kind";
-    std::string name;
-    each_field(layout_, static_cast<Kind>(a[0] & 15U), [&](const char* n, int channel, Field f) {
-      if (!name.empty() || bits_of(a, f) == bits_of(b, f)) return;
-      name = channel < 0 ? std::string(n) : fmt::format("{}[{}]", n, channel);
-    });
-    return name;
+    return first_field_diff(layout_, a, b).value().name;  // checked frames have nothing behind the last field
   }
 
   const Config& config_;

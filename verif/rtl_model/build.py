@@ -20,6 +20,7 @@ import argparse
 import hashlib
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -77,6 +78,14 @@ def sources(fault=None, trace=False, mutants=False):
     if fault:
         files.append(FAULTS / f"{fault}.patch")
     return files
+
+
+def trace_numbers():
+    """The numbers of rtl_model.h that the monitors use, in SystemVerilog."""
+    header = (HERE / "rtl_model.h").read_text()
+    numbers = re.findall(r"^ *KAGE_((?:STAGE|PART)_\w+) = (\d+)", header, re.M)
+    numbers += [("TRACE_VALUES", re.search(r"^#define KAGE_RTL_EVENT_VALUES (\d+)$", header, re.M)[1])]
+    return "".join(f"localparam int {''.join(w.capitalize() for w in name.split('_'))} = {n};\n" for name, n in numbers)
 
 
 def put_in(rtl, package):
@@ -174,7 +183,8 @@ def build(out, values, args, work):
                "--assert", "--unroll-count", str(max(unroll, 64)), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
     if args.trace:
-        command += ["--trace-fst", f"-I{MONITORS}"]
+        (work / "kage_trace_numbers.svh").write_text(trace_numbers())
+        command += ["--trace-fst", f"-I{MONITORS}", f"-I{work}"]
     if args.mutants:  # what is wrong on purpose may be bad style
         command += ["-Wno-fatal", work / "kage_mutants.sv"]
     command += sorted(rtl.glob("*.sv")) + (sorted(MONITORS.glob("*.sv")) if args.trace else [])

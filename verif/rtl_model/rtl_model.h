@@ -31,8 +31,8 @@ enum {
   KAGE_RTL_DRY = 5     /* every queued beat is taken */
 };
 
-/* What passes between the modules of the core, and within some; verif/monitors and kage_trace.svh have the same
- * numbers. Values are as the RTL has them, without sign. */
+/* What passes between the modules of the core, and within some; build.py hands the numbers to the monitors.
+ * Values are as the RTL has them, without sign. */
 enum {
   KAGE_STAGE_TOKEN = 0,   /* frame_control takes a token: its words, two a value, the first in the lower half; in the
                              last two values at_last and {header, lacking, cut, final} */

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search for the first divergence: where RTL and golden model agree it finds none in any stage, whatever the
 // configuration, the frames and the stalls; where a defect is built in it names the module that has it.
+#include <algorithm>
+
 #include "catch.hpp"
 #include "cosim/divergence.hpp"
+#include "cosim/mismatch.hpp"
 #include "cosim/model.hpp"
 #include "kage/config.hpp"
+#include "kage/stream.hpp"
 #include "support/damage.hpp"
 #include "support/streams.hpp"
 
@@ -77,4 +81,56 @@ TEST_CASE("sound RTL does not diverge in any stage") {
       CHECK_FALSE(d);
     }
   }
+}
+
+TEST_CASE("a token that differs is told by its field") {
+  const Config c;
+  std::vector<std::uint32_t> words;
+  TokenWriter writer(c, words);
+  SpanToken span;
+  span.xl = 12;
+  span.xr = 40;
+  span.z = 1000;
+  span.dz = -3;
+  span.color = {10, 20, 30};
+  writer.op(span);
+  const auto event = [](const std::vector<std::uint32_t>& from) {
+    Mismatch m;
+    m.expected.stage = Stage::token;
+    m.expected.token = 7;
+    m.value = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) m.expected.value[i / 2] |= std::uint64_t{from[i]} << (i % 2 * 32);
+    return m;
+  };
+  Mismatch m = event(words);
+  const auto told = [&](const std::vector<std::uint32_t>& got) {
+    const Mismatch other = event(got);
+    m.actual = kage_rtl_event{};
+    std::copy(other.expected.value.begin(), other.expected.value.end(), m.actual->value);
+    const MismatchText t = describe(c, m);
+    return t.field + ": " + t.expected + ", " + t.actual;
+  };
+  const auto with = [&](auto change) {
+    SpanToken s = span;
+    change(s);
+    std::vector<std::uint32_t> changed;
+    TokenWriter(c, changed).op(s);
+    return changed;
+  };
+  CHECK(told(with([](SpanToken& s) { s.xl = 13; })) == "xl: 12, 13");
+  CHECK(told(with([](SpanToken& s) { s.dz = 4; })) == "dz: -3, 4");
+  CHECK(told(with([](SpanToken& s) { s.color[1] = 21; })) == "color[1]: 20, 21");
+  auto kind = words;
+  kind[0] ^= static_cast<std::uint32_t>(Kind::OP) ^ static_cast<std::uint32_t>(Kind::SP);
+  CHECK(told(kind) == "kind: OP, SP");
+  // Behind the last field no name is left.
+  auto behind = words;
+  const auto bits = Layout(c).bits[static_cast<std::size_t>(Kind::OP)];
+  REQUIRE(bits % 32 != 0);
+  behind[bits / 32] ^= 0x80000000U;
+  CHECK(told(behind).substr(0, 5) == "words");
+  m.expected.token = 0;
+  auto header = words;
+  header[1] ^= 1;
+  CHECK(told(header).substr(0, 16) == "height and width");
 }

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/event_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace kage::cosim {
+
+EventSearch::EventSearch(const Config& config, Watch watch)
+    : watch_(std::move(watch)),
+      config_(config),
+      expected_(config),
+      golden_(config),
+      seen_(std::numeric_limits<std::uint64_t>::max()) {
+  golden_.observe(this);
+}
+
+void EventSearch::feed(std::span<const std::uint32_t> words) { golden_.feed(words, sink()); }
+
+void EventSearch::finish() {
+  (void)golden_.finish(sink());
+  ended_ = true;
+}
+
+LineSink EventSearch::sink() {
+  return [this](int y, std::span<const std::uint8_t> pixels) { expected_.line(y, pixels); };
+}
+
+void EventSearch::header(std::span<const std::uint32_t> words, const LineView& line) {
+  height_ = words[1] >> 16;
+  expected_.header(words, line);
+}
+
+void EventSearch::before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,
+                         const LineView& line) {
+  kinds_.push_back(token.kind);
+  expected_.before(index, token, words, line);
+}
+
+void EventSearch::after(std::uint32_t index, const Token& token, const LineView& line) {
+  expected_.after(index, token, line);
+}
+
+void EventSearch::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) {
+  if (!words.empty() && status.width != 0) kinds_.push_back(static_cast<Kind>(words[0] & 15U));
+  expected_.failed(status, words, line);
+}
+
+void EventSearch::take(std::span<const kage_rtl_event> events) {
+  // Units and tree work on a line as soon as its segments are there; its TREE says what they should have made.
+  const std::vector<kage_rtl_event> ahead = std::exchange(ahead_, {});
+  for (const kage_rtl_event& a : ahead) take(a);
+  for (const kage_rtl_event& a : events) take(a);
+}
+
+void EventSearch::take(const kage_rtl_event& a) {
+  const auto stage = static_cast<Stage>(a.stage);
+  if (stage == Stage::part) {
+    if (!part_) part_ = a;
+    seen_ = std::min(seen_, a.clock);
+    return;
+  }
+  if (stage == Stage::token) {
+    ++tokens_;
+    if (static_cast<Kind>(a.value[0] & 15U) == Kind::END) at_last_ = a.value[11] != 0;
+  }
+  if (stopped(a)) return;
+  std::deque<ExpectedEvent>& q = expected_.queue(stage, a.unit);
+  if (stage == Stage::error && !watch_) {
+    take_error(q, a);
+    return;
+  }
+  if (q.empty()) {
+    if (stage == Stage::unit || stage == Stage::tree || stage == Stage::error) {
+      // If no TREE comes, the line is dropped with its frame. An END too early is known here before the frame's end.
+      ahead_.push_back(a);
+      return;
+    }
+    if (expected_.failed() && (stage == Stage::token || stage == Stage::segment)) return;
+    seen_ = std::min(seen_, a.clock);
+    if (!unexpected_) unexpected_ = a;
+    stop(stage, a.unit);
+    return;
+  }
+  if (watch_) watch_(q.front(), a);
+  const int value = first_difference(q.front(), a);
+  if (value >= 0 && !watch_) {
+    if (stage == Stage::segment && !lost_)
+      lost_ = std::any_of(q.begin(), q.end(), [&](const ExpectedEvent& e) { return first_difference(e, a) < 0; });
+    offer({q.front(), a, value, a.clock});
+    stop(stage, a.unit);
+    return;
+  }
+  q.pop_front();
+}
+
+// An error belongs to its token, however early or late it comes.
+void EventSearch::take_error(std::deque<ExpectedEvent>& q, const kage_rtl_event& a) {
+  const std::uint32_t token = tokens_ == 0 ? 0 : tokens_ - 1;
+  if (q.empty() && !ended_ && static_cast<ErrorCode>(a.value[0]) == ErrorCode::LAST_LATE) {
+    ahead_.push_back(a);  // the golden core says so with the frame's end
+    return;
+  }
+  if (q.empty() || token < q.front().token) {
+    again_ = expected_.failed() && q.empty();
+    offer({ExpectedEvents::no_error(static_cast<int>(a.value[2]), token), a, 0, a.clock});
+  } else if (token > q.front().token) {
+    offer({q.front(), std::nullopt, -1, a.clock});
+  } else {
+    const int value = first_difference(q.front(), a);
+    if (value >= 0) offer({q.front(), a, value, a.clock});
+    q.pop_front();
+    if (value < 0) return;
+  }
+  stop(Stage::error, 0);
+}
+
+void EventSearch::offer(const Mismatch& m) {
+  seen_ = std::min(seen_, m.clock);
+  if (!first_ || m.order() < first_->order()) first_ = m;
+}
+
+// What comes behind a difference at its place says nothing more.
+void EventSearch::stop(Stage stage, int unit) {
+  if (stage != Stage::pixel) {
+    stopped_[static_cast<std::size_t>(stage)] = true;
+    return;
+  }
+  stopped_columns_.resize(static_cast<std::size_t>(config_.max_width));
+  const auto column = static_cast<std::size_t>(unit);
+  if (column < stopped_columns_.size()) stopped_columns_[column] = true;
+}
+
+bool EventSearch::stopped(const kage_rtl_event& a) const {
+  if (static_cast<Stage>(a.stage) != Stage::pixel) return stopped_[static_cast<std::size_t>(a.stage)];
+  const auto column = static_cast<std::size_t>(a.unit);
+  return column < stopped_columns_.size() && stopped_columns_[column];
+}
+
+void EventSearch::end(std::uint64_t clock) {
+  for (const kage_rtl_event& a : ahead_)
+    if (static_cast<Stage>(a.stage) == Stage::error && !unexpected_) unexpected_ = a;
+  expected_.for_each([&](const std::deque<ExpectedEvent>& q) {
+    if (q.front().cares == 0) return;
+    const auto stage = static_cast<std::size_t>(q.front().stage);
+    if (q.front().stage != Stage::pixel && stopped_[stage]) return;
+    offer({q.front(), std::nullopt, -1, clock});
+  });
+}
+
+bool EventSearch::seen_before(std::uint64_t clock, std::uint64_t ago) const {
+  return seen_ < clock && clock - seen_ > ago;
+}
+
+Clue EventSearch::clue() const {
+  Clue c;
+  c.at_last = at_last_;
+  if (first_) {
+    c.expected = first_->expected;
+    c.actual = first_->actual;
+    c.value = first_->value;
+  } else {
+    c.actual = unexpected_;
+    c.value = 0;
+  }
+  c.again = again_;
+  c.lost = lost_;
+  const std::uint32_t token = first_ ? first_->expected.token : 0;
+  for (std::uint32_t i = 1; i < token && i <= kinds_.size(); ++i) c.lines += kinds_[i - 1] == Kind::EOL ? 1U : 0U;
+  c.lines_done = c.lines == height_;
+  if (token > 0 && token <= kinds_.size()) c.kind = kinds_[token - 1];
+  return c;
+}
+
+}  // namespace kage::cosim

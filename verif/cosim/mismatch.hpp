@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "cosim/expected_events.hpp"
+
+namespace kage::cosim {
+
+/// An event that is not what was expected, or that never came.
+struct Mismatch {
+  ExpectedEvent expected;
+  std::optional<kage_rtl_event> actual;
+  int value = -1;  ///< the first that differs; -1: missing
+  std::uint64_t clock = 0;
+
+  /// The order in which a token passes the stages.
+  [[nodiscard]] auto order() const { return std::tuple(expected.token, expected.line, expected.step, expected.x); }
+};
+
+/// The first value that matters and differs, or -1.
+int first_difference(const ExpectedEvent& expected, const kage_rtl_event& actual);
+
+/// What differs, as a person reads it.
+struct MismatchText {
+  std::string field;  ///< "z"; of a token that of docs/stream.md: "color[1]"; "missing": it never came
+  std::string expected;
+  std::string actual;
+};
+MismatchText describe(const Config& config, const Mismatch& mismatch);
+
+}  // namespace kage::cosim

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Frames through one core again, at the rhythm of who watches.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "cosim/rtl.hpp"
+#include "cosim/run.hpp"
+
+namespace kage::cosim {
+
+/// For lines that nobody looks at.
+inline const LineSink kNowhere = [](int, std::span<const std::uint8_t>) {};
+
+/// Thrown through a feed once enough has been seen.
+struct Enough {};
+
+/// Hands a frame on in pieces of a size for which who watches can keep all that happens: some hundred bytes a pixel.
+template <class Take>
+void in_pieces(const Feed& feed, int frame, Take take) {
+  constexpr std::size_t kPiece = 512;
+  feed(frame, [&](std::span<const std::uint32_t> words) {
+    for (; !words.empty(); words = words.subspan(std::min(words.size(), kPiece)))
+      take(words.first(std::min(words.size(), kPiece)));
+  });
+}
+
+}  // namespace kage::cosim

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/waveform.hpp"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <string>
+
+#include "cosim/replay.hpp"
+#include "image/temp_file.hpp"
+
+namespace kage::cosim {
+namespace {
+
+// The scopes and nets that GTKWave opens with.
+std::string save_file(const std::filesystem::path& wave, const Config& config, std::uint64_t clock) {
+  std::string text =
+      fmt::format("[dumpfile] \"{}\"\n[timestart] {}\n*-4.0 {}\n", std::filesystem::absolute(wave).string(),
+                  clock > 20 ? 2 * (clock - 20) : 0, 2 * clock + 1);
+  const auto group = [&](const char* name, std::initializer_list<const char*> nets) {
+    text += fmt::format("@200\n-{}\n@28\n", name);
+    for (const char* net : nets) text += fmt::format("TOP.kage_top.{}\n", net);
+  };
+  group("clock", {"clk_i", "rst_ni"});
+  group("token_reader to frame_control", {"token_valid", "token_ready", "token_header"});
+  group("frame_control to pixels", {"cmd_valid", "cmd_ready", "cmd_kind", "cmd_xl", "cmd_xr", "cmd_z", "cmd_dz"});
+  if (config.units > 0) group("tree", {"tree_valid", "tree_ready", "tree_z", "tree_last"});
+  group("pixels to line_out", {"exit_valid", "exit_last", "exit_data"});
+  group("lines", {"line_valid", "line_ready", "queue_valid", "queue_ready"});
+  group("video", {"m_axis_tvalid_o", "m_axis_tready_i", "m_axis_tdata_o", "m_axis_tuser_o", "m_axis_tlast_o"});
+  return text;
+}
+
+void record(const std::filesystem::path& path, int from, int frame, const Feed& feed, const Config& config,
+            const DivergenceOptions& options, std::uint64_t clock) {
+  const auto rtl = make_rtl(options.library, config, options.rtl);
+  const std::uint64_t end = clock + options.after;
+  rtl->wave(path, clock > options.before ? clock - options.before : 0, end);
+  try {
+    for (int i = from; i <= frame; i += options.steps.step) {
+      in_pieces(feed, i, [&](std::span<const std::uint32_t> piece) {
+        rtl->feed(piece, kNowhere);
+        if (options.wait) options.wait();
+        if (rtl->clock() > end) throw Enough();
+      });
+      (void)rtl->finish(kNowhere);
+    }
+  } catch (const Enough&) {
+  }
+}
+
+}  // namespace
+
+std::filesystem::path write_waveform(int from, int frame, const Feed& feed, const Config& config,
+                                     const DivergenceOptions& options, std::uint64_t clock) {
+  TempFiles files;
+  record(files.add(options.waveform), from, frame, feed, config, options, clock);
+  auto path = options.waveform;
+  path.replace_extension(".gtkw");
+  write_text(files, path.string(), save_file(options.waveform, config, clock));
+  files.commit();
+  return path;
+}
+
+}  // namespace kage::cosim
