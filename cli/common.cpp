@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -239,6 +240,22 @@ void catch_signals() {
   action.sa_handler = on_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup's wish stands
+  // A reader that has gone away is an error of the write: what is half done is tidied up.
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &action, nullptr);
+}
+
+void open_standard_files() {
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
+    if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_RDONLY : O_WRONLY) < 0) return;
+}
+
+void say(const std::string& text) {
+  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+  (void)std::fflush(stderr);
 }
 
 bool interrupted() { return signalled != 0; }
@@ -265,7 +282,7 @@ void Progress::show(const std::string& text) {
   if (!terminal_) {
     if (pause_.count() == 0 || now - last_ < pause_) return;
     last_ = now;
-    fmt::print(stderr, "{}\n", text);
+    say(text + "\n");
     return;
   }
   if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
@@ -274,14 +291,12 @@ void Progress::show(const std::string& text) {
   winsize window{};
   const std::size_t columns =
       ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 ? window.ws_col - 1U : 79U;
-  fmt::print(stderr, "\r\033[K{}", text.substr(0, columns));
-  std::fflush(stderr);
+  say("\r\033[K" + text.substr(0, columns));
 }
 
 void Progress::clear() {
   if (!shown_) return;
-  fmt::print(stderr, "\r\033[K");
-  std::fflush(stderr);
+  say("\r\033[K");
   shown_ = false;
 }
 

@@ -129,8 +129,15 @@ inline std::string and_segments(std::uint64_t segments) {
   return segments == 0 ? std::string() : ", " + counted(segments, "segment");
 }
 
-/// Ctrl-C and SIGTERM set a flag; loops ask it, so that files are whole or absent. A second one ends the program at
-/// once.
+/// Opens those of standard input, output and error that are closed on /dev/null: else a file of results would get their
+/// number, and with it what is meant for a person.
+void open_standard_files();
+
+/// Writes to standard error. Where that cannot be, nobody is there to be told.
+void say(const std::string& text);
+
+/// Ctrl-C, SIGTERM and SIGHUP set a flag; loops ask it, so that files are whole or absent. A second one ends the
+/// program at once. A pipe without reader is an error of the write.
 void catch_signals();
 bool interrupted();
 

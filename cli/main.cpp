@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "common.hpp"
 #include "mapped.hpp"
@@ -20,8 +23,14 @@ int trouble(std::string message) {
   while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
   for (char& c : message)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  fmt::print(stderr, "kage: {}\n", message);
+  say(fmt::format("kage: {}\n", message));
   return kTrouble;
+}
+
+/// What was to be told has not arrived. A reader that has gone away, as head does, knows.
+int lost_output(int error) {
+  if (error == EPIPE) return kTrouble;
+  return trouble(fmt::format("standard output: cannot be written: {}", std::strerror(error)));
 }
 
 /// An installed kage finds its data beside itself, wherever the prefix was moved to.
@@ -66,15 +75,21 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    open_standard_files();
     find_data();
     catch_signals();
-    return run(argc, argv);
+    const int rc = run(argc, argv);
+    errno = 0;
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return lost_output(errno != 0 ? errno : EIO);
+    return rc;
   } catch (const Interrupted&) {
     (void)trouble("interrupted");
     return kInterrupted;
   } catch (const std::bad_alloc&) {
     return trouble("out of memory");
   } catch (const std::exception& e) {
+    const auto* system = dynamic_cast<const std::system_error*>(&e);
+    if (system != nullptr && std::ferror(stdout) != 0) return lost_output(system->code().value());
     // Zeros in place of lost pages make errors of their own; the cause is what counts.
     const std::string lost = lost_mapped();
     return trouble(lost.empty() ? e.what() : lost);

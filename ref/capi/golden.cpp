@@ -140,8 +140,10 @@ Result guarded(std::string& error, Result failure, Work&& work) noexcept {
   return failure;
 }
 
+// A handle that nobody made, as a DPI chandle is at first, has no place for a cause: that of the create stays.
 template <class Work>
 int guarded(kage_golden* core, Work&& work) noexcept {
+  if (core == nullptr) return KAGE_GOLDEN_ERROR;
   return guarded(core->error, int{KAGE_GOLDEN_ERROR}, std::forward<Work>(work));
 }
 
@@ -202,6 +204,21 @@ long long token_field(const kage::Token& t, int kind, int field) {
       return 0;
   }
 }
+
+bool has_line(const kage_golden* core) { return core != nullptr && core->line; }
+
+/// Lines leave to no one while this lives.
+class NoTaker {
+ public:
+  explicit NoTaker(kage_golden& core) : core_(core), taker_(std::exchange(core.taker, nullptr)) {}
+  ~NoTaker() { core_.taker = taker_; }
+  NoTaker(const NoTaker&) = delete;
+  NoTaker& operator=(const NoTaker&) = delete;
+
+ private:
+  kage_golden& core_;
+  kage_golden_taker taker_;
+};
 
 kage_golden* create(const Config& config) { return std::make_unique<kage_golden>(config).release(); }
 
@@ -272,9 +289,10 @@ int kage_golden_frame(kage_golden* core, int index) {
       throw Error(fmt::format("frame {}: the file has {}", index, core->file->frame_count()));
     const auto words = core->file->frame(index);
     const kage::FrameStatus before = core->status;
-    const auto taker = std::exchange(core->taker, nullptr);  // lines of what is forgotten leave to no one
-    core->finish();
-    core->taker = taker;
+    {
+      const NoTaker forgotten(*core);
+      core->finish();
+    }
     core->status = before;
     core->rest = words;
     return 0;
@@ -295,19 +313,22 @@ int kage_golden_next(kage_golden* core) {
   });
 }
 
-int kage_golden_token_kind(kage_golden* core) { return core->kind; }
-int kage_golden_token_index(kage_golden* core) { return core->index; }
-int kage_golden_token_words(kage_golden* core) { return core->index < 0 ? 0 : static_cast<int>(core->words.size()); }
+int kage_golden_token_kind(kage_golden* core) { return core == nullptr ? int{KAGE_GOLDEN_ERROR} : core->kind; }
+int kage_golden_token_index(kage_golden* core) { return core == nullptr ? -1 : core->index; }
+int kage_golden_token_words(kage_golden* core) {
+  return core == nullptr || core->index < 0 ? 0 : static_cast<int>(core->words.size());
+}
 
 unsigned int kage_golden_token_word(kage_golden* core, int i) {
   return i >= 0 && i < kage_golden_token_words(core) ? core->words[static_cast<std::size_t>(i)] : 0;
 }
 
 long long kage_golden_token_field(kage_golden* core, int field) {
-  return core->kind == KAGE_KIND_HEADER ? 0 : token_field(core->token, core->kind, field);
+  return core == nullptr || core->kind == KAGE_KIND_HEADER ? 0 : token_field(core->token, core->kind, field);
 }
 
 const char* kage_golden_token_text(kage_golden* core) {
+  if (core == nullptr) return "";
   (void)guarded(core, [&] {
     if (core->index < 0)
       core->text.clear();
@@ -320,14 +341,14 @@ const char* kage_golden_token_text(kage_golden* core) {
   return core->text.c_str();
 }
 
-int kage_golden_width(kage_golden* core) { return core->line ? core->core.line().width() : 0; }
-int kage_golden_height(kage_golden* core) { return core->line ? core->height : 0; }
-int kage_golden_line(kage_golden* core) { return core->line ? core->core.line().y() : 0; }
-int kage_golden_bias(kage_golden* core) { return core->line ? static_cast<int>(core->core.line().bias()) : 0; }
-unsigned int kage_golden_background(kage_golden* core) { return core->line ? core->core.line().background() : 0; }
+int kage_golden_width(kage_golden* core) { return has_line(core) ? core->core.line().width() : 0; }
+int kage_golden_height(kage_golden* core) { return has_line(core) ? core->height : 0; }
+int kage_golden_line(kage_golden* core) { return has_line(core) ? core->core.line().y() : 0; }
+int kage_golden_bias(kage_golden* core) { return has_line(core) ? static_cast<int>(core->core.line().bias()) : 0; }
+unsigned int kage_golden_background(kage_golden* core) { return has_line(core) ? core->core.line().background() : 0; }
 
 int kage_golden_pixel(kage_golden* core, int x, int field) {
-  if (!core->line || field < 0 || field >= KAGE_PIXEL_FIELDS || !has(core->config, field)) return KAGE_PIXEL_ABSENT;
+  if (!has_line(core) || field < 0 || field >= KAGE_PIXEL_FIELDS || !has(core->config, field)) return KAGE_PIXEL_ABSENT;
   const kage::LineView line = core->core.line();
   if (x < 0 || x >= line.width()) return KAGE_PIXEL_ABSENT;
   const kage::PixelState p = line.pixel(x);
@@ -356,21 +377,23 @@ const char* kage_golden_pixel_name(int field) {
   return field >= 0 && field < KAGE_PIXEL_FIELDS ? kNames[static_cast<std::size_t>(field)] : "";
 }
 
-int kage_golden_out_line(kage_golden* core) { return core->out_line; }
+int kage_golden_out_line(kage_golden* core) { return core == nullptr ? -1 : core->out_line; }
 
 int kage_golden_out(kage_golden* core, int x, int channel) {
-  if (core->out_line < 0 || x < 0 || channel < 0 || channel >= core->config.channels) return -1;
+  if (core == nullptr || core->out_line < 0 || x < 0 || channel < 0 || channel >= core->config.channels) return -1;
   const std::size_t at =
       static_cast<std::size_t>(x) * static_cast<std::size_t>(core->config.channels) + static_cast<std::size_t>(channel);
   return at < core->out.size() ? core->out[at] : -1;
 }
 
 void kage_golden_on_line(kage_golden* core, kage_golden_taker taker, void* user) {
+  if (core == nullptr) return;
   core->taker = taker;
   core->user = user;
 }
 
 long long kage_golden_status(kage_golden* core, int field) {
+  if (core == nullptr) return -1;
   const kage::FrameStatus& s = core->status;
   const std::array<long long, KAGE_STATUS_FIELDS> values{
       static_cast<long long>(s.error), s.frame, s.line, s.token, s.unit, s.width, s.height};
@@ -378,6 +401,7 @@ long long kage_golden_status(kage_golden* core, int field) {
 }
 
 const char* kage_golden_status_text(kage_golden* core) {
+  if (core == nullptr) return "";
   (void)guarded(core, [&] {
     const kage::FrameStatus& s = core->status;
     const auto code = static_cast<std::size_t>(s.error);

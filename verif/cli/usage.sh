@@ -51,4 +51,27 @@ printf 'Z_BITS: [\n' >broken.yaml
 trouble "broken.yaml" "$kage" model broken.yaml
 printf 'DEPTH: 4\n' >unknown.yaml
 trouble "DEPTH" "$kage" model unknown.yaml
+
+# What is meant for a person lands in no file of results, and nobody to hear it is no reason to fall over.
+expect 0 "$kage" stream courtyard --size 64x48 --frames 3 --out heard.kage
+for closed in '2>&-' '0<&- 1>&- 2>&-' '2>/dev/full'; do
+  rc=0
+  (eval "KAGE_PROGRESS=0.0000001 \"\$kage\" stream courtyard --size 64x48 --frames 3 --out unheard.kage >/dev/null $closed") || rc=$?
+  cmp -s heard.kage unheard.kage || fail "stream $closed: another file"
+  [[ $rc == 0 || $closed == *'1>&-'* ]] || fail "stream $closed: exit $rc"
+  rc=0
+  (eval "\"\$kage\" info nothing.kage >/dev/null $closed") || rc=$?
+  [ $rc = 2 ] || fail "info $closed: exit $rc of a file that is not there"
+done
+# What is told and does not arrive is trouble; a reader who has had enough knows.
+for command in "info heard.kage" "info heard.kage --json -" "cosim heard.kage --no-report --out full" "diff heard.kage heard.kage"; do
+  rc=0
+  # shellcheck disable=SC2086
+  "$kage" $command >/dev/full 2>stderr || rc=$?
+  [ $rc = 2 ] && grep -q '^kage: standard output: cannot be written' stderr || fail "$command >/dev/full: exit $rc, $(cat stderr)"
+done
+set +o pipefail
+"$kage" info heard.kage --tokens 0 2>stderr | head -n 1 >first
+set -o pipefail
+[ -s first ] && [ ! -s stderr ] || fail "info | head: $(cat stderr)"
 done_testing

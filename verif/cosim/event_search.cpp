@@ -72,6 +72,7 @@ void EventSearch::take(const kage_rtl_event& a) {
     return;
   }
   if (q.empty()) {
+    if (expected_.failed() && (stage == Stage::unit || stage == Stage::tree)) return;  // of a line that is dropped
     if (stage == Stage::unit || stage == Stage::tree || stage == Stage::error) {
       // If no TREE comes, the line is dropped with its frame. An END too early is known here before the frame's end.
       ahead_.push_back(a);

@@ -68,8 +68,13 @@ std::string output_of(const char* command) {
   std::string text;
   if (!pipe) return text;
   std::array<char, 512> buffer{};
-  while (fgets(buffer.data(), buffer.size(), pipe.get()) != nullptr) text += buffer.data();
-  return text;
+  while (true) {
+    const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe.get());
+    text.append(buffer.data(), n);
+    if (n == buffer.size()) continue;
+    if (ferror(pipe.get()) == 0 || errno != EINTR) return text;
+    clearerr(pipe.get());  // a signal: whoever waits for it asks
+  }
 }
 
 std::string verilator_version() { return output_of("verilator --version 2>/dev/null"); }
@@ -85,9 +90,10 @@ std::vector<std::string> faults(const fs::path& data) {
   return names;
 }
 
-std::string key_of(const fs::path& data, const Config& config, const ModelOptions& options) {
+/// The files that the model is made of, below `data`: what build.py --sources names, and perhaps a file more.
+std::vector<fs::path> sources(const fs::path& data, const ModelOptions& options) {
   const std::string& fault = options.fault;
-  std::vector<fs::path> files;  // what build.py --sources names, and perhaps a file more
+  std::vector<fs::path> files;
   std::vector<const char*> folders{"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"};
   if (options.traced) folders.push_back("verif/monitors");
   for (const char* folder : folders) {
@@ -106,13 +112,18 @@ std::string key_of(const fs::path& data, const Config& config, const ModelOption
       throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(faults(data), ", ")));
   }
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string key_of(const fs::path& data, const std::vector<fs::path>& files, const Config& config,
+                   const ModelOptions& options) {
   Sha256 hash;
   for (const fs::path& file : files) {
     hash.add(file.string());
     hash.add(read_file(data / file));
   }
   for (const ParamInfo& p : kParams) hash.add(fmt::format("{}={}", p.name, config.*(p.member)));
-  hash.add(fault);
+  hash.add(options.fault);
   hash.add(options.traced ? "traced" : "");
   hash.add(options.mutants ? "mutants" : "");
   const std::string verilator = verilator_version();
@@ -209,6 +220,15 @@ std::string last_line(const fs::path& log) {
   return error.empty() ? last : error;
 }
 
+/// `text` with the path `to` wherever it has `from`.
+std::string with_path(std::string text, const fs::path& from, const fs::path& to) {
+  const std::string old = from.string();
+  const std::string put = to.string();
+  for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += put.size())
+    text.replace(at, old.size(), put);
+  return text;
+}
+
 struct RemoveFolder {
   fs::path path;
   explicit RemoveFolder(fs::path p) : path(std::move(p)) {}
@@ -225,9 +245,19 @@ struct RemoveFolder {
 Model find_model(const Config& config, const ModelOptions& options) {
   const fs::path data = data_directory();
   const fs::path folder = cache_folder();
-  const std::string key = key_of(data, config, options);
-  const fs::path library = folder / (key + ".so");
-  if (fs::exists(library)) return {library, 0};
+  const std::vector<fs::path> files = sources(data, options);
+  const auto library = [&](const std::string& key) { return folder / (key + ".so"); };
+  const std::string now = key_of(data, files, config, options);
+  if (fs::exists(library(now))) return {library(now), 0};
+
+  // What is built is a copy: someone may change the RTL meanwhile, and the model must be of what its name says.
+  const RemoveFolder work(folder / fmt::format("{}.{}", now, getpid()));
+  const fs::path copy = work.path / "source";
+  for (const fs::path& file : files) {
+    fs::create_directories((copy / file).parent_path());
+    fs::copy_file(data / file, copy / file);
+  }
+  const std::string key = key_of(copy, files, config, options);
 
   const auto start = std::chrono::steady_clock::now();
   const auto wait = [&] {
@@ -238,12 +268,11 @@ Model find_model(const Config& config, const ModelOptions& options) {
   };
   const Lock lock(folder / (key + ".lock"));
   while (!lock.try_lock()) wait();
-  if (fs::exists(library)) return {library, 0};  // another program has built it
+  if (fs::exists(library(key))) return {library(key), 0};  // another program has built it
 
   const fs::path log = folder / (key + ".log");
-  const RemoveFolder work(folder / fmt::format("{}.{}", key, getpid()));
-  fs::create_directories(work.path);
-  std::vector<std::string> command{(data / "verif/rtl_model/build.py").string(), (work.path / "model.so").string()};
+  std::vector<std::string> command{"env", "-u", "KAGE_RTL_DIR", (copy / "verif/rtl_model/build.py").string(),
+                                   (work.path / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
   if (!options.fault.empty()) command.insert(command.end(), {"--fault", options.fault});
   if (options.traced) command.emplace_back("--trace");
@@ -254,13 +283,14 @@ Model find_model(const Config& config, const ModelOptions& options) {
   bool ok = false;
   while (!build.ended(ok)) wait();
   if (!ok || !fs::exists(work.path / "model.so")) {
-    const std::string cause = last_line(log);
-    std::error_code ec;  // what build.py said is less than its log has, if it got as far as having one
-    fs::rename(work.path / "build/build.log", log, ec);
+    // Messages name files where a person can look at them.
+    const std::string cause = with_path(last_line(log), copy, data);
+    if (fs::exists(work.path / "build/build.log"))  // what build.py said is less than its log has
+      std::ofstream(log) << with_path(read_file(work.path / "build/build.log"), copy, data);
     throw Error(fmt::format("RTL model: the build failed: {} (log: {})", cause, log.string()));
   }
-  fs::rename(work.path / "model.so", library);
-  return {library, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  fs::rename(work.path / "model.so", library(key));
+  return {library(key), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
 std::vector<std::string> model_tools() {

@@ -65,9 +65,10 @@ class Rtl : public RtlCore {
   void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
     Stopwatch watch(seconds_);
     open();
+    if (stuck_) return;  // it takes nothing more
     held_.insert(held_.end(), words.begin(), words.end());
     announce();
-    if (!announced_ || stuck_ || held_.empty()) return;
+    if (!announced_ || held_.empty()) return;
     // The last beat waits here: TLAST may belong to it.
     const auto beat = static_cast<std::size_t>(config_.beat_words);
     const std::size_t n = (held_.size() - 1) / beat * beat;

@@ -236,3 +236,37 @@ TEST_CASE("a stream file, token by token") {
   REQUIRE(std::string(kage_golden_error(other)) == path + ": its pixel parameters are not this core's");
   REQUIRE(std::remove(path.c_str()) == 0);
 }
+
+TEST_CASE("no core at all is an error, not a crash") {
+  // A chandle of DPI-C is null until a create has been called, and after one that failed.
+  REQUIRE(kage_golden_create("no such configuration") == nullptr);
+  const std::string why = kage_golden_error(nullptr);
+  CHECK(why.find("no such configuration") != std::string::npos);
+  const unsigned word = 0;
+  CHECK(kage_golden_parameter(nullptr, "Z_BITS") == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_word(nullptr, 0) == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_feed(nullptr, &word, 1) == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_finish(nullptr) == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_open(nullptr, "x.kage") == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_frame(nullptr, 0) == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_next(nullptr) == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_token_kind(nullptr) == KAGE_GOLDEN_ERROR);
+  CHECK(kage_golden_token_index(nullptr) == -1);
+  CHECK(kage_golden_token_words(nullptr) == 0);
+  CHECK(kage_golden_token_word(nullptr, 0) == 0);
+  CHECK(kage_golden_token_field(nullptr, KAGE_TOKEN_XL) == 0);
+  CHECK(std::string(kage_golden_token_text(nullptr)).empty());
+  CHECK(kage_golden_width(nullptr) == 0);
+  CHECK(kage_golden_height(nullptr) == 0);
+  CHECK(kage_golden_line(nullptr) == 0);
+  CHECK(kage_golden_bias(nullptr) == 0);
+  CHECK(kage_golden_background(nullptr) == 0);
+  CHECK(kage_golden_pixel(nullptr, 0, KAGE_PIXEL_Z) == KAGE_PIXEL_ABSENT);
+  CHECK(kage_golden_out_line(nullptr) == -1);
+  CHECK(kage_golden_out(nullptr, 0, 0) == -1);
+  CHECK(kage_golden_status(nullptr, 0) == -1);
+  CHECK(std::string(kage_golden_status_text(nullptr)).empty());
+  kage_golden_on_line(nullptr, nullptr, nullptr);
+  kage_golden_destroy(nullptr);
+  CHECK(kage_golden_error(nullptr) == why);
+}

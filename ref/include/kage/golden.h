@@ -11,7 +11,8 @@
  * and leaves its cause for kage_golden_error(). An error in a frame's words is none of these: it is what the frame is
  * to have, KAGE_GOLDEN_FAILED with a status.
  *
- * A core must not be NULL except where that is said.
+ * With NULL for a core a function does nothing and returns KAGE_GOLDEN_ERROR, or what it returns where there is none of
+ * what it is asked for.
  *
  * Threads. A core is for one thread at a time, its strings and pixels too. Different cores are independent.
  *

@@ -185,6 +185,7 @@ module pixel_bench;
       if (kage_golden_finish(core) != 0) $fatal(1, "frame %0d: the golden core refuses it", frame);
     end
     kage_golden_destroy(core);
+    if (checked == 0) $fatal(1, "nothing was checked");
     $display("same: %0d frames, %0d tokens, %0d values checked", frames, tokens, checked);
     $finish;
   end

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# A kept RTL model is of the sources whose hash its name is, though someone changes them while it is built.
+. "$(dirname "$0")/common.bash"
+
+mkdir -p data/verif
+cp -r "$source/rtl" data/
+cp -r "$source"/verif/{rtl_model,monitors,faults} data/verif/
+echo '{MAX_WIDTH: 64, LANES: 2, BEAT_WORDS: 1}' >small.yaml
+expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --config small.yaml --out s.kage
+export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
+
+"$kage" model small.yaml >built 2>&1 &
+until compgen -G 'cache/kage/models/*.lock' >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.05; done
+[ -z "$(find cache -name '*.so')" ] || fail "the model was there before its sources could change"
+patch -s --no-backup-if-mismatch -p1 -d data -i "$source/verif/faults/wrong_compare.patch" || fail "no defect to put in"
+wait $! || fail "the model was not built: $(cat built)"
+patch -s --no-backup-if-mismatch -R -p1 -d data -i "$source/verif/faults/wrong_compare.patch"
+expect 0 "$kage" cosim s.kage --no-report --out out
+[ "$(find cache -name '*.so' | wc -l)" = 1 ] || fail "the sources are as they were, and there are these models: $(find cache -name "*.so")"
+
+# What does not build is named where a person finds it.
+sed -i 's/^module frame_control/modul frame_control/' data/rtl/frame_control.sv
+trouble "$PWD/data/rtl/frame_control.sv:" "$kage" model small.yaml
+[ -z "$(find cache -name '*.[0-9]*' -type d)" ] || fail "something is left of a build"
+done_testing
