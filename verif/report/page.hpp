@@ -14,12 +14,11 @@
 #include "cosim/run.hpp"
 #include "kage/config.hpp"
 #include "kage/explain.hpp"
+#include "report/html.hpp"
 #include "report/token_store.hpp"
 
 namespace kage::report {
 
-/// No page is larger.
-inline constexpr std::size_t kPageBytes = 10'000'000;
 /// What pictures may take: those beyond it are named.
 inline constexpr std::size_t kPictureBytes = 6'000'000;
 /// What the histories of told pixels may take: those beyond it are left out.

@@ -4,7 +4,7 @@
 "use strict";
 
 const Explain = (() => {
-  const data = JSON.parse(document.getElementById("data").textContent);
+  const data = Parts.data;
   const c = data.config;
   const clear = 2 ** c.Z_BITS - 1;
   const dsfMask = 2 ** c.DSF_BITS - 1;
