@@ -170,6 +170,7 @@ int run(const MergeCommand& o) {
     const std::vector<Part> parts = parts_of(shards, i);
     scenes.push_back(merged(parts));
     std::vector<const Json*> reports;
+    reports.reserve(parts.size());
     for (const Part& p : parts) reports.push_back(&p.report);
     junit_frames(junit, reports, several ? scenes.back()["scene"].get<std::string>() + " " : "");
   }

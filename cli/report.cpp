@@ -102,7 +102,8 @@ std::string command_line(const CLI::App& command, const std::vector<std::string>
 }
 
 std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input) {
-  static const std::set<std::string> own{"--json", "--out", "--frame", "--pixel", "--rtl", "--threads"};
+  static const std::set<std::string> own{"--json", "--out",     "--frame",   "--pixel",
+                                         "--rtl",  "--changes", "--threads", "--fault"};
   return line_of(command, other.get_name(), {input}, [&](const CLI::Option& o) {
     return own.count(o.get_name()) == 0 && other.get_option_no_throw(o.get_name()) != nullptr;
   });
@@ -180,6 +181,9 @@ std::string RunReport::write(const std::string& folder, const cosim::Report& run
   page.again = command_line(command_);
   const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
   page.explain = command_line(command_, *explain, input_);
+  if (const auto* fault = command_.get_option_no_throw("--fault"); fault != nullptr && fault->count() != 0)
+    page.explain_rtl = " --fault " + quoted(fault->as<std::string>());
+  page.explain_rtl += " --rtl";
   page.folder = std::filesystem::current_path().string();
   page.tokens = &tokens_;
   std::optional<report::TokenStore> wanted;

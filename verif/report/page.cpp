@@ -221,6 +221,7 @@ Json data_of(const Page& page, Pictures& pictures) {
   j["versions"] = page.versions;
   j["again"] = page.again;
   j["explain"] = page.explain;
+  j["explain_rtl"] = page.explain_rtl;
   j["folder"] = page.folder;
   j["layout"] = layout_of(page.config.config);
   j["band_lines"] = kBandLines;

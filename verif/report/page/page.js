@@ -205,7 +205,7 @@ const Report = (() => {
     } else {
       parts.push(make("p", "This page has no room for the tokens of this line. This prints the pixel's history:"));
     }
-    parts.push(command(Explain.command(number, x, y) + (differs ? " --rtl" : "")));
+    parts.push(command(Explain.command(number, x, y, differs)));
     $("pixel").replaceChildren(...parts);
     $("said").textContent = `column ${x}, line ${y}` + (golden ? `, golden ${golden.join(" ")}` : "") +
         (differs ? `, RTL ${rtl.join(" ")}` : "") + (history ? `, ${history.color_text}` : "");
@@ -249,7 +249,7 @@ const Report = (() => {
     const left = frame.cycles - frame.designed;
     rows.push(["the rest", count(left), share(left), "", "", ""]);
     table($("phases"), ["phase", "clocks", "of the frame's", "tokens", "pixels", "which"], rows,
-          ["RTL", count(frame.cycles), "", "", "", ""]);
+          ["RTL", count(frame.cycles), "", "", "", `stalls: no input ${count(frame.starved)}, output blocked ${count(frame.blocked)}`]);
     for (const row of $("phases").rows) row.cells[5].className = "words";
   }
 

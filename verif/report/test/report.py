@@ -128,6 +128,9 @@ def same_run(b):
     clocks = {name: int(n) for name, n in phases.items()}
     rtl = clocks.pop("RTL")
     check(sum(clocks.values()) == rtl and abs(clocks["the rest"]) < 0.01 * rtl, f"clocks by phase: {phases}")
+    first = kept["each"][0]["stalled"]
+    stalls = b.run("document.querySelector('#phases tfoot').innerText").replace("\u202f", "")
+    check(f"no input {first['input_starved']}, output blocked {first['output_blocked']}" in stalls, f"stalls by the phases: {stalls}")
     check(b.run("document.querySelectorAll('#config tbody tr').length") == len(kept["config"]), "parameters are missing")
     check(b.run("document.querySelector('#again code').innerText") == os.getcwd(), "not the folder of the run")
     check("kage cosim courtyard --out same --json same.json" in b.run("document.getElementById('again').innerText"), "not the command line")
@@ -142,7 +145,7 @@ def different_run(b):
     at_rest(b, "0/316/116")
     check("differs" in panel(b) and "RTL, cycle" in panel(b), "the first pixel is not told with the RTL's values")
     check("from the cap of the shadow of obelisk" in panel(b), "the first pixel is not told with the parts of the scene")
-    check("--fault wrong_compare --frame 0 --pixel 316,116 --rtl" in panel(b), "no command line to copy")
+    check("--frame 0 --pixel 316,116 --fault wrong_compare --rtl" in panel(b), "no command line to copy")
     # Every differing pixel has its history; a click on another one.
     check(b.run("""(async () => {
       const rtl = View.rtlColor, golden = View.goldenColor;
@@ -246,6 +249,8 @@ def joined_run(b):
     b.click("#table tbody tr:nth-child(3) a")
     b.until("location.href.includes('/1/report.html#frame=2') && document.body && document.body.dataset.ready === 'yes'")
     check("Frame 2, column" in panel(b), "the link does not show the frame")
+    stalls = b.run("document.querySelector('#phases tfoot').innerText").replace("\u202f", "")
+    check(f"no input {each[2]['stalled']['input_starved']}, output blocked 0" in stalls, f"stalls by the phases: {stalls}")
 
 
 TELL = """(async () => {
