@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <map>
 #include <string_view>
+#include <utility>
 
 #include "kage/error.hpp"
 
@@ -15,7 +18,7 @@ namespace {
 constexpr int kMostShards = 1000000;
 
 /// As GitHub reads it: a message may hold no line break, a property no colon or comma besides.
-std::string escaped(std::string_view text, bool property) {
+std::string for_github(std::string_view text, bool property) {
   std::string out;
   for (const char c : text) {
     if (c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ',')))
@@ -63,7 +66,9 @@ void option_shard(CLI::App& command, Shard& shard) {
               throw CLI::ValidationError("--shard", text + " is not I/N with I from 1 to N, like 2/4");
             shard = s;
           },
-          "run the Ith of N parts of the frames: frame I - 1 and every Nth after it. kage merge joins the reports")
+          "run the Ith of N parts of the frames of all scenes: frame I - 1 and every Nth after it. kage merge joins "
+          "the "
+          "reports")
       ->type_name("I/N");
 }
 
@@ -81,25 +86,70 @@ void option_annotate(CLI::App& command, std::string& annotate) {
       ->type_name("WHERE");
 }
 
-void describe_run(Json& report, const std::string& scene, int total, const Shard& shard, Json options) {
+void describe_run(Json& report, const std::string& scene, int total, const Shard& shard, cosim::FrameSteps steps,
+                  Json options) {
   report["scene"] = scene;
   report["total_frames"] = total;
+  report["first_frame"] = steps.first;
+  report["frame_step"] = steps.step;
   report["shard"] = shard.given ? Json{{"index", shard.index}, {"count", shard.count}} : Json(nullptr);
   report["options"] = std::move(options);
 }
 
-void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards) {
-  const auto count = shards.size() > 1 ? static_cast<int>(shards.size()) : 1;
-  const Json& only = *shards.front();
-  const int total = only["total_frames"].get<int>();
-  // A single report may be that of one shard: it tells of its own frames.
-  const int first = count == 1 && !only["shard"].is_null() ? only["shard"]["index"].get<int>() - 1 : 0;
-  const int step = count == 1 && !only["shard"].is_null() ? only["shard"]["count"].get<int>() : 1;
-  for (int frame = first; frame < total; frame += step) {
-    const Json& shard = *shards[static_cast<std::size_t>(count == 1 ? 0 : frame % count)];
-    const auto place = static_cast<std::size_t>(count == 1 ? (frame - first) / step : frame / count);
+Json no_frames(const std::string& scene, int total) {
+  return {{"same", nullptr}, {"frames", 0}, {"scene", scene}, {"total_frames", total}};
+}
+
+bool has_frames(const Json& report) { return report["frames"] != 0; }
+
+Json all_scenes(std::vector<Json> scenes) {
+  Json j;
+  bool same = true;
+  Json first = nullptr;
+  for (const Json& r : scenes) {
+    if (!has_frames(r)) continue;
+    same = same && r["same"].get<bool>();
+    if (!first.is_null() || r["first_difference"].is_null()) continue;
+    first = {{"scene", r["scene"]}};
+    first.update(r["first_difference"]);
+  }
+  const auto sum = [&](const Json::json_pointer& at, auto total) {
+    for (const Json& r : scenes)
+      if (has_frames(r)) total += r.at(at).get<decltype(total)>();
+    return total;
+  };
+  const auto count = [&](const char* at) { return sum(Json::json_pointer(at), std::uint64_t{0}); };
+  const auto seconds = [&](const char* at) { return sum(Json::json_pointer(at), 0.0); };
+  const Json& any = *std::find_if(scenes.begin(), scenes.end(), has_frames);
+  j["same"] = same;
+  for (const char* key : {"frames", "pixels_compared", "spans", "span_pixels", "segments", "cycles"})
+    j[key] = count((std::string("/") + key).c_str());
+  j["stalled"] = {{"input_starved", count("/stalled/input_starved")},
+                  {"output_blocked", count("/stalled/output_blocked")}};
+  std::uint64_t total = 0;
+  for (const Json& r : scenes) total += r["total_frames"].get<std::uint64_t>();
+  j["total_frames"] = total;
+  j["shard"] = any["shard"];
+  for (const char* key : {"golden_seconds", "rtl_seconds", "build_seconds"})
+    j[key] = seconds((std::string("/") + key).c_str());
+  j["seed"] = any["seed"];
+  j["first_difference"] = first;
+  j["scenes"] = std::move(scenes);
+  return j;
+}
+
+void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards, const std::string& prefix) {
+  const int total = shards.front()->at("total_frames").get<int>();
+  std::map<int, const Json*> by_first;
+  for (const Json* shard : shards) by_first[shard->at("first_frame").get<int>()] = shard;
+  const int step = shards.front()->at("frame_step").get<int>();
+  for (int frame = 0; frame < total; ++frame) {
+    const auto found = by_first.find(frame % step);
+    if (found == by_first.end()) continue;  // a single report may be that of one shard: it tells of its own frames
+    const Json& shard = *found->second;
+    const auto place = static_cast<std::size_t>(frame / step);
     const Json& seconds = shard["frame_seconds"];
-    const std::string name = fmt::format("frame {}", frame);
+    const std::string name = fmt::format("{}frame {}", prefix, frame);
     const Json& difference = shard["first_difference"];
     if (place >= seconds.size())
       junit.skip(name, fmt::format("not compared: frame {} is different", difference["frame"].get<int>()));
@@ -117,8 +167,8 @@ void annotate_difference(const std::string& annotate, const Json& report, std::F
   const std::string file = file_of(difference);
   const std::string title = fmt::format("kage cosim {}: frame {} is different", report["scene"].get<std::string>(),
                                         difference["frame"].get<int>());
-  fmt::print(to, "::error {}title={}::{}\n", file.empty() ? "" : "file=" + escaped(file, true) + ",",
-             escaped(title, true), escaped(text_of(difference), false));
+  fmt::print(to, "::error {}title={}::{}\n", file.empty() ? "" : "file=" + for_github(file, true) + ",",
+             for_github(title, true), for_github(text_of(difference), false));
 }
 
 }  // namespace kage::cli

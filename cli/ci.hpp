@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What kage cosim and kage merge do for continuous integration: shards of the frames, JUnit cases and annotations of a
-// verdict. Both work from the report's JSON, so that a joined report says what its parts said.
+// verdict, several scenes as one. Both work from the report's JSON, so that a joined report says what its parts said.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -14,18 +15,25 @@
 
 namespace kage::cli {
 
-/// Which part of the frames a run has: of N shards, shard I has the frames I - 1, I - 1 + N, I - 1 + 2 N, ... Frames
-/// that are dear lie side by side, so shards that take turns have as much to do as one another; and which frames a
-/// shard has depends on nothing but I and N.
+/// Which part of the frames a run has. The frames of all its scenes, in the order given, are one list; of N shards,
+/// shard I has the entries I - 1, I - 1 + N, I - 1 + 2 N, ... Frames that are dear lie side by side, so shards that
+/// take turns have as much to do as one another; and which frames a shard has depends on nothing but I, N and the list.
 struct Shard {
   int index = 1;  ///< from 1
   int count = 1;
   bool given = false;
 
-  [[nodiscard]] cosim::FrameSteps steps() const { return {index - 1, count}; }
+  /// Of a scene before which others have so many frames.
+  [[nodiscard]] cosim::FrameSteps steps(std::int64_t before = 0) const {
+    const std::int64_t first = index - 1 - before % count;
+    return {static_cast<int>(first < 0 ? first + count : first), count};
+  }
 
-  /// Of so many frames.
-  [[nodiscard]] int frames(int of) const { return of < index ? 0 : (of - index) / count + 1; }
+  /// How many of its `of` frames.
+  [[nodiscard]] int frames(int of, std::int64_t before = 0) const {
+    const int first = steps(before).first;
+    return of <= first ? 0 : (of - 1 - first) / count + 1;
+  }
 };
 
 struct CiOptions {
@@ -38,13 +46,24 @@ void option_shard(CLI::App& command, Shard& shard);
 void option_junit(CLI::App& command, std::string& path);
 void option_annotate(CLI::App& command, std::string& annotate);
 
-/// Adds to the report of a run what kage merge needs to know of it: "scene", "total_frames", "shard", and "options",
-/// what decides the words and clocks besides.
-void describe_run(Json& report, const std::string& scene, int total, const Shard& shard, Json options);
+/// Adds to the report of a run what kage merge needs to know of it: "scene", "total_frames", "first_frame" and
+/// "frame_step", which of them it has, "shard", and "options", what decides the words and clocks besides.
+void describe_run(Json& report, const std::string& scene, int total, const Shard& shard, cosim::FrameSteps steps,
+                  Json options);
 
-/// A case for each frame of the reports, which are those of all shards in order, or of a single run. Frames behind a
-/// difference were not compared and are skipped.
-void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards);
+/// What stands in for the report of a scene of which a shard has no frame.
+Json no_frames(const std::string& scene, int total);
+
+/// Whether a report is such a one.
+bool has_frames(const Json& report);
+
+/// The reports of several scenes as one, which has them in "scenes": sums, and the first difference of the first scene
+/// that has one, with that scene's name.
+Json all_scenes(std::vector<Json> scenes);
+
+/// A case for each frame of a scene's reports, which are those of all shards, or of a single run. Frames behind a
+/// difference were not compared and are skipped. `prefix` begins each name.
+void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards, const std::string& prefix);
 
 /// If `annotate` or, where that is empty, the environment ($GITHUB_ACTIONS) asks for it: a line on `to` by which GitHub
 /// shows the first difference at the RTL file whose stage made it.

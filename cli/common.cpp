@@ -98,13 +98,17 @@ void option_json(CLI::App& command, Options& options) {
       ->type_name("FILE");
 }
 
+static std::string what_a_scene_is() {
+  return fmt::format("a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), or a stream file",
+                     fmt::join(builtin_scenes(), ", "));
+}
+
 void option_scene(CLI::App& command, Options& options) {
-  command
-      .add_option(
-          "SCENE", options.input,
-          fmt::format("a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), or a stream file",
-                      fmt::join(builtin_scenes(), ", ")))
-      ->required();
+  command.add_option("SCENE", options.input, what_a_scene_is())->required();
+}
+
+void option_scenes(CLI::App& command, std::vector<std::string>& inputs) {
+  command.add_option("SCENE", inputs, "one or more, each " + what_a_scene_is())->required();
 }
 
 static void option_degrade(CLI::App& command, Options& options) {
@@ -120,13 +124,23 @@ static void option_units_only(CLI::App& command, Options& options) {
       "refuse a frame in which a convex polyhedron finds no expansion unit, instead of drawing it by spans");
 }
 
-static void option_translucent(CLI::App& command, Options& options) {
+static const std::map<std::string, TranslucentWay>& translucent_ways() {
   static const std::map<std::string, TranslucentWay> kWays{{"exact", TranslucentWay::exact},
                                                            {"centroid", TranslucentWay::centroid},
                                                            {"submission", TranslucentWay::submission}};
+  return kWays;
+}
+
+std::string name_of(TranslucentWay way) {
+  for (const auto& [name, value] : translucent_ways())
+    if (value == way) return name;
+  return {};
+}
+
+static void option_translucent(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
-          "--order", [&options](const std::string& name) { options.order = kWays.at(name); },
+          "--order", [&options](const std::string& name) { options.order = translucent_ways().at(name); },
           "order of translucent faces, default exact; the others show what cheaper orders get wrong")
       ->option_text("exact|centroid|submission")
       ->check(CLI::IsMember({"exact", "centroid", "submission"}))

@@ -81,12 +81,16 @@ struct Options {
   int classes = Look{}.classes;  ///< of normals
 };
 
+/// As --order has it.
+std::string name_of(TranslucentWay way);
+
 /// What every command that makes frames takes: --size, --frames, --config, --degrade, --units-only, --order, --alpha,
 /// --samples, --classes, --seed, --threads.
 void options_of_frames(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
-void option_scene(CLI::App& command, Options& options);  // SCENE, a positional
+void option_scene(CLI::App& command, Options& options);                   // SCENE, a positional
+void option_scenes(CLI::App& command, std::vector<std::string>& inputs);  // one or more of them
 void option_threads(CLI::App& command, Options& options);
 void option_fault(CLI::App& command, std::string& fault);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage cosim SCENE: golden model against RTL, frame by frame.
+// kage cosim SCENE...: golden model against RTL, frame by frame.
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,15 +10,18 @@
 #include "cosim/model.hpp"
 #include "cosim/rtl.hpp"
 #include "cosim/run.hpp"
+#include "joined.hpp"
 #include "kage/error.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "report/html.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
 namespace {
 
 struct CosimCommand : Options {
+  std::vector<std::string> inputs;  // of which `input` is the one at hand
   std::string fault;
   bool no_divergence = false;
   cosim::RtlOptions rtl;
@@ -29,18 +32,13 @@ struct CosimCommand : Options {
 
 /// What decides words and clocks besides scene, size, configuration and seed.
 Json options_of(const CosimCommand& o) {
-  return {{"fault", o.fault},
-          {"idle", o.rtl.idle_percent},
-          {"backpressure", o.rtl.backpressure_percent},
-          {"degrade", o.degrade},
-          {"order", static_cast<int>(o.order)},
-          {"alpha", o.alpha},
-          {"samples", o.samples},
-          {"classes", o.classes}};
+  return {{"fault", o.fault},     {"idle", o.rtl.idle_percent}, {"backpressure", o.rtl.backpressure_percent},
+          {"degrade", o.degrade}, {"order", name_of(o.order)},  {"alpha", o.alpha},
+          {"samples", o.samples}, {"classes", o.classes}};
 }
 
-/// The first difference of the pixels, and the stage that it came of where one was found.
-Json to_json(const std::optional<cosim::Difference>& d, const std::optional<cosim::Divergence>& by) {
+/// The first difference of the pixels, and the stage that it came of where one was looked for and found.
+Json to_json(const std::optional<cosim::Difference>& d, const std::optional<cosim::Divergence>& by, bool searched) {
   if (!d) return nullptr;
   const auto text = [](const std::string& t) { return t.empty() ? Json(nullptr) : Json(t); };
   Json j;
@@ -54,6 +52,7 @@ Json to_json(const std::optional<cosim::Difference>& d, const std::optional<cosi
   j["actual"] = d->actual;
   j["waveform"] = by ? text(by->waveform) : Json(nullptr);
   j["text"] = cosim::describe(*d);
+  j["searched"] = searched;
   if (!by) {
     j["divergence"] = nullptr;
     return j;
@@ -76,35 +75,62 @@ Json to_json(const std::optional<cosim::Difference>& d, const std::optional<cosi
   return j;
 }
 
+/// The frames that were compared, the first so many and the one that is different.
+Json to_json(const std::vector<cosim::FrameResult>& frames, const std::optional<cosim::Difference>& difference) {
+  Json all = Json::array();
+  for (const cosim::FrameResult& r : frames)
+    all.push_back({{"frame", r.frame},
+                   {"same", !difference || difference->frame != r.frame},
+                   {"cycles", r.cycles},
+                   {"stalled", {{"input_starved", r.starved}, {"output_blocked", r.blocked}}},
+                   {"spans", r.counts.spans},
+                   {"span_pixels", r.counts.span_pixels},
+                   {"segments", r.counts.of_kind[static_cast<std::size_t>(Kind::SEG)]},
+                   {"words", r.counts.words}});
+  return all;
+}
+
 /// Where the pictures are; after a difference, which to look at.
-std::string pictures_of(const cosim::Report& r, const std::string& folder) {
-  const std::string& last = r.pictures.back();
-  if (r.same) return folder;
+std::string pictures_of(const Json& report, const std::string& folder) {
+  const auto last = report["pictures"].back().get<std::string>();
+  if (report["same"].get<bool>()) return folder;
   return last + (last.ends_with("_difference.png") ? ", with _expected and _actual beside it" : "");
 }
 
+/// A scene of the run.
+struct Job {
+  CosimCommand o;  // with its input and its folder
+  std::unique_ptr<Source> source;
+  int total = 0;            // of its frames
+  std::int64_t before = 0;  // frames of the scenes before it
+  std::vector<std::string> notes;
+};
+
 /// How the RTL is run with monitors; the model is built if it is not there.
-cosim::DivergenceOptions monitors(const CosimCommand& o, const Config& config, Progress& progress) {
-  const cosim::Model model = cosim::find_model(
-      config, {.fault = o.fault, .traced = true, .progress = [&](double seconds) {
-                 check_interrupt();
-                 progress.show(fmt::format("building the RTL model with monitors: {:.0f} s", seconds));
-               }});
+cosim::DivergenceOptions monitors(const Job& job, Progress& progress) {
+  const CosimCommand& o = job.o;
+  const cosim::Model model =
+      cosim::find_model(job.source->config().config,
+                        {.fault = o.fault, .traced = true, .progress = [&](double seconds) {
+                           check_interrupt();
+                           progress.show(fmt::format("building the RTL model with monitors: {:.0f} s", seconds));
+                         }});
   cosim::DivergenceOptions options;
   options.library = model.library;
   options.rtl = o.rtl;
-  options.steps = o.ci.shard.steps();
+  options.steps = o.ci.shard.steps(job.before);
   options.wait = check_interrupt;
   return options;
 }
 
 /// The stage that a frame which came out different departs in first.
-std::optional<cosim::Divergence> find_divergence(const CosimCommand& o, Source& source, Progress& progress, int frame) {
+std::optional<cosim::Divergence> find_divergence(const Job& job, Progress& progress, int frame) {
+  Source& source = *job.source;
   const Config& config = source.config().config;
-  cosim::DivergenceOptions options = monitors(o, config, progress);
+  cosim::DivergenceOptions options = monitors(job, progress);
   progress.show("looking for the stage that differs first");
-  if (!o.out.empty())
-    options.waveform = std::filesystem::path(o.out) / fmt::format("{}_{:04}.fst", source.name(), frame);
+  if (!job.o.out.empty())
+    options.waveform = std::filesystem::path(job.o.out) / fmt::format("{}_{:04}.fst", source.name(), frame);
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   auto d = cosim::find_divergence(frame, feed, config, options);
   if (const auto provenance = d ? source.provenance(frame) : std::nullopt) {
@@ -118,28 +144,44 @@ std::optional<cosim::Divergence> find_divergence(const CosimCommand& o, Source& 
   return d;
 }
 
-void print_divergence(const std::optional<cosim::Divergence>& d) {
-  if (!d) {
-    fmt::print("no stage differs: look at the registers and the video port\n");
-    return;
+/// Opens all scenes, so that what cannot be read is found before the work.
+std::vector<Job> open(const CosimCommand& o) {
+  std::vector<Job> jobs;
+  std::int64_t frames = 0;
+  int own = 0;
+  for (const std::string& input : o.inputs) {
+    check_interrupt();
+    Job& job = jobs.emplace_back();
+    job.o = o;
+    job.o.input = input;
+    job.source = std::make_unique<Source>(job.o);
+    const std::string& name = job.source->name();
+    for (const Job& other : jobs)
+      if (&other != &job && other.source->name() == name)
+        throw Error(fmt::format("{}: a scene called {} is there already: {}", input, name, other.o.input));
+    // Each scene has its own folder, where there are several.
+    if (o.inputs.size() > 1 && !o.out.empty()) job.o.out = (std::filesystem::path(o.out) / name).string();
+    job.total = job.source->frames();
+    job.before = frames;
+    frames += job.total;
+    own += o.ci.shard.frames(job.total, job.before);
   }
-  fmt::print("first divergence: {}\n", cosim::describe(*d));
-  if (!d->waveform.empty()) fmt::print("waveform: {}; gtkwave {}\n", d->waveform, d->save_file);
+  if (own == 0)
+    throw Error(fmt::format("--shard {}/{}: {} {} only {}", o.ci.shard.index, o.ci.shard.count,
+                            jobs.size() == 1 ? jobs.front().source->name() : "the scenes",
+                            jobs.size() == 1 ? "has" : "have", counted(frames, "frame")));
+  return jobs;
 }
 
-int run(CosimCommand& o) {
+/// Compares what the shard has of a scene; its report.
+Json compare(Job& job) {
+  CosimCommand& o = job.o;
+  Source& source = *job.source;
+  const cosim::FrameSteps steps = o.ci.shard.steps(job.before);
+  const int frames = o.ci.shard.frames(job.total, job.before);
+  if (frames == 0) return no_frames(source.name(), job.total);
   const OutFolder folder(o.out);
-  check_json(o);
-  if (!o.ci.junit.empty() && o.ci.junit == o.json) throw Error(fmt::format("{}: is to be written twice", o.json));
-  Source source(o);
   const Config& config = source.config().config;
-  const int frames = o.ci.shard.frames(source.frames());
-  if (frames == 0)
-    throw Error(fmt::format("--shard {}/{}: {} has only {}", o.ci.shard.index, o.ci.shard.count, source.name(),
-                            counted(source.frames(), "frame")));
-  TempFiles files;
-  JUnitWriter junit(files, o.ci.junit, "kage cosim " + source.name());
-
   Progress progress;
   const cosim::Model model =
       cosim::find_model(config, {.fault = o.fault, .progress = [&](double seconds) {
@@ -155,7 +197,7 @@ int run(CosimCommand& o) {
   cosim::RunOptions options;
   options.out = o.out;
   options.name = source.name();
-  options.steps = o.ci.shard.steps();
+  options.steps = steps;
   options.two_threads = o.threads != 1;
   FrameProgress frame_progress(progress, source.name(), frames);
   options.begin = [&](int) {
@@ -164,7 +206,7 @@ int run(CosimCommand& o) {
   };
   options.wait = check_interrupt;
   std::optional<RunReport> report;
-  if (!o.no_report && !o.out.empty()) report.emplace(source, *o.command);
+  if (!o.no_report && !o.out.empty()) report.emplace(source, o.input, *o.command);
   const cosim::Report r = cosim::run(
       source.frames(),
       [&](int i, const WordSink& sink) { return report ? report->frame(i, sink) : source.frame(i, sink); }, *golden,
@@ -174,7 +216,7 @@ int run(CosimCommand& o) {
   bool searched = false;
   if (r.first_difference && !o.no_divergence) {
     try {
-      divergence = find_divergence(o, source, progress, r.first_difference->frame);
+      divergence = find_divergence(job, progress, r.first_difference->frame);
       searched = true;
     } catch (const Error& e) {  // the verdict stands without it
       progress.clear();
@@ -183,7 +225,7 @@ int run(CosimCommand& o) {
   }
   std::string page;
   if (report) {
-    const auto watch = [&] { return monitors(o, config, progress); };
+    const auto watch = [&] { return monitors(job, progress); };
     // Where the monitors could not be had for the search, the page does without them too.
     page = report->write(o.out, r, o.seed, divergence, searched ? watch : RunReport::Watch());
   }
@@ -201,34 +243,96 @@ int run(CosimCommand& o) {
   j["polyhedra"] = source.ways();
   j["cycles"] = r.cycles;
   j["stalled"] = {{"input_starved", r.starved}, {"output_blocked", r.blocked}};
-  describe_run(j, source.name(), source.frames(), o.ci.shard, options_of(o));
+  describe_run(j, source.name(), source.frames(), o.ci.shard, steps, options_of(o));
   j["frame_seconds"] = r.frame_seconds;
+  j["each"] = to_json(r.each, r.first_difference);
   j["golden_seconds"] = r.expected_seconds;
   j["rtl_seconds"] = r.actual_seconds;
   j["build_seconds"] = model.build_seconds;
+  j["config_name"] = source.config().name;
   j["config"] = cli::to_json(config);
   j["seed"] = o.seed;
+  j["versions"] = versions();
+  j["again"] = command_line(*o.command);
+  j["folder"] = std::filesystem::current_path().string();
   j["degraded"] = source.degraded();
   j["pictures"] = r.pictures;
   j["report"] = page.empty() ? Json(nullptr) : Json(page);
-  j["first_difference"] = to_json(r.first_difference, divergence);
+  j["report_crc32"] = page.empty() ? Json(nullptr) : Json(report::checksum(page));
+  j["first_difference"] = to_json(r.first_difference, divergence, searched);
   j["notes"] = source.notes();
-  junit_frames(junit, {&j});
-  junit.close();
-  write_json(o, j, files);
-  print_notes(source, o);
-  if (!json_only(o)) {
-    fmt::print("{}: {}, {}x{}, {} compared, {}{}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n",
-               r.same ? "same" : "different", counted(r.frames, "frame"), r.width, r.height,
-               counted(r.pixels_compared, "pixel"), counted(r.spans, "span"), and_segments(r.segments),
-               counted(r.cycles, "cycle"), r.expected_seconds, r.actual_seconds, o.seed);
-    if (r.first_difference) fmt::print("first difference: {}\n", cosim::describe(*r.first_difference));
-    if (searched) print_divergence(divergence);
-    if (!r.pictures.empty()) fmt::print("pictures: {}\n", pictures_of(r, o.out));
-    if (!page.empty()) fmt::print("report: {}\n", page);
+  return j;
+}
+
+void print_difference(const Json& d) {
+  fmt::print("first difference: {}\n", d["text"].get<std::string>());
+  const Json& by = d["divergence"];
+  if (!by.is_null()) {
+    fmt::print("first divergence: {}\n", by["text"].get<std::string>());
+    if (!d["waveform"].is_null())
+      fmt::print("waveform: {}; gtkwave {}\n", d["waveform"].get<std::string>(), by["save_file"].get<std::string>());
+  } else if (d["searched"].get<bool>()) {
+    fmt::print("no stage differs: look at the registers and the video port\n");
   }
-  annotate_difference(o.ci.annotate, j, json_only(o) ? stderr : stdout);
-  return r.same ? kSame : kDifferent;
+}
+
+/// `who` begins the first line.
+void print_report(const Json& j, const std::string& who, const std::string& folder) {
+  const auto number = [&](const char* key) { return j[key].get<std::uint64_t>(); };
+  if (!has_frames(j)) {
+    fmt::print("{}no frame in this shard\n", who);
+    return;
+  }
+  fmt::print("{}{}: {}, {}x{}, {} compared, {}{}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n", who,
+             j["same"].get<bool>() ? "same" : "different", counted(number("frames"), "frame"), number("width"),
+             number("height"), counted(number("pixels_compared"), "pixel"), counted(number("spans"), "span"),
+             and_segments(number("segments")), counted(number("cycles"), "cycle"), j["golden_seconds"].get<double>(),
+             j["rtl_seconds"].get<double>(), number("seed"));
+  if (!j["same"].get<bool>()) print_difference(j["first_difference"]);
+  if (!j["pictures"].empty()) fmt::print("pictures: {}\n", pictures_of(j, folder));
+  if (!j["report"].is_null()) fmt::print("report: {}\n", j["report"].get<std::string>());
+}
+
+int run(const CosimCommand& o) {
+  const OutFolder folder(o.out);
+  check_json(o);
+  if (!o.ci.junit.empty() && o.ci.junit == o.json) throw Error(fmt::format("{}: is to be written twice", o.json));
+  std::vector<Job> jobs = open(o);
+  const bool several = jobs.size() > 1;
+  TempFiles files;
+  JUnitWriter junit(files, o.ci.junit, several ? "kage cosim" : "kage cosim " + jobs.front().source->name());
+  std::vector<Json> reports;
+  for (Job& job : jobs) {
+    reports.push_back(compare(job));
+    const std::string scene = reports.back()["scene"].get<std::string>();
+    if (has_frames(reports.back())) junit_frames(junit, {&reports.back()}, several ? scene + " " : "");
+    for (const std::string& note : job.source->notes())
+      job.notes.push_back(fmt::format("{}: {}", job.source->name(), note));
+    job.source.reset();  // its memory
+  }
+  junit.close();
+  Json j = several ? all_scenes(reports) : reports.front();
+  std::string page;
+  if (several && !o.no_report && !o.out.empty()) {
+    page = (std::filesystem::path(o.out) / "report.html").string();
+    write_joined_page(files, page, j);
+  }
+  if (several) j["report"] = page.empty() ? Json(nullptr) : Json(page);
+  write_json(o, j, files);
+  const bool same = j["same"].get<bool>();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    for (const std::string& note : jobs[i].notes) fmt::print(json_only(o) ? stderr : stdout, "{}\n", note);
+    const std::string scene = reports[i]["scene"].get<std::string>();
+    if (!json_only(o)) print_report(reports[i], several ? scene + ": " : "", jobs[i].o.out);
+    if (has_frames(reports[i])) annotate_difference(o.ci.annotate, reports[i], json_only(o) ? stderr : stdout);
+  }
+  if (several && !json_only(o))
+    fmt::print("{}: {}, {} of {}, {} compared, {}, seed {}\n", same ? "same" : "different",
+               counted(jobs.size(), "scene"), counted(j["frames"].get<std::uint64_t>(), "frame"),
+               j["total_frames"].get<std::uint64_t>(), counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
+               counted(j["cycles"].get<std::uint64_t>(), "cycle"), o.seed);
+  if (several && !json_only(o) && !page.empty()) fmt::print("report: {}\n", page);
+  return same ? kSame : kDifferent;
 }
 
 }  // namespace
@@ -240,14 +344,16 @@ void add_cosim(CLI::App& app, Action& action) {
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
       "  kage cosim courtyard --fault wrong_compare\n"
+      "  kage cosim courtyard penumbra glass --size 160x120\n"
       "  kage cosim courtyard --shard 2/4 --junit cosim-2.xml --json cosim-2.json   (then kage merge)\n"
       "The RTL model of a configuration is built on first use, and anew when the RTL has changed; it is kept in\n"
       "~/.cache/kage/models. The pictures appear together when there is a verdict, then DIR/report.html:\n"
-      "verdict, frames, clocks, and the history of each pixel that is clicked (docs/report.md).\n"
+      "verdict, frames, clocks, and the history of each pixel that is clicked (docs/report.md). Of several scenes\n"
+      "each has its own folder in DIR, and DIR/report.html is over all; a difference ends its scene, not the others.\n"
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   const auto o = std::make_shared<CosimCommand>();
   o->out = "out";
-  option_scene(*c, *o);
+  option_scenes(*c, o->inputs);
   c->add_option("--out", o->out, "folder for pictures and report.html, default out")->type_name("DIR");
   options_of_frames(*c, *o);
   option_json(*c, *o);

@@ -20,6 +20,7 @@ struct ExplainCommand : Options {
   int frame = 0;
   std::string pixel;
   bool rtl = false;
+  bool changes = false;
   std::string fault;
 };
 
@@ -80,6 +81,7 @@ std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, 
 }
 
 int run(const ExplainCommand& o) {
+  if (!o.fault.empty() && !o.rtl) throw Error("--fault: the RTL is run with --rtl only");
   check_json(o);
   const Pixel at = parse_pixel(o.pixel);
   Source source(o);
@@ -105,6 +107,15 @@ int run(const ExplainCommand& o) {
       if (t.what.kind == Kind::TREE && t.polyhedron) sources[t.token] = provenance->of_polyhedron(*t.polyhedron);
   }
   const std::vector<cosim::RtlTouch> rtl = o.rtl ? watch_rtl(o, source, at) : std::vector<cosim::RtlTouch>();
+
+  const std::size_t touching = h.touches.size();
+  if (o.changes) {
+    // Where the RTL differs stays: it may have changed what was to be left.
+    std::set<std::uint32_t> differs;
+    for (const cosim::RtlTouch& t : rtl)
+      if (!t.same) differs.insert(t.token);
+    std::erase_if(h.touches, [&](const PixelTouch& t) { return !t.changed() && differs.count(t.token) == 0; });
+  }
 
   Json touches = Json::array();
   for (const PixelTouch& t : h.touches) {
@@ -136,6 +147,8 @@ int run(const ExplainCommand& o) {
   j["x"] = at.x;
   j["y"] = at.y;
   j["config"] = cli::to_json(config);
+  j["tokens"] = touching;
+  j["changes_only"] = o.changes;
   j["touches"] = std::move(touches);
   j["color"] = std::vector<int>(h.color.begin(), h.color.begin() + config.channels);
   j["color_text"] = h.color_text;
@@ -149,8 +162,9 @@ int run(const ExplainCommand& o) {
   write_json(o, j);
   print_notes(source, o);
   if (json_only(o)) return kSame;
-  fmt::print("frame {}, pixel {},{}: {} it\n", o.frame, at.x, at.y,
-             h.touches.size() == 1 ? "1 token touches" : fmt::format("{} tokens touch", h.touches.size()));
+  fmt::print("frame {}, pixel {},{}: {} it{}\n", o.frame, at.x, at.y,
+             touching == 1 ? "1 token touches" : fmt::format("{} tokens touch", touching),
+             o.changes ? fmt::format("; {} of them, which changed something, are shown", h.touches.size()) : "");
   for (const PixelTouch& t : h.touches) {
     fmt::print("{:>8}  {}\n", t.token, t.text);
     if (sources.count(t.token) != 0) fmt::print("            from {}\n", sources[t.token].text());
@@ -173,6 +187,7 @@ void add_explain(CLI::App& app, Action& action) {
                             "  kage explain courtyard --frame 2 --pixel 316,116\n"
                             "  kage explain courtyard.kage --pixel 12,40 --json -\n"
                             "  kage explain courtyard --pixel 316,116 --rtl --fault wrong_compare\n"
+                            "  kage explain penumbra --pixel 320,300 --changes   (soft shadows take many tokens)\n"
                             "docs/architecture.md says what the words mean, docs/stream.md what each token does.");
   const auto o = std::make_shared<ExplainCommand>();
   option_scene(*c, *o);
@@ -180,6 +195,8 @@ void add_explain(CLI::App& app, Action& action) {
       ->check(CLI::Range(0, std::numeric_limits<int>::max()))
       ->type_name("N");
   c->add_option("--pixel", o->pixel, "column and line, from 0 at the upper left")->required()->type_name("X,Y");
+  c->add_flag("--changes", o->changes,
+              "show only tokens that changed the pixel or the line's bias, or at which the RTL differs");
   c->add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
   options_of_frames(*c, *o);
   option_json(*c, *o);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
+#include <utility>
 
 #include "cosim/model.hpp"
 #include "kage/error.hpp"
@@ -34,15 +35,13 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-std::string line_of(const CLI::App& command, const std::string& name,
+/// `inputs` stand for the positional arguments.
+std::string line_of(const CLI::App& command, const std::string& name, const std::vector<std::string>& inputs,
                     const std::function<bool(const CLI::Option&)>& keep) {
   std::string line = "kage " + name;
+  for (const std::string& input : inputs) line += " " + quoted(input);
   for (const CLI::Option* o : command.get_options()) {
-    if (o->count() == 0 || !keep(*o)) continue;
-    if (o->get_positional()) {
-      for (const std::string& value : o->results()) line += " " + quoted(value);
-      continue;
-    }
+    if (o->count() == 0 || o->get_positional() || !keep(*o)) continue;
     line += " " + o->get_name();
     if (o->get_expected_max() == 0) continue;
     for (const std::string& value : o->results()) line += " " + quoted(value);
@@ -94,20 +93,33 @@ std::set<int> bands_that_differ(const cosim::Report& run) {
 }  // namespace
 
 std::string command_line(const CLI::App& command, const std::vector<std::string>& leave_out) {
-  return line_of(command, command.get_name(), [&](const CLI::Option& o) {
+  std::vector<std::string> inputs;
+  for (const CLI::Option* o : command.get_options())
+    if (o->get_positional()) inputs.insert(inputs.end(), o->results().begin(), o->results().end());
+  return line_of(command, command.get_name(), inputs, [&](const CLI::Option& o) {
     return std::find(leave_out.begin(), leave_out.end(), o.get_name()) == leave_out.end();
   });
 }
 
-std::string command_line(const CLI::App& command, const CLI::App& other) {
-  static const std::set<std::string> own{"--json", "--out", "--frame", "--pixel", "--rtl", "--threads"};
-  return line_of(command, other.get_name(), [&](const CLI::Option& o) {
-    return own.count(o.get_name()) == 0 && (o.get_positional() || other.get_option_no_throw(o.get_name()) != nullptr);
+std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input) {
+  static const std::set<std::string> own{"--json", "--out",     "--frame",   "--pixel",
+                                         "--rtl",  "--changes", "--threads", "--fault"};
+  return line_of(command, other.get_name(), {input}, [&](const CLI::Option& o) {
+    return own.count(o.get_name()) == 0 && other.get_option_no_throw(o.get_name()) != nullptr;
   });
 }
 
-RunReport::RunReport(Source& source, const CLI::App& command)
-    : source_(source), command_(command), tokens_(source.config().config, report::kPageBytes) {}
+std::vector<std::string> versions() {
+  std::vector<std::string> all = cosim::model_tools();
+  all.insert(all.begin(), fmt::format("kage {}", KAGE_VERSION));
+  return all;
+}
+
+RunReport::RunReport(Source& source, std::string input, const CLI::App& command)
+    : source_(source),
+      input_(std::move(input)),
+      command_(command),
+      tokens_(source.config().config, report::kPageBytes) {}
 
 TokenCounts RunReport::frame(int index, const WordSink& sink) {
   if (index >= static_cast<int>(cosim::kFrameResults)) return source_.frame(index, sink);
@@ -165,11 +177,13 @@ std::string RunReport::write(const std::string& folder, const cosim::Report& run
   page.divergence = divergence;
   page.searched = static_cast<bool>(watch);
   page.degraded = source_.degraded();
-  page.versions = cosim::model_tools();
-  page.versions.insert(page.versions.begin(), fmt::format("kage {}", KAGE_VERSION));
+  page.versions = versions();
   page.again = command_line(command_);
   const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
-  page.explain = command_line(command_, *explain);
+  page.explain = command_line(command_, *explain, input_);
+  if (const auto* fault = command_.get_option_no_throw("--fault"); fault != nullptr && fault->count() != 0)
+    page.explain_rtl = " --fault " + quoted(fault->as<std::string>());
+  page.explain_rtl += " --rtl";
   page.folder = std::filesystem::current_path().string();
   page.tokens = &tokens_;
   std::optional<report::TokenStore> wanted;

@@ -17,13 +17,17 @@ namespace kage::cli {
 /// The command line that `command` was given, quoted for a shell, without the options of `leave_out`.
 std::string command_line(const CLI::App& command, const std::vector<std::string>& leave_out = {});
 
-/// The same input and options for another command: those that it has too.
-std::string command_line(const CLI::App& command, const CLI::App& other);
+/// The same options for another command, those that it has too, and of the inputs this one.
+std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input);
+
+/// Of kage and the tools that make RTL models, a line each.
+std::vector<std::string> versions();
 
 /// The report page of a run: it listens to the words of the frames, and is written when there is a verdict.
 class RunReport {
  public:
-  RunReport(Source& source, const CLI::App& command);
+  /// `input` is what the source was opened by.
+  RunReport(Source& source, std::string input, const CLI::App& command);
 
   /// As the source gives them.
   TokenCounts frame(int index, const WordSink& sink);
@@ -39,6 +43,7 @@ class RunReport {
   void tell_pixels(report::Page& page, const Watch& watch);
 
   Source& source_;
+  std::string input_;
   const CLI::App& command_;
   report::TokenStore tokens_;
 };

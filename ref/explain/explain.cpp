@@ -29,7 +29,7 @@ class History : public CoreObserver {
     touch_.what = t;
     touch_.text = to_string(config_, t);
     touch_.before = line.pixel(x_);
-    bias_ = line.bias();
+    touch_.bias_before = line.bias();
     background_ = line.background();
     painted_ = line.painted();
     if (t.kind == Kind::EOL) leave();
@@ -130,7 +130,7 @@ class History : public CoreObserver {
   }
 
   [[nodiscard]] std::uint32_t sum(const PixelState& s) const {
-    return (s.dsf + bias_) & ((1U << config_.dsf_bits) - 1U);
+    return (s.dsf + touch_.bias_before) & ((1U << config_.dsf_bits) - 1U);
   }
 
   [[nodiscard]] std::string resolve() const {
@@ -198,7 +198,6 @@ class History : public CoreObserver {
   std::uint32_t shade_ = 0;
   bool here_ = false;
   PixelTouch touch_;
-  std::uint32_t bias_ = 0;
   std::uint32_t background_ = 0;
   bool painted_ = false;
 };

@@ -180,13 +180,17 @@ NamedConfig choose_config(const Needs& needs) {
         fmt::format("{} lights cast shadows, and a core tells at most {} apart; with a configuration given, "
                     "--degrade lets the first one cast alone",
                     needs.lights, most_lights()));
-  std::string all;
+  std::string nearest;
+  std::vector<std::string> lacking;
   for (const NamedConfig& n : named_configs()) {
     const auto missing = lacks(n.config, needs);
     if (missing.empty()) return n;
-    all += fmt::format("{}{} lacks {}", all.empty() ? "" : "; ", n.name, fmt::join(missing, ", "));
+    if (!nearest.empty() && missing.size() >= lacking.size()) continue;
+    nearest = n.name;
+    lacking = missing;
   }
-  throw Error("no named configuration can draw this: " + all);
+  throw Error(fmt::format("no named configuration (rtl/configs.yaml) can draw this: the nearest, {}, lacks {}", nearest,
+                          fmt::join(lacking, ", ")));
 }
 
 std::string widened_config(const Needs& needs) {

@@ -14,6 +14,6 @@ mkdir bin && ln -s "$kage" bin/kage
 awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$source/docs/ci.md" >commands.sh
 [ "$(wc -l <commands.sh)" = 3 ] || fail "docs/ci.md shows other commands"
 expect 0 env PATH="$PWD/bin:$PATH" bash -e commands.sh
-grep -q '^same: 6 frames of 6 in 2 shards' stdout || fail "$(cat stdout)"
-[ -s cosim.json ] && [ -s cosim.xml ] || fail "no joined report"
+grep -q '^same: 2 scenes, 12 frames of 12 in 2 shards' stdout || fail "$(cat stdout)"
+[ -s cosim.json ] && [ -s cosim.xml ] && [ -s joined/report.html ] || fail "no joined report"
 done_testing

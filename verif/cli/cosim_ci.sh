@@ -29,6 +29,8 @@ json 3.json 'j["frames"]==1 and j["total_frames"]==5'
 junit 2.xml '[k.get("name") for k in c]==["frame 1","frame 4"]'
 for i in 0 1 2 3 4; do expect 0 "$kage" diff shard/courtyard_000$i.png whole/courtyard_000$i.png; done
 expect 0 "$kage" merge 3.json 1.json 2.json --json all.json --junit all.xml
+json all.json 'j["report"] is None and [f["frame"] for f in j["each"]]==[0,1,2,3,4]'
+json whole.json 'j["options"]["order"]=="exact" and all(f["same"] and f["stalled"]=={"input_starved":0,"output_blocked":0} for f in j["each"])'
 grep -q '^same: 5 frames of 5 in 3 shards, 64x48, 15360 pixels compared' stdout || fail "$(cat stdout)"
 junit all.xml '[k.get("name") for k in c]==["frame %d" % i for i in range(5)] and s.get("failures")=="0"'
 python3 - <<'PY' || fail "the shards' sums are not those of the whole"

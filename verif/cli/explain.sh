@@ -35,6 +35,26 @@ expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --faul
 json r.json '[t["token"] for t in j["rtl"] if not t["same"]][0]==j["touches"][2]["token"]'
 grep -q 'differs' stdout || fail "the difference is not marked"
 
+# Only what changed something: the same tokens but for those that left all as it was; and those at which the RTL differs.
+expect 0 "$kage" explain penumbra --config soft --size 160x120 --frames 1 --pixel 80,75 --json whole.json
+expect 0 "$kage" explain penumbra --config soft --size 160x120 --frames 1 --pixel 80,75 --changes --json changes.json
+python3 - whole.json changes.json stdout <<'PY' || fail "--changes does not show what changed something"
+import json, sys
+w, c = (json.load(open(f)) for f in sys.argv[1:3])
+bias, changed = 0, []
+for t in w["touches"]:
+    if t["before"] != t["after"] or t["kind"] == "IF": changed.append(t)
+assert c["touches"] == changed and 3 < len(changed) < len(w["touches"]) / 2, (len(changed), len(w["touches"]))
+assert c["tokens"] == w["tokens"] == len(w["touches"]) and (w["changes_only"], c["changes_only"]) == (False, True) and c["color"] == w["color"]
+text = open(sys.argv[3]).read()
+assert f"{len(w['touches'])} tokens touch it; {len(changed)} of them, which changed something, are shown\n" in text
+assert all(("\n%8d  " % t["token"] in text) == (t in changed) for t in w["touches"]) and c["color_text"] in text
+PY
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --fault wrong_compare --changes --json r.json
+json r.json 'j["tokens"]==5 and [t["kind"] for t in j["touches"]]==["OP","SP","EV","RESOLVE"][:len(j["touches"])] and len(j["touches"])>=2'
+grep -q 'differs' stdout || fail "--changes hides the difference"
+trouble "--fault: the RTL is run with --rtl only" "$kage" explain courtyard --pixel 316,116 --fault wrong_compare
+
 trouble "316;116" "$kage" explain courtyard --pixel "316;116"
 trouble "-1,0" "$kage" explain courtyard --pixel=-1,0
 trouble "1,2,3" "$kage" explain courtyard --pixel 1,2,3

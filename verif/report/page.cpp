@@ -4,55 +4,17 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "image/temp_file.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
+#include "report/html.hpp"
 #include "stream/fields.hpp"
 
 namespace kage::report {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-std::string read_file(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in) throw Error(fmt::format("{}: cannot be read", path.string()));
-  return text;
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-/// As text that may stand in a script: a '<' could end it. Bytes that are no UTF-8 (names of files) are replaced.
-std::string text_of(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<')
-      text += "\\u003c";
-    else
-      text += c;
-  }
-  return text;
-}
 
 /// The pictures that the page holds: as many as there is room for.
 class Pictures {
@@ -203,7 +165,7 @@ Json told_of(const Page& page) {
            {"touches", std::move(touches)},
            {"color_text", p.history.color_text},
            {"rtl", std::move(rtl)}};
-    bytes += text_of(j).size();
+    bytes += script_text(j).size();
     if (bytes > kToldBytes) break;
     told.push_back(std::move(j));
   }
@@ -250,8 +212,7 @@ Json data_of(const Page& page, Pictures& pictures) {
   j["config_name"] = page.config.name;
   j["config"] = Json::object();
   for (const ParamInfo& p : kParams) j["config"][std::string(p.name)] = page.config.config.*(p.member);
-  j["meanings"] = Json::object();
-  for (const ParamInfo& p : kParams) j["meanings"][std::string(p.name)] = p.doc;
+  j["meanings"] = meanings();
   j["seed"] = page.seed;
   j["golden_seconds"] = run.expected_seconds;
   j["rtl_seconds"] = run.actual_seconds;
@@ -260,6 +221,7 @@ Json data_of(const Page& page, Pictures& pictures) {
   j["versions"] = page.versions;
   j["again"] = page.again;
   j["explain"] = page.explain;
+  j["explain_rtl"] = page.explain_rtl;
   j["folder"] = page.folder;
   j["layout"] = layout_of(page.config.config);
   j["band_lines"] = kBandLines;
@@ -269,35 +231,22 @@ Json data_of(const Page& page, Pictures& pictures) {
 }  // namespace
 
 void write_page(const fs::path& path, const Page& page) {
-  const fs::path source = data_directory() / "verif/report/page";
-  std::string html = read_file(source / "page.html");
-  const auto find = [&](std::string_view mark) {
-    const auto at = html.find(mark);
-    if (at == std::string::npos) throw Error(fmt::format("{}: has no {}", (source / "page.html").string(), mark));
-    return at;
-  };
-  const auto put = [&](std::string_view mark, const std::string& text) { html.replace(find(mark), mark.size(), text); };
-  put("<!-- title -->", escaped(headline(page)) + " - " + escaped(page.name));
-  put("/* style */", read_file(source / "page.css"));
-  put("<!-- noscript -->", escaped(headline(page)));
-  for (const char* script : {"explain", "view", "page"})
-    put(fmt::format("/* {} */", script), read_file(source / fmt::format("{}.js", script)));
-
+  const Html html(headline(page) + " - " + page.name, headline(page), "run", {"parts", "explain", "view", "page"});
   Pictures pictures;
-  std::string data = text_of(data_of(page, pictures));
+  std::string data = script_text(data_of(page, pictures));
   data.pop_back();  // the brace: two lists follow
-  constexpr std::string_view kMark = "<!-- data -->";
-  const auto at = find(kMark);
   TempFiles files;
   std::ofstream out(files.add(path), std::ios::binary);
-  out << std::string_view(html).substr(0, at) << data << ",\"pictures\":[";
-  pictures.write(out);
-  out << "],\"bands\":[";
-  constexpr std::size_t kRest = 64;  // the brackets
-  const std::size_t taken = html.size() + data.size() + pictures.bytes() + kRest;
-  // Tokens get the room that is left.
-  write_bands(out, page, taken < kPageBytes ? kPageBytes - taken : 0);
-  out << "]}" << std::string_view(html).substr(at + kMark.size());
+  html.write(out, [&](std::ostream& to) {
+    to << data << ",\"pictures\":[";
+    pictures.write(to);
+    to << "],\"bands\":[";
+    constexpr std::size_t kRest = 64;  // the brackets
+    const std::size_t taken = html.bytes() + data.size() + pictures.bytes() + kRest;
+    // Tokens get the room that is left.
+    write_bands(to, page, taken < kPageBytes ? kPageBytes - taken : 0);
+    to << "]}";
+  });
   out.close();
   if (!out) throw Error(fmt::format("{}: cannot be written", path.string()));
   files.commit();

@@ -14,12 +14,11 @@
 #include "cosim/run.hpp"
 #include "kage/config.hpp"
 #include "kage/explain.hpp"
+#include "report/html.hpp"
 #include "report/token_store.hpp"
 
 namespace kage::report {
 
-/// No page is larger.
-inline constexpr std::size_t kPageBytes = 10'000'000;
 /// What pictures may take: those beyond it are named.
 inline constexpr std::size_t kPictureBytes = 6'000'000;
 /// What the histories of told pixels may take: those beyond it are left out.
@@ -45,9 +44,10 @@ struct Page {
   std::vector<std::string> degraded;
   std::vector<std::string> versions;
   std::vector<ToldPixel> told;
-  std::string again;    ///< the command line of the run
-  std::string explain;  ///< that of kage explain, without --frame and --pixel
-  std::string folder;   ///< where both are to be given
+  std::string again;        ///< the command line of the run
+  std::string explain;      ///< that of kage explain, without --frame and --pixel
+  std::string explain_rtl;  ///< what it ends with where the RTL is to be told too
+  std::string folder;       ///< where both are to be given
   const TokenStore* tokens = nullptr;
   const TokenStore* wanted = nullptr;  ///< of the different frame, to be there before all others; or nullptr
 };

@@ -47,7 +47,8 @@ struct Needs {
 /// What `config` lacks of `needs`: one word or phrase each ("SMOOTH", "MAX_WIDTH >= 1280"), empty if nothing.
 std::vector<std::string> lacks(const Config& config, const Needs& needs);
 
-/// The first named configuration that lacks nothing; if there is none, Error names what each one lacks.
+/// The first named configuration that lacks nothing; if there is none, Error names the one that lacks the fewest
+/// things, and those.
 NamedConfig choose_config(const Needs& needs);
 
 /// The first named configuration that lacks only width, or some of its several lights or their samples, with as much of

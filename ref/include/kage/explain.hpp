@@ -25,7 +25,11 @@ struct PixelTouch {
   std::string effect;                       ///< in words: "drawn: Z 812 is nearer than 4031"
   PixelState before;
   PixelState after;
-  std::uint32_t bias = 0;  ///< of the line, after the token
+  std::uint32_t bias_before = 0;  ///< of the line
+  std::uint32_t bias = 0;         ///< after the token
+
+  /// Whether the token left the pixel or the line's bias other than it found them.
+  [[nodiscard]] bool changed() const { return !(before == after) || bias_before != bias; }
 };
 
 /// One comparison in the tree of a polyhedra line.

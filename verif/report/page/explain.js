@@ -4,7 +4,7 @@
 "use strict";
 
 const Explain = (() => {
-  const data = JSON.parse(document.getElementById("data").textContent);
+  const data = Parts.data;
   const c = data.config;
   const clear = 2 ** c.Z_BITS - 1;
   const dsfMask = 2 ** c.DSF_BITS - 1;
@@ -368,7 +368,8 @@ const Explain = (() => {
   // The program's own history of a pixel, with the RTL's values, where the run told it.
   const told = (number, x, y) => data.told.find((p) => p.frame === number && p.x === x && p.y === y) ?? null;
 
-  const command = (number, x, y) => `${data.explain} --frame ${number} --pixel ${x},${y}`;
+  const command = (number, x, y, rtl = false) =>
+    `${data.explain} --frame ${number} --pixel ${x},${y}${rtl ? data.explain_rtl : ""}`;
 
   return {data, has, history, told, command};
 })();

@@ -1,68 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page: tables, buttons, keys, and the history of the pixel that is chosen. All text is set as text, never as HTML.
+// The page of a run: tables, buttons, keys, and the history of the pixel that is chosen.
 "use strict";
 
 const Report = (() => {
-  const data = Explain.data;
-  const $ = (id) => document.getElementById(id);
+  const {data, $, make, count, plural, table, command} = Parts;
   const channels = data.config.CHANNELS;
-
-  function make(tag, content = "", attributes = {}) {
-    const e = document.createElement(tag);
-    for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
-    for (const part of [content].flat()) e.append(part);
-    return e;
-  }
-  const count = (n) => n === undefined || n === null ? "" : n.toLocaleString("en").replaceAll(",", "\u202f");
-  const plural = (n, what) => `${count(n)} ${what}${n === 1 ? "" : "s"}`;
-
-  function table(element, heads, rows, foot) {
-    const row = (cells, tag) => make("tr", cells.map((c) => make(tag, String(c))));
-    element.replaceChildren(make("thead", row(heads, "th")), make("tbody", rows.map((r) => row(r, "td"))));
-    if (foot) element.append(make("tfoot", row(foot, "td")));
-  }
-
-  async function copy(text, code, button) {
-    try {
-      await navigator.clipboard.writeText(text);
-      button.textContent = "Copied";
-    } catch {
-      // Without the right to write to the clipboard the line is selected, ready for the reader's own keys.
-      getSelection().selectAllChildren(code);
-      button.textContent = "Selected";
-    }
-    setTimeout(() => { button.textContent = "Copy"; }, 1500);
-  }
-
-  function command(text) {
-    const code = make("code", text);
-    const button = make("button", "Copy", {type: "button", "aria-label": `Copy: ${text}`});
-    button.addEventListener("click", () => copy(text, code, button));
-    return make("div", [code, button], {class: "command"});
-  }
 
   // ---- verdict
 
   function verdict() {
-    $("verdict").className = data.same ? "same" : "different";
-    $("name").textContent = data.name;
-    $("mark").textContent = data.same ? "\u2713" : "\u2717";
-    $("word").textContent = data.same ? "Same" : "Different";
-    $("headline").textContent = data.headline.replace(/^\w+: /, "") + (data.same ? "" : "; a difference ends the run");
-    const list = make("dl");
-    const add = (term, text) => list.append(make("dt", term), make("dd", text));
-    if (data.first) add("First difference", data.first.text);
-    if (data.divergence) {
-      add("First divergence", data.divergence.text);
-      if (data.divergence.waits) add("Who waits", data.divergence.waits);
-      if (data.divergence.waveform) add("Waveform", make("code", `gtkwave ${data.divergence.save_file}`));
-    } else if (data.first && data.searched) {
-      add("First divergence", "no stage differs: look at the registers and the video port");
-    }
+    const terms = [];
+    if (data.first) terms.push(["First difference", data.first.text]);
+    if (data.divergence || data.first && data.searched) terms.push(...Parts.divergenceTerms(data.divergence));
     if (data.different_pixels !== null)
-      add("Differing pixels", `${count(data.different_pixels)} in ${plural(data.region_count, "region")}`);
-    if (data.degraded.length) add("Left out", data.degraded.join("; "));
-    if (list.children.length) $("first").append(list);
+      terms.push(["Differing pixels", `${count(data.different_pixels)} in ${plural(data.region_count, "region")}`]);
+    if (data.degraded.length) terms.push(["Left out", data.degraded.join("; ")]);
+    Parts.verdict("kage cosim", data.headline.replace(/^\w+: /, "") + (data.same ? "" : "; a difference ends the run"), terms);
     if (data.first && data.first.x >= 0) {
       const button = make("button", "Show that pixel", {type: "button", id: "show-first"});
       button.addEventListener("click", () => {
@@ -252,7 +205,7 @@ const Report = (() => {
     } else {
       parts.push(make("p", "This page has no room for the tokens of this line. This prints the pixel's history:"));
     }
-    parts.push(command(Explain.command(number, x, y) + (differs ? " --rtl" : "")));
+    parts.push(command(Explain.command(number, x, y, differs)));
     $("pixel").replaceChildren(...parts);
     $("said").textContent = `column ${x}, line ${y}` + (golden ? `, golden ${golden.join(" ")}` : "") +
         (differs ? `, RTL ${rtl.join(" ")}` : "") + (history ? `, ${history.color_text}` : "");
@@ -296,7 +249,7 @@ const Report = (() => {
     const left = frame.cycles - frame.designed;
     rows.push(["the rest", count(left), share(left), "", "", ""]);
     table($("phases"), ["phase", "clocks", "of the frame's", "tokens", "pixels", "which"], rows,
-          ["RTL", count(frame.cycles), "", "", "", ""]);
+          ["RTL", count(frame.cycles), "", "", "", `stalls: no input ${count(frame.starved)}, output blocked ${count(frame.blocked)}`]);
     for (const row of $("phases").rows) row.cells[5].className = "words";
   }
 
@@ -307,9 +260,7 @@ const Report = (() => {
     $("again").append(make("p", `Made by ${data.versions.join("; ")}.`, {class: "note"}));
     for (const note of data.notes) $("again").append(make("p", note, {class: "note"}));
     $("config-name").textContent = data.config_name;
-    table($("config"), ["parameter", "value", "meaning"],
-          Object.entries(data.config).map(([name, value]) => [name, value, data.meanings[name]]));
-    for (const row of $("config").rows) row.cells[2].className = "meaning";
+    Parts.configTable($("config"), data.config);
   }
 
   // ---- keys and buttons
@@ -353,8 +304,10 @@ const Report = (() => {
       e.preventDefault();
       select(frame.number, Number($("x").value), Number($("y").value));
     });
-    const first = data.first && data.first.x >= 0 ? data.first : null;
-    const shown = data.first ? data.first.frame : frame.number;
+    // A page over several runs links to frames: #frame=3.
+    const linked = /^#frame=(\d+)$/.exec(location.hash);
+    const shown = linked ? Number(linked[1]) : data.first ? data.first.frame : frame.number;
+    const first = data.first && data.first.x >= 0 && data.first.frame === shown ? data.first : null;
     frame = data.frames.find((f) => f.number === shown) ?? frame;
     await select(frame.number, first ? first.x : Math.floor(frame.width / 2), first ? first.y : Math.floor(frame.height / 2));
     document.body.dataset.ready = "yes";

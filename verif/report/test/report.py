@@ -128,6 +128,9 @@ def same_run(b):
     clocks = {name: int(n) for name, n in phases.items()}
     rtl = clocks.pop("RTL")
     check(sum(clocks.values()) == rtl and abs(clocks["the rest"]) < 0.01 * rtl, f"clocks by phase: {phases}")
+    first = kept["each"][0]["stalled"]
+    stalls = b.run("document.querySelector('#phases tfoot').innerText").replace("\u202f", "")
+    check(f"no input {first['input_starved']}, output blocked {first['output_blocked']}" in stalls, f"stalls by the phases: {stalls}")
     check(b.run("document.querySelectorAll('#config tbody tr').length") == len(kept["config"]), "parameters are missing")
     check(b.run("document.querySelector('#again code').innerText") == os.getcwd(), "not the folder of the run")
     check("kage cosim courtyard --out same --json same.json" in b.run("document.getElementById('again').innerText"), "not the command line")
@@ -142,7 +145,7 @@ def different_run(b):
     at_rest(b, "0/316/116")
     check("differs" in panel(b) and "RTL, cycle" in panel(b), "the first pixel is not told with the RTL's values")
     check("from the cap of the shadow of obelisk" in panel(b), "the first pixel is not told with the parts of the scene")
-    check("--fault wrong_compare --frame 0 --pixel 316,116 --rtl" in panel(b), "no command line to copy")
+    check("--frame 0 --pixel 316,116 --fault wrong_compare --rtl" in panel(b), "no command line to copy")
     # Every differing pixel has its history; a click on another one.
     check(b.run("""(async () => {
       const rtl = View.rtlColor, golden = View.goldenColor;
@@ -196,6 +199,60 @@ def odd_name(b):
     check(os.path.exists("odd-again/report.html"), "the line did not run the same thing")
 
 
+def sheet(b, table):
+    """A table's cells, heads first, numbers as numbers."""
+    rows = b.run(f"[...document.querySelectorAll('#{table} tr')].map(r => [...r.cells].map(c => c.innerText.replaceAll('\\u202f', '')))")
+    return [[int(c) if c.isdigit() else c for c in row] for row in rows]
+
+
+def joined_run(b):
+    b.open("joined/report.html")
+    kept = json.load(open("joined.json"))
+    check(b.run("document.querySelector('h1').innerText").strip().endswith("Different"), "joined: the verdict is not Different")
+    verdict = b.run("document.getElementById('verdict').innerText")
+    check("courtyard, " + kept["first_difference"]["text"] in verdict, f"joined: the first difference is not told: {verdict}")
+    check("rtl/pixel_banked.sv" in verdict and "3 differences more" in verdict, f"joined: the stage is not named: {verdict}")
+    scenes = sheet(b, "scenes")
+    for scene, row in zip(kept["scenes"], scenes[1:]):
+        check(row[:7] == [scene["scene"], "different", scene["frames"], 3, "160x120", scene["cycles"], 0], f"joined: row {row}")
+    check(scenes[-1][5] == kept["cycles"] and scenes[-1][8] == kept["spans"], f"joined: sums {scenes[-1]}")
+    frames = sheet(b, "table")[1:]
+    check([r[:2] for r in frames] == [[s, f] for s in ("courtyard", "penumbra") for f in range(3)], f"joined: frames {frames}")
+    check([r[2] for r in frames] == ["different", "different", "not compared"] * 2, "joined: the frames' verdicts")
+    check([r[3] for r in frames] == ["Shard 1/2", "Shard 2/2", "Shard 1/2", "Shard 2/2", "Shard 1/2", "Shard 2/2"],
+          "joined: the frames' shards")
+    parts = b.run("document.getElementById('parts').innerText")
+    for i, name in enumerate(("1/2", "2/2")):
+        check(f"--shard {name}" in parts and os.getcwd() in parts and "Verilator" in parts, f"joined: no way to run shard {name} again")
+    check(b.run("document.querySelectorAll('#configs table').length") == 2, "joined: not two configurations")
+    # Keys come to every link, and the link of a frame to that frame.
+    stops = set()
+    for _ in range(30):
+        b.key("Tab")
+        stops.add(b.run("document.activeElement.getAttribute('href') || document.activeElement.tagName"))
+    links = set(b.run("[...document.querySelectorAll('a')].map(a => a.getAttribute('href'))"))
+    check(links <= stops and len(links) == 8 and "SUMMARY" in stops and "BUTTON" in stops, f"Tab comes to {stops} of {links}")
+    looks(b, "joined")
+    b.click("#table tbody tr:nth-child(2) a")
+    b.until("location.href.includes('/2/courtyard/report.html#frame=1') && document.body && document.body.dataset.ready === 'yes'")
+    check("Frame 1, column" in panel(b) and "They differ here" in panel(b), "the link does not show the frame")
+    b.open("gone/report.html")
+    check(b.run("document.querySelectorAll('a').length") == 0 and "its page is not here" in b.run("document.body.innerText"),
+          "links to pages that are not there")
+    # One scene, all the same; a frame that is no shard's first.
+    b.open("joined-same/report.html")
+    check(b.run("document.querySelector('h1').innerText").strip().endswith("Same"), "joined: the verdict is not Same")
+    each = {f["frame"]: f for f in json.load(open("joined-same.json"))["each"]}
+    rows = sheet(b, "table")[1:]
+    check([r[5] for r in rows] == [each[i]["stalled"]["input_starved"] for i in range(3)] and rows[2][5] > 0, f"joined: stalls {rows}")
+    looks(b, "joined-same")
+    b.click("#table tbody tr:nth-child(3) a")
+    b.until("location.href.includes('/1/report.html#frame=2') && document.body && document.body.dataset.ready === 'yes'")
+    check("Frame 2, column" in panel(b), "the link does not show the frame")
+    stalls = b.run("document.querySelector('#phases tfoot').innerText").replace("\u202f", "")
+    check(f"no input {each[2]['stalled']['input_starved']}, output blocked 0" in stalls, f"stalls by the phases: {stalls}")
+
+
 TELL = """(async () => {
   const h = await Explain.history(%d, %d, %d);
   if (h === null) return null;
@@ -243,7 +300,7 @@ def histories(b):
 
 
 with Browser(chromium) as browser:
-    for part in (same_run, different_run, full_page, odd_name, histories):
+    for part in (same_run, different_run, full_page, odd_name, joined_run, histories):
         part(browser)
     check(not browser.errors, f"the console has errors: {browser.errors[:3]}")
     outside = [u for u in browser.requests if not u.startswith(("data:", "file:")) or (u.startswith("file:") and not u.endswith("report.html"))]

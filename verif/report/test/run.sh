@@ -38,5 +38,16 @@ scene polyhedra polyhedra --config polyhedra --size 160x120
 scene smooth knot --config full --size 160x120
 scene tiny courtyard --config tiny --degrade --size 150x40
 
+# Shards of two scenes, and the page of them joined; one that is the same, one that is not.
+for i in 1 2; do
+  expect 1 "$kage" cosim courtyard penumbra --size 160x120 --frames 3 --fault wrong_compare --out joined/$i --shard $i/2 --json joined/$i.json
+  expect 0 "$kage" cosim courtyard --size 160x120 --frames 3 --idle 30 --out joined-same/$i --shard $i/2 --json joined-same/$i.json
+done
+expect 1 "$kage" merge joined/1.json joined/2.json --out joined --json joined.json
+expect 0 "$kage" merge joined-same/1.json joined-same/2.json --out joined-same --json joined-same.json
+mkdir gone && cp joined/[12].json gone
+sed -i 's,"folder": ".*","folder": "/nowhere",' gone/[12].json
+expect 1 "$kage" merge gone/1.json gone/2.json --out gone
+
 python3 "$source/verif/report/test/report.py" "$kage" "$chromium" "$pictures" || fail "the page"
 done_testing

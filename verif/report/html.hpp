@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What all report pages are made of: one frame of HTML with one style, and scripts (page/, read at run time).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kage::report {
+
+/// No page is larger.
+inline constexpr std::size_t kPageBytes = 10'000'000;
+
+using Json = nlohmann::ordered_json;
+
+/// Text for HTML or XML, between quotes too. What XML cannot hold, and bytes that are no UTF-8, become U+FFFD.
+std::string escaped(std::string_view text);
+
+/// As text that may stand in a script: a '<' could end it. Bytes that are no UTF-8 (names of files) are replaced.
+std::string script_text(const Json& json);
+
+/// What each parameter of a configuration means.
+Json meanings();
+
+/// The file's content. Throws Error that names it.
+std::string read_file(const std::filesystem::path& path);
+
+/// A page but for its data.
+class Html {
+ public:
+  /// `title` is any text, `plain` what is to be read without JavaScript; `body` and `scripts` are names of files in
+  /// page/, without .html and .js. Throws Error that names a file.
+  Html(std::string_view title, std::string_view plain, const std::string& body,
+       const std::vector<std::string>& scripts);
+
+  [[nodiscard]] std::size_t bytes() const { return before_.size() + after_.size(); }
+
+  /// The page, with what `data` writes, one JSON object, in its place.
+  void write(std::ostream& out, const std::function<void(std::ostream&)>& data) const;
+
+ private:
+  std::string before_;
+  std::string after_;
+};
+
+/// CRC-32 of a page's bytes, in hexadecimal: by it a link is told from one to another run's page of that name. "" if
+/// the file cannot be read.
+std::string checksum(const std::filesystem::path& path);
+
+}  // namespace kage::report

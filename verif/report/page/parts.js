@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all pages are made with: the data, elements, tables, command lines to copy, the verdict. All text is set as text,
+// never as HTML.
+"use strict";
+
+const Parts = (() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const $ = (id) => document.getElementById(id);
+
+  function make(tag, content = "", attributes = {}) {
+    const e = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
+    for (const part of [content].flat()) e.append(part);
+    return e;
+  }
+  const count = (n) => n === undefined || n === null ? "" : n.toLocaleString("en").replaceAll(",", "\u202f");
+  const plural = (n, what) => `${count(n)} ${what}${n === 1 ? "" : "s"}`;
+
+  function table(element, heads, rows, foot) {
+    const row = (cells, tag) => make("tr", cells.map((c) => make(tag, c instanceof Node ? c : String(c))));
+    element.replaceChildren(make("thead", row(heads, "th")), make("tbody", rows.map((r) => row(r, "td"))));
+    if (foot) element.append(make("tfoot", row(foot, "td")));
+  }
+
+  async function copy(text, code, button) {
+    try {
+      await navigator.clipboard.writeText(text);
+      button.textContent = "Copied";
+    } catch {
+      // Without the right to write to the clipboard the line is selected, ready for the reader's own keys.
+      getSelection().selectAllChildren(code);
+      button.textContent = "Selected";
+    }
+    setTimeout(() => { button.textContent = "Copy"; }, 1500);
+  }
+
+  function command(text) {
+    const code = make("code", text);
+    const button = make("button", "Copy", {type: "button", "aria-label": `Copy: ${text}`});
+    button.addEventListener("click", () => copy(text, code, button));
+    return make("div", [code, button], {class: "command"});
+  }
+
+  // What the verdict is of: the command's words, the name; then terms of [what, text or element].
+  function verdict(command, headline, terms) {
+    $("verdict").className = data.same ? "same" : "different";
+    $("command").textContent = command;
+    $("name").textContent = data.name;
+    $("mark").textContent = data.same ? "\u2713" : "\u2717";
+    $("word").textContent = data.same ? "Same" : "Different";
+    $("headline").textContent = headline;
+    const list = make("dl");
+    for (const [term, text] of terms) list.append(make("dt", term), make("dd", text));
+    if (terms.length) $("first").append(list);
+  }
+
+  // The terms of a first divergence, or of none that was found.
+  function divergenceTerms(divergence) {
+    if (!divergence) return [["First divergence", "no stage differs: look at the registers and the video port"]];
+    const terms = [["First divergence", divergence.text]];
+    if (divergence.waits) terms.push(["Who waits", divergence.waits]);
+    if (divergence.waveform) terms.push(["Waveform", make("code", `gtkwave ${divergence.save_file}`)]);
+    return terms;
+  }
+
+  function configTable(element, config) {
+    table(element, ["parameter", "value", "meaning"],
+          Object.entries(config).map(([name, value]) => [name, value, data.meanings[name]]));
+    element.classList.add("config");
+    for (const row of element.rows) row.cells[2].className = "meaning";
+  }
+
+  return {data, $, make, count, plural, table, command, verdict, divergenceTerms, configTable};
+})();
