@@ -192,13 +192,16 @@ void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
              counts};
   // With counters nobody asks for the flags of a painted line.
   e.cares = painted_ && config_.count_bits > 0 ? 0b100111001 : 0b111111001;
+  // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one that
+  // ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
+  if (clear(after) && !painted_) e.cares &= ~(1U << 4);
   put(e);
 }
 
 ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolved) const {
   Leaving l;
   l.color = packed(s.color);
-  l.covered = s.z != (1U << config_.z_bits) - 1U;
+  l.covered = !clear(s);
   if (config_.count_bits > 0) {
     l.normal_class = s.normal_class;
     for (int i = 0; i < config_.lights && s.normal_class != 0; ++i)
@@ -226,7 +229,8 @@ void ExpectedEvents::line_event(bool blank, bool load, int step) {
   put(e);
 }
 
-// colour, covered, dark, class, counts. If banked, the pixels past the width in the last group leave too.
+// colour, covered, dark, class, counts. If banked, the pixels past the width in the last group leave too. The colour of
+// a pixel without surface is nobody's until the line is painted, as in touch(): the way out takes the background.
 void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
   const int lanes = config_.arrangement == 1 ? config_.lanes : 1;
   const int end = (width_ + lanes - 1) / lanes * lanes;
@@ -237,8 +241,7 @@ void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
     if (x < width_ && !blank) {
       const Leaving& l = pixels[static_cast<std::size_t>(x)];
       e.value = {l.color, l.covered ? 1U : 0U, l.dark ? 1U : 0U, config_.class_bits > 1 ? l.normal_class : 0, l.counts};
-      // Of a pixel without surface the way out takes the background, unless the line is painted and has it already.
-      e.cares = l.covered || l.color != 0 ? 0b11111 : 0b11110;
+      e.cares = l.covered || painted_ ? 0b11111 : 0b11110;
     }
     put(e);
   }
@@ -259,7 +262,7 @@ void ExpectedEvents::paint(const LineView& line) {
   const bool by_loads = config_.count_bits > 0 && resolved_;
   const auto painted = [&](int x) {
     PixelState s = line.pixel(x);
-    if (s.z == (1U << config_.z_bits) - 1U)
+    if (clear(s))
       for (unsigned c = 0; c < 3; ++c) s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
     return s;
   };

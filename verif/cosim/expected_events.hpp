@@ -84,6 +84,7 @@ class ExpectedEvents : public CoreObserver {
   void leave(const std::vector<Leaving>& pixels, bool blank);
   [[nodiscard]] Leaving leaving(const PixelState& s, bool resolved) const;
   [[nodiscard]] std::vector<Leaving> all_leaving(const LineView& line) const;
+  [[nodiscard]] bool clear(const PixelState& s) const { return s.z == (1U << config_.z_bits) - 1U; }
   [[nodiscard]] std::uint64_t packed(const std::array<std::uint8_t, 3>& color) const;
 
   Config config_;
