@@ -76,6 +76,7 @@ class Search : public CoreObserver {
   void feed(std::span<const std::uint32_t> words) { golden_.feed(words, sink()); }
   void finish() {
     (void)golden_.finish(sink());
+    expected_.ended();
     ended_ = true;
   }
 
@@ -87,14 +88,16 @@ class Search : public CoreObserver {
     for (const kage_rtl_event& a : events) take(a);
   }
 
-  /// Nothing more will come: what is still expected is missing.
-  void end(std::uint64_t clock) {
+  /// Nothing more will come: what is still expected is missing. What waits for the pixels to take it (`blocked`) would
+  /// have come; it is they who differ.
+  void end(std::uint64_t clock, bool blocked) {
     for (const kage_rtl_event& a : ahead_)
       if (static_cast<Stage>(a.stage) == Stage::error && !unexpected_) unexpected_ = a;
     expected_.for_each([&](const std::deque<ExpectedEvent>& q) {
       if (q.front().cares == 0) return;
       const auto stage = static_cast<std::size_t>(q.front().stage);
       if (q.front().stage != Stage::pixel && stopped_[stage]) return;
+      if (blocked && first_ && (q.front().stage == Stage::unit || q.front().stage == Stage::tree)) return;
       offer({q.front(), std::nullopt, -1, clock});
     });
   }
@@ -119,7 +122,7 @@ class Search : public CoreObserver {
       c.value = 0;
     }
     c.again = again_;
-    c.lost = lost_;
+    c.of_token = of_token_;
     const std::uint32_t token = first_ ? first_->expected.token : 0;
     for (std::uint32_t i = 1; i < token && i <= kinds_.size(); ++i) c.lines += kinds_[i - 1] == Kind::EOL ? 1U : 0U;
     c.lines_done = c.lines == height_;
@@ -144,12 +147,13 @@ class Search : public CoreObserver {
   void take(const kage_rtl_event& a) {
     const auto stage = static_cast<Stage>(a.stage);
     if (stage == Stage::part) {
-      if (!part_) part_ = a;
+      if (!part_ || (a.clock == part_->clock && rank(a) < rank(*part_))) part_ = a;
       seen_ = std::min(seen_, a.clock);
       return;
     }
     if (stage == Stage::token) {
       ++tokens_;
+      token_ = a;
       if (static_cast<Kind>(a.value[0] & 15U) == Kind::END) at_last_ = a.value[11] != 0;
     }
     if (stopped_[static_cast<std::size_t>(a.stage)]) return;
@@ -167,7 +171,11 @@ class Search : public CoreObserver {
         ahead_.push_back(a);
         return;
       }
-      if (expected_.failed() && (stage == Stage::token || stage == Stage::segment)) return;
+      if (expected_.failed() && stage == Stage::token) return;
+      if (stage == Stage::segment) {
+        if (expected_.failed() && tokens_ > expected_.failed_at() + 1) return;
+        of_token_ = is_token(a);
+      }
       seen_ = std::min(seen_, a.clock);
       if (!unexpected_) unexpected_ = a;
       stop(stage, a.unit);
@@ -176,13 +184,33 @@ class Search : public CoreObserver {
     if (watch_) watch_(q.front(), a);
     const int value = first_difference(q.front(), a);
     if (value >= 0 && !watch_) {
-      if (stage == Stage::segment && !lost_)
-        lost_ = std::any_of(q.begin(), q.end(), [&](const ExpectedEvent& e) { return first_difference(e, a) < 0; });
+      if (stage == Stage::segment) of_token_ = is_token(a);
       offer({q.front(), a, value, a.clock});
       stop(stage, a.unit);
       return;
     }
     q.pop_front();
+  }
+
+  // Of parts that are wrong in the same clock: wires come before what is given wrong by them, small modules before
+  // those that have them within.
+  static int rank(const kage_rtl_event& part) {
+    if (part.value[0] == KAGE_PART_TOP || part.value[0] == KAGE_PART_PIXEL_CORE) return 0;
+    return part.value[0] <= KAGE_PART_LANE_RAMP ? 1 : 2;
+  }
+
+  // Whether a segment is what frame_control's token has.
+  [[nodiscard]] bool is_token(const kage_rtl_event& segment) const {
+    const Layout layout(config_);
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(layout.words[static_cast<std::size_t>(Kind::SEG)]));
+    for (std::size_t i = 0; i < words.size(); ++i)
+      words[i] = static_cast<std::uint32_t>(token_.value[i / 2] >> i % 2 * 32);
+    if (static_cast<Kind>(token_.value[0] & 15U) != Kind::SEG) return false;
+    const SegmentToken s = decode(config_, layout, words).segment;
+    const std::uint64_t all = (std::uint64_t{1} << (config_.z_bits + config_.z_frac + 2)) - 1;
+    return segment.unit == s.unit && segment.value[0] == (static_cast<std::uint64_t>(s.z) & all) &&
+           segment.value[1] == static_cast<std::uint64_t>(s.dx) &&
+           segment.value[2] == static_cast<std::uint64_t>(s.face);
   }
 
   // An error belongs to its token, however early or late it comes.
@@ -231,9 +259,10 @@ class Search : public CoreObserver {
   std::uint32_t tokens_ = 0;  // that the RTL's frame_control has taken
   std::uint32_t height_ = 0;
   bool ended_ = false;
-  bool again_ = false;    // as in Clue
-  bool lost_ = false;     // likewise
-  bool at_last_ = false;  // what token_reader said of END
+  bool again_ = false;      // as in Clue
+  bool of_token_ = false;   // likewise
+  kage_rtl_event token_{};  // the last that came
+  bool at_last_ = false;    // what token_reader said of END
   std::vector<kage_rtl_event> ahead_;
   std::uint64_t seen_ = std::numeric_limits<std::uint64_t>::max();
 };
@@ -293,18 +322,15 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
     search.finish();
     found.misconduct = rtl.finish(kNowhere).misconduct;
     search.take(rtl.take_events());
-    search.end(rtl.clock());
+    search.end(rtl.clock(), (rtl.handshakes() >> 4 & 3U) == 2);
   } catch (const Enough&) {
   }
   found.handshakes = rtl.handshakes();
   found.mismatch = search.first();
   found.unexpected = search.unexpected();
   found.part = search.part();
-  // Faces out of turn are tree_core's work only if those it was given were not.
-  if (found.part && found.part->value[0] == KAGE_PART_TREE_CORE && found.mismatch &&
-      (found.mismatch->expected.stage == Stage::error || found.mismatch->expected.stage == Stage::face))
-    found.part.reset();
   if (found.mismatch || found.unexpected) found.clue = search.clue();
+  found.clue.dropping = (found.handshakes >> 22 & 1U) != 0;
   if (found.mismatch) {
     found.clock = found.mismatch->clock;
     found.token_text = search.token_text(found.mismatch->expected.token);
@@ -425,7 +451,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   if (found.mismatch || found.unexpected) d.module = blame(config, found.clue);
   // What has no handshake waits for nobody.
   const bool waits = d.stage != Stage::claim && d.stage != Stage::error && d.stage != Stage::face &&
-                     d.stage != Stage::table && d.stage != Stage::state;
+                     d.stage != Stage::table && d.stage != Stage::state && d.stage != Stage::end;
   if (!found.misconduct.empty() && waits && (d.field == "missing" || !found.mismatch)) {
     const Waiting w = waiting(config, found.handshakes);
     d.waits = w.text;

@@ -24,7 +24,8 @@ enum Step {
   of_load,
   of_load_command,
   of_loaded,
-  of_out
+  of_out,
+  of_end
 };
 
 // Where a token's flags are.
@@ -192,8 +193,8 @@ void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
              counts};
   // With counters nobody asks for the flags of a painted line.
   e.cares = painted_ && config_.count_bits > 0 ? 0b100111001 : 0b111111001;
-  // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one that
-  // ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
+  // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one
+  // that ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
   if (clear(after) && !painted_) e.cares &= ~(1U << 4);
   put(e);
 }
@@ -216,6 +217,7 @@ ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolv
 
 std::vector<ExpectedEvents::Leaving> ExpectedEvents::all_leaving(const LineView& line) const {
   std::vector<Leaving> all;
+  all.reserve(static_cast<std::size_t>(width_));
   for (int x = 0; x < width_; ++x) all.push_back(leaving(line.pixel(x), painted_));
   return all;
 }
@@ -459,19 +461,26 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
   ExpectedEvent e = event(Stage::error, of_control);
   // Where it shows: the token that is to blame may have come before.
   e.token = status.width == 0 ? 0 : status.error == ErrorCode::LAST_LATE ? token_ : token_ + 1;
+  failed_at_ = e.token;
   e.value = {static_cast<std::uint64_t>(status.error), status.frame, status.line, status.token, status.unit};
   e.cares = 0b11111;
   put(e);
   if (status.width == 0) return;
-  token_ = status.token;
-  // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line.
-  if (config_.translucency != 0 && !words.empty() && !painted_ &&
+  token_ = failed_at_;
+  // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line; not if it is
+  // cut.
+  if (config_.translucency != 0 && status.error != ErrorCode::LAST_EARLY && !words.empty() && !painted_ &&
       (words[0] & 15U) == static_cast<std::uint32_t>(Kind::TP)) {
     if (!resolved_) bias_ = line.bias();
     paint(line);
   }
   // The line at hand and all others leave as background.
   while (y_ < height_) end_line(nullptr);
+}
+
+void ExpectedEvents::ended() {
+  put(event(Stage::end, of_end));
+  queue(Stage::end, 0).back().cares = 1;
 }
 
 void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {

@@ -52,6 +52,12 @@ class ExpectedEvents : public CoreObserver {
   /// After an error the tokens that are dropped, and what the lost line would have been, are nobody's concern.
   [[nodiscard]] bool failed() const { return failed_; }
 
+  /// The token at which the error shows; none before it is dropped.
+  [[nodiscard]] std::uint32_t failed_at() const { return failed_at_; }
+
+  /// The golden core has ended the frame.
+  void ended();
+
   /// A line has left the golden core.
   void line(int y, std::span<const std::uint8_t> pixels);
 
@@ -94,6 +100,7 @@ class ExpectedEvents : public CoreObserver {
 
   // Of the frame:
   bool failed_ = false;
+  std::uint32_t failed_at_ = 0;
   int width_ = 0;
   int height_ = 0;
   int y_ = 0;                // lines that have ended

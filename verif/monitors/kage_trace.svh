@@ -19,7 +19,8 @@ localparam int StageError = 12;
 localparam int StagePart = 13;
 localparam int StageClaim = 14;
 localparam int StageState = 15;
-localparam int StageHandshake = 16;
+localparam int StageEnd = 16;
+localparam int StageHandshake = 17;
 /* verilator lint_on UNUSEDPARAM */
 
 import "DPI-C" function void kage_trace(input int stage, input int unit, input bit [TraceBits-1:0] values);
@@ -42,6 +43,12 @@ localparam int PartLaneRamp = 6;
 localparam int PartTokenCommand = 7;
 localparam int PartPixels = 8;
 localparam int PartTreeCore = 9;
+localparam int PartTop = 10;
+localparam int PartPixelCore = 11;
+localparam int PartCompareTree = 12;
+localparam int PartExpansionUnit = 13;
+localparam int PartFrameControl = 14;
+localparam int PartTableCheck = 15;
 /* verilator lint_on UNUSEDPARAM */
 function automatic void trace_part(input int part, input logic [511:0] expected, input logic [511:0] actual);
   logic [511:0] off;

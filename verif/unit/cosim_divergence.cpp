@@ -79,8 +79,8 @@ TEST_CASE("sound RTL does not diverge in any stage") {
   }
 }
 
-// A TP behind the last line is refused, but paints first: the next frame finds the background of this one in its pixels.
-// Nobody looks at it until they are painted again.
+// A TP behind the last line is refused, but paints first: the next frame finds the background of this one in its
+// pixels. Nobody looks at it until they are painted again.
 TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
   for (const auto& [name, c] : configurations()) {
     if (c.translucency == 0) continue;
