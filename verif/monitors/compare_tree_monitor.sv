@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // compare_tree from its ports alone: of the units' pixels that were taken for a place, the one with the least key, on
-// equal keys the lowest unit's; and no more are taken of a unit than there are registers for. Whether a pixel comes in
-// time is nobody's here.
+// equal keys the lowest unit's, as many clocks after the last of them as there are levels; and no more are taken of a unit
+// than there are registers for.
 `default_nettype none
 
 module compare_tree_monitor #(
@@ -26,7 +26,7 @@ module compare_tree_monitor #(
     localparam int Levels = $clog2(UNITS);  // a register each
     localparam int Most = 8;
     logic [DATA_BITS:0] words[UNITS*Most];  // {last, data}
-    int at_q, held_q[UNITS];
+    int at_q, wait_q, held_q[UNITS];
     logic [DATA_BITS:0] word, best;
     logic whole, pop;
     always_comb begin
@@ -44,12 +44,15 @@ module compare_tree_monitor #(
 
     always_ff @(posedge clk_i) begin
       if (!rst_ni) begin
-        at_q <= 0;
+        at_q   <= 0;
+        wait_q <= 0;
         for (int u = 0; u < UNITS; u++) held_q[u] <= 0;
       end else begin
         if (out_valid_o) trace_part(PartCompareTree, 512'(1), 512'(whole));
         if (out_valid_o && whole) trace_part(PartCompareTree, 512'(best), 512'({out_last_o, out_data_o}));
         if (pop) at_q <= (at_q + 1) % Most;
+        trace_part(PartCompareTree, 512'(1), 512'(wait_q <= Levels));
+        wait_q <= whole && !out_valid_o ? wait_q + 1 : 0;
         for (int u = 0; u < UNITS; u++) begin
           if (in_valid_i[u] && in_ready_o[u]) begin
             words[u*Most+(at_q+held_q[u])%Most] <= {in_last_i[u], in_data_i[u*DATA_BITS+:DATA_BITS]};
