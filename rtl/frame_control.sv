@@ -209,8 +209,8 @@ module frame_control #(
   assign emit_span = good && !token_header_i && is_span && token_i[OpXlLsb+:X_BITS] != token_i[OpXrLsb+:X_BITS];
   assign emit_tree = good && !token_header_i && is_tree;
   // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line is blank, and
-  // to the latter it does no harm.
-  assign must_paint = is_tp && !painted_q;
+  // to the latter it does no harm. Not if it is cut: then not even its kind may be there.
+  assign must_paint = is_tp && !token_cut_i && !painted_q;
   assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
       (line_ready_i || !by_loads);
   // With counters only the way out can darken; a line without RESOLVE has nothing to darken.

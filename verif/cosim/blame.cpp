@@ -16,7 +16,7 @@ struct Port {
   const char* to;
 };
 // From the way in to the way out.
-constexpr std::array<Port, 10> kPorts{{{0, "token", "token_reader", "frame_control"},
+constexpr std::array<Port, 11> kPorts{{{0, "token", "token_reader", "frame_control"},
                                        {2, "segment", "frame_control", "expansion_unit"},
                                        {4, "tree", "compare_tree", "pixel_core"},
                                        {6, "command", "frame_control", "pixel_loads"},
@@ -25,7 +25,8 @@ constexpr std::array<Port, 10> kPorts{{{0, "token", "token_reader", "frame_contr
                                        {12, "load", "line_out", "pixel_loads"},
                                        {14, "video", "line_out", "the sink"},
                                        {16, "frame", "frame_control", "tree_core"},
-                                       {18, "line", "pixel_core", "line_out"}}};
+                                       {18, "line", "pixel_core", "line_out"},
+                                       {20, "line that comes back", "frame_control", "line_out"}}};
 
 std::string pixels(const Config& config) { return config.arrangement == 1 ? "pixel_banked" : "pixel_systolic"; }
 
@@ -48,7 +49,8 @@ std::string blame_error(const Clue& clue) {
   if (!clue.kind) return "token_check";
   const bool table = *clue.kind == Kind::TABLE;
   const bool segment = *clue.kind == Kind::SEG || *clue.kind == Kind::FACE || *clue.kind == Kind::TREE;
-  if (either(ErrorCode::ORDER) && clue.lines_done) return "token_check";
+  if (either(ErrorCode::ORDER) && (clue.lines_done || *clue.kind == Kind::SHADE || *clue.kind == Kind::END))
+    return "token_check";
   if (either(ErrorCode::ORDER)) return table ? "table_check" : segment ? "segment_check" : "line_phase";
   if (either(ErrorCode::RANGE)) return table ? "table_check" : segment ? "segment_check" : "token_check";
   return "token_check";
@@ -72,10 +74,12 @@ std::string blame_command(const Clue& clue) {
 
 std::string part_name(const Config& config, const kage_rtl_event& event) {
   if (event.value[0] == KAGE_PART_PIXELS) return pixels(config);
-  static constexpr std::array<std::string_view, 10> kNames{"ram_1r1w",     "stream_fifo",   "skid_buffer",
-                                                           "compare_cell", "light_resolve", "pixel_loads",
-                                                           "lane_ramp",    "token_command", "",
-                                                           "tree_core"};
+  static constexpr std::array<std::string_view, 16> kNames{"ram_1r1w",     "stream_fifo",    "skid_buffer",
+                                                           "compare_cell", "light_resolve",  "pixel_loads",
+                                                           "lane_ramp",    "token_command",  "",
+                                                           "tree_core",    "kage_top",       "pixel_core",
+                                                           "compare_tree", "expansion_unit", "frame_control",
+                                                           "table_check"};
   return std::string(kNames.at(event.value[0]));
 }
 
@@ -87,7 +91,7 @@ std::string blame(const Config& config, const Clue& clue) {
     case Stage::unit:
       return "expansion_unit";
     case Stage::tree:
-      return clue.value == 2 ? "tree_core" : "compare_tree";
+      return "tree_core";  // compare_tree is watched from its ports
     case Stage::command:
       return blame_command(clue);
     case Stage::error:
@@ -103,7 +107,10 @@ std::string blame(const Config& config, const Clue& clue) {
     case Stage::state:
       return "line_phase";
     case Stage::segment:
-      return clue.lost ? "segment_check" : "frame_control";
+      // Whether it goes is segment_check's to say, what of the token goes is not.
+      return clue.of_token ? "segment_check" : "frame_control";
+    case Stage::end:
+      return clue.dropping ? "token_reader" : "frame_control";
     default:
       return "frame_control";
   }

@@ -20,7 +20,8 @@ struct Clue {
   std::uint32_t lines = 0;                ///< that had ended before the token
   bool lines_done = false;                ///< and those were all
   bool again = false;                     ///< an error of a frame that has had its own
-  bool lost = false;                      ///< what came is expected, but later
+  bool of_token = false;                  ///< of a segment: it came as the token has it
+  bool dropping = false;                  ///< all input is in, and token_reader still drops it
 };
 
 /// The module, "pixel_banked"; its file under rtl/ is MODULE.sv.

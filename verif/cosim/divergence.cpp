@@ -50,18 +50,15 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
     search.finish();
     found.misconduct = rtl.finish(kNowhere).misconduct;
     search.take(rtl.take_events());
-    search.end(rtl.clock());
+    search.end(rtl.clock(), (rtl.handshakes() >> 4 & 3U) == 2);
   } catch (const Enough&) {
   }
   found.handshakes = rtl.handshakes();
   found.mismatch = search.first();
   found.unexpected = search.unexpected();
   found.part = search.part();
-  // Faces out of turn are tree_core's work only if those it was given were not.
-  if (found.part && found.part->value[0] == KAGE_PART_TREE_CORE && found.mismatch &&
-      (found.mismatch->expected.stage == Stage::error || found.mismatch->expected.stage == Stage::face))
-    found.part.reset();
   if (found.mismatch || found.unexpected) found.clue = search.clue();
+  found.clue.dropping = (found.handshakes >> 22 & 1U) != 0;
   if (found.mismatch) {
     found.clock = found.mismatch->clock;
   } else if (found.unexpected) {
@@ -171,7 +168,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   if (found.mismatch || found.unexpected) d.module = blame(config, found.clue);
   // What has no handshake waits for nobody.
   const bool waits = d.stage != Stage::claim && d.stage != Stage::error && d.stage != Stage::face &&
-                     d.stage != Stage::table && d.stage != Stage::state;
+                     d.stage != Stage::table && d.stage != Stage::state && d.stage != Stage::end;
   if (!found.misconduct.empty() && waits && (d.field == "missing" || !found.mismatch)) {
     const Waiting w = waiting(config, found.handshakes);
     d.waits = w.text;

@@ -6,6 +6,16 @@
 #include <utility>
 
 namespace kage::cosim {
+namespace {
+
+// Of parts that are wrong in the same clock: wires come before what is given wrong by them, small modules before those
+// that have them within.
+int rank(const kage_rtl_event& part) {
+  if (part.value[0] == KAGE_PART_TOP || part.value[0] == KAGE_PART_PIXEL_CORE) return 0;
+  return part.value[0] <= KAGE_PART_LANE_RAMP ? 1 : 2;
+}
+
+}  // namespace
 
 EventSearch::EventSearch(const Config& config, Watch watch)
     : watch_(std::move(watch)),
@@ -20,6 +30,7 @@ void EventSearch::feed(std::span<const std::uint32_t> words) { golden_.feed(word
 
 void EventSearch::finish() {
   (void)golden_.finish(sink());
+  expected_.ended();
   ended_ = true;
 }
 
@@ -57,12 +68,13 @@ void EventSearch::take(std::span<const kage_rtl_event> events) {
 void EventSearch::take(const kage_rtl_event& a) {
   const auto stage = static_cast<Stage>(a.stage);
   if (stage == Stage::part) {
-    if (!part_) part_ = a;
+    if (!part_ || (a.clock == part_->clock && rank(a) < rank(*part_))) part_ = a;
     seen_ = std::min(seen_, a.clock);
     return;
   }
   if (stage == Stage::token) {
     ++tokens_;
+    token_ = a;
     if (static_cast<Kind>(a.value[0] & 15U) == Kind::END) at_last_ = a.value[11] != 0;
   }
   if (stopped(a)) return;
@@ -78,7 +90,11 @@ void EventSearch::take(const kage_rtl_event& a) {
       ahead_.push_back(a);
       return;
     }
-    if (expected_.failed() && (stage == Stage::token || stage == Stage::segment)) return;
+    if (expected_.failed() && stage == Stage::token) return;
+    if (stage == Stage::segment) {
+      if (expected_.failed() && tokens_ > expected_.failed_at() + 1) return;
+      of_token_ = is_token(a);
+    }
     seen_ = std::min(seen_, a.clock);
     if (!unexpected_) unexpected_ = a;
     stop(stage, a.unit);
@@ -87,13 +103,24 @@ void EventSearch::take(const kage_rtl_event& a) {
   if (watch_) watch_(q.front(), a);
   const int value = first_difference(q.front(), a);
   if (value >= 0 && !watch_) {
-    if (stage == Stage::segment && !lost_)
-      lost_ = std::any_of(q.begin(), q.end(), [&](const ExpectedEvent& e) { return first_difference(e, a) < 0; });
+    if (stage == Stage::segment) of_token_ = is_token(a);
     offer({q.front(), a, value, a.clock});
     stop(stage, a.unit);
     return;
   }
   q.pop_front();
+}
+
+bool EventSearch::is_token(const kage_rtl_event& segment) const {
+  if (static_cast<Kind>(token_.value[0] & 15U) != Kind::SEG) return false;
+  const Layout layout(config_);
+  std::vector<std::uint32_t> words(static_cast<std::size_t>(layout.words[static_cast<std::size_t>(Kind::SEG)]));
+  for (std::size_t i = 0; i < words.size(); ++i)
+    words[i] = static_cast<std::uint32_t>(token_.value[i / 2] >> i % 2 * 32);
+  const SegmentToken s = decode(config_, layout, words).segment;
+  const std::uint64_t all = (std::uint64_t{1} << (config_.z_bits + config_.z_frac + 2)) - 1;
+  return segment.unit == s.unit && segment.value[0] == (static_cast<std::uint64_t>(s.z) & all) &&
+         segment.value[1] == static_cast<std::uint64_t>(s.dx) && segment.value[2] == static_cast<std::uint64_t>(s.face);
 }
 
 // An error belongs to its token, however early or late it comes.
@@ -139,13 +166,14 @@ bool EventSearch::stopped(const kage_rtl_event& a) const {
   return column < stopped_columns_.size() && stopped_columns_[column];
 }
 
-void EventSearch::end(std::uint64_t clock) {
+void EventSearch::end(std::uint64_t clock, bool blocked) {
   for (const kage_rtl_event& a : ahead_)
     if (static_cast<Stage>(a.stage) == Stage::error && !unexpected_) unexpected_ = a;
   expected_.for_each([&](const std::deque<ExpectedEvent>& q) {
     if (q.front().cares == 0) return;
     const auto stage = static_cast<std::size_t>(q.front().stage);
     if (q.front().stage != Stage::pixel && stopped_[stage]) return;
+    if (blocked && first_ && (q.front().stage == Stage::unit || q.front().stage == Stage::tree)) return;
     offer({q.front(), std::nullopt, -1, clock});
   });
 }
@@ -166,7 +194,7 @@ Clue EventSearch::clue() const {
     c.value = 0;
   }
   c.again = again_;
-  c.lost = lost_;
+  c.of_token = of_token_;
   const std::uint32_t token = first_ ? first_->expected.token : 0;
   for (std::uint32_t i = 1; i < token && i <= kinds_.size(); ++i) c.lines += kinds_[i - 1] == Kind::EOL ? 1U : 0U;
   c.lines_done = c.lines == height_;

@@ -31,8 +31,9 @@ class EventSearch : private CoreObserver {
   void finish();
   void take(std::span<const kage_rtl_event> events);
 
-  /// Nothing more will come: what is still expected is missing.
-  void end(std::uint64_t clock);
+  /// Nothing more will come: what is still expected is missing. What waits for the pixels to take it (`blocked`) would
+  /// have come; it is they who differ.
+  void end(std::uint64_t clock, bool blocked);
 
   /// The first in the order of tokens and stages, of those seen by now.
   [[nodiscard]] const std::optional<Mismatch>& first() const { return first_; }
@@ -59,6 +60,8 @@ class EventSearch : private CoreObserver {
   void take_error(std::deque<ExpectedEvent>& q, const kage_rtl_event& a);
   void stop(Stage stage, int unit);
   [[nodiscard]] bool stopped(const kage_rtl_event& a) const;
+  /// Whether a segment is what frame_control's token has.
+  [[nodiscard]] bool is_token(const kage_rtl_event& segment) const;
 
   Watch watch_;
   Config config_;
@@ -74,7 +77,8 @@ class EventSearch : private CoreObserver {
   std::uint32_t height_ = 0;
   bool ended_ = false;
   bool again_ = false;                 // as in Clue
-  bool lost_ = false;                  // likewise
+  bool of_token_ = false;              // likewise
+  kage_rtl_event token_{};             // the last that came
   bool at_last_ = false;               // what token_reader said of END
   std::vector<kage_rtl_event> ahead_;  // what came before it can be known whether it should
   std::uint64_t seen_;                 // clock of the earliest difference

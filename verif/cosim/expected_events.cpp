@@ -24,7 +24,8 @@ enum Step {
   of_load,
   of_load_command,
   of_loaded,
-  of_out
+  of_out,
+  of_end
 };
 
 // Where a token's flags are.
@@ -192,13 +193,16 @@ void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
              counts};
   // With counters nobody asks for the flags of a painted line.
   e.cares = painted_ && config_.count_bits > 0 ? 0b100111001 : 0b111111001;
+  // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one
+  // that ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
+  if (clear(after) && !painted_) e.cares &= ~(1U << 4);
   put(e);
 }
 
 ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolved) const {
   Leaving l;
   l.color = packed(s.color);
-  l.covered = s.z != (1U << config_.z_bits) - 1U;
+  l.covered = !clear(s);
   if (config_.count_bits > 0) {
     l.normal_class = s.normal_class;
     for (int i = 0; i < config_.lights && s.normal_class != 0; ++i)
@@ -213,6 +217,7 @@ ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolv
 
 std::vector<ExpectedEvents::Leaving> ExpectedEvents::all_leaving(const LineView& line) const {
   std::vector<Leaving> all;
+  all.reserve(static_cast<std::size_t>(width_));
   for (int x = 0; x < width_; ++x) all.push_back(leaving(line.pixel(x), painted_));
   return all;
 }
@@ -226,7 +231,8 @@ void ExpectedEvents::line_event(bool blank, bool load, int step) {
   put(e);
 }
 
-// colour, covered, dark, class, counts. If banked, the pixels past the width in the last group leave too.
+// colour, covered, dark, class, counts. If banked, the pixels past the width in the last group leave too. The colour of
+// a pixel without surface is nobody's until the line is painted, as in touch(): the way out takes the background.
 void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
   const int lanes = config_.arrangement == 1 ? config_.lanes : 1;
   const int end = (width_ + lanes - 1) / lanes * lanes;
@@ -237,8 +243,7 @@ void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
     if (x < width_ && !blank) {
       const Leaving& l = pixels[static_cast<std::size_t>(x)];
       e.value = {l.color, l.covered ? 1U : 0U, l.dark ? 1U : 0U, config_.class_bits > 1 ? l.normal_class : 0, l.counts};
-      // Of a pixel without surface the way out takes the background, unless the line is painted and has it already.
-      e.cares = l.covered || l.color != 0 ? 0b11111 : 0b11110;
+      e.cares = l.covered || painted_ ? 0b11111 : 0b11110;
     }
     put(e);
   }
@@ -259,7 +264,7 @@ void ExpectedEvents::paint(const LineView& line) {
   const bool by_loads = config_.count_bits > 0 && resolved_;
   const auto painted = [&](int x) {
     PixelState s = line.pixel(x);
-    if (s.z == (1U << config_.z_bits) - 1U)
+    if (clear(s))
       for (unsigned c = 0; c < 3; ++c) s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
     return s;
   };
@@ -456,19 +461,26 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
   ExpectedEvent e = event(Stage::error, of_control);
   // Where it shows: the token that is to blame may have come before.
   e.token = status.width == 0 ? 0 : status.error == ErrorCode::LAST_LATE ? token_ : token_ + 1;
+  failed_at_ = e.token;
   e.value = {static_cast<std::uint64_t>(status.error), status.frame, status.line, status.token, status.unit};
   e.cares = 0b11111;
   put(e);
   if (status.width == 0) return;
-  token_ = status.token;
-  // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line.
-  if (config_.translucency != 0 && !words.empty() && !painted_ &&
+  token_ = failed_at_;
+  // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line; not if it is
+  // cut.
+  if (config_.translucency != 0 && status.error != ErrorCode::LAST_EARLY && !words.empty() && !painted_ &&
       (words[0] & 15U) == static_cast<std::uint32_t>(Kind::TP)) {
     if (!resolved_) bias_ = line.bias();
     paint(line);
   }
   // The line at hand and all others leave as background.
   while (y_ < height_) end_line(nullptr);
+}
+
+void ExpectedEvents::ended() {
+  put(event(Stage::end, of_end));
+  queue(Stage::end, 0).back().cares = 1;
 }
 
 void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {

@@ -52,6 +52,12 @@ class ExpectedEvents : public CoreObserver {
   /// After an error the tokens that are dropped, and what the lost line would have been, are nobody's concern.
   [[nodiscard]] bool failed() const { return failed_; }
 
+  /// The token at which the error shows; none before it is dropped.
+  [[nodiscard]] std::uint32_t failed_at() const { return failed_at_; }
+
+  /// The golden core has ended the frame.
+  void ended();
+
   /// A line has left the golden core.
   void line(int y, std::span<const std::uint8_t> pixels);
 
@@ -84,6 +90,7 @@ class ExpectedEvents : public CoreObserver {
   void leave(const std::vector<Leaving>& pixels, bool blank);
   [[nodiscard]] Leaving leaving(const PixelState& s, bool resolved) const;
   [[nodiscard]] std::vector<Leaving> all_leaving(const LineView& line) const;
+  [[nodiscard]] bool clear(const PixelState& s) const { return s.z == (1U << config_.z_bits) - 1U; }
   [[nodiscard]] std::uint64_t packed(const std::array<std::uint8_t, 3>& color) const;
 
   Config config_;
@@ -93,6 +100,7 @@ class ExpectedEvents : public CoreObserver {
 
   // Of the frame:
   bool failed_ = false;
+  std::uint32_t failed_at_ = 0;
   int width_ = 0;
   int height_ = 0;
   int y_ = 0;                // lines that have ended

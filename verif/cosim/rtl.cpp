@@ -100,6 +100,9 @@ class Rtl : public RtlCore {
   int write_register(std::uint32_t address, std::uint32_t value) override {
     return table_->reg_write(model_, address, value);
   }
+  int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) override {
+    return table_->reg_write_late(model_, address, value, strobes);
+  }
   [[nodiscard]] bool interrupt() const override { return table_->irq(model_) != 0; }
   void pass(std::uint64_t clocks) override { (void)checked(table_->run(model_, kForever, clocks)); }
 

@@ -39,6 +39,8 @@ class RtlCore : public Core {
   /// An AXI4-Lite access while the streams go on: its response (0 is OKAY), -1 if none comes.
   virtual int read_register(std::uint32_t address, std::uint32_t& value) = 0;
   virtual int write_register(std::uint32_t address, std::uint32_t value) = 0;
+  /// Of the bytes in `strobes` alone, the data some clocks behind the address.
+  virtual int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) = 0;
   [[nodiscard]] virtual bool interrupt() const = 0;
 
   /// Let so many clocks pass at most; fewer if nothing moves any more.

@@ -35,6 +35,7 @@ const StageInfo& info(Stage stage) {
       {"output of a module", {}},
       {"line asked of the tree", {}},
       {"state of the line", {"bias", "resolved"}},
+      {"end of the frame", {}},
   }};
   return kInfo[static_cast<std::size_t>(stage)];
 }

@@ -31,8 +31,9 @@ enum class Stage : std::uint8_t {
   part = KAGE_STAGE_PART,  ///< not of a token: a small module that breaks its own contract
   claim = KAGE_STAGE_CLAIM,
   state = KAGE_STAGE_STATE,
+  end = KAGE_STAGE_END,
 };
-inline constexpr int kStages = 16;
+inline constexpr int kStages = 17;
 
 /// What an event of a stage is, in words: "a command to the pixels".
 std::string_view describe(Stage stage);

@@ -1,27 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether tree_core gives an expansion unit its own faces: they come in turn, from 0 in each frame.
+// expansion_unit from its ports alone: a line whose segments were taken leaves with as many pixels as it is wide, the
+// last of them as its last. What the pixels are is held against the golden core.
 `default_nettype none
 
 module expansion_unit_monitor #(
-    parameter int FACE_BITS = 7
+    parameter int X_BITS  = 11,
+    parameter int DX_BITS = 9
 ) (
-    input wire logic                 clk_i,
-    input wire logic                 rst_ni,
-    input wire logic                 frame_start_i,
-    input wire logic                 face_valid_i,
-    input wire logic [FACE_BITS-1:0] face_number_i
+    input wire logic               clk_i,
+    input wire logic               rst_ni,
+    input wire logic               flush_i,
+    input wire logic [ X_BITS-1:0] width_i,
+    input wire logic               seg_valid_i,
+    input wire logic               seg_ready_o,
+    input wire logic [DX_BITS-1:0] seg_dx_i,
+    input wire logic               px_valid_o,
+    input wire logic               px_ready_i,
+    input wire logic               px_last_o
 );
   `include "kage_trace.svh"
 
-  logic [FACE_BITS-1:0] faces_q;
+  // Lines under way: two in the halves, and one that has been read out and leaves.
+  localparam int Most = 4;
+  int widths[Most];
+  int at_q, lines_q, sum_q, x_q, sum;
+  logic lost_q;  // segments that make no line have come: what follows is anybody's
+  logic take, whole, last;
+  assign take  = seg_valid_i && seg_ready_o;
+  assign sum   = sum_q + 32'(seg_dx_i);
+  assign whole = take && sum == 32'(width_i);
+  assign last  = x_q + 1 == widths[at_q];
+
   always_ff @(posedge clk_i) begin
-    if (!rst_ni || frame_start_i) faces_q <= '0;
-    else if (face_valid_i) faces_q <= faces_q + 1'b1;
-    if (rst_ni && face_valid_i) trace_part(PartTreeCore, 512'(faces_q), 512'(face_number_i));
+    if (!rst_ni || flush_i) begin
+      {at_q, lines_q, sum_q, x_q, lost_q} <= '0;
+    end else begin
+      if (take) begin
+        sum_q <= whole ? 0 : sum;
+        if (seg_dx_i == '0 || sum > 32'(width_i)) lost_q <= 1'b1;
+      end
+      if (px_valid_o && !lost_q) trace_part(PartExpansionUnit, {510'd0, 1'b1, last}, {510'd0, lines_q > 0, px_last_o});
+      if (whole) widths[(at_q+lines_q)%Most] <= sum;
+      if (px_valid_o && px_ready_i && lines_q > 0) begin
+        x_q <= last ? 0 : x_q + 1;
+        if (last) at_q <= (at_q + 1) % Most;
+      end
+      lines_q <= lines_q + 32'(whole) - 32'(px_valid_o && px_ready_i && lines_q > 0 && last);
+    end
   end
 
 endmodule
 
-bind expansion_unit expansion_unit_monitor #(.FACE_BITS(FACE_BITS)) u_monitor (.*);
+bind expansion_unit expansion_unit_monitor #(
+    .X_BITS (X_BITS),
+    .DX_BITS(DX_BITS)
+) u_monitor (.*);
 
 `default_nettype wire

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What line_phase tells frame_control where that makes use of it, as events (rtl_model.h).
+// What line_phase tells frame_control where that makes use of it, as events (rtl_model.h); and rules of frame_control's
+// own outputs: a segment that waits stays, nothing is taken or given while a line is on its way out and back, units are
+// told of an error, and a frame ends with END or once its input has been dropped.
 `default_nettype none
 
 module frame_control_monitor #(
-    parameter int DSF_BITS = 1
+    parameter int DSF_BITS = 1,
+    parameter int UNITS = 0
 ) (
     input wire logic                                     clk_i,
     input wire logic                                     rst_ni,
@@ -27,8 +30,36 @@ module frame_control_monitor #(
     end
   end
 
+  logic waits_q, loading_q;
+  logic [255:0] segment, segment_q;
+  assign segment = 256'({
+    frame_control.tree_unit_o, frame_control.tree_z_o, frame_control.tree_dx_o, frame_control.tree_face_o
+  });
+  always_ff @(posedge clk_i) begin
+    waits_q   <= rst_ni && frame_control.tree_seg_valid_o && !frame_control.tree_seg_ready_i;
+    segment_q <= segment;
+    if (!rst_ni || frame_control.loads_done_i) loading_q <= 1'b0;
+    else if (frame_control.line_valid_o && frame_control.line_load_o) loading_q <= 1'b1;
+    if (rst_ni) begin
+      if (waits_q) begin
+        trace_part(PartFrameControl, 512'({1'b1, segment_q}), 512'({frame_control.tree_seg_valid_o, segment}));
+      end
+      if (loading_q) begin
+        trace_part(PartFrameControl, '0, 512'(frame_control.line_valid_o || frame_control.accept));
+      end
+      trace_part(PartFrameControl, 512'(UNITS > 0 && frame_control.error_o && !token_header_i),
+                 512'(frame_control.tree_flush_o));
+      if (frame_control.frame_end_o) begin
+        trace_part(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));
+      end
+    end
+  end
+
 endmodule
 
-bind frame_control frame_control_monitor #(.DSF_BITS(DSF_BITS)) u_monitor (.*);
+bind frame_control frame_control_monitor #(
+    .DSF_BITS(DSF_BITS),
+    .UNITS(UNITS)
+) u_monitor (.*);
 
 `default_nettype wire

@@ -89,6 +89,11 @@ module kage_top_monitor #(
     input wire logic               m_axis_tuser_o,
     input wire logic               m_axis_tlast_o,
 
+    input wire logic queue_valid,
+    input wire logic loading,      // frame_control waits for a line to come back
+    input wire logic dropping,
+    input wire logic frame_end,
+
     input wire logic        error,
     input wire logic [ 3:0] error_code,
     input wire logic [31:0] error_frame,
@@ -203,8 +208,12 @@ module kage_top_monitor #(
         kage_trace(StageError, 0, trace5(
                    64'(error_code), 64'(error_frame), 64'(error_line), 64'(error_token), 64'(error_unit)));
       end
+      if (frame_end) kage_trace(StageEnd, 0, '0);
       // Who waits for whom, every clock; the driver keeps the newest.
       kage_trace(StageHandshake, 0, TraceBits'({
+                 dropping,
+                 loading && !load_valid && !queue_valid,
+                 1'b0,
                  pixel_valid && !pixel_ready,
                  exit_free,
                  token_valid && token_header,
@@ -236,6 +245,9 @@ bind kage_top kage_top_monitor #(
     `include "kage_impl_param_map.svh",
     .FRONT_WORDS(FrontWords),
     .EXIT_LANES (ExitLanes)
-) u_monitor (.*);
+) u_monitor (
+    .loading(u_control.loading_q),
+    .*
+);
 
 `default_nettype wire

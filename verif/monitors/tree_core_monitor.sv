@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels that each expansion unit gives to the compare tree, as events (rtl_model.h).
+// The pixels that each expansion unit gives to the compare tree, as events (rtl_model.h); and whether each unit is given
+// the faces and segments that are its own.
 `default_nettype none
 
 module tree_core_monitor #(
@@ -30,6 +31,18 @@ module tree_core_monitor #(
         64'd0
     );
   endfunction
+
+  for (genvar u = 0; u < UNITS; u++) begin : gen_unit
+    always_ff @(posedge clk_i) begin
+      if (rst_ni) begin
+        trace_part(PartTreeCore, {
+                   510'd0,
+                   tree_core.face_valid_i && 32'(tree_core.face_unit_i) == u,
+                   tree_core.seg_valid_i && 32'(tree_core.seg_unit_i) == u
+                   }, {510'd0, tree_core.gen_unit[u].u_unit.face_valid_i, tree_core.gen_unit[u].u_unit.seg_valid_i});
+      end
+    end
+  end
 
   always_ff @(posedge clk_i) begin
     if (rst_ni && !flush) begin

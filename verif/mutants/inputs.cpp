@@ -98,6 +98,17 @@ std::vector<std::uint32_t> frame(Random& random, const Config& c, int number) {
   return words;
 }
 
+// Cut within the header, a few words too long, or with another header.
+void header_or_end(Random& random, const Config& c, std::vector<std::uint32_t>& words) {
+  const double manner = random.real(0, 1);
+  if (manner < 0.25)
+    words.resize(static_cast<std::size_t>(random.in(1, static_cast<int>(kHeaderWords) - 1)));
+  else if (manner < 0.5)
+    words.resize(words.size() + static_cast<std::size_t>(random.in(1, 2 * c.beat_words)));
+  else
+    words[static_cast<std::size_t>(random.in(0, 2))] ^= 1U << (random.chance(0.3) ? 31 : random.in(0, 31));
+}
+
 std::vector<std::uint32_t> damaged(Random& random, const Config& c, int number) {
   std::vector<std::uint32_t> words = frame(random, c, number);
   switch (number % 6) {
@@ -108,7 +119,7 @@ std::vector<std::uint32_t> damaged(Random& random, const Config& c, int number) 
       near_miss(random, c, words);
       break;
     case 2:
-      words[static_cast<std::size_t>(random.in(0, 2))] ^= 1U << (random.chance(0.3) ? 31 : random.in(0, 31));
+      header_or_end(random, c, words);
       break;
     case 3:
       if (c.count_bits > 0)
@@ -125,6 +136,7 @@ std::vector<std::uint32_t> damaged(Random& random, const Config& c, int number) 
     default:
       misplace(random, c, words);
   }
+  if (words.empty()) words.push_back(0);  // a port brings a beat at least
   // A height that flipped bits made great takes long and shows no more; one past 15 bits is refused.
   if (words.size() > 1 && (words[1] >> 31) == 0) words[1] &= 0x001FFFFFU;
   return words;

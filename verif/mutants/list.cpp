@@ -24,6 +24,7 @@ std::vector<Mutant> load_mutants(const std::filesystem::path& file) {
       m.module = text("module");
       if (m.module.empty()) m.module = std::filesystem::path(m.file).stem().string();
       m.equivalent = text("equivalent");
+      m.known = text("known");
       if (node["configs"]) m.configs = node["configs"].as<std::vector<std::string>>();
       if (m.name.empty() || m.file.empty() || m.kind.empty() || m.breaks.empty())
         throw Error(fmt::format("{}: mutant {} lacks name, file, class or breaks", file.string(), m.number));

@@ -21,6 +21,7 @@ struct Mutant {
   std::string module;                ///< that must be named; "pixels": that of the arrangement
   std::vector<std::string> configs;  ///< that can tell; empty: any
   std::string equivalent;            ///< why nothing can; empty: something must
+  std::string known;                 ///< why it lives, or is named otherwise: it counts as such, but fails no run
 
   /// The module to be named in a configuration.
   [[nodiscard]] std::string module_in(const Config& config) const {

@@ -55,7 +55,7 @@ struct Result {
   std::optional<Verdict> verdict;
 
   [[nodiscard]] bool right() const { return verdict && verdict->module == expected; }
-  [[nodiscard]] bool fine() const { return mutant.equivalent.empty() ? right() : !verdict; }
+  [[nodiscard]] bool fine() const { return mutant.equivalent.empty() ? right() || !mutant.known.empty() : !verdict; }
 };
 
 /// A configuration with its frames and its model, made when first asked for.

@@ -13,6 +13,7 @@ namespace {
 constexpr int kOkay = 0;
 constexpr int kSlverr = 2;
 constexpr std::uint32_t kWatchdog = 50;  // clocks
+constexpr std::uint64_t kLong = 20000;   // more than any frame here takes
 
 struct Wrong {
   std::string what;
@@ -27,6 +28,8 @@ class Checker {
     constants();
     addresses();
     frames();
+    dropped();
+    if (inputs_.config.units > 1) behind();
     interrupt();
     cycles();
     watchdog();
@@ -67,6 +70,13 @@ class Checker {
       write("WATCHDOG", KAGE_REG_WATCHDOG, value);
       expect("WATCHDOG", KAGE_REG_WATCHDOG, value);
     }
+    for (const unsigned strobes : {0b0101U, 0b1010U}) {
+      write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
+      same("response of WATCHDOG", kOkay,
+           static_cast<std::uint32_t>(rtl_.write_register_late(KAGE_REG_WATCHDOG, 0x12345678, strobes)));
+      expect("WATCHDOG, by bytes", KAGE_REG_WATCHDOG, strobes == 5 ? 0x00340078 : 0x12005600);
+    }
+    write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
     write("CONTROL", KAGE_REG_CONTROL, 5);
     expect("CONTROL", KAGE_REG_CONTROL, 5);
     write("CONTROL", KAGE_REG_CONTROL, 0);
@@ -75,17 +85,15 @@ class Checker {
   }
 
   void frames() {
-    std::uint32_t count = 0;
-    std::uint32_t errors = 0;
     for (const TrialFrame& f : inputs_.sequences.front().frames) {
       if (f.end.status.width == 0) continue;  // its header is refused: the driver resets the core
       rtl_.feed(f.words, kNowhere);
       const cosim::FrameEnd end = rtl_.finish(kNowhere);
-      ++count;
+      ++count_;
       blocked_ += static_cast<std::uint32_t>(end.blocked);
-      if (f.end.status.error != ErrorCode::NONE) ++errors;
-      expect("FRAMES", KAGE_REG_FRAMES, count);
-      expect("ERRORS", KAGE_REG_ERRORS, errors);
+      if (f.end.status.error != ErrorCode::NONE) ++errors_;
+      expect("FRAMES", KAGE_REG_FRAMES, count_);
+      expect("ERRORS", KAGE_REG_ERRORS, errors_);
       if (f.end.status.error == ErrorCode::NONE) continue;
       expect("ERROR", KAGE_REG_ERROR, f.end.status.line << 16 | static_cast<std::uint32_t>(f.end.status.error));
       expect("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN, f.end.status.token);
@@ -93,6 +101,57 @@ class Checker {
     expect("BLOCKED", KAGE_REG_BLOCKED, blocked_);
     expect("STATUS", KAGE_REG_STATUS, 0);
     expect("TREE", KAGE_REG_TREE, 0);
+  }
+
+  // A frame with an error lasts until its input has come.
+  void dropped() {
+    for (const TrialFrame& f : inputs_.sequences.front().frames) {
+      if (f.end.status.width == 0 || f.end.status.error == ErrorCode::NONE) continue;
+      rtl_.feed(f.words, kNowhere);  // but for the last beat
+      rtl_.pass(kLong);
+      const bool early = read("ERRORS", KAGE_REG_ERRORS) != errors_;
+      if (early) {
+        expect("STATUS, while input is dropped", KAGE_REG_STATUS, 0b0111);
+        expect("FRAMES, while input is dropped", KAGE_REG_FRAMES, count_);
+      }
+      (void)rtl_.finish(kNowhere);
+      ++count_;
+      ++errors_;
+      expect("FRAMES", KAGE_REG_FRAMES, count_);
+      if (early) return;
+    }
+  }
+
+  // One unit has its line, another a part of it, others nothing.
+  void behind() {
+    const Config& c = inputs_.config;
+    std::vector<std::uint32_t> words;
+    TokenWriter w(c, words);
+    w.header({8, 1, 0, 0});
+    SegmentToken s;
+    s.face = (1 << c.face_bits) - 1;
+    s.sync = true;
+    s.dx = 8;
+    w.seg(s);
+    s.dx = 4;
+    for (s.unit = 1; s.unit < c.units; ++s.unit) w.seg(s);
+    const std::size_t some = words.size();
+    s.sync = false;
+    for (s.unit = 1; s.unit < c.units; ++s.unit) w.seg(s);
+    w.tree();
+    w.eol(0);
+    w.end();
+    // The whole beats of them.
+    const auto beat = static_cast<std::size_t>(c.beat_words);
+    const std::size_t cut = some / beat * beat + 1;
+    rtl_.feed(std::span(words).first(cut), kNowhere);
+    rtl_.pass(kLong);
+    expect("TREE", KAGE_REG_TREE, 1U << 31 | 1U);
+    rtl_.feed(std::span(words).subspan(cut), kNowhere);
+    (void)rtl_.finish(kNowhere);
+    ++count_;
+    expect("FRAMES", KAGE_REG_FRAMES, count_);
+    expect("ERRORS", KAGE_REG_ERRORS, errors_);
   }
 
   // Frames have ended, some with an error.
@@ -133,6 +192,8 @@ class Checker {
 
   cosim::RtlCore& rtl_;
   const Inputs& inputs_;
+  std::uint32_t count_ = 0;   // of frames that have ended
+  std::uint32_t errors_ = 0;  // of them with an error
   std::uint32_t blocked_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mutants/trial.hpp"
 
+#include "cosim/blame.hpp"
 #include "cosim/compare.hpp"
 #include "cosim/divergence.hpp"
 #include "cosim/run.hpp"
@@ -84,9 +85,16 @@ std::optional<Verdict> try_mutant(const std::filesystem::path& library, const In
   cosim::RtlOptions options = inputs.sequences.front().rtl;
   options.backpressure_percent = 50;
   options.mutant = mutant;
+  const auto wrong = wrong_register(*make_rtl(library, inputs.config, options), inputs);
+  if (!wrong) return std::nullopt;
+  // Again with monitors: registers may say truly what a module says wrong.
   const auto rtl = make_rtl(library, inputs.config, options);
-  if (const auto wrong = wrong_register(*rtl, inputs)) return Verdict{"register", "registers", *wrong};
-  return std::nullopt;
+  rtl->record(true);
+  (void)wrong_register(*rtl, inputs);
+  for (const kage_rtl_event& e : rtl->take_events())
+    if (static_cast<cosim::Stage>(e.stage) == cosim::Stage::part)
+      return Verdict{"register", cosim::part_name(inputs.config, e), *wrong};
+  return Verdict{"register", "registers", *wrong};
 }
 
 }  // namespace kage::verif

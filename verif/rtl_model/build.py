@@ -98,7 +98,8 @@ def put_in(rtl, package):
         if text.count(around) != 1 or around.count(m["text"]) != 1:
             fail(f"mutant {m['name']}: rtl/{m['file']} has not exactly once: {around if text.count(around) != 1 else m['text']}")
         begin = text.index(around) + around.index(m["text"])
-        places.setdefault(m["file"], []).append((begin, begin + len(m["text"]), number, m))
+        # What is put in before an instance's `.*` leaves room for another there.
+        places.setdefault(m["file"], []).append((begin, begin if "port" in m else begin + len(m["text"]), number, m))
     for name, of_file in places.items():
         text = (rtl / name).read_text()
         of_file.sort(key=lambda p: p[0])
@@ -106,7 +107,8 @@ def put_in(rtl, package):
             if before[1] > after[0]:
                 fail(f"mutant {after[3]['name']}: overlaps {before[3]['name']}")
         for begin, end, number, m in reversed(of_file):
-            text = f"{text[:begin]}(kage_mutants::selected == {number} ? {m['with']} : {text[begin:end]}){text[end:]}"
+            choice = f"(kage_mutants::selected == {number} ? {m['with']} : {m.get('port', text[begin:end])})"
+            text = f"{text[:begin]}.{m['port']}{choice}, {text[end:]}" if "port" in m else text[:begin] + choice + text[end:]
         (rtl / name).write_text(text)
     # Sampled in reset: asked for at each place, it would cost more than the model.
     top = (rtl / "kage_top.sv").read_text()

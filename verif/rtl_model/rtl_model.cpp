@@ -311,15 +311,15 @@ struct kage_rtl {
     return -1;
   }
 
-  int write(std::uint32_t address, std::uint32_t value) {
+  int write(std::uint32_t address, std::uint32_t value, unsigned strobes, int late) {
     enter();
     top->s_axil_awvalid_i = 1;
     top->s_axil_awaddr_i = static_cast<CData>(address);
-    top->s_axil_wvalid_i = 1;
     top->s_axil_wdata_i = value;
-    top->s_axil_wstrb_i = 15;
+    top->s_axil_wstrb_i = static_cast<CData>(strobes);
     top->s_axil_bready_i = 1;
     for (int n = 0; n < 1000; ++n) {
+      if (n == late) top->s_axil_wvalid_i = 1;
       const bool aw = top->s_axil_awvalid_i && top->s_axil_awready_o;
       const bool w = top->s_axil_wvalid_i && top->s_axil_wready_o;
       if (top->s_axil_bvalid_o) {
@@ -330,6 +330,7 @@ struct kage_rtl {
       }
       clock();
       if (aw) top->s_axil_awvalid_i = 0;
+      if (aw) top->s_axil_awaddr_i = static_cast<CData>(~address);
       if (w) top->s_axil_wvalid_i = 0;
     }
     return -1;
@@ -381,7 +382,10 @@ const kage_rtl_table kTable = {
       m->pixel_count = 0;
     },
     [](kage_rtl* m, std::uint32_t address, std::uint32_t* value) { return m->read(address, value); },
-    [](kage_rtl* m, std::uint32_t address, std::uint32_t value) { return m->write(address, value); },
+    [](kage_rtl* m, std::uint32_t address, std::uint32_t value) { return m->write(address, value, 15, 0); },
+    [](kage_rtl* m, std::uint32_t address, std::uint32_t value, unsigned strobes) {
+      return m->write(address, value, strobes, 5);
+    },
     [](kage_rtl* m) -> int { return m->top->irq_o; },
     [](kage_rtl* m, kage_rtl_stats* out) { *out = m->stats; },
     [](kage_rtl* m) { m->stats = {}; },

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 4u
+#define KAGE_RTL_ABI 5u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -54,10 +54,11 @@ enum {
                              the 64 bits from the lowest wrong one on as they should be, as they are */
   KAGE_STAGE_CLAIM = 14, /* frame_control asks for a line of the tree */
   KAGE_STAGE_STATE = 15, /* of the line, as EV, ES, EOL or the painting of a line finds it: bias, resolved */
-  KAGE_STAGE_HANDSHAKE = 16 /* not an event: see handshakes() */
+  KAGE_STAGE_END = 16,   /* a frame has ended for frame_control */
+  KAGE_STAGE_HANDSHAKE = 17 /* not an event: see handshakes() */
 };
 
-/* Modules that are watched from their ports alone. */
+/* Modules that are watched from their ports alone, and modules whose wires to others are. */
 enum {
   KAGE_PART_RAM_1R1W = 0,
   KAGE_PART_STREAM_FIFO = 1,
@@ -68,7 +69,13 @@ enum {
   KAGE_PART_LANE_RAMP = 6,
   KAGE_PART_TOKEN_COMMAND = 7, /* a command changes while it waits */
   KAGE_PART_PIXELS = 8,        /* pixels leave without a place for them */
-  KAGE_PART_TREE_CORE = 9      /* a unit is given a face out of turn */
+  KAGE_PART_TREE_CORE = 9,     /* a unit is given what is another's, or not what is its own */
+  KAGE_PART_TOP = 10,          /* what a module is given is not what the net of that name has */
+  KAGE_PART_PIXEL_CORE = 11,   /* likewise */
+  KAGE_PART_COMPARE_TREE = 12,
+  KAGE_PART_EXPANSION_UNIT = 13, /* a line has another length than its segments */
+  KAGE_PART_FRAME_CONTROL = 14,  /* a rule of its handshakes */
+  KAGE_PART_TABLE_CHECK = 15
 };
 
 #define KAGE_RTL_EVENT_VALUES 13
@@ -152,6 +159,8 @@ typedef struct {
    */
   int (*reg_read)(kage_rtl*, uint32_t address, uint32_t* value);
   int (*reg_write)(kage_rtl*, uint32_t address, uint32_t value);
+  /* The bytes that `strobes` has; the data come clocks after the address, whose port has something else by then. */
+  int (*reg_write_late)(kage_rtl*, uint32_t address, uint32_t value, unsigned strobes);
   int (*irq)(kage_rtl*);
 
   void (*stats)(kage_rtl*, kage_rtl_stats*);
@@ -167,7 +176,8 @@ typedef struct {
 
   /* Who waits for whom, as of the last clock that was recorded: pairs {valid, ready}, ready lower, from the lowest:
    * token, segment, tree, command (before pixel_loads), command (behind it), line, load, video, a frame's header before
-   * the tree, a command that waits before the buffers of the way out. */
+   * the tree, a command that waits before the buffers of the way out, a line that the way out has and shall send back;
+   * then a bit: input is being dropped. */
   int64_t (*handshakes)(kage_rtl*);
 
   /* Write an FST waveform of the clocks `first` to `last` to `path`, which is there whole once they have passed or the

@@ -134,3 +134,43 @@ TEST_CASE("a token that differs is told by its field") {
   header[1] ^= 1;
   CHECK(told(header).substr(0, 16) == "height and width");
 }
+
+// A TP behind the last line is refused, but paints first: the next frame finds the background of this one in its
+// pixels. Nobody looks at it until they are painted again.
+TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
+  for (const auto& [name, c] : configurations()) {
+    if (c.translucency == 0) continue;
+    CAPTURE(name);
+    std::vector<std::vector<std::uint32_t>> frames(2);
+    SpanToken span;
+    span.xl = 1;
+    span.xr = 7;
+    span.z = std::int64_t{5} << c.z_frac;
+    span.w = 1;
+    span.alpha = 99;
+    TokenWriter late(c, frames[0]);
+    late.header({8, 1, 0x563412, 0});
+    late.eol(0);
+    late.tp(span);
+    late.end();
+    TokenWriter next(c, frames[1]);
+    next.header({8, 2, 0x998877, 1});
+    next.sp(span);
+    if (c.fsf != 0) next.ev(0, 8);
+    if (c.count_bits != 0) next.es(0, 8, 0);
+    next.resolve();
+    next.eol(0);
+    next.tp(span);
+    next.eol(1);
+    next.end();
+    DivergenceOptions options;
+    options.library = find_model(c, {.traced = true}).library;
+    const auto rtl = make_rtl(options.library, c, {});
+    const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
+    CHECK(rtl->frame(frames[0], nowhere).status.error == ErrorCode::ORDER);
+    CHECK(rtl->frame(frames[1], nowhere).status.error == ErrorCode::NONE);
+    const auto d = find_divergence(1, feed_of(frames), c, options);
+    if (d) UNSCOPED_INFO(describe(*d));
+    CHECK_FALSE(d);
+  }
+}
