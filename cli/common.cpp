@@ -6,6 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
@@ -273,6 +275,34 @@ void say(const std::string& text) {
 }
 
 bool interrupted() { return signalled != 0; }
+
+std::string quoted(const std::string& text) {
+  const auto plain = [](char c) {
+    return (std::isalnum(static_cast<unsigned char>(c)) != 0) ||
+           std::string_view("_./,:=+-@%").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'')
+      out += "'\\''";
+    else
+      out += c;
+  }
+  return out + "'";
+}
+
+/// `inputs` stand for the positional arguments.
+
+void refuse_twice(const std::vector<std::string>& paths) {
+  namespace fs = std::filesystem;
+  std::set<fs::path> seen;
+  for (const std::string& path : paths) {
+    std::error_code ec;
+    if (!path.empty() && !seen.insert(fs::weakly_canonical(fs::absolute(path, ec), ec)).second)
+      throw Error(fmt::format("{}: is to be written twice", path));
+  }
+}
 
 void check_interrupt() {
   if (interrupted()) throw Interrupted{};

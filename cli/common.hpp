@@ -122,6 +122,12 @@ class OutFolder {
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
+/// `text` as a shell reads it back.
+std::string quoted(const std::string& text);
+
+/// Throws Error if two of the files that are to be written, by whatever name, are one. Empty paths are none.
+void refuse_twice(const std::vector<std::string>& paths);
+
 /// "1 frame", "2 frames".
 template <std::integral Count>
 std::string counted(Count count, const std::string& what) {

@@ -104,6 +104,7 @@ struct Job {
   int total = 0;            // of its frames
   std::int64_t before = 0;  // frames of the scenes before it
   std::vector<std::string> notes;
+  bool interrupted = false;  // after its verdict
 };
 
 /// How the RTL is run with monitors; the model is built if it is not there.
@@ -173,6 +174,18 @@ std::vector<Job> open(const CosimCommand& o) {
   return jobs;
 }
 
+/// Takes away what an earlier run into the folder left of frames that this one has compared: a difference that is no
+/// more, or was another.
+void remove_old_evidence(const std::string& folder, const std::string& name, const cosim::Report& r) {
+  if (folder.empty()) return;
+  for (const cosim::FrameResult& f : r.each)
+    for (const char* end : {"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"}) {
+      const std::string path = (std::filesystem::path(folder) / fmt::format("{}_{:04}{}", name, f.frame, end)).string();
+      std::error_code ec;  // what cannot be removed was not ours
+      if (std::find(r.pictures.begin(), r.pictures.end(), path) == r.pictures.end()) std::filesystem::remove(path, ec);
+    }
+}
+
 /// Compares what the shard has of a scene; its report.
 Json compare(Job& job) {
   CosimCommand& o = job.o;
@@ -212,23 +225,35 @@ Json compare(Job& job) {
       [&](int i, const WordSink& sink) { return report ? report->frame(i, sink) : source.frame(i, sink); }, *golden,
       *rtl, options);
   progress.clear();
+  remove_old_evidence(o.out, source.name(), r);
   std::optional<cosim::Divergence> divergence;
   bool searched = false;
-  if (r.first_difference && !o.no_divergence) {
-    try {
-      divergence = find_divergence(job, progress, r.first_difference->frame);
-      searched = true;
-    } catch (const Error& e) {  // the verdict stands without it
-      progress.clear();
-      source.note(fmt::format("the stage that differs first was not found: {}", e.what()));
-    }
-  }
   std::string page;
-  if (report) {
-    const auto watch = [&] { return monitors(job, progress); };
-    // Where the monitors could not be had for the search, the page does without them too.
-    page = report->write(o.out, r, o.seed, divergence, searched ? watch : RunReport::Watch());
+  // The verdict stands whatever becomes of what is said about it.
+  try {
+    if (r.first_difference && !o.no_divergence) {
+      try {
+        divergence = find_divergence(job, progress, r.first_difference->frame);
+        searched = true;
+        if (divergence && !divergence->no_waveform.empty())
+          source.note(fmt::format("no waveform was written: {}", divergence->no_waveform));
+      } catch (const Error& e) {
+        progress.clear();
+        source.note(fmt::format("the stage that differs first was not found: {}", e.what()));
+      }
+    }
+    if (report) {
+      const auto watch = [&] { return monitors(job, progress); };
+      // Where the monitors could not be had for the search, the page does without them too.
+      page = report->write(o.out, r, o.seed, divergence, searched ? watch : RunReport::Watch());
+    }
+  } catch (const Interrupted&) {
+    job.interrupted = true;
+    source.note("interrupted after the verdict");
+  } catch (const std::exception& e) {
+    source.note(fmt::format("no report was written: {}", e.what()));
   }
+  progress.clear();
 
   Json j;
   j["same"] = r.same;
@@ -270,7 +295,8 @@ void print_difference(const Json& d) {
   if (!by.is_null()) {
     fmt::print("first divergence: {}\n", by["text"].get<std::string>());
     if (!d["waveform"].is_null())
-      fmt::print("waveform: {}; gtkwave {}\n", d["waveform"].get<std::string>(), by["save_file"].get<std::string>());
+      fmt::print("waveform: {}; gtkwave {}\n", d["waveform"].get<std::string>(),
+                 quoted(by["save_file"].get<std::string>()));
   } else if (d["searched"].get<bool>()) {
     fmt::print("no stage differs: look at the registers and the video port\n");
   }
@@ -296,7 +322,8 @@ void print_report(const Json& j, const std::string& who, const std::string& fold
 int run(const CosimCommand& o) {
   const OutFolder folder(o.out);
   check_json(o);
-  if (!o.ci.junit.empty() && o.ci.junit == o.json) throw Error(fmt::format("{}: is to be written twice", o.json));
+  refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit,
+                o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   std::vector<Job> jobs = open(o);
   const bool several = jobs.size() > 1;
   TempFiles files;
@@ -309,6 +336,7 @@ int run(const CosimCommand& o) {
     for (const std::string& note : job.source->notes())
       job.notes.push_back(fmt::format("{}: {}", job.source->name(), note));
     job.source.reset();  // its memory
+    if (job.interrupted && &job != &jobs.back()) throw Interrupted{};
   }
   junit.close();
   Json j = several ? all_scenes(reports) : reports.front();
@@ -332,6 +360,7 @@ int run(const CosimCommand& o) {
                j["total_frames"].get<std::uint64_t>(), counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
                counted(j["cycles"].get<std::uint64_t>(), "cycle"), o.seed);
   if (several && !json_only(o) && !page.empty()) fmt::print("report: {}\n", page);
+  if (jobs.back().interrupted) return kInterrupted;
   return same ? kSame : kDifferent;
 }
 

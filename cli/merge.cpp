@@ -157,7 +157,8 @@ int run(const MergeCommand& o) {
   for (const std::string& input : o.inputs)
     for (const std::string* output : {&o.json, &o.junit})
       if (*output == input) throw Error(fmt::format("{}: is one of those joined: it is not written over", input));
-  if (!o.junit.empty() && o.junit == o.json) throw Error(fmt::format("{}: is to be written twice", o.json));
+  refuse_twice({o.json == "-" ? "" : o.json, o.junit,
+                o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   TempFiles files;
   const std::vector<ShardFile> shards = read_shards(o.inputs);
   const std::size_t count = shards.front().scenes();

@@ -19,23 +19,6 @@ constexpr std::size_t kToldPixels = 8;
 /// No further one is begun after so many seconds.
 constexpr double kTellSeconds = 3;
 
-std::string quoted(const std::string& text) {
-  const auto plain = [](char c) {
-    return (std::isalnum(static_cast<unsigned char>(c)) != 0) ||
-           std::string_view("_./,:=+-@%").find(c) != std::string_view::npos;
-  };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
-  std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'')
-      out += "'\\''";
-    else
-      out += c;
-  }
-  return out + "'";
-}
-
-/// `inputs` stand for the positional arguments.
 std::string line_of(const CLI::App& command, const std::string& name, const std::vector<std::string>& inputs,
                     const std::function<bool(const CLI::Option&)>& keep) {
   std::string line = "kage " + name;

@@ -26,8 +26,10 @@ int number(const std::string& file, const Json& in, const char* key, int least, 
   return found->get<int>();
 }
 
-bool is_count(const Json& v) { return v.is_number_unsigned(); }
-bool is_real(const Json& v) { return v.is_number(); }
+bool is_whole(const Json& v) { return v.is_number_unsigned(); }
+/// No run counts so far, and sums over all shards that there can be do not wrap.
+bool is_count(const Json& v) { return is_whole(v) && v.get<std::uint64_t>() < std::uint64_t{1} << 43; }
+bool is_seconds(const Json& v) { return v.is_number() && v.get<double>() >= 0 && v.get<double>() < 1e9; }
 bool is_text(const Json& v) { return v.is_string(); }
 bool is_text_or_null(const Json& v) { return v.is_string() || v.is_null(); }
 bool is_object(const Json& v) { return v.is_object(); }
@@ -61,10 +63,11 @@ void check(const std::string& file, const Json& r) {
   const auto is_bool = [](const Json& v) { return v.is_boolean(); };
   need(file, r, {"same"}, is_bool);
   need(file, r,
-       {"frames", "width", "height", "pixels_compared", "spans", "span_pixels", "segments", "units", "cycles", "seed",
+       {"frames", "width", "height", "pixels_compared", "spans", "span_pixels", "segments", "units", "cycles",
         "total_frames", "first_frame", "frame_step"},
        is_count);
-  need(file, r, {"golden_seconds", "rtl_seconds", "build_seconds"}, is_real);
+  need(file, r, {"seed"}, is_whole);
+  need(file, r, {"golden_seconds", "rtl_seconds", "build_seconds"}, is_seconds);
   need(file, r, {"scene", "config_name", "again", "folder"}, is_text);
   need(file, r, {"report", "report_crc32"}, is_text_or_null);
   need(file, r, {"config", "options", "stalled"}, is_object);
@@ -73,7 +76,7 @@ void check(const std::string& file, const Json& r) {
   need(file, r["stalled"], {"input_starved", "output_blocked"}, is_count);
   need(file, r, {"degraded", "pictures", "notes", "versions"}, list_of(is_text));
   need(file, r, {"polyhedra"}, [](const Json& v) { return v.is_array() || v.is_null(); });
-  need(file, r, {"frame_seconds"}, list_of(is_real));
+  need(file, r, {"frame_seconds"}, list_of(is_seconds));
   need(file, r, {"each"}, list_of(is_object));
   for (const Json& frame : r["each"]) {
     need(file, frame, {"same"}, is_bool);

@@ -15,6 +15,14 @@
 namespace kage::cli {
 namespace {
 
+/// What pictures and lines of output are called by: a line break in a file's name would begin a line of its own.
+std::string plain_name(const std::filesystem::path& path) {
+  std::string name = path.stem().string();
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '_';
+  return name;
+}
+
 // Words of a file's frame that go on at a time.
 constexpr std::size_t kPieceWords = 4096;
 
@@ -63,7 +71,7 @@ void Source::open_stream(const Options& options) {
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
-  name_ = std::filesystem::path(options.input).stem().string();
+  name_ = plain_name(options.input);
   frames_ = stream_->frame_count();
   if (options.frames > frames_)
     throw Error(fmt::format("{}: --frames {}: the stream has {}", options.input, options.frames, frames_));
@@ -79,7 +87,7 @@ void Source::open_stream(const Options& options) {
 
 void Source::open_scene(const Options& options) {
   scene_.emplace(Scene::load(options.input, options.alpha));
-  name_ = std::filesystem::path(scene_->name()).stem().string();
+  name_ = plain_name(scene_->name());
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
   size_ = options.size;

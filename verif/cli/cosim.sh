@@ -60,4 +60,37 @@ expect 0 "$kage" stream edges --size 64x48 --frames 1 --out edges.kage
 printf 'MAX_WIDTH: 32\n' >narrow.yaml
 trouble SIZE "$kage" cosim edges.kage --config narrow.yaml --out narrow
 [ ! -e none ] || fail "a refused run leaves a folder"
+
+# The verdict stands whatever becomes of what is said about it: a waveform or a page that cannot be written is a note.
+mkdir -p blocked/courtyard_0000.fst blocked/report.html
+touch blocked/courtyard_0000.fst/x blocked/report.html/x
+expect 1 "$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out blocked --json blocked.json --junit blocked.xml
+json blocked.json 'j["same"] is False and j["report"] is None and j["first_difference"]["waveform"] is None'
+json blocked.json 'j["first_difference"]["stage"]=="pixel_banked" and [n for n in j["notes"] if "no waveform" in n] and [n for n in j["notes"] if "no report" in n]'
+grep -q '<failure' blocked.xml || fail "no JUnit where waveform and page could not be written"
+# So it does for who has waited long enough.
+"$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out cut --json cut.json >stdout 2>stderr &
+until [ -e cut/courtyard_0000_difference.png ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
+kill -INT $! 2>/dev/null
+rc=0
+wait $! || rc=$?
+[ $rc = 130 ] || [ $rc = 1 ] || fail "interrupted after the verdict: exit $rc"
+grep -q '^different: ' stdout || fail "interrupted after the verdict: it is not told"
+json cut.json 'j["same"] is False'
+
+# What an earlier run found wrong is gone once it is right.
+expect 1 "$kage" cosim courtyard --size 64x48 --frames 2 --fault wrong_compare --out again
+[ -s again/courtyard_0000.fst ] && [ -s again/courtyard_0000_actual.png ] || fail "no evidence of a difference"
+touch again/courtyard_0007_actual.png
+expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --out again
+[ "$(cd again && echo *)" = "courtyard_0000.png courtyard_0001.png courtyard_0007_actual.png report.html" ] ||
+  fail "left of an earlier difference: $(ls again)"
+
+# Two outputs are two files, by whatever name; a name makes no line of its own.
+trouble "is to be written twice" "$kage" cosim courtyard --size 64x48 --frames 1 --json x.json --junit ./x.json
+trouble "is to be written twice" "$kage" cosim courtyard --size 64x48 --frames 1 --out o --junit o/../o/report.html
+expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --out plain.kage
+mv plain.kage $'two\n::error::lines.kage'
+expect 1 "$kage" cosim $'two\n::error::lines.kage' --fault wrong_compare --annotate github --out lines
+[ "$(grep -c '^::error' stdout)" = 1 ] || fail "a file's name makes annotations: $(cat stdout)"
 done_testing

@@ -177,8 +177,12 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   if (found.part) describe_part(d, config, *found.part);
   d.what = describe(d.stage);
   if (!options.waveform.empty()) {
-    d.save_file = write_waveform(from, found.frame, feed, config, options, found.clock).string();
-    d.waveform = options.waveform.string();
+    try {
+      d.save_file = write_waveform(from, found.frame, feed, config, options, found.clock).string();
+      d.waveform = options.waveform.string();
+    } catch (const Error& e) {  // what was found stands without it
+      d.no_waveform = e.what();
+    }
   }
   return d;
 }

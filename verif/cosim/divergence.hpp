@@ -35,6 +35,7 @@ struct Divergence {
   std::string waits;        ///< of a core that hangs: who waits for whom
   std::string waveform;     ///< the FST file, empty if none was written
   std::string save_file;    ///< the GTKWave save file beside it
+  std::string no_waveform;  ///< why none was written, though one was asked for
 };
 
 struct DivergenceOptions {

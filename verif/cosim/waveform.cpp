@@ -5,12 +5,17 @@
 
 #include <initializer_list>
 #include <string>
+#include <system_error>
 
 #include "cosim/replay.hpp"
 #include "image/temp_file.hpp"
+#include "kage/error.hpp"
 
 namespace kage::cosim {
 namespace {
+
+// Far more than a waveform of some hundred clocks takes while it is made.
+constexpr std::uintmax_t kRoom = std::uintmax_t{32} << 20;
 
 // The scopes and nets that GTKWave opens with.
 std::string save_file(const std::filesystem::path& wave, const Config& config, std::uint64_t clock) {
@@ -53,6 +58,12 @@ void record(const std::filesystem::path& path, int from, int frame, const Feed& 
 
 std::filesystem::path write_waveform(int from, int frame, const Feed& feed, const Config& config,
                                      const DivergenceOptions& options, std::uint64_t clock) {
+  // Verilator's writer maps its files into memory: on a full disk that is no error but a signal.
+  std::error_code ec;
+  const auto folder = std::filesystem::absolute(options.waveform).parent_path();
+  const std::filesystem::space_info space = std::filesystem::space(folder, ec);
+  if (!ec && space.available < kRoom)
+    throw Error(fmt::format("{}: less than {} MiB are free there", folder.string(), kRoom >> 20));
   TempFiles files;
   record(files.add(options.waveform), from, frame, feed, config, options, clock);
   auto path = options.waveform;
