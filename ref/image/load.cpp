@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "image/picture.hpp"
 #include "image/png_chunks.hpp"
@@ -124,7 +125,10 @@ bool is_float(Sample sample) { return sample >= Sample::kHalf; }
 
 std::string channel_names(const Picture& picture) {
   std::vector<std::string> names;
-  for (const Picture::Channel& c : picture.channels) names.push_back(c.name);
+  for (const Picture::Channel& c : picture.channels)
+    names.push_back(c.name.find_first_of(",\"\n\r") == std::string::npos && !c.name.empty()
+                        ? c.name
+                        : nlohmann::json(c.name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
   return fmt::format("{}", fmt::join(names, ","));
 }
 
@@ -144,8 +148,15 @@ std::string unlike(const Picture& a, const Picture& b) {
     return both("sizes are", fmt::format("{}x{}", a.width, a.height), fmt::format("{}x{}", b.width, b.height));
   if (a.x != b.x || a.y != b.y)
     return both("origins are", fmt::format("{},{}", a.x, a.y), fmt::format("{},{}", b.x, b.y));
-  if (channel_names(a) != channel_names(b)) return both("channels are", channel_names(a), channel_names(b));
-  if (sample_names(a) != sample_names(b)) return both("pixel types are", sample_names(a), sample_names(b));
+  // Channel by channel: names may hold what the words join them by, and types that are all alike are said once.
+  const auto alike = [&](const auto& part) {
+    return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                      [&](const Picture::Channel& x, const Picture::Channel& y) { return part(x) == part(y); });
+  };
+  if (!alike([](const Picture::Channel& c) -> const std::string& { return c.name; }))
+    return both("channels are", channel_names(a), channel_names(b));
+  if (!alike([](const Picture::Channel& c) { return c.sample; }))
+    return both("pixel types are", sample_names(a), sample_names(b));
   for (std::size_t i = 0; i < a.notes.size(); ++i)
     if (a.notes[i] != b.notes[i] && a.notes[i].second != kNoPlace && b.notes[i].second != kNoPlace)
       return both(a.notes[i].first + " is", a.notes[i].second, b.notes[i].second);
