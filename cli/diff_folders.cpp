@@ -163,8 +163,6 @@ int diff_two_folders(const DiffCommand& o) {
 }
 
 int bless_folder(const DiffCommand& o) {
-  std::error_code ec;
-  if (fs::equivalent(o.a, o.b, ec)) throw Error(fmt::format("{} and {}: are one folder", o.a, o.b));
   Progress progress;
   std::optional<QuietStderr> quiet(std::in_place);
   const std::vector<BlessEntry> plan = plan_bless(o.a, o.b, [&](const std::string& name) {

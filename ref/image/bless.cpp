@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 
 #include "image/temp_file.hpp"
@@ -38,6 +39,27 @@ class MadeFolders {
   std::vector<fs::path> made_;  // the innermost first
 };
 
+bool lies_in(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+/// Refuses what would make --bless write to NEW, or to what is not in REFERENCE: folders that hold each other, and links.
+void check_apart(const fs::path& fresh, const fs::path& reference, const std::vector<FolderEntry>& entries) {
+  const fs::path from = fs::canonical(fresh);
+  const fs::path to = fs::canonical(reference);
+  if (from == to) throw Error(fmt::format("{} and {}: are one folder", fresh.string(), reference.string()));
+  if (lies_in(from, to)) throw Error(fmt::format("{}: lies in {}", fresh.string(), reference.string()));
+  if (lies_in(to, from)) throw Error(fmt::format("{}: lies in {}", reference.string(), fresh.string()));
+  for (const FolderEntry& entry : entries) {
+    std::error_code ec;
+    const fs::path target = reference / entry.name;
+    if (fs::is_symlink(target, ec))
+      throw Error(fmt::format("{}: is a link, and what it leads to is not written over", target.string()));
+    if (entry.in_a && lies_in(fs::weakly_canonical(fresh / entry.name, ec), to))
+      throw Error(fmt::format("{}: leads into {}", (fresh / entry.name).string(), reference.string()));
+  }
+}
+
 /// What is new must be sound: a NaN in a reference would fail every comparison with it from then on.
 void check_fresh(const fs::path& path) {
   const DiffResult self = diff_files(path, path);
@@ -51,6 +73,7 @@ void check_fresh(const fs::path& path) {
 std::vector<BlessEntry> plan_bless(const fs::path& fresh, const fs::path& reference,
                                    const std::function<void(const std::string& name)>& each) {
   const FolderPair pair = pair_folders(fresh, reference);
+  check_apart(fresh, reference, pair.pictures);
   std::vector<BlessEntry> plan;
   bool any = false;
   for (const FolderEntry& entry : pair.pictures) {

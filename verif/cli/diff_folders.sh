@@ -89,6 +89,25 @@ trouble missing "$kage" diff --bless fresh missing
 [ ! -e missing ] || fail "a mistyped reference is made"
 trouble "one folder" "$kage" diff --bless fresh ./fresh
 trouble empty "$kage" diff --bless --prune empty reference
+
+# Neither folder in the other, by whatever name; nothing is written through links.
+mkdir -p nest/new && cp fresh/glass_0001.png nest/new/a.png && cp fresh/glass_0002.png nest && ln -s nest alias
+for pair in "nest/new nest" "nest nest/new" "alias/new nest" "nest/new alias/" "nest nest/./new/../new"; do
+  # shellcheck disable=SC2086
+  trouble "lies in" "$kage" diff --bless --prune $pair
+done
+[ "$(find nest -type f | sort | xargs)" = "nest/glass_0002.png nest/new/a.png" ] || fail "nested folders were changed: $(find nest)"
+mkdir linked taken && cp fresh/glass_0001.png outside.png && cp outside.png taken/y.png && cp outside.png taken/x.png
+cp fresh/glass_0002.png linked/y.png
+sha256sum outside.png linked/y.png >before
+for target in y.png ../outside.png nowhere.png; do
+  ln -sf $target linked/x.png
+  trouble linked/x.png "$kage" diff --bless taken linked
+  trouble linked/x.png "$kage" diff --bless --prune --dry-run taken linked
+  sha256sum -c --quiet before || fail "a picture was written by way of a link"
+done
+rm linked/x.png taken/x.png && ln -s ../linked/y.png taken/x.png
+trouble "leads into" "$kage" diff --bless taken linked
 [ -e reference/glass_0000.png ] || fail "an empty folder pruned the reference"
 [ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
 done_testing

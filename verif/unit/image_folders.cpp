@@ -99,6 +99,24 @@ TEST_CASE("blessing copies what is new or differs, and touches nothing else") {
   CHECK(contents(reference) == expected);
 }
 
+TEST_CASE("folders that hold each other and links in the reference are refused") {
+  const TempFolder folder("image-folders");
+  const fs::path outer = folder.path / "outer";
+  const fs::path inner = outer / "inner";
+  picture(outer / "a.png", 1);
+  picture(inner / "a.png", 2);
+  const auto before = contents(folder.path);
+  CHECK_THROWS_WITH(plan_bless(outer, inner), Catch::Matchers::ContainsSubstring("lies in"));
+  CHECK_THROWS_WITH(plan_bless(inner, outer), Catch::Matchers::ContainsSubstring("lies in"));
+  CHECK_THROWS_WITH(plan_bless(inner, inner / "."), Catch::Matchers::ContainsSubstring("one folder"));
+  // Two names of which one is the beginning of the other are apart.
+  picture(folder.path / "outer2/a.png", 1);
+  CHECK(whats(plan_bless(inner, folder.path / "outer2")) == std::map<std::string, What>{{"a.png", What::changed}});
+  fs::create_symlink("../outer/a.png", folder.path / "outer2/b.png");
+  CHECK_THROWS_WITH(plan_bless(inner, folder.path / "outer2"), Catch::Matchers::ContainsSubstring("b.png: is a link"));
+  for (const auto& [name, bytes] : before) CHECK(bytes_of(folder.path / name) == bytes);
+}
+
 TEST_CASE("a NaN, a broken or no picture is never blessed, and nothing is changed then") {
   const TempFolder folder("image-folders");
   const fs::path fresh = folder.path / "fresh";

@@ -133,8 +133,8 @@ struct BlessEntry {
 };
 
 /// Compares all pictures of `fresh` with those of the folder `reference`, exactly, and changes nothing. A reference
-/// that cannot be read counts as changed. Throws Error if a picture of `fresh` cannot be read or holds a NaN, or if
-/// there is none. `each` is called before each picture; what it throws goes through.
+/// that cannot be read counts as changed. Throws Error if a picture of `fresh` cannot be read or holds a NaN, if there
+/// is none, if one folder lies in the other, or if a picture of `reference` is a link. `each` is called before each picture; what it throws goes through.
 std::vector<BlessEntry> plan_bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
                                    const std::function<void(const std::string& name)>& each = {});
 
