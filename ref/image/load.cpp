@@ -13,6 +13,7 @@
 #include "image/png_chunks.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
+#include "number/regular_file.hpp"
 
 namespace kage {
 namespace {
@@ -164,11 +165,7 @@ std::string unlike(const Picture& a, const Picture& b) {
 }
 
 Picture load_picture(const std::filesystem::path& path) {
-  std::error_code ec;
-  const auto status = std::filesystem::status(path, ec);
-  if (!std::filesystem::exists(status)) fail(path, "no such file");
-  if (std::filesystem::is_directory(status)) fail(path, "is a directory");
-
+  check_regular(path);
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
   const auto input = OIIO::ImageInput::open(path.string(), &hints);

@@ -152,5 +152,10 @@ for option in --prune --dry-run; do trouble $option "$kage" diff a.png b.png $op
 trouble "no folder" "$kage" diff --bless a.png b.png
 mkfifo pipe.png
 trouble "not a file" "$kage" diff a.png b.png --out pipe.png
+for bad in pipe.png /dev/zero /dev/null; do
+  trouble "$bad: is not a regular file" timeout 20 "$kage" diff $bad a.png
+  trouble "$bad: is not a regular file" timeout 20 "$kage" diff a.png $bad
+  trouble "$bad: is not a regular file" timeout 20 "$kage" diff a.png b.png --mask $bad
+done
 [ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
 done_testing

@@ -55,6 +55,10 @@ mkdir broken && cp exact/* broken && head -c 90 exact/glass_0002.png >broken/gla
 trouble broken/glass_0002.png "$kage" diff centroid broken --out views2 --junit k.xml
 [ ! -e views2 ] && [ ! -e k.xml ] || fail "trouble left files"
 
+mkdir pipes && mkfifo pipes/glass_0000.png
+trouble "pipes/glass_0000.png: is not a regular file" timeout 20 "$kage" diff exact pipes
+trouble "pipes/glass_0000.png: is not a regular file" timeout 20 "$kage" diff --bless pipes exact
+
 # --bless. A dry run changes nothing; NaN changes nothing; what is the same stays untouched.
 cp -r exact reference
 cp -r centroid fresh

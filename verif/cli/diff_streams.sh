@@ -77,6 +77,9 @@ trouble bad.kage "$kage" diff bad.kage one.kage
 head -c 4000 exact.kage >cut.kage
 trouble cut.kage "$kage" diff exact.kage cut.kage
 trouble missing.kage "$kage" diff exact.kage missing.kage
+mkfifo pipe.kage
+trouble "pipe.kage: is not a regular file" timeout 20 "$kage" diff exact.kage pipe.kage
+trouble "pipe.kage: is not a regular file" timeout 20 "$kage" info pipe.kage
 trouble "is a stream" "$kage" diff exact.kage "$source/docs/images/penumbra.png"
 trouble "no folder" "$kage" diff --bless exact.kage one.kage
 [ ! -e k.xml ] || fail "trouble left files"
