@@ -149,16 +149,15 @@ int diff_two_folders(const DiffCommand& o) {
   }
   progress.clear();
   junit.close();
-  write_json(o, to_json(totals, pair), files);
   const bool same = totals.different == 0;
-  if (json_only(o)) return same ? kSame : kDifferent;
-  fmt::print("{}{}: {} compared", lines, same ? "same" : "different", counted(totals.pictures, "picture"));
-  if (!same) fmt::print(", {} {}", totals.different, totals.different == 1 ? "differs" : "differ");
-  if (totals.only_a != 0) fmt::print(", {} only in {}", totals.only_a, o.a);
-  if (totals.only_b != 0) fmt::print(", {} only in {}", totals.only_b, o.b);
-  fmt::print("\n{}", other_files(pair.others));
+  lines += fmt::format("{}: {} compared", same ? "same" : "different", counted(totals.pictures, "picture"));
+  if (!same) lines += fmt::format(", {} {}", totals.different, totals.different == 1 ? "differs" : "differ");
+  if (totals.only_a != 0) lines += fmt::format(", {} only in {}", totals.only_a, o.a);
+  if (totals.only_b != 0) lines += fmt::format(", {} only in {}", totals.only_b, o.b);
+  lines += "\n" + other_files(pair.others);
   if (!o.out.empty() && totals.different > totals.only_a + totals.only_b)
-    fmt::print("heat maps and flip pictures: {}\n", o.out);
+    lines += fmt::format("heat maps and flip pictures: {}\n", o.out);
+  finish(o, to_json(totals, pair), files, lines);
   return same ? kSame : kDifferent;
 }
 
@@ -173,8 +172,6 @@ int bless_folder(const DiffCommand& o) {
   });
   quiet.reset();
   progress.clear();
-  if (!o.dry_run) bless(o.a, o.b, plan, o.prune);
-
   using What = BlessEntry::What;
   std::uint64_t count[4] = {};
   Json names[4] = {Json::array(), Json::array(), Json::array(), Json::array()};
@@ -200,11 +197,17 @@ int bless_folder(const DiffCommand& o) {
   j["added"] = list(What::added);
   j["missing"] = o.prune ? Json::array() : list(What::missing);
   j["removed"] = o.prune ? list(What::missing) : Json::array();
-  write_json(o, j);
-  if (json_only(o)) return same ? kSame : kDifferent;
-  fmt::print("{}{}{}: {} the same, {} changed, {} added, {} {}\n", lines, o.b, o.dry_run ? " (nothing is done)" : "",
-             of(What::same), of(What::changed), of(What::added), of(What::missing), o.prune ? "removed" : "missing");
-  if (of(What::missing) != 0 && !o.prune) fmt::print("what is missing in {} stays; --prune removes it\n", o.a);
+  lines += fmt::format("{}{}: {} the same, {} changed, {} added, {} {}\n", o.b, o.dry_run ? " (nothing is done)" : "",
+                       of(What::same), of(What::changed), of(What::added), of(What::missing),
+                       o.prune ? "removed" : "missing");
+  if (of(What::missing) != 0 && !o.prune)
+    lines += fmt::format("what is missing in {} stays; --prune removes it\n", o.a);
+  TempFiles files;
+  const auto say = [&] { finish(o, j, files, lines); };
+  if (o.dry_run)
+    say();
+  else
+    bless(o.a, o.b, plan, o.prune, say);
   return same ? kSame : kDifferent;
 }
 

@@ -98,8 +98,7 @@ int diff_two_streams(const DiffCommand& o) {
   else
     junit.fail("sections", 0, d.reason);
   junit.close();
-  write_json(o, to_json(d), files);
-  if (!json_only(o)) fmt::print("{}", describe(d));
+  finish(o, to_json(d), files, describe(d));
   return d.same ? kSame : kDifferent;
 }
 

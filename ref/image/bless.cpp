@@ -43,7 +43,8 @@ bool lies_in(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-/// Refuses what would make --bless write to NEW, or to what is not in REFERENCE: folders that hold each other, and links.
+/// Refuses what would make --bless write to NEW, or to what is not in REFERENCE: folders that hold each other, and
+/// links.
 void check_apart(const fs::path& fresh, const fs::path& reference, const std::vector<FolderEntry>& entries) {
   const fs::path from = fs::canonical(fresh);
   const fs::path to = fs::canonical(reference);
@@ -99,26 +100,23 @@ std::vector<BlessEntry> plan_bless(const fs::path& fresh, const fs::path& refere
   return plan;
 }
 
-void bless(const fs::path& fresh, const fs::path& reference, const std::vector<BlessEntry>& plan, bool prune) {
+void bless(const fs::path& fresh, const fs::path& reference, const std::vector<BlessEntry>& plan, bool prune,
+           const std::function<void()>& done) {
   MadeFolders folders;
   TempFiles files;
   for (const BlessEntry& entry : plan) {
-    if (entry.what != What::changed && entry.what != What::added) continue;
     const fs::path target = reference / entry.name;
+    if (entry.what == What::missing && prune) files.remove(target);
+    if (entry.what != What::changed && entry.what != What::added) continue;
     folders.make(target.parent_path());
     std::error_code ec;
     if (!fs::copy_file(fresh / entry.name, files.add(target), ec) || ec)
       throw Error(fmt::format("{}: cannot be written: {}", target.string(), ec.message()));
   }
-  files.commit();
+  files.place();
+  if (done) done();
+  files.settle();
   folders.keep();
-  if (!prune) return;
-  for (const BlessEntry& entry : plan) {
-    if (entry.what != What::missing) continue;
-    std::error_code ec;
-    if (!fs::remove(reference / entry.name, ec) || ec)
-      throw Error(fmt::format("{}: cannot be removed: {}", (reference / entry.name).string(), ec.message()));
-  }
 }
 
 }  // namespace kage

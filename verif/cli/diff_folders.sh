@@ -113,5 +113,18 @@ done
 rm linked/x.png taken/x.png && ln -s ../linked/y.png taken/x.png
 trouble "leads into" "$kage" diff --bless taken linked
 [ -e reference/glass_0000.png ] || fail "an empty folder pruned the reference"
+# Standard output fails when all is in place: the reference is as it was, and so are other files.
+for json in "--json -" "" "--json s2.json"; do
+  rm -rf full && cp -r reference full && cp fresh/glass_0002.png full/glass_0001.png && cp fresh/glass_0001.png full/more.png
+  find full -type f -exec sha256sum {} + | sort >before
+  # shellcheck disable=SC2016,SC2086
+  trouble "standard output" sh -c 'exec "$@" >/dev/full' sh "$kage" diff --bless --prune fresh full $json
+  find full -type f -exec sha256sum {} + | sort >after
+  cmp before after || fail "the reference has changed although standard output failed ($json)"
+done
+[ ! -e s2.json ] || fail "trouble left --json's file"
+# shellcheck disable=SC2016
+trouble "standard output" sh -c 'exec "$@" >/dev/full' sh "$kage" diff exact centroid --out views3 --junit j3.xml
+[ ! -e views3 ] && [ ! -e j3.xml ] || fail "trouble left files"
 [ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
 done_testing

@@ -146,4 +146,37 @@ TEST_CASE("a NaN, a broken or no picture is never blessed, and nothing is change
   CHECK_FALSE(fs::exists(reference / "sub"));
 }
 
+TEST_CASE("what fails when some files have their names already puts all back") {
+  const TempFolder folder("image-folders");
+  const fs::path fresh = folder.path / "fresh";
+  const fs::path reference = folder.path / "reference";
+  picture(fresh / "a.png", 2);
+  picture(fresh / "new/n.png", 2);
+  picture(fresh / "z.png", 2);
+  picture(reference / "a.png", 1);
+  picture(reference / "old.png", 1);
+  picture(reference / "z.png", 1);
+  const auto before = contents(reference);
+  auto plan = plan_bless(fresh, reference);
+  std::map<std::string, std::string> seen;
+  const auto stop = [&] {
+    seen = contents(reference);
+    throw Error("stop");
+  };
+  CHECK_THROWS_WITH(bless(fresh, reference, plan, true, stop), "stop");
+  CHECK(seen.at("a.png") == bytes_of(fresh / "a.png"));
+  CHECK(seen.count("new/n.png") == 1);
+  CHECK(seen.count("old.png") == 0);
+  CHECK(contents(reference) == before);
+  CHECK_FALSE(fs::exists(reference / "new"));
+  // The last of them cannot be removed, as it is gone.
+  plan.push_back({"gone.png", What::missing, ""});
+  CHECK_THROWS_WITH(bless(fresh, reference, plan, true), Catch::Matchers::ContainsSubstring("gone.png"));
+  CHECK(contents(reference) == before);
+  CHECK_FALSE(fs::exists(reference / "new"));
+  plan.pop_back();
+  bless(fresh, reference, plan, true);
+  CHECK(contents(reference) == contents(fresh));
+}
+
 }  // namespace kage::verif

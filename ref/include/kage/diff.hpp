@@ -77,7 +77,8 @@ struct DiffResult {
   std::vector<Region> regions;           ///< of differing pixels, most pixels first, kMaxRegions at most
   std::uint64_t region_count = 0;        ///< all of them
   // Diagnosis only: no verdict ever depends on these.
-  std::optional<double> psnr;  ///< dB over all compared values, peak the type's largest or 1.0; nothing if not finite
+  std::optional<double> psnr;  ///< dB over all compared values, peak the type's largest or 1.0; nothing if all are
+                               ///< equal, or a compared float is not in 0 .. 1
   std::optional<std::uint64_t> perceptual_pixels;  ///< that OpenImageIO's compare_Yee tells apart
 };
 
@@ -134,13 +135,15 @@ struct BlessEntry {
 
 /// Compares all pictures of `fresh` with those of the folder `reference`, exactly, and changes nothing. A reference
 /// that cannot be read counts as changed. Throws Error if a picture of `fresh` cannot be read or holds a NaN, if there
-/// is none, if one folder lies in the other, or if a picture of `reference` is a link. `each` is called before each picture; what it throws goes through.
+/// is none, if one folder lies in the other, or if a picture of `reference` is a link. `each` is called before each
+/// picture; what it throws goes through.
 std::vector<BlessEntry> plan_bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
                                    const std::function<void(const std::string& name)>& each = {});
 
 /// Does it: copies what is `changed` or `added` over, byte by byte, and with `prune` removes what is `missing`. Files
-/// that are `same` are not touched. All copies are written under other names before the first one gets its own.
+/// that are `same` are not touched. All copies are written under other names before the first one gets its own. Where
+/// that fails half-way, or `done` throws, which is called once everything is in place, all is put back as it was.
 void bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
-           const std::vector<BlessEntry>& plan, bool prune);
+           const std::vector<BlessEntry>& plan, bool prune, const std::function<void()>& done = {});
 
 }  // namespace kage
