@@ -216,6 +216,12 @@ TEST_CASE("what a file says of its numbers is compared: types, channels, colour 
   ImageSpec coloured = exr;
   coloured.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), primaries.data());
   unlike(at_zero, file(".exr", coloured), "chromaticity");
+  ImageSpec bright = exr;
+  bright.attribute("whiteLuminance", 100.0F);
+  unlike(at_zero, file(".exr", bright), "white luminance");
+  ImageSpec turned = plain;
+  turned.attribute("Orientation", 6);
+  unlike(file(".tif", plain), file(".tif", turned), "orientation");
 }
 
 TEST_CASE("alpha is compared unless it is to be ignored; masks go by what is not alpha") {
