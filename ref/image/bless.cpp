@@ -7,12 +7,14 @@
 #include "image/temp_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
+#include "kage/stream_diff.hpp"
 
 namespace kage {
 namespace {
 
 namespace fs = std::filesystem;
 using What = BlessEntry::What;
+using Sort = FolderEntry::Sort;
 
 /// Folders that are made for new pictures, and unmade unless keep() says that there are pictures in them.
 class MadeFolders {
@@ -54,15 +56,27 @@ void check_apart(const fs::path& fresh, const fs::path& reference, const std::ve
   for (const FolderEntry& entry : entries) {
     std::error_code ec;
     const fs::path target = reference / entry.name;
-    if (fs::is_symlink(target, ec))
+    const bool touched = entry.in_a || entry.sort != Sort::other;
+    if (touched && fs::is_symlink(target, ec))
       throw Error(fmt::format("{}: is a link, and what it leads to is not written over", target.string()));
     if (entry.in_a && lies_in(fs::weakly_canonical(fresh / entry.name, ec), to))
       throw Error(fmt::format("{}: leads into {}", (fresh / entry.name).string(), reference.string()));
   }
 }
 
+/// Why the two are not the same; empty if they are.
+std::string reason_of(const fs::path& a, const fs::path& b, Sort sort) {
+  if (sort == Sort::picture) return diff_files(a, b).reason;
+  if (sort == Sort::stream) return diff_streams(StreamFile(a), StreamFile(b)).reason;
+  return diff_bytes(a, b);
+}
+
 /// What is new must be sound: a NaN in a reference would fail every comparison with it from then on.
-void check_fresh(const fs::path& path) {
+void check_fresh(const fs::path& path, Sort sort) {
+  if (sort != Sort::picture) {
+    (void)reason_of(path, path, sort);  // reads it to the end
+    return;
+  }
   const DiffResult self = diff_files(path, path);
   if (self.nan_pixels != 0)
     throw Error(fmt::format("{}: {}: a picture with a NaN is never the same as a reference, so it cannot become one",
@@ -72,31 +86,31 @@ void check_fresh(const fs::path& path) {
 }  // namespace
 
 std::vector<BlessEntry> plan_bless(const fs::path& fresh, const fs::path& reference,
-                                   const std::function<void(const std::string& name)>& each) {
-  const FolderPair pair = pair_folders(fresh, reference);
-  check_apart(fresh, reference, pair.pictures);
+                                   const std::function<void(const std::string& name)>& each,
+                                   const std::vector<std::string>& exclude) {
+  const FolderPair pair = pair_folders(fresh, reference, exclude);
+  check_apart(fresh, reference, pair.files);
   std::vector<BlessEntry> plan;
   bool any = false;
-  for (const FolderEntry& entry : pair.pictures) {
+  for (const FolderEntry& entry : pair.files) {
     if (each) each(entry.name);
-    BlessEntry& planned = plan.emplace_back(BlessEntry{entry.name, What::missing, ""});
+    BlessEntry& planned = plan.emplace_back(BlessEntry{entry.name, What::missing, "", entry.sort});
     if (!entry.in_a) continue;
     any = true;
-    check_fresh(fresh / entry.name);
+    check_fresh(fresh / entry.name, entry.sort);
     if (!entry.in_b) {
       planned.what = What::added;
       continue;
     }
     try {
-      const DiffResult r = diff_files(fresh / entry.name, reference / entry.name);
-      planned.what = r.same ? What::same : What::changed;
-      planned.reason = r.reason;
+      planned.reason = reason_of(fresh / entry.name, reference / entry.name, entry.sort);
+      planned.what = planned.reason.empty() ? What::same : What::changed;
     } catch (const Error& e) {
       planned.what = What::changed;
       planned.reason = e.what();
     }
   }
-  if (!any) throw Error(fmt::format("{}: holds no picture to take over", fresh.string()));
+  if (!any) throw Error(fmt::format("{}: holds no file to take over", fresh.string()));
   return plan;
 }
 
@@ -106,7 +120,7 @@ void bless(const fs::path& fresh, const fs::path& reference, const std::vector<B
   TempFiles files;
   for (const BlessEntry& entry : plan) {
     const fs::path target = reference / entry.name;
-    if (entry.what == What::missing && prune) files.remove(target);
+    if (prune && entry.prunable()) files.remove(target);
     if (entry.what != What::changed && entry.what != What::added) continue;
     folders.make(target.parent_path());
     std::error_code ec;
