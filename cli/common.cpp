@@ -203,14 +203,22 @@ void check_json(const Options& options) {
   write_text(file, options.json, "");
 }
 
-void write_json(const Options& options, const Json& value, TempFiles& files) {
-  const std::string text = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (!options.json.empty() && !json_only(options)) write_text(files, options.json, text);
-  files.commit();
-  if (json_only(options) &&
-      (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0))
-    throw Error("standard output: cannot be written");
+void finish(const Options& options, const Json& value, TempFiles& files, const std::string& text) {
+  const std::string json = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (!options.json.empty() && !json_only(options)) write_text(files, options.json, json);
+  files.place();
+  const std::string& said = json_only(options) ? json : text;
+  if (!said.empty()) {
+    // A reader that has gone would end the program here, with files in place that nobody takes back.
+    void (*const before)(int) = std::signal(SIGPIPE, SIG_IGN);
+    const bool whole = std::fwrite(said.data(), 1, said.size(), stdout) == said.size() && std::fflush(stdout) == 0;
+    (void)std::signal(SIGPIPE, before);
+    if (!whole) throw Error("standard output: cannot be written");
+  }
+  files.settle();
 }
+
+void write_json(const Options& options, const Json& value, TempFiles& files) { finish(options, value, files, ""); }
 
 void write_json(const Options& options, const Json& value) {
   TempFiles files;

@@ -100,7 +100,11 @@ bool json_only(const Options& options);
 /// Throws Error if what --json names cannot be written: before the work, not after it.
 void check_json(const Options& options);
 
-/// Writes `value` where --json says, if it was given, and gives all of `files` their names: all appear or none.
+/// Ends a run: writes `value` where --json says, if it was given, gives all of `files` their names, and prints `text`
+/// unless JSON has standard output. All appear or none: if standard output fails, files are as they were.
+void finish(const Options& options, const Json& value, TempFiles& files, const std::string& text);
+
+/// The same for a run that prints on its own.
 void write_json(const Options& options, const Json& value, TempFiles& files);
 void write_json(const Options& options, const Json& value);
 

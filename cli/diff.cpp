@@ -58,9 +58,10 @@ int run(const DiffCommand& o) {
   if (sort == Sort::stream) {
     refuse(o, "streams, which are compared exactly",
            {"--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--mask", "--ignore-alpha",
-            "--perceptual", "--out", "--flip"});
+            "--perceptual", "--out", "--flip", "--exclude"});
     return diff_two_streams(o);
   }
+  if (sort != Sort::folder) refuse(o, "two files", {"--exclude"});
   if (sort == Sort::folder) {
     refuse(o, "folders: --out FOLDER writes flip pictures too", {"--flip"});
     return diff_two_folders(o);
@@ -131,14 +132,14 @@ void add_diff(CLI::App& app, Action& action) {
                   "  kage diff a.png b.png\n"
                   "  kage diff a.png b.png --lsb 1 --max-percent 0.01 --out heat.png --flip flip.png --json -\n"
                   "  kage diff a.exr b.exr --ulp 4 --region 64x48+10+20 --ignore-alpha\n"
-                  "  kage diff reference/ out/ --out differences/ --junit diff.xml\n"
+                  "  kage diff reference/ out/ --out differences/ --junit diff.xml --exclude '*.fst'\n"
                   "  kage diff old.kage new.kage\n"
                   "  kage diff --bless --dry-run out/ reference/\n"
                   "  kage diff --bless out/ reference/\n"
                   "No option tolerates a NaN on either side, another size, channels, pixel type or colour space, or a\n"
-                  "picture that one folder lacks. docs/diff.md says what each option means.\n"
+                  "file that one folder lacks. docs/diff.md says what each option means.\n"
                   "Exit codes: 0 same, 1 different, 2 trouble. With --bless: 0 if B is like A now, 1 if it still\n"
-                  "holds pictures that A lacks (or, with --dry-run, would be changed), 2 trouble: B is as it was.");
+                  "holds files that A lacks (or, with --dry-run, would be changed), 2 trouble: B is as it was.");
   const auto o = std::make_shared<DiffCommand>();
   c->add_option("A", o->a,
                 "a picture (PNG, EXR or any other that OpenImageIO reads), a folder of them, or a stream file")
@@ -155,9 +156,12 @@ void add_diff(CLI::App& app, Action& action) {
   c->add_option("--flip", o->flip, "write a picture that shows A and B in turn, as animated PNG")->type_name("FILE");
   c->add_option("--junit", o->junit, "write JUnit XML: a test case for each picture, or each frame of a stream")
       ->type_name("FILE");
+  c->add_option("--exclude", o->exclude, "folders: leave out files whose name matches, as '*.fst'; may be repeated")
+      ->type_name("GLOB")
+      ->allow_extra_args(false);
   c->add_flag("--bless", o->bless,
-              "make folder B like folder A: copy pictures that are new or differ, leave those that are the same");
-  c->add_flag("--prune", o->prune, "with --bless: remove pictures that A lacks from B");
+              "make folder B like folder A: copy files that are new or differ, leave those that are the same");
+  c->add_flag("--prune", o->prune, "with --bless: remove pictures and streams that A lacks from B");
   c->add_flag("--dry-run", o->dry_run, "with --bless: only say what would be done");
   option_json(*c, *o);
   c->callback([o, c, &action] {

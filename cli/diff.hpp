@@ -20,6 +20,7 @@ struct DiffCommand : Options {
   std::string mask;
   std::string flip;
   std::string junit;
+  std::vector<std::string> exclude;  ///< patterns of names in folders
   bool bless = false;
   bool prune = false;
   bool dry_run = false;
@@ -37,6 +38,9 @@ void check_outputs(const DiffCommand& o);
 /// Compares two files as the options say, with libraries' noise off standard error.
 DiffResult compare_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& limits,
                          DiffViews* views);
+
+/// Two stream files: whether they are the same, and the lines that say so.
+std::pair<bool, std::string> compare_streams(const std::string& a, const std::string& b);
 
 /// The outcome in one line, without files' names.
 std::string describe(const DiffResult& result);

@@ -21,7 +21,11 @@ namespace fs = std::filesystem;
 struct Totals {
   std::uint64_t pictures = 0;
   std::uint64_t different = 0;  // those that one folder lacks included
-  std::uint64_t only_a = 0;
+  std::uint64_t streams = 0;
+  std::uint64_t others = 0;
+  std::uint64_t different_files = 0;  // of streams and others
+  std::uint64_t viewed = 0;
+  std::uint64_t only_a = 0;  // of all
   std::uint64_t only_b = 0;
   std::uint64_t different_pixels = 0;
   std::uint64_t nan_pixels = 0;
@@ -30,6 +34,7 @@ struct Totals {
   bool alike = true;                // all have its size and channels
   Json first = nullptr;
   Json frames = Json::array();
+  Json files = Json::array();
 
   void add(const std::string& name, const DiffResult& r) {
     ++pictures;
@@ -46,10 +51,24 @@ struct Totals {
     frames.push_back(frame);
   }
 
+  /// A stream or another file; `reason` is empty if it is the same.
+  void add_file(const FolderEntry& entry, const std::string& reason) {
+    const bool stream = entry.sort == FolderEntry::Sort::stream;
+    ++(stream ? streams : others);
+    different_files += reason.empty() ? 0 : 1;
+    const Json missing = entry.in_a && entry.in_b ? Json(nullptr) : Json(entry.in_a ? "B" : "A");
+    files.push_back(Json{{"name", entry.name},
+                         {"stream", stream},
+                         {"missing", missing},
+                         {"same", reason.empty()},
+                         {"reason", reason.empty() ? Json(nullptr) : Json(reason)}});
+  }
+
   void add_missing(const FolderEntry& entry) {
+    ++(entry.in_a ? only_a : only_b);
+    if (entry.sort != FolderEntry::Sort::picture) return add_file(entry, entry.in_a ? "only in A" : "only in B");
     ++pictures;
     ++different;
-    ++(entry.in_a ? only_a : only_b);
     Json frame{{"name", entry.name}, {"missing", entry.in_a ? "B" : "A"}};
     DiffResult nothing;
     nothing.reason = entry.in_a ? "only in A" : "only in B";
@@ -62,7 +81,7 @@ Json to_json(const Totals& t, const FolderPair& pair) {
   const bool shape = t.shape && t.alike && t.shape->width != 0;
   const auto number = [](bool known, auto value) { return known ? Json(value) : Json(nullptr); };
   Json j;
-  j["same"] = t.different == 0;
+  j["same"] = t.different + t.different_files == 0;
   j["width"] = number(shape, shape ? t.shape->width : 0);
   j["height"] = number(shape, shape ? t.shape->height : 0);
   j["channels"] = number(shape, shape ? t.shape->channels : 0);
@@ -75,7 +94,9 @@ Json to_json(const Totals& t, const FolderPair& pair) {
   j["only_in_a"] = t.only_a;
   j["only_in_b"] = t.only_b;
   j["frames"] = t.frames;
-  j["not_compared"] = pair.others;
+  j["files"] = t.files;
+  j["different_files"] = t.different_files;
+  j["not_compared"] = pair.left_out;
   return j;
 }
 
@@ -98,21 +119,41 @@ class Views {
   std::list<OutFolder> folders_;
 };
 
-/// "3 files are no pictures and were not compared: a.json, b.txt and 1 more"
-std::string other_files(const std::vector<std::string>& names) {
+/// "not compared: a.json, b.txt, .git/ and 1 more"
+std::string left_out(const std::vector<std::string>& names) {
   if (names.empty()) return "";
   constexpr std::size_t kShown = 3;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i == 0 ? "" : ", ") + names[i];
   if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
-  return fmt::format("not compared, no pictures: {}\n", text);
+  return fmt::format("not compared: {}\n", text);
+}
+
+/// "3 pictures, 1 stream, 2 other files"
+std::string compared(const Totals& t) {
+  std::string text;
+  for (const auto& [count, what] : {std::pair{t.pictures, "picture"}, {t.streams, "stream"}, {t.others, "other file"}})
+    if (count != 0) text += (text.empty() ? "" : ", ") + counted(count, what);
+  return text;
+}
+
+/// A stream or another file that both folders have: "" if it is the same, or the lines that say how it differs.
+std::string compare_other(const DiffCommand& o, const FolderEntry& entry) {
+  const fs::path a = fs::path(o.a) / entry.name;
+  const fs::path b = fs::path(o.b) / entry.name;
+  if (entry.sort == FolderEntry::Sort::stream) {
+    const auto [same, text] = compare_streams(a.string(), b.string());
+    return same ? "" : text;
+  }
+  const std::string reason = diff_bytes(a, b);
+  return reason.empty() ? "" : fmt::format("different: {}\n", reason);
 }
 
 }  // namespace
 
 int diff_two_folders(const DiffCommand& o) {
-  const FolderPair pair = pair_folders(o.a, o.b);
-  if (pair.pictures.empty()) throw Error(fmt::format("{} and {}: neither folder holds a picture", o.a, o.b));
+  const FolderPair pair = pair_folders(o.a, o.b, o.exclude);
+  if (pair.files.empty()) throw Error(fmt::format("{} and {}: neither folder holds a file to compare", o.a, o.b));
   Views views(o.out);
   TempFiles files;
   JUnitWriter junit(files, o.junit, "kage diff");
@@ -124,15 +165,28 @@ int diff_two_folders(const DiffCommand& o) {
   Totals totals;
   std::string lines;
   Progress progress;
-  for (const FolderEntry& entry : pair.pictures) {
+  std::size_t number = 0;
+  for (const FolderEntry& entry : pair.files) {
     check_interrupt();
-    progress.show(fmt::format("picture {}/{}: {}", totals.pictures + 1, pair.pictures.size(), entry.name));
+    progress.show(fmt::format("file {}/{}: {}", ++number, pair.files.size(), entry.name));
     const Stopwatch watch;
     if (!entry.in_a || !entry.in_b) {
       const std::string text = fmt::format("different: only in {}", entry.in_a ? o.a : o.b);
       lines += fmt::format("{}: {}\n", entry.name, text);
       junit.fail(entry.name, watch.seconds(), text);
       totals.add_missing(entry);
+      continue;
+    }
+    if (entry.sort != FolderEntry::Sort::picture) {
+      const std::string text = compare_other(o, entry);
+      const std::string line = text.substr(0, text.find('\n'));
+      totals.add_file(entry, line.substr(std::min(line.size(), std::string_view("different: ").size())));
+      if (text.empty()) {
+        junit.pass(entry.name, watch.seconds());
+      } else {
+        lines += fmt::format("{}: {}\n", entry.name, line);
+        junit.fail(entry.name, watch.seconds(), line, text);
+      }
       continue;
     }
     DiffViews seen;
@@ -145,68 +199,81 @@ int diff_two_folders(const DiffCommand& o) {
     }
     lines += fmt::format("{}: {}\n", entry.name, describe(r));
     junit.fail(entry.name, watch.seconds(), describe(r), details(r));
+    ++totals.viewed;
     if (!o.out.empty()) views.save(files, entry.name, seen);
   }
   progress.clear();
   junit.close();
-  write_json(o, to_json(totals, pair), files);
-  const bool same = totals.different == 0;
-  if (json_only(o)) return same ? kSame : kDifferent;
-  fmt::print("{}{}: {} compared", lines, same ? "same" : "different", counted(totals.pictures, "picture"));
-  if (!same) fmt::print(", {} {}", totals.different, totals.different == 1 ? "differs" : "differ");
-  if (totals.only_a != 0) fmt::print(", {} only in {}", totals.only_a, o.a);
-  if (totals.only_b != 0) fmt::print(", {} only in {}", totals.only_b, o.b);
-  fmt::print("\n{}", other_files(pair.others));
-  if (!o.out.empty() && totals.different > totals.only_a + totals.only_b)
-    fmt::print("heat maps and flip pictures: {}\n", o.out);
+  const std::uint64_t different = totals.different + totals.different_files;
+  const bool same = different == 0;
+  lines += fmt::format("{}: {} compared", same ? "same" : "different", compared(totals));
+  if (!same) lines += fmt::format(", {} {}", different, different == 1 ? "differs" : "differ");
+  if (totals.only_a != 0) lines += fmt::format(", {} only in {}", totals.only_a, o.a);
+  if (totals.only_b != 0) lines += fmt::format(", {} only in {}", totals.only_b, o.b);
+  lines += "\n" + left_out(pair.left_out);
+  if (!o.out.empty() && totals.viewed != 0) lines += fmt::format("heat maps and flip pictures: {}\n", o.out);
+  finish(o, to_json(totals, pair), files, lines);
   return same ? kSame : kDifferent;
 }
 
 int bless_folder(const DiffCommand& o) {
-  std::error_code ec;
-  if (fs::equivalent(o.a, o.b, ec)) throw Error(fmt::format("{} and {}: are one folder", o.a, o.b));
   Progress progress;
   std::optional<QuietStderr> quiet(std::in_place);
-  const std::vector<BlessEntry> plan = plan_bless(o.a, o.b, [&](const std::string& name) {
+  const auto each = [&](const std::string& name) {
     check_interrupt();
     quiet.reset();
     progress.show(name);
     quiet.emplace();
-  });
+  };
+  const std::vector<BlessEntry> plan = plan_bless(o.a, o.b, each, o.exclude);
   quiet.reset();
   progress.clear();
-  if (!o.dry_run) bless(o.a, o.b, plan, o.prune);
-
   using What = BlessEntry::What;
-  std::uint64_t count[4] = {};
-  Json names[4] = {Json::array(), Json::array(), Json::array(), Json::array()};
+  std::uint64_t unchanged = 0;
+  Json changed = Json::array();
+  Json added = Json::array();
+  Json missing = Json::array();
+  Json removed = Json::array();
   std::string lines;
   for (const BlessEntry& entry : plan) {
-    const auto what = static_cast<std::size_t>(entry.what);
-    ++count[what];
-    names[what].push_back(entry.name);
-    if (entry.what == What::changed) lines += fmt::format("changed: {}: {}\n", entry.name, entry.reason);
-    if (entry.what == What::added) lines += fmt::format("added: {}\n", entry.name);
-    if (entry.what == What::missing) lines += fmt::format("{}: {}\n", o.prune ? "removed" : "missing", entry.name);
+    if (entry.what == What::same) {
+      ++unchanged;
+      continue;
+    }
+    const bool goes = o.prune && entry.prunable();
+    Json& names = entry.what == What::changed ? changed : entry.what == What::added ? added : goes ? removed : missing;
+    names.push_back(entry.name);
+    const char* const word = entry.what == What::changed ? "changed"
+                             : entry.what == What::added ? "added"
+                             : goes                      ? "removed"
+                                                         : "missing";
+    lines += fmt::format("{}: {}{}{}\n", word, entry.name, entry.reason.empty() ? "" : ": ", entry.reason);
   }
-  const auto of = [&](What what) { return count[static_cast<std::size_t>(what)]; };
-  const auto list = [&](What what) { return names[static_cast<std::size_t>(what)]; };
-  const bool nothing = of(What::changed) + of(What::added) + of(What::missing) == 0;
-  const bool same = nothing || (!o.dry_run && (o.prune || of(What::missing) == 0));
+  const bool nothing = changed.size() + added.size() + missing.size() + removed.size() == 0;
+  const bool same = nothing || (!o.dry_run && missing.empty());
 
   Json j;
   j["same"] = same;
   j["dry_run"] = o.dry_run;
-  j["unchanged"] = of(What::same);
-  j["changed"] = list(What::changed);
-  j["added"] = list(What::added);
-  j["missing"] = o.prune ? Json::array() : list(What::missing);
-  j["removed"] = o.prune ? list(What::missing) : Json::array();
-  write_json(o, j);
-  if (json_only(o)) return same ? kSame : kDifferent;
-  fmt::print("{}{}{}: {} the same, {} changed, {} added, {} {}\n", lines, o.b, o.dry_run ? " (nothing is done)" : "",
-             of(What::same), of(What::changed), of(What::added), of(What::missing), o.prune ? "removed" : "missing");
-  if (of(What::missing) != 0 && !o.prune) fmt::print("what is missing in {} stays; --prune removes it\n", o.a);
+  j["unchanged"] = unchanged;
+  j["changed"] = changed;
+  j["added"] = added;
+  j["missing"] = missing;
+  j["removed"] = removed;
+  lines += fmt::format("{}{}: {} the same, {} changed, {} added, {} {}", o.b, o.dry_run ? " (nothing is done)" : "",
+                       unchanged, changed.size(), added.size(), o.prune ? removed.size() : missing.size(),
+                       o.prune ? "removed" : "missing");
+  if (o.prune && !missing.empty()) lines += fmt::format(", {} missing", missing.size());
+  lines += "\n";
+  if (!missing.empty())
+    lines += o.prune ? "what is neither picture nor stream stays\n"
+                     : fmt::format("what is missing in {} stays; --prune removes it\n", o.a);
+  TempFiles files;
+  const auto say = [&] { finish(o, j, files, lines); };
+  if (o.dry_run)
+    say();
+  else
+    bless(o.a, o.b, plan, o.prune, say);
   return same ? kSame : kDifferent;
 }
 

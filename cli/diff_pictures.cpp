@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "diff.hpp"
@@ -69,7 +70,9 @@ std::string describe(const DiffResult& r) {
   if (r.different_pixels != 0)
     text += fmt::format(", {} {}", r.different_pixels, r.different_pixels == 1 ? "differs" : "differ");
   if (r.max_lsb.value_or(0) != 0) text += fmt::format(", by up to {} LSB", *r.max_lsb);
-  if (r.max_ulp.value_or(0) != 0) text += fmt::format(", by up to {}, or {} ULP", *r.max_abs, *r.max_ulp);
+  if (r.max_ulp.value_or(0) != 0)
+    text +=
+        *r.max_abs == 0 ? ", only in the sign of 0" : fmt::format(", by up to {}, or {} ULP", *r.max_abs, *r.max_ulp);
   if (r.nan_pixels != 0) text += fmt::format(", {} {} a NaN", r.nan_pixels, r.nan_pixels == 1 ? "holds" : "hold");
   if (r.first) text += fmt::format(", the first at x {}, y {}, channel {}", r.first->x, r.first->y, r.first->channel);
   return text;
@@ -109,7 +112,7 @@ Json to_json(const DiffResult& r) {
   j["different_pixels"] = number(r.different_pixels);
   j["nan_pixels"] = number(r.nan_pixels);
   j["max_lsb"] = maybe(r.max_lsb);
-  j["max_abs"] = maybe(r.max_abs);
+  j["max_abs"] = r.max_abs && !std::isfinite(*r.max_abs) ? Json("infinite") : maybe(r.max_abs);
   j["max_ulp"] = maybe(r.max_ulp);
   j["first"] = r.first ? Json{{"x", r.first->x}, {"y", r.first->y}, {"channel", r.first->channel}} : Json(nullptr);
   j["regions"] = Json::array();
@@ -147,12 +150,11 @@ int diff_two_pictures(const DiffCommand& o) {
   const bool heat = !o.out.empty() && views.heat.width != 0;
   if (heat) save_image(files, o.out, views.heat);
   if (!o.flip.empty()) save_flip(files, o.flip, views.a, views.b);
-  write_json(o, to_json(result), files);
-  if (json_only(o)) return result.same ? kSame : kDifferent;
-  fmt::print("{}\n{}", line, details(result));
-  if (heat) fmt::print("heat map: {}\n", o.out);
-  if (!o.out.empty() && !heat) fmt::print("no heat map: the pictures are unlike\n");
-  if (!o.flip.empty()) fmt::print("flip picture: {}\n", o.flip);
+  std::string text = line + "\n" + details(result);
+  if (heat) text += fmt::format("heat map: {}\n", o.out);
+  if (!o.out.empty() && !heat) text += "no heat map: the pictures are unlike\n";
+  if (!o.flip.empty()) text += fmt::format("flip picture: {}\n", o.flip);
+  finish(o, to_json(result), files, text);
   return result.same ? kSame : kDifferent;
 }
 

@@ -63,6 +63,17 @@ std::string describe(const StreamDiff& d) {
 
 }  // namespace
 
+std::pair<bool, std::string> compare_streams(const std::string& a, const std::string& b) {
+  guard_mapped(a);
+  guard_mapped(b);
+  const StreamDiff d = diff_streams(StreamFile(a), StreamFile(b), [](const FrameDiff&) {
+    check_interrupt();
+    check_mapped();
+  });
+  check_mapped();
+  return {d.same, describe(d)};
+}
+
 int diff_two_streams(const DiffCommand& o) {
   guard_mapped(o.a);
   guard_mapped(o.b);
@@ -98,8 +109,7 @@ int diff_two_streams(const DiffCommand& o) {
   else
     junit.fail("sections", 0, d.reason);
   junit.close();
-  write_json(o, to_json(d), files);
-  if (!json_only(o)) fmt::print("{}", describe(d));
+  finish(o, to_json(d), files, describe(d));
   return d.same ? kSame : kDifferent;
 }
 

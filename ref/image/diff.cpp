@@ -96,6 +96,7 @@ class Comparison {
         continue;
       }
       if (ignored || !line_.compared[x]) continue;
+      in_range_ = in_range_ && Type::in_range(pa) && Type::in_range(pb);
       const std::uint64_t steps = Type::steps(pa, pb);
       if (steps == 0) continue;
       line_.steps[x] = std::max(line_.steps[x], steps);
@@ -161,7 +162,7 @@ class Comparison {
     if (channels == 0 || result_.compared_pixels == 0)
       throw Error("nothing is compared: region, mask and ignored alpha leave no value");
     const double mean = squares_ / (static_cast<double>(result_.compared_pixels) * static_cast<double>(channels));
-    if (mean > 0 && std::isfinite(mean) && result_.nan_pixels == 0) result_.psnr = -10 * std::log10(mean);
+    if (mean > 0 && in_range_ && result_.nan_pixels == 0) result_.psnr = -10 * std::log10(mean);
     judge();
   }
 
@@ -190,6 +191,7 @@ class Comparison {
   RegionFinder finder_;
   Image background_;
   double squares_ = 0;
+  bool in_range_ = true;  // floats have no largest value of their own: beyond 1 there is nothing to measure against
   double max_abs_ = 0;
   std::uint64_t max_ulp_ = 0;
   std::uint64_t max_lsb_ = 0;

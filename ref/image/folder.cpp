@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fnmatch.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
+#include <fstream>
 #include <map>
 #include <set>
 #include <string_view>
 
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
+#include "number/regular_file.hpp"
 
 namespace kage {
 namespace {
@@ -21,16 +25,25 @@ constexpr std::array<std::string_view, 19> kExtensions{".bmp", ".dpx", ".exr", "
                                                        ".jpg", ".pbm", ".pfm", ".pgm",  ".png", ".pnm", ".ppm",
                                                        ".sgi", ".tga", ".tif", ".tiff", ".webp"};
 
-bool is_picture(const fs::path& path) {
+FolderEntry::Sort sort_of(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  if (extension == ".kage") return FolderEntry::Sort::stream;
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() ? FolderEntry::Sort::picture
+                                                                                           : FolderEntry::Sort::other;
 }
 
-/// Calls `found` with the name of each file in the folder and those in it.
-template <typename Found>
-void list(const fs::path& folder, Found found) {
+bool excluded(const std::string& name, const std::vector<std::string>& patterns) {
+  const std::string last = fs::path(name).filename().string();
+  return std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+    return fnmatch(pattern.c_str(), name.c_str(), 0) == 0 || fnmatch(pattern.c_str(), last.c_str(), 0) == 0;
+  });
+}
+
+/// Calls `found` with the name of each file in the folder and those in it, `left_out` with those that are hidden.
+template <typename Found, typename LeftOut>
+void list(const fs::path& folder, Found found, LeftOut left_out) {
   std::error_code ec;
   if (!fs::is_directory(folder, ec)) throw Error(fmt::format("{}: no such folder", folder.string()));
   fs::recursive_directory_iterator it(folder, ec);
@@ -39,6 +52,7 @@ void list(const fs::path& folder, Found found) {
     std::error_code ignored;
     const bool is_folder = it->is_directory(ignored);
     if (path.filename().string().front() == '.') {
+      left_out(path.lexically_relative(folder).generic_string() + (is_folder ? "/" : ""));
       if (is_folder) it.disable_recursion_pending();
     } else if (!is_folder) {
       found(path.lexically_relative(folder).generic_string());
@@ -51,26 +65,58 @@ void list(const fs::path& folder, Found found) {
 
 }  // namespace
 
-FolderPair pair_folders(const fs::path& a, const fs::path& b) {
-  std::map<std::string, FolderEntry> pictures;
-  std::set<std::string> others;
+FolderPair pair_folders(const fs::path& a, const fs::path& b, const std::vector<std::string>& exclude) {
+  std::map<std::string, FolderEntry> files;
+  std::set<std::string> left_out;
   const auto gather = [&](const fs::path& folder, bool FolderEntry::*here) {
-    list(folder, [&](const std::string& name) {
-      if (!is_picture(name)) {
-        others.insert(name);
+    const auto hidden = [&](const std::string& name) { left_out.insert(name); };
+    const auto found = [&](const std::string& name) {
+      if (excluded(name, exclude)) {
+        left_out.insert(name);
         return;
       }
-      FolderEntry& entry = pictures[name];
+      FolderEntry& entry = files[name];
       entry.name = name;
+      entry.sort = sort_of(name);
       entry.*here = true;
-    });
+    };
+    list(folder, found, hidden);
   };
   gather(a, &FolderEntry::in_a);
   gather(b, &FolderEntry::in_b);
   FolderPair pair;
-  for (const auto& [name, entry] : pictures) pair.pictures.push_back(entry);
-  pair.others.assign(others.begin(), others.end());
+  for (const auto& [name, entry] : files) pair.files.push_back(entry);
+  pair.left_out.assign(left_out.begin(), left_out.end());
   return pair;
+}
+
+std::string diff_bytes(const fs::path& a, const fs::path& b) {
+  const auto opened = [](const fs::path& path) {
+    check_regular(path);
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw Error(fmt::format("{}: cannot be read", path.string()));
+    return in;
+  };
+  std::ifstream in_a = opened(a);
+  std::ifstream in_b = opened(b);
+  std::vector<char> part_a(std::size_t{1} << 16);
+  std::vector<char> part_b(part_a.size());
+  const auto read = [](std::ifstream& in, std::vector<char>& part, const fs::path& path) {
+    in.read(part.data(), static_cast<std::streamsize>(part.size()));
+    if (in.bad()) throw Error(fmt::format("{}: cannot be read", path.string()));
+    return in.gcount();
+  };
+  for (std::uint64_t at = 0;; at += part_a.size()) {
+    const std::streamsize size_a = read(in_a, part_a, a);
+    const std::streamsize size_b = read(in_b, part_b, b);
+    const auto [stop, other] =
+        std::mismatch(part_a.begin(), part_a.begin() + size_a, part_b.begin(), part_b.begin() + size_b);
+    const auto same = static_cast<std::uint64_t>(stop - part_a.begin());
+    if (stop - part_a.begin() != size_a && other - part_b.begin() != size_b)
+      return fmt::format("byte {} differs", at + same);
+    if (size_a != size_b) return fmt::format("{} ends at byte {}", size_a < size_b ? "A" : "B", at + same);
+    if (size_a < static_cast<std::streamsize>(part_a.size())) return "";
+  }
 }
 
 }  // namespace kage

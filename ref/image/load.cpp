@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cstring>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "image/picture.hpp"
 #include "image/png_chunks.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
+#include "number/regular_file.hpp"
 
 namespace kage {
 namespace {
@@ -70,25 +72,67 @@ std::string note_text(const OIIO::ImageSpec& spec, const char* name) {
   return value->get_string();
 }
 
+constexpr int kCmyk = 5;
+constexpr int kYcbcr = 6;
+
+/// TIFF's number for what its values stand for; -1 for other formats.
+int photometric(const OIIO::ImageSpec& spec) { return spec.get_int_attribute("tiff:PhotometricInterpretation", -1); }
+
+/// In words. A palette's colours and those of JPEG compression come as red, green and blue, and are compared so.
+std::string photometric_words(int number) {
+  if (number == 0) return "white is 0";
+  if (number == 1) return "black is 0";
+  return number == kCmyk ? "CMYK" : "RGB";
+}
+
 /// Of a note for which the format has no place: what OpenImageIO gives then is its guess, and the other file's is
 /// taken.
-constexpr const char* kNoPlace = "no place";
+const std::string kNoPlace = "no place";
 
 /// What changes the meaning of the same numbers.
 std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks& png, std::string_view format) {
   const int bits = spec.get_int_attribute("oiio:BitsPerSample", png.bits);
   const std::string chromaticities = note_text(spec, "chromaticities");
+  const auto only = [&](std::string_view has, const std::string& text) { return format == has ? text : kNoPlace; };
+  const auto all_but_pnm = [&](const std::string& text) { return format == "pnm" ? kNoPlace : text; };
   std::vector<Picture::Note> notes{
       {"display window", fmt::format("{}x{} at {},{}", spec.full_width, spec.full_height, spec.full_x, spec.full_y)},
       {"number of bits", fmt::format("{}", bits == 0 ? static_cast<int>(spec.format.size() * 8) : bits)},
-      {"chromaticity", chromaticities.empty() ? png.chromaticities : chromaticities}};
-  for (const auto& [words, name] : {std::pair{"colour space", "oiio:ColorSpace"},
-                                    {"gamma", "oiio:Gamma"},
-                                    {"CICP", "CICP"},
-                                    {"ICC profile", "ICCProfile"}})
-    notes.emplace_back(words, format == "pnm" ? kNoPlace : note_text(spec, name));
+      {"photometric interpretation", only("tiff", photometric_words(photometric(spec)))},
+      {"orientation", all_but_pnm(fmt::format("{}", spec.get_int_attribute("Orientation", 1)))},
+      {"chromaticity", all_but_pnm(chromaticities.empty() ? png.chromaticities : chromaticities)},
+      {"white luminance", all_but_pnm(note_text(spec, "whiteLuminance"))}};
+  for (const auto& [words, name] :
+       {std::pair{"colour space", "oiio:ColorSpace"}, {"gamma", "oiio:Gamma"}, {"ICC profile", "ICCProfile"}})
+    notes.emplace_back(words, all_but_pnm(note_text(spec, name)));
+  notes.emplace_back("gAMA", only("png", png.gamma));
+  notes.emplace_back("rendering intent", only("png", png.intent));
+  for (const auto& [words, text] : png.more) notes.emplace_back(words, all_but_pnm(text));
   notes.emplace_back("unassociated alpha", spec.alpha_channel < 0 ? "" : note_text(spec, "oiio:UnassociatedAlpha"));
   return notes;
+}
+
+/// Opens the file so that its values come as they are stored, or refuses it.
+std::unique_ptr<OIIO::ImageInput> open_input(const std::filesystem::path& path) {
+  OIIO::ImageSpec hints;
+  hints.attribute("oiio:UnassociatedAlpha", 1);
+  auto input = OIIO::ImageInput::open(path.string(), &hints);
+  if (!input) fail(path, OIIO::geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  const int interpretation = photometric(spec);
+  if (interpretation == kCmyk) {
+    // Not for all files: of JPEG 2000 it would leave out which space the numbers are of.
+    hints.attribute("oiio:RawColor", 1);
+    input = OIIO::ImageInput::open(path.string(), &hints);
+    if (!input) fail(path, OIIO::geterror());
+    return input;
+  }
+  if (interpretation > kCmyk && !(interpretation == kYcbcr && spec.get_int_attribute("tiff:Compression") == 7)) {
+    fail(path, fmt::format("has the photometric interpretation {}, which is not read without loss", interpretation));
+  }
+  const std::string jpeg(spec.get_string_attribute("jpeg:ColorSpace"));
+  if (jpeg == "CMYK" || jpeg == "YCbCrK") fail(path, "is CMYK in a JPEG file, which is not read without loss");
+  return input;
 }
 
 }  // namespace
@@ -124,7 +168,10 @@ bool is_float(Sample sample) { return sample >= Sample::kHalf; }
 
 std::string channel_names(const Picture& picture) {
   std::vector<std::string> names;
-  for (const Picture::Channel& c : picture.channels) names.push_back(c.name);
+  for (const Picture::Channel& c : picture.channels)
+    names.push_back(c.name.find_first_of(",\"\n\r") == std::string::npos && !c.name.empty()
+                        ? c.name
+                        : nlohmann::json(c.name).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
   return fmt::format("{}", fmt::join(names, ","));
 }
 
@@ -144,8 +191,15 @@ std::string unlike(const Picture& a, const Picture& b) {
     return both("sizes are", fmt::format("{}x{}", a.width, a.height), fmt::format("{}x{}", b.width, b.height));
   if (a.x != b.x || a.y != b.y)
     return both("origins are", fmt::format("{},{}", a.x, a.y), fmt::format("{},{}", b.x, b.y));
-  if (channel_names(a) != channel_names(b)) return both("channels are", channel_names(a), channel_names(b));
-  if (sample_names(a) != sample_names(b)) return both("pixel types are", sample_names(a), sample_names(b));
+  // Channel by channel: names may hold what the words join them by, and types that are all alike are said once.
+  const auto alike = [&](const auto& part) {
+    return std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
+                      [&](const Picture::Channel& x, const Picture::Channel& y) { return part(x) == part(y); });
+  };
+  if (!alike([](const Picture::Channel& c) -> const std::string& { return c.name; }))
+    return both("channels are", channel_names(a), channel_names(b));
+  if (!alike([](const Picture::Channel& c) { return c.sample; }))
+    return both("pixel types are", sample_names(a), sample_names(b));
   for (std::size_t i = 0; i < a.notes.size(); ++i)
     if (a.notes[i] != b.notes[i] && a.notes[i].second != kNoPlace && b.notes[i].second != kNoPlace)
       return both(a.notes[i].first + " is", a.notes[i].second, b.notes[i].second);
@@ -153,15 +207,8 @@ std::string unlike(const Picture& a, const Picture& b) {
 }
 
 Picture load_picture(const std::filesystem::path& path) {
-  std::error_code ec;
-  const auto status = std::filesystem::status(path, ec);
-  if (!std::filesystem::exists(status)) fail(path, "no such file");
-  if (std::filesystem::is_directory(status)) fail(path, "is a directory");
-
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(path.string(), &hints);
-  if (!input) fail(path, OIIO::geterror());
+  check_regular(path);
+  const auto input = open_input(path);
   const OIIO::ImageSpec& spec = input->spec();
   if (spec.deep || spec.depth > 1) fail(path, "is not a flat picture");
 
@@ -192,6 +239,7 @@ Picture load_picture(const std::filesystem::path& path) {
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, picture.data.data()))
     fail(path, input->geterror());
   if (input->seek_subimage(1, 0)) fail(path, "holds several pictures: only files of one are compared");
+  if (input->seek_subimage(0, 1)) fail(path, "holds several sizes (a mipmap): only files of one picture are compared");
   (void)input->geterror();
   return picture;
 }

@@ -46,7 +46,7 @@ bool is_float(Sample sample);
 /// Name for messages: "uint8", "half".
 const char* name_of(Sample sample);
 
-/// Names of the channels, by commas.
+/// Names of the channels, by commas; a name that holds one is quoted.
 std::string channel_names(const Picture& picture);
 
 /// Types of the channels, by commas; one if all are alike.

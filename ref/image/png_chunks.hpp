@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace kage {
 
@@ -10,7 +12,13 @@ namespace kage {
 struct PngChunks {
   int bits = 0;                ///< of a stored value, where it is the value's: not with a palette; 0: unknown
   std::string chromaticities;  ///< cHRM, eight numbers in 1/100000
-  bool animated = false;       ///< more pictures than the first
+  std::string gamma;           ///< gAMA, in 1/100000: OpenImageIO rounds it
+  std::string intent;          ///< sRGB: the rendering intent
+  /// What else says how bright and of which colour a value is, in words: always the same ones, in the same order; the
+  /// numbers are "" where the file has none.
+  std::vector<std::pair<std::string, std::string>> more{
+      {"CICP", ""}, {"number of significant bits", ""}, {"mastering display", ""}, {"content light level", ""}};
+  bool animated = false;  ///< more pictures than the first
 };
 
 /// Looks at the chunks before the picture. Of a file that is no PNG, or a broken one, it tells what there is.

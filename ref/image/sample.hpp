@@ -28,6 +28,7 @@ template <typename T>
 struct IntegerSample {
   static constexpr bool kFloat = false;
   static bool is_nan(const std::byte*) { return false; }
+  static bool in_range(const std::byte*) { return true; }
   static std::uint64_t steps(const std::byte* pa, const std::byte* pb) {
     using U = std::make_unsigned_t<T>;
     const T a = load_value<T>(pa);
@@ -49,6 +50,12 @@ struct FloatSample {
   static constexpr U kInfinity = static_cast<U>(static_cast<U>(kSign - 1) & ~((U{1} << Mantissa) - 1));
   static bool is_nan(const std::byte* p) {
     return static_cast<U>(load_value<U>(p) & static_cast<U>(~kSign)) > kInfinity;
+  }
+  /// 0 .. 1, where white is 1.
+  static bool in_range(const std::byte* p) {
+    constexpr U kOne = static_cast<U>(((U{1} << (sizeof(U) * 8 - 2 - Mantissa)) - 1) << Mantissa);
+    const U v = load_value<U>(p);
+    return v <= kOne || v == kSign;
   }
   static U ordered(U v) { return static_cast<U>((v & kSign) != 0 ? ~v : v | kSign); }
   static std::uint64_t steps(const std::byte* pa, const std::byte* pb) {

@@ -14,23 +14,94 @@
 
 namespace kage {
 
-TempFile::TempFile(std::filesystem::path target) : target_(replaceable(std::move(target))) {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name beside `target` that nothing has.
+fs::path name_beside(const fs::path& target) {
   static std::atomic<unsigned> count{0};
-  temp_ = target_;
-  temp_.replace_filename(
-      fmt::format(".{}.{}.{}{}", target_.stem().string(), getpid(), count++, target_.extension().string()));
+  fs::path name = target;
+  name.replace_filename(
+      fmt::format(".{}.{}.{}{}", target.stem().string(), getpid(), count++, target.extension().string()));
+  return name;
+}
+
+}  // namespace
+
+TempFile::TempFile(fs::path target, Way way) : target_(std::move(target)), way_(way) {
+  if (way == Way::remove) return;
+  target_ = replaceable(std::move(target_));
+  temp_ = name_beside(target_);
 }
 
 TempFile::~TempFile() {
   std::error_code ec;
-  if (!temp_.empty()) std::filesystem::remove(temp_, ec);
+  if (placed_) undo();
+  if (!temp_.empty()) fs::remove(temp_, ec);
 }
 
-void TempFile::commit() {
+void TempFile::place() {
   std::error_code ec;
-  std::filesystem::rename(temp_, target_, ec);
-  if (ec) throw Error(fmt::format("{}: cannot be written: {}", target_.string(), ec.message()));
-  temp_.clear();
+  const fs::path kept = name_beside(target_);
+  if (way_ == Way::remove) {
+    fs::rename(target_, kept, ec);
+    if (ec) throw Error(fmt::format("{}: cannot be removed: {}", target_.string(), ec.message()));
+    aside_ = kept;
+  } else {
+    const bool there = fs::exists(fs::symlink_status(target_, ec));
+    if (there) {
+      // A second name, so that the first one is never without a file; where there are none, it has to be for a moment.
+      fs::create_hard_link(target_, kept, ec);
+      if (ec) fs::rename(target_, kept, ec);
+      if (!ec) aside_ = kept;
+    }
+    if (!there || !aside_.empty()) fs::rename(temp_, target_, ec);
+    if (ec) {
+      const std::string cause = ec.message();
+      if (!aside_.empty()) undo();
+      throw Error(fmt::format("{}: cannot be written: {}", target_.string(), cause));
+    }
+    temp_.clear();
+  }
+  placed_ = true;
+}
+
+void TempFile::undo() {
+  std::error_code ec;
+  if (aside_.empty()) {
+    fs::remove(target_, ec);
+  } else {
+    fs::rename(aside_, target_, ec);
+    if (!ec) fs::remove(aside_, ec);  // rename() leaves both where they are two names of one file
+  }
+  aside_.clear();
+  placed_ = false;
+}
+
+void TempFile::settle() {
+  std::error_code ec;
+  if (!aside_.empty()) fs::remove(aside_, ec);
+  aside_.clear();
+  placed_ = false;
+}
+
+void TempFiles::place() {
+  try {
+    for (const auto& file : files_) file->place();
+  } catch (...) {
+    drop();
+    throw;
+  }
+}
+
+void TempFiles::settle() {
+  for (const auto& file : files_) file->settle();
+  files_.clear();
+}
+
+void TempFiles::drop() {
+  while (!files_.empty()) files_.pop_back();
 }
 
 std::ofstream open_file(TempFiles& files, const std::string& path) {

@@ -24,6 +24,7 @@
 #include "import.hpp"
 #include "kage/error.hpp"
 #include "notes.hpp"
+#include "number/regular_file.hpp"
 #include "wire.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)
@@ -159,14 +160,9 @@ Ending receive(int fd, const ImportLimits& limits, Bytes& bytes) {
 }
 
 void check_file(const std::filesystem::path& path, const std::string& name) {
-  namespace fs = std::filesystem;
+  check_regular(path, name);
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) throw Error(name + ": no such file");
-  if (error) throw Error(name + ": " + cause_of(error.message()));
-  if (fs::is_directory(status)) throw Error(name + ": is a directory");
-  if (!fs::is_regular_file(status)) throw Error(name + ": is not a regular file");
-  if (fs::file_size(path, error) == 0 && !error) throw Error(name + ": is empty");
+  if (std::filesystem::file_size(path, error) == 0 && !error) throw Error(name + ": is empty");
   const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) throw Error(name + ": cannot be read: " + std::string(std::strerror(errno)));
   close(fd);

@@ -11,6 +11,7 @@
 
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
+#include "number/regular_file.hpp"
 #include "stream/config_text.hpp"
 
 namespace kage {
@@ -44,7 +45,7 @@ Config from_yaml(const YAML::Node& node, const std::string& where) {
 }
 
 YAML::Node read_yaml(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) throw Error(fmt::format("{}: not a file", path));
+  check_regular(path);
   try {
     return YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {

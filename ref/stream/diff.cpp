@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 
 #include "kage/stream_diff.hpp"
@@ -176,10 +177,14 @@ std::string reason_of(const StreamDiff& d) {
     parts.push_back(fmt::format("configurations are unlike: {} is {} and {}", p.name, p.a, p.b));
     if (d.parameters.size() > 1) parts.back() += fmt::format(", and {} more", d.parameters.size() - 1);
   }
-  if (d.frames_a != d.frames_b) parts.push_back(fmt::format("{} frames and {}", d.frames_a, d.frames_b));
-  if (d.different_frames != 0)
-    parts.push_back(fmt::format("{} of {} frames {}", d.different_frames, std::max(d.frames_a, d.frames_b),
-                                d.different_frames == 1 ? "differs" : "differ"));
+  const int common = std::min(d.frames_a, d.frames_b);
+  const int lone = std::abs(d.frames_a - d.frames_b);
+  if (lone != 0)
+    parts.push_back(fmt::format("A has {} frame{} and B {}", d.frames_a, d.frames_a == 1 ? "" : "s", d.frames_b));
+  // Of those that both have: that the others differ is said.
+  if (const auto unlike = d.different_frames - static_cast<std::uint64_t>(lone); unlike != 0)
+    parts.push_back(fmt::format("{} of {} frames {}{}", unlike, common, lone != 0 ? "that both have " : "",
+                                unlike == 1 ? "differs" : "differ"));
   for (const StreamDiff::Section& s : d.sections) parts.push_back(fmt::format("section {} differs: {}", s.tag, s.how));
   std::string text;
   for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;

@@ -25,6 +25,7 @@
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
+#include "number/regular_file.hpp"
 #include "number/replaceable.hpp"
 #include "stream/config_text.hpp"
 
@@ -196,6 +197,7 @@ struct StreamFile::Data {
 
   void map(const std::filesystem::path& path) {
     name = path.string();
+    check_regular(path);
     const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (fd < 0) throw Error(fmt::format("{}: {}", name, std::strerror(errno)));
     struct stat st {};

@@ -28,6 +28,44 @@ png("black.png", 8, 6, [0] * (8 * 6 * 3))
 png("gamma.png", 8, 6, base, chunk(b"gAMA", struct.pack(">I", 100000)))
 for bits in (4, 8, 16):
     grey("grey%d.png" % bits, 8, 6, bits)
+# What PNG says of its numbers, chunk by chunk: two files that differ in it, and one that says nothing.
+for tag, one, other in ((b"cICP", bytes([9, 16, 0, 1]), bytes([9, 18, 0, 1])), (b"sRGB", b"\0", b"\1"),
+                        (b"gAMA", struct.pack(">I", 45455), struct.pack(">I", 45454)), (b"sBIT", b"\5\6\5", b"\5\5\5"),
+                        (b"mDCV", bytes(range(24)), bytes(24)), (b"cLLI", struct.pack(">II", 1000, 400), bytes(8)),
+                        (b"cHRM", bytes(range(32)), bytes(range(1, 33)))):
+    png("one_%s.png" % tag.decode(), 8, 6, base, chunk(tag, one))
+    png("other_%s.png" % tag.decode(), 8, 6, base, chunk(tag, other))
+def tif(name, interpretation, channels, pixel):
+    """8 x 8 pixels of one colour, not compressed."""
+    data = bytes(pixel) * 64
+    bits = struct.pack("<%dH" % channels, *[8] * channels)
+    at = 8 + len(data) + len(bits)
+    tags = [(256, 3, 1, 8), (257, 3, 1, 8), (258, 3, channels, 8 + len(data) if channels > 2 else 8), (259, 3, 1, 1),
+            (262, 3, 1, interpretation), (273, 4, 1, 8), (277, 3, 1, channels), (278, 3, 1, 8), (279, 4, 1, len(data))]
+    directory = struct.pack("<H", len(tags)) + b"".join(struct.pack("<HHII", *tag) for tag in tags) + bytes(4)
+    open(name, "wb").write(b"II*\0" + struct.pack("<I", at + at % 2) + data + bits + bytes(at % 2) + directory)
+tif("black.tif", 5, 4, [0, 0, 0, 255])  # cyan, magenta, yellow, black: one red, green and blue for many of them
+tif("inks.tif", 5, 4, [255, 255, 255, 255])
+tif("white0.tif", 0, 1, [0])
+tif("black0.tif", 1, 1, [255])
+tif("lab.tif", 8, 3, [100, 128, 0])
+def jpeg(name, values):
+    """8 x 8 pixels of one CMYK colour."""
+    bits = ""
+    for v in values:
+        d = 8 * (v - 128)
+        n = abs(d).bit_length()
+        bits += format(n, "04b") + (format(d if d > 0 else d + (1 << n) - 1, "0%db" % n) if n else "") + "0"
+    bits += "1" * (-len(bits) % 8)
+    scan = bytes(int(bits[i:i + 8], 2) for i in range(0, len(bits), 8)).replace(b"\xff", b"\xff\0")
+    part = lambda mark, content: bytes([0xFF, mark]) + struct.pack(">H", len(content) + 2) + content
+    open(name, "wb").write(
+        b"\xff\xd8" + part(0xEE, b"Adobe" + struct.pack(">HHHB", 100, 0, 0, 0)) + part(0xDB, b"\0" + b"\1" * 64) +
+        part(0xC0, struct.pack(">BHHB", 8, 8, 8, 4) + b"".join(bytes([i, 0x11, 0]) for i in range(1, 5))) +
+        part(0xC4, b"\0" + bytes([0, 0, 0, 12] + [0] * 12) + bytes(range(12))) +
+        part(0xC4, b"\x10" + bytes([1] + [0] * 15) + b"\0") +
+        part(0xDA, b"\4" + b"".join(bytes([i, 0]) for i in range(1, 5)) + b"\0\x3f\0") + scan + b"\xff\xd9")
+jpeg("inks.jpg", [255, 3, 77, 0])
 open("nan.pfm", "wb").write(b"Pf\n2 1\n-1\n" + struct.pack("<ff", float("nan"), 1))
 open("cut.png", "wb").write(open("a.png", "rb").read()[:60])
 open("empty.png", "wb")
@@ -75,7 +113,20 @@ trouble --abs "$kage" diff a.exr b.exr --abs 1 --ulp 1
 for bad in -1 nan inf 1e999 0x1p3 x; do trouble "$bad" "$kage" diff a.exr b.exr --abs $bad; done
 expect 1 "$kage" diff a.exr b.exr --abs 0.24 --json r.json
 json r.json 'j["max_lsb"] is None and 0.2499 < j["max_abs"] < 0.2501 and j["max_ulp"] > 1000 and j["different_pixels"]==48'
-json r.json 'j["psnr"] > 12 and j["perceptual"] is None'
+json r.json 'j["psnr"] is None and j["perceptual"] is None' # some are beyond 1: there is no largest value
+expect 1 "$kage" diff a.exr b.exr --region 2x1+0+0 --json r.json
+json r.json '12.03 < j["psnr"] < 12.05'
+python3 - <<'PY'
+import struct
+for name, value in (("plus", 0.0), ("minus", -0.0), ("large", 3e38), ("infinity", float("inf"))):
+    open(name + ".pfm", "wb").write(b"Pf\n2 1\n-1\n" + struct.pack("<ff", value, 0.5))
+PY
+expect 1 "$kage" diff plus.pfm minus.pfm
+grep -q ', 1 differs, only in the sign of 0, the first' stdout || fail "the sign is not named: $(cat stdout)"
+expect 1 "$kage" diff plus.pfm large.pfm --json r.json
+json r.json 'j["psnr"] is None and 2.9e38 < j["max_abs"] < 3.1e38'
+expect 1 "$kage" diff plus.pfm infinity.pfm --json r.json
+json r.json 'j["psnr"] is None and j["max_abs"]=="infinite"'
 expect 0 "$kage" diff a.exr b.exr --abs 0.2501 --perceptual --json r.json
 json r.json 'j["same"] is True and j["different_pixels"]==0 and j["reason"] is None and j["perceptual"] is not None'
 expect 1 "$kage" diff nan.pfm nan.pfm --abs 1 --max-percent 100 --json r.json
@@ -90,6 +141,24 @@ done
 expect 1 "$kage" diff grey16.png grey8.png
 expect 1 "$kage" diff grey4.png grey8.png
 grep -q 'number of bits is unlike: 4 and 8' stdout || fail "4 bits are taken for 8: $(cat stdout)"
+for tag in cICP sRGB gAMA sBIT mDCV cLLI cHRM; do
+  expect 0 "$kage" diff one_$tag.png one_$tag.png
+  for other in other_$tag.png a.png; do
+    expect 1 "$kage" diff one_$tag.png $other --max-percent 100
+    grep -q unlike stdout || fail "$tag of $other: not unlike: $(cat stdout)"
+  done
+done
+
+# Values as they are stored: OpenImageIO would make the same black of these inks, and the same white of 0 and 255.
+expect 0 "$kage" diff inks.tif inks.tif
+expect 1 "$kage" diff black.tif inks.tif --json r.json
+json r.json 'j["channels"]==4 and j["different_pixels"]==64 and j["max_lsb"]==255'
+expect 1 "$kage" diff white0.tif black0.tif
+grep -q 'photometric interpretation is unlike: white is 0 and black is 0' stdout || fail "not unlike: $(cat stdout)"
+trouble "lab.tif: has the photometric interpretation 8" "$kage" diff lab.tif lab.tif
+trouble "inks.jpg: is CMYK" "$kage" diff inks.jpg inks.jpg
+oiiotool a.exr -otex mip.exr || fail "no mipmap"
+trouble "mip.exr: holds several sizes" "$kage" diff mip.exr mip.exr
 
 # Files written: all of them or none.
 expect 1 "$kage" diff a.png b.png --out h.png --flip f.png --junit j.xml --json j.json
@@ -152,5 +221,10 @@ for option in --prune --dry-run; do trouble $option "$kage" diff a.png b.png $op
 trouble "no folder" "$kage" diff --bless a.png b.png
 mkfifo pipe.png
 trouble "not a file" "$kage" diff a.png b.png --out pipe.png
+for bad in pipe.png /dev/zero /dev/null; do
+  trouble "$bad: is not a regular file" timeout 20 "$kage" diff $bad a.png
+  trouble "$bad: is not a regular file" timeout 20 "$kage" diff a.png $bad
+  trouble "$bad: is not a regular file" timeout 20 "$kage" diff a.png b.png --mask $bad
+done
 [ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
 done_testing

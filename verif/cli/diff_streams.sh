@@ -36,7 +36,9 @@ PY
 # A frame less; another configuration; another origin; other kinds of sections.
 "$kage" stream glass --size 64x48 --frames 1 --out one.kage >/dev/null
 expect 1 "$kage" diff exact.kage one.kage
-grep -q '3 frames and 1' stdout || fail "the missing frames are not named: $(cat stdout)"
+grep -q '^different: A has 3 frames and B 1, ' stdout || fail "the missing frames are not named: $(cat stdout)"
+expect 1 "$kage" diff one.kage centroid.kage
+grep -q '^different: A has 1 frame and B 3; 1 of 1 frames that both have differs, ' stdout || fail "the frames are not told apart: $(cat stdout)"
 "$kage" stream edges --size 64x48 --frames 1 --config default --out default.kage >/dev/null
 "$kage" stream edges --size 64x48 --frames 1 --config wide --out wide.kage >/dev/null
 expect 1 "$kage" diff default.kage wide.kage --json r.json
@@ -77,6 +79,9 @@ trouble bad.kage "$kage" diff bad.kage one.kage
 head -c 4000 exact.kage >cut.kage
 trouble cut.kage "$kage" diff exact.kage cut.kage
 trouble missing.kage "$kage" diff exact.kage missing.kage
+mkfifo pipe.kage
+trouble "pipe.kage: is not a regular file" timeout 20 "$kage" diff exact.kage pipe.kage
+trouble "pipe.kage: is not a regular file" timeout 20 "$kage" info pipe.kage
 trouble "is a stream" "$kage" diff exact.kage "$source/docs/images/penumbra.png"
 trouble "no folder" "$kage" diff --bless exact.kage one.kage
 [ ! -e k.xml ] || fail "trouble left files"

@@ -206,10 +206,22 @@ TEST_CASE("what a file says of its numbers is compared: types, channels, colour 
   ImageSpec named = exr;
   named.channelnames = {"R", "G", "Z"};
   unlike(at_zero, file(".exr", named), "channels");
+  // One name that reads like several.
+  ImageSpec one(4, 2, 1, TypeDesc::FLOAT);
+  one.channelnames = {"R,G"};
+  ImageSpec two(4, 2, 2, TypeDesc::FLOAT);
+  two.channelnames = {"R", "G"};
+  unlike(file(".exr", one), file(".exr", two), "\"R,G\"");
   const std::vector<float> primaries{0.64F, 0.33F, 0.3F, 0.6F, 0.15F, 0.06F, 0.3127F, 0.3290F};
   ImageSpec coloured = exr;
   coloured.attribute("chromaticities", TypeDesc(TypeDesc::FLOAT, 8), primaries.data());
   unlike(at_zero, file(".exr", coloured), "chromaticity");
+  ImageSpec bright = exr;
+  bright.attribute("whiteLuminance", 100.0F);
+  unlike(at_zero, file(".exr", bright), "white luminance");
+  ImageSpec turned = plain;
+  turned.attribute("Orientation", 6);
+  unlike(file(".tif", plain), file(".tif", turned), "orientation");
 }
 
 TEST_CASE("alpha is compared unless it is to be ignored; masks go by what is not alpha") {

@@ -51,14 +51,21 @@ TEST_CASE("pictures of two folders are matched by name, in subfolders too") {
   text(a / "notes.txt");
   text(b / "report.json");
   const FolderPair pair = pair_folders(a, b);
-  REQUIRE(pair.pictures.size() == 3);
-  CHECK(pair.pictures[0].name == "both.png");
-  CHECK((pair.pictures[0].in_a && pair.pictures[0].in_b));
-  CHECK(pair.pictures[1].name == "right.exr");
-  CHECK((!pair.pictures[1].in_a && pair.pictures[1].in_b));
-  CHECK(pair.pictures[2].name == "sub/deep/left.PNG.png");
-  CHECK((pair.pictures[2].in_a && !pair.pictures[2].in_b));
-  CHECK(pair.others == std::vector<std::string>{"notes.txt", "report.json"});
+  REQUIRE(pair.files.size() == 5);
+  const auto is = [&](std::size_t i, const std::string& name, FolderEntry::Sort sort, bool in_a, bool in_b) {
+    const FolderEntry& entry = pair.files[i];
+    return entry.name == name && entry.sort == sort && entry.in_a == in_a && entry.in_b == in_b;
+  };
+  CHECK(is(0, "both.png", FolderEntry::Sort::picture, true, true));
+  CHECK(is(1, "notes.txt", FolderEntry::Sort::other, true, false));
+  CHECK(is(2, "report.json", FolderEntry::Sort::other, false, true));
+  CHECK(is(3, "right.exr", FolderEntry::Sort::picture, false, true));
+  CHECK(is(4, "sub/deep/left.PNG.png", FolderEntry::Sort::picture, true, false));
+  CHECK(pair.left_out == std::vector<std::string>{".git/", ".hidden.png"});
+  const FolderPair less = pair_folders(a, b, {"*.png", "sub/*", "note?.txt"});
+  CHECK(less.files.size() == 2);
+  CHECK(less.left_out ==
+        std::vector<std::string>{".git/", ".hidden.png", "both.png", "notes.txt", "sub/deep/left.PNG.png"});
   CHECK_THROWS_WITH(pair_folders(a, folder.path / "none"), Catch::Matchers::ContainsSubstring("none"));
   fs::create_directory_symlink(a, b / "link");
   CHECK_THROWS_WITH(pair_folders(a, b), Catch::Matchers::ContainsSubstring("link"));
@@ -86,6 +93,7 @@ TEST_CASE("blessing copies what is new or differs, and touches nothing else") {
                                                    {"changed.png", What::changed},
                                                    {"broken.png", What::changed},
                                                    {"sub/added.png", What::added},
+                                                   {"README", What::missing},
                                                    {"missing.png", What::missing}});
   bless(fresh, reference, plan, false);
   auto expected = before;
@@ -93,10 +101,29 @@ TEST_CASE("blessing copies what is new or differs, and touches nothing else") {
   CHECK(contents(reference) == expected);
   // Now all but the missing one are the same, and there is nothing more to do.
   const auto again = plan_bless(fresh, reference);
-  for (const BlessEntry& entry : again) CHECK(entry.what == (entry.name == "missing.png" ? What::missing : What::same));
+  for (const BlessEntry& entry : again)
+    CHECK(entry.what == (entry.name == "missing.png" || entry.name == "README" ? What::missing : What::same));
   bless(fresh, reference, again, true);
   expected.erase("missing.png");
   CHECK(contents(reference) == expected);
+}
+
+TEST_CASE("folders that hold each other and links in the reference are refused") {
+  const TempFolder folder("image-folders");
+  const fs::path outer = folder.path / "outer";
+  const fs::path inner = outer / "inner";
+  picture(outer / "a.png", 1);
+  picture(inner / "a.png", 2);
+  const auto before = contents(folder.path);
+  CHECK_THROWS_WITH(plan_bless(outer, inner), Catch::Matchers::ContainsSubstring("lies in"));
+  CHECK_THROWS_WITH(plan_bless(inner, outer), Catch::Matchers::ContainsSubstring("lies in"));
+  CHECK_THROWS_WITH(plan_bless(inner, inner / "."), Catch::Matchers::ContainsSubstring("one folder"));
+  // Two names of which one is the beginning of the other are apart.
+  picture(folder.path / "outer2/a.png", 1);
+  CHECK(whats(plan_bless(inner, folder.path / "outer2")) == std::map<std::string, What>{{"a.png", What::changed}});
+  fs::create_symlink("../outer/a.png", folder.path / "outer2/b.png");
+  CHECK_THROWS_WITH(plan_bless(inner, folder.path / "outer2"), Catch::Matchers::ContainsSubstring("b.png: is a link"));
+  for (const auto& [name, bytes] : before) CHECK(bytes_of(folder.path / name) == bytes);
 }
 
 TEST_CASE("a NaN, a broken or no picture is never blessed, and nothing is changed then") {
@@ -126,6 +153,39 @@ TEST_CASE("a NaN, a broken or no picture is never blessed, and nothing is change
   CHECK_THROWS_AS(bless(fresh, reference, plan, true), Error);
   CHECK(contents(reference) == before);
   CHECK_FALSE(fs::exists(reference / "sub"));
+}
+
+TEST_CASE("what fails when some files have their names already puts all back") {
+  const TempFolder folder("image-folders");
+  const fs::path fresh = folder.path / "fresh";
+  const fs::path reference = folder.path / "reference";
+  picture(fresh / "a.png", 2);
+  picture(fresh / "new/n.png", 2);
+  picture(fresh / "z.png", 2);
+  picture(reference / "a.png", 1);
+  picture(reference / "old.png", 1);
+  picture(reference / "z.png", 1);
+  const auto before = contents(reference);
+  auto plan = plan_bless(fresh, reference);
+  std::map<std::string, std::string> seen;
+  const auto stop = [&] {
+    seen = contents(reference);
+    throw Error("stop");
+  };
+  CHECK_THROWS_WITH(bless(fresh, reference, plan, true, stop), "stop");
+  CHECK(seen.at("a.png") == bytes_of(fresh / "a.png"));
+  CHECK(seen.count("new/n.png") == 1);
+  CHECK(seen.count("old.png") == 0);
+  CHECK(contents(reference) == before);
+  CHECK_FALSE(fs::exists(reference / "new"));
+  // The last of them cannot be removed, as it is gone.
+  plan.push_back({"gone.png", What::missing, ""});
+  CHECK_THROWS_WITH(bless(fresh, reference, plan, true), Catch::Matchers::ContainsSubstring("gone.png"));
+  CHECK(contents(reference) == before);
+  CHECK_FALSE(fs::exists(reference / "new"));
+  plan.pop_back();
+  bless(fresh, reference, plan, true);
+  CHECK(contents(reference) == contents(fresh));
 }
 
 }  // namespace kage::verif

@@ -77,7 +77,8 @@ struct DiffResult {
   std::vector<Region> regions;           ///< of differing pixels, most pixels first, kMaxRegions at most
   std::uint64_t region_count = 0;        ///< all of them
   // Diagnosis only: no verdict ever depends on these.
-  std::optional<double> psnr;  ///< dB over all compared values, peak the type's largest or 1.0; nothing if not finite
+  std::optional<double> psnr;  ///< dB over all compared values, peak the type's largest or 1.0; nothing if all are
+                               ///< equal, or a compared float is not in 0 .. 1
   std::optional<std::uint64_t> perceptual_pixels;  ///< that OpenImageIO's compare_Yee tells apart
 };
 
@@ -108,39 +109,52 @@ Image load_mask(const std::filesystem::path& path);
 /// are unlike, black fills up the smaller.
 void save_flip(const std::filesystem::path& path, const Image& a, const Image& b);
 
-/// A picture's name in one or both of two folders, by '/' from the folder, subfolders included.
+/// A file's name in one or both of two folders, by '/' from the folder, subfolders included.
 struct FolderEntry {
+  enum class Sort { picture, stream, other };  ///< by the extension, as docs/diff.md lists them
   std::string name;
+  Sort sort = Sort::other;
   bool in_a = false;
   bool in_b = false;
 };
 
 struct FolderPair {
-  std::vector<FolderEntry> pictures;  ///< sorted by name
-  std::vector<std::string> others;    ///< names of files that are no pictures by their extension, in either folder
+  std::vector<FolderEntry> files;     ///< sorted by name
+  std::vector<std::string> left_out;  ///< names of files and folders that are not compared, in either folder
 };
 
-/// Matches pictures by name. Pictures are what has one of the extensions listed in docs/diff.md; files and folders
-/// whose names begin with a dot are left out. Throws Error if a folder cannot be read.
-FolderPair pair_folders(const std::filesystem::path& a, const std::filesystem::path& b);
+/// Matches files by name. Left out are names that begin with a dot, and those that one of the patterns in `exclude`
+/// matches, as a whole or by their last part (fnmatch(); '*' takes a '/' too). Throws Error if a folder cannot be read.
+FolderPair pair_folders(const std::filesystem::path& a, const std::filesystem::path& b,
+                        const std::vector<std::string>& exclude = {});
 
-/// What becomes of a picture of a reference folder.
+/// Compares two files byte for byte: why they are not the same, in words; empty if they are.
+std::string diff_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// What becomes of a file of a reference folder.
 struct BlessEntry {
   enum class What { same, changed, added, missing };
   std::string name;
   What what{};
   std::string reason;  ///< changed: how, in words
+  FolderEntry::Sort sort = FolderEntry::Sort::picture;
+
+  /// Whether it goes where it is missing and that is asked for: what is neither picture nor stream always stays.
+  [[nodiscard]] bool prunable() const { return what == What::missing && sort != FolderEntry::Sort::other; }
 };
 
-/// Compares all pictures of `fresh` with those of the folder `reference`, exactly, and changes nothing. A reference
-/// that cannot be read counts as changed. Throws Error if a picture of `fresh` cannot be read or holds a NaN, or if
-/// there is none. `each` is called before each picture; what it throws goes through.
+/// Compares all files of `fresh` with those of the folder `reference`, exactly, and changes nothing. A reference that
+/// cannot be read counts as changed. Throws Error if a file of `fresh` cannot be read or holds a NaN, if there is none,
+/// if one folder lies in the other, or if what would be replaced is a link. `each` is called before each file; what it
+/// throws goes through. `exclude` as in pair_folders().
 std::vector<BlessEntry> plan_bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
-                                   const std::function<void(const std::string& name)>& each = {});
+                                   const std::function<void(const std::string& name)>& each = {},
+                                   const std::vector<std::string>& exclude = {});
 
-/// Does it: copies what is `changed` or `added` over, byte by byte, and with `prune` removes what is `missing`. Files
-/// that are `same` are not touched. All copies are written under other names before the first one gets its own.
+/// Does it: copies what is `changed` or `added` over, byte by byte, and with `prune` removes what is prunable(). Files
+/// that are `same` are not touched. All copies are written under other names before the first one gets its own. Where
+/// that fails half-way, or `done` throws, which is called once everything is in place, all is put back as it was.
 void bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
-           const std::vector<BlessEntry>& plan, bool prune);
+           const std::vector<BlessEntry>& plan, bool prune, const std::function<void()>& done = {});
 
 }  // namespace kage
