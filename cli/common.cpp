@@ -209,10 +209,7 @@ void finish(const Options& options, const Json& value, TempFiles& files, const s
   files.place();
   const std::string& said = json_only(options) ? json : text;
   if (!said.empty()) {
-    // A reader that has gone would end the program here, with files in place that nobody takes back.
-    void (*const before)(int) = std::signal(SIGPIPE, SIG_IGN);
     const bool whole = std::fwrite(said.data(), 1, said.size(), stdout) == said.size() && std::fflush(stdout) == 0;
-    (void)std::signal(SIGPIPE, before);
     if (!whole) throw Error("standard output: cannot be written");
   }
   files.settle();
