@@ -413,9 +413,11 @@ module kage_top #(
 
   // ---- status ------------------------------------------------------------------------------------------------------
   logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
+  logic told_q;  // a token has been taken in the clock before: which unit is waited for is known a clock after it
   assign table_free = lines_q == '0;
   assign line_gone  = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
   always_ff @(posedge clk_i) begin
+    told_q <= rst_ni && UNITS > 0 && token_valid && token_ready;
     if (!rst_ni) lines_q <= '0;
     else lines_q <= lines_q + LinesBits'(line_valid) - LinesBits'(line_gone) - LinesBits'(loads_done);
   end
@@ -426,7 +428,7 @@ module kage_top #(
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
   // if one of them does.
   assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
-      painting || frame_end || line_valid || (pixel_valid && pixel_ready) || pixels_moving || out_moving ||
+      told_q || painting || frame_end || line_valid || (pixel_valid && pixel_ready) || pixels_moving || out_moving ||
       tree_moving || (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(

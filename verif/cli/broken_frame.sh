@@ -5,6 +5,9 @@
 
 mkdir bin && ln -s "$kage" bin/kage
 python3 "$source/verif/cli/shown.py" "$source/docs/broken-frame.md" 1 0 0 || fail "docs/broken-frame.md shows something else than its commands print"
+# The last of them, of sound RTL, has taken away what the first one left.
+[ ! -e out/courtyard_0000.gtkw ] && [ ! -e out/courtyard_0000_actual.png ] || fail "evidence of a difference that is no more"
+expect 1 "$kage" cosim courtyard --fault wrong_compare
 for file in out/report.html out/courtyard_0000.gtkw out/courtyard_0000.fst; do
   [ -s $file ] || fail "no $file"
 done
