@@ -413,9 +413,9 @@ module kage_top #(
 
   // ---- status ------------------------------------------------------------------------------------------------------
   logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
-  logic told_q;  // a token has been taken in the clock before: which unit is waited for is known a clock after it
   assign table_free = lines_q == '0;
   assign line_gone  = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
+  logic told_q;  // a token has been taken in the clock before: which unit is waited for is known a clock after it
   always_ff @(posedge clk_i) begin
     told_q <= rst_ni && UNITS > 0 && token_valid && token_ready;
     if (!rst_ni) lines_q <= '0;
