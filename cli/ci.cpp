@@ -35,9 +35,19 @@ bool wants_github(const std::string& annotate) {
   return actions != nullptr && std::string_view(actions) == "true";
 }
 
-/// The file of the stage that differs first, or "".
-std::string file_of(const Json& difference) {
-  return difference["divergence"].is_null() ? std::string() : difference["divergence"]["file"].get<std::string>();
+/// A place in the RTL.
+struct Place {
+  std::string file;  // or "": none is known
+  std::string line;  // or ""
+};
+
+/// Of the stage that differs first; else of the assertion that failed.
+Place place_of(const Json& difference) {
+  if (!difference["divergence"].is_null()) return {difference["divergence"]["file"].get<std::string>(), ""};
+  if (difference["assertion"].is_null()) return {};
+  const std::string at = difference["assertion"].get<std::string>();
+  const std::size_t colon = at.rfind(':');
+  return {at.substr(0, colon), colon == std::string::npos ? "" : at.substr(colon + 1)};
 }
 
 /// First difference and first divergence, a line each.
@@ -155,7 +165,7 @@ void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards, co
       junit.skip(name, fmt::format("not compared: frame {} is different", difference["frame"].get<int>()));
     else if (!difference.is_null() && place + 1 == seconds.size())
       junit.fail(name, seconds[place].get<double>(), difference["text"].get<std::string>(), text_of(difference),
-                 file_of(difference));
+                 place_of(difference).file);
     else
       junit.pass(name, seconds[place].get<double>());
   }
@@ -164,11 +174,14 @@ void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards, co
 void annotate_difference(const std::string& annotate, const Json& report, std::FILE* to) {
   const Json& difference = report["first_difference"];
   if (difference.is_null() || !wants_github(annotate)) return;
-  const std::string file = file_of(difference);
+  const auto [file, line] = place_of(difference);
   const std::string title = fmt::format("kage cosim {}: frame {} is different", report["scene"].get<std::string>(),
                                         difference["frame"].get<int>());
-  fmt::print(to, "::error {}title={}::{}\n", file.empty() ? "" : "file=" + for_github(file, true) + ",",
-             for_github(title, true), for_github(text_of(difference), false));
+  const auto property = [](const char* name, const std::string& value) {
+    return value.empty() ? "" : fmt::format("{}={},", name, for_github(value, true));
+  };
+  fmt::print(to, "::error {}{}title={}::{}\n", property("file", file), property("line", line), for_github(title, true),
+             for_github(text_of(difference), false));
 }
 
 }  // namespace kage::cli

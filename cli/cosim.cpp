@@ -7,7 +7,6 @@
 #include "ci.hpp"
 #include "common.hpp"
 #include "cosim/divergence.hpp"
-#include "cosim/model.hpp"
 #include "cosim/rtl.hpp"
 #include "cosim/run.hpp"
 #include "joined.hpp"
@@ -15,6 +14,7 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "report/html.hpp"
+#include "rtl_run.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
@@ -22,9 +22,8 @@ namespace {
 
 struct CosimCommand : Options {
   std::vector<std::string> inputs;  // of which `input` is the one at hand
-  std::string fault;
   bool no_divergence = false;
-  cosim::RtlOptions rtl;
+  RtlRun rtl;
   CiOptions ci;
   bool no_report = false;
   const CLI::App* command = nullptr;
@@ -32,9 +31,14 @@ struct CosimCommand : Options {
 
 /// What decides words and clocks besides scene, size, configuration and seed.
 Json options_of(const CosimCommand& o) {
-  return {{"fault", o.fault},     {"idle", o.rtl.idle_percent}, {"backpressure", o.rtl.backpressure_percent},
-          {"degrade", o.degrade}, {"order", name_of(o.order)},  {"alpha", o.alpha},
-          {"samples", o.samples}, {"classes", o.classes}};
+  return {{"fault", o.rtl.fault},
+          {"idle", o.rtl.options.idle_percent},
+          {"backpressure", o.rtl.options.backpressure_percent},
+          {"degrade", o.degrade},
+          {"order", name_of(o.order)},
+          {"alpha", o.alpha},
+          {"samples", o.samples},
+          {"classes", o.classes}};
 }
 
 /// The first difference of the pixels, and the stage that it came of where one was looked for and found.
@@ -50,6 +54,7 @@ Json to_json(const std::optional<cosim::Difference>& d, const std::optional<cosi
   j["field"] = d->field;
   j["expected"] = d->expected;
   j["actual"] = d->actual;
+  j["assertion"] = text(d->assertion);
   j["waveform"] = by ? text(by->waveform) : Json(nullptr);
   j["text"] = cosim::describe(*d);
   j["searched"] = searched;
@@ -75,6 +80,17 @@ Json to_json(const std::optional<cosim::Difference>& d, const std::optional<cosi
   return j;
 }
 
+Json to_json(const cosim::Stalls& s) { return {{"input_starved", s.starved}, {"output_blocked", s.blocked}}; }
+
+/// By the name of the phase; without those that lost nothing.
+Json to_json(const cosim::PhaseStalls& stalls) {
+  Json j = Json::object();
+  for (std::size_t i = 0; i < stalls.size(); ++i)
+    if (stalls[i].starved != 0 || stalls[i].blocked != 0)
+      j[std::string(i < cosim::kPhases ? cosim::kPhaseNames[i] : "behind the last token")] = to_json(stalls[i]);
+  return j;
+}
+
 /// The frames that were compared, the first so many and the one that is different.
 Json to_json(const std::vector<cosim::FrameResult>& frames, const std::optional<cosim::Difference>& difference) {
   Json all = Json::array();
@@ -82,7 +98,8 @@ Json to_json(const std::vector<cosim::FrameResult>& frames, const std::optional<
     all.push_back({{"frame", r.frame},
                    {"same", !difference || difference->frame != r.frame},
                    {"cycles", r.cycles},
-                   {"stalled", {{"input_starved", r.starved}, {"output_blocked", r.blocked}}},
+                   {"stalled", to_json(r.stalls)},
+                   {"stalled_by_phase", to_json(r.phase_stalls)},
                    {"spans", r.counts.spans},
                    {"span_pixels", r.counts.span_pixels},
                    {"segments", r.counts.of_kind[static_cast<std::size_t>(Kind::SEG)]},
@@ -107,20 +124,10 @@ struct Job {
   bool interrupted = false;  // after its verdict
 };
 
-/// How the RTL is run with monitors; the model is built if it is not there.
-cosim::DivergenceOptions monitors(const Job& job, Progress& progress) {
-  const CosimCommand& o = job.o;
-  const cosim::Model model =
-      cosim::find_model(job.source->config().config,
-                        {.fault = o.fault, .traced = true, .progress = [&](double seconds) {
-                           check_interrupt();
-                           progress.show(fmt::format("building the RTL model with monitors: {:.0f} s", seconds));
-                         }});
-  cosim::DivergenceOptions options;
-  options.library = model.library;
-  options.rtl = o.rtl;
-  options.steps = o.ci.shard.steps(job.before);
-  options.wait = check_interrupt;
+/// How the RTL is run with monitors.
+cosim::DivergenceOptions monitors(const Job& job) {
+  cosim::DivergenceOptions options = cli::monitors(job.source->config(), job.o.rtl);
+  options.steps = job.o.ci.shard.steps(job.before);
   return options;
 }
 
@@ -128,17 +135,14 @@ cosim::DivergenceOptions monitors(const Job& job, Progress& progress) {
 std::optional<cosim::Divergence> find_divergence(const Job& job, Progress& progress, int frame) {
   Source& source = *job.source;
   const Config& config = source.config().config;
-  cosim::DivergenceOptions options = monitors(job, progress);
+  cosim::DivergenceOptions options = monitors(job);
   progress.show("looking for the stage that differs first");
   if (!job.o.out.empty())
     options.waveform = std::filesystem::path(job.o.out) / fmt::format("{}_{:04}.fst", source.name(), frame);
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   auto d = cosim::find_divergence(frame, feed, config, options);
   if (const auto provenance = d ? source.provenance(frame) : std::nullopt) {
-    std::vector<std::uint32_t> words;
-    source.frame(frame,
-                 [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); });
-    const auto sources = provenance->of_tokens(config, words, {d->token});
+    const auto sources = provenance->of_tokens(config, source.words(frame), {d->token});
     if (!sources.empty()) d->source = sources.begin()->second.text();
   }
   progress.clear();
@@ -195,18 +199,12 @@ Json compare(Job& job) {
   if (frames == 0) return no_frames(source.name(), job.total);
   const OutFolder folder(o.out);
   const Config& config = source.config().config;
+  const cosim::Model model = model_of(source.config(), o.rtl.fault);
   Progress progress;
-  const cosim::Model model =
-      cosim::find_model(config, {.fault = o.fault, .progress = [&](double seconds) {
-                                   check_interrupt();
-                                   progress.show(fmt::format("building the RTL model of configuration {}: {:.0f} s",
-                                                             source.config().name, seconds));
-                                 }});
-  progress.clear();
 
-  o.rtl.seed = o.seed;
+  o.rtl.options.seed = o.seed;
   const auto golden = cosim::make_golden(config);
-  const auto rtl = cosim::make_rtl(model.library, config, o.rtl);
+  const auto rtl = cosim::make_rtl(model.library, config, o.rtl.options);
   cosim::RunOptions options;
   options.out = o.out;
   options.name = source.name();
@@ -243,7 +241,7 @@ Json compare(Job& job) {
       }
     }
     if (report) {
-      const auto watch = [&] { return monitors(job, progress); };
+      const auto watch = [&] { return monitors(job); };
       // Where the monitors could not be had for the search, the page does without them too.
       page = report->write(o.out, r, o.seed, divergence, searched ? watch : RunReport::Watch());
     }
@@ -267,7 +265,7 @@ Json compare(Job& job) {
   j["units"] = source.units();
   j["polyhedra"] = source.ways();
   j["cycles"] = r.cycles;
-  j["stalled"] = {{"input_starved", r.starved}, {"output_blocked", r.blocked}};
+  j["stalled"] = to_json(r.stalls);
   describe_run(j, source.name(), source.frames(), o.ci.shard, steps, options_of(o));
   j["frame_seconds"] = r.frame_seconds;
   j["each"] = to_json(r.each, r.first_difference);
@@ -280,6 +278,7 @@ Json compare(Job& job) {
   j["versions"] = versions();
   j["again"] = command_line(*o.command);
   j["folder"] = std::filesystem::current_path().string();
+  j["rtl"] = rtl_directory();
   j["degraded"] = source.degraded();
   j["pictures"] = r.pictures;
   j["report"] = page.empty() ? Json(nullptr) : Json(page);
@@ -298,7 +297,8 @@ void print_difference(const Json& d) {
       fmt::print("waveform: {}; gtkwave {}\n", d["waveform"].get<std::string>(),
                  quoted(by["save_file"].get<std::string>()));
   } else if (d["searched"].get<bool>()) {
-    fmt::print("no stage differs: look at the registers and the video port\n");
+    fmt::print("no stage differs: look at {}\n",
+               d["assertion"].is_null() ? "the registers and the video port" : "what the assertion guards");
   }
 }
 
@@ -386,14 +386,7 @@ void add_cosim(CLI::App& app, Action& action) {
   c->add_option("--out", o->out, "folder for pictures and report.html, default out")->type_name("DIR");
   options_of_frames(*c, *o);
   option_json(*c, *o);
-  c->add_option("--idle", o->rtl.idle_percent, "percent of clocks at random in which no input is offered, default 0")
-      ->check(CLI::Range(0, 95))
-      ->type_name("P");
-  c->add_option("--backpressure", o->rtl.backpressure_percent,
-                "percent of clocks at random in which no output is taken, default 0")
-      ->check(CLI::Range(0, 95))
-      ->type_name("P");
-  option_fault(*c, o->fault);
+  option_rtl(*c, o->rtl);
   c->add_flag("--no-divergence", o->no_divergence,
               "after a difference do not run the frame again to find the stage that differs first");
   option_shard(*c, o->ci.shard);

@@ -69,6 +69,7 @@ std::string describe(const DiffResult& r) {
   text += counted(pixels, "pixel") + " compared";
   if (r.different_pixels != 0)
     text += fmt::format(", {} {}", r.different_pixels, r.different_pixels == 1 ? "differs" : "differ");
+  if (r.same && (r.max_lsb.value_or(0) != 0 || r.max_ulp.value_or(0) != 0)) text += ", all within the threshold";
   if (r.max_lsb.value_or(0) != 0) text += fmt::format(", by up to {} LSB", *r.max_lsb);
   if (r.max_ulp.value_or(0) != 0)
     text +=

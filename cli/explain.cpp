@@ -9,8 +9,8 @@
 
 #include "common.hpp"
 #include "cosim/divergence.hpp"
-#include "cosim/model.hpp"
 #include "kage/error.hpp"
+#include "rtl_run.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
@@ -21,7 +21,7 @@ struct ExplainCommand : Options {
   std::string pixel;
   bool rtl = false;
   bool changes = false;
-  std::string fault;
+  RtlRun run;
 };
 
 struct Pixel {
@@ -64,33 +64,21 @@ void print_rtl(const std::vector<cosim::RtlTouch>& rtl, std::uint32_t token) {
 }
 
 std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, const Pixel& at) {
-  const Config& config = source.config().config;
-  Progress progress;
-  const cosim::Model model = cosim::find_model(
-      config, {.fault = o.fault, .traced = true, .progress = [&](double seconds) {
-                 check_interrupt();
-                 progress.show(fmt::format("building the RTL model with monitors: {:.0f} s", seconds));
-               }});
-  progress.clear();
-  cosim::DivergenceOptions options;
-  options.library = model.library;
+  cosim::DivergenceOptions options = monitors(source.config(), o.run);
   options.rtl.seed = o.seed;
-  options.wait = check_interrupt;
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
-  return cosim::watch_pixel(o.frame, feed, config, options, at.x, at.y);
+  return cosim::watch_pixel(o.frame, feed, source.config().config, options, at.x, at.y);
 }
 
 int run(const ExplainCommand& o) {
-  if (!o.fault.empty() && !o.rtl) throw Error("--fault: the RTL is run with --rtl only");
+  if (!o.rtl) refuse_rtl(o.run, "the RTL is run with --rtl only");
   check_json(o);
   const Pixel at = parse_pixel(o.pixel);
   Source source(o);
   const Config& config = source.config().config;
   if (o.frame >= source.frames())
     throw Error(fmt::format("{}: --frame {}: there are frames 0 to {}", o.input, o.frame, source.frames() - 1));
-  std::vector<std::uint32_t> words;
-  source.frame(o.frame,
-               [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); });
+  const std::vector<std::uint32_t> words = source.words(o.frame);
   PixelHistory h;
   try {
     h = explain_pixel(config, words, at.x, at.y);
@@ -164,7 +152,9 @@ int run(const ExplainCommand& o) {
   if (json_only(o)) return kSame;
   fmt::print("frame {}, pixel {},{}: {} it{}\n", o.frame, at.x, at.y,
              touching == 1 ? "1 token touches" : fmt::format("{} tokens touch", touching),
-             o.changes ? fmt::format("; {} of them, which changed something, are shown", h.touches.size()) : "");
+             o.changes ? fmt::format("; {} {} shown, where something changed{}", h.touches.size(),
+                                     h.touches.size() == 1 ? "is" : "are", o.rtl ? " or the RTL differs" : "")
+                       : "");
   for (const PixelTouch& t : h.touches) {
     fmt::print("{:>8}  {}\n", t.token, t.text);
     if (sources.count(t.token) != 0) fmt::print("            from {}\n", sources[t.token].text());
@@ -200,7 +190,7 @@ void add_explain(CLI::App& app, Action& action) {
   c->add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
   options_of_frames(*c, *o);
   option_json(*c, *o);
-  option_fault(*c, o->fault);
+  option_rtl(*c, o->run);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -111,7 +111,7 @@ class Data {
       p["name"] = merged_ ? fmt::format("Shard {}/{}", index, r["count"].get<int>()) : "The run";
       p["same"] = true;
       p["file"] = merged_ ? r["file"] : Json(nullptr);
-      for (const char* key : {"again", "folder", "versions"}) p[key] = r[key];
+      for (const char* key : {"again", "folder", "rtl", "versions"}) p[key] = r[key];
       p["golden_seconds"] = p["rtl_seconds"] = 0.0;
       p["runs"] = Json::array();
     }
@@ -127,7 +127,11 @@ class Data {
   /// What is told of a difference.
   static Json difference(const Json& d) {
     if (d.is_null()) return nullptr;
-    Json j{{"text", d["text"]}, {"frame", d["frame"]}, {"searched", d["searched"]}, {"divergence", nullptr}};
+    Json j{{"text", d["text"]},
+           {"frame", d["frame"]},
+           {"searched", d["searched"]},
+           {"assertion", d["assertion"]},
+           {"divergence", nullptr}};
     const Json& by = d["divergence"];
     if (!by.is_null())
       j["divergence"] = {

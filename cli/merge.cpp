@@ -105,7 +105,7 @@ Json merged(const std::vector<Part>& parts) {
     blocked += r["stalled"]["output_blocked"].get<std::uint64_t>();
     Json shard{{"index", p.shard->index}, {"count", p.shard->count}, {"file", p.shard->file}};
     for (const char* key : {"same", "frames", "first_frame", "frame_step", "golden_seconds", "rtl_seconds", "again",
-                            "folder", "versions", "report", "report_crc32", "polyhedra", "first_difference"})
+                            "folder", "rtl", "versions", "report", "report_crc32", "polyhedra", "first_difference"})
       shard[key] = r[key];
     shards.push_back(std::move(shard));
   }

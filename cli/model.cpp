@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage model CONFIG...: builds RTL models ahead of their use.
-#include "cosim/model.hpp"
-
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,6 +8,7 @@
 
 #include "common.hpp"
 #include "kage/config.hpp"
+#include "rtl_run.hpp"
 
 namespace kage::cli {
 namespace {
@@ -26,14 +25,7 @@ int run(const ModelCommand& o) {
   for (const std::string& name : o.configs) list.push_back(load_config(name));
   Json j = Json::array();
   for (const NamedConfig& named : list) {
-    Progress progress;
-    const cosim::Model model = cosim::find_model(
-        named.config,
-        {.fault = o.fault, .progress = [&](double seconds) {
-           check_interrupt();
-           progress.show(fmt::format("building the RTL model of configuration {}: {:.0f} s", named.name, seconds));
-         }});
-    progress.clear();
+    const cosim::Model model = model_of(named, o.fault);
     if (!json_only(o))
       fmt::print("{}: {} ({})\n", named.name, model.library.string(),
                  model.build_seconds > 0 ? fmt::format("built in {:.0f} s", model.build_seconds) : "was there");

@@ -10,6 +10,7 @@
 
 #include "cosim/model.hpp"
 #include "kage/error.hpp"
+#include "rtl_run.hpp"
 
 namespace kage::cli {
 namespace {
@@ -85,8 +86,8 @@ std::string command_line(const CLI::App& command, const std::vector<std::string>
 }
 
 std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input) {
-  static const std::set<std::string> own{"--json", "--out",     "--frame",   "--pixel",
-                                         "--rtl",  "--changes", "--threads", "--fault"};
+  static const std::set<std::string> own{"--json",    "--out",     "--frame", "--pixel", "--rtl",
+                                         "--changes", "--threads", "--fault", "--idle",  "--backpressure"};
   return line_of(command, other.get_name(), {input}, [&](const CLI::Option& o) {
     return own.count(o.get_name()) == 0 && other.get_option_no_throw(o.get_name()) != nullptr;
   });
@@ -99,19 +100,28 @@ std::vector<std::string> versions() {
 }
 
 RunReport::RunReport(Source& source, std::string input, const CLI::App& command)
-    : source_(source),
-      input_(std::move(input)),
-      command_(command),
-      tokens_(source.config().config, report::kPageBytes) {}
+    : source_(source), input_(std::move(input)), command_(command) {
+  keep([&] { tokens_.emplace(source.config().config, report::kPageBytes); });
+}
+
+void RunReport::keep(const std::function<void()>& step) {
+  if (!trouble_.empty()) return;
+  try {
+    step();
+  } catch (const Error& e) {
+    trouble_ = e.what();
+    tokens_.reset();
+  }
+}
 
 TokenCounts RunReport::frame(int index, const WordSink& sink) {
   if (index >= static_cast<int>(cosim::kFrameResults)) return source_.frame(index, sink);
-  tokens_.begin(index);
+  keep([&] { tokens_->begin(index); });
   const TokenCounts counts = source_.frame(index, [&](std::span<const std::uint32_t> words) {
-    tokens_.words(words);
+    keep([&] { tokens_->words(words); });
     sink(words);
   });
-  tokens_.end();
+  keep([&] { tokens_->end(); });
   return counts;
 }
 
@@ -119,9 +129,8 @@ void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
   const int frame = page.run->first_difference->frame;
   const auto pixels = pixels_of(*page.run);
   if (pixels.empty()) return;
-  std::vector<std::uint32_t> words;
+  const std::vector<std::uint32_t> words = source_.words(frame);
   const auto feed = [&](int i, const WordSink& sink) { return source_.frame(i, sink); };
-  feed(frame, [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); });
   const Config& config = page.config.config;
   const cosim::DivergenceOptions options = watch ? watch() : cosim::DivergenceOptions();
   const auto provenance = source_.provenance(frame);
@@ -152,6 +161,7 @@ void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
 
 std::string RunReport::write(const std::string& folder, const cosim::Report& run, std::uint64_t seed,
                              const std::optional<cosim::Divergence>& divergence, const Watch& watch) {
+  if (!tokens_) throw Error(trouble_);
   report::Page page;
   page.name = source_.name();
   page.run = &run;
@@ -164,11 +174,13 @@ std::string RunReport::write(const std::string& folder, const cosim::Report& run
   page.again = command_line(command_);
   const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
   page.explain = command_line(command_, *explain, input_);
-  if (const auto* fault = command_.get_option_no_throw("--fault"); fault != nullptr && fault->count() != 0)
-    page.explain_rtl = " --fault " + quoted(fault->as<std::string>());
-  page.explain_rtl += " --rtl";
+  page.explain_rtl = " --rtl";
+  for (const char* name : {"--fault", "--idle", "--backpressure"})
+    if (const CLI::Option* o = command_.get_option(name); o->count() != 0)
+      page.explain_rtl += fmt::format(" {} {}", name, quoted(o->results().back()));
   page.folder = std::filesystem::current_path().string();
-  page.tokens = &tokens_;
+  page.rtl = rtl_directory();
+  page.tokens = &*tokens_;
   std::optional<report::TokenStore> wanted;
   if (run.first_difference) {
     const std::set<int> bands = bands_that_differ(run);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,23 +30,26 @@ class RunReport {
   /// `input` is what the source was opened by.
   RunReport(Source& source, std::string input, const CLI::App& command);
 
-  /// As the source gives them.
+  /// As the source gives them. That their tokens cannot be kept for the page does not end the run.
   TokenCounts frame(int index, const WordSink& sink);
 
   using Watch = std::function<cosim::DivergenceOptions()>;
 
   /// Writes FOLDER/report.html and returns its name. `watch` gives the options to run the RTL with monitors by; it is
-  /// asked only after a difference, and empty where no stage is to be looked for.
+  /// asked only after a difference, and empty where no stage is to be looked for. Throws Error if there can be no page.
   std::string write(const std::string& folder, const cosim::Report& run, std::uint64_t seed,
                     const std::optional<cosim::Divergence>& divergence, const Watch& watch);
 
  private:
+  /// A step of keeping tokens, unless one has failed.
+  void keep(const std::function<void()>& step);
   void tell_pixels(report::Page& page, const Watch& watch);
 
   Source& source_;
   std::string input_;
   const CLI::App& command_;
-  report::TokenStore tokens_;
+  std::optional<report::TokenStore> tokens_;  // empty once they could not be kept, which is trouble_
+  std::string trouble_;
 };
 
 }  // namespace kage::cli

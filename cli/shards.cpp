@@ -50,7 +50,7 @@ void need(const std::string& file, const Json& in, std::initializer_list<const c
 void check_difference(const std::string& file, const Json& d) {
   need(file, d, {"frame"}, is_count);
   need(file, d, {"text"}, is_text);
-  need(file, d, {"waveform"}, is_text_or_null);
+  need(file, d, {"waveform", "assertion"}, is_text_or_null);
   need(file, d, {"searched"}, [](const Json& v) { return v.is_boolean(); });
   need(file, d, {"divergence"}, is_object_or_null);
   if (d["divergence"].is_null()) return;
@@ -68,7 +68,7 @@ void check(const std::string& file, const Json& r) {
        is_count);
   need(file, r, {"seed"}, is_whole);
   need(file, r, {"golden_seconds", "rtl_seconds", "build_seconds"}, is_seconds);
-  need(file, r, {"scene", "config_name", "again", "folder"}, is_text);
+  need(file, r, {"scene", "config_name", "again", "folder", "rtl"}, is_text);
   need(file, r, {"report", "report_crc32"}, is_text_or_null);
   need(file, r, {"config", "options", "stalled"}, is_object);
   for (const Json& value : r["config"])

@@ -142,6 +142,12 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   return counts;
 }
 
+std::vector<std::uint32_t> Source::words(int index) {
+  std::vector<std::uint32_t> all;
+  frame(index, [&](std::span<const std::uint32_t> piece) { all.insert(all.end(), piece.begin(), piece.end()); });
+  return all;
+}
+
 TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
   TokenCounts counts;
   auto words = stream_->frame(index, &counts);

@@ -54,6 +54,9 @@ class Source {
   /// check_interrupt() may end it.
   TokenCounts frame(int index, const WordSink& sink);
 
+  /// All of them at once.
+  std::vector<std::uint32_t> words(int index);
+
   /// What the tokens of frame `index` come from; nothing if the frames are a stream's.
   [[nodiscard]] std::optional<Provenance> provenance(int index);
 

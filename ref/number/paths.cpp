@@ -2,6 +2,8 @@
 #include "kage/paths.hpp"
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "kage/error.hpp"
 
@@ -21,6 +23,13 @@ std::filesystem::path data_directory() {
   for (const char* candidate : {KAGE_SOURCE_DATA_DIR, KAGE_INSTALL_DATA_DIR})
     if (*candidate != '\0' && fs::exists(fs::path(candidate) / "rtl" / "configs.yaml")) return candidate;
   throw Error("kage's data (rtl/, scenes/) is not where it was built or installed: set KAGE_DATA_DIR");
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) throw Error(path.string() + ": cannot be read");
+  return text;
 }
 
 }  // namespace kage

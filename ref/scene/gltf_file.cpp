@@ -26,7 +26,7 @@ std::uint32_t little(const std::uint8_t* p) {
          static_cast<std::uint32_t>(p[3]) << 24;
 }
 
-Bytes read_file(const std::filesystem::path& path, std::uint64_t most) {
+Bytes read_bytes(const std::filesystem::path& path, std::uint64_t most) {
   std::ifstream in(path, std::ios::binary);
   if (!in) return {};
   Bytes bytes;
@@ -124,7 +124,7 @@ bool GltfFile::recognises(const std::filesystem::path& path) {
 }
 
 GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(path), name_(std::move(name)) {
-  Bytes text = read_file(path, std::numeric_limits<std::uint64_t>::max());
+  Bytes text = read_bytes(path, std::numeric_limits<std::uint64_t>::max());
   if (text.size() >= 4 && std::memcmp(text.data(), "glTF", 4) == 0) {
     if (text.size() < 20) fail("header", "the file ends within it");
     version_2_ = little(text.data() + 4) != 1;
@@ -252,7 +252,7 @@ const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
     const std::filesystem::path file = path_.parent_path() / percent_decoded(uri);
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error)) fail(here, "no file " + one_line(uri, 80));
-    slot = read_file(file, bytes);
+    slot = read_bytes(file, bytes);
   }
   if (slot->size() < bytes) fail(here, "says " + std::to_string(bytes) + " bytes, has " + std::to_string(slot->size()));
   slot->resize(static_cast<std::size_t>(bytes));

@@ -25,6 +25,9 @@ json s.json 'j["same"] is True and j["build_seconds"]==0 and j["pixels_compared"
 # Stalls, seeds and threads change no pixel; stalls are counted.
 expect 0 "$kage" cosim c.kage --idle 40 --backpressure 60 --seed 7 --threads 1 --out stalled --json s.json
 json s.json 'j["same"] is True and j["seed"]==7 and j["stalled"]["input_starved"]>0 and j["stalled"]["output_blocked"]>0'
+# Each belongs to a phase: those of the frame's kinds of token, and what is behind the last.
+json s.json 'all(sum(p[k] for p in f["stalled_by_phase"].values())==n for f in j["each"] for k, n in f["stalled"].items())'
+json s.json '{"state","opaque","volumes","ends of volumes","line out","behind the last token"}==set(j["each"][0]["stalled_by_phase"])'
 
 # Every named configuration.
 expect 0 "$kage" cosim courtyard --config tiny --degrade --size 150x40 --frames 1 --out tiny
@@ -68,6 +71,9 @@ expect 1 "$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare -
 json blocked.json 'j["same"] is False and j["report"] is None and j["first_difference"]["waveform"] is None'
 json blocked.json 'j["first_difference"]["stage"]=="pixel_banked" and [n for n in j["notes"] if "no waveform" in n] and [n for n in j["notes"] if "no report" in n]'
 grep -q '<failure' blocked.xml || fail "no JUnit where waveform and page could not be written"
+# Nor is the room for the page's tokens a matter of the verdict: no file here may have more than 24 KiB.
+expect 0 bash -c 'trap "" XFSZ; ulimit -f 24; exec "$@"' - "$kage" cosim courtyard --size 160x120 --out narrow --json narrow.json
+json narrow.json 'j["same"] and j["frames"]==8 and j["report"] is None and any("no report was written: the report: its temporary file" in n for n in j["notes"])'
 # So it does for who has waited long enough.
 "$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out cut --json cut.json >stdout 2>stderr &
 until [ -e cut/courtyard_0000_difference.png ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done

@@ -81,6 +81,7 @@ expect 1 "$kage" diff b.png a.png --json -
 cp stdout s.json
 json s.json 'j["different_pixels"]==2 and j["max_lsb"]==4'
 expect 0 "$kage" diff a.png b.png --lsb 4
+grep -q "all within the threshold, by up to 4 LSB" stdout || fail "the threshold is not told: $(cat stdout)"
 expect 1 "$kage" diff a.png b.png --lsb 3
 expect 0 "$kage" diff a.png b.png --max-pixels 2
 expect 1 "$kage" diff a.png b.png --max-pixels 1

@@ -48,6 +48,7 @@ void FrameComparison::actual(std::span<const std::uint8_t> line) {
                         channel_name(channels_, static_cast<int>(at % channels)),
                         want[at],
                         line[at],
+                        {},
                         {}};
   if (line.size() != want.size() && !unlike_)
     unlike_ = {y, static_cast<int>(want.size() / channels), static_cast<int>(line.size() / channels)};
@@ -67,15 +68,26 @@ std::optional<Difference> FrameComparison::finish(const FrameEnd& e, const Frame
   const FrameStatus& es = e.status;
   const FrameStatus& as = a.status;
   const auto whole = [&](int line, const char* field, std::int64_t want, std::int64_t got) {
-    return Difference{frame_, line, -1, field, want, got, a.misconduct};
+    return Difference{frame_, line, -1, field, want, got, a.misconduct, {}};
   };
+  if (!assertion_.empty()) {
+    Difference d = first_.value_or(whole(lines_ < es.height ? lines_ : -1, "assertion", 0, 1));
+    d.remark = "an assertion failed: " + assertion_;
+    d.assertion = assertion_;
+    return d;
+  }
   if (first_) return first_;
   if (es.width != as.width) return whole(-1, "width", es.width, as.width);
   if (es.height != as.height) return whole(std::min(es.height, as.height), "height", es.height, as.height);
   if (lines_ < es.height || (unlike_ && unlike_->actual < unlike_->expected))
-    return Difference{frame_,      unlike_ ? unlike_->line : lines_,   unlike_ ? unlike_->actual : 0,
-                      "missing",   std::int64_t{es.width} * es.height, static_cast<std::int64_t>(pixels_),
-                      a.misconduct};
+    return Difference{frame_,
+                      unlike_ ? unlike_->line : lines_,
+                      unlike_ ? unlike_->actual : 0,
+                      "missing",
+                      std::int64_t{es.width} * es.height,
+                      static_cast<std::int64_t>(pixels_),
+                      a.misconduct,
+                      {}};
   if (lines_ > es.height) return whole(es.height, "height", es.height, lines_);
   if (unlike_) return whole(unlike_->line, "width", unlike_->expected, unlike_->actual);
   const auto line = static_cast<int>(es.line);
@@ -111,7 +123,7 @@ std::string describe(const Difference& d) {
   } else if (d.field == "error") {
     text += fmt::format(": expected {}, got {}", kErrorNames[static_cast<std::size_t>(d.expected) % kErrorNames.size()],
                         kErrorNames[static_cast<std::size_t>(d.actual) % kErrorNames.size()]);
-  } else if (d.field != "port") {
+  } else if (d.field != "port" && d.field != "assertion") {
     text += fmt::format(", {}: expected {}, got {}", d.field, d.expected, d.actual);
   }
   return d.remark.empty() ? text : text + ": " + d.remark;

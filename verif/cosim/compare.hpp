@@ -19,10 +19,11 @@ struct Difference {
   int line = -1;      ///< -1: of the frame as a whole
   int x = -1;         ///< -1: not at a pixel
   std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
-                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"
+                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion" (of the RTL)
   std::int64_t expected = 0;
   std::int64_t actual = 0;
-  std::string remark;  ///< more in words, or empty
+  std::string remark;     ///< more in words, or empty
+  std::string assertion;  ///< the RTL's that ended the frame, "rtl/frame_control.sv:312", or empty
 };
 
 /// Lines of one length, one after the other. Neighbours that are the same take room once, so the background that
@@ -57,7 +58,11 @@ class FrameComparison {
   /// The next line of the actual core.
   void actual(std::span<const std::uint8_t> line);
 
-  /// Both frames have ended. Nothing where all agree.
+  /// The actual core can go no further: AssertionError::where().
+  void assertion(const std::string& where) { assertion_ = where; }
+
+  /// Both frames have ended. Nothing where all agree. After assertion() what the actual one says of its frame is
+  /// nothing.
   std::optional<Difference> finish(const FrameEnd& expected, const FrameEnd& actual) const;
 
   /// After finish(): what the actual core drew, given what the expected one did; the same above the first difference,
@@ -72,6 +77,7 @@ class FrameComparison {
   int lines_ = 0;                    // that came from the actual core
   std::uint64_t pixels_ = 0;         // in them
   std::optional<Difference> first_;  // of pixels
+  std::string assertion_;
   struct Unlike {
     int line;
     int expected;

@@ -9,19 +9,33 @@
 #include <span>
 #include <string>
 
+#include "cosim/phases.hpp"
 #include "kage/core.hpp"
 #include "kage/defs.hpp"
+#include "kage/error.hpp"
 
 namespace kage::cosim {
 
 /// How a core ended a frame.
 struct FrameEnd {
   FrameStatus status;
-  std::string misconduct;     ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
-  double seconds = 0;         ///< wall time inside the core
-  std::uint64_t cycles = 0;   ///< core clock edges; 0 for a core without clock
-  std::uint64_t starved = 0;  ///< of them, waiting for input
-  std::uint64_t blocked = 0;  ///< of them, waiting for output
+  std::string misconduct;      ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
+  double seconds = 0;          ///< wall time inside the core
+  std::uint64_t cycles = 0;    ///< core clock edges; 0 for a core without clock
+  Stalls stalls;               ///< clocks of them that were lost
+  PhaseStalls phase_stalls{};  ///< which of those in which phase
+};
+
+/// An assertion in the RTL failed, so that the core can go no further.
+class AssertionError : public Error {
+ public:
+  /// `where`: "rtl/frame_control.sv:312".
+  explicit AssertionError(const std::string& where)
+      : Error("an assertion failed: " + where + " (its message is above)"), where_(where) {}
+  [[nodiscard]] const std::string& where() const { return where_; }
+
+ private:
+  std::string where_;
 };
 
 /// Words flow in and lines flow out: a core keeps a few lines at most, whatever the size of the frame.
@@ -35,7 +49,8 @@ class Core {
   [[nodiscard]] virtual int channels() const = 0;
 
   /// The next words of the frame at hand, in pieces of any size. Lines that have come out go to `sink` before this
-  /// returns, from top to bottom.
+  /// returns, from top to bottom. This and finish() may throw AssertionError; then nothing more may be asked of the
+  /// core.
   virtual void feed(std::span<const std::uint32_t> words, const LineSink& sink) = 0;
 
   /// The frame's words have all been fed, TLAST with the beat of the last. The other lines go to `sink`; the last one

@@ -148,10 +148,13 @@ void describe_part(Divergence& d, const Config& config, const kage_rtl_event& pa
 
 std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
                                           const DivergenceOptions& options) {
+  // What a frame before has left in the core is mostly of the very last one; each time twice as many are taken.
+  const FrameSteps& steps = options.steps;
+  const int before = (frame - steps.first) / steps.step;
   int from = frame;
   Found found = search(from, frame, feed, config, options);
-  if (!found.any() && frame > options.steps.first) {
-    from = options.steps.first;
+  for (int back = 1; !found.any() && from > steps.first; back *= 2) {
+    from = back < before ? frame - back * steps.step : steps.first;
     found = search(from, frame, feed, config, options);
   }
   if (!found.any()) return std::nullopt;

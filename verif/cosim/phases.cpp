@@ -2,6 +2,7 @@
 #include "cosim/phases.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace kage::cosim {
 namespace {
@@ -29,6 +30,20 @@ Phase phase_of(Kind kind) {
 }
 
 }  // namespace
+
+void PhaseMarker::mark(std::span<const std::uint32_t> words, std::vector<std::uint8_t>& marks) {
+  marks.reserve(marks.size() + words.size());
+  for (const std::uint32_t word : words) {
+    if (left_ == 0) {
+      const std::size_t kind = word & 15U;
+      left_ = layout_.words[kind];
+      phase_ = left_ == 0 ? Phase::state : phase_of(static_cast<Kind>(kind));
+      if (left_ == 0) left_ = std::numeric_limits<std::uint64_t>::max();
+    }
+    --left_;
+    marks.push_back(static_cast<std::uint8_t>(phase_));
+  }
+}
 
 void PhaseCounter::token(const Token& t) {
   const auto words = static_cast<std::uint64_t>(layout_.words[static_cast<std::size_t>(t.kind)]);

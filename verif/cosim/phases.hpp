@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where the clocks of a frame go by design (docs/rtl.md, "Clocks"): each token's, summed by what it is for.
+// Where the clocks of a frame go by design (docs/rtl.md, "Clocks"): each token's, summed by what it is for. And by the
+// same phases the clocks that the RTL lost at its ports.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "kage/stream.hpp"
 
@@ -19,6 +22,37 @@ inline constexpr std::array<std::string_view, kPhases> kPhaseTokens{
     "SHADE, TABLE, FACE, SEG, RESOLVE, END", "OP, TREE", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
 inline constexpr std::array<std::string_view, kPhases> kPhaseNames{
     "state", "opaque", "volumes", "ends of volumes", "light samples", "translucent", "line out"};
+
+/// Clocks that a core with a clock lost at its ports.
+struct Stalls {
+  std::uint64_t starved = 0;  ///< no input was offered
+  std::uint64_t blocked = 0;  ///< its output was not taken
+};
+
+/// By the phase of the token at which the input stood; the last: behind the frame's last one. The core itself may still
+/// be at work on a token or two before it.
+using PhaseStalls = std::array<Stalls, kPhases + 1>;
+
+/// The phase of each word of a frame, that of its token. The header's is Phase::state, and so is that of words behind
+/// what is no token.
+class PhaseMarker {
+ public:
+  explicit PhaseMarker(const Config& config) : layout_(config) {}
+
+  /// A frame begins.
+  void start() {
+    phase_ = Phase::state;
+    left_ = kHeaderWords;
+  }
+
+  /// The next of its words: a mark each is added to `marks`.
+  void mark(std::span<const std::uint32_t> words, std::vector<std::uint8_t>& marks);
+
+ private:
+  Layout layout_;
+  Phase phase_ = Phase::state;
+  std::uint64_t left_ = kHeaderWords;  // words of the token at hand
+};
 
 struct PhaseSums {
   struct Sum {

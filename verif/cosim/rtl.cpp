@@ -41,7 +41,7 @@ class Library {
 class Rtl : public RtlCore {
  public:
   Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
-      : config_(config), library_(path), table_(library_.table()) {
+      : config_(config), library_(path), table_(library_.table()), marker_(config) {
     if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
       throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
     for (const ParamInfo& p : kParams)
@@ -67,14 +67,14 @@ class Rtl : public RtlCore {
     open();
     if (stuck_) return;  // it takes nothing more
     held_.insert(held_.end(), words.begin(), words.end());
+    marker_.mark(words, marks_);
     announce();
     if (!announced_ || held_.empty()) return;
     // The last beat waits here: TLAST may belong to it.
     const auto beat = static_cast<std::size_t>(config_.beat_words);
     const std::size_t n = (held_.size() - 1) / beat * beat;
     if (n == 0) return;
-    table_->submit(model_, held_.data(), n, 0);
-    held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(n));
+    submit(n, false);
     stuck_ = checked(table_->run_dry(model_, kForever)) == KAGE_RTL_STUCK;
     take_pixels(watch.outside(sink));
   }
@@ -122,7 +122,7 @@ class Rtl : public RtlCore {
   static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
 
   [[nodiscard]] int checked(int why) const {
-    if (why == KAGE_RTL_ASSERT) throw AssertionError(table_->failure(model_));
+    if (why == KAGE_RTL_ASSERT) throw AssertionError(std::string("rtl/") + table_->failure(model_));
     return why;
   }
 
@@ -138,8 +138,19 @@ class Rtl : public RtlCore {
     y_ = 0;
     line_.clear();
     held_.clear();
+    marks_.clear();
+    marker_.start();
     table_->clear_pixels(model_);
     table_->clear_stats(model_);
+  }
+
+  /// The first of what is held.
+  void submit(std::size_t words, bool last) {
+    const auto n = static_cast<std::ptrdiff_t>(words);
+    table_->mark(model_, marks_.data(), words);
+    table_->submit(model_, held_.data(), words, last ? 1 : 0);
+    held_.erase(held_.begin(), held_.begin() + n);
+    marks_.erase(marks_.begin(), marks_.begin() + n);
   }
 
   /// Once the header is there whole, the model is told of the frame's size.
@@ -156,7 +167,7 @@ class Rtl : public RtlCore {
     const bool any = width_ != 0 && height_ != 0;
     int why = KAGE_RTL_STUCK;
     if (!stuck_) {
-      table_->submit(model_, held_.data(), held_.size(), 1);
+      submit(held_.size(), true);
       why = checked(table_->run(model_, any ? left_ : kForever, kForever));
     }
     std::string trouble;
@@ -184,8 +195,9 @@ class Rtl : public RtlCore {
     table_->stats(model_, &stats);
     end.misconduct = misconduct(stats, trouble);
     end.cycles = stats.cycles;
-    end.starved = stats.input_starved;
-    end.blocked = stats.output_blocked;
+    end.stalls = {stats.input_starved, stats.output_blocked};
+    static_assert(std::tuple_size_v<PhaseStalls> == KAGE_RTL_MARKS);
+    for (std::size_t i = 0; i < KAGE_RTL_MARKS; ++i) end.phase_stalls[i] = {stats.starved[i], stats.blocked[i]};
   }
 
   [[nodiscard]] int built_with(std::string_view name) const {
@@ -280,6 +292,8 @@ class Rtl : public RtlCore {
   std::uint32_t y_ = 0;              // of the line to come
   std::vector<std::uint8_t> line_;   // the part of it that is here
   std::vector<std::uint32_t> held_;  // not yet submitted
+  std::vector<std::uint8_t> marks_;  // of those words
+  PhaseMarker marker_;
   double seconds_ = 0;
 };
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "cosim/core.hpp"
-#include "kage/error.hpp"
 #include "rtl_model/rtl_model.h"
 
 namespace kage::cosim {
@@ -19,18 +18,6 @@ struct RtlOptions {
   int backpressure_percent = 0;  ///< share of clocks without output taken
   int mutant = 0;                ///< of a model that has mutants: which one it is, from 1; 0: none
   bool assertions = true;        ///< false: go on where the RTL's assertions fail
-};
-
-/// An assertion in the RTL failed.
-class AssertionError : public Error {
- public:
-  /// `where`: "frame_control.sv:312".
-  explicit AssertionError(const std::string& where)
-      : Error("RTL model: an assertion failed: rtl/" + where + " (its message is above)"), where_(where) {}
-  [[nodiscard]] const std::string& where() const { return where_; }
-
- private:
-  std::string where_;
 };
 
 /// The RTL, simulated. What lies past Core needs a model that was built with tracing.

@@ -41,10 +41,8 @@ class Comparer {
   /// False after the first difference: nothing more is wanted.
   bool take(Piece piece) {
     if (!comparison_) comparison_.emplace(number(), actual_.channels(), !options_.out.empty());
-    comparison_->expect(std::move(piece.lines));
-    const LineSink sink = [this](int, std::span<const std::uint8_t> line) { comparison_->actual(line); };
-    actual_.feed(piece.words, sink);
-    return !piece.end || end_frame(*piece.end, actual_.finish(sink));
+    const FrameEnd end = failed_ ? FrameEnd() : give(piece);
+    return !piece.end || end_frame(*piece.end, end);
   }
 
   [[nodiscard]] Report& report() { return report_; }
@@ -55,6 +53,21 @@ class Comparer {
  private:
   /// That of the frame at hand.
   [[nodiscard]] int number() const { return options_.steps.first + report_.frames * options_.steps.step; }
+
+  /// The actual core's part of a piece, and how it ends the frame where that is the last. An assertion of it ends what
+  /// can be compared: the expected core alone goes on to the frame's end.
+  FrameEnd give(Piece& piece) {
+    comparison_->expect(std::move(piece.lines));
+    const LineSink sink = [this](int, std::span<const std::uint8_t> line) { comparison_->actual(line); };
+    try {
+      actual_.feed(piece.words, sink);
+      if (piece.end) return actual_.finish(sink);
+    } catch (const AssertionError& e) {
+      comparison_->assertion(e.where());
+      failed_ = true;
+    }
+    return {};
+  }
 
   bool end_frame(Piece::End& end, const FrameEnd& a) {
     const FrameEnd& e = end.expected;
@@ -67,14 +80,14 @@ class Comparer {
     report_.span_pixels += end.counts.span_pixels;
     report_.segments += end.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
     report_.cycles += a.cycles;
-    report_.starved += a.starved;
-    report_.blocked += a.blocked;
+    report_.stalls.starved += a.stalls.starved;
+    report_.stalls.blocked += a.stalls.blocked;
     report_.expected_seconds += e.seconds;
     report_.actual_seconds += a.seconds;
     report_.frame_seconds.push_back(e.seconds + a.seconds);
     report_.first_difference = comparison_->finish(e, a);
     const bool listed = report_.each.size() < kFrameResults || report_.first_difference;
-    if (listed) report_.each.push_back({frame, e.status, end.counts, a.cycles, a.starved, a.blocked, {}});
+    if (listed) report_.each.push_back({frame, e.status, end.counts, a.cycles, a.stalls, a.phase_stalls, {}});
     if (end.picture && end.picture->drawn()) {
       if (listed) report_.each.back().picture = end.picture->path().string();
       report_.pictures.push_back(end.picture->path().string());
@@ -113,6 +126,7 @@ class Comparer {
   TempFiles files_;  // the pictures of the report
   Image expected_;   // of the frame with the difference
   std::optional<FrameComparison> comparison_;
+  bool failed_ = false;  // an assertion of the actual core did
 };
 
 /// The comparer on a thread of its own, behind a queue that holds so much and no more.

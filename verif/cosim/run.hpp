@@ -40,8 +40,8 @@ struct FrameResult {
   FrameStatus status;  ///< of the expected core
   TokenCounts counts;
   std::uint64_t cycles = 0;  ///< of the actual core, as in FrameEnd
-  std::uint64_t starved = 0;
-  std::uint64_t blocked = 0;
+  Stalls stalls;
+  PhaseStalls phase_stalls{};
   std::string picture;  ///< what the expected core drew, or empty
 };
 
@@ -58,8 +58,7 @@ struct Report {
   std::uint64_t span_pixels = 0;
   std::uint64_t segments = 0;
   std::uint64_t cycles = 0;
-  std::uint64_t starved = 0;
-  std::uint64_t blocked = 0;
+  Stalls stalls;
   double expected_seconds = 0;  ///< inside the cores, not making words or pictures
   double actual_seconds = 0;
   std::vector<double> frame_seconds;  ///< inside the cores, of each frame compared

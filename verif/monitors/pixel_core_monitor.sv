@@ -2,6 +2,13 @@
 // Whether pixel_core gives the arrangement what it is given itself.
 `default_nettype none
 
+// The inputs of pixel_core, which are those of the arrangement.
+`define KAGE_GIVEN(at) { \
+    at.cmd_valid_i, at.cmd_kind_i, at.cmd_xl_i, at.cmd_xr_i, at.cmd_count_i, at.cmd_z_i, \
+    at.cmd_dz_i, at.cmd_color_i, at.cmd_dcolor_i, at.cmd_share_i, at.tree_valid_i, at.tree_z_i, \
+    at.tree_class_i, at.tree_color_i, at.tree_last_i, at.tree_drop_i, at.exit_free_i \
+  }
+
 module pixel_core_monitor #(
     parameter int ARRANGEMENT = 1
 ) (
@@ -12,81 +19,9 @@ module pixel_core_monitor #(
 
   logic same;
   if (ARRANGEMENT == 1) begin : gen_banked
-    assign same = {
-      pixel_core.gen_banked.u_pixels.cmd_valid_i,
-      pixel_core.gen_banked.u_pixels.cmd_kind_i,
-      pixel_core.gen_banked.u_pixels.cmd_xl_i,
-      pixel_core.gen_banked.u_pixels.cmd_xr_i,
-      pixel_core.gen_banked.u_pixels.cmd_count_i,
-      pixel_core.gen_banked.u_pixels.cmd_z_i,
-      pixel_core.gen_banked.u_pixels.cmd_dz_i,
-      pixel_core.gen_banked.u_pixels.cmd_color_i,
-      pixel_core.gen_banked.u_pixels.cmd_dcolor_i,
-      pixel_core.gen_banked.u_pixels.cmd_share_i,
-      pixel_core.gen_banked.u_pixels.tree_valid_i,
-      pixel_core.gen_banked.u_pixels.tree_z_i,
-      pixel_core.gen_banked.u_pixels.tree_class_i,
-      pixel_core.gen_banked.u_pixels.tree_color_i,
-      pixel_core.gen_banked.u_pixels.tree_last_i,
-      pixel_core.gen_banked.u_pixels.tree_drop_i,
-      pixel_core.gen_banked.u_pixels.exit_free_i
-    } == {
-      pixel_core.cmd_valid_i,
-      pixel_core.cmd_kind_i,
-      pixel_core.cmd_xl_i,
-      pixel_core.cmd_xr_i,
-      pixel_core.cmd_count_i,
-      pixel_core.cmd_z_i,
-      pixel_core.cmd_dz_i,
-      pixel_core.cmd_color_i,
-      pixel_core.cmd_dcolor_i,
-      pixel_core.cmd_share_i,
-      pixel_core.tree_valid_i,
-      pixel_core.tree_z_i,
-      pixel_core.tree_class_i,
-      pixel_core.tree_color_i,
-      pixel_core.tree_last_i,
-      pixel_core.tree_drop_i,
-      pixel_core.exit_free_i
-    };
+    assign same = `KAGE_GIVEN(pixel_core.gen_banked.u_pixels) == `KAGE_GIVEN(pixel_core);
   end else begin : gen_systolic
-    assign same = {
-      pixel_core.gen_systolic.u_pixels.cmd_valid_i,
-      pixel_core.gen_systolic.u_pixels.cmd_kind_i,
-      pixel_core.gen_systolic.u_pixels.cmd_xl_i,
-      pixel_core.gen_systolic.u_pixels.cmd_xr_i,
-      pixel_core.gen_systolic.u_pixels.cmd_count_i,
-      pixel_core.gen_systolic.u_pixels.cmd_z_i,
-      pixel_core.gen_systolic.u_pixels.cmd_dz_i,
-      pixel_core.gen_systolic.u_pixels.cmd_color_i,
-      pixel_core.gen_systolic.u_pixels.cmd_dcolor_i,
-      pixel_core.gen_systolic.u_pixels.cmd_share_i,
-      pixel_core.gen_systolic.u_pixels.tree_valid_i,
-      pixel_core.gen_systolic.u_pixels.tree_z_i,
-      pixel_core.gen_systolic.u_pixels.tree_class_i,
-      pixel_core.gen_systolic.u_pixels.tree_color_i,
-      pixel_core.gen_systolic.u_pixels.tree_last_i,
-      pixel_core.gen_systolic.u_pixels.tree_drop_i,
-      pixel_core.gen_systolic.u_pixels.exit_free_i
-    } == {
-      pixel_core.cmd_valid_i,
-      pixel_core.cmd_kind_i,
-      pixel_core.cmd_xl_i,
-      pixel_core.cmd_xr_i,
-      pixel_core.cmd_count_i,
-      pixel_core.cmd_z_i,
-      pixel_core.cmd_dz_i,
-      pixel_core.cmd_color_i,
-      pixel_core.cmd_dcolor_i,
-      pixel_core.cmd_share_i,
-      pixel_core.tree_valid_i,
-      pixel_core.tree_z_i,
-      pixel_core.tree_class_i,
-      pixel_core.tree_color_i,
-      pixel_core.tree_last_i,
-      pixel_core.tree_drop_i,
-      pixel_core.exit_free_i
-    };
+    assign same = `KAGE_GIVEN(pixel_core.gen_systolic.u_pixels) == `KAGE_GIVEN(pixel_core);
   end
   always_ff @(posedge clk_i) if (rst_ni) trace_part(PartPixelCore, 512'd1, 512'(same));
 
@@ -94,4 +29,5 @@ endmodule
 
 bind pixel_core pixel_core_monitor #(.ARRANGEMENT(ARRANGEMENT)) u_monitor (.*);
 
+`undef KAGE_GIVEN
 `default_nettype wire

@@ -90,7 +90,7 @@ class Checker {
       rtl_.feed(f.words, kNowhere);
       const cosim::FrameEnd end = rtl_.finish(kNowhere);
       ++count_;
-      blocked_ += static_cast<std::uint32_t>(end.blocked);
+      blocked_ += static_cast<std::uint32_t>(end.stalls.blocked);
       if (f.end.status.error != ErrorCode::NONE) ++errors_;
       expect("FRAMES", KAGE_REG_FRAMES, count_);
       expect("ERRORS", KAGE_REG_ERRORS, errors_);

@@ -30,8 +30,8 @@ std::string how(const Difference& d) {
   return d.field.starts_with("error") ? "error" : "different";
 }
 
-// The module by the place of an assertion: "frame_control.sv:312".
-std::string file_of(const std::string& where) { return where.substr(0, where.find('.')); }
+// The module by the place of an assertion: "rtl/frame_control.sv:312".
+std::string module_of(const std::string& where) { return std::filesystem::path(where).stem().string(); }
 
 // Of the frames up to one; assertions would end that too early.
 std::optional<cosim::Divergence> diverges(int frame, const std::filesystem::path& library, const Inputs& inputs,
@@ -60,7 +60,7 @@ std::optional<Verdict> try_sequence(const std::filesystem::path& library, const 
       // Where all stages agree, what is wrong is what the registers say of them.
       v = {how(*d), "registers", describe(*d)};
     } catch (const cosim::AssertionError& e) {
-      v = {"assertion", file_of(e.where()), e.what()};
+      v = {"assertion", module_of(e.where()), e.what()};
     }
     if (const auto d = diverges(i, library, inputs, sequence, options)) {
       v.module = d->module;

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 
 #include "kage/defs.hpp"
 #include "kage/error.hpp"
@@ -74,13 +73,6 @@ Json meanings() {
   Json j = Json::object();
   for (const ParamInfo& p : kParams) j[std::string(p.name)] = p.doc;
   return j;
-}
-
-std::string read_file(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in) throw Error(fmt::format("{}: cannot be read", path.string()));
-  return text;
 }
 
 Html::Html(std::string_view title, std::string_view plain, const std::string& body,

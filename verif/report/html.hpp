@@ -27,9 +27,6 @@ std::string script_text(const Json& json);
 /// What each parameter of a configuration means.
 Json meanings();
 
-/// The file's content. Throws Error that names it.
-std::string read_file(const std::filesystem::path& path);
-
 /// A page but for its data.
 class Html {
  public:

@@ -8,6 +8,7 @@
 
 #include "image/temp_file.hpp"
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 #include "report/html.hpp"
 #include "stream/fields.hpp"
 
@@ -78,8 +79,10 @@ Json frames_of(const Page& page, Pictures& pictures) {
     j["width"] = r.status.width;
     j["height"] = r.status.height;
     j["cycles"] = r.cycles;
-    j["starved"] = r.starved;
-    j["blocked"] = r.blocked;
+    j["starved"] = r.stalls.starved;
+    j["blocked"] = r.stalls.blocked;
+    j["stalls"] = Json::array();
+    for (const cosim::Stalls& s : r.phase_stalls) j["stalls"].push_back({s.starved, s.blocked});
     j["spans"] = r.counts.spans;
     j["span_pixels"] = r.counts.span_pixels;
     j["segments"] = r.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
@@ -187,7 +190,8 @@ Json data_of(const Page& page, Pictures& pictures) {
   j["first"] = nullptr;
   if (run.first_difference) {
     const cosim::Difference& d = *run.first_difference;
-    j["first"] = {{"text", cosim::describe(d)}, {"frame", d.frame}, {"x", d.x}, {"y", d.line}};
+    j["first"] = {
+        {"text", cosim::describe(d)}, {"frame", d.frame}, {"x", d.x}, {"y", d.line}, {"assertion", d.assertion}};
   }
   j["searched"] = page.searched;
   j["divergence"] = nullptr;
@@ -223,6 +227,7 @@ Json data_of(const Page& page, Pictures& pictures) {
   j["explain"] = page.explain;
   j["explain_rtl"] = page.explain_rtl;
   j["folder"] = page.folder;
+  j["rtl"] = page.rtl;
   j["layout"] = layout_of(page.config.config);
   j["band_lines"] = kBandLines;
   return j;

@@ -48,6 +48,7 @@ struct Page {
   std::string explain;      ///< that of kage explain, without --frame and --pixel
   std::string explain_rtl;  ///< what it ends with where the RTL is to be told too
   std::string folder;       ///< where both are to be given
+  std::string rtl;          ///< folder of the RTL that was run
   const TokenStore* tokens = nullptr;
   const TokenStore* wanted = nullptr;  ///< of the different frame, to be there before all others; or nullptr
 };

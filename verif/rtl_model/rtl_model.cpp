@@ -48,6 +48,7 @@ void put_words(VlWide<N>& port, const std::uint32_t* words) {
 
 struct Block {
   std::vector<std::uint32_t> words;  // whole beats
+  std::vector<std::uint8_t> marks;   // of the words
   bool last;
 };
 
@@ -73,7 +74,9 @@ struct kage_rtl {
   std::uint32_t input_chance = 65536, output_chance = 65536;
 
   std::deque<Block> queue;
-  std::size_t at = 0;  // word of queue.front() that is offered next
+  std::size_t at = 0;                    // word of queue.front() that is offered next
+  std::uint8_t mark = 0;                 // of that word, or of the last one if there is none
+  std::vector<std::uint8_t> next_marks;  // of the words that are submitted next
   bool offered = false;
 
   std::deque<Size> expected;
@@ -248,8 +251,15 @@ struct kage_rtl {
     if (waiting && (!pixel || all != waiting_value)) ++stats.unstable;
     waiting = pixel && !ready;
     waiting_value = all;
-    if (top->s_axis_tready_o && !offered && !queue.empty()) ++stats.input_starved;
-    if (waiting) ++stats.output_blocked;
+    if (!queue.empty()) mark = queue.front().marks[at];
+    if (top->s_axis_tready_o && !offered && !queue.empty()) {
+      ++stats.input_starved;
+      ++stats.starved[mark];
+    }
+    if (waiting) {
+      ++stats.output_blocked;
+      ++stats.blocked[mark];
+    }
     if (pixel && ready) take_pixel(value);
     ++stats.cycles;
     quiet = beat || (pixel && ready) ? 0 : quiet + (ready && (offered || queue.empty()) ? 1 : 0);
@@ -261,6 +271,7 @@ struct kage_rtl {
       ++stats.beats;
       at += kBeatWords;
       if (at >= queue.front().words.size()) {
+        if (queue.front().last) mark = KAGE_RTL_MARKS - 1;
         queue.pop_front();
         at = 0;
       }
@@ -364,9 +375,15 @@ const kage_rtl_table kTable = {
     [](kage_rtl* m, std::uint32_t input, std::uint32_t output, std::uint64_t seed) { m->stalls(input, output, seed); },
     [](kage_rtl* m, const std::uint32_t* words, std::size_t count, int last) {
       if (count == 0) return;
-      Block b{std::vector<std::uint32_t>(words, words + count), last != 0};
+      Block b{std::vector<std::uint32_t>(words, words + count), {}, last != 0};
       b.words.resize((count + kBeatWords - 1) / kBeatWords * kBeatWords, 0);
+      b.marks.swap(m->next_marks);
+      b.marks.resize(b.words.size(), 0);
       m->queue.push_back(std::move(b));
+    },
+    [](kage_rtl* m, const std::uint8_t* marks, std::size_t count) {
+      m->next_marks.assign(marks, marks + count);
+      for (std::uint8_t& mark : m->next_marks) mark %= KAGE_RTL_MARKS;
     },
     [](kage_rtl* m, std::uint32_t width, std::uint32_t height) {
       if (width > 0 && height > 0) m->expected.push_back({width, height});

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 5u
+#define KAGE_RTL_ABI 6u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -87,17 +87,21 @@ typedef struct {
   uint64_t value[KAGE_RTL_EVENT_VALUES];
 } kage_rtl_event;
 
+#define KAGE_RTL_MARKS 8
+
 /* All counts are since create() or clear_stats(). */
 typedef struct {
   uint64_t cycles;        /* clocks outside reset */
   uint64_t input_starved; /* clocks in which the core was ready for a beat that is still queued, but none was offered */
-  uint64_t output_blocked; /* clocks in which a pixel waited for ready */
-  uint64_t beats;          /* taken by the core */
-  uint64_t pixels;         /* delivered */
-  uint64_t user_errors;    /* pixels whose TUSER was not that of the expected frame */
-  uint64_t last_errors;    /* pixels whose TLAST was not that of the expected frame */
-  uint64_t extra_pixels;   /* pixels that no expected frame has room for */
-  uint64_t unstable;       /* clocks in which a waiting pixel changed or went away */
+  uint64_t output_blocked;          /* clocks in which a pixel waited for ready */
+  uint64_t starved[KAGE_RTL_MARKS]; /* input_starved by the mark of the first word of the next beat: mark() */
+  uint64_t blocked[KAGE_RTL_MARKS]; /* output_blocked likewise */
+  uint64_t beats;                   /* taken by the core */
+  uint64_t pixels;                  /* delivered */
+  uint64_t user_errors;             /* pixels whose TUSER was not that of the expected frame */
+  uint64_t last_errors;             /* pixels whose TLAST was not that of the expected frame */
+  uint64_t extra_pixels;            /* pixels that no expected frame has room for */
+  uint64_t unstable;                /* clocks in which a waiting pixel changed or went away */
 } kage_rtl_stats;
 
 typedef struct {
@@ -138,6 +142,10 @@ typedef struct {
   /* Queue words as whole beats; zeros fill the last beat. `last` puts TLAST on it. A frame may come in several calls.
    */
   void (*submit)(kage_rtl*, const uint32_t* words, size_t count, int last);
+
+  /* Marks, below KAGE_RTL_MARKS, for the words that the next submit() queues, one each; those without have 0. Once the
+   * last beat of a frame is taken, the mark is KAGE_RTL_MARKS - 1. */
+  void (*mark)(kage_rtl*, const uint8_t* marks, size_t count);
 
   /* Announce the size of a frame whose pixels are to come, for the checks of TUSER and TLAST. */
   void (*expect)(kage_rtl*, uint32_t width, uint32_t height);

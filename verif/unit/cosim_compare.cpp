@@ -226,6 +226,57 @@ TEST_CASE("lost lines and pixels, lines too many, another size, another status: 
   }
 }
 
+TEST_CASE("an assertion of the actual core is a difference, of the frame in which it failed") {
+  const auto fails = [] { throw AssertionError("rtl/line_out.sv:7"); };
+  for (const bool two_threads : {false, true}) {
+    const Folder folder;
+    RunOptions options;
+    options.two_threads = two_threads;
+    options.out = folder.path;
+    const auto difference = [&](FakeCore& bad) {
+      FakeCore good;
+      const Report r = run(5, small, good, bad, options);
+      CHECK_FALSE(r.same);
+      CHECK(r.frames == 3);
+      CHECK(r.height == 6);
+      REQUIRE(r.first_difference);
+      CHECK(r.first_difference->frame == 2);
+      CHECK(r.first_difference->assertion == "rtl/line_out.sv:7");
+      CHECK(describe(*r.first_difference).ends_with(": an assertion failed: rtl/line_out.sv:7"));
+      CHECK(load_image(folder.path / "frame_0002_actual.png").height == 6);
+      return *r.first_difference;
+    };
+    {
+      FakeCore bad;  // on the way
+      bad.spoil_line = [&](std::uint32_t frame, int y, Line&) {
+        if (frame == 2 && y == 3) fails();
+      };
+      const Difference d = difference(bad);
+      CHECK(d.field == "assertion");
+      CHECK(d.line == 3);
+      CHECK(d.x == -1);
+    }
+    {
+      FakeCore bad;  // once all pixels are out
+      bad.spoil_end = [&](std::uint32_t frame, FrameEnd&) {
+        if (frame == 2) fails();
+      };
+      CHECK(difference(bad).line == -1);
+    }
+    {
+      FakeCore bad;  // below a pixel that is wrong
+      bad.spoil_line = [&](std::uint32_t frame, int y, Line& line) {
+        if (frame == 2 && y == 1) line[4] ^= 1;
+        if (frame == 2 && y == 4) fails();
+      };
+      const Difference d = difference(bad);
+      CHECK(d.field == "green");
+      CHECK(d.line == 1);
+      CHECK(d.x == 1);
+    }
+  }
+}
+
 TEST_CASE("a frame that both refuse is no verdict") {
   FakeCore a;
   a.spoil_line = [](std::uint32_t, int, Line& line) { line.clear(); };

@@ -23,9 +23,9 @@
     const [first, ...more] = differences();
     const terms = [];
     if (first) {
-      const {text, divergence, searched, frame} = first.difference;
+      const {text, divergence, searched, assertion, frame} = first.difference;
       terms.push(["First difference", ofScene(first.scene, text)]);
-      if (divergence || searched) terms.push(...Parts.divergenceTerms(divergence));
+      if (divergence || searched) terms.push(...Parts.divergenceTerms(divergence, assertion));
       if (first.page) terms.push(["Look at it", link(`frame ${frame} on the page of its run`, first.page)]);
     }
     if (more.length) terms.push(["Other runs", `${plural(more.length, "difference")} more, below`]);
@@ -76,7 +76,7 @@
       $("parts").append(make("section", [
         make("h3", `${p.name}: ${word(p.same)}`, p.same ? {} : {class: "badly"}),
         make("ul", p.runs.map((r) => runLine(p, r))),
-        make("p", ["In ", make("code", p.folder), ":"]),
+        make("p", ["In ", make("code", p.folder), ", with the RTL of ", make("code", p.rtl), ":"]),
         command(p.again),
         make("p", `${p.file ? `Report ${p.file}. ` : ""}Seed ${data.seed}. Golden model ${p.golden_seconds.toFixed(3)} s, RTL ` +
             `${p.rtl_seconds.toFixed(3)} s. Made by ${p.versions.join("; ")}.`, {class: "note"}),

@@ -11,7 +11,7 @@ const Report = (() => {
   function verdict() {
     const terms = [];
     if (data.first) terms.push(["First difference", data.first.text]);
-    if (data.divergence || data.first && data.searched) terms.push(...Parts.divergenceTerms(data.divergence));
+    if (data.first && (data.divergence || data.searched)) terms.push(...Parts.divergenceTerms(data.divergence, data.first.assertion));
     if (data.different_pixels !== null)
       terms.push(["Differing pixels", `${count(data.different_pixels)} in ${plural(data.region_count, "region")}`]);
     if (data.degraded.length) terms.push(["Left out", data.degraded.join("; ")]);
@@ -244,17 +244,17 @@ const Report = (() => {
     if (!frame.phases) return $("phases").replaceChildren();
     const share = (n) => frame.cycles ? `${(100 * n / frame.cycles).toFixed(1)} %` : "";
     const rows = frame.phases.map(([tokens, pixels, clocks], i) =>
-        [data.phase_names[i], count(clocks), share(clocks), count(tokens), count(pixels), data.phase_tokens[i]]);
-    rows.push(["video", count(frame.video), share(frame.video), "", "", ""]);
+        [data.phase_names[i], count(clocks), share(clocks), count(tokens), count(pixels), ...frame.stalls[i].map(count), data.phase_tokens[i]]);
+    rows.push(["video", count(frame.video), share(frame.video), "", "", "", "", ""]);
     const left = frame.cycles - frame.designed;
-    rows.push(["the rest", count(left), share(left), "", "", ""]);
-    table($("phases"), ["phase", "clocks", "of the frame's", "tokens", "pixels", "which"], rows,
-          ["RTL", count(frame.cycles), "", "", "", `stalls: no input ${count(frame.starved)}, output blocked ${count(frame.blocked)}`]);
-    for (const row of $("phases").rows) row.cells[5].className = "words";
+    rows.push(["the rest", count(left), share(left), "", "", ...frame.stalls.at(-1).map(count), ""]);
+    table($("phases"), ["phase", "clocks", "of the frame's", "tokens", "pixels", "no input", "output blocked", "which"], rows,
+          ["RTL", count(frame.cycles), "", "", "", count(frame.starved), count(frame.blocked), ""]);
+    for (const row of $("phases").rows) row.cells[7].className = "words";
   }
 
   function rest() {
-    $("again").append(make("p", ["In ", make("code", data.folder), ":"]), command(data.again));
+    $("again").append(make("p", ["In ", make("code", data.folder), ", with the RTL of ", make("code", data.rtl), ":"]), command(data.again));
     $("again").append(make("p", `Seed ${data.seed}. Golden model ${data.golden_seconds.toFixed(3)} s, RTL ` +
         `${data.rtl_seconds.toFixed(3)} s.`));
     $("again").append(make("p", `Made by ${data.versions.join("; ")}.`, {class: "note"}));

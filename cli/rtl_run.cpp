@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rtl_run.hpp"
+
+#include <fmt/format.h>
+
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+
+namespace kage::cli {
+
+void option_rtl(CLI::App& command, RtlRun& rtl) {
+  command
+      .add_option("--idle", rtl.options.idle_percent,
+                  "percent of clocks at random in which no input is offered, default 0")
+      ->check(CLI::Range(0, 95))
+      ->type_name("P");
+  command
+      .add_option("--backpressure", rtl.options.backpressure_percent,
+                  "percent of clocks at random in which no output is taken, default 0")
+      ->check(CLI::Range(0, 95))
+      ->type_name("P");
+  option_fault(command, rtl.fault);
+}
+
+void refuse_rtl(const RtlRun& rtl, const std::string& why) {
+  const char* const given = !rtl.fault.empty()                      ? "--fault"
+                            : rtl.options.idle_percent != 0         ? "--idle"
+                            : rtl.options.backpressure_percent != 0 ? "--backpressure"
+                                                                    : nullptr;
+  if (given != nullptr) throw Error(fmt::format("{}: {}", given, why));
+}
+
+cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool traced) {
+  Progress progress;
+  return cosim::find_model(config.config,
+                           {.fault = fault, .traced = traced, .progress = [&](double seconds) {
+                              check_interrupt();
+                              progress.show(fmt::format("building the RTL model of configuration {}{}: {:.0f} s",
+                                                        config.name, traced ? " with monitors" : "", seconds));
+                            }});
+}
+
+std::string rtl_directory() { return std::filesystem::absolute(data_directory() / "rtl").lexically_normal().string(); }
+
+cosim::DivergenceOptions monitors(const NamedConfig& config, const RtlRun& rtl) {
+  cosim::DivergenceOptions options;
+  options.library = model_of(config, rtl.fault, true).library;
+  options.rtl = rtl.options;
+  options.rtl.assertions = false;
+  options.wait = check_interrupt;
+  return options;
+}
+
+}  // namespace kage::cli

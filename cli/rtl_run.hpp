@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the commands that run the RTL share: how it is run, and its models, which are built where they are not there.
+#pragma once
+
+#include <string>
+
+#include "common.hpp"
+#include "cosim/divergence.hpp"
+#include "cosim/model.hpp"
+#include "kage/config.hpp"
+
+namespace kage::cli {
+
+/// How a command runs the RTL.
+struct RtlRun {
+  std::string fault;
+  cosim::RtlOptions options;
+};
+
+/// --idle, --backpressure and --fault.
+void option_rtl(CLI::App& command, RtlRun& rtl);
+
+/// Throws Error if one of these is given, of a command that runs no RTL this time.
+void refuse_rtl(const RtlRun& rtl, const std::string& why);
+
+/// The model of a configuration; says how long it takes where it has to be built.
+cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool traced = false);
+
+/// Where the RTL is that models are built of.
+std::string rtl_directory();
+
+/// To run it with monitors. Assertions are not looked at: what differs comes before what they say of it.
+cosim::DivergenceOptions monitors(const NamedConfig& config, const RtlRun& rtl);
+
+}  // namespace kage::cli
