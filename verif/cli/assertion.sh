@@ -4,7 +4,7 @@
 . "$(dirname "$0")/common.bash"
 
 mkdir -p data/verif
-cp -r "$source/rtl" data/
+cp -r "$source/rtl" "$source/scenes" data/
 cp -r "$source"/verif/{rtl_model,monitors,faults,report} data/verif/
 echo '{MAX_WIDTH: 64, LANES: 2, BEAT_WORDS: 1}' >small.yaml
 export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
@@ -26,7 +26,10 @@ for file in out/report.html out/courtyard_0000_actual.png out/courtyard_0000.gtk
   [ -s $file ] || fail "no $file"
 done
 grep -qF "$at" out/report.html || fail "the page does not name the assertion"
-expect 1 "$kage" merge v.json --json m.json
+# A shard's report with one can be joined, and what the RTL says gets into no result.
+expect 1 "$kage" cosim courtyard --size 64x48 --config small.yaml --out out --shard 1/1 --json - --no-divergence
+cp stdout 1.json
+expect 1 "$kage" merge 1.json --json m.json
 json m.json "j['first_difference']['assertion']=='$at'"
 
 # What is looked for beside it does not stop at the assertion.

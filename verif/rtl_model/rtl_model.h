@@ -128,7 +128,7 @@ typedef struct {
   void (*assertions)(kage_rtl*, int on);
 
   /* The file and line of the assertion that failed, "frame_control.sv:312"; "" if none has. Its message is on standard
-   * output. */
+   * error. */
   const char* (*failure)(kage_rtl*);
 
   /* Hold reset for `clocks` (at least 1). Queued beats, expected frames and a half-finished register access are
