@@ -58,11 +58,11 @@ Json to_json(const std::optional<cosim::Difference>& d, const std::optional<cosi
   j["waveform"] = by ? text(by->waveform) : Json(nullptr);
   j["text"] = cosim::describe(*d);
   j["searched"] = searched;
-  if (!by) {
-    j["divergence"] = nullptr;
-    return j;
-  }
-  j["divergence"] = {{"line", by->line < 0 ? Json(nullptr) : Json(by->line)},
+  j["no_divergence"] = searched && !by ? Json(cosim::describe_none(*d)) : Json(nullptr);
+  j["divergence"] = nullptr;
+  if (!by) return j;
+  j["divergence"] = {{"frame", by->frame},
+                     {"line", by->line < 0 ? Json(nullptr) : Json(by->line)},
                      {"x", by->x < 0 ? Json(nullptr) : Json(by->x)},
                      {"module", by->module},
                      {"file", "rtl/" + by->module + ".sv"},
@@ -141,8 +141,8 @@ std::optional<cosim::Divergence> find_divergence(const Job& job, Progress& progr
     options.waveform = std::filesystem::path(job.o.out) / fmt::format("{}_{:04}.fst", source.name(), frame);
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   auto d = cosim::find_divergence(frame, feed, config, options);
-  if (const auto provenance = d ? source.provenance(frame) : std::nullopt) {
-    const auto sources = provenance->of_tokens(config, source.words(frame), {d->token});
+  if (const auto provenance = d ? source.provenance(d->frame) : std::nullopt) {
+    const auto sources = provenance->of_tokens(config, source.words(d->frame), {d->token});
     if (!sources.empty()) d->source = sources.begin()->second.text();
   }
   progress.clear();
@@ -180,11 +180,13 @@ std::vector<Job> open(const CosimCommand& o) {
 
 /// Takes away what an earlier run into the folder left of frames that this one has compared: a difference that is no
 /// more, or was another.
-void remove_old_evidence(const std::string& folder, const std::string& name, const cosim::Report& r) {
+void remove_old_evidence(const std::string& folder, const std::string& name, cosim::FrameSteps steps,
+                         const cosim::Report& r) {
   if (folder.empty()) return;
-  for (const cosim::FrameResult& f : r.each)
+  for (int i = 0; i < r.frames; ++i)
     for (const char* end : {"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"}) {
-      const std::string path = (std::filesystem::path(folder) / fmt::format("{}_{:04}{}", name, f.frame, end)).string();
+      const std::string path =
+          (std::filesystem::path(folder) / fmt::format("{}_{:04}{}", name, steps.first + i * steps.step, end)).string();
       std::error_code ec;  // what cannot be removed was not ours
       if (std::find(r.pictures.begin(), r.pictures.end(), path) == r.pictures.end()) std::filesystem::remove(path, ec);
     }
@@ -223,7 +225,7 @@ Json compare(Job& job) {
       [&](int i, const WordSink& sink) { return report ? report->frame(i, sink) : source.frame(i, sink); }, *golden,
       *rtl, options);
   progress.clear();
-  remove_old_evidence(o.out, source.name(), r);
+  remove_old_evidence(o.out, source.name(), steps, r);
   std::optional<cosim::Divergence> divergence;
   bool searched = false;
   std::string page;
@@ -296,9 +298,8 @@ void print_difference(const Json& d) {
     if (!d["waveform"].is_null())
       fmt::print("waveform: {}; gtkwave {}\n", d["waveform"].get<std::string>(),
                  quoted(by["save_file"].get<std::string>()));
-  } else if (d["searched"].get<bool>()) {
-    fmt::print("no stage differs: look at {}\n",
-               d["assertion"].is_null() ? "the registers and the video port" : "what the assertion guards");
+  } else if (!d["no_divergence"].is_null()) {
+    fmt::print("{}\n", d["no_divergence"].get<std::string>());
   }
 }
 

@@ -67,7 +67,7 @@ std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, 
   cosim::DivergenceOptions options = monitors(source.config(), o.run);
   options.rtl.seed = o.seed;
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
-  return cosim::watch_pixel(o.frame, feed, source.config().config, options, at.x, at.y);
+  return cosim::watch_pixel(o.frame, o.frame, feed, source.config().config, options, at.x, at.y);
 }
 
 int run(const ExplainCommand& o) {
@@ -87,13 +87,7 @@ int run(const ExplainCommand& o) {
   }
   const std::optional<Provenance> provenance = source.provenance(o.frame);
   std::map<std::uint32_t, TokenSource> sources;
-  if (provenance) {
-    std::set<std::uint32_t> wanted;
-    for (const PixelTouch& t : h.touches) wanted.insert(t.token);
-    sources = provenance->of_tokens(config, words, wanted);
-    for (const PixelTouch& t : h.touches)
-      if (t.what.kind == Kind::TREE && t.polyhedron) sources[t.token] = provenance->of_polyhedron(*t.polyhedron);
-  }
+  if (provenance) sources = provenance->of_history(config, words, h);
   const std::vector<cosim::RtlTouch> rtl = o.rtl ? watch_rtl(o, source, at) : std::vector<cosim::RtlTouch>();
 
   const std::size_t touching = h.touches.size();

@@ -127,11 +127,7 @@ class Data {
   /// What is told of a difference.
   static Json difference(const Json& d) {
     if (d.is_null()) return nullptr;
-    Json j{{"text", d["text"]},
-           {"frame", d["frame"]},
-           {"searched", d["searched"]},
-           {"assertion", d["assertion"]},
-           {"divergence", nullptr}};
+    Json j{{"text", d["text"]}, {"frame", d["frame"]}, {"no_divergence", d["no_divergence"]}, {"divergence", nullptr}};
     const Json& by = d["divergence"];
     if (!by.is_null())
       j["divergence"] = {

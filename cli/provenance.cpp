@@ -105,4 +105,14 @@ std::map<std::uint32_t, TokenSource> Provenance::of_tokens(const Config& config,
   return all;
 }
 
+std::map<std::uint32_t, TokenSource> Provenance::of_history(const Config& config, std::span<const std::uint32_t> words,
+                                                            const PixelHistory& history) const {
+  std::set<std::uint32_t> wanted;
+  for (const PixelTouch& t : history.touches) wanted.insert(t.token);
+  auto all = of_tokens(config, words, wanted);
+  for (const PixelTouch& t : history.touches)
+    if (t.what.kind == Kind::TREE && t.polyhedron) all[t.token] = of_polyhedron(*t.polyhedron);
+  return all;
+}
+
 }  // namespace kage::cli

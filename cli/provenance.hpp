@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common.hpp"
+#include "kage/explain.hpp"
 #include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
 #include "kage/scene.hpp"
@@ -44,10 +45,13 @@ class Provenance {
                                                                std::span<const std::uint32_t> words,
                                                                const std::set<std::uint32_t>& wanted) const;
 
-  /// Of the polyhedron with a draw index.
-  [[nodiscard]] TokenSource of_polyhedron(std::uint32_t index) const;
+  /// Of a pixel's history: of its tokens, and of each TREE the polyhedron that came through it.
+  [[nodiscard]] std::map<std::uint32_t, TokenSource> of_history(const Config& config,
+                                                                std::span<const std::uint32_t> words,
+                                                                const PixelHistory& history) const;
 
  private:
+  [[nodiscard]] TokenSource of_polyhedron(std::uint32_t index) const;
   [[nodiscard]] TokenSource of_face(std::uint32_t polygon) const;
   [[nodiscard]] TokenSource of_volume(const TokenOrigin& origin, Kind kind) const;
   [[nodiscard]] std::string object_of(std::uint32_t component) const;

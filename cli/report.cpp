@@ -86,8 +86,11 @@ std::string command_line(const CLI::App& command, const std::vector<std::string>
 }
 
 std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input) {
-  static const std::set<std::string> own{"--json",    "--out",     "--frame", "--pixel", "--rtl",
-                                         "--changes", "--threads", "--fault", "--idle",  "--backpressure"};
+  static const std::set<std::string> own = [] {
+    std::set<std::string> names{"--json", "--out", "--frame", "--pixel", "--rtl", "--changes", "--threads"};
+    names.insert(kRtlOptions.begin(), kRtlOptions.end());
+    return names;
+  }();
   return line_of(command, other.get_name(), {input}, [&](const CLI::Option& o) {
     return own.count(o.get_name()) == 0 && other.get_option_no_throw(o.get_name()) != nullptr;
   });
@@ -115,7 +118,7 @@ void RunReport::keep(const std::function<void()>& step) {
 }
 
 TokenCounts RunReport::frame(int index, const WordSink& sink) {
-  if (index >= static_cast<int>(cosim::kFrameResults)) return source_.frame(index, sink);
+  if (frames_++ >= cosim::kFrameResults) return source_.frame(index, sink);
   keep([&] { tokens_->begin(index); });
   const TokenCounts counts = source_.frame(index, [&](std::span<const std::uint32_t> words) {
     keep([&] { tokens_->words(words); });
@@ -134,22 +137,19 @@ void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
   const Config& config = page.config.config;
   const cosim::DivergenceOptions options = watch ? watch() : cosim::DivergenceOptions();
   const auto provenance = source_.provenance(frame);
+  // What an earlier frame left in the core shows only behind it.
+  const int from = page.divergence ? std::min(frame, page.divergence->from) : frame;
   const auto begin = std::chrono::steady_clock::now();
   for (const auto& [x, y] : pixels) {
     check_interrupt();
     report::ToldPixel told;
     told.frame = frame;
     told.history = explain_pixel(config, words, x, y);
-    if (provenance) {
-      std::set<std::uint32_t> wanted;
-      for (const PixelTouch& t : told.history.touches) wanted.insert(t.token);
-      for (const auto& [token, from] : provenance->of_tokens(config, words, wanted)) told.from[token] = from.text();
-      for (const PixelTouch& t : told.history.touches)
-        if (t.what.kind == Kind::TREE && t.polyhedron)
-          told.from[t.token] = provenance->of_polyhedron(*t.polyhedron).text();
-    }
+    if (provenance)
+      for (const auto& [token, source] : provenance->of_history(config, words, told.history))
+        told.from[token] = source.text();
     try {
-      if (watch) told.rtl = cosim::watch_pixel(frame, feed, config, options, x, y);
+      if (watch) told.rtl = cosim::watch_pixel(from, frame, feed, config, options, x, y);
     } catch (const Error& e) {
       // The verdict stands without it.
       source_.note(fmt::format("pixel {},{}: the RTL could not be watched: {}", x, y, e.what()));
@@ -175,7 +175,7 @@ std::string RunReport::write(const std::string& folder, const cosim::Report& run
   const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
   page.explain = command_line(command_, *explain, input_);
   page.explain_rtl = " --rtl";
-  for (const char* name : {"--fault", "--idle", "--backpressure"})
+  for (const char* name : kRtlOptions)
     if (const CLI::Option* o = command_.get_option(name); o->count() != 0)
       page.explain_rtl += fmt::format(" {} {}", name, quoted(o->results().back()));
   page.folder = std::filesystem::current_path().string();

@@ -50,6 +50,7 @@ class RunReport {
   const CLI::App& command_;
   std::optional<report::TokenStore> tokens_;  // empty once they could not be kept, which is trouble_
   std::string trouble_;
+  std::size_t frames_ = 0;  // given so far
 };
 
 }  // namespace kage::cli

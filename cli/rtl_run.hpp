@@ -3,6 +3,7 @@
 // What the commands that run the RTL share: how it is run, and its models, which are built where they are not there.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "common.hpp"
@@ -17,6 +18,9 @@ struct RtlRun {
   std::string fault;
   cosim::RtlOptions options;
 };
+
+/// The options of option_rtl().
+inline constexpr std::array kRtlOptions{"--fault", "--idle", "--backpressure"};
 
 /// --idle, --backpressure and --fault.
 void option_rtl(CLI::App& command, RtlRun& rtl);

@@ -50,7 +50,7 @@ void need(const std::string& file, const Json& in, std::initializer_list<const c
 void check_difference(const std::string& file, const Json& d) {
   need(file, d, {"frame"}, is_count);
   need(file, d, {"text"}, is_text);
-  need(file, d, {"waveform", "assertion"}, is_text_or_null);
+  need(file, d, {"waveform", "assertion", "no_divergence"}, is_text_or_null);
   need(file, d, {"searched"}, [](const Json& v) { return v.is_boolean(); });
   need(file, d, {"divergence"}, is_object_or_null);
   if (d["divergence"].is_null()) return;

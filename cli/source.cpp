@@ -134,7 +134,10 @@ std::vector<std::string> Source::notes() const {
 }
 
 TokenCounts Source::frame(int index, const WordSink& sink) {
+  again_ = index <= last_;
   const TokenCounts counts = stream_ ? frame_of_stream(index, sink) : frame_of_scene(index, sink);
+  last_ = std::max(last_, index);
+  if (again_) return counts;
   ++made_;
   units_ = std::max(units_, counts.units);
   const auto none = [&](Kind kind) { return counts.of_kind[static_cast<std::size_t>(kind)] == 0; };
@@ -203,6 +206,7 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
       throw Error(fmt::format("{}: frame {}: --units-only: configuration {} has no units", name_, index, config_.name));
     return;
   }
+  if (again_) return;
   const auto object = [&](std::size_t c) {
     return scene_->objects()[frame.triangles[frame.components[c].first].object];
   };

@@ -80,6 +80,8 @@ class Source {
   Size size_;
   int threads_ = 0;
   bool units_only_ = false;
+  int last_ = -1;  // the highest frame made: a run goes up, so one up to it is a replay, which counts no more
+  bool again_ = false;
   int made_ = 0;   // frames
   int blank_ = 0;  // of those, without any opaque span or segment
   struct Way {

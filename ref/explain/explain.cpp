@@ -112,8 +112,9 @@ class History : public CoreObserver {
       }
       case Kind::ES: {
         const auto light = static_cast<std::size_t>(t.table.light);
-        return fmt::format("end of a sample of light {}: {}; count {}", light,
-                           to.counts[light] != from.counts[light] ? "in shadow" : "not in shadow", to.counts[light]);
+        const bool in = config_.fsf != 0 ? from.fsf != 0 : sum(from) != 0;
+        return fmt::format("end of a sample of light {}: {}; count {}", light, in ? "in shadow" : "not in shadow",
+                           to.counts[light]);
       }
       case Kind::RESOLVE:
         return resolve();

@@ -11,6 +11,9 @@ expect 1 "$kage" cosim courtyard --fault wrong_compare
 for file in out/report.html out/courtyard_0000.gtkw out/courtyard_0000.fst; do
   [ -s $file ] || fail "no $file"
 done
+python3 "$source/verif/cli/waveform_nets.py" out/courtyard_0000.gtkw || fail "GTKWave would not find the nets"
+expect 1 "$kage" cosim polyhedra --config polyhedra --fault wrong_compare --frames 1 --size 160x120 --out tree
+python3 "$source/verif/cli/waveform_nets.py" tree/polyhedra_0000.gtkw || fail "GTKWave would not find the tree's nets"
 grep -q 'in_front = z <' "$source/rtl/include/kage_pixel_next.svh" || fail "docs/broken-frame.md names a line that is not there"
 # What is red there was lit: of the pixels that differ none is background.
 python3 - <<'PY' || fail "docs/broken-frame.md: pixels of the background differ"

@@ -47,13 +47,24 @@ for t in w["touches"]:
 assert c["touches"] == changed and 3 < len(changed) < len(w["touches"]) / 2, (len(changed), len(w["touches"]))
 assert c["tokens"] == w["tokens"] == len(w["touches"]) and (w["changes_only"], c["changes_only"]) == (False, True) and c["color"] == w["color"]
 text = open(sys.argv[3]).read()
-assert f"{len(w['touches'])} tokens touch it; {len(changed)} of them, which changed something, are shown\n" in text
+assert f"{len(w['touches'])} tokens touch it; {len(changed)} are shown, where something changed\n" in text
 assert all(("\n%8d  " % t["token"] in text) == (t in changed) for t in w["touches"]) and c["color_text"] in text
 PY
 expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --fault wrong_compare --changes --json r.json
 json r.json 'j["tokens"]==5 and [t["kind"] for t in j["touches"]]==["OP","SP","EV","RESOLVE"][:len(j["touches"])] and len(j["touches"])>=2'
 grep -q 'differs' stdout || fail "--changes hides the difference"
-trouble "--fault: the RTL is run with --rtl only" "$kage" explain courtyard --pixel 316,116 --fault wrong_compare
+for o in "--fault wrong_compare" "--idle 30" "--backpressure 30"; do
+  trouble "${o%% *}: the RTL is run with --rtl only" "$kage" explain courtyard --pixel 316,116 $o
+done
+# With stalls: the same values, later.
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --json fast.json
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --idle 50 --json slow.json
+python3 - fast.json slow.json <<'PY' || fail "--idle does not stall the RTL"
+import json, sys
+a, b = (json.load(open(f))["rtl"] for f in sys.argv[1:])
+assert [t["text"] for t in a] == [t["text"] for t in b] and all(t["same"] for t in b)
+assert all(s["cycle"] > f["cycle"] for f, s in zip(a, b))
+PY
 
 trouble "316;116" "$kage" explain courtyard --pixel "316;116"
 trouble "-1,0" "$kage" explain courtyard --pixel=-1,0

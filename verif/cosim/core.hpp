@@ -16,6 +16,9 @@
 
 namespace kage::cosim {
 
+/// For lines that nobody looks at.
+inline const LineSink kNowhere = [](int, std::span<const std::uint8_t>) {};
+
 /// How a core ended a frame.
 struct FrameEnd {
   FrameStatus status;

@@ -77,7 +77,7 @@ Found search(int from, int frame, const Feed& feed, const Config& config, const 
   rtl->record(true);
   for (int i = from;; i += options.steps.step) {
     Found found = search_frame(*rtl, i, feed, config, options, i == frame ? watch : Watch());
-    if (i == frame || found.any()) return found;
+    if (i == frame || (!watch && found.any())) return found;
   }
 }
 
@@ -161,6 +161,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
 
   Divergence d;
   d.frame = found.frame;
+  d.from = from;
   d.cycle = found.clock - std::min(found.clock, found.start);
   if (found.mismatch) {
     describe_mismatch(d, found, config);
@@ -190,8 +191,8 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   return d;
 }
 
-std::vector<RtlTouch> watch_pixel(int frame, const Feed& feed, const Config& config, const DivergenceOptions& options,
-                                  int x, int y) {
+std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const Config& config,
+                                  const DivergenceOptions& options, int x, int y) {
   std::vector<RtlTouch> touches;
   const auto watch = [&](const ExpectedEvent& e, const kage_rtl_event& a) {
     const bool seen = e.stage == Stage::pixel || e.stage == Stage::exit || e.stage == Stage::out;
@@ -209,7 +210,7 @@ std::vector<RtlTouch> watch_pixel(int frame, const Feed& feed, const Config& con
                               value_text(config, e.stage, i, a.value[i]));
     touches.push_back(std::move(t));
   };
-  const Found found = search(frame, frame, feed, config, options, watch);
+  const Found found = search(from, frame, feed, config, options, watch);
   for (RtlTouch& t : touches) t.cycle -= std::min(t.cycle, found.start);
   return touches;
 }
@@ -224,6 +225,11 @@ std::string describe(const Divergence& d) {
   if (!d.source.empty()) text += ", from " + d.source;
   if (!d.waits.empty()) text += "; " + d.waits;
   return text;
+}
+
+std::string describe_none(const Difference& difference) {
+  return difference.assertion.empty() ? "no stage differs: look at the registers and the video port"
+                                      : "no stage differs: look at what the assertion guards";
 }
 
 }  // namespace kage::cosim

@@ -20,8 +20,9 @@ namespace kage::cosim {
 /// does to those behind it comes later in that order, however early it shows.
 struct Divergence {
   int frame = 0;
-  int line = 0;
-  int x = -1;  ///< -1: not of a pixel
+  int from = 0;   ///< the first frame of the replay that showed it
+  int line = -1;  ///< -1: not of a line
+  int x = -1;     ///< -1: not of a pixel
   Stage stage{};
   std::string module;    ///< of rtl/: "pixel_banked"
   std::string what;      ///< "state of a pixel"
@@ -48,8 +49,9 @@ struct DivergenceOptions {
   std::function<void()> wait;      ///< called now and then; may throw, which ends the search
 };
 
-/// Run frame `frame` again, alone on a fresh core; if that shows nothing, all frames of the run up to it. Empty if the
-/// stages agree everywhere: then the difference lies where no monitor looks (the registers, the port).
+/// Run frame `frame` again, alone on a fresh core; if that shows nothing, with the one of the run before it, then with
+/// 2, 4, ... and at last all of them before it. Empty if the stages agree everywhere: then the difference lies where no
+/// monitor looks (describe_none()).
 std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
                                           const DivergenceOptions& options);
 
@@ -63,11 +65,14 @@ struct RtlTouch {
   std::string text;  ///< the values as a person reads them: "z 812, color 10,20,30, class 1, dsf 1, fsf 0"
 };
 
-/// Run frame `frame` with monitors and tell what they saw of pixel (x, y).
-std::vector<RtlTouch> watch_pixel(int frame, const Feed& feed, const Config& config, const DivergenceOptions& options,
-                                  int x, int y);
+/// Run the frames `from` .. `frame` with monitors and tell what they saw of pixel (x, y) in the last of them.
+std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const Config& config,
+                                  const DivergenceOptions& options, int x, int y);
 
 /// One line: "frame 0, line 17, x 204: state of a pixel (rtl/pixel_banked.sv), field dsf: expected 1, got 0, ...".
 std::string describe(const Divergence& divergence);
+
+/// One line for a difference of which find_divergence() finds nothing: where to look.
+std::string describe_none(const Difference& difference);
 
 }  // namespace kage::cosim

@@ -68,6 +68,7 @@ void EventSearch::take(std::span<const kage_rtl_event> events) {
 void EventSearch::take(const kage_rtl_event& a) {
   const auto stage = static_cast<Stage>(a.stage);
   if (stage == Stage::part) {
+    if (watch_) return;
     if (!part_ || (a.clock == part_->clock && rank(a) < rank(*part_))) part_ = a;
     seen_ = std::min(seen_, a.clock);
     return;
@@ -95,6 +96,7 @@ void EventSearch::take(const kage_rtl_event& a) {
       if (expected_.failed() && tokens_ > expected_.failed_at() + 1) return;
       of_token_ = is_token(a);
     }
+    if (watch_) return;
     seen_ = std::min(seen_, a.clock);
     if (!unexpected_) unexpected_ = a;
     stop(stage, a.unit);

@@ -13,12 +13,6 @@
 
 namespace kage::cosim {
 
-/// For lines that nobody looks at.
-inline const LineSink kNowhere = [](int, std::span<const std::uint8_t>) {};
-
-/// Thrown through a feed once enough has been seen.
-struct Enough {};
-
 /// Hands a frame on in pieces of a size for which who watches can keep all that happens: some hundred bytes a pixel.
 template <class Take>
 void in_pieces(const Feed& feed, int frame, Take take) {

@@ -75,8 +75,9 @@ class Rtl : public RtlCore {
     const std::size_t n = (held_.size() - 1) / beat * beat;
     if (n == 0) return;
     submit(n, false);
-    stuck_ = checked(table_->run_dry(model_, kForever)) == KAGE_RTL_STUCK;
+    const int why = table_->run_dry(model_, kForever);
     take_pixels(watch.outside(sink));
+    stuck_ = checked(why) == KAGE_RTL_STUCK;
   }
 
   [[nodiscard]] bool traced() const override { return table_->traced != 0; }
@@ -122,7 +123,8 @@ class Rtl : public RtlCore {
   static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
 
   [[nodiscard]] int checked(int why) const {
-    if (why == KAGE_RTL_ASSERT) throw AssertionError(std::string("rtl/") + table_->failure(model_));
+    if (why == KAGE_RTL_ASSERT || *table_->failure(model_) != 0)
+      throw AssertionError(std::string("rtl/") + table_->failure(model_));
     return why;
   }
 
@@ -168,8 +170,10 @@ class Rtl : public RtlCore {
     int why = KAGE_RTL_STUCK;
     if (!stuck_) {
       submit(held_.size(), true);
-      why = checked(table_->run(model_, any ? left_ : kForever, kForever));
+      why = table_->run(model_, any ? left_ : kForever, kForever);
     }
+    take_pixels(sink);
+    (void)checked(why);
     std::string trouble;
     if (why == KAGE_RTL_STUCK)
       trouble = "the core hangs, with input waiting";
@@ -178,13 +182,14 @@ class Rtl : public RtlCore {
     else if (any)
       trouble = "the core went idle";
     end.status = status();
+    take_pixels(sink);
+    (void)checked(why);  // the core works on while registers are read
     broken_ = why != KAGE_RTL_PIXELS || !trouble.empty();
 
     const bool header_error = end.status.error == ErrorCode::HEADER || end.status.error == ErrorCode::SIZE ||
                               end.status.error == ErrorCode::PARAMS ||
                               (end.status.error == ErrorCode::LAST_EARLY && end.status.token == 0);
     if (header_error && why != KAGE_RTL_STUCK) trouble.clear();
-    take_pixels(sink);
     if (!line_.empty()) sink(static_cast<int>(y_), line_);
     if (!header_error) {
       end.status.width = static_cast<int>(width_);
@@ -208,8 +213,9 @@ class Rtl : public RtlCore {
 
   std::uint32_t read(std::uint32_t address) {
     std::uint32_t value = 0;
-    if (table_->reg_read(model_, address, &value) != 0)
-      throw Error(fmt::format("RTL model: register {:#04x} does not answer", address));
+    const int answer = table_->reg_read(model_, address, &value);
+    (void)checked(KAGE_RTL_LIMIT);
+    if (answer != 0) throw Error(fmt::format("RTL model: register {:#04x} does not answer", address));
     return value;
   }
 

@@ -221,9 +221,6 @@ class Behind {
   std::thread thread_;
 };
 
-/// Thrown through a feed when nothing more is wanted.
-struct Enough {};
-
 using Taker = std::function<bool(Piece)>;
 
 /// The expected core works through all frames; what it does is handed to `take`.

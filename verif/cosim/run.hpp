@@ -25,6 +25,9 @@ struct FrameSteps {
 /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts.
 using Feed = std::function<TokenCounts(int index, const WordSink& sink)>;
 
+/// Thrown through a feed once enough has been taken.
+struct Enough {};
+
 struct RunOptions {
   std::filesystem::path out;             ///< an existing folder for pictures, or empty for none
   std::string name = "frame";            ///< pictures are NAME_0000.png ...

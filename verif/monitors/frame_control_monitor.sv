@@ -12,20 +12,15 @@ module frame_control_monitor #(
     input wire logic                                     rst_ni,
     input wire logic                                     good,
     input wire logic                                     token_header_i,
-    input wire logic [                              3:0] kind,
+    input wire logic                                     uses_state,
     input wire logic                                     emit_paint,
     input wire logic                                     resolved,
     input wire logic [(DSF_BITS > 0 ? DSF_BITS : 1)-1:0] bias
 );
   `include "kage_trace.svh"
-  localparam logic [3:0] KindEv = 4'd10;
-  localparam logic [3:0] KindEs = 4'd11;
-  localparam logic [3:0] KindEol = 4'd14;
 
-  logic used;
-  assign used = kind == KindEv || kind == KindEs || kind == KindEol;
   always_ff @(posedge clk_i) begin
-    if (rst_ni && (emit_paint || (good && !token_header_i && used))) begin
+    if (rst_ni && (emit_paint || (good && !token_header_i && uses_state))) begin
       kage_trace(StageState, 0, trace5(64'(bias), 64'(resolved), 64'd0, 64'd0, 64'd0));
     end
   end
@@ -33,7 +28,10 @@ module frame_control_monitor #(
   logic waits_q, loading_q;
   logic [255:0] segment, segment_q;
   assign segment = 256'({
-    frame_control.tree_unit_o, frame_control.tree_z_o, frame_control.tree_dx_o, frame_control.tree_face_o
+    frame_control.tree_unit_o,
+    frame_control.tree_z_o,
+    frame_control.tree_dx_o,
+    frame_control.tree_face_o
   });
   always_ff @(posedge clk_i) begin
     waits_q   <= rst_ni && frame_control.tree_seg_valid_o && !frame_control.tree_seg_ready_i;
@@ -42,7 +40,8 @@ module frame_control_monitor #(
     else if (frame_control.line_valid_o && frame_control.line_load_o) loading_q <= 1'b1;
     if (rst_ni) begin
       if (waits_q) begin
-        trace_part(PartFrameControl, 512'({1'b1, segment_q}), 512'({frame_control.tree_seg_valid_o, segment}));
+        trace_part(PartFrameControl, 512'({1'b1, segment_q}), 512'({
+                   frame_control.tree_seg_valid_o, segment}));
       end
       if (loading_q) begin
         trace_part(PartFrameControl, '0, 512'(frame_control.line_valid_o || frame_control.accept));
@@ -50,7 +49,8 @@ module frame_control_monitor #(
       trace_part(PartFrameControl, 512'(UNITS > 0 && frame_control.error_o && !token_header_i),
                  512'(frame_control.tree_flush_o));
       if (frame_control.frame_end_o) begin
-        trace_part(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));
+        trace_part(PartFrameControl, 512'd1,
+                   512'((good && frame_control.is_end) || !frame_control.dropping_i));
       end
     end
   end
@@ -60,6 +60,9 @@ endmodule
 bind frame_control frame_control_monitor #(
     .DSF_BITS(DSF_BITS),
     .UNITS(UNITS)
-) u_monitor (.*);
+) u_monitor (
+    .uses_state(kind == KindEv || kind == KindEs || kind == KindEol),
+    .*
+);
 
 `default_nettype wire

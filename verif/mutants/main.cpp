@@ -30,22 +30,25 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// What models print of failed assertions goes nowhere; out() is where this program prints.
+/// What models say of failed assertions goes nowhere; err() is standard error for this program.
 class Quiet {
  public:
-  Quiet() : out_(fdopen(dup(STDOUT_FILENO), "w")) {
-    const int nowhere = open("/dev/null", O_WRONLY);
-    dup2(nowhere, STDOUT_FILENO);
-    close(nowhere);
+  Quiet() : err_(fdopen(dup(STDERR_FILENO), "w")) {
+    const int null = open("/dev/null", O_WRONLY);
+    dup2(null, STDERR_FILENO);
+    close(null);
   }
-  ~Quiet() { std::fclose(out_); }
+  ~Quiet() {
+    dup2(fileno(err_), STDERR_FILENO);
+    std::fclose(err_);
+  }
   Quiet(const Quiet&) = delete;
   Quiet& operator=(const Quiet&) = delete;
 
-  [[nodiscard]] FILE* out() const { return out_; }
+  [[nodiscard]] FILE* err() const { return err_; }
 
  private:
-  FILE* out_;
+  FILE* err_;
 };
 
 struct Result {
@@ -61,7 +64,7 @@ struct Result {
 /// A configuration with its frames and its model, made when first asked for.
 class Trials {
  public:
-  Trials(FILE* out, std::uint64_t seed) : out_(out), seed_(seed), all_(trial_configurations()) {}
+  Trials(FILE* err, std::uint64_t seed) : err_(err), seed_(seed), all_(trial_configurations()) {}
 
   [[nodiscard]] const std::vector<Inputs>& all() const { return all_; }
 
@@ -75,13 +78,13 @@ class Trials {
         throw Error(fmt::format("configuration {}: the sound RTL is {}: {}", inputs.name, v->how, v->text));
       if (const auto text = sound_divergence(libraries_[i], inputs))
         throw Error(fmt::format("configuration {}: a stage of the sound RTL differs: {}", inputs.name, *text));
-      fmt::print(stderr, "configuration {}: the sound RTL is the same\n", inputs.name);
+      fmt::print(err_, "configuration {}: the sound RTL is the same\n", inputs.name);
     }
     return try_mutant(libraries_[i], inputs, mutant);
   }
 
  private:
-  FILE* out_;
+  FILE* err_;
   std::uint64_t seed_;
   std::vector<Inputs> all_;
   std::map<std::size_t, std::filesystem::path> libraries_;
@@ -104,18 +107,18 @@ std::string end_of(const Result& r) {
   return r.verdict->how;
 }
 
-void print_row(FILE* out, const Result& r, bool markdown) {
+void print_row(const Result& r, bool markdown) {
   const std::string module = r.verdict ? r.verdict->module : "";
   const std::string named = r.verdict && !r.right() ? fmt::format("{} (not {})", module, r.expected) : module;
   if (markdown) {
-    fmt::print(out, "| {} | {} | {}: {} | {} | {} | {} |\n", r.mutant.name, r.mutant.file, r.mutant.kind,
-               r.mutant.breaks, r.verdict ? r.config : "", end_of(r), named);
+    fmt::print("| {} | {} | {}: {} | {} | {} | {} |\n", r.mutant.name, r.mutant.file, r.mutant.kind, r.mutant.breaks,
+               r.verdict ? r.config : "", end_of(r), named);
   } else {
-    fmt::print(out, "{:<22} {:<18} {:<16} {:<10} {}\n", r.mutant.name,
-               std::filesystem::path(r.mutant.file).stem().string(), r.verdict ? r.config : "", end_of(r), named);
-    if (r.verdict && !r.right()) fmt::print(out, "    {}\n", r.verdict->text);
+    fmt::print("{:<22} {:<18} {:<16} {:<10} {}\n", r.mutant.name, std::filesystem::path(r.mutant.file).stem().string(),
+               r.verdict ? r.config : "", end_of(r), named);
+    if (r.verdict && !r.right()) fmt::print("    {}\n", r.verdict->text);
   }
-  std::fflush(out);
+  std::fflush(stdout);
 }
 
 std::vector<Mutant> chosen(std::vector<Mutant> all, const std::vector<std::string>& names, int sample,
@@ -147,9 +150,7 @@ void print_speed() {
     for (int round = 0; round < 20; ++round) {
       const auto rtl = make_rtl(library, inputs.config, inputs.sequences.front().rtl);
       for (const TrialFrame& f : inputs.sequences.front().frames) {
-        const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
-        rtl->feed(f.words, nowhere);
-        const cosim::FrameEnd end = rtl->finish(nowhere);
+        const cosim::FrameEnd end = rtl->frame(f.words, cosim::kNowhere);
         clocks += end.cycles;
         seconds += end.seconds;
       }
@@ -186,15 +187,14 @@ int run_all(std::vector<std::string> arguments) {
   const auto mutants = chosen(load_mutants(data_directory() / "verif/mutants/mutants.yaml"), names, sample, seed);
   const Quiet quiet;
   const auto start = Clock::now();
-  Trials trials(quiet.out(), test_seed());
+  Trials trials(quiet.err(), test_seed());
   if (markdown)
     fmt::print(
-        quiet.out(),
         "| mutant | of `rtl/` | what it breaks | configuration | verdict | named |\n|---|---|---|---|---|---|\n");
   std::vector<Result> results;
   for (const Mutant& m : mutants) {
     results.push_back(run(m, trials));
-    print_row(quiet.out(), results.back(), markdown);
+    print_row(results.back(), markdown);
   }
 
   const auto count = [&](auto is) { return std::count_if(results.begin(), results.end(), is); };
@@ -203,7 +203,6 @@ int run_all(std::vector<std::string> arguments) {
   const auto right = count([](const Result& r) { return r.mutant.equivalent.empty() && r.right(); });
   const auto wanted = static_cast<std::ptrdiff_t>(results.size()) - equivalent;
   fmt::print(
-      quiet.out(),
       "{}{} mutants, {} of them equivalent; of the other {}: {} killed, {} live; {} named right, {} wrong; {:.0f} s\n",
       markdown ? "\n" : "", results.size(), equivalent, wanted, killed, wanted - killed, right, killed - right,
       since(start));

@@ -36,8 +36,6 @@ class Checker {
   }
 
  private:
-  static constexpr auto kNowhere = [](int, std::span<const std::uint8_t>) {};
-
   static void same(const char* name, std::uint32_t expected, std::uint32_t actual) {
     if (expected != actual) throw Wrong{fmt::format("{}: expected {:#x}, got {:#x}", name, expected, actual)};
   }
@@ -87,8 +85,8 @@ class Checker {
   void frames() {
     for (const TrialFrame& f : inputs_.sequences.front().frames) {
       if (f.end.status.width == 0) continue;  // its header is refused: the driver resets the core
-      rtl_.feed(f.words, kNowhere);
-      const cosim::FrameEnd end = rtl_.finish(kNowhere);
+      rtl_.feed(f.words, cosim::kNowhere);
+      const cosim::FrameEnd end = rtl_.finish(cosim::kNowhere);
       ++count_;
       blocked_ += static_cast<std::uint32_t>(end.stalls.blocked);
       if (f.end.status.error != ErrorCode::NONE) ++errors_;
@@ -107,14 +105,14 @@ class Checker {
   void dropped() {
     for (const TrialFrame& f : inputs_.sequences.front().frames) {
       if (f.end.status.width == 0 || f.end.status.error == ErrorCode::NONE) continue;
-      rtl_.feed(f.words, kNowhere);  // but for the last beat
+      rtl_.feed(f.words, cosim::kNowhere);  // but for the last beat
       rtl_.pass(kLong);
       const bool early = read("ERRORS", KAGE_REG_ERRORS) != errors_;
       if (early) {
         expect("STATUS, while input is dropped", KAGE_REG_STATUS, 0b0111);
         expect("FRAMES, while input is dropped", KAGE_REG_FRAMES, count_);
       }
-      (void)rtl_.finish(kNowhere);
+      (void)rtl_.finish(cosim::kNowhere);
       ++count_;
       ++errors_;
       expect("FRAMES", KAGE_REG_FRAMES, count_);
@@ -144,11 +142,11 @@ class Checker {
     // The whole beats of them.
     const auto beat = static_cast<std::size_t>(c.beat_words);
     const std::size_t cut = some / beat * beat + 1;
-    rtl_.feed(std::span(words).first(cut), kNowhere);
+    rtl_.feed(std::span(words).first(cut), cosim::kNowhere);
     rtl_.pass(kLong);
     expect("TREE", KAGE_REG_TREE, 1U << 31 | 1U);
-    rtl_.feed(std::span(words).subspan(cut), kNowhere);
-    (void)rtl_.finish(kNowhere);
+    rtl_.feed(std::span(words).subspan(cut), cosim::kNowhere);
+    (void)rtl_.finish(cosim::kNowhere);
     ++count_;
     expect("FRAMES", KAGE_REG_FRAMES, count_);
     expect("ERRORS", KAGE_REG_ERRORS, errors_);
@@ -178,14 +176,15 @@ class Checker {
   // A frame whose second half does not come.
   void watchdog() {
     const TrialFrame& f = inputs_.sequences.front().frames.front();
-    rtl_.feed(std::span(f.words).first(f.words.size() - static_cast<std::size_t>(inputs_.config.beat_words)), kNowhere);
+    rtl_.feed(std::span(f.words).first(f.words.size() - static_cast<std::size_t>(inputs_.config.beat_words)),
+              cosim::kNowhere);
     write("WATCHDOG", KAGE_REG_WATCHDOG, kWatchdog);
     rtl_.pass(4 * std::uint64_t{kWatchdog} + 20 * static_cast<std::uint64_t>(f.end.status.width) * 20);
     expect("STATUS", KAGE_REG_STATUS, 0b0101);
     expect("IRQ", KAGE_REG_IRQ, 4);
     same("STALL", 1U << 8, read("STALL", KAGE_REG_STALL) & 0x300U);
-    rtl_.feed(std::span(f.words).last(static_cast<std::size_t>(inputs_.config.beat_words)), kNowhere);
-    (void)rtl_.finish(kNowhere);
+    rtl_.feed(std::span(f.words).last(static_cast<std::size_t>(inputs_.config.beat_words)), cosim::kNowhere);
+    (void)rtl_.finish(cosim::kNowhere);
     const std::uint32_t starved = read("STARVED", KAGE_REG_STARVED);
     if (starved < kWatchdog) throw Wrong{fmt::format("STARVED: expected at least {}, got {}", kWatchdog, starved)};
   }

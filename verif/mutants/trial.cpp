@@ -85,7 +85,12 @@ std::optional<Verdict> try_mutant(const std::filesystem::path& library, const In
   cosim::RtlOptions options = inputs.sequences.front().rtl;
   options.backpressure_percent = 50;
   options.mutant = mutant;
-  const auto wrong = wrong_register(*make_rtl(library, inputs.config, options), inputs);
+  std::optional<std::string> wrong;
+  try {
+    wrong = wrong_register(*make_rtl(library, inputs.config, options), inputs);
+  } catch (const cosim::AssertionError& e) {
+    return Verdict{"assertion", module_of(e.where()), e.what()};
+  }
   if (!wrong) return std::nullopt;
   // Again with monitors: registers may say truly what a module says wrong.
   const auto rtl = make_rtl(library, inputs.config, options);

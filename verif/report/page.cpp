@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <limits>
 #include <set>
 
 #include "image/temp_file.hpp"
@@ -90,9 +91,9 @@ Json frames_of(const Page& page, Pictures& pictures) {
     j["error"] = r.status.error == ErrorCode::NONE
                      ? Json(nullptr)
                      : Json{{"text", cosim::describe(r.status)}, {"line", r.status.line}, {"token", r.status.token}};
-    const auto& known = page.tokens->frames();
-    if (static_cast<std::size_t>(number) < known.size()) {
-      const FrameTokens& t = known[static_cast<std::size_t>(number)];
+    for (const TokenStore* store : {page.tokens, different ? page.wanted : nullptr}) {
+      if (store == nullptr || static_cast<std::size_t>(number) >= store->frames().size()) continue;
+      const FrameTokens& t = store->frames()[static_cast<std::size_t>(number)];
       j["tokens"] = t.tokens;
       j["background"] = t.background;
       j["phases"] = phases_of(t.phases);
@@ -112,7 +113,7 @@ Json frames_of(const Page& page, Pictures& pictures) {
 void write_bands(std::ostream& out, const Page& page, std::size_t room) {
   std::set<std::pair<int, int>> there;
   // After a difference some of the frames behind it may have been made already.
-  const int last = page.run->first_difference ? page.run->first_difference->frame : page.run->frames;
+  const int last = page.run->first_difference ? page.run->first_difference->frame : std::numeric_limits<int>::max();
   for (const TokenStore* store : {page.wanted, page.tokens}) {
     if (store == nullptr) continue;
     for (const Band& b : store->bands()) {
@@ -190,10 +191,11 @@ Json data_of(const Page& page, Pictures& pictures) {
   j["first"] = nullptr;
   if (run.first_difference) {
     const cosim::Difference& d = *run.first_difference;
-    j["first"] = {
-        {"text", cosim::describe(d)}, {"frame", d.frame}, {"x", d.x}, {"y", d.line}, {"assertion", d.assertion}};
+    j["first"] = {{"text", cosim::describe(d)}, {"frame", d.frame}, {"x", d.x}, {"y", d.line}};
   }
-  j["searched"] = page.searched;
+  j["no_divergence"] = page.searched && run.first_difference && !page.divergence
+                           ? Json(cosim::describe_none(*run.first_difference))
+                           : Json(nullptr);
   j["divergence"] = nullptr;
   if (page.divergence)
     j["divergence"] = {{"text", cosim::describe(*page.divergence)},
@@ -201,12 +203,9 @@ Json data_of(const Page& page, Pictures& pictures) {
                        {"waveform", page.divergence->waveform},
                        {"save_file", page.divergence->save_file}};
   j["different_pixels"] = nullptr;
-  j["regions"] = Json::array();
   if (run.difference) {
     j["different_pixels"] = run.difference->different_pixels;
     j["region_count"] = run.difference->region_count;
-    for (const auto& r : run.difference->regions)
-      j["regions"].push_back({r.box.x, r.box.y, r.box.width, r.box.height, r.pixels});
   }
   j["frames"] = frames_of(page, pictures);
   j["compared"] = run.frames;

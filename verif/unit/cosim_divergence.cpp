@@ -166,9 +166,8 @@ TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
     DivergenceOptions options;
     options.library = find_model(c, {.traced = true}).library;
     const auto rtl = make_rtl(options.library, c, {});
-    const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
-    CHECK(rtl->frame(frames[0], nowhere).status.error == ErrorCode::ORDER);
-    CHECK(rtl->frame(frames[1], nowhere).status.error == ErrorCode::NONE);
+    CHECK(rtl->frame(frames[0], kNowhere).status.error == ErrorCode::ORDER);
+    CHECK(rtl->frame(frames[1], kNowhere).status.error == ErrorCode::NONE);
     const auto d = find_divergence(1, feed_of(frames), c, options);
     if (d) UNSCOPED_INFO(describe(*d));
     CHECK_FALSE(d);

@@ -178,12 +178,11 @@ const Explain = (() => {
           const shadow = c.FSF ? this.fsf !== 0 : this.sum() !== 0;
           this.bias = 0;
           if (!here) return "";
-          const before = this.counts[light];
-          if (shadow) this.counts[light] = Math.min(before + 1, 2 ** c.COUNT_BITS - 1);
+          if (shadow) this.counts[light] = Math.min(this.counts[light] + 1, 2 ** c.COUNT_BITS - 1);
           if (c.FSF) this.fsf = 0;
           else this.dsf = 0;
           return `end of a sample of light ${light}: ` +
-              `${this.counts[light] !== before ? "in shadow" : "not in shadow"}; count ${this.counts[light]}`;
+              `${shadow ? "in shadow" : "not in shadow"}; count ${this.counts[light]}`;
         }
         case "RESOLVE": {
           const text = this.resolve();
@@ -312,7 +311,7 @@ const Explain = (() => {
       at += t.words;
       if (t.kind === "SHADE") state.shade = t.shade;
       if (t.kind === "TABLE") state.shares.push(t.share);
-      if (t.kind === "FACE") state.faces[t.unit].push(t);
+      if (t.kind === "FACE") state.faces[t.unit]?.push(t);
     }
     return band.state = state;
   }

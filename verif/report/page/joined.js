@@ -23,9 +23,9 @@
     const [first, ...more] = differences();
     const terms = [];
     if (first) {
-      const {text, divergence, searched, assertion, frame} = first.difference;
+      const {text, divergence, no_divergence, frame} = first.difference;
       terms.push(["First difference", ofScene(first.scene, text)]);
-      if (divergence || searched) terms.push(...Parts.divergenceTerms(divergence, assertion));
+      terms.push(...Parts.divergenceTerms(divergence, no_divergence));
       if (first.page) terms.push(["Look at it", link(`frame ${frame} on the page of its run`, first.page)]);
     }
     if (more.length) terms.push(["Other runs", `${plural(more.length, "difference")} more, below`]);

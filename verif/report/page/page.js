@@ -11,7 +11,7 @@ const Report = (() => {
   function verdict() {
     const terms = [];
     if (data.first) terms.push(["First difference", data.first.text]);
-    if (data.first && (data.divergence || data.searched)) terms.push(...Parts.divergenceTerms(data.divergence, data.first.assertion));
+    terms.push(...Parts.divergenceTerms(data.divergence, data.no_divergence));
     if (data.different_pixels !== null)
       terms.push(["Differing pixels", `${count(data.different_pixels)} in ${plural(data.region_count, "region")}`]);
     if (data.degraded.length) terms.push(["Left out", data.degraded.join("; ")]);
@@ -71,16 +71,17 @@ const Report = (() => {
     else if (frame.golden.data === null) text += ` Its picture is not on this page, which would be too large: see ${frame.golden.name}.`;
     else if (frame.same) text += " Golden model and RTL are the same, bit for bit.";
     else if (mode === "difference") text += " Red differs, the brighter the further apart.";
-    if (frame.error) text += ` Both cores ended it with ${frame.error.text}.`;
+    if (frame.error) text += ` ${frame.same ? "Both cores" : "The golden model"} ended it with ${frame.error.text}.`;
     $("caption").textContent = text;
   }
 
   async function setFrame(number) {
-    frame = data.frames.find((f) => f.number === number) ?? frame;
+    const mine = frame = data.frames.find((f) => f.number === number) ?? frame;
     for (const b of $("strip").children) b.setAttribute("aria-pressed", b.dataset.frame === String(frame.number));
     const golden = await decoded(frame.golden);
     const rtl = frame.same ? golden : await decoded(frame.rtl);
     const difference = frame.same ? golden && {...golden, dim: true} : await decoded(frame.difference);
+    if (frame !== mine) return;  // another was chosen meanwhile
     View.set(frame, {golden, rtl, difference});
     $("x").max = frame.width - 1;
     $("y").max = frame.height - 1;
@@ -247,7 +248,7 @@ const Report = (() => {
         [data.phase_names[i], count(clocks), share(clocks), count(tokens), count(pixels), ...frame.stalls[i].map(count), data.phase_tokens[i]]);
     rows.push(["video", count(frame.video), share(frame.video), "", "", "", "", ""]);
     const left = frame.cycles - frame.designed;
-    rows.push(["the rest", count(left), share(left), "", "", ...frame.stalls.at(-1).map(count), ""]);
+    if (frame.cycles) rows.push(["the rest", count(left), share(left), "", "", ...frame.stalls.at(-1).map(count), ""]);
     table($("phases"), ["phase", "clocks", "of the frame's", "tokens", "pixels", "no input", "output blocked", "which"], rows,
           ["RTL", count(frame.cycles), "", "", "", count(frame.starved), count(frame.blocked), ""]);
     for (const row of $("phases").rows) row.cells[7].className = "words";

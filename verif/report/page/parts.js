@@ -54,10 +54,9 @@ const Parts = (() => {
     if (terms.length) $("first").append(list);
   }
 
-  // The terms of a first divergence, or of none that was found after such a difference.
-  function divergenceTerms(divergence, assertion) {
-    const look = assertion ? "what the assertion guards" : "the registers and the video port";
-    if (!divergence) return [["First divergence", `no stage differs: look at ${look}`]];
+  // The terms of a first divergence; of none, where one was looked for, the text that says so.
+  function divergenceTerms(divergence, none) {
+    if (!divergence) return none ? [["First divergence", none]] : [];
     const terms = [["First divergence", divergence.text]];
     if (divergence.waits) terms.push(["Who waits", divergence.waits]);
     if (divergence.waveform) terms.push(["Waveform", make("code", `gtkwave ${divergence.save_file}`)]);
