@@ -28,10 +28,7 @@ module frame_control_monitor #(
   logic waits_q, loading_q;
   logic [255:0] segment, segment_q;
   assign segment = 256'({
-    frame_control.tree_unit_o,
-    frame_control.tree_z_o,
-    frame_control.tree_dx_o,
-    frame_control.tree_face_o
+    frame_control.tree_unit_o, frame_control.tree_z_o, frame_control.tree_dx_o, frame_control.tree_face_o
   });
   always_ff @(posedge clk_i) begin
     waits_q   <= rst_ni && frame_control.tree_seg_valid_o && !frame_control.tree_seg_ready_i;
@@ -40,8 +37,7 @@ module frame_control_monitor #(
     else if (frame_control.line_valid_o && frame_control.line_load_o) loading_q <= 1'b1;
     if (rst_ni) begin
       if (waits_q) begin
-        trace_part(PartFrameControl, 512'({1'b1, segment_q}), 512'({
-                   frame_control.tree_seg_valid_o, segment}));
+        trace_part(PartFrameControl, 512'({1'b1, segment_q}), 512'({frame_control.tree_seg_valid_o, segment}));
       end
       if (loading_q) begin
         trace_part(PartFrameControl, '0, 512'(frame_control.line_valid_o || frame_control.accept));
@@ -49,8 +45,7 @@ module frame_control_monitor #(
       trace_part(PartFrameControl, 512'(UNITS > 0 && frame_control.error_o && !token_header_i),
                  512'(frame_control.tree_flush_o));
       if (frame_control.frame_end_o) begin
-        trace_part(PartFrameControl, 512'd1,
-                   512'((good && frame_control.is_end) || !frame_control.dropping_i));
+        trace_part(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));
       end
     end
   end

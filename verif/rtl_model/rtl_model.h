@@ -27,7 +27,7 @@ enum {
   KAGE_RTL_IDLE = 1,   /* all input is taken and nothing moves any more */
   KAGE_RTL_LIMIT = 2,  /* the clocks allowed are used up */
   KAGE_RTL_STUCK = 3,  /* input is waiting, output is ready, and nothing moves: a hang */
-  KAGE_RTL_ASSERT = 4, /* an assertion in the RTL failed: see failure(); besides it, only pixels() and destroy() may follow */
+  KAGE_RTL_ASSERT = 4, /* an assertion in the RTL failed: see failure(); then only pixels() and destroy() */
   KAGE_RTL_DRY = 5     /* every queued beat is taken */
 };
 
