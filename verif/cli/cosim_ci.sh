@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What kage cosim does for continuous integration: shards and kage merge, JUnit XML, annotations, progress in a pipe.
 . "$(dirname "$0")/common.bash"
-unset GITHUB_ACTIONS KAGE_PROGRESS
+unset GITHUB_ACTIONS
 
 # junit FILE EXPRESSION: true in Python, with the suite as s and its cases as c.
 junit() {

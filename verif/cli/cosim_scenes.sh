@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Several scenes in one kage cosim, shards over their frames as one list, and the page of a joined run.
 . "$(dirname "$0")/common.bash"
-unset GITHUB_ACTIONS KAGE_PROGRESS
+unset GITHUB_ACTIONS
 run=(courtyard inside --size 64x48 --frames 4 --config default)
 
 # cases FILE NAMES: JUnit's cases have just these names, none failed.

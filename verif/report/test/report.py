@@ -248,6 +248,10 @@ def joined_run(b):
     b.open("gone/report.html")
     check(b.run("document.querySelectorAll('a').length") == 0 and "its page is not here" in b.run("document.body.innerText"),
           "links to pages that are not there")
+    # The tokens of a shard's frames, whatever their numbers.
+    b.open("part/report.html")
+    check(b.run("Explain.data.frames.map(f => [f.number, Explain.has(f.number, 40)]).join()") == "1,true,4,true",
+          "tokens of a shard's frames are missing")
     # One scene, all the same; a frame that is no shard's first.
     b.open("joined-same/report.html")
     check(b.run("document.querySelector('h1').innerText").strip().endswith("Same"), "joined: the verdict is not Same")

@@ -43,6 +43,7 @@ for i in 1 2; do
   expect 1 "$kage" cosim courtyard penumbra --size 160x120 --frames 3 --fault wrong_compare --out joined/$i --shard $i/2 --json joined/$i.json
   expect 0 "$kage" cosim courtyard --size 160x120 --frames 3 --idle 30 --out joined-same/$i --shard $i/2 --json joined-same/$i.json
 done
+expect 0 "$kage" cosim courtyard --size 64x48 --frames 6 --shard 2/3 --out part
 expect 1 "$kage" merge joined/1.json joined/2.json --out joined --json joined.json
 expect 0 "$kage" merge joined-same/1.json joined-same/2.json --out joined-same --json joined-same.json
 mkdir gone && cp joined/[12].json gone
