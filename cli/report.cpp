@@ -174,10 +174,10 @@ std::string RunReport::write(const std::string& folder, const cosim::Report& run
   page.again = command_line(command_);
   const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
   page.explain = command_line(command_, *explain, input_);
-  page.explain_rtl = " --rtl";
   for (const char* name : kRtlOptions)
     if (const CLI::Option* o = command_.get_option(name); o->count() != 0)
       page.explain_rtl += fmt::format(" {} {}", name, quoted(o->results().back()));
+  page.explain_rtl += " --rtl";
   page.folder = std::filesystem::current_path().string();
   page.rtl = rtl_directory();
   page.tokens = &*tokens_;

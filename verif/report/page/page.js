@@ -81,13 +81,14 @@ const Report = (() => {
     const golden = await decoded(frame.golden);
     const rtl = frame.same ? golden : await decoded(frame.rtl);
     const difference = frame.same ? golden && {...golden, dim: true} : await decoded(frame.difference);
-    if (frame !== mine) return;  // another was chosen meanwhile
+    if (frame !== mine) return false;  // another was chosen meanwhile
     View.set(frame, {golden, rtl, difference});
     $("x").max = frame.width - 1;
     $("y").max = frame.height - 1;
     caption();
     regions();
     phases();
+    return true;
   }
 
   function step(by) {
@@ -214,7 +215,8 @@ const Report = (() => {
   }
 
   async function select(number, x, y, least = 0) {
-    if (number !== frame.number || !$("strip").querySelector("[aria-pressed=true]")) await setFrame(number);
+    const there = number === frame.number && $("strip").querySelector("[aria-pressed=true]");
+    if (!there && !await setFrame(number)) return;
     chosen = {x: Math.min(Math.max(x, 0), frame.width - 1), y: Math.min(Math.max(y, 0), frame.height - 1)};
     if (!frame.golden) chosen = null;
     View.mark(chosen);
