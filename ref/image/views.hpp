@@ -30,8 +30,8 @@ void paint(Image& heat, std::size_t pixel, PixelVerdict verdict, std::uint64_t s
 void frame_regions(Image& heat, const std::vector<DiffResult::Region>& regions);
 
 /// Pixels that OpenImageIO's perceptual measure (Yee's, at its defaults for luminance and field of view) tells apart
-/// within `box`. Integers count as sRGB unless the file says otherwise, floats as linear. Nothing if there is a value
-/// that is not finite.
+/// within `box`. Integers count as sRGB where the file says so, all else as linear. Nothing if there is a value that is
+/// not finite.
 std::optional<std::uint64_t> perceptual_pixels(const Picture& a, const Picture& b, const Box& box);
 
 }  // namespace kage
