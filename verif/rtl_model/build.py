@@ -180,7 +180,9 @@ def build(out, values, args, work):
     unroll = values["MAX_WIDTH"] if values["ARRANGEMENT"] == 0 and values["MAX_WIDTH"] <= 128 else 64
     verilator = os.environ.get("VERILATOR", "verilator")
     obj = work / "obj"
-    cflags = "-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP -include kage_print.h"
+    # What the RTL says, as of an assertion, is no result: standard output is for those. The quotes are for make's shell.
+    to_stderr = "'-DVL_PRINTF(...)=fprintf(stderr,__VA_ARGS__)'"
+    cflags = f"-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP {to_stderr}"
     command = [verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", obj, "-O3", "--x-initial", "unique",
                "--assert", "--unroll-count", str(max(unroll, 64)), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
@@ -191,8 +193,6 @@ def build(out, values, args, work):
         command += ["-Wno-fatal", work / "kage_mutants.sv"]
     command += sorted(rtl.glob("*.sv")) + (sorted(MONITORS.glob("*.sv")) if args.trace else [])
     run("verilator", command, log)
-    # What the RTL says, as of an assertion, is no result: standard output is for those.
-    (obj / "kage_print.h").write_text("#include <cstdio>\n#define VL_PRINTF(...) std::fprintf(stderr, __VA_ARGS__)\n")
 
     cxx = os.environ.get("CXX", "c++")
     make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={cxx}"]
