@@ -45,8 +45,9 @@ CLI::Validator whole_number() {
             std::uint64_t value = 0;
             const char* const end = text.data() + text.size();
             const auto [stop, error] = std::from_chars(text.data(), end, value);
-            return error == std::errc{} && stop == end ? std::string()
-                                                       : text + " is not a whole number from 0 to 2^64 - 1";
+            if (error != std::errc{} || stop != end) return text + " is not a whole number from 0 to 2^64 - 1";
+            // CLI11 would take it for octal.
+            return text.size() > 1 && text.front() == '0' ? text + " begins with 0" : std::string();
           },
           "", "whole"};
 }
@@ -299,14 +300,17 @@ std::string quoted(const std::string& text) {
 
 /// `inputs` stand for the positional arguments.
 
-void refuse_twice(const std::vector<std::string>& paths) {
+std::filesystem::path resolved(const std::string& path) {
   namespace fs = std::filesystem;
-  std::set<fs::path> seen;
-  for (const std::string& path : paths) {
-    std::error_code ec;
-    if (!path.empty() && !seen.insert(fs::weakly_canonical(fs::absolute(path, ec), ec)).second)
+  std::error_code ec;
+  return fs::weakly_canonical(fs::absolute(path, ec), ec);
+}
+
+void refuse_twice(const std::vector<std::string>& paths) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& path : paths)
+    if (!path.empty() && !seen.insert(resolved(path)).second)
       throw Error(fmt::format("{}: is to be written twice", path));
-  }
 }
 
 void check_interrupt() {

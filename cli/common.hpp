@@ -129,6 +129,9 @@ class OutFolder {
 /// `text` as a shell reads it back.
 std::string quoted(const std::string& text);
 
+/// The same for all names of a file, links too; empty if there can be no such file.
+std::filesystem::path resolved(const std::string& path);
+
 /// Throws Error if two of the files that are to be written, by whatever name, are one. Empty paths are none.
 void refuse_twice(const std::vector<std::string>& paths);
 

@@ -21,11 +21,9 @@ namespace fs = std::filesystem;
 
 /// Whether `path` is `in` or, that being a folder, lies in it.
 bool within(const std::string& path, const std::string& in) {
-  std::error_code ec;
-  const fs::path whole = fs::weakly_canonical(fs::absolute(path, ec), ec);
-  const fs::path part = fs::weakly_canonical(fs::absolute(in, ec), ec);
-  if (ec) return false;
-  return std::mismatch(part.begin(), part.end(), whole.begin(), whole.end()).first == part.end();
+  const fs::path whole = resolved(path);
+  const fs::path part = resolved(in);
+  return !part.empty() && std::mismatch(part.begin(), part.end(), whole.begin(), whole.end()).first == part.end();
 }
 
 }  // namespace
@@ -51,7 +49,7 @@ void check_outputs(const DiffCommand& o) {
       if (!read->empty() && within(*path, *read))
         throw Error(fmt::format("{}: is one of those compared, or lies in it: it is not written over", *path));
     for (const std::string& other : written)
-      if (within(*path, other) && within(other, *path)) throw Error(fmt::format("{}: is to be written twice", *path));
+      if (resolved(*path) == resolved(other)) throw Error(fmt::format("{}: is to be written twice", *path));
     written.push_back(*path);
   }
 }
@@ -69,7 +67,9 @@ std::string describe(const DiffResult& r) {
   text += counted(pixels, "pixel") + " compared";
   if (r.different_pixels != 0)
     text += fmt::format(", {} {}", r.different_pixels, r.different_pixels == 1 ? "differs" : "differ");
-  if (r.same && (r.max_lsb.value_or(0) != 0 || r.max_ulp.value_or(0) != 0)) text += ", all within the threshold";
+  if (r.different_pixels == 0 && (r.max_lsb.value_or(0) != 0 || r.max_ulp.value_or(0) != 0))
+    text += ", all within the threshold";
+  if (r.same && r.different_pixels != 0) text += ", no more than allowed";
   if (r.max_lsb.value_or(0) != 0) text += fmt::format(", by up to {} LSB", *r.max_lsb);
   if (r.max_ulp.value_or(0) != 0)
     text +=

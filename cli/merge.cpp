@@ -156,7 +156,8 @@ int run(const MergeCommand& o) {
   check_json(o);
   for (const std::string& input : o.inputs)
     for (const std::string* output : {&o.json, &o.junit})
-      if (*output == input) throw Error(fmt::format("{}: is one of those joined: it is not written over", input));
+      if (!output->empty() && *output != "-" && resolved(*output) == resolved(input))
+        throw Error(fmt::format("{}: is one of those joined: it is not written over", input));
   refuse_twice({o.json == "-" ? "" : o.json, o.junit,
                 o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   TempFiles files;

@@ -16,14 +16,8 @@ class Grid {
     LightBox all = boxes[0];
     for (const LightBox& b : boxes) all.add(b);
     side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(boxes.size()))), 1, 1024);
-    const auto cell = [&](double v, std::size_t axis) {
-      const double width = all.high[axis] - all.low[axis];
-      const double at = width > 0 ? (v - all.low[axis]) / width * side_ : 0;
-      return static_cast<std::int16_t>(std::clamp(static_cast<int>(at), 0, side_ - 1));
-    };
-    cells_.reserve(boxes.size());
-    for (const LightBox& b : boxes)
-      cells_.push_back({cell(b.low[0], 0), cell(b.low[1], 1), cell(b.high[0], 0), cell(b.high[1], 1)});
+    // Wide boxes lie in many cells of a fine grid: without this they could take all memory.
+    while (fill(all) > kEntriesOfBox * boxes.size()) side_ /= 2;
     first_.assign(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) + 1, 0);
     for (const Cells& c : cells_) each_cell(c, [&](std::size_t n) { ++first_[n + 1]; });
     for (std::size_t n = 1; n < first_.size(); ++n) first_[n] += first_[n - 1];
@@ -58,10 +52,31 @@ class Grid {
   }
 
  private:
+  /// On average. With side_ 1 a box has one.
+  static constexpr std::uint64_t kEntriesOfBox = 16;
+
   /// From the first to the last.
   struct Cells {
     std::int16_t x0, y0, x1, y1;
   };
+
+  /// Sets the cells of all boxes, which `all` holds; how many entries that makes.
+  std::uint64_t fill(const LightBox& all) {
+    const auto cell = [&](double v, std::size_t axis) {
+      const double width = all.high[axis] - all.low[axis];
+      const double at = width > 0 ? (v - all.low[axis]) / width * side_ : 0;
+      return static_cast<std::int16_t>(std::clamp(static_cast<int>(at), 0, side_ - 1));
+    };
+    cells_.clear();
+    cells_.reserve(boxes_.size());
+    std::uint64_t entries = 0;
+    for (const LightBox& b : boxes_) {
+      const Cells c{cell(b.low[0], 0), cell(b.low[1], 1), cell(b.high[0], 0), cell(b.high[1], 1)};
+      entries += static_cast<std::uint64_t>(c.x1 - c.x0 + 1) * static_cast<std::uint64_t>(c.y1 - c.y0 + 1);
+      cells_.push_back(c);
+    }
+    return entries;
+  }
 
   [[nodiscard]] std::size_t number(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(side_) + static_cast<std::size_t>(x);

@@ -15,7 +15,8 @@ namespace kage {
 /// Part `caps`, a component's, into patches of connected faces. Each patch is grown from the first cap left, in order
 /// of distance along the mesh, by all that overlap none of it seen from the light. Whether two overlap is decided
 /// exactly, from the vertices as they are. Caps whose corners do not go round once to the light's side, exactly, are
-/// patches of their own. Time is about linear in the caps.
+/// patches of their own. Time is about linear in the caps where those are small in the
+/// light's view.
 std::vector<std::vector<CapFace>> make_patches(const SceneFrame& frame, const LightPoint& light, const EdgeTable& edges,
                                                const LightSpace& space, std::span<const CapFace> caps);
 

@@ -84,6 +84,8 @@ expect 0 "$kage" diff a.png b.png --lsb 4
 grep -q "all within the threshold, by up to 4 LSB" stdout || fail "the threshold is not told: $(cat stdout)"
 expect 1 "$kage" diff a.png b.png --lsb 3
 expect 0 "$kage" diff a.png b.png --max-pixels 2
+grep -q "2 differ, no more than allowed, by up to 4 LSB" stdout || fail "what is allowed is not told: $(cat stdout)"
+trouble "010 begins with 0" "$kage" diff a.png b.png --lsb 010
 expect 1 "$kage" diff a.png b.png --max-pixels 1
 expect 0 "$kage" diff a.png b.png --max-percent 4.2
 expect 1 "$kage" diff a.png b.png --max-percent 4.1

@@ -209,6 +209,7 @@ std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const C
         t.text += fmt::format("{}{} {}", t.text.empty() ? "" : ", ", value_name(e.stage, i),
                               value_text(config, e.stage, i, a.value[i]));
     touches.push_back(std::move(t));
+    if (e.stage == Stage::out) throw Enough();  // it has left
   };
   const Found found = search(from, frame, feed, config, options, watch);
   for (RtlTouch& t : touches) t.cycle -= std::min(t.cycle, found.start);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Patches: their faces are free of overlap in rational numbers, each is in one of them, and they are as large as can
 // be.
+#include <cmath>
 #include <set>
 
 #include "catch.hpp"
@@ -63,6 +64,25 @@ TEST_CASE("a height field under a light straight above is one patch, turned face
     for (auto& f : s.faces)
       if (random.chance(0.5)) std::swap(f[0], f[1]);
     CHECK(patches_of(caster_of(s, above(true))).size() == 1);
+  }
+}
+
+TEST_CASE("a fan of slices as long as all of it is one patch, two fans are two") {
+  // A slice's box lies in about a quarter of all cells of a fine grid.
+  for (const std::uint32_t n : {3U, 40U, 3000U}) {
+    CAPTURE(n);
+    Solid s;
+    const auto fan = [&](double y) {
+      const auto middle = static_cast<std::uint32_t>(s.vertices.size());
+      s.vertices.emplace_back(0, y, 0);
+      for (std::uint32_t i = 0; i < n; ++i)
+        s.vertices.emplace_back(10 * std::cos(6.28 * i / n), y, 10 * std::sin(6.28 * i / n));
+      for (std::uint32_t i = 1; i < n; ++i) s.faces.push_back({middle, middle + i, middle + i + 1});
+    };
+    fan(-5);
+    CHECK(patches_of(caster_of(s, above(true))).size() == 1);
+    fan(-6);
+    CHECK(patches_of(caster_of(s, above(true))).size() == 2);
   }
 }
 
