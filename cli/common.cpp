@@ -298,8 +298,6 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-/// `inputs` stand for the positional arguments.
-
 std::filesystem::path resolved(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code ec;
