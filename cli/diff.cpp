@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 #include <limits>
 
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 #include "kage/stream.hpp"
 
 namespace kage::cli {
@@ -25,7 +25,7 @@ Sort sort_of(const fs::path& path) {
   const fs::file_status status = fs::status(path, ec);
   if (!fs::exists(status)) return Sort::nothing;
   if (fs::is_directory(status)) return Sort::folder;
-  return is_stream_file(path) || path.extension() == ".kage" ? Sort::stream : Sort::picture;
+  return is_stream_file(path) || lower_extension(path) == ".kage" ? Sort::stream : Sort::picture;
 }
 
 /// Throws Error if one of the options is given that `what` does not take.
@@ -86,24 +86,12 @@ Box parse_region(const std::string& text) {
   return box;
 }
 
-/// A number from 0 to `most`, written as people write it: strtod() would take nan, inf and hexadecimal.
-CLI::Validator number_to(double most) {
-  return {[most](const std::string& text) {
-            const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
-            char* stop = nullptr;
-            const double value = plain ? std::strtod(text.c_str(), &stop) : 0;
-            if (!plain || text.empty() || *stop != '\0') return text + " is not a number";
-            return value >= 0 && value <= most ? std::string() : text + fmt::format(" is not in 0 .. {}", most);
-          },
-          "", "number"};
-}
-
 void add_thresholds(CLI::App& c, DiffOptions& limits) {
   c.add_option("--lsb", limits.lsb, "integers: the same if no further apart than N steps of the files' type")
       ->check(whole_number())
       ->type_name("N");
   CLI::Option* const abs = c.add_option("--abs", limits.abs, "floats: the same if no further apart than X")
-                               ->check(number_to(std::numeric_limits<double>::max()))
+                               ->check(real_number(0, std::numeric_limits<double>::max()))
                                ->type_name("X");
   c.add_option("--ulp", limits.ulp, "floats: the same if no further apart than N representable numbers")
       ->check(whole_number())
@@ -113,7 +101,7 @@ void add_thresholds(CLI::App& c, DiffOptions& limits) {
       ->check(whole_number())
       ->type_name("N");
   c.add_option("--max-percent", limits.max_percent, "same if at most P percent of the compared pixels differ")
-      ->check(number_to(100))
+      ->check(real_number(0, 100))
       ->type_name("P");
   c.add_option_function<std::string>(
        "--region", [&limits](const std::string& text) { limits.region = parse_region(text); },

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 
 namespace kage {
 namespace {
@@ -81,7 +82,7 @@ void save_flip(TempFiles& files, const std::filesystem::path& path, const Image&
   const std::string name = path.string();
   if (a.channels != 3 || b.channels != 3 || a.data.empty() || b.data.empty())
     throw Error(fmt::format("{}: cannot be written: a flip picture is of two pictures of three channels", name));
-  if (path.extension() != ".png" && path.extension() != ".apng")
+  if (const std::string extension = lower_extension(path); extension != ".png" && extension != ".apng")
     throw Error(fmt::format("{}: cannot be written: a flip picture is a .png or .apng", name));
   std::error_code ec;
   if (path.has_parent_path() && !std::filesystem::is_directory(path.parent_path(), ec))

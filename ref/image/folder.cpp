@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdint>
 #include <fstream>
 #include <map>
@@ -13,6 +12,7 @@
 
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 #include "number/regular_file.hpp"
 
 namespace kage {
@@ -26,9 +26,7 @@ constexpr std::array<std::string_view, 19> kExtensions{".bmp", ".dpx", ".exr", "
                                                        ".sgi", ".tga", ".tif", ".tiff", ".webp"};
 
 FolderEntry::Sort sort_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   if (extension == ".kage") return FolderEntry::Sort::stream;
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() ? FolderEntry::Sort::picture
                                                                                            : FolderEntry::Sort::other;

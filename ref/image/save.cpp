@@ -4,11 +4,10 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <vector>
 
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 
 namespace kage {
 namespace {
@@ -38,9 +37,7 @@ struct ImageWriter::Data {
 
 ImageWriter::ImageWriter(const std::filesystem::path& path, int width, int height, int channels)
     : data_(std::make_unique<Data>(path, width, height, channels)) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(path);
   const bool exr = extension == ".exr";
   if (!exr && extension != ".png") throw Error(fmt::format("{}: pictures are written as .png or .exr", path.string()));
   if (width <= 0 || height <= 0 || (channels != 1 && channels != 3))

@@ -32,4 +32,11 @@ std::string read_file(const std::filesystem::path& path) {
   return text;
 }
 
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
 }  // namespace kage

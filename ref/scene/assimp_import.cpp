@@ -2,6 +2,8 @@
 //
 // Whatever else Assimp reads, into a RawScene. Assimp is asked for the file's data as they are, without its own
 // processing: kage triangulates, welds and orders itself.
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -9,19 +11,21 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <map>
 #include <new>
+#include <optional>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "functions.hpp"
 #include "import.hpp"
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 #include "notes.hpp"
+#include "obj_text.hpp"
 #include "polygon.hpp"
 
 namespace kage::scene {
@@ -365,32 +369,30 @@ void Reader::write_notes() {
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
 }
 
-// Assimp's reader of OBJ takes ".5" for no number and drops the vertex, so that faces get other vertices than the
-// file's.
-void refuse_lost_vertices(const std::filesystem::path& path, const std::string& name) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".obj") return;
-  std::ifstream in(path);
-  std::size_t number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (line.find(" .") == std::string::npos && line.find("\t.") == std::string::npos) continue;
-    std::istringstream words(line);
-    std::string word;
-    if (!(words >> word) || word != "v") continue;
-    while (words >> word)
-      if (word.front() == '.')
-        throw Error(name + ": line " + std::to_string(number) + ": Assimp does not read the number " +
-                    one_line(word, 40) + ": it needs a digit before the point");
+/// Gives Assimp the file itself, if it is OBJ, as plain_obj() has it.
+class Files : public Assimp::DefaultIOSystem {
+ public:
+  Files(std::string path, const std::string& name) : path_(std::move(path)) {
+    if (lower_extension(path_) != ".obj") return;
+    std::ifstream in(path_, std::ios::binary);
+    text_ = plain_obj(in, name);
   }
-}
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    if (!text_ || file != path_) return DefaultIOSystem::Open(file, mode);
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_->data()), text_->size());
+  }
+
+ private:
+  std::string path_;
+  std::optional<std::string> text_;
+};
 
 }  // namespace
 
 RawScene import_assimp(const std::filesystem::path& path, const std::string& name) {
-  refuse_lost_vertices(path, name);
   Assimp::Importer importer;
+  importer.SetIOHandler(new Files(path.string(), name));  // the importer deletes it
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (scene == nullptr) {
     const std::string cause = cause_of(importer.GetErrorString());

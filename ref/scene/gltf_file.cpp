@@ -2,7 +2,6 @@
 #include "gltf_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -10,6 +9,7 @@
 
 #include "base64.hpp"
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 #include "notes.hpp"
 
 namespace kage::scene {
@@ -39,12 +39,6 @@ Bytes read_bytes(const std::filesystem::path& path, std::uint64_t most) {
     bytes.resize(old + static_cast<std::size_t>(in.gcount()));
   }
   return bytes;
-}
-
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string e = path.extension().string();
-  for (char& c : e) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return e;
 }
 
 std::string percent_decoded(const std::string& uri) {

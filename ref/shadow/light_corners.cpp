@@ -5,13 +5,12 @@
 
 #include "order/exact.hpp"
 #include "order/filter.hpp"
+#include "scene/space.hpp"
 
 namespace kage {
 namespace {
 
 OrderPoint order_point(const glm::dvec3& p) { return {p.x, p.y, p.z}; }
-
-double largest(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 // Beyond these neither squares nor cubes of the coordinates can be trusted to stay doubles.
 constexpr double kLeast = 0x1p-300;

@@ -13,4 +13,7 @@ std::filesystem::path data_directory();
 /// The whole of a file that kage made or has with it. Throws Error that names it.
 std::string read_file(const std::filesystem::path& path);
 
+/// The extension with its dot, letters of ASCII in lower case: ".png" of "a.PNG"; empty if there is none.
+std::string lower_extension(const std::filesystem::path& path);
+
 }  // namespace kage

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The text of an OBJ file as Assimp reads all of it. Assimp leaves out what it does not recognise without a word: a
+// vertex with ".5" in it, an indented line, a vertex with numbers in its comment. The vertices after it move up, and
+// faces get other corners than the file's.
+#pragma once
+
+#include <istream>
+#include <string>
+
+namespace kage::scene {
+
+/// The same statements, one to a line, with neither indent nor continued lines. Those of numbers (v, vt, vn, vp, f, l,
+/// p) have no comment either, and a 0 before a leading point. Throws Error with the line's number where a vertex has
+/// other than 3, 4 or 6 numbers (x y z, w or r g b), or a word that is no number. `name` is for messages.
+std::string plain_obj(std::istream& in, const std::string& name);
+
+}  // namespace kage::scene
