@@ -15,8 +15,6 @@
 namespace kage::cli {
 namespace {
 
-constexpr int kMostShards = 1000000;
-
 /// As GitHub reads it: a message may hold no line break, a property no colon or comma besides.
 std::string for_github(std::string_view text, bool property) {
   std::string out;
@@ -71,7 +69,7 @@ void option_shard(CLI::App& command, Shard& shard) {
             const auto i = std::from_chars(text.data(), end, s.index);
             const bool slash = i.ec == std::errc{} && i.ptr != end && *i.ptr == '/';
             const auto n = slash ? std::from_chars(i.ptr + 1, end, s.count) : i;
-            if (!slash || n.ec != std::errc{} || n.ptr != end || s.count < 1 || s.count > kMostShards || s.index < 1 ||
+            if (!slash || n.ec != std::errc{} || n.ptr != end || s.count < 1 || s.count > kMostFrames || s.index < 1 ||
                 s.index > s.count)
               throw CLI::ValidationError("--shard", text + " is not I/N with I from 1 to N, like 2/4");
             shard = s;

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -40,16 +41,30 @@ CLI::App* add_command(CLI::App& app, const std::string& name, const std::string&
   return command;
 }
 
-CLI::Validator whole_number() {
-  return {[](const std::string& text) {
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  return {[least, most](const std::string& text) {
             std::uint64_t value = 0;
             const char* const end = text.data() + text.size();
             const auto [stop, error] = std::from_chars(text.data(), end, value);
-            if (error != std::errc{} || stop != end) return text + " is not a whole number from 0 to 2^64 - 1";
+            if (error != std::errc{} || stop != end || value < least || value > most)
+              return fmt::format("{} is not a whole number from {} to {}", text, least,
+                                 most == std::numeric_limits<std::uint64_t>::max() ? "2^64 - 1" : fmt::to_string(most));
             // CLI11 would take it for octal.
             return text.size() > 1 && text.front() == '0' ? text + " begins with 0" : std::string();
           },
           "", "whole"};
+}
+
+CLI::Validator real_number(double least, double most) {
+  return {[least, most](const std::string& text) {
+            const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+            char* stop = nullptr;
+            const double value = plain ? std::strtod(text.c_str(), &stop) : 0;
+            if (!plain || text.empty() || *stop != '\0') return text + " is not a number";
+            return value >= least && value <= most ? std::string()
+                                                   : text + fmt::format(" is not in {} .. {}", least, most);
+          },
+          "", "number"};
 }
 
 static void option_size(CLI::App& command, Options& options) {
@@ -78,7 +93,7 @@ static void option_frames(CLI::App& command, Options& options) {
   command
       .add_option("--frames", options.frames,
                   "number of frames, spread over the animation or the camera path, default: the scene's own")
-      ->check(CLI::Range(1, 1000000))
+      ->check(whole_number(1, kMostFrames))
       ->type_name("N");
 }
 
@@ -152,7 +167,7 @@ static void option_translucent(CLI::App& command, Options& options) {
       .add_option("--alpha", options.alpha,
                   "multiply the alpha of every material by A, 1/255 to 1; below 1 all is translucent")
       ->option_text("A")
-      ->check(CLI::Range(1.0 / 255, 1.0))
+      ->check(real_number(1.0 / 255, 1))
       ->type_name("A");
 }
 
@@ -162,19 +177,19 @@ static void option_lights(CLI::App& command, Options& options) {
                   fmt::format("points that stand for a light that is no point itself: a disc, rectangle or sphere; "
                               "default {}",
                               options.samples))
-      ->check(CLI::Range(1, kMaxSamples))
+      ->check(whole_number(1, kMaxSamples))
       ->type_name("N");
   command
       .add_option("--classes", options.classes,
                   fmt::format("normals that the table of several lights tells apart, spread evenly; default {}",
                               options.classes))
-      ->check(CLI::Range(1, kMaxClasses))
+      ->check(whole_number(1, kMaxClasses))
       ->type_name("N");
 }
 
 void option_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number(1, 1024))
       ->type_name("N");
 }
 
@@ -257,6 +272,18 @@ void OutFolder::remove() {
   made_.clear();
 }
 
+FolderLock::FolderLock(const std::filesystem::path& path)
+    : fd_(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (fd_ < 0 || ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(fd_);
+  throw Error(fmt::format("{}: another run writes its report there: give one of them a folder of its own by --out",
+                          path.string()));
+}
+
+FolderLock::~FolderLock() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
 void catch_signals() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
@@ -281,6 +308,8 @@ void say(const std::string& text) {
 }
 
 bool interrupted() { return signalled != 0; }
+
+std::string gtkwave_line(const std::string& save_file) { return "gtkwave " + quoted(save_file); }
 
 std::string quoted(const std::string& text) {
   const auto plain = [](char c) {

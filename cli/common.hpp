@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -53,8 +54,15 @@ std::shared_ptr<CLI::Formatter> help_formatter();
 /// What is wrong with a command line that `app` refused, and the help to read: one line.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 
-/// A whole number from 0 to 2^64 - 1. As text: a minus sign or too many digits would wrap round in an unsigned number.
-CLI::Validator whole_number();
+/// A whole number from `least` to `most`, in decimal. As text: of CLI11's own numbers 010 is 8, and a minus sign or too
+/// many digits wrap round in an unsigned one.
+CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+
+/// A number from `least` to `most`, written as people write it: strtod() would take nan, inf and hexadecimal.
+CLI::Validator real_number(double least, double most);
+
+/// The most frames of a run, and the most shards.
+inline constexpr int kMostFrames = 1000000;
 
 /// A picture's size, "640x480".
 struct Size {
@@ -126,8 +134,25 @@ class OutFolder {
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
+/// A folder that only one run at a time may have, for as long as the object lives. Where the file system knows no locks
+/// nothing is kept out.
+class FolderLock {
+ public:
+  /// Throws Error if another run has it. The folder exists.
+  explicit FolderLock(const std::filesystem::path& path);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int fd_;
+};
+
 /// `text` as a shell reads it back.
 std::string quoted(const std::string& text);
+
+/// The command line that shows a waveform by its save file.
+std::string gtkwave_line(const std::string& save_file);
 
 /// The same for all names of a file, links too; empty if there can be no such file.
 std::filesystem::path resolved(const std::string& path);

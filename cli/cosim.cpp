@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "ci.hpp"
 #include "common.hpp"
@@ -296,8 +297,8 @@ void print_difference(const Json& d) {
   if (!by.is_null()) {
     fmt::print("first divergence: {}\n", by["text"].get<std::string>());
     if (!d["waveform"].is_null())
-      fmt::print("waveform: {}; gtkwave {}\n", d["waveform"].get<std::string>(),
-                 quoted(by["save_file"].get<std::string>()));
+      fmt::print("waveform: {}; {}\n", d["waveform"].get<std::string>(),
+                 gtkwave_line(by["save_file"].get<std::string>()));
   } else if (!d["no_divergence"].is_null()) {
     fmt::print("{}\n", d["no_divergence"].get<std::string>());
   }
@@ -320,8 +321,27 @@ void print_report(const Json& j, const std::string& who, const std::string& fold
   if (!j["report"].is_null()) fmt::print("report: {}\n", j["report"].get<std::string>());
 }
 
+/// Writes the page over all scenes; its name, or nothing: the verdict stands without it.
+std::string joined_page(const CosimCommand& o, const Json& j, Job& last) {
+  const std::string page = (std::filesystem::path(o.out) / "report.html").string();
+  try {
+    TempFiles files;
+    write_joined_page(files, page, j);
+    files.commit();
+    return page;
+  } catch (const Interrupted&) {
+    last.interrupted = true;
+    last.notes.emplace_back("interrupted after the verdict");
+  } catch (const std::exception& e) {
+    last.notes.push_back(fmt::format("no report over all scenes was written: {}", e.what()));
+  }
+  return {};
+}
+
 int run(const CosimCommand& o) {
   const OutFolder folder(o.out);
+  std::optional<FolderLock> lock;
+  if (!o.no_report && !o.out.empty()) lock.emplace(o.out);
   check_json(o);
   refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit,
                 o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
@@ -342,10 +362,7 @@ int run(const CosimCommand& o) {
   junit.close();
   Json j = several ? all_scenes(reports) : reports.front();
   std::string page;
-  if (several && !o.no_report && !o.out.empty()) {
-    page = (std::filesystem::path(o.out) / "report.html").string();
-    write_joined_page(files, page, j);
-  }
+  if (several && !o.no_report && !o.out.empty()) page = joined_page(o, j, jobs.back());
   if (several) j["report"] = page.empty() ? Json(nullptr) : Json(page);
   write_json(o, j, files);
   const bool same = j["same"].get<bool>();

@@ -11,6 +11,8 @@
 #include "image/save.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
+#include "mapped.hpp"
 
 namespace kage::cli {
 namespace {
@@ -224,8 +226,12 @@ int bless_folder(const DiffCommand& o) {
     quiet.reset();
     progress.show(name);
     quiet.emplace();
+    check_mapped();
+    if (lower_extension(name) != ".kage") return;
+    for (const fs::path folder : {o.a, o.b}) guard_mapped((folder / name).string());
   };
   const std::vector<BlessEntry> plan = plan_bless(o.a, o.b, each, o.exclude);
+  check_mapped();
   quiet.reset();
   progress.clear();
   using What = BlessEntry::What;

@@ -56,12 +56,35 @@ Json to_json(const LineView::UnitPixel& p) {
   return {{"z", p.z}, {"index", p.index}, {"color", p.color}, {"class", p.normal_class}};
 }
 
-void print_rtl(const std::vector<cosim::RtlTouch>& rtl, std::uint32_t token) {
-  for (const cosim::RtlTouch& t : rtl)
-    if (t.token == token)
-      fmt::print("            RTL, cycle {}, {}{}: {}{}\n", t.cycle, cosim::describe(t.stage),
-                 t.load ? " (its colour comes back)" : "", t.text, t.same ? "" : "   <-- differs");
-}
+/// What the RTL did, told between the tokens of the golden model's history.
+class RtlLines {
+ public:
+  RtlLines(const std::vector<cosim::RtlTouch>& rtl, bool changes) : rtl_(rtl), changes_(changes) {}
+
+  /// At tokens before this one, of which the history has nothing: as a line's first TP paints pixels beside its span.
+  void before(std::uint32_t token) {
+    for (; next_ < rtl_.size() && rtl_[next_].token < token; ++next_) {
+      const cosim::RtlTouch& t = rtl_[next_];
+      const bool state = t.stage == cosim::Stage::pixel;
+      if (!state || !changes_ || !t.same) print(t, state ? fmt::format("token {}, ", t.token) : "");
+    }
+  }
+
+  /// At the token that was just told.
+  void at(std::uint32_t token) {
+    for (; next_ < rtl_.size() && rtl_[next_].token == token; ++next_) print(rtl_[next_], "");
+  }
+
+ private:
+  static void print(const cosim::RtlTouch& t, const std::string& token) {
+    fmt::print("            RTL, {}cycle {}, {}{}: {}{}\n", token, t.cycle, cosim::describe(t.stage),
+               t.load ? " (its colour comes back)" : "", t.text, t.same ? "" : "   <-- differs");
+  }
+
+  const std::vector<cosim::RtlTouch>& rtl_;
+  bool changes_;
+  std::size_t next_ = 0;
+};
 
 std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, const Pixel& at) {
   cosim::DivergenceOptions options = monitors(source.config(), o.run);
@@ -138,6 +161,7 @@ int run(const ExplainCommand& o) {
   for (const cosim::RtlTouch& t : rtl)
     j["rtl"].push_back({{"token", t.token},
                         {"stage", cosim::describe(t.stage)},
+                        {"load", t.load},
                         {"cycle", t.cycle},
                         {"same", t.same},
                         {"text", t.text}});
@@ -149,18 +173,19 @@ int run(const ExplainCommand& o) {
              o.changes ? fmt::format("; {} {} shown, where something changed{}", h.touches.size(),
                                      h.touches.size() == 1 ? "is" : "are", o.rtl ? " or the RTL differs" : "")
                        : "");
+  RtlLines rtl_lines(rtl, o.changes);
   for (const PixelTouch& t : h.touches) {
+    rtl_lines.before(t.token);
     fmt::print("{:>8}  {}\n", t.token, t.text);
     if (sources.count(t.token) != 0) fmt::print("            from {}\n", sources[t.token].text());
     fmt::print("            {}\n", t.effect);
     if (t.what.kind == Kind::TREE)
       for (const std::string& line : describe_tree(config, h)) fmt::print("            {}\n", line);
     if (!(t.before == t.after)) fmt::print("            now {}\n", describe(config, t.after));
-    print_rtl(rtl, t.token);
+    rtl_lines.at(t.token);
   }
   fmt::print("            {}\n", h.color_text);
-  if (!rtl.empty() && (h.touches.empty() || rtl.back().token != h.touches.back().token))
-    print_rtl(rtl, rtl.back().token);
+  rtl_lines.before(std::numeric_limits<std::uint32_t>::max());
   return kSame;
 }
 
@@ -176,7 +201,7 @@ void add_explain(CLI::App& app, Action& action) {
   const auto o = std::make_shared<ExplainCommand>();
   option_scene(*c, *o);
   c->add_option("--frame", o->frame, "number of the frame, from 0, default 0")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N");
   c->add_option("--pixel", o->pixel, "column and line, from 0 at the upper left")->required()->type_name("X,Y");
   c->add_flag("--changes", o->changes,

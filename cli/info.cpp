@@ -117,7 +117,7 @@ void add_info(CLI::App& app, Action& action) {
   const auto o = std::make_shared<InfoCommand>();
   c->add_option("STREAM", o->input, "a stream file, as kage stream writes it")->required();
   c->add_option("--tokens", o->tokens, "print frame N, from 0, token by token (not with --json -)")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max()))
+      ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N");
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

@@ -131,7 +131,9 @@ class Data {
     const Json& by = d["divergence"];
     if (!by.is_null())
       j["divergence"] = {
-          {"text", by["text"]}, {"waits", by["waits"]}, {"waveform", d["waveform"]}, {"save_file", by["save_file"]}};
+          {"text", by["text"]}, {"waits", by["waits"]}, {"waveform", d["waveform"]}, {"gtkwave", nullptr}};
+    if (!d["waveform"].is_null() && by["save_file"].is_string())
+      j["divergence"]["gtkwave"] = gtkwave_line(by["save_file"].get<std::string>());
     return j;
   }
 

@@ -255,10 +255,10 @@ void add_order(CLI::App& app, Action& action) {
   const auto o = std::make_shared<OrderCommand>();
   c->add_option("MESH", o->input, "a mesh or scene, as for render, or a tree that --save wrote")->required();
   c->add_option("--eyes", o->eyes, "eyes for each step angle, default 200")
-      ->check(CLI::Range(2, 1000000))
+      ->check(whole_number(2, 1000000))
       ->type_name("N");
   c->add_option("--repeats", o->repeats, "times are the median of N runs, default 5")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number(1, 1000))
       ->type_name("N");
   c->add_option("--max-fragments", o->max_fragments, "give up past N fragments, default 50000000")
       ->check(whole_number())

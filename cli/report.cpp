@@ -28,7 +28,7 @@ std::string line_of(const CLI::App& command, const std::string& name, const std:
     if (o->count() == 0 || o->get_positional() || !keep(*o)) continue;
     line += " " + o->get_name();
     if (o->get_expected_max() == 0) continue;
-    for (const std::string& value : o->results()) line += " " + quoted(value);
+    line += " " + quoted(o->results().back());  // no option takes several, and the last one given counts
   }
   return line;
 }
@@ -168,6 +168,7 @@ std::string RunReport::write(const std::string& folder, const cosim::Report& run
   page.config = source_.config();
   page.seed = seed;
   page.divergence = divergence;
+  if (divergence && !divergence->save_file.empty()) page.gtkwave = gtkwave_line(divergence->save_file);
   page.searched = static_cast<bool>(watch);
   page.degraded = source_.degraded();
   page.versions = versions();

@@ -12,12 +12,12 @@ void option_rtl(CLI::App& command, RtlRun& rtl) {
   command
       .add_option("--idle", rtl.options.idle_percent,
                   "percent of clocks at random in which no input is offered, default 0")
-      ->check(CLI::Range(0, 95))
+      ->check(whole_number(0, 95))
       ->type_name("P");
   command
       .add_option("--backpressure", rtl.options.backpressure_percent,
                   "percent of clocks at random in which no output is taken, default 0")
-      ->check(CLI::Range(0, 95))
+      ->check(whole_number(0, 95))
       ->type_name("P");
   option_fault(command, rtl.fault);
 }

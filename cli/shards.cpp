@@ -13,8 +13,6 @@
 namespace kage::cli {
 namespace {
 
-constexpr int kMost = 1000000;  // frames, shards
-
 [[noreturn]] void refuse(const std::string& file, const char* key) {
   throw Error(fmt::format("{}: no report of kage cosim: {} is not what it should be", file, key));
 }
@@ -94,9 +92,9 @@ void check(const std::string& file, const Json& r) {
 void check_frames(const ShardFile& f, const Json& r, std::int64_t before) {
   const Shard shard{f.index, f.count, true};
   const cosim::FrameSteps steps = shard.steps(before);
-  const int total = number(f.file, r, "total_frames", 1, kMost);
+  const int total = number(f.file, r, "total_frames", 1, kMostFrames);
   const int own = shard.frames(total, before);
-  const int frames = number(f.file, r, "frames", own == 0 ? 0 : 1, kMost);
+  const int frames = number(f.file, r, "frames", own == 0 ? 0 : 1, kMostFrames);
   const auto wrong = [&] {
     throw Error(fmt::format("{}: shard {}/{} of {} frames cannot have the {} that it tells of", f.file, f.index,
                             f.count, total, frames));
@@ -104,8 +102,8 @@ void check_frames(const ShardFile& f, const Json& r, std::int64_t before) {
   if (frames > own) wrong();
   if (own == 0) return;
   const bool same = r["same"].get<bool>();
-  if (number(f.file, r, "frame_step", 1, kMost) != steps.step ||
-      number(f.file, r, "first_frame", 0, kMost) != steps.first || (same && frames < own) ||
+  if (number(f.file, r, "frame_step", 1, kMostFrames) != steps.step ||
+      number(f.file, r, "first_frame", 0, kMostFrames) != steps.first || (same && frames < own) ||
       r["frame_seconds"].size() != static_cast<std::size_t>(frames) ||
       (!same && r["first_difference"]["frame"] != steps.first + (frames - 1) * steps.step))
     wrong();
@@ -139,14 +137,14 @@ ShardFile read(const std::string& file) {
     const Json& r = f.scene(i);
     if (f.report.contains("scenes") && r.contains("frames") && r["frames"] == 0) {
       need(file, r, {"scene"}, is_text);
-      number(file, r, "total_frames", 1, kMost);
+      number(file, r, "total_frames", 1, kMostFrames);
       continue;
     }
     check(file, r);
     any = any || has_frames(r);
   }
   if (!any) refuse(file, "frames");
-  f.count = number(file, f.report["shard"], "count", 1, kMost);
+  f.count = number(file, f.report["shard"], "count", 1, kMostFrames);
   f.index = number(file, f.report["shard"], "index", 1, f.count);
   return f;
 }

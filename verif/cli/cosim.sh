@@ -92,6 +92,13 @@ expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --out again
 [ "$(cd again && echo *)" = "courtyard_0000.png courtyard_0001.png courtyard_0007_actual.png report.html" ] ||
   fail "left of an earlier difference: $(ls again)"
 
+# Two runs at once do not mix their reports in one folder.
+mkdir held
+trouble "held: another run writes its report there" flock held "$kage" cosim courtyard --size 64x48 --frames 1 --out held
+[ -z "$(ls held)" ] || fail "a refused run leaves $(ls held)"
+expect 0 flock held "$kage" cosim courtyard --size 64x48 --frames 1 --no-report --out held
+expect 0 "$kage" cosim courtyard --size 64x48 --frames 1 --out held
+
 # Two outputs are two files, by whatever name; a name makes no line of its own.
 trouble "is to be written twice" "$kage" cosim courtyard --size 64x48 --frames 1 --json x.json --junit ./x.json
 trouble "is to be written twice" "$kage" cosim courtyard --size 64x48 --frames 1 --out o --junit o/../o/report.html

@@ -79,6 +79,27 @@ trouble bad.kage "$kage" diff bad.kage one.kage
 head -c 4000 exact.kage >cut.kage
 trouble cut.kage "$kage" diff exact.kage cut.kage
 trouble missing.kage "$kage" diff exact.kage missing.kage
+# A stream that is cut while --bless reads it ends in one line, whenever that is. Later and later, until it was caught.
+expect 0 "$kage" stream courtyard --size 640x480 --frames 24 --out whole.kage
+mkdir -p kept
+cp whole.kage kept/s.kage
+caught=
+for ((i = 0; i < 100 && ${#caught} == 0; ++i)); do
+  mkdir -p fresh
+  cp whole.kage fresh/s.kage
+  "$kage" diff --bless fresh kept >stdout 2>stderr </dev/null &
+  pid=$!
+  sleep "0.0$((i % 10))$((i / 10))"
+  truncate -s 8192 fresh/s.kage
+  rc=0
+  wait $pid || rc=$?
+  [ $rc -le 2 ] || fail "bless of a stream that is cut: exit $rc"
+  caught=$(grep -x "kage: fresh/s.kage: became shorter, or could not be read, while it was open" stderr)
+  # Cut before it was opened it is a bad stream, cut after it was read what is there is taken over.
+  [ $rc = 0 ] || cmp -s whole.kage kept/s.kage || fail "bless of a stream that is cut: exit $rc, and the reference is another"
+  cp whole.kage kept/s.kage
+done
+[ -n "$caught" ] || fail "bless of a stream that is cut: never while it was read"
 mkfifo pipe.kage
 trouble "pipe.kage: is not a regular file" timeout 20 "$kage" diff exact.kage pipe.kage
 trouble "pipe.kage: is not a regular file" timeout 20 "$kage" info pipe.kage

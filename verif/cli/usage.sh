@@ -43,6 +43,11 @@ trouble "--size" "$kage" render courtyard --size 640x480x3
 trouble "--size" "$kage" render courtyard --size -1x480
 trouble "--frames" "$kage" render courtyard --frames 0
 trouble "--threads" "$kage" render courtyard --threads 0
+line "kage: --frames: 1000001 is not a whole number from 1 to 1000000; see kage render --help" "$kage" render courtyard --frames 1000001
+# CLI11 alone would take these for 8, 16 and no number at all, which is within any limits.
+line "kage: --frames: 010 begins with 0; see kage render --help" "$kage" render courtyard --frames 010
+line "kage: --samples: 0x10 is not a whole number from 1 to 255; see kage render --help" "$kage" render penumbra --samples 0x10
+line "kage: --alpha: nan is not a number; see kage render --help" "$kage" render courtyard --alpha nan
 trouble "--out" "$kage" stream courtyard
 trouble "no such file" "$kage" model nowhere.yaml
 printf 'Z_BITS: 40\n' >wide.yaml

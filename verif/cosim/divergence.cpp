@@ -18,6 +18,9 @@ namespace {
 // Once something differs, what comes before it in a token's order may still be on its way.
 constexpr std::uint64_t kFurther = 20000;
 
+// The golden core goes on where the RTL has lost its thread; what it expects is kept up to 256 MiB.
+constexpr std::size_t kMostPending = (std::size_t{256} << 20) / sizeof(ExpectedEvent);
+
 struct Found {
   std::optional<Mismatch> mismatch;
   std::optional<kage_rtl_event> unexpected;
@@ -28,6 +31,7 @@ struct Found {
   std::uint64_t clock = 0;
   std::string misconduct;
   std::uint32_t handshakes = 0;
+  bool given_up = false;  // the frame has not ended
 
   [[nodiscard]] bool any() const { return mismatch || unexpected || part; }
 };
@@ -39,19 +43,24 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   Found found;
   found.frame = frame;
   found.start = rtl.clock();
+  const auto end = [&] { search.end(rtl.clock(), (rtl.handshakes() >> 4 & 3U) == 2); };
   try {
     in_pieces(feed, frame, [&](std::span<const std::uint32_t> piece) {
       search.feed(piece);
       rtl.feed(piece, kNowhere);
       search.take(rtl.take_events());
       if (options.wait) options.wait();
-      if (search.seen_before(rtl.clock(), kFurther)) throw Enough();
+      found.given_up = rtl.stuck() || search.pending() > kMostPending;
+      if (found.given_up || search.seen_before(rtl.clock(), kFurther)) throw Enough();
     });
     search.finish();
     found.misconduct = rtl.finish(kNowhere).misconduct;
     search.take(rtl.take_events());
-    search.end(rtl.clock(), (rtl.handshakes() >> 4 & 3U) == 2);
+    end();
   } catch (const Enough&) {
+    // What the rest of the frame is expected to do is no news of a core that takes no more of it.
+    if (rtl.stuck()) found.misconduct = rtl.finish(kNowhere).misconduct;
+    if (found.given_up) end();
   }
   found.handshakes = rtl.handshakes();
   found.mismatch = search.first();
@@ -69,15 +78,17 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
 }
 
 // The first of the frames from .. frame, on one core, in which something differs: a frame may leave the core in a state
-// that only a later one shows. `watch` is told of `frame` alone.
+// that only a later one shows. `watch` is told of `frame` alone; with it no frame stops at a difference, lest the next
+// one go on within it.
 Found search(int from, int frame, const Feed& feed, const Config& config, const DivergenceOptions& options,
              const Watch& watch = {}) {
   const auto rtl = make_rtl(options.library, config, options.rtl);
   if (!rtl->traced()) throw Error(fmt::format("{}: a model without monitors", options.library.string()));
   rtl->record(true);
+  const Watch nothing = watch ? [](const ExpectedEvent&, const kage_rtl_event&) {} : Watch();
   for (int i = from;; i += options.steps.step) {
-    Found found = search_frame(*rtl, i, feed, config, options, i == frame ? watch : Watch());
-    if (i == frame || (!watch && found.any())) return found;
+    Found found = search_frame(*rtl, i, feed, config, options, i == frame ? watch : nothing);
+    if (i == frame || found.given_up || (!watch && found.any())) return found;
   }
 }
 

@@ -180,6 +180,12 @@ void EventSearch::end(std::uint64_t clock, bool blocked) {
   });
 }
 
+std::size_t EventSearch::pending() {
+  std::size_t sum = 0;
+  expected_.for_each([&](const std::deque<ExpectedEvent>& q) { sum += q.size(); });
+  return sum;
+}
+
 bool EventSearch::seen_before(std::uint64_t clock, std::uint64_t ago) const {
   return seen_ < clock && clock - seen_ > ago;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -34,6 +35,9 @@ class EventSearch : private CoreObserver {
   /// Nothing more will come: what is still expected is missing. What waits for the pixels to take it (`blocked`) would
   /// have come; it is they who differ.
   void end(std::uint64_t clock, bool blocked);
+
+  /// Events of the golden core that are kept until the RTL does its part.
+  [[nodiscard]] std::size_t pending();
 
   /// The first in the order of tokens and stages, of those seen by now.
   [[nodiscard]] const std::optional<Mismatch>& first() const { return first_; }

@@ -17,7 +17,7 @@ namespace kage::cosim {
 /// One event, and where in the frame it belongs.
 struct ExpectedEvent {
   Stage stage{};
-  int unit = 0;             ///< an expansion unit's number, a pixel's x; -1: any
+  int unit = 0;             ///< an expansion unit's number, a pixel's x; of a pixel that leaves, 1: its line's last
   int line = 0;             ///< lines that had ended
   std::uint32_t token = 0;  ///< index of the token it comes of
   int step = 0;             ///< order among the events of a token: those of a later step follow from earlier ones

@@ -49,8 +49,7 @@ int first_difference(const ExpectedEvent& e, const kage_rtl_event& a) {
     const bool unseen = e.stage == Stage::pixel && (i == 1 || i == 2) && a.value[i] == ~std::uint64_t{0};
     if (!unseen && ((e.value[at] ^ a.value[i]) & (i == e.masked ? e.mask : ~std::uint64_t{0})) != 0) return i;
   }
-  if (e.stage == Stage::exit) return e.unit != a.unit ? 0 : -1;
-  return e.stage != Stage::pixel && e.unit > 0 && e.unit != a.unit ? 0 : -1;
+  return e.stage != Stage::pixel && e.unit != a.unit ? kUnitValue : -1;
 }
 
 MismatchText describe(const Config& config, const Mismatch& m) {
@@ -60,6 +59,9 @@ MismatchText describe(const Config& config, const Mismatch& m) {
             e.stage == Stage::command ? value_text(config, e.stage, 0, e.value[0]) : std::string(describe(e.stage)),
             "nothing"};
   }
+  if (m.value == kUnitValue)
+    return {e.stage == Stage::exit ? "last of the line" : "unit", fmt::format("{}", e.unit),
+            fmt::format("{}", m.actual->unit)};
   if (e.stage == Stage::token && m.value + 1 < KAGE_RTL_EVENT_VALUES)
     if (auto text = describe_words(config, m)) return *text;
   return {std::string(value_name(e.stage, m.value)),

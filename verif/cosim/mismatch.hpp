@@ -14,14 +14,17 @@ namespace kage::cosim {
 struct Mismatch {
   ExpectedEvent expected;
   std::optional<kage_rtl_event> actual;
-  int value = -1;  ///< the first that differs; -1: missing
+  int value = -1;  ///< the first that differs, or kUnitValue; -1: missing
   std::uint64_t clock = 0;
 
   /// The order in which a token passes the stages.
   [[nodiscard]] auto order() const { return std::tuple(expected.token, expected.line, expected.step, expected.x); }
 };
 
-/// The first value that matters and differs, or -1.
+/// In place of a value's index: the event's unit, of Stage::exit whether the pixel is the last of its line.
+inline constexpr int kUnitValue = KAGE_RTL_EVENT_VALUES;
+
+/// The first value that matters and differs, then kUnitValue, or -1.
 int first_difference(const ExpectedEvent& expected, const kage_rtl_event& actual);
 
 /// What differs, as a person reads it.

@@ -70,8 +70,9 @@ std::string output_of(const char* command) {
   }
 }
 
-std::string verilator_version() { return output_of("verilator --version 2>/dev/null"); }
-std::string compiler_version() { return output_of("${CXX:-g++} -dumpfullversion 2>/dev/null"); }
+// The tools that build.py takes; CXX may be several words.
+std::string verilator_version() { return output_of("\"${VERILATOR:-verilator}\" --version 2>/dev/null"); }
+std::string compiler_version() { return output_of("${CXX:-c++} --version 2>/dev/null"); }
 
 /// The names that --fault takes.
 std::vector<std::string> faults(const fs::path& data) {
@@ -120,6 +121,7 @@ std::string key_of(const fs::path& data, const std::vector<fs::path>& files, con
   hash.add(options.traced ? "traced" : "");
   hash.add(options.mutants ? "mutants" : "");
   const std::string verilator = verilator_version();
+  if (verilator.empty() && options.progress) options.progress(0);  // an interruption ends it too
   if (verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
   hash.add(verilator);
   hash.add(compiler_version());
@@ -163,8 +165,8 @@ class Process {
  public:
   Process(const std::vector<std::string>& command, const fs::path& log) : pid_(fork()) {
     if (pid_ < 0) throw Error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(errno)));
+    setpgid(pid_, pid_);  // by both: it has to be so before either goes on
     if (pid_ != 0) return;
-    setpgid(0, 0);
     const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     const int in = open("/dev/null", O_RDONLY);
     dup2(in, STDIN_FILENO);
@@ -272,6 +274,7 @@ Model find_model(const Config& config, const ModelOptions& options) {
   if (options.mutants) command.emplace_back("--mutants");
   command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
                                  "--keep", (work.path / "build").string()});
+  if (options.progress) options.progress(0);
   Process build(command, log);
   bool ok = false;
   while (!build.ended(ok)) wait();
@@ -287,10 +290,8 @@ Model find_model(const Config& config, const ModelOptions& options) {
 }
 
 std::vector<std::string> model_tools() {
-  const char* cxx = std::getenv("CXX");
   const auto line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
-  return {line(verilator_version()),
-          fmt::format("{} {}", cxx != nullptr && *cxx != '\0' ? cxx : "g++", line(compiler_version()))};
+  return {line(verilator_version()), line(compiler_version())};
 }
 
 }  // namespace kage::cosim

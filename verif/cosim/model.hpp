@@ -33,7 +33,8 @@ struct ModelOptions {
 /// that names the log when the build fails.
 Model find_model(const Config& config, const ModelOptions& options = {});
 
-/// Names and versions of the tools that make models, a line each: "Verilator 5.006 2023-01-22 rev ...", "g++ 12.2.0".
+/// Names and versions of the tools that make models, a line each: "Verilator 5.006 2023-01-22 rev ...", "c++
+/// (Debian 12.2.0-14) 12.2.0".
 std::vector<std::string> model_tools();
 
 }  // namespace kage::cosim

@@ -80,6 +80,7 @@ class Rtl : public RtlCore {
     stuck_ = checked(why) == KAGE_RTL_STUCK;
   }
 
+  [[nodiscard]] bool stuck() const override { return open_ && stuck_; }
   [[nodiscard]] bool traced() const override { return table_->traced != 0; }
   void record(bool on) override { table_->record(model_, on ? 1 : 0); }
   std::span<const kage_rtl_event> take_events() override {
@@ -123,8 +124,9 @@ class Rtl : public RtlCore {
   static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
 
   [[nodiscard]] int checked(int why) const {
-    if (why == KAGE_RTL_ASSERT || *table_->failure(model_) != 0)
-      throw AssertionError(std::string("rtl/") + table_->failure(model_));
+    const std::string failure = table_->failure(model_);
+    if (!failure.empty()) throw AssertionError("rtl/" + failure);
+    if (why == KAGE_RTL_ASSERT) throw Error("the RTL ends the simulation by $finish");
     return why;
   }
 
@@ -200,9 +202,13 @@ class Rtl : public RtlCore {
     table_->stats(model_, &stats);
     end.misconduct = misconduct(stats, trouble);
     end.cycles = stats.cycles;
-    end.stalls = {stats.input_starved, stats.output_blocked};
     static_assert(std::tuple_size_v<PhaseStalls> == KAGE_RTL_MARKS);
-    for (std::size_t i = 0; i < KAGE_RTL_MARKS; ++i) end.phase_stalls[i] = {stats.starved[i], stats.blocked[i]};
+    end.stalls = {};
+    for (std::size_t i = 0; i < KAGE_RTL_MARKS; ++i) {
+      end.phase_stalls[i] = {stats.starved[i], stats.blocked[i]};
+      end.stalls.starved += stats.starved[i];
+      end.stalls.blocked += stats.blocked[i];
+    }
   }
 
   [[nodiscard]] int built_with(std::string_view name) const {

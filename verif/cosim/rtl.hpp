@@ -30,6 +30,9 @@ class RtlCore : public Core {
   virtual int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) = 0;
   [[nodiscard]] virtual bool interrupt() const = 0;
 
+  /// Whether it stood still in the frame at hand, with input waiting: it takes nothing more of it.
+  [[nodiscard]] virtual bool stuck() const = 0;
+
   /// Let so many clocks pass at most; fewer if nothing moves any more.
   virtual void pass(std::uint64_t clocks) = 0;
 

@@ -201,7 +201,7 @@ Json data_of(const Page& page, Pictures& pictures) {
     j["divergence"] = {{"text", cosim::describe(*page.divergence)},
                        {"waits", page.divergence->waits},
                        {"waveform", page.divergence->waveform},
-                       {"save_file", page.divergence->save_file}};
+                       {"gtkwave", page.gtkwave}};
   j["different_pixels"] = nullptr;
   if (run.difference) {
     j["different_pixels"] = run.difference->different_pixels;

@@ -44,6 +44,7 @@ struct Page {
   std::vector<std::string> degraded;
   std::vector<std::string> versions;
   std::vector<ToldPixel> told;
+  std::string gtkwave;      ///< the command line that shows the divergence's waveform
   std::string again;        ///< the command line of the run
   std::string explain;      ///< that of kage explain, without --frame and --pixel
   std::string explain_rtl;  ///< what it ends with where the RTL is to be told too

@@ -21,6 +21,7 @@ import hashlib
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -178,7 +179,7 @@ def build(out, values, args, work):
 
     # Loops over processors run 2-3 times as fast unrolled, but then 640 of them take over a minute to build.
     unroll = values["MAX_WIDTH"] if values["ARRANGEMENT"] == 0 and values["MAX_WIDTH"] <= 128 else 64
-    verilator = os.environ.get("VERILATOR", "verilator")
+    verilator = os.environ.get("VERILATOR") or "verilator"
     obj = work / "obj"
     # What the RTL says, as of an assertion, is no result: standard output is for those. The quotes are for make's shell.
     to_stderr = "'-DVL_PRINTF(...)=fprintf(stderr,__VA_ARGS__)'"
@@ -194,8 +195,8 @@ def build(out, values, args, work):
     command += sorted(rtl.glob("*.sv")) + (sorted(MONITORS.glob("*.sv")) if args.trace else [])
     run("verilator", command, log)
 
-    cxx = os.environ.get("CXX", "c++")
-    make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={cxx}"]
+    cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
+    make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={shlex.join(cxx)}"]
     extra = ["verilated_threads.o"] if needs_threads(obj) else []
     if args.trace:
         extra.append("verilated_fst_c.o")
@@ -209,7 +210,7 @@ def build(out, values, args, work):
     partial = out.with_name(f".{out.name}.{os.getpid()}")
     out.parent.mkdir(parents=True, exist_ok=True)
     try:
-        run("linking the model", [cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", *(["-DKAGE_TRACED"] if args.trace else []),
+        run("linking the model", [*cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", *(["-DKAGE_TRACED"] if args.trace else []),
                                   *(["-DKAGE_MUTANTS"] if args.mutants else []), f"-I{obj}", f"-I{work}",
                                   f"-I{HERE}", "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
                                   HERE / "rtl_model.cpp", obj / "Vkage__ALL.a", obj / "verilated.o", *(obj / e for e in extra),
@@ -226,7 +227,7 @@ class Runtime:
 
     def __init__(self, verilator, cxx, flags, obj):
         self.obj = obj
-        versions = [subprocess.run([tool, "--version"], capture_output=True, text=True).stdout for tool in (verilator, cxx)]
+        versions = [subprocess.run([*tool, "--version"], capture_output=True, text=True).stdout for tool in ([verilator], cxx)]
         own = (obj / "Vkage_classes.mk").read_text().split("### Object file lists")[0]  # threads, tracing and the like
         key = hashlib.sha256("\0".join([*versions, *flags, own]).encode()).hexdigest()[:24]
         cache = os.environ.get("XDG_CACHE_HOME") or (os.path.join(os.environ["HOME"], ".cache") if os.environ.get("HOME") else None)

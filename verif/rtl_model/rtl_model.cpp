@@ -204,10 +204,12 @@ struct kage_rtl {
     output_random = Random(seed * 2 + 2);
   }
 
-  void take_pixel(std::uint32_t value) {
+  // Whether one was expected.
+  bool take_pixel(std::uint32_t value) {
     bool first = false;
     bool last = false;
-    if (expected.empty()) {
+    const bool due = !expected.empty();
+    if (!due) {
       ++stats.extra_pixels;
     } else {
       first = x == 0 && y == 0;
@@ -227,6 +229,7 @@ struct kage_rtl {
     for (int c = 0; c < kChannels; ++c) pixels.push_back(static_cast<std::uint8_t>(value >> (8 * c)));
     ++pixel_count;
     ++stats.pixels;
+    return due;
   }
 
   // One clock. The core's outputs depend on registers only, so what they are now is what they are at the edge.
@@ -252,17 +255,12 @@ struct kage_rtl {
     waiting = pixel && !ready;
     waiting_value = all;
     if (!queue.empty()) mark = queue.front().marks[at];
-    if (top->s_axis_tready_o && !offered && !queue.empty()) {
-      ++stats.input_starved;
-      ++stats.starved[mark];
-    }
-    if (waiting) {
-      ++stats.output_blocked;
-      ++stats.blocked[mark];
-    }
-    if (pixel && ready) take_pixel(value);
+    if (top->s_axis_tready_o && !offered && !queue.empty()) ++stats.starved[mark];
+    if (waiting) ++stats.blocked[mark];
+    // Pixels that no frame has room for are no progress: a core that never stops sending stands still too.
+    const bool due = pixel && ready && take_pixel(value);
     ++stats.cycles;
-    quiet = beat || (pixel && ready) ? 0 : quiet + (ready && (offered || queue.empty()) ? 1 : 0);
+    quiet = beat || due ? 0 : quiet + (ready && (offered || queue.empty()) ? 1 : 0);
 
     edge();
 

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 6u
+#define KAGE_RTL_ABI 7u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -91,17 +91,17 @@ typedef struct {
 
 /* All counts are since create() or clear_stats(). */
 typedef struct {
-  uint64_t cycles;        /* clocks outside reset */
-  uint64_t input_starved; /* clocks in which the core was ready for a beat that is still queued, but none was offered */
-  uint64_t output_blocked;          /* clocks in which a pixel waited for ready */
-  uint64_t starved[KAGE_RTL_MARKS]; /* input_starved by the mark of the first word of the next beat: mark() */
-  uint64_t blocked[KAGE_RTL_MARKS]; /* output_blocked likewise */
-  uint64_t beats;                   /* taken by the core */
-  uint64_t pixels;                  /* delivered */
-  uint64_t user_errors;             /* pixels whose TUSER was not that of the expected frame */
-  uint64_t last_errors;             /* pixels whose TLAST was not that of the expected frame */
-  uint64_t extra_pixels;            /* pixels that no expected frame has room for */
-  uint64_t unstable;                /* clocks in which a waiting pixel changed or went away */
+  uint64_t cycles; /* clocks outside reset */
+  /* By the mark of the first word of the next beat, mark(): clocks in which the core was ready for a beat that is still
+   * queued but none was offered, and clocks in which a pixel waited for ready. */
+  uint64_t starved[KAGE_RTL_MARKS];
+  uint64_t blocked[KAGE_RTL_MARKS];
+  uint64_t beats;        /* taken by the core */
+  uint64_t pixels;       /* delivered */
+  uint64_t user_errors;  /* pixels whose TUSER was not that of the expected frame */
+  uint64_t last_errors;  /* pixels whose TLAST was not that of the expected frame */
+  uint64_t extra_pixels; /* pixels that no expected frame has room for */
+  uint64_t unstable;     /* clocks in which a waiting pixel changed or went away */
 } kage_rtl_stats;
 
 typedef struct {

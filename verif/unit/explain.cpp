@@ -65,5 +65,38 @@ TEST_CASE("a pixel that the frame lacks is an error that says so") {
   CHECK(explain_pixel(c, words, 3, 1).touches.empty());
 }
 
+TEST_CASE("an end of a light sample tells whether the pixel is in shadow, even where its count is full") {
+  Config c;
+  c.fsf = 0;
+  c.dsf_bits = 2;
+  c.count_bits = 1;
+  std::vector<std::uint32_t> words;
+  TokenWriter w(c, words);
+  w.header({4, 1, 0, 0});
+  w.op({.xr = 4, .z = 100LL << c.z_frac, .normal_class = 1});
+  for (int sample = 0; sample < 3; ++sample) {
+    if (sample < 2)
+      w.nc(0, 2, 1);
+    else
+      w.nc(2, 4, 1);
+    w.es(0, 4, 0);
+  }
+  w.resolve();
+  w.eol(0);
+  w.end();
+  const auto told = [&](int x) {
+    std::vector<std::string> effects;
+    for (const PixelTouch& t : explain_pixel(c, words, x, 0).touches)
+      if (t.what.kind == Kind::ES) effects.push_back(t.effect);
+    return effects;
+  };
+  CHECK(told(1) == std::vector<std::string>{"end of a sample of light 0: in shadow; count 1",
+                                            "end of a sample of light 0: in shadow; count 1",
+                                            "end of a sample of light 0: not in shadow; count 1"});
+  CHECK(told(3) == std::vector<std::string>{"end of a sample of light 0: not in shadow; count 0",
+                                            "end of a sample of light 0: not in shadow; count 0",
+                                            "end of a sample of light 0: in shadow; count 1"});
+}
+
 }  // namespace
 }  // namespace kage::verif

@@ -64,11 +64,15 @@ const Report = (() => {
     caption();
   }
 
+  // What the RTL drew of a frame that differs, where it is not on the page.
+  const missing = () => !frame.same && frame.rtl && frame.rtl.data === null ? frame.rtl : null;
+
   function caption() {
     const name = modes.find(([m]) => m === mode)[1];
     let text = `Frame ${frame.number}, ${mode === "wipe" ? "golden on the left, RTL on the right" : name.replace(/^[GD]/, (s) => s.toLowerCase())}.`;
     if (!frame.golden) text += " It has no pixels.";
     else if (frame.golden.data === null) text += ` Its picture is not on this page, which would be too large: see ${frame.golden.name}.`;
+    else if (missing()) text += ` The RTL's picture is not on this page, which would be too large: see ${missing().name}.`;
     else if (frame.same) text += " Golden model and RTL are the same, bit for bit.";
     else if (mode === "difference") text += " Red differs, the brighter the further apart.";
     if (frame.error) text += ` ${frame.same ? "Both cores" : "The golden model"} ended it with ${frame.error.text}.`;
@@ -185,7 +189,7 @@ const Report = (() => {
     const differs = golden && rtl && golden.some((v, i) => v !== rtl[i]);
     const parts = [make("p", `Frame ${number}, column ${x}, line ${y}`, {id: "where"})];
     if (golden) {
-      parts.push(make("div", [swatch("golden", golden), swatch("RTL", rtl ?? golden)], {class: "swatches"}));
+      parts.push(make("div", [swatch("golden", golden), ...rtl ? [swatch("RTL", rtl)] : []], {class: "swatches"}));
       if (differs) parts.push(make("p", "They differ here.", {class: "badly"}));
     }
     let told = Explain.told(number, x, y);
@@ -207,7 +211,7 @@ const Report = (() => {
     } else {
       parts.push(make("p", "This page has no room for the tokens of this line. This prints the pixel's history:"));
     }
-    parts.push(command(Explain.command(number, x, y, differs)));
+    parts.push(command(Explain.command(number, x, y, differs || (!frame.same && !rtl))));
     $("pixel").replaceChildren(...parts);
     $("said").textContent = `column ${x}, line ${y}` + (golden ? `, golden ${golden.join(" ")}` : "") +
         (differs ? `, RTL ${rtl.join(" ")}` : "") + (history ? `, ${history.color_text}` : "");
@@ -269,12 +273,11 @@ const Report = (() => {
   // ---- keys and buttons
 
   function key(e) {
-    if (e.ctrlKey || e.metaKey || e.altKey || e.target instanceof HTMLInputElement) return;
-    const onPicture = e.target === View.canvas;
+    if (e.ctrlKey || e.metaKey || e.altKey) return;
     const far = e.shiftKey ? 10 : 1;
     const move = {ArrowLeft: [-far, 0], ArrowRight: [far, 0], ArrowUp: [0, -far], ArrowDown: [0, far]}[e.key];
-    if (onPicture && move && chosen) select(frame.number, chosen.x + move[0], chosen.y + move[1]);
-    else if (onPicture && e.key === " ") setMode(mode === "rtl" ? "golden" : "rtl");
+    if (move && chosen) select(frame.number, chosen.x + move[0], chosen.y + move[1]);
+    else if (e.key === " ") setMode(mode === "rtl" ? "golden" : "rtl");
     else if (["1", "2", "3", "4"].includes(e.key)) setMode(modes[e.key - 1][0]);
     else if (e.key === "+" || e.key === "=") zoom(2);
     else if (e.key === "-") zoom(0.5);
@@ -297,7 +300,7 @@ const Report = (() => {
     frames();
     rest();
     setMode(data.same ? "golden" : "difference");
-    document.addEventListener("keydown", key);
+    View.canvas.addEventListener("keydown", key);  // single letters are the picture's alone
     View.canvas.addEventListener("pixel", (e) => select(frame.number, e.detail.x, e.detail.y));
     $("in").addEventListener("click", () => zoom(2));
     $("out").addEventListener("click", () => zoom(0.5));

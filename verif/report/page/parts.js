@@ -59,7 +59,7 @@ const Parts = (() => {
     if (!divergence) return none ? [["First divergence", none]] : [];
     const terms = [["First divergence", divergence.text]];
     if (divergence.waits) terms.push(["Who waits", divergence.waits]);
-    if (divergence.waveform) terms.push(["Waveform", make("code", `gtkwave ${divergence.save_file}`)]);
+    if (divergence.gtkwave) terms.push(["Waveform", make("code", divergence.gtkwave)]);
     return terms;
   }
 

@@ -135,8 +135,9 @@ const View = (() => {
   });
   canvas.addEventListener("pointercancel", () => { press = null; });
   canvas.addEventListener("wheel", (e) => {
-    if (!e.ctrlKey && !scale) return;  // the page scrolls
+    if (!e.ctrlKey) return;  // the page scrolls
     e.preventDefault();
+    if (e.deltaY === 0) return;
     const box = canvas.getBoundingClientRect();
     zoom(e.deltaY < 0 ? 1.25 : 0.8, {x: e.clientX - box.left, y: e.clientY - box.top});
   }, {passive: false});

@@ -95,12 +95,23 @@ def same_run(b):
     at_rest(b, "1/91/191")
     b.key("p")
     at_rest(b, "0/91/191")
+    # The wheel scrolls the page unless ctrl is held, zoomed or not.
+    wheel = "View.canvas.dispatchEvent(new WheelEvent('wheel', {deltaX: %d, deltaY: %d, ctrlKey: %s, cancelable: true, bubbles: true}))"
+    check(b.run(wheel % (0, -100, "true")) is False and b.run("View.scale()") > before, "ctrl and the wheel do not zoom")
+    large = b.run("View.scale()")
+    check(b.run(wheel % (0, -100, "false")) is True and b.run("View.scale()") == large, "the wheel alone zooms")
+    b.run(wheel % (100, 0, "true"))
+    check(b.run("View.scale()") == large, "the wheel zooms sideways")
+    b.key("0")
     # Buttons: frames, zoom, modes; the form.
     b.click("#strip button:nth-child(4)")
     at_rest(b, "3/91/191")
     b.click("#in")
     check(b.run("View.scale()") > before, "the button + does not zoom")
     b.click("#fit")
+    for key in ("n", "2", "+"):
+        b.key(key)
+    check((chosen(b), mode(b), b.run("View.scale()")) == ("3/91/191", "golden", before), "letters act beside the picture")
     b.click("#modes button:nth-child(4)")
     check(b.run("!document.getElementById('wipe-label').hidden"), "no slider")
     b.run("document.getElementById('wipe').focus()")
@@ -182,8 +193,30 @@ def different_run(b):
     check(b.run("View.scale()") >= 16, "the first pixel is not shown large")
     b.screenshot(f"{pictures}/different-zoom.png")
     b.click("#fit")
-    b.key("4")
+    b.click("#modes button:nth-child(4)")
     b.screenshot(f"{pictures}/different-slider.png")
+    check("gtkwave different/" in b.run("document.getElementById('first').innerText"), "no line that opens the waveform")
+    no_rtl_picture(b)
+
+
+def no_rtl_picture(b):
+    """Where the page has no room for what the RTL drew, it does not say that this is what the golden model drew."""
+    page = open("different/report.html").read()
+    begin = page.index('<script type="application/json" id="data">') + len('<script type="application/json" id="data">')
+    end = page.index("</script>", begin)
+    data = json.loads(page[begin:end])
+    frame = next(f for f in data["frames"] if not f["same"])
+    frame["rtl"]["data"] = frame["difference"]["data"] = None
+    os.makedirs("smaller", exist_ok=True)
+    with open("smaller/report.html", "w") as f:
+        f.write(page[:begin] + json.dumps(data).replace("<", "\\u003c") + page[end:])
+    b.open("smaller/report.html")
+    at_rest(b, "0/316/116")
+    swatches = b.run("document.querySelector('#pixel .swatches').innerText")
+    check("golden" in swatches and "RTL" not in swatches, f"a colour of the RTL without its picture: {swatches}")
+    check(b.run("[...document.querySelectorAll('#pixel code')].at(-1).innerText").endswith("--rtl"), "no command that runs the RTL")
+    caption = b.run("document.getElementById('caption').innerText")
+    check("The RTL's picture is not on this page" in caption and "_actual.png" in caption, f"not said that it is missing: {caption}")
 
 
 def full_page(b):
