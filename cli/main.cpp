@@ -85,13 +85,13 @@ int main(int argc, char** argv) {
   } catch (const Interrupted&) {
     (void)trouble("interrupted");
     return kInterrupted;
-  } catch (const std::bad_alloc&) {
-    return trouble("out of memory");
   } catch (const std::exception& e) {
     const auto* system = dynamic_cast<const std::system_error*>(&e);
     if (system != nullptr && std::ferror(stdout) != 0) return lost_output(system->code().value());
-    // Zeros in place of lost pages make errors of their own; the cause is what counts.
+    // Zeros in place of lost pages make errors of their own, a size that no memory has among them; the cause is what
+    // counts.
     const std::string lost = lost_mapped();
-    return trouble(lost.empty() ? e.what() : lost);
+    if (!lost.empty()) return trouble(lost);
+    return trouble(dynamic_cast<const std::bad_alloc*>(&e) != nullptr ? "out of memory" : e.what());
   }
 }

@@ -92,6 +92,15 @@ expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --out again
 [ "$(cd again && echo *)" = "courtyard_0000.png courtyard_0001.png courtyard_0007_actual.png report.html" ] ||
   fail "left of an earlier difference: $(ls again)"
 
+# So it does if the page over all scenes cannot be written; of an option given twice the last one counts, here too.
+mkdir -p over/report.html
+touch over/report.html/x
+expect 0 "$kage" cosim courtyard inside --size 64x48 --frames 2 --frames 1 --out over --json over.json --junit over.xml
+json over.json 'j["same"] and j["report"] is None and j["frames"]==2 and all(s["report"] for s in j["scenes"])'
+json over.json 'j["scenes"][0]["again"]=="kage cosim courtyard inside --out over --size 64x48 --frames 1 --json over.json --junit over.xml"'
+grep -q '^no report over all scenes was written: ' stdout || fail "not said that the page over all is missing: $(cat stdout)"
+grep -q '<testcase' over.xml || fail "no JUnit where the page over all could not be written"
+
 # Two runs at once do not mix their reports in one folder.
 mkdir held
 trouble "held: another run writes its report there" flock held "$kage" cosim courtyard --size 64x48 --frames 1 --out held

@@ -50,6 +50,15 @@ text = open(sys.argv[3]).read()
 assert f"{len(w['touches'])} tokens touch it; {len(changed)} are shown, where something changed\n" in text
 assert all(("\n%8d  " % t["token"] in text) == (t in changed) for t in w["touches"]) and c["color_text"] in text
 PY
+# What the RTL does at tokens that do not touch the pixel is told too: a line's first TP paints beside its span as well.
+beside=0
+for pixel in 20,60 80,60 140,60 80,20 80,100; do
+  expect 0 "$kage" explain glass --size 160x120 --pixel $pixel --rtl --json r.json
+  lines=$(grep -c '^            RTL, ' stdout)
+  json r.json "len(j['rtl'])==$lines and all(isinstance(t['load'], bool) for t in j['rtl'])"
+  beside=$((beside + $(grep -c '^            RTL, token ' stdout || true)))
+done
+[ $beside -gt 0 ] || fail "no pixel that is painted by a token that does not touch it"
 expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --fault wrong_compare --changes --json r.json
 json r.json 'j["tokens"]==5 and [t["kind"] for t in j["touches"]]==["OP","SP","EV","RESOLVE"][:len(j["touches"])] and len(j["touches"])>=2'
 grep -q 'differs' stdout || fail "--changes hides the difference"

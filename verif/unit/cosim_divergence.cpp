@@ -135,6 +135,30 @@ TEST_CASE("a token that differs is told by its field") {
   CHECK(told(header).substr(0, 16) == "height and width");
 }
 
+TEST_CASE("what goes to another unit, or is another's last, is told so") {
+  Config c;
+  c.units = 2;
+  const auto told = [&](Stage stage, int expected, int actual) {
+    Mismatch m;
+    m.expected.stage = stage;
+    m.expected.unit = expected;
+    m.actual = kage_rtl_event{};
+    m.actual->unit = actual;
+    m.value = first_difference(m.expected, *m.actual);
+    if (m.value < 0) return std::string("same");
+    const MismatchText t = describe(c, m);
+    return t.field + ": " + t.expected + ", " + t.actual;
+  };
+  for (const Stage stage : {Stage::face, Stage::segment}) {
+    CHECK(told(stage, 0, 0) == "same");
+    CHECK(told(stage, 0, 1) == "unit: 0, 1");
+    CHECK(told(stage, 1, 0) == "unit: 1, 0");
+  }
+  CHECK(told(Stage::exit, 1, 1) == "same");
+  CHECK(told(Stage::exit, 0, 1) == "last of the line: 0, 1");
+  CHECK(told(Stage::pixel, 3, 3) == "same");
+}
+
 // A TP behind the last line is refused, but paints first: the next frame finds the background of this one in its
 // pixels. Nobody looks at it until they are painted again.
 TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
