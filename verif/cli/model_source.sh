@@ -19,6 +19,12 @@ patch -s --no-backup-if-mismatch -R -p1 -d data -i "$source/verif/faults/wrong_c
 expect 0 "$kage" cosim s.kage --no-report --out out
 [ "$(find cache -name '*.so' | wc -l)" = 1 ] || fail "the sources are as they were, and there are these models: $(find cache -name "*.so")"
 
+# It is also of the tools that it is made by; a compiler may be several words.
+VERILATOR=$PWD/nowhere trouble "verilator: not found" "$kage" cosim s.kage --no-report --out out
+CXX="env c++ -DNOTHING" expect 0 "$kage" cosim s.kage --no-report --out out --json j.json
+[ "$(find cache -name '*.so' | wc -l)" = 2 ] || fail "other tools, and the model is that of before"
+json j.json "any('c++' in v or 'g++' in v or 'clang' in v for v in j['versions'])"
+
 # What does not build is named where a person finds it.
 sed -i 's/^module frame_control/modul frame_control/' data/rtl/frame_control.sv
 trouble "$PWD/data/rtl/frame_control.sv:" "$kage" model small.yaml

@@ -124,6 +124,8 @@ std::string key_of(const fs::path& data, const std::vector<fs::path>& files, con
   if (verilator.empty() && options.progress) options.progress(0);  // an interruption ends it too
   if (verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
   hash.add(verilator);
+  const char* const cxx = std::getenv("CXX");
+  hash.add(cxx != nullptr ? cxx : "");  // it may have flags
   hash.add(compiler_version());
   return hash.hex();
 }

@@ -28,9 +28,9 @@ struct ModelOptions {
 };
 
 /// The model of `config` from the cache (${XDG_CACHE_HOME:-~/.cache}/kage/models), built first if it is not there. Its
-/// key is the SHA-256 of all sources that it is made of, the parameters, the options, and the versions of Verilator and
-/// compiler, so that a changed source is another model. Two programs that want the same one build it once. Throws Error
-/// that names the log when the build fails.
+/// key is the SHA-256 of all sources that it is made of, the parameters, the options, $CXX, and the versions of
+/// Verilator and compiler, so that a changed source is another model. Two programs that want the same one build it
+/// once. Throws Error that names the log when the build fails.
 Model find_model(const Config& config, const ModelOptions& options = {});
 
 /// Names and versions of the tools that make models, a line each: "Verilator 5.006 2023-01-22 rev ...", "c++
