@@ -215,6 +215,7 @@ StreamDiff diff_streams(const StreamFile& a, const StreamFile& b, const std::fun
       frame = lone_frame(i, counts, i < d.frames_a);
     else if (d.tokens_compared)
       frame = FrameComparer(a.config(), i, in_a, in_b).run();
+    frame.compared = !both || d.tokens_compared;
     if (!frame.same) ++d.different_frames;
     d.different_lines += frame.different_lines;
     d.different_tokens += frame.different_tokens;

@@ -75,14 +75,19 @@ grep -q '<failure' blocked.xml || fail "no JUnit where waveform and page could n
 expect 0 bash -c 'trap "" XFSZ; ulimit -f 24; exec "$@"' - "$kage" cosim courtyard --size 160x120 --out narrow --json narrow.json
 json narrow.json 'j["same"] and j["frames"]==8 and j["report"] is None and any("no report was written: the report: its temporary file" in n for n in j["notes"])'
 # So it does for who has waited long enough.
-"$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out cut --json cut.json >stdout 2>stderr &
-until [ -e cut/courtyard_0000_difference.png ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
-kill -INT $! 2>/dev/null
-rc=0
-wait $! || rc=$?
-[ $rc = 130 ] || [ $rc = 1 ] || fail "interrupted after the verdict: exit $rc"
-grep -q '^different: ' stdout || fail "interrupted after the verdict: it is not told"
-json cut.json 'j["same"] is False'
+for ((i = 0; i < 50; ++i)); do
+  rm -rf cut cut.json
+  "$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out cut --json cut.json >stdout 2>stderr &
+  until [ -e cut/courtyard_0000_difference.png ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
+  kill -INT $! 2>/dev/null
+  rc=0
+  wait $! || rc=$?
+  [ $rc = 130 ] || [ $rc = 1 ] || fail "interrupted after the verdict: exit $rc"
+  grep -q '^different: ' stdout || fail "interrupted after the verdict: it is not told"
+  json cut.json 'j["same"] is False'
+  [ $rc = 1 ] || break  # else it was done before
+done
+[ $rc = 130 ] || fail "never interrupted after the verdict"
 
 # What an earlier run found wrong is gone once it is right.
 expect 1 "$kage" cosim courtyard --size 64x48 --frames 2 --fault wrong_compare --out again

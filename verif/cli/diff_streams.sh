@@ -41,7 +41,9 @@ expect 1 "$kage" diff one.kage centroid.kage
 grep -q '^different: A has 1 frame and B 3; 1 of 1 frames that both have differs, ' stdout || fail "the frames are not told apart: $(cat stdout)"
 "$kage" stream edges --size 64x48 --frames 1 --config default --out default.kage >/dev/null
 "$kage" stream edges --size 64x48 --frames 1 --config wide --out wide.kage >/dev/null
-expect 1 "$kage" diff default.kage wide.kage --json r.json
+expect 1 "$kage" diff default.kage wide.kage --json r.json --junit w.xml
+grep -q 'tests="[0-9]*" failures="1".* skipped="1"' w.xml && grep -A1 'name="frame 0"' w.xml | grep -q '<skipped' ||
+  fail "JUnit tells of a frame that was not compared: $(cat w.xml)"
 grep -q '^tokens are not compared' stdout || fail "tokens of unlike configurations are compared: $(cat stdout)"
 json r.json 'j["different_tokens"] is None and "X_BITS" in [p["parameter"] for p in j["config"]]'
 python3 - <<'PY'

@@ -43,15 +43,20 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   Found found;
   found.frame = frame;
   found.start = rtl.clock();
+  const auto take = [&] {
+    search.take(rtl.take_events());
+    if (options.wait) options.wait();
+    if (search.seen_before(rtl.clock(), kFurther)) throw Enough();
+  };
+  rtl.record(true, take);
   const auto end = [&] { search.end(rtl.clock(), (rtl.handshakes() >> 4 & 3U) == 2); };
   try {
     in_pieces(feed, frame, [&](std::span<const std::uint32_t> piece) {
       search.feed(piece);
       rtl.feed(piece, kNowhere);
-      search.take(rtl.take_events());
-      if (options.wait) options.wait();
+      take();
       found.given_up = rtl.stuck() || search.pending() > kMostPending;
-      if (found.given_up || search.seen_before(rtl.clock(), kFurther)) throw Enough();
+      if (found.given_up) throw Enough();
     });
     search.finish();
     found.misconduct = rtl.finish(kNowhere).misconduct;
@@ -62,6 +67,7 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
     if (rtl.stuck()) found.misconduct = rtl.finish(kNowhere).misconduct;
     if (found.given_up) end();
   }
+  rtl.record(true);
   found.handshakes = rtl.handshakes();
   found.mismatch = search.first();
   found.unexpected = search.unexpected();
@@ -84,7 +90,6 @@ Found search(int from, int frame, const Feed& feed, const Config& config, const 
              const Watch& watch = {}) {
   const auto rtl = make_rtl(options.library, config, options.rtl);
   if (!rtl->traced()) throw Error(fmt::format("{}: a model without monitors", options.library.string()));
-  rtl->record(true);
   const Watch nothing = watch ? [](const ExpectedEvent&, const kage_rtl_event&) {} : Watch();
   for (int i = from;; i += options.steps.step) {
     Found found = search_frame(*rtl, i, feed, config, options, i == frame ? watch : nothing);

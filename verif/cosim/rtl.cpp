@@ -41,7 +41,11 @@ class Library {
 class Rtl : public RtlCore {
  public:
   Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
-      : config_(config), library_(path), table_(library_.table()), marker_(config) {
+      : config_(config),
+        library_(path),
+        table_(library_.table()),
+        backpressure_(static_cast<std::uint64_t>(std::clamp(options.backpressure_percent, 0, 99))),
+        marker_(config) {
     if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
       throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
     for (const ParamInfo& p : kParams)
@@ -75,14 +79,17 @@ class Rtl : public RtlCore {
     const std::size_t n = (held_.size() - 1) / beat * beat;
     if (n == 0) return;
     submit(n, false);
-    const int why = table_->run_dry(model_, kForever);
-    take_pixels(watch.outside(sink));
+    const LineSink outside = watch.outside(sink);
+    const int why = in_slices([&] { return table_->run_dry(model_, slice()); }, outside);
     stuck_ = checked(why) == KAGE_RTL_STUCK;
   }
 
   [[nodiscard]] bool stuck() const override { return open_ && stuck_; }
   [[nodiscard]] bool traced() const override { return table_->traced != 0; }
-  void record(bool on) override { table_->record(model_, on ? 1 : 0); }
+  void record(bool on, std::function<void()> often) override {
+    table_->record(model_, on ? 1 : 0);
+    often_ = std::move(often);
+  }
   std::span<const kage_rtl_event> take_events() override {
     std::uint64_t count = 0;
     const kage_rtl_event* events = table_->events(model_, &count);
@@ -172,9 +179,8 @@ class Rtl : public RtlCore {
     int why = KAGE_RTL_STUCK;
     if (!stuck_) {
       submit(held_.size(), true);
-      why = table_->run(model_, any ? left_ : kForever, kForever);
+      why = in_slices([&] { return table_->run(model_, any ? left_ : kForever, slice()); }, sink);
     }
-    take_pixels(sink);
     (void)checked(why);
     std::string trouble;
     if (why == KAGE_RTL_STUCK)
@@ -249,6 +255,23 @@ class Rtl : public RtlCore {
     return s;
   }
 
+  /// Clocks after which events are handed over. The model sees that a core has come to rest after 8 MAX_WIDTH + 4096
+  /// clocks with output ready: the slice has twice as many.
+  [[nodiscard]] std::uint64_t slice() const {
+    const auto rest = 8 * static_cast<std::uint64_t>(config_.max_width) + 4096;
+    return often_ ? 2 * rest * 100 / (100 - backpressure_) : kForever;
+  }
+
+  template <class Run>
+  int in_slices(Run run, const LineSink& sink) {
+    while (true) {
+      const int why = run();
+      take_pixels(sink);
+      if (why != KAGE_RTL_LIMIT) return why;
+      if (often_) often_();
+    }
+  }
+
   /// Whole lines go to the sink, the beginning of another stays. Pixels past the frame's size are counted by the model.
   void take_pixels(const LineSink& sink) {
     std::uint64_t count = 0;
@@ -293,6 +316,8 @@ class Rtl : public RtlCore {
   std::uint32_t errors_ = 0;
   bool broken_ = false;
   std::vector<kage_rtl_event> events_;  // the last ones taken
+  std::function<void()> often_;
+  std::uint64_t backpressure_;  // percent
 
   // Of the frame at hand:
   bool open_ = false;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,8 +39,10 @@ class RtlCore : public Core {
 
   [[nodiscard]] virtual bool traced() const = 0;
 
-  /// Record events from now on, or no longer.
-  virtual void record(bool on) = 0;
+  /// Record events from now on, or no longer. `often` is called within feed() and finish() once so many clocks have
+  /// passed that events should be taken, whatever the core does; it may throw, and then nothing more may be asked of
+  /// the core but what events it has.
+  virtual void record(bool on, std::function<void()> often = {}) = 0;
 
   /// The events since the last call. Valid until the next.
   virtual std::span<const kage_rtl_event> take_events() = 0;

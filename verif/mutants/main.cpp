@@ -121,6 +121,14 @@ void print_row(const Result& r, bool markdown) {
   std::fflush(stdout);
 }
 
+/// Throws Error if a mutant asks for a configuration that there is not: it would be tried nowhere.
+void check_configs(const std::vector<Mutant>& all, const std::vector<Inputs>& configs) {
+  for (const Mutant& m : all)
+    for (const std::string& name : m.configs)
+      if (std::none_of(configs.begin(), configs.end(), [&](const Inputs& i) { return i.name == name; }))
+        throw Error(fmt::format("verif/mutants/mutants.yaml: {}: no configuration {}", m.name, name));
+}
+
 std::vector<Mutant> chosen(std::vector<Mutant> all, const std::vector<std::string>& names, int sample,
                            std::uint64_t seed) {
   if (sample > 0) {
@@ -184,7 +192,9 @@ int run_all(std::vector<std::string> arguments) {
       names.push_back(arguments[i]);
     }
   }
-  const auto mutants = chosen(load_mutants(data_directory() / "verif/mutants/mutants.yaml"), names, sample, seed);
+  const auto all = load_mutants(data_directory() / "verif/mutants/mutants.yaml");
+  check_configs(all, trial_configurations());
+  const auto mutants = chosen(all, names, sample, seed);
   const Quiet quiet;
   const auto start = Clock::now();
   Trials trials(quiet.err(), test_seed());

@@ -91,14 +91,15 @@ std::optional<Verdict> try_mutant(const std::filesystem::path& library, const In
   } catch (const cosim::AssertionError& e) {
     return Verdict{"assertion", module_of(e.where()), e.what()};
   }
-  if (!wrong) return std::nullopt;
-  // Again with monitors: registers may say truly what a module says wrong.
+  if (!wrong && mutant != 0) return std::nullopt;
+  // Again with monitors: registers may say truly what a module says wrong. Of the sound RTL they say nothing.
   const auto rtl = make_rtl(library, inputs.config, options);
   rtl->record(true);
   (void)wrong_register(*rtl, inputs);
   for (const kage_rtl_event& e : rtl->take_events())
     if (static_cast<cosim::Stage>(e.stage) == cosim::Stage::part)
-      return Verdict{"register", cosim::part_name(inputs.config, e), *wrong};
+      return Verdict{"register", cosim::part_name(inputs.config, e), wrong.value_or("so a monitor says")};
+  if (!wrong) return std::nullopt;
   return Verdict{"register", "registers", *wrong};
 }
 

@@ -159,6 +159,7 @@ Json told_of(const Page& page) {
     for (const cosim::RtlTouch& t : p.rtl)
       rtl.push_back({{"token", t.token},
                      {"stage", cosim::describe(t.stage)},
+                     {"state", t.stage == cosim::Stage::pixel},
                      {"load", t.load},
                      {"cycle", t.cycle},
                      {"same", t.same},

@@ -24,9 +24,9 @@ typedef struct kage_rtl kage_rtl;
 /* Why run() came back. */
 enum {
   KAGE_RTL_PIXELS = 0, /* the pixels asked for are there */
-  KAGE_RTL_IDLE = 1,   /* all input is taken and nothing moves any more */
+  KAGE_RTL_IDLE = 1, /* all input is taken and nothing moves any more; pixels that no expect() announced do not count */
   KAGE_RTL_LIMIT = 2,  /* the clocks allowed are used up */
-  KAGE_RTL_STUCK = 3,  /* input is waiting, output is ready, and nothing moves: a hang */
+  KAGE_RTL_STUCK = 3,  /* input is waiting, output is ready, and nothing moves, likewise: a hang */
   KAGE_RTL_ASSERT = 4, /* an assertion in the RTL failed: see failure(); then only pixels() and destroy() */
   KAGE_RTL_DRY = 5     /* every queued beat is taken */
 };
@@ -147,7 +147,8 @@ typedef struct {
    * last beat of a frame is taken, the mark is KAGE_RTL_MARKS - 1. */
   void (*mark)(kage_rtl*, const uint8_t* marks, size_t count);
 
-  /* Announce the size of a frame whose pixels are to come, for the checks of TUSER and TLAST. */
+  /* Announce the size of a frame whose pixels are to come: TUSER and TLAST are checked by it, and those pixels count as
+   * movement. */
   void (*expect)(kage_rtl*, uint32_t width, uint32_t height);
 
   /* Let the clock run until the model holds at least `pixels` undelivered-to-you pixels, or for any other reason above.

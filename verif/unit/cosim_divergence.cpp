@@ -54,6 +54,8 @@ std::vector<std::pair<std::string, Config>> configurations() {
     c.fsf = 0, c.dsf_bits = 2, c.count_bits = 2, c.lights = 2, c.class_bits = 2, c.translucency = 1, c.arrangement = 0;
   });
   add("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.translucency = 1; });
+  add("a count and no table, one unit, one lane",
+      [](Config& c) { c.count_bits = 4, c.lanes = 1, c.units = 1, c.dx_bits = 6, c.face_bits = 4; });
   add("units, systolic", [](Config& c) { c.units = 2, c.dx_bits = 6, c.face_bits = 4, c.arrangement = 0; });
   return all;
 }
@@ -156,7 +158,7 @@ TEST_CASE("what goes to another unit, or is another's last, is told so") {
   }
   CHECK(told(Stage::exit, 1, 1) == "same");
   CHECK(told(Stage::exit, 0, 1) == "last of the line: 0, 1");
-  CHECK(told(Stage::pixel, 3, 3) == "same");
+  CHECK(told(Stage::pixel, 3, 4) == "same");  // by its queue
 }
 
 // A TP behind the last line is refused, but paints first: the next frame finds the background of this one in its

@@ -27,6 +27,7 @@ struct StreamPlace {
 struct FrameDiff {
   int frame = 0;
   bool same = false;
+  bool compared = true;                ///< false: the streams' configurations are unlike, and it is in both
   std::uint64_t different_lines = 0;   ///< those that one stream lacks included
   std::uint64_t different_tokens = 0;  ///< see StreamDiff
   std::optional<StreamPlace> first;

@@ -160,21 +160,33 @@ const Report = (() => {
     ]);
     for (const line of t.tree ?? []) item.append(make("div", line, {class: "tree"}));
     if (t.now) item.append(make("div", `now ${t.now}`, {class: "now"}));
-    for (const r of rtl) item.append(rtlLine(r));
+    for (const r of rtl) item.append(rtlLine(r, true));
     return item;
   }
 
-  function rtlLine(r) {
-    const text = `RTL, cycle ${r.cycle}, ${r.stage}${r.load ? " (its colour comes back)" : ""}: ${r.text}`;
+  // With the token where it does not stand below its own.
+  function rtlLine(r, own) {
+    const text = `RTL, ${own || !r.state ? "" : `token ${r.token}, `}cycle ${r.cycle}, ${r.stage}${r.load ? " (its colour comes back)" : ""}: ${r.text}`;
     return make("div", r.same ? text : [text, make("b", " differs")], {class: r.same ? "rtl" : "rtl bad"});
   }
 
   function historyList(h, rtl) {
     const list = make("ol", "", {class: "history"});
-    for (const t of h.touches) list.append(touchItem(t, rtl.filter((r) => r.token === t.token)));
+    const rest = [...rtl];
+    const take = (is) => {
+      const taken = [];
+      while (rest.length && is(rest[0].token)) taken.push(rest.shift());
+      return taken;
+    };
+    for (const t of h.touches) {
+      // At tokens of which the history has nothing, as a line's first TP paints pixels beside its span.
+      const before = take((token) => token < t.token);
+      if (before.length) list.append(make("li", before.map((r) => rtlLine(r, false))));
+      list.append(touchItem(t, take((token) => token === t.token)));
+    }
     const end = make("li", make("div", h.color_text, {class: "end"}));
     const last = h.touches.at(-1)?.token;
-    for (const r of rtl) if (!h.touches.some((t) => t.token === r.token)) end.append(rtlLine(r));
+    for (const r of rest) end.append(rtlLine(r, false));
     if (last === undefined) end.prepend(make("div", "no token of the line touches it"));
     list.append(end);
     return list;
