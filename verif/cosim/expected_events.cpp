@@ -262,10 +262,17 @@ void ExpectedEvents::paint(const LineView& line) {
   state(bias_, config_.count_bits == 0);
   if (config_.count_bits > 0) queue(Stage::state, 0).back().cares |= 2;
   const bool by_loads = config_.count_bits > 0 && resolved_;
+  const std::uint64_t one = std::uint64_t{1} << config_.shade_frac;
   const auto painted = [&](int x) {
     PixelState s = line.pixel(x);
-    if (clear(s))
-      for (unsigned c = 0; c < 3; ++c) s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
+    // A TP that is refused may come among volumes, and what is painted is darkened.
+    const bool dark = leaving(s, resolved_).dark;
+    for (unsigned c = 0; c < 3; ++c) {
+      if (clear(s))
+        s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
+      else if (dark)
+        s.color[c] = static_cast<std::uint8_t>((s.color[c] * (one - shade_) + one / 2) >> config_.shade_frac);
+    }
     return s;
   };
   if (!by_loads) {

@@ -199,3 +199,41 @@ TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
     CHECK_FALSE(d);
   }
 }
+
+// It is refused, but paints first, and what is painted is resolved: darkened where a volume was counted.
+TEST_CASE("a TP among volumes paints what it finds in shadow, and that is no divergence") {
+  int tried = 0;
+  for (const auto& [name, c] : configurations()) {
+    if (c.translucency == 0 || c.dsf_bits == 0 || c.class_bits > 1) continue;
+    CAPTURE(name);
+    ++tried;
+    std::vector<std::vector<std::uint32_t>> frames(1);
+    SpanToken span;
+    span.xl = 1;
+    span.xr = 7;
+    span.z = std::int64_t{500} << c.z_frac;
+    span.normal_class = 1;
+    span.color = {200 << c.color_frac, 100 << c.color_frac, 50 << c.color_frac};
+    if (c.smooth == 0) span.color = {200, 100, 50};
+    TokenWriter w(c, frames[0]);
+    w.header({8, 1, 0x563412, 0});
+    w.shade(1U << (c.shade_frac - 1));
+    w.op(span);
+    span.z = std::int64_t{5} << c.z_frac;
+    span.w = 1;
+    span.xl = 3;
+    w.sp(span);
+    if (c.fsf != 0) w.ev(0, 8);
+    if (c.count_bits != 0) w.es(0, 8, 0);
+    span.alpha = 99;
+    w.tp(span);
+    w.end();
+    DivergenceOptions options;
+    options.library = find_model(c, {.traced = true}).library;
+    CHECK(make_rtl(options.library, c, {})->frame(frames[0], kNowhere).status.error == ErrorCode::ORDER);
+    const auto d = find_divergence(0, feed_of(frames), c, options);
+    if (d) UNSCOPED_INFO(describe(*d));
+    CHECK_FALSE(d);
+  }
+  CHECK(tried >= 2);
+}
