@@ -323,7 +323,7 @@ void print_report(const Json& j, const std::string& who, const std::string& fold
 
 /// Writes the page over all scenes; its name, or nothing: the verdict stands without it.
 std::string joined_page(const CosimCommand& o, const Json& j, Job& last) {
-  const std::string page = (std::filesystem::path(o.out) / "report.html").string();
+  std::string page = (std::filesystem::path(o.out) / "report.html").string();
   try {
     TempFiles files;
     write_joined_page(files, page, j);
