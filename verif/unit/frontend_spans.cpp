@@ -45,7 +45,10 @@ TEST_CASE("a span that stays in range is one part, with the ramp that 128 bits g
     if (random.chance(0.8)) {
       // Where spans are: within depth, about the anchor.
       p.a = std::clamp(p.a, -(std::int64_t{1} << 40), std::int64_t{1} << 40);
-      p.c = about(random, bits - frac - 2 + kPlaneFrac) - p.a * (xl - p.x0) - p.b * (y - p.y0);
+      // Where b is steep that is more than 64 bits hold; what is left of it then is as good as any.
+      const Int128 c =
+          about(random, bits - frac - 2 + kPlaneFrac) - Int128{p.a} * (xl - p.x0) - Int128{p.b} * (y - p.y0);
+      p.c = static_cast<std::int64_t>(c);
     }
     CAPTURE(round, frac, bits, p.a, p.b, p.c, p.x0, p.y0, xl, xr, y);
     std::vector<Part> parts;
