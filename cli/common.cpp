@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -270,18 +269,6 @@ OutFolder::~OutFolder() { remove(); }
 void OutFolder::remove() {
   for (const std::filesystem::path& p : made_) (void)::rmdir(p.c_str());  // refuses one with something in it
   made_.clear();
-}
-
-FolderLock::FolderLock(const std::filesystem::path& path)
-    : fd_(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (fd_ < 0 || ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(fd_);
-  throw Error(fmt::format("{}: another run writes its report there: give one of them a folder of its own by --out",
-                          path.string()));
-}
-
-FolderLock::~FolderLock() {
-  if (fd_ >= 0) ::close(fd_);
 }
 
 void catch_signals() {

@@ -134,20 +134,6 @@ class OutFolder {
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
-/// A folder that only one run at a time may have, for as long as the object lives. Where the file system knows no locks
-/// nothing is kept out.
-class FolderLock {
- public:
-  /// Throws Error if another run has it. The folder exists.
-  explicit FolderLock(const std::filesystem::path& path);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int fd_;
-};
-
 /// `text` as a shell reads it back.
 std::string quoted(const std::string& text);
 

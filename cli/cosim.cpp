@@ -2,12 +2,14 @@
 // kage cosim SCENE...: golden model against RTL, frame by frame.
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <memory>
 #include <optional>
 
 #include "ci.hpp"
 #include "common.hpp"
 #include "cosim/divergence.hpp"
+#include "cosim/lock.hpp"
 #include "cosim/rtl.hpp"
 #include "cosim/run.hpp"
 #include "joined.hpp"
@@ -340,8 +342,12 @@ std::string joined_page(const CosimCommand& o, const Json& j, Job& last) {
 
 int run(const CosimCommand& o) {
   const OutFolder folder(o.out);
-  std::optional<FolderLock> lock;
-  if (!o.no_report && !o.out.empty()) lock.emplace(o.out);
+  std::optional<cosim::Lock> lock;
+  if (!o.no_report && !o.out.empty()) lock.emplace(o.out, O_RDONLY | O_DIRECTORY);
+  // Where the file system knows no locks nothing is kept out.
+  if (lock && !lock->try_lock() && errno == EWOULDBLOCK)
+    throw Error(
+        fmt::format("{}: another run writes its report there: give one of them a folder of its own by --out", o.out));
   check_json(o);
   refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit,
                 o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});

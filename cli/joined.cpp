@@ -129,11 +129,11 @@ class Data {
     if (d.is_null()) return nullptr;
     Json j{{"text", d["text"]}, {"frame", d["frame"]}, {"no_divergence", d["no_divergence"]}, {"divergence", nullptr}};
     const Json& by = d["divergence"];
-    if (!by.is_null())
-      j["divergence"] = {
-          {"text", by["text"]}, {"waits", by["waits"]}, {"waveform", d["waveform"]}, {"gtkwave", nullptr}};
-    if (!d["waveform"].is_null() && by["save_file"].is_string())
-      j["divergence"]["gtkwave"] = gtkwave_line(by["save_file"].get<std::string>());
+    if (by.is_null()) return j;
+    const bool shown = !d["waveform"].is_null() && by["save_file"].is_string();
+    j["divergence"] = {{"text", by["text"]},
+                       {"waits", by["waits"]},
+                       {"gtkwave", shown ? Json(gtkwave_line(by["save_file"].get<std::string>())) : Json(nullptr)}};
     return j;
   }
 

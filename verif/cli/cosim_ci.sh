@@ -53,6 +53,14 @@ junit b1.xml 'c[0].get("file").startswith("rtl/pixel_") and c[0][0].tag=="failur
 junit b1.xml '"first divergence: frame 0, " in c[0][0].text and c[1][0].tag=="skipped"'
 json b2.json 'j["first_difference"]["frame"]==1 and j["first_difference"]["divergence"]["text"].startswith("frame 1, ")'
 expect 1 "$kage" merge b2.json b1.json --json b.json --junit b.xml
+# A waveform without a divergence is nothing that kage writes, and no reason to fall over.
+python3 - <<'PY'
+import json
+d = json.load(open("b1.json"))
+d["first_difference"]["divergence"], d["first_difference"]["waveform"] = None, "x.fst"
+json.dump(d, open("odd1.json", "w"))
+PY
+expect 1 "$kage" merge b2.json odd1.json --json odd.json --out odd
 json b.json 'j["same"] is False and j["first_difference"]["frame"]==0 and j["frame_seconds"][2:]==[None]*3 and j["frames"]==2'
 json b.json '[s["first_difference"]["frame"] for s in j["shards"]]==[0,1]'
 junit b.xml 's.get("tests")=="5" and s.get("failures")=="2" and s.get("skipped")=="3"'

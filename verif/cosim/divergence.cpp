@@ -55,7 +55,9 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
       search.feed(piece);
       rtl.feed(piece, kNowhere);
       take();
-      found.given_up = rtl.stuck() || search.pending() > kMostPending;
+      // A core that stands still with nothing owed is behind what is still to be fed.
+      const std::size_t pending = search.pending();
+      found.given_up = pending > (rtl.stuck() ? 0 : kMostPending);
       if (found.given_up) throw Enough();
     });
     search.finish();

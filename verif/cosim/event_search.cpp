@@ -183,7 +183,7 @@ void EventSearch::end(std::uint64_t clock, bool blocked) {
 std::size_t EventSearch::pending() {
   std::size_t sum = 0;
   expected_.for_each([&](const std::deque<ExpectedEvent>& q) {
-    if (q.front().stage != Stage::out) sum += q.size();
+    if (q.front().stage != Stage::out && q.front().cares != 0) sum += q.size();
   });
   return sum;
 }

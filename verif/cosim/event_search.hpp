@@ -36,8 +36,8 @@ class EventSearch : private CoreObserver {
   /// have come; it is they who differ.
   void end(std::uint64_t clock, bool blocked);
 
-  /// Events of the golden core that are kept until the RTL does its part, but those of the video: after an error that
-  /// is all of the frame that is left, at once.
+  /// Events of the golden core that are kept until the RTL does its part and would be missing if it did not; but those
+  /// of the video: after an error that is all of the frame that is left, at once.
   [[nodiscard]] std::size_t pending();
 
   /// The first in the order of tokens and stages, of those seen by now.

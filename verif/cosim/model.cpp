@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openssl/evp.h>
-#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -23,6 +22,7 @@
 #include <thread>
 #include <vector>
 
+#include "cosim/lock.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 
@@ -146,21 +146,6 @@ fs::path cache_folder() {
   if (ec) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), ec.message()));
   return folder;
 }
-
-/// A lock that other programs see, released with the object.
-class Lock {
- public:
-  explicit Lock(const fs::path& path) : fd_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (fd_ < 0) throw Error(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
-  }
-  ~Lock() { close(fd_); }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-  [[nodiscard]] bool try_lock() const { return flock(fd_, LOCK_EX | LOCK_NB) == 0; }
-
- private:
-  int fd_;
-};
 
 /// A program in a process group of its own, ended with the object.
 class Process {

@@ -40,8 +40,8 @@ class RtlCore : public Core {
   [[nodiscard]] virtual bool traced() const = 0;
 
   /// Record events from now on, or no longer. `often` is called within feed() and finish() once so many clocks have
-  /// passed that events should be taken, whatever the core does; it may throw, and then nothing more may be asked of
-  /// the core but what events it has.
+  /// passed that events should be taken, whatever the core does; it may throw, and then the core can be given nothing
+  /// more.
   virtual void record(bool on, std::function<void()> often = {}) = 0;
 
   /// The events since the last call. Valid until the next.

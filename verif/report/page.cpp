@@ -199,10 +199,8 @@ Json data_of(const Page& page, Pictures& pictures) {
                            : Json(nullptr);
   j["divergence"] = nullptr;
   if (page.divergence)
-    j["divergence"] = {{"text", cosim::describe(*page.divergence)},
-                       {"waits", page.divergence->waits},
-                       {"waveform", page.divergence->waveform},
-                       {"gtkwave", page.gtkwave}};
+    j["divergence"] = {
+        {"text", cosim::describe(*page.divergence)}, {"waits", page.divergence->waits}, {"gtkwave", page.gtkwave}};
   j["different_pixels"] = nullptr;
   if (run.difference) {
     j["different_pixels"] = run.difference->different_pixels;
