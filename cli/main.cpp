@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -18,13 +19,32 @@ namespace {
 
 using namespace kage::cli;
 
-/// One line on standard error, whatever the message holds.
+/// One line on standard error, whatever the message holds. After a signal the exit code tells of that: the trouble may
+/// well come from it, as where a pipe was waited for.
 int trouble(std::string message) {
   while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
   for (char& c : message)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   say(fmt::format("kage: {}\n", message));
-  return kTrouble;
+  return interrupted() ? interrupted_code() : kTrouble;
+}
+
+/// What no one has caught, in any thread: mostly memory that a library's own thread could not have.
+[[noreturn]] void give_up() {
+  // No memory is asked for here: there may be none.
+  const char* text = "an error that nothing expected";
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    text = "out of memory";
+  } catch (const std::exception& e) {
+    text = e.what();
+  } catch (...) {
+    text = "an exception of an unknown kind";
+  }
+  for (const char* part : {"kage: ", text, "\n"})
+    if (write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+  _exit(kTrouble);
 }
 
 /// What was to be told has not arrived. A reader that has gone away, as head does, knows.
@@ -77,6 +97,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(give_up);
   try {
     open_standard_files();
     find_data();
@@ -86,8 +107,7 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return lost_output(errno != 0 ? errno : EIO);
     return rc;
   } catch (const Interrupted&) {
-    (void)trouble("interrupted");
-    return kInterrupted;
+    return trouble("interrupted");
   } catch (const std::exception& e) {
     const auto* system = dynamic_cast<const std::system_error*>(&e);
     if (system != nullptr && std::ferror(stdout) != 0) return lost_output(system->code().value());

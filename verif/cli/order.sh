@@ -69,5 +69,5 @@ trouble "--repeats" "$kage" order balls.off --repeats 0
 trouble "MESH is missing" "$kage" order
 printf 'OFF\n3 1 0\n0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n' >nan.off
 trouble "nan.off" "$kage" order nan.off
-[ -z "$(find . -name '.*.bsp' -o -name '.*.svg' -o -name '.*.json')" ] || fail "temporary files are left"
+no_leftovers
 done_testing
