@@ -110,7 +110,7 @@ TEST_CASE("family 14: fragments partition their face, in rational numbers") {
   CHECK(splits > 200);
 }
 
-TEST_CASE("family 36: the eye on nodes' planes, on several at once") {
+TEST_CASE("family 36: the eye on nodes' planes, on several at once", "[simd]") {
   Random random(test_seed(2));
   CAPTURE(test_seed(2));
   for (int round = 0; round < 5; ++round) {
@@ -195,7 +195,7 @@ TEST_CASE("family 37: nearly coplanar polygons are told apart, and the build end
   CHECK(within_bound(OrderTree::build(lattice_triangles(random, 300))));
 }
 
-TEST_CASE("family 37: three panes that overlap in a circle are cut") {
+TEST_CASE("family 37: three panes that overlap in a circle are cut", "[simd]") {
   Random random(test_seed(5));
   OrderMesh mesh;
   // Each over the next at one end, under the one before at the other.
