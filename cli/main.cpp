@@ -14,6 +14,7 @@
 
 #include "common.hpp"
 #include "mapped.hpp"
+#include "simd/targets.hpp"
 
 namespace {
 
@@ -102,6 +103,7 @@ int main(int argc, char** argv) {
     open_standard_files();
     find_data();
     catch_signals();
+    (void)kage::simd::in_use();  // a KAGE_SIMD that cannot be had is refused before the work, by every command
     const int rc = run(argc, argv);
     errno = 0;
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return lost_output(errno != 0 ? errno : EIO);
