@@ -44,6 +44,9 @@ void add_diff(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
 void add_model(CLI::App& app, Action& action);
 void add_order(CLI::App& app, Action& action);
+void add_cache(CLI::App& app, Action& action);
+void add_list(CLI::App& app, Action& action);
+void add_help(CLI::App& app, Action& action);
 
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);

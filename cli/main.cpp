@@ -14,6 +14,7 @@
 
 #include "common.hpp"
 #include "mapped.hpp"
+#include "simd/targets.hpp"
 
 namespace {
 
@@ -64,9 +65,9 @@ void find_data() {
 int run(int argc, char** argv) {
   CLI::App app("kage: a span-stream rendering core, its golden model and its co-simulation", "kage");
   app.formatter(help_formatter());
-  app.set_version_flag("--version", "kage " KAGE_VERSION);
+  app.set_version_flag("-V,--version", "kage " KAGE_VERSION);
   app.footer(
-      "kage cosim courtyard is a good start; kage COMMAND --help explains a command.\n"
+      "kage cosim courtyard is a good start; kage help COMMAND explains a command, kage list lists scenes.\n"
       "Exit codes: 0 same or done, 1 different, 2 trouble.");
   app.require_subcommand(0, 1);
   app.option_defaults()->multi_option_policy(
@@ -81,6 +82,9 @@ int run(int argc, char** argv) {
   add_merge(app, action);
   add_model(app, action);
   add_order(app, action);
+  add_cache(app, action);
+  add_list(app, action);
+  add_help(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -99,6 +103,7 @@ int main(int argc, char** argv) {
     open_standard_files();
     find_data();
     catch_signals();
+    (void)kage::simd::in_use();  // a KAGE_SIMD that cannot be had is refused before the work, by every command
     const int rc = run(argc, argv);
     errno = 0;
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return lost_output(errno != 0 ? errno : EIO);

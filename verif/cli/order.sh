@@ -53,6 +53,10 @@ expect 0 "$kage" order balls.off "${few[@]}" --seed 2 --save two.bsp
 cmp -s balls.bsp two.bsp && fail "another seed makes the same tree"
 expect 0 "$kage" order courtyard "${few[@]}"
 
+# A small mesh, whose tree needs the room for exchanges that vectors of one width need and others do not.
+expect 0 "$kage" order "$source/verif/meshes/sixteen_faces.obj" --eyes 50 --repeats 1 --json few.json
+json few.json 'all(r["identical"] and r["faces"]==16 for r in j)'
+
 # Bad input.
 head -c 5000 balls.bsp >cut.bsp
 trouble "cut.bsp: byte" "$kage" order cut.bsp

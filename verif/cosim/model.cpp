@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cosim/model.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openssl/evp.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <system_error>
@@ -25,6 +22,8 @@
 #include <vector>
 
 #include "cosim/lock.hpp"
+#include "cosim/model_cache.hpp"
+#include "cosim/process.hpp"
 #include "files/hidden_folder.hpp"
 #include "files/output_file.hpp"
 #include "kage/error.hpp"
@@ -78,16 +77,6 @@ std::string output_of(const char* command) {
 std::string verilator_version() { return output_of("\"${VERILATOR:-verilator}\" --version 2>/dev/null"); }
 std::string compiler_version() { return output_of("${CXX:-c++} --version 2>/dev/null"); }
 
-/// The names that --fault takes.
-std::vector<std::string> faults(const fs::path& data) {
-  std::vector<std::string> names;
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(data / "verif/faults", ec))
-    if (entry.path().extension() == ".patch") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 /// The files that the model is made of, below `data`: what build.py --sources names, and perhaps a file more.
 std::vector<fs::path> sources(const fs::path& data, const ModelOptions& options) {
   const std::string& fault = options.fault;
@@ -107,7 +96,7 @@ std::vector<fs::path> sources(const fs::path& data, const ModelOptions& options)
   if (!fault.empty()) {
     files.push_back(fs::path("verif/faults") / (fault + ".patch"));
     if (fault.find('/') != std::string::npos || !fs::exists(data / files.back()))
-      throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(faults(data), ", ")));
+      throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(fault_names(), ", ")));
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -133,106 +122,6 @@ std::string key_of(const fs::path& data, const std::vector<fs::path>& files, con
   hash.add(compiler_version());
   return hash.hex();
 }
-
-fs::path cache_folder() {
-  const char* xdg = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (xdg != nullptr && *xdg != '\0')
-    folder = xdg;
-  else if (home != nullptr && *home != '\0')
-    folder = fs::path(home) / ".cache";
-  else
-    throw Error("neither XDG_CACHE_HOME nor HOME is set: there is no place for RTL models");
-  folder /= "kage/models";
-  std::error_code ec;
-  fs::create_directories(folder, ec);
-  if (ec) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), ec.message()));
-  return folder;
-}
-
-/// A program in a process group of its own, with what it says. It ends with the object, or with this process however
-/// that dies, and all programs that it has started end with it.
-class Process {
- public:
-  explicit Process(const std::vector<std::string>& command) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(command, errno);
-    output_ = ends[0];
-    (void)fcntl(output_, F_SETFL, O_NONBLOCK);
-    // What its tools leave behind when they are ended comes to this process, so that their end can be waited for.
-    (void)prctl(PR_SET_CHILD_SUBREAPER, 1);
-    const pid_t parent = getpid();
-    pid_ = fork();
-    if (pid_ == 0) execute(command, ends[1], parent);
-    const int error = errno;
-    (void)close(ends[1]);
-    if (pid_ < 0) {
-      (void)close(output_);
-      fail(command, error);
-    }
-    setpgid(pid_, pid_);  // by both: it has to be so before either goes on
-  }
-  ~Process() {
-    if (pid_ > 0) end();
-    (void)close(output_);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  /// True once it has ended.
-  bool ended(bool& ok) {
-    read_output();
-    siginfo_t info{};
-    // It stays a zombie for the moment: until it is gone its number, which is that of the group, is no other's.
-    if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0)
-      return false;
-    ok = info.si_code == CLD_EXITED && info.si_status == 0;
-    end();
-    read_output();
-    return true;
-  }
-
-  /// What it has said so far.
-  [[nodiscard]] const std::string& said() const { return said_; }
-
- private:
-  [[noreturn]] static void fail(const std::vector<std::string>& command, int error) {
-    throw Error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(error)));
-  }
-
-  [[noreturn]] static void execute(const std::vector<std::string>& command, int output, pid_t parent) {
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) _exit(127);  // it died before prctl
-    dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
-    std::vector<char*> argv;
-    argv.reserve(command.size() + 1);
-    for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execvp(argv[0], argv.data());
-    _exit(127);
-  }
-
-  void end() {
-    kill(-pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-    while (waitpid(-pid_, nullptr, 0) > 0) continue;
-    pid_ = 0;
-  }
-
-  void read_output() {
-    std::array<char, 4096> buffer{};
-    for (ssize_t n = 0; (n = read(output_, buffer.data(), buffer.size())) > 0;)
-      said_.append(buffer.data(), static_cast<std::size_t>(n));
-  }
-
-  pid_t pid_ = 0;
-  int output_ = -1;
-  std::string said_;
-};
 
 /// The line that tells most, for a message of one line.
 std::string telling_line(const std::string& said) {
@@ -265,6 +154,7 @@ bool keep_log(const std::string& text, const fs::path& temp, const fs::path& log
     OutputFile out(temp, log.string());
     out << text;
     out.close();
+    fs::permissions(temp, fs::perms::owner_read | fs::perms::owner_write);
     fs::rename(temp, log);
     return true;
   } catch (const std::exception&) {
@@ -289,19 +179,38 @@ HiddenFolder work_folder(const fs::path& folder) {
   }
 }
 
+/// What the cache says of a model, for `kage cache list`.
+nlohmann::ordered_json about(const Config& config, const ModelOptions& options) {
+  nlohmann::ordered_json values;
+  for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
+  return {{"config", values},
+          {"fault", options.fault},
+          {"traced", options.traced},
+          {"mutants", options.mutants},
+          {"tools", model_tools()}};
+}
+
 }  // namespace
 
 Model find_model(const Config& config, const ModelOptions& options) {
   const fs::path data = data_directory();
-  const fs::path folder = cache_folder();
+  const ModelCache cache;
   const std::vector<fs::path> files = sources(data, options);
-  const auto library = [&](const std::string& key) { return folder / (key + ".so"); };
+  std::string damage;
+  // A model that is there and whole.
+  const auto find = [&](const std::string& key) {
+    const std::optional<std::string> found = cache.damage(key);
+    damage = found.value_or("");
+    if (!found || !damage.empty()) return false;
+    cache.use(key);
+    return true;
+  };
   const std::string now = key_of(data, files, config, options);
-  HiddenFolder::sweep(folder);  // of builds that were killed
-  if (fs::exists(library(now))) return {library(now), 0};
+  HiddenFolder::sweep(cache.folder());  // of builds that were killed
+  if (find(now)) return {.library = cache.library(now)};
 
   // What is built is a copy: someone may change the RTL meanwhile, and the model must be of what its name says.
-  const HiddenFolder hidden = work_folder(folder);
+  const HiddenFolder hidden = work_folder(cache.folder());
   const fs::path work = hidden.path();
   const fs::path copy = work / "source";
   copy_sources(data, files, copy);
@@ -314,11 +223,11 @@ Model find_model(const Config& config, const ModelOptions& options) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     return seconds;
   };
-  const Lock lock(folder / (key + ".lock"));
+  const Lock lock(cache.lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
   while (!lock.try_lock()) wait();
-  if (fs::exists(library(key))) return {library(key), 0};  // another program has built it
+  if (find(key)) return {.library = cache.library(key)};  // another program has built it
 
-  const fs::path log = folder / (key + ".log");
+  const fs::path log = cache.log(key);
   // The compilers' temporary files lie there too, and go with the rest if they are killed.
   fs::create_directory(work / "tmp");
   std::vector<std::string> command{"env",
@@ -346,8 +255,19 @@ Model find_model(const Config& config, const ModelOptions& options) {
     throw Error(
         fmt::format("RTL model: the build failed: {}{}", cause, kept ? fmt::format(" (log: {})", log.string()) : ""));
   }
-  fs::rename(work / "model.so", library(key));
-  return {library(key), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  cache.keep(key, work / "model.so", about(config, options));
+  return {.library = cache.library(key),
+          .build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          .damage = damage};
+}
+
+std::vector<std::string> fault_names() {
+  std::vector<std::string> names;
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(data_directory() / "verif/faults", ec))
+    if (entry.path().extension() == ".patch") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::vector<std::string> model_tools() {

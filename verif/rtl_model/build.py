@@ -27,9 +27,12 @@ import re
 import shlex
 import shutil
 import signal
+import stat
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 import yaml
 
@@ -282,36 +285,67 @@ class Runtime:
         key = hashlib.sha256("\0".join([*versions, *flags, own]).encode()).hexdigest()[:24]
         cache = os.environ.get("XDG_CACHE_HOME") or (os.path.join(os.environ["HOME"], ".cache") if os.environ.get("HOME") else None)
         self.folder = pathlib.Path(cache) / "kage" / "verilator" / key if cache else None
+        if self.folder:
+            for folder in (self.folder.parent.parent, self.folder.parent, self.folder):
+                trust(folder)
 
     def take(self, names):
         for name in names if self.folder else ():
             try:
-                shutil.copyfile(self.folder / name, self.obj / name)
+                trust(self.folder / name)
+                whole = (self.folder / name).read_bytes()
+                if whole[-SUM_BYTES:] == check_sum(whole[:-SUM_BYTES]):  # a damaged one is compiled
+                    (self.obj / name).write_bytes(whole[:-SUM_BYTES])
             except OSError:
                 (self.obj / name).unlink(missing_ok=True)  # it is compiled: make would take half of one for the whole
 
     def keep(self, names):
         for name in names if self.folder else ():
             try:
-                self.folder.mkdir(parents=True, exist_ok=True)
-                os.link(self.obj / name, self.folder / name)  # whole at once, and in no room of its own
-            except FileExistsError:
-                continue
-            except OSError:
-                return self.copy(names)
-
-    def copy(self, names):
-        """Where the build has another disk than the cache."""
-        for name in names:
-            partial = self.folder / f".{name}.{os.getpid()}"
-            try:
-                shutil.copyfile(self.obj / name, partial)
-                os.replace(partial, self.folder / name)
+                self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+                data = (self.obj / name).read_bytes()
+                # Among the build's own files, which go if it is killed; beside its place where that is another disk.
+                if not any(self.put(data + check_sum(data), place, name) for place in (self.obj, self.folder)):
+                    return
             except OSError:
                 return  # the next one compiles them too
-            finally:
-                with contextlib.suppress(OSError):
-                    partial.unlink()
+
+    def put(self, data, place, name):
+        """Keep `data` as `name`, by way of a file in the folder `place`; False if that is on another disk."""
+        partial = place / f".{name}.{os.getpid()}"
+        try:
+            with open(os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600), "wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(partial, self.folder / name)
+            return True
+        except OSError as e:
+            if e.errno == errno.EXDEV:
+                return False
+            raise
+        finally:
+            with contextlib.suppress(OSError):
+                partial.unlink()
+
+
+SUM_BYTES = 12
+
+
+def check_sum(data):
+    """What stands behind a kept object: its length and CRC-32."""
+    return struct.pack("<QI", len(data), zlib.crc32(data))
+
+
+def trust(path):
+    """Stop if somebody else could have put `path` there: what is kept becomes part of a program."""
+    try:
+        status = path.lstat()
+    except FileNotFoundError:
+        return
+    if stat.S_ISLNK(status.st_mode) or status.st_uid not in (0, os.geteuid()) or status.st_mode & 0o022:
+        fail(f"{path}: it is a link, somebody else's, or others may write to it, and what is kept there becomes part of RTL models: "
+             f"remove it, or set XDG_CACHE_HOME to a folder of your own")
 
 
 def needs_threads(obj):
