@@ -267,7 +267,7 @@ def build(out, values, args, work):
                                   *(["-DKAGE_MUTANTS"] if args.mutants else []), f"-I{obj}", f"-I{work}",
                                   f"-I{HERE}", "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
                                   HERE / "rtl_model.cpp", obj / "Vkage__ALL.a", obj / "verilated.o", *(obj / e for e in extra),
-                                  *(["-lz"] if args.trace else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
+                                  *(["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fflush", "fclose"))] if args.trace else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
         os.replace(partial, out)
     finally:
         partial.unlink(missing_ok=True)
