@@ -48,6 +48,14 @@ int trouble(std::string message) {
   _exit(kTrouble);
 }
 
+// Before the libraries' own constructors, which may ask for memory too.
+void catch_all() { std::set_terminate(give_up); }
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+[[gnu::constructor]] void catch_all_later() { catch_all(); }
+#else
+[[gnu::section(".preinit_array"), gnu::used]] void (*const kCatchAll)() = catch_all;
+#endif
+
 /// What was to be told has not arrived. A reader that has gone away, as head does, knows.
 int lost_output(int error) {
   if (error == EPIPE) return kTrouble;
@@ -106,7 +114,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::set_terminate(give_up);
   try {
     open_standard_files();
     find_data();
