@@ -40,6 +40,7 @@ Json options_of(const CosimCommand& o) {
           {"degrade", o.degrade},
           {"order", name_of(o.order)},
           {"alpha", o.alpha},
+          {"cull", o.cull},
           {"samples", o.samples},
           {"classes", o.classes}};
 }

@@ -13,6 +13,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <new>
@@ -27,6 +28,7 @@
 #include "notes.hpp"
 #include "obj_text.hpp"
 #include "polygon.hpp"
+#include "side_files.hpp"
 
 namespace kage::scene {
 namespace {
@@ -190,9 +192,20 @@ double Reader::opacity(const aiMaterial& material) const {
 
 void Reader::read_material(unsigned index, RawPrimitive& p) {
   if (index >= in_.mNumMaterials || in_.mMaterials[index] == nullptr) return;
-  materials_.insert(index);
+  const bool fresh = materials_.insert(index).second;
   const aiMaterial& material = *in_.mMaterials[index];
   p.alpha = opacity(material);
+  int two_sided = 0;
+  if (material.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS) {
+    out_.contents.says_sides = true;
+    p.double_sided = two_sided != 0;
+  }
+  if (fresh) {
+    SceneContents& c = out_.contents;
+    ++c.materials;
+    c.translucent += p.alpha < 1 ? 1 : 0;
+    c.single_sided += p.double_sided ? 0 : 1;
+  }
   aiColor4D color(1, 1, 1, 1);
   if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != AI_SUCCESS &&
       material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS)
@@ -210,7 +223,8 @@ void Reader::read_cameras() {
     camera.eye = vec3(c.mPosition);
     camera.forward = vec3(c.mLookAt);
     camera.up = vec3(c.mUp);
-    const double aspect = c.mAspect > 0 ? static_cast<double>(c.mAspect) : kDefaultAspect;
+    camera.aspect = c.mAspect > 0 ? static_cast<double>(c.mAspect) : 0;
+    const double aspect = camera.aspect > 0 ? camera.aspect : kDefaultAspect;
     camera.perspective = !(c.mOrthographicWidth > 0);
     if (camera.perspective) {
       // The importers store the whole horizontal angle, whatever the header says of half of it.
@@ -367,33 +381,62 @@ void Reader::write_notes() {
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
   add(morphs_, "mesh has", "meshes have", " morph targets, which are ignored");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
+  out_.contents.cameras = static_cast<std::uint32_t>(cameras_);
+  out_.contents.lights = static_cast<std::uint32_t>(out_.lights.size());
+  out_.contents.animations = in_.mNumAnimations;
 }
 
-/// Gives Assimp the file itself, if it is OBJ, as plain_obj() has it.
+/// All files that Assimp sees: the scene's own, if it is OBJ as plain_obj() has it, and those of its folder, to read.
 class Files : public Assimp::DefaultIOSystem {
  public:
-  Files(std::string path, const std::string& name) : path_(std::move(path)) {
+  Files(std::string path, const std::string& name, bool allow_outside)
+      : path_(std::move(path)), side_files_(path_, allow_outside) {
     if (lower_extension(path_) != ".obj") return;
     std::ifstream in(path_, std::ios::binary);
     text_ = plain_obj(in, name);
   }
 
+  bool Exists(const char* file) const override { return file == path_ || !found(file).empty(); }
+
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (!text_ || file != path_) return DefaultIOSystem::Open(file, mode);
-    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_->data()), text_->size());
+    if (mode != nullptr && std::strchr(mode, 'r') == nullptr) return nullptr;
+    if (file == path_ && text_)
+      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_->data()), text_->size());
+    if (file == path_) return DefaultIOSystem::Open(file, mode);
+    const std::string other = found(file);
+    return other.empty() ? nullptr : DefaultIOSystem::Open(other.c_str(), mode);
   }
 
+  bool CreateDirectory(const std::string&) override { return false; }
+  bool DeleteFile(const std::string&) override { return false; }
+
+  /// The first file that was asked for, exists and was refused, or "". Readers try names that they make up, so one that
+  /// does not exist is no more than missing.
+  [[nodiscard]] const std::string& refused() const { return refused_; }
+
  private:
+  std::string found(const char* name) const {
+    const SideFiles::Found file = side_files_.find(name);
+    if (!file.exists) return {};
+    if (!file.refused) return file.path.string();
+    if (refused_.empty()) refused_ = name;
+    return {};
+  }
+
   std::string path_;
+  SideFiles side_files_;
   std::optional<std::string> text_;
+  mutable std::string refused_;
 };
 
 }  // namespace
 
-RawScene import_assimp(const std::filesystem::path& path, const std::string& name) {
+RawScene import_assimp(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new Files(path.string(), name));  // the importer deletes it
+  auto* const files = new Files(path.string(), name, allow_outside);  // the importer deletes it
+  importer.SetIOHandler(files);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (!files->refused().empty()) throw Error(name + ": " + SideFiles::refusal(files->refused()));
   if (scene == nullptr) {
     const std::string cause = cause_of(importer.GetErrorString());
     if (cause.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp turns it into this text

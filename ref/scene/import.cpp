@@ -66,16 +66,16 @@ void check(const RawScene& scene, const std::string& name) {
   if (total == 0) throw Error(name + ": no faces");
 }
 
-RawScene import_file(const std::filesystem::path& path, const std::string& name) {
+RawScene import_file(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   const auto checked = [&name](RawScene scene) {
     check(scene, name);
     return scene;
   };
   if (GltfFile::recognises(path)) {
-    GltfFile file(path, name);
+    GltfFile file(path, name, allow_outside);
     if (file.is_version_2()) return checked(import_gltf(std::move(file)));
   }
-  return checked(import_assimp(path, name));
+  return checked(import_assimp(path, name, allow_outside));
 }
 
 }  // namespace kage::scene

@@ -213,7 +213,7 @@ TEST_CASE("materials of other formats give their diffuse colour; textures are no
   CHECK(f.components[1].translucent);
   CHECK(f.triangles[f.components[0].first].alpha == 255);
   CHECK(f.triangles[f.components[1].first].alpha == 128);
-  CHECK(Scene::load(dir.write("cube2.obj", text), 0.5).frame(0, 1).triangles[f.components[1].first].alpha == 64);
+  CHECK(Scene::load(dir.write("cube2.obj", text), {0.5}).frame(0, 1).triangles[f.components[1].first].alpha == 64);
   CHECK(f.shading[f.triangles[0].shading[0]].color == glm::dvec3{0.5, 0.25, 0.125});
   CHECK(test::has_note(s, "1 texture is ignored"));
   CHECK_FALSE(test::has_note(s, "alpha"));
