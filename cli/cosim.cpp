@@ -221,7 +221,10 @@ Json compare(Job& job) {
     check_interrupt();
     frame_progress.next();
   };
-  options.wait = check_interrupt;
+  options.wait = [&] {
+    check_interrupt();
+    frame_progress.wait();
+  };
   std::optional<RunReport> report;
   if (!o.no_report && !o.out.empty()) report.emplace(source, o.input, *o.command);
   const cosim::Report r = cosim::run(
@@ -355,12 +358,12 @@ int run(const CosimCommand& o) {
   std::vector<Job> jobs = open(o);
   const bool several = jobs.size() > 1;
   TempFiles files;
-  JUnitWriter junit(files, o.ci.junit, several ? "kage cosim" : "kage cosim " + jobs.front().source->name());
+  JUnitWriter junit(files, o.ci.junit, "kage cosim");
   std::vector<Json> reports;
   for (Job& job : jobs) {
     reports.push_back(compare(job));
     const std::string scene = reports.back()["scene"].get<std::string>();
-    if (has_frames(reports.back())) junit_frames(junit, {&reports.back()}, several ? scene + " " : "");
+    if (has_frames(reports.back())) junit_frames(junit, {&reports.back()});
     for (const std::string& note : job.source->notes())
       job.notes.push_back(fmt::format("{}: {}", job.source->name(), note));
     job.source.reset();  // its memory

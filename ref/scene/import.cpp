@@ -7,6 +7,7 @@
 
 #include "kage/error.hpp"
 #include "notes.hpp"
+#include "scene/module/table.hpp"
 
 namespace kage::scene {
 namespace {
@@ -64,6 +65,10 @@ void check(const RawScene& scene, const std::string& name) {
                   "': a key is not finite");
   }
   if (total == 0) throw Error(name + ": no faces");
+}
+
+RawScene import_assimp(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
+  return module_table<MeshModule>().read(path, name, allow_outside);
 }
 
 RawScene import_file(const std::filesystem::path& path, const std::string& name, bool allow_outside) {

@@ -21,16 +21,17 @@
 #include <set>
 #include <utility>
 
-#include "functions.hpp"
-#include "import.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
-#include "notes.hpp"
-#include "obj_text.hpp"
-#include "polygon.hpp"
-#include "side_files.hpp"
+#include "scene/functions.hpp"
+#include "scene/import.hpp"
+#include "scene/module/table.hpp"
+#include "scene/notes.hpp"
+#include "scene/obj_text.hpp"
+#include "scene/polygon.hpp"
+#include "scene/side_files.hpp"
 
-namespace kage::scene {
+namespace kage::scene::mesh_module {
 namespace {
 
 // Assimp's defaults for clip planes and shape of the picture, where the file says nothing.
@@ -431,7 +432,7 @@ class Files : public Assimp::DefaultIOSystem {
 
 }  // namespace
 
-RawScene import_assimp(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
+RawScene read(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   Assimp::Importer importer;
   auto* const files = new Files(path.string(), name, allow_outside);  // the importer deletes it
   importer.SetIOHandler(files);
@@ -445,4 +446,4 @@ RawScene import_assimp(const std::filesystem::path& path, const std::string& nam
   return Reader(*scene, name).run();
 }
 
-}  // namespace kage::scene
+}  // namespace kage::scene::mesh_module
