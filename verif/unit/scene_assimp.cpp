@@ -147,6 +147,23 @@ TEST_CASE("a cube of quads: faces keep the file's numbers, the solid is closed a
   CHECK_FALSE(s.needs_smooth());
 }
 
+TEST_CASE("the side that a file shows stays the same, whichever way a triangle is turned") {
+  const TempDirectory dir;
+  const auto backs = [&dir](const std::vector<std::string>& turned) {
+    std::string text = kCube;
+    for (const std::string& face : turned)
+      text.replace(text.find(face), face.size(), "f " + std::string(face.rbegin(), face.rend() - 2));
+    const Scene s = Scene::load(dir.write("cube.obj", text));
+    std::string sides;
+    for (const Triangle& t : s.frame(0, 1).triangles)
+      sides += t.sides == Sides::back ? 'b' : t.sides == Sides::front ? 'f' : '2';
+    return sides;
+  };
+  CHECK(backs({}) == "ffffffffffff");
+  CHECK(backs({"f 5 6 7 8"}) == "ffbbffffffff");
+  CHECK(backs({"f 4 3 2 1", "f 5 6 7 8", "f 1 2 6 5", "f 2 3 7 6", "f 3 4 8 7", "f 4 1 5 8"}) == "bbbbbbbbbbbb");
+}
+
 TEST_CASE("an OBJ file keeps all vertices, however it is written") {
   const TempDirectory dir;
   const auto load = [&dir](const std::string& vertex) {
