@@ -25,11 +25,13 @@
 namespace kage::cli {
 namespace {
 
-volatile std::sig_atomic_t signalled = 0;
+volatile std::sig_atomic_t signalled = 0;  // the number of the first signal
 
+// The second one ends the program wherever it waits, destructors and exit handlers among that. What it leaves in hidden
+// folders the next run removes, and its children die with it.
 void on_signal(int number) {
-  if (signalled != 0) _exit(128 + number);
-  signalled = 1;
+  if (signalled != 0) _exit(kSignalled + number);
+  signalled = number;
 }
 
 }  // namespace
@@ -229,7 +231,7 @@ bool json_only(const Options& options) { return options.json == "-"; }
 void check_json(const Options& options) {
   if (options.json.empty() || json_only(options)) return;
   TempFiles file;
-  write_text(file, options.json, "");
+  const OutputFile probe(file, options.json);
 }
 
 void finish(const Options& options, const Json& value, TempFiles& files, const std::string& text) {
@@ -293,9 +295,11 @@ void catch_signals() {
   struct sigaction hangup = {};
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup's wish stands
-  // A reader that has gone away is an error of the write: what is half done is tidied up.
+  // A reader that has gone away, and a file larger than ulimit -f allows, are errors of the write: what is half done is
+  // tidied up.
   action.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &action, nullptr);
+  sigaction(SIGXFSZ, &action, nullptr);
 }
 
 void open_standard_files() {
@@ -309,6 +313,8 @@ void say(const std::string& text) {
 }
 
 bool interrupted() { return signalled != 0; }
+
+int interrupted_code() { return kSignalled + signalled; }
 
 std::string gtkwave_line(const std::string& save_file) { return "gtkwave " + quoted(save_file); }
 

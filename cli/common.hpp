@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 #include "kage/defs.hpp"
 #include "kage/geometry.hpp"
 
@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 inline constexpr int kSame = 0;
 inline constexpr int kDifferent = 1;
 inline constexpr int kTrouble = 2;
-inline constexpr int kInterrupted = 130;
+inline constexpr int kSignalled = 128;  // and the signal's number, as shells have it
 
 /// What a subcommand does once the command line is parsed; returns the exit code.
 using Action = std::function<int()>;
@@ -44,6 +44,9 @@ void add_diff(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
 void add_model(CLI::App& app, Action& action);
 void add_order(CLI::App& app, Action& action);
+void add_cache(CLI::App& app, Action& action);
+void add_list(CLI::App& app, Action& action);
+void add_help(CLI::App& app, Action& action);
 
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);
@@ -168,10 +171,13 @@ void open_standard_files();
 /// Writes to standard error. Where that cannot be, nobody is there to be told.
 void say(const std::string& text);
 
-/// Ctrl-C, SIGTERM and SIGHUP set a flag; loops ask it, so that files are whole or absent. A second one ends the
-/// program at once. A pipe without reader is an error of the write.
+/// Ctrl-C (SIGINT), SIGTERM and SIGHUP set a flag; loops ask it, so that files are whole or absent. A second one ends
+/// the program at once. A pipe without reader and a file that is too large are errors of the write.
 void catch_signals();
 bool interrupted();
+
+/// The exit code after such a signal: 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP.
+int interrupted_code();
 
 /// Thrown by check_interrupt() when the flag is set.
 struct Interrupted {};

@@ -385,7 +385,7 @@ int run(const CosimCommand& o) {
                j["total_frames"].get<std::uint64_t>(), counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
                counted(j["cycles"].get<std::uint64_t>(), "cycle"), o.seed);
   if (several && !json_only(o) && !page.empty()) fmt::print("report: {}\n", page);
-  if (jobs.back().interrupted) return kInterrupted;
+  if (jobs.back().interrupted) return interrupted_code();
   return same ? kSame : kDifferent;
 }
 

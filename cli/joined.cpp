@@ -218,10 +218,9 @@ void write_joined_page(TempFiles& files, const fs::path& path, const Json& repor
   if (html.bytes() + text.size() > report::kPageBytes)
     throw Error(fmt::format("{}: would have {} bytes, and a page has {} at most: join fewer scenes", path.string(),
                             html.bytes() + text.size(), report::kPageBytes));
-  std::ofstream out = open_file(files, path.string());
+  OutputFile out(files, path);
   html.write(out, [&](std::ostream& to) { to << text; });
   out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written", path.string()));
 }
 
 }  // namespace kage::cli

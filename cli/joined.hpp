@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common.hpp"
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 
 namespace kage::cli {
 

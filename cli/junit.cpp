@@ -3,12 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "common.hpp"
-#include "kage/error.hpp"
 #include "report/html.hpp"
 
 namespace kage::cli {
@@ -25,9 +22,9 @@ constexpr std::size_t kTotalsRoom = 120;
 JUnitWriter::JUnitWriter(TempFiles& files, std::string path, const std::string& suite)
     : path_(std::move(path)), suite_(escaped(suite)) {
   if (path_.empty()) return;
-  out_ = open_file(files, path_);
-  out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
-  totals_at_ = out_.tellp();
+  out_.emplace(files, path_);
+  *out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  totals_at_ = out_->tellp();
   write_totals();
 }
 
@@ -35,20 +32,20 @@ void JUnitWriter::write_totals() {
   std::string text = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", tests_,
                                  failures_, skipped_, seconds_);
   text.resize(kTotalsRoom, ' ');
-  out_ << "<testsuite name=\"" << suite_ << "\" " << text << ">\n";
+  *out_ << "<testsuite name=\"" << suite_ << "\" " << text << ">\n";
 }
 
 void JUnitWriter::open_case(const std::string& name, double seconds, const std::string& file) {
   ++tests_;
   seconds_ += seconds;
-  out_ << fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", suite_, escaped(name), seconds);
-  if (!file.empty()) out_ << " file=\"" << escaped(file) << '"';
+  *out_ << fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", suite_, escaped(name), seconds);
+  if (!file.empty()) *out_ << " file=\"" << escaped(file) << '"';
 }
 
 void JUnitWriter::pass(const std::string& name, double seconds) {
   if (path_.empty()) return;
   open_case(name, seconds);
-  out_ << "/>\n";
+  *out_ << "/>\n";
 }
 
 void JUnitWriter::fail(const std::string& name, double seconds, const std::string& message, const std::string& details,
@@ -56,25 +53,23 @@ void JUnitWriter::fail(const std::string& name, double seconds, const std::strin
   if (path_.empty()) return;
   ++failures_;
   open_case(name, seconds, file);
-  out_ << ">\n    <failure type=\"different\" message=\"" << escaped(message) << "\">" << escaped(details)
-       << "</failure>\n  </testcase>\n";
+  *out_ << ">\n    <failure type=\"different\" message=\"" << escaped(message) << "\">" << escaped(details)
+        << "</failure>\n  </testcase>\n";
 }
 
 void JUnitWriter::skip(const std::string& name, const std::string& message) {
   if (path_.empty()) return;
   ++skipped_;
   open_case(name, 0);
-  out_ << ">\n    <skipped message=\"" << escaped(message) << "\"/>\n  </testcase>\n";
+  *out_ << ">\n    <skipped message=\"" << escaped(message) << "\"/>\n  </testcase>\n";
 }
 
 void JUnitWriter::close() {
   if (path_.empty()) return;
-  out_ << "</testsuite>\n</testsuites>\n";
-  out_.seekp(totals_at_);
+  *out_ << "</testsuite>\n</testsuites>\n";
+  out_->seekp(totals_at_);
   write_totals();
-  errno = 0;
-  out_.close();
-  if (!out_) throw Error(fmt::format("{}: cannot be written: {}", path_, std::strerror(errno)));
+  out_->close();
 }
 
 }  // namespace kage::cli

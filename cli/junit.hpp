@@ -4,10 +4,10 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
+#include <optional>
 #include <string>
 
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 
 namespace kage::cli {
 
@@ -35,7 +35,7 @@ class JUnitWriter {
   void write_totals();
 
   std::string path_;
-  std::ofstream out_;
+  std::optional<OutputFile> out_;
   std::string suite_;
   std::streamoff totals_at_ = 0;
   std::uint64_t tests_ = 0;

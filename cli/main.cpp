@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -13,18 +14,38 @@
 
 #include "common.hpp"
 #include "mapped.hpp"
+#include "simd/targets.hpp"
 
 namespace {
 
 using namespace kage::cli;
 
-/// One line on standard error, whatever the message holds.
+/// One line on standard error, whatever the message holds. After a signal the exit code tells of that: the trouble may
+/// well come from it, as where a pipe was waited for.
 int trouble(std::string message) {
   while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
   for (char& c : message)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   say(fmt::format("kage: {}\n", message));
-  return kTrouble;
+  return interrupted() ? interrupted_code() : kTrouble;
+}
+
+/// What no one has caught, in any thread: mostly memory that a library's own thread could not have.
+[[noreturn]] void give_up() {
+  // No memory is asked for here: there may be none.
+  const char* text = "an error that nothing expected";
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    text = "out of memory";
+  } catch (const std::exception& e) {
+    text = e.what();
+  } catch (...) {
+    text = "an exception of an unknown kind";
+  }
+  for (const char* part : {"kage: ", text, "\n"})
+    if (write(STDERR_FILENO, part, std::strlen(part)) < 0) break;
+  _exit(kTrouble);
 }
 
 /// What was to be told has not arrived. A reader that has gone away, as head does, knows.
@@ -44,9 +65,9 @@ void find_data() {
 int run(int argc, char** argv) {
   CLI::App app("kage: a span-stream rendering core, its golden model and its co-simulation", "kage");
   app.formatter(help_formatter());
-  app.set_version_flag("--version", "kage " KAGE_VERSION);
+  app.set_version_flag("-V,--version", "kage " KAGE_VERSION);
   app.footer(
-      "kage cosim courtyard is a good start; kage COMMAND --help explains a command.\n"
+      "kage cosim courtyard is a good start; kage help COMMAND explains a command, kage list lists scenes.\n"
       "Exit codes: 0 same or done, 1 different, 2 trouble.");
   app.require_subcommand(0, 1);
   app.option_defaults()->multi_option_policy(
@@ -61,6 +82,9 @@ int run(int argc, char** argv) {
   add_merge(app, action);
   add_model(app, action);
   add_order(app, action);
+  add_cache(app, action);
+  add_list(app, action);
+  add_help(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -74,17 +98,18 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(give_up);
   try {
     open_standard_files();
     find_data();
     catch_signals();
+    (void)kage::simd::in_use();  // a KAGE_SIMD that cannot be had is refused before the work, by every command
     const int rc = run(argc, argv);
     errno = 0;
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return lost_output(errno != 0 ? errno : EIO);
     return rc;
   } catch (const Interrupted&) {
-    (void)trouble("interrupted");
-    return kInterrupted;
+    return trouble("interrupted");
   } catch (const std::exception& e) {
     const auto* system = dynamic_cast<const std::system_error*>(&e);
     if (system != nullptr && std::ferror(stdout) != 0) return lost_output(system->code().value());

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <optional>
 
 #include "common.hpp"
 #include "kage/error.hpp"
@@ -214,7 +215,8 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
 int run(const OrderCommand& o) {
   check_json(o);
   TempFiles files;
-  const std::filesystem::path saved = o.save.empty() ? std::filesystem::path() : files.add(o.save);
+  std::optional<OutputFile> saved;
+  if (!o.save.empty()) saved.emplace(files, o.save);
   if (!o.plot.empty()) {
     TempFiles probe;
     write_text(probe, o.plot, "");
@@ -223,7 +225,10 @@ int run(const OrderCommand& o) {
   double build_seconds = 0;
   const OrderTree tree = make_tree(o, progress, build_seconds);
   if (tree.node_count() == 0) throw Error(fmt::format("{}: no polygon has an area", o.input));
-  if (!saved.empty()) tree.save(saved);
+  if (saved) {
+    tree.save(*saved);
+    saved->close();
+  }
 
   order::MeasureOptions options;
   options.seed = o.seed;

@@ -32,12 +32,18 @@ void refuse_rtl(const RtlRun& rtl, const std::string& why) {
 
 cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool traced) {
   Progress progress;
-  return cosim::find_model(config.config,
-                           {.fault = fault, .traced = traced, .progress = [&](double seconds) {
-                              check_interrupt();
-                              progress.show(fmt::format("building the RTL model of configuration {}{}: {:.0f} s",
-                                                        config.name, traced ? " with monitors" : "", seconds));
-                            }});
+  const std::string what =
+      fmt::format("the RTL model of configuration {}{}", config.name, traced ? " with monitors" : "");
+  cosim::Model model =
+      cosim::find_model(config.config, {.fault = fault, .traced = traced, .progress = [&](double seconds) {
+                                          check_interrupt();
+                                          progress.show(fmt::format("building {}: {:.0f} s", what, seconds));
+                                        }});
+  progress.clear();
+  if (!model.damage.empty())
+    say(fmt::format("kage: {} was damaged ({}) and has been built anew: {}\n", what, model.damage,
+                    model.library.string()));
+  return model;
 }
 
 std::string rtl_directory() { return std::filesystem::absolute(data_directory() / "rtl").lexically_normal().string(); }

@@ -311,9 +311,12 @@ Json ways_of(const StreamFile& file) {
   return list;
 }
 
+void print_notes(const Source& source, std::FILE* to) {
+  for (const std::string& note : source.notes()) fmt::print(to, "{}: {}\n", source.name(), note);
+}
+
 void print_notes(const Source& source, const Options& options) {
-  for (const std::string& note : source.notes())
-    fmt::print(json_only(options) ? stderr : stdout, "{}: {}\n", source.name(), note);
+  print_notes(source, json_only(options) ? stderr : stdout);
 }
 
 }  // namespace kage::cli

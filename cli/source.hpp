@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -105,6 +106,7 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, in
 Json ways_of(const StreamFile& file);
 
 /// Prints the notes, a line each, once the work is done: a failure says one line and nothing else.
-void print_notes(const Source& source, const Options& options);
+void print_notes(const Source& source, std::FILE* to);
+void print_notes(const Source& source, const Options& options);  // where --json leaves room for them
 
 }  // namespace kage::cli

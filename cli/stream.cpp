@@ -1,20 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage stream SCENE --out FILE: writes a stream file.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <memory>
 
 #include "common.hpp"
+#include "kage/error.hpp"
 #include "progress.hpp"
 #include "source.hpp"
 
 namespace kage::cli {
 namespace {
 
+/// Whether the stream goes to standard output.
+bool piped(const Options& o) { return o.out == "-"; }
+
 int run(const Options& o) {
+  if (piped(o) && isatty(STDOUT_FILENO) != 0)
+    throw Error("--out -: standard output is a terminal, which cannot show a stream: send it to a file or a program");
   Source source(o);
   if (source.is_stream()) source.note("copied from a stream file");
-  StreamFileWriter writer(o.out, source.config().config);
+  const Config& config = source.config().config;
+  StreamFileWriter writer =
+      piped(o) ? StreamFileWriter(STDOUT_FILENO, "standard output", config) : StreamFileWriter(o.out, config);
   TokenCounts counts;
   Progress progress;
   FrameProgress frame_progress(progress, source.name(), source.frames());
@@ -31,10 +41,11 @@ int run(const Options& o) {
   origin["polyhedra"] = source.ways();
   if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
   writer.finish();
-  print_notes(source, o);
-  fmt::print("{}: {}, {} over {}{}, {}\n", o.out, counted(source.frames(), "frame"), counted(counts.spans, "span"),
-             counted(counts.span_pixels, "pixel"), and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]),
-             counted(counts.words, "word"));
+  std::FILE* const said = piped(o) ? stderr : stdout;
+  print_notes(source, said);
+  fmt::print(said, "{}: {}, {} over {}{}, {}\n", piped(o) ? "standard output" : o.out,
+             counted(source.frames(), "frame"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
+             and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), counted(counts.words, "word"));
   return kSame;
 }
 
@@ -46,11 +57,14 @@ void add_stream(CLI::App& app, Action& action) {
                   "  kage stream courtyard --out courtyard.kage\n"
                   "  kage stream model.glb --size 320x240 --frames 4 --config full --out model.kage\n"
                   "  kage stream courtyard.kage --frames 2 --out short.kage\n"
+                  "  kage stream courtyard --out - | gzip >courtyard.kage.gz\n"
                   "A stream file is checked and copied: --frames takes its first ones, and --config may change\n"
                   "what affects no pixel.");
   const auto o = std::make_shared<Options>();
   option_scene(*c, *o);
-  c->add_option("--out", o->out, "the stream file")->required()->type_name("FILE");
+  c->add_option("--out", o->out, "the stream file; - is standard output, which gets frame after frame, as a pipe does")
+      ->required()
+      ->type_name("FILE");
   options_of_frames(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -9,6 +9,7 @@
 // Latency: ceil(log2 UNITS) clocks (0 with one unit: wires). Throughput: a pixel a clock. rst_ni low empties the tree.
 // Cost: UNITS - 1 compare cells and a register for each pixel that passes.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module compare_tree #(
     parameter int UNITS = 4,
@@ -33,10 +34,10 @@ module compare_tree #(
   localparam int Levels = $clog2(UNITS);
 
   if (UNITS < 1 || UNITS > 64) begin : gen_bad_units
-    $fatal(1, "UNITS must be 1 .. 64");
+    `KAGE_ILLEGAL("UNITS must be 1 .. 64")
   end
   if (KEY_BITS < 1 || KEY_BITS > DATA_BITS) begin : gen_bad_key
-    $fatal(1, "KEY_BITS must be 1 .. DATA_BITS");
+    `KAGE_ILLEGAL("KEY_BITS must be 1 .. DATA_BITS")
   end
 
   // Level 0 is the units; level k has ceil(UNITS / 2^k) nodes. All nodes lie behind each other, level by level.
@@ -44,8 +45,9 @@ module compare_tree #(
     nodes = (UNITS + (1 << level) - 1) >> level;
   endfunction
   function automatic integer first(input integer level);
+    integer below;  // declared here: Icarus Verilog 11 takes no loop variable in a constant function
     first = 0;
-    for (int k = 0; k < level; k++) first = first + nodes(k);
+    for (below = 0; below < level; below++) first = first + nodes(below);
   endfunction
   localparam int Nodes = first(Levels + 1);
 

@@ -10,6 +10,7 @@
 // Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame. Nothing is taken and lost
 //   in reset: no input is ready. The valids are low from the second clock of it on.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module kage_top #(
     `include "kage_pixel_params.svh"
@@ -58,25 +59,25 @@ module kage_top #(
   // ---- legal parameters --------------------------------------------------------------------------------------------
   `include "kage_checks.svh"
   if (FSF > 0 && DSF_BITS == 0) begin : gen_bad_fsf_alone
-    $fatal(1, "FSF needs DSF_BITS > 0: it collects what DSF counts");
+    `KAGE_ILLEGAL("FSF needs DSF_BITS > 0: it collects what DSF counts")
   end
   if (COUNT_BITS > 0 && DSF_BITS == 0) begin : gen_bad_count_alone
-    $fatal(1, "COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow");
+    `KAGE_ILLEGAL("COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow")
   end
   if (CLASS_BITS > 1 && COUNT_BITS == 0) begin : gen_bad_class_alone
-    $fatal(1, "CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample");
+    `KAGE_ILLEGAL("CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample")
   end
   if (LIGHTS > 1 && (COUNT_BITS == 0 || CLASS_BITS == 1)) begin : gen_bad_lights_alone
-    $fatal(1, "LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table");
+    `KAGE_ILLEGAL("LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table")
   end
   if (COLOR_FRAC > 0 && SMOOTH == 0) begin : gen_bad_color_frac_alone
-    $fatal(1, "COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction");
+    `KAGE_ILLEGAL("COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction")
   end
   if (MAX_WIDTH > 2 ** X_BITS - 1) begin : gen_bad_width_for_x
-    $fatal(1, "MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width");
+    `KAGE_ILLEGAL("MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width")
   end
-  if (CLASSIC > 0 && (Z_BITS != 15 || Z_FRAC != 0 || FACE_BITS != 7 || DX_BITS != 9)) begin : gen_bad_classic
-    $fatal(1, "CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9: the paper's segment");
+  if (CLASSIC > 0 && (Z_BITS != 15 || Z_FRAC != 0 || FACE_BITS != 7 || DX_BITS != 9)) begin : gen_bad_classic_segment
+    `KAGE_ILLEGAL("CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9: the paper's segment")
   end
 
   localparam int FrontWords = TokenWords > HeaderWords ? TokenWords : HeaderWords;

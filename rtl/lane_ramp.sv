@@ -11,6 +11,7 @@
 // Latency: value_o belongs to the group the walker held $clog2(LANES) + 2 clocks ago.
 // Cost: about 2 x LANES adders and 3 x LANES registers of BITS bits. Nothing is reset.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module lane_ramp #(
     parameter int LANES = 4,
@@ -121,7 +122,7 @@ module lane_ramp #(
 
   // ---- checks ------------------------------------------------------------------------------------------------------
   if (FRAC < 0 || IntBits < OUT_BITS + 1) begin : gen_bad_bits
-    $fatal(1, "BITS must hold FRAC fraction bits, OUT_BITS and a sign");
+    `KAGE_ILLEGAL("BITS must hold FRAC fraction bits, OUT_BITS and a sign")
   end
 
 endmodule

@@ -97,8 +97,6 @@ module pixel_banked #(
   assign step = walk_valid_q && !walk_at_end;
   assign take3 = set_valid_q[2] && !step && (!next_leaves || exit_free_i) &&
       (UNITS == 0 || next_kind != KindTree || tree_here);
-  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o ||
-      tree_moving;
   assign exit_take_o = take3 && next_leaves;
 
   always_ff @(posedge clk_i) begin
@@ -398,6 +396,10 @@ module pixel_banked #(
       exit_data_o[l*ExitBits+:ExitBits] <= pixel_exit(word[l*PixelBits+:PixelBits], now_count[DsfBits-1:0]);
     end
   end
+
+  // Something is on its way: read, computed, written or leaving.
+  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o ||
+      tree_moving;
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS

@@ -5,6 +5,7 @@
 // Capacity: DEPTH words, a power of two, at least 2. Latency: 1 clock. Throughput: a word a clock.
 // Cost: DEPTH x BITS flip-flops (or LUT RAM) and a DEPTH to 1 multiplexer.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module stream_fifo #(
     parameter int BITS  = 8,
@@ -24,7 +25,7 @@ module stream_fifo #(
   localparam int PtrBits = $clog2(DEPTH);
 
   if (DEPTH < 2 || DEPTH != 2 ** PtrBits) begin : gen_bad_depth
-    $fatal(1, "DEPTH must be a power of two and at least 2");
+    `KAGE_ILLEGAL("DEPTH must be a power of two and at least 2")
   end
 
   logic [BITS-1:0] mem[DEPTH];

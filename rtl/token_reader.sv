@@ -11,6 +11,7 @@
 // Throughput: a token a clock, or as many clocks as the port needs for its words. A frame's end costs 2 clocks.
 // Cost: the beats' registers, a multiplexer per word of the longest token over beats and words of a beat.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module token_reader #(
     `include "kage_pixel_params.svh"
@@ -44,7 +45,7 @@ module token_reader #(
   `include "kage_layout.svh"
 
   if (TOKEN_WORDS < TokenWords || TOKEN_WORDS < HeaderWords) begin : gen_bad_token_words
-    $fatal(1, "TOKEN_WORDS must hold every token and the header");
+    `KAGE_ILLEGAL("TOKEN_WORDS must hold every token and the header")
   end
 
   localparam int WindowBeats = (TOKEN_WORDS + 2 * BEAT_WORDS - 2) / BEAT_WORDS;  // beats that a token can touch

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/span_kernels.hpp"
 
-// The plain fallback: EMU128 knows every operation, SCALAR does not.
-#define HWY_DISABLED_TARGETS HWY_SCALAR
-#define HWY_BROKEN_EMU128 0
+#include "simd/targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/span_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -250,29 +249,29 @@ HWY_EXPORT(Bytes);
 
 void span_op_flat(const DepthRamp& ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
                   const ClassSpan& classes) {
-  HWY_DYNAMIC_DISPATCH(OpFlat)(ramp, count, zb, attr, value, classes);
+  KAGE_DISPATCH(OpFlat)(ramp, count, zb, attr, value, classes);
 }
 void span_op_smooth(const DepthRamp& ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
                     const ColorRamp* color, int channels, const ClassSpan& classes) {
-  HWY_DYNAMIC_DISPATCH(OpSmooth)(ramp, count, zb, attr, value, color, channels, classes);
+  KAGE_DISPATCH(OpSmooth)(ramp, count, zb, attr, value, color, channels, classes);
 }
 void span_sp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* dsf, std::uint32_t w) {
-  HWY_DYNAMIC_DISPATCH(Sp)(ramp, count, zb, dsf, w);
+  KAGE_DISPATCH(Sp)(ramp, count, zb, dsf, w);
 }
 void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bias, std::uint32_t mask) {
-  HWY_DYNAMIC_DISPATCH(Ev)(count, dsf, fsf, bias, mask);
+  KAGE_DISPATCH(Ev)(count, dsf, fsf, bias, mask);
 }
 void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_t bias, std::uint32_t mask,
              std::uint32_t most) {
-  HWY_DYNAMIC_DISPATCH(Es)(count, flag, counts, bias, mask, most);
+  KAGE_DISPATCH(Es)(count, flag, counts, bias, mask, most);
 }
 void span_tp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha) {
-  HWY_DYNAMIC_DISPATCH(Tp)(ramp, count, zb, attr, color, channels, alpha);
+  KAGE_DISPATCH(Tp)(ramp, count, zb, attr, color, channels, alpha);
 }
 void line_bytes(int count, const std::int32_t* zb, const std::uint32_t* value, std::int32_t clear,
                 std::uint32_t background, int channels, std::uint8_t* out) {
-  HWY_DYNAMIC_DISPATCH(Bytes)(count, zb, value, clear, background, channels, out);
+  KAGE_DISPATCH(Bytes)(count, zb, value, clear, background, channels, out);
 }
 
 }  // namespace kage

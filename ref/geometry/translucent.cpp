@@ -57,30 +57,84 @@ int eye_side(const Camera& camera, const std::array<glm::dvec3, 3>& face) {
   return camera.perspective ? order::exact_side(exact, given[3]) : -order::exact_facing(exact, forward);
 }
 
+namespace {
+
+/// A function on the picture (cut_line()), and how far rounding has put each of its numbers off at most.
+struct Meeting {
+  glm::dvec3 l;
+  glm::dvec3 error;
+};
+
+/// order::exact_meeting() in doubles, up to a positive factor.
+Meeting meeting(const order::Picture& picture, const order::PlanePoints& face, const order::PlanePoints& node) {
+  std::array<OrderPoint, 7> p{node.a, node.b, node.c, face.a, face.b, face.c, picture.eye};
+  const order::Scale scale = order::scale_of(p);  // the filter's bounds are for coordinates up to 1
+  for (OrderPoint& q : p) q = scale(q);
+  const order::FilterPlane planes[2] = {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
+  const std::array<OrderPoint, 3> axes{picture.right, picture.up, picture.forward};
+  // Of node and face: the normal along the axes, the eye's value, and the errors of both.
+  std::array<glm::dvec3, 2> along, along_error;
+  std::array<double, 2> at, at_error;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      along[i][k] = planes[i].slope(axes[static_cast<std::size_t>(k)]);
+      along_error[i][k] = planes[i].slope_error(axes[static_cast<std::size_t>(k)]);
+    }
+    at[i] = planes[i].value(p[6]);
+    at_error[i] = planes[i].error(p[6]);
+  }
+  Meeting m;
+  // a b - c d, each off by so much; the products and the difference round once more.
+  const auto set = [&m](int k, double a, double a_error, double b, double b_error, double c, double c_error, double d,
+                        double d_error) {
+    m.l[k] = a * b - c * d;
+    m.error[k] = (std::abs(a) * b_error + (std::abs(b) + b_error) * a_error + std::abs(c) * d_error +
+                  (std::abs(d) + d_error) * c_error + (std::abs(a * b) + std::abs(c * d)) * 0x1p-51) *
+                     (1 + 0x1p-40) +
+                 order::kTiny;
+  };
+  for (int k = 0; k < 3; ++k)
+    if (picture.perspective)
+      set(k, at[1], at_error[1], along[0][k], along_error[0][k], at[0], at_error[0], along[1][k], along_error[1][k]);
+    else if (k < 2)
+      set(k, along[1].z, along_error[1].z, along[0][k], along_error[0][k], along[0].z, along_error[0].z, along[1][k],
+          along_error[1][k]);
+    else
+      set(k, along[1].z, along_error[1].z, at[0], at_error[0], along[0].z, along_error[0].z, at[1], at_error[1]);
+  if (!picture.perspective) {  // the last has a length in space more
+    m.l.z = std::ldexp(m.l.z, scale.exponent);
+    m.error.z = std::ldexp(m.error.z, scale.exponent);
+  }
+  return m;
+}
+
+order::PlanePoints plane_points(const std::array<glm::dvec3, 3>& p) { return {point(p[0]), point(p[1]), point(p[2])}; }
+
+}  // namespace
+
 // A point before the camera is eye + t (ex right + ey up + forward) (perspective) or eye + ex right + ey up + t forward
 // (parallel), ex and ey linear on the screen. On which side of the node's plane, n . (p - p0), the face's point at (ex,
 // ey) lies follows by putting in the t at which the face's plane m . (q - q0) = 0 is met. With dn = n . (eye - p0) and
 // dm likewise, and (nx, ny, nz), (mx, my, mz) the normals along the camera's axes, e = (ex, ey, 1):
 //   perspective: (dm (n . e) - dn (m . e)) / dm > 0 is the front, since m . e has the opposite sign of dm where t > 0;
 //   parallel: ((mz nx - nz mx) ex + (mz ny - nz my) ey + mz dn - nz dm) / mz > 0 is.
-// The sign of dm, or mz, is that of the eye's exact side.
+// The sign of dm, or mz, is that of the eye's exact side; the eye is before a face that looks against the view: mz < 0.
+//
+// The tree was cut where planes meet exactly, and its order holds for those cuts alone. So where doubles cannot tell
+// the line to a fraction of a pixel (planes that nearly coincide, a face so thin that its normal in doubles is nothing
+// but rounding) integers do.
 CutLine cut_line(const View& view, const Camera& camera, const std::array<glm::dvec3, 3>& face, int side,
                  const std::array<glm::dvec3, 3>& node) {
-  const auto along_axes = [&](const std::array<glm::dvec3, 3>& p) {
-    const glm::dvec3 n = glm::cross(p[1] - p[0], p[2] - p[0]);
-    return glm::dvec3{glm::dot(n, camera.right), glm::dot(n, camera.up), glm::dot(n, camera.forward)};
-  };
-  const auto distance = [&](const std::array<glm::dvec3, 3>& p) {
-    return glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), camera.eye - p[0]);
-  };
-  const glm::dvec3 n = along_axes(node);
-  const glm::dvec3 m = along_axes(face);
-  const double dn = distance(node);
-  const double dm = distance(face);
-  if (camera.perspective) return view.line(static_cast<double>(side) * (dm * n - dn * m));
-  // The eye is before a face that looks against the view: mz < 0.
-  return view.line(static_cast<double>(-side) *
-                   glm::dvec3{m.z * n.x - n.z * m.x, m.z * n.y - n.z * m.y, m.z * dn - n.z * dm});
+  const order::Picture picture{camera.perspective, point(camera.eye), point(camera.right), point(camera.up),
+                               point(camera.forward)};
+  const order::PlanePoints m = plane_points(face);
+  const order::PlanePoints n = plane_points(node);
+  Meeting found = meeting(picture, m, n);
+  if (!view.is_fine(found.l, found.error)) {
+    const OrderPoint l = order::exact_meeting(m, n, picture);
+    found.l = {l[0], l[1], l[2]};
+  }
+  return view.line((camera.perspective ? static_cast<double>(side) : static_cast<double>(-side)) * found.l);
 }
 
 FragmentMaker::FragmentMaker(const SceneFrame& frame, const View& view, TranslucentOrder::Data& kept,

@@ -84,6 +84,17 @@ CutLine View::line(const glm::dvec3& l) const {
   return {to_fixed(a / scale, 0), to_fixed(b / scale, 0), to_fixed(std::clamp(c / scale, -limit, limit), 0)};
 }
 
+bool View::is_fine(const glm::dvec3& l, const glm::dvec3& error) const {
+  const double x = half_w_ * per_pixel_x_;  // no pixel is farther from the middle
+  const double y = half_h_ * per_pixel_y_;
+  const double off = error.x * x + error.y * y + error.z;
+  // Moved along one axis of the picture by a pixel, l changes by so much.
+  const double slope = std::max(std::abs(l.x) * per_pixel_x_, std::abs(l.y) * per_pixel_y_);
+  // Where the true line goes, the computed l is at most `off`, and 0 within off / slope pixels from there.
+  if (off <= 0x1p-16 * slope) return true;
+  return std::abs(l.z) - off > std::abs(l.x) * x + std::abs(l.y) * y;  // neither line crosses the picture
+}
+
 ScreenPlane View::flat_plane(double value) { return {0, 0, to_fixed(value, kPlaneFrac), 0, 0}; }
 
 std::int64_t to_fixed(double v, int frac) {

@@ -56,6 +56,10 @@ class View {
   /// 2^15 pixels it is off by less than 2^-14 of one.
   [[nodiscard]] CutLine line(const glm::dvec3& l) const;
 
+  /// Whether numbers of `l` that are off by `error` at most leave line(l) within 2^-16 of a pixel of where it belongs,
+  /// wherever it crosses the picture. No if `error` holds a NaN.
+  [[nodiscard]] bool is_fine(const glm::dvec3& l, const glm::dvec3& error) const;
+
   /// A plane of constant depth.
   [[nodiscard]] static ScreenPlane flat_plane(double value);
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
 #include "kage/stream_diff.hpp"
@@ -123,9 +123,9 @@ void bless(const fs::path& fresh, const fs::path& reference, const std::vector<B
     if (prune && entry.prunable()) files.remove(target);
     if (entry.what != What::changed && entry.what != What::added) continue;
     folders.make(target.parent_path());
-    std::error_code ec;
-    if (!fs::copy_file(fresh / entry.name, files.add(target), ec) || ec)
-      throw Error(fmt::format("{}: cannot be written: {}", target.string(), ec.message()));
+    OutputFile out(files, target);
+    out.copy(fresh / entry.name);
+    out.close();
   }
   files.place();
   if (done) done();

@@ -11,9 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <initializer_list>
 #include <new>
 #include <vector>
@@ -31,7 +28,7 @@ void put(Bytes& out, std::uint32_t value) {
 }
 
 /// A chunk: length, name, content, checksum of the last two.
-void chunk(std::ofstream& out, const char* name, const Bytes& content) {
+void chunk(OutputFile& out, const char* name, const Bytes& content) {
   Bytes head;
   put(head, static_cast<std::uint32_t>(content.size()));
   head.insert(head.end(), name, name + 4);
@@ -84,14 +81,10 @@ void save_flip(TempFiles& files, const std::filesystem::path& path, const Image&
     throw Error(fmt::format("{}: cannot be written: a flip picture is of two pictures of three channels", name));
   if (const std::string extension = lower_extension(path); extension != ".png" && extension != ".apng")
     throw Error(fmt::format("{}: cannot be written: a flip picture is a .png or .apng", name));
-  std::error_code ec;
-  if (path.has_parent_path() && !std::filesystem::is_directory(path.parent_path(), ec))
-    throw Error(fmt::format("{}: cannot be written: no such folder", name));
   const int width = std::max(a.width, b.width);
   const int height = std::max(a.height, b.height);
 
-  errno = 0;
-  std::ofstream out(files.add(path), std::ios::binary);
+  OutputFile out(files, path);
   out.write("\x89PNG\r\n\x1a\n", 8);
   Bytes header;
   put(header, static_cast<std::uint32_t>(width));
@@ -113,7 +106,6 @@ void save_flip(TempFiles& files, const std::filesystem::path& path, const Image&
   chunk(out, "fdAT", second);
   chunk(out, "IEND", {});
   out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written: {}", name, std::strerror(errno)));
 }
 
 void save_flip(const std::filesystem::path& path, const Image& a, const Image& b) {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 #include "kage/diff.hpp"
 
 namespace kage {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 #include "kage/image.hpp"
 
 namespace kage {
@@ -24,7 +24,7 @@ class ImageWriter {
   /// The next line from the top: width x channels bytes.
   void line(std::span<const std::uint8_t> pixels);
 
-  /// All lines are written: the file is complete.
+  /// All lines are written: the file is complete, and on the disk.
   void close();
 
   /// Where the complete file lies.

@@ -138,6 +138,24 @@ double quotient(Wide dividend, Wide divisor) {
   return negative ? -x : x;
 }
 
+/// digits * 2^exponent, digits 1/2 .. 1 or 0, within 2^-52 of its size.
+struct Rounded {
+  double digits = 0;
+  int exponent = 0;
+};
+
+Rounded rounded(Wide x) {
+  if (x.is_zero()) return {};
+  const bool negative = x.sign() < 0;
+  x = abs(x);
+  const int bits = static_cast<int>(msb(x)) + 1;
+  const int dropped = std::max(bits - 64, 0);
+  x >>= static_cast<unsigned>(dropped);
+  int exponent = 0;
+  const double digits = std::frexp(x.convert_to<double>(), &exponent);
+  return {negative ? -digits : digits, exponent + dropped};
+}
+
 }  // namespace
 
 Grid grid_of(std::span<const OrderPoint> points) {
@@ -180,6 +198,38 @@ int exact_facing(const PlanePoints& plane, const OrderPoint& direction) {
   // Neither length is of account, so each may have a grid of its own.
   const Plane<Wide> n = on_grid<Wide>(plane, grid_of(std::array<OrderPoint, 3>{plane.a, plane.b, plane.c}));
   return sign<Wide>(dot<Wide>(n.normal, on_grid<Wide>(direction, grid_of(std::array<OrderPoint, 1>{direction}))));
+}
+
+OrderPoint exact_meeting(const PlanePoints& face, const PlanePoints& node, const Picture& picture) {
+  // Lengths in space are on one grid, the axes on another.
+  const Grid space = grid_of(std::array<OrderPoint, 7>{face.a, face.b, face.c, node.a, node.b, node.c, picture.eye});
+  const Grid axes = grid_of(std::array<OrderPoint, 3>{picture.right, picture.up, picture.forward});
+  const Plane<Wide> n = on_grid<Wide>(node, space);
+  const Plane<Wide> m = on_grid<Wide>(face, space);
+  const Point<Wide> eye = on_grid<Wide>(picture.eye, space);
+  const Wide dn = value<Wide>(n, eye);
+  const Wide dm = value<Wide>(m, eye);
+  Point<Wide> along_n;
+  Point<Wide> along_m;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point<Wide> axis = on_grid<Wide>(k == 0 ? picture.right : k == 1 ? picture.up : picture.forward, axes);
+    along_n[k] = dot<Wide>(n.normal, axis);
+    along_m[k] = dot<Wide>(m.normal, axis);
+  }
+  // Parallel: a length in space more in the last, an axis less.
+  std::array<Rounded, 3> l;
+  for (std::size_t k = 0; k < 3; ++k)
+    l[k] = picture.perspective ? rounded(dm * along_n[k] - dn * along_m[k])
+           : k < 2             ? rounded(along_m[2] * along_n[k] - along_n[2] * along_m[k])
+                               : rounded(along_m[2] * dn - along_n[2] * dm);
+  if (!picture.perspective) l[2].exponent += space.exponent - axes.exponent;
+  int largest = std::numeric_limits<int>::min();
+  for (const Rounded& r : l)
+    if (r.digits != 0) largest = std::max(largest, r.exponent);
+  OrderPoint result{};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (l[k].digits != 0) result[k] = std::ldexp(l[k].digits, l[k].exponent - largest);
+  return result;
 }
 
 std::array<int, 3> exact_turn(const OrderPoint& a, const OrderPoint& b, const OrderPoint& c) {

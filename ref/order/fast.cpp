@@ -67,7 +67,7 @@ class Fast final : public VisibilityOrder {
         flipped_(data.nodes() / 4 + 2 * kBlock),
         place_(parts_.parts().size() + 1 + kPlacingSlack),
         order_(data.nodes() + kPlacingSlack),
-        spare_(parts_.largest_back() > kPlacingSlack ? parts_.largest_back() + kPlacingSlack : 0) {
+        spare_(parts_.largest_back() + kPlacingSlack) {
     if (data.nodes() != 0) calibrate();
   }
 

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "files/temp_file.hpp"
 #include "kage/error.hpp"
 #include "order/data.hpp"
 
@@ -109,7 +110,7 @@ std::string check(const OrderTree::Data& d) {
 
 }  // namespace
 
-void OrderTree::save(const std::filesystem::path& path) const {
+void OrderTree::save(std::ostream& out) const {
   const Data& d = *data_;
   std::vector<StoredCut> cuts;
   for (const OrderFragment::Cut& c : d.cuts) cuts.push_back(c.node << 1U | (c.front ? 1U : 0U));
@@ -118,7 +119,6 @@ void OrderTree::save(const std::filesystem::path& path) const {
   std::size_t k = 0;
   for_arrays(d, cuts, stats, [&](const char*, const auto& a) { counts[k++] = a.size(); });
 
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
   const auto put = [&](const void* data, std::size_t bytes) {
     out.write(static_cast<const char*>(data), static_cast<std::streamsize>(bytes));
   };
@@ -132,11 +132,14 @@ void OrderTree::save(const std::filesystem::path& path) const {
     put(a.data(), bytes);
     put(&sum, sizeof sum);
   });
+}
+
+void OrderTree::save(const std::filesystem::path& path) const {
+  TempFiles files;
+  OutputFile out(files, path);
+  save(out);
   out.close();
-  if (out) return;
-  std::error_code ec;
-  std::filesystem::remove(path, ec);
-  throw Error(fmt::format("{}: cannot be written", path.string()));
+  files.commit();
 }
 
 OrderTree OrderTree::load(const std::filesystem::path& path) {

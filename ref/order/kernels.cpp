@@ -24,9 +24,8 @@ inline constexpr std::array<std::uint64_t, 256> kSetBits = set_bits();
 }  // namespace kage::order
 #endif
 
-// The plain fallback: EMU128 knows every operation, SCALAR does not.
-#define HWY_DISABLED_TARGETS HWY_SCALAR
-#define HWY_BROKEN_EMU128 0
+#include "simd/targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "order/kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -173,9 +172,9 @@ namespace kage::order {
 HWY_EXPORT(TestAll);
 HWY_EXPORT(TestBlocks);
 
-SideCounts test_all(const SideBlocks& to, const SideQuery& query) { return HWY_DYNAMIC_DISPATCH(TestAll)(to, query); }
+SideCounts test_all(const SideBlocks& to, const SideQuery& query) { return KAGE_DISPATCH(TestAll)(to, query); }
 SideCounts test_blocks(const SideBlocks& to, const SideQuery& query, double path) {
-  return HWY_DYNAMIC_DISPATCH(TestBlocks)(to, query, path);
+  return KAGE_DISPATCH(TestBlocks)(to, query, path);
 }
 
 }  // namespace kage::order

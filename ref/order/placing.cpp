@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
-// The plain fallback: EMU128 knows every operation, SCALAR does not.
-#define HWY_DISABLED_TARGETS HWY_SCALAR
-#define HWY_BROKEN_EMU128 0
+#include "simd/targets.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "order/placing.cpp"
 #include <hwy/foreach_target.h>
@@ -198,13 +197,13 @@ HWY_EXPORT(Exchange);
 
 void place_all(const Placing& to, const Run* runs, std::size_t run_count, const std::uint32_t* clusters,
                std::size_t cluster_count) {
-  HWY_DYNAMIC_DISPATCH(PlaceAll)(to, runs, run_count, clusters, cluster_count);
+  KAGE_DISPATCH(PlaceAll)(to, runs, run_count, clusters, cluster_count);
 }
 void place_clusters(const Placing& to, const std::uint32_t* listed, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(PlaceClusters)(to, listed, count);
+  KAGE_DISPATCH(PlaceClusters)(to, listed, count);
 }
 void exchange(const Placing& to, std::uint32_t* flipped, std::size_t count) {
-  HWY_DYNAMIC_DISPATCH(Exchange)(to, flipped, count);
+  KAGE_DISPATCH(Exchange)(to, flipped, count);
 }
 
 }  // namespace kage::order

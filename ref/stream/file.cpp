@@ -21,12 +21,14 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 
+#include "files/plain_io.hpp"
+#include "files/temp_file.hpp"
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/regular_file.hpp"
-#include "number/replaceable.hpp"
 #include "stream/config_text.hpp"
 
 namespace kage {
@@ -57,35 +59,29 @@ constexpr std::uint64_t padded(std::uint64_t size) { return (size + 7) / 8 * 8; 
 // ------------------------------------------------------------------------------------------------------------
 
 struct StreamFileWriter::Data {
-  std::filesystem::path path;
-  std::filesystem::path part;
-  std::FILE* file = nullptr;
-  std::uint64_t frames = 0;
-  std::uint32_t headers_crc = 0;
-
-  Data() = default;
+  explicit Data(const std::filesystem::path& path) : name(path.string()) {
+    if (is_device(path)) {
+      own_device = device = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+      if (device < 0) fail_write(name, errno);
+      out = OutputFile::unnamed(name);
+    } else {
+      file.emplace(path);
+      out = std::make_unique<OutputFile>(file->temp(), name);
+    }
+  }
+  Data(int fd, std::string fd_name) : name(std::move(fd_name)), out(OutputFile::unnamed(name)), device(fd) {}
   Data(const Data&) = delete;
   Data& operator=(const Data&) = delete;
-  // Here and not in the writer's destructor, which does not run where its constructor has thrown.
   ~Data() {
-    if (file != nullptr) (void)std::fclose(file);
-    if (!part.empty()) (void)::unlink(part.c_str());
-  }
-
-  [[noreturn]] void fail(const char* what) const {
-    throw Error(fmt::format("{}: {}: {}", path.string(), what, std::strerror(errno)));
+    if (own_device >= 0) (void)::close(own_device);
   }
 
   void write(const void* data, std::size_t size) const {
-    if (size != 0 && std::fwrite(data, 1, size, file) != size) fail("cannot write");
+    out->write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
   }
 
-  SectionHeader open_section{};
-  off_t open_at = 0;
-
   void begin_section(const char* tag) {
-    open_at = ::ftello(file);
-    if (open_at < 0) fail("cannot write");
+    open_at = out->tellp();
     open_section = {};
     std::memcpy(open_section.tag, tag, 4);
     write(&open_section, sizeof open_section);
@@ -103,9 +99,10 @@ struct StreamFileWriter::Data {
     constexpr char zeros[8] = {};
     write(zeros, padded(h.size) - h.size);
     headers_crc = crc(headers_crc, &h, sizeof h);
-    if (::fseeko(file, open_at, SEEK_SET) != 0) fail("cannot write");
+    out->seekp(open_at);
     write(&h, sizeof h);
-    if (::fseeko(file, 0, SEEK_END) != 0) fail("cannot write");
+    out->seekp(0, std::ios::end);
+    if (device >= 0) out->move_to(device, name);
   }
 
   void section(const char* tag, const void* data, std::size_t size) {
@@ -113,21 +110,36 @@ struct StreamFileWriter::Data {
     add(data, size);
     end_section();
   }
+
+  void finish() {
+    out->close();
+    if (file) file->commit();
+  }
+
+  std::string name;
+  std::optional<TempFile> file;     // unless it goes to a device
+  std::unique_ptr<OutputFile> out;  // the file, or the section at hand for a device, which knows no positions
+  int device = -1;
+  int own_device = -1;
+  std::uint64_t frames = 0;
+  std::uint32_t headers_crc = 0;
+  SectionHeader open_section{};
+  std::streamoff open_at = 0;
 };
 
-StreamFileWriter::StreamFileWriter(std::filesystem::path path, const Config& config) : data_(std::make_unique<Data>()) {
-  data_->path = replaceable(std::move(path));
-  std::filesystem::path part = data_->path;
-  part += fmt::format(".part{}", ::getpid());
-  data_->file = std::fopen(part.c_str(), "wb");
-  if (data_->file == nullptr) data_->fail("cannot be created");
-  data_->part = std::move(part);
+StreamFileWriter::StreamFileWriter(std::unique_ptr<Data> data, const Config& config) : data_(std::move(data)) {
   data_->write(kFileMagic, 8);
   const std::string text = to_yaml(config);
   data_->section("CONF", text.data(), text.size());
   // A full disk is found here, before the work on the first frame, and not when a buffer has filled up.
-  if (std::fflush(data_->file) != 0) data_->fail("cannot write");
+  data_->out->flush();
 }
+
+StreamFileWriter::StreamFileWriter(const std::filesystem::path& path, const Config& config)
+    : StreamFileWriter(std::make_unique<Data>(path), config) {}
+
+StreamFileWriter::StreamFileWriter(int fd, const std::string& name, const Config& config)
+    : StreamFileWriter(std::make_unique<Data>(fd, name), config) {}
 
 StreamFileWriter::~StreamFileWriter() = default;
 
@@ -153,10 +165,7 @@ void StreamFileWriter::finish() {
   std::memcpy(payload.data(), &data_->frames, 8);
   std::memcpy(payload.data() + 8, &data_->headers_crc, 4);
   data_->section("DONE", payload.data(), payload.size());
-  std::FILE* f = data_->file;
-  data_->file = nullptr;
-  if (std::fclose(f) != 0 || std::rename(data_->part.c_str(), data_->path.c_str()) != 0) data_->fail("cannot write");
-  data_->part.clear();
+  data_->finish();
 }
 
 // ---- reading

@@ -3,72 +3,72 @@
 // Included inside the top module: a parameter out of its range stops elaboration.
 // verilog_lint: waive-start line-length
 if (X_BITS < 4 || X_BITS > 15) begin : gen_bad_x_bits
-  $fatal(1, "X_BITS must be 4 .. 15");
+  `KAGE_ILLEGAL("X_BITS must be 4 .. 15")
 end
 if (Z_BITS < 4 || Z_BITS > 28) begin : gen_bad_z_bits
-  $fatal(1, "Z_BITS must be 4 .. 28");
+  `KAGE_ILLEGAL("Z_BITS must be 4 .. 28")
 end
 if (Z_FRAC < 0 || Z_FRAC > 16) begin : gen_bad_z_frac
-  $fatal(1, "Z_FRAC must be 0 .. 16");
+  `KAGE_ILLEGAL("Z_FRAC must be 0 .. 16")
 end
 if (CHANNELS != 1 && CHANNELS != 3) begin : gen_bad_channels
-  $fatal(1, "CHANNELS must be one of 1 3");
+  `KAGE_ILLEGAL("CHANNELS must be one of 1 3")
 end
 if (SMOOTH < 0 || SMOOTH > 1) begin : gen_bad_smooth
-  $fatal(1, "SMOOTH must be 0 .. 1");
+  `KAGE_ILLEGAL("SMOOTH must be 0 .. 1")
 end
 if (COLOR_FRAC < 0 || COLOR_FRAC > 16) begin : gen_bad_color_frac
-  $fatal(1, "COLOR_FRAC must be 0 .. 16");
+  `KAGE_ILLEGAL("COLOR_FRAC must be 0 .. 16")
 end
 if (DSF_BITS < 0 || DSF_BITS > 8) begin : gen_bad_dsf_bits
-  $fatal(1, "DSF_BITS must be 0 .. 8");
+  `KAGE_ILLEGAL("DSF_BITS must be 0 .. 8")
 end
 if (FSF < 0 || FSF > 1) begin : gen_bad_fsf
-  $fatal(1, "FSF must be 0 .. 1");
+  `KAGE_ILLEGAL("FSF must be 0 .. 1")
 end
 if (SHADE_FRAC < 1 || SHADE_FRAC > 16) begin : gen_bad_shade_frac
-  $fatal(1, "SHADE_FRAC must be 1 .. 16");
+  `KAGE_ILLEGAL("SHADE_FRAC must be 1 .. 16")
 end
 if (COUNT_BITS < 0 || COUNT_BITS > 8) begin : gen_bad_count_bits
-  $fatal(1, "COUNT_BITS must be 0 .. 8");
+  `KAGE_ILLEGAL("COUNT_BITS must be 0 .. 8")
 end
 if (LIGHTS < 1 || LIGHTS > 8) begin : gen_bad_lights
-  $fatal(1, "LIGHTS must be 1 .. 8");
+  `KAGE_ILLEGAL("LIGHTS must be 1 .. 8")
 end
 if (CLASS_BITS < 1 || CLASS_BITS > 11) begin : gen_bad_class_bits
-  $fatal(1, "CLASS_BITS must be 1 .. 11");
+  `KAGE_ILLEGAL("CLASS_BITS must be 1 .. 11")
 end
 if (TRANSLUCENCY < 0 || TRANSLUCENCY > 1) begin : gen_bad_translucency
-  $fatal(1, "TRANSLUCENCY must be 0 .. 1");
+  `KAGE_ILLEGAL("TRANSLUCENCY must be 0 .. 1")
 end
 if (UNITS < 0 || UNITS > 64) begin : gen_bad_units
-  $fatal(1, "UNITS must be 0 .. 64");
+  `KAGE_ILLEGAL("UNITS must be 0 .. 64")
 end
 if (FACE_BITS < 2 || FACE_BITS > 12) begin : gen_bad_face_bits
-  $fatal(1, "FACE_BITS must be 2 .. 12");
+  `KAGE_ILLEGAL("FACE_BITS must be 2 .. 12")
 end
 if (DX_BITS < 2 || DX_BITS > 15) begin : gen_bad_dx_bits
-  $fatal(1, "DX_BITS must be 2 .. 15");
+  `KAGE_ILLEGAL("DX_BITS must be 2 .. 15")
 end
 if (SEG_BITS < 2 || SEG_BITS > 12) begin : gen_bad_seg_bits
-  $fatal(1, "SEG_BITS must be 2 .. 12");
+  `KAGE_ILLEGAL("SEG_BITS must be 2 .. 12")
 end
 if (ORDER_BITS < 1 || ORDER_BITS > 16) begin : gen_bad_order_bits
-  $fatal(1, "ORDER_BITS must be 1 .. 16");
+  `KAGE_ILLEGAL("ORDER_BITS must be 1 .. 16")
 end
 if (CLASSIC < 0 || CLASSIC > 1) begin : gen_bad_classic
-  $fatal(1, "CLASSIC must be 0 .. 1");
+  `KAGE_ILLEGAL("CLASSIC must be 0 .. 1")
 end
 if (ARRANGEMENT < 0 || ARRANGEMENT > 1) begin : gen_bad_arrangement
-  $fatal(1, "ARRANGEMENT must be 0 .. 1");
+  `KAGE_ILLEGAL("ARRANGEMENT must be 0 .. 1")
 end
 if (LANES != 1 && LANES != 2 && LANES != 4 && LANES != 8 && LANES != 16 && LANES != 32) begin : gen_bad_lanes
-  $fatal(1, "LANES must be one of 1 2 4 8 16 32");
+  `KAGE_ILLEGAL("LANES must be one of 1 2 4 8 16 32")
 end
 if (MAX_WIDTH < 1 || MAX_WIDTH > 32767) begin : gen_bad_max_width
-  $fatal(1, "MAX_WIDTH must be 1 .. 32767");
+  `KAGE_ILLEGAL("MAX_WIDTH must be 1 .. 32767")
 end
 if (BEAT_WORDS != 1 && BEAT_WORDS != 2 && BEAT_WORDS != 4 && BEAT_WORDS != 8) begin : gen_bad_beat_words
-  $fatal(1, "BEAT_WORDS must be one of 1 2 4 8");
+  `KAGE_ILLEGAL("BEAT_WORDS must be one of 1 2 4 8")
 end
 // verilog_lint: waive-stop line-length

@@ -39,6 +39,13 @@ json() {
   python3 -c "import json,sys; j=json.load(open(sys.argv[1])); sys.exit(0 if ($2) else 1)" "$1" || { fail "$1: not so: $2"; head -c 600 "$1"; }
 }
 
+# no_leftovers [FOLDER]: no file is there that a run had not finished.
+no_leftovers() {
+  local left
+  left=$(find "${1:-.}" -name '.kage-*')
+  [ -z "$left" ] || fail "unfinished files are left: $left"
+}
+
 done_testing() {
   [ $failures = 0 ] && echo "all passed"
   exit $((failures != 0))

@@ -223,11 +223,22 @@ trouble nan "$kage" diff a.png b.png --max-percent nan
 for option in --prune --dry-run; do trouble $option "$kage" diff a.png b.png $option; done
 trouble "no folder" "$kage" diff --bless a.png b.png
 mkfifo pipe.png
-trouble "not a file" "$kage" diff a.png b.png --out pipe.png
+# A pipe gets the picture, which a file would get; what reads it has it whole.
+cat pipe.png >piped.png &
+expect 1 timeout 60 "$kage" diff a.png b.png --out pipe.png
+wait $!
+"$kage" diff a.png b.png --out beside.png >/dev/null
+cmp piped.png beside.png || fail "a pipe got another picture than a file"
+[ -p pipe.png ] || fail "a pipe was replaced by a file"
+expect 1 "$kage" diff a.png b.png --out /dev/null --json /dev/null --junit /dev/null --flip flip.png
+[ -c /dev/null ] || fail "/dev/null was replaced"
+# A device that takes nothing is a full disk without a disk.
+trouble "/dev/full: cannot be written: No space left on device" "$kage" diff a.png b.png --json /dev/full --flip none.png
+[ ! -e none.png ] || fail "a file appeared though a device took nothing"
 for bad in pipe.png /dev/zero /dev/null; do
   trouble "$bad: is not a regular file" timeout 20 "$kage" diff $bad a.png
   trouble "$bad: is not a regular file" timeout 20 "$kage" diff a.png $bad
   trouble "$bad: is not a regular file" timeout 20 "$kage" diff a.png b.png --mask $bad
 done
-[ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
+no_leftovers
 done_testing

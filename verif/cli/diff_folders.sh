@@ -167,5 +167,5 @@ done
 # shellcheck disable=SC2016
 trouble "standard output" sh -c 'exec "$@" >/dev/full' sh "$kage" diff exact centroid --out views3 --junit j3.xml
 [ ! -e views3 ] && [ ! -e j3.xml ] || fail "trouble left files"
-[ -z "$(find . -name '.*.png' -o -name '.*.json' -o -name '.*.xml')" ] || fail "temporary files are left"
+no_leftovers
 done_testing

@@ -148,11 +148,12 @@ done
 "$kage" stream courtyard --size 1280x960 --frames 200 --out long.kage >/dev/null 2>err &
 pid=$!
 # A shell's background job ignores SIGINT until the program says otherwise, which it has when its file is there.
-for ((i = 0; i < 600; ++i)); do [ -z "$(find . -name '*long*')" ] || break; sleep 0.1; done
+for ((i = 0; i < 600; ++i)); do [ -z "$(find . -name '.kage-*')" ] || break; sleep 0.1; done
 kill -INT $pid
 rc=0
 wait $pid || rc=$?
 [ $rc = 130 ] || fail "interrupted: exit $rc"
 [ "$(grep -c . err)" -le 3 ] && grep -q interrupted err || fail "interrupted: no line says so"
-[ -z "$(find . -name '*long*')" ] || fail "interrupted: a file is left: $(find . -name '*long*')"
+[ ! -e long.kage ] || fail "interrupted: a file is left"
+no_leftovers
 done_testing

@@ -19,7 +19,7 @@ class Lock {
  public:
   /// Makes the file if it is not there, unless `flags` say otherwise. Throws Error if it cannot be opened.
   explicit Lock(const std::filesystem::path& path, int flags = O_RDWR | O_CREAT)
-      : fd_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+      : fd_(open(path.c_str(), flags | O_CLOEXEC, 0600)) {
     if (fd_ < 0) throw Error(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
   }
   ~Lock() { close(fd_); }

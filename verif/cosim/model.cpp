@@ -18,11 +18,14 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
 
 #include "cosim/lock.hpp"
+#include "cosim/model_cache.hpp"
+#include "cosim/trust.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 
@@ -74,16 +77,6 @@ std::string output_of(const char* command) {
 std::string verilator_version() { return output_of("\"${VERILATOR:-verilator}\" --version 2>/dev/null"); }
 std::string compiler_version() { return output_of("${CXX:-c++} --version 2>/dev/null"); }
 
-/// The names that --fault takes.
-std::vector<std::string> faults(const fs::path& data) {
-  std::vector<std::string> names;
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(data / "verif/faults", ec))
-    if (entry.path().extension() == ".patch") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 /// The files that the model is made of, below `data`: what build.py --sources names, and perhaps a file more.
 std::vector<fs::path> sources(const fs::path& data, const ModelOptions& options) {
   const std::string& fault = options.fault;
@@ -103,7 +96,7 @@ std::vector<fs::path> sources(const fs::path& data, const ModelOptions& options)
   if (!fault.empty()) {
     files.push_back(fs::path("verif/faults") / (fault + ".patch"));
     if (fault.find('/') != std::string::npos || !fs::exists(data / files.back()))
-      throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(faults(data), ", ")));
+      throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(fault_names(), ", ")));
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -130,23 +123,6 @@ std::string key_of(const fs::path& data, const std::vector<fs::path>& files, con
   return hash.hex();
 }
 
-fs::path cache_folder() {
-  const char* xdg = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  fs::path folder;
-  if (xdg != nullptr && *xdg != '\0')
-    folder = xdg;
-  else if (home != nullptr && *home != '\0')
-    folder = fs::path(home) / ".cache";
-  else
-    throw Error("neither XDG_CACHE_HOME nor HOME is set: there is no place for RTL models");
-  folder /= "kage/models";
-  std::error_code ec;
-  fs::create_directories(folder, ec);
-  if (ec) throw Error(fmt::format("{}: cannot be made: {}", folder.string(), ec.message()));
-  return folder;
-}
-
 /// A program in a process group of its own, ended with the object.
 class Process {
  public:
@@ -154,7 +130,7 @@ class Process {
     if (pid_ < 0) throw Error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(errno)));
     setpgid(pid_, pid_);  // by both: it has to be so before either goes on
     if (pid_ != 0) return;
-    const int out = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int out = open(log.c_str(), O_WRONLY | O_APPEND);
     const int in = open("/dev/null", O_RDONLY);
     dup2(in, STDIN_FILENO);
     dup2(out, STDOUT_FILENO);
@@ -222,18 +198,37 @@ struct RemoveFolder {
   RemoveFolder& operator=(const RemoveFolder&) = delete;
 };
 
+/// What the cache says of a model, for `kage cache list`.
+nlohmann::ordered_json about(const Config& config, const ModelOptions& options) {
+  nlohmann::ordered_json values;
+  for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
+  return {{"config", values},
+          {"fault", options.fault},
+          {"traced", options.traced},
+          {"mutants", options.mutants},
+          {"tools", model_tools()}};
+}
+
 }  // namespace
 
 Model find_model(const Config& config, const ModelOptions& options) {
   const fs::path data = data_directory();
-  const fs::path folder = cache_folder();
+  const ModelCache cache;
   const std::vector<fs::path> files = sources(data, options);
-  const auto library = [&](const std::string& key) { return folder / (key + ".so"); };
+  std::string damage;
+  // A model that is there and whole.
+  const auto find = [&](const std::string& key) {
+    const std::optional<std::string> found = cache.damage(key);
+    damage = found.value_or("");
+    if (!found || !damage.empty()) return false;
+    cache.use(key);
+    return true;
+  };
   const std::string now = key_of(data, files, config, options);
-  if (fs::exists(library(now))) return {library(now), 0};
+  if (find(now)) return {.library = cache.library(now)};
 
   // What is built is a copy: someone may change the RTL meanwhile, and the model must be of what its name says.
-  const RemoveFolder work(folder / fmt::format("{}.{}", now, getpid()));
+  const RemoveFolder work(cache.folder() / fmt::format("{}.{}", now, getpid()));
   const fs::path copy = work.path / "source";
   for (const fs::path& file : files) {
     fs::create_directories((copy / file).parent_path());
@@ -248,11 +243,12 @@ Model find_model(const Config& config, const ModelOptions& options) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     return seconds;
   };
-  const Lock lock(folder / (key + ".lock"));
+  const Lock lock(cache.lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
   while (!lock.try_lock()) wait();
-  if (fs::exists(library(key))) return {library(key), 0};  // another program has built it
+  if (find(key)) return {.library = cache.library(key)};  // another program has built it
 
-  const fs::path log = folder / (key + ".log");
+  const fs::path log = cache.log(key);
+  close(create_own_file(log));
   std::vector<std::string> command{"env", "-u", "KAGE_RTL_DIR", (copy / "verif/rtl_model/build.py").string(),
                                    (work.path / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
@@ -272,8 +268,19 @@ Model find_model(const Config& config, const ModelOptions& options) {
       std::ofstream(log) << with_path(read_file(work.path / "build/build.log"), copy, data);
     throw Error(fmt::format("RTL model: the build failed: {} (log: {})", cause, log.string()));
   }
-  fs::rename(work.path / "model.so", library(key));
-  return {library(key), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+  cache.keep(key, work.path / "model.so", about(config, options));
+  return {.library = cache.library(key),
+          .build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+          .damage = damage};
+}
+
+std::vector<std::string> fault_names() {
+  std::vector<std::string> names;
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(data_directory() / "verif/faults", ec))
+    if (entry.path().extension() == ".patch") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::vector<std::string> model_tools() {

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "cosim/replay.hpp"
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {

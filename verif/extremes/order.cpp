@@ -4,11 +4,14 @@
 #include "kage/order.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "catch.hpp"
+#include "scene/order_mesh.hpp"
 #include "support/order_meshes.hpp"
 #include "support/order_oracle.hpp"
+#include "support/shapes.hpp"
 
 namespace kage::verif {
 namespace {
@@ -110,7 +113,7 @@ TEST_CASE("family 14: fragments partition their face, in rational numbers") {
   CHECK(splits > 200);
 }
 
-TEST_CASE("family 36: the eye on nodes' planes, on several at once") {
+TEST_CASE("family 36: the eye on nodes' planes, on several at once", "[simd]") {
   Random random(test_seed(2));
   CAPTURE(test_seed(2));
   for (int round = 0; round < 5; ++round) {
@@ -195,7 +198,7 @@ TEST_CASE("family 37: nearly coplanar polygons are told apart, and the build end
   CHECK(within_bound(OrderTree::build(lattice_triangles(random, 300))));
 }
 
-TEST_CASE("family 37: three panes that overlap in a circle are cut") {
+TEST_CASE("family 37: three panes that overlap in a circle are cut", "[simd]") {
   Random random(test_seed(5));
   OrderMesh mesh;
   // Each over the next at one end, under the one before at the other.
@@ -208,6 +211,35 @@ TEST_CASE("family 37: three panes that overlap in a circle are cut") {
   const RayCount count = follow_rays(tree, random, 50, 30);
   CHECK(count.wrong == 0);
   CHECK(count.pairs > 100);
+}
+
+TEST_CASE("family 37: faces next to nothing wide cut others where their planes are, in all ways to the order") {
+  Random random(test_seed(371));
+  CAPTURE(test_seed(371));
+  SceneFrame f;
+  for (unsigned i = 0; i < 2; ++i)
+    add_glass(f, raw_sphere_solid(4 + i), {0, 0, 0}, glm::dvec3(0.3 + 0.25 * i), Turn{}, {1, 1, 1}, 100);
+  add_glass(f, box_solid(), {0.9, 0, 0.2}, glm::dvec3(0.5), Turn{}, {1, 1, 1}, 100);
+  const OrderTree tree = OrderTree::build(scene::order_mesh(f));
+  CHECK(tree.stats().flat == 0);
+  int slivers = 0;
+  for (std::uint32_t face = 0; face < tree.face_count(); ++face) {
+    const auto& c = tree.face(face).plane;
+    double least = INFINITY;
+    for (std::size_t k = 0; k < 3; ++k) {
+      double length = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        length += std::pow(tree.vertices()[c[k]][i] - tree.vertices()[c[(k + 1) % 3]][i], 2);
+      least = std::min(least, std::sqrt(length));
+    }
+    slivers += least < 1e-15 ? 1 : 0;
+  }
+  CHECK(slivers >= 2 * (4 + 5));
+  CHECK(tree.stats().exact_tests > 0);
+  const RayCount count = follow_rays(tree, random, 8, 10);
+  CHECK(count.wrong == 0);
+  CHECK(count.rays > 30);
+  CHECK(count.pairs > 150);
 }
 
 TEST_CASE("family 38: exact rays meet no two fragments in the wrong order") {

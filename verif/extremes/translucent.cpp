@@ -35,6 +35,23 @@ SceneFrame random_glass(Random& random, int panes, int bodies, int opaque) {
   return f;
 }
 
+/// Spheres of glass about the origin, and a box through them. The eye is in the innermost, or outside.
+SceneFrame nested_spheres(Random& random, bool perspective, bool inside) {
+  SceneFrame f;
+  const auto tint = [&] { return glm::dvec3(random.real(0, 1), random.real(0, 1), random.real(0, 1)); };
+  for (int i = 0; i < 6; ++i)
+    add_glass(f, raw_sphere_solid(static_cast<unsigned>(8 + i)), {0, 0, 0}, glm::dvec3(0.3 + 0.2 * i), Turn{}, tint(),
+              90);
+  add_glass(f, box_solid(), {0.9, 0, 0.2}, glm::dvec3(random.real(0.3, 0.8)), Turn{}, tint(), 90);
+  const double far = inside ? 0.15 : 2.5;
+  const glm::dvec3 eye = far * glm::dvec3(random.real(0.5, 1), random.real(-1, 1), random.real(0.5, 1));
+  look_at(f.camera, eye, glm::dvec3(random.real(0.5, 1), random.real(-0.8, 0.3), 0) * (inside ? 1.0 : 0.2));
+  f.camera.near = 0.01;
+  f.camera.perspective = perspective;
+  f.camera.half_height = perspective ? 0.76 : 1.2;
+  return f;
+}
+
 }  // namespace
 
 TEST_CASE("family 14: the fragments of a face part its pixels exactly, with its depths") {
@@ -175,6 +192,25 @@ TEST_CASE("family 37: coplanar, nearly coplanar and duplicate panes, and panes t
     CHECK(pixels == pixels_of_faces(make_geometry(same, glass(), kWidth, kHeight, whole), glass()));
     CHECK(std::all_of(pixels.begin(), pixels.end(), [](const auto& p) { return std::get<0>(p.second) == 1; }));
   }
+}
+
+TEST_CASE(
+    "family 37: faces next to nothing wide: nested spheres with raw poles, through each other's and a box's faces") {
+  Random random(test_seed(371));
+  CAPTURE(test_seed(371));
+  LayerCount sum;
+  for (int i = 0; i < 8; ++i) {
+    const bool perspective = i % 4 != 3;
+    CAPTURE(i, perspective);
+    const SceneFrame f = nested_spheres(random, perspective, i % 2 == 0);
+    const LayerCount count = compare_layers(f, make_geometry(f, glass(), kWidth, kHeight), glass(), 3);
+    INFO(count.text());
+    CHECK(count.wrong == 0);
+    sum += count;
+  }
+  INFO(sum.text());
+  CHECK(sum.layered * 2 > sum.pixels);
+  CHECK(sum.near * 50 < sum.pixels);
 }
 
 TEST_CASE("family 20: alpha 0 and 255 are identities, and 1000 layers are off by half an LSB each at most") {

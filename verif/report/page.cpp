@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <limits>
 #include <set>
 
-#include "image/temp_file.hpp"
+#include "files/temp_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "report/html.hpp"
@@ -239,7 +238,7 @@ void write_page(const fs::path& path, const Page& page) {
   std::string data = script_text(data_of(page, pictures));
   data.pop_back();  // the brace: two lists follow
   TempFiles files;
-  std::ofstream out(files.add(path), std::ios::binary);
+  OutputFile out(files, path);
   html.write(out, [&](std::ostream& to) {
     to << data << ",\"pictures\":[";
     pictures.write(to);
@@ -251,7 +250,6 @@ void write_page(const fs::path& path, const Page& page) {
     to << "]}";
   });
   out.close();
-  if (!out) throw Error(fmt::format("{}: cannot be written", path.string()));
   files.commit();
 }
 

@@ -17,15 +17,19 @@ The RTL is that of this source tree or of $KAGE_RTL_DIR; $VERILATOR and $CXX nam
 On failure: one line on standard error that names the step and the log, exit status 2.
 """
 import argparse
+import contextlib
 import hashlib
 import os
 import pathlib
 import re
 import shlex
 import shutil
+import stat
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 import yaml
 
@@ -232,23 +236,54 @@ class Runtime:
         key = hashlib.sha256("\0".join([*versions, *flags, own]).encode()).hexdigest()[:24]
         cache = os.environ.get("XDG_CACHE_HOME") or (os.path.join(os.environ["HOME"], ".cache") if os.environ.get("HOME") else None)
         self.folder = pathlib.Path(cache) / "kage" / "verilator" / key if cache else None
+        if self.folder:
+            for folder in (self.folder.parent.parent, self.folder.parent, self.folder):
+                trust(folder)
 
     def take(self, names):
         for name in names if self.folder else ():
             try:
-                shutil.copyfile(self.folder / name, self.obj / name)
+                trust(self.folder / name)
+                whole = (self.folder / name).read_bytes()
+                if whole[-SUM_BYTES:] == check_sum(whole[:-SUM_BYTES]):  # a damaged one is compiled
+                    (self.obj / name).write_bytes(whole[:-SUM_BYTES])
             except OSError:
                 pass  # it is compiled
 
     def keep(self, names):
         for name in names if self.folder else ():
+            partial = self.folder / f".{name}.{os.getpid()}"
             try:
-                self.folder.mkdir(parents=True, exist_ok=True)
-                partial = self.folder / f".{name}.{os.getpid()}"
-                shutil.copyfile(self.obj / name, partial)
+                self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+                data = (self.obj / name).read_bytes()
+                with open(os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600), "wb") as file:
+                    file.write(data + check_sum(data))
+                    file.flush()
+                    os.fsync(file.fileno())
                 os.replace(partial, self.folder / name)
             except OSError:
+                with contextlib.suppress(OSError):
+                    partial.unlink(missing_ok=True)
                 return  # the next one compiles them too
+
+
+SUM_BYTES = 12
+
+
+def check_sum(data):
+    """What stands behind a kept object: its length and CRC-32."""
+    return struct.pack("<QI", len(data), zlib.crc32(data))
+
+
+def trust(path):
+    """Stop if somebody else could have put `path` there: what is kept becomes part of a program."""
+    try:
+        status = path.lstat()
+    except FileNotFoundError:
+        return
+    if stat.S_ISLNK(status.st_mode) or status.st_uid not in (0, os.geteuid()) or status.st_mode & 0o022:
+        fail(f"{path}: it is a link, somebody else's, or others may write to it, and what is kept there becomes part of RTL models: "
+             f"remove it, or set XDG_CACHE_HOME to a folder of your own")
 
 
 def needs_threads(obj):

@@ -38,7 +38,20 @@ inline OrderMesh crossing_triangles(Random& random, int count) {
   return mesh;
 }
 
-/// The same on a coarse lattice: some without area, some twice, many in one plane.
+/// Smaller ones, of which a few cross: about as many nodes as triangles.
+inline OrderMesh loose_triangles(Random& random, int count) {
+  OrderMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const OrderPoint at = random_point(random, 1);
+    std::vector<OrderPoint> corners(3, at);
+    for (OrderPoint& p : corners)
+      for (double& x : p) x += random.real(-0.3, 0.3);
+    add_polygon(mesh, corners);
+  }
+  return mesh;
+}
+
+/// The same as crossing_triangles on a coarse lattice: some without area, some twice, many in one plane.
 inline OrderMesh lattice_triangles(Random& random, int count, int size = 2) {
   OrderMesh mesh;
   for (int i = 0; i < count; ++i)

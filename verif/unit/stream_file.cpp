@@ -112,7 +112,7 @@ TEST_CASE("a disk that takes nothing is found at once, and leaves nothing") {
   }
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  CHECK(said == (scratch.dir / "full.kage").string() + ": cannot write: File too large");
+  CHECK(said == (scratch.dir / "full.kage").string() + ": cannot be written: File too large");
   CHECK(later == said);
   CHECK(fs::is_empty(scratch.dir));
 }

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <memory>
 #include <span>
 #include <string>
@@ -95,8 +96,11 @@ class OrderTree {
   /// Throws Error that names file and place if the file is not what save() wrote.
   static OrderTree load(const std::filesystem::path& path);
 
-  /// A file that cannot be written whole is removed.
+  /// Writes a file that load() reads. It appears under its name when it is whole; one that was there stays until then.
+  /// Throws Error that names it if it cannot be written.
   void save(const std::filesystem::path& path) const;
+  /// Writes the same bytes to a stream, whose errors the caller looks for.
+  void save(std::ostream& out) const;
 
   ~OrderTree();
   OrderTree(OrderTree&&) noexcept;

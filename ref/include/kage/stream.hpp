@@ -150,10 +150,14 @@ class FrameChecker {
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header = nullptr);
 
-/// Writes a stream file: the file appears under its name only when finish() has succeeded; otherwise nothing is left.
+/// Writes a stream file. A file appears under its name only when finish() has succeeded; otherwise what was there
+/// stays. A pipe or a device gets each section once it is whole, a frame at a time: what it got of a stream that failed
+/// lacks the last section, DONE, so that no reader takes it for whole. Every error of writing is thrown as Error.
 class StreamFileWriter {
  public:
-  StreamFileWriter(std::filesystem::path path, const Config& config);
+  StreamFileWriter(const std::filesystem::path& path, const Config& config);
+  /// Writes to the open file `fd` as to a pipe, and leaves it open. `name` is what messages call it.
+  StreamFileWriter(int fd, const std::string& name, const Config& config);
   ~StreamFileWriter();
   StreamFileWriter(const StreamFileWriter&) = delete;
   StreamFileWriter& operator=(const StreamFileWriter&) = delete;
@@ -173,6 +177,7 @@ class StreamFileWriter {
 
  private:
   struct Data;
+  StreamFileWriter(std::unique_ptr<Data> data, const Config& config);
   std::unique_ptr<Data> data_;
 };
 

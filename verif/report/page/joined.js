@@ -112,5 +112,6 @@
   frames();
   parts();
   configs();
+  Parts.sideways();
   document.body.dataset.ready = "yes";
 })();

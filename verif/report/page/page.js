@@ -312,6 +312,7 @@ const Report = (() => {
     frames();
     rest();
     setMode(data.same ? "golden" : "difference");
+    Parts.sideways();
     View.canvas.addEventListener("keydown", key);  // single letters are the picture's alone
     View.canvas.addEventListener("pixel", (e) => select(frame.number, e.detail.x, e.detail.y));
     $("in").addEventListener("click", () => zoom(2));
@@ -327,6 +328,7 @@ const Report = (() => {
     const shown = linked ? Number(linked[1]) : data.first ? data.first.frame : frame.number;
     const first = data.first && data.first.x >= 0 && data.first.frame === shown ? data.first : null;
     frame = data.frames.find((f) => f.number === shown) ?? frame;
+    View.set(frame, {});  // the size is known before the pictures are
     await select(frame.number, first ? first.x : Math.floor(frame.width / 2), first ? first.y : Math.floor(frame.height / 2));
     document.body.dataset.ready = "yes";
   }

@@ -70,5 +70,22 @@ const Parts = (() => {
     for (const row of element.rows) row.cells[2].className = "meaning";
   }
 
-  return {data, $, make, count, plural, table, command, verdict, divergenceTerms, configTable};
+  // Tables that are wider than the page scroll by themselves; their edges and a line below say where they go on.
+  function sideways() {
+    for (const box of document.querySelectorAll(".scroll")) {
+      const look = () => {
+        const beyond = box.scrollWidth - box.clientWidth;
+        box.classList.toggle("wide", beyond > 1);
+        box.classList.toggle("more-left", beyond > 1 && box.scrollLeft > 1);
+        box.classList.toggle("more-right", beyond > 1 && box.scrollLeft < beyond - 1);
+      };
+      box.after(make("p", "The table goes on sideways: scroll it.", {class: "sideways"}));
+      box.addEventListener("scroll", look, {passive: true});
+      const observer = new ResizeObserver(look);
+      observer.observe(box);
+      if (box.firstElementChild) observer.observe(box.firstElementChild);  // filled later
+    }
+  }
+
+  return {data, $, make, count, plural, table, command, verdict, divergenceTerms, configTable, sideways};
 })();

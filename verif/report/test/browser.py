@@ -120,9 +120,10 @@ class Browser:
     def dark(self, on):
         self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": "dark" if on else "light"}])
 
-    def open(self, path):
+    def open(self, path, ready=True):
         self.call("Page.navigate", url="file://" + os.path.abspath(path))
-        self.until("document.body && document.body.dataset.ready === 'yes'", 60)
+        if ready:
+            self.until("document.body && document.body.dataset.ready === 'yes'", 60)
 
     def click_at(self, x, y):
         for kind in ("mousePressed", "mouseReleased"):

@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Files that appear under their names whole, and together.
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "files/hidden_folder.hpp"
+#include "files/output_file.hpp"
+
 namespace kage {
 
-/// A file that appears under its name only when it is whole: write to temp(), then commit(). Without commit() the
-/// temporary file is removed. It lies beside the target and has its extension. Or, the other way round, a file that is
-/// to go: then there is no temp().
+/// A file that appears under its name only when it is whole: write to temp(), close it, then commit(). Without commit()
+/// it is removed and what had the name stays. Until then it lies in a HiddenFolder beside its target, with the target's
+/// extension. A device or a pipe cannot be replaced by a file: it gets the bytes at commit(). Or, the other way round,
+/// a file that is to go: then there is no temp().
 class TempFile {
  public:
   enum class Way { write, remove };
+  /// Throws Error that names `target`: its folder is not there or cannot be written to, or it is a folder or a socket.
   explicit TempFile(std::filesystem::path target, Way way = Way::write);
   /// Removes the temporary file, and undoes place() if settle() did not follow.
   ~TempFile();
@@ -23,6 +29,9 @@ class TempFile {
   TempFile& operator=(const TempFile&) = delete;
 
   [[nodiscard]] const std::filesystem::path& temp() const { return temp_; }
+  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+  /// Whether the target is a device or a pipe. What it got cannot be undone.
+  [[nodiscard]] bool is_device() const { return device_; }
 
   /// The file gets its name, or goes; what was there is kept aside, to be put back. Throws Error if it cannot.
   void place();
@@ -34,14 +43,22 @@ class TempFile {
   }
 
  private:
+  void write_device();
+  void rename();
   void undo();
 
-  std::filesystem::path target_;
+  std::filesystem::path given_;   // as messages call it
+  std::filesystem::path target_;  // what a link leads to
+  std::shared_ptr<HiddenFolder> folder_;
   std::filesystem::path temp_;   // empty if there is nothing to write, or it has its name
   std::filesystem::path aside_;  // what had the target's name, if anything
   Way way_;
+  bool device_ = false;
   bool placed_ = false;
 };
+
+/// Whether writing to `path` cannot replace it, but gives it the bytes: a pipe or a character device.
+bool is_device(const std::filesystem::path& path);
 
 /// Files of one run, which get their names together once all are written, or never: a run that fails half-way leaves
 /// what was there before it.
@@ -65,8 +82,9 @@ class TempFiles {
     files_.push_back(std::make_unique<TempFile>(std::move(target), TempFile::Way::remove));
   }
 
-  /// All get their names, or none: if one cannot, all are as they were, and Error is thrown. Until settle() follows,
-  /// the end of this object puts back what was there: so that what can still fail comes in between.
+  /// All get their names, or none: if one cannot, all are as they were, and Error is thrown. Devices and pipes come
+  /// last, as they keep what they got. Until settle() follows, the end of this object puts back what was there: so that
+  /// what can still fail comes in between.
   void place();
   void settle();
   void commit() {
@@ -79,9 +97,6 @@ class TempFiles {
 
   std::vector<std::unique_ptr<TempFile>> files_;
 };
-
-/// Opens a file to write to, which gets its name with the others of `files`. Throws Error if it cannot be written.
-std::ofstream open_file(TempFiles& files, const std::string& path);
 
 /// Writes a text file, which gets its name with the others of `files`. Throws Error if it cannot be written.
 void write_text(TempFiles& files, const std::string& path, const std::string& text);

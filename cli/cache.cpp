@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage cache [list|verify|prune]: the RTL models that are kept.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "cosim/model_cache.hpp"
+#include "kage/config.hpp"
+#include "kage/error.hpp"
+
+namespace kage::cli {
+namespace {
+
+using cosim::CachedModel;
+using cosim::ModelCache;
+
+struct CacheCommand : Options {
+  std::string what;
+  std::string older_than;
+  std::string max_size;
+};
+
+/// "1.5 MiB"
+std::string size_text(std::uint64_t bytes) {
+  if (bytes < 1024) return fmt::format("{} bytes", bytes);
+  double value = static_cast<double>(bytes) / 1024;
+  for (const char* unit : {"KiB", "MiB"}) {
+    if (value < 1024) return fmt::format("{:.1f} {}", value, unit);
+    value /= 1024;
+  }
+  return fmt::format("{:.1f} GiB", value);
+}
+
+/// A number with one of the letters of `units` behind it, which stand for `factors`. No letter: the first factor.
+std::uint64_t with_unit(const std::string& option, const std::string& text, const std::string& units,
+                        const std::vector<std::uint64_t>& factors, const std::string& like) {
+  std::uint64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const std::size_t unit = stop + 1 == end ? units.find(*stop) : std::string::npos;
+  if (error != std::errc{} || unit == std::string::npos || value > UINT64_MAX / 2 / factors[unit])
+    throw CLI::ValidationError(option, fmt::format("{} is not {}", text, like));
+  return value * factors[unit];
+}
+
+std::chrono::seconds age_of(const std::string& text) {
+  return std::chrono::seconds(with_unit("--older-than", text, "mhd", {60, 3600, 86400},
+                                        "a number of minutes, hours or days, like 90m, 12h, 30d"));
+}
+
+std::uint64_t bytes_of(const std::string& text) {
+  return with_unit("--max-size", text, "KMG", {1ULL << 10, 1ULL << 20, 1ULL << 30}, "a size, like 500M or 2G");
+}
+
+/// The named configuration that a model is of, or its parameters as far as they are not the defaults.
+std::string config_text(const Json& about) {
+  if (!about.contains("config") || !about["config"].is_object()) return "unknown";
+  Config config;
+  for (const ParamInfo& p : kParams)
+    if (about["config"].contains(p.name) && about["config"][p.name].is_number_integer())
+      config.*(p.member) = about["config"][p.name].get<int>();
+  std::string text;
+  for (const NamedConfig& named : named_configs())
+    if (to_json(named.config) == to_json(config)) text = named.name;
+  const Config defaults;
+  if (text.empty())
+    for (const ParamInfo& p : kParams)
+      if (config.*(p.member) != defaults.*(p.member))
+        text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, config.*(p.member));
+  if (about.value("fault", "") != "") text += ", fault " + about.value("fault", "");
+  if (about.value("traced", false)) text += ", with monitors";
+  if (about.value("mutants", false)) text += ", with mutants";
+  return text;
+}
+
+std::string time_text(std::filesystem::file_time_type time) {
+  const auto system = std::chrono::file_clock::to_sys(time);
+  return fmt::format("{:%Y-%m-%d %H:%M}",
+                     fmt::localtime(std::chrono::system_clock::to_time_t(
+                         std::chrono::time_point_cast<std::chrono::system_clock::duration>(system))));
+}
+
+Json to_json(const CachedModel& model) {
+  return {
+      {"key", model.key}, {"bytes", model.bytes}, {"last_used", time_text(model.last_used)}, {"about", model.about}};
+}
+
+std::uint64_t total(const std::vector<CachedModel>& models) {
+  std::uint64_t bytes = 0;
+  for (const CachedModel& m : models) bytes += m.bytes;
+  return bytes;
+}
+
+std::string line_of(const CachedModel& model) {
+  return fmt::format("{}  {:>9}  {}  {}\n", model.key.substr(0, 12), size_text(model.bytes), time_text(model.last_used),
+                     config_text(model.about));
+}
+
+/// What is wrong with a model, also where it is not to be trusted.
+std::string damage_of(const ModelCache& cache, const std::string& key) {
+  try {
+    return cache.damage(key).value_or("it is gone");
+  } catch (const Error& e) {
+    return e.what();
+  }
+}
+
+int run(const CacheCommand& o) {
+  check_json(o);
+  const ModelCache cache;
+  std::vector<CachedModel> models = cache.list();
+  Json j{{"folder", cache.folder().string()}, {"models", Json::array()}};
+  std::string text;
+  int rc = kSame;
+  if (o.what == "prune") {
+    std::vector<CachedModel> gone;
+    for (CachedModel& m : models)
+      if (!damage_of(cache, m.key).empty() && cache.remove(m.key)) gone.push_back(std::move(m));
+    cosim::CacheLimits limits;
+    if (!o.older_than.empty()) limits.age = age_of(o.older_than);
+    if (!o.max_size.empty()) limits.bytes = bytes_of(o.max_size);
+    for (CachedModel& m : cache.prune(limits)) gone.push_back(std::move(m));
+    for (const CachedModel& m : gone) j["models"].push_back(to_json(m));
+    const std::vector<CachedModel> left = cache.list();
+    j["left"] = {{"models", left.size()}, {"bytes", total(left)}};
+    text = fmt::format("removed {}, {}; {} left, {}\n", counted(gone.size(), "model"), size_text(total(gone)),
+                       left.size(), size_text(total(left)));
+  } else {
+    for (const CachedModel& m : models) {
+      Json entry = to_json(m);
+      if (o.what == "list") text += line_of(m);
+      if (o.what == "verify") {
+        const std::string damage = damage_of(cache, m.key);
+        if (!damage.empty()) rc = kDifferent;
+        entry["damage"] = damage;
+        text += fmt::format("{}  {}  {}\n", m.key.substr(0, 12), damage.empty() ? "whole" : "damaged: " + damage,
+                            config_text(m.about));
+      }
+      j["models"].push_back(entry);
+    }
+    j["bytes"] = total(models);
+    text +=
+        fmt::format("{}: {}, {}\n", cache.folder().string(), counted(models.size(), "model"), size_text(total(models)));
+  }
+  TempFiles files;
+  finish(o, j, files, text);
+  return rc;
+}
+
+}  // namespace
+
+void add_cache(CLI::App& app, Action& action) {
+  CLI::App* c =
+      add_command(app, "cache", "Show, verify or prune the RTL models that are kept",
+                  "  kage cache                                         # where they lie, how many, how large\n"
+                  "  kage cache list                                    # each: key, size, last use, configuration\n"
+                  "  kage cache verify                                  # exit code 1 if one is damaged\n"
+                  "  kage cache prune --older-than 30d --max-size 2G    # damaged ones go in any case");
+  const auto o = std::make_shared<CacheCommand>();
+  c->add_option("WHAT", o->what, "list, verify or prune; without it: folder, number and size")
+      ->check(CLI::IsMember({"list", "verify", "prune"}))
+      ->type_name("");
+  c->add_option("--older-than", o->older_than, "prune: models that were last used longer ago, like 90m, 12h, 30d")
+      ->type_name("AGE");
+  c->add_option("--max-size", o->max_size, "prune: the least recently used ones, until the others fit, like 500M, 2G")
+      ->type_name("SIZE");
+  option_json(*c, *o);
+  c->callback([o, &action] {
+    if (o->what != "prune" && (!o->older_than.empty() || !o->max_size.empty()))
+      throw CLI::ValidationError("--older-than, --max-size", "belong to kage cache prune");
+    if (!o->older_than.empty()) (void)age_of(o->older_than);
+    if (!o->max_size.empty()) (void)bytes_of(o->max_size);
+    action = [o] { return run(*o); };
+  });
+}
+
+}  // namespace kage::cli

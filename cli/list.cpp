@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage list [scenes|configs|faults]: the names that other commands take.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+#include "cosim/model.hpp"
+#include "kage/config.hpp"
+#include "kage/paths.hpp"
+#include "kage/scene.hpp"
+
+namespace kage::cli {
+namespace {
+
+struct ListCommand : Options {
+  std::string what;
+};
+
+/// The parameters that are not at their defaults.
+std::string differences(const Config& config) {
+  const Config defaults;
+  std::vector<std::string> values;
+  for (const ParamInfo& p : kParams)
+    if (config.*(p.member) != defaults.*(p.member)) values.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
+  return fmt::format("{}", fmt::join(values, " "));
+}
+
+/// What a fault does: the second line of its patch.
+std::string about_fault(const std::string& name) {
+  std::ifstream patch(data_directory() / "verif/faults" / (name + ".patch"));
+  std::string line;
+  std::getline(patch, line);
+  std::getline(patch, line);
+  return line;
+}
+
+int run(const ListCommand& o) {
+  check_json(o);
+  struct Entry {
+    std::string name;
+    std::string about;
+  };
+  struct Group {
+    std::string name;
+    std::string title;
+    std::vector<Entry> entries;
+  };
+  std::vector<Group> groups{{"scenes", "scenes, for every command that takes one (docs/scenes.md)", {}},
+                            {"configs", "configurations, for --config: parameters that are not at their defaults", {}},
+                            {"faults", "deliberate defects of the RTL, for --fault", {}}};
+  for (const std::string& name : builtin_scenes()) groups[0].entries.push_back({name, ""});
+  for (const NamedConfig& named : named_configs()) groups[1].entries.push_back({named.name, differences(named.config)});
+  for (const std::string& name : cosim::fault_names()) groups[2].entries.push_back({name, about_fault(name)});
+
+  Json j = Json::object();
+  std::string text;
+  for (const Group& group : groups) {
+    if (!o.what.empty() && o.what != group.name) continue;
+    Json entries = Json::array();
+    if (o.what.empty()) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", group.title);
+    for (const Entry& entry : group.entries) {
+      entries.push_back({{"name", entry.name}, {"about", entry.about}});
+      std::string line = o.what.empty() ? fmt::format("  {:<22} {}", entry.name, entry.about) : entry.name;
+      line.erase(line.find_last_not_of(' ') + 1);
+      text += line + "\n";
+    }
+    j[group.name] = entries;
+  }
+  TempFiles files;
+  finish(o, j, files, text);
+  return kSame;
+}
+
+}  // namespace
+
+void add_list(CLI::App& app, Action& action) {
+  CLI::App* c =
+      add_command(app, "list", "List the built-in scenes, the named configurations and the deliberate defects",
+                  "  kage list\n"
+                  "  kage list configs               # the names alone, one a line\n"
+                  "  kage list --json -");
+  const auto o = std::make_shared<ListCommand>();
+  c->add_option("WHAT", o->what, "scenes, configs or faults: their names alone; without it: all, with what they are")
+      ->check(CLI::IsMember({"scenes", "configs", "faults"}))
+      ->type_name("");
+  option_json(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

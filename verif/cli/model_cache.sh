@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The cache of RTL models: a damaged model is built anew, one that somebody else could have changed is not loaded, and
+# `kage cache` shows, verifies and prunes.
+. "$(dirname "$0")/common.bash"
+
+echo '{MAX_WIDTH: 64, LANES: 2, BEAT_WORDS: 1}' >small.yaml
+expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --config small.yaml --out s.kage
+export XDG_CACHE_HOME=$PWD/cache
+models=$PWD/cache/kage/models
+cosim() { expect "$1" "$kage" cosim s.kage --no-report --out out; }
+
+# An empty cache, made by nobody yet.
+expect 0 "$kage" cache --json c.json
+json c.json "j['folder'] == '$models' and j['models'] == [] and j['bytes'] == 0"
+[ "$(stat -c %a cache/kage cache/kage/models | sort -u)" = 700 ] || fail "others may look into a new cache"
+
+umask 000 # as careless as can be: what kage makes is still nobody else's to write to
+cosim 0
+umask 022
+model=$(echo "$models"/*.so) manifest=${model%.so}.json
+[ -f "$model" ] && [ -f "$manifest" ] || fail "no model with its manifest: $(ls "$models")"
+[ -z "$(find cache -type f -perm /022)" ] || fail "others may write to: $(find cache -type f -perm /022)"
+cosim 0
+[ ! -s "$temp/stderr" ] || fail "a whole model and yet: $(cat "$temp/stderr")"
+
+# Damage of every kind is seen; what is damaged is told in a line, built anew, and whole again.
+cp -a "$models" whole
+verify() { # TEXT: what is damaged, and how; then all is whole again
+  expect 1 "$kage" cache verify
+  grep -qF "damaged: $1" "$temp/stdout" || fail "verify does not say '$1': $(cat "$temp/stdout")"
+  cp -a whole/. "$models/"
+}
+truncate -s 1000 "$model" && verify "it has 1000 bytes in place of $(stat -c %s "whole/$(basename "$model")")"
+: >"$model" && verify "it has 0 bytes"
+printf 'junk' | dd of="$model" bs=1 seek=70000 conv=notrunc status=none && verify "its checksum differs"
+rm "$manifest" && verify "it has no checksum"
+echo '{"bytes": "many"' >"$manifest" && verify "it has no checksum"
+echo '{"bytes": "many", "crc32": -1}' >"$manifest" && verify "it has no checksum"
+expect 0 "$kage" cache verify
+
+truncate -s 1000 "$model"
+find cache/kage/verilator -name '*.o' -exec truncate -s 100 {} + # objects that each model is linked with
+cosim 0
+grep -q "^kage: the RTL model of configuration .* was damaged (it has 1000 bytes .*) and has been built anew: $models" "$temp/stderr" || fail "$(cat "$temp/stderr")"
+[ "$(wc -l <"$temp/stderr")" = 1 ] || fail "more than a line: $(cat "$temp/stderr")"
+expect 0 "$kage" cache verify
+
+# Nobody else's files: modes, links, owners. A link in place of the log is not followed.
+untrusted() { # TEXT: what is refused, and by which words
+  trouble "$1" "$kage" cosim s.kage --no-report --out out
+}
+chmod 777 "$models" && untrusted "others may write to it (mode 0777)"
+grep -q "chmod -R go-w $models" "$temp/stderr" || fail "no way to mend it: $(cat "$temp/stderr")"
+chmod 700 "$models"
+chmod 770 cache/kage && untrusted "cache/kage: others may write to it (mode 0770)"
+chmod 700 cache/kage
+chmod 602 "$model" && untrusted "$model: others may write to it (mode 0602)"
+chmod 600 "$model"
+chmod 777 cache && untrusted "cache: others may write to it (mode 0777)"
+chmod 755 cache
+mv "$model" real.so && ln -s "$PWD/real.so" "$model" && untrusted "$model: cannot be read: it is a link"
+rm "$model" && mv real.so "$model"
+mkfifo "$model.fifo" && mv "$model" kept.so && mv "$model.fifo" "$model" && untrusted "$model: is no file"
+rm "$model"
+echo precious >precious
+ln -sf "$PWD/precious" "${model%.so}.log" && untrusted "log: cannot be written: it is a link"
+[ "$(cat precious)" = precious ] || fail "a link was followed"
+rm "${model%.so}.log" && mv kept.so "$model"
+chmod 777 cache/kage/verilator && untrusted "cache/kage/verilator: others may write to it"
+chmod 700 cache/kage/verilator
+if [ "$(id -u)" = 0 ]; then
+  chown 12345 "$models" && untrusted "belongs to user 12345, you are user 0"
+  chown 0 "$models"
+  chown 12345 "$model" && untrusted "$model: belongs to user 12345"
+  chown 0 "$model"
+fi
+cosim 0
+
+# List and prune.
+expect 0 "$kage" cache list
+grep -q "MAX_WIDTH=64" "$temp/stdout" || fail "the list does not tell the parameters: $(cat "$temp/stdout")"
+expect 0 "$kage" cache prune --older-than 1h --max-size 1G
+grep -q "removed 0 models" "$temp/stdout" || fail "a young small model is gone: $(cat "$temp/stdout")"
+touch -d '2 days ago' "$model"
+expect 0 "$kage" cache prune --older-than 3d
+[ -f "$model" ] || fail "it is two days old, and models of three days were to go"
+expect 0 "$kage" cache prune --older-than 1d --json p.json
+json p.json "len(j['models']) == 1 and j['left'] == {'models': 0, 'bytes': 0}"
+[ -z "$(find "$models" -type f)" ] || fail "prune left: $(find "$models" -type f)"
+cp -a whole/. "$models/"
+expect 0 "$kage" cache prune --max-size 1K
+[ -z "$(find "$models" -name '*.so')" ] || fail "a model larger than a kibibyte is there"
+for wrong in "list --max-size 1G" "prune --max-size 1" "prune --older-than 3" "prune --older-than 99999999999999999999d" "forget"; do
+  # shellcheck disable=SC2086
+  trouble "" "$kage" cache $wrong
+done
+done_testing

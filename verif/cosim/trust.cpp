@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/trust.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "kage/error.hpp"
+
+namespace kage::cosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& cause, const std::string& cure) {
+  throw Error(fmt::format(
+      "{}: {}, and RTL models that are kept there are run: {}, or set XDG_CACHE_HOME to a folder of your own",
+      path.string(), cause, cure));
+}
+
+void check_owner(const fs::path& path, const struct stat& status) {
+  if (status.st_uid != geteuid() && status.st_uid != 0)
+    refuse(path, fmt::format("belongs to user {}, you are user {}", status.st_uid, geteuid()),
+           "remove it or make it yours (chown)");
+}
+
+/// The modes that let somebody else write to it.
+void check_mode(const fs::path& path, const struct stat& status, mode_t forbidden) {
+  const mode_t mode = status.st_mode & 07777U;
+  if ((mode & forbidden) != 0)
+    refuse(path, fmt::format("others may write to it (mode {:04o})", mode),
+           fmt::format("see that all in it is yours, then chmod -R go-w {}", path.string()));
+}
+
+/// A folder on the way to the cache. Other people's entries in a folder with the sticky bit cannot be renamed.
+void check_way(const fs::path& path) {
+  struct stat status {};
+  if (lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode)) check_owner(path, status);
+  if (stat(path.c_str(), &status) != 0) return;  // it is not there yet
+  check_owner(path, status);
+  if ((status.st_mode & S_ISVTX) != 0) return;
+  const bool own_group = status.st_gid == getegid() && status.st_gid == geteuid();
+  check_mode(path, status, own_group ? S_IWOTH : S_IWGRP | S_IWOTH);
+}
+
+void check_way_to(const fs::path& path) {
+  fs::path way;
+  for (const fs::path& part : path) {
+    way /= part;
+    check_way(way);
+  }
+}
+
+}  // namespace
+
+fs::path own_folder(const fs::path& base, std::initializer_list<const char*> inner) {
+  std::error_code ec;
+  fs::create_directories(base, ec);
+  if (ec) throw Error(fmt::format("{}: cannot be made: {}", base.string(), ec.message()));
+  check_way_to(fs::absolute(base).lexically_normal());
+  check_way_to(fs::canonical(base));
+  fs::path folder = base;
+  for (const char* name : inner) {
+    folder /= name;
+    if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+      throw Error(fmt::format("{}: cannot be made: {}", folder.string(), std::strerror(errno)));
+    struct stat status {};
+    if (stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))
+      throw Error(fmt::format("{}: is no folder", folder.string()));
+    check_owner(folder, status);
+    check_mode(folder, status, S_IWGRP | S_IWOTH);
+  }
+  return folder;
+}
+
+int open_own_file(const fs::path& file) {
+  const int fd = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (fd < 0 && errno == ENOENT) return -1;
+  if (fd < 0)
+    throw Error(
+        fmt::format("{}: cannot be read: {}", file.string(), errno == ELOOP ? "it is a link" : std::strerror(errno)));
+  try {
+    struct stat status {};
+    if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) throw Error(fmt::format("{}: is no file", file.string()));
+    check_owner(file, status);
+    check_mode(file, status, S_IWGRP | S_IWOTH);
+  } catch (...) {
+    close(fd);
+    throw;
+  }
+  return fd;
+}
+
+int create_own_file(const fs::path& file) {
+  const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (fd < 0)
+    throw Error(fmt::format("{}: cannot be written: {}", file.string(),
+                            errno == ELOOP ? "it is a link" : std::strerror(errno)));
+  return fd;
+}
+
+}  // namespace kage::cosim

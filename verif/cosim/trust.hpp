@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What lies in the cache of RTL models is run: so nobody but this user (and root, who can do anything) may be able to
+// put it there.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+
+namespace kage::cosim {
+
+/// The folder `inner` below `base`, each level made with mode 0700 if it is missing. Throws Error, with the way to mend
+/// it, if somebody else could change what lies there: a level of `inner` must belong to this user or root and be
+/// writable to nobody else. `base` and the folders above it may besides be writable to a group of this user's own, as
+/// Debian gives each user one, and to all where the sticky bit keeps them from other people's files, as in /tmp.
+std::filesystem::path own_folder(const std::filesystem::path& base, std::initializer_list<const char*> inner);
+
+/// Opens a regular file to read; links are not followed. Returns the descriptor, or -1 if there is no such file. Throws
+/// Error, with the way to mend it, if the file does not belong to this user or root, or if others may write to it.
+int open_own_file(const std::filesystem::path& file);
+
+/// Opens a file to write anew, with mode 0600; a link in its place is an error, not followed. Throws Error.
+int create_own_file(const std::filesystem::path& file);
+
+}  // namespace kage::cosim
