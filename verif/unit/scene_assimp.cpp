@@ -236,6 +236,26 @@ TEST_CASE("materials of other formats give their diffuse colour; textures are no
   CHECK_FALSE(test::has_note(s, "alpha"));
 }
 
+TEST_CASE("materials of other formats: emission over black is unlit, other emission and gloss are noted") {
+  const TempDirectory dir;
+  const auto load = [&dir](const std::string& look) {
+    (void)dir.write("look.mtl", "newmtl m\n" + look);
+    return Scene::load(dir.write("t.obj", "mtllib look.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  };
+  const auto first = [](const Scene& s) { return s.frame(0, 1).triangles[0]; };
+  const Scene lamp = load("Kd 0 0 0\nKe 0.5 0.25 1\nKs 0 0 0\n");
+  CHECK(first(lamp).unlit);
+  CHECK(lamp.frame(0, 1).shading[0].color == glm::dvec3{0.5, 0.25, 1});
+  CHECK(lamp.contents().unlit == 1);
+  const Scene both = load("Kd 0.5 0.5 0.5\nKe 0 1 0\nKs 0 0 0\n");
+  CHECK_FALSE(first(both).unlit);
+  CHECK(test::has_note(both, "1 material emits light, which is ignored"));
+  CHECK_FALSE(test::has_note(both, "glossy"));
+  const Scene gloss = load("Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 90\n");
+  CHECK(test::has_note(gloss, "1 material is glossy, which is ignored"));
+  CHECK_FALSE(test::has_note(gloss, "emits"));
+}
+
 TEST_CASE("camera, light and animation of another format") {
   const TempDirectory dir;
   const Scene s = Scene::load(dir.write("scene.dae", kCollada));
