@@ -2,8 +2,6 @@
 //
 // Whatever else Assimp reads, into a RawScene. Assimp is asked for the file's data as they are, without its own
 // processing: kage triangulates, welds and orders itself.
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -13,22 +11,18 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <new>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "assimp_files.hpp"
 #include "functions.hpp"
 #include "import.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 #include "notes.hpp"
-#include "obj_text.hpp"
 #include "polygon.hpp"
-#include "side_files.hpp"
 
 namespace kage::scene {
 namespace {
@@ -416,54 +410,11 @@ void Reader::write_notes() {
   out_.contents.animations = in_.mNumAnimations;
 }
 
-/// All files that Assimp sees: the scene's own, if it is OBJ as plain_obj() has it, and those of its folder, to read.
-class Files : public Assimp::DefaultIOSystem {
- public:
-  Files(std::string path, const std::string& name, bool allow_outside)
-      : path_(std::move(path)), side_files_(path_, allow_outside) {
-    if (lower_extension(path_) != ".obj") return;
-    std::ifstream in(path_, std::ios::binary);
-    text_ = plain_obj(in, name);
-  }
-
-  bool Exists(const char* file) const override { return file == path_ || !found(file).empty(); }
-
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (mode != nullptr && std::strchr(mode, 'r') == nullptr) return nullptr;
-    if (file == path_ && text_)
-      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_->data()), text_->size());
-    if (file == path_) return DefaultIOSystem::Open(file, mode);
-    const std::string other = found(file);
-    return other.empty() ? nullptr : DefaultIOSystem::Open(other.c_str(), mode);
-  }
-
-  bool CreateDirectory(const std::string&) override { return false; }
-  bool DeleteFile(const std::string&) override { return false; }
-
-  /// The first file that was asked for, exists and was refused, or "". Readers try names that they make up, so one that
-  /// does not exist is no more than missing.
-  [[nodiscard]] const std::string& refused() const { return refused_; }
-
- private:
-  std::string found(const char* name) const {
-    const SideFiles::Found file = side_files_.find(name);
-    if (!file.exists) return {};
-    if (!file.refused) return file.path.string();
-    if (refused_.empty()) refused_ = name;
-    return {};
-  }
-
-  std::string path_;
-  SideFiles side_files_;
-  std::optional<std::string> text_;
-  mutable std::string refused_;
-};
-
 }  // namespace
 
 RawScene import_assimp(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   Assimp::Importer importer;
-  auto* const files = new Files(path.string(), name, allow_outside);  // the importer deletes it
+  auto* const files = new AssimpFiles(path.string(), name, allow_outside);  // the importer deletes it
   importer.SetIOHandler(files);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (!files->refused().empty()) throw Error(name + ": " + SideFiles::refusal(files->refused()));
