@@ -8,6 +8,7 @@
 #include "common.hpp"
 #include "info_scene.hpp"
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
 #include "progress.hpp"
@@ -108,7 +109,8 @@ int describe_stream(const InfoCommand& o) {
 
 int run(const InfoCommand& o) {
   check_json(o);
-  if (is_stream_file(o.input)) return describe_stream(o);
+  // A stream file that is damaged at its very beginning, or missing, is still no scene.
+  if (is_stream_file(o.input) || lower_extension(o.input) == ".kage") return describe_stream(o);
   if (o.tokens >= 0) throw Error(fmt::format("{}: --tokens: only a stream file has tokens", o.input));
   return describe_scene(o);
 }

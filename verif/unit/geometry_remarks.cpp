@@ -49,6 +49,7 @@ TEST_CASE("a near plane too near: from where two steps at the nearest surface ar
   CHECK(look(f, coarse).nearest != 0);
   // Where no near plane would do it is not the near plane's fault.
   coarse.z_bits = 8;
+  add_solid(f, box_solid(), {0, 0, -1000}, {1, 1, 1}, Turn{}, {1, 1, 1});
   CHECK(look(f, coarse).nearest == 0);
   // A parallel view has steps of one length.
   f.camera.near = 1e-6;

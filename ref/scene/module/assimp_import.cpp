@@ -2,8 +2,6 @@
 //
 // Whatever else Assimp reads, into a RawScene. Assimp is asked for the file's data as they are, without its own
 // processing: kage triangulates, welds and orders itself.
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -13,8 +11,6 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <new>
 #include <optional>
@@ -22,14 +18,12 @@
 #include <utility>
 
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 #include "scene/functions.hpp"
 #include "scene/import.hpp"
+#include "scene/module/assimp_files.hpp"
 #include "scene/module/table.hpp"
 #include "scene/notes.hpp"
-#include "scene/obj_text.hpp"
 #include "scene/polygon.hpp"
-#include "scene/side_files.hpp"
 
 namespace kage::scene::mesh_module {
 namespace {
@@ -67,7 +61,8 @@ class Reader {
   void read_faces(const aiMesh& mesh, RawPrimitive& p);
   void read_material(unsigned index, RawPrimitive& p);
   /// As the file has it, or 1 where that is no share.
-  [[nodiscard]] double opacity(const aiMaterial& material) const;
+  [[nodiscard]] static double opacity(const aiMaterial& material);
+  void read_light_of_its_own(const aiMaterial& material, RawPrimitive& p, bool fresh);
   void read_cameras();
   void read_lights();
   static void read_cone(const aiLight& l, Light& light);
@@ -87,6 +82,9 @@ class Reader {
   std::map<std::string, std::uint32_t> node_of_;           // the first of that name
   std::vector<const aiNode*> nodes_;
   std::set<unsigned> materials_;
+  std::size_t emitting_ = 0;  // materials that give light over a colour that is not black
+  std::size_t glossy_ = 0;
+  std::size_t unshaded_ = 0;
   std::size_t thin_faces_ = 0;
   std::size_t alpha_meshes_ = 0;  // by the colours of their vertices
   std::size_t skins_ = 0;
@@ -185,7 +183,7 @@ void Reader::read_faces(const aiMesh& mesh, RawPrimitive& p) {
 }
 
 // Several formats, and readers, say 0 and mean that nothing was said: what is drawn at all is not wholly invisible.
-double Reader::opacity(const aiMaterial& material) const {
+double Reader::opacity(const aiMaterial& material) {
   ai_real value = 1;
   if (material.Get(AI_MATKEY_OPACITY, value) != AI_SUCCESS || !(value > 0 && value < 1)) return 1;
   return static_cast<double>(value);
@@ -201,18 +199,41 @@ void Reader::read_material(unsigned index, RawPrimitive& p) {
     out_.contents.says_sides = true;
     p.double_sided = two_sided != 0;
   }
-  if (fresh) {
-    SceneContents& c = out_.contents;
-    ++c.materials;
-    c.translucent += p.alpha < 1 ? 1 : 0;
-    c.single_sided += p.double_sided ? 0 : 1;
-  }
   aiColor4D color(1, 1, 1, 1);
-  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != AI_SUCCESS &&
-      material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS)
-    return;
-  const glm::dvec3 c{color.r, color.g, color.b};
-  if (is_finite(c)) p.color = c;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS ||
+      material.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS) {
+    const glm::dvec3 c{color.r, color.g, color.b};
+    if (is_finite(c)) p.color = c;
+  }
+  read_light_of_its_own(material, p, fresh);
+  if (!fresh) return;
+  SceneContents& c = out_.contents;
+  ++c.materials;
+  c.translucent += p.alpha < 1 ? 1 : 0;
+  c.unlit += p.unlit ? 1 : 0;
+  c.single_sided += p.double_sided ? 0 : 1;
+}
+
+// As for glTF (gltf_materials.cpp): a black surface shows its own light alone, and gloss is not drawn.
+void Reader::read_light_of_its_own(const aiMaterial& material, RawPrimitive& p, bool fresh) {
+  const auto color = [&material](const char* key, unsigned type, unsigned index) {
+    aiColor3D c(0, 0, 0);
+    if (material.Get(key, type, index, c) != AI_SUCCESS || !is_finite(rgb(c))) return glm::dvec3(0);
+    return glm::dvec3(std::max(rgb(c).x, 0.0), std::max(rgb(c).y, 0.0), std::max(rgb(c).z, 0.0));
+  };
+  const glm::dvec3 light = color(AI_MATKEY_COLOR_EMISSIVE);
+  p.unlit = light != glm::dvec3(0) && p.color == glm::dvec3(0);
+  if (p.unlit) {
+    p.color = light;
+    p.colors.clear();
+  }
+  if (!fresh || p.unlit) return;
+  // Several readers say "no shading" of what is only shaded plainly, so it is not drawn like that.
+  int model = aiShadingMode_Gouraud;
+  (void)material.Get(AI_MATKEY_SHADING_MODEL, model);
+  unshaded_ += model == aiShadingMode_NoShading ? 1 : 0;
+  emitting_ += light != glm::dvec3(0) ? 1 : 0;
+  glossy_ += color(AI_MATKEY_COLOR_SPECULAR) != glm::dvec3(0) ? 1 : 0;
 }
 
 void Reader::read_cameras() {
@@ -376,6 +397,9 @@ void Reader::write_notes() {
   };
   add(std::max(textures, slots), "texture is", "textures are", " ignored");
   add(invisible, "material has", "materials have", " opacity 0, which is ignored: drawn opaque");
+  add(emitting_, "material emits", "materials emit", " light, which is ignored: its diffuse colour is not black");
+  add(glossy_, "material is", "materials are", " glossy, which is ignored: drawn matt");
+  add(unshaded_, "material is", "materials are", " said to be without shading, which is ignored: drawn lit");
   add(alpha_meshes_, "mesh's vertices have", "meshes' vertices have",
       " alpha of their own, which is ignored: the material's is used");
   add(thin_faces_, "point or line is", "points or lines are", " ignored");
@@ -387,54 +411,11 @@ void Reader::write_notes() {
   out_.contents.animations = in_.mNumAnimations;
 }
 
-/// All files that Assimp sees: the scene's own, if it is OBJ as plain_obj() has it, and those of its folder, to read.
-class Files : public Assimp::DefaultIOSystem {
- public:
-  Files(std::string path, const std::string& name, bool allow_outside)
-      : path_(std::move(path)), side_files_(path_, allow_outside) {
-    if (lower_extension(path_) != ".obj") return;
-    std::ifstream in(path_, std::ios::binary);
-    text_ = plain_obj(in, name);
-  }
-
-  bool Exists(const char* file) const override { return file == path_ || !found(file).empty(); }
-
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (mode != nullptr && std::strchr(mode, 'r') == nullptr) return nullptr;
-    if (file == path_ && text_)
-      return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_->data()), text_->size());
-    if (file == path_) return DefaultIOSystem::Open(file, mode);
-    const std::string other = found(file);
-    return other.empty() ? nullptr : DefaultIOSystem::Open(other.c_str(), mode);
-  }
-
-  bool CreateDirectory(const std::string&) override { return false; }
-  bool DeleteFile(const std::string&) override { return false; }
-
-  /// The first file that was asked for, exists and was refused, or "". Readers try names that they make up, so one that
-  /// does not exist is no more than missing.
-  [[nodiscard]] const std::string& refused() const { return refused_; }
-
- private:
-  std::string found(const char* name) const {
-    const SideFiles::Found file = side_files_.find(name);
-    if (!file.exists) return {};
-    if (!file.refused) return file.path.string();
-    if (refused_.empty()) refused_ = name;
-    return {};
-  }
-
-  std::string path_;
-  SideFiles side_files_;
-  std::optional<std::string> text_;
-  mutable std::string refused_;
-};
-
 }  // namespace
 
 RawScene read(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   Assimp::Importer importer;
-  auto* const files = new Files(path.string(), name, allow_outside);  // the importer deletes it
+  auto* const files = new AssimpFiles(path.string(), name, allow_outside);  // the importer deletes it
   importer.SetIOHandler(files);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (!files->refused().empty()) throw Error(name + ": " + SideFiles::refusal(files->refused()));
