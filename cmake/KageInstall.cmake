@@ -59,7 +59,7 @@ if(TARGET kage_cli)
     list(GET text 1 file)
     set(file ${PROJECT_BINARY_DIR}/share/${file})
     add_custom_command(OUTPUT ${file} COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/share
-                       COMMAND kage_cli help --${form} >${file} DEPENDS kage_cli VERBATIM)
+                       COMMAND kage_cli help --${form} > ${file} DEPENDS kage_cli VERBATIM)
     list(APPEND texts ${file})
   endforeach()
   add_custom_target(kage_texts ALL DEPENDS ${texts})
