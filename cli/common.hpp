@@ -57,6 +57,10 @@ std::shared_ptr<CLI::Formatter> help_formatter();
 /// What is wrong with a command line that `app` refused, and the help to read: one line.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 
+/// An argument or option of the command that was given as an empty text, as a script's variable that is not set makes
+/// it: one line that names it. Empty if there is none.
+std::string empty_value(const CLI::App& app);
+
 /// A whole number from `least` to `most`, in decimal. As text: of CLI11's own numbers 010 is 8, and a minus sign or too
 /// many digits wrap round in an unsigned one.
 CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
