@@ -121,6 +121,7 @@ std::string pictures_of(const Json& report, const std::string& folder) {
 /// A scene of the run.
 struct Job {
   CosimCommand o;  // with its input and its folder
+  std::unique_ptr<OutFolder> folder;
   std::unique_ptr<Source> source;
   int total = 0;            // of its frames
   std::int64_t before = 0;  // frames of the scenes before it
@@ -136,13 +137,14 @@ cosim::DivergenceOptions monitors(const Job& job) {
 }
 
 /// The stage that a frame which came out different departs in first.
-std::optional<cosim::Divergence> find_divergence(const Job& job, Progress& progress, int frame) {
+std::optional<cosim::Divergence> find_divergence(const Job& job, TempFiles& files, Progress& progress, int frame) {
   Source& source = *job.source;
   const Config& config = source.config().config;
   cosim::DivergenceOptions options = monitors(job);
   progress.show("looking for the stage that differs first");
   if (!job.o.out.empty())
     options.waveform = std::filesystem::path(job.o.out) / fmt::format("{}_{:04}.fst", source.name(), frame);
+  options.files = &files;
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   auto d = cosim::find_divergence(frame, feed, config, options);
   if (const auto provenance = d ? source.provenance(d->frame) : std::nullopt) {
@@ -182,28 +184,31 @@ std::vector<Job> open(const CosimCommand& o) {
   return jobs;
 }
 
-/// Takes away what an earlier run into the folder left of frames that this one has compared: a difference that is no
-/// more, or was another.
-void remove_old_evidence(const std::string& folder, const std::string& name, cosim::FrameSteps steps,
+/// With the new files goes what an earlier run into the folder left of frames that this one has compared: a difference
+/// that is no more, or was another.
+void remove_old_evidence(TempFiles& files, const std::string& folder, const std::string& name, cosim::FrameSteps steps,
                          const cosim::Report& r) {
+  namespace fs = std::filesystem;
   if (folder.empty()) return;
   for (int i = 0; i < r.frames; ++i)
     for (const char* end : {"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"}) {
-      const std::string path =
-          (std::filesystem::path(folder) / fmt::format("{}_{:04}{}", name, steps.first + i * steps.step, end)).string();
-      std::error_code ec;  // what cannot be removed was not ours
-      if (std::find(r.pictures.begin(), r.pictures.end(), path) == r.pictures.end()) std::filesystem::remove(path, ec);
+      const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, steps.first + i * steps.step, end);
+      std::error_code ec;
+      const fs::file_type type = fs::symlink_status(path, ec).type();
+      if ((type == fs::file_type::regular || type == fs::file_type::symlink) &&  // else it was not ours
+          std::find(r.pictures.begin(), r.pictures.end(), path.string()) == r.pictures.end())
+        files.remove(path);
     }
 }
 
-/// Compares what the shard has of a scene; its report.
-Json compare(Job& job) {
+/// Compares what the shard has of a scene; its report. What it writes gets its names with the others of `files`.
+Json compare(Job& job, TempFiles& files) {
   CosimCommand& o = job.o;
   Source& source = *job.source;
   const cosim::FrameSteps steps = o.ci.shard.steps(job.before);
   const int frames = o.ci.shard.frames(job.total, job.before);
   if (frames == 0) return no_frames(source.name(), job.total);
-  const OutFolder folder(o.out);
+  job.folder = std::make_unique<OutFolder>(o.out);
   const Config& config = source.config().config;
   const cosim::Model model = model_of(source.config(), o.rtl.fault);
   Progress progress;
@@ -214,6 +219,7 @@ Json compare(Job& job) {
   cosim::RunOptions options;
   options.out = o.out;
   options.name = source.name();
+  options.files = &files;
   options.steps = steps;
   options.two_threads = o.threads != 1;
   FrameProgress frame_progress(progress, source.name(), frames);
@@ -232,7 +238,7 @@ Json compare(Job& job) {
       [&](int i, const WordSink& sink) { return report ? report->frame(i, sink) : source.frame(i, sink); }, *golden,
       *rtl, options);
   progress.clear();
-  remove_old_evidence(o.out, source.name(), steps, r);
+  remove_old_evidence(files, o.out, source.name(), steps, r);
   std::optional<cosim::Divergence> divergence;
   bool searched = false;
   std::string page;
@@ -240,7 +246,7 @@ Json compare(Job& job) {
   try {
     if (r.first_difference && !o.no_divergence) {
       try {
-        divergence = find_divergence(job, progress, r.first_difference->frame);
+        divergence = find_divergence(job, files, progress, r.first_difference->frame);
         searched = true;
         if (divergence && !divergence->no_waveform.empty())
           source.note(fmt::format("no waveform was written: {}", divergence->no_waveform));
@@ -252,7 +258,7 @@ Json compare(Job& job) {
     if (report) {
       const auto watch = [&] { return monitors(job); };
       // Where the monitors could not be had for the search, the page does without them too.
-      page = report->write(o.out, r, o.seed, divergence, searched ? watch : RunReport::Watch());
+      page = report->write(files, o.out, r, o.seed, divergence, searched ? watch : RunReport::Watch());
     }
   } catch (const Interrupted&) {
     job.interrupted = true;
@@ -291,7 +297,7 @@ Json compare(Job& job) {
   j["degraded"] = source.degraded();
   j["pictures"] = r.pictures;
   j["report"] = page.empty() ? Json(nullptr) : Json(page);
-  j["report_crc32"] = page.empty() ? Json(nullptr) : Json(report::checksum(page));
+  j["report_crc32"] = page.empty() ? Json(nullptr) : Json(report::checksum(files.now(page)));
   j["first_difference"] = to_json(r.first_difference, divergence, searched);
   j["notes"] = source.notes();
   return j;
@@ -310,30 +316,32 @@ void print_difference(const Json& d) {
   }
 }
 
-/// `who` begins the first line.
-void print_report(const Json& j, const std::string& who, const std::string& folder) {
+/// The first line of a report. `who` begins it.
+void print_verdict(const Json& j, const std::string& who) {
   const auto number = [&](const char* key) { return j[key].get<std::uint64_t>(); };
-  if (!has_frames(j)) {
-    fmt::print("{}no frame in this shard\n", who);
-    return;
-  }
   fmt::print("{}{}: {}, {}x{}, {} compared, {}{}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n", who,
              j["same"].get<bool>() ? "same" : "different", counted(number("frames"), "frame"), number("width"),
              number("height"), counted(number("pixels_compared"), "pixel"), counted(number("spans"), "span"),
              and_segments(number("segments")), counted(number("cycles"), "cycle"), j["golden_seconds"].get<double>(),
              j["rtl_seconds"].get<double>(), number("seed"));
+}
+
+void print_report(const Json& j, const std::string& who, const std::string& folder) {
+  if (!has_frames(j)) {
+    fmt::print("{}no frame in this shard\n", who);
+    return;
+  }
+  print_verdict(j, who);
   if (!j["same"].get<bool>()) print_difference(j["first_difference"]);
   if (!j["pictures"].empty()) fmt::print("pictures: {}\n", pictures_of(j, folder));
   if (!j["report"].is_null()) fmt::print("report: {}\n", j["report"].get<std::string>());
 }
 
 /// Writes the page over all scenes; its name, or nothing: the verdict stands without it.
-std::string joined_page(const CosimCommand& o, const Json& j, Job& last) {
+std::string joined_page(const CosimCommand& o, const Json& j, Job& last, TempFiles& files) {
   std::string page = (std::filesystem::path(o.out) / "report.html").string();
   try {
-    TempFiles files;
     write_joined_page(files, page, j);
-    files.commit();
     return page;
   } catch (const Interrupted&) {
     last.interrupted = true;
@@ -361,25 +369,32 @@ int run(const CosimCommand& o) {
   JUnitWriter junit(files, o.ci.junit, "kage cosim");
   std::vector<Json> reports;
   for (Job& job : jobs) {
-    reports.push_back(compare(job));
-    const std::string scene = reports.back()["scene"].get<std::string>();
-    if (has_frames(reports.back())) junit_frames(junit, {&reports.back()});
+    reports.push_back(compare(job, files));
     for (const std::string& note : job.source->notes())
       job.notes.push_back(fmt::format("{}: {}", job.source->name(), note));
     job.source.reset();  // its memory
     if (job.interrupted && &job != &jobs.back()) throw Interrupted{};
   }
-  junit.close();
+  const auto who = [&](const Json& r) { return several ? r["scene"].get<std::string>() + ": " : std::string(); };
   Json j = several ? all_scenes(reports) : reports.front();
   std::string page;
-  if (several && !o.no_report && !o.out.empty()) page = joined_page(o, j, jobs.back());
+  if (several && !o.no_report && !o.out.empty()) page = joined_page(o, j, jobs.back(), files);
   if (several) j["report"] = page.empty() ? Json(nullptr) : Json(page);
-  write_json(o, j, files);
+  try {
+    for (const Json& r : reports)
+      if (has_frames(r)) junit_frames(junit, {&r});
+    junit.close();
+    write_json(o, j, files);
+  } catch (const Error&) {
+    // No file of the run appears, but what it found is told.
+    for (const Json& r : reports)
+      if (has_frames(r) && !json_only(o)) print_verdict(r, who(r));
+    throw;
+  }
   const bool same = j["same"].get<bool>();
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     for (const std::string& note : jobs[i].notes) fmt::print(json_only(o) ? stderr : stdout, "{}\n", note);
-    const std::string scene = reports[i]["scene"].get<std::string>();
-    if (!json_only(o)) print_report(reports[i], several ? scene + ": " : "", jobs[i].o.out);
+    if (!json_only(o)) print_report(reports[i], who(reports[i]), jobs[i].o.out);
     if (has_frames(reports[i])) annotate_difference(o.ci.annotate, reports[i], json_only(o) ? stderr : stdout);
   }
   if (several && !json_only(o))
@@ -404,8 +419,8 @@ void add_cosim(CLI::App& app, Action& action) {
       "  kage cosim courtyard penumbra glass --size 160x120\n"
       "  kage cosim courtyard --shard 2/4 --junit cosim-2.xml --json cosim-2.json   (then kage merge)\n"
       "The RTL model of a configuration is built on first use, and anew when the RTL has changed; it is kept in\n"
-      "~/.cache/kage/models. The pictures appear together when there is a verdict, then DIR/report.html:\n"
-      "verdict, frames, clocks, and the history of each pixel that is clicked (docs/report.md). Of several scenes\n"
+      "~/.cache/kage/models. All files of a run appear together at its end: the pictures and DIR/report.html, which\n"
+      "has verdict, frames, clocks, and the history of each pixel that is clicked (docs/report.md). Of several scenes\n"
       "each has its own folder in DIR, and DIR/report.html is over all; a difference ends its scene, not the others.\n"
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   const auto o = std::make_shared<CosimCommand>();

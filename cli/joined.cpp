@@ -42,14 +42,16 @@ std::vector<fs::path> places_of(const fs::path& named, const std::string& file, 
   return places;
 }
 
-/// Where the page of a run is now, or "". `part` is its report, or what kage merge keeps of it.
-fs::path page_of(const Json& part) {
+/// Where the page of a run is, or is to be with the others of `files`; or "". `part` is its report, or what kage merge
+/// keeps of it.
+fs::path page_of(const Json& part, const TempFiles& files) {
   if (part["report"].is_null() || part["report_crc32"].is_null()) return {};
   const std::string file = part.contains("file") ? part["file"].get<std::string>() : "";
   for (const fs::path& place : places_of(part["report"].get<std::string>(), file, part["folder"].get<std::string>())) {
     std::error_code error;
-    if (!fs::is_regular_file(place, error) || fs::file_size(place, error) > report::kPageBytes || error) continue;
-    if (report::checksum(place) == part["report_crc32"].get<std::string>()) return place;
+    const fs::path now = files.now(place);
+    if (!fs::is_regular_file(now, error) || fs::file_size(now, error) > report::kPageBytes || error) continue;
+    if (report::checksum(now) == part["report_crc32"].get<std::string>()) return place;
   }
   return {};
 }
@@ -59,7 +61,7 @@ Json stalls_of(const Json& j) { return {j["stalled"]["input_starved"], j["stalle
 /// The page's data, part by part.
 class Data {
  public:
-  explicit Data(fs::path page) : page_(std::move(page)) {}
+  Data(fs::path page, const TempFiles& files) : page_(std::move(page)), files_(files) {}
 
   void scene(const Json& r) {
     const std::size_t number = scenes_.size();
@@ -138,7 +140,7 @@ class Data {
   }
 
   Json link(const Json& r) const {
-    const fs::path found = page_of(r);
+    const fs::path found = page_of(r, files_);
     if (found.empty()) return nullptr;
     std::error_code error;
     const fs::path folder = page_.parent_path().empty() ? "." : page_.parent_path();
@@ -178,6 +180,7 @@ class Data {
   }
 
   fs::path page_;
+  const TempFiles& files_;
   bool merged_ = false;  // of shards
   std::vector<Json> scenes_;
   std::map<int, Json> parts_;
@@ -205,7 +208,7 @@ void keep_page(const fs::path& path, const std::string& file, const Json& report
 }
 
 void write_joined_page(TempFiles& files, const fs::path& path, const Json& report) {
-  Data data(path);
+  Data data(path, files);
   const Json whole = Json::array({report});
   for (const Json& scene : report.contains("scenes") ? report["scenes"] : whole) {
     check_interrupt();
@@ -218,9 +221,11 @@ void write_joined_page(TempFiles& files, const fs::path& path, const Json& repor
   if (html.bytes() + text.size() > report::kPageBytes)
     throw Error(fmt::format("{}: would have {} bytes, and a page has {} at most: join fewer scenes", path.string(),
                             html.bytes() + text.size(), report::kPageBytes));
-  OutputFile out(files, path);
+  TempFiles own;  // half a page is not to be among the others
+  OutputFile out(own, path);
   html.write(out, [&](std::ostream& to) { to << text; });
   out.close();
+  files.take(own);
 }
 
 }  // namespace kage::cli

@@ -54,6 +54,14 @@ int lost_output(int error) {
   return trouble(fmt::format("standard output: cannot be written: {}", std::strerror(error)));
 }
 
+std::string text_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "out of memory";
+  if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
+    return fmt::format("{}: {}", (file->path2().empty() ? file->path1() : file->path2()).string(),
+                       file->code().message());
+  return error.what();
+}
+
 /// An installed kage finds its data and its modules beside itself, wherever the prefix was moved to.
 void find_data() {
   namespace fs = std::filesystem;
@@ -122,6 +130,6 @@ int main(int argc, char** argv) {
     // counts.
     const std::string lost = lost_mapped();
     if (!lost.empty()) return trouble(lost);
-    return trouble(dynamic_cast<const std::bad_alloc*>(&e) != nullptr ? "out of memory" : e.what());
+    return trouble(text_of(e));
   }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stream file is mapped, and what another program cuts off it raises SIGBUS when it is read. From guard_mapped() on,
-// lost pages read as zeros instead and are remembered, so that the run ends as with any bad file: one line, exit 2, and
-// no file left.
+// A stream file is mapped, and what another program cuts off it reads as zeros from guard_mapped() on, which is
+// remembered (files/lost_pages.hpp): so that the run ends as with any bad file, with one line, exit 2, and no file
+// left.
 #pragma once
 
 #include <string>

@@ -34,13 +34,13 @@ std::string line_of(const CLI::App& command, const std::string& name, const std:
 }
 
 /// The first pixel of each region that differs, the region with most pixels first.
-std::vector<std::pair<int, int>> pixels_of(const cosim::Report& run) {
+std::vector<std::pair<int, int>> pixels_of(const cosim::Report& run, const TempFiles& made) {
   std::vector<std::pair<int, int>> pixels;
   if (run.first_difference->x >= 0 && run.first_difference->line >= 0)
     pixels.emplace_back(run.first_difference->x, run.first_difference->line);
   const auto picture = [&](std::string_view end) {
     for (const std::string& p : run.pictures)
-      if (p.ends_with(end)) return load_image(p);
+      if (p.ends_with(end)) return load_image(made.now(p));
     return Image();
   };
   const Image expected = picture("_expected.png");
@@ -130,7 +130,7 @@ TokenCounts RunReport::frame(int index, const WordSink& sink) {
 
 void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
   const int frame = page.run->first_difference->frame;
-  const auto pixels = pixels_of(*page.run);
+  const auto pixels = pixels_of(*page.run, *page.made);
   if (pixels.empty()) return;
   const std::vector<std::uint32_t> words = source_.words(frame);
   const auto feed = [&](int i, const WordSink& sink) { return source_.frame(i, sink); };
@@ -159,12 +159,13 @@ void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
   }
 }
 
-std::string RunReport::write(const std::string& folder, const cosim::Report& run, std::uint64_t seed,
+std::string RunReport::write(TempFiles& files, const std::string& folder, const cosim::Report& run, std::uint64_t seed,
                              const std::optional<cosim::Divergence>& divergence, const Watch& watch) {
   if (!tokens_) throw Error(trouble_);
   report::Page page;
   page.name = source_.name();
   page.run = &run;
+  page.made = &files;
   page.config = source_.config();
   page.seed = seed;
   page.divergence = divergence;
@@ -196,7 +197,9 @@ std::string RunReport::write(const std::string& folder, const cosim::Report& run
   }
   page.notes = source_.notes();
   const auto path = std::filesystem::path(folder) / "report.html";
-  report::write_page(path, page);
+  TempFiles own;  // half a page is not to be among the others
+  report::write_page(own, path, page);
+  files.take(own);
   return path.string();
 }
 

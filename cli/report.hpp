@@ -35,9 +35,10 @@ class RunReport {
 
   using Watch = std::function<cosim::DivergenceOptions()>;
 
-  /// Writes FOLDER/report.html and returns its name. `watch` gives the options to run the RTL with monitors by; it is
+  /// Writes FOLDER/report.html, which gets its name with the others of `files`, the run's pictures among them, and
+  /// returns it. `watch` gives the options to run the RTL with monitors by; it is
   /// asked only after a difference, and empty where no stage is to be looked for. Throws Error if there can be no page.
-  std::string write(const std::string& folder, const cosim::Report& run, std::uint64_t seed,
+  std::string write(TempFiles& files, const std::string& folder, const cosim::Report& run, std::uint64_t seed,
                     const std::optional<cosim::Divergence>& divergence, const Watch& watch);
 
  private:

@@ -37,6 +37,13 @@ void write_all(int fd, const char* data, std::size_t size, const std::string& na
   }
 }
 
+void sync_file(const std::filesystem::path& path, const std::string& name) {
+  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int error = fd < 0 || fsync(fd) != 0 ? errno : 0;
+  if (fd >= 0) (void)close(fd);
+  if (error != 0) fail_write(name, error);
+}
+
 ReadOnly::ReadOnly(const std::filesystem::path& file)
     : name_(file.string()), fd_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (fd_ < 0) throw Error(fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));

@@ -16,6 +16,10 @@ namespace kage {
 /// that the program handles is such a cause; on a disk it is none.
 void write_all(int fd, const char* data, std::size_t size, const std::string& name);
 
+/// Has the file `path`, which another writer has made, on the disk. Throws Error that names `name`: some file systems
+/// tell only now that there was no room.
+void sync_file(const std::filesystem::path& path, const std::string& name);
+
 /// A file that is read, from its beginning.
 class ReadOnly {
  public:

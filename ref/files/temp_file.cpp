@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -24,6 +25,12 @@ fs::path replaced_by(const fs::path& target) {
   fs::path real = fs::weakly_canonical(target, ec);
   if (ec) throw Error(fmt::format("{}: {}", target.string(), ec.message()));
   return real;
+}
+
+/// The same for a name from here and one from the root.
+fs::path whole_name(const fs::path& path) {
+  std::error_code ec;
+  return fs::absolute(path, ec).lexically_normal();
 }
 
 std::shared_ptr<HiddenFolder> hidden_beside(const fs::path& target, const fs::path& given) {
@@ -46,7 +53,8 @@ bool is_device(const fs::path& path) {
   return fs::is_fifo(status) || fs::is_character_file(status);
 }
 
-TempFile::TempFile(fs::path target, Way way) : given_(std::move(target)), target_(given_), way_(way) {
+TempFile::TempFile(fs::path target, Way way)
+    : given_(std::move(target)), name_(whole_name(given_)), target_(given_), way_(way) {
   if (way == Way::remove) {
     folder_ = hidden_beside(target_, given_);
     return;
@@ -136,6 +144,19 @@ void TempFile::settle() {
   if (!aside_.empty()) fs::remove(aside_, ec);
   aside_.clear();
   placed_ = false;
+}
+
+void TempFiles::take(TempFiles& others) {
+  for (auto& file : others.files_) files_.push_back(std::move(file));
+  others.files_.clear();
+}
+
+fs::path TempFiles::now(const fs::path& target) const {
+  const fs::path name = whole_name(target);
+  const auto found = std::find_if(files_.rbegin(), files_.rend(), [&](const auto& file) {
+    return !file->temp().empty() && file->name().native() == name.native();
+  });
+  return found == files_.rend() ? target : (*found)->temp();
 }
 
 void TempFiles::place() {

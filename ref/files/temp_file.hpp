@@ -29,7 +29,8 @@ class TempFile {
   TempFile& operator=(const TempFile&) = delete;
 
   [[nodiscard]] const std::filesystem::path& temp() const { return temp_; }
-  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+  /// The name that was asked for, from the root.
+  [[nodiscard]] const std::filesystem::path& name() const { return name_; }
   /// Whether the target is a device or a pipe. What it got cannot be undone.
   [[nodiscard]] bool is_device() const { return device_; }
 
@@ -48,6 +49,7 @@ class TempFile {
   void undo();
 
   std::filesystem::path given_;   // as messages call it
+  std::filesystem::path name_;    // from the root
   std::filesystem::path target_;  // what a link leads to
   std::shared_ptr<HiddenFolder> folder_;
   std::filesystem::path temp_;   // empty if there is nothing to write, or it has its name
@@ -81,6 +83,12 @@ class TempFiles {
   void remove(std::filesystem::path target) {
     files_.push_back(std::make_unique<TempFile>(std::move(target), TempFile::Way::remove));
   }
+
+  /// All files of `others` are of these now.
+  void take(TempFiles& others);
+
+  /// Where the file lies that is to be `target`: its unfinished name, or `target` itself if it is none of these.
+  [[nodiscard]] std::filesystem::path now(const std::filesystem::path& target) const;
 
   /// All get their names, or none: if one cannot, all are as they were, and Error is thrown. Devices and pipes come
   /// last, as they keep what they got. Until settle() follows, the end of this object puts back what was there: so that

@@ -74,7 +74,9 @@ int main() {
     page.run = &run;
     page.tokens = &tokens;
     Clock clock;
-    report::write_page(folder / "report.html", page);
+    TempFiles files;
+    report::write_page(files, folder / "report.html", page);
+    files.commit();
     const double writing = clock.lap();
     int told = 0;
     for (const report::Band& b : tokens.bands()) told += b.line < 0 ? 0 : report::kBandLines;

@@ -78,7 +78,8 @@ json narrow.json 'j["same"] and j["frames"]==8 and j["report"] is None and any("
 for ((i = 0; i < 50; ++i)); do
   rm -rf cut cut.json
   "$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out cut --json cut.json >stdout 2>stderr &
-  until [ -e cut/courtyard_0000_difference.png ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
+  # The frame's picture and the three of its difference wait for the end of the run: there is a verdict.
+  until [ "$(find cut -path '*/.kage-*' -name '*.png' 2>/dev/null | wc -l)" -ge 4 ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
   kill -INT $! 2>/dev/null
   rc=0
   wait $! || rc=$?

@@ -64,7 +64,8 @@ rm "$model" && mv real.so "$model"
 mkfifo "$model.fifo" && mv "$model" kept.so && mv "$model.fifo" "$model" && untrusted "$model: is no file"
 rm "$model"
 echo precious >precious
-ln -sf "$PWD/precious" "${model%.so}.log" && untrusted "log: cannot be written: it is a link"
+ln -sf "$PWD/precious" "${model%.so}.log"
+cosim 0 # the log of a build that failed would replace the link
 [ "$(cat precious)" = precious ] || fail "a link was followed"
 rm "${model%.so}.log" && mv kept.so "$model"
 chmod 777 cache/kage/verilator && untrusted "cache/kage/verilator: others may write to it"

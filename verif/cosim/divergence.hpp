@@ -13,6 +13,7 @@
 #include "cosim/rtl.hpp"
 #include "cosim/run.hpp"
 #include "cosim/stages.hpp"
+#include "files/temp_file.hpp"
 
 namespace kage::cosim {
 
@@ -44,6 +45,7 @@ struct DivergenceOptions {
   RtlOptions rtl;
   FrameSteps steps;                ///< which frames the run had
   std::filesystem::path waveform;  ///< FST file to write, empty for none; the save file has .gtkw in its place
+  TempFiles* files = nullptr;      ///< gets both, for the caller to commit; nullptr: they are committed at once
   std::uint64_t before = 100;      ///< clocks of waveform before the divergence
   std::uint64_t after = 50;        ///< and after it
   std::function<void()> wait;      ///< called now and then; may throw, which ends the search

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cosim/model.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <openssl/evp.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <span>
+#include <sstream>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 #include "cosim/lock.hpp"
 #include "cosim/model_cache.hpp"
-#include "cosim/trust.hpp"
+#include "cosim/process.hpp"
+#include "files/hidden_folder.hpp"
+#include "files/output_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 
@@ -123,50 +123,9 @@ std::string key_of(const fs::path& data, const std::vector<fs::path>& files, con
   return hash.hex();
 }
 
-/// A program in a process group of its own, ended with the object.
-class Process {
- public:
-  Process(const std::vector<std::string>& command, const fs::path& log) : pid_(fork()) {
-    if (pid_ < 0) throw Error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(errno)));
-    setpgid(pid_, pid_);  // by both: it has to be so before either goes on
-    if (pid_ != 0) return;
-    const int out = open(log.c_str(), O_WRONLY | O_APPEND);
-    const int in = open("/dev/null", O_RDONLY);
-    dup2(in, STDIN_FILENO);
-    dup2(out, STDOUT_FILENO);
-    dup2(out, STDERR_FILENO);
-    std::vector<char*> argv;
-    argv.reserve(command.size() + 1);
-    for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
-    argv.push_back(nullptr);
-    execvp(argv[0], argv.data());
-    _exit(127);
-  }
-  ~Process() {
-    if (pid_ <= 0) return;
-    kill(-pid_, SIGTERM);
-    waitpid(pid_, nullptr, 0);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  /// True once it has ended.
-  bool ended(bool& ok) {
-    int status = 0;
-    const pid_t done = waitpid(pid_, &status, WNOHANG);
-    if (done == 0) return false;
-    ok = done == pid_ && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    pid_ = 0;
-    return true;
-  }
-
- private:
-  pid_t pid_;
-};
-
-/// The last line that says something, for a message of one line.
-std::string last_line(const fs::path& log) {
-  std::ifstream in(log);
+/// The line that tells most, for a message of one line.
+std::string telling_line(const std::string& said) {
+  std::istringstream in(said);
   std::string line;
   std::string error;
   std::string last;
@@ -175,6 +134,7 @@ std::string last_line(const fs::path& log) {
     if (error.empty() && line.find("rror") != std::string::npos) error = line;
     last = line;
   }
+  if (last.empty()) return "no cause was given";
   return error.empty() ? last : error;
 }
 
@@ -187,16 +147,37 @@ std::string with_path(std::string text, const fs::path& from, const fs::path& to
   return text;
 }
 
-struct RemoveFolder {
-  fs::path path;
-  explicit RemoveFolder(fs::path p) : path(std::move(p)) {}
-  ~RemoveFolder() {
-    std::error_code ec;
-    fs::remove_all(path, ec);
+/// Puts a failed build's log where a person can look at it; false where that cannot be, as on a full disk. A link of
+/// that name is replaced, not followed.
+bool keep_log(const std::string& text, const fs::path& temp, const fs::path& log) {
+  try {
+    OutputFile out(temp, log.string());
+    out << text;
+    out.close();
+    fs::permissions(temp, fs::perms::owner_read | fs::perms::owner_write);
+    fs::rename(temp, log);
+    return true;
+  } catch (const std::exception&) {
+    return false;
   }
-  RemoveFolder(const RemoveFolder&) = delete;
-  RemoveFolder& operator=(const RemoveFolder&) = delete;
-};
+}
+
+void copy_sources(const fs::path& data, const std::vector<fs::path>& files, const fs::path& copy) {
+  std::error_code ec;
+  for (const fs::path& file : files) {
+    fs::create_directories((copy / file).parent_path(), ec);
+    if (!ec) fs::copy_file(data / file, copy / file, ec);
+    if (ec) throw Error(fmt::format("RTL model: {}: cannot be written: {}", (copy / file).string(), ec.message()));
+  }
+}
+
+HiddenFolder work_folder(const fs::path& folder) {
+  try {
+    return HiddenFolder(folder);
+  } catch (const std::system_error& e) {
+    throw Error(fmt::format("RTL model: {}: cannot be written to: {}", folder.string(), e.code().message()));
+  }
+}
 
 /// What the cache says of a model, for `kage cache list`.
 nlohmann::ordered_json about(const Config& config, const ModelOptions& options) {
@@ -225,15 +206,14 @@ Model find_model(const Config& config, const ModelOptions& options) {
     return true;
   };
   const std::string now = key_of(data, files, config, options);
+  HiddenFolder::sweep(cache.folder());  // of builds that were killed
   if (find(now)) return {.library = cache.library(now)};
 
   // What is built is a copy: someone may change the RTL meanwhile, and the model must be of what its name says.
-  const RemoveFolder work(cache.folder() / fmt::format("{}.{}", now, getpid()));
-  const fs::path copy = work.path / "source";
-  for (const fs::path& file : files) {
-    fs::create_directories((copy / file).parent_path());
-    fs::copy_file(data / file, copy / file);
-  }
+  const HiddenFolder hidden = work_folder(cache.folder());
+  const fs::path work = hidden.path();
+  const fs::path copy = work / "source";
+  copy_sources(data, files, copy);
   const std::string key = key_of(copy, files, config, options);
 
   const auto start = std::chrono::steady_clock::now();
@@ -248,27 +228,34 @@ Model find_model(const Config& config, const ModelOptions& options) {
   if (find(key)) return {.library = cache.library(key)};  // another program has built it
 
   const fs::path log = cache.log(key);
-  close(create_own_file(log));
-  std::vector<std::string> command{"env", "-u", "KAGE_RTL_DIR", (copy / "verif/rtl_model/build.py").string(),
-                                   (work.path / "model.so").string()};
+  // The compilers' temporary files lie there too, and go with the rest if they are killed.
+  fs::create_directory(work / "tmp");
+  std::vector<std::string> command{"env",
+                                   "-u",
+                                   "KAGE_RTL_DIR",
+                                   "TMPDIR=" + (work / "tmp").string(),
+                                   (copy / "verif/rtl_model/build.py").string(),
+                                   (work / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
   if (!options.fault.empty()) command.insert(command.end(), {"--fault", options.fault});
   if (options.traced) command.emplace_back("--trace");
   if (options.mutants) command.emplace_back("--mutants");
   command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
-                                 "--keep", (work.path / "build").string()});
+                                 "--keep", (work / "build").string()});
   if (options.progress) options.progress(0);
-  Process build(command, log);
+  Process build(command);
   bool ok = false;
   while (!build.ended(ok)) wait();
-  if (!ok || !fs::exists(work.path / "model.so")) {
+  if (!ok || !fs::exists(work / "model.so")) {
     // Messages name files where a person can look at them.
-    const std::string cause = with_path(last_line(log), copy, data);
-    if (fs::exists(work.path / "build/build.log"))  // what build.py said is less than its log has
-      std::ofstream(log) << with_path(read_file(work.path / "build/build.log"), copy, data);
-    throw Error(fmt::format("RTL model: the build failed: {} (log: {})", cause, log.string()));
+    const std::string cause = with_path(telling_line(build.said()), copy, data);
+    const fs::path own = work / "build/build.log";  // what build.py said is less than its log has
+    const bool kept =
+        keep_log(with_path(fs::exists(own) ? read_file(own) : build.said(), copy, data), work / "log", log);
+    throw Error(
+        fmt::format("RTL model: the build failed: {}{}", cause, kept ? fmt::format(" (log: {})", log.string()) : ""));
   }
-  cache.keep(key, work.path / "model.so", about(config, options));
+  cache.keep(key, work / "model.so", about(config, options));
   return {.library = cache.library(key),
           .build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
           .damage = damage};

@@ -15,6 +15,7 @@
 
 #include "cosim/lock.hpp"
 #include "cosim/trust.hpp"
+#include "files/output_file.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
@@ -83,17 +84,6 @@ void sync(int fd, const fs::path& path) {
   if (fsync(fd) != 0) throw Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
 }
 
-void write_synced(const fs::path& path, const std::string& text) {
-  const Descriptor file(create_own_file(path));
-  for (std::size_t at = 0; at < text.size();) {
-    const ssize_t n = write(file.get(), text.data() + at, text.size() - at);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
-    at += static_cast<std::size_t>(n);
-  }
-  sync(file.get(), path);
-}
-
 fs::path base() {
   const char* xdg = std::getenv("XDG_CACHE_HOME");
   const char* home = std::getenv("HOME");
@@ -142,8 +132,11 @@ void ModelCache::keep(const std::string& key, const fs::path& built, const Json&
   whole.update(about);
   fs::path text = built;
   text.replace_extension(".json");
-  write_synced(text, whole.dump(2) + "\n");
+  OutputFile out(text, manifest(key).string());
+  out << whole.dump(2) << '\n';
+  out.close();
   std::error_code ec;
+  fs::permissions(text, fs::perms::owner_read | fs::perms::owner_write, ec);
   fs::rename(text, manifest(key), ec);
   if (!ec) fs::rename(built, library(key), ec);
   if (ec) throw Error(fmt::format("{}: cannot be written: {}", library(key).string(), ec.message()));

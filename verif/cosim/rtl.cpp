@@ -102,6 +102,7 @@ class Rtl : public RtlCore {
   void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) override {
     table_->wave(model_, path.c_str(), first, last);
   }
+  int end_wave() override { return table_->end_wave(model_); }
 
   int read_register(std::uint32_t address, std::uint32_t& value) override {
     return table_->reg_read(model_, address, &value);

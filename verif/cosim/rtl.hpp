@@ -56,6 +56,9 @@ class RtlCore : public Core {
   /// Write a waveform of the clocks first .. last to an FST file; it is whole once they have passed, or with the
   /// model's end.
   virtual void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) = 0;
+
+  /// Ends it. 0: it is whole; else the errno of what could not be written.
+  virtual int end_wave() = 0;
 };
 
 /// The RTL, simulated by the model library that find_model() gave. Throws Error if the library does not fit.

@@ -47,8 +47,13 @@ class Comparer {
 
   [[nodiscard]] Report& report() { return report_; }
 
-  /// There is a verdict: the pictures get their names.
-  void commit() { files_.commit(); }
+  /// There is a verdict: the pictures get their names, here or by the caller.
+  void commit() {
+    if (options_.files != nullptr)
+      options_.files->take(files_);
+    else
+      files_.commit();
+  }
 
  private:
   /// That of the frame at hand.

@@ -10,6 +10,7 @@
 
 #include "cosim/compare.hpp"
 #include "cosim/core.hpp"
+#include "files/temp_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
@@ -31,6 +32,7 @@ struct Enough {};
 struct RunOptions {
   std::filesystem::path out;             ///< an existing folder for pictures, or empty for none
   std::string name = "frame";            ///< pictures are NAME_0000.png ...
+  TempFiles* files = nullptr;            ///< gets the pictures, for the caller to commit; nullptr: run() commits them
   FrameSteps steps;                      ///< of the frames
   bool two_threads = true;               ///< the second core works beside the first
   std::function<void(int frame)> begin;  ///< called before each frame is fed; may throw, which ends the run
@@ -77,11 +79,11 @@ inline constexpr std::size_t kAheadBytes = std::size_t{4} << 20;
 
 /// Send every frame, 0 .. frames - 1 as options.steps says, through both cores and compare line by line. Each frame of
 /// `expected` is written as a picture; at the first difference also NAME_0000_expected.png, _actual.png and
-/// _difference.png. They appear together when there is a verdict; without one, what lay in the folder before is
-/// untouched. The expected core runs ahead of the actual one by kAheadBytes at most; memory depends neither on the
-/// number of frames nor on their height. Only the three pictures of the first difference, with which the run ends, are
-/// in memory whole. Throws Error where no verdict is possible: no frames, or a frame that the expected core refuses in
-/// its header, so that no pixel could be compared.
+/// _difference.png. They appear together when there is a verdict, or with the others of options.files; without one,
+/// what lay in the folder before is untouched. The expected core runs ahead of the actual one by kAheadBytes at most;
+/// memory depends neither on the number of frames nor on their height. Only the three pictures of the first difference,
+/// with which the run ends, are in memory whole. Throws Error where no verdict is possible: no frames, or a frame that
+/// the expected core refuses in its header, so that no pixel could be compared.
 Report run(int frames, const Feed& feed, Core& expected, Core& actual, const RunOptions& options);
 
 }  // namespace kage::cosim

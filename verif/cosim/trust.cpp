@@ -95,12 +95,4 @@ int open_own_file(const fs::path& file) {
   return fd;
 }
 
-int create_own_file(const fs::path& file) {
-  const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (fd < 0)
-    throw Error(fmt::format("{}: cannot be written: {}", file.string(),
-                            errno == ELOOP ? "it is a link" : std::strerror(errno)));
-  return fd;
-}
-
 }  // namespace kage::cosim

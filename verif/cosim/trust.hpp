@@ -20,7 +20,4 @@ std::filesystem::path own_folder(const std::filesystem::path& base, std::initial
 /// Error, with the way to mend it, if the file does not belong to this user or root, or if others may write to it.
 int open_own_file(const std::filesystem::path& file);
 
-/// Opens a file to write anew, with mode 0600; a link in its place is an error, not followed. Throws Error.
-int create_own_file(const std::filesystem::path& file);
-
 }  // namespace kage::cosim

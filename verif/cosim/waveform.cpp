@@ -5,17 +5,15 @@
 
 #include <initializer_list>
 #include <string>
-#include <system_error>
 
 #include "cosim/replay.hpp"
+#include "files/lost_pages.hpp"
+#include "files/plain_io.hpp"
 #include "files/temp_file.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
 namespace {
-
-// Far more than a waveform of some hundred clocks takes while it is made.
-constexpr std::uintmax_t kRoom = std::uintmax_t{32} << 20;
 
 // A net of kage_top.
 struct Net {
@@ -58,8 +56,11 @@ std::string save_file(const std::filesystem::path& wave, const Config& config, s
   return text;
 }
 
-void record(const std::filesystem::path& path, int from, int frame, const Feed& feed, const Config& config,
-            const DivergenceOptions& options, std::uint64_t clock) {
+void record(const std::filesystem::path& path, const std::string& name, int from, int frame, const Feed& feed,
+            const Config& config, const DivergenceOptions& options, std::uint64_t clock) {
+  // Verilator's writer maps temporary files, which on a full disk have no pages.
+  guard_pages();
+  const int lost = lost_pages();
   const auto rtl = make_rtl(options.library, config, options.rtl);
   const std::uint64_t end = clock + options.after;
   rtl->wave(path, clock > options.before ? clock - options.before : 0, end);
@@ -74,24 +75,27 @@ void record(const std::filesystem::path& path, int from, int frame, const Feed& 
     }
   } catch (const Enough&) {
   }
+  if (const int error = rtl->end_wave(); error != 0) fail_write(name, error);
+  if (lost_pages() != lost) {
+    forget_lost_pages(lost);
+    throw Error(fmt::format("{}: cannot be written: no room for its temporary files in /tmp", name));
+  }
+  sync_file(path, name);
 }
 
 }  // namespace
 
 std::filesystem::path write_waveform(int from, int frame, const Feed& feed, const Config& config,
                                      const DivergenceOptions& options, std::uint64_t clock) {
-  // Verilator's writer maps its files into memory: on a full disk that is no error but a signal.
-  std::error_code ec;
-  const auto folder = std::filesystem::absolute(options.waveform).parent_path();
-  const std::filesystem::space_info space = std::filesystem::space(folder, ec);
-  if (!ec && space.available < kRoom)
-    throw Error(fmt::format("{}: less than {} MiB are free there", folder.string(), kRoom >> 20));
   TempFiles files;
-  record(files.add(options.waveform), from, frame, feed, config, options, clock);
+  record(files.add(options.waveform), options.waveform.string(), from, frame, feed, config, options, clock);
   auto path = options.waveform;
   path.replace_extension(".gtkw");
   write_text(files, path.string(), save_file(options.waveform, config, clock));
-  files.commit();
+  if (options.files != nullptr)
+    options.files->take(files);
+  else
+    files.commit();
   return path;
 }
 

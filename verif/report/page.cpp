@@ -6,7 +6,6 @@
 #include <limits>
 #include <set>
 
-#include "files/temp_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "report/html.hpp"
@@ -20,6 +19,9 @@ namespace fs = std::filesystem;
 /// The pictures that the page holds: as many as there is room for.
 class Pictures {
  public:
+  /// `made`: those that have no names yet, or nullptr.
+  explicit Pictures(const TempFiles* made) : made_(made) {}
+
   /// null for no picture; else {name, data}: data is its place in the list, null where it does not fit.
   Json add(const std::string& path) {
     if (path.empty()) return nullptr;
@@ -27,11 +29,12 @@ class Pictures {
     j["name"] = fs::path(path).filename().string();
     j["data"] = nullptr;
     std::error_code error;
-    const auto size = fs::file_size(path, error);
+    fs::path now = made_ != nullptr ? made_->now(path) : fs::path(path);
+    const auto size = fs::file_size(now, error);
     if (error || fs::path(path).extension() != ".png" || bytes_ + size / 3 * 4 + 8 > kPictureBytes) return j;
     bytes_ += size / 3 * 4 + 8;
     j["data"] = paths_.size();
-    paths_.emplace_back(path);
+    paths_.push_back(std::move(now));
     return j;
   }
 
@@ -48,6 +51,7 @@ class Pictures {
   }
 
  private:
+  const TempFiles* made_;
   std::size_t bytes_ = 0;
   std::vector<fs::path> paths_;
 };
@@ -232,12 +236,11 @@ Json data_of(const Page& page, Pictures& pictures) {
 
 }  // namespace
 
-void write_page(const fs::path& path, const Page& page) {
+void write_page(TempFiles& files, const fs::path& path, const Page& page) {
   const Html html(headline(page) + " - " + page.name, headline(page), "run", {"parts", "explain", "view", "page"});
-  Pictures pictures;
+  Pictures pictures(page.made);
   std::string data = script_text(data_of(page, pictures));
   data.pop_back();  // the brace: two lists follow
-  TempFiles files;
   OutputFile out(files, path);
   html.write(out, [&](std::ostream& to) {
     to << data << ",\"pictures\":[";
@@ -250,7 +253,6 @@ void write_page(const fs::path& path, const Page& page) {
     to << "]}";
   });
   out.close();
-  files.commit();
 }
 
 }  // namespace kage::report

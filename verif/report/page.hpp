@@ -12,6 +12,7 @@
 
 #include "cosim/divergence.hpp"
 #include "cosim/run.hpp"
+#include "files/temp_file.hpp"
 #include "kage/config.hpp"
 #include "kage/explain.hpp"
 #include "report/html.hpp"
@@ -36,6 +37,7 @@ struct ToldPixel {
 struct Page {
   std::string name;  ///< of the scene or stream
   const cosim::Report* run = nullptr;
+  const TempFiles* made = nullptr;  ///< the files of the run, where they have no names yet; or nullptr
   NamedConfig config;
   std::uint64_t seed = 0;
   std::optional<cosim::Divergence> divergence;
@@ -54,7 +56,7 @@ struct Page {
   const TokenStore* wanted = nullptr;  ///< of the different frame, to be there before all others; or nullptr
 };
 
-/// Writes the page. The file appears under its name when it is whole. Throws Error that names it.
-void write_page(const std::filesystem::path& path, const Page& page);
+/// Writes the page, which gets its name with the others of `files`. Throws Error that names it.
+void write_page(TempFiles& files, const std::filesystem::path& path, const Page& page);
 
 }  // namespace kage::report

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/token_store.hpp"
 
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 
 #include "kage/error.hpp"
 
@@ -24,7 +27,9 @@ std::string base64(std::span<const std::uint8_t> data) {
 
 TokenStore::TokenStore(const Config& config, std::size_t budget)
     : config_(config), layout_(config), counter_(config), budget_(budget), file_(std::tmpfile(), std::fclose) {
-  if (!file_) throw Error("the report: no temporary file can be made; --no-report goes without");
+  if (!file_)
+    throw Error(fmt::format("the report: no temporary file can be made: {}; --no-report goes without",
+                            std::strerror(errno)));
 }
 
 std::string TokenStore::text(const Band& band) const {
@@ -128,7 +133,8 @@ void TokenStore::close_band() {
   full_ = bytes_ + text.size() > budget_;
   if (full_) return;
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size())
-    throw Error("the report: its temporary file cannot be written; --no-report goes without");
+    throw Error(fmt::format("the report: its temporary file cannot be written: {}; --no-report goes without",
+                            std::strerror(errno)));
   band_.offset = bytes_;
   band_.bytes = text.size();
   bytes_ += text.size();

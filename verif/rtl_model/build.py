@@ -14,16 +14,19 @@ usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [
   --sources      print the files that the model depends on, one a line, and stop: what a cache key must cover
 
 The RTL is that of this source tree or of $KAGE_RTL_DIR; $VERILATOR and $CXX name other tools. OUT.so appears only when it is whole.
-On failure: one line on standard error that names the step and the log, exit status 2.
+On failure: a line on standard error that names the log, where there is one, then one that names the step and the cause; exit status 2.
+SIGTERM ends the build with all its tools, where it is the leader of a process group, as kage makes it.
 """
 import argparse
 import contextlib
+import errno
 import hashlib
 import os
 import pathlib
 import re
 import shlex
 import shutil
+import signal
 import stat
 import struct
 import subprocess
@@ -45,18 +48,64 @@ def fail(message):
     sys.exit(2)
 
 
-def run(step, command, log, cwd=None):
-    with open(log, "a") as out:
-        out.write("$ " + " ".join(map(str, command)) + "\n")
-        out.flush()
+# What a tool says when it may write no more, in the system's words.
+NO_ROOM = [os.strerror(e) for e in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS)]
+
+
+class Log:
+    """What the steps say. The disk of its file may be full: then the build goes on, or says its cause, without one."""
+
+    def __init__(self, path):
+        self.path = path
+        self.whole = True
+        self.write("", "w")
+
+    def write(self, text, mode="a"):
         try:
-            done = subprocess.run([str(c) for c in command], stdout=out, stderr=subprocess.STDOUT, cwd=cwd)
-        except OSError as e:
-            fail(f"{step}: {command[0]}: {e.strerror}")
-    if done.returncode != 0:
-        wanted = [line for line in log.read_text(errors="replace").splitlines() if "rror" in line or "FAILED" in line or line.startswith("%Warning")]
-        print(f"build.py: the log is {log}", file=sys.stderr)
-        fail(f"{step} failed{': ' + wanted[0].strip() if wanted else ''}")
+            with open(self.path, mode) as out:
+                out.write(text)
+        except OSError:
+            self.whole = False
+
+
+def no_room(text, folder):
+    """Why a step could not write, or None: as its tool said it, or, as not every tool says it, as a try in the folder says it."""
+    said = next((words for words in NO_ROOM if words in text), None)
+    if said:
+        return said
+    try:
+        with tempfile.TemporaryFile(dir=folder) as probe:
+            probe.write(bytes(1 << 18))
+            probe.flush()
+            os.fsync(probe.fileno())
+    except OSError as e:
+        return e.strerror
+    return None
+
+
+def run(step, command, log):
+    command = [str(c) for c in command]
+    try:
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, restore_signals=False)
+    except OSError as e:
+        fail(f"{step}: {command[0]}: {e.strerror}")
+    text = done.stdout.decode(errors="replace")
+    log.write("$ " + " ".join(command) + "\n" + text)
+    if done.returncode == 0:
+        return
+    if log.whole:
+        print(f"build.py: the log is {log.path}", file=sys.stderr)
+    wanted = [line.strip() for line in text.splitlines() if "rror" in line or "FAILED" in line or line.startswith("%Warning")]
+    cause = no_room(text, log.path.parent) or (wanted[0] if wanted else f"exit status {done.returncode}")
+    fail(f"{step} failed: {cause}")
+
+
+def end_all(number, _):
+    """The build is over, and so are the tools that it has started."""
+    signal.signal(number, signal.SIG_IGN)
+    if os.getpgrp() == os.getpid():
+        os.killpg(0, number)
+    sys.exit(128 + number)
 
 
 def parameters(arguments):
@@ -125,6 +174,7 @@ def put_in(rtl, package):
 
 
 def main():
+    signal.signal(signal.SIGTERM, end_all)
     parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0], add_help=True)
     parser.add_argument("out", nargs="?")
     parser.add_argument("params", nargs="*")
@@ -155,8 +205,7 @@ def main():
 
 
 def build(out, values, args, work):
-    log = work / "build.log" if args.keep else pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"  # outlives a failure
-    log.write_text("")
+    log = Log(work / "build.log" if args.keep else pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log")  # outlives a failure
     rtl = RTL
     mutants = 0
     if args.fault or args.mutants:
@@ -218,12 +267,12 @@ def build(out, values, args, work):
                                   *(["-DKAGE_MUTANTS"] if args.mutants else []), f"-I{obj}", f"-I{work}",
                                   f"-I{HERE}", "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
                                   HERE / "rtl_model.cpp", obj / "Vkage__ALL.a", obj / "verilated.o", *(obj / e for e in extra),
-                                  *(["-lz"] if args.trace else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
+                                  *(["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fflush", "fclose"))] if args.trace else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
         os.replace(partial, out)
     finally:
         partial.unlink(missing_ok=True)
     if not args.keep:
-        log.unlink()
+        log.path.unlink(missing_ok=True)
 
 
 class Runtime:
@@ -248,23 +297,36 @@ class Runtime:
                 if whole[-SUM_BYTES:] == check_sum(whole[:-SUM_BYTES]):  # a damaged one is compiled
                     (self.obj / name).write_bytes(whole[:-SUM_BYTES])
             except OSError:
-                pass  # it is compiled
+                (self.obj / name).unlink(missing_ok=True)  # it is compiled: make would take half of one for the whole
 
     def keep(self, names):
         for name in names if self.folder else ():
-            partial = self.folder / f".{name}.{os.getpid()}"
             try:
                 self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
                 data = (self.obj / name).read_bytes()
-                with open(os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600), "wb") as file:
-                    file.write(data + check_sum(data))
-                    file.flush()
-                    os.fsync(file.fileno())
-                os.replace(partial, self.folder / name)
+                # Among the build's own files, which go if it is killed; beside its place where that is another disk.
+                if not any(self.put(data + check_sum(data), place, name) for place in (self.obj, self.folder)):
+                    return
             except OSError:
-                with contextlib.suppress(OSError):
-                    partial.unlink(missing_ok=True)
                 return  # the next one compiles them too
+
+    def put(self, data, place, name):
+        """Keep `data` as `name`, by way of a file in the folder `place`; False if that is on another disk."""
+        partial = place / f".{name}.{os.getpid()}"
+        try:
+            with open(os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o600), "wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            os.replace(partial, self.folder / name)
+            return True
+        except OSError as e:
+            if e.errno == errno.EXDEV:
+                return False
+            raise
+        finally:
+            with contextlib.suppress(OSError):
+                partial.unlink()
 
 
 SUM_BYTES = 12
@@ -291,4 +353,7 @@ def needs_threads(obj):
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except OSError as e:
+        fail(f"{e.filename}: {e.strerror}" if e.filename else e.strerror)

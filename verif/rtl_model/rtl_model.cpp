@@ -3,6 +3,8 @@
 // The driver around a verilated kage_top: queues, stall patterns, checks of the video port. See rtl_model.h.
 #include "rtl_model.h"
 
+#include <cerrno>
+#include <cstdio>
 #include <deque>
 #include <memory>
 #include <new>
@@ -20,6 +22,11 @@
 #endif
 
 namespace {
+
+#ifdef KAGE_TRACED
+/// The errno of what first could not be written of a waveform: 0 for nothing.
+int wave_error = 0;
+#endif
 
 /// xorshift64*: small, and the same everywhere.
 class Random {
@@ -425,17 +432,51 @@ const kage_rtl_table kTable = {
       m->wave_path = path;
       m->wave_first = first;
       m->wave_last = last;
+      wave_error = 0;
       return 0;
+    },
+    [](kage_rtl* m) {
+      m->close_wave();
+      return wave_error;
     },
 #else
     [](kage_rtl*) -> std::int64_t { return -1; },
     [](kage_rtl*, const char*, std::uint64_t, std::uint64_t) { return -1; },
+    [](kage_rtl*) { return -1; },
 #endif
 };
 
 }  // namespace
 
 #ifdef KAGE_TRACED
+// The library is linked so that these take the place of the C functions (build.py: --wrap): Verilator's writer of FST
+// does not look whether what it writes gets written. stdio keeps the error with the file until it is closed.
+extern "C" {
+size_t __real_fwrite(const void* data, size_t size, size_t count, FILE* file);
+int __real_fflush(FILE* file);
+int __real_fclose(FILE* file);
+
+static void note_wave_error(const FILE* file, bool failed) {
+  if (failed && wave_error == 0 && file != stderr && file != stdout) wave_error = errno != 0 ? errno : EIO;
+}
+size_t __wrap_fwrite(const void* data, size_t size, size_t count, FILE* file) {
+  const size_t written = __real_fwrite(data, size, count, file);
+  note_wave_error(file, written != count);
+  return written;
+}
+int __wrap_fflush(FILE* file) {
+  const int failed = __real_fflush(file);
+  note_wave_error(file, failed != 0);
+  return failed;
+}
+int __wrap_fclose(FILE* file) {
+  errno = 0;
+  const bool failed = __real_fflush(file) != 0 || ferror(file) != 0;
+  note_wave_error(file, failed);
+  return __real_fclose(file);
+}
+}
+
 // Called by verif/monitors.
 void kage_trace(int stage, int unit, const svBitVecVal* values) {
   kage_rtl& m = *current;

@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 7u
+#define KAGE_RTL_ABI 8u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -114,7 +114,7 @@ typedef struct {
   const int32_t* param_values;
   const char* fault;
   int mutants; /* how many are built in, behind select(); 0: none */
-  int traced;  /* built with monitors and waveforms; without, record(), wave() and handshakes() return -1 */
+  int traced;  /* built with monitors and waveforms; without, record(), wave(), end_wave() and handshakes() return -1 */
 
   /* A model out of reset, its registers and memories at random values that `seed` decides. NULL if out of memory. */
   kage_rtl* (*create)(uint64_t seed);
@@ -192,6 +192,9 @@ typedef struct {
   /* Write an FST waveform of the clocks `first` to `last` to `path`, which is there whole once they have passed or the
    * model is destroyed. One time unit is half a clock. */
   int (*wave)(kage_rtl*, const char* path, uint64_t first, uint64_t last);
+
+  /* End the waveform where it stands. 0: it is whole; else the errno of what could not be written of it. */
+  int (*end_wave)(kage_rtl*);
 } kage_rtl_table;
 
 /* The library's only symbol, of this type. */
