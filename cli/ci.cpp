@@ -146,7 +146,8 @@ Json all_scenes(std::vector<Json> scenes) {
   return j;
 }
 
-void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards, const std::string& prefix) {
+void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards) {
+  junit.group(shards.front()->at("scene").get<std::string>());
   const int total = shards.front()->at("total_frames").get<int>();
   std::map<int, const Json*> by_first;
   for (const Json* shard : shards) by_first[shard->at("first_frame").get<int>()] = shard;
@@ -157,7 +158,7 @@ void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards, co
     const Json& shard = *found->second;
     const auto place = static_cast<std::size_t>(frame / step);
     const Json& seconds = shard["frame_seconds"];
-    const std::string name = fmt::format("{}frame {}", prefix, frame);
+    const std::string name = fmt::format("frame {}", frame);
     const Json& difference = shard["first_difference"];
     if (place >= seconds.size())
       junit.skip(name, fmt::format("not compared: frame {} is different", difference["frame"].get<int>()));

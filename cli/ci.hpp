@@ -62,8 +62,8 @@ bool has_frames(const Json& report);
 Json all_scenes(std::vector<Json> scenes);
 
 /// A case for each frame of a scene's reports, which are those of all shards, or of a single run. Frames behind a
-/// difference were not compared and are skipped. `prefix` begins each name.
-void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards, const std::string& prefix);
+/// difference were not compared and are skipped.
+void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards);
 
 /// If `annotate` or, where that is empty, the environment ($GITHUB_ACTIONS) asks for it: a line on `to` by which GitHub
 /// shows the first difference at the RTL file whose stage made it.

@@ -68,7 +68,7 @@ CLI::Validator real_number(double least, double most) {
           "", "number"};
 }
 
-static void option_size(CLI::App& command, Options& options) {
+void option_size(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--size",
@@ -172,6 +172,12 @@ static void option_translucent(CLI::App& command, Options& options) {
       ->type_name("A");
 }
 
+static void option_cull(CLI::App& command, Options& options) {
+  command.add_flag("--cull", options.cull,
+                   "leave out faces of single-sided materials that are turned away from the eye; they cast shadows all "
+                   "the same");
+}
+
 static void option_lights(CLI::App& command, Options& options) {
   command
       .add_option("--samples", options.samples,
@@ -194,6 +200,12 @@ void option_threads(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
+void option_outside(CLI::App& command, Options& options) {
+  command.add_flag("--allow-outside", options.allow_outside,
+                   "read files that a scene's file names (buffers, materials) wherever they lie, instead of refusing "
+                   "those outside its folder");
+}
+
 void option_fault(CLI::App& command, std::string& fault) {
   command
       .add_option("--fault", fault, "build the RTL with a deliberate defect, to see it found: a patch of verif/faults")
@@ -207,9 +219,11 @@ void options_of_frames(CLI::App& command, Options& options) {
   option_degrade(command, options);
   option_units_only(command, options);
   option_translucent(command, options);
+  option_cull(command, options);
   option_lights(command, options);
   option_seed(command, options);
   option_threads(command, options);
+  option_outside(command, options);
 }
 
 bool json_only(const Options& options) { return options.json == "-"; }

@@ -57,6 +57,10 @@ std::shared_ptr<CLI::Formatter> help_formatter();
 /// What is wrong with a command line that `app` refused, and the help to read: one line.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 
+/// An argument or option of the command that was given as an empty text, as a script's variable that is not set makes
+/// it: one line that names it. Empty if there is none.
+std::string empty_value(const CLI::App& app);
+
 /// A whole number from `least` to `most`, in decimal. As text: of CLI11's own numbers 010 is 8, and a minus sign or too
 /// many digits wrap round in an unsigned one.
 CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
@@ -88,6 +92,8 @@ struct Options {
   bool units_only = false;  ///< polyhedra that find no unit are an error
   TranslucentWay order = TranslucentWay::exact;
   double alpha = 1;
+  bool cull = false;             ///< faces are not drawn if the eye sees the side that their material does not show
+  bool allow_outside = false;    ///< files that a scene's file names may lie outside its folder
   int samples = Look{}.samples;  ///< of a light that is no point
   int classes = Look{}.classes;  ///< of normals
 };
@@ -96,13 +102,15 @@ struct Options {
 std::string name_of(TranslucentWay way);
 
 /// What every command that makes frames takes: --size, --frames, --config, --degrade, --units-only, --order, --alpha,
-/// --samples, --classes, --seed, --threads.
+/// --cull, --samples, --classes, --seed, --threads, --allow-outside.
 void options_of_frames(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 void option_scene(CLI::App& command, Options& options);                   // SCENE, a positional
 void option_scenes(CLI::App& command, std::vector<std::string>& inputs);  // one or more of them
 void option_threads(CLI::App& command, Options& options);
+void option_size(CLI::App& command, Options& options);
+void option_outside(CLI::App& command, Options& options);  // --allow-outside
 void option_fault(CLI::App& command, std::string& fault);
 
 /// Whether `--json -` claims standard output for itself.

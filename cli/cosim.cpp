@@ -40,6 +40,7 @@ Json options_of(const CosimCommand& o) {
           {"degrade", o.degrade},
           {"order", name_of(o.order)},
           {"alpha", o.alpha},
+          {"cull", o.cull},
           {"samples", o.samples},
           {"classes", o.classes}};
 }
@@ -226,7 +227,10 @@ Json compare(Job& job, TempFiles& files) {
     check_interrupt();
     frame_progress.next();
   };
-  options.wait = check_interrupt;
+  options.wait = [&] {
+    check_interrupt();
+    frame_progress.wait();
+  };
   std::optional<RunReport> report;
   if (!o.no_report && !o.out.empty()) report.emplace(source, o.input, *o.command);
   const cosim::Report r = cosim::run(
@@ -362,7 +366,7 @@ int run(const CosimCommand& o) {
   std::vector<Job> jobs = open(o);
   const bool several = jobs.size() > 1;
   TempFiles files;
-  JUnitWriter junit(files, o.ci.junit, several ? "kage cosim" : "kage cosim " + jobs.front().source->name());
+  JUnitWriter junit(files, o.ci.junit, "kage cosim");
   std::vector<Json> reports;
   for (Job& job : jobs) {
     reports.push_back(compare(job, files));
@@ -378,7 +382,7 @@ int run(const CosimCommand& o) {
   if (several) j["report"] = page.empty() ? Json(nullptr) : Json(page);
   try {
     for (const Json& r : reports)
-      if (has_frames(r)) junit_frames(junit, {&r}, several ? r["scene"].get<std::string>() + " " : "");
+      if (has_frames(r)) junit_frames(junit, {&r});
     junit.close();
     write_json(o, j, files);
   } catch (const Error&) {

@@ -51,19 +51,19 @@ int run(const DiffCommand& o) {
     if (sort != Sort::folder) throw Error(fmt::format("{}: is no folder: --bless takes two", o.b));
     refuse(o, "--bless, which is exact",
            {"--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--mask", "--ignore-alpha",
-            "--perceptual", "--out", "--flip", "--junit"});
+            "--perceptual", "--out", "--blink", "--part", "--junit"});
     return bless_folder(o);
   }
   refuse(o, "a comparison without --bless", {"--prune", "--dry-run"});
   if (sort == Sort::stream) {
     refuse(o, "streams, which are compared exactly",
            {"--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--mask", "--ignore-alpha",
-            "--perceptual", "--out", "--flip", "--exclude"});
+            "--perceptual", "--out", "--blink", "--part", "--exclude"});
     return diff_two_streams(o);
   }
   if (sort != Sort::folder) refuse(o, "two files", {"--exclude"});
   if (sort == Sort::folder) {
-    refuse(o, "folders: --out FOLDER writes flip pictures too", {"--flip"});
+    refuse(o, "folders: --out FOLDER writes blink pictures too", {"--blink"});
     return diff_two_folders(o);
   }
   return diff_two_pictures(o);
@@ -108,8 +108,14 @@ void add_thresholds(CLI::App& c, DiffOptions& limits) {
        "compare only the W x H pixels from column X, line Y")
       ->type_name("WxH+X+Y");
   c.add_flag("--ignore-alpha", limits.ignore_alpha, "do not compare the values of alpha");
-  c.add_flag("--perceptual", limits.perceptual,
-             "say too how many pixels OpenImageIO's perceptual measure tells apart; it decides nothing");
+  c.add_flag(
+      "--perceptual", limits.perceptual,
+      "say too how people see the difference: FLIP (mean and largest), and how many pixels OpenImageIO's perceptual "
+      "measure tells apart; they decide nothing");
+  c.add_option("--part", limits.part,
+               "of files that hold several pictures, as a multi-part EXR: the number of one, from 0")
+      ->check(whole_number(0, std::numeric_limits<int>::max()))
+      ->type_name("N");
 }
 
 }  // namespace
@@ -118,7 +124,7 @@ void add_diff(CLI::App& app, Action& action) {
   CLI::App* c =
       add_command(app, "diff", "Compare pictures, folders of pictures or streams, exactly unless told otherwise",
                   "  kage diff a.png b.png\n"
-                  "  kage diff a.png b.png --lsb 1 --max-percent 0.01 --out heat.png --flip flip.png --json -\n"
+                  "  kage diff a.png b.png --lsb 1 --max-percent 0.01 --out heat.png --blink blink.png --json -\n"
                   "  kage diff a.exr b.exr --ulp 4 --region 64x48+10+20 --ignore-alpha\n"
                   "  kage diff reference/ out/ --out differences/ --junit diff.xml --exclude '*.fst'\n"
                   "  kage diff old.kage new.kage\n"
@@ -138,10 +144,11 @@ void add_diff(CLI::App& app, Action& action) {
       ->type_name("FILE");
   c->add_option(
        "--out", o->out,
-       "write a heat map: A dimmed, red where they differ; of folders, a folder with heat maps and flip pictures "
+       "write a heat map: A dimmed, red where they differ; of folders, a folder with heat maps and blink pictures "
        "of what differs")
       ->type_name("FILE|FOLDER");
-  c->add_option("--flip", o->flip, "write a picture that shows A and B in turn, as animated PNG")->type_name("FILE");
+  c->add_option("--blink,--flip", o->blink, "write a picture that shows A and B in turn, as animated PNG")
+      ->type_name("FILE");
   c->add_option("--junit", o->junit, "write JUnit XML: a test case for each picture, or each frame of a stream")
       ->type_name("FILE");
   c->add_option("--exclude", o->exclude, "folders: leave out files whose name matches, as '*.fst'; may be repeated")

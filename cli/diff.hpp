@@ -18,7 +18,7 @@ struct DiffCommand : Options {
   std::string b;
   DiffOptions limits;
   std::string mask;
-  std::string flip;
+  std::string blink;
   std::string junit;
   std::vector<std::string> exclude;  ///< patterns of names in folders
   bool bless = false;

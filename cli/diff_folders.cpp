@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "diff.hpp"
-#include "image/flip.hpp"
+#include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
@@ -102,7 +102,7 @@ Json to_json(const Totals& t, const FolderPair& pair) {
   return j;
 }
 
-/// The folder for heat maps and flip pictures, with its subfolders; those that are empty in the end are removed.
+/// The folder for heat maps and blink pictures, with its subfolders; those that are empty in the end are removed.
 class Views {
  public:
   explicit Views(const std::string& path) : path_(path) {
@@ -113,7 +113,7 @@ class Views {
     const fs::path base = path_ / name;
     folders_.emplace_front(base.parent_path());
     if (views.heat.width != 0) save_image(files, fs::path(base) += ".heat.png", views.heat);
-    save_flip(files, fs::path(base) += ".flip.png", views.a, views.b);
+    save_blink(files, fs::path(base) += ".blink.png", views.a, views.b);
   }
 
  private:
@@ -213,7 +213,7 @@ int diff_two_folders(const DiffCommand& o) {
   if (totals.only_a != 0) lines += fmt::format(", {} only in {}", totals.only_a, o.a);
   if (totals.only_b != 0) lines += fmt::format(", {} only in {}", totals.only_b, o.b);
   lines += "\n" + left_out(pair.left_out);
-  if (!o.out.empty() && totals.viewed != 0) lines += fmt::format("heat maps and flip pictures: {}\n", o.out);
+  if (!o.out.empty() && totals.viewed != 0) lines += fmt::format("heat maps and blink pictures: {}\n", o.out);
   finish(o, to_json(totals, pair), files, lines);
   return same ? kSame : kDifferent;
 }

@@ -2,6 +2,7 @@
 // kage diff of two pictures, and the words for what came of it.
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 #include <cstdio>
 
 #include "diff.hpp"
-#include "image/flip.hpp"
+#include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
@@ -43,7 +44,7 @@ QuietStderr::~QuietStderr() {
 
 void check_outputs(const DiffCommand& o) {
   std::vector<std::string> written;
-  for (const std::string* path : {&o.out, &o.flip, &o.junit, &o.json}) {
+  for (const std::string* path : {&o.out, &o.blink, &o.junit, &o.json}) {
     if (path->empty() || (path == &o.json && json_only(o))) continue;
     for (const std::string* read : {&o.a, &o.b, &o.mask})
       if (!read->empty() && within(*path, *read))
@@ -89,14 +90,12 @@ std::string details(const DiffResult& r) {
   }
   if (r.region_count > kShown) text += fmt::format(", and {} more", r.region_count - kShown);
   if (!r.regions.empty()) text += "\n";
-  if (r.psnr || r.perceptual_pixels) {
-    text += "for diagnosis:";
-    if (r.psnr) text += fmt::format(" PSNR {:.2f} dB", *r.psnr);
-    if (r.perceptual_pixels)
-      text += fmt::format("{}{} told apart by the perceptual measure", r.psnr ? ", " : " ",
-                          counted(*r.perceptual_pixels, "pixel"));
-    text += "\n";
-  }
+  std::vector<std::string> measures;
+  if (r.psnr) measures.push_back(fmt::format("PSNR {:.2f} dB", *r.psnr));
+  if (r.flip) measures.push_back(fmt::format("FLIP mean {:.4f}, at most {:.4f}", r.flip->mean, r.flip->most));
+  if (r.perceptual_pixels)
+    measures.push_back(fmt::format("{} told apart by the perceptual measure", counted(*r.perceptual_pixels, "pixel")));
+  if (!measures.empty()) text += fmt::format("for diagnosis: {}\n", fmt::join(measures, ", "));
   return text;
 }
 
@@ -126,6 +125,7 @@ Json to_json(const DiffResult& r) {
   j["region_count"] = number(r.region_count);
   j["psnr"] = maybe(r.psnr);
   j["perceptual"] = maybe(r.perceptual_pixels);
+  j["flip"] = r.flip ? Json{{"mean", r.flip->mean}, {"max", r.flip->most}} : Json(nullptr);
   j["reason"] = r.reason.empty() ? Json(nullptr) : Json(r.reason);
   return j;
 }
@@ -139,7 +139,7 @@ int diff_two_pictures(const DiffCommand& o) {
   const DiffResult result = [&] {
     const QuietStderr quiet;
     if (!o.mask.empty()) limits.mask = load_mask(o.mask);
-    return diff_files(o.a, o.b, limits, o.out.empty() && o.flip.empty() ? nullptr : &views);
+    return diff_files(o.a, o.b, limits, o.out.empty() && o.blink.empty() ? nullptr : &views);
   }();
   const std::string line = describe(result);
   const std::string name = fmt::format("{} {}", o.a, o.b);
@@ -150,11 +150,11 @@ int diff_two_pictures(const DiffCommand& o) {
   junit.close();
   const bool heat = !o.out.empty() && views.heat.width != 0;
   if (heat) save_image(files, o.out, views.heat);
-  if (!o.flip.empty()) save_flip(files, o.flip, views.a, views.b);
+  if (!o.blink.empty()) save_blink(files, o.blink, views.a, views.b);
   std::string text = line + "\n" + details(result);
   if (heat) text += fmt::format("heat map: {}\n", o.out);
   if (!o.out.empty() && !heat) text += "no heat map: the pictures are unlike\n";
-  if (!o.flip.empty()) text += fmt::format("flip picture: {}\n", o.flip);
+  if (!o.blink.empty()) text += fmt::format("blink picture: {}\n", o.blink);
   finish(o, to_json(result), files, text);
   return result.same ? kSame : kDifferent;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -20,6 +21,7 @@ struct ExplainCommand : Options {
   int frame = 0;
   std::string pixel;
   bool rtl = false;
+  bool check = false;
   bool changes = false;
   RtlRun run;
 };
@@ -165,9 +167,11 @@ int run(const ExplainCommand& o) {
                         {"cycle", t.cycle},
                         {"same", t.same},
                         {"text", t.text}});
+  const bool differs = std::any_of(rtl.begin(), rtl.end(), [](const cosim::RtlTouch& t) { return !t.same; });
+  const int rc = o.check && differs ? kDifferent : kSame;
   write_json(o, j);
   print_notes(source, o);
-  if (json_only(o)) return kSame;
+  if (json_only(o)) return rc;
   fmt::print("frame {}, pixel {},{}: {} it{}\n", o.frame, at.x, at.y,
              touching == 1 ? "1 token touches" : fmt::format("{} tokens touch", touching),
              o.changes ? fmt::format("; {} {} shown, where something changed{}", h.touches.size(),
@@ -186,7 +190,7 @@ int run(const ExplainCommand& o) {
   }
   fmt::print("            {}\n", h.color_text);
   rtl_lines.before(std::numeric_limits<std::uint32_t>::max());
-  return kSame;
+  return rc;
 }
 
 }  // namespace
@@ -195,7 +199,7 @@ void add_explain(CLI::App& app, Action& action) {
   CLI::App* c = add_command(app, "explain", "Tell the history of a pixel: every token that touched it, and what it did",
                             "  kage explain courtyard --frame 2 --pixel 316,116\n"
                             "  kage explain courtyard.kage --pixel 12,40 --json -\n"
-                            "  kage explain courtyard --pixel 316,116 --rtl --fault wrong_compare\n"
+                            "  kage explain courtyard --pixel 316,116 --rtl --check --fault wrong_compare\n"
                             "  kage explain penumbra --pixel 320,300 --changes   (soft shadows take many tokens)\n"
                             "docs/architecture.md says what the words mean, docs/stream.md what each token does.");
   const auto o = std::make_shared<ExplainCommand>();
@@ -206,7 +210,8 @@ void add_explain(CLI::App& app, Action& action) {
   c->add_option("--pixel", o->pixel, "column and line, from 0 at the upper left")->required()->type_name("X,Y");
   c->add_flag("--changes", o->changes,
               "show only tokens that changed the pixel or the line's bias, or at which the RTL differs");
-  c->add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
+  auto* const rtl = c->add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
+  c->add_flag("--check", o->check, "exit code 1 if the RTL differs somewhere in the pixel's history")->needs(rtl);
   options_of_frames(*c, *o);
   option_json(*c, *o);
   option_rtl(*c, o->run);

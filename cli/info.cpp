@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage info STREAM: describes and checks a stream file.
+// kage info STREAM: describes and checks a stream file. kage info SCENE is in info_scene.cpp.
 #include <fmt/format.h>
 
 #include <limits>
 #include <memory>
 
 #include "common.hpp"
+#include "info_scene.hpp"
 #include "kage/error.hpp"
+#include "kage/paths.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
 #include "progress.hpp"
@@ -53,8 +55,8 @@ void print_tokens(const StreamFile& file, int frame) {
   check_mapped();
 }
 
-int run(const InfoCommand& o) {
-  check_json(o);
+int describe_stream(const InfoCommand& o) {
+  if (o.size_given) throw Error(fmt::format("{}: --size: a stream has its own size", o.input));
   guard_mapped(o.input);
   const StreamFile file(o.input);
   if (o.tokens >= file.frame_count())
@@ -105,20 +107,31 @@ int run(const InfoCommand& o) {
   return kSame;
 }
 
+int run(const InfoCommand& o) {
+  check_json(o);
+  // A stream file that is damaged at its very beginning, or missing, is still no scene.
+  if (is_stream_file(o.input) || lower_extension(o.input) == ".kage") return describe_stream(o);
+  if (o.tokens >= 0) throw Error(fmt::format("{}: --tokens: only a stream file has tokens", o.input));
+  return describe_scene(o);
+}
+
 }  // namespace
 
 void add_info(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "info", "Describe and check a stream file",
-                  "  kage info courtyard.kage\n"
-                  "  kage info courtyard.kage --json -\n"
-                  "  kage info courtyard.kage --tokens 0 | less\n"
-                  "A token's index is the one by which errors name it; docs/stream.md says what tokens mean.");
+  CLI::App* c = add_command(
+      app, "info", "Describe a scene, or describe and check a stream file",
+      "  kage info model.glb              what is drawn of it, what is ignored, which configurations draw it\n"
+      "  kage info courtyard.kage\n"
+      "  kage info courtyard.kage --json -\n"
+      "  kage info courtyard.kage --tokens 0 | less\n"
+      "A token's index is the one by which errors name it; docs/stream.md says what tokens mean.");
   const auto o = std::make_shared<InfoCommand>();
-  c->add_option("STREAM", o->input, "a stream file, as kage stream writes it")->required();
-  c->add_option("--tokens", o->tokens, "print frame N, from 0, token by token (not with --json -)")
+  option_scene(*c, *o);
+  option_size(*c, *o);
+  c->add_option("--tokens", o->tokens, "of a stream: print frame N, from 0, token by token (not with --json -)")
       ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N");
+  option_outside(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

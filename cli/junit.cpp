@@ -2,7 +2,11 @@
 #include "junit.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <ctime>
 #include <utility>
 
 #include "common.hpp"
@@ -17,11 +21,25 @@ namespace {
 // Room for the totals, which are known last but stand first: what they do not fill is blanks inside the tag.
 constexpr std::size_t kTotalsRoom = 120;
 
+/// The machine, and the time at which the run began, as JUnit has them: UTC without a zone.
+std::string where_and_when() {
+  std::array<char, 256> host{};
+  if (gethostname(host.data(), host.size() - 1) != 0) host[0] = '\0';
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  std::array<char, 32> time{};
+  std::strftime(time.data(), time.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  return fmt::format(" timestamp=\"{}\" hostname=\"{}\"", time.data(), escaped(host.data()));
+}
+
 }  // namespace
 
 JUnitWriter::JUnitWriter(TempFiles& files, std::string path, const std::string& suite)
-    : path_(std::move(path)), suite_(escaped(suite)) {
+    : path_(std::move(path)), suite_(escaped(suite)), class_(suite_) {
+  std::replace(class_.begin(), class_.end(), ' ', '.');
   if (path_.empty()) return;
+  where_and_when_ = where_and_when();
   out_.emplace(files, path_);
   *out_ << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   totals_at_ = out_->tellp();
@@ -32,13 +50,21 @@ void JUnitWriter::write_totals() {
   std::string text = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", tests_,
                                  failures_, skipped_, seconds_);
   text.resize(kTotalsRoom, ' ');
-  *out_ << "<testsuite name=\"" << suite_ << "\" " << text << ">\n";
+  *out_ << "<testsuite name=\"" << suite_ << "\" " << text << where_and_when_ << ">\n";
+}
+
+void JUnitWriter::group(const std::string& name) {
+  std::string part = name;
+  std::replace_if(
+      part.begin(), part.end(), [](char c) { return c == '.' || c == ' ' || c == '/'; }, '_');
+  class_ = suite_ + "." + escaped(part);
+  std::replace(class_.begin(), class_.end(), ' ', '.');
 }
 
 void JUnitWriter::open_case(const std::string& name, double seconds, const std::string& file) {
   ++tests_;
   seconds_ += seconds;
-  *out_ << fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", suite_, escaped(name), seconds);
+  *out_ << fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", class_, escaped(name), seconds);
   if (!file.empty()) *out_ << " file=\"" << escaped(file) << '"';
 }
 

@@ -15,8 +15,13 @@ namespace kage::cli {
 /// of the run; one that ends in trouble leaves none. Any text may be given: what XML cannot hold becomes U+FFFD.
 class JUnitWriter {
  public:
-  /// Without a path it writes nothing. Throws Error if the file cannot be written.
+  /// `suite` is a command, as "kage cosim". Without a path nothing is written. Throws Error if the file cannot be
+  /// written.
   JUnitWriter(TempFiles& files, std::string path, const std::string& suite);
+
+  /// The following cases are of this scene or sort of file: their classname is "kage.cosim.SCENE", by which CI's pages
+  /// sort them into packages, so dots, blanks and slashes of `name` become underscores.
+  void group(const std::string& name);
 
   void pass(const std::string& name, double seconds);
 
@@ -37,6 +42,8 @@ class JUnitWriter {
   std::string path_;
   std::optional<OutputFile> out_;
   std::string suite_;
+  std::string class_;
+  std::string where_and_when_;
   std::streamoff totals_at_ = 0;
   std::uint64_t tests_ = 0;
   std::uint64_t failures_ = 0;

@@ -70,12 +70,16 @@ std::string text_of(const std::exception& error) {
   return error.what();
 }
 
-/// An installed kage finds its data beside itself, wherever the prefix was moved to.
+/// An installed kage finds its data and its modules beside itself, wherever the prefix was moved to.
 void find_data() {
   namespace fs = std::filesystem;
   std::error_code ec;
-  const fs::path data = fs::read_symlink("/proc/self/exe", ec).parent_path().parent_path() / "share/kage";
-  if (!ec && fs::exists(data / "rtl/configs.yaml", ec)) setenv("KAGE_DATA_DIR", data.c_str(), 0);
+  const fs::path prefix = fs::read_symlink("/proc/self/exe", ec).parent_path().parent_path();
+  if (ec) return;
+  if (fs::exists(prefix / "share/kage/rtl/configs.yaml", ec))
+    setenv("KAGE_DATA_DIR", (prefix / "share/kage").c_str(), 0);
+  const fs::path modules = prefix / KAGE_INSTALL_LIBDIR / "kage";
+  if (fs::exists(modules / "libkage_pictures.so", ec)) setenv("KAGE_MODULE_DIR", modules.c_str(), 0);
 }
 
 int run(int argc, char** argv) {
@@ -107,6 +111,7 @@ int run(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     return trouble(explain(app, e));
   }
+  if (const std::string empty = empty_value(app); !empty.empty()) return trouble(empty);
   if (!action) return trouble("no command given; see kage --help");
   return action();
 }

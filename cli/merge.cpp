@@ -164,8 +164,7 @@ int run(const MergeCommand& o) {
   const std::vector<ShardFile> shards = read_shards(o.inputs);
   const std::size_t count = shards.front().scenes();
   const bool several = shards.front().report.contains("scenes");
-  const auto name = shards.front().scene(0)["scene"].get<std::string>();
-  JUnitWriter junit(files, o.junit, several ? "kage cosim" : "kage cosim " + name);
+  JUnitWriter junit(files, o.junit, "kage cosim");
   std::vector<Json> scenes;
   for (std::size_t i = 0; i < count; ++i) {
     check_interrupt();
@@ -174,7 +173,7 @@ int run(const MergeCommand& o) {
     std::vector<const Json*> reports;
     reports.reserve(parts.size());
     for (const Part& p : parts) reports.push_back(&p.report);
-    junit_frames(junit, reports, several ? scenes.back()["scene"].get<std::string>() + " " : "");
+    junit_frames(junit, reports);
   }
   junit.close();
   Json j = several ? all_scenes(scenes) : scenes.front();

@@ -38,7 +38,7 @@ bool is_tree(const std::string& path) {
 OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) {
   if (is_tree(o.input)) return OrderTree::load(o.input);
   progress.show("reading");
-  const Scene scene = Scene::load(o.input);
+  const Scene scene = Scene::load(o.input, {1, o.allow_outside});
   const OrderMesh mesh = scene::order_mesh(scene.frame(0, scene.frame_count()));
   OrderBuildOptions options;
   options.seed = o.seed;
@@ -272,6 +272,7 @@ void add_order(CLI::App& app, Action& action) {
   c->add_option("--plot", o->plot, "write a plot of time against step angle, SVG")->type_name("FILE");
   option_seed(*c, *o);
   option_threads(*c, *o);
+  option_outside(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -25,6 +25,10 @@ std::string time_text(double seconds) {
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 std::string progress_text(const std::string& name, int done, int frames, double seconds) {
@@ -38,9 +42,16 @@ FrameProgress::FrameProgress(Progress& progress, std::string name, int frames)
     : progress_(progress), name_(std::move(name)), frames_(frames) {}
 
 void FrameProgress::next() {
-  if (++done_ == 0) start_ = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start_;
-  progress_.show(progress_text(name_, done_, frames_, passed.count()));
+  frame_start_ = std::chrono::steady_clock::now();
+  if (++done_ == 0) start_ = frame_start_;
+  progress_.show(progress_text(name_, done_, frames_, seconds_since(start_)));
+}
+
+void FrameProgress::wait() {
+  const double frame = seconds_since(frame_start_);
+  std::string text = progress_text(name_, done_, frames_, seconds_since(start_) - frame);
+  if (frame >= 1) text += fmt::format(", this one for {}", time_text(std::floor(frame)));
+  progress_.show(text);
 }
 
 }  // namespace kage::cli

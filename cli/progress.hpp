@@ -14,7 +14,7 @@ class Progress;
 /// than a tenth of a second, there is no rate.
 std::string progress_text(const std::string& name, int done, int frames, double seconds);
 
-/// Shows it as frames begin.
+/// Shows it as frames begin, and while a frame lasts.
 class FrameProgress {
  public:
   /// `progress` must outlive it. `name` is what the frames are of.
@@ -23,12 +23,16 @@ class FrameProgress {
   /// The next frame begins.
   void next();
 
+  /// The frame goes on; to be called several times a second.
+  void wait();
+
  private:
   Progress& progress_;
   std::string name_;
   int frames_;
   int done_ = -1;
   std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point frame_start_;
 };
 
 }  // namespace kage::cli

@@ -41,6 +41,8 @@ int run(const RenderCommand& o) {
     cosim::FramePicture picture(path);
     const LineSink line = [&](int, std::span<const std::uint8_t> pixels) { picture.line(pixels); };
     counts += source.frame(i, [&](std::span<const std::uint32_t> words) {
+      check_interrupt();
+      frame_progress.wait();
       picture.words(words);
       golden->feed(words, line);
     });

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -23,12 +24,16 @@ std::string plain_name(const std::filesystem::path& path) {
   return name;
 }
 
+// Shapes of pictures that differ by less are the same to the eye.
+constexpr double kShapeTolerance = 0.01;
+
 // Words of a file's frame that go on at a time.
 constexpr std::size_t kPieceWords = 4096;
 
 bool is_grey(const glm::dvec3& c) { return c.x == c.y && c.y == c.z; }
 
-/// What drawing `scene` takes, judged by the frame at hand.
+}  // namespace
+
 Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, int samples) {
   Needs needs;
   needs.width = size.width;
@@ -51,8 +56,6 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, in
   return needs;
 }
 
-}  // namespace
-
 Source::Source(const Options& options) : threads_(options.threads) {
   if (is_stream_file(options.input))
     open_stream(options);
@@ -68,6 +71,7 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
   if (options.samples != Options{}.samples || options.classes != Options{}.classes)
     throw Error(fmt::format("{}: --samples, --classes: in a stream they are settled", options.input));
+  if (options.cull) throw Error(fmt::format("{}: --cull: in a stream it is settled what is drawn", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
@@ -86,7 +90,12 @@ void Source::open_stream(const Options& options) {
 }
 
 void Source::open_scene(const Options& options) {
-  scene_.emplace(Scene::load(options.input, options.alpha));
+  load_scene(options);
+  remarks_.emplace(config_.config, size_, options.cull);
+}
+
+void Source::load_scene(const Options& options) {
+  scene_.emplace(Scene::load(options.input, {options.alpha, options.allow_outside}));
   name_ = plain_name(scene_->name());
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
@@ -96,9 +105,18 @@ void Source::open_scene(const Options& options) {
   look_.samples = options.samples;
   look_.seed = options.seed;
   look_.classes = options.classes;
+  look_.cull = options.cull;
   if (size_.width > kMaxSize || size_.height > kMaxSize)
     throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
-  Needs needs = needs_of(*scene_, scene_->frame(0, frames_), size_, options.samples);
+  const SceneFrame first = scene_->frame(0, frames_);
+  const double shape = static_cast<double>(size_.width) / size_.height;
+  const double asked = first.camera.aspect;
+  if (!options.size_given && asked > 0 && std::abs(shape / asked - 1) > kShapeTolerance)
+    notes_.push_back(
+        fmt::format("the camera's own pictures are {:.3g} times as wide as high, these {:.3g}: --size is "
+                    "to be had in its shape",
+                    asked, shape));
+  Needs needs = needs_of(*scene_, first, size_, options.samples);
   if (options.config.empty()) {
     try {
       config_ = choose_config(needs);
@@ -128,8 +146,10 @@ void Source::open_scene(const Options& options) {
 std::vector<std::string> Source::notes() const {
   std::vector<std::string> all = notes_;
   if (blank_ > 0)
-    all.push_back(fmt::format("nothing is to be seen{}: no face covers the centre of a pixel",
-                              blank_ == made_ ? "" : fmt::format(" in {} of {} frames", blank_, made_)));
+    all.push_back(
+        fmt::format("nothing is to be seen{}: no face covers the centre of a pixel", in_frames(blank_, made_)));
+  if (remarks_)
+    for (std::string& note : remarks_->notes()) all.push_back(std::move(note));
   return all;
 }
 
@@ -170,6 +190,7 @@ TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
 TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
   const SceneFrame frame = scene_->frame(index, frames_);
+  if (!again_) remarks_->add(*scene_, frame);
   const FrameGeometry geometry =
       make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
   PolyhedraReport report;
@@ -220,6 +241,7 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
     ways_[c].why = reason == SpanReason::not_closed || reason == SpanReason::not_convex ? frame.components[c].reason
                    : reason == SpanReason::cut         ? "the near plane or the guard band cuts it"
                    : reason == SpanReason::translucent ? "it is translucent"
+                   : reason == SpanReason::culled      ? "--cull leaves out faces that the eye would see"
                                                        : "a face has more than one colour";
   }
   const Way* stopped = nullptr;

@@ -14,6 +14,7 @@
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
 #include "provenance.hpp"
+#include "remarks.hpp"
 
 namespace kage::cli {
 
@@ -67,6 +68,7 @@ class Source {
   void record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report);
   void open_stream(const Options& options);
   void open_scene(const Options& options);
+  void load_scene(const Options& options);
 
   NamedConfig config_;
   int frames_ = 0;
@@ -83,8 +85,9 @@ class Source {
   bool units_only_ = false;
   int last_ = -1;  // the highest frame made: a run goes up, so one up to it is a replay, which counts no more
   bool again_ = false;
-  int made_ = 0;   // frames
-  int blank_ = 0;  // of those, without any opaque span or segment
+  int made_ = 0;                         // frames
+  int blank_ = 0;                        // of those, without any opaque span or segment
+  std::optional<FrameRemarks> remarks_;  // of a scene
   struct Way {
     std::string object;
     int unit_frames = 0;
@@ -95,6 +98,9 @@ class Source {
   std::vector<Way> ways_;  // by component
   int units_ = 0;
 };
+
+/// What drawing `scene` takes, judged by the frame at hand.
+Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, int samples);
 
 /// The ways that a stream file holds (Source::ways()), or null.
 Json ways_of(const StreamFile& file);

@@ -20,6 +20,8 @@ bool piped(const Options& o) { return o.out == "-"; }
 int run(const Options& o) {
   if (piped(o) && isatty(STDOUT_FILENO) != 0)
     throw Error("--out -: standard output is a terminal, which cannot show a stream: send it to a file or a program");
+  if (piped(o) && json_only(o)) throw Error("--out - and --json -: both are standard output");
+  check_json(o);
   Source source(o);
   if (source.is_stream()) source.note("copied from a stream file");
   const Config& config = source.config().config;
@@ -32,7 +34,11 @@ int run(const Options& o) {
     check_interrupt();
     frame_progress.next();
     writer.begin_frame();
-    counts += source.frame(i, [&](std::span<const std::uint32_t> words) { writer.words(words); });
+    counts += source.frame(i, [&](std::span<const std::uint32_t> words) {
+      check_interrupt();
+      frame_progress.wait();
+      writer.words(words);
+    });
     writer.end_frame();
   }
   progress.clear();
@@ -41,8 +47,20 @@ int run(const Options& o) {
   origin["polyhedra"] = source.ways();
   if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
   writer.finish();
-  std::FILE* const said = piped(o) ? stderr : stdout;
+  Json j;
+  j["file"] = piped(o) ? Json(nullptr) : Json(o.out);
+  j["frames"] = source.frames();
+  j["spans"] = counts.spans;
+  j["span_pixels"] = counts.span_pixels;
+  j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
+  j["words"] = counts.words;
+  j["config"] = to_json(config);
+  j["degraded"] = source.degraded();
+  j["notes"] = source.notes();
+  write_json(o, j);
+  std::FILE* const said = piped(o) || json_only(o) ? stderr : stdout;
   print_notes(source, said);
+  if (json_only(o)) return kSame;
   fmt::print(said, "{}: {}, {} over {}{}, {}\n", piped(o) ? "standard output" : o.out,
              counted(source.frames(), "frame"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
              and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), counted(counts.words, "word"));
@@ -66,6 +84,7 @@ void add_stream(CLI::App& app, Action& action) {
       ->required()
       ->type_name("FILE");
   options_of_frames(*c, *o);
+  option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

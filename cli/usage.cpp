@@ -101,6 +101,15 @@ class HelpFormatter : public CLI::Formatter {
 
 std::shared_ptr<CLI::Formatter> help_formatter() { return std::make_shared<HelpFormatter>(); }
 
+std::string empty_value(const CLI::App& app) {
+  for (const CLI::App* command : app.get_subcommands())
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& value : option->results())
+        if (value.empty() && option->get_expected_max() > 0)
+          return fmt::format("{}: its value is empty; see kage {} --help", option->get_name(), command->get_name());
+  return {};
+}
+
 std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App* const command = parsed.empty() ? nullptr : parsed.front();

@@ -15,4 +15,55 @@ install(FILES ${PROJECT_BINARY_DIR}/kageConfig.cmake ${PROJECT_BINARY_DIR}/kageC
 install(DIRECTORY rtl scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kage)
 install(DIRECTORY verif/report/page DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/report)
 install(DIRECTORY verif/rtl_model verif/monitors verif/faults DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif USE_SOURCE_PERMISSIONS OPTIONAL)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
+
+# What a person reads: the pages as their links to each other expect them, and the benches that docs/benches.md shows.
+install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
+install(DIRECTORY verif/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/verif PATTERN "*.sh" EXCLUDE)
+
+# For builds without CMake: pkg-config --cflags --libs kage. The static libraries ask for what they are linked with.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(kage_pc_libdir ${CMAKE_INSTALL_LIBDIR})
+  set(kage_pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
+else()
+  set(kage_pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+  set(kage_pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+function(kage_pkg_config name description requires libs)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/${name}.pc @ONLY CONTENT [[
+prefix=${pcfiledir}/@kage_pc_up@
+libdir=@kage_pc_libdir@
+includedir=@kage_pc_includedir@
+
+Name: @name@
+Description: @description@
+Version: @PROJECT_VERSION@
+Requires: @requires@
+Libs: -L${libdir} @libs@
+Cflags: -I${includedir}
+]])
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+file(RELATIVE_PATH kage_pc_up ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX}) # a prefix may be moved
+kage_pkg_config(kage "kage's golden model, front end and scenes (static)" "kage-order yaml-cpp zlib libpng" "-lkage -ldl")
+kage_pkg_config(kage-order "visibility order by BSP tree (static)" "fmt tbb libhwy" "-lkage_order -pthread")
+kage_pkg_config(kage-golden "kage's golden core behind C functions" "" "-lkage_golden")
+
+# The man page and the completions are what the program says of itself.
+if(TARGET kage_cli)
+  set(texts)
+  foreach(text man:kage.1 bash:kage.bash zsh:_kage)
+    string(REPLACE ":" ";" text ${text})
+    list(GET text 0 form)
+    list(GET text 1 file)
+    set(file ${PROJECT_BINARY_DIR}/share/${file})
+    add_custom_command(OUTPUT ${file} COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/share
+                       COMMAND kage_cli help --${form} > ${file} DEPENDS kage_cli VERBATIM)
+    list(APPEND texts ${file})
+  endforeach()
+  add_custom_target(kage_texts ALL DEPENDS ${texts})
+  install(FILES ${PROJECT_BINARY_DIR}/share/kage.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${PROJECT_BINARY_DIR}/share/kage.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME kage)
+  install(FILES ${PROJECT_BINARY_DIR}/share/_kage DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+endif()

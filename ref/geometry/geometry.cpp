@@ -86,14 +86,6 @@ class Builder {
   }
 
  private:
-  // Depth reaches from the near plane to the furthest vertex; nothing is cut at the far end.
-  static double furthest(const SceneFrame& frame) {
-    double far = 0;
-    for (const glm::dvec3& p : frame.vertices)
-      far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
-    return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
-  }
-
   void sample_lights() {
     for (std::size_t l = 0; l < frame_->lights.size(); ++l) {
       std::vector<LightPoint> points{frame_->lights[l]};  // the middle, then the samples unless they are the middle
@@ -141,7 +133,13 @@ class Builder {
 
   void draw_component(std::uint32_t component) {
     const Component& part = frame_->components[component];
-    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) draw(i);
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
+      const Triangle& t = frame_->triangles[frame_->polygons[i].triangle];
+      if (is_culled(i, facing_of(t, normal_of(t))))
+        turned_away_.push_back(i);
+      else
+        draw(i);
+    }
   }
 
   // Faces that the eye sees edge-on cover nothing, whatever the snap makes of them; nor do those of alpha 0.
@@ -155,7 +153,7 @@ class Builder {
     sides.reserve(faces.size());
     for (const std::uint32_t i : faces) {
       sides.push_back(eye_side(frame_->camera, triangle_of(*frame_, i)));
-      if (sides.back() != 0) draw(i);
+      if (sides.back() != 0 && !is_culled(i, sides.back())) draw(i);
     }
     FragmentMaker(*frame_, view_, order_->data(), faces, sides)
         .make(
@@ -163,7 +161,7 @@ class Builder {
             [this](std::uint32_t face) { return std::pair(drawn_[face].first, drawn_[face].count); }, out_);
   }
 
-  // Nothing is drawn unless the component is a polyhedron.
+  // Nothing is drawn unless the component is a polyhedron, of which the eye sees the outside.
   SpanReason draw_polyhedron(std::uint32_t component) {
     const Component& part = frame_->components[component];
     if (part.translucent) return SpanReason::translucent;
@@ -173,6 +171,10 @@ class Builder {
     for (const Polygon& face : faces)
       for (const std::uint32_t v : frame_->outline(face))
         if (!screen_points_[v].kept) return SpanReason::cut;
+    if (look_->cull && std::any_of(faces.begin(), faces.end(), [&](const Polygon& face) {
+          return frame_->triangles[face.triangle].sides == Sides::back;
+        }))
+      return SpanReason::culled;
 
     const std::size_t polygons = out_.polygons.size();
     const std::size_t vertices = out_.vertices.size();
@@ -246,6 +248,25 @@ class Builder {
     return area > 0;
   }
 
+  // Out of the face, twice its area long.
+  glm::dvec3 normal_of(const Triangle& t) const {
+    const glm::dvec3& p = frame_->vertices[t.vertex[0]];
+    return glm::cross(frame_->vertices[t.vertex[1]] - p, frame_->vertices[t.vertex[2]] - p);
+  }
+
+  // Above 0 where the eye sees the outside of the face that has this triangle, below 0 where it sees its inside.
+  double facing_of(const Triangle& t, const glm::dvec3& normal) const {
+    const Camera& camera = frame_->camera;
+    return camera.perspective ? glm::dot(normal, camera.eye - frame_->vertices[t.vertex[0]])
+                              : -glm::dot(normal, camera.forward);
+  }
+
+  // `facing`: above 0 where the eye sees the outside, below 0 where it sees the inside.
+  bool is_culled(std::uint32_t index, double facing) const {
+    const Sides sides = frame_->triangles[frame_->polygons[index].triangle].sides;
+    return look_->cull && ((sides == Sides::front && facing < 0) || (sides == Sides::back && facing > 0));
+  }
+
   static bool same_side(double facing, int light_side) {
     return (facing > 0 && light_side > 0) || (facing < 0 && light_side < 0);
   }
@@ -263,10 +284,8 @@ class Builder {
     const Polygon& face = frame_->polygons[index];
     const auto corners = frame_->outline(face);
     const Triangle& t = frame_->triangles[face.triangle];
-    const glm::dvec3& p = frame_->vertices[t.vertex[0]];
-    const glm::dvec3 normal = glm::cross(frame_->vertices[t.vertex[1]] - p, frame_->vertices[t.vertex[2]] - p);
-    const Camera& camera = frame_->camera;
-    const double facing = camera.perspective ? glm::dot(normal, camera.eye - p) : -glm::dot(normal, camera.forward);
+    const glm::dvec3 normal = normal_of(t);
+    const double facing = facing_of(t, normal);
     std::bitset<kMaxLights> lit;
     const FacePlane plane(*frame_, face);
     for (std::size_t l = 0; l < casters_.size(); ++l) lit[l] = same_side(facing, casters_[l].facing(plane));
@@ -288,9 +307,11 @@ class Builder {
       const ShadingVertex& s = frame_->shading[look];
       const glm::dvec3 towards_eye = facing < 0 ? -s.normal : s.normal;
       const bool as_before = i > 0 && !by_place && (corners.size() > 3 || look == t.shading[i - 1]);
+      const bool grey = config_->channels == 1;
       polygon_.back().color = as_before ? polygon_[i - 1].color
-                                        : lighting_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit,
-                                                              config_->channels == 1);
+                              : t.unlit
+                                  ? Lighting::displayed_unlit(s.color, grey)
+                                  : lighting_.displayed(frame_->vertices[corners[i]], towards_eye, s.color, lit, grey);
       mean += polygon_.back().color;
       mean_normal += towards_eye;
       middle += frame_->vertices[corners[i]];
@@ -303,7 +324,7 @@ class Builder {
     if (!whole) clipper_.clip(polygon_, nullptr, false);
     if (polygon_.empty()) return;
     ScreenPolygon base;
-    base.lit = takes_shadow(facing, plane, lit);
+    base.lit = !t.unlit && takes_shadow(facing, plane, lit);
     if (table_->exists()) {
       const double mean_length = length(mean_normal);
       lit_faces_[index] = {mean_length > 0 ? mean_normal / mean_length : mean_normal,

@@ -16,6 +16,11 @@ constexpr double kSky = 0.08;
 
 double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
+glm::dvec3 encoded(const glm::dvec3& light, bool grey) {
+  const glm::dvec3 linear = grey ? glm::dvec3(luminance(light)) : light;
+  return 255.0 * glm::dvec3(srgb_encode(linear.x), srgb_encode(linear.y), srgb_encode(linear.z));
+}
+
 }  // namespace
 
 double srgb_encode(double linear) {
@@ -38,9 +43,10 @@ glm::dvec3 Lighting::displayed(const glm::dvec3& point, const glm::dvec3& normal
   glm::dvec3 light = glm::dvec3(ambient(normal));
   for (std::size_t l = 0; l < lights_.size(); ++l)
     if (lit[l]) light += received(lights_[l], point, normal) * (1.0 - kAmbient);
-  const glm::dvec3 linear = grey ? glm::dvec3(luminance(base * light)) : base * light;
-  return 255.0 * glm::dvec3(srgb_encode(linear.x), srgb_encode(linear.y), srgb_encode(linear.z));
+  return encoded(base * light, grey);
 }
+
+glm::dvec3 Lighting::displayed_unlit(const glm::dvec3& base, bool grey) { return encoded(base, grey); }
 
 std::vector<glm::dvec3> Lighting::shares(const glm::dvec3& point, const glm::dvec3& normal,
                                          const std::bitset<kMaxLights>& lit, bool grey) const {

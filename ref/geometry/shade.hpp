@@ -27,6 +27,9 @@ class Lighting {
   [[nodiscard]] glm::dvec3 displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base,
                                      const std::bitset<kMaxLights>& lit, bool grey) const;
 
+  /// Displayed colour of a surface that shows its base colour whatever light falls on it.
+  [[nodiscard]] static glm::dvec3 displayed_unlit(const glm::dvec3& base, bool grey);
+
   /// Whether displayed() with these lights depends on the point.
   [[nodiscard]] bool depends_on_place(const std::bitset<kMaxLights>& lit) const {
     for (std::size_t l = 0; l < lights_.size(); ++l)

@@ -6,6 +6,12 @@
 
 namespace kage {
 
+double furthest(const SceneFrame& frame) {
+  double far = 0;
+  for (const glm::dvec3& p : frame.vertices) far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
+  return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
+}
+
 View::View(const Camera& camera, int width, int height, int z_bits, double far)
     : camera_(camera),
       near_(camera.near),

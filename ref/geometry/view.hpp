@@ -43,6 +43,9 @@ class View {
   /// Depth at distance w, in LSB.
   [[nodiscard]] double depth(double w) const;
 
+  /// Steps of depth from distance w > 0 on to infinity; perspective.
+  [[nodiscard]] double steps_beyond(double w) const { return z_scale_ / w; }
+
   /// The depth plane of the plane through `normal` and `point`, both in eye space, anchored at `anchor`, a point of it
   /// before the camera. Empty if it is too steep: more than 2^(Z_BITS + 8) LSB a pixel.
   [[nodiscard]] std::optional<ScreenPlane> depth_plane(const glm::dvec3& normal, const EyePoint& point,
@@ -73,6 +76,9 @@ class View {
   double z_scale_;
   double max_slope_;
 };
+
+/// To where depth reaches: a little past the frame's furthest vertex. Nothing is cut at the far end.
+double furthest(const SceneFrame& frame);
 
 /// v * 2^frac, rounded half up. |v| 2^frac must be below 2^62.
 std::int64_t to_fixed(double v, int frac);

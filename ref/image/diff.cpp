@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "image/flip_metric.hpp"
 #include "image/picture.hpp"
 #include "image/regions.hpp"
 #include "image/sample.hpp"
@@ -233,8 +234,10 @@ DiffResult diff_pictures(const Picture& a, const Picture& b, const DiffOptions& 
   r.height = a.height;
   r.channels = static_cast<int>(a.channels.size());
   Comparison(a, b, options, r, heat).run();
-  if (options.perceptual)
+  if (options.perceptual) {
     r.perceptual_pixels = perceptual_pixels(a, b, options.region.value_or(Box{0, 0, a.width, a.height}));
+    r.flip = flip_metric(view_of(a), view_of(b));
+  }
   return r;
 }
 
@@ -253,8 +256,8 @@ Picture picture_of(const Image& image) {
 
 DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options,
                       DiffViews* views) {
-  const Picture pa = load_picture(a);
-  const Picture pb = load_picture(b);
+  const Picture pa = load_picture(a, options.part);
+  const Picture pb = load_picture(b, options.part);
   if (views != nullptr) *views = {{}, view_of(pa), view_of(pb)};
   try {
     DiffResult r = diff_pictures(pa, pb, options, views == nullptr ? nullptr : &views->heat);

@@ -1,141 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <nlohmann/json.hpp>
 
+#include "image/encoder.hpp"
+#include "image/module/table.hpp"
 #include "image/picture.hpp"
-#include "image/png_chunks.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
-#include "number/regular_file.hpp"
 
 namespace kage {
-namespace {
-
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& cause) {
-  // OpenImageIO's messages may repeat the name and take several lines.
-  std::string text = cause;
-  for (const std::string& prefix : {path.string() + ": ", "\"" + path.string() + "\": "})
-    if (const auto at = text.find(prefix); at != std::string::npos) text.erase(at, prefix.size());
-  for (char& c : text)
-    if (c == '\n' || c == '\r') c = ' ';
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  throw Error(fmt::format("{}: {}", path.string(), text.empty() ? "cannot be read" : text));
-}
-
-Sample sample_of(const OIIO::TypeDesc& type, const std::filesystem::path& path) {
-  switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8:
-      return Sample::kU8;
-    case OIIO::TypeDesc::INT8:
-      return Sample::kI8;
-    case OIIO::TypeDesc::UINT16:
-      return Sample::kU16;
-    case OIIO::TypeDesc::INT16:
-      return Sample::kI16;
-    case OIIO::TypeDesc::UINT32:
-      return Sample::kU32;
-    case OIIO::TypeDesc::INT32:
-      return Sample::kI32;
-    case OIIO::TypeDesc::UINT64:
-      return Sample::kU64;
-    case OIIO::TypeDesc::INT64:
-      return Sample::kI64;
-    case OIIO::TypeDesc::HALF:
-      return Sample::kHalf;
-    case OIIO::TypeDesc::FLOAT:
-      return Sample::kFloat;
-    case OIIO::TypeDesc::DOUBLE:
-      return Sample::kDouble;
-    default:
-      fail(path, fmt::format("pixels of type {} cannot be compared", type.c_str()));
-  }
-}
-
-/// One of the file's notes as text. Numbers are exact; what is long, as an ICC profile, is its size and checksum.
-std::string note_text(const OIIO::ImageSpec& spec, const char* name) {
-  const OIIO::ParamValue* const value = spec.find_attribute(name);
-  if (value == nullptr) return "";
-  if (value->datasize() > 256)
-    return fmt::format(
-        "{} bytes, CRC-32 {:08x}", value->datasize(),
-        crc32_z(0, static_cast<const Bytef*>(value->data()), static_cast<std::size_t>(value->datasize())));
-  if (value->type().basetype == OIIO::TypeDesc::FLOAT)
-    return fmt::format("{}", fmt::join(static_cast<const float*>(value->data()),
-                                       static_cast<const float*>(value->data()) + value->type().basevalues(), " "));
-  return value->get_string();
-}
-
-constexpr int kCmyk = 5;
-constexpr int kYcbcr = 6;
-
-/// TIFF's number for what its values stand for; -1 for other formats.
-int photometric(const OIIO::ImageSpec& spec) { return spec.get_int_attribute("tiff:PhotometricInterpretation", -1); }
-
-/// In words. A palette's colours and those of JPEG compression come as red, green and blue, and are compared so.
-std::string photometric_words(int number) {
-  if (number == 0) return "white is 0";
-  if (number == 1) return "black is 0";
-  return number == kCmyk ? "CMYK" : "RGB";
-}
-
-/// Of a note for which the format has no place: what OpenImageIO gives then is its guess, and the other file's is
-/// taken.
-const std::string kNoPlace = "no place";
-
-/// What changes the meaning of the same numbers.
-std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks& png, std::string_view format) {
-  const int bits = spec.get_int_attribute("oiio:BitsPerSample", png.bits);
-  const std::string chromaticities = note_text(spec, "chromaticities");
-  const auto only = [&](std::string_view has, const std::string& text) { return format == has ? text : kNoPlace; };
-  const auto all_but_pnm = [&](const std::string& text) { return format == "pnm" ? kNoPlace : text; };
-  std::vector<Picture::Note> notes{
-      {"display window", fmt::format("{}x{} at {},{}", spec.full_width, spec.full_height, spec.full_x, spec.full_y)},
-      {"number of bits", fmt::format("{}", bits == 0 ? static_cast<int>(spec.format.size() * 8) : bits)},
-      {"photometric interpretation", only("tiff", photometric_words(photometric(spec)))},
-      {"orientation", all_but_pnm(fmt::format("{}", spec.get_int_attribute("Orientation", 1)))},
-      {"chromaticity", all_but_pnm(chromaticities.empty() ? png.chromaticities : chromaticities)},
-      {"white luminance", all_but_pnm(note_text(spec, "whiteLuminance"))}};
-  for (const auto& [words, name] :
-       {std::pair{"colour space", "oiio:ColorSpace"}, {"gamma", "oiio:Gamma"}, {"ICC profile", "ICCProfile"}})
-    notes.emplace_back(words, all_but_pnm(note_text(spec, name)));
-  notes.emplace_back("gAMA", only("png", png.gamma));
-  notes.emplace_back("rendering intent", only("png", png.intent));
-  for (const auto& [words, text] : png.more) notes.emplace_back(words, all_but_pnm(text));
-  notes.emplace_back("unassociated alpha", spec.alpha_channel < 0 ? "" : note_text(spec, "oiio:UnassociatedAlpha"));
-  return notes;
-}
-
-/// Opens the file so that its values come as they are stored, or refuses it.
-std::unique_ptr<OIIO::ImageInput> open_input(const std::filesystem::path& path) {
-  OIIO::ImageSpec hints;
-  hints.attribute("oiio:UnassociatedAlpha", 1);
-  auto input = OIIO::ImageInput::open(path.string(), &hints);
-  if (!input) fail(path, OIIO::geterror());
-  const OIIO::ImageSpec& spec = input->spec();
-  const int interpretation = photometric(spec);
-  if (interpretation == kCmyk) {
-    // Not for all files: of JPEG 2000 it would leave out which space the numbers are of.
-    hints.attribute("oiio:RawColor", 1);
-    input = OIIO::ImageInput::open(path.string(), &hints);
-    if (!input) fail(path, OIIO::geterror());
-    return input;
-  }
-  if (interpretation > kCmyk && !(interpretation == kYcbcr && spec.get_int_attribute("tiff:Compression") == 7)) {
-    fail(path, fmt::format("has the photometric interpretation {}, which is not read without loss", interpretation));
-  }
-  const std::string jpeg(spec.get_string_attribute("jpeg:ColorSpace"));
-  if (jpeg == "CMYK" || jpeg == "YCbCrK") fail(path, "is CMYK in a JPEG file, which is not read without loss");
-  return input;
-}
-
-}  // namespace
 
 std::size_t size_of(Sample sample) {
   switch (sample) {
@@ -201,54 +78,26 @@ std::string unlike(const Picture& a, const Picture& b) {
   if (!alike([](const Picture::Channel& c) { return c.sample; }))
     return both("pixel types are", sample_names(a), sample_names(b));
   for (std::size_t i = 0; i < a.notes.size(); ++i)
-    if (a.notes[i] != b.notes[i] && a.notes[i].second != kNoPlace && b.notes[i].second != kNoPlace)
+    if (a.notes[i] != b.notes[i] && a.notes[i].second != Picture::kNoPlace && b.notes[i].second != Picture::kNoPlace)
       return both(a.notes[i].first + " is", a.notes[i].second, b.notes[i].second);
   return "";
 }
 
-Picture load_picture(const std::filesystem::path& path) {
-  check_regular(path);
-  const auto input = open_input(path);
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.deep || spec.depth > 1) fail(path, "is not a flat picture");
+Picture load_picture(const std::filesystem::path& path, int part) {
+  return module_table<PictureModule>().read(path, part);
+}
 
-  Picture picture;
-  picture.x = spec.x;
-  picture.y = spec.y;
-  picture.width = spec.width;
-  picture.height = spec.height;
-  for (int c = 0; c < spec.nchannels; ++c) {
-    const Sample sample = sample_of(spec.channelformat(c), path);
-    picture.channels.push_back({std::string(spec.channel_name(c)), sample, picture.pixel_bytes});
-    picture.pixel_bytes += size_of(sample);
-  }
-  picture.alpha = spec.alpha_channel;
-  const PngChunks png = read_png_chunks(path);
-  if (png.animated) fail(path, "is animated: only files of one picture are compared");
-  picture.notes = notes_of(spec, png, input->format_name());
-  constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 33;
-  const std::uint64_t bytes = spec.image_bytes(true);
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || bytes > kMaxBytes)
-    fail(path, fmt::format("size {}x{} with {} channels is refused", spec.width, spec.height, spec.nchannels));
-  try {
-    picture.data.resize(bytes);
-  } catch (const std::bad_alloc&) {
-    fail(path, fmt::format("size {}x{} does not fit into memory", spec.width, spec.height));
-  }
-  // Without a type each channel keeps its own: one for all would round the integers of a file that has floats too.
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, picture.data.data()))
-    fail(path, input->geterror());
-  if (input->seek_subimage(1, 0)) fail(path, "holds several pictures: only files of one are compared");
-  if (input->seek_subimage(0, 1)) fail(path, "holds several sizes (a mipmap): only files of one picture are compared");
-  (void)input->geterror();
-  return picture;
+std::unique_ptr<ImageEncoder> encode_exr(OutputFile& out, const std::string& name, int width, int height,
+                                         int channels) {
+  return module_table<PictureModule>().encode_exr(out, name, width, height, channels);
 }
 
 Image load_image(const std::filesystem::path& path) {
   const Picture picture = load_picture(path);
   const std::size_t channels = picture.channels.size();
   if (sample_names(picture) != name_of(Sample::kU8) || (channels != 1 && channels != 3))
-    fail(path, fmt::format("has {} channels of {}, not 1 or 3 of uint8", channels, sample_names(picture)));
+    throw Error(
+        fmt::format("{}: has {} channels of {}, not 1 or 3 of uint8", path.string(), channels, sample_names(picture)));
   Image image(picture.width, picture.height, static_cast<int>(channels));
   std::memcpy(image.data.data(), picture.data.data(), image.data.size());
   return image;

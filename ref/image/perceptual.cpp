@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-
 #include <cmath>
 
+#include "image/module/table.hpp"
 #include "image/sample.hpp"
 #include "image/views.hpp"
 
@@ -44,13 +42,7 @@ std::optional<std::uint64_t> perceptual_pixels(const Picture& a, const Picture& 
   std::vector<float> colours_a = linear_colours(a, box);
   std::vector<float> colours_b = linear_colours(b, box);
   if (colours_a.empty() || colours_b.empty()) return {};
-  const OIIO::ImageSpec spec(box.width, box.height, 3, OIIO::TypeDesc::FLOAT);
-  const OIIO::ImageBuf buffer_a(spec, colours_a.data());
-  const OIIO::ImageBuf buffer_b(spec, colours_b.data());
-  OIIO::ImageBufAlgo::CompareResults results;
-  const int failed = OIIO::ImageBufAlgo::compare_Yee(buffer_a, buffer_b, results);
-  if (failed < 0) return {};
-  return static_cast<std::uint64_t>(failed);
+  return module_table<PictureModule>().yee(box.width, box.height, colours_a.data(), colours_b.data());
 }
 
 }  // namespace kage

@@ -21,6 +21,9 @@ struct Picture {
   };
   /// What a file says beside its pixels, as words to compare: ("colour space", "sRGB").
   using Note = std::pair<std::string, std::string>;
+  /// Of a note for which the format has no place: what OpenImageIO gives then is its guess, and the other file's is
+  /// taken.
+  static constexpr const char* kNoPlace = "no place";
 
   int x = 0;  ///< of the first pixel: files may have an origin
   int y = 0;
@@ -52,8 +55,9 @@ std::string channel_names(const Picture& picture);
 /// Types of the channels, by commas; one if all are alike.
 std::string sample_names(const Picture& picture);
 
-/// Read a file of one flat picture; alpha is taken as stored. Throws Error.
-Picture load_picture(const std::filesystem::path& path);
+/// Read a flat picture; alpha is taken as stored. Of a file that holds several, as a multi-part EXR, `part` is the
+/// number of one, from 0; without it (-1) such a file is refused. Throws Error.
+Picture load_picture(const std::filesystem::path& path, int part = -1);
 
 /// What makes two pictures incomparable (size, place, channels, types, notes), in words; "" if nothing does.
 std::string unlike(const Picture& a, const Picture& b);

@@ -231,10 +231,10 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   return bytes;
 }
 
-RawScene import_in_child(const std::filesystem::path& path, const std::string& name) {
+RawScene import_in_child(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   check_file(path, name);
-  const Bytes bytes =
-      run_in_child(name, ImportLimits::from_environment(), [&] { return packed(import_file(path, name)); });
+  const Bytes bytes = run_in_child(name, ImportLimits::from_environment(),
+                                   [&] { return packed(import_file(path, name, allow_outside)); });
   try {
     return unpacked(bytes);
   } catch (const std::exception& e) {

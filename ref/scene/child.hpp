@@ -18,7 +18,7 @@
 namespace kage::scene {
 
 struct ImportLimits {
-  int seconds = 60;         ///< of processor time, and of waiting
+  int seconds = 20;         ///< of processor time, and of waiting
   std::int64_t mib = 4096;  ///< of memory beyond what the process has already, and of the scene's size
 
   /// From $KAGE_IMPORT_SECONDS and $KAGE_IMPORT_MIB where set. Throws Error if one is not a number above 0.
@@ -26,7 +26,7 @@ struct ImportLimits {
 };
 
 /// import_file in a child process. Its death is an Error, as is a file that is missing, empty, unreadable or no file.
-RawScene import_in_child(const std::filesystem::path& path, const std::string& name);
+RawScene import_in_child(const std::filesystem::path& path, const std::string& name, bool allow_outside = false);
 
 /// Run `work` in a child process and return what it returned; what it threw as Error is thrown here. Any other end is
 /// an Error that names `name` and the cause.

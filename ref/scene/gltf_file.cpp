@@ -117,7 +117,8 @@ bool GltfFile::recognises(const std::filesystem::path& path) {
   return extension == ".gltf" || extension == ".glb";
 }
 
-GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(path), name_(std::move(name)) {
+GltfFile::GltfFile(const std::filesystem::path& path, std::string name, bool allow_outside)
+    : GltfJson(std::move(name)), side_files_(path, allow_outside) {
   Bytes text = read_bytes(path, std::numeric_limits<std::uint64_t>::max());
   if (text.size() >= 4 && std::memcmp(text.data(), "glTF", 4) == 0) {
     if (text.size() < 20) fail("header", "the file ends within it");
@@ -141,88 +142,22 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name) : path_(
     text = Bytes(text.begin() + 20, text.begin() + static_cast<std::ptrdiff_t>(next));
   }
   try {
-    root_ = Json::parse(text.begin(), text.end());
+    set_root(Json::parse(text.begin(), text.end()));
   } catch (const Json::parse_error& e) {
-    throw Error(name_ + ": byte " + std::to_string(e.byte) + ": not JSON, or cut off");
+    throw Error(this->name() + ": byte " + std::to_string(e.byte) + ": not JSON, or cut off");
   } catch (const Json::exception& e) {
-    throw Error(name_ + ": not JSON: " + cause_of(e.what()));
+    throw Error(this->name() + ": not JSON: " + cause_of(e.what()));
   }
-  if (!root_.is_object()) fail("JSON", "the outermost value is not an object");
-  const std::string version = this->text(object(root_, "asset"), "version");
+  if (!root().is_object()) fail("JSON", "the outermost value is not an object");
+  const Json& asset = object(root(), "asset", "JSON");
+  const std::string version = this->text(asset, "version", "asset");
   version_2_ = version.substr(0, 2) != "1.";
   if (!version_2_) return;
   if (version.substr(0, 2) != "2.")
     fail("asset", version.empty() ? "no version: not glTF" : "version " + one_line(version, 20) + " is not 2.x");
+  const std::string least = this->text(asset, "minVersion", "asset");
+  if (!least.empty() && least != "2.0") fail("asset", "minVersion " + one_line(least, 20) + " is above 2.0");
   buffers_.resize(count("buffers"));
-}
-
-void GltfFile::fail(const std::string& place, const std::string& cause) const {
-  throw Error(name_ + ": " + one_line(place, 120) + ": " + cause);
-}
-
-std::size_t GltfFile::count(const char* array_name) const { return array(root_, array_name, "JSON").size(); }
-
-const Json& GltfFile::item(const char* array_name, std::uint64_t index, const std::string& place) const {
-  const Json& all = array(root_, array_name, "JSON");
-  if (index >= all.size())
-    fail(place, "asks for number " + std::to_string(index) + " of " + std::to_string(all.size()) + " " + array_name);
-  const Json& found = all[static_cast<std::size_t>(index)];
-  if (!found.is_object()) fail(std::string(array_name) + " " + std::to_string(index), "not an object");
-  return found;
-}
-
-std::optional<std::uint64_t> GltfFile::integer(const Json& object, const char* key, const std::string& place) const {
-  const auto it = object.find(key);
-  if (it == object.end()) return std::nullopt;
-  const bool whole = it->is_number_unsigned() || (it->is_number_integer() && it->get<std::int64_t>() >= 0);
-  if (whole && it->get<std::uint64_t>() < (std::uint64_t{1} << 53)) return it->get<std::uint64_t>();
-  if (it->is_number_float()) {
-    const double d = it->get<double>();
-    if (d >= 0 && d < 0x1p53 && d == static_cast<double>(static_cast<std::uint64_t>(d)))
-      return static_cast<std::uint64_t>(d);
-  }
-  fail(place, std::string("'") + key + "' is not a whole number");
-}
-
-std::optional<double> GltfFile::number(const Json& object, const char* key, const std::string& place) const {
-  const auto it = object.find(key);
-  if (it == object.end()) return std::nullopt;
-  if (!it->is_number()) fail(place, std::string("'") + key + "' is not a number");
-  return it->get<double>();
-}
-
-std::string GltfFile::text(const Json& object, const char* key) const {
-  const auto it = object.find(key);
-  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
-}
-
-std::vector<double> GltfFile::numbers(const Json& object, const char* key, std::size_t size,
-                                      const std::string& place) const {
-  const auto it = object.find(key);
-  if (it == object.end()) return {};
-  if (!it->is_array() || it->size() != size)
-    fail(place, std::string("'") + key + "' is not " + std::to_string(size) + " numbers");
-  std::vector<double> values;
-  for (const Json& v : *it) {
-    if (!v.is_number()) fail(place, std::string("'") + key + "' holds what is not a number");
-    values.push_back(v.get<double>());
-  }
-  return values;
-}
-
-const Json& GltfFile::array(const Json& object, const char* key, const std::string& place) const {
-  static const Json kEmpty = Json::array();
-  const auto it = object.find(key);
-  if (it == object.end()) return kEmpty;
-  if (!it->is_array()) fail(place, std::string("'") + key + "' is not an array");
-  return *it;
-}
-
-const Json& GltfFile::object(const Json& parent, const char* key) const {
-  static const Json kEmpty = Json::object();
-  if (!parent.is_object()) return kEmpty;
-  const auto it = parent.find(key);
-  return it != parent.end() && it->is_object() ? *it : kEmpty;
 }
 
 const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
@@ -231,7 +166,7 @@ const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
   if (slot) return *slot;
   const std::string here = "buffer " + std::to_string(index);
   const std::uint64_t bytes = integer(json, "byteLength", here).value_or(0);
-  const std::string uri = text(json, "uri");
+  const std::string uri = text(json, "uri", here);
   if (uri.empty()) {
     if (index != 0 || binary_.empty()) fail(here, "no data");
     slot = std::move(binary_);
@@ -243,10 +178,10 @@ const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
     if (!slot) fail(here, "its base64 is damaged");
   } else {
     if (uri.find("://") != std::string::npos) fail(here, "lies at another place: " + one_line(uri, 80));
-    const std::filesystem::path file = path_.parent_path() / percent_decoded(uri);
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) fail(here, "no file " + one_line(uri, 80));
-    slot = read_bytes(file, bytes);
+    const SideFiles::Found file = side_files_.find_named(percent_decoded(uri));
+    if (file.refused) fail(here, SideFiles::refusal(uri));
+    if (!file.exists) fail(here, "no file " + one_line(uri, 80));
+    slot = read_bytes(file.path, bytes);
   }
   if (slot->size() < bytes) fail(here, "says " + std::to_string(bytes) + " bytes, has " + std::to_string(slot->size()));
   slot->resize(static_cast<std::size_t>(bytes));
@@ -256,8 +191,8 @@ const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
 GltfFile::View GltfFile::view(std::uint64_t index, const std::string& place) {
   const Json& json = item("bufferViews", index, place);
   const std::string here = "bufferView " + std::to_string(index);
-  if (json.contains("extensions") && json["extensions"].contains("EXT_meshopt_compression"))
-    fail(here, "is compressed (EXT_meshopt_compression)");
+  for (const char* packing : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    if (has_extension(json, packing, here)) fail(here, std::string("is compressed (") + packing + ")");
   const std::optional<std::uint64_t> source = integer(json, "buffer", here);
   if (!source) fail(here, "names no buffer");
   const Bytes& bytes = buffer(*source, here);
@@ -278,13 +213,13 @@ GltfFile::Accessor GltfFile::accessor(std::uint64_t index, const std::string& pl
   a.offset = integer(json, "byteOffset", here).value_or(0);
   a.count = integer(json, "count", here).value_or(0);
   if (a.count > kMostElements) fail(here, std::to_string(a.count) + " elements are too many");
-  a.components = component_count(text(json, "type"));
+  a.components = component_count(text(json, "type", here));
   if (a.components == 0) fail(here, "its type is not SCALAR, VEC2, VEC3 or VEC4");
   const std::uint64_t type = integer(json, "componentType", here).value_or(0);
   if (component_size(type) == 0) fail(here, "component type " + std::to_string(type) + " is unknown");
   a.type = static_cast<int>(type);
-  a.normalized = json.contains("normalized") && json["normalized"] == Json(true);
-  if (json.contains("sparse")) a.sparse = &object(json, "sparse");
+  a.normalized = boolean(json, "normalized", false, here);
+  if (has(json, "sparse")) a.sparse = &object(json, "sparse", here);
   return a;
 }
 
@@ -333,8 +268,8 @@ void GltfFile::elements(const Accessor& a, std::vector<T>& out, const std::strin
   if (a.sparse == nullptr) return;
   const std::uint64_t n = integer(*a.sparse, "count", place).value_or(0);
   if (n > a.count) fail(place, "its sparse part is larger than the whole");
-  const Json& where = object(*a.sparse, "indices");
-  const Json& what = object(*a.sparse, "values");
+  const Json& where = object(*a.sparse, "indices", place);
+  const Json& what = object(*a.sparse, "values", place);
   const std::uint64_t type = integer(where, "componentType", place).value_or(0);
   if (type != 5121 && type != 5123 && type != 5125) fail(place, "its sparse indices are not unsigned integers");
   const auto where_view = integer(where, "bufferView", place);

@@ -10,13 +10,15 @@
 
 #include "functions.hpp"
 #include "gltf_file.hpp"
+#include "gltf_materials.hpp"
+#include "gltf_notes.hpp"
 #include "import.hpp"
 #include "notes.hpp"
 
 namespace kage::scene {
 namespace {
 
-using Json = GltfFile::Json;
+using Json = GltfJson::Json;
 
 glm::dvec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
@@ -25,10 +27,11 @@ class Importer {
   explicit Importer(GltfFile file) : file_(std::move(file)) {}
 
   RawScene run() {
-    refuse_compression();
+    refuse_required(file_);
     read_frames();
     walk_nodes();
     read_animation();
+    count_contents();
     write_notes();
     return std::move(scene_);
   }
@@ -37,26 +40,29 @@ class Importer {
   struct Waiting {
     std::uint64_t node;
     std::int32_t parent;
+    bool hidden;
   };
 
-  void refuse_compression() const;
   void read_frames();
   void walk_nodes();
   [[nodiscard]] std::vector<std::uint64_t> roots() const;
-  void read_node(const Json& json, RawNode& node, const std::string& place);
+  void read_map(const Json& json, RawNode& node, const std::string& place);
+  void read_content(const Json& json, RawNode& node, std::uint32_t number, bool hidden, const std::string& place);
   std::int32_t read_mesh(std::uint64_t index);
   void read_primitive(const Json& json, RawMesh& mesh, const std::string& place);
   void read_corners(const Json& json, RawPrimitive& primitive, const std::string& place);
-  void read_material(const Json& primitive, RawPrimitive& p, const std::string& place);
   void read_camera(std::uint64_t index, std::uint32_t node);
   void read_light(std::uint64_t index, std::uint32_t node);
   void read_cone(const Json& json, Light& light, const std::string& place);
   void read_shape(const Json& json, Light& light, const std::string& place);
   void read_animation();
   void read_channel(const Json& animation, const Json& channel, const std::string& place);
+  bool is_drawn_path(const Json& target, const std::string& path, bool has_node, const std::string& place);
+  void count_contents();
   void write_notes();
 
   GltfFile file_;
+  GltfMaterials materials_;
   RawScene scene_;
   std::map<std::uint64_t, std::int32_t> mesh_of_;   // file's mesh -> ours
   std::map<std::uint64_t, std::uint32_t> node_of_;  // file's node -> ours
@@ -70,18 +76,14 @@ class Importer {
   std::size_t bare_primitives_ = 0;
   std::size_t instanced_ = 0;
   std::size_t alpha_primitives_ = 0;  // by the colours of their vertices
-  std::set<std::uint64_t> mask_materials_;
-  std::string camera_name_;
+  std::size_t hidden_meshes_ = 0;     // nodes with a mesh that are not visible
+  std::size_t blinking_ = 0;          // animated properties: of visibility,
+  std::size_t pointed_ = 0;           // of what else KHR_animation_pointer reaches,
+  std::size_t unknown_channels_ = 0;  // and of no kind that is known
 };
 
-void Importer::refuse_compression() const {
-  for (const Json& e : file_.array(file_.root(), "extensionsRequired", "JSON"))
-    if (e == Json("KHR_draco_mesh_compression") || e == Json("EXT_meshopt_compression"))
-      file_.fail("extensionsRequired", "meshes compressed by " + e.get<std::string>() + " are not read");
-}
-
 void Importer::read_frames() {
-  const Json& kage = file_.object(file_.object(file_.object(file_.root(), "asset"), "extras"), "kage");
+  const Json& kage = file_.own_extras(file_.object(file_.root(), "asset", "JSON"));
   const auto frames = file_.integer(kage, "frames", "asset.extras.kage");
   if (frames && (*frames == 0 || *frames > 1'000'000)) file_.fail("asset.extras.kage", "'frames' is not 1 to 1000000");
   scene_.frames = static_cast<std::uint32_t>(frames.value_or(0));
@@ -112,9 +114,9 @@ std::vector<std::uint64_t> Importer::roots() const {
 void Importer::walk_nodes() {
   std::vector<Waiting> stack;
   const std::vector<std::uint64_t> first = roots();
-  for (std::size_t i = first.size(); i-- > 0;) stack.push_back({first[i], -1});
+  for (std::size_t i = first.size(); i-- > 0;) stack.push_back({first[i], -1, false});
   while (!stack.empty()) {
-    const Waiting at = stack.back();
+    Waiting at = stack.back();
     stack.pop_back();
     const std::string place = "node " + std::to_string(at.node);
     const Json& json = file_.item("nodes", at.node, place);
@@ -122,39 +124,56 @@ void Importer::walk_nodes() {
     if (!node_of_.emplace(at.node, number).second) file_.fail(place, "has two parents, or is its own ancestor");
     RawNode node;
     node.parent = at.parent;
-    node.name = file_.text(json, "name");
-    read_node(json, node, place);
-    if (const auto camera = file_.integer(json, "camera", place)) read_camera(*camera, number);
-    const Json& extensions = file_.object(json, "extensions");
-    if (const auto light = file_.integer(file_.object(extensions, "KHR_lights_punctual"), "light", place))
-      read_light(*light, number);
-    if (extensions.contains("EXT_mesh_gpu_instancing")) ++instanced_;
+    node.name = file_.text(json, "name", place);
+    const Json& visibility = file_.extension(json, "KHR_node_visibility", place);
+    at.hidden = !file_.boolean(visibility, "visible", true, place) || at.hidden;
+    read_map(json, node, place);
+    read_content(json, node, number, at.hidden, place);
     scene_.nodes.push_back(std::move(node));
     const Json& children = file_.array(json, "children", place);
     for (std::size_t i = children.size(); i-- > 0;) {
       if (!children[i].is_number_unsigned()) file_.fail(place, "'children' holds what is not a number");
-      stack.push_back({children[i].get<std::uint64_t>(), static_cast<std::int32_t>(number)});
+      stack.push_back({children[i].get<std::uint64_t>(), static_cast<std::int32_t>(number), at.hidden});
     }
   }
+  const auto draws = [](const RawNode& n) { return n.mesh >= 0; };
+  if (hidden_meshes_ > 0 && std::none_of(scene_.nodes.begin(), scene_.nodes.end(), draws))
+    file_.fail("nodes", "all that have a mesh are hidden (KHR_node_visibility)");
 }
 
-void Importer::read_node(const Json& json, RawNode& node, const std::string& place) {
+void Importer::read_map(const Json& json, RawNode& node, const std::string& place) {
   const std::vector<double> m = file_.numbers(json, "matrix", 16, place);
   if (!m.empty()) {  // by columns
     node.matrix = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-  } else {
-    node.fixed = false;
-    const std::vector<double> t = file_.numbers(json, "translation", 3, place);
-    const std::vector<double> r = file_.numbers(json, "rotation", 4, place);
-    const std::vector<double> s = file_.numbers(json, "scale", 3, place);
-    if (!t.empty()) node.translation = vec3(t);
-    if (!r.empty()) node.rotation = {r[0], r[1], r[2], r[3]};
-    if (!s.empty()) node.scale = vec3(s);
+    return;
   }
-  if (const auto mesh = file_.integer(json, "mesh", place)) {
-    node.mesh = read_mesh(*mesh);
-    if (json.contains("skin")) ++skins_;
+  node.fixed = false;
+  const std::vector<double> t = file_.numbers(json, "translation", 3, place);
+  const std::vector<double> r = file_.numbers(json, "rotation", 4, place);
+  const std::vector<double> s = file_.numbers(json, "scale", 3, place);
+  if (!t.empty()) node.translation = vec3(t);
+  if (!r.empty()) node.rotation = {r[0], r[1], r[2], r[3]};
+  if (!s.empty()) node.scale = vec3(s);
+}
+
+// What is hidden is neither drawn nor shines; a camera sees all the same. [KHR_node_visibility]
+void Importer::read_content(const Json& json, RawNode& node, std::uint32_t number, bool hidden,
+                            const std::string& place) {
+  const auto mesh = file_.integer(json, "mesh", place);
+  const bool skin = file_.has(json, "skin");
+  const bool instanced = file_.has_extension(json, "EXT_mesh_gpu_instancing", place);
+  const Json& lamp = file_.extension(json, "KHR_lights_punctual", place);
+  const auto light = file_.integer(lamp, "light", place);
+  if (const auto camera = file_.integer(json, "camera", place)) read_camera(*camera, number);
+  if (hidden) {
+    hidden_meshes_ += mesh ? 1 : 0;
+    return;
   }
+  if (light) read_light(*light, number);
+  if (!mesh) return;
+  node.mesh = read_mesh(*mesh);
+  skins_ += skin ? 1 : 0;
+  instanced_ += instanced ? 1 : 0;
 }
 
 std::int32_t Importer::read_mesh(std::uint64_t index) {
@@ -162,7 +181,7 @@ std::int32_t Importer::read_mesh(std::uint64_t index) {
   const std::string place = "mesh " + std::to_string(index);
   const Json& json = file_.item("meshes", index, place);
   RawMesh mesh;
-  mesh.name = file_.text(json, "name");
+  mesh.name = file_.text(json, "name", place);
   if (mesh.name.empty()) mesh.name = std::to_string(index);
   const Json& primitives = file_.array(json, "primitives", place);
   for (std::size_t k = 0; k < primitives.size(); ++k) {
@@ -179,7 +198,7 @@ std::int32_t Importer::read_mesh(std::uint64_t index) {
 void Importer::read_primitive(const Json& json, RawMesh& mesh, const std::string& place) {
   const std::uint64_t mode = file_.integer(json, "mode", place).value_or(4);
   if (mode > 6) file_.fail(place, "mode " + std::to_string(mode) + " is unknown");
-  const Json& attributes = file_.object(json, "attributes");
+  const Json& attributes = file_.object(json, "attributes", place);
   const auto position = file_.integer(attributes, "POSITION", place);
   if (mode < 4 || !position) {
     ++(mode < 4 ? thin_primitives_ : bare_primitives_);
@@ -204,7 +223,7 @@ void Importer::read_primitive(const Json& json, RawMesh& mesh, const std::string
         translucent = translucent || c.values[i] < 1;
     alpha_primitives_ += translucent ? 1 : 0;
   }
-  read_material(json, p, place);
+  materials_.read(file_, json, p, place);
   read_corners(json, p, place);
   mesh.primitives.push_back(std::move(p));
 }
@@ -229,30 +248,14 @@ void Importer::read_corners(const Json& json, RawPrimitive& p, const std::string
   p.face_count = static_cast<std::uint32_t>(triangles);
 }
 
-void Importer::read_material(const Json& primitive, RawPrimitive& p, const std::string& place) {
-  const auto index = file_.integer(primitive, "material", place);
-  if (!index) return;
-  const std::string here = "material " + std::to_string(*index);
-  const Json& material = file_.item("materials", *index, place);
-  const Json& metal = file_.object(material, "pbrMetallicRoughness");
-  const Json& gloss = file_.object(file_.object(material, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-  std::vector<double> factor = file_.numbers(metal, "baseColorFactor", 4, here);
-  if (factor.empty()) factor = file_.numbers(gloss, "diffuseFactor", 4, here);
-  if (factor.empty()) factor = {1, 1, 1, 1};
-  const std::string mode = file_.text(material, "alphaMode");
-  if (mode == "BLEND") p.alpha = std::clamp(factor[3], 0.0, 1.0);
-  if (mode == "MASK") mask_materials_.insert(*index);
-  p.color = vec3(factor);
-}
-
 void Importer::read_camera(std::uint64_t index, std::uint32_t node) {
   if (++cameras_ > 1) return;
   const std::string place = "camera " + std::to_string(index);
   const Json& json = file_.item("cameras", index, place);
   RawCamera camera;
   camera.node = node;
-  const std::string type = file_.text(json, "type");
-  const Json& view = file_.object(json, type == "orthographic" ? "orthographic" : "perspective");
+  const std::string type = file_.text(json, "type", place);
+  const Json& view = file_.object(json, type == "orthographic" ? "orthographic" : "perspective", place);
   camera.perspective = type != "orthographic";
   camera.near = file_.number(view, "znear", place).value_or(0);
   camera.far = file_.number(view, "zfar", place).value_or(0);
@@ -260,26 +263,24 @@ void Importer::read_camera(std::uint64_t index, std::uint32_t node) {
     const double angle = file_.number(view, "yfov", place).value_or(0);
     if (!(angle > 0 && angle < portable::kPi)) file_.fail(place, "'yfov' is not between 0 and pi");
     camera.half_height = portable::tan(angle / 2);
+    camera.aspect = file_.number(view, "aspectRatio", place).value_or(0);
     if (!(camera.near > 0)) file_.fail(place, "'znear' is not above 0");
   } else {
     camera.half_height = file_.number(view, "ymag", place).value_or(0);
     if (camera.half_height < 0) camera.half_height = -camera.half_height;
     if (!(camera.half_height > 0)) file_.fail(place, "'ymag' is 0");
+    camera.aspect = std::abs(file_.number(view, "xmag", place).value_or(0)) / camera.half_height;
     if (camera.near < 0 || !(camera.far > 0)) file_.fail(place, "'znear' is negative, or no 'zfar'");
   }
   if (camera.far != 0 && camera.far <= camera.near) file_.fail(place, "'zfar' is not beyond 'znear'");
   scene_.camera = camera;
-  camera_name_ = file_.text(json, "name");
 }
 
 void Importer::read_light(std::uint64_t index, std::uint32_t node) {
   const std::string place = "light " + std::to_string(index);
-  const Json& all =
-      file_.array(file_.object(file_.object(file_.root(), "extensions"), "KHR_lights_punctual"), "lights", place);
-  if (index >= all.size() || !all[static_cast<std::size_t>(index)].is_object())
-    file_.fail(place, "asked for, but there are " + std::to_string(all.size()));
-  const Json& json = all[static_cast<std::size_t>(index)];
-  const std::string type = file_.text(json, "type");
+  const Json& all = file_.array(file_.extension(file_.root(), "KHR_lights_punctual", "JSON"), "lights", place);
+  const Json& json = file_.item_of(all, index, "lights", place);
+  const std::string type = file_.text(json, "type", place);
   if (type != "directional" && type != "point" && type != "spot")
     file_.fail(place, "type '" + one_line(type, 40) + "' is unknown");
   RawLight raw;
@@ -299,7 +300,7 @@ void Importer::read_light(std::uint64_t index, std::uint32_t node) {
   if (type == "spot") read_cone(json, light, place);
   if (!light.directional)
     read_shape(json, light, place);
-  else if (file_.object(file_.object(json, "extras"), "kage").contains("shape"))
+  else if (file_.has(file_.own_extras(json), "shape"))
     ++shaped_suns_;
   if (light.color == glm::dvec3(0)) {
     ++black_lights_;
@@ -311,7 +312,7 @@ void Importer::read_light(std::uint64_t index, std::uint32_t node) {
 }
 
 void Importer::read_cone(const Json& json, Light& light, const std::string& place) {
-  const Json& spot = file_.object(json, "spot");
+  const Json& spot = file_.object(json, "spot", place);
   const double inner = file_.number(spot, "innerConeAngle", place).value_or(0);
   const double outer = file_.number(spot, "outerConeAngle", place).value_or(portable::kPi / 4);
   if (!(inner >= 0 && inner < outer && outer <= portable::kPi / 2))
@@ -323,9 +324,9 @@ void Importer::read_cone(const Json& json, Light& light, const std::string& plac
 
 // The format knows no lights that extend over something: kage's own words for them are in `extras`.
 void Importer::read_shape(const Json& json, Light& light, const std::string& place) {
-  const Json& own = file_.object(file_.object(json, "extras"), "kage");
-  if (!own.contains("shape")) return;
-  const std::string shape = file_.text(own, "shape");
+  const Json& own = file_.own_extras(json);
+  if (!file_.has(own, "shape")) return;
+  const std::string shape = file_.text(own, "shape", place);
   const auto size = [&](const char* key) {
     const double v = file_.number(own, key, place).value_or(0);
     if (!(v > 0))
@@ -360,12 +361,30 @@ void Importer::read_animation() {
     scene_.notes.push_back(counted(animations - 1, "animation is", "animations are") + " ignored: the first is played");
 }
 
+// Whether a channel moves a node, which is all that is drawn of animations; the others are counted.
+bool Importer::is_drawn_path(const Json& target, const std::string& path, bool has_node, const std::string& place) {
+  if (path == "pointer") {
+    const Json& pointer = file_.extension(target, "KHR_animation_pointer", place);
+    const bool visibility = file_.text(pointer, "pointer", place).find("/KHR_node_visibility/") != std::string::npos;
+    ++(visibility ? blinking_ : pointed_);
+    return false;
+  }
+  if (path == "weights") {
+    ++morph_channels_;
+    return false;
+  }
+  if (has_node && (path == "translation" || path == "rotation" || path == "scale")) return true;
+  ++unknown_channels_;
+  return false;
+}
+
 void Importer::read_channel(const Json& animation, const Json& channel, const std::string& place) {
-  const Json& target = file_.object(channel, "target");
+  const Json& target = file_.object(channel, "target", place);
   const auto node = file_.integer(target, "node", place);
-  const std::string path = file_.text(target, "path");
-  if (path == "weights") ++morph_channels_;
-  if (!node || (path != "translation" && path != "rotation" && path != "scale")) return;
+  const std::string path = file_.text(target, "path", place);
+  const auto sampler_index = file_.integer(channel, "sampler", place);
+  const Json& samplers = file_.array(animation, "samplers", place);
+  if (!is_drawn_path(target, path, node.has_value(), place)) return;
   const auto known = node_of_.find(*node);
   if (known == node_of_.end()) return;  // of another scene
 
@@ -374,12 +393,11 @@ void Importer::read_channel(const Json& animation, const Json& channel, const st
   track.path = path == "translation" ? RawPath::kTranslation
                : path == "rotation"  ? RawPath::kRotation
                                      : RawPath::kScale;
-  const Json& samplers = file_.array(animation, "samplers", place);
-  const auto sampler_index = file_.integer(channel, "sampler", place);
-  if (!sampler_index || *sampler_index >= samplers.size()) file_.fail(place, "names no sampler");
-  const Json& sampler = samplers[static_cast<std::size_t>(*sampler_index)];
-  if (!sampler.is_object()) file_.fail(place, "its sampler is not an object");
-  const std::string interpolation = file_.text(sampler, "interpolation");
+  if (!sampler_index) file_.fail(place, "names no sampler");
+  const Json& sampler = file_.item_of(samplers, *sampler_index, "samplers", place);
+  const std::string interpolation = file_.text(sampler, "interpolation", place);
+  if (!interpolation.empty() && interpolation != "LINEAR" && interpolation != "STEP" && interpolation != "CUBICSPLINE")
+    file_.fail(place, "interpolation '" + one_line(interpolation, 40) + "' is unknown");
   if (interpolation == "STEP") track.interpolation = RawInterpolation::kStep;
   if (interpolation == "CUBICSPLINE") track.interpolation = RawInterpolation::kCubic;
   const auto input = file_.integer(sampler, "input", place);
@@ -399,13 +417,22 @@ void Importer::read_channel(const Json& animation, const Json& channel, const st
   scene_.tracks.push_back(std::move(track));
 }
 
+void Importer::count_contents() {
+  SceneContents& c = scene_.contents;
+  materials_.count(c);
+  c.cameras = static_cast<std::uint32_t>(cameras_);
+  c.lights = static_cast<std::uint32_t>(scene_.lights.size());
+  c.animations = static_cast<std::uint32_t>(file_.count("animations"));
+  c.says_sides = true;
+}
+
 void Importer::write_notes() {
   std::vector<std::string>& notes = scene_.notes;
   const auto add = [&notes](std::size_t count, const char* singular, const char* plural, const char* rest) {
     if (count > 0) notes.push_back(counted(count, singular, plural) + rest);
   };
   add(file_.count("textures"), "texture is", "textures are", " ignored");
-  add(mask_materials_.size(), "material has", "materials have", " an alpha mask, which is ignored: drawn opaque");
+  materials_.note(notes);
   add(alpha_primitives_, "primitive's vertices have", "primitives' vertices have",
       " alpha of their own, which is ignored: the material's is used");
   add(thin_primitives_, "primitive of points or lines is", "primitives of points or lines are", " ignored");
@@ -414,10 +441,20 @@ void Importer::write_notes() {
   add(morphs_, "primitive has", "primitives have", " morph targets, which are ignored");
   add(morph_channels_, "morph animation is", "morph animations are", " ignored");
   add(instanced_, "node's", "nodes'", " GPU instances are ignored: drawn once");
+  add(blinking_, "node's visibility is", "nodes' visibilities are",
+      " animated, which is ignored: shown or hidden as at rest");
+  add(pointed_, "animated property is", "animated properties are", " ignored (KHR_animation_pointer)");
+  add(unknown_channels_, "animation channel is", "animation channels are", " of no known kind, and ignored");
+  add(file_.count("scenes") > 1 ? file_.count("scenes") - 1 : 0, "scene is", "scenes are",
+      " ignored: the file's default one is drawn");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
   add(black_lights_, "light is", "lights are", " black, and ignored");
   add(shaped_suns_, "directional light has", "directional lights have",
       " a shape, which is ignored: the shadows are hard");
+  std::set<std::string> told;
+  if (blinking_ + pointed_ > 0) told.insert("KHR_animation_pointer");
+  if (instanced_ > 0) told.insert("EXT_mesh_gpu_instancing");
+  note_unknown(file_, told, notes);
 }
 
 }  // namespace

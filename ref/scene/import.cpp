@@ -7,6 +7,7 @@
 
 #include "kage/error.hpp"
 #include "notes.hpp"
+#include "scene/module/table.hpp"
 
 namespace kage::scene {
 namespace {
@@ -66,16 +67,20 @@ void check(const RawScene& scene, const std::string& name) {
   if (total == 0) throw Error(name + ": no faces");
 }
 
-RawScene import_file(const std::filesystem::path& path, const std::string& name) {
+RawScene import_assimp(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
+  return module_table<MeshModule>().read(path, name, allow_outside);
+}
+
+RawScene import_file(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   const auto checked = [&name](RawScene scene) {
     check(scene, name);
     return scene;
   };
   if (GltfFile::recognises(path)) {
-    GltfFile file(path, name);
+    GltfFile file(path, name, allow_outside);
     if (file.is_version_2()) return checked(import_gltf(std::move(file)));
   }
-  return checked(import_assimp(path, name));
+  return checked(import_assimp(path, name, allow_outside));
 }
 
 }  // namespace kage::scene

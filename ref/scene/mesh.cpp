@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <span>
 
-#include "polygons.hpp"
 #include "transform.hpp"
 
 namespace kage::scene {
@@ -38,8 +37,9 @@ class Builder {
     for (MeshComponent& c : mesh_.components) {
       c.first_polygon = static_cast<std::uint32_t>(mesh_.polygons.size());
       append_polygons(mesh_.vertices, std::span(mesh_.triangles).subspan(c.first, c.count),
-                      std::span(mesh_.shading_corners).subspan(c.first, c.count), mesh_.shading, c.first,
-                      c.convex && !c.translucent, mesh_.polygons, mesh_.corners);
+                      std::span(mesh_.shading_corners).subspan(c.first, c.count), mesh_.shading,
+                      std::span(mesh_.surfaces).subspan(c.first, c.count), c.first, c.convex && !c.translucent,
+                      mesh_.polygons, mesh_.corners);
       c.polygon_count = static_cast<std::uint32_t>(mesh_.polygons.size()) - c.first_polygon;
     }
     for (std::size_t t = 0; t < mesh_.triangles.size() && !mesh_.has_area; ++t)
@@ -61,6 +61,10 @@ class Builder {
   /// The file's normal at a corner, of length 1, or 0 where it has none to speak of.
   [[nodiscard]] glm::dvec3 file_normal(const Source& s, std::size_t corner) const;
   [[nodiscard]] glm::dvec3 color(const Source& s, std::size_t corner) const;
+  [[nodiscard]] Surface surface(const Source& s, bool reversed) const {
+    const RawPrimitive& p = raw_.primitives[s.primitive];
+    return {alpha(s), p.unlit, p.double_sided ? Sides::both : reversed ? Sides::back : Sides::front};
+  }
   [[nodiscard]] std::uint8_t alpha(const Source& s) const {
     return static_cast<std::uint8_t>(std::clamp(raw_.primitives[s.primitive].alpha, 0.0, 1.0) * 255 + 0.5);
   }
@@ -132,7 +136,7 @@ void Builder::assemble(bool translucent) {
     const std::uint32_t t = of[i];
     mesh_.triangles.push_back(turned(welded_[t], reversed));
     mesh_.faces.push_back(faces_[t]);
-    mesh_.alphas.push_back(alpha(sources_[t]));
+    mesh_.surfaces.push_back(surface(sources_[t], reversed));
     ordered_.push_back({sources_[t].primitive, turned(sources_[t].vertex, reversed)});
   }
 }
@@ -206,7 +210,7 @@ void Builder::shade_component(const MeshComponent& c) {
     const auto differ = [&](std::uint32_t a, std::uint32_t b) {
       const ShadingVertex& u = mesh_.shading[a];
       const ShadingVertex& v = mesh_.shading[b];
-      return u.normal != v.normal || u.color != v.color;
+      return (u.normal != v.normal && !p.unlit) || u.color != v.color;
     };
     mesh_.smooth = mesh_.smooth || differ(corners[0], corners[1]) || differ(corners[0], corners[2]);
     mesh_.shading_corners.push_back(corners);

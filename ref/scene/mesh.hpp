@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kage/scene.hpp"
+#include "polygons.hpp"
 #include "raw.hpp"
 #include "topology.hpp"
 
@@ -19,7 +20,7 @@ struct Mesh {
   std::vector<Corners> triangles;        ///< corners into vertices, by component
   std::vector<Corners> shading_corners;  ///< corners into shading
   std::vector<std::uint32_t> faces;      ///< the file's face of each triangle
-  std::vector<std::uint8_t> alphas;      ///< of each triangle; 255 is opaque
+  std::vector<Surface> surfaces;         ///< of each triangle
   std::vector<MeshComponent> components;
   std::vector<Polygon> polygons;       ///< of the components, in their order
   std::vector<std::uint32_t> corners;  ///< of polygons, into vertices

@@ -26,8 +26,13 @@ struct DirectedEdge {
 class Merger {
  public:
   Merger(const std::vector<glm::dvec3>& positions, std::span<const Corners> triangles,
-         std::span<const Corners> shading_corners, const std::vector<ShadingVertex>& shading)
-      : positions_(positions), triangles_(triangles), shading_corners_(shading_corners), shading_(shading) {
+         std::span<const Corners> shading_corners, const std::vector<ShadingVertex>& shading,
+         std::span<const Surface> surfaces)
+      : positions_(positions),
+        triangles_(triangles),
+        shading_corners_(shading_corners),
+        shading_(shading),
+        surfaces_(surfaces) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) edges_.push_back({triangles[t][i], triangles[t][(i + 1) % 3], t});
     std::sort(edges_.begin(), edges_.end());
@@ -94,7 +99,7 @@ class Merger {
     const glm::dvec3& origin = positions_[triangles_[seed][0]];
     const ShadingVertex& look = shading_[shading_corners_[seed][0]];
     const auto fits = [&](std::uint32_t t) {
-      if (!flat(t)) return false;
+      if (!flat(t) || surfaces_[t] != surfaces_[seed]) return false;
       const ShadingVertex& s = shading_[shading_corners_[t][0]];
       if (s.color != look.color || 1 - dot(s.normal, look.normal) > kNormalTolerance) return false;
       return std::all_of(triangles_[t].begin(), triangles_[t].end(),
@@ -142,6 +147,7 @@ class Merger {
   std::span<const Corners> triangles_;
   std::span<const Corners> shading_corners_;
   const std::vector<ShadingVertex>& shading_;
+  std::span<const Surface> surfaces_;
   std::vector<DirectedEdge> edges_;
   double tolerance_ = 0;
   std::vector<std::uint32_t> group_;
@@ -152,8 +158,8 @@ class Merger {
 
 void append_polygons(const std::vector<glm::dvec3>& positions, std::span<const Corners> triangles,
                      std::span<const Corners> shading_corners, const std::vector<ShadingVertex>& shading,
-                     std::uint32_t first, bool convex, std::vector<Polygon>& polygons,
-                     std::vector<std::uint32_t>& corners) {
+                     std::span<const Surface> surfaces, std::uint32_t first, bool convex,
+                     std::vector<Polygon>& polygons, std::vector<std::uint32_t>& corners) {
   if (!convex) {
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       polygons.push_back({static_cast<std::uint32_t>(corners.size()), 3, first + t});
@@ -162,7 +168,7 @@ void append_polygons(const std::vector<glm::dvec3>& positions, std::span<const C
     return;
   }
   std::vector<std::uint32_t> largest;
-  const auto outlines = Merger(positions, triangles, shading_corners, shading).run(largest);
+  const auto outlines = Merger(positions, triangles, shading_corners, shading, surfaces).run(largest);
   for (std::size_t t = 0; t < outlines.size(); ++t) {
     if (outlines[t].empty()) continue;
     polygons.push_back({static_cast<std::uint32_t>(corners.size()), static_cast<std::uint32_t>(outlines[t].size()),

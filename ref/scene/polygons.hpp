@@ -18,13 +18,23 @@ namespace kage::scene {
 /// polygon's first triangle. As for convexity: what single precision leaves of a plane.
 inline constexpr double kPlanarTolerance = kConvexTolerance;
 
+/// What a triangle's material says besides its colour.
+struct Surface {
+  std::uint8_t alpha = 255;
+  bool unlit = false;
+  Sides sides = Sides::both;
+
+  bool operator==(const Surface&) const = default;
+};
+
 /// Append the polygons of a component to `polygons` and their corners to `corners`. A convex closed one's triangles are
 /// put together where they share an edge, have one colour and one normal within themselves and, up to rounding, among
-/// each other, and lie in the plane of the largest; any other triangle is a polygon of its own. `first` is the number
-/// of the component's first triangle; polygons are in the order of their lowest triangle.
+/// each other, are of the same surface (`surfaces`, of each triangle), and lie in the plane of the largest; any other
+/// triangle is a polygon of its own. `first` is the number of the component's first triangle; polygons are in the order
+/// of their lowest triangle.
 void append_polygons(const std::vector<glm::dvec3>& positions, std::span<const Corners> triangles,
                      std::span<const Corners> shading_corners, const std::vector<ShadingVertex>& shading,
-                     std::uint32_t first, bool convex, std::vector<Polygon>& polygons,
-                     std::vector<std::uint32_t>& corners);
+                     std::span<const Surface> surfaces, std::uint32_t first, bool convex,
+                     std::vector<Polygon>& polygons, std::vector<std::uint32_t>& corners);
 
 }  // namespace kage::scene

@@ -20,6 +20,8 @@ namespace kage::scene {
 struct RawPrimitive {
   glm::dvec3 color{1, 1, 1};           ///< base or diffuse colour
   double alpha = 1;                    ///< of the material, 0 .. 1; below 1 it is translucent
+  bool unlit = false;                  ///< its colour is shown as it is, whatever light or shadow falls on it
+  bool double_sided = false;           ///< both sides of its faces are meant to be seen
   std::vector<float> positions;        ///< x, y, z of each vertex
   std::vector<float> normals;          ///< as many, or none
   std::vector<float> colors;           ///< red, green, blue of each vertex, or none
@@ -74,6 +76,7 @@ struct RawCamera {
   double half_height = 0.5;  ///< as kage::Camera
   double near = 0;           ///< 0: not given
   double far = 0;            ///< 0: not given
+  double aspect = 0;         ///< width over height; 0: not given
 };
 
 /// A light in the frame of its node; `color` times intensity is the file's own.
@@ -90,6 +93,7 @@ struct RawScene {
   std::optional<RawCamera> camera;
   std::vector<RawLight> lights;  ///< none is black; at most kMaxLights
   std::uint32_t frames = 0;      ///< as the file asks (extras.kage.frames); 0: it does not
+  SceneContents contents;
   std::vector<std::string> notes;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include "animation.hpp"
@@ -51,7 +52,9 @@ void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, 
                                {shading + s[0], shading + s[1], shading + s[2]},
                                object,
                                mesh.faces[i],
-                               mesh.alphas[i]});
+                               mesh.surfaces[i].alpha,
+                               mesh.surfaces[i].unlit,
+                               mesh.surfaces[i].sides});
   }
   const auto corner = static_cast<std::uint32_t>(frame.corners.size());
   for (const std::uint32_t v : mesh.corners) frame.corners.push_back(vertex + v);
@@ -179,7 +182,7 @@ std::vector<Light> Scene::Data::lights(const std::vector<Affine>& world) const {
   return all;
 }
 
-Scene Scene::load(const std::string& name_or_path, double alpha) {
+Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) {
   namespace fs = std::filesystem;
   auto data = std::make_unique<Data>();
   const std::vector<std::string>& builtin = builtin_scenes();
@@ -197,11 +200,14 @@ Scene Scene::load(const std::string& name_or_path, double alpha) {
     for (const std::string& name : builtin) names += (names.empty() ? "" : ", ") + name;
     throw Error(shown + ": no such file, and no built-in scene of that name (there are " + names + ")");
   }
-  data->raw = scene::import_in_child(path, shown);
+  data->raw = scene::import_in_child(path, shown, options.allow_outside);
   for (scene::RawMesh& mesh : data->raw.meshes)
-    for (scene::RawPrimitive& p : mesh.primitives) p.alpha *= alpha;
+    for (scene::RawPrimitive& p : mesh.primitives) p.alpha *= options.alpha;
   try {
     data->end_time = scene::end_time(data->raw);
+    std::set<std::uint32_t> moving;
+    for (const scene::RawTrack& track : data->raw.tracks) moving.insert(track.node);
+    data->raw.contents.moving = static_cast<std::uint32_t>(moving.size());
     data->build_meshes();
     data->place_objects();
     data->describe();
@@ -271,6 +277,7 @@ SceneFrame Scene::frame(int index, int count) const {
 }
 
 const std::vector<std::string>& Scene::objects() const { return data_->object_names; }
+const SceneContents& Scene::contents() const { return data_->raw.contents; }
 const std::vector<std::string>& Scene::notes() const { return data_->notes; }
 bool Scene::needs_smooth() const { return data_->smooth; }
 const std::string& Scene::name() const { return data_->name; }

@@ -49,6 +49,7 @@ Camera file_camera(const RawCamera& raw, const Affine& world, const Bounds& boun
   camera.half_height = raw.half_height;
   camera.near = raw.near > 0 ? raw.near : bounds.radius * kNearShare;
   camera.far = raw.far > camera.near ? raw.far : 0;
+  camera.aspect = raw.aspect;
   return camera;
 }
 

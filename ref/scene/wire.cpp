@@ -76,7 +76,7 @@ template <typename Archive, typename P>
 void fields(Archive& ar, P& v) {
   using T = std::remove_const_t<P>;
   if constexpr (std::is_same_v<T, RawPrimitive>)
-    ar(v.color, v.alpha, v.positions, v.normals, v.colors, v.corners, v.faces, v.face_count);
+    ar(v.color, v.alpha, v.unlit, v.double_sided, v.positions, v.normals, v.colors, v.corners, v.faces, v.face_count);
   else if constexpr (std::is_same_v<T, RawMesh>)
     ar(v.name, v.primitives);
   else if constexpr (std::is_same_v<T, RawNode>)
@@ -84,7 +84,7 @@ void fields(Archive& ar, P& v) {
   else if constexpr (std::is_same_v<T, RawTrack>)
     ar(v.node, v.path, v.interpolation, v.times, v.values);
   else
-    ar(v.meshes, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.notes);
+    ar(v.meshes, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.contents, v.notes);
 }
 
 // Of fixed size and without pointers: its bytes are its value.

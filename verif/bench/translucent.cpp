@@ -66,7 +66,7 @@ Run run(const Scene& scene, TranslucentWay way) {
 }
 
 void compare(const std::string& name, double alpha) {
-  const Scene scene = Scene::load(name, alpha);
+  const Scene scene = Scene::load(name, {alpha});
   const int frames = scene.frame_count();
   const Run exact = run(scene, TranslucentWay::exact);
   fmt::print(

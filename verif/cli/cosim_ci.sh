@@ -17,7 +17,8 @@ run=(courtyard --size 64x48 --frames 5 --config default)
 
 # Whole, and in three shards: the same sums, whatever the order in which they are joined.
 expect 0 "$kage" cosim "${run[@]}" --out whole --json whole.json --junit whole.xml
-junit whole.xml 's.get("tests")=="5" and s.get("failures")=="0" and s.get("name")=="kage cosim courtyard"'
+junit whole.xml 's.get("tests")=="5" and s.get("failures")=="0" and s.get("name")=="kage cosim" and len(s.get("timestamp"))==19 and s.get("hostname")'
+junit whole.xml 'all(k.get("classname")=="kage.cosim.courtyard" for k in c)'
 junit whole.xml '[k.get("name") for k in c]==["frame %d" % i for i in range(5)] and all(len(k)==0 for k in c)'
 junit whole.xml 'abs(sum(float(k.get("time")) for k in c)-float(s.get("time")))<0.01'
 json whole.json 'j["shard"] is None and j["total_frames"]==5 and len(j["frame_seconds"])==5 and j["scene"]=="courtyard"'
@@ -102,6 +103,10 @@ grep -qE '^courtyard: frame 5/5' stderr || fail "no progress: $(cat stderr)"
 if grep -q $'\r' stderr; then fail "a line is written over in a pipe"; fi
 expect 0 env KAGE_PROGRESS=0 "$kage" cosim "${run[@]}" --out shard
 [ ! -s stderr ] || fail "progress although none is wanted: $(cat stderr)"
+
+# One frame that lasts says so too.
+expect 0 env KAGE_PROGRESS=0.05 "$kage" cosim courtyard --frames 1 --config default --out shard
+[ "$(grep -cE '^courtyard: frame 1/1' stderr)" -ge 2 ] || fail "one long frame, and no progress within it: $(cat stderr)"
 
 # On a terminal a line is written over and over; on a dumb one, as in a pipe, there are lines.
 python3 - "$kage" "${run[@]}" <<'PY' || fail "progress on a terminal"

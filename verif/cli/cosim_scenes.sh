@@ -5,12 +5,13 @@
 unset GITHUB_ACTIONS
 run=(courtyard inside --size 64x48 --frames 4 --config default)
 
-# cases FILE NAMES: JUnit's cases have just these names, none failed.
+# cases FILE NAMES: JUnit's cases are just these, each its scene (the class) and its name, none failed.
 cases() {
   python3 - "$1" "$2" <<'PY' || fail "$1: cases other than $2"
 import sys, xml.etree.ElementTree as E
 s = E.parse(sys.argv[1]).getroot()[0]
-sys.exit(0 if [c.get("name") for c in s] == sys.argv[2].split(",") and s.get("failures") == "0" and s.get("name") == "kage cosim" else 1)
+names = [c.get("classname").removeprefix("kage.cosim.") + " " + c.get("name") for c in s]
+sys.exit(0 if names == sys.argv[2].split(",") and s.get("failures") == "0" and s.get("name") == "kage cosim" else 1)
 PY
 }
 all=$(printf '%s,' courtyard\ frame\ {0,1,2,3} inside\ frame\ {0,1,2,3})

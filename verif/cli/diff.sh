@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage diff of two pictures: exit codes, JSON, thresholds, region and mask, heat map and flip picture, JUnit, bad input.
+# kage diff of two pictures: exit codes, JSON, thresholds, region and mask, heat map and blink picture, JUnit, bad input.
 . "$(dirname "$0")/common.bash"
 
 python3 - <<'PY'
@@ -163,11 +163,28 @@ trouble "inks.jpg: is CMYK" "$kage" diff inks.jpg inks.jpg
 oiiotool a.exr -otex mip.exr || fail "no mipmap"
 trouble "mip.exr: holds several sizes" "$kage" diff mip.exr mip.exr
 
+# A file of several pictures is compared part by part.
+oiiotool a.exr b.exr --siappend -o parts.exr || fail "no multi-part EXR"
+trouble "parts.exr: holds 2 pictures: choose one by its number, 0 to 1" "$kage" diff parts.exr parts.exr
+expect 0 "$kage" diff parts.exr parts.exr --part 1
+oiiotool a.exr a.exr --siappend -o twice.exr || fail "no multi-part EXR"
+expect 0 "$kage" diff parts.exr twice.exr --part 0
+expect 1 "$kage" diff parts.exr twice.exr --part 1
+trouble "parts.exr: holds 2 pictures, and there is no number 2" "$kage" diff parts.exr parts.exr --part 2
+expect 0 "$kage" diff a.png a.png --part 0
+trouble "a.png: holds 1 picture, and there is no number 1" "$kage" diff a.png a.png --part 1
+
+# How people see it, beside the verdict and never part of it.
+expect 1 "$kage" diff a.png b.png --perceptual --json p.json
+json p.json '0 < j["flip"]["mean"] < j["flip"]["max"] < 1 and j["perceptual"] is not None'
+expect 0 "$kage" diff a.png a.png --perceptual --json p.json
+json p.json 'j["flip"] == {"mean": 0, "max": 0}'
+
 # Files written: all of them or none.
-expect 1 "$kage" diff a.png b.png --out h.png --flip f.png --junit j.xml --json j.json
+expect 1 "$kage" diff a.png b.png --out h.png --blink f.png --junit j.xml --json j.json
 for f in h.png f.png j.xml j.json; do [ -s $f ] || fail "no $f"; done
 trouble animated "$kage" diff f.png f.png
-python3 - <<'PY' || fail "flip picture or JUnit are not as they should be"
+python3 - <<'PY' || fail "blink picture or JUnit are not as they should be"
 import struct, xml.etree.ElementTree as et, zlib
 data, at, chunks = open("f.png", "rb").read(), 8, []
 while at < len(data):
@@ -195,8 +212,8 @@ odd='a<&"'$'\x01\xff''.png'
 cp a.png "$odd"
 expect 1 "$kage" diff "$odd" b.png --junit j.xml
 junit 's[0].get("name")=="a<&\"\ufffd\ufffd.png b.png"'
-expect 1 "$kage" diff a.png c.png --out none.png --flip flip.png
-[ ! -e none.png ] && [ -s flip.png ] || fail "unlike pictures: a heat map, or no flip picture"
+expect 1 "$kage" diff a.png c.png --out none.png --flip flip.png  # the option's old name
+[ ! -e none.png ] && [ -s flip.png ] || fail "unlike pictures: a heat map, or no blink picture"
 
 cp a.png keep.png
 trouble missing.png "$kage" diff a.png missing.png
@@ -206,12 +223,12 @@ trouble empty.png "$kage" diff a.png empty.png
 trouble "is a directory" "$kage" diff a.png .
 trouble missing.png "$kage" diff a.png b.png --mask missing.png
 trouble nowhere "$kage" diff a.png b.png --out nowhere/heat.png
-trouble nowhere "$kage" diff a.png b.png --flip nowhere/f.png
+trouble nowhere "$kage" diff a.png b.png --blink nowhere/f.png
 trouble nowhere "$kage" diff a.png b.png --junit nowhere/j.xml
 trouble nowhere/r.json "$kage" diff a.png b.png --json nowhere/r.json --lsb 9
-for option in --out --flip --junit --json; do trouble a.png "$kage" diff a.png b.png $option ./a.png; done
+for option in --out --blink --junit --json; do trouble a.png "$kage" diff a.png b.png $option ./a.png; done
 trouble mask.png "$kage" diff a.png b.png --mask mask.png --out mask.png
-trouble twice "$kage" diff a.png b.png --out x.png --flip ./x.png
+trouble twice "$kage" diff a.png b.png --out x.png --blink ./x.png
 cmp a.png keep.png || fail "an input was written over"
 rm -f h.png j.xml
 trouble cut.png "$kage" diff a.png cut.png --out h.png --junit j.xml
@@ -230,10 +247,10 @@ wait $!
 "$kage" diff a.png b.png --out beside.png >/dev/null
 cmp piped.png beside.png || fail "a pipe got another picture than a file"
 [ -p pipe.png ] || fail "a pipe was replaced by a file"
-expect 1 "$kage" diff a.png b.png --out /dev/null --json /dev/null --junit /dev/null --flip flip.png
+expect 1 "$kage" diff a.png b.png --out /dev/null --json /dev/null --junit /dev/null --blink flip.png
 [ -c /dev/null ] || fail "/dev/null was replaced"
 # A device that takes nothing is a full disk without a disk.
-trouble "/dev/full: cannot be written: No space left on device" "$kage" diff a.png b.png --json /dev/full --flip none.png
+trouble "/dev/full: cannot be written: No space left on device" "$kage" diff a.png b.png --json /dev/full --blink none.png
 [ ! -e none.png ] || fail "a file appeared though a device took nothing"
 for bad in pipe.png /dev/zero /dev/null; do
   trouble "$bad: is not a regular file" timeout 20 "$kage" diff $bad a.png

@@ -20,7 +20,7 @@ json r.json 'j["same"] is False and j["pictures"]==3 and j["different_pictures"]
 json r.json 'j["different_pixels"]==sum(f["different_pixels"] for f in j["frames"]) and j["max_lsb"]==max(f["max_lsb"] for f in j["frames"])'
 json r.json 'j["first"]=={**j["frames"][1]["first"], "frame": "glass_0001.png"}'
 [ "$(grep -c '^glass_000[12].png: different: ' stdout)" = 2 ] || fail "not a line for each that differs: $(cat stdout)"
-[ "$(echo views/*)" = "$(echo views/glass_000{1,2}.png.{flip,heat}.png)" ] || fail "views: $(echo views/*)"
+[ "$(echo views/*)" = "$(echo views/glass_000{1,2}.png.{blink,heat}.png)" ] || fail "views: $(echo views/*)"
 python3 - <<'PY' || fail "JUnit is not as it should be"
 import xml.etree.ElementTree as et
 suite = et.parse("j.xml").getroot()[0]
@@ -88,7 +88,7 @@ expect 1 "$kage" diff exact empty
 trouble empty "$kage" diff empty empty
 trouble missing "$kage" diff exact missing
 trouble "is a directory" "$kage" diff exact/glass_0000.png exact
-trouble flip "$kage" diff exact centroid --flip f.png
+trouble blink "$kage" diff exact centroid --blink f.png
 trouble exact/sub "$kage" diff exact centroid --out exact/sub
 trouble centroid "$kage" diff exact centroid --out centroid
 mkdir broken && cp exact/* broken && head -c 90 exact/glass_0002.png >broken/glass_0002.png

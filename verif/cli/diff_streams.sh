@@ -71,7 +71,7 @@ for pair in "x y contents XTRA" "x default only XTRA" "z default only ORIG"; do
 done
 expect 0 "$kage" diff x.kage x.kage
 
-for option in "--lsb 1" "--abs 1" "--ulp 1" "--max-pixels 1" "--max-percent 1" "--region 1x1+0+0" "--mask m.png" --ignore-alpha --perceptual "--out o.png" "--flip o.png" --prune; do
+for option in "--lsb 1" "--abs 1" "--ulp 1" "--max-pixels 1" "--max-percent 1" "--region 1x1+0+0" "--mask m.png" --ignore-alpha --perceptual "--out o.png" "--blink o.png" "--part 0" --prune; do
   # shellcheck disable=SC2086
   trouble "${option%% *} is not for" "$kage" diff exact.kage centroid.kage $option
 done

@@ -17,6 +17,30 @@ KAGE_DATA_DIR="$temp/prefix/share/kage" "$temp/build/consumer"
 for file in rtl/defs/kage.yaml rtl/configs.yaml; do
   [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
 done
+# What is installed to be read is whole: each link of each page leads to a file that is there.
+doc=$temp/prefix/share/doc/kage
+[ -d "$doc" ] || doc=$(dirname "$(find "$temp/prefix" -name README.md -path '*doc*' | head -n 1)")
+links=0
+while IFS=: read -r page link; do
+  [ -e "$(dirname "$page")/$link" ] || { echo "installed: $page: $link: no such file" >&2; exit 1; }
+  links=$((links + 1))
+done < <(grep -roE '\]\([A-Za-z][A-Za-z0-9_./-]*' --include=*.md "$doc" | sed 's/:\](/:/' | grep -vE ':(https?|int)$')
+[ $links -gt 60 ] || { echo "installed pages have only $links links" >&2; exit 1; }
+for file in man/man1/kage.1 bash-completion/completions/kage zsh/site-functions/_kage doc/kage/verif/examples/c/pixel_check.c; do
+  [ -s "$temp/prefix/share/$file" ] || { echo "not installed: share/$file" >&2; exit 1; }
+done
+# Without CMake: pkg-config knows what to compile and link with.
+pc=$(dirname "$(find "$temp/prefix" -name kage.pc)")
+if command -v pkg-config >/dev/null; then
+  export PKG_CONFIG_PATH=$pc
+  # shellcheck disable=SC2046
+  "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} "$source/verif/package/golden.cpp" -o "$temp/golden_pc" $(pkg-config --cflags --libs kage)
+  # shellcheck disable=SC2046
+  "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} "$source/verif/package/order.cpp" -o "$temp/order_pc" $(pkg-config --cflags --libs kage-order)
+  "$temp/order_pc"
+  # shellcheck disable=SC2046
+  [ -z "$(LD_TRACE_LOADED_OBJECTS=1 "$temp/golden_pc" | grep -E 'OpenImageIO|assimp')" ] || { echo "who links kage binds OpenImageIO" >&2; exit 1; }
+fi
 shows() { # DOC FILE: each line of the code block behind the comment that names the file is in the file
   awk -v mark="<!-- $2 has these lines -->" '$0 == mark { on = 1; next } on && /^```$/ { exit } on && !/^```/' "$source/$1" >"$temp/shown"
   [ "$(grep -c . "$temp/shown")" -gt 3 ] || { echo "$1 shows nothing of $2" >&2; exit 1; }

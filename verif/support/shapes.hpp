@@ -121,8 +121,9 @@ inline void add_solid(SceneFrame& f, const Solid& s, const glm::dvec3& centre, c
     f.triangles.push_back(t);
   }
   c.first_polygon = static_cast<std::uint32_t>(f.polygons.size());
-  scene::append_polygons(f.vertices, triangles, shading_corners, f.shading, c.first, convex && closed && alpha == 255,
-                         f.polygons, f.corners);
+  const std::vector<scene::Surface> surfaces(triangles.size(), {alpha, false, Sides::both});
+  scene::append_polygons(f.vertices, triangles, shading_corners, f.shading, surfaces, c.first,
+                         convex && closed && alpha == 255, f.polygons, f.corners);
   c.polygon_count = static_cast<std::uint32_t>(f.polygons.size()) - c.first_polygon;
   f.components.push_back(c);
 }

@@ -275,7 +275,7 @@ TEST_CASE("the heat map shows each pixel's verdict, the flip picture both pictur
   CHECK(views.b == b);
 
   const fs::path flip = folder.path / "flip.png";
-  save_flip(flip, views.a, Image(50, 2, 3));
+  save_blink(flip, views.a, Image(50, 2, 3));
   CHECK_THROWS_WITH(load_image(flip), Catch::Matchers::ContainsSubstring("animated"));
   CHECK_THROWS_WITH(diff_files(flip, flip), Catch::Matchers::ContainsSubstring("flip.png"));
   const auto input = OIIO::ImageInput::open(flip.string());  // which shows the first picture
@@ -285,9 +285,9 @@ TEST_CASE("the heat map shows each pixel's verdict, the flip picture both pictur
   std::vector<std::uint8_t> pixels(300);
   REQUIRE(input->read_image(0, 0, 0, 3, TypeDesc::UINT8, pixels.data()));
   CHECK(std::equal(a.data.begin(), a.data.end(), pixels.begin()));
-  CHECK_THROWS_AS(save_flip(folder.path / "no/flip.png", a, b), Error);
-  CHECK_THROWS_AS(save_flip(folder.path / "flip.gif", a, b), Error);
-  CHECK_THROWS_AS(save_flip(flip, Image(), b), Error);
+  CHECK_THROWS_AS(save_blink(folder.path / "no/flip.png", a, b), Error);
+  CHECK_THROWS_AS(save_blink(folder.path / "flip.gif", a, b), Error);
+  CHECK_THROWS_AS(save_blink(flip, Image(), b), Error);
 }
 
 TEST_CASE("the perceptual measure tells what is seen from what is not, and decides nothing") {

@@ -147,6 +147,23 @@ TEST_CASE("a cube of quads: faces keep the file's numbers, the solid is closed a
   CHECK_FALSE(s.needs_smooth());
 }
 
+TEST_CASE("the side that a file shows stays the same, whichever way a triangle is turned") {
+  const TempDirectory dir;
+  const auto backs = [&dir](const std::vector<std::string>& turned) {
+    std::string text = kCube;
+    for (const std::string& face : turned)
+      text.replace(text.find(face), face.size(), "f " + std::string(face.rbegin(), face.rend() - 2));
+    const Scene s = Scene::load(dir.write("cube.obj", text));
+    std::string sides;
+    for (const Triangle& t : s.frame(0, 1).triangles)
+      sides += t.sides == Sides::back ? 'b' : t.sides == Sides::front ? 'f' : '2';
+    return sides;
+  };
+  CHECK(backs({}) == "ffffffffffff");
+  CHECK(backs({"f 5 6 7 8"}) == "ffbbffffffff");
+  CHECK(backs({"f 4 3 2 1", "f 5 6 7 8", "f 1 2 6 5", "f 2 3 7 6", "f 3 4 8 7", "f 4 1 5 8"}) == "bbbbbbbbbbbb");
+}
+
 TEST_CASE("an OBJ file keeps all vertices, however it is written") {
   const TempDirectory dir;
   const auto load = [&dir](const std::string& vertex) {
@@ -213,10 +230,30 @@ TEST_CASE("materials of other formats give their diffuse colour; textures are no
   CHECK(f.components[1].translucent);
   CHECK(f.triangles[f.components[0].first].alpha == 255);
   CHECK(f.triangles[f.components[1].first].alpha == 128);
-  CHECK(Scene::load(dir.write("cube2.obj", text), 0.5).frame(0, 1).triangles[f.components[1].first].alpha == 64);
+  CHECK(Scene::load(dir.write("cube2.obj", text), {0.5}).frame(0, 1).triangles[f.components[1].first].alpha == 64);
   CHECK(f.shading[f.triangles[0].shading[0]].color == glm::dvec3{0.5, 0.25, 0.125});
   CHECK(test::has_note(s, "1 texture is ignored"));
   CHECK_FALSE(test::has_note(s, "alpha"));
+}
+
+TEST_CASE("materials of other formats: emission over black is unlit, other emission and gloss are noted") {
+  const TempDirectory dir;
+  const auto load = [&dir](const std::string& look) {
+    (void)dir.write("look.mtl", "newmtl m\n" + look);
+    return Scene::load(dir.write("t.obj", "mtllib look.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  };
+  const auto first = [](const Scene& s) { return s.frame(0, 1).triangles[0]; };
+  const Scene lamp = load("Kd 0 0 0\nKe 0.5 0.25 1\nKs 0 0 0\n");
+  CHECK(first(lamp).unlit);
+  CHECK(lamp.frame(0, 1).shading[0].color == glm::dvec3{0.5, 0.25, 1});
+  CHECK(lamp.contents().unlit == 1);
+  const Scene both = load("Kd 0.5 0.5 0.5\nKe 0 1 0\nKs 0 0 0\n");
+  CHECK_FALSE(first(both).unlit);
+  CHECK(test::has_note(both, "1 material emits light, which is ignored"));
+  CHECK_FALSE(test::has_note(both, "glossy"));
+  const Scene gloss = load("Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 90\n");
+  CHECK(test::has_note(gloss, "1 material is glossy, which is ignored"));
+  CHECK_FALSE(test::has_note(gloss, "emits"));
 }
 
 TEST_CASE("camera, light and animation of another format") {

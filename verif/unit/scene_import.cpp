@@ -87,7 +87,7 @@ TEST_CASE("limits come from the environment") {
   }
   unsetenv("KAGE_IMPORT_SECONDS");
   unsetenv("KAGE_IMPORT_MIB");
-  CHECK(ImportLimits::from_environment().seconds == 60);
+  CHECK(ImportLimits::from_environment().seconds == 20);
 }
 
 TEST_CASE("a packed scene survives, and damage to it is noticed") {

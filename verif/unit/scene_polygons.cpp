@@ -25,6 +25,7 @@ struct Body {
   std::vector<Corners> triangles;
   std::vector<Corners> shading_corners;
   std::vector<ShadingVertex> shading;
+  std::vector<Surface> surfaces;  // of the first triangles; the others have the usual one
 
   // A triangle with its own normal, or another at each corner.
   void triangle(const Corners& t, const glm::dvec3& color = {1, 1, 1}, bool smooth = false) {
@@ -62,7 +63,9 @@ struct Merged {
 
 Merged merge(const Body& b, bool convex = true, std::uint32_t first = 0) {
   Merged m;
-  append_polygons(b.points, b.triangles, b.shading_corners, b.shading, first, convex, m.polygons, m.corners);
+  std::vector<Surface> surfaces = b.surfaces;
+  surfaces.resize(b.triangles.size());
+  append_polygons(b.points, b.triangles, b.shading_corners, b.shading, surfaces, first, convex, m.polygons, m.corners);
   return m;
 }
 
@@ -177,7 +180,8 @@ TEST_CASE("polygons name triangles of the whole mesh and come after what is ther
   Merged m;
   m.polygons.push_back({0, 3, 7});
   m.corners = {5, 6, 7};
-  append_polygons(b.points, b.triangles, b.shading_corners, b.shading, 100, true, m.polygons, m.corners);
+  append_polygons(b.points, b.triangles, b.shading_corners, b.shading, std::vector<Surface>(b.triangles.size()), 100,
+                  true, m.polygons, m.corners);
   REQUIRE(m.polygons.size() == 7);
   CHECK(m.polygons[0].triangle == 7);
   for (std::size_t i = 1; i < 7; ++i) {
@@ -248,6 +252,22 @@ TEST_CASE("colours that differ keep triangles apart") {
   const Merged m = merge(b);
   CHECK(m.sizes() == Sizes{{3, 2}, {4, 5}});
   check_surface(b.points, b.triangles, m, kBoxMiddle);
+}
+
+TEST_CASE("surfaces that differ keep triangles apart") {
+  Body b;
+  b.points = box_points();
+  for (const auto& face : kBoxFaces) b.face(face);
+  CHECK(merge(b).sizes() == Sizes{{4, 6}});
+  for (const Surface& other :
+       {Surface{255, true, Sides::both}, {255, false, Sides::front}, {255, false, Sides::back}}) {
+    b.surfaces = {other};
+    const Merged m = merge(b);
+    CHECK(m.sizes() == Sizes{{3, 2}, {4, 5}});
+    check_surface(b.points, b.triangles, m, kBoxMiddle);
+    b.surfaces.assign(b.triangles.size(), other);
+    CHECK(merge(b).sizes() == Sizes{{4, 6}});
+  }
 }
 
 TEST_CASE("normals that differ keep triangles apart, rounding does not") {

@@ -43,7 +43,14 @@ struct DiffOptions {
   Image
       mask;  ///< if not empty, only pixels that are not 0 in it: one channel, as load_mask() makes it; sizes are alike
   bool ignore_alpha = false;  ///< values of the alpha channel are not compared; pictures still both have one or not
-  bool perceptual = false;    ///< compute DiffResult::perceptual_pixels, which takes time
+  bool perceptual = false;    ///< compute DiffResult::perceptual_pixels and flip, which takes time
+  int part = -1;              ///< of files that hold several pictures, the number of the one to compare, from 0
+};
+
+/// The FLIP difference of [Andersson 2020] ("LDR-FLIP") over a picture's pixels, 0 (none is seen) to 1 each.
+struct FlipNumbers {
+  double mean = 0;
+  double most = 0;
 };
 
 /// Outcome. Of pictures that are unlike in what no threshold tolerates (size, place, channels, types, colour space)
@@ -80,6 +87,7 @@ struct DiffResult {
   std::optional<double> psnr;  ///< dB over all compared values, peak the type's largest or 1.0; nothing if all are
                                ///< equal, or a compared float is not in 0 .. 1
   std::optional<std::uint64_t> perceptual_pixels;  ///< that OpenImageIO's compare_Yee tells apart
+  std::optional<FlipNumbers> flip;  ///< of the pictures as DiffViews has them, all of them, taken for sRGB
 };
 
 inline constexpr std::size_t kMaxRegions = 64;
@@ -107,7 +115,7 @@ Image load_mask(const std::filesystem::path& path);
 /// Write `a` and `b` as a picture that shows one after the other, half a second each, for ever: an animated PNG (.png
 /// or .apng), whose first picture, `a`, is what a program shows that knows no animation. Three channels; where sizes
 /// are unlike, black fills up the smaller.
-void save_flip(const std::filesystem::path& path, const Image& a, const Image& b);
+void save_blink(const std::filesystem::path& path, const Image& a, const Image& b);
 
 /// A file's name in one or both of two folders, by '/' from the folder, subfolders included.
 struct FolderEntry {

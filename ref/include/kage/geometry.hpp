@@ -52,10 +52,11 @@ struct ScreenPolygon {
   ScreenPlane depth;
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
-  bool lit = false;                     ///< eye and some light that casts shadows are on the same side of it
-  std::uint32_t normal_class = 0;       ///< into the light table, from 1; 0 if it is not lit or there is no table
-  std::uint32_t source = 0;             ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
-  std::uint8_t alpha = 255;             ///< below 255: translucent
+  bool lit =
+      false;  ///< eye and some light that casts shadows are on the same side of it, and it is not Triangle::unlit
+  std::uint32_t normal_class = 0;  ///< into the light table, from 1; 0 if it is not lit or there is no table
+  std::uint32_t source = 0;        ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
+  std::uint8_t alpha = 255;        ///< below 255: translucent
 };
 
 /// A line over the screen where a node's plane of the visibility order cuts a translucent polygon: a pixel (x, y) lies
@@ -138,6 +139,7 @@ enum class SpanReason : std::uint8_t {
   cut,     ///< by the near plane or the guard band
   colors,  ///< more than one within a face
   translucent,
+  culled,  ///< Look::cull leaves out faces that the eye would see
 };
 
 /// A frame on the screen.
@@ -190,6 +192,8 @@ struct Look {
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
   VolumeWay volumes = VolumeWay::fewest;
   bool leave_out = true;  ///< shadows that can meet nothing seen, which changes no picture
+  bool cull = false;  ///< faces are not drawn if the eye sees the side that their material does not show (Sides); they
+                      ///< cast shadows all the same
   TranslucentWay translucent = TranslucentWay::exact;
   int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;  ///< of their pattern

@@ -28,6 +28,7 @@ struct Camera {
   double half_height = 0.5;  ///< perspective: tan(vertical field of view / 2); parallel: half the height of the view
   double near = 0.1;         ///< distance of the near plane along forward, > 0
   double far = 0;            ///< distance of the far plane, > near; 0: not given. Geometry cuts nothing there
+  double aspect = 0;         ///< width over height of the file's own pictures; 0: not given. The picture's shape counts
 };
 
 /// A point that light comes from, or, at infinity, a direction: what casts one set of shadows.
@@ -57,6 +58,9 @@ struct Light : LightPoint {
 /// Most lights of a scene.
 inline constexpr std::size_t kMaxLights = 64;
 
+/// Which sides of a triangle its material shows, as it is numbered here: `back` where the file's winding was turned.
+enum class Sides : std::uint8_t { both, front, back };
+
 /// A triangle, counter-clockwise seen from outside.
 struct Triangle {
   std::array<std::uint32_t, 3> vertex;   ///< into SceneFrame::vertices
@@ -64,6 +68,8 @@ struct Triangle {
   std::uint32_t object = 0;              ///< into Scene::objects()
   std::uint32_t face = 0;                ///< number of the face within its object, as in the file
   std::uint8_t alpha = 255;              ///< 255 is opaque, 0 not to be seen
+  bool unlit = false;                    ///< it shows its colour whatever light or shadow falls on it
+  Sides sides = Sides::both;             ///< all are drawn unless Look::cull is set
 };
 
 /// A face as it is drawn, counter-clockwise seen from outside: a triangle, or, of convex bodies, triangles in one plane
@@ -112,6 +118,25 @@ struct SceneFrame {
   }
 };
 
+/// What of a file is used.
+struct SceneContents {
+  std::uint32_t materials = 0;     ///< that faces have
+  std::uint32_t translucent = 0;   ///< of these, with alpha below 1
+  std::uint32_t unlit = 0;         ///< of these, that light does not touch
+  std::uint32_t single_sided = 0;  ///< of these, to be seen from one side only
+  bool says_sides = false;         ///< the file tells single-sided from double-sided
+  std::uint32_t cameras = 0;       ///< of which the first is used
+  std::uint32_t lights = 0;        ///< that are used
+  std::uint32_t animations = 0;    ///< of which the first is played
+  std::uint32_t moving = 0;        ///< nodes that it moves
+};
+
+/// How a scene is loaded.
+struct SceneOptions {
+  double alpha = 1;  ///< 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent
+  bool allow_outside = false;  ///< files that the scene's file names (buffers, materials) may lie outside its folder
+};
+
 /// A scene loaded from a file.
 class Scene {
  public:
@@ -120,11 +145,10 @@ class Scene {
   /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
   /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
   /// limit of time. So load before other threads start, or while they rest. Several threads may load at once.
-  /// `alpha`, 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent.
   /// Intensities of lights are scaled by one factor, the same in all frames: at the middle of the scene, in the first
   /// frame, light that meets a surface head-on from all of them (cones and ranges aside) adds up to 1 in the largest
   /// channel.
-  static Scene load(const std::string& name_or_path, double alpha = 1);
+  static Scene load(const std::string& name_or_path, const SceneOptions& options = {});
 
   ~Scene();
   Scene(Scene&&) noexcept;
@@ -140,6 +164,8 @@ class Scene {
 
   /// What the file holds that kage does not draw, and what was added: one sentence each ("2 textures are ignored").
   [[nodiscard]] const std::vector<std::string>& notes() const;
+
+  [[nodiscard]] const SceneContents& contents() const;
 
   /// True where corners of some triangle differ in shading, so that colour varies within it.
   [[nodiscard]] bool needs_smooth() const;

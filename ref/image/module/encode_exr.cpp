@@ -6,10 +6,10 @@
 #include <exception>
 #include <mutex>
 
-#include "image/encoder.hpp"
+#include "image/module/table.hpp"
 #include "kage/error.hpp"
 
-namespace kage {
+namespace kage::picture_module {
 namespace {
 
 [[noreturn]] void fail(const std::string& name, std::string cause) {
@@ -114,4 +114,4 @@ std::unique_ptr<ImageEncoder> encode_exr(OutputFile& out, const std::string& nam
   return std::make_unique<ExrEncoder>(out, name, width, height, channels);
 }
 
-}  // namespace kage
+}  // namespace kage::picture_module

@@ -2,8 +2,6 @@
 //
 // Whatever else Assimp reads, into a RawScene. Assimp is asked for the file's data as they are, without its own
 // processing: kage triangulates, welds and orders itself.
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -13,22 +11,21 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <map>
 #include <new>
 #include <optional>
 #include <set>
 #include <utility>
 
-#include "functions.hpp"
-#include "import.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
-#include "notes.hpp"
-#include "obj_text.hpp"
-#include "polygon.hpp"
+#include "scene/functions.hpp"
+#include "scene/import.hpp"
+#include "scene/module/assimp_files.hpp"
+#include "scene/module/table.hpp"
+#include "scene/notes.hpp"
+#include "scene/polygon.hpp"
 
-namespace kage::scene {
+namespace kage::scene::mesh_module {
 namespace {
 
 // Assimp's defaults for clip planes and shape of the picture, where the file says nothing.
@@ -64,7 +61,8 @@ class Reader {
   void read_faces(const aiMesh& mesh, RawPrimitive& p);
   void read_material(unsigned index, RawPrimitive& p);
   /// As the file has it, or 1 where that is no share.
-  [[nodiscard]] double opacity(const aiMaterial& material) const;
+  [[nodiscard]] static double opacity(const aiMaterial& material);
+  void read_light_of_its_own(const aiMaterial& material, RawPrimitive& p, bool fresh);
   void read_cameras();
   void read_lights();
   static void read_cone(const aiLight& l, Light& light);
@@ -84,6 +82,9 @@ class Reader {
   std::map<std::string, std::uint32_t> node_of_;           // the first of that name
   std::vector<const aiNode*> nodes_;
   std::set<unsigned> materials_;
+  std::size_t emitting_ = 0;  // materials that give light over a colour that is not black
+  std::size_t glossy_ = 0;
+  std::size_t unshaded_ = 0;
   std::size_t thin_faces_ = 0;
   std::size_t alpha_meshes_ = 0;  // by the colours of their vertices
   std::size_t skins_ = 0;
@@ -182,7 +183,7 @@ void Reader::read_faces(const aiMesh& mesh, RawPrimitive& p) {
 }
 
 // Several formats, and readers, say 0 and mean that nothing was said: what is drawn at all is not wholly invisible.
-double Reader::opacity(const aiMaterial& material) const {
+double Reader::opacity(const aiMaterial& material) {
   ai_real value = 1;
   if (material.Get(AI_MATKEY_OPACITY, value) != AI_SUCCESS || !(value > 0 && value < 1)) return 1;
   return static_cast<double>(value);
@@ -190,15 +191,49 @@ double Reader::opacity(const aiMaterial& material) const {
 
 void Reader::read_material(unsigned index, RawPrimitive& p) {
   if (index >= in_.mNumMaterials || in_.mMaterials[index] == nullptr) return;
-  materials_.insert(index);
+  const bool fresh = materials_.insert(index).second;
   const aiMaterial& material = *in_.mMaterials[index];
   p.alpha = opacity(material);
+  int two_sided = 0;
+  if (material.Get(AI_MATKEY_TWOSIDED, two_sided) == AI_SUCCESS) {
+    out_.contents.says_sides = true;
+    p.double_sided = two_sided != 0;
+  }
   aiColor4D color(1, 1, 1, 1);
-  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != AI_SUCCESS &&
-      material.Get(AI_MATKEY_BASE_COLOR, color) != AI_SUCCESS)
-    return;
-  const glm::dvec3 c{color.r, color.g, color.b};
-  if (is_finite(c)) p.color = c;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) == AI_SUCCESS ||
+      material.Get(AI_MATKEY_BASE_COLOR, color) == AI_SUCCESS) {
+    const glm::dvec3 c{color.r, color.g, color.b};
+    if (is_finite(c)) p.color = c;
+  }
+  read_light_of_its_own(material, p, fresh);
+  if (!fresh) return;
+  SceneContents& c = out_.contents;
+  ++c.materials;
+  c.translucent += p.alpha < 1 ? 1 : 0;
+  c.unlit += p.unlit ? 1 : 0;
+  c.single_sided += p.double_sided ? 0 : 1;
+}
+
+// As for glTF (gltf_materials.cpp): a black surface shows its own light alone, and gloss is not drawn.
+void Reader::read_light_of_its_own(const aiMaterial& material, RawPrimitive& p, bool fresh) {
+  const auto color = [&material](const char* key, unsigned type, unsigned index) {
+    aiColor3D c(0, 0, 0);
+    if (material.Get(key, type, index, c) != AI_SUCCESS || !is_finite(rgb(c))) return glm::dvec3(0);
+    return glm::dvec3(std::max(rgb(c).x, 0.0), std::max(rgb(c).y, 0.0), std::max(rgb(c).z, 0.0));
+  };
+  const glm::dvec3 light = color(AI_MATKEY_COLOR_EMISSIVE);
+  p.unlit = light != glm::dvec3(0) && p.color == glm::dvec3(0);
+  if (p.unlit) {
+    p.color = light;
+    p.colors.clear();
+  }
+  if (!fresh || p.unlit) return;
+  // Several readers say "no shading" of what is only shaded plainly, so it is not drawn like that.
+  int model = aiShadingMode_Gouraud;
+  (void)material.Get(AI_MATKEY_SHADING_MODEL, model);
+  unshaded_ += model == aiShadingMode_NoShading ? 1 : 0;
+  emitting_ += light != glm::dvec3(0) ? 1 : 0;
+  glossy_ += color(AI_MATKEY_COLOR_SPECULAR) != glm::dvec3(0) ? 1 : 0;
 }
 
 void Reader::read_cameras() {
@@ -210,7 +245,8 @@ void Reader::read_cameras() {
     camera.eye = vec3(c.mPosition);
     camera.forward = vec3(c.mLookAt);
     camera.up = vec3(c.mUp);
-    const double aspect = c.mAspect > 0 ? static_cast<double>(c.mAspect) : kDefaultAspect;
+    camera.aspect = c.mAspect > 0 ? static_cast<double>(c.mAspect) : 0;
+    const double aspect = camera.aspect > 0 ? camera.aspect : kDefaultAspect;
     camera.perspective = !(c.mOrthographicWidth > 0);
     if (camera.perspective) {
       // The importers store the whole horizontal angle, whatever the header says of half of it.
@@ -361,39 +397,28 @@ void Reader::write_notes() {
   };
   add(std::max(textures, slots), "texture is", "textures are", " ignored");
   add(invisible, "material has", "materials have", " opacity 0, which is ignored: drawn opaque");
+  add(emitting_, "material emits", "materials emit", " light, which is ignored: its diffuse colour is not black");
+  add(glossy_, "material is", "materials are", " glossy, which is ignored: drawn matt");
+  add(unshaded_, "material is", "materials are", " said to be without shading, which is ignored: drawn lit");
   add(alpha_meshes_, "mesh's vertices have", "meshes' vertices have",
       " alpha of their own, which is ignored: the material's is used");
   add(thin_faces_, "point or line is", "points or lines are", " ignored");
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
   add(morphs_, "mesh has", "meshes have", " morph targets, which are ignored");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
+  out_.contents.cameras = static_cast<std::uint32_t>(cameras_);
+  out_.contents.lights = static_cast<std::uint32_t>(out_.lights.size());
+  out_.contents.animations = in_.mNumAnimations;
 }
-
-/// Gives Assimp the file itself, if it is OBJ, as plain_obj() has it.
-class Files : public Assimp::DefaultIOSystem {
- public:
-  Files(std::string path, const std::string& name) : path_(std::move(path)) {
-    if (lower_extension(path_) != ".obj") return;
-    std::ifstream in(path_, std::ios::binary);
-    text_ = plain_obj(in, name);
-  }
-
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (!text_ || file != path_) return DefaultIOSystem::Open(file, mode);
-    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(text_->data()), text_->size());
-  }
-
- private:
-  std::string path_;
-  std::optional<std::string> text_;
-};
 
 }  // namespace
 
-RawScene import_assimp(const std::filesystem::path& path, const std::string& name) {
+RawScene read(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new Files(path.string(), name));  // the importer deletes it
+  auto* const files = new AssimpFiles(path.string(), name, allow_outside);  // the importer deletes it
+  importer.SetIOHandler(files);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
+  if (!files->refused().empty()) throw Error(name + ": " + SideFiles::refusal(files->refused()));
   if (scene == nullptr) {
     const std::string cause = cause_of(importer.GetErrorString());
     if (cause.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp turns it into this text
@@ -402,4 +427,4 @@ RawScene import_assimp(const std::filesystem::path& path, const std::string& nam
   return Reader(*scene, name).run();
 }
 
-}  // namespace kage::scene
+}  // namespace kage::scene::mesh_module

@@ -4,7 +4,7 @@
 // 256 colours, and with them differences that are none. An animated PNG is a PNG with three more kinds of chunks (acTL:
 // how many pictures; fcTL: how long one is shown; fdAT: the data of all but the first), so programs that know nothing
 // of them show the first picture.
-#include "image/flip.hpp"
+#include "image/blink.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -75,12 +75,12 @@ Bytes frame_control(std::uint32_t sequence, int width, int height) {
 
 }  // namespace
 
-void save_flip(TempFiles& files, const std::filesystem::path& path, const Image& a, const Image& b) {
+void save_blink(TempFiles& files, const std::filesystem::path& path, const Image& a, const Image& b) {
   const std::string name = path.string();
   if (a.channels != 3 || b.channels != 3 || a.data.empty() || b.data.empty())
-    throw Error(fmt::format("{}: cannot be written: a flip picture is of two pictures of three channels", name));
+    throw Error(fmt::format("{}: cannot be written: a blink picture is of two pictures of three channels", name));
   if (const std::string extension = lower_extension(path); extension != ".png" && extension != ".apng")
-    throw Error(fmt::format("{}: cannot be written: a flip picture is a .png or .apng", name));
+    throw Error(fmt::format("{}: cannot be written: a blink picture is a .png or .apng", name));
   const int width = std::max(a.width, b.width);
   const int height = std::max(a.height, b.height);
 
@@ -108,9 +108,9 @@ void save_flip(TempFiles& files, const std::filesystem::path& path, const Image&
   out.close();
 }
 
-void save_flip(const std::filesystem::path& path, const Image& a, const Image& b) {
+void save_blink(const std::filesystem::path& path, const Image& a, const Image& b) {
   TempFiles file;
-  save_flip(file, path, a, b);
+  save_blink(file, path, a, b);
   file.commit();
 }
 

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "info_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "kage/config.hpp"
+#include "kage/scene.hpp"
+#include "remarks.hpp"
+#include "source.hpp"
+
+namespace kage::cli {
+namespace {
+
+// Remarks are made of so many frames, spread over the scene's own.
+constexpr int kMostFramesLooked = 16;
+
+std::string_view kind_of(const Light& l) {
+  if (l.shape == LightShape::disc) return "disc";
+  if (l.shape == LightShape::rectangle) return "rectangle";
+  if (l.shape == LightShape::sphere) return "sphere";
+  return l.directional ? "directional" : l.spot ? "spot" : "point";
+}
+
+Json components_of(const Scene& scene, const SceneFrame& frame) {
+  const auto number = [&](auto is) { return std::count_if(frame.components.begin(), frame.components.end(), is); };
+  const auto first = [&](auto is) -> Json {
+    const auto at = std::find_if(frame.components.begin(), frame.components.end(), is);
+    if (at == frame.components.end()) return nullptr;
+    return {{"component", at - frame.components.begin()},
+            {"object", scene.objects()[frame.triangles[at->first].object]},
+            {"why", at->reason}};
+  };
+  return {{"all", frame.components.size()},
+          {"closed", number([](const Component& c) { return c.closed; })},
+          {"convex", number([](const Component& c) { return c.convex; })},
+          {"translucent", number([](const Component& c) { return c.translucent; })},
+          {"first_not_closed", first([](const Component& c) { return !c.closed; })},
+          {"first_not_convex", first([](const Component& c) { return c.closed && !c.convex; })}};
+}
+
+Json contents_of(const Scene& scene, const SceneFrame& frame) {
+  const SceneContents& c = scene.contents();
+  Json lights = Json::array();
+  for (const Light& l : frame.lights)
+    if (c.lights > 0) lights.push_back(kind_of(l));
+  Json j;
+  j["scene"] = scene.name();
+  j["frames"] = scene.frame_count();
+  j["objects"] = scene.objects().size();
+  j["triangles"] = frame.triangles.size();
+  j["polygons"] = frame.polygons.size();
+  j["vertices"] = frame.vertices.size();
+  j["components"] = components_of(scene, frame);
+  j["smooth"] = scene.needs_smooth();
+  j["materials"] = {
+      {"all", c.materials}, {"translucent", c.translucent}, {"unlit", c.unlit}, {"single_sided", c.single_sided}};
+  j["cameras"] = c.cameras;
+  j["lights"] = lights;
+  j["animations"] = c.animations;
+  j["moving_nodes"] = c.moving;
+  return j;
+}
+
+/// Which named configurations draw it, what the others lack, and what is told of the pictures.
+void add_configurations(const Options& o, const Scene& scene, const SceneFrame& frame, Json& j) {
+  const Needs needs = needs_of(scene, frame, o.size, o.samples);
+  j["size"] = {o.size.width, o.size.height};
+  j["configurations"] = Json::array();
+  j["configuration"] = nullptr;
+  j["lacks"] = Json::object();
+  Config config;
+  for (const NamedConfig& named : named_configs()) {
+    const std::vector<std::string> missing = lacks(named.config, needs);
+    if (!missing.empty()) {
+      j["lacks"][named.name] = missing;
+      continue;
+    }
+    if (j["configuration"].is_null()) {
+      j["configuration"] = named.name;
+      config = named.config;
+    }
+    j["configurations"].push_back(named.name);
+  }
+  const std::string line = j["configuration"].is_null() ? widened_config(needs) : std::string();
+  j["widened"] = line.empty() ? Json(nullptr) : Json(line);
+  FrameRemarks remarks(config, o.size, o.cull);
+  const int frames = std::min(scene.frame_count(), kMostFramesLooked);
+  for (int i = 0; i < frames; ++i) remarks.add(scene, scene.frame(i, frames));
+  j["notes"] = scene.notes();
+  for (const std::string& note : remarks.notes()) j["notes"].push_back(note);
+}
+
+std::string names(const Json& list) { return fmt::format("{}", fmt::join(list.get<std::vector<std::string>>(), ", ")); }
+
+/// ", 2 translucent" for what there is some of.
+std::string of_these(const Json& j, const char* key, const char* text) {
+  const auto n = j[key].get<std::uint64_t>();
+  return n == 0 ? std::string() : fmt::format(", {} {}", n, text);
+}
+
+void print_reason(const Json& first, const char* what) {
+  if (first.is_null()) return;
+  fmt::print("  not {}: first component {}, of {}: {}\n", what, first["component"].get<std::uint64_t>(),
+             first["object"].get<std::string>(), first["why"].get<std::string>());
+}
+
+void print(const Options& o, const Json& j) {
+  const auto number = [](const Json& v) { return v.get<std::uint64_t>(); };
+  const Json& parts = j["components"];
+  const Json& materials = j["materials"];
+  fmt::print("{}: {}, {}, {}, {}\n", o.input, counted(number(j["triangles"]), "triangle"),
+             fmt::format("{} {}", number(j["vertices"]), number(j["vertices"]) == 1 ? "vertex" : "vertices"),
+             counted(number(j["objects"]), "object"), counted(number(j["frames"]), "frame"));
+  fmt::print("components: {}, {} closed, {} closed and convex{}\n", number(parts["all"]), number(parts["closed"]),
+             number(parts["convex"]), of_these(parts, "translucent", "translucent"));
+  print_reason(parts["first_not_closed"], "closed");
+  print_reason(parts["first_not_convex"], "convex");
+  fmt::print("materials: {}{}{}{}; colours {} within a face\n", number(materials["all"]),
+             of_these(materials, "translucent", "translucent"), of_these(materials, "unlit", "unlit"),
+             of_these(materials, "single_sided", "single-sided"), j["smooth"].get<bool>() ? "vary" : "do not vary");
+  fmt::print("cameras: {}; lights: {}{}\n", number(j["cameras"]), j["lights"].size(),
+             j["lights"].empty() ? "" : fmt::format(" ({})", names(j["lights"])));
+  fmt::print("animations: {}{}\n", number(j["animations"]),
+             number(j["moving_nodes"]) == 0 ? "" : ", " + counted(number(j["moving_nodes"]), "node") + " moved");
+  for (const Json& note : j["notes"]) fmt::print("note: {}\n", note.get<std::string>());
+  const std::string size = fmt::format("{}x{}", o.size.width, o.size.height);
+  if (j["configurations"].empty())
+    fmt::print(
+        "configurations that draw it at {}: none{}\n", size,
+        j["widened"].is_null() ? "" : "; --config FILE can, with this line in it: " + j["widened"].get<std::string>());
+  else
+    fmt::print("configurations that draw it at {}: {}; {} without --config\n", size, names(j["configurations"]),
+               j["configuration"].get<std::string>());
+  for (const auto& [name, missing] : j["lacks"].items()) fmt::print("  {} lacks {}\n", name, names(missing));
+}
+
+}  // namespace
+
+int describe_scene(const Options& o) {
+  const Scene scene = Scene::load(o.input, {1, o.allow_outside});
+  const SceneFrame frame = scene.frame(0, scene.frame_count());
+  Json j = contents_of(scene, frame);
+  add_configurations(o, scene, frame, j);
+  write_json(o, j);
+  if (!json_only(o)) print(o, j);
+  return kSame;
+}
+
+}  // namespace kage::cli

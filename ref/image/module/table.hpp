@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The picture module: what needs OpenImageIO.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "image/encoder.hpp"
+#include "image/picture.hpp"
+#include "module/module.hpp"
+
+namespace kage {
+
+struct PictureModule : ModuleHead {
+  static constexpr const char* kModule = "kage_pictures";
+  static constexpr const char* kWhatFor = "pictures are read and EXR is written with it";
+
+  /// As load_picture().
+  Picture (*read)(const std::filesystem::path& path, int part);
+  /// As encode_exr().
+  std::unique_ptr<ImageEncoder> (*encode_exr)(OutputFile& out, const std::string& name, int width, int height,
+                                              int channels);
+  /// Pixels that Yee's measure tells apart, of two pictures of three linear floats a pixel; nothing if it fails.
+  std::optional<std::uint64_t> (*yee)(int width, int height, float* a, float* b);
+};
+
+// What the module is made of, in its own files.
+namespace picture_module {
+Picture read(const std::filesystem::path& path, int part);
+std::unique_ptr<ImageEncoder> encode_exr(OutputFile& out, const std::string& name, int width, int height, int channels);
+std::optional<std::uint64_t> yee(int width, int height, float* a, float* b);
+}  // namespace picture_module
+
+}  // namespace kage

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "module/module.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "kage/error.hpp"
+
+// All are set by CMake.
+#ifndef KAGE_VERSION
+#define KAGE_VERSION ""
+#endif
+#ifndef KAGE_BUILD_MODULE_DIR
+#define KAGE_BUILD_MODULE_DIR ""
+#endif
+#ifndef KAGE_INSTALL_MODULE_DIR
+#define KAGE_INSTALL_MODULE_DIR ""
+#endif
+
+namespace kage {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find(const std::string& file, const std::string& what_for) {
+  if (const char* env = std::getenv("KAGE_MODULE_DIR"); env != nullptr && *env != '\0') return fs::path(env) / file;
+  std::error_code ec;
+  for (const char* folder : {KAGE_BUILD_MODULE_DIR, KAGE_INSTALL_MODULE_DIR})
+    if (*folder != '\0' && fs::exists(fs::path(folder) / file, ec)) return fs::path(folder) / file;
+  throw Error(fmt::format("{}: not in {} or {}, and {}: build it, or set KAGE_MODULE_DIR", file, KAGE_BUILD_MODULE_DIR,
+                          KAGE_INSTALL_MODULE_DIR, what_for));
+}
+
+}  // namespace
+
+const ModuleHead& open_module(const std::string& name, const std::string& what_for) {
+  const fs::path path = find("lib" + name + ".so", what_for);
+  // It may bind symbols of large libraries, so each only when it is called.
+  void* const handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+  if (handle == nullptr) {
+    const char* const cause = dlerror();
+    const std::string text = cause == nullptr ? "no cause was given" : cause;
+    const std::string prefix = path.string() + ": ";
+    throw Error(fmt::format("{}: {}, and {}", path.string(),
+                            text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text, what_for));
+  }
+  using Function = const ModuleHead* (*)();
+  const auto function = reinterpret_cast<Function>(dlsym(handle, (name + "_table").c_str()));
+  const ModuleHead* const head = function == nullptr ? nullptr : function();
+  if (head == nullptr || std::string_view(head->version) != KAGE_VERSION)
+    throw Error(fmt::format("{}: is not of kage {}, and {}", path.string(), KAGE_VERSION, what_for));
+  return *head;
+}
+
+}  // namespace kage

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Parts of the library that are opened when they are first needed, because what they stand on is large: binding
+// OpenImageIO alone takes a command longer than most commands run. A module is a shared library of this build, which
+// shows one function: it returns a table of what the module can do.
+#pragma once
+
+#include <string>
+
+namespace kage {
+
+/// What every table begins with. A module of another build is refused.
+struct ModuleHead {
+  const char* version;
+};
+
+/// Opens libNAME.so from $KAGE_MODULE_DIR if that is set, else from where it was built, else from lib/kage of where it
+/// was installed, and returns what its function NAME_table() gives. It stays open. Throws Error that names the file
+/// that is missing and what cannot be done without it.
+const ModuleHead& open_module(const std::string& name, const std::string& what_for);
+
+/// The table of a module, opened once.
+template <typename Table>
+const Table& module_table() {
+  static const Table& table = static_cast<const Table&>(open_module(Table::kModule, Table::kWhatFor));
+  return table;
+}
+
+}  // namespace kage

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The mesh module: what needs Assimp. Only the child that reads a file opens it.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "module/module.hpp"
+#include "scene/raw.hpp"
+
+namespace kage::scene {
+
+struct MeshModule : ModuleHead {
+  static constexpr const char* kModule = "kage_meshes";
+  static constexpr const char* kWhatFor = "files other than glTF 2.0 are read with it";
+
+  /// As import_assimp().
+  RawScene (*read)(const std::filesystem::path& path, const std::string& name, bool allow_outside);
+};
+
+namespace mesh_module {
+RawScene read(const std::filesystem::path& path, const std::string& name, bool allow_outside);
+}  // namespace mesh_module
+
+}  // namespace kage::scene

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Files that a scene's file names: glTF's buffers, an OBJ file's materials, what else Assimp opens. A scene from
+// elsewhere must not be able to read whatever lies on the disk, so they have to lie in the folder of the scene's file
+// or below it, links followed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace kage::scene {
+
+class SideFiles {
+ public:
+  /// `file`: the scene's file. `allow_outside`: files may lie anywhere.
+  SideFiles(const std::filesystem::path& file, bool allow_outside);
+
+  struct Found {
+    std::filesystem::path path;  ///< without links and dots, if the file exists
+    bool exists = false;         ///< it is a regular file, or a link to one
+    bool refused = false;        ///< it lies outside of the folder, or would if it existed, and that is not allowed
+  };
+
+  /// `path` is absolute or counts from the current folder.
+  [[nodiscard]] Found find(const std::filesystem::path& path) const;
+
+  /// `name` is as the scene's file has it, absolute or counted from that file's folder.
+  [[nodiscard]] Found find_named(const std::string& name) const;
+
+  /// Why a file is refused: the end of a message.
+  static std::string refusal(const std::string& name);
+
+ private:
+  std::filesystem::path folder_;  // of the scene's file
+  std::filesystem::path real_;    // the same without links and dots
+  bool allow_outside_;
+};
+
+}  // namespace kage::scene
