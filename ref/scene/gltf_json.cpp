@@ -16,6 +16,13 @@ const Json kNoObject = Json::object();
 /// Arrays below the top level that others refer to by number: an element that nobody has asked for draws nothing.
 bool is_indexed(std::string_view key) { return key == "samplers" || key == "lights"; }
 
+std::string below(const std::string& way, const std::string& key) {
+  std::string text = way;
+  if (!text.empty()) text += '/';
+  text += key;
+  return text;
+}
+
 // With a stack of its own: a file may nest as deeply as it likes.
 void collect_extensions(const Json& root, std::set<std::string>& names) {
   std::vector<const Json*> waiting{&root};
@@ -54,10 +61,11 @@ const Json& GltfJson::item(const char* array_name, std::uint64_t index, const st
   return item_of(array(root_, array_name, "JSON"), index, array_name, place);
 }
 
-const Json& GltfJson::item_of(const Json& all, std::uint64_t index, const char* what, const std::string& place) const {
-  if (index >= all.size())
-    fail(place, "asks for number " + std::to_string(index) + " of " + std::to_string(all.size()) + " " + what);
-  const Json& found = all[static_cast<std::size_t>(index)];
+const Json& GltfJson::item_of(const Json& array, std::uint64_t index, const char* what,
+                              const std::string& place) const {
+  if (index >= array.size())
+    fail(place, "asks for number " + std::to_string(index) + " of " + std::to_string(array.size()) + " " + what);
+  const Json& found = array[static_cast<std::size_t>(index)];
   if (!found.is_object()) fail(std::string(what) + " " + std::to_string(index), "not an object");
   read_.insert(&found);
   return found;
@@ -152,13 +160,13 @@ void GltfJson::unread_of(const Json& object, const std::string& way, std::map<st
   const bool top = &object == &root_;
   for (const auto& [key, value] : object.items()) {
     if (key == "extras") continue;
-    const std::string here = way.empty() ? key : way + "/" + key;
+    const std::string here = below(way, key);
     if (key == "extensions") {
       for (const auto& [name, extension] : value.items()) {
         if (read_.count(&extension) != 0)
-          descend(extension, here + "/" + name, false, found);
+          descend(extension, below(here, name), false, found);
         else
-          ++found[here + "/" + name];
+          ++found[below(here, name)];
       }
     } else if (read_.count(&value) != 0) {
       descend(value, here, top || is_indexed(key), found);

@@ -50,11 +50,11 @@ class GltfJson {
   /// An array or object, or an empty one where the key is absent. The elements of an array do not count as read.
   [[nodiscard]] const Json& array(const Json& object, const char* key, const std::string& place) const;
   [[nodiscard]] const Json& object(const Json& parent, const char* key, const std::string& place) const;
-  /// The object's `extensions`.`name`, or an empty object.
-  [[nodiscard]] const Json& extension(const Json& object, const char* name, const std::string& place) const;
-  [[nodiscard]] bool has_extension(const Json& object, const char* name, const std::string& place) const;
-  /// The object's `extras`.`kage`, or an empty object: other programs' extras may be anything.
-  [[nodiscard]] const Json& own_extras(const Json& object) const;
+  /// The parent's `extensions`.`name`, or an empty object.
+  [[nodiscard]] const Json& extension(const Json& parent, const char* name, const std::string& place) const;
+  [[nodiscard]] bool has_extension(const Json& parent, const char* name, const std::string& place) const;
+  /// The parent's `extras`.`kage`, or an empty object: other programs' extras may be anything.
+  [[nodiscard]] const Json& own_extras(const Json& parent) const;
 
   /// Keys that nobody has read, of objects that somebody has: how often each, by the array that the object stands in
   /// and the way down to the key, "materials/pbrMetallicRoughness/metallicFactor". Objects that nothing refers to, as a
