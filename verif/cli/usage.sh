@@ -33,7 +33,7 @@ line "kage: --frobnicate: no such option; see kage info --help" "$kage" info x -
 # A variable that a script forgot to set.
 line "kage: SCENE: its value is empty; see kage render --help" "$kage" render ""
 line "kage: --out: its value is empty; see kage render --help" "$kage" render courtyard --out ""
-line "kage: --json: its value is empty; see kage cosim --help" "$kage" cosim courtyard --json=
+line "kage: --json: its value is missing; see kage cosim --help" "$kage" cosim courtyard --json=
 line "kage: CONFIG: its value is empty; see kage model --help" "$kage" model ""
 line "kage: --size: options come after the command; see kage render --help" "$kage" --size 3x3 render courtyard
 line "kage: b: an argument too many; see kage render --help" "$kage" render courtyard b c
