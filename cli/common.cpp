@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -194,6 +195,16 @@ static void option_lights(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
+void option_max_fragments(CLI::App& command, Options& options) {
+  command
+      .add_option("--max-fragments", options.max_fragments,
+                  fmt::format("refuse a visibility order that would cut its faces into more than N fragments, default "
+                              "{}: faces through one another are cut into more and more (docs/order.md)",
+                              options.max_fragments))
+      ->check(whole_number())
+      ->type_name("N");
+}
+
 void option_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
       ->check(whole_number(1, 1024))
@@ -220,6 +231,7 @@ void options_of_frames(CLI::App& command, Options& options) {
   option_units_only(command, options);
   option_translucent(command, options);
   option_cull(command, options);
+  option_max_fragments(command, options);
   option_lights(command, options);
   option_seed(command, options);
   option_threads(command, options);
@@ -251,6 +263,21 @@ void write_json(const Options& options, const Json& value, TempFiles& files) { f
 void write_json(const Options& options, const Json& value) {
   TempFiles files;
   write_json(options, value, files);
+}
+
+OrderBuildOptions order_build(const Options& options, Progress& progress, const std::string& what) {
+  OrderBuildOptions build;
+  build.threads = options.threads;
+  build.max_fragments = options.max_fragments;
+  build.progress = [&progress, what](double done) {
+    check_interrupt();
+    progress.show(fmt::format("{}: {:.0f} %", what, std::floor(100 * done)));
+  };
+  return build;
+}
+
+void refuse_fragments(const std::string& where, const TooManyFragments& why) {
+  throw Error(fmt::format("{}: {} (--max-fragments)", where, why.what()));
 }
 
 Json to_json(const Config& config) {

@@ -20,10 +20,13 @@
 #include "files/temp_file.hpp"
 #include "kage/defs.hpp"
 #include "kage/geometry.hpp"
+#include "kage/order.hpp"
 
 namespace kage::cli {
 
 using Json = nlohmann::ordered_json;
+
+class Progress;
 
 /// Exit codes.
 inline constexpr int kSame = 0;
@@ -92,18 +95,20 @@ struct Options {
   bool units_only = false;  ///< polyhedra that find no unit are an error
   TranslucentWay order = TranslucentWay::exact;
   double alpha = 1;
-  bool cull = false;             ///< faces are not drawn if the eye sees the side that their material does not show
-  bool allow_outside = false;    ///< files that a scene's file names may lie outside its folder
-  int samples = Look{}.samples;  ///< of a light that is no point
-  int classes = Look{}.classes;  ///< of normals
+  bool cull = false;           ///< faces are not drawn if the eye sees the side that their material does not show
+  bool allow_outside = false;  ///< files that a scene's file names may lie outside its folder
+  std::uint64_t max_fragments = OrderBuildOptions{}.max_fragments;  ///< that the order of translucent faces may cut
+  int samples = Look{}.samples;                                     ///< of a light that is no point
+  int classes = Look{}.classes;                                     ///< of normals
 };
 
 /// As --order has it.
 std::string name_of(TranslucentWay way);
 
 /// What every command that makes frames takes: --size, --frames, --config, --degrade, --units-only, --order, --alpha,
-/// --cull, --samples, --classes, --seed, --threads, --allow-outside.
+/// --cull, --max-fragments, --samples, --classes, --seed, --threads, --allow-outside.
 void options_of_frames(CLI::App& command, Options& options);
+void option_max_fragments(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 void option_scene(CLI::App& command, Options& options);                   // SCENE, a positional
@@ -129,6 +134,13 @@ void write_json(const Options& options, const Json& value);
 
 /// The parameters as an object, in the order of the definition file.
 Json to_json(const Config& config);
+
+/// How a visibility order is built as the options say. Building it shows `what` with how much is done, in percent, and
+/// can be interrupted. `progress` must outlive the result.
+OrderBuildOptions order_build(const Options& options, Progress& progress, const std::string& what);
+
+/// Why an order was refused, `where` being the file, and the frame of it: an Error in one line that names the option.
+[[noreturn]] void refuse_fragments(const std::string& where, const TooManyFragments& why);
 
 /// A folder for what a run writes, made with those above it. What was made and is empty in the end is removed again, so
 /// that a run that fails leaves nothing.

@@ -22,7 +22,6 @@ namespace {
 struct OrderCommand : Options {
   int eyes = 200;
   int repeats = 5;
-  std::uint64_t max_fragments = OrderBuildOptions{}.max_fragments;
   std::string save;
   std::string plot;
 };
@@ -40,19 +39,15 @@ OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) 
   progress.show("reading");
   const Scene scene = Scene::load(o.input, {1, o.allow_outside});
   const OrderMesh mesh = scene::order_mesh(scene.frame(0, scene.frame_count()));
-  OrderBuildOptions options;
+  OrderBuildOptions options = order_build(o, progress, o.input + ": visibility order");
   options.seed = o.seed;
-  options.threads = o.threads;
-  options.max_fragments = o.max_fragments;
-  options.progress = [&](double done) {
-    check_interrupt();
-    progress.show(fmt::format("tree: {:.0f} %", 100 * done));
-  };
   const auto start = std::chrono::steady_clock::now();
   try {
     OrderTree tree = OrderTree::build(mesh, options);
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return tree;
+  } catch (const TooManyFragments& e) {
+    refuse_fragments(o.input, e);
   } catch (const Error& e) {
     throw Error(fmt::format("{}: {}", o.input, e.what()));
   }
@@ -265,9 +260,7 @@ void add_order(CLI::App& app, Action& action) {
   c->add_option("--repeats", o->repeats, "times are the median of N runs, default 5")
       ->check(whole_number(1, 1000))
       ->type_name("N");
-  c->add_option("--max-fragments", o->max_fragments, "give up past N fragments, default 50000000")
-      ->check(whole_number())
-      ->type_name("N");
+  option_max_fragments(*c, *o);
   c->add_option("--save", o->save, "write the tree")->type_name("FILE");
   c->add_option("--plot", o->plot, "write a plot of time against step angle, SVG")->type_name("FILE");
   option_seed(*c, *o);

@@ -56,7 +56,7 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, in
   return needs;
 }
 
-Source::Source(const Options& options) : threads_(options.threads) {
+Source::Source(const Options& options) : input_(options.input), threads_(options.threads) {
   if (is_stream_file(options.input))
     open_stream(options);
   else
@@ -73,6 +73,8 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --samples, --classes: in a stream they are settled", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: in a stream it is settled what is drawn", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
+  if (options.max_fragments != Options{}.max_fragments)
+    throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
   name_ = plain_name(options.input);
@@ -106,6 +108,7 @@ void Source::load_scene(const Options& options) {
   look_.seed = options.seed;
   look_.classes = options.classes;
   look_.cull = options.cull;
+  order_ = TranslucentOrder(order_build(options, progress_, name_ + ": order of translucent faces"));
   if (size_.width > kMaxSize || size_.height > kMaxSize)
     throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
   const SceneFrame first = scene_->frame(0, frames_);
@@ -191,8 +194,7 @@ TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
   const SceneFrame frame = scene_->frame(index, frames_);
   if (!again_) remarks_->add(*scene_, frame);
-  const FrameGeometry geometry =
-      make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
+  const FrameGeometry geometry = this->geometry(index, frame);
   PolyhedraReport report;
   bool recorded = false;
   make_frame(
@@ -208,10 +210,20 @@ TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   return checker.finish();
 }
 
+FrameGeometry Source::geometry(int index, const SceneFrame& frame) {
+  try {
+    FrameGeometry made = make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
+    progress_.clear();
+    return made;
+  } catch (const TooManyFragments& e) {
+    refuse_fragments(fmt::format("{}: frame {}", input_, index), e);
+  }
+}
+
 std::optional<Provenance> Source::provenance(int index) {
   if (!scene_) return std::nullopt;
   SceneFrame frame = scene_->frame(index, frames_);
-  FrameGeometry geometry = make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
+  FrameGeometry geometry = this->geometry(index, frame);
   FrameOrigins origins;
   make_frame(
       geometry, config_.config, static_cast<std::uint32_t>(index),

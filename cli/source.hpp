@@ -52,8 +52,8 @@ class Source {
   /// Most units in use in a frame.
   [[nodiscard]] int units() const { return units_; }
 
-  /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts. Between the pieces
-  /// check_interrupt() may end it.
+  /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts. check_interrupt() may end it
+  /// between the pieces, and while translucent faces are put in order, which shows its own progress.
   TokenCounts frame(int index, const WordSink& sink);
 
   /// All of them at once.
@@ -65,6 +65,7 @@ class Source {
  private:
   TokenCounts frame_of_stream(int index, const WordSink& sink);
   TokenCounts frame_of_scene(int index, const WordSink& sink);
+  FrameGeometry geometry(int index, const SceneFrame& frame);
   void record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report);
   void open_stream(const Options& options);
   void open_scene(const Options& options);
@@ -72,12 +73,14 @@ class Source {
 
   NamedConfig config_;
   int frames_ = 0;
+  std::string input_;
   std::string name_;
   std::vector<std::string> notes_;
   std::vector<std::string> degraded_;
   std::optional<StreamFile> stream_;
   std::optional<Scene> scene_;
   Look look_;
+  Progress progress_;
   TranslucentOrder order_;
   ShadowCache shadows_;
   Size size_;

@@ -14,12 +14,15 @@
 namespace kage {
 
 struct TranslucentOrder::Data {
+  OrderBuildOptions build;
   OrderMesh mesh;
   std::optional<OrderTree> tree;
   std::unique_ptr<VisibilityOrder> order;
 };
 
-TranslucentOrder::TranslucentOrder() : data_(std::make_unique<Data>()) {}
+TranslucentOrder::TranslucentOrder(OrderBuildOptions build) : data_(std::make_unique<Data>()) {
+  data_->build = std::move(build);
+}
 TranslucentOrder::~TranslucentOrder() = default;
 TranslucentOrder::TranslucentOrder(TranslucentOrder&&) noexcept = default;
 TranslucentOrder& TranslucentOrder::operator=(TranslucentOrder&&) noexcept = default;
@@ -158,7 +161,8 @@ std::span<const std::uint32_t> FragmentMaker::nodes() {
   OrderMesh mesh = scene::order_mesh(*frame_, faces_);
   if (!kept_->tree || !same(mesh, kept_->mesh)) {
     kept_->order.reset();
-    kept_->tree = OrderTree::build(mesh);
+    kept_->tree.reset();
+    kept_->tree = OrderTree::build(mesh, kept_->build);
     kept_->mesh = std::move(mesh);
     kept_->order = make_order(*kept_->tree, OrderWay::kFast);
   }
@@ -166,6 +170,10 @@ std::span<const std::uint32_t> FragmentMaker::nodes() {
 }
 
 const OrderTree& FragmentMaker::tree() const { return *kept_->tree; }
+
+void FragmentMaker::report() const {
+  if (kept_->build.progress) kept_->build.progress(1);
+}
 
 std::uint32_t FragmentMaker::line_of(std::uint32_t face, std::uint32_t node, FrameGeometry& out) {
   const auto [it, fresh] =

@@ -62,6 +62,7 @@ class FragmentMaker {
       return;
     }
     for (const std::uint32_t node : nodes()) {
+      if (++walked_ % 4096 == 0) report();
       const std::uint32_t end = tree().first_fragment(node + 1);
       for (std::uint32_t i = tree().first_fragment(node); i < end; ++i) {
         const OrderFragment fragment = tree().fragment(i);
@@ -73,6 +74,7 @@ class FragmentMaker {
   [[nodiscard]] std::vector<std::uint32_t> whole(TranslucentWay way) const;
   [[nodiscard]] std::span<const std::uint32_t> nodes();
   [[nodiscard]] const OrderTree& tree() const;
+  void report() const;
   std::uint32_t line_of(std::uint32_t face, std::uint32_t node, FrameGeometry& out);
   void add(std::uint32_t face, std::uint32_t first, std::uint32_t count, const OrderFragment* fragment,
            FrameGeometry& out);
@@ -84,6 +86,7 @@ class FragmentMaker {
   std::span<const int> sides_;
   std::unordered_map<std::uint64_t, std::uint32_t> lines_;  // of node and face
   LineSearch search_;
+  std::uint64_t walked_ = 0;  // nodes
 };
 
 }  // namespace kage

@@ -124,7 +124,8 @@ int side(const Grid& grid, const ExactVertex& v, const PlanePoints& plane) {
 }
 
 /// Cut off after 64 bits or so.
-double quotient(Wide dividend, Wide divisor) {
+template <class Int>
+double quotient(Int dividend, Int divisor) {
   if (dividend.is_zero()) return 0;
   const bool negative = (dividend.sign() < 0) != (divisor.sign() < 0);
   dividend = abs(dividend);
@@ -134,8 +135,19 @@ double quotient(Wide dividend, Wide divisor) {
     dividend <<= static_cast<unsigned>(shift);
   else
     divisor <<= static_cast<unsigned>(-shift);
-  const double x = std::ldexp(Wide(dividend / divisor).convert_to<double>(), -shift);
+  const double x = std::ldexp(Int(dividend / divisor).template convert_to<double>(), -shift);
   return negative ? -x : x;
+}
+
+template <class Int>
+OrderPoint point(const Grid& grid, const ExactVertex& v) {
+  const Weighted<Int> w = weighted<Int>(grid, v);
+  OrderPoint p{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Int sum = w.weight[0] * w.point[0][k] + w.weight[1] * w.point[1][k] + w.weight[2] * w.point[2][k];
+    p[k] = std::ldexp(quotient<Int>(sum, w.sum()), grid.exponent);
+  }
+  return p;
 }
 
 /// digits * 2^exponent, digits 1/2 .. 1 or 0, within 2^-52 of its size.
@@ -185,13 +197,7 @@ int exact_side(const PlanePoints& plane, const OrderPoint& p) {
 }
 
 OrderPoint exact_point(const Grid& grid, const ExactVertex& v) {
-  const Weighted<Wide> w = weighted<Wide>(grid, v);
-  OrderPoint p{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Wide sum = w.weight[0] * w.point[0][k] + w.weight[1] * w.point[1][k] + w.weight[2] * w.point[2][k];
-    p[k] = std::ldexp(quotient(sum, w.sum()), grid.exponent);
-  }
-  return p;
+  return grid.narrow ? point<Narrow>(grid, v) : point<Wide>(grid, v);
 }
 
 int exact_facing(const PlanePoints& plane, const OrderPoint& direction) {

@@ -105,34 +105,45 @@ Piece Classifier::whole(const Face& face) const {
   return p;
 }
 
+NearPoint Classifier::crossing(const Face& face, const Piece& piece, std::size_t i, const Splitter& plane) const {
+  const std::size_t j = (i + 1) % piece.vertices.size();
+  const NearPoint x = meet(piece.vertices[i].point, at_[i].value, at_[i].error, piece.vertices[j].point, at_[j].value,
+                           at_[j].error);
+  if (x.radius <= kPoor) return x;
+  return {faces_.scale(exact_point(faces_.grid, exact_vertex(face, piece, piece.edges[i], plane.points))), 0x1p-50};
+}
+
 std::pair<BuildFragment, BuildFragment> Classifier::split(const BuildFragment& f, const Splitter& plane,
                                                           BuildNode* node) {
   const Face& face = faces_.faces[f.face];
-  const Piece piece = f.piece ? *f.piece : whole(face);
+  const Piece whole_face = f.piece ? Piece() : whole(face);
+  const Piece& piece = f.piece ? *f.piece : whole_face;
   const std::size_t n = piece.vertices.size();
   const auto cut_edge = kCut + static_cast<std::uint32_t>(piece.cuts.size());
+  // Both parts get the very same points: they are made from the edge as the piece has it, once.
+  crossings_.clear();
+  for (std::size_t i = 0; i < n; ++i)
+    if (at_[i].sign * at_[(i + 1) % n].sign < 0) crossings_.push_back(crossing(face, piece, i, plane));
   std::array<Piece, 2> part;  // front, back
   for (int s = 0; s < 2; ++s) {
     Piece& out = part[static_cast<std::size_t>(s)];
     const int wanted = s == 0 ? 1 : -1;
+    out.cuts.reserve(piece.cuts.size() + 1);
     out.cuts = piece.cuts;
     out.cuts.push_back({node, plane.face, s == 0});
+    out.vertices.reserve(n + 1);  // a convex polygon's part has at most one more
+    out.edges.reserve(n + 1);
+    auto x = crossings_.begin();
     for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t j = (i + 1) % n;
       const int here = at_[i].sign * wanted;
-      const int next = at_[j].sign * wanted;
+      const int next = at_[(i + 1) % n].sign * wanted;
       if (here >= 0) {
         out.vertices.push_back(piece.vertices[i]);
         // On the plane and leaving: what follows is the cut.
         out.edges.push_back(here == 0 && next <= 0 ? cut_edge : piece.edges[i]);
       }
       if (here * next >= 0) continue;
-      // Both parts get the very same point: it is made from the edge as the piece has it.
-      NearPoint x = meet(piece.vertices[i].point, at_[i].value, at_[i].error, piece.vertices[j].point, at_[j].value,
-                         at_[j].error);
-      if (x.radius > kPoor)
-        x = {faces_.scale(exact_point(faces_.grid, exact_vertex(face, piece, piece.edges[i], plane.points))), 0x1p-50};
-      out.vertices.push_back({x, kNoNode});
+      out.vertices.push_back({*x++, kNoNode});
       out.edges.push_back(here > 0 ? cut_edge : piece.edges[i]);
     }
   }

@@ -74,10 +74,13 @@ class Classifier {
   /// Where an edge of a piece meets a plane.
   [[nodiscard]] ExactVertex exact_vertex(const Face& face, const Piece& piece, std::uint32_t edge,
                                          const PlanePoints& plane) const;
+  /// Where the edge from vertex i of a piece crosses a plane that at_ holds its vertices' tests against.
+  [[nodiscard]] NearPoint crossing(const Face& face, const Piece& piece, std::size_t i, const Splitter& plane) const;
   [[nodiscard]] Piece whole(const Face& face) const;
 
   const Faces& faces_;
   std::vector<Test> at_;  // of the last fragment's vertices
+  std::vector<NearPoint> crossings_;
   std::uint64_t tests_ = 0;
   std::uint64_t exact_ = 0;
 };

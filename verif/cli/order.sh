@@ -63,7 +63,7 @@ trouble "cut.bsp: byte" "$kage" order cut.bsp
 python3 -c 'b=bytearray(open("balls.bsp","rb").read()); b[4000]^=1; open("bad.bsp","wb").write(b)'
 trouble "bad.bsp: byte" "$kage" order bad.bsp
 trouble "missing.off" "$kage" order missing.off
-trouble "balls.off: the order needs more than 100 fragments" "$kage" order balls.off --max-fragments 100 --save none.bsp
+trouble "balls.off: to be put in order, polygons would be cut into more than 100 fragments" "$kage" order balls.off --max-fragments 100 --save none.bsp
 [ ! -e none.bsp ] || fail "a refused build leaves a file"
 trouble "nowhere" "$kage" order balls.off --save nowhere/x.bsp
 trouble "nowhere" "$kage" order balls.off --plot nowhere/x.svg

@@ -104,6 +104,37 @@ TEST_CASE("an order kept from other frames changes no frame, whatever moved mean
   CHECK(changed > 60);
 }
 
+TEST_CASE("a build of the order that ended early changes no frame after it") {
+  Random random(test_seed(41));
+  CAPTURE(test_seed(41));
+  const Config config = glass();
+  struct Stop {};
+  bool stop = true;
+  OrderBuildOptions build;
+  build.max_fragments = 2000;
+  build.progress = [&stop](double) {
+    if (stop) throw Stop{};
+  };
+  TranslucentOrder kept(build);
+  const SceneFrame first = random_glass(random, 6, 2);
+  const SceneFrame second = random_glass(random, 5, 2);
+  const SceneFrame large = random_glass(random, 300, 0);
+  const auto words = [&](const SceneFrame& f, TranslucentOrder* order) {
+    return words_of(make_geometry(f, config, kWidth, kHeight, {}, order), config, 3);
+  };
+  for (const SceneFrame* f : {&first, &second, &first}) {
+    stop = true;
+    CHECK_THROWS_AS(words(*f, &kept), Stop);
+    CHECK_THROWS_AS(words(*f, &kept), Stop);
+    stop = false;
+    CHECK_THROWS_AS(words(large, &kept), TooManyFragments);
+    CHECK(words(*f, &kept) == words(*f, nullptr));
+    CHECK(words(*f, &kept) == words(*f, nullptr));  // by the tree that is kept
+    CHECK_THROWS_AS(words(large, &kept), TooManyFragments);
+    CHECK(words(*f, &kept) == words(*f, nullptr));
+  }
+}
+
 TEST_CASE("fragments for a core without a blender are refused before the first word") {
   Random random(test_seed(42));
   const FrameGeometry g = make_geometry(random_glass(random, 4, 0), glass(), kWidth, kHeight);

@@ -38,6 +38,25 @@ inline OrderMesh crossing_triangles(Random& random, int count) {
   return mesh;
 }
 
+/// Large ones about one point: nearly all of them go through nearly all others.
+inline OrderMesh mutually_crossing(Random& random, int count) {
+  OrderMesh mesh;
+  for (int i = 0; i < count; ++i) {
+    // Corners of a triangle with its middle near the origin.
+    std::vector<OrderPoint> corners(3);
+    const OrderPoint p = random_point(random, 1);
+    const OrderPoint q = random_point(random, 1);
+    const OrderPoint middle = random_point(random, 0.1);
+    for (std::size_t k = 0; k < 3; ++k) corners[0][k] = p[k], corners[1][k] = q[k], corners[2][k] = -p[k] - q[k];
+    for (OrderPoint& corner : corners) {
+      const double length = std::sqrt(corner[0] * corner[0] + corner[1] * corner[1] + corner[2] * corner[2]);
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = middle[k] + 2 * corner[k] / length;
+    }
+    add_polygon(mesh, corners);
+  }
+  return mesh;
+}
+
 /// Smaller ones, of which a few cross: about as many nodes as triangles.
 inline OrderMesh loose_triangles(Random& random, int count) {
   OrderMesh mesh;

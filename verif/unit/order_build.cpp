@@ -177,19 +177,27 @@ TEST_CASE("a build ends where it is told to") {
   for (const std::uint64_t limit : {fragments - 1, std::uint64_t{60}, std::uint64_t{59}, std::uint64_t{0}}) {
     options.max_fragments = limit;
     CHECK_THROWS_WITH(OrderTree::build(mesh, options), ContainsSubstring(std::to_string(limit) + " fragments"));
+    CHECK_THROWS_AS(OrderTree::build(mesh, options), TooManyFragments);
   }
   options = {};
   double last = 0;
   int calls = 0;
+  int back = 0;
   options.progress = [&](double done) {
     CHECK(done >= 0);
     CHECK(done <= 1);
+    back += done < last ? 1 : 0;
     last = done;
     ++calls;
   };
-  (void)OrderTree::build(bumpy_ball(random, 60, 60), options);
-  CHECK(calls > 2);
-  CHECK(last == 1);
+  for (const OrderMesh& m : {bumpy_ball(random, 60, 60), mutually_crossing(random, 60)}) {
+    last = 0;
+    calls = 0;
+    (void)OrderTree::build(m, options);
+    CHECK(calls > 20);
+    CHECK(back == 0);
+    CHECK(last == 1);
+  }
   struct Stop {};
   options.progress = [](double) { throw Stop{}; };
   CHECK_THROWS_AS(OrderTree::build(mesh, options), Stop);

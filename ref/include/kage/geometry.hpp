@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "kage/config.hpp"
+#include "kage/order.hpp"
 #include "kage/scene.hpp"
 
 namespace kage {
@@ -205,7 +206,9 @@ struct Look {
 /// a tree once. It changes no frame. Not for several threads at once.
 class TranslucentOrder {
  public:
-  TranslucentOrder();
+  /// `build`: how trees are built. make_geometry() throws TooManyFragments past its limit; it calls `progress` while a
+  /// tree is built, and now and then, with 1, while it makes fragments of one.
+  explicit TranslucentOrder(OrderBuildOptions build = {});
   ~TranslucentOrder();
   TranslucentOrder(TranslucentOrder&&) noexcept;
   TranslucentOrder& operator=(TranslucentOrder&&) noexcept;
@@ -238,7 +241,7 @@ class ShadowCache {
 /// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order` and `shadows`, if
 /// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, if a
 /// vertex, the camera, a light or `look` is not as its type says, or if a light that is not at infinity is more than
-/// 2^40 times as far from the scene, or as large, as that is large.
+/// 2^40 times as far from the scene, or as large, as that is large; TooManyFragments as TranslucentOrder says.
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
                             TranslucentOrder* order = nullptr, ShadowCache* shadows = nullptr);
 

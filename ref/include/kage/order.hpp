@@ -20,6 +20,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kage/error.hpp"
+
 namespace kage {
 
 using OrderPoint = std::array<double, 3>;
@@ -39,11 +41,18 @@ struct OrderMesh {
 
 struct OrderBuildOptions {
   std::uint64_t seed = 1;
-  int threads = 0;                           ///< 0: one per processor. The tree does not depend on it
-  std::uint64_t max_fragments = 50'000'000;  ///< Error past it
-  /// Called now and then with a share of the work, 0 .. 1, never from two threads at once. What it throws ends the
-  /// build and reaches the caller.
+  int threads = 0;                          ///< 0: one per processor. The tree does not depend on it
+  std::uint64_t max_fragments = 5'000'000;  ///< TooManyFragments past it; a build takes up to 2 kB for each
+  /// Called now and then, several times a second, with the share of the work that is done, 0 .. 1, which never gets
+  /// less; never from two threads at once. What it throws ends the build and reaches the caller. The share is an
+  /// estimate: how much a set of fragments will still be cut is not known before it is.
   std::function<void(double)> progress;
+};
+
+/// Polygons were cut into more fragments than OrderBuildOptions::max_fragments.
+class TooManyFragments : public Error {
+ public:
+  using Error::Error;
 };
 
 struct OrderBuildStats {
@@ -89,8 +98,8 @@ struct OrderFace {
 class OrderTree {
  public:
   /// Throws Error that names the polygon if a coordinate is not finite, a corner is out of range, or a plane polygon is
-  /// not convex; and past options.max_fragments. Open, self-intersecting and overlapping meshes are fine. n faces give
-  /// at most n (n^2 - n + 2) / 2 fragments, and no more nodes than fragments.
+  /// not convex; TooManyFragments past options.max_fragments. Open, self-intersecting and overlapping meshes are fine.
+  /// n faces give at most n (n^2 - n + 2) / 2 fragments, and no more nodes than fragments.
   static OrderTree build(const OrderMesh& mesh, const OrderBuildOptions& options = {});
 
   /// Throws Error that names file and place if the file is not what save() wrote.
