@@ -133,7 +133,7 @@ for size in $(($(stat -c %s whole.kage) / 2)) 0; do
     cp whole.kage cut.kage
     "$kage" $command cut.kage --out cutting >stdout 2>stderr </dev/null &
     pid=$!
-    for _ in $(seq 1000); do [ -n "$(find cutting -name '.*.png' -size +0 2>/dev/null)" ] && break || sleep 0.01; done
+    for _ in $(seq 1000); do [ -n "$(find cutting -path '*/.kage-*' -type f -size +0 2>/dev/null)" ] && break || sleep 0.01; done
     truncate -s "$size" cut.kage
     rc=0
     wait $pid || rc=$?
