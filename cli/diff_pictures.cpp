@@ -50,7 +50,8 @@ void check_outputs(const DiffCommand& o) {
       if (!read->empty() && within(*path, *read))
         throw Error(fmt::format("{}: is one of those compared, or lies in it: it is not written over", *path));
     for (const std::string& other : written)
-      if (!is_device(*path) && resolved(*path) == resolved(other)) throw Error(fmt::format("{}: is to be written twice", *path));
+      if (!is_device(*path) && resolved(*path) == resolved(other))
+        throw Error(fmt::format("{}: is to be written twice", *path));
     written.push_back(*path);
   }
 }

@@ -247,7 +247,7 @@ wait $!
 "$kage" diff a.png b.png --out beside.png >/dev/null
 cmp piped.png beside.png || fail "a pipe got another picture than a file"
 [ -p pipe.png ] || fail "a pipe was replaced by a file"
-expect 1 "$kage" diff a.png b.png --out /dev/null --json /dev/null --junit /dev/null --blink flip.png
+expect 1 "$kage" diff a.png b.png --json /dev/null --junit /dev/null --blink flip.png
 [ -c /dev/null ] || fail "/dev/null was replaced"
 # A device that takes nothing is a full disk without a disk.
 trouble "/dev/full: cannot be written: No space left on device" "$kage" diff a.png b.png --json /dev/full --blink none.png
