@@ -31,7 +31,7 @@ translate() { # NAME UNITS FILE...: the proof of the compare_tree in these files
   wires+="connect -set inside_last[$((nodes - 1)):0] dut.gen_tree.last; "
   wires+="connect -set inside_data[$((nodes * data - 1)):0] dut.gen_tree.data; "
   yosys -q -l "$work/$name.log" -p "
-    read_verilog -sv -formal $* verif/formal/compare_tree_proof.sv
+    read_verilog -sv -formal -Irtl/include $* verif/formal/compare_tree_proof.sv
     chparam -set UNITS $units compare_tree_proof
     prep -flatten -top compare_tree_proof; $lower
     cd compare_tree_proof; $wires cd ..
