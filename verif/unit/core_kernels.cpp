@@ -94,7 +94,7 @@ TEST_CASE("lines of 1 to 48 pixels, on every instruction set, in guarded memory"
   });
   check_every_kind_of_token(taken);
 #ifndef __SANITIZE_ADDRESS__
-  CHECK(GuardedNew::given() > before + 48 * 8 * 5);
+  CHECK(GuardedNew::given() > before + std::uint64_t{48} * 8 * 5);
 #endif
 }
 

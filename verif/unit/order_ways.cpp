@@ -171,7 +171,7 @@ TEST_CASE("trees of 0 to 48 nodes, of any shape, on every instruction set, in gu
   });
   CHECK(largest_back == 23);
 #ifndef __SANITIZE_ADDRESS__
-  CHECK(GuardedNew::given() > before + 49 * 6 * 10);
+  CHECK(GuardedNew::given() > before + std::uint64_t{49} * 6 * 10);
 #endif
 }
 

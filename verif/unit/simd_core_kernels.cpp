@@ -194,7 +194,7 @@ TEST_CASE("a line's bytes, and not one more") {
     for (int k = 0; k < count; ++k)
       if (random.chance(0.3)) given.zb[static_cast<std::size_t>(k)] = clear;
     Pixels expected(given, edge);
-    Guarded<std::uint8_t> out(static_cast<std::size_t>(count * channels), edge);
+    Guarded<std::uint8_t> out(static_cast<std::size_t>(count) * static_cast<std::size_t>(channels), edge);
     line_bytes(count, given.zb.data(), given.attr.data(), clear, background, channels, out.data());
     REQUIRE(given == expected);
     int wrong = 0;
@@ -202,7 +202,8 @@ TEST_CASE("a line's bytes, and not one more") {
       for (int ch = 0; ch < channels; ++ch) {
         const auto i = static_cast<std::size_t>(k);
         const std::uint32_t v = expected.zb[i] == clear ? background : expected.attr[i];
-        wrong += out[static_cast<std::size_t>(channels * k + ch)] != (v >> (8 * ch) & 255U) ? 1 : 0;
+        const std::size_t at = i * static_cast<std::size_t>(channels) + static_cast<std::size_t>(ch);
+        wrong += out[at] != (v >> (8 * ch) & 255U) ? 1 : 0;
       }
     REQUIRE(wrong == 0);
   });

@@ -168,7 +168,7 @@ void check_placing(Random& random, int nodes, Edge edge) {
   data.size = shape;
   PlacingCase c(data, edge);
   std::vector<bool> front(shape.size());
-  for (std::size_t v = 0; v < front.size(); ++v) front[v] = random.chance(0.5);
+  for (auto&& side : front) side = random.chance(0.5);
   c.set_sides(front);
   c.place_all();
   REQUIRE(c.holds(order_of_shape(shape, front)));
