@@ -105,7 +105,7 @@ expect 0 env KAGE_PROGRESS=0 "$kage" cosim "${run[@]}" --out shard
 [ ! -s stderr ] || fail "progress although none is wanted: $(cat stderr)"
 
 # One frame that lasts says so too.
-expect 0 env KAGE_PROGRESS=0.05 "$kage" cosim courtyard --frames 1 --config default --out shard
+expect 0 env KAGE_PROGRESS=0.05 "$kage" cosim courtyard --frames 1 --size 1280x960 --config default --out shard
 [ "$(grep -cE '^courtyard: frame 1/1' stderr)" -ge 2 ] || fail "one long frame, and no progress within it: $(cat stderr)"
 
 # On a terminal a line is written over and over; on a dumb one, as in a pipe, there are lines.

@@ -32,12 +32,12 @@ grep -q 'by segments' stdout || fail "the polyhedron has no name"
 expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --json r.json
 json r.json 'len(j["rtl"])>=6 and all(t["same"] for t in j["rtl"])'
 expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --fault wrong_compare --json r.json
+json r.json '[t["token"] for t in j["rtl"] if not t["same"]][0]==j["touches"][2]["token"]'
+grep -q 'differs' stdout || fail "the difference is not marked"
 expect 1 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --fault wrong_compare --json r.json
 expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --json sound.json
 expect 1 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --fault wrong_compare --changes
 trouble "--check requires --rtl" "$kage" explain courtyard --pixel 316,116 --check
-json r.json '[t["token"] for t in j["rtl"] if not t["same"]][0]==j["touches"][2]["token"]'
-grep -q 'differs' stdout || fail "the difference is not marked"
 
 # Only what changed something: the same tokens but for those that left all as it was; and those at which the RTL differs.
 expect 0 "$kage" explain penumbra --config soft --size 160x120 --frames 1 --pixel 80,75 --json whole.json

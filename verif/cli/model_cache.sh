@@ -70,6 +70,13 @@ cosim 0 # the log of a build that failed would replace the link
 rm "${model%.so}.log" && mv kept.so "$model"
 chmod 777 cache/kage/verilator && untrusted "cache/kage/verilator: others may write to it"
 chmod 700 cache/kage/verilator
+# A link to a folder of one's own elsewhere serves as well, unless somebody else could put another folder there.
+mkdir disk && mv cache/kage disk/kage && ln -s "$PWD/disk/kage" cache/kage
+truncate -s 1000 "$model"
+cosim 0
+expect 0 "$kage" cache verify
+chmod 777 disk && untrusted "disk: others may write to it (mode 0777)"
+rm cache/kage && mv disk/kage cache/kage
 if [ "$(id -u)" = 0 ]; then
   chown 12345 "$models" && untrusted "belongs to user 12345, you are user 0"
   chown 0 "$models"

@@ -69,6 +69,10 @@ fs::path own_folder(const fs::path& base, std::initializer_list<const char*> inn
     if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
       throw Error(fmt::format("{}: cannot be made: {}", folder.string(), std::strerror(errno)));
     struct stat status {};
+    if (lstat(folder.c_str(), &status) == 0 && S_ISLNK(status.st_mode)) {
+      check_owner(folder, status);
+      if (stat(folder.c_str(), &status) == 0) check_way_to(fs::canonical(folder).parent_path());
+    }
     if (stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))
       throw Error(fmt::format("{}: is no folder", folder.string()));
     check_owner(folder, status);

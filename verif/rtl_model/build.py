@@ -287,7 +287,7 @@ class Runtime:
         self.folder = pathlib.Path(cache) / "kage" / "verilator" / key if cache else None
         if self.folder:
             for folder in (self.folder.parent.parent, self.folder.parent, self.folder):
-                trust(folder)
+                trust(folder, link=True)
 
     def take(self, names):
         for name in names if self.folder else ():
@@ -337,15 +337,18 @@ def check_sum(data):
     return struct.pack("<QI", len(data), zlib.crc32(data))
 
 
-def trust(path):
-    """Stop if somebody else could have put `path` there: what is kept becomes part of a program."""
+def trust(path, link=False):
+    """Stop if somebody else could have put `path` there: what is kept becomes part of a program. With `link` it may be a link,
+    which then must be this user's too, as what it leads to."""
     try:
-        status = path.lstat()
+        states = [path.lstat(), path.stat()]
     except FileNotFoundError:
         return
-    if stat.S_ISLNK(status.st_mode) or status.st_uid not in (0, os.geteuid()) or status.st_mode & 0o022:
-        fail(f"{path}: it is a link, somebody else's, or others may write to it, and what is kept there becomes part of RTL models: "
-             f"remove it, or set XDG_CACHE_HOME to a folder of your own")
+    linked = stat.S_ISLNK(states[0].st_mode)
+    others = any(s.st_uid not in (0, os.geteuid()) for s in states) or states[1].st_mode & 0o022
+    if others or (linked and not link):
+        what = "somebody else's, or others may write to it" if others else "a link"
+        fail(f"{path}: it is {what}, and what is kept there becomes part of RTL models: remove it, or set XDG_CACHE_HOME to a folder of your own")
 
 
 def needs_threads(obj):
