@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include <system_error>
 
 #include "common.hpp"
+#include "kage/error.hpp"
 #include "mapped.hpp"
 #include "simd/targets.hpp"
 
@@ -70,6 +72,16 @@ std::string text_of(const std::exception& error) {
   return error.what();
 }
 
+/// A stack that is too small ends a program by a signal, wherever it happens to be; so it is asked for at the start.
+/// Threads have stacks of the same size.
+void check_stack() {
+  constexpr rlim_t least = 1 << 20;
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY && stack.rlim_cur < least)
+    throw kage::Error(fmt::format("the stack may have {} KiB only (ulimit -s), and {} are needed",
+                                  stack.rlim_cur / 1024, least / 1024));
+}
+
 /// An installed kage finds its data and its modules beside itself, wherever the prefix was moved to.
 void find_data() {
   namespace fs = std::filesystem;
@@ -120,6 +132,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
+    check_stack();
     open_standard_files();
     find_data();
     catch_signals();

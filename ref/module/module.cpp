@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -36,10 +37,19 @@ fs::path find(const std::string& file, const std::string& what_for) {
                           KAGE_INSTALL_MODULE_DIR, what_for));
 }
 
+void check_room(const fs::path& path, const std::string& what_for, std::size_t room) {
+  if (room == 0) return;
+  void* const free = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (free == MAP_FAILED)
+    throw Error(fmt::format("{}: takes {} MiB of memory (ulimit -v), and {}", path.string(), room >> 20, what_for));
+  munmap(free, room);
+}
+
 }  // namespace
 
-const ModuleHead& open_module(const std::string& name, const std::string& what_for) {
+const ModuleHead& open_module(const std::string& name, const std::string& what_for, std::size_t room) {
   const fs::path path = find("lib" + name + ".so", what_for);
+  check_room(path, what_for, room);
   // It may bind symbols of large libraries, so each only when it is called.
   void* const handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {

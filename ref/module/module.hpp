@@ -5,6 +5,7 @@
 // shows one function: it returns a table of what the module can do.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace kage {
@@ -16,13 +17,14 @@ struct ModuleHead {
 
 /// Opens libNAME.so from $KAGE_MODULE_DIR if that is set, else from where it was built, else from lib/kage of where it
 /// was installed, and returns what its function NAME_table() gives. It stays open. Throws Error that names the file
-/// that is missing and what cannot be done without it.
-const ModuleHead& open_module(const std::string& name, const std::string& what_for);
+/// that is missing and what cannot be done without it. Libraries that start threads end the program where one finds no
+/// memory, so a module is refused unless `room` bytes of address space are free.
+const ModuleHead& open_module(const std::string& name, const std::string& what_for, std::size_t room);
 
 /// The table of a module, opened once.
 template <typename Table>
 const Table& module_table() {
-  static const Table& table = static_cast<const Table&>(open_module(Table::kModule, Table::kWhatFor));
+  static const Table& table = static_cast<const Table&>(open_module(Table::kModule, Table::kWhatFor, Table::room()));
   return table;
 }
 

@@ -5,11 +5,12 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
-#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <optional>
 
@@ -56,9 +57,11 @@ class Builder {
     if (options_.threads > tbb::info::default_concurrency())
       allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
     tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
+    // A tbb::task_group that finds no memory for a task waits for that task for ever, in its destructor.
+    const SharedSet first = std::make_shared<Set>(std::move(all));
     arena.execute([&] {
-      spawn(std::move(all));
-      group_.wait();
+      tbb::parallel_for_each(&first, &first + 1,
+                             [this](const SharedSet& set, Feeder& feeder) { work(std::move(*set), feeder); });
     });
     if (options_.progress) options_.progress(1);
     stats_.splits = total_ - faces_.faces.size();
@@ -66,14 +69,11 @@ class Builder {
   }
 
  private:
-  void spawn(Set set) {
-    // task_group copies what it runs.
-    auto shared = std::make_shared<Set>(std::move(set));
-    group_.run([this, shared] { work(std::move(*shared)); });
-  }
+  using SharedSet = std::shared_ptr<Set>;  // TBB copies what it hands on
+  using Feeder = tbb::feeder<SharedSet>;
 
-  /// Takes a set and all that comes of it, but for what it gives to other threads.
-  void work(Set first) {
+  /// Takes a set and all that comes of it, but for what it gives to other threads by way of `feeder`.
+  void work(Set first, Feeder& feeder) {
     std::deque<BuildNode> nodes;
     Classifier classifier(faces_);
     SplitterChoice choice(faces_);
@@ -96,7 +96,7 @@ class Builder {
         if (s.fragments.empty()) continue;
         s.share = each * work_of(s.fragments);
         if (s.fragments.size() >= kTask && !stack.empty())
-          spawn(std::move(s));
+          feeder.add(std::make_shared<Set>(std::move(s)));
         else
           stack.push_back(std::move(s));
       }
@@ -158,7 +158,6 @@ class Builder {
   const OrderBuildOptions& options_;
   OrderBuildStats& stats_;
   std::atomic<std::uint64_t> total_;
-  tbb::task_group group_;
   std::mutex mutex_;
   BuildTree tree_;
   double share_ = 0;

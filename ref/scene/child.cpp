@@ -95,6 +95,12 @@ void limit_memory(std::int64_t mib) {
   limit(RLIMIT_DATA, pages[5] * page + (static_cast<std::uint64_t>(mib) << 20));
 }
 
+/// Whether the process as a whole may have only so much memory.
+bool limited_from_outside() {
+  rlimit r{};
+  return getrlimit(RLIMIT_AS, &r) == 0 && r.rlim_cur != RLIM_INFINITY;
+}
+
 void write_all(int fd, const void* data, std::size_t size) {
   const auto* p = static_cast<const char*>(data);
   while (size > 0) {
@@ -179,7 +185,8 @@ ImportLimits ImportLimits::from_environment() {
 
 Bytes run_in_child(const std::string& name, const ImportLimits& limits, const std::function<Bytes()>& work) {
   const std::string no_time = name + ": import took longer than " + std::to_string(limits.seconds) + " s";
-  const std::string no_memory = name + ": import needs more than " + std::to_string(limits.mib) + " MiB";
+  const std::string no_memory = name + ": import needs more than " + std::to_string(limits.mib) + " MiB" +
+                                (limited_from_outside() ? ", or than ulimit -v leaves" : "");
   // One at a time, or another thread's child would inherit this pipe's writing end and keep it open.
   static std::mutex forking;
   std::unique_lock<std::mutex> lock(forking);

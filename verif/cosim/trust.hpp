@@ -13,8 +13,9 @@ namespace kage::cosim {
 /// The folder `inner` below `base`, each level made with mode 0700 if it is missing. Throws Error, with the way to mend
 /// it, if somebody else could change what lies there: a level of `inner` must belong to this user or root and be
 /// writable to nobody else; a link to such a folder is as good, if it is this user's or root's and nobody else can put
-/// another folder where it leads. `base` and the folders above it may besides be writable to a group of this user's own, as
-/// Debian gives each user one, and to all where the sticky bit keeps them from other people's files, as in /tmp.
+/// another folder where it leads. `base` and the folders above it may besides be writable to a group of this user's
+/// own, as Debian gives each user one, and to all where the sticky bit keeps them from other people's files, as in
+/// /tmp.
 std::filesystem::path own_folder(const std::filesystem::path& base, std::initializer_list<const char*> inner);
 
 /// Opens a regular file to read; links are not followed. Returns the descriptor, or -1 if there is no such file. Throws

@@ -3,11 +3,13 @@
 // The picture module: what needs OpenImageIO.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "image/encoder.hpp"
 #include "image/picture.hpp"
@@ -18,6 +20,9 @@ namespace kage {
 struct PictureModule : ModuleHead {
   static constexpr const char* kModule = "kage_pictures";
   static constexpr const char* kWhatFor = "pictures are read and EXR is written with it";
+  /// Some 400 MiB of libraries (verif/cli/little_memory.sh), and OpenImageIO's threads and OpenEXR's, one per
+  /// processor.
+  static std::size_t room() { return (416U + 16U * std::thread::hardware_concurrency()) << 20U; }
 
   /// As load_picture().
   Picture (*read)(const std::filesystem::path& path, int part);

@@ -3,6 +3,7 @@
 // The mesh module: what needs Assimp. Only the child that reads a file opens it.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -14,6 +15,7 @@ namespace kage::scene {
 struct MeshModule : ModuleHead {
   static constexpr const char* kModule = "kage_meshes";
   static constexpr const char* kWhatFor = "files other than glTF 2.0 are read with it";
+  static std::size_t room() { return 0; }  // it starts no threads, and the child that opens it may end
 
   /// As import_assimp().
   RawScene (*read)(const std::filesystem::path& path, const std::string& name, bool allow_outside);
