@@ -49,7 +49,7 @@ struct Totals {
     if (r.first && first.is_null())
       first = Json{{"x", r.first->x}, {"y", r.first->y}, {"channel", r.first->channel}, {"frame", name}};
     Json frame{{"name", name}, {"missing", nullptr}};
-    frame.update(to_json(r));
+    frame.update(cli::to_json(r));
     frames.push_back(frame);
   }
 
@@ -74,7 +74,7 @@ struct Totals {
     Json frame{{"name", entry.name}, {"missing", entry.in_a ? "B" : "A"}};
     DiffResult nothing;
     nothing.reason = entry.in_a ? "only in A" : "only in B";
-    frame.update(to_json(nothing));
+    frame.update(cli::to_json(nothing));
     frames.push_back(frame);
   }
 };

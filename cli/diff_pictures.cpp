@@ -30,7 +30,7 @@ bool within(const std::string& path, const std::string& in) {
 }  // namespace
 
 QuietStderr::QuietStderr() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
-  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (kept_ >= 0 && null >= 0) dup2(null, STDERR_FILENO);
   if (null >= 0) close(null);
 }

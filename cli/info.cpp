@@ -79,7 +79,7 @@ int describe_stream(const InfoCommand& o) {
   const std::uint64_t lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)];
   Json j;
   j["version"] = kStreamVersion;
-  j["config"] = to_json(file.config());
+  j["config"] = cli::to_json(file.config());
   j["frames"] = file.frame_count();
   j["lines"] = lines;
   j["tokens"] = tokens;

@@ -16,7 +16,7 @@ struct Guarded {
   std::string name;
   std::uintmax_t size;
 };
-std::vector<Guarded> files;
+std::vector<Guarded> mapped_files;
 
 std::uintmax_t size_now(const std::string& name) {
   std::error_code ec;
@@ -26,7 +26,7 @@ std::uintmax_t size_now(const std::string& name) {
 }  // namespace
 
 void guard_mapped(const std::string& name) {
-  files.push_back({name, size_now(name)});
+  mapped_files.push_back({name, size_now(name)});
   guard_pages();
 }
 
@@ -35,7 +35,7 @@ std::string lost_mapped() {
   // The page that was lost does not say whose it was; the size does, if the file became shorter.
   std::string all;
   std::string changed;
-  for (const Guarded& file : files) {
+  for (const Guarded& file : mapped_files) {
     all += (all.empty() ? "" : " or ") + file.name;
     if (size_now(file.name) != file.size) changed += (changed.empty() ? "" : " and ") + file.name;
   }

@@ -28,6 +28,23 @@ if(KAGE_WERROR)
   target_compile_options(kage_flags INTERFACE -Werror)
 endif()
 
+# Compiling files together spares their headers, which are most of the work. A file's own includes are then checked by
+# tools/lint tidy alone, and one changed file compiles seven others, so it is for builds that are made once (tools/demo,
+# tools/test, packages). Tests are a program per file.
+option(KAGE_UNITY "Compile the files of a library together" OFF)
+
+# kage_unity(TARGET...): those of the targets that are made of many files.
+function(kage_unity)
+  if(KAGE_UNITY)
+    set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU") # a class whose members are of a file's own types is of that file alone
+      foreach(target ${ARGN})
+        target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+      endforeach()
+    endif()
+  endif()
+endfunction()
+
 # kage_executable(NAME SOURCES... [LIBS...]): an executable with the project's flags.
 function(kage_executable name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBS" ${ARGN})

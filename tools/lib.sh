@@ -4,6 +4,7 @@
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${KAGE_BUILD:-$top/build/release}
 build_type=Release
+unity=ON # a build that is made once: cmake/KageBuild.cmake
 log_dir=$top/build/log
 jobs=${KAGE_JOBS:-$(nproc)}
 child=
@@ -53,5 +54,5 @@ step() {
 # configure ON|OFF: the build of $build_type in $build, with tests or without; a build that has tests keeps them.
 configure() {
   if [ -f "$build/build.ninja" ] && { [ "$1" = OFF ] || grep -q '^KAGE_TESTS:BOOL=ON' "$build/CMakeCache.txt"; }; then return 0; fi
-  step configure "configuring" cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DKAGE_TESTS="$1" -DKAGE_BENCH="$1"
+  step configure "configuring" cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" -DKAGE_TESTS="$1" -DKAGE_BENCH="$1" -DKAGE_UNITY="$unity"
 }

@@ -4,17 +4,17 @@
 namespace kage {
 namespace {
 
-enum class Side { y_low, y_high, x_low, x_high };
+enum class GuardSide { y_low, y_high, x_low, x_high };
 
 constexpr double kLimit = kGuard;
 
-double guard_distance(const ClipPoint& p, Side side) {
+double guard_distance(const ClipPoint& p, GuardSide side) {
   switch (side) {
-    case Side::x_low:
+    case GuardSide::x_low:
       return p.sx + kLimit * p.q;
-    case Side::x_high:
+    case GuardSide::x_high:
       return kLimit * p.q - p.sx;
-    case Side::y_low:
+    case GuardSide::y_low:
       return p.sy + kLimit * p.q;
     default:
       return kLimit * p.q - p.sy;
@@ -35,19 +35,19 @@ ClipPoint cut_at(const ClipPoint& in, const ClipPoint& out, double at) {
   return p;
 }
 
-ClipPoint cut_guard(const ClipPoint& in, const ClipPoint& out, Side side) {
+ClipPoint cut_guard(const ClipPoint& in, const ClipPoint& out, GuardSide side) {
   ClipPoint p = between(in, out, guard_distance(in, side), guard_distance(out, side));
   switch (side) {  // exactly on the border
-    case Side::x_low:
+    case GuardSide::x_low:
       p.sx = -kLimit * p.q;
       break;
-    case Side::x_high:
+    case GuardSide::x_high:
       p.sx = kLimit * p.q;
       break;
-    case Side::y_low:
+    case GuardSide::y_low:
       p.sy = -kLimit * p.q;
       break;
-    case Side::y_high:
+    case GuardSide::y_high:
       p.sy = kLimit * p.q;
       break;
   }
@@ -81,7 +81,7 @@ void clip_plane(std::vector<ClipPoint>& polygon, std::vector<ClipPoint>& buffer,
 }
 
 // What of the edge a-b is inside; false if nothing.
-bool clip_edge(ClipPoint& a, ClipPoint& b, Side side) {
+bool clip_edge(ClipPoint& a, ClipPoint& b, GuardSide side) {
   const bool a_in = guard_distance(a, side) >= 0;
   const bool b_in = guard_distance(b, side) >= 0;
   if (a_in && !b_in) b = cut_guard(a, b, side);
@@ -89,9 +89,9 @@ bool clip_edge(ClipPoint& a, ClipPoint& b, Side side) {
   return a_in || b_in;
 }
 
-ScreenVertex snap_onto(const ClipPoint& p, Side side) {
+ScreenVertex snap_onto(const ClipPoint& p, GuardSide side) {
   ScreenVertex v;
-  v.x = (side == Side::x_low ? -kGuard : kGuard) * 256;
+  v.x = (side == GuardSide::x_low ? -kGuard : kGuard) * 256;
   ClipPoint at_q = p;
   at_q.sx = 0;  // x may be out of range by far; only y counts
   v.y = snap(at_q).y;
@@ -120,7 +120,7 @@ void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, 
     clip_plane(
         polygon, buffer_, [this](const ClipPoint& p) { return far_ - p.w; },
         [this](const ClipPoint& in, const ClipPoint& out) { return cut_at(in, out, far_); }, ignore, ignore);
-  for (const Side side : {Side::y_low, Side::y_high, Side::x_low, Side::x_high})
+  for (const GuardSide side : {GuardSide::y_low, GuardSide::y_high, GuardSide::x_low, GuardSide::x_high})
     clip_plane(
         polygon, buffer_, [side](const ClipPoint& p) { return guard_distance(p, side); },
         [side](const ClipPoint& in, const ClipPoint& out) { return cut_guard(in, out, side); }, ignore, ignore);
@@ -130,7 +130,7 @@ void Clipper::clip(std::vector<ClipPoint>& polygon, std::vector<NearCut>* cuts, 
 bool Clipper::keeps(const ClipPoint& p) const {
   // Written as clip() asks, so that a vertex that is not a number is not kept.
   if (!(p.w - near_ >= 0)) return false;
-  for (const Side side : {Side::y_low, Side::y_high, Side::x_low, Side::x_high})
+  for (const GuardSide side : {GuardSide::y_low, GuardSide::y_high, GuardSide::x_low, GuardSide::x_high})
     if (!(guard_distance(p, side) >= 0)) return false;
   return true;
 }
@@ -141,8 +141,8 @@ void Clipper::snap_cut(const NearCut& cut, std::int32_t w, std::vector<NearEdge>
   };
   ClipPoint a = cut.from;
   ClipPoint b = cut.to;
-  if (!clip_edge(a, b, Side::y_low) || !clip_edge(a, b, Side::y_high)) return;
-  for (const Side side : {Side::x_low, Side::x_high}) {
+  if (!clip_edge(a, b, GuardSide::y_low) || !clip_edge(a, b, GuardSide::y_high)) return;
+  for (const GuardSide side : {GuardSide::x_low, GuardSide::x_high}) {
     const bool a_in = guard_distance(a, side) >= 0;
     const bool b_in = guard_distance(b, side) >= 0;
     if (!a_in && !b_in) {

@@ -68,7 +68,7 @@ class Builder {
       for (const std::uint32_t i : turned_away_) draw(i);
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
-      const std::vector<Box> boxes = component_boxes(*frame_);
+      const std::vector<SpaceBox> boxes = component_boxes(*frame_);
       VolumeCaster volumes(*frame_, boxes, config_->dsf_bits, look_->volumes, shadows_->data());
       std::optional<Receivers> receivers;
       if (look_->leave_out) receivers.emplace(*frame_, boxes, out_.width, out_.height, config_->translucency == 0);
@@ -404,7 +404,7 @@ class Builder {
 // more than 2^-12 of the scene.
 constexpr double kFurthestLight = 0x1p40;
 
-void check_light(const Light& l, std::size_t number, const Box& scene) {
+void check_light(const Light& l, std::size_t number, const SpaceBox& scene) {
   const auto refuse = [number](const char* why) { throw Error(fmt::format("light {}: {}", number, why)); };
   if (!is_finite(l.color) || l.color.x < 0 || l.color.y < 0 || l.color.z < 0)
     refuse("its colour is negative or not finite");
@@ -423,7 +423,7 @@ void check_light(const Light& l, std::size_t number, const Box& scene) {
 }
 
 void check_finite(const SceneFrame& frame) {
-  Box box;
+  SpaceBox box;
   for (std::size_t i = 0; i < frame.vertices.size(); ++i) {
     if (!is_finite(frame.vertices[i])) throw Error(fmt::format("vertex {}: position is not finite", i));
     box.add(frame.vertices[i]);

@@ -107,7 +107,7 @@ class Remarker {
   // How often a closed body winds round the eye, by the faces that a ray into an odd direction meets.
   [[nodiscard]] bool surrounds_eye(const Component& part) const {
     const glm::dvec3 way{0.3819660112501051, 0.2360679774997897, 0.8934663516839487};
-    Box box;
+    SpaceBox box;
     int winding = 0;
     for (std::uint32_t i = part.first; i < part.first + part.count; ++i)
       for (const std::uint32_t v : frame_.triangles[i].vertex) box.add(eye_points_[v]);

@@ -10,7 +10,7 @@ namespace kage::order {
 namespace {
 
 /// A node's plane is a face and a bit.
-constexpr std::size_t kMost = 0x7fffffff;
+constexpr std::size_t kMostFaces = 0x7fffffff;
 
 using Corners = std::vector<std::uint32_t>;
 
@@ -19,12 +19,12 @@ class Maker {
   Maker(const OrderMesh& mesh, OrderBuildStats& stats) : mesh_(mesh), stats_(stats) {}
 
   Faces run() {
-    if (mesh_.polygons.size() > kMost || mesh_.vertices.size() >= kNoNode)
+    if (mesh_.polygons.size() > kMostFaces || mesh_.vertices.size() >= kNoNode)
       throw Error(
           fmt::format("{} polygons over {} vertices are more than fit", mesh_.polygons.size(), mesh_.vertices.size()));
     out_.vertices = mesh_.vertices;
     for (std::size_t i = 0; i < mesh_.polygons.size(); ++i) add(static_cast<std::uint32_t>(i));
-    if (out_.faces.size() > kMost || out_.corners.size() >= kNoNode)
+    if (out_.faces.size() > kMostFaces || out_.corners.size() >= kNoNode)
       throw Error(fmt::format("{} triangles are more than fit", out_.faces.size()));
     // Vertices that no face has may be anything.
     std::vector<bool> used(out_.vertices.size());

@@ -12,7 +12,7 @@ namespace kage::order {
 namespace {
 
 /// Cuts and edges, with room for those of a node.
-constexpr std::size_t kMost = 0xf0000000;
+constexpr std::size_t kMostCuts = 0xf0000000;
 
 std::uint32_t size_of(const BuildNode* n) { return n == nullptr ? 0 : n->size; }
 
@@ -86,7 +86,8 @@ void lay_out(const BuildTree& tree, OrderTree::Data& data) {
   const std::vector<BuildNode*> nodes = preorder(tree.root);
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i]->number = static_cast<std::uint32_t>(i);
   for (BuildNode* n : nodes) {
-    if (data.cuts.size() > kMost || data.edges.size() > kMost) throw Error("the fragments' edges are more than fit");
+    if (data.cuts.size() > kMostCuts || data.edges.size() > kMostCuts)
+      throw Error("the fragments' edges are more than fit");
     data.size.push_back(n->size);
     data.plane.push_back(n->face << 1U | (n->reversed ? 1U : 0U));
     data.first_fragment.push_back(static_cast<std::uint32_t>(data.fragments.size()));

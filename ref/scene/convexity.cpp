@@ -69,7 +69,7 @@ bool wound_once(const std::vector<glm::dvec3>& positions, const std::vector<Corn
 Reason convexity(const std::vector<glm::dvec3>& positions, const std::vector<Corners>& triangles,
                  const std::vector<SharedEdge>& edges, std::uint64_t& budget) {
   const std::vector<std::uint32_t> vertices = vertices_of(triangles);
-  Box box;
+  SpaceBox box;
   for (const std::uint32_t v : vertices) box.add(positions[v]);
   const double tolerance = kConvexTolerance * box.diagonal();
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@
 #include "side_files.hpp"
 
 namespace kage::scene {
+
+/// What GltfJson::numbers() gives of a vector.
+inline glm::dvec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 class GltfFile : public GltfJson {
  public:

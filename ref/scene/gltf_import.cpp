@@ -20,8 +20,6 @@ namespace {
 
 using Json = GltfJson::Json;
 
-glm::dvec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
-
 class Importer {
  public:
   explicit Importer(GltfFile file) : file_(std::move(file)) {}

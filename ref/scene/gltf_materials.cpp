@@ -10,8 +10,6 @@ namespace {
 
 using Json = GltfJson::Json;
 
-glm::dvec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
-
 const Json& gloss_of(const GltfFile& file, const Json& material, const std::string& here) {
   return file.extension(material, "KHR_materials_pbrSpecularGlossiness", here);
 }

@@ -9,7 +9,7 @@
 namespace kage::scene {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr std::uint32_t kNoSlot = 0xffffffffu;
 
 glm::dvec3 triple(const std::vector<float>& values, std::size_t i) {
   return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
@@ -90,7 +90,7 @@ void Builder::collect() {
     first_vertex_.push_back(positions.size() / 3);
     positions.insert(positions.end(), p.positions.begin(), p.positions.end());
   }
-  slots_.assign(positions.size() / 3 * 2, kNone);
+  slots_.assign(positions.size() / 3 * 2, kNoSlot);
   const std::vector<std::uint32_t> number = weld(positions, mesh_.vertices);
   std::uint32_t first_face = 0;
   for (std::uint32_t k = 0; k < raw_.primitives.size(); ++k) {
@@ -143,12 +143,12 @@ void Builder::assemble(bool translucent) {
 
 // Vertices of points, lines and dropped triangles would only blow up the bounds.
 void Builder::keep_used_vertices() {
-  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNone);
+  std::vector<std::uint32_t> number(mesh_.vertices.size(), kNoSlot);
   for (const Corners& c : welded_)
     for (const std::uint32_t v : c) number[v] = 0;
   std::uint32_t kept = 0;
   for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kNone) continue;
+    if (number[v] == kNoSlot) continue;
     number[v] = kept;
     mesh_.vertices[kept++] = mesh_.vertices[v];
   }
@@ -194,17 +194,18 @@ void Builder::shade_component(const MeshComponent& c) {
     const Source& s = ordered_[t];
     const RawPrimitive& p = raw_.primitives[s.primitive];
     Corners corners{};
-    std::uint32_t of_face = kNone;  // corners without a normal of their own share the face's, if they are of one colour
+    std::uint32_t of_face =
+        kNoSlot;  // corners without a normal of their own share the face's, if they are of one colour
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec3 n = file_normal(s, i);
       if (n.x == 0 && n.y == 0 && n.z == 0) {
         if (!p.normals.empty()) ++mesh_.bad_normals;
-        if (of_face == kNone || !p.colors.empty()) of_face = add({face_normal(t), color(s, i)});
+        if (of_face == kNoSlot || !p.colors.empty()) of_face = add({face_normal(t), color(s, i)});
         corners[i] = of_face;
         continue;
       }
       std::uint32_t& slot = slots_[2 * (first_vertex_[s.primitive] + s.vertex[i]) + (negate ? 1 : 0)];
-      if (slot == kNone) slot = add({negate ? -n : n, color(s, i)});
+      if (slot == kNoSlot) slot = add({negate ? -n : n, color(s, i)});
       corners[i] = slot;
     }
     const auto differ = [&](std::uint32_t a, std::uint32_t b) {

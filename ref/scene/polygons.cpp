@@ -11,7 +11,7 @@
 namespace kage::scene {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr std::uint32_t kNoTriangle = 0xffffffffU;
 
 // Normals further apart than this are another face's: 1 - cos of 0.1 degrees, at which no colour differs.
 constexpr double kNormalTolerance = 1.5e-6;
@@ -36,7 +36,7 @@ class Merger {
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
       for (std::size_t i = 0; i < 3; ++i) edges_.push_back({triangles[t][i], triangles[t][(i + 1) % 3], t});
     std::sort(edges_.begin(), edges_.end());
-    Box box;
+    SpaceBox box;
     for (const Corners& t : triangles)
       for (const std::uint32_t v : t) box.add(positions[v]);
     tolerance_ = kPlanarTolerance * box.diagonal();
@@ -50,11 +50,11 @@ class Merger {
     std::iota(order.begin(), order.end(), 0U);
     for (std::size_t t = 0; t < n; ++t) area[t] = length(normal(static_cast<std::uint32_t>(t)));
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return area[a] > area[b]; });
-    group_.assign(n, kNone);
-    largest.assign(n, kNone);
+    group_.assign(n, kNoTriangle);
+    largest.assign(n, kNoTriangle);
     std::vector<std::vector<std::uint32_t>> outlines(n);
     for (const std::uint32_t seed : order) {
-      if (group_[seed] != kNone) continue;
+      if (group_[seed] != kNoTriangle) continue;
       grow(seed);
       std::vector<std::uint32_t> outline = outline_of(seed);
       if (outline.empty()) {  // not one simple loop: leave its triangles as they are
@@ -80,7 +80,7 @@ class Merger {
 
   [[nodiscard]] std::uint32_t across(std::uint32_t from, std::uint32_t to) const {
     const auto it = std::lower_bound(edges_.begin(), edges_.end(), DirectedEdge{to, from, 0});
-    return it != edges_.end() && it->from == to && it->to == from ? it->triangle : kNone;
+    return it != edges_.end() && it->from == to && it->to == from ? it->triangle : kNoTriangle;
   }
 
   [[nodiscard]] bool flat(std::uint32_t t) const {
@@ -109,7 +109,7 @@ class Merger {
       const Corners c = triangles_[members_[i]];
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t t = across(c[k], c[(k + 1) % 3]);
-        if (t == kNone || group_[t] != kNone || !fits(t)) continue;
+        if (t == kNoTriangle || group_[t] != kNoTriangle || !fits(t)) continue;
         group_[t] = seed;
         members_.push_back(t);
       }
@@ -126,7 +126,7 @@ class Merger {
         const std::uint32_t a = triangles_[t][k];
         const std::uint32_t b = triangles_[t][(k + 1) % 3];
         const std::uint32_t other = across(a, b);
-        if (other == kNone || group_[other] != seed) border.push_back({a, b});
+        if (other == kNoTriangle || group_[other] != seed) border.push_back({a, b});
       }
     if (border.empty()) return {};  // a body as thin as the tolerance, all of it in one plane
     std::sort(border.begin(), border.end());

@@ -164,7 +164,7 @@ void Scene::Data::measure() {
         for (const glm::dvec3& p : vertices) points.push_back(world[object.node].point(p));
         continue;
       }
-      Box box;
+      SpaceBox box;
       for (const glm::dvec3& p : vertices) box.add(p);
       for (unsigned corner = 0; corner < 8; ++corner) points.push_back(world[object.node].point(box.corner(corner)));
     }

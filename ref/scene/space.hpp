@@ -21,7 +21,7 @@ inline double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std
 inline bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// The points from low to high, those included; none until the first add().
-struct Box {
+struct SpaceBox {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
 

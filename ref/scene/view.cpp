@@ -31,7 +31,7 @@ void orient(Camera& camera, const glm::dvec3& forward, const glm::dvec3& up) {
 
 Bounds bounds_of(const std::vector<glm::dvec3>& points) {
   if (points.empty()) return {};
-  Box box;
+  SpaceBox box;
   for (const glm::dvec3& p : points) box.add(p);
   Bounds b;
   b.center = box.low + (box.high - box.low) * 0.5;

@@ -15,7 +15,7 @@ constexpr double kCone = 0.2;
 // A cube's side reaches to 1, and what is further out than this is cut off.
 constexpr double kClip = 1.5;
 // A chart's edge stays this many steps within the square that bound_count() looks at.
-constexpr double kMargin = 4;
+constexpr double kChartMargin = 4;
 // More than all roundings on the way to a direction from the light.
 constexpr double kNear = 1e-9;
 
@@ -44,7 +44,7 @@ LightSpace::LightSpace(const SceneFrame& frame, const LightPoint& light, std::sp
       for (const std::uint32_t v : frame.outline(frame.polygons[cap.polygon])) see(v);
   };
   if (!light.directional) {
-    Box bounds;
+    SpaceBox bounds;
     each_vertex([&](std::uint32_t v) { bounds.add(frame.vertices[v]); });
     const glm::dvec3 to = light.position - (bounds.low + bounds.high) * 0.5;
     axes_ = axes(length(to) > 0 ? to : glm::dvec3(0, 1, 0));
@@ -100,7 +100,7 @@ ChartPoint LightSpace::on_chart(const Flat& f) const {
   // An edge that passes the light as close as rounding may be cut anywhere.
   const auto even = [this](double v, double middle) {
     const double on = std::clamp((v - middle) / half_, -1.9, 1.9);
-    return 2 * static_cast<std::int64_t>(std::floor(on * (static_cast<double>(kChartHalf) / 2 - kMargin) + 0.5));
+    return 2 * static_cast<std::int64_t>(std::floor(on * (static_cast<double>(kChartHalf) / 2 - kChartMargin) + 0.5));
   };
   return {even(f.x, middle_.x), even(f.y, middle_.y)};
 }

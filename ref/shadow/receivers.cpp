@@ -12,11 +12,11 @@ namespace {
 // and than any rounding.
 constexpr double kWider = 1.05;
 // Share of the largest coordinate by which planes stand back from what they bound.
-constexpr double kMargin = 1e-6;
+constexpr double kReceiverMargin = 1e-6;
 
 }  // namespace
 
-Receivers::Receivers(const SceneFrame& frame, std::span<const Box> boxes, int width, int height, bool translucent)
+Receivers::Receivers(const SceneFrame& frame, std::span<const SpaceBox> boxes, int width, int height, bool translucent)
     : frame_(&frame), boxes_(boxes), known_(frame.vertices.size(), false) {
   add_picture(width, height);
   for (const Component& part : frame.components)
@@ -79,12 +79,12 @@ void Receivers::see(std::span<const std::uint32_t> outline) {
 void Receivers::add_bound(const glm::dvec3& normal, std::vector<HalfSpace>& to) const {
   double limit = -INFINITY;
   for (const glm::dvec3& p : seen_) limit = std::max(limit, glm::dot(normal, p));
-  to.push_back({normal, limit + kMargin * size_});
+  to.push_back({normal, limit + kReceiverMargin * size_});
 }
 
 // The shadow of a body's box is beyond if the box is, and the light goes no nearer from there.
-bool Receivers::beyond(const HalfSpace& s, const Box& b, const LightPoint& light) {
-  const double margin = kMargin * std::max(largest(b.low), largest(b.high));
+bool Receivers::beyond(const HalfSpace& s, const SpaceBox& b, const LightPoint& light) {
+  const double margin = kReceiverMargin * std::max(largest(b.low), largest(b.high));
   for (unsigned i = 0; i < 8; ++i) {
     const glm::dvec3 p = b.corner(i);
     const glm::dvec3 way = light.directional ? light.direction : p - light.position;
@@ -122,7 +122,7 @@ std::vector<bool> Receivers::reached(const LightPoint& light) const {
         before = before && along > 1e-3 * length(d);
         slope = std::max(slope, glm::dot(d, side) / along);
       }
-      const glm::dvec3 normal = side - (slope + kMargin * (1 + std::abs(slope))) * ahead;
+      const glm::dvec3 normal = side - (slope + kReceiverMargin * (1 + std::abs(slope))) * ahead;
       if (before) planes.push_back({normal, glm::dot(normal, light.position)});
     }
   }

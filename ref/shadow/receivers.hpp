@@ -16,7 +16,7 @@ class Receivers {
  public:
   /// `boxes`: of its components. `translucent`: whether translucent faces are drawn opaque, and take shadow. Refers to
   /// `frame` and `boxes`.
-  Receivers(const SceneFrame& frame, std::span<const Box> boxes, int width, int height, bool translucent);
+  Receivers(const SceneFrame& frame, std::span<const SpaceBox> boxes, int width, int height, bool translucent);
 
   /// By component: false only if its shadow, without end, meets nothing that is seen. A shadow is left out if it lies
   /// beyond one of these planes, all of which have all that is seen on one side: those of the picture, of the box round
@@ -33,11 +33,11 @@ class Receivers {
   void add_picture(int width, int height);
   void see(std::span<const std::uint32_t> outline);
   void add_bound(const glm::dvec3& normal, std::vector<HalfSpace>& to) const;
-  [[nodiscard]] static bool beyond(const HalfSpace& s, const Box& b, const LightPoint& light);
+  [[nodiscard]] static bool beyond(const HalfSpace& s, const SpaceBox& b, const LightPoint& light);
 
   const SceneFrame* frame_;
   std::vector<HalfSpace> planes_;
-  std::span<const Box> boxes_;
+  std::span<const SpaceBox> boxes_;
   std::vector<glm::dvec3> seen_;  // corners of what is; of whole faces each vertex once
   std::vector<bool> known_;       // of vertices: in seen_
   glm::dvec3 sum_{0, 0, 0};       // of the corners of all faces

@@ -10,7 +10,7 @@ namespace {
 
 // Volumes reach past everything by this much, so that rounding leaves nothing between their far end and the last
 // receiver.
-constexpr double kMargin = 1.01;
+constexpr double kExtrusionMargin = 1.01;
 // A face is edge-on to a point light nearer to its plane than this share of the light's distance to the furthest
 // vertex.
 constexpr double kEdgeOn = 1e-9;
@@ -37,8 +37,8 @@ std::vector<glm::dvec3> far_ones(std::span<const LightPoint> from, std::span<con
 
 }  // namespace
 
-std::vector<Box> component_boxes(const SceneFrame& frame) {
-  std::vector<Box> boxes(frame.components.size());
+std::vector<SpaceBox> component_boxes(const SceneFrame& frame) {
+  std::vector<SpaceBox> boxes(frame.components.size());
   for (std::size_t c = 0; c < boxes.size(); ++c) {
     const Component& part = frame.components[c];
     for (std::uint32_t t = part.first; t < part.first + part.count; ++t)
@@ -71,10 +71,11 @@ std::vector<ShadowCaster> ShadowCaster::of_points(const SceneFrame& frame, std::
   casters.reserve(points.size());
   // What is edge-on is the scene's matter, not the camera's.
   if (points[0].directional) {
-    Box box;
+    SpaceBox box;
     for (const glm::dvec3& p : frame.vertices) box.add(p);
     for (const glm::dvec3& p : near_corners) box.add(p);
-    for (const LightPoint& l : points) casters.push_back({kEdgeOn, box.diagonal() * kMargin * extrusion, frame, l});
+    for (const LightPoint& l : points)
+      casters.push_back({kEdgeOn, box.diagonal() * kExtrusionMargin * extrusion, frame, l});
     return casters;
   }
   std::vector<glm::dvec3> few;
@@ -83,7 +84,7 @@ std::vector<ShadowCaster> ShadowCaster::of_points(const SceneFrame& frame, std::
   for (const LightPoint& l : points) {
     const double distance = furthest(l.position, far);
     const double reach = std::max(distance, furthest(l.position, near_corners));
-    casters.push_back({kEdgeOn * distance, reach * kMargin * extrusion, frame, l});
+    casters.push_back({kEdgeOn * distance, reach * kExtrusionMargin * extrusion, frame, l});
   }
   return casters;
 }
@@ -110,12 +111,12 @@ double ShadowCaster::far_factor(std::span<const CapFace> caps) const {
   double nearest = INFINITY;
   for (const CapFace& cap : caps)
     nearest = std::min(nearest, std::abs(light_distance(FacePlane(*frame_, frame_->polygons[cap.polygon]))));
-  return std::max(reach_ / nearest, kMargin);
+  return std::max(reach_ / nearest, kExtrusionMargin);
 }
 
 // Outside the box is surely outside; within it a component is treated as if the light were inside, which is right as
 // well.
-void ShadowCaster::caps(const Component& part, const Box& box, std::vector<CapFace>& out) const {
+void ShadowCaster::caps(const Component& part, const SpaceBox& box, std::vector<CapFace>& out) const {
   out.clear();
   const bool lit_only = part.closed && light_outside(box);
   for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {

@@ -17,7 +17,7 @@
 namespace kage {
 
 /// Of each component the box round its vertices.
-std::vector<Box> component_boxes(const SceneFrame& frame);
+std::vector<SpaceBox> component_boxes(const SceneFrame& frame);
 
 /// A plane of a face, as far as lights ask about it.
 struct FacePlane {
@@ -45,13 +45,13 @@ class ShadowCaster {
   [[nodiscard]] int facing(const Polygon& p) const { return facing(FacePlane(*frame_, p)); }
 
   /// Whether the light is surely outside of a component with this box.
-  [[nodiscard]] bool light_outside(const Box& box) const {
+  [[nodiscard]] bool light_outside(const SpaceBox& box) const {
     return light_.directional || !box.contains(light_.position);
   }
 
   /// The faces of a component that cast, turned to the light: of a closed one with the light outside those lit from
   /// outside, else all. `box`: the component's.
-  void caps(const Component& part, const Box& box, std::vector<CapFace>& out) const;
+  void caps(const Component& part, const SpaceBox& box, std::vector<CapFace>& out) const;
 
   /// How far the caps' shadow must reach: far_point()'s factor.
   [[nodiscard]] double far_factor(std::span<const CapFace> caps) const;

@@ -21,7 +21,7 @@ class VolumeCaster {
  public:
   /// Refers to `frame`, `boxes`, which are those of its components, and `kept`, which is that of frames before.
   /// `dsf_bits`: bits that the core counts with, >= 1.
-  VolumeCaster(const SceneFrame& frame, std::span<const Box> boxes, int dsf_bits, VolumeWay way,
+  VolumeCaster(const SceneFrame& frame, std::span<const SpaceBox> boxes, int dsf_bits, VolumeWay way,
                ShadowCache::Data& kept);
 
   /// Call `sink` with every volume of a light sample, in order of their first casters. No ray of light meets more than
@@ -58,7 +58,7 @@ class VolumeCaster {
   [[nodiscard]] bool fits(const LightSpace& space, const Group& group, const Part& part, std::uint64_t& budget);
 
   const SceneFrame* frame_;
-  std::span<const Box> boxes_;
+  std::span<const SpaceBox> boxes_;
   ShadowCache::Data* kept_;
   KeptSample* sample_ = nullptr;  // the one being made
   std::vector<KeptSample::Volume> made_;

@@ -198,7 +198,7 @@ Outcome compare(const std::string& name, const SceneFrame& frame, int width, int
   s.width = width;
   s.height = height;
 
-  Box box;
+  SpaceBox box;
   for (const glm::dvec3& v : s.frame.vertices) box.add(v);
   const auto offset = static_cast<float>(1e-5 * box.diagonal());
 

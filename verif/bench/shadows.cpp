@@ -25,7 +25,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 
 /// A square under the scene, twice as wide.
 void add_floor(SceneFrame& f) {
-  Box box;
+  SpaceBox box;
   for (const glm::dvec3& v : f.vertices) box.add(v);
   const glm::dvec3 size = box.high - box.low;
   const glm::dvec3 middle{box.low.x + size.x / 2, box.low.y - 0.01 * size.y, box.low.z + size.z / 2};

@@ -30,7 +30,9 @@ constexpr std::array<Port, 11> kPorts{{{0, "token", "token_reader", "frame_contr
 
 std::string pixels(const Config& config) { return config.arrangement == 1 ? "pixel_banked" : "pixel_systolic"; }
 
-bool of_tree(ErrorCode e) { return e == ErrorCode::SEGMENT || e == ErrorCode::UNIT_LONG || e == ErrorCode::UNIT_SHORT; }
+bool is_of_segments(ErrorCode e) {
+  return e == ErrorCode::SEGMENT || e == ErrorCode::UNIT_LONG || e == ErrorCode::UNIT_SHORT;
+}
 
 // An error that is not the expected one, or not where it should be. Which rule has failed says who keeps it.
 std::string blame_error(const Clue& clue) {
@@ -40,12 +42,12 @@ std::string blame_error(const Clue& clue) {
   const auto any = [&](auto is) { return is(expected) || is(actual); };
   const auto either = [&](ErrorCode e) { return expected == e || actual == e; };
   if (clue.again || (clue.actual && clue.value == 0 && clue.actual->value[2] != clue.lines)) return "frame_control";
-  if (clue.value > 0) return of_tree(expected) && clue.value >= 3 ? "segment_check" : "frame_control";
+  if (clue.value > 0) return is_of_segments(expected) && clue.value >= 3 ? "segment_check" : "frame_control";
   if (either(ErrorCode::HEADER) || either(ErrorCode::SIZE) || either(ErrorCode::PARAMS)) return "frame_control";
   if (either(ErrorCode::LAST_LATE) &&
       (expected == ErrorCode::NONE || expected == ErrorCode::LAST_LATE))  // the flag that it comes of is token_reader's
     return clue.at_last == (expected == ErrorCode::LAST_LATE) ? "token_reader" : "token_check";
-  if (any(of_tree)) return "segment_check";
+  if (any(is_of_segments)) return "segment_check";
   if (!clue.kind) return "token_check";
   const bool table = *clue.kind == Kind::TABLE;
   const bool segment = *clue.kind == Kind::SEG || *clue.kind == Kind::FACE || *clue.kind == Kind::TREE;

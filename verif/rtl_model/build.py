@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build the RTL model of one configuration: a shared library with the C interface of rtl_model.h.
 
-usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--trace] [--mutants] [--jobs N] [--keep DIR] [--sources]
+usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--trace] [--mutants] [--quick] [--jobs N] [--keep DIR] [--sources]
 
   PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
   --fault NAME   apply verif/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
   --define       a macro for Verilator
   --trace        with the monitors of verif/monitors and waveforms
   --mutants      with every mutant of verif/mutants/mutants.yaml behind a select; one whose text the RTL has not exactly once stops the build
+  --quick        for a model that runs little, as those of --trace and --mutants do: loops over lanes and processors stay
+                 loops, and the compiler takes less care. A systolic core of 64 processors takes 5 s to build in place of 36
   --jobs N       compilers at a time (default 2)
   --keep DIR     build in DIR and leave it there (default: a temporary directory, removed)
   --sources      print the files that the model depends on, one a line, and stop: what a cache key must cover
@@ -182,6 +184,7 @@ def main():
     parser.add_argument("--define", action="append", default=[])
     parser.add_argument("--trace", action="store_true")
     parser.add_argument("--mutants", action="store_true")
+    parser.add_argument("--quick", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep")
     parser.add_argument("--sources", action="store_true")
@@ -231,14 +234,15 @@ def build(out, values, args, work):
         f"constexpr unsigned kMaxWidth = {values['MAX_WIDTH']};\n")
 
     # Loops over processors run 2-3 times as fast unrolled, but then 640 of them take over a minute to build.
-    unroll = values["MAX_WIDTH"] if values["ARRANGEMENT"] == 0 and values["MAX_WIDTH"] <= 128 else 64
+    quick = args.quick or args.trace or args.mutants
+    unroll = 8 if quick else values["MAX_WIDTH"] if values["ARRANGEMENT"] == 0 and 64 < values["MAX_WIDTH"] <= 128 else 64
     verilator = os.environ.get("VERILATOR") or "verilator"
     obj = work / "obj"
     # What the RTL says, as of an assertion, is no result: standard output is for those. The quotes are for make's shell.
     to_stderr = "'-DVL_PRINTF(...)=fprintf(stderr,__VA_ARGS__)'"
     cflags = f"-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP {to_stderr}"
     command = [verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", obj, "-O3", "--x-initial", "unique",
-               "--assert", "--unroll-count", str(max(unroll, 64)), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
+               "--assert", "--unroll-count", str(unroll), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
     if args.trace:
         (work / "kage_trace_numbers.svh").write_text(trace_numbers())
@@ -249,7 +253,7 @@ def build(out, values, args, work):
     run("verilator", command, log)
 
     cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
-    make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", "OPT_FAST=-O2", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={shlex.join(cxx)}"]
+    make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", f"OPT_FAST={'-O1' if quick else '-O2'}", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={shlex.join(cxx)}"]
     extra = ["verilated_threads.o"] if needs_threads(obj) else []
     if args.trace:
         extra.append("verilated_fst_c.o")

@@ -74,7 +74,7 @@ struct Caster {
 /// The faces of all components that cast, turned to the light.
 inline std::vector<CapFace> casting_faces(const SceneFrame& f, const LightPoint& light) {
   const ShadowCaster caster(f, light, {}, 1);
-  const std::vector<Box> boxes = component_boxes(f);
+  const std::vector<SpaceBox> boxes = component_boxes(f);
   std::vector<CapFace> all;
   std::vector<CapFace> caps;
   for (std::size_t c = 0; c < boxes.size(); ++c) {

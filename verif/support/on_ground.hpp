@@ -11,7 +11,7 @@ namespace kage::verif {
 
 /// A mesh's frame with a ground under it, in the sun, which stands so many degrees high.
 inline SceneFrame on_ground(SceneFrame f, double degrees) {
-  Box box;
+  SpaceBox box;
   for (const glm::dvec3& v : f.vertices) box.add(v);
   const glm::dvec3& low = box.low;
   const glm::dvec3 size = box.high - low;

@@ -26,7 +26,7 @@ TEST_CASE("casters made together are those made one by one, whatever the light's
     for (int k = 0; k < 4; ++k) near.push_back(random_direction(random) * random.real(0, 20));
     const auto together = ShadowCaster::of_points(f, points, near, 1.5);
     REQUIRE(together.size() == points.size());
-    const std::vector<Box> boxes = component_boxes(f);
+    const std::vector<SpaceBox> boxes = component_boxes(f);
     for (std::size_t k = 0; k < points.size(); ++k) {
       const ShadowCaster alone(f, points[k], near, 1.5);
       CHECK(together[k].light().position == points[k].position);
@@ -61,7 +61,7 @@ TEST_CASE("casters made together are those made one by one, whatever the light's
 TEST_CASE("a face seen edge-on by a light casts nothing, one just off it does") {
   SceneFrame f;
   add_solid(f, box_solid(), {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1});
-  const std::vector<Box> boxes = component_boxes(f);
+  const std::vector<SpaceBox> boxes = component_boxes(f);
   CHECK(boxes[0].low == glm::dvec3(-1, -1, -1));
   CHECK(boxes[0].high == glm::dvec3(1, 1, 1));
   const auto lit = [&](double y) {

@@ -107,7 +107,7 @@ void add_volumes(const SceneFrame& f, const ShadowCaster& caster, StencilWay way
   out.volumes.clear();
   for (const glm::dvec3& p : f.vertices) out.places.push_back(single(p));
   ShadowCache fresh;
-  const std::vector<Box> boxes = component_boxes(f);
+  const std::vector<SpaceBox> boxes = component_boxes(f);
   VolumeCaster volumes(f, boxes, 8, VolumeWay::fewest, fresh.data());
   volumes.make(0, caster, [&](const WorldVolume& volume, std::uint32_t) {
     const auto base = static_cast<std::uint32_t>(out.places.size());
