@@ -47,7 +47,7 @@ void check_room(const fs::path& path, const std::string& what_for, std::size_t r
 
 }  // namespace
 
-const ModuleHead& open_module(const std::string& name, const std::string& what_for, std::size_t room) {
+const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room) {
   const fs::path path = find("lib" + name + ".so", what_for);
   check_room(path, what_for, room);
   // It may bind symbols of large libraries, so each only when it is called.
@@ -64,7 +64,7 @@ const ModuleHead& open_module(const std::string& name, const std::string& what_f
   const ModuleHead* const head = function == nullptr ? nullptr : function();
   if (head == nullptr || std::string_view(head->version) != KAGE_VERSION)
     throw Error(fmt::format("{}: is not of kage {}, and {}", path.string(), KAGE_VERSION, what_for));
-  return *head;
+  return head;
 }
 
 }  // namespace kage

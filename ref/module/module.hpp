@@ -19,13 +19,14 @@ struct ModuleHead {
 /// was installed, and returns what its function NAME_table() gives. It stays open. Throws Error that names the file
 /// that is missing and what cannot be done without it. Libraries that start threads end the program where one finds no
 /// memory, so a module is refused unless `room` bytes of address space are free.
-const ModuleHead& open_module(const std::string& name, const std::string& what_for, std::size_t room);
+const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room);
 
 /// The table of a module, opened once.
 template <typename Table>
 const Table& module_table() {
-  static const Table& table = static_cast<const Table&>(open_module(Table::kModule, Table::kWhatFor, Table::room()));
-  return table;
+  static const auto* const table =
+      static_cast<const Table*>(open_module(Table::kModule, Table::kWhatFor, Table::room()));
+  return *table;
 }
 
 }  // namespace kage
