@@ -129,10 +129,11 @@ int run(const CacheCommand& o) {
     if (!o.older_than.empty()) limits.age = age_of(o.older_than);
     if (!o.max_size.empty()) limits.bytes = bytes_of(o.max_size);
     for (CachedModel& m : cache.prune(limits)) gone.push_back(std::move(m));
+    cache.prune_others(limits);
     for (const CachedModel& m : gone) j["models"].push_back(to_json(m));
     const std::vector<CachedModel> left = cache.list();
     j["left"] = {{"models", left.size()}, {"bytes", total(left)}};
-    text = fmt::format("removed {}, {}; {} left, {}\n", counted(gone.size(), "model"), size_text(total(gone)),
+    text = fmt::format("removed {}, {}; {} left, {}", counted(gone.size(), "model"), size_text(total(gone)),
                        left.size(), size_text(total(left)));
   } else {
     for (const CachedModel& m : models) {
@@ -149,8 +150,11 @@ int run(const CacheCommand& o) {
     }
     j["bytes"] = total(models);
     text +=
-        fmt::format("{}: {}, {}\n", cache.folder().string(), counted(models.size(), "model"), size_text(total(models)));
+        fmt::format("{}: {}, {}", cache.folder().string(), counted(models.size(), "model"), size_text(total(models)));
   }
+  const std::uint64_t others = cache.other_bytes();
+  j["other_bytes"] = others;
+  text += fmt::format(", and {} of logs, locks and objects to link\n", size_text(others));
   TempFiles files;
   finish(o, j, files, text);
   return rc;

@@ -197,10 +197,11 @@ static void option_lights(CLI::App& command, Options& options) {
 
 void option_max_fragments(CLI::App& command, Options& options) {
   command
-      .add_option("--max-fragments", options.max_fragments,
-                  fmt::format("refuse a visibility order that would cut its faces into more than N fragments, default "
-                              "{}: faces through one another are cut into more and more (docs/order.md)",
-                              options.max_fragments))
+      .add_option(
+          "--max-fragments", options.max_fragments,
+          "refuse a visibility order that would cut its faces into more than N fragments, default 2000000 or four "
+          "times the faces, whichever is more: faces through one another are cut into more and more "
+          "(docs/order.md)")
       ->check(whole_number())
       ->type_name("N");
 }

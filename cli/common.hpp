@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,9 +98,9 @@ struct Options {
   double alpha = 1;
   bool cull = false;           ///< faces are not drawn if the eye sees the side that their material does not show
   bool allow_outside = false;  ///< files that a scene's file names may lie outside its folder
-  std::uint64_t max_fragments = OrderBuildOptions{}.max_fragments;  ///< that the order of translucent faces may cut
-  int samples = Look{}.samples;                                     ///< of a light that is no point
-  int classes = Look{}.classes;                                     ///< of normals
+  std::optional<std::uint64_t> max_fragments;  ///< that the order of translucent faces may cut; none: order.hpp's
+  int samples = Look{}.samples;                ///< of a light that is no point
+  int classes = Look{}.classes;                ///< of normals
 };
 
 /// As --order has it.

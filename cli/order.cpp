@@ -37,7 +37,7 @@ bool is_tree(const std::string& path) {
 OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) {
   if (is_tree(o.input)) return OrderTree::load(o.input);
   progress.show("reading");
-  const Scene scene = Scene::load(o.input, {1, o.allow_outside});
+  const Scene scene = Scene::load(o.input, {1, o.allow_outside, check_interrupt});
   const OrderMesh mesh = scene::order_mesh(scene.frame(0, scene.frame_count()));
   OrderBuildOptions options = order_build(o, progress, o.input + ": visibility order");
   options.seed = o.seed;
@@ -105,33 +105,36 @@ Json to_json(const OrderTree& tree, const order::Measured& m, const OrderCommand
   return rows;
 }
 
-void print(const OrderTree& tree, const order::Measured& m, const OrderCommand& o, double build_seconds) {
+std::string text_of(const OrderTree& tree, const order::Measured& m, const OrderCommand& o, double build_seconds) {
+  std::string text;
+  const auto line = [&text]<class... Values>(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+  };
   const OrderBuildStats& s = tree.stats();
   const auto per_face = [&](std::uint64_t n) { return ratio(static_cast<double>(n), static_cast<double>(s.faces)); };
   const auto per_node = [&](std::uint64_t n) { return ratio(static_cast<double>(n), static_cast<double>(s.nodes)); };
-  fmt::print("{}: {}, {} ({:.2f} per face), {} ({:.2f} per face), {}, depth {}\n", o.input, counted(s.faces, "face"),
-             counted(s.nodes, "node"), per_face(s.nodes), counted(s.fragments, "fragment"), per_face(s.fragments),
-             counted(s.splits, "split"), s.depth);
-  if (s.flat != 0) fmt::print("{} without area left out\n", counted(s.flat, "polygon"));
-  if (s.bent != 0) fmt::print("{} not plane, cut into triangles\n", counted(s.bent, "polygon"));
+  line("{}: {}, {} ({:.2f} per face), {} ({:.2f} per face), {}, depth {}\n", o.input, counted(s.faces, "face"),
+       counted(s.nodes, "node"), per_face(s.nodes), counted(s.fragments, "fragment"), per_face(s.fragments),
+       counted(s.splits, "split"), s.depth);
+  if (s.flat != 0) line("{} without area left out\n", counted(s.flat, "polygon"));
+  if (s.bent != 0) line("{} not plane, cut into triangles\n", counted(s.bent, "polygon"));
   if (build_seconds > 0)
-    fmt::print("built in {:.2f} s: {} of vertices, {} decided by integers; seed {}\n", build_seconds,
-               counted(s.side_tests, "side test"), s.exact_tests, o.seed);
-  if (m.rows.empty()) return;
-  fmt::print("ways to the order, with their bytes per node, tree included:\n");
+    line("built in {:.2f} s: {} of vertices, {} decided by integers; seed {}\n", build_seconds,
+         counted(s.side_tests, "side test"), s.exact_tests, o.seed);
+  if (m.rows.empty()) return text;
+  line("ways to the order, with their bytes per node, tree included:\n");
   const auto way = [&](const char* name, std::uint64_t bytes, const std::string& what) {
-    fmt::print("  {:<12} {:>6.1f}  {}\n", name, per_node(bytes), what);
+    line("  {:<12} {:>6.1f}  {}\n", name, per_node(bytes), what);
   };
   way("A recursion", m.baseline_a_bytes, fmt::format("over {}, each from the heap", order::BaselineA::kNodeText));
   way("B preorder", m.baseline_b_bytes, "recursion over packed nodes, with a stack of its own");
   way("paper's list", m.list_bytes, "[Tanaka 2005]: a linked list, relinked where the eye has changed sides");
   way("fast way", m.fast_bytes, "kage::order's: an array, moved or made again where the eye has changed sides");
-  fmt::print(
-      "microseconds for an eye step of so many degrees: order alone | with a walk over it; {} steps, median of {}\n",
-      m.rows[0].steps, o.repeats);
-  fmt::print("flips: nodes whose side the eye changed; tested: nodes whose side the fast way looked at\n");
-  fmt::print("{:>7} {:>8} {:>8} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", "degrees", "flips %", "tested %",
-             "A recursion", "B preorder", "paper's list", "fast way", "A / fast", "B / fast", "identical");
+  line("microseconds for an eye step of so many degrees: order alone | with a walk over it; {} steps, median of {}\n",
+       m.rows[0].steps, o.repeats);
+  line("flips: nodes whose side the eye changed; tested: nodes whose side the fast way looked at\n");
+  line("{:>7} {:>8} {:>8} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", "degrees", "flips %", "tested %",
+       "A recursion", "B preorder", "paper's list", "fast way", "A / fast", "B / fast", "identical");
   for (const order::MeasureRow& r : m.rows) {
     const auto pair = [&](const order::WaySeconds& w) {
       return fmt::format("{:.1f} | {:.1f}", w.order / r.steps * 1e6, w.walk / r.steps * 1e6);
@@ -139,10 +142,11 @@ void print(const OrderTree& tree, const order::Measured& m, const OrderCommand& 
     const auto times = [&](const order::WaySeconds& w) {
       return fmt::format("{:.1f} | {:.1f}", ratio(w.order, r.fast.order), ratio(w.walk, r.fast.walk));
     };
-    fmt::print("{:>7} {:>8.3f} {:>8.1f} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", name_of(r.degrees),
-               100 * r.flips_share, 100 * r.tested_share, pair(r.baseline_a), pair(r.baseline_b), pair(r.list),
-               pair(r.fast), times(r.baseline_a), times(r.baseline_b), r.identical ? "yes" : "NO");
+    line("{:>7} {:>8.3f} {:>8.1f} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", name_of(r.degrees),
+         100 * r.flips_share, 100 * r.tested_share, pair(r.baseline_a), pair(r.baseline_b), pair(r.list), pair(r.fast),
+         times(r.baseline_a), times(r.baseline_b), r.identical ? "yes" : "NO");
   }
+  return text;
 }
 
 /// Time a step against the step angle, both logarithmic.
@@ -236,8 +240,7 @@ int run(const OrderCommand& o) {
   const order::Measured measured = order::measure(tree, options);
   progress.clear();
   if (!o.plot.empty()) write_text(files, o.plot, plot(measured, tree, o.input));
-  write_json(o, to_json(tree, measured, o, build_seconds), files);
-  if (!json_only(o)) print(tree, measured, o, build_seconds);
+  finish(o, to_json(tree, measured, o, build_seconds), files, text_of(tree, measured, o, build_seconds));
   for (const order::MeasureRow& r : measured.rows)
     if (!r.identical) return kDifferent;
   return kSame;

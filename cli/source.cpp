@@ -73,7 +73,7 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --samples, --classes: in a stream they are settled", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: in a stream it is settled what is drawn", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
-  if (options.max_fragments != Options{}.max_fragments)
+  if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);
   stream_.emplace(options.input);
@@ -97,7 +97,7 @@ void Source::open_scene(const Options& options) {
 }
 
 void Source::load_scene(const Options& options) {
-  scene_.emplace(Scene::load(options.input, {options.alpha, options.allow_outside}));
+  scene_.emplace(Scene::load(options.input, {options.alpha, options.allow_outside, check_interrupt}));
   name_ = plain_name(scene_->name());
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
@@ -323,12 +323,14 @@ Json ways_of(const StreamFile& file) {
   return list;
 }
 
-void print_notes(const Source& source, std::FILE* to) {
-  for (const std::string& note : source.notes()) fmt::print(to, "{}: {}\n", source.name(), note);
+std::string notes_text(const Source& source) {
+  std::string text;
+  for (const std::string& note : source.notes()) text += fmt::format("{}: {}\n", source.name(), note);
+  return text;
 }
 
 void print_notes(const Source& source, const Options& options) {
-  print_notes(source, json_only(options) ? stderr : stdout);
+  fmt::print(json_only(options) ? stderr : stdout, "{}", notes_text(source));
 }
 
 }  // namespace kage::cli

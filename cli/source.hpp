@@ -108,8 +108,8 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, in
 /// The ways that a stream file holds (Source::ways()), or null.
 Json ways_of(const StreamFile& file);
 
-/// Prints the notes, a line each, once the work is done: a failure says one line and nothing else.
-void print_notes(const Source& source, std::FILE* to);
+/// The notes, a line each. They are told once the work is done: a failure says one line and nothing else.
+std::string notes_text(const Source& source);
 void print_notes(const Source& source, const Options& options);  // where --json leaves room for them
 
 }  // namespace kage::cli

@@ -46,7 +46,8 @@ int run(const Options& o) {
   origin["scene"] = source.name();
   origin["polyhedra"] = source.ways();
   if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
-  writer.finish();
+  TempFiles files;
+  writer.finish(files);
   Json j;
   j["file"] = piped(o) ? Json(nullptr) : Json(o.out);
   j["frames"] = source.frames();
@@ -57,13 +58,17 @@ int run(const Options& o) {
   j["config"] = to_json(config);
   j["degraded"] = source.degraded();
   j["notes"] = source.notes();
-  write_json(o, j);
-  std::FILE* const said = piped(o) || json_only(o) ? stderr : stdout;
-  print_notes(source, said);
-  if (json_only(o)) return kSame;
-  fmt::print(said, "{}: {}, {} over {}{}, {}\n", piped(o) ? "standard output" : o.out,
-             counted(source.frames(), "frame"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
-             and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), counted(counts.words, "word"));
+  const std::string text = fmt::format(
+      "{}{}: {}, {} over {}{}, {}\n", notes_text(source), piped(o) ? "standard output" : o.out,
+      counted(source.frames(), "frame"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
+      and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), counted(counts.words, "word"));
+  if (piped(o)) {
+    finish(o, j, files, "");
+    say(text);
+    return kSame;
+  }
+  if (json_only(o)) print_notes(source, o);
+  finish(o, j, files, text);
   return kSame;
 }
 

@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <string>
@@ -22,6 +24,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kLockName = ".gitignore";
 constexpr std::string_view kPrefix = ".kage-";
+
+/// What the lock's file holds: for git, that nothing here is to be added; for a sweep, that the folder is one of these.
+constexpr std::string_view kMark = "*\n# files that kage has not finished\n";
 
 int open_lock(const fs::path& folder, int flags) {
   return open((folder / kLockName).c_str(), flags | O_RDWR | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -47,6 +52,18 @@ void remove_locked(const fs::path& folder) {
   (void)rmdir(folder.c_str());
 }
 
+/// Whether the folder whose lock is held was made here: by the mark, or, where its process died before that was
+/// written, because there is nothing in it but an empty lock. A person may have a folder of such a name too.
+bool is_ours(int lock, const fs::path& folder) {
+  std::array<char, kMark.size() + 1> text{};
+  const ssize_t size = pread(lock, text.data(), text.size(), 0);
+  if (size < 0) return false;
+  if (size > 0) return std::string_view(text.data(), static_cast<std::size_t>(size)) == kMark;
+  std::error_code ec;
+  const auto entries = std::distance(fs::directory_iterator(folder, ec), fs::directory_iterator());
+  return !ec && entries == 1;
+}
+
 /// Makes the folder `path` with its lock; -1 with errno set if it cannot. EEXIST: the name is taken.
 int make(const fs::path& path) {
   if (mkdir(path.c_str(), 0700) != 0) return -1;
@@ -55,7 +72,8 @@ int make(const fs::path& path) {
   // Another process, which sweeps, has found the folder before it was locked: that process removes it.
   const bool swept = error == EWOULDBLOCK || error == ESTALE;
   // A file system without locks, as some that reach over a network: the folder serves without one.
-  if (lock >= 0 && !swept) error = write(lock, "*\n", 2) == 2 ? 0 : errno;
+  if (lock >= 0 && !swept)
+    error = write(lock, kMark.data(), kMark.size()) == static_cast<ssize_t>(kMark.size()) ? 0 : errno;
   if (error == 0) return lock;
   if (!swept) remove_locked(path);
   if (lock >= 0) (void)close(lock);
@@ -113,7 +131,7 @@ void HiddenFolder::sweep(const fs::path& parent) {
         st.st_uid != geteuid())
       continue;
     if (const int lock = open_lock(folder, 0); lock >= 0) {
-      if (take(lock) == 0) remove_locked(folder);
+      if (take(lock) == 0 && is_ours(lock, folder)) remove_locked(folder);
       (void)close(lock);
     } else if (errno == ENOENT) {
       (void)rmdir(folder.c_str());  // its process died before it had a lock: the folder is empty

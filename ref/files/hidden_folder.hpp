@@ -12,7 +12,8 @@ namespace kage {
 ///
 /// A process that is killed leaves it. Therefore every live process holds a lock on the file `.gitignore` in its hidden
 /// folder, and whoever makes a hidden folder first removes those beside it whose lock nobody holds. The kernel releases
-/// the lock of a dead process, whatever has its number by then. That file holds `*`, so that git adds no leftover.
+/// the lock of a dead process, whatever has its number by then. That file holds `*`, so that git adds no leftover, and
+/// a comment by which a sweep knows that the folder is one of these: other folders of such a name stay.
 class HiddenFolder {
  public:
   /// Makes one in `parent`, which must be there. Throws std::system_error if it cannot.

@@ -4,6 +4,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -13,8 +15,8 @@
 #include "kage/error.hpp"
 
 // All are set by CMake.
-#ifndef KAGE_VERSION
-#define KAGE_VERSION ""
+#ifndef KAGE_MODULE_VERSION
+#define KAGE_MODULE_VERSION ""
 #endif
 #ifndef KAGE_BUILD_MODULE_DIR
 #define KAGE_BUILD_MODULE_DIR ""
@@ -28,11 +30,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether nobody but this user, root, and who owns the program could have put the file there: a folder that a build
+/// had may be somebody else's by now.
+bool is_ours(const fs::path& file) {
+  struct stat own {};
+  const bool known = stat("/proc/self/exe", &own) == 0;
+  for (const fs::path& path : {file, file.parent_path()}) {
+    struct stat s {};
+    if (stat(path.c_str(), &s) != 0 || (s.st_mode & S_IWOTH) != 0) return false;
+    if (s.st_uid != geteuid() && s.st_uid != 0 && !(known && s.st_uid == own.st_uid)) return false;
+  }
+  return true;
+}
+
 fs::path find(const std::string& file, const std::string& what_for) {
   if (const char* env = std::getenv("KAGE_MODULE_DIR"); env != nullptr && *env != '\0') return fs::path(env) / file;
-  std::error_code ec;
   for (const char* folder : {KAGE_BUILD_MODULE_DIR, KAGE_INSTALL_MODULE_DIR})
-    if (*folder != '\0' && fs::exists(fs::path(folder) / file, ec)) return fs::path(folder) / file;
+    if (*folder != '\0' && is_ours(fs::path(folder) / file)) return fs::path(folder) / file;
   throw Error(fmt::format("{}: not in {} or {}, and {}: build it, or set KAGE_MODULE_DIR", file, KAGE_BUILD_MODULE_DIR,
                           KAGE_INSTALL_MODULE_DIR, what_for));
 }
@@ -62,8 +76,8 @@ const ModuleHead* open_module(const std::string& name, const std::string& what_f
   using Function = const ModuleHead* (*)();
   const auto function = reinterpret_cast<Function>(dlsym(handle, (name + "_table").c_str()));
   const ModuleHead* const head = function == nullptr ? nullptr : function();
-  if (head == nullptr || std::string_view(head->version) != KAGE_VERSION)
-    throw Error(fmt::format("{}: is not of kage {}, and {}", path.string(), KAGE_VERSION, what_for));
+  if (head == nullptr || std::string_view(head->version) != KAGE_MODULE_VERSION)
+    throw Error(fmt::format("{}: is not of kage {}, and {}", path.string(), KAGE_MODULE_VERSION, what_for));
   return head;
 }
 

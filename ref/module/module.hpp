@@ -10,15 +10,17 @@
 
 namespace kage {
 
-/// What every table begins with. A module of another build is refused.
+/// What every table begins with: kage's version and a checksum of what both sides take a table to be (CMake makes it of
+/// the headers). A module of another kage is refused.
 struct ModuleHead {
   const char* version;
 };
 
 /// Opens libNAME.so from $KAGE_MODULE_DIR if that is set, else from where it was built, else from lib/kage of where it
-/// was installed, and returns what its function NAME_table() gives. It stays open. Throws Error that names the file
-/// that is missing and what cannot be done without it. Libraries that start threads end the program where one finds no
-/// memory, so a module is refused unless `room` bytes of address space are free.
+/// was installed, unless others than this user and root may write there, and returns what its function NAME_table()
+/// gives. It stays open. Throws Error that names the file that is missing and what cannot be done without it. Libraries
+/// that start threads end the program where one finds no memory, so a module is refused unless `room` bytes of address
+/// space are free.
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room);
 
 /// The table of a module, opened once.

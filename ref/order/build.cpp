@@ -24,6 +24,9 @@ namespace {
 /// Sets at least this large may go to another thread.
 constexpr std::size_t kTask = 1024;
 
+/// The least limit where none is given.
+constexpr std::uint64_t kFragments = 2'000'000;
+
 /// Fragments that are put on a side between two calls of OrderBuildOptions::progress: some milliseconds.
 constexpr std::uint64_t kReport = 4096;
 
@@ -44,7 +47,11 @@ struct Set {
 class Builder {
  public:
   Builder(const Faces& faces, const OrderBuildOptions& options, OrderBuildStats& stats)
-      : faces_(faces), options_(options), stats_(stats), total_(faces.faces.size()) {}
+      : faces_(faces),
+        options_(options),
+        stats_(stats),
+        total_(faces.faces.size()),
+        limit_(options.max_fragments.value_or(std::max<std::uint64_t>(kFragments, 4 * total_))) {}
 
   BuildTree run() {
     check_limit(total_);
@@ -142,9 +149,9 @@ class Builder {
   }
 
   void check_limit(std::uint64_t fragments) const {
-    if (fragments > options_.max_fragments)
+    if (fragments > limit_)
       throw TooManyFragments(
-          fmt::format("to be put in order, polygons would be cut into more than {} fragments", options_.max_fragments));
+          fmt::format("to be put in order, polygons would be cut into more than {} fragments", limit_));
   }
 
   void report(Done& done) {
@@ -158,6 +165,7 @@ class Builder {
   const OrderBuildOptions& options_;
   OrderBuildStats& stats_;
   std::atomic<std::uint64_t> total_;
+  std::uint64_t limit_;
   std::mutex mutex_;
   BuildTree tree_;
   double share_ = 0;

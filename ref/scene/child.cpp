@@ -15,6 +15,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <mutex>
 #include <new>
@@ -147,7 +148,7 @@ void answer(int fd, std::uint8_t kind, std::string_view text) {
 
 enum class Ending { kClosed, kLate, kLarge };
 
-Ending receive(int fd, const ImportLimits& limits, Bytes& bytes) {
+Ending receive(int fd, const ImportLimits& limits, const std::function<void()>& wait, Bytes& bytes) {
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(limits.seconds);
   const std::uint64_t most = static_cast<std::uint64_t>(limits.mib) << 20;
   Bytes chunk(std::size_t{1} << 16);
@@ -155,8 +156,9 @@ Ending receive(int fd, const ImportLimits& limits, Bytes& bytes) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0) return Ending::kLate;
     pollfd p{fd, POLLIN, 0};
-    const int ready = poll(&p, 1, static_cast<int>(std::min<std::int64_t>(left, 1000)));
-    if (ready <= 0) continue;  // a signal, or a second gone
+    const int ready = poll(&p, 1, static_cast<int>(std::min<std::int64_t>(left, 100)));
+    if (wait) wait();
+    if (ready <= 0) continue;  // a signal, or a tenth of a second gone
     const ssize_t n = read(fd, chunk.data(), chunk.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return Ending::kClosed;
@@ -183,7 +185,8 @@ ImportLimits ImportLimits::from_environment() {
   return limits;
 }
 
-Bytes run_in_child(const std::string& name, const ImportLimits& limits, const std::function<Bytes()>& work) {
+Bytes run_in_child(const std::string& name, const ImportLimits& limits, const std::function<Bytes()>& work,
+                   const std::function<void()>& wait) {
   const std::string no_time = name + ": import took longer than " + std::to_string(limits.seconds) + " s";
   const std::string no_memory = name + ": import needs more than " + std::to_string(limits.mib) + " MiB" +
                                 (limited_from_outside() ? ", or than ulimit -v leaves" : "");
@@ -208,9 +211,12 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   lock.unlock();
   Bytes bytes;
   Ending ending = Ending::kLarge;
+  std::exception_ptr stopped;
   try {
-    ending = receive(pipe_ends[0], limits, bytes);
+    ending = receive(pipe_ends[0], limits, wait, bytes);
   } catch (const std::bad_alloc&) {  // ours: the scene does not fit
+  } catch (...) {
+    stopped = std::current_exception();
   }
   close(pipe_ends[0]);
   if (ending != Ending::kClosed) kill(pid, SIGKILL);
@@ -219,6 +225,8 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   do ended = waitpid(pid, &status, 0);
   while (ended < 0 && errno == EINTR);
 
+  if (stopped) std::rethrow_exception(stopped);
+  if (wait) wait();  // the signal that ended the child may have been for both, as Ctrl-C at a terminal is
   if (ending == Ending::kLate) throw Error(no_time);
   if (ending == Ending::kLarge) throw Error(no_memory);
   // Where the program reaps all children itself, the pipe alone tells.
@@ -238,10 +246,11 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   return bytes;
 }
 
-RawScene import_in_child(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
+RawScene import_in_child(const std::filesystem::path& path, const std::string& name, bool allow_outside,
+                         const std::function<void()>& wait) {
   check_file(path, name);
-  const Bytes bytes = run_in_child(name, ImportLimits::from_environment(),
-                                   [&] { return packed(import_file(path, name, allow_outside)); });
+  const Bytes bytes = run_in_child(
+      name, ImportLimits::from_environment(), [&] { return packed(import_file(path, name, allow_outside)); }, wait);
   try {
     return unpacked(bytes);
   } catch (const std::exception& e) {

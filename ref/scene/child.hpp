@@ -26,11 +26,14 @@ struct ImportLimits {
 };
 
 /// import_file in a child process. Its death is an Error, as is a file that is missing, empty, unreadable or no file.
-RawScene import_in_child(const std::filesystem::path& path, const std::string& name, bool allow_outside = false);
+/// `wait` is called several times a second meanwhile; what it throws ends the child and is thrown on.
+RawScene import_in_child(const std::filesystem::path& path, const std::string& name, bool allow_outside = false,
+                         const std::function<void()>& wait = {});
 
 /// Run `work` in a child process and return what it returned; what it threw as Error is thrown here. Any other end is
 /// an Error that names `name` and the cause.
 std::vector<std::uint8_t> run_in_child(const std::string& name, const ImportLimits& limits,
-                                       const std::function<std::vector<std::uint8_t>()>& work);
+                                       const std::function<std::vector<std::uint8_t>()>& work,
+                                       const std::function<void()>& wait = {});
 
 }  // namespace kage::scene

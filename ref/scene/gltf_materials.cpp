@@ -55,9 +55,10 @@ void GltfMaterials::read_emission(const GltfFile& file, const Json& json, Materi
 
 void GltfMaterials::read_gloss(const GltfFile& file, const Json& json, Material& m, const std::string& here) {
   const Json& metal = file.object(json, "pbrMetallicRoughness", here);
-  const double metalness = file.number(metal, "metallicFactor", here).value_or(0);
   const double roughness = file.number(metal, "roughnessFactor", here).value_or(1);
   const Json& gloss = gloss_of(file, json, here);
+  // The format's own default is metal, but for a material that says it in the other way.
+  const double metalness = file.number(metal, "metallicFactor", here).value_or(gloss.empty() ? 1 : 0);
   const double glossiness = file.number(gloss, "glossinessFactor", here).value_or(0);
   const std::vector<double> specular = file.numbers(gloss, "specularFactor", 3, here);
   const bool shines =

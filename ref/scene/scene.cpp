@@ -200,7 +200,7 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
     for (const std::string& name : builtin) names += (names.empty() ? "" : ", ") + name;
     throw Error(shown + ": no such file, and no built-in scene of that name (there are " + names + ")");
   }
-  data->raw = scene::import_in_child(path, shown, options.allow_outside);
+  data->raw = scene::import_in_child(path, shown, options.allow_outside, options.wait);
   for (scene::RawMesh& mesh : data->raw.meshes)
     for (scene::RawPrimitive& p : mesh.primitives) p.alpha *= options.alpha;
   try {

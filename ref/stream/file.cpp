@@ -65,7 +65,7 @@ struct StreamFileWriter::Data {
       if (device < 0) fail_write(name, errno);
       out = OutputFile::unnamed(name);
     } else {
-      file.emplace(path);
+      file = std::make_unique<TempFile>(path);
       out = std::make_unique<OutputFile>(file->temp(), name);
     }
   }
@@ -111,13 +111,8 @@ struct StreamFileWriter::Data {
     end_section();
   }
 
-  void finish() {
-    out->close();
-    if (file) file->commit();
-  }
-
   std::string name;
-  std::optional<TempFile> file;     // unless it goes to a device
+  std::unique_ptr<TempFile> file;   // unless it goes to a device
   std::unique_ptr<OutputFile> out;  // the file, or the section at hand for a device, which knows no positions
   int device = -1;
   int own_device = -1;
@@ -160,12 +155,19 @@ void StreamFileWriter::frame(std::span<const std::uint32_t> w) {
 
 void StreamFileWriter::origin(const std::string& json) { data_->section("ORIG", json.data(), json.size()); }
 
-void StreamFileWriter::finish() {
+void StreamFileWriter::finish(TempFiles& files) {
   std::array<char, 12> payload{};
   std::memcpy(payload.data(), &data_->frames, 8);
   std::memcpy(payload.data() + 8, &data_->headers_crc, 4);
   data_->section("DONE", payload.data(), payload.size());
-  data_->finish();
+  data_->out->close();
+  if (data_->file) files.add(std::move(data_->file));
+}
+
+void StreamFileWriter::finish() {
+  TempFiles files;
+  finish(files);
+  files.commit();
 }
 
 // ---- reading

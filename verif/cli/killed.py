@@ -180,6 +180,17 @@ def builds():
     return early, left
 
 
+def foreign():
+    """A person's folder of such a name stays."""
+    mine = HERE / "own" / ".kage-2024"
+    (mine / "notes").mkdir(parents=True)
+    (mine / ".gitignore").write_text("*.o\n")
+    (mine / "notes/a.txt").write_text("mine")
+    run("render", "courtyard", "--size", "32x24", "--frames", 1, "--out", mine.parent)
+    if not (mine / "notes/a.txt").exists():
+        fail("a folder that kage has not made is gone")
+
+
 def imports():
     """A mesh's import, which is a child of its own."""
     lines = [f"v {i % 300} {i // 300} {i % 7}" for i in range(90000)]
@@ -198,8 +209,12 @@ def signals():
     pipe = HERE / "pipe"  # which nobody reads
     os.mkfifo(pipe)
     run("stream", "courtyard", "--size", "32x24", "--frames", 1, "--out", "s.kage")
+    wide = 1000  # an import of some ten seconds
+    with open("larger.obj", "w") as f:
+        f.writelines(f"v {i % wide} {i // wide} {i % 7}\n" for i in range(wide * wide))
+        f.writelines(f"f {i + 1} {i + 2} {i + wide + 1}\n" for i in range(wide * (wide - 1) - 1))
     waits = {"render": ("render", "courtyard", "--size", "1280x960", "--frames", 500, "--out", "many"),
-             "pipe": ("info", "s.kage", "--json", pipe), "build": ("model", "default")}
+             "pipe": ("info", "s.kage", "--json", pipe), "import": ("info", "larger.obj"), "build": ("model", "default")}
     for what, arguments in waits.items():
         for number, times in ((signal.SIGINT, 1), (signal.SIGTERM, 1), (signal.SIGHUP, 1), (signal.SIGTERM, 2)):
             run_ = start(*arguments, XDG_CACHE_HOME=str(HERE / "cache2"))
@@ -229,6 +244,7 @@ def signals():
 
 random.seed(SEED)
 counts = [step() for step in (renders, cosims, blessings, builds)]
+foreign()
 imports()
 signals()
 if any(early < 3 for early, _ in counts) or sum(left for _, left in counts) < 5:

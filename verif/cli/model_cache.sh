@@ -16,6 +16,8 @@ json c.json "j['folder'] == '$models' and j['models'] == [] and j['bytes'] == 0"
 [ "$(stat -c %a cache/kage cache/kage/models | sort -u)" = 700 ] || fail "others may look into a new cache"
 
 umask 000 # as careless as can be: what kage makes is still nobody else's to write to
+expect 0 env XDG_CACHE_HOME="$PWD/made/by/kage" "$kage" cache
+[ -z "$(find made -perm /022)" ] || fail "others may write to: $(find made -perm /022)"
 cosim 0
 umask 022
 model=$(echo "$models"/*.so) manifest=${model%.so}.json
@@ -65,7 +67,9 @@ mkfifo "$model.fifo" && mv "$model" kept.so && mv "$model.fifo" "$model" && untr
 rm "$model"
 echo precious >precious
 ln -sf "$PWD/precious" "${model%.so}.log"
-cosim 0 # the log of a build that failed would replace the link
+mkdir tools && printf '#!/bin/sh\nexit 1\n' >tools/make && chmod +x tools/make
+expect 2 env PATH="$PWD/tools:$PATH" "$kage" cosim s.kage --no-report --out out # its log would replace the link
+grep -q 'RTL model: the build failed' "$temp/stderr" || fail "$(cat "$temp/stderr")"
 [ "$(cat precious)" = precious ] || fail "a link was followed"
 rm "${model%.so}.log" && mv kept.so "$model"
 chmod 777 cache/kage/verilator && untrusted "cache/kage/verilator: others may write to it"
@@ -92,10 +96,21 @@ expect 0 "$kage" cache prune --older-than 1h --max-size 1G
 grep -q "removed 0 models" "$temp/stdout" || fail "a young small model is gone: $(cat "$temp/stdout")"
 touch -d '2 days ago' "$model"
 expect 0 "$kage" cache prune --older-than 3d
+expect 0 "$kage" cache prune --older-than 120000d # more nanoseconds than 64 bits hold
 [ -f "$model" ] || fail "it is two days old, and models of three days were to go"
 expect 0 "$kage" cache prune --older-than 1d --json p.json
 json p.json "len(j['models']) == 1 and j['left'] == {'models': 0, 'bytes': 0}"
 [ -z "$(find "$models" -type f)" ] || fail "prune left: $(find "$models" -type f)"
+# What belongs to no model is counted and goes too.
+echo "a build that failed" >"$models/gone.log" && : >"$models/gone.lock" && touch -d '400 days ago' "$models"/gone.*
+touch -d '400 days ago' cache/kage/verilator/*/*
+expect 0 "$kage" cache --json c.json
+json c.json "j['other_bytes'] > 100000"
+expect 0 "$kage" cache prune --older-than 500d
+[ -f "$models/gone.log" ] || fail "a log of 400 days is gone, and older ones were to go"
+expect 0 "$kage" cache prune --older-than 300d --json p.json
+json p.json "j['other_bytes'] == 0"
+[ -z "$(find "$models" cache/kage/verilator -mindepth 1)" ] || fail "prune left: $(find "$models" cache/kage/verilator)"
 cp -a whole/. "$models/"
 expect 0 "$kage" cache prune --max-size 1K
 [ -z "$(find "$models" -name '*.so')" ] || fail "a model larger than a kibibyte is there"

@@ -80,6 +80,14 @@ for command in "info heard.kage" "info heard.kage --json -" "cosim heard.kage --
   "$kage" $command >/dev/full 2>stderr || rc=$?
   [ $rc = 2 ] && grep -q '^kage: standard output: cannot be written' stderr || fail "$command >/dev/full: exit $rc, $(cat stderr)"
 done
+# A run that cannot say its result leaves what was there before.
+mkdir kept && echo old >kept/heard_0000.png && cp kept/heard_0000.png kept/s.kage && cp kept/heard_0000.png kept/t.bsp
+for command in "render heard.kage --out kept" "stream courtyard --size 32x24 --frames 1 --out kept/s.kage" \
+  "order $source/verif/meshes/sixteen_faces.obj --eyes 2 --repeats 1 --save kept/t.bsp"; do
+  # shellcheck disable=SC2086
+  trouble "standard output: cannot be written" sh -c 'exec "$@" >/dev/full' sh "$kage" $command
+done
+[ "$(cat kept/*)" = "$(printf 'old\nold\nold')" ] || fail "a run that failed left: $(ls -l kept)"
 set +o pipefail
 "$kage" info heard.kage --tokens 0 2>stderr | head -n 1 >first
 set -o pipefail

@@ -176,7 +176,8 @@ std::vector<CachedModel> ModelCache::prune(const CacheLimits& limits) const {
   std::uint64_t kept = 0;
   bool full = false;
   for (CachedModel& model : list()) {
-    const bool old = limits.age && now - model.last_used > *limits.age;
+    const bool old =
+        limits.age && std::chrono::duration_cast<std::chrono::seconds>(now - model.last_used) > *limits.age;
     full = full || (limits.bytes && kept + model.bytes > *limits.bytes);
     if ((old || full) && remove(model.key))
       gone.push_back(std::move(model));
@@ -184,6 +185,48 @@ std::vector<CachedModel> ModelCache::prune(const CacheLimits& limits) const {
       kept += model.bytes;
   }
   return gone;
+}
+
+std::vector<fs::path> ModelCache::others() const {
+  std::vector<fs::path> all;
+  std::error_code ec;
+  for (const auto& entry : fs::directory_iterator(folder_, ec))
+    if (entry.is_regular_file(ec) && !fs::exists(library(entry.path().stem().string()), ec))
+      all.push_back(entry.path());
+  for (const auto& entry : fs::recursive_directory_iterator(folder_.parent_path() / "verilator", ec))
+    if (entry.is_regular_file(ec) && !entry.is_symlink(ec)) all.push_back(entry.path());
+  return all;
+}
+
+std::uint64_t ModelCache::other_bytes() const {
+  std::uint64_t bytes = 0;
+  for (const fs::path& file : others()) {
+    std::error_code ec;
+    const std::uintmax_t size = fs::file_size(file, ec);
+    if (!ec) bytes += size;
+  }
+  return bytes;
+}
+
+void ModelCache::prune_others(const CacheLimits& limits) const {
+  std::uint64_t bytes = other_bytes();
+  for (const CachedModel& model : list()) bytes += model.bytes;
+  const bool full = limits.bytes && bytes > *limits.bytes;
+  const auto now = fs::file_time_type::clock::now();
+  for (const fs::path& file : others()) {
+    std::error_code ec;
+    const auto age = std::chrono::duration_cast<std::chrono::seconds>(now - fs::last_write_time(file, ec));
+    if (ec || !(full || (limits.age && age > *limits.age))) continue;
+    // A lock, and the log beside it, may be a build's that goes on.
+    if (file.parent_path() == folder_)
+      (void)remove(file.stem().string());
+    else
+      fs::remove(file, ec);
+  }
+  for (const auto& entry : fs::directory_iterator(folder_.parent_path() / "verilator")) {
+    std::error_code ec;
+    if (entry.is_directory(ec) && fs::is_empty(entry.path(), ec)) fs::remove(entry.path(), ec);
+  }
 }
 
 }  // namespace kage::cosim

@@ -56,10 +56,18 @@ class ModelCache {
   /// Removes one; false if another program is building it just now.
   [[nodiscard]] bool remove(const std::string& key) const;
 
+  /// Bytes of what belongs to no model: logs of builds that failed, locks, and objects that models are linked with.
+  [[nodiscard]] std::uint64_t other_bytes() const;
+
+  /// Removes of those what is as old as `limits` says, or, where the models leave no room, all. What is needed is made
+  /// again.
+  void prune_others(const CacheLimits& limits) const;
+
   /// Removes what is beyond the limits; returns it.
   [[nodiscard]] std::vector<CachedModel> prune(const CacheLimits& limits) const;
 
  private:
+  [[nodiscard]] std::vector<std::filesystem::path> others() const;
   [[nodiscard]] std::filesystem::path manifest(const std::string& key) const { return folder_ / (key + ".json"); }
 
   std::filesystem::path folder_;

@@ -55,12 +55,22 @@ void check_way_to(const fs::path& path) {
   }
 }
 
+/// Makes what is missing of the way, for this user alone: whatever the umask is, the folder will do.
+void make_folders(const fs::path& path) {
+  fs::path way;
+  for (const fs::path& part : path) {
+    way /= part;
+    struct stat status {};
+    if (stat(way.c_str(), &status) == 0) continue;
+    if (mkdir(way.c_str(), 0700) != 0 && errno != EEXIST)
+      throw Error(fmt::format("{}: cannot be made: {}", way.string(), std::strerror(errno)));
+  }
+}
+
 }  // namespace
 
 fs::path own_folder(const fs::path& base, std::initializer_list<const char*> inner) {
-  std::error_code ec;
-  fs::create_directories(base, ec);
-  if (ec) throw Error(fmt::format("{}: cannot be made: {}", base.string(), ec.message()));
+  make_folders(base);
   check_way_to(fs::absolute(base).lexically_normal());
   check_way_to(fs::canonical(base));
   fs::path folder = base;

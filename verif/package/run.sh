@@ -54,11 +54,16 @@ shows docs/order.md verif/package/order.cpp
 mv "$temp/prefix" "$temp/moved"
 if [ -x "$temp/moved/bin/kage" ]; then
   cd "$temp"
+  # Its own modules, though those of the build are there too.
+  for module in pictures meshes; do
+    [ -n "$(find moved -path "*/kage/libkage_$module.so")" ] || { echo "not installed: libkage_$module.so" >&2; exit 1; }
+  done
   env -u KAGE_DATA_DIR moved/bin/kage cosim courtyard --size 64x48 --frames 1 --out pictures
   [ -s pictures/report.html ] || { echo "no report of an installed kage" >&2; exit 1; }
   env -u KAGE_DATA_DIR moved/bin/kage stream courtyard --size 64x48 --frames 1 --out courtyard.kage
   build/golden_consumer courtyard.kage >courtyard.ppm
   moved/bin/kage stream courtyard --size 64x48 --frames 1 --config default --out default.kage
   LD_LIBRARY_PATH=$(dirname "$(find moved -name libkage_golden.so)") build/c_consumer default.kage
-  moved/bin/kage diff courtyard.ppm pictures/courtyard_0000.png
+  LD_DEBUG=files LD_DEBUG_OUTPUT=$temp/bound moved/bin/kage diff courtyard.ppm pictures/courtyard_0000.png
+  grep -q "calling init: $temp/moved/.*/libkage_pictures.so" "$temp"/bound.* || { echo "an installed kage opens another's module" >&2; exit 1; }
 fi

@@ -15,6 +15,7 @@
 #include <functional>
 #include <iosfwd>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,8 +42,10 @@ struct OrderMesh {
 
 struct OrderBuildOptions {
   std::uint64_t seed = 1;
-  int threads = 0;                          ///< 0: one per processor. The tree does not depend on it
-  std::uint64_t max_fragments = 5'000'000;  ///< TooManyFragments past it; a build takes up to 2 kB for each
+  int threads = 0;  ///< 0: one per processor. The tree does not depend on it
+  /// TooManyFragments past it. A build takes up to 2 kB for each, so the default is 2,000,000 (4 GB), or four times the
+  /// faces where those are more: few of them will be cut then.
+  std::optional<std::uint64_t> max_fragments = {};
   /// Called now and then, several times a second, with the share of the work that is done, 0 .. 1, which never gets
   /// less; never from two threads at once. What it throws ends the build and reaches the caller. The share is an
   /// estimate: how much a set of fragments will still be cut is not known before it is.

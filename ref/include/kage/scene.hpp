@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
@@ -135,6 +136,8 @@ struct SceneContents {
 struct SceneOptions {
   double alpha = 1;  ///< 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent
   bool allow_outside = false;  ///< files that the scene's file names (buffers, materials) may lie outside its folder
+  /// Called several times a second while the file is imported; what it throws ends that and is thrown on.
+  std::function<void()> wait = {};
 };
 
 /// A scene loaded from a file.

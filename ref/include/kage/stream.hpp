@@ -150,6 +150,8 @@ class FrameChecker {
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header = nullptr);
 
+class TempFiles;
+
 /// Writes a stream file. A file appears under its name only when finish() has succeeded; otherwise what was there
 /// stays. A pipe or a device gets each section once it is whole, a frame at a time: what it got of a stream that failed
 /// lacks the last section, DONE, so that no reader takes it for whole. Every error of writing is thrown as Error.
@@ -173,7 +175,9 @@ class StreamFileWriter {
   /// Where the frames come from, as JSON text (docs/stream.md, Files): once, after the last frame. Cores ignore it.
   void origin(const std::string& json);
 
+  /// Ends the file, which gets its name now, or, the second way, with the others of `files` (ref/files/temp_file.hpp).
   void finish();
+  void finish(TempFiles& files);
 
  private:
   struct Data;
