@@ -7,6 +7,32 @@
 #include "kage/paths.hpp"
 
 namespace kage::cli {
+namespace {
+
+/// The folder rtl/ nearest to the current folder, in it or in one above it; empty if there is none.
+std::filesystem::path rtl_at_hand() {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  for (fs::path folder = fs::current_path(ec); !folder.empty(); folder = folder.parent_path()) {
+    if (fs::exists(folder / "rtl/kage_top.sv", ec)) return folder / "rtl";
+    if (folder == folder.root_path()) break;
+  }
+  return {};
+}
+
+/// Says, once in a run, that the RTL is not that of the tree in which the user stands: a change there would go unseen.
+void tell_other_rtl() {
+  static bool told = false;
+  const std::filesystem::path here = rtl_at_hand();
+  if (told || here.empty()) return;
+  told = true;
+  const std::string used = rtl_directory();
+  if (resolved((here / "kage_top.sv").string()) == resolved(used + "/kage_top.sv")) return;
+  say(fmt::format("kage: note: the RTL is that of {}, not of {} (KAGE_DATA_DIR={} takes the latter)\n", used,
+                  here.string(), quoted(here.parent_path().string())));
+}
+
+}  // namespace
 
 void option_rtl(CLI::App& command, RtlRun& rtl) {
   command
@@ -31,6 +57,7 @@ void refuse_rtl(const RtlRun& rtl, const std::string& why) {
 }
 
 cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool traced) {
+  tell_other_rtl();
   Progress progress;
   const std::string what =
       fmt::format("the RTL model of configuration {}{}", config.name, traced ? " with monitors" : "");

@@ -28,7 +28,8 @@ void option_rtl(CLI::App& command, RtlRun& rtl);
 /// Throws Error if one of these is given, of a command that runs no RTL this time.
 void refuse_rtl(const RtlRun& rtl, const std::string& why);
 
-/// The model of a configuration; says how long it takes where it has to be built.
+/// The model of a configuration; says how long it takes where it has to be built. Notes on standard error, once in a
+/// run, if the current folder is of a tree with another rtl/ than the model's.
 cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool traced = false);
 
 /// Where the RTL is that models are built of.

@@ -19,6 +19,22 @@ patch -s --no-backup-if-mismatch -R -p1 -d data -i "$source/verif/faults/wrong_c
 expect 0 "$kage" cosim s.kage --no-report --out out
 [ "$(find cache -name '*.so' | wc -l)" = 1 ] || fail "the sources are as they were, and there are these models: $(find cache -name "*.so")"
 
+# Who stands in a tree with another rtl/ hears, once, that it is not the one in use; who does not hears nothing.
+mkdir -p other/rtl/include
+touch other/rtl/kage_top.sv
+note="kage: note: the RTL is that of $PWD/data/rtl, not of $PWD/other/rtl (KAGE_DATA_DIR=$PWD/other takes the latter)"
+stands() { # FOLDER NOTE COMMAND...: what the command says on standard error, run in FOLDER
+  local folder=$1 said=$2
+  shift 2
+  (cd "$folder" && "$@" >/dev/null 2>"$temp/notes") || fail "in $folder: $* failed: $(cat notes)"
+  [ "$(cat notes)" = "$said" ] || fail "in $folder: $* says '$(cat notes)' on standard error"
+}
+ln -s data linked
+for folder in other other/rtl/include; do stands $folder "$note" "$kage" model "$temp/small.yaml"; done
+stands other "$note" "$kage" cosim "$temp/s.kage" --no-report --out "$temp/out"
+stands other "" "$kage" explain "$temp/s.kage" --pixel 3,3
+for folder in . data data/rtl/include linked/rtl; do stands $folder "" "$kage" model "$temp/small.yaml"; done
+
 # It is also of the tools that it is made by; a compiler may be several words.
 VERILATOR=$PWD/nowhere trouble "verilator: not found" "$kage" cosim s.kage --no-report --out out
 CXX="env c++ -DNOTHING" expect 0 "$kage" cosim s.kage --no-report --out out --json j.json
