@@ -200,6 +200,7 @@ void Importer::read_primitive(const Json& json, RawMesh& mesh, const std::string
   const auto position = file_.integer(attributes, "POSITION", place);
   if (mode < 4 || !position) {
     ++(mode < 4 ? thin_primitives_ : bare_primitives_);
+    file_.pass_over(json);
     return;
   }
   if (!file_.array(json, "targets", place).empty()) ++morphs_;

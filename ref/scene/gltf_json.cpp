@@ -148,6 +148,18 @@ const Json& GltfJson::own_extras(const Json& parent) const {
   return own == nullptr || !own->is_object() ? kNoObject : *own;
 }
 
+void GltfJson::pass_over(const Json& object) const {
+  std::vector<const Json*> waiting{&object};
+  while (!waiting.empty()) {
+    const Json& value = *waiting.back();
+    waiting.pop_back();
+    for (const Json& member : value) {
+      read_.insert(&member);
+      if (member.is_structured()) waiting.push_back(&member);
+    }
+  }
+}
+
 void GltfJson::descend(const Json& value, const std::string& way, bool indexed,
                        std::map<std::string, std::size_t>& found) const {
   if (value.is_object()) unread_of(value, way, found);

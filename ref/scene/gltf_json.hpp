@@ -56,6 +56,9 @@ class GltfJson {
   /// The parent's `extras`.`kage`, or an empty object: other programs' extras may be anything.
   [[nodiscard]] const Json& own_extras(const Json& parent) const;
 
+  /// Counts all that an object holds as read: for one that is ignored as a whole, with a note of its own.
+  void pass_over(const Json& object) const;
+
   /// Keys that nobody has read, of objects that somebody has: how often each, by the array that the object stands in
   /// and the way down to the key, "materials/pbrMetallicRoughness/metallicFactor". Objects that nothing refers to, as a
   /// material that no mesh has, are passed over; so are extras.

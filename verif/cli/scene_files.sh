@@ -76,6 +76,14 @@ quad used.gltf '{"extensionsUsed": ["FOO_bar", "KHR_texture_transform"], "materi
 told "used: 2 extensions are ignored: FOO_bar, KHR_texture_transform" used.gltf
 told "used: 1 key is ignored, which kage does not know: materials/never" used.gltf
 
+# A primitive that is ignored as a whole, of lines or without positions, has one note; none of its keys has another.
+rest='"indices": 1, "material": 0, "never": {"at": [{"all": 1}]}, "targets": [{"POSITION": 0}]'
+for primitive in '"attributes": {"POSITION": 0, "JOINTS_9": 0}, "mode": 1' '"attributes": {"NORMAL": 0, "JOINTS_9": 0}'; do
+  quad part.gltf '{"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}, {'"$primitive, $rest"'}]}]}'
+  told "part: 1 primitive " part.gltf
+  ! grep -q 'does not know' stdout || fail "keys of an ignored primitive are named: $(cat stdout)"
+done
+
 # The camera: zfar, znear, its own shape.
 lens() { quad "$1" '{"cameras": [{"type": "perspective", "perspective": '"$2"'}]}'; }
 lens far.gltf '{"yfov": 0.7, "znear": 0.5, "zfar": 4}'
