@@ -121,6 +121,7 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name, bool all
     : GltfJson(std::move(name)), side_files_(path, allow_outside) {
   Bytes text = read_bytes(path, std::numeric_limits<std::uint64_t>::max());
   if (text.size() >= 4 && std::memcmp(text.data(), "glTF", 4) == 0) {
+    is_binary_ = true;
     if (text.size() < 20) fail("header", "the file ends within it");
     version_2_ = little(text.data() + 4) != 1;
     if (!version_2_) return;

@@ -31,6 +31,7 @@ class GltfFile : public GltfJson {
 
   /// False for glTF 1, whose further content is not looked at.
   [[nodiscard]] bool is_version_2() const { return version_2_; }
+  [[nodiscard]] bool is_binary() const { return is_binary_; }
 
   /// Values of an accessor as floats, normalised integers mapped as glTF says. It has `least` to `most` components:
   /// 1 (SCALAR) to 4 (VEC4).
@@ -55,6 +56,7 @@ class GltfFile : public GltfJson {
 
   SideFiles side_files_;
   bool version_2_ = true;
+  bool is_binary_ = false;
   std::vector<std::uint8_t> binary_;  // the BIN chunk of a .glb
   std::vector<std::optional<std::vector<std::uint8_t>>> buffers_;
 };

@@ -79,6 +79,7 @@ RawScene import_file(const std::filesystem::path& path, const std::string& name,
   if (GltfFile::recognises(path)) {
     GltfFile file(path, name, allow_outside);
     if (file.is_version_2()) return checked(import_gltf(std::move(file)));
+    if (file.is_binary()) throw Error(name + ": binary glTF 1 is not read (glTF 2, and glTF 1 as .gltf, are)");
   }
   return checked(import_assimp(path, name, allow_outside));
 }

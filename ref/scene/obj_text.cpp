@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <streambuf>
 #include <string_view>
 #include <utility>
@@ -24,6 +27,22 @@ std::string_view take_word(std::string_view& rest) {
   const std::string_view word = rest.substr(0, rest.find_first_of(kBlanks));
   rest.remove_prefix(word.size());
   return word;
+}
+
+/// The rest of a statement without the blanks round it: all of it is one name, blanks within it too.
+std::string name_in(std::string_view rest) {
+  rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+  rest.remove_suffix(rest.size() - std::min(rest.find_last_not_of(kBlanks) + 1, rest.size()));
+  return std::string(rest);
+}
+
+/// The number with which a corner, "3/1/2", names its vertex: from 1, or back from the last one, as -1. 0 for a word
+/// that is no number.
+std::int64_t vertex_of(std::string_view word) {
+  std::int64_t value = 0;
+  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc::result_out_of_range) return value;
+  return word.front() == '-' ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max();
 }
 
 bool is_numbers(std::string_view keyword) {
@@ -46,9 +65,11 @@ class Plain {
  public:
   Plain(std::streambuf& in, const std::string& name) : in_(in), name_(name) {}
 
-  std::string run() {
+  ObjText run() {
     while (read_statement()) write_statement();
-    return std::move(out_);
+    for (const Ahead& a : ahead_)
+      if (a.vertex > vertices_) fail_vertex(a.line, a.vertex);
+    return std::move(obj_);
   }
 
  private:
@@ -96,32 +117,66 @@ class Plain {
   void write_statement() {
     std::string_view rest = statement_;
     const std::string_view keyword = take_word(rest);
-    out_ += keyword;
+    obj_.text += keyword;
     if (is_numbers(keyword))
-      write_numbers(rest, keyword == "v");
+      write_numbers(rest, keyword);
+    else if (keyword == "mtllib")
+      write_library(name_in(rest));
     else
-      out_ += rest;
-    out_ += '\n';
+      obj_.text += rest;
+    obj_.text += '\n';
+    if (keyword == "usemtl") obj_.materials.insert(name_in(rest));
   }
 
-  void write_numbers(std::string_view rest, bool vertex) {
+  /// Without blanks behind it, with which Assimp would look for the file.
+  void write_library(std::string file) {
+    obj_.text += " " + file;
+    if (!file.empty() && std::find(obj_.libraries.begin(), obj_.libraries.end(), file) == obj_.libraries.end())
+      obj_.libraries.push_back(std::move(file));
+  }
+
+  void write_numbers(std::string_view rest, std::string_view keyword) {
+    const bool vertex = keyword == "v";
+    const bool corners = keyword == "f" || keyword == "l" || keyword == "p";
     int count = 0;
     for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest), ++count) {
       if (vertex && !begins_number(word)) fail(fmt::format("{} is not a number", one_line(word, 40)));
-      out_ += word.front() == '.' ? " 0" : " ";
-      out_ += word;
+      if (corners) check_corner(word);
+      obj_.text += word.front() == '.' ? " 0" : " ";
+      obj_.text += word;
     }
+    vertices_ += vertex ? 1 : 0;
     if (vertex && count != 3 && count != 4 && count != 6)
       fail(fmt::format("a vertex has 3 numbers, 4 with w or 6 with a colour, not {}", count));
+  }
+
+  /// A vertex may come after the face that names it, so one that is not there yet is looked for at the end. Of those
+  /// only what is above all before it is kept: the first that is not there at the end is among them.
+  void check_corner(std::string_view word) {
+    const std::int64_t vertex = vertex_of(word);
+    if (vertex == 0) fail(fmt::format("{} is no vertex's number", one_line(word, 40)));
+    if (vertex < -vertices_) fail_vertex(at_, vertex);
+    if (vertex > vertices_ && (ahead_.empty() || vertex > ahead_.back().vertex)) ahead_.push_back({at_, vertex});
+  }
+
+  [[noreturn]] void fail_vertex(std::size_t line, std::int64_t vertex) const {
+    throw Error(fmt::format("{}: line {}: vertex {} of {} is named", name_, line, vertex, vertices_));
   }
 
   [[noreturn]] void fail(const std::string& cause) const {
     throw Error(fmt::format("{}: line {}: {}", name_, at_, cause));
   }
 
+  struct Ahead {
+    std::size_t line;
+    std::int64_t vertex;
+  };
+
   std::streambuf& in_;
   const std::string& name_;
-  std::string out_;
+  ObjText obj_;
+  std::vector<Ahead> ahead_;   // vertices that were named before they came, ascending
+  std::int64_t vertices_ = 0;  // so far
   std::string statement_;
   std::size_t lines_ = 0;  // read so far
   std::size_t at_ = 0;     // the statement's first
@@ -129,6 +184,16 @@ class Plain {
 
 }  // namespace
 
-std::string plain_obj(std::istream& in, const std::string& name) { return Plain(*in.rdbuf(), name).run(); }
+ObjText plain_obj(std::istream& in, const std::string& name) { return Plain(*in.rdbuf(), name).run(); }
+
+std::set<std::string> material_names(std::istream& in) {
+  std::set<std::string> names;
+  for (std::string line; std::getline(in, line);) {
+    std::replace(line.begin(), line.end(), '\r', ' ');
+    std::string_view rest = line;
+    if (take_word(rest) == "newmtl") names.insert(name_in(rest));
+  }
+  return names;
+}
 
 }  // namespace kage::scene

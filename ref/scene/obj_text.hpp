@@ -6,13 +6,25 @@
 #pragma once
 
 #include <istream>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace kage::scene {
 
-/// The same statements, one to a line, with neither indent nor continued lines. Those of numbers (v, vt, vn, vp, f, l,
-/// p) have no comment either, and a 0 before a leading point. Throws Error with the line's number where a vertex has
-/// other than 3, 4 or 6 numbers (x y z, w or r g b), or a word that is no number. `name` is for messages.
-std::string plain_obj(std::istream& in, const std::string& name);
+struct ObjText {
+  /// The same statements, one to a line, with neither indent nor continued lines. Those of numbers (v, vt, vn, vp, f,
+  /// l, p) have no comment either, and a 0 before a leading point.
+  std::string text;
+  std::vector<std::string> libraries;  ///< the files that mtllib names, each once, in the file's order
+  std::set<std::string> materials;     ///< the names that usemtl asks for
+};
+
+/// Throws Error with the line's number where a vertex has other than 3, 4 or 6 numbers (x y z, w or r g b), or a word
+/// that is no number, or where a face, line or point names a vertex that is not there. `name` is for messages.
+ObjText plain_obj(std::istream& in, const std::string& name);
+
+/// The names that newmtl gives in the text of a material library.
+std::set<std::string> material_names(std::istream& in);
 
 }  // namespace kage::scene

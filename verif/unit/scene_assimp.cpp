@@ -256,6 +256,37 @@ TEST_CASE("materials of other formats: emission over black is unlit, other emiss
   CHECK_FALSE(test::has_note(gloss, "emits"));
 }
 
+TEST_CASE("materials that an OBJ file names and does not get are told") {
+  const TempDirectory dir;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto load = [&](const std::string& head) { return Scene::load(dir.write("t.obj", head + triangle)); };
+  const auto told = [](const Scene& s) {
+    return test::has_note(s, "no file") || test::has_note(s, "no material") || test::has_note(s, "grey");
+  };
+  (void)dir.write("look.mtl", "# a library\n  newmtl  red\nKd 1 0 0\nnewmtl dark red \r\nKd 0.5 0 0\n");
+  CHECK_FALSE(told(load("")));
+  CHECK_FALSE(told(load("mtllib look.mtl\n")));
+  CHECK_FALSE(told(load("mtllib look.mtl\nusemtl red\n")));
+  CHECK_FALSE(told(load("mtllib look.mtl \nusemtl dark red\n")));
+  CHECK_FALSE(told(load("mtllib look.mtl\nusemtl rde\nusemtl red\n")));  // nothing is drawn of it
+  // The file is not there: it is named once, whatever is asked of it.
+  const Scene lost = load("mtllib nothere.mtl\nmtllib nothere.mtl\nusemtl red\n");
+  CHECK(test::has_note(lost, "no file nothere.mtl: its materials are drawn grey"));
+  CHECK_FALSE(test::has_note(lost, "no material"));
+  CHECK(test::has_note(load("mtllib look.mtl\nusemtl rde\n"), "no material 'rde': drawn grey"));
+  CHECK(test::has_note(load("usemtl red\n"), "no material 'red': drawn grey"));
+  std::string many = "mtllib look.mtl\n";
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g"})
+    many += std::string("usemtl ") + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\n";
+  CHECK(test::has_note(load(many + "usemtl red\n"), "no materials 'a', 'b', 'c', 'd', 'e' and 2 more: drawn grey"));
+  // Assimp looks for one of the scene's own name then.
+  (void)dir.write("t.mtl", "newmtl red\nKd 1 0 0\n");
+  const Scene own = load("mtllib nothere.mtl\nusemtl red\n");
+  CHECK(test::has_note(own, "no file nothere.mtl: the materials are those of t.mtl"));
+  CHECK_FALSE(test::has_note(own, "grey"));
+  CHECK(own.frame(0, 1).shading[0].color == glm::dvec3{1, 0, 0});
+}
+
 TEST_CASE("camera, light and animation of another format") {
   const TempDirectory dir;
   const Scene s = Scene::load(dir.write("scene.dae", kCollada));

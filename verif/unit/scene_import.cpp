@@ -152,7 +152,8 @@ TEST_CASE("files that hold no scene are refused in one line") {
                                        dir.write("cut.ply", "ply\nformat ascii 1.0\nelement vertex"),
                                        dir.write("absurd.off", "OFF\n2000000000 2000000000 0\n0 0 0\n"),
                                        dir.write("fake.glb", "glTF\2\0\0\0"),
-                                       dir.write("name\nwith a break.obj", "?")};
+                                       dir.write("name\nwith a break.obj", "?"),
+                                       dir.write("one.glb", std::string("glTF\1\0\0\0", 8) + std::string(12, ' '))};
   for (const std::string& file : files) {
     const std::string message = refusal(file);
     INFO(message);
@@ -162,7 +163,29 @@ TEST_CASE("files that hold no scene are refused in one line") {
   }
   unsetenv("KAGE_IMPORT_SECONDS");
   CHECK(refusal(files[3]).find("vertex 1: position is not a number") != std::string::npos);
+  CHECK(refusal(files[4]) == files[4] + ": line 3: vertex 3 of 2 is named");
   CHECK(refusal(files[5]).find("no faces: every triangle repeats a vertex") != std::string::npos);
+  CHECK(refusal(files[10]) == files[10] + ": binary glTF 1 is not read (glTF 2, and glTF 1 as .gltf, are)");
+}
+
+TEST_CASE("an OBJ file that names a vertex which is not there is refused with the first such line") {
+  const TempDirectory dir;
+  const auto of = [&](const std::string& text) {
+    const std::string file = dir.write("t.obj", text);
+    const std::string message = refusal(file);
+    return message.rfind(file + ": ", 0) == 0 ? message.substr(file.size() + 2) : message;
+  };
+  const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  CHECK(of("f 1/7 2/1/9 3//5\n" + three) == "loaded");  // before its vertices; 7, 9 and 5 are none
+  CHECK(of(three + "f -1 -2 -3\n") == "loaded");
+  CHECK(of(three + "f 1 2 4\nf 1 2 9\n") == "line 4: vertex 4 of 3 is named");
+  CHECK(of("f 1 2 3\nf 1 2 5\nf 1 2 4\nf 1 2 9\n" + three + "v 1 1 1\n") == "line 2: vertex 5 of 4 is named");
+  CHECK(of(three + "f 1 2 3\n\nl 1 \\\n4\n") == "line 6: vertex 4 of 3 is named");
+  CHECK(of("f -1 -2 -3\n" + three) == "line 1: vertex -1 of 0 is named");
+  CHECK(of(three + "f -1 -2 -4\n") == "line 4: vertex -4 of 3 is named");
+  CHECK(of(three + "f 1 2 99999999999999999999\n") == "line 4: vertex 9223372036854775807 of 3 is named");
+  CHECK(of(three + "f 0 1 2\n") == "line 4: 0 is no vertex's number");
+  CHECK(of(three + "f a 1 2\n") == "line 4: a is no vertex's number");
 }
 
 TEST_CASE("a mesh without any area is refused, one among others is named in a note") {

@@ -7,8 +7,11 @@
 #include <assimp/DefaultIOSystem.h>
 
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "scene/obj_text.hpp"
 #include "scene/side_files.hpp"
 
 namespace kage::scene::mesh_module {
@@ -27,12 +30,18 @@ class AssimpFiles : public Assimp::DefaultIOSystem {
   /// does not exist is no more than missing.
   [[nodiscard]] const std::string& refused() const { return refused_; }
 
+  /// What an OBJ file names and does not get: its material libraries that are not there, and of the names `drawn` those
+  /// that it asks for and no library has.
+  [[nodiscard]] std::vector<std::string> obj_notes(const std::set<std::string>& drawn) const;
+
  private:
   std::string found(const char* name) const;
 
   std::string path_;
   SideFiles side_files_;
-  std::optional<std::string> text_;
+  std::optional<ObjText> obj_;
+  std::set<std::string> opened_;     // libraries of an OBJ file
+  std::set<std::string> materials_;  // of these
   mutable std::string refused_;
 };
 

@@ -43,7 +43,7 @@ Affine affine(const aiMatrix4x4& m) {
 
 class Reader {
  public:
-  Reader(const aiScene& in, const std::string& file) : in_(in), file_(file) {}
+  Reader(const aiScene& in, const AssimpFiles& files, const std::string& file) : in_(in), files_(files), file_(file) {}
 
   RawScene run() {
     walk();
@@ -76,6 +76,7 @@ class Reader {
   }
 
   const aiScene& in_;
+  const AssimpFiles& files_;
   const std::string& file_;
   RawScene out_;
   std::map<std::vector<unsigned>, std::int32_t> mesh_of_;  // meshes that one node draws together
@@ -385,13 +386,16 @@ void Reader::write_notes() {
   std::size_t textures = in_.mNumTextures;  // embedded ones; named ones are counted by the slots that use them
   std::size_t slots = 0;
   std::size_t invisible = 0;
+  std::set<std::string> drawn;  // the names of materials
   for (const unsigned i : materials_) {
     const aiMaterial& m = *in_.mMaterials[i];
     for (int type = aiTextureType_NONE + 1; type <= AI_TEXTURE_TYPE_MAX; ++type)
       slots += m.GetTextureCount(static_cast<aiTextureType>(type));
     ai_real value = 1;
     if (m.Get(AI_MATKEY_OPACITY, value) == AI_SUCCESS && !(value > 0)) ++invisible;
+    drawn.insert(text(m.GetName()));
   }
+  for (std::string& note : files_.obj_notes(drawn)) out_.notes.push_back(std::move(note));
   const auto add = [this](std::size_t count, const char* one, const char* many, const char* rest) {
     if (count > 0) out_.notes.push_back(counted(count, one, many) + rest);
   };
@@ -424,7 +428,7 @@ RawScene read(const std::filesystem::path& path, const std::string& name, bool a
     if (cause.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp turns it into this text
     throw Error(name + ": " + (cause.empty() ? "Assimp cannot read it" : cause));
   }
-  return Reader(*scene, name).run();
+  return Reader(*scene, *files, name).run();
 }
 
 }  // namespace kage::scene::mesh_module
