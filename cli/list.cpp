@@ -11,6 +11,7 @@
 #include "common.hpp"
 #include "cosim/model.hpp"
 #include "kage/config.hpp"
+#include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "kage/scene.hpp"
 
@@ -39,6 +40,15 @@ std::string about_fault(const std::string& name) {
   return line;
 }
 
+/// What a built-in scene shows: its file says it.
+std::string about_scene(const std::string& name) {
+  const std::filesystem::path path = data_directory() / "scenes" / (name + ".gltf");
+  const Json file = Json::parse(read_file(path), nullptr, false);
+  const Json about = file.is_discarded() ? Json() : file.value("/asset/extras/kage/about"_json_pointer, Json());
+  if (!about.is_string()) throw Error(fmt::format("{}: has no asset.extras.kage.about", path.string()));
+  return about.get<std::string>();
+}
+
 int run(const ListCommand& o) {
   check_json(o);
   struct Entry {
@@ -50,10 +60,11 @@ int run(const ListCommand& o) {
     std::string title;
     std::vector<Entry> entries;
   };
-  std::vector<Group> groups{{"scenes", "scenes, for every command that takes one (docs/scenes.md)", {}},
-                            {"configs", "configurations, for --config: parameters that are not at their defaults", {}},
-                            {"faults", "deliberate defects of the RTL, for --fault", {}}};
-  for (const std::string& name : builtin_scenes()) groups[0].entries.push_back({name, ""});
+  std::vector<Group> groups{
+      {"scenes", "scenes, for every command that takes one; scenes/README.md says more of each", {}},
+      {"configs", "configurations, for --config: parameters that are not at their defaults", {}},
+      {"faults", "deliberate defects of the RTL, for --fault", {}}};
+  for (const std::string& name : builtin_scenes()) groups[0].entries.push_back({name, about_scene(name)});
   for (const NamedConfig& named : named_configs()) groups[1].entries.push_back({named.name, differences(named.config)});
   for (const std::string& name : cosim::fault_names()) groups[2].entries.push_back({name, about_fault(name)});
 

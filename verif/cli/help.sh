@@ -32,6 +32,14 @@ diff "$temp/stdout" <(cd "$source/verif/faults" && printf '%s\n' *.patch | sed '
 expect 0 "$kage" list scenes
 diff <(sort "$temp/stdout") <(cd "$source/scenes" && printf '%s\n' *.gltf | sed 's/\.gltf$//' | sort) || fail "list scenes is not scenes/"
 expect 0 "$kage" list --json l.json
+json l.json "all(len(s['about']) > 40 and len(s['about']) < 90 for s in j['scenes']) and len({s['about'] for s in j['scenes']}) == len(j['scenes'])"
+expect 0 "$kage" list
+python3 - l.json stdout <<'PY' || fail "list does not say what its JSON says"
+import json, sys
+text = open(sys.argv[2]).read()
+assert all("  %-22s %s\n" % (e["name"], e["about"]) in text for group in json.load(open(sys.argv[1])).values() for e in group if e["about"])
+PY
+[ -f "$source/$(sed -n '1s/.*; \(.*\) says more of each$/\1/p' stdout)" ] || fail "list points to a page that is not there: $(head -1 stdout)"
 json l.json "set(j) == {'scenes', 'configs', 'faults'} and all(f['about'].endswith('.') or f['about'].endswith('<.') for f in j['faults'])"
 trouble "" "$kage" list pictures
 
