@@ -20,8 +20,10 @@ for command in $commands; do
   diff <(grep -v ^Usage: one) <(grep -v ^Usage: "$temp/stdout") >/dev/null || fail "kage help $command is not kage $command --help"
   grep -q "^Usage: kage $command " "$temp/stdout" || fail "kage help $command does not say how it is used"
   grep -q "^Examples:" "$temp/stdout" || fail "$command has no examples"
+  [ "$command" = help ] || grep -q -- --json "$temp/stdout" || fail "$command has no --json"
 done
-trouble "no such command" "$kage" help renderr
+trouble "kage: renderr: no such command (did you mean render?); see kage --help" "$kage" help renderr
+trouble "kage: nosuch: no such command; see kage --help" "$kage" help nosuch
 trouble "" "$kage" help --man --zsh
 
 # The names are those that commands take.
