@@ -112,6 +112,7 @@ int run(const InfoCommand& o) {
   // A stream file that is damaged at its very beginning, or missing, is still no scene.
   if (is_stream_file(o.input) || lower_extension(o.input) == ".kage") return describe_stream(o);
   if (o.tokens >= 0) throw Error(fmt::format("{}: --tokens: only a stream file has tokens", o.input));
+  refuse_order_tree(o.input);
   return describe_scene(o);
 }
 

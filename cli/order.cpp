@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "common.hpp"
@@ -15,6 +18,7 @@
 #include "order/baseline.hpp"
 #include "order/measure.hpp"
 #include "scene/order_mesh.hpp"
+#include "source.hpp"
 
 namespace kage::cli {
 namespace {
@@ -26,16 +30,8 @@ struct OrderCommand : Options {
   std::string plot;
 };
 
-bool is_tree(const std::string& path) {
-  std::error_code ec;
-  if (!std::filesystem::is_regular_file(path, ec)) return false;
-  std::array<char, 7> magic{};
-  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-  return std::string_view(magic.data(), magic.size()) == "KAGEBSP";
-}
-
 OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) {
-  if (is_tree(o.input)) return OrderTree::load(o.input);
+  if (is_order_tree(o.input)) return OrderTree::load(o.input);
   progress.show("reading");
   const Scene scene = Scene::load(o.input, {1, o.allow_outside, check_interrupt});
   const OrderMesh mesh = scene::order_mesh(scene.frame(0, scene.frame_count()));
@@ -150,6 +146,17 @@ std::string text_of(const OrderTree& tree, const order::Measured& m, const Order
 }
 
 /// Time a step against the step angle, both logarithmic.
+/// Where labels stand that are to be at these heights: in the same order, and at least `gap` apart.
+std::vector<double> spread(const std::vector<double>& wanted, double gap) {
+  std::vector<std::size_t> from_top(wanted.size());
+  std::iota(from_top.begin(), from_top.end(), std::size_t{0});
+  std::sort(from_top.begin(), from_top.end(), [&](auto a, auto b) { return wanted[a] < wanted[b]; });
+  std::vector<double> at = wanted;
+  for (std::size_t i = 1; i < from_top.size(); ++i)
+    at[from_top[i]] = std::max(at[from_top[i]], at[from_top[i - 1]] + gap);
+  return at;
+}
+
 std::string plot(const order::Measured& m, const OrderTree& tree, const std::string& name) {
   std::vector<const order::MeasureRow*> rows;
   for (const order::MeasureRow& r : m.rows)
@@ -158,6 +165,7 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
   constexpr double kTop = 50;
   constexpr double kWidth = 480;
   constexpr double kHeight = 300;
+  constexpr double kLabelGap = 15;  // letters are 13 high
   double low = 1e300;
   double high = -1e300;
   using Pick = double (*)(const order::MeasureRow&);
@@ -200,13 +208,17 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
   for (const auto* r : rows)
     svg += fmt::format("  <text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}°</text>\n", x(r->degrees),
                        kTop + kHeight + 22, r->degrees);
-  for (const Line& l : lines) {
+  std::vector<double> ends;
+  for (const Line& l : lines) ends.push_back(y(std::log10(l.seconds(*rows.back()))) + 4);
+  const std::vector<double> labels = spread(ends, kLabelGap);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& l = lines[i];
     std::string path;
     for (const auto* r : rows)
       path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", x(r->degrees), y(std::log10(l.seconds(*r))));
     svg += fmt::format("  <path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, l.color);
-    svg += fmt::format("  <text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n", kLeft + kWidth + 10,
-                       y(std::log10(l.seconds(*rows.back()))) + 4, l.color, l.name);
+    svg += fmt::format("  <text x=\"{}\" y=\"{:.1f}\" fill=\"{}\">{}</text>\n", kLeft + kWidth + 10, labels[i], l.color,
+                       l.name);
   }
   return svg + "</svg>\n";
 }

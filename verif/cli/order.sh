@@ -35,6 +35,17 @@ json r.json 'all(r["recursion_seconds"]>0 and r["switching_seconds"]>0 and abs(r
 json r.json 'j[0]["flips_share"]==0 and 0<j[1]["flips_share"]<j[2]["flips_share"]<j[3]["flips_share"]<j[4]["flips_share"]<1'
 json r.json 'all(0<r["bsp_bytes"]==56*r["nodes"] and r["list_bytes"]>0 and r["fragments"]==r["faces"]+r["splits"] for r in j)'
 python3 -c 'import xml.dom.minidom as x; x.parse("r.svg")' || fail "the plot is no XML"
+for command in info render cosim "stream --out none" "explain --pixel 1,1"; do
+  # shellcheck disable=SC2086
+  trouble "balls.bsp: a visibility order's tree; kage order takes it" "$kage" $command balls.bsp
+done
+python3 - r.svg <<'PY' || fail "labels of the plot's lines lie over each other"
+import re, sys
+ends = re.findall(r'<text x="570" y="([\d.]+)" fill="[^"]*">([^<]*)<', open(sys.argv[1]).read())
+assert len(ends) == 4, ends
+heights = sorted(float(y) for y, _ in ends)
+assert all(b - a >= 14.8 for a, b in zip(heights, heights[1:])), ends
+PY
 
 # --json - leaves standard output to the JSON; a saved tree is the same tree, whatever the threads.
 expect 0 "$kage" order balls.bsp "${few[@]}" --json -
