@@ -38,13 +38,20 @@ std::string describe_way(const Json& w) {
   return text;
 }
 
+/// "38,44,56", or a number where the core has one channel, as explain has it; `packed` as in a header, red lowest.
+std::string color_text(const Config& config, std::uint32_t packed) {
+  std::string text;
+  for (int c = 0; c < config.channels; ++c) text += fmt::format("{}{}", c == 0 ? "" : ",", packed >> (8 * c) & 0xff);
+  return text;
+}
+
 /// Frame `frame` token by token, with the indices by which errors name them. file.frame() has found the frame sound.
 void print_tokens(const StreamFile& file, int frame) {
   const Config& config = file.config();
   const Layout layout(config);
   auto words = file.frame(frame);
-  fmt::print("frame {}:\n{:>8}  header: {}x{}, background {:#08x}, frame number {}\n", frame, 0, words[1] & 0xffff,
-             words[1] >> 16, words[3], words[4]);
+  fmt::print("frame {}:\n{:>8}  header: {}x{}, background {}, frame number {}\n", frame, 0, words[1] & 0xffff,
+             words[1] >> 16, color_text(config, words[3]), words[4]);
   words = words.subspan(kHeaderWords);
   for (std::uint64_t index = 1; !words.empty(); ++index) {
     if (index % 4096 == 0) check_interrupt();

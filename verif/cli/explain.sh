@@ -87,5 +87,13 @@ trouble "--frame 8" "$kage" explain c.kage --frame 8 --pixel 0,0
 trouble "--pixel" "$kage" explain courtyard
 expect 0 "$kage" explain courtyard --pixel 0,0
 grep -q 'pixel 0,0: [01] token' stdout || fail "what touches the background is not counted"
+# info writes a frame's background as explain writes colours.
+for config in default tiny; do
+  expect 0 "$kage" stream courtyard --degrade --config $config --size 150x40 --frames 1 --out b.kage
+  expect 0 "$kage" explain b.kage --pixel 0,0 --json b.json
+  expect 0 "$kage" info b.kage --tokens 0
+  color=$(python3 -c 'import json; j = json.load(open("b.json")); print(*j["color"], sep=",") if not j["touches"] else exit(1)') || fail "a pixel that something covers"
+  grep -q "^ *0  header: 150x40, background $color, frame number 0$" stdout || fail "info does not give the background as $color: $(grep background stdout)"
+done
 trouble nowhere/e.json "$kage" explain courtyard --pixel 0,0 --json nowhere/e.json
 done_testing
