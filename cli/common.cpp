@@ -102,8 +102,8 @@ static void option_frames(CLI::App& command, Options& options) {
 static void option_config(CLI::App& command, Options& options) {
   command
       .add_option("--config", options.config,
-                  "the core's parameters: a name in rtl/configs.yaml or a YAML file, default: the first name that can "
-                  "draw it all")
+                  "the core's parameters: a name in rtl/configs.yaml or a YAML file of PARAMETER: value lines, "
+                  "default: the first name that can draw it all")
       ->type_name("NAME|FILE");
 }
 

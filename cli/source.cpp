@@ -158,7 +158,10 @@ void Source::load_scene(const Options& options) {
                   [&](const std::string& m) { return std::find(missing.begin(), missing.end(), m) != missing.end(); });
   }
   if (!missing.empty())
-    throw Error(fmt::format("{}: configuration {} lacks {}", options.input, config_.name, fmt::join(missing, ", ")));
+    throw Error(fmt::format("{}: configuration {} lacks {}{}", options.input, config_.name, fmt::join(missing, ", "),
+                            needs.width > config_.config.max_width
+                                ? fmt::format("; --size up to {} wide fits", config_.config.max_width)
+                                : ""));
   if (!degraded_.empty()) notes_.push_back(fmt::format("drawn without {}", fmt::join(degraded_, ", ")));
 }
 

@@ -33,7 +33,10 @@ Config from_yaml(const YAML::Node& node, const std::string& where) {
     if (!entry.first.IsScalar()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
     const auto name = entry.first.as<std::string>();
     const auto* p = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& i) { return i.name == name; });
-    if (p == kParams.end()) throw Error(fmt::format("{}: {}: no such parameter", where, name));
+    if (p == kParams.end())
+      throw Error(fmt::format(
+          "{}: {}: no such parameter{}", where, name,
+          entry.second.IsScalar() ? "" : "; a file has the parameters of one configuration, with no name over them"));
     if (!seen.insert(name).second) throw Error(fmt::format("{}: {}: given twice", where, name));
     int value = 0;
     if (!entry.second.IsScalar() || !YAML::convert<int>::decode(entry.second, value))
