@@ -77,7 +77,15 @@ std::string man_page(const CLI::App& app) {
     text += fmt::format(".TP\n.B {}\n{}\n", roff(name), roff(about));
   };
   variable("XDG_CACHE_HOME", "RTL models are kept in kage/models below it, default ~/.cache; see kage cache");
-  variable("KAGE_DATA_DIR", "where rtl/ and scenes/ are, default: beside the program");
+  variable(
+      "KAGE_DATA_DIR",
+      "the folder with rtl/, scenes/ and verif/, default: share/kage of the prefix that the program is installed in, "
+      "or the source tree that it was built from");
+  variable("KAGE_MODULE_DIR",
+           "the folder with the modules for pictures and meshes, default: lib/kage of that prefix, or where they were "
+           "built");
+  variable("KAGE_SIMD",
+           "the instruction set of the loops in vectors, such as avx2, default: the best that the CPU has");
   variable("KAGE_PROGRESS", "seconds between lines of progress where there is no terminal, default 10; 0 is none");
   variable("KAGE_IMPORT_SECONDS, KAGE_IMPORT_MIB", "limits for reading one scene file");
   variable("VERILATOR, CXX", "the tools that RTL models are built with");

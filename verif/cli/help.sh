@@ -57,6 +57,13 @@ for option in --size --max-size --bash --backpressure; do
   grep -qF -- "$(sed 's/-/\\-/g' <<<"$option")" kage.1 || fail "the man page lacks $option"
 done
 
+# Every variable of kage's own that the sources ask for.
+variables=$(grep -rhoE '(getenv|positive)\("KAGE_[A-Z_]+"' "$source"/{cli,ref,verif/cosim} | grep -oE 'KAGE_[A-Z_]+' | sort -u)
+[ "$(wc -w <<<"$variables")" -ge 6 ] || fail "these are all variables: $variables"
+for variable in $variables; do
+  grep -q "^\.B .*$variable" kage.1 || fail "the man page lacks $variable"
+done
+
 # Completions, as bash calls them.
 expect 0 "$kage" help --bash
 cp "$temp/stdout" kage.bash
