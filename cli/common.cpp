@@ -57,14 +57,15 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
           "", "whole"};
 }
 
-CLI::Validator real_number(double least, double most) {
-  return {[least, most](const std::string& text) {
+CLI::Validator real_number(double least, double most, const char* least_text) {
+  return {[least, most, first = least_text != nullptr ? std::string(least_text) : fmt::format("{}", least)](
+              const std::string& text) {
             const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
             char* stop = nullptr;
             const double value = plain ? std::strtod(text.c_str(), &stop) : 0;
             if (!plain || text.empty() || *stop != '\0') return text + " is not a number";
             return value >= least && value <= most ? std::string()
-                                                   : text + fmt::format(" is not in {} .. {}", least, most);
+                                                   : text + fmt::format(" is not in {} .. {}", first, most);
           },
           "", "number"};
 }
@@ -169,7 +170,7 @@ static void option_translucent(CLI::App& command, Options& options) {
       .add_option("--alpha", options.alpha,
                   "multiply the alpha of every material by A, 1/255 to 1; below 1 all is translucent")
       ->option_text("A")
-      ->check(real_number(1.0 / 255, 1))
+      ->check(real_number(1.0 / 255, 1, "1/255"))
       ->type_name("A");
 }
 

@@ -69,8 +69,12 @@ std::string empty_value(const CLI::App& app);
 /// many digits wrap round in an unsigned one.
 CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
-/// A number from `least` to `most`, written as people write it: strtod() would take nan, inf and hexadecimal.
-CLI::Validator real_number(double least, double most);
+/// "rendr: no such command (did you mean render?)".
+std::string no_such_command(const CLI::App& app, const std::string& name);
+
+/// A number from `least` to `most`, written as people write it: strtod() would take nan, inf and hexadecimal. Messages
+/// call the least one `least_text`, where that is given.
+CLI::Validator real_number(double least, double most, const char* least_text = nullptr);
 
 /// The most frames of a run, and the most shards.
 inline constexpr int kMostFrames = 1000000;

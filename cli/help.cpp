@@ -22,6 +22,9 @@ struct HelpCommand {
 };
 
 int run(const HelpCommand& o, const CLI::App& app) {
+  const auto named = [&o](const CLI::App* command) { return command->get_name() == o.command; };
+  if (!o.command.empty() && app.get_subcommands(named).empty())
+    throw Error(no_such_command(app, o.command) + "; see kage --help");
   std::string text;
   if (o.man)
     text = man_page(app);
@@ -52,12 +55,7 @@ void add_help(CLI::App& app, Action& action) {
   auto* const zsh = c->add_flag("--zsh", o->zsh, "print completions for zsh");
   man->excludes(bash)->excludes(zsh);
   bash->excludes(zsh);
-  c->callback([o, &app, &action] {
-    const auto named = [&o](const CLI::App* command) { return command->get_name() == o->command; };
-    if (!o->command.empty() && app.get_subcommands(named).empty())
-      throw CLI::ValidationError(o->command, "no such command");
-    action = [o, &app] { return run(*o, app); };
-  });
+  c->callback([o, &app, &action] { action = [o, &app] { return run(*o, app); }; });
 }
 
 }  // namespace kage::cli

@@ -58,14 +58,13 @@ std::vector<std::string> options(const CLI::App& command) {
   return names;
 }
 
+std::string meant(const std::string& name) { return name.empty() ? "" : fmt::format(" (did you mean {}?)", name); }
+
 /// What nobody asked for: a mistyped command or option, or an argument too many.
 std::string unexpected(const CLI::App& app, const CLI::App* command) {
   const std::vector<std::string> before = app.remaining(false);
   const std::vector<std::string> all = app.remaining(true);
   const std::string text = all.empty() ? std::string() : all.front();
-  const auto meant = [](const std::string& name) {
-    return name.empty() ? "" : fmt::format(" (did you mean {}?)", name);
-  };
   if (text.size() > 1 && text.front() == '-') {
     const std::size_t dashes = text.rfind("--", 0) == 0 ? 2 : 1;
     const std::string name = text.substr(dashes, text.find('=') - dashes);
@@ -75,7 +74,7 @@ std::string unexpected(const CLI::App& app, const CLI::App* command) {
     const std::string near = nearest(name, known);
     return fmt::format("{}: no such option{}", text, meant(near.empty() ? "" : "--" + near));
   }
-  if (command == nullptr) return fmt::format("{}: no such command{}", text, meant(nearest(text, commands(app))));
+  if (command == nullptr) return no_such_command(app, text);
   return fmt::format("{}: an argument too many", text);
 }
 
@@ -98,6 +97,10 @@ class HelpFormatter : public CLI::Formatter {
 };
 
 }  // namespace
+
+std::string no_such_command(const CLI::App& app, const std::string& name) {
+  return fmt::format("{}: no such command{}", name, meant(nearest(name, commands(app))));
+}
 
 std::shared_ptr<CLI::Formatter> help_formatter() { return std::make_shared<HelpFormatter>(); }
 
