@@ -178,8 +178,9 @@ std::string RunReport::write(TempFiles& files, const std::string& folder, const 
   page.explain = command_line(command_, *explain, input_);
   for (const char* name : kRtlOptions)
     if (const CLI::Option* o = command_.get_option(name); o->count() != 0)
-      page.explain_rtl += fmt::format(" {} {}", name, quoted(o->results().back()));
-  page.explain_rtl += " --rtl";
+      page.rtl_options +=
+          fmt::format("{}{} {}", page.rtl_options.empty() ? "" : " ", name, quoted(o->results().back()));
+  page.explain_rtl = (page.rtl_options.empty() ? "" : " " + page.rtl_options) + " --rtl";
   page.folder = std::filesystem::current_path().string();
   page.rtl = rtl_directory();
   page.tokens = &*tokens_;

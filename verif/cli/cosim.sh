@@ -25,6 +25,10 @@ json s.json 'j["same"] is True and j["build_seconds"]==0 and j["pixels_compared"
 # Stalls, seeds and threads change no pixel; stalls are counted.
 expect 0 "$kage" cosim c.kage --idle 40 --backpressure 60 --seed 7 --threads 1 --out stalled --json s.json
 json s.json 'j["same"] is True and j["seed"]==7 and j["stalled"]["input_starved"]>0 and j["stalled"]["output_blocked"]>0'
+# The page's first line says how the RTL was run, where that was not the plain way.
+grep -q '<title>same: 3 frames, 160x120, 57600 pixels compared, with --idle 40 --backpressure 60 - c</title>' stalled/report.html ||
+  fail "the head of the report does not name the stalls: $(grep '<title>' stalled/report.html)"
+grep -q '<title>same: 3 frames, 160x120, 57600 pixels compared - c</title>' through/report.html || fail "the head of the report: $(grep '<title>' through/report.html)"
 # Each belongs to a phase: those of the frame's kinds of token, and what is behind the last.
 json s.json 'all(sum(p[k] for p in f["stalled_by_phase"].values())==n for f in j["each"] for k, n in f["stalled"].items())'
 json s.json '{"state","opaque","volumes","ends of volumes","line out","behind the last token"}==set(j["each"][0]["stalled_by_phase"])'
@@ -92,6 +96,7 @@ done
 
 # What an earlier run found wrong is gone once it is right.
 expect 1 "$kage" cosim courtyard --size 64x48 --frames 2 --fault wrong_compare --out again
+grep -q '<title>different: .* pixels compared, with --fault wrong_compare - courtyard</title>' again/report.html || fail "the head of the report does not name the fault"
 [ -s again/courtyard_0000.fst ] && [ -s again/courtyard_0000_actual.png ] || fail "no evidence of a difference"
 touch again/courtyard_0007_actual.png
 expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --out again

@@ -182,8 +182,9 @@ Json told_of(const Page& page) {
 
 std::string headline(const Page& page) {
   const cosim::Report& r = *page.run;
-  return fmt::format("{}: {} {}, {}x{}, {} pixels compared", r.same ? "same" : "different", r.frames,
-                     r.frames == 1 ? "frame" : "frames", r.width, r.height, r.pixels_compared);
+  return fmt::format("{}: {} {}, {}x{}, {} pixels compared{}", r.same ? "same" : "different", r.frames,
+                     r.frames == 1 ? "frame" : "frames", r.width, r.height, r.pixels_compared,
+                     page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
 }
 
 Json data_of(const Page& page, Pictures& pictures) {

@@ -50,6 +50,7 @@ struct Page {
   std::string again;        ///< the command line of the run
   std::string explain;      ///< that of kage explain, without --frame and --pixel
   std::string explain_rtl;  ///< what it ends with where the RTL is to be told too
+  std::string rtl_options;  ///< --fault, --idle and --backpressure, as they were given; or ""
   std::string folder;       ///< where both are to be given
   std::string rtl;          ///< folder of the RTL that was run
   const TokenStore* tokens = nullptr;
