@@ -18,7 +18,7 @@ using report::escaped;
 
 namespace {
 
-// Room for the totals, which are known last but stand first: what they do not fill is blanks inside the tag.
+// Room for the totals, which are known last but stand first: what they do not fill is blanks behind the tag.
 constexpr std::size_t kTotalsRoom = 120;
 
 /// The machine, and the time at which the run began, as JUnit has them: UTC without a zone.
@@ -47,10 +47,10 @@ JUnitWriter::JUnitWriter(TempFiles& files, std::string path, const std::string& 
 }
 
 void JUnitWriter::write_totals() {
-  std::string text = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"", tests_,
-                                 failures_, skipped_, seconds_);
-  text.resize(kTotalsRoom, ' ');
-  *out_ << "<testsuite name=\"" << suite_ << "\" " << text << where_and_when_ << ">\n";
+  const std::string text = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"",
+                                       tests_, failures_, skipped_, seconds_);
+  const std::string rest(kTotalsRoom - std::min(kTotalsRoom, text.size()), ' ');
+  *out_ << "<testsuite name=\"" << suite_ << "\" " << text << where_and_when_ << ">" << rest << "\n";
 }
 
 void JUnitWriter::group(const std::string& name) {

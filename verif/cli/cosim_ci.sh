@@ -44,6 +44,10 @@ PY
 expect 0 "$kage" merge 1.json 2.json 3.json --json -
 json stdout 'j["same"] is True and j["shard"] is None'
 
+for file in *.xml; do
+  grep -q '<testsuite name="[^>]* timestamp=' "$file" && ! grep -q '<testsuite [^>]*  ' "$file" || fail "$file: blanks within its tag"
+done
+
 # A fault: every shard ends with its first difference; the frames behind it are skipped, and the stage's file is named.
 for i in 1 2; do
   expect 1 "$kage" cosim "${run[@]}" --out broken --shard $i/2 --fault wrong_compare --json b$i.json --junit b$i.xml
