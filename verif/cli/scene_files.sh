@@ -14,7 +14,7 @@ doc = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": len(data), "uri":
        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
                      {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
-       "materials": [{}],
+       "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}}],
        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.5}}],
        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}]}
@@ -106,7 +106,7 @@ behind single.gltf '{}'
 told "the backs of single-sided faces are drawn: --cull leaves them out" single.gltf
 expect 0 "$kage" render single.gltf "${small[@]}" --cull --json j.json --out o
 json j.json 'any("nothing is to be seen" in n for n in j["notes"]) and not any("backs" in n for n in j["notes"])'
-behind double.gltf '{"doubleSided": true}'
+behind double.gltf '{"doubleSided": true, "pbrMetallicRoughness": {"metallicFactor": 0}}'
 untold double.gltf
 expect 0 "$kage" render double.gltf "${small[@]}" --cull --json j.json --out o
 json j.json 'j["spans"]>0'
