@@ -107,8 +107,8 @@ Piece Classifier::whole(const Face& face) const {
 
 NearPoint Classifier::crossing(const Face& face, const Piece& piece, std::size_t i, const Splitter& plane) const {
   const std::size_t j = (i + 1) % piece.vertices.size();
-  const NearPoint x = meet(piece.vertices[i].point, at_[i].value, at_[i].error, piece.vertices[j].point, at_[j].value,
-                           at_[j].error);
+  const NearPoint x =
+      meet(piece.vertices[i].point, at_[i].value, at_[i].error, piece.vertices[j].point, at_[j].value, at_[j].error);
   if (x.radius <= kPoor) return x;
   return {faces_.scale(exact_point(faces_.grid, exact_vertex(face, piece, piece.edges[i], plane.points))), 0x1p-50};
 }
