@@ -200,9 +200,10 @@ void option_max_fragments(CLI::App& command, Options& options) {
   command
       .add_option(
           "--max-fragments", options.max_fragments,
-          "refuse a visibility order that would cut its faces into more than N fragments, default 2000000 or four "
-          "times the faces, whichever is more: faces through one another are cut into more and more "
-          "(docs/order.md)")
+          fmt::format("refuse a visibility order that would cut its faces into more than N fragments, default {} or "
+                      "four times the faces, whichever is more: faces through one another are cut into more and more "
+                      "(docs/order.md)",
+                      OrderBuildOptions::kFragments))
       ->check(whole_number())
       ->type_name("N");
 }

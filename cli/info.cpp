@@ -2,12 +2,15 @@
 // kage info STREAM: describes and checks a stream file. kage info SCENE is in info_scene.cpp.
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 
 #include "common.hpp"
 #include "info_scene.hpp"
 #include "kage/error.hpp"
+#include "kage/explain.hpp"
 #include "kage/paths.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
@@ -38,11 +41,10 @@ std::string describe_way(const Json& w) {
   return text;
 }
 
-/// "38,44,56", or a number where the core has one channel, as explain has it; `packed` as in a header, red lowest.
-std::string color_text(const Config& config, std::uint32_t packed) {
-  std::string text;
-  for (int c = 0; c < config.channels; ++c) text += fmt::format("{}{}", c == 0 ? "" : ",", packed >> (8 * c) & 0xff);
-  return text;
+/// A header's background, red lowest.
+std::array<std::uint8_t, 3> unpacked(std::uint32_t color) {
+  return {static_cast<std::uint8_t>(color), static_cast<std::uint8_t>(color >> 8),
+          static_cast<std::uint8_t>(color >> 16)};
 }
 
 /// Frame `frame` token by token, with the indices by which errors name them. file.frame() has found the frame sound.
@@ -51,7 +53,7 @@ void print_tokens(const StreamFile& file, int frame) {
   const Layout layout(config);
   auto words = file.frame(frame);
   fmt::print("frame {}:\n{:>8}  header: {}x{}, background {}, frame number {}\n", frame, 0, words[1] & 0xffff,
-             words[1] >> 16, color_text(config, words[3]), words[4]);
+             words[1] >> 16, color_text(config, unpacked(words[3])), words[4]);
   words = words.subspan(kHeaderWords);
   for (std::uint64_t index = 1; !words.empty(); ++index) {
     if (index % 4096 == 0) check_interrupt();

@@ -18,7 +18,6 @@
 #include "order/baseline.hpp"
 #include "order/measure.hpp"
 #include "scene/order_mesh.hpp"
-#include "source.hpp"
 
 namespace kage::cli {
 namespace {
@@ -31,7 +30,7 @@ struct OrderCommand : Options {
 };
 
 OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) {
-  if (is_order_tree(o.input)) return OrderTree::load(o.input);
+  if (is_order_file(o.input)) return OrderTree::load(o.input);
   progress.show("reading");
   const Scene scene = Scene::load(o.input, {1, o.allow_outside, check_interrupt});
   const OrderMesh mesh = scene::order_mesh(scene.frame(0, scene.frame_count()));
@@ -145,7 +144,6 @@ std::string text_of(const OrderTree& tree, const order::Measured& m, const Order
   return text;
 }
 
-/// Time a step against the step angle, both logarithmic.
 /// Where labels stand that are to be at these heights: in the same order, and at least `gap` apart.
 std::vector<double> spread(const std::vector<double>& wanted, double gap) {
   std::vector<std::size_t> from_top(wanted.size());
@@ -157,6 +155,7 @@ std::vector<double> spread(const std::vector<double>& wanted, double gap) {
   return at;
 }
 
+/// Time a step against the step angle, both logarithmic.
 std::string plot(const order::Measured& m, const OrderTree& tree, const std::string& name) {
   std::vector<const order::MeasureRow*> rows;
   for (const order::MeasureRow& r : m.rows)

@@ -68,12 +68,12 @@ int run(const RenderCommand& o) {
   j["degraded"] = source.degraded();
   j["files"] = names;
   j["notes"] = source.notes();
-  if (json_only(o)) print_notes(source, o);
   finish(
       o, j, files,
       notes_text(source) + fmt::format("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width,
                                        size.height, counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
                                        and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), o.out));
+  if (json_only(o)) print_notes(source, o);
   return kSame;
 }
 

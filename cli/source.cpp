@@ -5,12 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
 
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
@@ -59,16 +56,8 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, in
   return needs;
 }
 
-bool is_order_tree(const std::string& path) {
-  std::error_code ec;
-  if (!std::filesystem::is_regular_file(path, ec)) return false;
-  std::array<char, 7> magic{};
-  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-  return std::string_view(magic.data(), magic.size()) == "KAGEBSP";
-}
-
 void refuse_order_tree(const std::string& path) {
-  if (is_order_tree(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
+  if (is_order_file(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
 }
 
 Source::Source(const Options& options) : input_(options.input), threads_(options.threads) {

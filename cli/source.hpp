@@ -18,10 +18,7 @@
 
 namespace kage::cli {
 
-/// Whether a file is a visibility order's tree, as kage order --save writes it.
-bool is_order_tree(const std::string& path);
-
-/// Throws Error if it is: no other command takes one.
+/// Throws Error if a file is a visibility order's tree: no command but order takes one.
 void refuse_order_tree(const std::string& path);
 
 /// Where frames come from: a scene, drawn as the options say, or a stream file. A few bands of a frame are in memory at

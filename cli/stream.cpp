@@ -67,8 +67,8 @@ int run(const Options& o) {
     say(text);
     return kSame;
   }
-  if (json_only(o)) print_notes(source, o);
   finish(o, j, files, text);
+  if (json_only(o)) print_notes(source, o);
   return kSame;
 }
 

@@ -7,11 +7,12 @@
 #include "kage/error.hpp"
 
 namespace kage {
-namespace {
 
 std::string color_text(const Config& c, const std::array<std::uint8_t, 3>& color) {
   return c.channels == 1 ? fmt::format("{}", color[0]) : fmt::format("{},{},{}", color[0], color[1], color[2]);
 }
+
+namespace {
 
 class History : public CoreObserver {
  public:

@@ -202,11 +202,11 @@ class Comparison {
 void check_options(const Picture& picture, const DiffOptions& o) {
   for (const Picture::Channel& c : picture.channels) {
     if (is_float(c.sample) && o.lsb)
-      throw Error(
-          fmt::format("--lsb is for integers, and channel {} is {}: take --abs or --ulp", c.name, name_of(c.sample)));
+      throw Error(fmt::format("threshold lsb is for integers, and channel {} is {}: take abs or ulp", c.name,
+                              name_of(c.sample)));
     if (!is_float(c.sample) && (o.abs || o.ulp))
-      throw Error(
-          fmt::format("--abs and --ulp are for floats, and channel {} is {}: take --lsb", c.name, name_of(c.sample)));
+      throw Error(fmt::format("thresholds abs and ulp are for floats, and channel {} is {}: take lsb", c.name,
+                              name_of(c.sample)));
   }
   if (o.abs && o.ulp) throw Error("thresholds abs and ulp are both given: one says what is the same");
   if (o.abs && !(*o.abs >= 0 && std::isfinite(*o.abs)))

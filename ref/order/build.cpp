@@ -24,9 +24,6 @@ namespace {
 /// Sets at least this large may go to another thread.
 constexpr std::size_t kTask = 1024;
 
-/// The least limit where none is given.
-constexpr std::uint64_t kFragments = 2'000'000;
-
 /// Fragments that are put on a side between two calls of OrderBuildOptions::progress: some milliseconds.
 constexpr std::uint64_t kReport = 4096;
 
@@ -51,7 +48,7 @@ class Builder {
         options_(options),
         stats_(stats),
         total_(faces.faces.size()),
-        limit_(options.max_fragments.value_or(std::max<std::uint64_t>(kFragments, 4 * total_))) {}
+        limit_(options.max_fragments.value_or(std::max<std::uint64_t>(OrderBuildOptions::kFragments, 4 * total_))) {}
 
   BuildTree run() {
     check_limit(total_);

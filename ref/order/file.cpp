@@ -9,11 +9,14 @@
 //   arrays, one after the other: their elements, then u32 CRC-32 of them
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 #include <boost/crc.hpp>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <string_view>
 
 #include "files/temp_file.hpp"
 #include "kage/error.hpp"
@@ -188,6 +191,15 @@ OrderTree OrderTree::load(const std::filesystem::path& path) {
   data->faces.derive();
   data->derive();
   return OrderTree(std::move(data));
+}
+
+bool is_order_file(const std::filesystem::path& path) {
+  std::error_code ec;
+  if (!std::filesystem::is_regular_file(path, ec)) return false;
+  constexpr std::string_view kName = std::string_view(kMagic).substr(0, 7);  // the rest is the version
+  std::array<char, kName.size()> begins{};
+  std::ifstream(path, std::ios::binary).read(begins.data(), begins.size());
+  return std::string_view(begins.data(), begins.size()) == kName;
 }
 
 }  // namespace kage

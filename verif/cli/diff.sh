@@ -109,9 +109,9 @@ trouble "the mask is 6x8" "$kage" diff a.png b.png --mask c.png
 trouble "nothing is compared" "$kage" diff a.png b.png --mask mask.png --region 8x1+0+5
 
 # Thresholds of the other sort of values.
-for t in --abs --ulp; do trouble "take --lsb" "$kage" diff a.png b.png $t 1; done
+for t in --abs --ulp; do trouble "take lsb" "$kage" diff a.png b.png $t 1; done
 oiiotool a.png -d float -o a.exr && oiiotool a.png --addc 0.25 -d float -o b.exr || fail "no EXR"
-trouble "--lsb is for integers" "$kage" diff a.exr b.exr --lsb 0
+trouble "threshold lsb is for integers" "$kage" diff a.exr b.exr --lsb 0
 trouble --abs "$kage" diff a.exr b.exr --abs 1 --ulp 1
 for bad in -1 nan inf 1e999 0x1p3 x; do trouble "$bad" "$kage" diff a.exr b.exr --abs $bad; done
 expect 1 "$kage" diff a.exr b.exr --abs 0.24 --json r.json

@@ -70,7 +70,7 @@ TEST_CASE("floats are told apart by their bits") {
   o = {};
   o.lsb = 100;
   CHECK_THROWS_WITH(diff_files(a, b, o), Catch::Matchers::ContainsSubstring("a.exr") &&
-                                             Catch::Matchers::ContainsSubstring("--lsb is for integers"));
+                                             Catch::Matchers::ContainsSubstring("threshold lsb is for integers"));
   o = {};
   o.abs = inf;
   CHECK_THROWS_AS(diff_files(a, b, o), Error);

@@ -32,6 +32,9 @@ struct PixelTouch {
   [[nodiscard]] bool changed() const { return !(before == after) || bias_before != bias; }
 };
 
+/// "38,44,56", or one number where the core has one channel.
+std::string color_text(const Config& config, const std::array<std::uint8_t, 3>& color);
+
 /// One comparison in the tree of a polyhedra line.
 struct TreeMatch {
   int level = 0;                    ///< 1 is that of the units

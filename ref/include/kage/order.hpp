@@ -43,8 +43,9 @@ struct OrderMesh {
 struct OrderBuildOptions {
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: one per processor. The tree does not depend on it
-  /// TooManyFragments past it. A build takes up to 2 kB for each, so the default is 2,000,000 (4 GB), or four times the
-  /// faces where those are more: few of them will be cut then.
+  /// TooManyFragments past it. A build takes up to 2 kB for each, so the default is kFragments (4 GB), or four times
+  /// the faces where those are more: few of them will be cut then.
+  static constexpr std::uint64_t kFragments = 2'000'000;
   std::optional<std::uint64_t> max_fragments = {};
   /// Called now and then, several times a second, with the share of the work that is done, 0 .. 1, which never gets
   /// less; never from two threads at once. What it throws ends the build and reaches the caller. The share is an
@@ -94,6 +95,9 @@ struct OrderFace {
   std::span<const std::uint32_t> corners;  ///< into vertices(); consecutive ones at unlike places
   std::array<std::uint32_t, 3> plane{};    ///< three vertices, not on a line, whose plane is the face's, same front
 };
+
+/// True if the file begins like a tree that OrderTree::save() wrote, in whatever version.
+bool is_order_file(const std::filesystem::path& path);
 
 /// A BSP tree. Nodes are numbered in preorder, the child with more nodes first, so that a subtree is a range of
 /// numbers. A node's plane is that of a face, or its reverse: `front` is the side where the larger child lies. All
