@@ -26,10 +26,13 @@ json chosen.json 'j["same"] is True and j["config"]["TRANSLUCENCY"]==1 and j["co
 {
   echo "mtllib layers.mtl"
   echo "usemtl veil"
-  for i in $(seq 0 999); do
-    z=$(python3 -c "print($i / 500)")
-    printf 'v -1 -1 %s\nv 1 -1 %s\nv 1 1 %s\nv -1 1 %s\nf %d %d %d %d\n' "$z" "$z" "$z" "$z" $((4 * i + 1)) $((4 * i + 2)) $((4 * i + 3)) $((4 * i + 4))
-  done
+  awk 'BEGIN {
+    for (i = 0; i < 1000; ++i) {
+      z = i / 500
+      printf "v -1 -1 %s\nv 1 -1 %s\nv 1 1 %s\nv -1 1 %s\n", z, z, z, z
+      printf "f %d %d %d %d\n", 4 * i + 1, 4 * i + 2, 4 * i + 3, 4 * i + 4
+    }
+  }'
 } >layers.obj
 printf 'newmtl veil\nKd 0.9 0.3 0.1\nd 0.02\n' >layers.mtl
 for i in 1 2; do
