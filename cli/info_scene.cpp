@@ -145,6 +145,7 @@ int describe_scene(const Options& o) {
   const SceneFrame frame = scene.frame(0, scene.frame_count());
   Json j = contents_of(scene, frame);
   add_configurations(o, scene, frame, j);
+  check_interrupt();
   write_json(o, j);
   if (!json_only(o)) print(o, j);
   return kSame;

@@ -83,7 +83,7 @@ struct Scene::Data {
   double end_time = 0;
   bool smooth = false;
 
-  void build_meshes();
+  void build_meshes(const std::function<void()>& wait);
   void place_objects();
   void describe();
   void measure();
@@ -93,13 +93,14 @@ struct Scene::Data {
   }
 };
 
-void Scene::Data::build_meshes() {
+void Scene::Data::build_meshes(const std::function<void()>& wait) {
   std::uint64_t budget = scene::kSceneBudget;
   std::size_t dropped = 0;
   std::size_t turned = 0;
   std::size_t inside_out = 0;
   std::size_t normals = 0;
   for (scene::RawMesh& mesh : raw.meshes) {
+    if (wait) wait();
     meshes.push_back(scene::build_mesh(mesh, budget));
     mesh.primitives = {};
     const scene::Mesh& m = meshes.back();
@@ -208,7 +209,7 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
     std::set<std::uint32_t> moving;
     for (const scene::RawTrack& track : data->raw.tracks) moving.insert(track.node);
     data->raw.contents.moving = static_cast<std::uint32_t>(moving.size());
-    data->build_meshes();
+    data->build_meshes(options.wait);
     data->place_objects();
     data->describe();
     data->measure();
@@ -217,7 +218,9 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
     throw Error(shown + ": " + e.what());
   }
   Scene scene(std::move(data));
+  if (options.wait) options.wait();
   (void)scene.frame(0, scene.frame_count());  // what cannot be drawn is to be refused here
+  if (options.wait) options.wait();
   return scene;
 }
 

@@ -34,7 +34,7 @@ with_limit() {
 work() { # NAME COMMAND...
   local name=$1 least=
   shift
-  for mib in 6 12 18 24 30 36 42 48 60 80 120 200 400 420 430 440 480 500 600; do
+  for mib in 6 12 20 24 30 36 42 48 60 80 120 200 400 420 430 440 480 500 600; do
     with_limit -v $((mib * 1024)) "$@"
     if [ $rc = 0 ]; then least=${least:-$mib}; else least=; fi
   done

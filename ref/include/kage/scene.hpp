@@ -136,7 +136,8 @@ struct SceneContents {
 struct SceneOptions {
   double alpha = 1;  ///< 0 < alpha <= 1, multiplies that of every material: below 1 all of the scene is translucent
   bool allow_outside = false;  ///< files that the scene's file names (buffers, materials) may lie outside its folder
-  /// Called several times a second while the file is imported; what it throws ends that and is thrown on.
+  /// Called several times a second while the file is imported, and between the steps that follow; what it throws ends
+  /// that and is thrown on.
   std::function<void()> wait = {};
 };
 
