@@ -120,8 +120,10 @@ void option_json(CLI::App& command, Options& options) {
 }
 
 static std::string what_a_scene_is() {
-  return fmt::format("a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), or a stream file",
-                     fmt::join(builtin_scenes(), ", "));
+  return fmt::format(
+      "a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), a stream file, or, "
+      "for cosim and explain, random frames (random, random:damaged, random:mixed)",
+      fmt::join(builtin_scenes(), ", "));
 }
 
 void option_scene(CLI::App& command, Options& options) {
@@ -268,10 +270,16 @@ void write_json(const Options& options, const Json& value) {
   write_json(options, value, files);
 }
 
-OrderBuildOptions order_build(const Options& options, Progress& progress, const std::string& what) {
+OrderBuildOptions order_build(const Options& options) {
   OrderBuildOptions build;
   build.threads = options.threads;
   build.max_fragments = options.max_fragments;
+  build.progress = [](double) { check_interrupt(); };
+  return build;
+}
+
+OrderBuildOptions order_build(const Options& options, Progress& progress, const std::string& what) {
+  OrderBuildOptions build = order_build(options);
   build.progress = [&progress, what](double done) {
     check_interrupt();
     progress.show(fmt::format("{}: {:.0f} %", what, std::floor(100 * done)));

@@ -143,6 +143,7 @@ Json to_json(const Config& config);
 /// How a visibility order is built as the options say. Building it shows `what` with how much is done, in percent, and
 /// can be interrupted. `progress` must outlive the result.
 OrderBuildOptions order_build(const Options& options, Progress& progress, const std::string& what);
+OrderBuildOptions order_build(const Options& options);  // without a word
 
 /// Why an order was refused, `where` being the file, and the frame of it: an Error in one line that names the option.
 [[noreturn]] void refuse_fragments(const std::string& where, const TooManyFragments& why);

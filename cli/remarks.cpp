@@ -35,6 +35,14 @@ void FrameRemarks::add(const Scene& scene, const SceneFrame& frame) {
       r.nearest);
 }
 
+void FrameRemarks::absorb(const FrameRemarks& later) {
+  frames_ += later.frames_;
+  far_ += later.far_;
+  backs_ += later.backs_;
+  if (coarse_ == 0) coarse_why_ = later.coarse_why_;
+  coarse_ += later.coarse_;
+}
+
 std::vector<std::string> FrameRemarks::notes() const {
   std::vector<std::string> all;
   if (far_ > 0)

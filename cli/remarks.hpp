@@ -19,6 +19,9 @@ class FrameRemarks {
 
   void add(const Scene& scene, const SceneFrame& frame);
 
+  /// Those of frames that come behind these.
+  void absorb(const FrameRemarks& later);
+
   /// A sentence for each kind of remark, with the number of frames that it is about unless that is all.
   [[nodiscard]] std::vector<std::string> notes() const;
 

@@ -24,6 +24,7 @@ int run(const RenderCommand& o) {
   const OutFolder folder(o.out);
   check_json(o);
   Source source(o);
+  if (source.is_random()) throw Error(fmt::format("{}: random frames are for kage cosim and kage explain", o.input));
   const Config& config = source.config().config;
   const auto golden = cosim::make_golden(config);
   TokenCounts counts;

@@ -102,12 +102,11 @@ std::vector<std::string> versions() {
   return all;
 }
 
-RunReport::RunReport(Source& source, std::string input, const CLI::App& command)
-    : source_(source), input_(std::move(input)), command_(command) {
+Listener::Listener(Source& source) : source_(source) {
   keep([&] { tokens_.emplace(source.config().config, report::kPageBytes); });
 }
 
-void RunReport::keep(const std::function<void()>& step) {
+void Listener::keep(const std::function<void()>& step) {
   if (!trouble_.empty()) return;
   try {
     step();
@@ -117,7 +116,7 @@ void RunReport::keep(const std::function<void()>& step) {
   }
 }
 
-TokenCounts RunReport::frame(int index, const WordSink& sink) {
+TokenCounts Listener::frame(int index, const WordSink& sink) {
   if (frames_++ >= cosim::kFrameResults) return source_.frame(index, sink);
   keep([&] { tokens_->begin(index); });
   const TokenCounts counts = source_.frame(index, [&](std::span<const std::uint32_t> words) {
@@ -127,6 +126,22 @@ TokenCounts RunReport::frame(int index, const WordSink& sink) {
   keep([&] { tokens_->end(); });
   return counts;
 }
+
+void Listener::absorb(const Listener& later) {
+  keep([&] {
+    if (!later.tokens_) throw Error(later.trouble_);
+    tokens_->append(*later.tokens_, cosim::kFrameResults - std::min(cosim::kFrameResults, frames_));
+  });
+  frames_ += later.frames_;
+}
+
+const report::TokenStore& Listener::tokens() const {
+  if (!tokens_) throw Error(trouble_);
+  return *tokens_;
+}
+
+RunReport::RunReport(Source& source, std::string input, const CLI::App& command)
+    : source_(source), input_(std::move(input)), command_(command), listener_(source) {}
 
 void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
   const int frame = page.run->first_difference->frame;
@@ -161,8 +176,8 @@ void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
 
 std::string RunReport::write(TempFiles& files, const std::string& folder, const cosim::Report& run, std::uint64_t seed,
                              const std::optional<cosim::Divergence>& divergence, const Watch& watch) {
-  if (!tokens_) throw Error(trouble_);
   report::Page page;
+  page.tokens = &listener_.tokens();
   page.name = source_.name();
   page.run = &run;
   page.made = &files;
@@ -183,7 +198,6 @@ std::string RunReport::write(TempFiles& files, const std::string& folder, const 
   page.explain_rtl = (page.rtl_options.empty() ? "" : " " + page.rtl_options) + " --rtl";
   page.folder = std::filesystem::current_path().string();
   page.rtl = rtl_directory();
-  page.tokens = &*tokens_;
   std::optional<report::TokenStore> wanted;
   if (run.first_difference) {
     const std::set<int> bands = bands_that_differ(run);

@@ -24,14 +24,38 @@ std::string command_line(const CLI::App& command, const CLI::App& other, const s
 /// Of kage and the tools that make RTL models, a line each.
 std::vector<std::string> versions();
 
-/// The report page of a run: it listens to the words of the frames, and is written when there is a verdict.
+/// Hears the words of a run's frames on their way and keeps what the page needs of them.
+class Listener {
+ public:
+  explicit Listener(Source& source);
+
+  /// As the source gives them. That their tokens cannot be kept for the page does not end the run.
+  TokenCounts frame(int index, const WordSink& sink);
+
+  /// What another has heard of frames that come behind these.
+  void absorb(const Listener& later);
+
+  /// Throws Error if they could not be kept.
+  [[nodiscard]] const report::TokenStore& tokens() const;
+
+ private:
+  /// A step of keeping tokens, unless one has failed.
+  void keep(const std::function<void()>& step);
+
+  Source& source_;
+  std::optional<report::TokenStore> tokens_;  // empty once they could not be kept, which is trouble_
+  std::string trouble_;
+  std::size_t frames_ = 0;  // given so far
+};
+
+/// The report page of a run, written when there is a verdict.
 class RunReport {
  public:
   /// `input` is what the source was opened by.
   RunReport(Source& source, std::string input, const CLI::App& command);
 
-  /// As the source gives them. That their tokens cannot be kept for the page does not end the run.
-  TokenCounts frame(int index, const WordSink& sink);
+  /// Who hears the frames that the source makes.
+  [[nodiscard]] Listener& listener() { return listener_; }
 
   using Watch = std::function<cosim::DivergenceOptions()>;
 
@@ -42,16 +66,12 @@ class RunReport {
                     const std::optional<cosim::Divergence>& divergence, const Watch& watch);
 
  private:
-  /// A step of keeping tokens, unless one has failed.
-  void keep(const std::function<void()>& step);
   void tell_pixels(report::Page& page, const Watch& watch);
 
   Source& source_;
   std::string input_;
   const CLI::App& command_;
-  std::optional<report::TokenStore> tokens_;  // empty once they could not be kept, which is trouble_
-  std::string trouble_;
-  std::size_t frames_ = 0;  // given so far
+  Listener listener_;
 };
 
 }  // namespace kage::cli

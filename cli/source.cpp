@@ -27,6 +27,9 @@ std::string plain_name(const std::filesystem::path& path) {
 // Shapes of pictures that differ by less are the same to the eye.
 constexpr double kShapeTolerance = 0.01;
 
+// Random frames of a run that does not say how many.
+constexpr int kRandomFrames = 200;
+
 // Words of a file's frame that go on at a time.
 constexpr std::size_t kPieceWords = 4096;
 
@@ -60,12 +63,32 @@ void refuse_order_tree(const std::string& path) {
   if (is_order_file(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
 }
 
-Source::Source(const Options& options) : input_(options.input), threads_(options.threads) {
+Source::Source(const Options& options) : options_(options) {
+  if (const auto manner = verif::random_manner(options.input)) {
+    open_random(options, *manner);
+    return;
+  }
   refuse_order_tree(options.input);
   if (is_stream_file(options.input))
     open_stream(options);
   else
     open_scene(options);
+}
+
+void Source::open_random(const Options& options, verif::Manner manner) {
+  const Options usual;
+  if (options.size_given || options.units_only || options.degrade || options.cull || options.alpha != usual.alpha ||
+      options.order != usual.order || options.samples != usual.samples || options.classes != usual.classes ||
+      options.max_fragments || options.allow_outside)
+    throw Error(
+        fmt::format("{}: of the options that say how a scene is drawn random frames take --config, --frames and --seed",
+                    options.input));
+  config_ = load_config(options.config.empty() ? "default" : options.config);
+  if (options.config.empty()) notes_.push_back(fmt::format("configuration: {}", config_.name));
+  name_ = options.input;
+  std::replace(name_.begin(), name_.end(), ':', '_');
+  frames_ = options.frames > 0 ? options.frames : kRandomFrames;
+  random_.emplace(config_.config, manner, options.seed);
 }
 
 void Source::open_stream(const Options& options) {
@@ -81,7 +104,7 @@ void Source::open_stream(const Options& options) {
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);
-  stream_.emplace(options.input);
+  stream_ = std::make_shared<const StreamFile>(options.input);
   name_ = plain_name(options.input);
   frames_ = stream_->frame_count();
   if (options.frames > frames_)
@@ -98,33 +121,29 @@ void Source::open_stream(const Options& options) {
 
 void Source::open_scene(const Options& options) {
   load_scene(options);
-  remarks_.emplace(config_.config, size_, options.cull);
+  remarks_.emplace(config_.config, options.size, options.cull);
 }
 
 void Source::load_scene(const Options& options) {
-  scene_.emplace(Scene::load(options.input, {options.alpha, options.allow_outside, check_interrupt}));
+  scene_ = std::make_shared<const Scene>(
+      Scene::load(options.input, {options.alpha, options.allow_outside, check_interrupt}));
   name_ = plain_name(scene_->name());
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
-  size_ = options.size;
-  units_only_ = options.units_only;
-  look_.translucent = options.order;
-  look_.samples = options.samples;
-  look_.seed = options.seed;
-  look_.classes = options.classes;
-  look_.cull = options.cull;
-  order_ = TranslucentOrder(order_build(options, progress_, name_ + ": order of translucent faces"));
-  if (size_.width > kMaxSize || size_.height > kMaxSize)
-    throw Error(fmt::format("--size: {}x{}: at most {}x{}", size_.width, size_.height, kMaxSize, kMaxSize));
+  progress_ = std::make_unique<Progress>();
+  settle(options);
+  if (options_.size.width > kMaxSize || options_.size.height > kMaxSize)
+    throw Error(
+        fmt::format("--size: {}x{}: at most {}x{}", options_.size.width, options_.size.height, kMaxSize, kMaxSize));
   const SceneFrame first = scene_->frame(0, frames_);
-  const double shape = static_cast<double>(size_.width) / size_.height;
+  const double shape = static_cast<double>(options_.size.width) / options_.size.height;
   const double asked = first.camera.aspect;
   if (!options.size_given && asked > 0 && std::abs(shape / asked - 1) > kShapeTolerance)
     notes_.push_back(
         fmt::format("the camera's own pictures are {:.3g} times as wide as high, these {:.3g}: --size is "
                     "to be had in its shape",
                     asked, shape));
-  Needs needs = needs_of(*scene_, first, size_, options.samples);
+  Needs needs = needs_of(*scene_, first, options.size, options.samples);
   if (options.config.empty()) {
     try {
       config_ = choose_config(needs);
@@ -154,6 +173,58 @@ void Source::load_scene(const Options& options) {
   if (!degraded_.empty()) notes_.push_back(fmt::format("drawn without {}", fmt::join(degraded_, ", ")));
 }
 
+void Source::settle(const Options& options) {
+  look_.translucent = options.order;
+  look_.samples = options.samples;
+  look_.seed = options.seed;
+  look_.classes = options.classes;
+  look_.cull = options.cull;
+  order_ = TranslucentOrder(progress_ ? order_build(options, *progress_, name_ + ": order of translucent faces")
+                                      : order_build(options));
+}
+
+std::unique_ptr<Source> Source::share(int last) const {
+  std::unique_ptr<Source> s(new Source());
+  s->options_ = options_;
+  s->config_ = config_;
+  s->frames_ = frames_;
+  s->name_ = name_;
+  s->stream_ = stream_;
+  s->scene_ = scene_;
+  s->random_ = random_;
+  s->last_ = last;
+  if (scene_) {
+    s->settle(options_);
+    s->remarks_.emplace(config_.config, options_.size, options_.cull);
+  }
+  return s;
+}
+
+void Source::absorb(const Source& share) {
+  last_ = std::max(last_, share.last_);
+  made_ += share.made_;
+  blank_ += share.blank_;
+  units_ = std::max(units_, share.units_);
+  if (remarks_) remarks_->absorb(*share.remarks_);
+  if (ways_.empty()) ways_.resize(share.ways_.size());
+  for (std::size_t c = 0; c < share.ways_.size(); ++c) {
+    const Way& way = share.ways_[c];
+    ways_[c].object = way.object;
+    ways_[c].unit_frames += way.unit_frames;
+    if (way.span_frames == 0) continue;
+    ways_[c].span_frames += way.span_frames;
+    ways_[c].reason = way.reason;
+    ways_[c].why = way.why;
+  }
+}
+
+bool Source::may_be_refused() const {
+  if (random_) return true;
+  for (int i = 0; stream_ && i < frames_; ++i)
+    if (stream_->is_port_frame(i)) return true;
+  return false;
+}
+
 std::vector<std::string> Source::notes() const {
   std::vector<std::string> all = notes_;
   if (blank_ > 0)
@@ -166,13 +237,15 @@ std::vector<std::string> Source::notes() const {
 
 TokenCounts Source::frame(int index, const WordSink& sink) {
   again_ = index <= last_;
-  const TokenCounts counts = stream_ ? frame_of_stream(index, sink) : frame_of_scene(index, sink);
+  const TokenCounts counts = random_   ? frame_of_chance(index, sink)
+                             : stream_ ? frame_of_stream(index, sink)
+                                       : frame_of_scene(index, sink);
   last_ = std::max(last_, index);
   if (again_) return counts;
   ++made_;
   units_ = std::max(units_, counts.units);
   const auto none = [&](Kind kind) { return counts.of_kind[static_cast<std::size_t>(kind)] == 0; };
-  if (none(Kind::OP) && none(Kind::TREE) && none(Kind::TP)) ++blank_;
+  if (!random_ && none(Kind::OP) && none(Kind::TREE) && none(Kind::TP)) ++blank_;
   return counts;
 }
 
@@ -198,6 +271,13 @@ TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
   return counts;
 }
 
+TokenCounts Source::frame_of_chance(int index, const WordSink& sink) {
+  check_interrupt();
+  const std::vector<std::uint32_t> words = random_->words(index);
+  sink(words);
+  return count_tokens(config_.config, words);
+}
+
 TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
   const SceneFrame frame = scene_->frame(index, frames_);
@@ -214,17 +294,18 @@ TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
         checker.feed(words);
         sink(words);
       },
-      threads_, &report);
+      options_.threads, &report);
   return checker.finish();
 }
 
 FrameGeometry Source::geometry(int index, const SceneFrame& frame) {
   try {
-    FrameGeometry made = make_geometry(frame, config_.config, size_.width, size_.height, look_, &order_, &shadows_);
-    progress_.clear();
+    FrameGeometry made =
+        make_geometry(frame, config_.config, options_.size.width, options_.size.height, look_, &order_, &shadows_);
+    if (progress_) progress_->clear();
     return made;
   } catch (const TooManyFragments& e) {
-    refuse_fragments(fmt::format("{}: frame {}", input_, index), e);
+    refuse_fragments(fmt::format("{}: frame {}", options_.input, index), e);
   }
 }
 
@@ -235,7 +316,7 @@ std::optional<Provenance> Source::provenance(int index) {
   FrameOrigins origins;
   make_frame(
       geometry, config_.config, static_cast<std::uint32_t>(index),
-      [](std::span<const std::uint32_t>) { check_interrupt(); }, threads_, nullptr, &origins);
+      [](std::span<const std::uint32_t>) { check_interrupt(); }, options_.threads, nullptr, &origins);
   return Provenance(scene_->objects(), std::move(frame), std::move(geometry), std::move(origins));
 }
 
@@ -243,7 +324,7 @@ std::optional<Provenance> Source::provenance(int index) {
 void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report) {
   const int units = config_.config.units;
   if (units == 0) {
-    if (units_only_ && !geometry.polyhedra.empty())
+    if (options_.units_only && !geometry.polyhedra.empty())
       throw Error(fmt::format("{}: frame {}: --units-only: configuration {} has no units", name_, index, config_.name));
     return;
   }
@@ -280,7 +361,7 @@ void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geo
     // The first one stopped the assignment; the others went with it.
     if (stopped == nullptr) stopped = &way;
     way.why = stopped == &way ? cause : fmt::format("behind '{}' in draw order: {}", stopped->object, cause);
-    if (units_only_)
+    if (options_.units_only)
       throw Error(fmt::format("{}: frame {}: object '{}', component {}: {} (--units-only)", name_, index, way.object,
                               geometry.polyhedra[i].component, cause));
   }

@@ -15,19 +15,27 @@
 #include "kage/stream.hpp"
 #include "provenance.hpp"
 #include "remarks.hpp"
+#include "stimulus/random_frames.hpp"
 
 namespace kage::cli {
 
 /// Throws Error if a file is a visibility order's tree: no command but order takes one.
 void refuse_order_tree(const std::string& path);
 
-/// Where frames come from: a scene, drawn as the options say, or a stream file. A few bands of a frame are in memory at
-/// a time.
+/// Where frames come from: a scene, drawn as the options say, a stream file, or chance. A few bands of a frame are in
+/// memory at a time.
 class Source {
  public:
   /// Opens options.input and settles the configuration: --config, else the stream's own, else the first named one that
   /// has what the scene needs. Throws Error if a configuration lacks what the scene needs and --degrade is not given.
   explicit Source(const Options& options);
+
+  /// Another source of the same frames, for a thread of its own: both read one scene or stream. It counts for itself
+  /// what is told of the frames it makes, but of none up to `last`.
+  [[nodiscard]] std::unique_ptr<Source> share(int last) const;
+
+  /// What a share has counted counts here too. Shares come in the order of their frames.
+  void absorb(const Source& share);
 
   [[nodiscard]] const NamedConfig& config() const { return config_; }
   [[nodiscard]] int frames() const { return frames_; }
@@ -41,7 +49,13 @@ class Source {
   void note(std::string text) { notes_.push_back(std::move(text)); }
 
   /// Whether the frames come from a stream file.
-  [[nodiscard]] bool is_stream() const { return stream_.has_value(); }
+  [[nodiscard]] bool is_stream() const { return stream_ != nullptr; }
+
+  /// Whether a core may refuse some of them: random ones, and those of a stream file that are as a port brings them.
+  [[nodiscard]] bool may_be_refused() const;
+
+  /// Whether they are random.
+  [[nodiscard]] bool is_random() const { return random_.has_value(); }
 
   /// What --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
@@ -70,25 +84,28 @@ class Source {
   TokenCounts frame_of_scene(int index, const WordSink& sink);
   FrameGeometry geometry(int index, const SceneFrame& frame);
   void record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report);
+  TokenCounts frame_of_chance(int index, const WordSink& sink);
   void open_stream(const Options& options);
+  void open_random(const Options& options, verif::Manner manner);
   void open_scene(const Options& options);
   void load_scene(const Options& options);
 
+  Source() = default;
+  void settle(const Options& options);
+
+  Options options_;
   NamedConfig config_;
   int frames_ = 0;
-  std::string input_;
   std::string name_;
   std::vector<std::string> notes_;
   std::vector<std::string> degraded_;
-  std::optional<StreamFile> stream_;
-  std::optional<Scene> scene_;
+  std::shared_ptr<const StreamFile> stream_;
+  std::shared_ptr<const Scene> scene_;
+  std::optional<verif::RandomFrames> random_;
   Look look_;
-  Progress progress_;
+  std::unique_ptr<Progress> progress_;  // of the order's build; a share is silent
   TranslucentOrder order_;
   ShadowCache shadows_;
-  Size size_;
-  int threads_ = 0;
-  bool units_only_ = false;
   int last_ = -1;  // the highest frame made: a run goes up, so one up to it is a replay, which counts no more
   bool again_ = false;
   int made_ = 0;                         // frames

@@ -23,6 +23,7 @@ int run(const Options& o) {
   if (piped(o) && json_only(o)) throw Error("--out - and --json -: both are standard output");
   check_json(o);
   Source source(o);
+  if (source.is_random()) throw Error(fmt::format("{}: random frames are for kage cosim and kage explain", o.input));
   if (source.is_stream()) source.note("copied from a stream file");
   const Config& config = source.config().config;
   StreamFileWriter writer =

@@ -6,6 +6,7 @@
 //   sections, each: 4 bytes tag, u32 CRC-32 of the payload, u64 payload bytes, payload, zeros up to a multiple of 8
 //     CONF    the configuration as YAML; first, once
 //     FRAM    the words of one frame, as the port gets them without fill
+//     PORT    likewise of a frame that may not be sound
 //     ORIG    where the frames come from, as JSON; once at most
 //     DONE    u64 number of frames, u32 CRC-32 over all sections' headers before it; last, once
 //   Sections with other tags are checked and skipped.
@@ -140,6 +141,8 @@ StreamFileWriter::~StreamFileWriter() = default;
 
 void StreamFileWriter::begin_frame() { data_->begin_section("FRAM"); }
 
+void StreamFileWriter::begin_port_frame() { data_->begin_section("PORT"); }
+
 void StreamFileWriter::words(std::span<const std::uint32_t> words) { data_->add(words.data(), words.size_bytes()); }
 
 void StreamFileWriter::end_frame() {
@@ -178,6 +181,7 @@ struct StreamFile::Data {
     std::uint64_t offset;  // of the payload
     std::uint64_t size;
     std::uint32_t crc;
+    bool port;  // unchecked
   };
 
   std::string name;
@@ -245,10 +249,10 @@ struct StreamFile::Data {
         if (base[payload + i] != 0) fail(payload + i, "padding is not zero");
       if (first != (tag == "CONF")) fail(at, first ? "the first section is not CONF" : "a second CONF section");
       // Frames are summed when they are asked for, so that opening a large file is quick.
-      if (tag == "FRAM") {
+      if (tag == "FRAM" || tag == "PORT") {
         if (h.size % 4 != 0) fail(at, "a frame is not of whole words");
         if (origin_seen) fail(at, "a frame behind section ORIG");
-        frames.push_back({payload, h.size, h.crc});
+        frames.push_back({payload, h.size, h.crc, tag == "PORT"});
       } else if (crc(0, base + payload, h.size) != h.crc) {
         fail(at, fmt::format("checksum of section {} is wrong", printable(tag)));
       }
@@ -258,7 +262,7 @@ struct StreamFile::Data {
         origin_seen = true;
         origin.assign(base + payload, h.size);
       }
-      if (tag != "CONF" && tag != "FRAM" && tag != "DONE")
+      if (tag != "CONF" && tag != "FRAM" && tag != "PORT" && tag != "DONE")
         sections.push_back({printable(tag), static_cast<int>(frames.size()), payload, h.size});
       if (tag == "CONF") {
         config = config_from_text(std::string(base + payload, h.size), name);
@@ -301,6 +305,7 @@ StreamFile& StreamFile::operator=(StreamFile&&) noexcept = default;
 
 const Config& StreamFile::config() const { return data_->config; }
 int StreamFile::frame_count() const { return static_cast<int>(data_->frames.size()); }
+bool StreamFile::is_port_frame(int index) const { return data_->frames.at(static_cast<std::size_t>(index)).port; }
 const std::string& StreamFile::origin() const { return data_->origin; }
 std::uint64_t StreamFile::bytes() const { return data_->size; }
 
@@ -326,11 +331,13 @@ std::span<const std::uint32_t> StreamFile::frame(int index, TokenCounts* counts)
   const std::span<const std::uint32_t> words(reinterpret_cast<const std::uint32_t*>(payload), f.size / 4);
   if (crc(0, payload, f.size) != f.crc) {
     // Say where, if the damage can be seen in the tokens; the checksum is the verdict all the same.
-    (void)check_frame(data_->config, words, fmt::format("{}: section {}: checksum is wrong", data_->name, index),
-                      f.offset);
+    if (!f.port)
+      (void)check_frame(data_->config, words, fmt::format("{}: section {}: checksum is wrong", data_->name, index),
+                        f.offset);
     data_->fail(f.offset, fmt::format("checksum of frame {} is wrong", index));
   }
-  const TokenCounts c = check_frame(data_->config, words, data_->name, f.offset);
+  const TokenCounts c =
+      f.port ? count_tokens(data_->config, words) : check_frame(data_->config, words, data_->name, f.offset);
   if (counts != nullptr) *counts += c;
   return words;
 }

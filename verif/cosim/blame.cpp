@@ -15,18 +15,20 @@ struct Port {
   const char* from;
   const char* to;
 };
+constexpr int kLine = 10;
+constexpr int kReturn = 20;
 // From the way in to the way out.
 constexpr std::array<Port, 11> kPorts{{{0, "token", "token_reader", "frame_control"},
                                        {2, "segment", "frame_control", "expansion_unit"},
                                        {4, "tree", "compare_tree", "pixel_core"},
                                        {6, "command", "frame_control", "pixel_loads"},
                                        {8, "command", "pixel_loads", "pixel_core"},
-                                       {10, "line", "frame_control", "line_out"},
+                                       {kLine, "line", "frame_control", "line_out"},
                                        {12, "load", "line_out", "pixel_loads"},
                                        {14, "video", "line_out", "the sink"},
                                        {16, "frame", "frame_control", "tree_core"},
                                        {18, "line", "pixel_core", "line_out"},
-                                       {20, "line that comes back", "frame_control", "line_out"}}};
+                                       {kReturn, "line that comes back", "frame_control", "line_out"}}};
 
 std::string pixels(const Config& config) { return config.arrangement == 1 ? "pixel_banked" : "pixel_systolic"; }
 
@@ -51,6 +53,8 @@ std::string blame_error(const Clue& clue) {
   if (!clue.kind) return "token_check";
   const bool table = *clue.kind == Kind::TABLE;
   const bool segment = *clue.kind == Kind::SEG || *clue.kind == Kind::FACE || *clue.kind == Kind::TREE;
+  if (either(ErrorCode::LINE) && *clue.kind == Kind::TREE)
+    return "segment_check";  // no other rule asks TREE for a line
   if (either(ErrorCode::ORDER) && (clue.lines_done || *clue.kind == Kind::SHADE || *clue.kind == Kind::END))
     return "token_check";
   if (either(ErrorCode::ORDER)) return table ? "table_check" : segment ? "segment_check" : "line_phase";
@@ -62,12 +66,19 @@ std::string blame_error(const Clue& clue) {
 std::string blame_command(const Clue& clue) {
   if (!clue.expected || !clue.actual) return "frame_control";
   if (clue.expected->load) return "pixel_loads";
-  if (clue.actual->value[1] >= clue.actual->value[2]) return "frame_control";  // it should not have asked for one
+  const auto same = [&](unsigned i) {
+    return (clue.expected->cares >> i & 1U) == 0 || clue.expected->value[i] == clue.actual->value[i];
+  };
+  // It should not have asked for one, unless it is the expected one but for its range: z and dz say which it is.
+  if (clue.actual->value[1] >= clue.actual->value[2] && !(same(0) && same(4) && same(5))) return "frame_control";
   if (clue.value == 0) {  // another command altogether has another range, most often
-    const bool same_range =
-        clue.expected->value[1] == clue.actual->value[1] && clue.expected->value[2] == clue.actual->value[2];
-    return same_range && clue.expected->value[0] != static_cast<std::uint64_t>(Kind::EOL) ? "token_command"
-                                                                                          : "frame_control";
+    const bool same_range = same(1) && same(2);
+    // frame_control asks for what a token does, or for a line to be painted first.
+    const bool asked_for = clue.kind && (clue.actual->value[0] == static_cast<std::uint64_t>(*clue.kind) ||
+                                         clue.actual->value[0] == static_cast<std::uint64_t>(Kind::RESOLVE));
+    return same_range && !asked_for && clue.expected->value[0] != static_cast<std::uint64_t>(Kind::EOL)
+               ? "token_command"
+               : "frame_control";
   }
   return "token_command";
 }
@@ -110,7 +121,7 @@ std::string blame(const Config& config, const Clue& clue) {
       return "line_phase";
     case Stage::segment:
       // Whether it goes is segment_check's to say, what of the token goes is not.
-      return clue.of_token ? "segment_check" : "frame_control";
+      return clue.of_token || !clue.actual ? "segment_check" : "frame_control";
     case Stage::end:
       return clue.dropping ? "token_reader" : "frame_control";
     default:
@@ -129,6 +140,12 @@ Waiting waiting(const Config& config, std::uint32_t handshakes) {
     w.text += fmt::format("{}{}'s {} waits for {}", w.text.empty() ? "" : "; ", name(p.from), p.name, to);
     if (std::string_view(p.to) != "the sink") w.module = to;
   }
+  const auto bit = [&](int i) { return (handshakes >> i & 1U) != 0; };
+  const bool returns = bit(kReturn + 1) && !bit(kReturn);  // it has been told to send a line back
+  if (w.module != "line_out" || returns || bit(kLine + 1) || !bit(kLine)) return w;
+  // The way out has no line to work on, so it may wait too.
+  w.text += "; line_out has no line from frame_control";
+  w.lacks_line = true;
   return w;
 }
 

@@ -126,7 +126,9 @@ std::string describe(const Difference& d) {
   } else if (d.field != "port" && d.field != "assertion") {
     text += fmt::format(", {}: expected {}, got {}", d.field, d.expected, d.actual);
   }
-  return d.remark.empty() ? text : text + ": " + d.remark;
+  if (!d.remark.empty()) text += ": " + d.remark;
+  return d.other_state ? text + "; with another initial state of registers and memories, and not with the seed's own"
+                       : text;
 }
 
 }  // namespace kage::cosim

@@ -22,8 +22,9 @@ struct Difference {
                       ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion" (of the RTL)
   std::int64_t expected = 0;
   std::int64_t actual = 0;
-  std::string remark;     ///< more in words, or empty
-  std::string assertion;  ///< the RTL's that ended the frame, "rtl/frame_control.sv:312", or empty
+  std::string remark;        ///< more in words, or empty
+  std::string assertion;     ///< the RTL's that ended the frame, "rtl/frame_control.sv:312", or empty
+  bool other_state = false;  ///< seen from RunOptions::other_state alone: the run's own core has the frame right
 };
 
 /// Lines of one length, one after the other. Neighbours that are the same take room once, so the background that

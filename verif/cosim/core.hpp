@@ -51,6 +51,10 @@ class Core {
 
   [[nodiscard]] virtual int channels() const = 0;
 
+  /// The words of frame `number` are next. What is random about a frame, as the clocks in which a port stops, follows
+  /// from the core's seed and this number, not from the frames before it.
+  virtual void begin(int /*number*/) {}
+
   /// The next words of the frame at hand, in pieces of any size. Lines that have come out go to `sink` before this
   /// returns, from top to bottom. This and finish() may throw AssertionError; then nothing more may be asked of the
   /// core.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "cosim/blame.hpp"
@@ -20,6 +21,9 @@ constexpr std::uint64_t kFurther = 20000;
 
 // The golden core goes on where the RTL has lost its thread; what it expects is kept up to 256 MiB.
 constexpr std::size_t kMostPending = (std::size_t{256} << 20) / sizeof(ExpectedEvent);
+
+// What is found is looked for again with so many other initial states.
+constexpr std::uint64_t kOtherStates = 2;
 
 struct Found {
   std::optional<Mismatch> mismatch;
@@ -39,7 +43,7 @@ struct Found {
 // One frame on a core that has seen those before it.
 Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& config, const DivergenceOptions& options,
                    const Watch& watch) {
-  EventSearch search(config, watch);
+  EventSearch search(config, rtl.unwatched(), watch);
   Found found;
   found.frame = frame;
   found.start = rtl.clock();
@@ -48,6 +52,7 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
     if (options.wait) options.wait();
     if (search.seen_before(rtl.clock(), kFurther)) throw Enough();
   };
+  rtl.begin(frame);
   rtl.record(true, take);
   const auto end = [&] { search.end(rtl.clock(), (rtl.handshakes() >> 4 & 3U) == 2); };
   try {
@@ -83,6 +88,24 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   }
   if (found.part) found.clock = found.part->clock;
   return found;
+}
+
+// Whether two searches have seen the same thing at the same time. What is not looked at of an event may be anything.
+bool alike(const Found& a, const Found& b) {
+  const auto place = [](const std::optional<kage_rtl_event>& e, bool which) {
+    return e ? std::tuple(e->stage, e->unit, which ? e->value[0] : 0, e->clock)
+             : std::tuple(-1, 0, std::uint64_t{0}, std::uint64_t{0});
+  };
+  if (a.frame != b.frame || a.misconduct != b.misconduct || place(a.unexpected, false) != place(b.unexpected, false) ||
+      place(a.part, true) != place(b.part, true) || a.mismatch.has_value() != b.mismatch.has_value())
+    return false;
+  if (!a.mismatch) return true;
+  if (a.mismatch->order() != b.mismatch->order() || a.mismatch->value != b.mismatch->value ||
+      a.mismatch->clock != b.mismatch->clock || a.mismatch->actual.has_value() != b.mismatch->actual.has_value())
+    return false;
+  // The values that matter are the same if each is what the other one's would be held against.
+  return !a.mismatch->actual || a.mismatch->value < 0 || a.mismatch->value == kUnitValue ||
+         a.mismatch->actual->value[a.mismatch->value] == b.mismatch->actual->value[b.mismatch->value];
 }
 
 // The first of the frames from .. frame, on one core, in which something differs: a frame may leave the core in a state
@@ -178,6 +201,12 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   if (!found.any()) return std::nullopt;
 
   Divergence d;
+  d.initial_state = options.rtl.initial != 0;  // the run's own has nothing of the kind
+  for (std::uint64_t other = 1; other <= kOtherStates && !d.initial_state; ++other) {
+    DivergenceOptions with_other = options;
+    with_other.rtl.initial += other;
+    d.initial_state = !alike(found, search(from, found.frame, feed, config, with_other));
+  }
   d.frame = found.frame;
   d.from = from;
   d.cycle = found.clock - std::min(found.clock, found.start);
@@ -194,7 +223,10 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   if (!found.misconduct.empty() && waits && (d.field == "missing" || !found.mismatch)) {
     const Waiting w = waiting(config, found.handshakes);
     d.waits = w.text;
-    if (!w.module.empty()) d.module = w.module;
+    // Pixels that have no place to go to wait within.
+    const bool exit_free = (found.handshakes >> 18 & 1U) != 0;
+    if (w.module.empty() && d.stage == Stage::exit && !exit_free) d.module = "line_out";
+    if (!w.module.empty() && !(w.lacks_line && d.stage == Stage::line)) d.module = w.module;
   }
   if (found.part) describe_part(d, config, *found.part);
   d.what = describe(d.stage);
@@ -243,6 +275,7 @@ std::string describe(const Divergence& d) {
   if (!d.token_text.empty()) text += fmt::format("; token {}: {}", d.token, d.token_text);
   if (!d.source.empty()) text += ", from " + d.source;
   if (!d.waits.empty()) text += "; " + d.waits;
+  if (d.initial_state) text += "; depends on the initial state of registers and memories";
   return text;
 }
 

@@ -35,9 +35,10 @@ struct Divergence {
   std::string token_text;   ///< "SP [12, 40) ..."
   std::string source;       ///< the part of the scene it came from, if the caller knows it: find_divergence() does not
   std::string waits;        ///< of a core that hangs: who waits for whom
-  std::string waveform;     ///< the FST file, empty if none was written
-  std::string save_file;    ///< the GTKWave save file beside it
-  std::string no_waveform;  ///< why none was written, though one was asked for
+  bool initial_state = false;  ///< it depends on what registers and memories hold at first
+  std::string waveform;        ///< the FST file, empty if none was written
+  std::string save_file;       ///< the GTKWave save file beside it
+  std::string no_waveform;     ///< why none was written, though one was asked for
 };
 
 struct DivergenceOptions {

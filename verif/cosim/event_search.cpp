@@ -15,12 +15,18 @@ int rank(const kage_rtl_event& part) {
   return part.value[0] <= KAGE_PART_LANE_RAMP ? 1 : 2;
 }
 
+/// An error of the RTL where none is to be.
+bool raised(const Mismatch& m) {
+  return m.expected.stage == Stage::error && m.actual &&
+         m.expected.value[0] == static_cast<std::uint64_t>(ErrorCode::NONE);
+}
+
 }  // namespace
 
-EventSearch::EventSearch(const Config& config, Watch watch)
+EventSearch::EventSearch(const Config& config, std::uint32_t unwatched, Watch watch)
     : watch_(std::move(watch)),
       config_(config),
-      expected_(config),
+      expected_(config, unwatched),
       golden_(config),
       seen_(std::numeric_limits<std::uint64_t>::max()) {
   golden_.observe(this);
@@ -76,6 +82,8 @@ void EventSearch::take(const kage_rtl_event& a) {
   if (stage == Stage::token) {
     ++tokens_;
     token_ = a;
+    if (unexpected_ && unexpected_->clock == a.clock)
+      unexpected_token_ = tokens_ - 1;  // events of a clock have no order
     if (static_cast<Kind>(a.value[0] & 15U) == Kind::END) at_last_ = a.value[11] != 0;
   }
   if (stopped(a)) return;
@@ -98,7 +106,10 @@ void EventSearch::take(const kage_rtl_event& a) {
     }
     if (watch_) return;
     seen_ = std::min(seen_, a.clock);
-    if (!unexpected_) unexpected_ = a;
+    if (!unexpected_) {
+      unexpected_ = a;
+      unexpected_token_ = tokens_ == 0 ? 0 : tokens_ - 1;
+    }
     stop(stage, a.unit);
     return;
   }
@@ -148,7 +159,22 @@ void EventSearch::take_error(std::deque<ExpectedEvent>& q, const kage_rtl_event&
 
 void EventSearch::offer(const Mismatch& m) {
   seen_ = std::min(seen_, m.clock);
+  // After an error that should not be, nothing more comes of its token.
+  if (first_ && raised(*first_) && !m.actual && m.expected.token == first_->expected.token) return;
+  if (first_ && raised(m) && !first_->actual && m.expected.token == first_->expected.token) {
+    first_ = m;
+    return;
+  }
   if (!first_ || m.order() < first_->order()) first_ = m;
+}
+
+// An event comes of the newest token or of one before it, so a mismatch of a later token is behind it; of the same
+// token only the token itself, which is the first thing of it, is surely before.
+bool EventSearch::unexpected_leads() const {
+  if (!unexpected_ || !first_) return false;
+  const std::uint32_t token = first_->expected.token;
+  return token > unexpected_token_ ||
+         (token == unexpected_token_ && static_cast<Stage>(unexpected_->stage) == Stage::token);
 }
 
 // What comes behind a difference at its place says nothing more.
@@ -195,17 +221,18 @@ bool EventSearch::seen_before(std::uint64_t clock, std::uint64_t ago) const {
 Clue EventSearch::clue() const {
   Clue c;
   c.at_last = at_last_;
-  if (first_) {
-    c.expected = first_->expected;
-    c.actual = first_->actual;
-    c.value = first_->value;
+  const auto mismatch = first();
+  if (mismatch) {
+    c.expected = mismatch->expected;
+    c.actual = mismatch->actual;
+    c.value = mismatch->value;
   } else {
     c.actual = unexpected_;
     c.value = 0;
   }
   c.again = again_;
   c.of_token = of_token_;
-  const std::uint32_t token = first_ ? first_->expected.token : 0;
+  const std::uint32_t token = mismatch ? mismatch->expected.token : 0;
   for (std::uint32_t i = 1; i < token && i <= kinds_.size(); ++i) c.lines += kinds_[i - 1] == Kind::EOL ? 1U : 0U;
   c.lines_done = c.lines == height_;
   if (token > 0 && token <= kinds_.size()) c.kind = kinds_[token - 1];

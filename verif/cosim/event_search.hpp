@@ -25,8 +25,8 @@ using Watch = std::function<void(const ExpectedEvent&, const kage_rtl_event&)>;
 /// is ahead is kept. finish() when the frame has ended, then end().
 class EventSearch : private CoreObserver {
  public:
-  /// With `watch`, nothing stops at a difference.
-  explicit EventSearch(const Config& config, Watch watch = {});
+  /// With `watch`, nothing stops at a difference. `unwatched`: as RtlCore has it.
+  explicit EventSearch(const Config& config, std::uint32_t unwatched = 0, Watch watch = {});
 
   void feed(std::span<const std::uint32_t> words);
   void finish();
@@ -40,8 +40,8 @@ class EventSearch : private CoreObserver {
   /// of the video: after an error that is all of the frame that is left, at once.
   [[nodiscard]] std::size_t pending();
 
-  /// The first in the order of tokens and stages, of those seen by now.
-  [[nodiscard]] const std::optional<Mismatch>& first() const { return first_; }
+  /// The first in the order of tokens and stages, of those seen by now; none if unexpected() comes before it.
+  [[nodiscard]] std::optional<Mismatch> first() const { return unexpected_leads() ? std::nullopt : first_; }
   /// The first event for which no place was.
   [[nodiscard]] const std::optional<kage_rtl_event>& unexpected() const { return unexpected_; }
   /// The first small module that broke its own contract.
@@ -64,6 +64,8 @@ class EventSearch : private CoreObserver {
   void take(const kage_rtl_event& a);
   void take_error(std::deque<ExpectedEvent>& q, const kage_rtl_event& a);
   void stop(Stage stage, int unit);
+  /// Whether the unexpected event comes before the first mismatch in the order of tokens and stages.
+  [[nodiscard]] bool unexpected_leads() const;
   [[nodiscard]] bool stopped(const kage_rtl_event& a) const;
   /// Whether a segment is what frame_control's token has.
   [[nodiscard]] bool is_token(const kage_rtl_event& segment) const;
@@ -77,6 +79,7 @@ class EventSearch : private CoreObserver {
   std::vector<bool> stopped_columns_;
   std::optional<Mismatch> first_;
   std::optional<kage_rtl_event> unexpected_;
+  std::uint32_t unexpected_token_ = 0;  // the last that frame_control had taken then
   std::optional<kage_rtl_event> part_;
   std::uint32_t tokens_ = 0;  // that the RTL's frame_control has taken
   std::uint32_t height_ = 0;

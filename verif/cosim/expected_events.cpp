@@ -39,8 +39,9 @@ int number(Kind kind) { return static_cast<int>(kind); }
 
 }  // namespace
 
-ExpectedEvents::ExpectedEvents(const Config& config)
+ExpectedEvents::ExpectedEvents(const Config& config, std::uint32_t unwatched)
     : config_(config),
+      unwatched_(unwatched),
       depth_bits_(config.z_bits + config.z_frac + 2),
       ramp_bits_(config.smooth != 0 ? 10 + config.color_frac : 8) {
   for (auto& q : queues_) q.resize(1);
@@ -73,7 +74,9 @@ ExpectedEvent ExpectedEvents::no_error(int line, std::uint32_t token) {
   return e;
 }
 
-void ExpectedEvents::put(ExpectedEvent e) { queue(e.stage, e.unit).push_back(e); }
+void ExpectedEvents::put(ExpectedEvent e) {
+  if ((unwatched_ >> static_cast<unsigned>(e.stage) & 1U) == 0) queue(e.stage, e.unit).push_back(e);
+}
 
 // Two words a value, the first in the lower half; in the last {header, lacking, cut, final}.
 void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool final) {

@@ -33,7 +33,8 @@ struct ExpectedEvent {
 /// column, because the RTL works on those beside each other.
 class ExpectedEvents : public CoreObserver {
  public:
-  explicit ExpectedEvents(const Config& config);
+  /// Without those of stages that nothing watches: a bit for each, RtlCore::unwatched().
+  explicit ExpectedEvents(const Config& config, std::uint32_t unwatched = 0);
 
   /// Its queue; empty if nothing is expected. `unit` as in the event.
   std::deque<ExpectedEvent>& queue(Stage stage, int unit);
@@ -94,6 +95,7 @@ class ExpectedEvents : public CoreObserver {
   [[nodiscard]] std::uint64_t packed(const std::array<std::uint8_t, 3>& color) const;
 
   Config config_;
+  std::uint32_t unwatched_;
   int depth_bits_;
   int ramp_bits_;
   std::array<std::vector<std::deque<ExpectedEvent>>, kStages> queues_;

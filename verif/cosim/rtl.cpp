@@ -19,6 +19,18 @@ namespace {
 
 constexpr std::uint32_t kAlways = 65536;
 
+/// A seed that follows from both.
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t value = a + (b + 1) * 0x9E3779B97F4A7C15ULL;
+  value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9ULL;
+  value = (value ^ value >> 27) * 0x94D049BB133111EBULL;
+  return value ^ value >> 31;
+}
+
+std::uint64_t initial_seed(const RtlOptions& options) {
+  return options.initial == 0 ? options.seed : mixed(options.seed, ~options.initial);
+}
+
 /// The library, closed with the object.
 class Library {
  public:
@@ -41,17 +53,13 @@ class Library {
 class Rtl : public RtlCore {
  public:
   Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
-      : config_(config),
-        library_(path),
-        table_(library_.table()),
-        backpressure_(static_cast<std::uint64_t>(std::clamp(options.backpressure_percent, 0, 99))),
-        marker_(config) {
+      : config_(config), options_(options), library_(path), table_(library_.table()), marker_(config) {
     if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
       throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
     for (const ParamInfo& p : kParams)
       if (built_with(p.name) != config.*(p.member))
         throw Error(fmt::format("{}: {} is not that of the configuration", path.string(), p.name));
-    model_ = table_->create(options.seed);
+    model_ = table_->create(initial_seed(options));
     if (model_ == nullptr) throw Error(fmt::format("{}: out of memory", path.string()));
     table_->assertions(model_, options.assertions ? 1 : 0);
     if (options.mutant != 0) {
@@ -59,12 +67,17 @@ class Rtl : public RtlCore {
         throw Error(fmt::format("{}: has no mutant {}", path.string(), options.mutant));
       table_->reset(model_, 3);
     }
-    const auto chance = [](int idle) { return kAlways - kAlways * static_cast<std::uint32_t>(idle) / 100; };
-    table_->stalls(model_, chance(options.idle_percent), chance(options.backpressure_percent), options.seed);
+    begin(0);
   }
   ~Rtl() override { table_->destroy(model_); }
 
   [[nodiscard]] int channels() const override { return config_.channels; }
+
+  void begin(int number) override {
+    const auto share = [](int stopped) { return kAlways - kAlways * static_cast<std::uint32_t>(stopped) / 100; };
+    table_->stalls(model_, share(options_.idle_percent), share(options_.backpressure_percent),
+                   mixed(options_.seed, static_cast<std::uint64_t>(number)));
+  }
 
   void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
     Stopwatch watch(seconds_);
@@ -86,6 +99,8 @@ class Rtl : public RtlCore {
 
   [[nodiscard]] bool stuck() const override { return open_ && stuck_; }
   [[nodiscard]] bool traced() const override { return table_->traced != 0; }
+  [[nodiscard]] std::string missing_monitors() const override { return table_->missing_monitors; }
+  [[nodiscard]] std::uint32_t unwatched() const override { return table_->unwatched; }
   void record(bool on, std::function<void()> often) override {
     table_->record(model_, on ? 1 : 0);
     often_ = std::move(often);
@@ -260,7 +275,7 @@ class Rtl : public RtlCore {
   /// clocks with output ready: the slice has twice as many.
   [[nodiscard]] std::uint64_t slice() const {
     const auto rest = 8 * static_cast<std::uint64_t>(config_.max_width) + 4096;
-    return often_ ? 2 * rest * 100 / (100 - backpressure_) : kForever;
+    return often_ ? 2 * rest * 100 / (100 - static_cast<unsigned>(options_.backpressure_percent)) : kForever;
   }
 
   template <class Run>
@@ -310,6 +325,7 @@ class Rtl : public RtlCore {
   }
 
   Config config_;
+  RtlOptions options_;
   Library library_;
   const kage_rtl_table* table_;
   kage_rtl* model_ = nullptr;
@@ -318,7 +334,6 @@ class Rtl : public RtlCore {
   bool broken_ = false;
   std::vector<kage_rtl_event> events_;  // the last ones taken
   std::function<void()> often_;
-  std::uint64_t backpressure_;  // percent
 
   // Of the frame at hand:
   bool open_ = false;

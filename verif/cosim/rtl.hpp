@@ -14,7 +14,8 @@
 namespace kage::cosim {
 
 struct RtlOptions {
-  std::uint64_t seed = 1;        ///< of initial register contents and stalls
+  std::uint64_t seed = 1;        ///< of the stalls, and of the initial state
+  std::uint64_t initial = 0;     ///< another one's initial state, with this seed's stalls: 0 is its own
   int idle_percent = 0;          ///< share of clocks without input offered
   int backpressure_percent = 0;  ///< share of clocks without output taken
   int mutant = 0;                ///< of a model that has mutants: which one it is, from 1; 0: none
@@ -38,6 +39,10 @@ class RtlCore : public Core {
   virtual void pass(std::uint64_t clocks) = 0;
 
   [[nodiscard]] virtual bool traced() const = 0;
+
+  /// Monitors that do not fit the RTL, "a, b", and a bit for each stage of which there are no events therefore.
+  [[nodiscard]] virtual std::string missing_monitors() const = 0;
+  [[nodiscard]] virtual std::uint32_t unwatched() const = 0;
 
   /// Record events from now on, or no longer. `often` is called within feed() and finish() once so many clocks have
   /// passed that events should be taken, whatever the core does; it may throw, and then the core can be given nothing

@@ -22,7 +22,8 @@ namespace {
 /// A piece of a frame on its way to the actual core.
 struct Piece {
   std::vector<std::uint32_t> words;
-  Lines lines;  // what the expected core made of them
+  Lines lines;          // what the expected core made of them
+  bool before = false;  // of RunOptions::before
   struct End {
     FrameEnd expected;
     TokenCounts counts;
@@ -33,6 +34,40 @@ struct Piece {
   [[nodiscard]] std::size_t bytes() const { return words.size() * sizeof words[0] + lines.bytes(); }
 };
 
+/// A core in a frame that is compared.
+class Compared {
+ public:
+  Compared(Core& core, int frame, bool keep) : core_(core), comparison_(frame, core.channels(), keep) {
+    core.begin(frame);
+  }
+
+  /// Its part of a piece, before which the expected lines of it are there, and how it ends the frame where that is the
+  /// last. An assertion ends what can be compared: the expected core alone goes on to the frame's end.
+  void take(Lines lines, const Piece& piece) {
+    if (failed_) return;
+    comparison_.expect(std::move(lines));
+    const LineSink sink = [this](int, std::span<const std::uint8_t> line) { comparison_.actual(line); };
+    try {
+      core_.feed(piece.words, sink);
+      if (piece.end) end_ = core_.finish(sink);
+    } catch (const AssertionError& e) {
+      comparison_.assertion(e.where());
+      failed_ = true;
+    }
+  }
+
+  [[nodiscard]] const FrameEnd& end() const { return end_; }
+  [[nodiscard]] bool failed() const { return failed_; }
+  std::optional<Difference> finish(const FrameEnd& expected) { return comparison_.finish(expected, end_); }
+  [[nodiscard]] Image image(const Image& expected) const { return comparison_.actual_image(expected); }
+
+ private:
+  Core& core_;
+  FrameComparison comparison_;
+  FrameEnd end_;
+  bool failed_ = false;
+};
+
 /// The actual core, and the verdict.
 class Comparer {
  public:
@@ -40,9 +75,15 @@ class Comparer {
 
   /// False after the first difference: nothing more is wanted.
   bool take(Piece piece) {
-    if (!comparison_) comparison_.emplace(number(), actual_.channels(), !options_.out.empty());
-    const FrameEnd end = failed_ ? FrameEnd() : give(piece);
-    return !piece.end || end_frame(*piece.end, end);
+    if (piece.before) return take_before(piece);
+    const bool keep = !options_.out.empty();
+    if (!own_) {
+      own_.emplace(actual_, number(), keep);
+      if (report_.frames == 0 && options_.other_state != nullptr) other_.emplace(*options_.other_state, number(), keep);
+    }
+    if (other_) other_->take(piece.lines, piece);
+    own_->take(std::move(piece.lines), piece);
+    return !piece.end || end_frame(*piece.end);
   }
 
   [[nodiscard]] Report& report() { return report_; }
@@ -59,23 +100,20 @@ class Comparer {
   /// That of the frame at hand.
   [[nodiscard]] int number() const { return options_.steps.first + report_.frames * options_.steps.step; }
 
-  /// The actual core's part of a piece, and how it ends the frame where that is the last. An assertion of it ends what
-  /// can be compared: the expected core alone goes on to the frame's end.
-  FrameEnd give(Piece& piece) {
-    comparison_->expect(std::move(piece.lines));
-    const LineSink sink = [this](int, std::span<const std::uint8_t> line) { comparison_->actual(line); };
-    try {
-      actual_.feed(piece.words, sink);
-      if (piece.end) return actual_.finish(sink);
-    } catch (const AssertionError& e) {
-      comparison_->assertion(e.where());
-      failed_ = true;
-    }
-    return {};
+  /// What comes out of it is the business of who compares that frame.
+  bool take_before(Piece& piece) {
+    if (!own_) own_.emplace(actual_, number() - (options_.before - before_) * options_.steps.step, false);
+    own_->take(std::move(piece.lines), piece);
+    if (!piece.end) return true;
+    ++before_;
+    report_.broken = own_->failed();
+    own_.reset();
+    return !report_.broken;
   }
 
-  bool end_frame(Piece::End& end, const FrameEnd& a) {
+  bool end_frame(Piece::End& end) {
     const FrameEnd& e = end.expected;
+    const FrameEnd& a = own_->end();
     const int frame = number();
     ++report_.frames;
     report_.width = e.status.width;
@@ -90,10 +128,14 @@ class Comparer {
     report_.expected_seconds += e.seconds;
     report_.actual_seconds += a.seconds;
     report_.frame_seconds.push_back(e.seconds + a.seconds);
-    report_.first_difference = comparison_->finish(e, a);
+    report_.first_difference = own_->finish(e);
+    if (!report_.first_difference && other_) {
+      report_.first_difference = other_->finish(e);
+      if (report_.first_difference) report_.first_difference->other_state = true;
+    }
     const bool listed = report_.each.size() < kFrameResults || report_.first_difference;
     if (listed) report_.each.push_back({frame, e.status, end.counts, a.cycles, a.stalls, a.phase_stalls, {}});
-    if (end.picture && end.picture->drawn()) {
+    if (end.picture && end.picture->drawn() && (options_.all_pictures || report_.first_difference)) {
       if (listed) report_.each.back().picture = end.picture->path().string();
       report_.pictures.push_back(end.picture->path().string());
       if (report_.first_difference) expected_ = load_image(end.picture->temp());
@@ -105,13 +147,15 @@ class Comparer {
       return false;
     }
     // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".
-    if (e.status.width == 0) throw Error(fmt::format("frame {}: the cores refuse it: {}", frame, describe(e.status)));
-    comparison_.reset();
+    if (e.status.width == 0 && !options_.refusals)
+      throw Error(fmt::format("frame {}: the cores refuse it: {}", frame, describe(e.status)));
+    own_.reset();
+    other_.reset();
     return true;
   }
 
   void show_difference(int frame) {
-    const Image actual = comparison_->actual_image(expected_);
+    const Image actual = (report_.first_difference->other_state ? *other_ : *own_).image(expected_);
     Image difference;
     if (!expected_.data.empty()) report_.difference = diff_images(expected_, actual, {}, &difference);
     const auto save = [&](const char* suffix, const Image& image) {
@@ -128,10 +172,11 @@ class Comparer {
   Core& actual_;
   const RunOptions& options_;
   Report report_;
-  TempFiles files_;  // the pictures of the report
-  Image expected_;   // of the frame with the difference
-  std::optional<FrameComparison> comparison_;
-  bool failed_ = false;  // an assertion of the actual core did
+  TempFiles files_;                // the pictures of the report
+  Image expected_;                 // of the frame with the difference
+  int before_ = 0;                 // frames of RunOptions::before that have ended
+  std::optional<Compared> own_;    // the actual core
+  std::optional<Compared> other_;  // RunOptions::other_state
 };
 
 /// The comparer on a thread of its own, behind a queue that holds so much and no more.
@@ -231,13 +276,17 @@ using Taker = std::function<bool(Piece)>;
 /// The expected core works through all frames; what it does is handed to `take`.
 void lead(int frames, const Feed& feed, Core& expected, const RunOptions& options, const Taker& take) {
   const auto hand_on = [&](Piece& piece) {
+    const bool before = piece.before;
     if (!take(std::exchange(piece, {}))) throw Enough();
+    piece.before = before;
   };
-  for (int i = options.steps.first; i < frames; i += options.steps.step) {
+  for (int i = options.steps.first - options.before * options.steps.step; i < frames; i += options.steps.step) {
     if (options.begin) options.begin(i);
+    const bool before = i < options.steps.first;
     Piece piece;
+    piece.before = before;
     std::unique_ptr<FramePicture> picture;
-    if (!options.out.empty())
+    if (!options.out.empty() && !before)
       picture = std::make_unique<FramePicture>(options.out / fmt::format("{}_{:04}.png", options.name, i));
     const LineSink line = [&](int, std::span<const std::uint8_t> pixels) {
       piece.lines.add(pixels);
@@ -278,7 +327,7 @@ Report run(int frames, const Feed& feed, Core& expected, Core& actual, const Run
     } catch (const Enough&) {
     }
   }
-  if (comparer.report().frames == 0) throw Error("no frame to compare");
+  if (comparer.report().frames == 0 && !comparer.report().broken) throw Error("no frame to compare");
   comparer.commit();
   return std::move(comparer.report());
 }

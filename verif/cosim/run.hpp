@@ -21,6 +21,9 @@ namespace kage::cosim {
 struct FrameSteps {
   int first = 0;
   int step = 1;
+
+  /// How many of them are below `frames`.
+  [[nodiscard]] int below(int frames) const { return first >= frames ? 0 : (frames - 1 - first) / step + 1; }
 };
 
 /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts.
@@ -30,11 +33,16 @@ using Feed = std::function<TokenCounts(int index, const WordSink& sink)>;
 struct Enough {};
 
 struct RunOptions {
-  std::filesystem::path out;             ///< an existing folder for pictures, or empty for none
-  std::string name = "frame";            ///< pictures are NAME_0000.png ...
-  TempFiles* files = nullptr;            ///< gets the pictures, for the caller to commit; nullptr: run() commits them
-  FrameSteps steps;                      ///< of the frames
+  std::filesystem::path out;   ///< an existing folder for pictures, or empty for none
+  std::string name = "frame";  ///< pictures are NAME_0000.png ...
+  TempFiles* files = nullptr;  ///< gets the pictures, for the caller to commit; nullptr: run() commits them
+  FrameSteps steps;            ///< of the frames
+  int before = 0;  ///< so many of the steps before the first are run as well and not compared: a frame finds in the
+                   ///< core what those left there
+  bool refusals = false;                 ///< a frame that both cores refuse in its header counts as compared
+  bool all_pictures = true;              ///< false: those of the first difference alone
   bool two_threads = true;               ///< the second core works beside the first
+  Core* other_state = nullptr;           ///< the actual core with another initial state: it gets the first frame too
   std::function<void(int frame)> begin;  ///< called before each frame is fed; may throw, which ends the run
   std::function<void()> wait;  ///< called ten times a second while the second core lags; may throw, which ends the run
 };
@@ -55,8 +63,9 @@ inline constexpr std::size_t kFrameResults = 1000;
 
 struct Report {
   bool same = true;
-  int frames = 0;  ///< compared; a difference ends the run
-  int width = 0;   ///< of the last frame
+  bool broken = false;  ///< a frame of RunOptions::before ended in an assertion, so that no frame was compared
+  int frames = 0;       ///< compared; a difference ends the run
+  int width = 0;        ///< of the last frame
   int height = 0;
   std::uint64_t pixels_compared = 0;
   std::uint64_t spans = 0;  ///< of the frames compared

@@ -66,6 +66,7 @@ void record(const std::filesystem::path& path, const std::string& name, int from
   rtl->wave(path, clock > options.before ? clock - options.before : 0, end);
   try {
     for (int i = from; i <= frame; i += options.steps.step) {
+      rtl->begin(i);
       in_pieces(feed, i, [&](std::span<const std::uint32_t> piece) {
         rtl->feed(piece, kNowhere);
         if (options.wait) options.wait();

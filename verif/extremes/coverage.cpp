@@ -10,7 +10,7 @@
 #include "kage/oracle.hpp"
 #include "kage/stream.hpp"
 #include "scene/judge.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 #include "support/screen.hpp"
 
 namespace kage::verif {

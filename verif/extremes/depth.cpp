@@ -6,7 +6,7 @@
 #include "catch.hpp"
 #include "frontend/span_setup.hpp"
 #include "scene/judge.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 #include "support/screen.hpp"
 
 namespace kage::verif {

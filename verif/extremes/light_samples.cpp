@@ -3,8 +3,8 @@
 // RTL.
 #include "catch.hpp"
 #include "kage/core.hpp"
+#include "stimulus/random.hpp"
 #include "support/light_frames.hpp"
-#include "support/random.hpp"
 
 namespace kage::verif {
 namespace {

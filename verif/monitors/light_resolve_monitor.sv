@@ -27,19 +27,28 @@ module light_resolve_monitor #(
   if (COUNT_BITS > 0) begin : gen_light
     localparam int ResultBits = RgbBits + 1 + CHANNELS * FactorBits;
     logic [EntryShareBits-1:0] shares[2**CLASS_BITS*LIGHTS];
+    // An entry that nothing has written may hold anything; who asks for it is wrong, not who answers.
+    bit written[2**CLASS_BITS*LIGHTS];
+    logic [LightStages-1:0] known_q;
     logic [ResultBits-1:0] results_q[LightStages];
     logic [ResultBits-1:0] result;
     logic [CLASS_BITS-1:0] pixel_class;
     int lost, share;
+    bit known;
 
     always_comb begin
       result = '0;
+      known = 1'b1;
       lost = 0;
       share = 0;
       pixel_class = pixel_q[ExitClassAt+:CLASS_BITS];
       for (int c = 0; c < CHANNELS; c++) begin
         lost = 0;
         for (int l = 0; l < LIGHTS; l++) begin
+          if (CLASS_BITS > 1 && pixel_q[ExitCountAt+l*COUNT_BITS+:COUNT_BITS] != '0 &&
+              !written[32'(pixel_class)*LIGHTS+l]) begin
+            known = 1'b0;
+          end
           share = CLASS_BITS > 1 ? 32'(shares[32'(pixel_class)*LIGHTS+l][c*FactorBits+:FactorBits]) : 32'(keep_q);
           lost  = lost + 32'(pixel_q[ExitCountAt+l*COUNT_BITS+:COUNT_BITS]) * share;
         end
@@ -49,12 +58,16 @@ module light_resolve_monitor #(
     end
 
     always_ff @(posedge clk_i) begin
-      if (table_valid_i) shares[32'(table_class_i)*LIGHTS+32'(table_light_i)] <= table_share_i;
+      if (table_valid_i) begin
+        shares[32'(table_class_i)*LIGHTS+32'(table_light_i)]  <= table_share_i;
+        written[32'(table_class_i)*LIGHTS+32'(table_light_i)] <= 1'b1;
+      end
       if (go) begin
+        known_q <= {known_q[LightStages-2:0], known};
         results_q[0] <= result;
         for (int i = 1; i < LightStages; i++) results_q[i] <= results_q[i-1];
       end
-      if (rst_ni && valid_q[2+LightStages]) begin
+      if (rst_ni && valid_q[2+LightStages] && known_q[LightStages-1]) begin
         trace_part(PartLightResolve, 512'(results_q[LightStages-1]), 512'({colored, factor}));
       end
     end

@@ -2,10 +2,11 @@
 // Tries mutants of the RTL, prints a table of what became of each, and fails if one lives or is blamed on another
 // module.
 //
-// usage: mutants [--markdown] [--sample N SEED | NAME...]
+// usage: mutants [--markdown] [--sample N | NAME...]
 //        mutants --speed     what monitors and mutants cost in clocks a second
 //
-// Without names all of verif/mutants/mutants.yaml. Exit code 0: all as they should be; 1: not; 2: trouble.
+// Without names all of verif/mutants/mutants.yaml. Which N a sample has is by a seed that is printed: $KAGE_SEED, else
+// another one in each run. Exit code 0: all as they should be; 1: not; 2: trouble.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <random>
 #include <set>
 
 #include "cosim/model.hpp"
@@ -21,7 +23,7 @@
 #include "kage/paths.hpp"
 #include "mutants/list.hpp"
 #include "mutants/trial.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 namespace {
@@ -183,11 +185,12 @@ int run_all(std::vector<std::string> arguments) {
     }
     if (arguments[i] == "--markdown") {
       markdown = true;
-    } else if (arguments[i] == "--sample" && i + 2 < arguments.size()) {
+    } else if (arguments[i] == "--sample" && i + 1 < arguments.size()) {
       sample = std::stoi(arguments[++i]);
-      seed = std::stoull(arguments[++i]);
+      seed = test_seed(std::random_device()());
+      fmt::print("a sample by KAGE_SEED={}\n", seed);
     } else if (arguments[i].starts_with("--")) {
-      throw Error("usage: mutants [--markdown] [--sample N SEED | NAME...], or --speed");
+      throw Error("usage: mutants [--markdown] [--sample N | NAME...], or --speed");
     } else {
       names.push_back(arguments[i]);
     }

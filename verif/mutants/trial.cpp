@@ -20,6 +20,7 @@ std::optional<Difference> compare(cosim::RtlCore& rtl, const TrialFrame& f, int 
     comparison.expect(std::move(lines));
   }
   const LineSink sink = [&](int, std::span<const std::uint8_t> line) { comparison.actual(line); };
+  rtl.begin(number);
   rtl.feed(f.words, sink);
   return comparison.finish(f.end, rtl.finish(sink));
 }

@@ -28,8 +28,8 @@ std::string base64(std::span<const std::uint8_t> data) {
 TokenStore::TokenStore(const Config& config, std::size_t budget)
     : config_(config), layout_(config), counter_(config), budget_(budget), file_(std::tmpfile(), std::fclose) {
   if (!file_)
-    throw Error(fmt::format("the report: no temporary file can be made: {}; --no-report goes without",
-                            std::strerror(errno)));
+    throw Error(
+        fmt::format("the report: no temporary file can be made: {}; --no-report goes without", std::strerror(errno)));
 }
 
 std::string TokenStore::text(const Band& band) const {
@@ -129,16 +129,30 @@ void TokenStore::close_band() {
   if (compress2(packed.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), Z_BEST_SPEED) != Z_OK)
     throw Error("the report's tokens: zlib cannot pack them");
   packed.resize(size);
-  const std::string text = base64(packed);
+  keep(band_, base64(packed));
+}
+
+void TokenStore::keep(Band band, const std::string& text) {
   full_ = bytes_ + text.size() > budget_;
   if (full_) return;
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size())
     throw Error(fmt::format("the report: its temporary file cannot be written: {}; --no-report goes without",
                             std::strerror(errno)));
-  band_.offset = bytes_;
-  band_.bytes = text.size();
+  band.offset = bytes_;
+  band.bytes = text.size();
   bytes_ += text.size();
-  bands_.push_back(band_);
+  bands_.push_back(band);
+}
+
+void TokenStore::append(const TokenStore& later, std::size_t frames) {
+  std::size_t end = 0;  // the number of the first frame that is too many
+  for (; end < later.frames_.size() && frames > 0; ++end) frames -= later.frames_[end].tokens > 0 ? 1 : 0;
+  if (frames_.size() < end) frames_.resize(end);
+  for (std::size_t i = 0; i < end; ++i)
+    if (later.frames_[i].tokens > 0) frames_[i] = later.frames_[i];
+  for (const Band& band : later.bands_)
+    if (static_cast<std::size_t>(band.frame) < end && !full_) keep(band, later.text(band));
+  full_ = full_ || later.full_;
 }
 
 void TokenStore::end() {

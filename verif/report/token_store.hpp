@@ -53,6 +53,9 @@ class TokenStore {
   void words(std::span<const std::uint32_t> piece);
   void end();
 
+  /// What the store of later frames has kept, of so many frames at most: as if this one had read them itself.
+  void append(const TokenStore& later, std::size_t frames);
+
   [[nodiscard]] const std::vector<Band>& bands() const { return bands_; }
   [[nodiscard]] const std::vector<FrameTokens>& frames() const { return frames_; }  ///< by number
 
@@ -62,6 +65,7 @@ class TokenStore {
  private:
   void token(std::span<const std::uint32_t> words);
   void close_band();
+  void keep(Band band, const std::string& text);
   void open_band(int line, std::uint32_t token);
   void segment(std::span<const std::uint32_t> words);
   void tree();

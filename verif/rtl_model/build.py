@@ -85,7 +85,8 @@ def no_room(text, folder):
     return None
 
 
-def run(step, command, log):
+def run(step, command, log, otherwise=None):
+    """A step of the build, which ends it if it fails; or, with `otherwise`, if that makes nothing of what the step said."""
     command = [str(c) for c in command]
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, restore_signals=False)
@@ -94,7 +95,9 @@ def run(step, command, log):
     text = done.stdout.decode(errors="replace")
     log.write("$ " + " ".join(command) + "\n" + text)
     if done.returncode == 0:
-        return
+        return True
+    if otherwise and otherwise(text):
+        return False
     if log.whole:
         print(f"build.py: the log is {log.path}", file=sys.stderr)
     wanted = [line.strip() for line in text.splitlines() if "rror" in line or "FAILED" in line or line.startswith("%Warning")]
@@ -126,7 +129,7 @@ def parameters(arguments):
 
 def sources(fault=None, trace=False, mutants=False):
     files = sorted(p for p in RTL.glob("*.sv")) + sorted((RTL / "include").glob("*.svh"))
-    files += [RTL / "defs/kage.yaml", HERE / "rtl_model.h", HERE / "rtl_model.cpp", HERE / "build.py"]
+    files += [RTL / "defs/kage.yaml", HERE / "rtl_model.h", HERE / "rtl_model.cpp", HERE / "initial_state.hpp", HERE / "build.py"]
     if trace:
         files += sorted(MONITORS.iterdir())
     if mutants:
@@ -142,6 +145,29 @@ def trace_numbers():
     numbers = re.findall(r"^ *KAGE_((?:STAGE|PART)_\w+) = (\d+)", header, re.M)
     numbers += [("TRACE_VALUES", re.search(r"^#define KAGE_RTL_EVENT_VALUES (\d+)$", header, re.M)[1])]
     return "".join(f"localparam int {''.join(w.capitalize() for w in name.split('_'))} = {n};\n" for name, n in numbers)
+
+
+def leave_out(monitors, missing, text):
+    """Take the monitors that do not fit the RTL from one list to the other; False if that is not all that is wrong. The RTL may have been
+    given other names within: then its own stage goes unwatched, and the others do not."""
+    wrong = [re.match(r"%(?:Error|Warning)(?:-\w+)?: ([^:\s]+\.svh?):\d+", line) for line in text.splitlines() if line.startswith(("%Error", "%Warning"))]
+    places = {pathlib.Path(w[1]).resolve() for w in wrong if w}
+    unfit = [m for m in monitors if m.resolve() in places]
+    if not unfit or any(p.parent != MONITORS for p in places):
+        return False
+    for monitor in unfit:
+        monitors.remove(monitor)
+        missing.append(monitor)
+    return True
+
+
+def unwatched(missing):
+    """What the driver says of monitors that were left out: their names, and the stages that nothing gives events of."""
+    stages = set(re.findall(r"kage_trace\(\s*Stage(\w+)", "".join(m.read_text() for m in missing)))
+    if stages & {"Token", "Error"}:  # an error is looked for at the token that it came with
+        stages |= {"Token", "Error"}
+    bits = " | ".join(f"1U << KAGE_STAGE_{s.upper()}" for s in sorted(stages)) or "0"
+    return f'const char* const kMissingMonitors = "{", ".join(m.stem for m in missing)}";\nconstexpr std::uint32_t kUnwatched = {bits};\n'
 
 
 def put_in(rtl, package):
@@ -173,6 +199,22 @@ def put_in(rtl, package):
     (rtl / "kage_top.sv").write_text(head + sample + end + tail)
     package.write_text("package kage_mutants;\n  int selected;\nendpackage\n")
     return len(mutants)
+
+
+def name_initial_state(obj):
+    """Let every register's and memory's first value follow from seed and name (kage_initial() of rtl_model.cpp), in place of the
+    order in which Verilator draws them: so a model with monitors or waveforms starts as the plain one does."""
+    name = r"(vlSelf->(\w+)((?:\[\w+\])*))"
+    for path in sorted(obj.glob("*.cpp")):
+        text = path.read_text()
+        if "VL_RAND_RESET" not in text:
+            continue
+        index = lambda places: " + ".join(f"{1 << 20 * i}ULL * {at}" for i, at in enumerate(re.findall(r"\[(\w+)\]", places))) or "0"
+        text = re.sub(name + r"\s*= VL_RAND_RESET_[IQ]\((\d+)\);", lambda m: f'{m[1]} = kage_initial({m[4]}, "{m[2]}", {index(m[3])});', text)
+        text = re.sub(r"VL_RAND_RESET_W\((\d+), " + name + r"\);", lambda m: f'kage_initial_words({m[1]}, {m[2]}, "{m[3]}", {index(m[4])});', text)
+        if "VL_RAND_RESET" in text or "___024root" not in path.name:  # a name says where in the whole core, since --flatten leaves one module
+            fail(f"this Verilator draws the initial state in a way that is not known: {path.name}")
+        path.write_text(f'#include "{HERE / "initial_state.hpp"}"\n{text}')
 
 
 def main():
@@ -242,15 +284,21 @@ def build(out, values, args, work):
     to_stderr = "'-DVL_PRINTF(...)=fprintf(stderr,__VA_ARGS__)'"
     cflags = f"-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP {to_stderr}"
     command = [verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", obj, "-O3", "--x-initial", "unique",
-               "--assert", "--unroll-count", str(unroll), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
+               "--flatten", "--assert", "--unroll-count", str(unroll), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
     if args.trace:
         (work / "kage_trace_numbers.svh").write_text(trace_numbers())
         command += ["--trace-fst", f"-I{MONITORS}", f"-I{work}"]
     if args.mutants:  # what is wrong on purpose may be bad style
         command += ["-Wno-fatal", work / "kage_mutants.sv"]
-    command += sorted(rtl.glob("*.sv")) + (sorted(MONITORS.glob("*.sv")) if args.trace else [])
-    run("verilator", command, log)
+    command += sorted(rtl.glob("*.sv"))
+    monitors = sorted(MONITORS.glob("*.sv")) if args.trace else []
+    missing = []
+    while not run("verilator", command + monitors, log, lambda text: leave_out(monitors, missing, text)):
+        pass
+    with open(work / "params.inc", "a") as params:
+        params.write(unwatched(missing))
+    name_initial_state(obj)
 
     cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
     make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", f"OPT_FAST={'-O1' if quick else '-O2'}", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={shlex.join(cxx)}"]

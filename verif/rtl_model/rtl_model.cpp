@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "Vkage.h"
+#include "initial_state.hpp"
 #include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
 #include "verilated.h"
 #if defined(KAGE_TRACED) || defined(KAGE_MUTANTS)
@@ -34,16 +35,54 @@ class Random {
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15ULL + 0xD1B54A32D192ED03ULL) {
     if (state_ == 0) state_ = 1;
   }
-  bool chance(std::uint32_t of_65536) {
-    if (of_65536 >= 65536) return true;
+  std::uint32_t next() {
     state_ ^= state_ >> 12;
     state_ ^= state_ << 25;
     state_ ^= state_ >> 27;
-    return (state_ * 0x2545F4914F6CDD1DULL >> 48) < of_65536;
+    return static_cast<std::uint32_t>(state_ * 0x2545F4914F6CDD1DULL >> 32);
   }
+  std::uint32_t in(std::uint32_t least, std::uint32_t most) { return least + next() % (most - least + 1); }
 
  private:
   std::uint64_t state_;
+};
+
+/// A stream that goes in so many of 65536 clocks. It stops for a clock most often, sometimes for a burst of them, and
+/// now and then for longer than any buffer lasts; what goes between two stops is as long as the share needs.
+class Flow {
+ public:
+  explicit Flow(std::uint32_t share = 65536, std::uint64_t seed = 1)
+      : random_(seed), share_(share < 65536 ? share : 65536) {
+    if (share_ != 0 && share_ != 65536) go(1 + random_.in(0, 15));
+  }
+
+  /// Whether it goes in the next clock.
+  bool next() {
+    if (share_ == 0 || share_ == 65536) return share_ != 0;
+    while (left_ == 0) going_ ? stop() : go(stopped_);
+    --left_;
+    return going_;
+  }
+
+ private:
+  void stop() {
+    const std::uint32_t manner = random_.in(0, 63);
+    left_ = stopped_ = manner == 0 ? random_.in(64, 511) : manner < 9 ? random_.in(2, 32) : 1;
+    going_ = false;
+  }
+  /// For as long as a stop of so many clocks asks for, on the average.
+  void go(std::uint64_t stopped) {
+    const std::uint64_t mean = stopped * share_ * 256 / (65536 - share_);  // in 1/256 clocks
+    const std::uint64_t random = std::uint64_t{random_.next()} << 32 | random_.next();
+    left_ = (random % (2 * mean + 1) + random_.in(0, 255)) / 256;
+    going_ = true;
+  }
+
+  Random random_;
+  std::uint32_t share_;
+  bool going_ = true;
+  std::uint64_t left_ = 0;
+  std::uint64_t stopped_ = 0;
 };
 
 void put_words(IData& port, const std::uint32_t* words) { port = words[0]; }
@@ -75,10 +114,10 @@ thread_local kage_rtl* current = nullptr;  // the model that this thread lets wo
 }
 
 struct kage_rtl {
+  std::uint64_t initial;  // the seed of registers and memories
   VerilatedContext context;
   std::unique_ptr<Vkage> top;
-  Random input_random{1}, output_random{2};
-  std::uint32_t input_chance = 65536, output_chance = 65536;
+  Flow input, output;
 
   std::deque<Block> queue;
   std::size_t at = 0;                    // word of queue.front() that is offered next
@@ -109,21 +148,16 @@ struct kage_rtl {
   std::uint64_t wave_first = 1, wave_last = 0;
 #endif
 
-  explicit kage_rtl(std::uint64_t seed) {
+  explicit kage_rtl(std::uint64_t seed) : initial(seed) {
 #ifdef KAGE_TRACED
     context.traceEverOn(true);
 #endif
     enter();
-    context.randReset(2);
-    // Verilator's seed is an int in which 0 means "pick one".
-    context.randSeed(static_cast<int>((seed ^ seed >> 31) & 0x3FFFFFFF) + 1);
     context.fatalOnError(false);
     top = std::make_unique<Vkage>(&context, "top");
     idle_inputs();
     top->clk_i = 0;
     top->rst_ni = 0;
-    top->eval();
-    stalls(65536, 65536, seed);
     reset(2);
   }
   ~kage_rtl() {
@@ -155,20 +189,24 @@ struct kage_rtl {
     top->s_axil_rready_i = 0;
   }
 
-  void edge() {
-    top->clk_i = 1;
-    top->eval();
-    dump(2 * clocks);
+  // A clock is two steps. settle(): inputs may have changed since the last edge, and outputs follow them, as a ready
+  // may that waits for its valid. What the port says then is what it says at the edge. tick(): the edge.
+  void settle() {
     top->clk_i = 0;
     top->eval();
-    dump(2 * clocks + 1);
+    if (clocks > 0) dump(clocks - 1, 2 * clocks - 1);
+  }
+  void tick() {
+    top->clk_i = 1;
+    top->eval();
+    dump(clocks, 2 * clocks);
     context.timeInc(1);
     ++clocks;
   }
 
 #ifdef KAGE_TRACED
-  void dump(std::uint64_t time) {
-    if (clocks < wave_first || clocks > wave_last) return;
+  void dump(std::uint64_t clock, std::uint64_t time) {
+    if (clock < wave_first || clock > wave_last) return;
     if (!fst) {
       fst = std::make_unique<VerilatedFstC>();
       top->trace(fst.get(), 99);
@@ -184,7 +222,7 @@ struct kage_rtl {
     wave_first = 1;
   }
 #else
-  void dump(std::uint64_t) {}
+  void dump(std::uint64_t, std::uint64_t) {}
   void close_wave() {}
 #endif
 
@@ -199,16 +237,16 @@ struct kage_rtl {
     quiet = 0;
     idle_inputs();
     top->rst_ni = 0;
-    for (std::uint32_t i = 0; i < (clocks > 0 ? clocks : 1); ++i) edge();
+    for (std::uint32_t i = 0; i < (clocks > 0 ? clocks : 1); ++i) {
+      settle();
+      tick();
+    }
     top->rst_ni = 1;
-    top->eval();
   }
 
-  void stalls(std::uint32_t input, std::uint32_t output, std::uint64_t seed) {
-    input_chance = input;
-    output_chance = output;
-    input_random = Random(seed * 2 + 1);
-    output_random = Random(seed * 2 + 2);
+  void stalls(std::uint32_t input_share, std::uint32_t output_share, std::uint64_t seed) {
+    input = Flow(input_share, seed * 2 + 1);
+    output = Flow(output_share, seed * 2 + 2);
   }
 
   // Whether one was expected.
@@ -239,10 +277,16 @@ struct kage_rtl {
     return due;
   }
 
-  // One clock. The core's outputs depend on registers only, so what they are now is what they are at the edge.
+  // One clock.
   void clock() {
+    drive();
+    finish_clock();
+  }
+
+  // What the streams do in this clock; afterwards all ports have the values that the edge will see.
+  void drive() {
     if (!offered && !queue.empty()) {
-      offered = input_random.chance(input_chance);
+      offered = input.next();
       if (offered) {
         const Block& b = queue.front();
         put_words(top->s_axis_tdata_i, b.words.data() + at);
@@ -250,9 +294,13 @@ struct kage_rtl {
       }
     }
     top->s_axis_tvalid_i = offered ? 1 : 0;
-    const bool ready = output_random.chance(output_chance);
-    top->m_axis_tready_i = ready ? 1 : 0;
+    top->m_axis_tready_i = output.next() ? 1 : 0;
+    settle();
+  }
 
+  // The edge, and what it passed.
+  void finish_clock() {
+    const bool ready = top->m_axis_tready_i != 0;
     const bool beat = offered && top->s_axis_tready_o;
     const bool pixel = top->m_axis_tvalid_o;
     const std::uint32_t value = static_cast<std::uint32_t>(top->m_axis_tdata_o);
@@ -269,7 +317,7 @@ struct kage_rtl {
     ++stats.cycles;
     quiet = beat || due ? 0 : quiet + (ready && (offered || queue.empty()) ? 1 : 0);
 
-    edge();
+    tick();
 
     if (beat) {
       offered = false;
@@ -313,15 +361,16 @@ struct kage_rtl {
     top->s_axil_araddr_i = static_cast<CData>(address);
     top->s_axil_rready_i = 1;
     for (int n = 0; n < 1000; ++n) {
+      drive();
       const bool taken = top->s_axil_arvalid_i && top->s_axil_arready_o;
-      if (top->s_axil_rvalid_o) {
-        *value = top->s_axil_rdata_o;
-        const int response = top->s_axil_rresp_o;
-        clock();
+      const bool answered = top->s_axil_rvalid_o;
+      *value = top->s_axil_rdata_o;
+      const int response = top->s_axil_rresp_o;
+      finish_clock();
+      if (answered) {
         top->s_axil_rready_i = 0;
         return response;
       }
-      clock();
       if (taken) top->s_axil_arvalid_i = 0;
     }
     return -1;
@@ -336,15 +385,16 @@ struct kage_rtl {
     top->s_axil_bready_i = 1;
     for (int n = 0; n < 1000; ++n) {
       if (n == late) top->s_axil_wvalid_i = 1;
+      drive();
       const bool aw = top->s_axil_awvalid_i && top->s_axil_awready_o;
       const bool w = top->s_axil_wvalid_i && top->s_axil_wready_o;
-      if (top->s_axil_bvalid_o) {
-        const int response = top->s_axil_bresp_o;
-        clock();
+      const bool answered = top->s_axil_bvalid_o;
+      const int response = top->s_axil_bresp_o;
+      finish_clock();
+      if (answered) {
         top->s_axil_bready_i = 0;
         return response;
       }
-      clock();
       if (aw) top->s_axil_awvalid_i = 0;
       if (aw) top->s_axil_awaddr_i = static_cast<CData>(~address);
       if (w) top->s_axil_wvalid_i = 0;
@@ -362,6 +412,8 @@ const kage_rtl_table kTable = {
     kParamValues,
     kFault,
     kMutants,
+    kMissingMonitors,
+    kUnwatched,
 #ifdef KAGE_TRACED
     1,
 #else
@@ -493,6 +545,19 @@ void kage_trace(int stage, int unit, const svBitVecVal* values) {
     e.value[i] = values[2 * i] | static_cast<std::uint64_t>(values[2 * i + 1]) << 32;
 }
 #endif
+
+// FNV-1a of the name, then the mixer of splitmix64, so that neighbours in a memory have nothing in common.
+std::uint64_t kage_initial(unsigned bits, const char* name, std::uint64_t index) {
+  std::uint64_t value = 0xCBF29CE484222325ULL;
+  for (; *name != 0; ++name) value = (value ^ static_cast<unsigned char>(*name)) * 0x100000001B3ULL;
+  for (const std::uint64_t part : {current->initial, index}) {
+    value += part + 0x9E3779B97F4A7C15ULL;
+    value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9ULL;
+    value = (value ^ value >> 27) * 0x94D049BB133111EBULL;
+    value ^= value >> 31;
+  }
+  return bits >= 64 ? value : value & ((std::uint64_t{1} << bits) - 1);
+}
 
 #ifdef KAGE_MUTANTS
 // Called by kage_top in reset.

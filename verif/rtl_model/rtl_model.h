@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 8u
+#define KAGE_RTL_ABI 9u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -114,7 +114,11 @@ typedef struct {
   const int32_t* param_values;
   const char* fault;
   int mutants; /* how many are built in, behind select(); 0: none */
-  int traced;  /* built with monitors and waveforms; without, record(), wave(), end_wave() and handshakes() return -1 */
+  /* Monitors that do not fit the RTL and were left out, "a, b", "" if none, and a bit for each KAGE_STAGE_* of which
+   * there are no events therefore. */
+  const char* missing_monitors;
+  uint32_t unwatched;
+  int traced; /* built with monitors and waveforms; without, record(), wave(), end_wave() and handshakes() return -1 */
 
   /* A model out of reset, its registers and memories at random values that `seed` decides. NULL if out of memory. */
   kage_rtl* (*create)(uint64_t seed);
@@ -135,9 +139,10 @@ typedef struct {
    * dropped; pixels already delivered stay. */
   void (*reset)(kage_rtl*, uint32_t clocks);
 
-  /* Chance in 65536 that a beat is offered, and that a pixel is taken, per clock: 65536 is always. An offered beat
-   * stays. */
-  void (*stalls)(kage_rtl*, uint32_t input_chance, uint32_t output_chance, uint64_t seed);
+  /* The share of clocks, in 65536, in which the next beat is offered, and in which a pixel is taken: 65536 is always.
+   * An offered beat stays. Stops come alone, in bursts, and now and then last longer than any buffer; `seed` says when,
+   * from this call on. */
+  void (*stalls)(kage_rtl*, uint32_t input_share, uint32_t output_share, uint64_t seed);
 
   /* Queue words as whole beats; zeros fill the last beat. `last` puts TLAST on it. A frame may come in several calls.
    */

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "rtl_model/rtl_model.h"
+#include "stimulus/random.hpp"
 #include "support/light_frames.hpp"
-#include "support/random.hpp"
 
 namespace {
 

@@ -20,45 +20,14 @@
 #include "kage/registers.h"
 #include "kage/stream.hpp"
 #include "rtl_model/rtl_model.h"
-#include "support/damage.hpp"
-#include "support/random.hpp"
-#include "support/streams.hpp"
+#include "stimulus/random.hpp"
+#include "stimulus/random_frames.hpp"
 
 namespace {
 
 using namespace kage;
 using namespace kage::verif;
 using Words = std::vector<std::uint32_t>;
-
-/// A frame that obeys all rules.
-Words sound(Random& random, const Config& c, std::uint32_t number) {
-  FrameStyle style{.most_opaque = 12, .most_volumes = 4, .most_in_volume = 8, .port = true};
-  if (random.chance(0.2)) style.most_opaque = style.most_in_volume = 60;
-  if (random.chance(0.05)) {  // more samples than a counter holds, and little else
-    style.most_samples = 3 << c.count_bits;
-    style.most_opaque = style.most_volumes = style.most_in_volume = 2;
-  }
-  if (random.chance(0.2)) style.most_opaque = style.most_volumes = 0;  // line upon line, and all that a line needs
-  Words words;
-  const int width = random.chance(0.2)   ? random.in(1, std::min(c.max_width, 4))
-                    : random.chance(0.3) ? c.max_width
-                                         : random.in(1, std::min(c.max_width, 70));
-  random_frame(random, c, width, random.in(1, random.chance(0.1) ? 12 : 4), words, number, style);
-  return words;
-}
-
-/// Something wrong with it, or perhaps not: what the golden core says is right. Never so high that it takes too long.
-Words malformed(Random& random, const Config& c, std::uint32_t number) {
-  for (;;) {
-    Words words = sound(random, c, number);
-    const bool to_tree = c.units > 0 && random.chance(0.6);
-    const bool to_light = !to_tree && c.count_bits > 0 && random.chance(0.4);
-    if (to_tree) damage_tree(random, c, words);
-    if (to_light) damage_light(random, c, words);
-    if ((!to_tree && !to_light) || random.chance(0.1)) damage(random, words);
-    if (!words.empty() && (words.size() == 1 || words[1] >> 16 <= 40 || words[1] >> 16 > 32767)) return words;
-  }
-}
 
 /// Fill for the last beat: a core ignores it after END, so noise there must not matter; elsewhere zeros, as the golden
 /// core reads.
@@ -104,7 +73,7 @@ struct Trial {
     api.reg_write(m, KAGE_REG_WATCHDOG, 300);
     api.reg_write(m, KAGE_REG_CONTROL, 4);
     api.reg_write(m, KAGE_REG_IRQ, 7);
-    Words words = sound(random, config, 5);
+    Words words = sound_frame(random, config, 5);
     announce(m, words);
     words.resize(words.size() - 1);  // no END, no TLAST
     api.submit(m, words.data(), words.size(), 0);
@@ -122,7 +91,7 @@ struct Trial {
     api.stalls(m, 65536, 0, 1);
     api.reg_write(m, KAGE_REG_WATCHDOG, 300);
     api.reg_write(m, KAGE_REG_CONTROL, 4);
-    words = sound(random, config, 6);
+    words = sound_frame(random, config, 6);
     announce(m, words);
     api.submit(m, words.data(), words.size(), 1);
     api.run(m, UINT64_MAX, 8ULL * static_cast<std::uint64_t>(config.max_width) + 20'000);
@@ -148,7 +117,7 @@ struct Trial {
     std::uint32_t ended = 0;
     for (int group = 0; group < 4; ++group) {
       if (random.chance(0.3)) {  // reset somewhere within a frame
-        const Words words = sound(random, config, 99);
+        const Words words = sound_frame(random, config, 99);
         announce(m, words);
         api.submit(m, words.data(), words.size(), 1);
         api.run(m, UINT64_MAX, static_cast<std::uint64_t>(random.in(0, 1999)));
@@ -163,7 +132,7 @@ struct Trial {
       for (int i = 0; i < count; ++i) {
         const bool is_sound = random.chance(0.5);
         const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
-        Words words = is_sound ? sound(random, config, number) : malformed(random, config, number);
+        Words words = is_sound ? sound_frame(random, config, number) : damaged_frame(random, config, number);
         fill(words, config, is_sound, random);
         const FrameStatus s = golden.frame(words, [&](int, std::span<const std::uint8_t> line) {
           expected.insert(expected.end(), line.begin(), line.end());

@@ -13,8 +13,8 @@
 
 #include "kage/config.hpp"
 #include "rtl_model/rtl_model.h"
-#include "support/random.hpp"
-#include "support/streams.hpp"
+#include "stimulus/frames.hpp"
+#include "stimulus/random.hpp"
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include "bench.hpp"
 #include "kage/core.hpp"
 #include "kage/registers.h"
-#include "support/random.hpp"
-#include "support/streams.hpp"
+#include "stimulus/frames.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::rtl {
 

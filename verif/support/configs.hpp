@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "kage/config.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kage/order.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "order/data.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 

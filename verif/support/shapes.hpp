@@ -10,7 +10,7 @@
 
 #include "kage/scene.hpp"
 #include "scene/polygons.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 

@@ -7,13 +7,13 @@
 
 #include "catch.hpp"
 #include "kage/core.hpp"
+#include "stimulus/damage.hpp"
+#include "stimulus/frames.hpp"
+#include "stimulus/random.hpp"
 #include "support/configs.hpp"
-#include "support/damage.hpp"
 #include "support/guarded_new.hpp"
-#include "support/random.hpp"
 #include "support/simd.hpp"
 #include "support/simple_core.hpp"
-#include "support/streams.hpp"
 
 namespace kage::verif {
 namespace {

@@ -277,6 +277,41 @@ TEST_CASE("an assertion of the actual core is a difference, of the frame in whic
   }
 }
 
+TEST_CASE("another initial state gets the first frame too, and what it has wrong is told as its own") {
+  for (const bool two_threads : {false, true}) {
+    FakeCore expected;
+    FakeCore actual;
+    FakeCore other;
+    int frames = 0;
+    other.spoil_line = [&](std::uint32_t frame, int y, Line& line) {
+      frames = std::max(frames, static_cast<int>(frame) + 1);
+      if (frame == 1 && y == 1) line[5] ^= 1;
+    };
+    RunOptions options;
+    options.two_threads = two_threads;
+    options.other_state = &other;
+    CHECK(run(3, feed_of(7, 3, 1), expected, actual, options).same);
+    CHECK(frames == 1);
+    options.steps.first = 1;
+    const Report r = run(3, feed_of(7, 3, 1), expected, actual, options);
+    CHECK_FALSE(r.same);
+    REQUIRE(r.first_difference);
+    CHECK(r.frames == 1);
+    CHECK(r.first_difference->frame == 1);
+    CHECK(r.first_difference->x == 1);
+    CHECK(r.first_difference->other_state);
+    CHECK(describe(*r.first_difference).find("another initial state") != std::string::npos);
+    // What the run's own core has wrong comes before it.
+    actual.spoil_line = [](std::uint32_t frame, int y, Line& line) {
+      if (frame == 1 && y == 2) line[0] ^= 1;
+    };
+    const Report own = run(3, feed_of(7, 3, 1), expected, actual, options);
+    REQUIRE(own.first_difference);
+    CHECK(own.first_difference->line == 2);
+    CHECK_FALSE(own.first_difference->other_state);
+  }
+}
+
 TEST_CASE("a frame that both refuse is no verdict") {
   FakeCore a;
   a.spoil_line = [](std::uint32_t, int, Line& line) { line.clear(); };

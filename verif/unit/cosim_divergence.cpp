@@ -9,8 +9,8 @@
 #include "cosim/model.hpp"
 #include "kage/config.hpp"
 #include "kage/stream.hpp"
-#include "support/damage.hpp"
-#include "support/streams.hpp"
+#include "stimulus/damage.hpp"
+#include "stimulus/frames.hpp"
 
 using namespace kage;
 using namespace kage::cosim;
@@ -69,6 +69,7 @@ TEST_CASE("sound RTL does not diverge in any stage") {
     CAPTURE(name);
     DivergenceOptions options;
     options.library = find_model(c, {.traced = true}).library;
+    CHECK(make_rtl(options.library, c)->missing_monitors().empty());
     auto frames = random_frames(random, c, 60);
     for (std::size_t i = 40; i < frames.size(); ++i) {
       damage(random, frames[i]);

@@ -5,8 +5,8 @@
 
 #include "catch.hpp"
 #include "kage/error.hpp"
+#include "stimulus/frames.hpp"
 #include "support/configs.hpp"
-#include "support/streams.hpp"
 
 namespace kage::verif {
 namespace {

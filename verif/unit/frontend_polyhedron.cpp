@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 #include "support/screen.hpp"
 #include "support/tree_frames.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "catch.hpp"
 #include "frontend/span_setup.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 namespace {

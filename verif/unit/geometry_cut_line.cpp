@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "geometry/translucent.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 #include "support/shapes.hpp"
 
 namespace kage::verif {

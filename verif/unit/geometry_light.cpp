@@ -10,7 +10,7 @@
 #include "catch.hpp"
 #include "geometry/light_table.hpp"
 #include "kage/light.hpp"
-#include "support/random.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 namespace {

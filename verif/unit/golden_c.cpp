@@ -12,8 +12,8 @@
 #include "kage/core.hpp"
 #include "kage/golden.h"
 #include "kage/stream.hpp"
-#include "support/damage.hpp"
-#include "support/streams.hpp"
+#include "stimulus/damage.hpp"
+#include "stimulus/frames.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include "catch.hpp"
 #include "core/span_kernels.hpp"
+#include "stimulus/random.hpp"
 #include "support/guarded.hpp"
-#include "support/random.hpp"
 #include "support/simd.hpp"
 
 namespace kage::verif {

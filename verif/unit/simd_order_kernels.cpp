@@ -10,9 +10,9 @@
 #include "order/kernels.hpp"
 #include "order/parts.hpp"
 #include "order/placing.hpp"
+#include "stimulus/random.hpp"
 #include "support/guarded.hpp"
 #include "support/order_shapes.hpp"
-#include "support/random.hpp"
 #include "support/simd.hpp"
 
 namespace kage::verif {

@@ -10,11 +10,11 @@
 #include "catch.hpp"
 #include "kage/error.hpp"
 #include "number/bits.hpp"
+#include "stimulus/frames.hpp"
+#include "stimulus/random.hpp"
 #include "stream/fields.hpp"
 #include "support/configs.hpp"
 #include "support/pictures.hpp"
-#include "support/random.hpp"
-#include "support/streams.hpp"
 
 namespace kage::verif {
 namespace {

@@ -11,8 +11,8 @@
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
-#include "support/random.hpp"
-#include "support/streams.hpp"
+#include "stimulus/frames.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 namespace {

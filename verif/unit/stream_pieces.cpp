@@ -9,11 +9,11 @@
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
+#include "stimulus/damage.hpp"
+#include "stimulus/frames.hpp"
+#include "stimulus/random.hpp"
 #include "support/configs.hpp"
-#include "support/damage.hpp"
-#include "support/random.hpp"
 #include "support/simple_core.hpp"
-#include "support/streams.hpp"
 
 namespace kage::verif {
 namespace {

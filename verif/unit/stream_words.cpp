@@ -6,9 +6,9 @@
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
+#include "stimulus/frames.hpp"
+#include "stimulus/random.hpp"
 #include "support/configs.hpp"
-#include "support/random.hpp"
-#include "support/streams.hpp"
 
 namespace kage::verif {
 TEST_CASE("every field of every token survives its way through the words, at its extremes too") {

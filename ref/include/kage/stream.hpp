@@ -166,6 +166,8 @@ class StreamFileWriter {
 
   /// A frame in pieces: begin_frame(), its words, end_frame(). No piece is kept.
   void begin_frame();
+  /// A frame as a port may bring it, sound or not (section PORT): a reader does not check it.
+  void begin_port_frame();
   void words(std::span<const std::uint32_t> words);
   void end_frame();
 
@@ -206,6 +208,8 @@ class StreamFile {
 
   [[nodiscard]] const Config& config() const;
   [[nodiscard]] int frame_count() const;
+  /// Whether frame `index` is as a port may bring it (section PORT): nothing in it has been checked but its checksum.
+  [[nodiscard]] bool is_port_frame(int index) const;
   [[nodiscard]] std::uint64_t bytes() const;
 
   /// The text that StreamFileWriter::origin() took, or nothing.
@@ -226,6 +230,9 @@ class StreamFile {
   struct Data;
   std::unique_ptr<Data> data_;
 };
+
+/// What the words of a frame, sound or not, have of tokens: up to the first word that begins none, or to END.
+TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> words);
 
 /// True if the file begins like a stream file.
 bool is_stream_file(const std::filesystem::path& path);

@@ -105,9 +105,18 @@ class Browser:
             raise RuntimeError(f"{expression[:200]}: {json.dumps(r['exceptionDetails'])[:1000]}")
         return r["result"].get("value")
 
+    def now(self, expression):
+        """Its value, or nothing while the page gives way to another."""
+        try:
+            return self.run(expression)
+        except RuntimeError as e:
+            if "navigated or closed" in str(e):
+                return None
+            raise
+
     def until(self, expression, seconds=20):
         end = time.monotonic() + seconds
-        while not self.run(expression):
+        while not self.now(expression):
             if time.monotonic() > end:
                 raise RuntimeError(f"not within {seconds} s: {expression}")
             time.sleep(0.02)

@@ -1,42 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Random frames of tokens: valid ones, as files hold them or as a port takes them.
-#pragma once
+#include "stimulus/frames.hpp"
 
 #include <algorithm>
-#include <array>
 #include <deque>
 #include <span>
 #include <utility>
-#include <vector>
-
-#include "kage/stream.hpp"
-#include "support/random.hpp"
 
 namespace kage::verif {
-
-/// What a frame is made of.
-struct FrameStyle {
-  int most_opaque = 8;       ///< OPs of a line
-  int most_volumes = 3;      ///< of a line, with FSF
-  int most_in_volume = 5;    ///< SP, NC and IF of a volume
-  int most_translucent = 5;  ///< TPs of a line
-  int most_samples = 4;      ///< of a line, with COUNT_BITS
-  /// Spans as a port takes them: accumulators may wrap, which a file may not have, and many spans meet at the same few
-  /// pixels and depths, which is what forwarding is for.
-  bool port = false;
-  /// Frames with a tree, where the configuration has units: 0 none, 1 all that are narrow enough.
-  double trees = 0.7;
-};
+namespace {
 
 /// A two's complement field of so many bits: any magnitude is as likely as any other.
-inline std::int64_t random_field(Random& random, int bits) {
+std::int64_t random_field(Random& random, int bits) {
   const std::int64_t limit = std::int64_t{1} << (random.in(1, bits) - 1);
   return random.integer(-limit, limit - 1);
 }
 
 /// A span of a valid frame: any start and slope that stay within the accumulator.
-inline void random_ramp(Random& random, int bits, int count, std::int64_t& start, std::int64_t& step) {
+void random_ramp(Random& random, int bits, int count, std::int64_t& start, std::int64_t& step) {
   const std::int64_t limit = std::int64_t{1} << (bits - 1);
   // Often within the range that is drawn, sometimes past it, sometimes all equal (ties).
   start = random.chance(0.8) ? random.integer(0, limit / 2) : random.integer(-limit, limit - 1);
@@ -50,14 +30,14 @@ inline void random_ramp(Random& random, int bits, int count, std::int64_t& start
 }
 
 /// A class that a table of so many has, or, without table, lit or not.
-inline int random_class(Random& random, const Config& c, int classes) {
+int random_class(Random& random, const Config& c, int classes) {
   if (c.dsf_bits == 0 || random.chance(0.2)) return 0;
   return c.class_bits == 1 ? 1 : random.in(0, classes);
 }
 
 /// `home` is the pixel round which the spans of a crowded line meet.
-inline SpanToken random_span(Random& random, const Config& c, int width, const FrameStyle& style = {}, int home = 0,
-                             int classes = 0) {
+SpanToken random_span(Random& random, const Config& c, int width, const FrameStyle& style = {}, int home = 0,
+                      int classes = 0) {
   SpanToken s;
   s.xl = random.in(0, width);
   s.xr = random.chance(0.2)   ? width
@@ -101,13 +81,13 @@ inline SpanToken random_span(Random& random, const Config& c, int width, const F
 }
 
 /// A translucent span: any span, often one that is not blended at all or nothing but itself.
-inline SpanToken random_translucent(Random& random, const Config& c, int width, const FrameStyle& style, int home) {
+SpanToken random_translucent(Random& random, const Config& c, int width, const FrameStyle& style, int home) {
   SpanToken s = random_span(random, c, width, style, home);
   s.alpha = random.chance(0.3) ? random.in(0, 1) * 255 : random.in(0, 255);
   return s;
 }
 
-inline int random_weight(Random& random, const Config& c) {
+int random_weight(Random& random, const Config& c) {
   return random.chance(0.8) ? (random.chance(0.5) ? 1 : -1) : random.in(-(1 << c.dsf_bits), (1 << c.dsf_bits) - 1);
 }
 
@@ -126,7 +106,9 @@ class RandomTree {
         faces_(waiting_.size()) {
     for (std::size_t u = 0; u < waiting_.size(); ++u) {
       const int blank = (1 << c.face_bits) - 1;
-      const int count = random.chance(0.1) ? std::min(blank, 20) : random.in(0, std::min(blank, 4));
+      const int count = random.chance(0.02)  ? blank
+                        : random.chance(0.1) ? std::min(blank, 20)
+                                             : random.in(0, std::min(blank, 4));
       for (int f = 0; f < count; ++f) faces_[u].push_back(face(static_cast<int>(u), f, port));
       for (int y = 0; y < height; ++y) line(u, y, port);
     }
@@ -243,7 +225,7 @@ class RandomTree {
 };
 
 /// The entries of a table of so many classes, at a port often with some of another's.
-inline std::vector<TableToken> random_table(Random& random, const Config& c, int classes, bool port) {
+std::vector<TableToken> random_table(Random& random, const Config& c, int classes, bool port) {
   if (c.class_bits == 1) return {};
   const int most = 1 << c.shade_frac;
   // Shares that black out at once, and such that take many samples.
@@ -262,8 +244,8 @@ inline std::vector<TableToken> random_table(Random& random, const Config& c, int
 }
 
 /// The volumes of a sample of a light, or of the only one there is; false if there are none.
-inline bool random_sample(Random& random, const Config& c, int width, TokenWriter& w,
-                          std::array<std::uint64_t, 16>& count, const FrameStyle& style, int home) {
+bool random_sample(Random& random, const Config& c, int width, TokenWriter& w, std::array<std::uint64_t, 16>& count,
+                   const FrameStyle& style, int home) {
   const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
   const int volumes = c.fsf != 0 ? random.in(0, style.most_volumes) : random.in(0, 1);
   for (int v = 0; v < volumes; ++v) {
@@ -306,10 +288,11 @@ inline bool random_sample(Random& random, const Config& c, int width, TokenWrite
   return volumes > 0;
 }
 
-/// Append a valid frame; returns how many tokens of each kind it has.
-inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height,
-                                                  std::vector<std::uint32_t>& words, std::uint32_t number = 0,
-                                                  const FrameStyle& style = {}) {
+}  // namespace
+
+std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height,
+                                           std::vector<std::uint32_t>& words, std::uint32_t number,
+                                           const FrameStyle& style) {
   width = std::min(width, c.max_width);
   std::array<std::uint64_t, 16> count{};
   const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
@@ -327,7 +310,8 @@ inline std::array<std::uint64_t, 16> random_frame(Random& random, const Config& 
   const bool faces_first = random.chance(0.5);
   if (has_faces && faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)], table);
   if (c.dsf_bits > 0 && most_classes == 0 && random.chance(0.8)) {
-    w.shade(static_cast<std::uint32_t>(random.in(0, 1 << c.shade_frac)));
+    const int all = 1 << c.shade_frac;
+    w.shade(static_cast<std::uint32_t>(random.chance(0.1) ? 0 : random.chance(0.1) ? all : random.in(0, all)));
     add(Kind::SHADE);
   }
   if (has_faces && !faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)], table);

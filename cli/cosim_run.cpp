@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim_run.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "cosim/rtl.hpp"
+#include "cosim_json.hpp"
+#include "kage/core.hpp"
+#include "kage/error.hpp"
+#include "report/html.hpp"
+#include "stimulus/shrink.hpp"
+
+namespace kage::cli {
+namespace {
+
+/// The initial state in which the first frame is run besides.
+constexpr std::uint64_t kOtherState = 1;
+
+/// Memory that a job may take: its model, golden core, words on their way and share of the scene.
+constexpr std::uint64_t kJobBytes = std::uint64_t{256} << 20;
+
+/// With the new files goes what an earlier run into the folder left of frames that this one has compared: a difference
+/// that is no more, or was another.
+void remove_old_evidence(TempFiles& files, const std::string& folder, const std::string& name, cosim::FrameSteps steps,
+                         const cosim::Report& r) {
+  namespace fs = std::filesystem;
+  if (folder.empty()) return;
+  for (int i = 0; i < r.frames; ++i)
+    for (const char* end : {"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"}) {
+      const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, steps.first + i * steps.step, end);
+      std::error_code ec;
+      const fs::file_type type = fs::symlink_status(path, ec).type();
+      if ((type == fs::file_type::regular || type == fs::file_type::symlink) &&  // else it was not ours
+          std::find(r.pictures.begin(), r.pictures.end(), path.string()) == r.pictures.end())
+        files.remove(path);
+    }
+}
+
+/// How long a frame is made smaller.
+constexpr std::chrono::seconds kShrinkTime{60};
+
+/// Standard error leads nowhere.
+class QuietErrors {
+ public:
+  QuietErrors() : kept_(dup(STDERR_FILENO)) {
+    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~QuietErrors() {
+    if (kept_ < 0) return;
+    dup2(kept_, STDERR_FILENO);
+    close(kept_);
+  }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+
+ private:
+  int kept_;
+};
+
+}  // namespace
+
+int default_jobs() {
+  cpu_set_t set;
+  const int processors = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+  const auto memory = static_cast<std::uint64_t>(std::max(0L, sysconf(_SC_PHYS_PAGES))) *
+                      static_cast<std::uint64_t>(std::max(0L, sysconf(_SC_PAGESIZE)));
+  return std::clamp(processors, 1, static_cast<int>(std::clamp<std::uint64_t>(memory / 2 / kJobBytes, 1, 4096)));
+}
+
+SceneRun::SceneRun(const CosimCommand& o, std::int64_t frames_before)
+    : o_(o), source_(std::make_unique<Source>(o)), total_(source_->frames()), before_(frames_before) {
+  steps_ = o_.ci.shard.steps(before_);
+  if (o_.frame >= 0) {
+    if (o_.ci.shard.given) throw Error("--frame and --shard: one frame has no shards");
+    if (o_.frame >= total_)
+      throw Error(fmt::format("{}: --frame {}: there are {}, from 0 on", o_.input, o_.frame, counted(total_, "frame")));
+    steps_ = {o_.frame, 1};
+  }
+  // Each scene has its own folder, where there are several.
+  if (o_.inputs.size() > 1 && !o_.out.empty()) o_.out = (std::filesystem::path(o_.out) / source_->name()).string();
+  o_.rtl.options.seed = o_.seed;
+}
+
+void SceneRun::prepare(int ranges) {
+  if (frames() == 0) return;
+  folder_ = std::make_unique<OutFolder>(o_.out);
+  model_ = model_of(source_->config(), o_.rtl.fault);
+  frame_progress_.emplace(progress_, source_->name(), frames());
+  if (!o_.no_report && !o_.out.empty()) report_.emplace(*source_, o_.input, *o_.command);
+  const int end = o_.frame >= 0 ? o_.frame + 1 : total_;
+  for (const cosim::FrameRange& range : cosim::split(steps_, end, ranges)) {
+    auto part = std::make_unique<Part>();
+    part->range = range;
+    if (!parts_.empty()) {
+      part->share = source_->share(range.steps.first - range.steps.step);
+      if (report_) part->ear = std::make_unique<Listener>(*part->share);
+    }
+    parts_.push_back(std::move(part));
+  }
+}
+
+void SceneRun::run(int range) {
+  Part& part = *parts_[static_cast<std::size_t>(range)];
+  try {
+    run_part(part, part.range.before);
+    if (!part.report.same) state_.ends_at(part.report.first_difference->frame);
+  } catch (...) {
+    part.error = std::current_exception();
+    state_.ends_at(part.range.steps.first);
+  }
+}
+
+void SceneRun::run_part(Part& part, int before) {
+  const Config& config = source_->config().config;
+  const cosim::FrameSteps steps = part.range.steps;
+  const auto golden = cosim::make_golden(config);
+  const auto rtl = cosim::make_rtl(model_.library, config, o_.rtl.options);
+  std::unique_ptr<cosim::RtlCore> other;
+  cosim::RunOptions options;
+  if (steps.first == steps_.first) {
+    cosim::RtlOptions other_state = o_.rtl.options;
+    other_state.initial = kOtherState;
+    other = cosim::make_rtl(model_.library, config, other_state);
+    options.other_state = other.get();
+  }
+  options.out = o_.out;
+  options.name = source_->name();
+  options.files = &part.files;
+  options.steps = steps;
+  options.before = before;
+  options.refusals = source_->may_be_refused();
+  options.all_pictures = !source_->is_random();
+  options.two_threads = o_.threads != 1;
+  options.begin = [&](int frame) {
+    check_interrupt();
+    if (state_.beyond(frame)) throw cosim::Enough();
+    if (frame < steps.first) return;
+    const std::lock_guard lock(progress_mutex_);
+    frame_progress_->next();
+  };
+  options.wait = [&] {
+    check_interrupt();
+    const std::lock_guard lock(progress_mutex_);
+    frame_progress_->wait();
+  };
+  Source& source = part.share ? *part.share : *source_;
+  Listener* const ear = !report_ ? nullptr : part.ear ? part.ear.get() : &report_->listener();
+  if (o_.coverage) part.coverage = std::make_unique<verif::Coverage>(config);
+  const auto feed = [&](int i, const WordSink& sink) {
+    if (i < steps.first) return source.frame(i, sink);
+    const WordSink heard = [&](std::span<const std::uint32_t> words) {
+      if (part.coverage) part.coverage->words(words);
+      sink(words);
+    };
+    const TokenCounts counts = ear == nullptr ? source.frame(i, heard) : ear->frame(i, heard);
+    if (part.coverage) part.coverage->end_frame();
+    return counts;
+  };
+  part.report = cosim::run(part.range.end, feed, *golden, *rtl, options);
+}
+
+/// What one thread would have found, and its files.
+cosim::Report SceneRun::join(TempFiles& files) {
+  std::vector<cosim::Report> reports;
+  for (const auto& part : parts_) {
+    if (part->error) std::rethrow_exception(part->error);
+    // On a new core the frame before the range fails, though it does not in its place: from the first frame, then.
+    if (part->report.broken) run_part(*part, (part->range.steps.first - steps_.first) / steps_.step);
+    files.take(part->files);
+    if (part->share) source_->absorb(*part->share);
+    if (part->ear) report_->listener().absorb(*part->ear);
+    if (part->coverage && coverage_) coverage_->absorb(*part->coverage);
+    if (part->coverage && !coverage_) coverage_ = std::move(part->coverage);
+    reports.push_back(std::move(part->report));
+    if (!reports.back().same) break;
+  }
+  parts_.clear();
+  return cosim::join(std::move(reports));
+}
+
+/// How the RTL is run with monitors.
+cosim::DivergenceOptions SceneRun::monitors() const {
+  cosim::DivergenceOptions options = cli::monitors(source_->config(), o_.rtl);
+  options.steps = steps_;
+  return options;
+}
+
+/// The stage that a frame which came out different departs in first.
+std::optional<cosim::Divergence> SceneRun::find_divergence(TempFiles& files, int frame) {
+  Source& source = *source_;
+  const Config& config = source.config().config;
+  cosim::DivergenceOptions options = monitors();
+  progress_.show("looking for the stage that differs first");
+  if (!o_.out.empty())
+    options.waveform = std::filesystem::path(o_.out) / fmt::format("{}_{:04}.fst", source.name(), frame);
+  options.files = &files;
+  if (const std::string missing = cosim::make_rtl(options.library, config)->missing_monitors(); !missing.empty())
+    source.note(fmt::format("the RTL has no longer the nets that these watch, and what they watch is not looked at: {}",
+                            missing));
+  const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
+  auto d = cosim::find_divergence(frame, feed, config, options);
+  if (const auto provenance = d ? source.provenance(d->frame) : std::nullopt) {
+    const auto sources = provenance->of_tokens(config, source.words(d->frame), {d->token});
+    if (!sources.empty()) d->source = sources.begin()->second.text();
+  }
+  progress_.clear();
+  return d;
+}
+
+/// Writes the frame to a stream file, as small as it can be made and still comes out different on a new core.
+Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference) {
+  const int frame = difference.frame;
+  const Config& config = source_->config().config;
+  const std::vector<std::uint32_t> words = source_->words(frame);
+  const auto error_of = [&](const std::vector<std::uint32_t>& w) {
+    return GoldenCore(config).frame(w, [](int, std::span<const std::uint8_t>) {}).error;
+  };
+  const ErrorCode error = error_of(words);
+  const auto differs = [&](const std::vector<std::uint32_t>& w) {
+    if (error_of(w) != error) return false;  // another one, which the frame need not have been kept for
+    const auto golden = cosim::make_golden(config);
+    const auto rtl = cosim::make_rtl(model_.library, config, o_.rtl.options);
+    cosim::RunOptions options;
+    options.refusals = true;
+    options.two_threads = false;
+    const auto feed = [&](int, const WordSink& sink) {
+      sink(w);
+      return TokenCounts{};
+    };
+    return !cosim::run(1, feed, *golden, *rtl, options).same;
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto more = [&] {
+    check_interrupt();
+    progress_.show("making the frame smaller");
+    return std::chrono::steady_clock::now() - begin < kShrinkTime;
+  };
+  std::vector<std::uint32_t> small = words;
+  bool alone = false;
+  {
+    std::optional<QuietErrors> quiet;  // what a failing assertion says, each time again
+    if (!difference.assertion.empty()) quiet.emplace();
+    alone = differs(words);
+    if (alone && !o_.no_shrink) small = verif::shrink(config, words, differs, more);
+  }
+  progress_.clear();
+  const std::string path =
+      (std::filesystem::path(o_.out) / fmt::format("{}_{:04}.kage", source_->name(), frame)).string();
+  StreamFileWriter writer(path, config);
+  writer.begin_port_frame();
+  writer.words(small);
+  writer.end_frame();
+  writer.finish(files);
+  const TokenCounts counts = count_tokens(config, small);
+  std::uint64_t tokens = 0;
+  for (const std::uint64_t n : counts.of_kind) tokens += n;
+  std::string again = "kage cosim " + quoted(path);
+  again += fmt::format(" --seed {}", o_.seed);
+  for (const char* name : kRtlOptions)
+    if (const CLI::Option* option = o_.command->get_option(name); option->count() != 0)
+      again += fmt::format(" {} {}", name, quoted(option->results().back()));
+  return {{"file", path},
+          {"alone", alone},
+          {"lines", counts.of_kind[static_cast<std::size_t>(Kind::EOL)]},
+          {"tokens", tokens},
+          {"width", small.size() < 2 ? 0U : small[1] & 0xFFFFU},
+          {"words", small.size()},
+          {"words_before", words.size()},
+          {"again", again}};
+}
+
+Json SceneRun::finish(TempFiles& files) {
+  Source& source = *source_;
+  if (frames() == 0) return no_frames(source.name(), total_);
+  const cosim::Report r = join(files);
+  progress_.clear();
+  remove_old_evidence(files, o_.out, source.name(), steps_, r);
+  if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;
+  std::optional<cosim::Divergence> divergence;
+  bool searched = false;
+  std::string page;
+  Json kept;
+  // The verdict stands whatever becomes of what is said about it.
+  try {
+    if (r.first_difference && !o_.no_divergence) {
+      try {
+        divergence = find_divergence(files, r.first_difference->frame);
+        searched = true;
+        if (divergence && !divergence->no_waveform.empty())
+          source.note(fmt::format("no waveform was written: {}", divergence->no_waveform));
+      } catch (const Error& e) {
+        progress_.clear();
+        source.note(fmt::format("the stage that differs first was not found: {}", e.what()));
+      }
+    }
+    if (r.first_difference && source.is_random() && !o_.out.empty()) kept = keep_frame(files, *r.first_difference);
+    if (report_) {
+      const auto watch = [&] { return monitors(); };
+      // Where the monitors could not be had for the search, the page does without them too.
+      page = report_->write(files, o_.out, r, o_.seed, divergence, searched ? watch : RunReport::Watch());
+    }
+  } catch (const Interrupted&) {
+    interrupted_ = true;
+    source.note("interrupted after the verdict");
+  } catch (const std::exception& e) {
+    source.note(fmt::format("no report was written: {}", e.what()));
+  }
+  progress_.clear();
+  for (const std::string& note : source.notes()) notes_.push_back(fmt::format("{}: {}", source.name(), note));
+  Json report = report_of(r, divergence, searched, page, kept, files);
+  report_.reset();
+  source_.reset();  // its memory
+  return report;
+}
+
+Json SceneRun::report_of(const cosim::Report& r, const std::optional<cosim::Divergence>& divergence, bool searched,
+                         const std::string& page, const Json& kept, const TempFiles& files) const {
+  const Source& source = *source_;
+  Json j;
+  j["same"] = r.same;
+  j["frames"] = r.frames;
+  j["width"] = r.width;
+  j["height"] = r.height;
+  j["pixels_compared"] = r.pixels_compared;
+  j["spans"] = r.spans;
+  j["span_pixels"] = r.span_pixels;
+  j["segments"] = r.segments;
+  j["units"] = source.units();
+  j["polyhedra"] = source.ways();
+  j["cycles"] = r.cycles;
+  j["stalled"] = to_json(r.stalls);
+  describe_run(j, source.name(), source.frames(), o_.ci.shard, steps_, options_of(o_));
+  j["frame_seconds"] = r.frame_seconds;
+  j["each"] = to_json(r.each, r.first_difference);
+  j["golden_seconds"] = r.expected_seconds;
+  j["rtl_seconds"] = r.actual_seconds;
+  j["build_seconds"] = model_.build_seconds;
+  j["config_name"] = source.config().name;
+  j["config"] = cli::to_json(source.config().config);
+  j["seed"] = o_.seed;
+  j["versions"] = versions();
+  j["again"] = command_line(*o_.command);
+  j["folder"] = std::filesystem::current_path().string();
+  j["rtl"] = rtl_directory();
+  j["degraded"] = source.degraded();
+  j["pictures"] = r.pictures;
+  j["report"] = page.empty() ? Json(nullptr) : Json(page);
+  j["report_crc32"] = page.empty() ? Json(nullptr) : Json(report::checksum(files.now(page)));
+  j["first_difference"] = to_json(r.first_difference, divergence, searched);
+  j["kept"] = kept;
+  j["notes"] = source.notes();
+  if (!coverage_) return j;
+  Json points = Json::array();
+  for (const verif::CoveragePoint& p : coverage_->points())
+    points.push_back({{"group", p.group}, {"name", p.name}, {"frames", p.frames}});
+  j["coverage"] = {{"frames", coverage_->frames()}, {"points", std::move(points)}};
+  return j;
+}
+
+}  // namespace kage::cli

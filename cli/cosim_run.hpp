@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A scene of kage cosim: its frames, run by one thread or several, and what is found out about a difference.
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ci.hpp"
+#include "common.hpp"
+#include "cosim/divergence.hpp"
+#include "cosim/model.hpp"
+#include "cosim/ranges.hpp"
+#include "progress.hpp"
+#include "report.hpp"
+#include "rtl_run.hpp"
+#include "source.hpp"
+#include "stimulus/coverage.hpp"
+
+namespace kage::cli {
+
+struct CosimCommand : Options {
+  std::vector<std::string> inputs;  // of which `input` is the one at hand
+  int jobs = 0;                     // 0: default_jobs()
+  bool no_divergence = false;
+  RtlRun rtl;
+  CiOptions ci;
+  bool no_report = false;
+  bool coverage = false;
+  int frame = -1;  // the only one of a scene's, -1: all
+  bool no_shrink = false;
+  const CLI::App* command = nullptr;
+};
+
+/// As many jobs as processors, but no more than half of the machine's memory holds with 256 MiB a job.
+int default_jobs();
+
+/// A scene of the run. The steps come in this order; ranges run beside each other, in threads.
+class SceneRun {
+ public:
+  /// Opens the scene; `o` names it as its input.
+  SceneRun(const CosimCommand& o, std::int64_t frames_before);
+
+  [[nodiscard]] const Source& source() const { return *source_; }
+  [[nodiscard]] const CosimCommand& command() const { return o_; }
+  [[nodiscard]] int total() const { return total_; }  ///< its frames
+  /// Those of the shard.
+  [[nodiscard]] int frames() const { return o_.frame >= 0 ? 1 : o_.ci.shard.frames(total_, before_); }
+
+  /// Makes its folder, its model, and so many ranges of its frames, or fewer.
+  void prepare(int ranges);
+  [[nodiscard]] int ranges() const { return static_cast<int>(parts_.size()); }
+
+  /// Compares a range's frames. What goes wrong is kept for finish().
+  void run(int range);
+
+  /// All ranges have ended: looks for the stage that differs first, and writes the page. What the scene writes gets its
+  /// names with the others of `files`. Returns the scene's report; throws what ended a range before any difference.
+  Json finish(TempFiles& files);
+
+  /// After finish():
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  void note(std::string text) { notes_.push_back(std::move(text)); }
+  [[nodiscard]] bool interrupted() const { return interrupted_; }  ///< after its verdict
+  void interrupt() { interrupted_ = true; }
+
+ private:
+  /// A range, and what its thread has for itself.
+  struct Part {
+    cosim::FrameRange range;
+    std::unique_ptr<Source> share;  // none: the scene's own source
+    std::unique_ptr<Listener> ear;  // likewise that of the report
+    std::unique_ptr<verif::Coverage> coverage;
+    TempFiles files;
+    cosim::Report report;
+    std::exception_ptr error;
+  };
+
+  void run_part(Part& part, int before);
+  cosim::Report join(TempFiles& files);
+  cosim::DivergenceOptions monitors() const;
+  std::optional<cosim::Divergence> find_divergence(TempFiles& files, int frame);
+  Json keep_frame(TempFiles& files, const cosim::Difference& difference);
+  Json report_of(const cosim::Report& r, const std::optional<cosim::Divergence>& divergence, bool searched,
+                 const std::string& page, const Json& kept, const TempFiles& files) const;
+
+  CosimCommand o_;  // with its input and its folder
+  std::unique_ptr<Source> source_;
+  int total_ = 0;
+  std::int64_t before_ = 0;  // frames of the scenes before it
+  cosim::FrameSteps steps_;
+  std::unique_ptr<OutFolder> folder_;
+  cosim::Model model_;
+  std::optional<RunReport> report_;
+  std::unique_ptr<verif::Coverage> coverage_;  // of all parts
+  std::vector<std::unique_ptr<Part>> parts_;
+  cosim::RunState state_;
+  std::mutex progress_mutex_;
+  Progress progress_;
+  std::optional<FrameProgress> frame_progress_;
+  std::vector<std::string> notes_;
+  bool interrupted_ = false;
+};
+
+}  // namespace kage::cli

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage cosim --jobs: what is found, drawn and written does not depend on how many models work at a time.
+. "$(dirname "$0")/common.bash"
+
+echo '{MAX_WIDTH: 64, LANES: 4}' >small.yaml
+common=(--size 64x48 --config small.yaml --idle 20 --backpressure 30 --threads 2)
+
+# plain FILE: a report without seconds and without the number of jobs that it was made with.
+plain() {
+  python3 - "$1" <<'PY'
+import json, re, sys
+text = open(sys.argv[1]).read()
+if sys.argv[1].endswith(".json"):
+    def without(j):
+        if isinstance(j, dict):
+            return {k: without(v) for k, v in j.items() if not k.endswith("seconds") and k not in ("again", "report_crc32")}
+        return [without(v) for v in j] if isinstance(j, list) else j
+    print(json.dumps(without(json.loads(text)), indent=1))
+else:
+    text = re.sub(r'(time|timestamp)="[^"]*"', "", text)
+    text = re.sub(r'"(golden|rtl|build)?_?seconds": ?[^,}]*|--jobs \d+|(golden|RTL) \d+\.\d+ s|\d+\.\d+ s', "", text)
+    print(text)
+PY
+}
+
+# alike FOLDER: what a run left is what one job left.
+alike() {
+  diff <(cd one && find . -type f | sort) <(cd "$1" && find . -type f | sort) || fail "$1: other files than with one job"
+  for file in $(cd one && find . -name '*.png' | sort); do
+    cmp -s "one/$file" "$1/$file" || fail "$1/$file: not that of one job"
+  done
+  for file in r.json r.xml report.html; do
+    diff <(plain "one/$file") <(plain "$1/$file") >difference || fail "$1/$file: not that of one job: $(head -c 600 difference)"
+  done
+}
+
+# runs EXIT COMMAND...: with 1, 2, 3 and more jobs than frames, into the same folder, so that names are the same.
+runs() {
+  local want=$1
+  shift
+  rm -rf one out
+  expect "$want" "$@" --jobs 1 --out out --json out/r.json --junit out/r.xml
+  cp -r out one
+  grep -v ' s, RTL ' stdout >said
+  for jobs in 2 3 20; do
+    rm -rf out "out$jobs"
+    expect "$want" "$@" --jobs $jobs --out out --json out/r.json --junit out/r.xml
+    mv out "out$jobs"
+    diff said <(grep -v ' s, RTL ' stdout) || fail "--jobs $jobs says otherwise"
+    alike "out$jobs"
+  done
+}
+
+runs 0 "$kage" cosim courtyard --frames 7 "${common[@]}"
+runs 1 "$kage" cosim courtyard --frames 7 --fault wrong_compare "${common[@]}"
+runs 0 "$kage" cosim courtyard --frames 7 --shard 2/3 "${common[@]}"
+
+# Several scenes: their ranges are run beside each other, and told in order.
+rm -rf out
+expect 0 "$kage" cosim courtyard edges --frames 3 --jobs 4 "${common[@]}" --out out --json s.json
+json s.json '[s["scene"] for s in j["scenes"]] == ["courtyard", "edges"] and all(s["same"] for s in j["scenes"])'
+trouble "--jobs" "$kage" cosim courtyard --jobs 0
+no_leftovers
+done_testing

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stimulus/coverage.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace kage::verif {
+
+Coverage::Point Coverage::add(bool there, const std::string& group, const std::string& name) {
+  if (!there) return kNone;
+  points_.push_back({group, name, 0});
+  return points_.size() - 1;
+}
+
+Coverage::Span Coverage::add_span(bool there, const std::string& kind) {
+  const bool groups = there && config_.arrangement == 1 && config_.lanes > 1;
+  Span s{};
+  s.none = add(there, "span", kind + " of no pixel");
+  s.one = add(there, "span", kind + " of one pixel");
+  s.whole = add(there, "span", kind + " over the whole line");
+  s.at_border = add(groups, "span", kind + " begins at a group's border");
+  s.in_group = add(groups, "span", kind + " begins within a group");
+  s.ends_at_border = add(groups, "span", kind + " ends at a group's border");
+  return s;
+}
+
+Coverage::Ramp Coverage::add_ramp(bool there, const std::string& group, const std::string& what) {
+  Ramp r{};
+  r.under = add(there, group, what + " below the least: clamped");
+  r.over = add(there, group, what + " past the greatest: clamped");
+  r.wraps = add(there, group, what + " leaves its accumulator: wraps");
+  r.level = add(there, group, what + " without slope");
+  return r;
+}
+
+Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
+  const Config& c = config_;
+  const Layout layout(c);
+  const auto has = [&](Kind k) { return layout.words[static_cast<std::size_t>(k)] != 0; };
+  const bool shadows = c.dsf_bits > 0;
+  const bool table = c.class_bits > 1;
+  for (std::size_t k = 0; k < kind_.size(); ++k)
+    kind_[k] = add(layout.words[k] != 0, "token", std::string(kKindNames[k]));
+  one_wide_ = add(true, "frame", "one pixel wide");
+  widest_ = add(true, "frame", "as wide as can be");
+  one_line_ = add(true, "frame", "of one line");
+  bare_line_ = add(true, "frame", "a line with nothing on it");
+  for (const Kind k : {Kind::OP, Kind::SP, Kind::NC, Kind::EV, Kind::ES, Kind::TP})
+    span_[static_cast<std::size_t>(k)] = add_span(has(k), std::string(kKindNames[static_cast<std::size_t>(k)]));
+  depth_ = add_ramp(true, "depth", "a span's depth");
+  tie_ = add(true, "depth", "OP as deep as what it meets");
+  behind_ = add(true, "depth", "OP behind what it meets");
+  face_depth_ = add_ramp(c.units > 0, "depth", "a segment's depth");
+  color_ = add_ramp(c.smooth != 0, "colour", "a span's colour");
+  unlit_ = add(shadows, "light", "OP without light");
+  last_class_ = add(table, "light", "OP of the table's last class");
+  shade_none_ = add(has(Kind::SHADE) && !table, "light", "no SHADE");
+  shade_zero_ = add(has(Kind::SHADE) && !table, "light", "SHADE of nothing");
+  shade_some_ = add(has(Kind::SHADE) && !table, "light", "SHADE of a part");
+  shade_most_ = add(has(Kind::SHADE) && !table, "light", "SHADE of all");
+  table_none_ = add(table, "light", "no TABLE");
+  table_whole_ = add(table, "light", "a table of all classes");
+  table_cut_ = add(table && c.lights > 1, "light", "a table that ends within a class");
+  share_most_ = add(table, "light", "TABLE with a share of all");
+  counter_full_ = add(c.count_bits > 0, "shadow", "RESOLVE finds a full counter");
+  black_ = add(table, "shadow", "RESOLVE finds more shadow than light");
+  weight_plus_ = add(has(Kind::SP), "shadow", "a weight of 1");
+  weight_minus_ = add(has(Kind::SP), "shadow", "a weight of -1");
+  weight_other_ = add(has(Kind::SP) && c.dsf_bits > 1, "shadow", "another weight");
+  inside_at_ev_ = add(has(Kind::EV), "shadow", "EV finds a pixel inside");
+  bias_at_ev_ = add(has(Kind::EV), "shadow", "EV with the eye inside");
+  dark_ = add(has(Kind::RESOLVE), "shadow", "RESOLVE finds a pixel in shadow");
+  alpha_none_ = add(has(Kind::TP), "blending", "an alpha of 0");
+  alpha_some_ = add(has(Kind::TP), "blending", "an alpha between");
+  alpha_all_ = add(has(Kind::TP), "blending", "an alpha of 255");
+  over_clear_ = add(has(Kind::TP), "blending", "TP over the background");
+  over_surface_ = add(has(Kind::TP), "blending", "TP before a surface");
+  hidden_ = add(has(Kind::TP), "blending", "TP behind a surface");
+  unit_tie_ = add(c.units > 1, "tree", "two units as deep, of one draw index");
+  index_tie_ = add(c.units > 1, "tree", "two units as deep, of other draw indices");
+  blank_ = add(c.units > 0, "tree", "a blank segment");
+  dx_one_ = add(c.units > 0, "tree", "a segment of one pixel");
+  dx_most_ = add(c.units > 0 && (1 << c.dx_bits) - 1 <= c.max_width, "tree", "a segment of the greatest length");
+  half_full_ =
+      add(c.units > 0 && (1 << c.seg_bits) <= c.max_width, "tree", "a line of as many segments as a unit holds");
+  last_face_ = add(c.units > 0, "tree", "a face of the last number but the blank one");
+  for (std::size_t e = 1; e < error_.size(); ++e) {
+    const auto code = static_cast<ErrorCode>(e);
+    const bool of_tree = code == ErrorCode::SEGMENT || code == ErrorCode::UNIT_LONG || code == ErrorCode::UNIT_SHORT;
+    error_[e] = add(!of_tree || c.units > 0, "error", std::string(kErrorNames[e]));
+  }
+  seen_.resize(points_.size());
+  golden_.observe(this);
+}
+
+void Coverage::words(std::span<const std::uint32_t> piece) {
+  any_words_ = any_words_ || !piece.empty();
+  golden_.feed(piece, [](int, std::span<const std::uint8_t>) {});
+}
+
+void Coverage::end_frame() {
+  if (!any_words_) return;
+  (void)golden_.finish([](int, std::span<const std::uint8_t>) {});
+  ++frames_;
+  for (std::size_t i = 0; i < seen_.size(); ++i) points_[i].frames += seen_[i] ? 1U : 0U;
+  seen_.assign(seen_.size(), false);
+  any_words_ = false;
+}
+
+void Coverage::absorb(const Coverage& other) {
+  frames_ += other.frames_;
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i].frames += other.points_[i].frames;
+}
+
+void Coverage::hit_span(const Span& points, const SpanToken& s, int width) {
+  hit(points.none, s.xl == s.xr);
+  if (s.xl == s.xr) return;
+  hit(points.one, s.xr == s.xl + 1);
+  hit(points.whole, s.xl == 0 && s.xr == width);
+  hit(points.at_border, s.xl > 0 && s.xl % config_.lanes == 0);
+  hit(points.in_group, s.xl % config_.lanes != 0);
+  hit(points.ends_at_border, s.xr < width && s.xr % config_.lanes == 0);
+}
+
+// `bits` of the accumulator, of which `most` is the greatest value that is not clamped.
+void Coverage::hit_ramp(const Ramp& points, std::int64_t start, std::int64_t step, int count, int bits,
+                        std::int64_t most) {
+  if (count == 0) return;
+  const std::int64_t limit = std::int64_t{1} << (bits - 1);
+  const std::int64_t last = start + step * (count - 1);
+  hit(points.level, step == 0 && count > 1);
+  hit(points.wraps, last < -limit || last >= limit);
+  if (last < -limit || last >= limit) return;
+  hit(points.under, std::min(start, last) < 0);
+  hit(points.over, std::max(start, last) > most);
+}
+
+void Coverage::header(std::span<const std::uint32_t> words, const LineView& line) {
+  hit(one_wide_, line.width() == 1);
+  hit(widest_, line.width() == config_.max_width);
+  hit(one_line_, words[1] >> 16 == 1);
+  state_told_ = shade_ = has_spans_ = false;
+  table_.clear();
+  faces_.assign(static_cast<std::size_t>(config_.units), {});
+  segments_.assign(static_cast<std::size_t>(config_.units), 0);
+}
+
+// All that stands before the first line has come.
+void Coverage::frame_state() {
+  if (state_told_) return;
+  state_told_ = true;
+  hit(shade_none_, !shade_);
+  hit(table_none_, table_.empty());
+  hit(table_cut_, table_.size() % static_cast<std::size_t>(config_.lights) != 0);
+  hit(table_whole_, config_.class_bits > 1 && table_.size() == ((std::size_t{1} << config_.class_bits) - 1) *
+                                                                   static_cast<std::size_t>(config_.lights));
+}
+
+void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const std::uint32_t> /*words*/,
+                      const LineView& line) {
+  hit(kind_[static_cast<std::size_t>(t.kind)]);
+  const std::uint32_t all = 1U << config_.shade_frac;
+  switch (t.kind) {
+    case Kind::SHADE:
+      shade_ = true;
+      hit(t.shade == 0 ? shade_zero_ : t.shade == all ? shade_most_ : shade_some_);
+      return;
+    case Kind::TABLE:
+      table_.push_back(t.table);
+      hit(share_most_, std::find(t.table.share.begin(), t.table.share.end(), all) != t.table.share.end());
+      return;
+    case Kind::FACE:
+      hit(last_face_, t.segment.face == (1 << config_.face_bits) - 2);
+      faces_[static_cast<std::size_t>(t.segment.unit)].push_back(t.segment.dz);
+      return;
+    default:
+      frame_state();
+  }
+  if (t.kind != Kind::EOL && t.kind != Kind::END) has_spans_ = true;
+  hit_span(span_[static_cast<std::size_t>(t.kind)], t.span, line.width());
+  switch (t.kind) {
+    case Kind::SEG:
+      segment(t.segment);
+      break;
+    case Kind::OP:
+      opaque(t.span, line);
+      break;
+    case Kind::SP:
+    case Kind::NC:
+    case Kind::IF:
+    case Kind::EV:
+    case Kind::ES:
+      volume(t, line);
+      break;
+    case Kind::RESOLVE:
+      resolve(line);
+      break;
+    case Kind::TP:
+      translucent(t.span, line);
+      break;
+    case Kind::EOL:
+      hit(bare_line_, !has_spans_);
+      has_spans_ = false;
+      break;
+    default:
+      break;
+  }
+}
+
+void Coverage::after(std::uint32_t /*index*/, const Token& t, const LineView& line) {
+  if (t.kind == Kind::TREE) tree(line);
+}
+
+void Coverage::failed(const FrameStatus& status, std::span<const std::uint32_t> /*words*/, const LineView& /*line*/) {
+  hit(error_[static_cast<std::size_t>(status.error)]);
+}
+
+void Coverage::opaque(const SpanToken& s, const LineView& line) {
+  const int count = s.xr - s.xl;
+  const std::int64_t clear = (std::int64_t{1} << config_.z_bits) - 1;
+  hit_ramp(depth_, s.z, s.dz, count, config_.z_bits + config_.z_frac + 2, (clear << config_.z_frac) - 1);
+  for (std::size_t i = 0; config_.smooth != 0 && i < static_cast<std::size_t>(config_.channels); ++i)
+    hit_ramp(color_, s.color[i], s.dcolor[i], count, 10 + config_.color_frac, (256LL << config_.color_frac) - 1);
+  hit(unlit_, s.normal_class == 0 && count > 0);
+  hit(last_class_, s.normal_class == (1 << config_.class_bits) - 1);
+  if (count == 0) return;
+  const PixelState met = line.pixel(s.xl);
+  const std::int64_t z = std::clamp<std::int64_t>(s.z >> config_.z_frac, 0, clear - 1);
+  hit(tie_, met.z != clear && z == met.z);
+  hit(behind_, met.z != clear && z > met.z);
+}
+
+void Coverage::volume(const Token& t, const LineView& line) {
+  if (t.kind == Kind::SP) {
+    const std::int64_t clear = (std::int64_t{1} << config_.z_bits) - 1;
+    hit_ramp(depth_, t.span.z, t.span.dz, t.span.xr - t.span.xl, config_.z_bits + config_.z_frac + 2,
+             (clear << config_.z_frac) - 1);
+  }
+  if (t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::IF)
+    hit(t.span.w == 1 ? weight_plus_ : t.span.w == -1 ? weight_minus_ : weight_other_);
+  if (t.kind != Kind::EV) return;
+  hit(bias_at_ev_, line.bias() != 0);
+  const std::uint32_t all = (1U << config_.dsf_bits) - 1;
+  for (int x = t.span.xl; x < t.span.xr; ++x) hit(inside_at_ev_, ((line.pixel(x).dsf + line.bias()) & all) != 0);
+}
+
+void Coverage::resolve(const LineView& line) {
+  const std::uint32_t full = (1U << config_.count_bits) - 1;
+  const auto lights = static_cast<std::size_t>(config_.lights);
+  for (int x = 0; x < line.width(); ++x) {
+    const PixelState p = line.pixel(x);
+    hit(dark_, p.fsf != 0 || (config_.fsf == 0 && config_.count_bits == 0 && p.dsf + line.bias() != 0) ||
+                   p.counts != decltype(p.counts){});
+    std::uint64_t lost = 0;
+    for (std::size_t l = 0; config_.count_bits > 0 && l < lights; ++l) {
+      hit(counter_full_, p.counts[l] == full);
+      const std::size_t entry = (p.normal_class - 1) * lights + l;
+      if (config_.class_bits > 1 && p.normal_class > 0 && entry < table_.size())
+        lost += std::uint64_t{p.counts[l]} * table_[entry].share[0];
+    }
+    hit(black_, lost > 1U << config_.shade_frac);
+  }
+}
+
+void Coverage::translucent(const SpanToken& s, const LineView& line) {
+  if (s.xl == s.xr) return;
+  hit(s.alpha == 0 ? alpha_none_ : s.alpha == 255 ? alpha_all_ : alpha_some_);
+  const std::uint32_t clear = (1U << config_.z_bits) - 1U;
+  const std::uint32_t met = line.pixel(s.xl).z;
+  const std::int64_t z = std::clamp<std::int64_t>(s.z >> config_.z_frac, 0, std::int64_t{clear} - 1);
+  hit(met == clear ? over_clear_ : z < met ? over_surface_ : hidden_);
+}
+
+void Coverage::segment(const SegmentToken& s) {
+  hit(blank_, s.face == (1 << config_.face_bits) - 1);
+  hit(dx_one_, s.dx == 1);
+  hit(dx_most_, s.dx == (1 << config_.dx_bits) - 1);
+  const auto unit = static_cast<std::size_t>(s.unit);
+  const auto face = static_cast<std::size_t>(s.face);
+  const std::int64_t clear = (std::int64_t{1} << config_.z_bits) - 1;
+  if (face < faces_[unit].size())
+    hit_ramp(face_depth_, s.z, faces_[unit][face], s.dx, config_.z_bits + config_.z_frac + 2,
+             (clear << config_.z_frac) - 1);
+  segments_[unit] = s.sync ? 1 : segments_[unit] + 1;
+  hit(half_full_, segments_[unit] == 1 << config_.seg_bits);
+}
+
+void Coverage::tree(const LineView& line) {
+  const std::uint32_t clear = (1U << config_.z_bits) - 1U;
+  for (int x = 0; x < line.width(); ++x)
+    for (int a = 0; a + 1 < config_.units; ++a) {
+      const auto left = line.unit_pixel(a, x);
+      if (left.z == clear) continue;
+      for (int b = a + 1; b < config_.units; ++b) {
+        const auto right = line.unit_pixel(b, x);
+        if (left.z == right.z) hit(left.index == right.index ? unit_tie_ : index_tie_);
+      }
+    }
+}
+
+}  // namespace kage::verif

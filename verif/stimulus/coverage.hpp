@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What frames reach of all that a configuration has: kinds of tokens, borders and extremes of their fields, errors.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kage/config.hpp"
+#include "kage/core.hpp"
+#include "kage/stream.hpp"
+
+namespace kage::verif {
+
+/// Something that a frame may have or not.
+struct CoveragePoint {
+  std::string group;         ///< "token", "span", "depth", "error", ...
+  std::string name;          ///< "OP ends at a group's border"
+  std::uint64_t frames = 0;  ///< that had it
+};
+
+/// Counts, by what the golden core does with the frames' words.
+class Coverage : private CoreObserver {
+ public:
+  explicit Coverage(const Config& config);
+
+  /// A frame, its words in pieces.
+  void words(std::span<const std::uint32_t> piece);
+  void end_frame();
+
+  /// Those of other frames.
+  void absorb(const Coverage& other);
+
+  [[nodiscard]] std::uint64_t frames() const { return frames_; }
+  /// All that the configuration has, reached or not, in the order of the groups.
+  [[nodiscard]] const std::vector<CoveragePoint>& points() const { return points_; }
+
+ private:
+  /// A point's index, or none where the configuration has no such thing.
+  using Point = std::size_t;
+  static constexpr Point kNone = ~std::size_t{0};
+  struct Span {
+    Point none, one, whole, at_border, in_group, ends_at_border;
+  };
+  struct Ramp {
+    Point under, over, wraps, level;
+  };
+
+  Point add(bool there, const std::string& group, const std::string& name);
+  Span add_span(bool there, const std::string& kind);
+  Ramp add_ramp(bool there, const std::string& group, const std::string& what);
+  void hit(Point point, bool is = true) {
+    if (is && point != kNone) seen_[point] = true;
+  }
+  void hit_span(const Span& points, const SpanToken& s, int width);
+  void hit_ramp(const Ramp& points, std::int64_t start, std::int64_t step, int count, int bits, std::int64_t most);
+
+  void header(std::span<const std::uint32_t> words, const LineView& line) override;
+  void before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,
+              const LineView& line) override;
+  void after(std::uint32_t index, const Token& token, const LineView& line) override;
+  void failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) override;
+  void opaque(const SpanToken& s, const LineView& line);
+  void volume(const Token& t, const LineView& line);
+  void translucent(const SpanToken& s, const LineView& line);
+  void resolve(const LineView& line);
+  void segment(const SegmentToken& s);
+  void tree(const LineView& line);
+  void frame_state();
+
+  Config config_;
+  GoldenCore golden_;
+  std::vector<CoveragePoint> points_;
+  std::vector<bool> seen_;  // in the frame at hand, by point
+  std::uint64_t frames_ = 0;
+  bool any_words_ = false;
+
+  // Of the frame:
+  bool state_told_ = false;  // what came before the first line
+  bool shade_ = false;
+  std::vector<TableToken> table_;
+  std::vector<std::vector<std::int64_t>> faces_;  // dz, of each unit
+  std::vector<int> segments_;                     // of the unit's line at hand
+  bool has_spans_ = false;                        // the line at hand
+
+  std::array<Point, 16> kind_{};
+  std::array<Span, 16> span_{};
+  std::array<Point, 13> error_{};
+  Ramp depth_{}, face_depth_{}, color_{};
+  Point tie_{}, behind_{}, unlit_{}, last_class_{};
+  Point one_wide_{}, widest_{}, one_line_{}, bare_line_{};
+  Point shade_none_{}, shade_zero_{}, shade_some_{}, shade_most_{};
+  Point table_none_{}, table_whole_{}, table_cut_{}, share_most_{}, black_{}, counter_full_{};
+  Point weight_plus_{}, weight_minus_{}, weight_other_{}, inside_at_ev_{}, bias_at_ev_{}, dark_{};
+  Point alpha_none_{}, alpha_some_{}, alpha_all_{}, over_clear_{}, over_surface_{}, hidden_{};
+  Point unit_tie_{}, index_tie_{}, blank_{}, dx_one_{}, dx_most_{}, half_full_{}, last_face_{};
+};
+
+}  // namespace kage::verif

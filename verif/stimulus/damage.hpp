@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What can happen to a frame's words on the way: anywhere, or to the tokens of a tree or of light samples.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kage/stream.hpp"
+#include "stimulus/random.hpp"
+
+namespace kage::verif {
+
+/// A frame's words, taken apart for damage: its fields, and where its tokens of each kind begin.
+class TokenPlaces {
+ public:
+  using At = std::vector<std::uint32_t>::difference_type;
+
+  TokenPlaces(const Config& c, std::vector<std::uint32_t>& words) : layout_(c), words_(&words) {
+    for (std::size_t at = 5; at < words.size();) {
+      const std::size_t kind = words[at] & 15U;
+      if (layout_.words[kind] == 0) return;
+      places_[kind].push_back(static_cast<At>(at));
+      all_.push_back(static_cast<At>(at));
+      at += static_cast<std::size_t>(layout_.words[kind]);
+    }
+    whole_ = true;
+  }
+
+  /// False if an earlier damage has left a word that is no token.
+  [[nodiscard]] bool whole() const { return whole_; }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const std::vector<At>& all() const { return all_; }
+  [[nodiscard]] const std::vector<At>& of(Kind k) const { return places_[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] At length(Kind k) const { return layout_.words[static_cast<std::size_t>(k)]; }
+
+  void put(At at, Field f, std::uint64_t value) {
+    for (unsigned i = 0; i < f.bits; ++i) {
+      std::uint32_t& word = (*words_)[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
+      const unsigned bit = (f.lsb + i) % 32;
+      word = (word & ~(1U << bit)) | static_cast<std::uint32_t>(value >> i & 1U) << bit;
+    }
+  }
+  [[nodiscard]] std::uint64_t get(At at, Field f) const {
+    std::uint64_t value = 0;
+    for (unsigned i = 0; i < f.bits; ++i) {
+      const std::uint32_t word = (*words_)[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
+      value |= std::uint64_t{word >> ((f.lsb + i) % 32) & 1U} << i;
+    }
+    return value;
+  }
+  /// A token's copy in front of another; places are those of before.
+  void copy(At from, At n, At to) {
+    const std::vector<std::uint32_t> token(words_->begin() + from, words_->begin() + from + n);
+    words_->insert(words_->begin() + to, token.begin(), token.end());
+  }
+  void erase(At at, At n) { words_->erase(words_->begin() + at, words_->begin() + at + n); }
+
+ private:
+  Layout layout_;
+  std::vector<std::uint32_t>* words_;
+  std::array<std::vector<At>, 16> places_;
+  std::vector<At> all_;
+  bool whole_ = false;
+};
+
+/// Damage a frame, once to three times: cut it, lengthen it, drop or double a word, flip a bit anywhere, in a kind or
+/// in the header, put noise in a word's place, make it a little wider, narrower, higher or lower. It may even survive
+/// that.
+void damage(Random& random, std::vector<std::uint32_t>& words);
+
+/// Damage that samples, classes and the light table are made for: one to three tokens that are not what they should be.
+/// The words must be a valid frame; one without counters stays as it is.
+void damage_light(Random& random, const Config& c, std::vector<std::uint32_t>& words);
+
+/// Damage that a frame with a tree is made for: one to three faces, segments or TREEs that are not what they should be.
+/// The words must be a valid frame; one without units or tree stays as it is.
+void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& words);
+
+}  // namespace kage::verif

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stimulus/random_frames.hpp"
+
+#include <algorithm>
+
+#include "stimulus/damage.hpp"
+#include "stimulus/frames.hpp"
+
+namespace kage::verif {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+// A height that flipped bits made great takes long and shows no more; one past 15 bits is refused, so it may stay.
+constexpr std::uint32_t kMostLines = 40;
+constexpr std::uint32_t kLinesRefused = 1U << 15;
+
+// A whole token lost, doubled, or put where it does not belong.
+void misplace(Random& random, const Config& c, Words& words) {
+  const TokenPlaces places(c, words);
+  if (!places.whole() || places.all().empty()) return;
+  TokenPlaces change(c, words);
+  const auto any = [&] {
+    return places.all()[static_cast<std::size_t>(random.in(0, static_cast<int>(places.all().size()) - 1))];
+  };
+  const TokenPlaces::At at = any();
+  const TokenPlaces::At length = change.length(static_cast<Kind>(words[static_cast<std::size_t>(at)] & 15U));
+  if (random.chance(0.3))
+    change.erase(at, length);
+  else
+    change.copy(at, length, any());
+}
+
+// One field just past what it may be.
+void near_miss(Random& random, const Config& c, Words& words) {
+  TokenPlaces places(c, words);
+  if (!places.whole()) return;
+  const Layout& layout = places.layout();
+  const auto any = [&](Kind kind) -> std::optional<TokenPlaces::At> {
+    const auto& of = places.of(kind);
+    if (of.empty()) return std::nullopt;
+    return of[static_cast<std::size_t>(random.in(0, static_cast<int>(of.size()) - 1))];
+  };
+  if (c.class_bits > 1 && random.chance(0.6)) {
+    const auto at = any(Kind::OP);
+    std::uint64_t most = 0;
+    for (const auto table : places.of(Kind::TABLE)) most = std::max(most, places.get(table, layout.table_class));
+    if (at) places.put(*at, layout.op_class, most + 1);
+  } else if (c.lights > 1 && random.chance(0.7)) {
+    const auto at = any(Kind::ES);
+    if (at) places.put(*at, layout.es_light, static_cast<std::uint64_t>(c.lights));
+  } else if (c.units > 0 && random.chance(0.7)) {
+    const auto at = any(Kind::SEG);
+    if (!at) return;
+    const std::uint64_t unit = places.get(*at, layout.seg_unit);
+    const auto& faces = places.of(Kind::FACE);
+    const auto of_unit = [&](TokenPlaces::At face) { return places.get(face, layout.face_unit) == unit; };
+    places.put(*at, layout.seg_face, static_cast<std::uint64_t>(std::count_if(faces.begin(), faces.end(), of_unit)));
+  } else if (const auto at = any(Kind::OP)) {
+    places.put(*at, layout.op_xr, (words[1] & 0xFFFFU) + 1);
+  }
+}
+
+// Cut within the header, a few words too long, or with another header.
+void header_or_end(Random& random, const Config& c, Words& words) {
+  const double manner = random.real(0, 1);
+  if (manner < 0.25)
+    words.resize(static_cast<std::size_t>(random.in(1, static_cast<int>(kHeaderWords) - 1)));
+  else if (manner < 0.5)
+    words.resize(words.size() + static_cast<std::size_t>(random.in(1, 2 * c.beat_words)));
+  else
+    words[static_cast<std::size_t>(random.in(0, 2))] ^= 1U << (random.chance(0.3) ? 31 : random.in(0, 31));
+}
+
+void make_wrong(Random& random, const Config& c, Words& words) {
+  if (words.size() < kHeaderWords) return damage(random, words);
+  if (c.units > 0 && random.chance(0.4)) return damage_tree(random, c, words);
+  if (c.count_bits > 0 && random.chance(0.3)) return damage_light(random, c, words);
+  switch (random.in(0, 3)) {
+    case 0:
+      return damage(random, words);
+    case 1:
+      return near_miss(random, c, words);
+    case 2:
+      return header_or_end(random, c, words);
+    default:
+      return misplace(random, c, words);
+  }
+}
+
+// splitmix64, so that neighbouring numbers have nothing in common.
+std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
+  std::uint64_t value = seed + (number + 1) * 0x9E3779B97F4A7C15ULL;
+  value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9ULL;
+  value = (value ^ value >> 27) * 0x94D049BB133111EBULL;
+  return value ^ value >> 31;
+}
+
+}  // namespace
+
+Words sound_frame(Random& random, const Config& c, std::uint32_t number) {
+  FrameStyle style{.most_opaque = 12, .most_volumes = 4, .most_in_volume = 8, .port = random.chance(0.8)};
+  int height = random.in(1, random.chance(0.1) ? 12 : 4);
+  if (random.chance(0.2)) style.most_opaque = style.most_in_volume = 60;
+  if (random.chance(0.12)) {  // more samples than a counter holds, and little else
+    style.most_samples = (3 << c.count_bits) * c.lights;
+    style.most_opaque = style.most_volumes = style.most_in_volume = 2;
+  }
+  if (random.chance(0.15)) style.most_opaque = style.most_volumes = 0;  // line upon line, and all that a line needs
+  if (random.chance(0.05)) {                                            // lines with nothing on them
+    style.most_opaque = style.most_volumes = style.most_translucent = style.most_samples = 0;
+    style.trees = 0;
+    height = random.in(10, 20);
+  }
+  const int width = random.chance(0.2)   ? random.in(1, std::min(c.max_width, 4))
+                    : random.chance(0.3) ? c.max_width
+                                         : random.in(1, std::min(c.max_width, 70));
+  Words words;
+  random_frame(random, c, width, height, words, number, style);
+  return words;
+}
+
+Words damaged_frame(Random& random, const Config& c, std::uint32_t number) {
+  for (;;) {
+    const Words sound = sound_frame(random, c, number);
+    Words words = sound;
+    make_wrong(random, c, words);
+    if (random.chance(0.1)) make_wrong(random, c, words);
+    if (words.empty() || words == sound) continue;  // a port brings a beat at least
+    const std::uint32_t lines = words.size() == 1 ? 0 : words[1] >> 16;
+    if (lines <= kMostLines || lines >= kLinesRefused) return words;
+  }
+}
+
+std::optional<Manner> random_manner(const std::string& name) {
+  if (name == "random") return Manner::sound;
+  if (name == "random:damaged") return Manner::damaged;
+  if (name == "random:mixed") return Manner::mixed;
+  return std::nullopt;
+}
+
+Words RandomFrames::words(int index) const {
+  Random random(mixed(seed_, static_cast<std::uint64_t>(index)));
+  const bool wrong = manner_ == Manner::damaged || (manner_ == Manner::mixed && random.chance(0.5));
+  const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
+  return wrong ? damaged_frame(random, config_, number) : sound_frame(random, config_, number);
+}
+
+}  // namespace kage::verif

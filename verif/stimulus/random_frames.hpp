@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Random frames one after the other, as kage cosim random sends them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kage/config.hpp"
+#include "stimulus/random.hpp"
+
+namespace kage::verif {
+
+/// A frame that obeys every rule of a port: of any size that the configuration takes, mostly small, so that many are
+/// run; crowded or bare, with spans that meet at few pixels and depths, with accumulators that wrap.
+std::vector<std::uint32_t> sound_frame(Random& random, const Config& c, std::uint32_t number);
+
+/// Something is wrong with it, or perhaps not: what the golden core says is right. Bits flipped anywhere, tokens lost,
+/// doubled or misplaced, fields just past what they may be, a header or an end that is not one. At least a word, and
+/// never so high that it takes long.
+std::vector<std::uint32_t> damaged_frame(Random& random, const Config& c, std::uint32_t number);
+
+/// What random frames are like.
+enum class Manner {
+  sound,    ///< sound_frame()
+  damaged,  ///< damaged_frame()
+  mixed     ///< either, as likely
+};
+
+/// The manner that "random", "random:damaged" or "random:mixed" asks for; none for any other text.
+std::optional<Manner> random_manner(const std::string& name);
+
+/// Frames that follow from configuration, manner, seed and their number alone: no frame depends on another.
+class RandomFrames {
+ public:
+  RandomFrames(const Config& config, Manner manner, std::uint64_t seed)
+      : config_(config), manner_(manner), seed_(seed) {}
+
+  /// The words of frame `index`.
+  [[nodiscard]] std::vector<std::uint32_t> words(int index) const;
+
+ private:
+  Config config_;
+  Manner manner_;
+  std::uint64_t seed_;
+};
+
+}  // namespace kage::verif

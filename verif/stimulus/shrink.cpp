@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stimulus/shrink.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "stimulus/damage.hpp"
+#include "stream/fields.hpp"
+
+namespace kage::verif {
+namespace {
+
+using Words = std::vector<std::uint32_t>;
+
+/// A frame taken apart.
+struct Parts {
+  Words header;
+  std::vector<Words> tokens;
+  Words rest;  ///< from the first word on that begins no token
+};
+
+Parts apart(const Config& c, const Words& words) {
+  const Layout layout(c);
+  Parts p;
+  const std::size_t header = std::min<std::size_t>(words.size(), kHeaderWords);
+  p.header.assign(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(header));
+  std::size_t at = header;
+  while (at < words.size()) {
+    const auto length = static_cast<std::size_t>(layout.words[words[at] & 15U]);
+    if (length == 0 || at + length > words.size()) break;
+    const auto begin = words.begin() + static_cast<std::ptrdiff_t>(at);
+    p.tokens.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(length));
+    at += length;
+  }
+  p.rest.assign(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
+  return p;
+}
+
+Words together(const Parts& p) {
+  Words words = p.header;
+  for (const Words& t : p.tokens) words.insert(words.end(), t.begin(), t.end());
+  words.insert(words.end(), p.rest.begin(), p.rest.end());
+  return words;
+}
+
+bool is(const Words& token, Kind kind) { return static_cast<Kind>(token[0] & 15U) == kind; }
+
+/// Of which line a SEG is: SEGs run ahead, and a unit's of a line sum to the width.
+class SegmentLines {
+ public:
+  SegmentLines(const Config& c, const Layout& layout, const Words& header)
+      : config_(c), layout_(layout), width_(header.size() < 2 ? 0 : header[1] & 0xFFFFU) {}
+
+  std::size_t next(const Words& segment) {
+    const SegmentToken s = decode(config_, layout_, segment).segment;
+    const auto unit = static_cast<std::size_t>(s.unit);
+    if (units_.size() <= unit) units_.resize(unit + 1);
+    Unit& u = units_[unit];
+    const std::size_t line = u.line;
+    u.pixels += static_cast<std::uint32_t>(s.dx);
+    if (u.pixels >= width_) u = {line + 1, 0};
+    return line;
+  }
+
+ private:
+  struct Unit {
+    std::size_t line = 0;
+    std::uint32_t pixels = 0;
+  };
+  const Config& config_;
+  const Layout& layout_;
+  std::uint32_t width_;
+  std::vector<Unit> units_;
+};
+
+/// Takes away runs of what `count` counts, by `without(first, last)`: each half as long as the one before, then, where
+/// few are left, short ones at every place, as tokens that only make sense together.
+template <class Count, class Without, class Accept>
+bool fewer(Count count, Without without, Accept accept, const std::function<bool()>& more) {
+  constexpr std::size_t kFew = 100;
+  constexpr std::size_t kTogether = 6;
+  bool any = false;
+  const auto pass = [&](std::size_t run, bool everywhere) {
+    for (std::size_t at = 0; at < count() && more();) {
+      const std::size_t last = std::min(at + run, count());
+      if (accept(without(at, last)))
+        any = true;
+      else
+        at = everywhere ? at + 1 : last;
+    }
+  };
+  for (std::size_t run = std::max<std::size_t>(count(), 1); run > 0; run /= 2) pass(run, false);
+  for (std::size_t run = 2; run <= kTogether && count() <= kFew; ++run) pass(run, true);
+  return any;
+}
+
+class Shrinker {
+ public:
+  Shrinker(const Config& c, Words words, const std::function<bool(const Words&)>& keeps,
+           const std::function<bool()>& more)
+      : config_(c), layout_(c), words_(std::move(words)), keeps_(keeps), more_(more) {}
+
+  Words run() {
+    // A smaller frame may let go of what a larger one needed.
+    while (more_() && (lines() | tokens() | rest() | width())) continue;
+    return std::move(words_);
+  }
+
+ private:
+  bool accept(Words candidate) {
+    if (candidate.size() > words_.size() || candidate == words_ || !keeps_(candidate)) return false;
+    words_ = std::move(candidate);
+    return true;
+  }
+
+  /// The frame with these tokens, its height and its EOLs numbered anew if lines have gone.
+  [[nodiscard]] Words numbered(Parts p, std::size_t gone) const {
+    if (gone == 0 || p.header.size() < 2) return together(p);
+    const std::uint32_t height = p.header[1] >> 16;
+    if (height <= gone) return words_;
+    p.header[1] -= static_cast<std::uint32_t>(gone) << 16;
+    Words words = together(p);
+    TokenPlaces places(config_, words);
+    std::uint64_t y = 0;
+    for (const TokenPlaces::At at : places.of(Kind::EOL)) places.put(at, layout_.eol_y, y++);
+    return words;
+  }
+
+  bool lines() {
+    const auto count = [&] {
+      const Parts p = apart(config_, words_);
+      return static_cast<std::size_t>(
+          std::count_if(p.tokens.begin(), p.tokens.end(), [](const Words& t) { return is(t, Kind::EOL); }));
+    };
+    const auto without = [&](std::size_t first, std::size_t last) {
+      Parts p = apart(config_, words_);
+      std::vector<Words> left;
+      std::size_t line = 0;
+      bool state = true;  // what stands before the first line stays
+      SegmentLines segments(config_, layout_, p.header);
+      for (Words& t : p.tokens) {
+        state = state && (is(t, Kind::SHADE) || is(t, Kind::TABLE) || is(t, Kind::FACE));
+        const std::size_t of = is(t, Kind::SEG) ? segments.next(t) : line;
+        const bool gone = !state && !is(t, Kind::END) && of >= first && of < last;
+        line += is(t, Kind::EOL) ? 1U : 0U;
+        if (!gone) left.push_back(std::move(t));
+      }
+      p.tokens = std::move(left);
+      return numbered(std::move(p), last - first);
+    };
+    return fewer(
+        count, without, [&](Words w) { return accept(std::move(w)); }, more_);
+  }
+
+  bool tokens() {
+    const auto count = [&] { return apart(config_, words_).tokens.size(); };
+    const auto without = [&](std::size_t first, std::size_t last) {
+      Parts p = apart(config_, words_);
+      p.tokens.erase(p.tokens.begin() + static_cast<std::ptrdiff_t>(first),
+                     p.tokens.begin() + static_cast<std::ptrdiff_t>(last));
+      return together(p);
+    };
+    return fewer(
+        count, without, [&](Words w) { return accept(std::move(w)); }, more_);
+  }
+
+  /// The words behind the last token.
+  bool rest() {
+    Parts p = apart(config_, words_);
+    if (p.rest.empty() || !more_()) return false;
+    p.rest.clear();
+    return accept(together(p));
+  }
+
+  /// Columns at the right go, then such at the left.
+  bool width() {
+    bool any = false;
+    for (const bool left : {false, true})
+      for (std::uint32_t step = words_.size() < 2 ? 0 : words_[1] & 0xFFFFU; step > 0; step /= 2)
+        while (more_() && (words_[1] & 0xFFFFU) > step && narrower(step, left)) any = true;
+    return any;
+  }
+
+  bool narrower(std::uint32_t step, bool left) {
+    Words words = words_;
+    words[1] -= step;
+    const std::uint64_t width = words[1] & 0xFFFFU;
+    const auto moved = [&](std::uint64_t x) {
+      return left ? x - std::min<std::uint64_t>(x, step) : std::min(x, width);
+    };
+    TokenPlaces places(config_, words);
+    for (const TokenPlaces::At at : places.all()) {
+      const auto kind = static_cast<Kind>(words[static_cast<std::size_t>(at)] & 15U);
+      std::uint64_t cut = 0;  // pixels that a span loses at its left: it goes on with the depth and colour behind them
+      each_field(layout_, kind, [&](std::string_view name, int, Field field) {
+        if (field.bits == 0 || (name != "xl" && name != "xr")) return;
+        const std::uint64_t x = places.get(at, field);
+        if (name == "xl" && left && x < step) cut = step - x;
+        places.put(at, field, moved(x));
+      });
+      if (cut > 0) advance(places, at, kind, cut);
+    }
+    return accept(std::move(words));
+  }
+
+  /// A span begins so many pixels later.
+  void advance(TokenPlaces& places, TokenPlaces::At at, Kind kind, std::uint64_t pixels) const {
+    const auto ramp = [&](std::string_view start, std::string_view step) {
+      std::array<Field, 3> starts{};
+      std::array<Field, 3> steps{};
+      each_field(layout_, kind, [&](std::string_view name, int channel, Field field) {
+        const auto i = static_cast<std::size_t>(std::max(channel, 0));
+        if (name == start) starts[i] = field;
+        if (name == step) steps[i] = field;
+      });
+      for (std::size_t i = 0; i < starts.size(); ++i) {
+        if (starts[i].bits == 0 || steps[i].bits == 0) continue;
+        const std::uint64_t sign = std::uint64_t{1} << (steps[i].bits - 1);
+        const std::uint64_t by = (places.get(at, steps[i]) ^ sign) - sign;
+        places.put(at, starts[i], places.get(at, starts[i]) + pixels * by);
+      }
+    };
+    ramp("z", "dz");
+    ramp("color", "dcolor");
+  }
+
+  const Config& config_;
+  Layout layout_;
+  Words words_;
+  const std::function<bool(const Words&)>& keeps_;
+  const std::function<bool()>& more_;
+};
+
+}  // namespace
+
+Words shrink(const Config& config, Words words, const std::function<bool(const Words&)>& keeps,
+             const std::function<bool()>& more) {
+  return Shrinker(config, std::move(words), keeps, more).run();
+}
+
+}  // namespace kage::verif
