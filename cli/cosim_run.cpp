@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cosim_run.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sched.h>
 #include <unistd.h>
@@ -12,6 +11,7 @@
 
 #include "cosim/rtl.hpp"
 #include "cosim_json.hpp"
+#include "files/quiet_stderr.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "report/html.hpp"
@@ -45,26 +45,6 @@ void remove_old_evidence(TempFiles& files, const std::string& folder, const std:
 
 /// How long a frame is made smaller.
 constexpr std::chrono::seconds kShrinkTime{60};
-
-/// Standard error leads nowhere.
-class QuietErrors {
- public:
-  QuietErrors() : kept_(dup(STDERR_FILENO)) {
-    const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) close(nowhere);
-  }
-  ~QuietErrors() {
-    if (kept_ < 0) return;
-    dup2(kept_, STDERR_FILENO);
-    close(kept_);
-  }
-  QuietErrors(const QuietErrors&) = delete;
-  QuietErrors& operator=(const QuietErrors&) = delete;
-
- private:
-  int kept_;
-};
 
 }  // namespace
 
@@ -247,7 +227,7 @@ Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference)
   std::vector<std::uint32_t> small = words;
   bool alone = false;
   {
-    std::optional<QuietErrors> quiet;  // what a failing assertion says, each time again
+    std::optional<QuietStderr> quiet;  // what a failing assertion says, each time again
     if (!difference.assertion.empty()) quiet.emplace();
     alone = differs(words);
     if (alone && !o_.no_shrink) small = verif::shrink(config, words, differs, more);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "diff.hpp"
+#include "files/quiet_stderr.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage diff of two pictures, and the words for what came of it.
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "diff.hpp"
+#include "files/quiet_stderr.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
@@ -29,19 +28,6 @@ bool within(const std::string& path, const std::string& in) {
 
 }  // namespace
 
-QuietStderr::QuietStderr() : kept_(fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3)) {
-  const int null = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (kept_ >= 0 && null >= 0) dup2(null, STDERR_FILENO);
-  if (null >= 0) close(null);
-}
-
-QuietStderr::~QuietStderr() {
-  if (kept_ < 0) return;
-  std::fflush(stderr);
-  dup2(kept_, STDERR_FILENO);
-  close(kept_);
-}
-
 void check_outputs(const DiffCommand& o) {
   std::vector<std::string> written;
   for (const std::string* path : {&o.out, &o.blink, &o.junit, &o.json}) {
@@ -57,7 +43,7 @@ void check_outputs(const DiffCommand& o) {
 }
 
 DiffResult compare_files(const fs::path& a, const fs::path& b, const DiffOptions& limits, DiffViews* views) {
-  const QuietStderr quiet;
+  const QuietStderr quiet;  // libpng writes there by itself what OpenImageIO reports anyway
   return diff_files(a, b, limits, views);
 }
 

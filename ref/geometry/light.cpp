@@ -5,21 +5,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "number/mixed.hpp"
 #include "scene/functions.hpp"
 #include "scene/space.hpp"
 
 namespace kage {
 namespace {
-
-/// 2^64 / golden ratio: multiples of it, modulo 2^64, are spread most evenly.
-constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15U;
-
-/// A number whose bits all depend on all bits of x.
-std::uint64_t mixed(std::uint64_t x) {
-  x = (x ^ x >> 30U) * 0xBF58476D1CE4E5B9U;
-  x = (x ^ x >> 27U) * 0x94D049BB133111EBU;
-  return x ^ x >> 31U;
-}
 
 /// 0 .. 1 from the upper bits.
 double share(std::uint64_t x) { return static_cast<double>(x >> 11U) * 0x1p-53; }
@@ -43,7 +34,7 @@ std::vector<LightPoint> light_points(const Light& light, int samples, std::uint6
   const std::uint64_t start = mixed(seed);
   for (int i = 0; i < samples; ++i) {
     const double along = (i + 0.5) / samples;
-    const std::uint64_t turn = start + kGolden * static_cast<std::uint64_t>(i);
+    const std::uint64_t turn = start + kGoldenRatio * static_cast<std::uint64_t>(i);
     glm::dvec3 off{0, 0, 0};
     if (light.shape == LightShape::rectangle) {
       off = light.axis_u * (2 * along - 1) + light.axis_v * (2 * share(turn) - 1);
@@ -97,7 +88,7 @@ NormalClasses::NormalClasses(int count) {
   for (int i = 0; i < count; ++i) {
     const double z = 1 - (2 * i + 1.0) / count;
     const double radius = std::sqrt(1 - z * z);
-    const Direction d(kGolden * static_cast<std::uint64_t>(i));
+    const Direction d(kGoldenRatio * static_cast<std::uint64_t>(i));
     normals_.emplace_back(radius * d.cosine, radius * d.sine, z);
   }
 }

@@ -13,19 +13,12 @@
 #include "cosim/stopwatch.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
+#include "number/mixed.hpp"
 
 namespace kage::cosim {
 namespace {
 
 constexpr std::uint32_t kAlways = 65536;
-
-/// A seed that follows from both.
-std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
-  std::uint64_t value = a + (b + 1) * 0x9E3779B97F4A7C15ULL;
-  value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9ULL;
-  value = (value ^ value >> 27) * 0x94D049BB133111EBULL;
-  return value ^ value >> 31;
-}
 
 std::uint64_t initial_seed(const RtlOptions& options) {
   return options.initial == 0 ? options.seed : mixed(options.seed, ~options.initial);

@@ -6,6 +6,7 @@
 
 #include "cosim/core.hpp"
 #include "stimulus/random_frames.hpp"
+#include "stimulus/small_configs.hpp"
 
 namespace kage::verif {
 namespace {
@@ -31,13 +32,8 @@ TrialFrame finished(const Config& config, std::vector<std::uint32_t> words) {
 std::vector<Inputs> trial_configurations() {
   std::vector<Inputs> all;
   const auto add = [&](const char* name, auto change) {
-    Config c;
-    c.max_width = 40;
-    c.x_bits = 6;
-    c.lanes = 4;
-    change(c);
-    validate(c, name);
-    all.push_back({name, c, {}});
+    const SmallConfig small = small_config(name, change);
+    all.push_back({small.name, small.config, {}});
   };
   add("parity", [](Config& c) { c.shade_frac = 3; });
   add("grey",

@@ -7,7 +7,6 @@
 //
 // Without names all of verif/mutants/mutants.yaml. Which N a sample has is by a seed that is printed: $KAGE_SEED, else
 // another one in each run. Exit code 0: all as they should be; 1: not; 2: trouble.
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,10 +14,12 @@
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <random>
 #include <set>
 
 #include "cosim/model.hpp"
+#include "files/quiet_stderr.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "mutants/list.hpp"
@@ -31,27 +32,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// What models say of failed assertions goes nowhere; err() is standard error for this program.
-class Quiet {
- public:
-  Quiet() : err_(fdopen(dup(STDERR_FILENO), "w")) {
-    const int null = open("/dev/null", O_WRONLY);
-    dup2(null, STDERR_FILENO);
-    close(null);
-  }
-  ~Quiet() {
-    dup2(fileno(err_), STDERR_FILENO);
-    std::fclose(err_);
-  }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
-  [[nodiscard]] FILE* err() const { return err_; }
-
- private:
-  FILE* err_;
-};
 
 struct Result {
   Mutant mutant;
@@ -198,9 +178,10 @@ int run_all(std::vector<std::string> arguments) {
   const auto all = load_mutants(data_directory() / "verif/mutants/mutants.yaml");
   check_configs(all, trial_configurations());
   const auto mutants = chosen(all, names, sample, seed);
-  const Quiet quiet;
+  const QuietStderr quiet;  // else models tell of each assertion that fails
+  const std::unique_ptr<FILE, int (*)(FILE*)> err(fdopen(dup(quiet.kept()), "w"), std::fclose);
   const auto start = Clock::now();
-  Trials trials(quiet.err(), test_seed());
+  Trials trials(err.get(), test_seed());
   if (markdown)
     fmt::print(
         "| mutant | of `rtl/` | what it breaks | configuration | verdict | named |\n|---|---|---|---|---|---|\n");

@@ -18,17 +18,18 @@ class TokenPlaces {
   using At = std::vector<std::uint32_t>::difference_type;
 
   TokenPlaces(const Config& c, std::vector<std::uint32_t>& words) : layout_(c), words_(&words) {
-    for (std::size_t at = 5; at < words.size();) {
+    for (std::size_t at = kHeaderWords; at < words.size();) {
       const std::size_t kind = words[at] & 15U;
-      if (layout_.words[kind] == 0) return;
+      const auto length = static_cast<std::size_t>(layout_.words[kind]);
+      if (length == 0 || length > words.size() - at) return;
       places_[kind].push_back(static_cast<At>(at));
       all_.push_back(static_cast<At>(at));
-      at += static_cast<std::size_t>(layout_.words[kind]);
+      at += length;
     }
     whole_ = true;
   }
 
-  /// False if an earlier damage has left a word that is no token.
+  /// False if an earlier damage has left a word that is no token, or has cut the last token.
   [[nodiscard]] bool whole() const { return whole_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const std::vector<At>& all() const { return all_; }

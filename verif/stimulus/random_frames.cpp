@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "number/mixed.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
 
@@ -86,14 +87,6 @@ void make_wrong(Random& random, const Config& c, Words& words) {
     default:
       return misplace(random, c, words);
   }
-}
-
-// splitmix64, so that neighbouring numbers have nothing in common.
-std::uint64_t mixed(std::uint64_t seed, std::uint64_t number) {
-  std::uint64_t value = seed + (number + 1) * 0x9E3779B97F4A7C15ULL;
-  value = (value ^ value >> 30) * 0xBF58476D1CE4E5B9ULL;
-  value = (value ^ value >> 27) * 0x94D049BB133111EBULL;
-  return value ^ value >> 31;
 }
 
 }  // namespace

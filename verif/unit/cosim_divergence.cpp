@@ -11,6 +11,7 @@
 #include "kage/stream.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
+#include "stimulus/small_configs.hpp"
 
 using namespace kage;
 using namespace kage::cosim;
@@ -33,31 +34,27 @@ std::vector<std::vector<std::uint32_t>> random_frames(Random& random, const Conf
   return frames;
 }
 
-std::vector<std::pair<std::string, Config>> configurations() {
-  std::vector<std::pair<std::string, Config>> all;
-  const auto add = [&](const char* name, auto change) {
-    Config c;
-    c.max_width = 40;
-    c.x_bits = 6;
-    c.lanes = 4;
-    change(c);
-    validate(c, name);
-    all.emplace_back(name, c);
+std::vector<SmallConfig> configurations() {
+  return {
+      small_config("parity", [](Config&) {}),
+      small_config("no shadows, grey", [](Config& c) { c.dsf_bits = c.fsf = 0, c.channels = 1; }),
+      small_config("parity without FSF, systolic", [](Config& c) { c.fsf = 0, c.arrangement = 0; }),
+      small_config("counting, smooth, glass",
+                   [](Config& c) { c.dsf_bits = 3, c.smooth = 1, c.color_frac = 6, c.translucency = 1; }),
+      small_config(
+          "lights, glass",
+          [](Config& c) { c.smooth = 1, c.count_bits = 3, c.lights = 3, c.class_bits = 3, c.translucency = 1; }),
+      small_config("lights without FSF, systolic, glass",
+                   [](Config& c) {
+                     c.fsf = 0, c.dsf_bits = 2, c.count_bits = 2, c.lights = 2, c.class_bits = 2, c.translucency = 1,
+                     c.arrangement = 0;
+                   }),
+      small_config("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.translucency = 1; }),
+      small_config("a count and no table, one unit, one lane",
+                   [](Config& c) { c.count_bits = 4, c.lanes = 1, c.units = 1, c.dx_bits = 6, c.face_bits = 4; }),
+      small_config("units, systolic",
+                   [](Config& c) { c.units = 2, c.dx_bits = 6, c.face_bits = 4, c.arrangement = 0; }),
   };
-  add("parity", [](Config&) {});
-  add("no shadows, grey", [](Config& c) { c.dsf_bits = c.fsf = 0, c.channels = 1; });
-  add("parity without FSF, systolic", [](Config& c) { c.fsf = 0, c.arrangement = 0; });
-  add("counting, smooth, glass", [](Config& c) { c.dsf_bits = 3, c.smooth = 1, c.color_frac = 6, c.translucency = 1; });
-  add("lights, glass",
-      [](Config& c) { c.smooth = 1, c.count_bits = 3, c.lights = 3, c.class_bits = 3, c.translucency = 1; });
-  add("lights without FSF, systolic, glass", [](Config& c) {
-    c.fsf = 0, c.dsf_bits = 2, c.count_bits = 2, c.lights = 2, c.class_bits = 2, c.translucency = 1, c.arrangement = 0;
-  });
-  add("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.translucency = 1; });
-  add("a count and no table, one unit, one lane",
-      [](Config& c) { c.count_bits = 4, c.lanes = 1, c.units = 1, c.dx_bits = 6, c.face_bits = 4; });
-  add("units, systolic", [](Config& c) { c.units = 2, c.dx_bits = 6, c.face_bits = 4, c.arrangement = 0; });
-  return all;
 }
 
 }  // namespace

@@ -7,8 +7,10 @@
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "stimulus/coverage.hpp"
+#include "stimulus/damage.hpp"
 #include "stimulus/random_frames.hpp"
 #include "stimulus/shrink.hpp"
+#include "stimulus/small_configs.hpp"
 
 using namespace kage;
 using namespace kage::verif;
@@ -20,24 +22,16 @@ using Words = std::vector<std::uint32_t>;
 const LineSink kNobody = [](int, std::span<const std::uint8_t>) {};
 
 /// Small ones that between them have everything.
-std::vector<std::pair<std::string, Config>> configurations() {
-  std::vector<std::pair<std::string, Config>> all;
-  const auto add = [&](const char* name, auto change) {
-    Config c;
-    c.max_width = 40;
-    c.x_bits = 6;
-    c.lanes = 4;
-    change(c);
-    validate(c, name);
-    all.emplace_back(name, c);
+std::vector<SmallConfig> configurations() {
+  return {
+      small_config("parity", [](Config&) {}),
+      small_config("no shadows, grey", [](Config& c) { c.dsf_bits = c.fsf = 0, c.channels = 1; }),
+      small_config("counting, smooth, glass",
+                   [](Config& c) { c.dsf_bits = 3, c.smooth = 1, c.color_frac = 6, c.translucency = 1; }),
+      small_config("lights", [](Config& c) { c.count_bits = 2, c.lights = 3, c.class_bits = 3, c.shade_frac = 4; }),
+      small_config("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.seg_bits = 3; }),
+      small_config("systolic", [](Config& c) { c.arrangement = 0, c.translucency = 1; }),
   };
-  add("parity", [](Config&) {});
-  add("no shadows, grey", [](Config& c) { c.dsf_bits = c.fsf = 0, c.channels = 1; });
-  add("counting, smooth, glass", [](Config& c) { c.dsf_bits = 3, c.smooth = 1, c.color_frac = 6, c.translucency = 1; });
-  add("lights", [](Config& c) { c.count_bits = 2, c.lights = 3, c.class_bits = 3, c.shade_frac = 4; });
-  add("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.seg_bits = 3; });
-  add("systolic", [](Config& c) { c.arrangement = 0, c.translucency = 1; });
-  return all;
 }
 
 }  // namespace
@@ -60,6 +54,24 @@ TEST_CASE("a random frame follows from configuration, manner, seed and number al
     }
     CHECK(seen.size() > 195);
     CHECK(errors > 70);  // damage may be survived
+  }
+}
+
+TEST_CASE("a frame that is cut within a token is not whole, so nothing is changed past its end") {
+  for (const auto& [name, c] : configurations()) {
+    CAPTURE(name);
+    Random random(test_seed());
+    const Layout layout(c);
+    Words whole = sound_frame(random, c, 0);
+    const TokenPlaces places(c, whole);
+    REQUIRE(places.whole());
+    std::set<std::size_t> ends{kHeaderWords};
+    for (const TokenPlaces::At at : places.all())
+      ends.insert(static_cast<std::size_t>(at) + layout.words[whole[static_cast<std::size_t>(at)] & 15U]);
+    for (std::size_t length = kHeaderWords; length <= whole.size(); ++length) {
+      Words cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
+      CHECK(TokenPlaces(c, cut).whole() == ends.contains(length));
+    }
   }
 }
 
