@@ -21,6 +21,14 @@ GuardedNew::GuardedNew(Edge edge) { mode = edge == Edge::kEnd ? Mode::kEnd : Mod
 GuardedNew::~GuardedNew() { mode = Mode::kOff; }
 std::uint64_t GuardedNew::given() { return given_count; }
 
+bool GuardedNew::gave_more_than([[maybe_unused]] std::uint64_t times) {
+#ifdef __SANITIZE_ADDRESS__
+  return true;
+#else
+  return given_count > times;
+#endif
+}
+
 #ifndef __SANITIZE_ADDRESS__
 namespace {
 

@@ -21,8 +21,11 @@ class GuardedNew {
   GuardedNew(const GuardedNew&) = delete;
   GuardedNew& operator=(const GuardedNew&) = delete;
 
-  /// What was given so since the program began. Under the address sanitizer, which guards on its own, nothing.
+  /// How many times memory was given so since the program began.
   static std::uint64_t given();
+
+  /// Whether it was more than so many times. True under the address sanitizer, which guards all memory on its own.
+  static bool gave_more_than(std::uint64_t times);
 };
 
 }  // namespace kage::verif
