@@ -88,6 +88,7 @@ class OutputFile::Buffer : public std::streambuf {
       write_all(fd_, data, static_cast<std::size_t>(size), name_);
       return size;
     }
+    if (size == 0) return 0;  // `data` may be no address then
     std::memcpy(pptr(), data, static_cast<std::size_t>(size));
     pbump(static_cast<int>(size));
     return size;
