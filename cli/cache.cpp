@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage cache [list|verify|prune]: the RTL models that are kept.
+// kage cache [list|verify|prune]: the RTL models and verdicts that are kept.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
@@ -14,6 +15,7 @@
 
 #include "common.hpp"
 #include "cosim/model_cache.hpp"
+#include "cosim/verdict_store.hpp"
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 
@@ -76,7 +78,7 @@ std::string config_text(const Json& about) {
     for (const ParamInfo& p : kParams)
       if (config.*(p.member) != defaults.*(p.member))
         text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, config.*(p.member));
-  if (about.value("fault", "") != "") text += ", fault " + about.value("fault", "");
+  if (const std::string fault = about.value("fault", ""); !fault.empty()) text += ", fault " + fault;
   if (about.value("traced", false)) text += ", with monitors";
   if (about.value("mutants", false)) text += ", with mutants";
   return text;
@@ -100,6 +102,33 @@ std::uint64_t total(const std::vector<CachedModel>& models) {
   return bytes;
 }
 
+std::uint64_t total(const std::vector<cosim::StoredVerdict>& verdicts) {
+  std::uint64_t bytes = 0;
+  for (const cosim::StoredVerdict& v : verdicts) bytes += v.bytes;
+  return bytes;
+}
+
+/// What is said of the verdicts: `damaged` is null where nobody has looked.
+Json of_verdicts(const cosim::VerdictStore& store, const Json& damaged) {
+  const std::vector<cosim::StoredVerdict> all = store.list();
+  return {{"folder", store.folder().string()}, {"verdicts", all.size()}, {"bytes", total(all)}, {"damaged", damaged}};
+}
+
+std::string text_of_verdicts(const Json& verdicts) {
+  std::string text =
+      fmt::format("{}: {}, {}", verdicts["folder"].get<std::string>(),
+                  counted(verdicts["verdicts"].get<std::uint64_t>(), "verdict"), size_text(verdicts["bytes"]));
+  if (const Json& damaged = verdicts["damaged"]; !damaged.is_null())
+    text += fmt::format(", {} of them damaged", damaged.get<std::uint64_t>());
+  return text + "\n";
+}
+
+/// The limits for verdicts where models and what belongs to them take so many bytes.
+cosim::CacheLimits beside(cosim::CacheLimits limits, std::uint64_t taken) {
+  if (limits.bytes) limits.bytes = *limits.bytes - std::min(*limits.bytes, taken);
+  return limits;
+}
+
 std::string line_of(const CachedModel& model) {
   return fmt::format("{}  {:>9}  {}  {}\n", model.key.substr(0, 12), size_text(model.bytes), time_text(model.last_used),
                      config_text(model.about));
@@ -117,6 +146,9 @@ std::string damage_of(const ModelCache& cache, const std::string& key) {
 int run(const CacheCommand& o) {
   check_json(o);
   const ModelCache cache;
+  const cosim::VerdictStore store;
+  Json damaged_verdicts = nullptr;
+  std::size_t gone_verdicts = 0;
   std::vector<CachedModel> models = cache.list();
   Json j{{"folder", cache.folder().string()}, {"models", Json::array()}};
   std::string text;
@@ -132,9 +164,10 @@ int run(const CacheCommand& o) {
     cache.prune_others(limits);
     for (const CachedModel& m : gone) j["models"].push_back(to_json(m));
     const std::vector<CachedModel> left = cache.list();
+    gone_verdicts = store.prune(beside(limits, total(left) + cache.other_bytes())).size();
     j["left"] = {{"models", left.size()}, {"bytes", total(left)}};
-    text = fmt::format("removed {}, {}; {} left, {}", counted(gone.size(), "model"), size_text(total(gone)),
-                       left.size(), size_text(total(left)));
+    text = fmt::format("removed {}, {}, and {}; {} left, {}", counted(gone.size(), "model"), size_text(total(gone)),
+                       counted(gone_verdicts, "verdict"), counted(left.size(), "model"), size_text(total(left)));
   } else {
     for (const CachedModel& m : models) {
       Json entry = to_json(m);
@@ -148,6 +181,12 @@ int run(const CacheCommand& o) {
       }
       j["models"].push_back(entry);
     }
+    if (o.what == "verify") {
+      std::size_t damaged = 0;
+      for (const cosim::StoredVerdict& v : store.list()) damaged += store.is_whole(v.key) ? 0U : 1U;
+      if (damaged != 0) rc = kDifferent;
+      damaged_verdicts = damaged;
+    }
     j["bytes"] = total(models);
     text +=
         fmt::format("{}: {}, {}", cache.folder().string(), counted(models.size(), "model"), size_text(total(models)));
@@ -155,6 +194,9 @@ int run(const CacheCommand& o) {
   const std::uint64_t others = cache.other_bytes();
   j["other_bytes"] = others;
   text += fmt::format(", and {} of logs, locks and objects to link\n", size_text(others));
+  j["verdicts"] = of_verdicts(store, damaged_verdicts);
+  if (o.what == "prune") j["verdicts"]["removed"] = gone_verdicts;
+  text += text_of_verdicts(j["verdicts"]);
   TempFiles files;
   finish(o, j, files, text);
   return rc;
@@ -164,7 +206,7 @@ int run(const CacheCommand& o) {
 
 void add_cache(CLI::App& app, Action& action) {
   CLI::App* c =
-      add_command(app, "cache", "Show, verify or prune the RTL models that are kept",
+      add_command(app, "cache", "Show, verify or prune the RTL models and verdicts that are kept",
                   "  kage cache                                         # where they lie, how many, how large\n"
                   "  kage cache list                                    # each: key, size, last use, configuration\n"
                   "  kage cache verify                                  # exit code 1 if one is damaged\n"
@@ -173,9 +215,10 @@ void add_cache(CLI::App& app, Action& action) {
   c->add_option("WHAT", o->what, "list, verify or prune; without it: folder, number and size")
       ->check(CLI::IsMember({"list", "verify", "prune"}))
       ->type_name("");
-  c->add_option("--older-than", o->older_than, "prune: models that were last used longer ago, like 90m, 12h, 30d")
+  c->add_option("--older-than", o->older_than, "prune: what was last used longer ago, like 90m, 12h, 30d")
       ->type_name("AGE");
-  c->add_option("--max-size", o->max_size, "prune: the least recently used ones, until the others fit, like 500M, 2G")
+  c->add_option("--max-size", o->max_size,
+                "prune: the least recently used models, then verdicts, until the others fit, like 500M, 2G")
       ->type_name("SIZE");
   option_json(*c, *o);
   c->callback([o, &action] {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -110,6 +111,21 @@ Json no_frames(const std::string& scene, int total) {
 
 bool has_frames(const Json& report) { return report["frames"] != 0; }
 
+Json all_verdicts(const std::vector<const Json*>& parts) {
+  bool cached = false;
+  std::uint64_t taken = 0, kept = 0;
+  Json trouble = nullptr;
+  for (const Json* p : parts) {
+    cached = cached || p->at("cached").get<bool>();
+    taken += p->at("taken").get<std::uint64_t>();
+    kept += p->at("kept").get<std::uint64_t>();
+    if (trouble.is_null()) trouble = p->at("trouble");
+  }
+  return {{"cached", cached}, {"taken", taken}, {"kept", kept}, {"trouble", trouble}};
+}
+
+std::uint64_t taken_of(const Json& report) { return report["verdicts"]["taken"].get<std::uint64_t>(); }
+
 Json all_scenes(std::vector<Json> scenes) {
   Json j;
   bool same = true;
@@ -138,6 +154,10 @@ Json all_scenes(std::vector<Json> scenes) {
   for (const Json& r : scenes) total += r["total_frames"].get<std::uint64_t>();
   j["total_frames"] = total;
   j["shard"] = any["shard"];
+  std::vector<const Json*> verdicts;
+  for (const Json& r : scenes)
+    if (has_frames(r)) verdicts.push_back(&r["verdicts"]);
+  j["verdicts"] = all_verdicts(verdicts);
   for (const char* key : {"golden_seconds", "rtl_seconds", "build_seconds"})
     j[key] = seconds((std::string("/") + key).c_str());
   j["seed"] = any["seed"];
@@ -150,7 +170,11 @@ void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards) {
   junit.group(shards.front()->at("scene").get<std::string>());
   const int total = shards.front()->at("total_frames").get<int>();
   std::map<int, const Json*> by_first;
-  for (const Json* shard : shards) by_first[shard->at("first_frame").get<int>()] = shard;
+  std::set<int> taken;
+  for (const Json* shard : shards) {
+    by_first[shard->at("first_frame").get<int>()] = shard;
+    for (const Json& frame : shard->at("verdicts").at("taken_frames")) taken.insert(frame.get<int>());
+  }
   const int step = shards.front()->at("frame_step").get<int>();
   for (int frame = 0; frame < total; ++frame) {
     const auto found = by_first.find(frame % step);
@@ -166,7 +190,8 @@ void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards) {
       junit.fail(name, seconds[place].get<double>(), difference["text"].get<std::string>(), text_of(difference),
                  place_of(difference).file);
     else
-      junit.pass(name, seconds[place].get<double>());
+      junit.pass(name, seconds[place].get<double>(),
+                 taken.count(frame) == 0 ? "" : "the verdict of the RTL is taken from an earlier run");
   }
 }
 

@@ -57,9 +57,16 @@ Json no_frames(const std::string& scene, int total);
 /// Whether a report is such a one.
 bool has_frames(const Json& report);
 
+/// "verdicts" of several reports as one: how many frames have their verdicts from earlier runs, how many verdicts are
+/// kept for later ones, and what was in the way of that.
+Json all_verdicts(const std::vector<const Json*>& parts);
+
 /// The reports of several scenes as one, which has them in "scenes": sums, and the first difference of the first scene
 /// that has one, with that scene's name.
 Json all_scenes(std::vector<Json> scenes);
+
+/// How many frames of a report have their verdicts from earlier runs.
+std::uint64_t taken_of(const Json& report);
 
 /// A case for each frame of a scene's reports, which are those of all shards, or of a single run. Frames behind a
 /// difference were not compared and are skipped.

@@ -46,6 +46,7 @@ void add_info(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
+void add_regress(CLI::App& app, Action& action);
 void add_model(CLI::App& app, Action& action);
 void add_order(CLI::App& app, Action& action);
 void add_cache(CLI::App& app, Action& action);

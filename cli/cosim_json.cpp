@@ -73,6 +73,7 @@ Json to_json(const std::vector<cosim::FrameResult>& frames, const std::optional<
   for (const cosim::FrameResult& r : frames)
     all.push_back({{"frame", r.frame},
                    {"same", !difference || difference->frame != r.frame},
+                   {"taken", r.taken},
                    {"cycles", r.cycles},
                    {"stalled", to_json(r.stalls)},
                    {"stalled_by_phase", of_phases(r.phase_stalls)},

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include "cosim/rtl.hpp"
 #include "cosim_json.hpp"
+#include "cosim_registers.hpp"
 #include "files/quiet_stderr.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -27,14 +29,18 @@ constexpr std::uint64_t kOtherState = 1;
 constexpr std::uint64_t kJobBytes = std::uint64_t{256} << 20;
 
 /// With the new files goes what an earlier run into the folder left of frames that this one has compared: a difference
-/// that is no more, or was another.
-void remove_old_evidence(TempFiles& files, const std::string& folder, const std::string& name, cosim::FrameSteps steps,
-                         const cosim::Report& r) {
+/// that is no more, or was another. Of random frames only those that differ leave a picture, and the frame itself.
+void remove_old_evidence(TempFiles& files, const std::string& folder, const std::string& name, bool random,
+                         cosim::FrameSteps steps, const cosim::Report& r) {
   namespace fs = std::filesystem;
   if (folder.empty()) return;
+  std::vector<std::string> ends{"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"};
+  if (random) ends.insert(ends.end(), {".png", ".kage"});
   for (int i = 0; i < r.frames; ++i)
-    for (const char* end : {"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"}) {
-      const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, steps.first + i * steps.step, end);
+    for (const std::string& end : ends) {
+      const int frame = steps.first + i * steps.step;
+      if (end == ".kage" && r.first_difference && r.first_difference->frame == frame) continue;  // it is written anew
+      const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, frame, end);
       std::error_code ec;
       const fs::file_type type = fs::symlink_status(path, ec).type();
       if ((type == fs::file_type::regular || type == fs::file_type::symlink) &&  // else it was not ours
@@ -68,75 +74,83 @@ SceneRun::SceneRun(const CosimCommand& o, std::int64_t frames_before)
   // Each scene has its own folder, where there are several.
   if (o_.inputs.size() > 1 && !o_.out.empty()) o_.out = (std::filesystem::path(o_.out) / source_->name()).string();
   o_.rtl.options.seed = o_.seed;
+  o_.rtl.options.prelude = source_->prelude();
 }
 
 void SceneRun::prepare(int ranges) {
   if (frames() == 0) return;
-  folder_ = std::make_unique<OutFolder>(o_.out);
-  model_ = model_of(source_->config(), o_.rtl.fault);
+  if (!o_.out.empty()) folder_ = std::make_unique<OutFolder>(o_.out);
+  open_verdicts();
+  if (!recall_) model_ = model_of(source_->config(), o_.rtl);
   frame_progress_.emplace(progress_, source_->name(), frames());
   if (!o_.no_report && !o_.out.empty()) report_.emplace(*source_, o_.input, *o_.command);
   const int end = o_.frame >= 0 ? o_.frame + 1 : total_;
-  for (const cosim::FrameRange& range : cosim::split(steps_, end, ranges)) {
-    auto part = std::make_unique<Part>();
-    part->range = range;
-    if (!parts_.empty()) {
-      part->share = source_->share(range.steps.first - range.steps.step);
-      if (report_) part->ear = std::make_unique<Listener>(*part->share);
-    }
-    parts_.push_back(std::move(part));
-  }
+  for (const cosim::FrameRange& range : cosim::split(steps_, end, ranges)) parts_.push_back(part_of(range));
+}
+
+std::unique_ptr<SceneRun::Part> SceneRun::part_of(const cosim::FrameRange& range) const {
+  auto part = std::make_unique<Part>();
+  part->range = range;
+  if (range.before == 0) return part;
+  part->share = source_->share(range.steps.first - range.steps.step);
+  if (report_) part->ear = std::make_unique<Listener>(*part->share);
+  return part;
 }
 
 void SceneRun::run(int range) {
   Part& part = *parts_[static_cast<std::size_t>(range)];
   try {
-    run_part(part, part.range.before);
+    part.report = recall_ ? recall(part) : simulate(part, part.range);
+    if (part.begun > part.report.frames) count_again(part);
+    check_registers(part);
     if (!part.report.same) state_.ends_at(part.report.first_difference->frame);
+  } catch (const std::system_error& e) {
+    const std::string why =
+        fmt::format("the system gives no room for another job ({}): fewer --jobs", e.code().message());
+    part.error = std::make_exception_ptr(Error(why));
+    state_.ends_at(part.range.steps.first);
   } catch (...) {
     part.error = std::current_exception();
     state_.ends_at(part.range.steps.first);
   }
 }
 
-void SceneRun::run_part(Part& part, int before) {
-  const Config& config = source_->config().config;
-  const cosim::FrameSteps steps = part.range.steps;
-  const auto golden = cosim::make_golden(config);
-  const auto rtl = cosim::make_rtl(model_.library, config, o_.rtl.options);
-  std::unique_ptr<cosim::RtlCore> other;
+/// What all ways to run a range's frames have in common.
+cosim::RunOptions SceneRun::run_options(const cosim::FrameRange& range, TempFiles& files) {
   cosim::RunOptions options;
-  if (steps.first == steps_.first) {
-    cosim::RtlOptions other_state = o_.rtl.options;
-    other_state.initial = kOtherState;
-    other = cosim::make_rtl(model_.library, config, other_state);
-    options.other_state = other.get();
-  }
   options.out = o_.out;
   options.name = source_->name();
-  options.files = &part.files;
-  options.steps = steps;
-  options.before = before;
+  options.files = &files;
+  options.steps = range.steps;
+  options.before = range.before;
   options.refusals = source_->may_be_refused();
   options.all_pictures = !source_->is_random();
   options.two_threads = o_.threads != 1;
-  options.begin = [&](int frame) {
+  options.begin = [this, first = range.steps.first](int frame) {
     check_interrupt();
     if (state_.beyond(frame)) throw cosim::Enough();
-    if (frame < steps.first) return;
+    if (frame > first && o_.enough && o_.enough()) throw cosim::Enough();
+    if (frame < first || o_.silent) return;
     const std::lock_guard lock(progress_mutex_);
     frame_progress_->next();
   };
-  options.wait = [&] {
+  options.wait = [this] {
     check_interrupt();
+    if (o_.silent) return;
     const std::lock_guard lock(progress_mutex_);
     frame_progress_->wait();
   };
-  Source& source = part.share ? *part.share : *source_;
+  return options;
+}
+
+/// The frames of the range's own, of which report and coverage are told.
+cosim::Feed SceneRun::heard_feed(Part& part) {
+  Source& source = source_of(part);
   Listener* const ear = !report_ ? nullptr : part.ear ? part.ear.get() : &report_->listener();
-  if (o_.coverage) part.coverage = std::make_unique<verif::Coverage>(config);
-  const auto feed = [&](int i, const WordSink& sink) {
-    if (i < steps.first) return source.frame(i, sink);
+  if (o_.coverage) part.coverage = std::make_unique<verif::Coverage>(source_->config().config);
+  return [&part, &source, ear, first = part.range.steps.first](int i, const WordSink& sink) {
+    if (i < first) return source.frame(i, sink);
+    ++part.begun;
     const WordSink heard = [&](std::span<const std::uint32_t> words) {
       if (part.coverage) part.coverage->words(words);
       sink(words);
@@ -145,16 +159,73 @@ void SceneRun::run_part(Part& part, int before) {
     if (part.coverage) part.coverage->end_frame();
     return counts;
   };
-  part.report = cosim::run(part.range.end, feed, *golden, *rtl, options);
+}
+
+/// Frames are made ahead of those that are compared, how far is chance. What is told of them is told of the frames that
+/// were compared, so it is counted again for these alone.
+void SceneRun::count_again(Part& part) {
+  const cosim::FrameSteps steps = part.range.steps;
+  Source& source = source_of(part);
+  source.count_anew(steps.first - steps.step);
+  if (part.coverage) part.coverage = std::make_unique<verif::Coverage>(source.config().config);
+  for (int i = 0; i < part.report.frames; ++i) {
+    (void)source.frame(steps.first + i * steps.step, [&](std::span<const std::uint32_t> words) {
+      if (part.coverage) part.coverage->words(words);
+    });
+    if (part.coverage) part.coverage->end_frame();
+  }
+}
+
+/// random:mixed reads and writes registers too, once in a run.
+void SceneRun::check_registers(Part& part) {
+  cosim::Report& report = part.report;
+  const cosim::FrameSteps steps = part.range.steps;
+  if (steps.first != steps_.first || !o_.rtl.options.prelude || !report.same || report.frames == 0) return;
+  check_interrupt();
+  const int last = steps.first + (report.frames - 1) * steps.step;
+  report.first_difference = register_difference(model_.library, source_->config().config, o_.rtl.options, last);
+  report.same = !report.first_difference;
+}
+
+cosim::Report SceneRun::simulate(Part& part, const cosim::FrameRange& range) {
+  const auto golden = cosim::make_golden(source_->config().config);
+  cosim::RunOptions options = run_options(range, part.files);
+  return run_rtl(range, heard_feed(part), *golden, options);
+}
+
+/// On a new core; the first frame of all on one with another initial state besides.
+cosim::Report SceneRun::run_rtl(const cosim::FrameRange& range, const cosim::Feed& feed, cosim::Core& golden,
+                                cosim::RunOptions& options) {
+  const Config& config = source_->config().config;
+  const auto rtl = cosim::make_rtl(model_.library, config, o_.rtl.options);
+  std::unique_ptr<cosim::RtlCore> other;
+  if (range.steps.first == steps_.first) {
+    cosim::RtlOptions other_state = o_.rtl.options;
+    other_state.initial = kOtherState;
+    other = cosim::make_rtl(model_.library, config, other_state);
+    options.other_state = other.get();
+  }
+  return cosim::run(range.end, feed, golden, *rtl, options);
 }
 
 /// What one thread would have found, and its files.
 cosim::Report SceneRun::join(TempFiles& files) {
   std::vector<cosim::Report> reports;
-  for (const auto& part : parts_) {
-    if (part->error) std::rethrow_exception(part->error);
-    // On a new core the frame before the range fails, though it does not in its place: from the first frame, then.
-    if (part->report.broken) run_part(*part, (part->range.steps.first - steps_.first) / steps_.step);
+  bool whole = false;  // ranges are run anew, from the first frame on
+  for (auto& part : parts_) {
+    const bool ahead = part->range.before == 0;
+    if (part->error && !(whole && !ahead)) std::rethrow_exception(part->error);
+    // On a new core a frame comes out different, or the frame before the range fails, which in its place may not: it is
+    // what one job finds that counts.
+    if (!ahead && (whole || part->report.broken || !part->report.same)) {
+      whole = true;
+      state_.goes_on();
+      part = part_of(part->range);
+      cosim::FrameRange range = part->range;
+      range.before = frames_before(range);
+      part->report = simulate(*part, range);
+      if (part->begun > part->report.frames) count_again(*part);
+    }
     files.take(part->files);
     if (part->share) source_->absorb(*part->share);
     if (part->ear) report_->listener().absorb(*part->ear);
@@ -208,7 +279,9 @@ Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference)
   const auto differs = [&](const std::vector<std::uint32_t>& w) {
     if (error_of(w) != error) return false;  // another one, which the frame need not have been kept for
     const auto golden = cosim::make_golden(config);
-    const auto rtl = cosim::make_rtl(model_.library, config, o_.rtl.options);
+    cosim::RtlOptions as_file = o_.rtl.options;  // kage cosim FILE puts nothing ahead
+    as_file.prelude = {};
+    const auto rtl = cosim::make_rtl(model_.library, config, as_file);
     cosim::RunOptions options;
     options.refusals = true;
     options.two_threads = false;
@@ -263,7 +336,7 @@ Json SceneRun::finish(TempFiles& files) {
   if (frames() == 0) return no_frames(source.name(), total_);
   const cosim::Report r = join(files);
   progress_.clear();
-  remove_old_evidence(files, o_.out, source.name(), steps_, r);
+  remove_old_evidence(files, o_.out, source.name(), source.is_random(), steps_, r);
   if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;
   std::optional<cosim::Divergence> divergence;
   bool searched = false;
@@ -282,7 +355,8 @@ Json SceneRun::finish(TempFiles& files) {
         source.note(fmt::format("the stage that differs first was not found: {}", e.what()));
       }
     }
-    if (r.first_difference && source.is_random() && !o_.out.empty()) kept = keep_frame(files, *r.first_difference);
+    if (r.first_difference && source.is_random() && !o_.out.empty() && r.first_difference->field != "register")
+      kept = keep_frame(files, *r.first_difference);
     if (report_) {
       const auto watch = [&] { return monitors(); };
       // Where the monitors could not be had for the search, the page does without them too.
@@ -310,6 +384,8 @@ Json SceneRun::report_of(const cosim::Report& r, const std::optional<cosim::Dive
   j["frames"] = r.frames;
   j["width"] = r.width;
   j["height"] = r.height;
+  j["sizes_vary"] = r.pixels_compared != static_cast<std::uint64_t>(r.frames) * static_cast<std::uint64_t>(r.width) *
+                                             static_cast<std::uint64_t>(r.height);
   j["pixels_compared"] = r.pixels_compared;
   j["spans"] = r.spans;
   j["span_pixels"] = r.span_pixels;
@@ -321,6 +397,7 @@ Json SceneRun::report_of(const cosim::Report& r, const std::optional<cosim::Dive
   describe_run(j, source.name(), source.frames(), o_.ci.shard, steps_, options_of(o_));
   j["frame_seconds"] = r.frame_seconds;
   j["each"] = to_json(r.each, r.first_difference);
+  j["verdicts"] = verdicts_of(r);
   j["golden_seconds"] = r.expected_seconds;
   j["rtl_seconds"] = r.actual_seconds;
   j["build_seconds"] = model_.build_seconds;
@@ -328,7 +405,7 @@ Json SceneRun::report_of(const cosim::Report& r, const std::optional<cosim::Dive
   j["config"] = cli::to_json(source.config().config);
   j["seed"] = o_.seed;
   j["versions"] = versions();
-  j["again"] = command_line(*o_.command);
+  j["again"] = again_line(*o_.command);
   j["folder"] = std::filesystem::current_path().string();
   j["rtl"] = rtl_directory();
   j["degraded"] = source.degraded();

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "cosim/divergence.hpp"
 #include "cosim/model.hpp"
 #include "cosim/ranges.hpp"
+#include "cosim/recall.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "rtl_run.hpp"
@@ -34,11 +36,20 @@ struct CosimCommand : Options {
   bool coverage = false;
   int frame = -1;  // the only one of a scene's, -1: all
   bool no_shrink = false;
+  bool silent = false;           // no line tells how far its frames are
+  std::function<bool()> enough;  // asked before each frame but the first: true ends the run before it
+  bool cache_verdicts = false;   // SceneRun takes and keeps verdicts, where it may
   const CLI::App* command = nullptr;
 };
 
+/// The command kage cosim, for `app`: where its line is parsed, `o` has what it says.
+CLI::App* cosim_command(CLI::App& app, CosimCommand& o);
+
 /// As many jobs as processors, but no more than half of the machine's memory holds with 256 MiB a job.
 int default_jobs();
+
+/// --cache-verdicts and --no-cache-verdicts.
+void option_cache_verdicts(CLI::App& command, bool& cache);
 
 /// A scene of the run. The steps come in this order; ranges run beside each other, in threads.
 class SceneRun {
@@ -78,10 +89,31 @@ class SceneRun {
     std::unique_ptr<verif::Coverage> coverage;
     TempFiles files;
     cosim::Report report;
+    int begun = 0;  // of its frames: those compared, and what was made ahead of the comparison
     std::exception_ptr error;
   };
 
-  void run_part(Part& part, int before);
+  [[nodiscard]] std::unique_ptr<Part> part_of(const cosim::FrameRange& range) const;
+  void count_again(Part& part);
+  void check_registers(Part& part);
+  cosim::RunOptions run_options(const cosim::FrameRange& range, TempFiles& files);
+  cosim::Feed heard_feed(Part& part);
+  cosim::Report simulate(Part& part, const cosim::FrameRange& range);
+  cosim::Report run_rtl(const cosim::FrameRange& range, const cosim::Feed& feed, cosim::Core& golden,
+                        cosim::RunOptions& options);
+  /// How many frames of the run come before the range.
+  [[nodiscard]] int frames_before(const cosim::FrameRange& range) const {
+    return (range.steps.first - steps_.first) / steps_.step;
+  }
+  [[nodiscard]] Source& source_of(Part& part) { return part.share ? *part.share : *source_; }
+
+  // Verdicts of earlier runs: cosim_recall.cpp.
+  void open_verdicts();
+  void no_verdicts(std::string why);
+  cosim::Report recall(Part& part);
+  cosim::Report simulate_and_keep(Part& part, const cosim::FrameRange& range, TempFiles& files);
+  const cosim::Model& model();
+  [[nodiscard]] Json verdicts_of(const cosim::Report& r) const;
   cosim::Report join(TempFiles& files);
   cosim::DivergenceOptions monitors() const;
   std::optional<cosim::Divergence> find_divergence(TempFiles& files, int frame);
@@ -96,10 +128,16 @@ class SceneRun {
   cosim::FrameSteps steps_;
   std::unique_ptr<OutFolder> folder_;
   cosim::Model model_;
+  std::mutex model_mutex_;
+  std::exception_ptr model_error_;
   std::optional<RunReport> report_;
   std::unique_ptr<verif::Coverage> coverage_;  // of all parts
   std::vector<std::unique_ptr<Part>> parts_;
   cosim::RunState state_;
+  std::optional<cosim::RecallOptions> recall_;  // verdicts of earlier runs are taken, and kept for later ones
+  std::string model_key_;                       // of the RTL that they are of
+  std::string no_verdicts_;                     // why none is taken or kept though it was asked for
+  std::atomic<int> verdicts_kept_{0};
   std::mutex progress_mutex_;
   Progress progress_;
   std::optional<FrameProgress> frame_progress_;

@@ -2,6 +2,7 @@
 // kage info STREAM: describes and checks a stream file. kage info SCENE is in info_scene.cpp.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -47,19 +48,40 @@ std::array<std::uint8_t, 3> unpacked(std::uint32_t color) {
           static_cast<std::uint8_t>(color >> 16)};
 }
 
-/// Frame `frame` token by token, with the indices by which errors name them. file.frame() has found the frame sound.
+/// A frame's header in words, which an unchecked frame may have cut or of another core.
+std::string header_text(const Config& config, std::span<const std::uint32_t> words) {
+  if (words.size() < kHeaderWords)
+    return fmt::format("header of {} words, cut after {}: {}", kHeaderWords, words.size(), words_text(words));
+  std::string text = fmt::format("header: {}x{}, background {}, frame number {}", words[1] & 0xffff, words[1] >> 16,
+                                 color_text(config, unpacked(words[3])), words[4]);
+  const std::uint32_t magic = kStreamMagic << 16 | kStreamVersion;
+  if (words[0] != magic) text += fmt::format(", magic_version {:#010x} and not {:#010x}", words[0], magic);
+  if (words[2] != param_hash(config))
+    text += fmt::format(", param_hash {:#010x} and not {:#010x}", words[2], param_hash(config));
+  return text;
+}
+
+/// Frame `frame` token by token, with the indices by which errors name them, then as words what is no token.
 void print_tokens(const StreamFile& file, int frame) {
+  constexpr std::size_t kWordsOfALine = 8;
   const Config& config = file.config();
   const Layout layout(config);
-  auto words = file.frame(frame);
-  fmt::print("frame {}:\n{:>8}  header: {}x{}, background {}, frame number {}\n", frame, 0, words[1] & 0xffff,
-             words[1] >> 16, color_text(config, unpacked(words[3])), words[4]);
-  words = words.subspan(kHeaderWords);
-  for (std::uint64_t index = 1; !words.empty(); ++index) {
+  const auto words = file.frame(frame);
+  fmt::print("frame {}{}:\n{:>8}  {}\n", frame, file.is_port_frame(frame) ? ", unchecked (PORT)" : "", 0,
+             header_text(config, words));
+  TokenWalk walk(layout, words);
+  std::uint64_t index = 1;
+  for (auto token = walk.next(); !token.empty(); token = walk.next(), ++index) {
     if (index % 4096 == 0) check_interrupt();
-    const Token token = decode(config, layout, words);
-    fmt::print("{:>8}  {}\n", index, to_string(config, token));
-    words = words.subspan(layout.words[static_cast<std::size_t>(token.kind)]);
+    fmt::print("{:>8}  {}\n", index, to_string(config, decode(config, layout, token)));
+  }
+  auto rest = walk.rest();
+  if (!rest.empty()) fmt::print("{:>8}  {}; the words from here on:\n", index, walk.rest_text());
+  while (!rest.empty()) {
+    check_interrupt();
+    const auto line = rest.first(std::min(rest.size(), kWordsOfALine));
+    fmt::print("{:>8}  {}\n", "", words_text(line));
+    rest = rest.subspan(line.size());
   }
   check_mapped();
 }
@@ -72,12 +94,14 @@ int describe_stream(const InfoCommand& o) {
     throw Error(
         fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
   TokenCounts counts;
+  int unchecked = 0;
   Progress progress;
   FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
   for (int i = 0; i < file.frame_count(); ++i) {
     check_interrupt();
     frame_progress.next();
     (void)file.frame(i, &counts);
+    if (file.is_port_frame(i)) ++unchecked;
   }
   check_mapped();
   progress.clear();
@@ -90,6 +114,7 @@ int describe_stream(const InfoCommand& o) {
   j["version"] = kStreamVersion;
   j["config"] = cli::to_json(file.config());
   j["frames"] = file.frame_count();
+  j["unchecked_frames"] = unchecked;
   j["lines"] = lines;
   j["tokens"] = tokens;
   j["spans"] = counts.spans;
@@ -102,9 +127,9 @@ int describe_stream(const InfoCommand& o) {
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
   write_json(o, j);
   if (!json_only(o)) {
-    fmt::print("{}: {}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
-               counted(lines, "line"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
-               counted(file.bytes(), "byte"));
+    fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
+               unchecked > 0 ? fmt::format(" ({} unchecked: PORT)", unchecked) : "", counted(lines, "line"),
+               counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"), counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
     for (const Json& w : ways.is_array() ? ways : Json::array()) fmt::print("\n{}", describe_way(w));
@@ -118,6 +143,7 @@ int describe_stream(const InfoCommand& o) {
 
 int run(const InfoCommand& o) {
   check_json(o);
+  refuse_random(o.input);
   // A stream file that is damaged at its very beginning, or missing, is still no scene.
   if (is_stream_file(o.input) || lower_extension(o.input) == ".kage") return describe_stream(o);
   if (o.tokens >= 0) throw Error(fmt::format("{}: --tokens: only a stream file has tokens", o.input));

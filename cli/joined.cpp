@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "ci.hpp"
+#include "cosim/recall.hpp"
 #include "kage/error.hpp"
 #include "report/html.hpp"
 
@@ -83,19 +85,23 @@ class Data {
   Json finish(const Json& report) {
     Json j;
     j["same"] = report["same"];
-    j["command"] = merged_ ? "kage merge" : "kage cosim";
+    const bool regress = report.contains("runs");
+    j["command"] = merged_ ? "kage merge" : regress ? "kage regress" : "kage cosim";
     std::string names;
     for (const Json& s : scenes_) names += (names.empty() ? "" : ", ") + s["name"].get<std::string>();
     j["name"] = names;
-    j["headline"] = fmt::format("{}, {} of {}{}, {} compared", counted(scenes_.size(), "scene"),
-                                counted(report["frames"].get<std::uint64_t>(), "frame"),
-                                report["total_frames"].get<std::uint64_t>(),
-                                merged_ ? " in " + counted(parts_.size(), "shard") : "",
-                                counted(report["pixels_compared"].get<std::uint64_t>(), "pixel"));
+    j["headline"] = fmt::format(
+        "{}, {} of {}{}{}, {} compared", counted(scenes_.size(), regress ? "run" : "scene"),
+        counted(report["frames"].get<std::uint64_t>(), "frame"), report["total_frames"].get<std::uint64_t>(),
+        merged_ ? " in " + counted(parts_.size(), "shard") : "", cosim::taken_text(taken_of(report)),
+        counted(report["pixels_compared"].get<std::uint64_t>(), "pixel"));
     j["seed"] = report["seed"];
     j["scenes"] = std::move(scenes_);
     j["parts"] = Json::array();
-    for (auto& [index, p] : parts_) j["parts"].push_back(std::move(p));
+    for (auto& [index, p] : parts_) {
+      if (regress) p["again"] = report["again"];
+      j["parts"].push_back(std::move(p));
+    }
     j["frames"] = std::move(frames_);
     j["left_out"] = left_out_;
     j["meanings"] = report::meanings();
@@ -150,12 +156,14 @@ class Data {
 
   /// A row for each frame: those behind a difference were not compared. What a long run keeps no numbers of has none.
   void frames(std::size_t scene, const Json& r) {
+    if (r["each"].empty()) return;
     std::map<std::uint64_t, const Json*> known, parts;
     for (const Json& frame : r["each"]) known[frame["frame"].get<std::uint64_t>()] = &frame;
     if (r.contains("shards"))
       for (const Json& p : r["shards"]) parts[p["first_frame"].get<std::uint64_t>()] = &p;
     else
       parts[r["first_frame"].get<std::uint64_t>()] = &r;
+    const std::set<std::uint64_t> taken = r["verdicts"]["taken_frames"];
     const auto step = parts.begin()->second->at("frame_step").get<std::uint64_t>();
     for (std::uint64_t n = 0; n < r["total_frames"].get<std::uint64_t>(); ++n) {
       const auto owner = parts.find(n % step);
@@ -169,6 +177,7 @@ class Data {
         continue;
       }
       Json row{{"scene", scene}, {"frame", n}, {"part", p.contains("index") ? p["index"].get<int>() : 1}};
+      row["taken"] = taken.count(n) != 0;
       row["same"] = n / step < p["frames"].get<std::uint64_t>() ? Json(!differs) : Json(nullptr);
       if (is_known) {
         row["stalls"] = stalls_of(*found->second);
@@ -207,11 +216,11 @@ void keep_page(const fs::path& path, const std::string& file, const Json& report
   }
 }
 
-void write_joined_page(TempFiles& files, const fs::path& path, const Json& report) {
+void write_joined_page(TempFiles& files, const fs::path& path, const Json& report, bool interruptible) {
   Data data(path, files);
   const Json whole = Json::array({report});
   for (const Json& scene : report.contains("scenes") ? report["scenes"] : whole) {
-    check_interrupt();
+    if (interruptible) check_interrupt();
     if (has_frames(scene)) data.scene(scene);
   }
   const Json j = data.finish(report);

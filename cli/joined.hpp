@@ -17,8 +17,10 @@ inline constexpr std::size_t kListedFrames = 1000;
 /// Writes the page of a joined report: that of kage merge, or of several scenes in one run (all_scenes()). It links to
 /// the runs' own pages where they are found: beside the file that their report came from, else where they were written,
 /// if it is the same page by its checksum. The page gets its name with the others of `files`. Throws Error if it cannot
-/// be written or would be larger than a page may be.
-void write_joined_page(TempFiles& files, const std::filesystem::path& path, const Json& report);
+/// be written or would be larger than a page may be. A signal ends it, unless `interruptible` is false: for what was
+/// done until a signal came.
+void write_joined_page(TempFiles& files, const std::filesystem::path& path, const Json& report,
+                       bool interruptible = true);
 
 /// Throws Error if `path` is that of a page which the report that `file` holds tells of.
 void keep_page(const std::filesystem::path& path, const std::string& file, const Json& report);

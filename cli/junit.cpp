@@ -68,10 +68,13 @@ void JUnitWriter::open_case(const std::string& name, double seconds, const std::
   if (!file.empty()) *out_ << " file=\"" << escaped(file) << '"';
 }
 
-void JUnitWriter::pass(const std::string& name, double seconds) {
+void JUnitWriter::pass(const std::string& name, double seconds, const std::string& remark) {
   if (path_.empty()) return;
   open_case(name, seconds);
-  *out_ << "/>\n";
+  if (remark.empty())
+    *out_ << "/>\n";
+  else
+    *out_ << ">\n    <system-out>" << escaped(remark) << "</system-out>\n  </testcase>\n";
 }
 
 void JUnitWriter::fail(const std::string& name, double seconds, const std::string& message, const std::string& details,

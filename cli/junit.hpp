@@ -23,7 +23,8 @@ class JUnitWriter {
   /// sort them into packages, so dots, blanks and slashes of `name` become underscores.
   void group(const std::string& name);
 
-  void pass(const std::string& name, double seconds);
+  /// `remark` is what is to be said of it, if anything.
+  void pass(const std::string& name, double seconds, const std::string& remark = "");
 
   /// `message` is one line, `details` any text. `file` is that which is to blame, if any.
   void fail(const std::string& name, double seconds, const std::string& message, const std::string& details = "",

@@ -112,6 +112,7 @@ int run(int argc, char** argv) {
   add_explain(app, action);
   add_diff(app, action);
   add_merge(app, action);
+  add_regress(app, action);
   add_model(app, action);
   add_order(app, action);
   add_cache(app, action);

@@ -13,6 +13,7 @@
 
 #include "ci.hpp"
 #include "common.hpp"
+#include "cosim/recall.hpp"
 #include "joined.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
@@ -87,6 +88,19 @@ Json each(const std::vector<Part>& parts) {
   return all;
 }
 
+/// Those of all shards, and which frames they are of.
+Json verdicts(const std::vector<Part>& parts) {
+  std::vector<const Json*> all;
+  std::set<std::uint64_t> frames;
+  for (const Part& p : parts) {
+    all.push_back(&p.report["verdicts"]);
+    for (const Json& frame : p.report["verdicts"]["taken_frames"]) frames.insert(frame.get<std::uint64_t>());
+  }
+  Json j = all_verdicts(all);
+  j["taken_frames"] = frames;
+  return j;
+}
+
 /// All shards' reports of a scene as the report of one run. Polyhedra, which each shard tells of in its own frames,
 /// stay with it, in `shards`.
 Json merged(const std::vector<Part>& parts) {
@@ -126,6 +140,7 @@ Json merged(const std::vector<Part>& parts) {
   j["options"] = any["options"];
   j["frame_seconds"] = frame_seconds(parts);
   j["each"] = each(parts);
+  j["verdicts"] = verdicts(parts);
   for (const char* key : {"golden_seconds", "rtl_seconds", "build_seconds"}) j[key] = sum_seconds(parts, key);
   j["config_name"] = any["config_name"];
   j["config"] = any["config"];
@@ -187,9 +202,9 @@ int run(const MergeCommand& o) {
   write_json(o, j, files);
   const bool same = j["same"].get<bool>();
   if (json_only(o)) return same ? kSame : kDifferent;
-  fmt::print("{}: {}{} of {} in {}, {}{} compared, {}, seed {}\n", same ? "same" : "different",
+  fmt::print("{}: {}{} of {} in {}{}, {}{} compared, {}, seed {}\n", same ? "same" : "different",
              several ? counted(count, "scene") + ", " : "", counted(j["frames"].get<std::uint64_t>(), "frame"),
-             j["total_frames"].get<std::uint64_t>(), counted(shards.size(), "shard"),
+             j["total_frames"].get<std::uint64_t>(), counted(shards.size(), "shard"), cosim::taken_text(taken_of(j)),
              several ? "" : fmt::format("{}x{}, ", j["width"].get<int>(), j["height"].get<int>()),
              counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
              counted(j["cycles"].get<std::uint64_t>(), "cycle"), j["seed"].get<std::uint64_t>());

@@ -25,7 +25,7 @@ int run(const ModelCommand& o) {
   for (const std::string& name : o.configs) list.push_back(load_config(name));
   Json j = Json::array();
   for (const NamedConfig& named : list) {
-    const cosim::Model model = model_of(named, o.fault);
+    const cosim::Model model = model_of(named, {.fault = o.fault, .options = {}});
     if (!json_only(o))
       fmt::print("{}: {} ({})\n", named.name, model.library.string(),
                  model.build_seconds > 0 ? fmt::format("built in {:.0f} s", model.build_seconds) : "was there");

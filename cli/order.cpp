@@ -18,6 +18,7 @@
 #include "order/baseline.hpp"
 #include "order/measure.hpp"
 #include "scene/order_mesh.hpp"
+#include "source.hpp"
 
 namespace kage::cli {
 namespace {
@@ -224,6 +225,7 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
 
 int run(const OrderCommand& o) {
   check_json(o);
+  refuse_random(o.input);
   TempFiles files;
   std::optional<OutputFile> saved;
   if (!o.save.empty()) saved.emplace(files, o.save);

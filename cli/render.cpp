@@ -23,8 +23,8 @@ struct RenderCommand : Options {
 int run(const RenderCommand& o) {
   const OutFolder folder(o.out);
   check_json(o);
+  refuse_random(o.input);
   Source source(o);
-  if (source.is_random()) throw Error(fmt::format("{}: random frames are for kage cosim and kage explain", o.input));
   const Config& config = source.config().config;
   const auto golden = cosim::make_golden(config);
   TokenCounts counts;
@@ -65,7 +65,7 @@ int run(const RenderCommand& o) {
   j["spans"] = counts.spans;
   j["span_pixels"] = counts.span_pixels;
   j["golden_seconds"] = seconds;
-  j["config"] = to_json(config);
+  j["config"] = cli::to_json(config);
   j["degraded"] = source.degraded();
   j["files"] = names;
   j["notes"] = source.notes();

@@ -26,7 +26,7 @@ std::string line_of(const CLI::App& command, const std::string& name, const std:
   for (const std::string& input : inputs) line += " " + quoted(input);
   for (const CLI::Option* o : command.get_options()) {
     if (o->count() == 0 || o->get_positional() || !keep(*o)) continue;
-    line += " " + o->get_name();
+    line += " " + (o->get_lnames().empty() ? o->get_name() : "--" + o->get_lnames().front());
     if (o->get_expected_max() == 0) continue;
     line += " " + quoted(o->results().back());  // no option takes several, and the last one given counts
   }
@@ -83,6 +83,10 @@ std::string command_line(const CLI::App& command, const std::vector<std::string>
   return line_of(command, command.get_name(), inputs, [&](const CLI::Option& o) {
     return std::find(leave_out.begin(), leave_out.end(), o.get_name()) == leave_out.end();
   });
+}
+
+std::string again_line(const CLI::App& command) {
+  return command_line(command, {"--cache-verdicts", "--no-cache-verdicts"});
 }
 
 std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input) {
@@ -188,7 +192,7 @@ std::string RunReport::write(TempFiles& files, const std::string& folder, const 
   page.searched = static_cast<bool>(watch);
   page.degraded = source_.degraded();
   page.versions = versions();
-  page.again = command_line(command_);
+  page.again = again_line(command_);
   const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
   page.explain = command_line(command_, *explain, input_);
   for (const char* name : kRtlOptions)

@@ -18,6 +18,9 @@ namespace kage::cli {
 /// The command line that `command` was given, quoted for a shell, without the options of `leave_out`.
 std::string command_line(const CLI::App& command, const std::vector<std::string>& leave_out = {});
 
+/// The command line that runs it again, every frame of it.
+std::string again_line(const CLI::App& command);
+
 /// The same options for another command, those that it has too, and of the inputs this one.
 std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input);
 

@@ -46,26 +46,29 @@ void option_rtl(CLI::App& command, RtlRun& rtl) {
       ->check(whole_number(0, 95))
       ->type_name("P");
   option_fault(command, rtl.fault);
+  command.add_option("--mutant", rtl.options.mutant)->check(whole_number(1, 100000))->type_name("N")->group("");
 }
 
 void refuse_rtl(const RtlRun& rtl, const std::string& why) {
   const char* const given = !rtl.fault.empty()                      ? "--fault"
                             : rtl.options.idle_percent != 0         ? "--idle"
                             : rtl.options.backpressure_percent != 0 ? "--backpressure"
+                            : rtl.options.mutant != 0               ? "--mutant"
                                                                     : nullptr;
   if (given != nullptr) throw Error(fmt::format("{}: {}", given, why));
 }
 
-cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool traced) {
+cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, bool traced) {
   tell_other_rtl();
   Progress progress;
   const std::string what =
       fmt::format("the RTL model of configuration {}{}", config.name, traced ? " with monitors" : "");
-  cosim::Model model =
-      cosim::find_model(config.config, {.fault = fault, .traced = traced, .progress = [&](double seconds) {
-                                          check_interrupt();
-                                          progress.show(fmt::format("building {}: {:.0f} s", what, seconds));
-                                        }});
+  cosim::Model model = cosim::find_model(
+      config.config,
+      {.fault = rtl.fault, .traced = traced, .mutants = rtl.options.mutant != 0, .progress = [&](double seconds) {
+         check_interrupt();
+         progress.show(fmt::format("building {}: {:.0f} s", what, seconds));
+       }});
   progress.clear();
   if (!model.damage.empty())
     say(fmt::format("kage: {} was damaged ({}) and has been built anew: {}\n", what, model.damage,
@@ -73,11 +76,16 @@ cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool 
   return model;
 }
 
+cosim::RtlIdentity identity_of(const NamedConfig& config) {
+  tell_other_rtl();
+  return cosim::rtl_identity(config.config);
+}
+
 std::string rtl_directory() { return std::filesystem::absolute(data_directory() / "rtl").lexically_normal().string(); }
 
 cosim::DivergenceOptions monitors(const NamedConfig& config, const RtlRun& rtl) {
   cosim::DivergenceOptions options;
-  options.library = model_of(config, rtl.fault, true).library;
+  options.library = model_of(config, rtl, true).library;
   options.rtl = rtl.options;
   options.rtl.assertions = false;
   options.wait = check_interrupt;

@@ -9,6 +9,7 @@
 #include "common.hpp"
 #include "cosim/divergence.hpp"
 #include "cosim/model.hpp"
+#include "cosim/rtl_identity.hpp"
 #include "kage/config.hpp"
 
 namespace kage::cli {
@@ -16,13 +17,13 @@ namespace kage::cli {
 /// How a command runs the RTL.
 struct RtlRun {
   std::string fault;
-  cosim::RtlOptions options;
+  cosim::RtlOptions options;  // with a mutant the model is one that has them all
 };
 
 /// The options of option_rtl().
-inline constexpr std::array kRtlOptions{"--fault", "--idle", "--backpressure"};
+inline constexpr std::array kRtlOptions{"--fault", "--mutant", "--idle", "--backpressure"};
 
-/// --idle, --backpressure and --fault.
+/// --idle, --backpressure, --fault, and --mutant, which no help shows (docs/mutants.md).
 void option_rtl(CLI::App& command, RtlRun& rtl);
 
 /// Throws Error if one of these is given, of a command that runs no RTL this time.
@@ -30,7 +31,10 @@ void refuse_rtl(const RtlRun& rtl, const std::string& why);
 
 /// The model of a configuration; says how long it takes where it has to be built. Notes on standard error, once in a
 /// run, if the current folder is of a tree with another rtl/ than the model's.
-cosim::Model model_of(const NamedConfig& config, const std::string& fault, bool traced = false);
+cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, bool traced = false);
+
+/// What tells whether that model behaves as another run's did. Notes the same.
+cosim::RtlIdentity identity_of(const NamedConfig& config);
 
 /// Where the RTL is that models are built of.
 std::string rtl_directory();

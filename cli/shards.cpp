@@ -68,7 +68,11 @@ void check(const std::string& file, const Json& r) {
   need(file, r, {"golden_seconds", "rtl_seconds", "build_seconds"}, is_seconds);
   need(file, r, {"scene", "config_name", "again", "folder", "rtl"}, is_text);
   need(file, r, {"report", "report_crc32"}, is_text_or_null);
-  need(file, r, {"config", "options", "stalled"}, is_object);
+  need(file, r, {"config", "options", "stalled", "verdicts"}, is_object);
+  need(file, r["verdicts"], {"cached"}, is_bool);
+  need(file, r["verdicts"], {"taken", "kept"}, is_count);
+  need(file, r["verdicts"], {"trouble"}, is_text_or_null);
+  need(file, r["verdicts"], {"taken_frames"}, list_of([](const Json& v) { return is_count(v) && v < kMostFrames; }));
   for (const Json& value : r["config"])
     if (!is_count(value)) refuse(file, "config");
   need(file, r["stalled"], {"input_starved", "output_blocked"}, is_count);

@@ -63,6 +63,11 @@ void refuse_order_tree(const std::string& path) {
   if (is_order_file(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
 }
 
+void refuse_random(const std::string& input) {
+  if (verif::random_manner(input))
+    throw Error(fmt::format("{}: random frames are for kage cosim and kage explain", input));
+}
+
 Source::Source(const Options& options) : options_(options) {
   if (const auto manner = verif::random_manner(options.input)) {
     open_random(options, *manner);
@@ -77,12 +82,19 @@ Source::Source(const Options& options) : options_(options) {
 
 void Source::open_random(const Options& options, verif::Manner manner) {
   const Options usual;
-  if (options.size_given || options.units_only || options.degrade || options.cull || options.alpha != usual.alpha ||
-      options.order != usual.order || options.samples != usual.samples || options.classes != usual.classes ||
-      options.max_fragments || options.allow_outside)
-    throw Error(
-        fmt::format("{}: of the options that say how a scene is drawn random frames take --config, --frames and --seed",
-                    options.input));
+  const auto refuse = [&](bool given, const char* option, const char* why) {
+    if (given) throw Error(fmt::format("{}: {}: random frames {}", options.input, option, why));
+  };
+  refuse(options.size_given, "--size", "have sizes of their own");
+  refuse(options.degrade, "--degrade", "need nothing that a configuration could lack");
+  refuse(options.units_only, "--units-only", "have no polyhedra that could go by spans");
+  refuse(options.order != usual.order, "--order", "have translucent spans in an order of their own");
+  refuse(options.max_fragments.has_value(), "--max-fragments", "have no faces to be put in order");
+  refuse(options.samples != usual.samples, "--samples", "have light samples of their own");
+  refuse(options.classes != usual.classes, "--classes", "have light tables of their own");
+  refuse(options.cull, "--cull", "have no faces to be left out");
+  refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
+  refuse(options.allow_outside, "--allow-outside", "need no files");
   config_ = load_config(options.config.empty() ? "default" : options.config);
   if (options.config.empty()) notes_.push_back(fmt::format("configuration: {}", config_.name));
   name_ = options.input;
@@ -192,12 +204,16 @@ std::unique_ptr<Source> Source::share(int last) const {
   s->stream_ = stream_;
   s->scene_ = scene_;
   s->random_ = random_;
-  s->last_ = last;
-  if (scene_) {
-    s->settle(options_);
-    s->remarks_.emplace(config_.config, options_.size, options_.cull);
-  }
+  if (scene_) s->settle(options_);
+  s->count_anew(last);
   return s;
+}
+
+void Source::count_anew(int last) {
+  last_ = last;
+  made_ = blank_ = units_ = 0;
+  ways_.clear();
+  if (scene_) remarks_.emplace(config_.config, options_.size, options_.cull);
 }
 
 void Source::absorb(const Source& share) {
@@ -218,10 +234,15 @@ void Source::absorb(const Source& share) {
   }
 }
 
+std::function<std::vector<std::uint32_t>(int)> Source::prelude() const {
+  return random_ ? random_->prelude() : nullptr;
+}
+
+bool Source::is_unchecked(int index) const { return random_ || (stream_ && stream_->is_port_frame(index)); }
+
 bool Source::may_be_refused() const {
-  if (random_) return true;
-  for (int i = 0; stream_ && i < frames_; ++i)
-    if (stream_->is_port_frame(i)) return true;
+  for (int i = 0; i < frames_; ++i)
+    if (is_unchecked(i)) return true;
   return false;
 }
 
@@ -245,7 +266,8 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   ++made_;
   units_ = std::max(units_, counts.units);
   const auto none = [&](Kind kind) { return counts.of_kind[static_cast<std::size_t>(kind)] == 0; };
-  if (!random_ && none(Kind::OP) && none(Kind::TREE) && none(Kind::TP)) ++blank_;
+  // What a core may refuse for its header or its order says nothing of faces.
+  if (!is_unchecked(index) && none(Kind::OP) && none(Kind::TREE) && none(Kind::TP)) ++blank_;
   return counts;
 }
 

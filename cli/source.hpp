@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ namespace kage::cli {
 /// Throws Error if a file is a visibility order's tree: no command but order takes one.
 void refuse_order_tree(const std::string& path);
 
+/// Throws Error if `input` asks for random frames: only kage cosim and kage explain take them.
+void refuse_random(const std::string& input);
+
 /// Where frames come from: a scene, drawn as the options say, a stream file, or chance. A few bands of a frame are in
 /// memory at a time.
 class Source {
@@ -37,6 +41,9 @@ class Source {
   /// What a share has counted counts here too. Shares come in the order of their frames.
   void absorb(const Source& share);
 
+  /// Nothing is counted yet, as of a share of frames behind `last`.
+  void count_anew(int last);
+
   [[nodiscard]] const NamedConfig& config() const { return config_; }
   [[nodiscard]] int frames() const { return frames_; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -51,8 +58,14 @@ class Source {
   /// Whether the frames come from a stream file.
   [[nodiscard]] bool is_stream() const { return stream_ != nullptr; }
 
-  /// Whether a core may refuse some of them: random ones, and those of a stream file that are as a port brings them.
+  /// Whether frame `index` may break rules: a random one, or one that a stream file has as a port brings it.
+  [[nodiscard]] bool is_unchecked(int index) const;
+
+  /// Whether a core may refuse some of them: any is unchecked.
   [[nodiscard]] bool may_be_refused() const;
+
+  /// What random:mixed puts ahead of some frames: RtlOptions::prelude; of other sources nothing.
+  [[nodiscard]] std::function<std::vector<std::uint32_t>(int)> prelude() const;
 
   /// Whether they are random.
   [[nodiscard]] bool is_random() const { return random_.has_value(); }

@@ -22,8 +22,8 @@ int run(const Options& o) {
     throw Error("--out -: standard output is a terminal, which cannot show a stream: send it to a file or a program");
   if (piped(o) && json_only(o)) throw Error("--out - and --json -: both are standard output");
   check_json(o);
+  refuse_random(o.input);
   Source source(o);
-  if (source.is_random()) throw Error(fmt::format("{}: random frames are for kage cosim and kage explain", o.input));
   if (source.is_stream()) source.note("copied from a stream file");
   const Config& config = source.config().config;
   StreamFileWriter writer =
@@ -34,7 +34,10 @@ int run(const Options& o) {
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
     frame_progress.next();
-    writer.begin_frame();
+    if (source.is_unchecked(i))
+      writer.begin_port_frame();
+    else
+      writer.begin_frame();
     counts += source.frame(i, [&](std::span<const std::uint32_t> words) {
       check_interrupt();
       frame_progress.wait();
@@ -83,7 +86,7 @@ void add_stream(CLI::App& app, Action& action) {
                   "  kage stream courtyard.kage --frames 2 --out short.kage\n"
                   "  kage stream courtyard --out - | gzip >courtyard.kage.gz\n"
                   "A stream file is checked and copied: --frames takes its first ones, and --config may change\n"
-                  "what affects no pixel.");
+                  "what affects no pixel. Frames that are kept unchecked (PORT) stay so.");
   const auto o = std::make_shared<Options>();
   option_scene(*c, *o);
   c->add_option("--out", o->out, "the stream file; - is standard output, which gets frame after frame, as a pipe does")

@@ -151,27 +151,6 @@ TokenCounts FrameChecker::finish(FrameHeader* header) {
   return d.counts;
 }
 
-TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> words) {
-  const Layout layout(config);
-  TokenCounts counts;
-  counts.words = words.size();
-  for (std::size_t at = kHeaderWords; at < words.size();) {
-    const std::size_t kind = words[at] & 15U;
-    const auto length = static_cast<std::size_t>(layout.words[kind]);
-    if (length == 0 || at + length > words.size()) break;
-    ++counts.of_kind[kind];
-    const Token t = decode(config, layout, words.subspan(at, length));
-    if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::TP) {
-      ++counts.spans;
-      counts.span_pixels += static_cast<std::uint64_t>(std::max(0, t.span.xr - t.span.xl));
-    }
-    if (t.kind == Kind::FACE) counts.units = std::max(counts.units, t.segment.unit + 1);
-    at += length;
-    if (t.kind == Kind::END) break;
-  }
-  return counts;
-}
-
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header) {
   FrameChecker checker(config, where, offset);

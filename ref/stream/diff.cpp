@@ -13,34 +13,47 @@ namespace {
 
 using Words = std::span<const std::uint32_t>;
 
-/// Tokens that belong together: a frame's state, or a line with its EOL.
+/// Tokens that belong together: a frame's state, a line with its EOL, or what stands behind the lines.
 struct Group {
   std::uint64_t first = 0;  // number of its first token
   std::vector<Words> tokens;
 };
 
-/// A frame's groups, one after the other. The frame has been checked.
+/// A frame's groups, one after the other. The frame may break any rule: a line may lack its EOL, and words that are no
+/// token count as one, the last.
 class GroupReader {
  public:
-  GroupReader(const Layout& layout, Words frame) : layout_(layout), rest_(frame.subspan(kHeaderWords)) {}
+  GroupReader(const Layout& layout, Words frame) : walk_(layout, frame) {}
 
   /// SHADE, TABLE and FACE; may be none.
   void state(Group& group) {
     start(group);
-    while (kind() == Kind::SHADE || kind() == Kind::TABLE || kind() == Kind::FACE) take(group);
+    while (is(Kind::SHADE) || is(Kind::TABLE) || is(Kind::FACE)) take(group);
   }
 
   /// The next line; false behind the last one.
   bool line(Group& group) {
     start(group);
-    if (kind() == Kind::END) return false;
-    while (kind() != Kind::EOL) take(group);
-    take(group);
-    return true;
+    while (!walk_.peek().empty() && !is(Kind::END)) {
+      const bool last = is(Kind::EOL);
+      take(group);
+      if (last) break;
+    }
+    return !group.tokens.empty();
+  }
+
+  /// Behind the last line: END, then the words that are no token; either may be missing.
+  void end(Group& group) {
+    start(group);
+    if (is(Kind::END)) take(group);
+    if (!walk_.rest().empty()) group.tokens.push_back(walk_.rest());
   }
 
  private:
-  [[nodiscard]] Kind kind() const { return static_cast<Kind>(rest_[0] & 15U); }
+  [[nodiscard]] bool is(Kind kind) const {
+    const Words token = walk_.peek();
+    return !token.empty() && static_cast<Kind>(token[0] & 15U) == kind;
+  }
 
   void start(Group& group) const {
     group.first = number_;
@@ -48,14 +61,11 @@ class GroupReader {
   }
 
   void take(Group& group) {
-    const std::size_t words = layout_.words[static_cast<std::size_t>(kind())];
-    group.tokens.push_back(rest_.first(words));
-    rest_ = rest_.subspan(words);
+    group.tokens.push_back(walk_.next());
     ++number_;
   }
 
-  const Layout& layout_;
-  Words rest_;
+  TokenWalk walk_;
   std::uint64_t number_ = 1;  // 0 is the header
 };
 
@@ -81,9 +91,13 @@ class FrameComparer {
     for (int line = 0;; ++line) {
       const bool in_a = reader_a.line(ga);
       const bool in_b = reader_b.line(gb);
-      if (!in_a && !in_b) return diff_;
+      if (!in_a && !in_b) break;
       if (group(ga, gb, line)) ++diff_.different_lines;
     }
+    reader_a.end(ga);
+    reader_b.end(gb);
+    (void)group(ga, gb, {});
+    return diff_;
   }
 
  private:
@@ -91,10 +105,16 @@ class FrameComparer {
     const auto field = [&](const char* name, const std::string& in_a, const std::string& in_b) {
       if (in_a != in_b) found({}, 0, name, in_a, in_b);
     };
-    if (equal(a_.first(kHeaderWords), b_.first(kHeaderWords))) return;
+    const Words in_a = a_.first(std::min<std::size_t>(a_.size(), kHeaderWords));
+    const Words in_b = b_.first(std::min<std::size_t>(b_.size(), kHeaderWords));
+    if (equal(in_a, in_b)) return;
     ++diff_.different_tokens;
+    if (in_a.size() < kHeaderWords || in_b.size() < kHeaderWords)
+      return field("header", words_text(in_a), words_text(in_b));
+    field("magic_version", fmt::format("{:#010x}", a_[0]), fmt::format("{:#010x}", b_[0]));
     field("width", fmt::format("{} pixels", a_[1] & 0xffff), fmt::format("{} pixels", b_[1] & 0xffff));
     field("height", fmt::format("{} lines", a_[1] >> 16), fmt::format("{} lines", b_[1] >> 16));
+    field("param_hash", fmt::format("{:#010x}", a_[2]), fmt::format("{:#010x}", b_[2]));
     field("background", fmt::format("{:#08x}", a_[3]), fmt::format("{:#08x}", b_[3]));
     field("frame", fmt::format("frame number {}", a_[4]), fmt::format("frame number {}", b_[4]));
   }
@@ -119,14 +139,26 @@ class FrameComparer {
     if (!diff_.first) diff_.first = StreamPlace{diff_.frame, line, token, std::move(field), std::move(a), std::move(b)};
   }
 
+  /// Whether words are one token whole. Those behind END may be by chance, and are told as that token then.
+  [[nodiscard]] bool is_token(Words words) const {
+    return !words.empty() && layout_.words[words[0] & 15U] == words.size();
+  }
+
   [[nodiscard]] std::string words(Words token) const {
-    return token.empty() ? "nothing" : to_string(config_, decode(config_, layout_, token));
+    constexpr std::size_t kTold = 8;
+    if (token.empty()) return "nothing";
+    if (is_token(token)) return to_string(config_, decode(config_, layout_, token));
+    return fmt::format("{} word{} that {} no token: {}{}", token.size(), token.size() == 1 ? "" : "s",
+                       token.size() == 1 ? "is" : "are", words_text(token.first(std::min(token.size(), kTold))),
+                       token.size() > kTold ? " ..." : "");
   }
 
   /// The first field in which two unequal tokens differ.
   [[nodiscard]] std::string field(Words a, Words b) const {
     if (a.empty() || b.empty()) return "token";
-    return first_field_diff(layout_, a, b).value().name;  // checked frames have nothing behind the last field
+    if (!is_token(a) || !is_token(b)) return "words";
+    const std::optional<FieldDiff> in_field = first_field_diff(layout_, a, b);
+    return in_field ? in_field->name : "bits behind the last field";  // which are zero in checked frames
   }
 
   const Config& config_;
@@ -135,6 +167,15 @@ class FrameComparer {
   Words b_;
   FrameDiff diff_;
 };
+
+/// The same words, which only one of the streams holds to be sound.
+FrameDiff unlike_sections(int frame, bool a_is_port) {
+  FrameDiff diff;
+  diff.frame = frame;
+  const auto text = [](bool port) { return port ? "PORT: a frame that is not checked" : "FRAM: a sound frame"; };
+  diff.first = StreamPlace{frame, {}, 0, "section", text(a_is_port), text(!a_is_port)};
+  return diff;
+}
 
 /// A frame that only one of the streams has.
 FrameDiff lone_frame(int frame, const TokenCounts& counts, bool in_a) {
@@ -215,6 +256,8 @@ StreamDiff diff_streams(const StreamFile& a, const StreamFile& b, const std::fun
       frame = lone_frame(i, counts, i < d.frames_a);
     else if (d.tokens_compared)
       frame = FrameComparer(a.config(), i, in_a, in_b).run();
+    if (both && d.tokens_compared && frame.same && a.is_port_frame(i) != b.is_port_frame(i))
+      frame = unlike_sections(i, a.is_port_frame(i));
     frame.compared = !both || d.tokens_compared;
     if (!frame.same) ++d.different_frames;
     d.different_lines += frame.different_lines;

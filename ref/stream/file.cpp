@@ -251,6 +251,7 @@ struct StreamFile::Data {
       // Frames are summed when they are asked for, so that opening a large file is quick.
       if (tag == "FRAM" || tag == "PORT") {
         if (h.size % 4 != 0) fail(at, "a frame is not of whole words");
+        if (tag == "PORT" && h.size == 0) fail(at, "a frame without words, which no port can bring");
         if (origin_seen) fail(at, "a frame behind section ORIG");
         frames.push_back({payload, h.size, h.crc, tag == "PORT"});
       } else if (crc(0, base + payload, h.size) != h.crc) {

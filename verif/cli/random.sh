@@ -41,9 +41,16 @@ expect 1 "$kage" cosim random:damaged --frames 200 --config small.yaml --fault l
 json l.json 'j["kept"]["words"] <= j["kept"]["words_before"]'
 expect 0 "$kage" info "$(python3 -c 'import json; print(json.load(open("l.json"))["kept"]["file"])')"
 
-trouble "random: of the options that say how a scene is drawn" "$kage" cosim random --size 32x24
-trouble "random: random frames are for kage cosim and kage explain" "$kage" render random
-trouble "random: random frames are for kage cosim and kage explain" "$kage" stream random --out r.kage
+for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" --cull "--alpha 0.5" --allow-outside; do
+  # shellcheck disable=SC2086
+  trouble "random: ${option%% *}: random frames " "$kage" cosim random $option
+done
+for command in render "stream --out r.kage" info "info --tokens 0" order; do
+  for kind in random random:damaged random:mixed; do
+    # shellcheck disable=SC2086
+    trouble "$kind: random frames are for kage cosim and kage explain" "$kage" $command $kind
+  done
+done
 trouble "--frame 60: there are 60 frames, from 0 on" "$kage" cosim random --frames 60 --frame 60
 trouble "--frame and --shard" "$kage" cosim random --frame 1 --shard 1/2
 no_leftovers

@@ -19,6 +19,9 @@ namespace kage::cosim {
 /// For lines that nobody looks at.
 inline const LineSink kNowhere = [](int, std::span<const std::uint8_t>) {};
 
+/// Misconduct of a core that was given another frame right ahead of this one (RtlOptions::prelude).
+inline constexpr const char* kAheadWrong = "the frame right ahead of this one has wrong pixels";
+
 /// How a core ended a frame.
 struct FrameEnd {
   FrameStatus status;

@@ -185,6 +185,21 @@ void describe_part(Divergence& d, const Config& config, const kage_rtl_event& pa
   d.actual = fmt::format("{:#x}", part.value[2]);
 }
 
+// Of the frame that RtlOptions::prelude puts ahead of this one.
+std::optional<Divergence> ahead_of(int frame, const Config& config, const DivergenceOptions& options) {
+  const std::vector<std::uint32_t> words = options.rtl.prelude(frame);
+  DivergenceOptions alone = options;
+  alone.rtl.prelude = {};
+  alone.steps = {frame, 1};
+  const Feed feed = [&](int, const WordSink& sink) {
+    sink(words);
+    return TokenCounts{};
+  };
+  auto d = find_divergence(frame, feed, config, alone);
+  if (d) d->ahead = true;
+  return d;
+}
+
 }  // namespace
 
 std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
@@ -198,7 +213,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
     from = back < before ? frame - back * steps.step : steps.first;
     found = search(from, frame, feed, config, options);
   }
-  if (!found.any()) return std::nullopt;
+  if (!found.any()) return options.rtl.prelude ? ahead_of(frame, config, options) : std::nullopt;
 
   Divergence d;
   d.initial_state = options.rtl.initial != 0;  // the run's own has nothing of the kind
@@ -267,7 +282,7 @@ std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const C
 }
 
 std::string describe(const Divergence& d) {
-  std::string text = fmt::format("frame {}", d.frame);
+  std::string text = fmt::format("{}frame {}", d.ahead ? "the frame right ahead of " : "", d.frame);
   if (d.line >= 0) text += fmt::format(", line {}", d.line);
   if (d.x >= 0) text += fmt::format(", x {}", d.x);
   text += fmt::format(", cycle {}: {} (rtl/{}.sv), {}: expected {}, got {}", d.cycle, d.what, d.module, d.field,
@@ -280,6 +295,8 @@ std::string describe(const Divergence& d) {
 }
 
 std::string describe_none(const Difference& difference) {
+  if (difference.remark.find(kAheadWrong) != std::string::npos)
+    return "no stage differs where the frame ahead has ended before: it takes both in the core at the same time";
   return difference.assertion.empty() ? "no stage differs: look at the registers and the video port"
                                       : "no stage differs: look at what the assertion guards";
 }

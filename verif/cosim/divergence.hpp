@@ -35,6 +35,7 @@ struct Divergence {
   std::string token_text;   ///< "SP [12, 40) ..."
   std::string source;       ///< the part of the scene it came from, if the caller knows it: find_divergence() does not
   std::string waits;        ///< of a core that hangs: who waits for whom
+  bool ahead = false;       ///< it is in the frame that RtlOptions::prelude put right ahead of `frame`
   bool initial_state = false;  ///< it depends on what registers and memories hold at first
   std::string waveform;        ///< the FST file, empty if none was written
   std::string save_file;       ///< the GTKWave save file beside it

@@ -2,20 +2,12 @@
 #include "cosim/model.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <openssl/evp.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <memory>
 #include <optional>
-#include <span>
 #include <sstream>
 #include <system_error>
 #include <thread>
@@ -23,6 +15,7 @@
 
 #include "cosim/lock.hpp"
 #include "cosim/model_cache.hpp"
+#include "cosim/model_sources.hpp"
 #include "cosim/process.hpp"
 #include "files/hidden_folder.hpp"
 #include "files/output_file.hpp"
@@ -33,95 +26,6 @@ namespace kage::cosim {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
-
-  /// Adds a text and its length, so that no two lists of texts are alike.
-  void add(const std::string& text) {
-    const std::uint64_t size = text.size();
-    EVP_DigestUpdate(context_.get(), &size, sizeof size);
-    EVP_DigestUpdate(context_.get(), text.data(), text.size());
-  }
-
-  std::string hex() {
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned size = 0;
-    EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
-    std::string text;
-    for (unsigned char byte : std::span(digest).first(size)) text += fmt::format("{:02x}", byte);
-    return text;
-  }
-
- private:
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
-
-/// What `command` prints; empty if it fails.
-std::string output_of(const char* command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command, "r"), pclose);
-  std::string text;
-  if (!pipe) return text;
-  std::array<char, 512> buffer{};
-  while (true) {
-    const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe.get());
-    text.append(buffer.data(), n);
-    if (n == buffer.size()) continue;
-    if (ferror(pipe.get()) == 0 || errno != EINTR) return text;
-    clearerr(pipe.get());  // a signal: whoever waits for it asks
-  }
-}
-
-// The tools that build.py takes; CXX may be several words.
-std::string verilator_version() { return output_of("\"${VERILATOR:-verilator}\" --version 2>/dev/null"); }
-std::string compiler_version() { return output_of("${CXX:-c++} --version 2>/dev/null"); }
-
-/// The files that the model is made of, below `data`: what build.py --sources names, and perhaps a file more.
-std::vector<fs::path> sources(const fs::path& data, const ModelOptions& options) {
-  const std::string& fault = options.fault;
-  std::vector<fs::path> files;
-  std::vector<const char*> folders{"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"};
-  if (options.traced) folders.push_back("verif/monitors");
-  for (const char* folder : folders) {
-    if (!fs::is_directory(data / folder))
-      throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
-    for (const auto& entry : fs::directory_iterator(data / folder)) {
-      const std::string name = entry.path().filename().string();
-      if (entry.is_regular_file() && name != "configs.yaml" && name.front() != '.')
-        files.push_back(fs::path(folder) / name);
-    }
-  }
-  if (options.mutants) files.emplace_back("verif/mutants/mutants.yaml");
-  if (!fault.empty()) {
-    files.push_back(fs::path("verif/faults") / (fault + ".patch"));
-    if (fault.find('/') != std::string::npos || !fs::exists(data / files.back()))
-      throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(fault_names(), ", ")));
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::string key_of(const fs::path& data, const std::vector<fs::path>& files, const Config& config,
-                   const ModelOptions& options) {
-  Sha256 hash;
-  for (const fs::path& file : files) {
-    hash.add(file.string());
-    hash.add(read_file(data / file));
-  }
-  for (const ParamInfo& p : kParams) hash.add(fmt::format("{}={}", p.name, config.*(p.member)));
-  hash.add(options.fault);
-  hash.add(options.traced ? "traced" : "");
-  hash.add(options.mutants ? "mutants" : "");
-  const std::string verilator = verilator_version();
-  if (verilator.empty() && options.progress) options.progress(0);  // an interruption ends it too
-  if (verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
-  hash.add(verilator);
-  const char* const cxx = std::getenv("CXX");
-  hash.add(cxx != nullptr ? cxx : "");  // it may have flags
-  hash.add(compiler_version());
-  return hash.hex();
-}
 
 /// The line that tells most, for a message of one line.
 std::string telling_line(const std::string& said) {
@@ -195,7 +99,7 @@ nlohmann::ordered_json about(const Config& config, const ModelOptions& options) 
 Model find_model(const Config& config, const ModelOptions& options) {
   const fs::path data = data_directory();
   const ModelCache cache;
-  const std::vector<fs::path> files = sources(data, options);
+  const std::vector<fs::path> files = model_sources(data, options);
   std::string damage;
   // A model that is there and whole.
   const auto find = [&](const std::string& key) {
@@ -205,16 +109,17 @@ Model find_model(const Config& config, const ModelOptions& options) {
     cache.use(key);
     return true;
   };
-  const std::string now = key_of(data, files, config, options);
+  const ModelTools tools = model_tool_versions(options);
+  const std::string now = model_key(data, files, config, options, tools);
   HiddenFolder::sweep(cache.folder());  // of builds that were killed
   if (find(now)) return {.library = cache.library(now)};
 
   // What is built is a copy: someone may change the RTL meanwhile, and the model must be of what its name says.
   const HiddenFolder hidden = work_folder(cache.folder());
-  const fs::path work = hidden.path();
+  const fs::path& work = hidden.path();
   const fs::path copy = work / "source";
   copy_sources(data, files, copy);
-  const std::string key = key_of(copy, files, config, options);
+  const std::string key = model_key(copy, files, config, options, tools);
 
   const auto start = std::chrono::steady_clock::now();
   const auto wait = [&] {
@@ -259,15 +164,6 @@ Model find_model(const Config& config, const ModelOptions& options) {
   return {.library = cache.library(key),
           .build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
           .damage = damage};
-}
-
-std::vector<std::string> fault_names() {
-  std::vector<std::string> names;
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(data_directory() / "verif/faults", ec))
-    if (entry.path().extension() == ".patch") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 std::vector<std::string> model_tools() {

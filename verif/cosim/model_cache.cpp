@@ -8,11 +8,10 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 
+#include "cosim/descriptor.hpp"
 #include "cosim/lock.hpp"
 #include "cosim/trust.hpp"
 #include "files/output_file.hpp"
@@ -26,39 +25,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kManifestVersion = 1;
 
-/// A descriptor, closed with the object.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-
- private:
-  int fd_;
-};
-
 /// What a file holds, as its length and CRC-32.
 struct Sum {
   std::uint64_t bytes = 0;
   std::uint32_t crc = 0;
   bool operator==(const Sum&) const = default;
 };
-
-template <typename Take>
-void read_all(int fd, const fs::path& path, Take take) {
-  std::array<unsigned char, 65536> buffer{};
-  while (true) {
-    const ssize_t n = read(fd, buffer.data(), buffer.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
-    if (n == 0) return;
-    take(buffer.data(), static_cast<std::size_t>(n));
-  }
-}
 
 Sum sum_of(int fd, const fs::path& path) {
   Sum sum{0, static_cast<std::uint32_t>(crc32_z(0, nullptr, 0))};
@@ -73,10 +45,7 @@ Sum sum_of(int fd, const fs::path& path) {
 Json manifest_of(const fs::path& path) {
   const Descriptor file(open_own_file(path));
   if (file.get() < 0) return nullptr;
-  std::string text;
-  read_all(file.get(), path,
-           [&](const unsigned char* data, std::size_t n) { text.append(reinterpret_cast<const char*>(data), n); });
-  Json manifest = Json::parse(text, nullptr, false);
+  Json manifest = Json::parse(text_of(file.get(), path), nullptr, false);
   return manifest.is_object() ? manifest : Json();
 }
 
@@ -84,18 +53,10 @@ void sync(int fd, const fs::path& path) {
   if (fsync(fd) != 0) throw Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
 }
 
-fs::path base() {
-  const char* xdg = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  if (xdg != nullptr && *xdg != '\0') return xdg;
-  if (home != nullptr && *home != '\0') return fs::path(home) / ".cache";
-  throw Error("neither XDG_CACHE_HOME nor HOME is set: there is no place for RTL models");
-}
-
 }  // namespace
 
-ModelCache::ModelCache() : folder_(own_folder(base(), {"kage", "models"})) {
-  (void)own_folder(base(), {"kage", "verilator"});  // objects that models are linked with: verif/rtl_model/build.py
+ModelCache::ModelCache() : folder_(cache_folder("models")) {
+  (void)cache_folder("verilator");  // objects that models are linked with: verif/rtl_model/build.py
 }
 
 std::optional<std::string> ModelCache::damage(const std::string& key) const {

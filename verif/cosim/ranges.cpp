@@ -27,8 +27,8 @@ Report join(std::vector<Report> ranges) {
     Report& r = ranges[i];
     all.same = r.same;
     all.frames += r.frames;
-    all.width = r.width;
-    all.height = r.height;
+    all.width = std::max(all.width, r.width);
+    all.height = std::max(all.height, r.height);
     all.pixels_compared += r.pixels_compared;
     all.spans += r.spans;
     all.span_pixels += r.span_pixels;
@@ -41,6 +41,7 @@ Report join(std::vector<Report> ranges) {
     all.frame_seconds.insert(all.frame_seconds.end(), r.frame_seconds.begin(), r.frame_seconds.end());
     all.pictures.insert(all.pictures.end(), std::make_move_iterator(r.pictures.begin()),
                         std::make_move_iterator(r.pictures.end()));
+    all.taken.insert(all.taken.end(), r.taken.begin(), r.taken.end());
     for (FrameResult& f : r.each) {
       const bool different = r.first_difference && f.frame == r.first_difference->frame;
       if (all.each.size() < kFrameResults || different) all.each.push_back(std::move(f));

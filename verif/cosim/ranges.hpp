@@ -31,6 +31,9 @@ class RunState {
     while (frame < last && !last_.compare_exchange_weak(last, frame)) {
     }
   }
+  /// All frames are of interest again.
+  void goes_on() { last_ = std::numeric_limits<int>::max(); }
+
   /// Whether nobody asks for this frame any more.
   [[nodiscard]] bool beyond(int frame) const { return frame > last_; }
 

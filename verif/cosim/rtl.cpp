@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cosim/stopwatch.hpp"
+#include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
 #include "number/mixed.hpp"
@@ -70,6 +71,7 @@ class Rtl : public RtlCore {
     const auto share = [](int stopped) { return kAlways - kAlways * static_cast<std::uint32_t>(stopped) / 100; };
     table_->stalls(model_, share(options_.idle_percent), share(options_.backpressure_percent),
                    mixed(options_.seed, static_cast<std::uint64_t>(number)));
+    number_ = number;
   }
 
   void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
@@ -95,6 +97,7 @@ class Rtl : public RtlCore {
   [[nodiscard]] std::string missing_monitors() const override { return table_->missing_monitors; }
   [[nodiscard]] std::uint32_t unwatched() const override { return table_->unwatched; }
   void record(bool on, std::function<void()> often) override {
+    recording_ = on;
     table_->record(model_, on ? 1 : 0);
     often_ = std::move(often);
   }
@@ -138,6 +141,7 @@ class Rtl : public RtlCore {
 
  private:
   static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t kMostClocks = 50'000'000;  // of a small frame
 
   [[nodiscard]] int checked(int why) const {
     const std::string failure = table_->failure(model_);
@@ -161,7 +165,56 @@ class Rtl : public RtlCore {
     marks_.clear();
     marker_.start();
     table_->clear_pixels(model_);
+    if (options_.prelude) prelude();
     table_->clear_stats(model_);
+  }
+
+  /// What RtlOptions::prelude says of the frame at hand.
+  void prelude() {
+    ahead_ = 0;
+    earlier_.clear();
+    earlier_wrong_ = 0;
+    const std::uint64_t chance = mixed(mixed(options_.seed, static_cast<std::uint64_t>(number_)));
+    constexpr std::uint64_t kOf = 8;
+    if (chance % kOf < 2)
+      cut(chance / kOf);
+    else if (chance % kOf < 4)
+      follow();
+  }
+
+  /// A frame comes whole, and is announced to the model.
+  std::vector<std::uint32_t> submit_earlier() {
+    std::vector<std::uint32_t> words = options_.prelude(number_);
+    table_->expect(model_, words[1] & 0xFFFF, words[1] >> 16);
+    table_->submit(model_, words.data(), words.size(), 1);
+    return words;
+  }
+
+  /// A reset within a frame, or behind it.
+  void cut(std::uint64_t chance) {
+    table_->record(model_, 0);
+    (void)submit_earlier();
+    (void)checked(table_->run(model_, kForever, chance % 2048));
+    table_->reset(model_, 1 + static_cast<std::uint32_t>(chance / 2048 % 3));
+    table_->clear_pixels(model_);
+    table_->record(model_, recording_ ? 1 : 0);
+    errors_ = frames_ = 0;
+  }
+
+  /// A frame ahead of the one at hand, which does not wait for its end.
+  void follow() {
+    if (recording_) table_->record(model_, 0);
+    const std::vector<std::uint32_t> words = submit_earlier();
+    (void)GoldenCore(config_).frame(words, [&](int, std::span<const std::uint8_t> line) {
+      earlier_.insert(earlier_.end(), line.begin(), line.end());
+    });
+    ahead_ = recording_ ? 0 : 1;
+    if (!recording_) return;
+    (void)checked(table_->run(model_, earlier_.size() / static_cast<std::size_t>(config_.channels), kMostClocks));
+    (void)wait_for_end();
+    table_->clear_pixels(model_);
+    earlier_.clear();
+    table_->record(model_, 1);
   }
 
   /// The first of what is held.
@@ -184,11 +237,19 @@ class Rtl : public RtlCore {
   }
 
   void finish(FrameEnd& end, const LineSink& sink) {
+    // A frame may end within its header: cores read the rest of its last beat as zeros, and the header may be whole
+    // then.
+    if (!announced_) {
+      const auto beat = static_cast<std::size_t>(config_.beat_words);
+      held_.resize((held_.size() + beat - 1) / beat * beat, 0);
+      marks_.resize(held_.size(), 0);
+      announce();
+    }
     const bool any = width_ != 0 && height_ != 0;
     int why = KAGE_RTL_STUCK;
     if (!stuck_) {
       submit(held_.size(), true);
-      why = in_slices([&] { return table_->run(model_, any ? left_ : kForever, slice()); }, sink);
+      why = in_slices([&] { return table_->run(model_, any ? earlier_pixels() + left_ : kForever, slice()); }, sink);
     }
     (void)checked(why);
     std::string trouble;
@@ -215,6 +276,7 @@ class Rtl : public RtlCore {
 
     kage_rtl_stats stats{};
     table_->stats(model_, &stats);
+    if (trouble.empty() && (earlier_wrong_ != 0 || !earlier_.empty())) trouble = kAheadWrong;
     end.misconduct = misconduct(stats, trouble);
     end.cycles = stats.cycles;
     static_assert(std::tuple_size_v<PhaseStalls> == KAGE_RTL_MARKS);
@@ -243,8 +305,8 @@ class Rtl : public RtlCore {
   /// The last pixel leaves before END is read: wait until the core has counted the frame.
   std::string wait_for_end() {
     for (int tries = 0; tries < 10000; ++tries)
-      if (read(KAGE_REG_FRAMES) == frames_ + 1) {
-        ++frames_;
+      if (read(KAGE_REG_FRAMES) == frames_ + 1 + ahead_) {
+        frames_ += 1 + std::exchange(ahead_, 0);
         return {};
       }
     return "the frame does not end";
@@ -281,13 +343,23 @@ class Rtl : public RtlCore {
     }
   }
 
-  /// Whole lines go to the sink, the beginning of another stays. Pixels past the frame's size are counted by the model.
+  /// Pixels to come of the frame ahead.
+  [[nodiscard]] std::uint64_t earlier_pixels() const {
+    return earlier_.size() / static_cast<std::size_t>(config_.channels);
+  }
+
+  /// Those of a frame ahead are looked at here. Whole lines go to the sink, the beginning of another stays. Pixels past
+  /// the frame's size are counted by the model.
   void take_pixels(const LineSink& sink) {
     std::uint64_t count = 0;
     const std::uint8_t* pixels = table_->pixels(model_, &count);
     const auto channels = static_cast<std::size_t>(config_.channels);
     const std::size_t line_bytes = std::size_t{width_} * channels;
-    count = std::min(count, left_);
+    const auto earlier = static_cast<std::size_t>(std::min(count, earlier_pixels())) * channels;
+    if (!std::equal(pixels, pixels + earlier, earlier_.begin())) ++earlier_wrong_;
+    earlier_.erase(earlier_.begin(), earlier_.begin() + static_cast<std::ptrdiff_t>(earlier));
+    pixels += earlier;
+    count = std::min(count - earlier / channels, left_);
     left_ -= count;
     std::span<const std::uint8_t> bytes(pixels, static_cast<std::size_t>(count) * channels);
     while (!bytes.empty()) {
@@ -325,8 +397,15 @@ class Rtl : public RtlCore {
   std::uint32_t frames_ = 0;
   std::uint32_t errors_ = 0;
   bool broken_ = false;
+  bool recording_ = false;
+  int number_ = 0;
   std::vector<kage_rtl_event> events_;  // the last ones taken
   std::function<void()> often_;
+
+  // Of the frame ahead of the one at hand:
+  std::uint32_t ahead_ = 0;            // 1: there is one whose end was not seen yet
+  std::vector<std::uint8_t> earlier_;  // its pixels to come, as the golden core has them
+  int earlier_wrong_ = 0;              // pieces of them that came otherwise
 
   // Of the frame at hand:
   bool open_ = false;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cosim/core.hpp"
 #include "rtl_model/rtl_model.h"
@@ -20,6 +21,11 @@ struct RtlOptions {
   int backpressure_percent = 0;  ///< share of clocks without output taken
   int mutant = 0;                ///< of a model that has mutants: which one it is, from 1; 0: none
   bool assertions = true;        ///< false: go on where the RTL's assertions fail
+
+  /// Gives the words of a sound frame for every number. With it, some frames meet a core that was reset within such a
+  /// frame just before, and some come right behind one, before its pixels have left; which do follows from seed and
+  /// number. Its pixels are looked at too. A core that records has seen its end before.
+  std::function<std::vector<std::uint32_t>(int number)> prelude = {};
 };
 
 /// The RTL, simulated. What lies past Core needs a model that was built with tracing.

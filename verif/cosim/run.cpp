@@ -9,6 +9,8 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -115,29 +117,16 @@ class Comparer {
     const FrameEnd& e = end.expected;
     const FrameEnd& a = own_->end();
     const int frame = number();
-    ++report_.frames;
-    report_.width = e.status.width;
-    report_.height = e.status.height;
-    report_.pixels_compared += static_cast<std::uint64_t>(e.status.width) * static_cast<std::uint64_t>(e.status.height);
-    report_.spans += end.counts.spans;
-    report_.span_pixels += end.counts.span_pixels;
-    report_.segments += end.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
-    report_.cycles += a.cycles;
-    report_.stalls.starved += a.stalls.starved;
-    report_.stalls.blocked += a.stalls.blocked;
-    report_.expected_seconds += e.seconds;
-    report_.actual_seconds += a.seconds;
-    report_.frame_seconds.push_back(e.seconds + a.seconds);
     report_.first_difference = own_->finish(e);
     if (!report_.first_difference && other_) {
       report_.first_difference = other_->finish(e);
       if (report_.first_difference) report_.first_difference->other_state = true;
     }
-    const bool listed = report_.each.size() < kFrameResults || report_.first_difference;
-    if (listed) report_.each.push_back({frame, e.status, end.counts, a.cycles, a.stalls, a.phase_stalls, {}});
-    if (end.picture && end.picture->drawn() && (options_.all_pictures || report_.first_difference)) {
-      if (listed) report_.each.back().picture = end.picture->path().string();
-      report_.pictures.push_back(end.picture->path().string());
+    FrameResult result{frame, e.status, end.counts, a.cycles, a.stalls, a.phase_stalls, {}};
+    const bool shown = end.picture && end.picture->drawn() && (options_.all_pictures || report_.first_difference);
+    if (shown) result.picture = end.picture->path().string();
+    report_.add(result, e.seconds, a.seconds);
+    if (shown) {
       if (report_.first_difference) expected_ = load_image(end.picture->temp());
       end.picture->hand_over(files_);
     }
@@ -149,6 +138,7 @@ class Comparer {
     // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".
     if (e.status.width == 0 && !options_.refusals)
       throw Error(fmt::format("frame {}: the cores refuse it: {}", frame, describe(e.status)));
+    if (options_.same) options_.same(result);
     own_.reset();
     other_.reset();
     return true;
@@ -307,10 +297,34 @@ void lead(int frames, const Feed& feed, Core& expected, const RunOptions& option
 
 }  // namespace
 
+void Report::add(const FrameResult& result, double expected, double actual) {
+  ++frames;
+  width = std::max(width, result.status.width);
+  height = std::max(height, result.status.height);
+  pixels_compared += static_cast<std::uint64_t>(result.status.width) * static_cast<std::uint64_t>(result.status.height);
+  spans += result.counts.spans;
+  span_pixels += result.counts.span_pixels;
+  segments += result.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
+  cycles += result.cycles;
+  stalls.starved += result.stalls.starved;
+  stalls.blocked += result.stalls.blocked;
+  expected_seconds += expected;
+  actual_seconds += actual;
+  frame_seconds.push_back(expected + actual);
+  if (result.taken) taken.push_back(result.frame);
+  if (!result.picture.empty()) pictures.push_back(result.picture);
+  if (each.size() < kFrameResults || first_difference) each.push_back(result);
+}
+
 Report run(int frames, const Feed& feed, Core& expected, Core& actual, const RunOptions& options) {
   Comparer comparer(actual, options);
-  if (options.two_threads) {
-    Behind behind(comparer, options.wait);
+  std::optional<Behind> thread;
+  try {
+    if (options.two_threads) thread.emplace(comparer, options.wait);
+  } catch (const std::system_error&) {  // the system gives no more threads: one does both
+  }
+  if (thread) {
+    Behind& behind = *thread;
     try {
       lead(frames, feed, expected, options, [&](Piece piece) { return behind.put(std::move(piece)); });
       behind.finish();

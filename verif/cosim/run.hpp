@@ -32,6 +32,18 @@ using Feed = std::function<TokenCounts(int index, const WordSink& sink)>;
 /// Thrown through a feed once enough has been taken.
 struct Enough {};
 
+/// A frame that was compared.
+struct FrameResult {
+  int frame = 0;       ///< its number: with RunOptions::steps frames are left out
+  FrameStatus status;  ///< of the expected core
+  TokenCounts counts;
+  std::uint64_t cycles = 0;  ///< of the actual core, as in FrameEnd
+  Stalls stalls;
+  PhaseStalls phase_stalls{};
+  std::string picture;  ///< what the expected core drew, or empty
+  bool taken = false;   ///< the verdict is that of an earlier run (cosim/recall.hpp), and so are the clocks
+};
+
 struct RunOptions {
   std::filesystem::path out;   ///< an existing folder for pictures, or empty for none
   std::string name = "frame";  ///< pictures are NAME_0000.png ...
@@ -44,18 +56,9 @@ struct RunOptions {
   bool two_threads = true;               ///< the second core works beside the first
   Core* other_state = nullptr;           ///< the actual core with another initial state: it gets the first frame too
   std::function<void(int frame)> begin;  ///< called before each frame is fed; may throw, which ends the run
+  std::function<void(const FrameResult&)> same;  ///< called behind each frame that was compared and is the same, in the
+                                                 ///< thread of the second core
   std::function<void()> wait;  ///< called ten times a second while the second core lags; may throw, which ends the run
-};
-
-/// A frame that was compared.
-struct FrameResult {
-  int frame = 0;       ///< its number: with RunOptions::steps frames are left out
-  FrameStatus status;  ///< of the expected core
-  TokenCounts counts;
-  std::uint64_t cycles = 0;  ///< of the actual core, as in FrameEnd
-  Stalls stalls;
-  PhaseStalls phase_stalls{};
-  std::string picture;  ///< what the expected core drew, or empty
 };
 
 /// So many frames at most are in Report::each, so that memory does not grow with their number.
@@ -65,8 +68,8 @@ struct Report {
   bool same = true;
   bool broken = false;  ///< a frame of RunOptions::before ended in an assertion, so that no frame was compared
   int frames = 0;       ///< compared; a difference ends the run
-  int width = 0;        ///< of the last frame
-  int height = 0;
+  int width = 0;        ///< of the widest frame
+  int height = 0;       ///< of the highest one
   std::uint64_t pixels_compared = 0;
   std::uint64_t spans = 0;  ///< of the frames compared
   std::uint64_t span_pixels = 0;
@@ -78,8 +81,13 @@ struct Report {
   std::vector<double> frame_seconds;  ///< inside the cores, of each frame compared
   std::optional<Difference> first_difference;
   std::vector<std::string> pictures;
+  std::vector<int> taken;                ///< the frames whose verdict is that of an earlier run
   std::vector<FrameResult> each;         ///< the first kFrameResults frames, and the one that is different
   std::optional<DiffResult> difference;  ///< of its pictures, where there are any
+
+  /// Counts a frame that has its verdict; `first_difference` is set if it is the one that is different. The seconds are
+  /// those in each core.
+  void add(const FrameResult& result, double expected, double actual);
 };
 
 /// The expected core stops when this many bytes of words and of its own lines wait for the actual one. A single piece

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 #include "kage/error.hpp"
@@ -17,9 +18,10 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& cause, const std::string& cure) {
-  throw Error(fmt::format(
-      "{}: {}, and RTL models that are kept there are run: {}, or set XDG_CACHE_HOME to a folder of your own",
-      path.string(), cause, cure));
+  throw Error(
+      fmt::format("{}: {}, and RTL models and verdicts that are kept there are trusted: {}, or set XDG_CACHE_HOME to a "
+                  "folder of your own",
+                  path.string(), cause, cure));
 }
 
 void check_owner(const fs::path& path, const struct stat& status) {
@@ -89,6 +91,14 @@ fs::path own_folder(const fs::path& base, std::initializer_list<const char*> inn
     check_mode(folder, status, S_IWGRP | S_IWOTH);
   }
   return folder;
+}
+
+fs::path cache_folder(const char* name) {
+  const char* const xdg = std::getenv("XDG_CACHE_HOME");
+  const char* const home = std::getenv("HOME");
+  if (xdg != nullptr && *xdg != '\0') return own_folder(xdg, {"kage", name});
+  if (home != nullptr && *home != '\0') return own_folder(fs::path(home) / ".cache", {"kage", name});
+  throw Error("neither XDG_CACHE_HOME nor HOME is set: there is no place for RTL models");
 }
 
 int open_own_file(const fs::path& file) {

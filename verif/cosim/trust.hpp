@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lies in the cache of RTL models is run: so nobody but this user (and root, who can do anything) may be able to
-// put it there.
+// What lies in kage's cache is trusted: RTL models are run, and verdicts stand in for runs. So nobody but this user
+// (and root, who can do anything) may be able to put it there.
 #pragma once
 
 #include <filesystem>
@@ -17,6 +17,10 @@ namespace kage::cosim {
 /// own, as Debian gives each user one, and to all where the sticky bit keeps them from other people's files, as in
 /// /tmp.
 std::filesystem::path own_folder(const std::filesystem::path& base, std::initializer_list<const char*> inner);
+
+/// The folder ${XDG_CACHE_HOME:-~/.cache}/kage/NAME, as own_folder() makes and checks it. Throws Error besides if
+/// neither XDG_CACHE_HOME nor HOME is set.
+std::filesystem::path cache_folder(const char* name);
 
 /// Opens a regular file to read; links are not followed. Returns the descriptor, or -1 if there is no such file. Throws
 /// Error, with the way to mend it, if the file does not belong to this user or root, or if others may write to it.

@@ -7,23 +7,16 @@
 #include <string>
 #include <vector>
 
-#include "cosim/core.hpp"
+#include "cosim/register_check.hpp"
 #include "cosim/rtl.hpp"
 #include "kage/config.hpp"
 
 namespace kage::verif {
 
-/// A frame, and what the golden core makes of it.
-struct TrialFrame {
-  std::vector<std::uint32_t> words;
-  std::vector<std::vector<std::uint8_t>> lines;
-  cosim::FrameEnd end;
-};
-
 /// Frames that one core takes one after the other.
 struct Sequence {
   cosim::RtlOptions rtl;  ///< stalls and seed
-  std::vector<TrialFrame> frames;
+  std::vector<cosim::KnownFrame> frames;
 };
 
 struct Inputs {

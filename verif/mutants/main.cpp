@@ -139,7 +139,7 @@ void print_speed() {
     double seconds = 0;
     for (int round = 0; round < 20; ++round) {
       const auto rtl = make_rtl(library, inputs.config, inputs.sequences.front().rtl);
-      for (const TrialFrame& f : inputs.sequences.front().frames) {
+      for (const cosim::KnownFrame& f : inputs.sequences.front().frames) {
         const cosim::FrameEnd end = rtl->frame(f.words, cosim::kNowhere);
         clocks += end.cycles;
         seconds += end.seconds;

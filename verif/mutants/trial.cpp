@@ -4,15 +4,15 @@
 #include "cosim/blame.hpp"
 #include "cosim/compare.hpp"
 #include "cosim/divergence.hpp"
+#include "cosim/register_check.hpp"
 #include "cosim/run.hpp"
-#include "mutants/registers.hpp"
 
 namespace kage::verif {
 namespace {
 
 using cosim::Difference;
 
-std::optional<Difference> compare(cosim::RtlCore& rtl, const TrialFrame& f, int number, int channels) {
+std::optional<Difference> compare(cosim::RtlCore& rtl, const cosim::KnownFrame& f, int number, int channels) {
   cosim::FrameComparison comparison(number, channels, false);
   for (const auto& line : f.lines) {
     cosim::Lines lines;
@@ -88,7 +88,7 @@ std::optional<Verdict> try_mutant(const std::filesystem::path& library, const In
   options.mutant = mutant;
   std::optional<std::string> wrong;
   try {
-    wrong = wrong_register(*make_rtl(library, inputs.config, options), inputs);
+    wrong = wrong_register(*make_rtl(library, inputs.config, options), inputs.config, inputs.sequences.front().frames);
   } catch (const cosim::AssertionError& e) {
     return Verdict{"assertion", module_of(e.where()), e.what()};
   }
@@ -96,7 +96,7 @@ std::optional<Verdict> try_mutant(const std::filesystem::path& library, const In
   // Again with monitors: registers may say truly what a module says wrong. Of the sound RTL they say nothing.
   const auto rtl = make_rtl(library, inputs.config, options);
   rtl->record(true);
-  (void)wrong_register(*rtl, inputs);
+  (void)wrong_register(*rtl, inputs.config, inputs.sequences.front().frames);
   for (const kage_rtl_event& e : rtl->take_events())
     if (static_cast<cosim::Stage>(e.stage) == cosim::Stage::part)
       return Verdict{"register", cosim::part_name(inputs.config, e), wrong.value_or("so a monitor says")};

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "cosim/recall.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "report/html.hpp"
@@ -80,6 +81,7 @@ Json frames_of(const Page& page, Pictures& pictures) {
     Json& j = frames[k];
     j["number"] = number;
     j["same"] = !different;
+    j["taken"] = r.taken;
     j["width"] = r.status.width;
     j["height"] = r.status.height;
     j["cycles"] = r.cycles;
@@ -182,9 +184,9 @@ Json told_of(const Page& page) {
 
 std::string headline(const Page& page) {
   const cosim::Report& r = *page.run;
-  return fmt::format("{}: {} {}, {}x{}, {} pixels compared{}", r.same ? "same" : "different", r.frames,
-                     r.frames == 1 ? "frame" : "frames", r.width, r.height, r.pixels_compared,
-                     page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
+  return fmt::format("{}: {} {}{}, {}x{}, {} pixels compared{}", r.same ? "same" : "different", r.frames,
+                     r.frames == 1 ? "frame" : "frames", cosim::taken_text(r.taken.size()), r.width, r.height,
+                     r.pixels_compared, page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
 }
 
 Json data_of(const Page& page, Pictures& pictures) {

@@ -153,6 +153,7 @@ struct kage_rtl {
     context.traceEverOn(true);
 #endif
     enter();
+    context.threads(1);  // else each model starts a thread per processor, which none of its work goes to
     context.fatalOnError(false);
     top = std::make_unique<Vkage>(&context, "top");
     idle_inputs();

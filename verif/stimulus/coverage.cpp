@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/span_value.hpp"
+
 namespace kage::verif {
 
 Coverage::Point Coverage::add(bool there, const std::string& group, const std::string& name) {
-  if (!there) return kNone;
+  if (!there) return {};
   points_.push_back({group, name, 0});
-  return points_.size() - 1;
+  return {points_.size() - 1};
 }
 
 Coverage::Span Coverage::add_span(bool there, const std::string& kind) {
@@ -81,7 +83,7 @@ Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
   blank_ = add(c.units > 0, "tree", "a blank segment");
   dx_one_ = add(c.units > 0, "tree", "a segment of one pixel");
   dx_most_ = add(c.units > 0 && (1 << c.dx_bits) - 1 <= c.max_width, "tree", "a segment of the greatest length");
-  half_full_ =
+  unit_full_ =
       add(c.units > 0 && (1 << c.seg_bits) <= c.max_width, "tree", "a line of as many segments as a unit holds");
   last_face_ = add(c.units > 0, "tree", "a face of the last number but the blank one");
   for (std::size_t e = 1; e < error_.size(); ++e) {
@@ -122,17 +124,21 @@ void Coverage::hit_span(const Span& points, const SpanToken& s, int width) {
   hit(points.ends_at_border, s.xr < width && s.xr % config_.lanes == 0);
 }
 
-// `bits` of the accumulator, of which `most` is the greatest value that is not clamped.
-void Coverage::hit_ramp(const Ramp& points, std::int64_t start, std::int64_t step, int count, int bits,
-                        std::int64_t most) {
+Coverage::Range Coverage::depth_range() const {
+  return {config_.z_bits + config_.z_frac + 2, config_.z_frac, 1, (std::int64_t{1} << config_.z_bits) - 2};
+}
+
+Coverage::Range Coverage::color_range() const { return {10 + config_.color_frac, config_.color_frac, 0, 255}; }
+
+void Coverage::hit_ramp(const Ramp& points, std::int64_t start, std::int64_t step, int count, const Range& range) {
   if (count == 0) return;
-  const std::int64_t limit = std::int64_t{1} << (bits - 1);
+  const std::int64_t limit = std::int64_t{1} << (range.bits - 1);
   const std::int64_t last = start + step * (count - 1);
   hit(points.level, step == 0 && count > 1);
   hit(points.wraps, last < -limit || last >= limit);
   if (last < -limit || last >= limit) return;
-  hit(points.under, std::min(start, last) < 0);
-  hit(points.over, std::max(start, last) > most);
+  hit(points.under, std::min(start, last) >> range.fraction < range.least);
+  hit(points.over, std::max(start, last) >> range.fraction > range.most);
 }
 
 void Coverage::header(std::span<const std::uint32_t> words, const LineView& line) {
@@ -215,27 +221,28 @@ void Coverage::failed(const FrameStatus& status, std::span<const std::uint32_t> 
   hit(error_[static_cast<std::size_t>(status.error)]);
 }
 
-void Coverage::opaque(const SpanToken& s, const LineView& line) {
+// What a span of at least a pixel brings.
+void Coverage::ramps(const SpanToken& s, bool colored) {
   const int count = s.xr - s.xl;
-  const std::int64_t clear = (std::int64_t{1} << config_.z_bits) - 1;
-  hit_ramp(depth_, s.z, s.dz, count, config_.z_bits + config_.z_frac + 2, (clear << config_.z_frac) - 1);
-  for (std::size_t i = 0; config_.smooth != 0 && i < static_cast<std::size_t>(config_.channels); ++i)
-    hit_ramp(color_, s.color[i], s.dcolor[i], count, 10 + config_.color_frac, (256LL << config_.color_frac) - 1);
-  hit(unlit_, s.normal_class == 0 && count > 0);
+  hit_ramp(depth_, s.z, s.dz, count, depth_range());
+  for (std::size_t i = 0; colored && config_.smooth != 0 && i < static_cast<std::size_t>(config_.channels); ++i)
+    hit_ramp(color_, s.color[i], s.dcolor[i], count, color_range());
+}
+
+void Coverage::opaque(const SpanToken& s, const LineView& line) {
+  if (s.xl == s.xr) return;
+  ramps(s, true);
+  hit(unlit_, s.normal_class == 0);
   hit(last_class_, s.normal_class == (1 << config_.class_bits) - 1);
-  if (count == 0) return;
-  const PixelState met = line.pixel(s.xl);
-  const std::int64_t z = std::clamp<std::int64_t>(s.z >> config_.z_frac, 0, clear - 1);
-  hit(tie_, met.z != clear && z == met.z);
-  hit(behind_, met.z != clear && z > met.z);
+  const std::uint32_t clear = (1U << config_.z_bits) - 1U;
+  const std::uint32_t met = line.pixel(s.xl).z;
+  const std::uint32_t z = span_depth(config_, s, s.xl);
+  hit(tie_, met != clear && z == met);
+  hit(behind_, met != clear && z > met);
 }
 
 void Coverage::volume(const Token& t, const LineView& line) {
-  if (t.kind == Kind::SP) {
-    const std::int64_t clear = (std::int64_t{1} << config_.z_bits) - 1;
-    hit_ramp(depth_, t.span.z, t.span.dz, t.span.xr - t.span.xl, config_.z_bits + config_.z_frac + 2,
-             (clear << config_.z_frac) - 1);
-  }
+  if (t.kind == Kind::SP) ramps(t.span, false);
   if (t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::IF)
     hit(t.span.w == 1 ? weight_plus_ : t.span.w == -1 ? weight_minus_ : weight_other_);
   if (t.kind != Kind::EV) return;
@@ -244,31 +251,42 @@ void Coverage::volume(const Token& t, const LineView& line) {
   for (int x = t.span.xl; x < t.span.xr; ++x) hit(inside_at_ev_, ((line.pixel(x).dsf + line.bias()) & all) != 0);
 }
 
+// What docs/stream.md calls in shadow: by the counters where there are any, else by the flag, else by the sum.
+bool Coverage::in_shadow(const PixelState& p, std::uint32_t bias) const {
+  if (config_.count_bits > 0) return p.counts != decltype(p.counts){};
+  if (config_.fsf != 0) return p.fsf != 0;
+  return ((p.dsf + bias) & ((1U << config_.dsf_bits) - 1)) != 0;
+}
+
+// The share that all shadowed samples together take of a channel of a pixel, in 2^-SHADE_FRAC.
+std::uint64_t Coverage::lost(const PixelState& p, std::size_t channel) const {
+  const auto lights = static_cast<std::size_t>(config_.lights);
+  std::uint64_t sum = 0;
+  for (std::size_t l = 0; p.normal_class > 0 && l < lights; ++l) {
+    const std::size_t entry = (p.normal_class - 1) * lights + l;
+    if (entry < table_.size()) sum += std::uint64_t{p.counts[l]} * table_[entry].share[channel];
+  }
+  return sum;
+}
+
 void Coverage::resolve(const LineView& line) {
   const std::uint32_t full = (1U << config_.count_bits) - 1;
-  const auto lights = static_cast<std::size_t>(config_.lights);
   for (int x = 0; x < line.width(); ++x) {
     const PixelState p = line.pixel(x);
-    hit(dark_, p.fsf != 0 || (config_.fsf == 0 && config_.count_bits == 0 && p.dsf + line.bias() != 0) ||
-                   p.counts != decltype(p.counts){});
-    std::uint64_t lost = 0;
-    for (std::size_t l = 0; config_.count_bits > 0 && l < lights; ++l) {
-      hit(counter_full_, p.counts[l] == full);
-      const std::size_t entry = (p.normal_class - 1) * lights + l;
-      if (config_.class_bits > 1 && p.normal_class > 0 && entry < table_.size())
-        lost += std::uint64_t{p.counts[l]} * table_[entry].share[0];
-    }
-    hit(black_, lost > 1U << config_.shade_frac);
+    hit(dark_, in_shadow(p, line.bias()));
+    for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) hit(counter_full_, p.counts[l] == full);
+    for (std::size_t c = 0; config_.class_bits > 1 && c < static_cast<std::size_t>(config_.channels); ++c)
+      hit(black_, lost(p, c) > 1U << config_.shade_frac);
   }
 }
 
 void Coverage::translucent(const SpanToken& s, const LineView& line) {
   if (s.xl == s.xr) return;
+  ramps(s, true);
   hit(s.alpha == 0 ? alpha_none_ : s.alpha == 255 ? alpha_all_ : alpha_some_);
   const std::uint32_t clear = (1U << config_.z_bits) - 1U;
   const std::uint32_t met = line.pixel(s.xl).z;
-  const std::int64_t z = std::clamp<std::int64_t>(s.z >> config_.z_frac, 0, std::int64_t{clear} - 1);
-  hit(met == clear ? over_clear_ : z < met ? over_surface_ : hidden_);
+  hit(met == clear ? over_clear_ : span_depth(config_, s, s.xl) < met ? over_surface_ : hidden_);
 }
 
 void Coverage::segment(const SegmentToken& s) {
@@ -277,12 +295,9 @@ void Coverage::segment(const SegmentToken& s) {
   hit(dx_most_, s.dx == (1 << config_.dx_bits) - 1);
   const auto unit = static_cast<std::size_t>(s.unit);
   const auto face = static_cast<std::size_t>(s.face);
-  const std::int64_t clear = (std::int64_t{1} << config_.z_bits) - 1;
-  if (face < faces_[unit].size())
-    hit_ramp(face_depth_, s.z, faces_[unit][face], s.dx, config_.z_bits + config_.z_frac + 2,
-             (clear << config_.z_frac) - 1);
+  if (face < faces_[unit].size()) hit_ramp(face_depth_, s.z, faces_[unit][face], s.dx, depth_range());
   segments_[unit] = s.sync ? 1 : segments_[unit] + 1;
-  hit(half_full_, segments_[unit] == 1 << config_.seg_bits);
+  hit(unit_full_, segments_[unit] == 1 << config_.seg_bits);
 }
 
 void Coverage::tree(const LineView& line) {

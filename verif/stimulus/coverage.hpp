@@ -40,9 +40,10 @@ class Coverage : private CoreObserver {
   [[nodiscard]] const std::vector<CoveragePoint>& points() const { return points_; }
 
  private:
-  /// A point's index, or none where the configuration has no such thing.
-  using Point = std::size_t;
-  static constexpr Point kNone = ~std::size_t{0};
+  /// A point's index; none where the configuration has no such thing.
+  struct Point {
+    std::size_t index = ~std::size_t{0};
+  };
   struct Span {
     Point none, one, whole, at_border, in_group, ends_at_border;
   };
@@ -54,19 +55,30 @@ class Coverage : private CoreObserver {
   Span add_span(bool there, const std::string& kind);
   Ramp add_ramp(bool there, const std::string& group, const std::string& what);
   void hit(Point point, bool is = true) {
-    if (is && point != kNone) seen_[point] = true;
+    if (is && point.index < seen_.size()) seen_[point.index] = true;
   }
   void hit_span(const Span& points, const SpanToken& s, int width);
-  void hit_ramp(const Ramp& points, std::int64_t start, std::int64_t step, int count, int bits, std::int64_t most);
+  /// A value at each of `count` pixels: `fraction` bits of it are cut off, what is left is clamped to least .. most.
+  struct Range {
+    int bits;  // of the accumulator
+    int fraction;
+    std::int64_t least, most;
+  };
+  [[nodiscard]] Range depth_range() const;
+  [[nodiscard]] Range color_range() const;
+  void hit_ramp(const Ramp& points, std::int64_t start, std::int64_t step, int count, const Range& range);
 
   void header(std::span<const std::uint32_t> words, const LineView& line) override;
   void before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,
               const LineView& line) override;
   void after(std::uint32_t index, const Token& token, const LineView& line) override;
   void failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) override;
+  void ramps(const SpanToken& s, bool colored);
   void opaque(const SpanToken& s, const LineView& line);
   void volume(const Token& t, const LineView& line);
   void translucent(const SpanToken& s, const LineView& line);
+  [[nodiscard]] bool in_shadow(const PixelState& p, std::uint32_t bias) const;
+  [[nodiscard]] std::uint64_t lost(const PixelState& p, std::size_t channel) const;
   void resolve(const LineView& line);
   void segment(const SegmentToken& s);
   void tree(const LineView& line);
@@ -97,7 +109,7 @@ class Coverage : private CoreObserver {
   Point table_none_{}, table_whole_{}, table_cut_{}, share_most_{}, black_{}, counter_full_{};
   Point weight_plus_{}, weight_minus_{}, weight_other_{}, inside_at_ev_{}, bias_at_ev_{}, dark_{};
   Point alpha_none_{}, alpha_some_{}, alpha_all_{}, over_clear_{}, over_surface_{}, hidden_{};
-  Point unit_tie_{}, index_tie_{}, blank_{}, dx_one_{}, dx_most_{}, half_full_{}, last_face_{};
+  Point unit_tie_{}, index_tie_{}, blank_{}, dx_one_{}, dx_most_{}, unit_full_{}, last_face_{};
 };
 
 }  // namespace kage::verif

@@ -139,4 +139,11 @@ Words RandomFrames::words(int index) const {
   return wrong ? damaged_frame(random, config_, number) : sound_frame(random, config_, number);
 }
 
+std::function<Words(int)> RandomFrames::prelude() const {
+  if (manner_ != Manner::mixed) return nullptr;
+  return [config = config_, seed = mixed(~seed_)](int index) {
+    return RandomFrames(config, Manner::sound, seed).words(index);
+  };
+}
+
 }  // namespace kage::verif

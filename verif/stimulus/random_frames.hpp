@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ std::vector<std::uint32_t> damaged_frame(Random& random, const Config& c, std::u
 enum class Manner {
   sound,    ///< sound_frame()
   damaged,  ///< damaged_frame()
-  mixed     ///< either, as likely
+  mixed     ///< either, as likely; some meet a core that was just reset, or is still at work on another frame
 };
 
 /// The manner that "random", "random:damaged" or "random:mixed" asks for; none for any other text.
@@ -40,6 +41,9 @@ class RandomFrames {
 
   /// The words of frame `index`.
   [[nodiscard]] std::vector<std::uint32_t> words(int index) const;
+
+  /// Of mixed frames, the sound frame that may go ahead of each, by its number; of others nothing.
+  [[nodiscard]] std::function<std::vector<std::uint32_t>(int index)> prelude() const;
 
  private:
   Config config_;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "core/span_value.hpp"
 #include "stimulus/damage.hpp"
 #include "stream/fields.hpp"
 
@@ -18,23 +21,16 @@ using Words = std::vector<std::uint32_t>;
 struct Parts {
   Words header;
   std::vector<Words> tokens;
-  Words rest;  ///< from the first word on that begins no token
+  Words rest;  ///< from the first word on that begins no token, or behind END
 };
 
 Parts apart(const Config& c, const Words& words) {
   const Layout layout(c);
   Parts p;
-  const std::size_t header = std::min<std::size_t>(words.size(), kHeaderWords);
-  p.header.assign(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(header));
-  std::size_t at = header;
-  while (at < words.size()) {
-    const auto length = static_cast<std::size_t>(layout.words[words[at] & 15U]);
-    if (length == 0 || at + length > words.size()) break;
-    const auto begin = words.begin() + static_cast<std::ptrdiff_t>(at);
-    p.tokens.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(length));
-    at += length;
-  }
-  p.rest.assign(words.begin() + static_cast<std::ptrdiff_t>(at), words.end());
+  TokenWalk walk(layout, words);
+  p.header.assign(words.begin(), words.end() - static_cast<std::ptrdiff_t>(walk.rest().size()));
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) p.tokens.emplace_back(token.begin(), token.end());
+  p.rest.assign(walk.rest().begin(), walk.rest().end());
   return p;
 }
 
@@ -47,32 +43,84 @@ Words together(const Parts& p) {
 
 bool is(const Words& token, Kind kind) { return static_cast<Kind>(token[0] & 15U) == kind; }
 
-/// Of which line a SEG is: SEGs run ahead, and a unit's of a line sum to the width.
-class SegmentLines {
+/// Where a SEG is: SEGs run ahead, and a unit's of a line sum to the width.
+class SegmentPlaces {
  public:
-  SegmentLines(const Config& c, const Layout& layout, const Words& header)
-      : config_(c), layout_(layout), width_(header.size() < 2 ? 0 : header[1] & 0xFFFFU) {}
+  struct Place {
+    std::size_t line = 0;
+    std::uint32_t x = 0;  ///< its first pixel
+  };
 
-  std::size_t next(const Words& segment) {
-    const SegmentToken s = decode(config_, layout_, segment).segment;
+  explicit SegmentPlaces(const Words& header) : width_(header.size() < 2 ? 0 : header[1] & 0xFFFFU) {}
+
+  Place next(const SegmentToken& s) {
     const auto unit = static_cast<std::size_t>(s.unit);
     if (units_.size() <= unit) units_.resize(unit + 1);
-    Unit& u = units_[unit];
-    const std::size_t line = u.line;
-    u.pixels += static_cast<std::uint32_t>(s.dx);
-    if (u.pixels >= width_) u = {line + 1, 0};
-    return line;
+    Place& next = units_[unit];
+    const Place place = next;
+    next.x += static_cast<std::uint32_t>(s.dx);
+    if (next.x >= width_) next = {place.line + 1, 0};
+    return place;
+  }
+
+ private:
+  std::uint32_t width_;
+  std::vector<Place> units_;
+};
+
+/// Takes `step` columns at one side from a tree's segments, as narrower() does from spans. Faults stay: a segment of no
+/// pixel, and what goes past the line.
+class SegmentCutter {
+ public:
+  SegmentCutter(const Config& c, const Layout& layout, const Words& header, std::uint32_t step, bool left)
+      : config_(c), layout_(layout), places_(header), width_(header[1] & 0xFFFFU), step_(step), left_(left) {}
+
+  /// What becomes of a FACE or SEG, nothing if it goes.
+  std::optional<Words> cut(const Words& token) {
+    const SegmentToken s = decode(config_, layout_, token).segment;
+    Unit& unit = units_[s.unit];
+    if (is(token, Kind::FACE)) {
+      unit.dz.push_back(s.dz);
+      return token;
+    }
+    const std::uint32_t begin = places_.next(s).x;
+    const std::uint32_t end = begin + static_cast<std::uint32_t>(s.dx);
+    const std::uint32_t first = left_ ? std::max(begin, step_) : begin;
+    const std::uint32_t last = left_ ? end : std::min(end, width_ - step_) + (std::max(end, width_) - width_);
+    unit.sync = unit.sync || s.sync;
+    if (s.dx > 0 && first >= last) return std::nullopt;
+    SegmentToken kept = s;
+    kept.sync = std::exchange(unit.sync, false);
+    if (s.dx > 0) kept.dx = static_cast<int>(last - first);
+    const auto face = static_cast<std::size_t>(s.face);
+    if (first > begin && face < unit.dz.size()) kept.z = depth_after(s.z, unit.dz[face], first - begin);
+    if (kept.sync == s.sync && kept.dx == s.dx && kept.z == s.z) return token;
+    Words words;
+    TokenWriter(config_, words).seg(kept);
+    return words;
   }
 
  private:
   struct Unit {
-    std::size_t line = 0;
-    std::uint32_t pixels = 0;
+    std::vector<std::int64_t> dz;  // of its faces
+    bool sync = false;             // that of a segment that went
   };
+
+  [[nodiscard]] std::int64_t depth_after(std::int64_t z, std::int64_t dz, std::uint64_t pixels) const {
+    const std::int64_t sum = wrapped(static_cast<std::uint64_t>(z) + pixels * static_cast<std::uint64_t>(dz),
+                                     config_.z_bits + config_.z_frac + 2);
+    // A classic segment cannot begin past what its field holds: at its first pixel the same is drawn at the border.
+    const std::int64_t most = (std::int64_t{1} << config_.z_bits) - 1;
+    return config_.classic != 0 ? std::clamp<std::int64_t>(sum, 0, most) : sum;
+  }
+
   const Config& config_;
   const Layout& layout_;
+  SegmentPlaces places_;
   std::uint32_t width_;
-  std::vector<Unit> units_;
+  std::uint32_t step_;
+  bool left_;
+  std::map<int, Unit> units_;
 };
 
 /// Takes away runs of what `count` counts, by `without(first, last)`: each half as long as the one before, then, where
@@ -104,7 +152,12 @@ class Shrinker {
 
   Words run() {
     // A smaller frame may let go of what a larger one needed.
-    while (more_() && (lines() | tokens() | rest() | width())) continue;
+    for (bool any = true; any && more_();) {
+      any = lines();
+      any = tokens() || any;
+      any = rest() || any;
+      any = width() || any;
+    }
     return std::move(words_);
   }
 
@@ -139,10 +192,10 @@ class Shrinker {
       std::vector<Words> left;
       std::size_t line = 0;
       bool state = true;  // what stands before the first line stays
-      SegmentLines segments(config_, layout_, p.header);
+      SegmentPlaces segments(p.header);
       for (Words& t : p.tokens) {
         state = state && (is(t, Kind::SHADE) || is(t, Kind::TABLE) || is(t, Kind::FACE));
-        const std::size_t of = is(t, Kind::SEG) ? segments.next(t) : line;
+        const std::size_t of = is(t, Kind::SEG) ? segments.next(decode(config_, layout_, t).segment).line : line;
         const bool gone = !state && !is(t, Kind::END) && of >= first && of < last;
         line += is(t, Kind::EOL) ? 1U : 0U;
         if (!gone) left.push_back(std::move(t));
@@ -168,23 +221,29 @@ class Shrinker {
 
   /// The words behind the last token.
   bool rest() {
-    Parts p = apart(config_, words_);
-    if (p.rest.empty() || !more_()) return false;
-    p.rest.clear();
-    return accept(together(p));
+    const auto count = [&] { return apart(config_, words_).rest.size(); };
+    const auto without = [&](std::size_t first, std::size_t last) {
+      Parts p = apart(config_, words_);
+      p.rest.erase(p.rest.begin() + static_cast<std::ptrdiff_t>(first),
+                   p.rest.begin() + static_cast<std::ptrdiff_t>(last));
+      return together(p);
+    };
+    return fewer(
+        count, without, [&](Words w) { return accept(std::move(w)); }, more_);
   }
 
-  /// Columns at the right go, then such at the left.
+  /// Columns at the right go, then such at the left; of each side all but one are tried first.
   bool width() {
+    if (words_.size() < 2) return false;
     bool any = false;
     for (const bool left : {false, true})
-      for (std::uint32_t step = words_.size() < 2 ? 0 : words_[1] & 0xFFFFU; step > 0; step /= 2)
+      for (std::uint32_t step = std::max(words_[1] & 0xFFFFU, 1U) - 1; step > 0; step /= 2)
         while (more_() && (words_[1] & 0xFFFFU) > step && narrower(step, left)) any = true;
     return any;
   }
 
   bool narrower(std::uint32_t step, bool left) {
-    Words words = words_;
+    Words words = with_segments_cut(step, left);
     words[1] -= step;
     const std::uint64_t width = words[1] & 0xFFFFU;
     const auto moved = [&](std::uint64_t x) {
@@ -203,6 +262,18 @@ class Shrinker {
       if (cut > 0) advance(places, at, kind, cut);
     }
     return accept(std::move(words));
+  }
+
+  [[nodiscard]] Words with_segments_cut(std::uint32_t step, bool left) const {
+    Parts p = apart(config_, words_);
+    SegmentCutter cutter(config_, layout_, p.header, step, left);
+    std::vector<Words> tokens;
+    for (Words& t : p.tokens) {
+      const bool of_unit = is(t, Kind::FACE) || is(t, Kind::SEG);
+      if (std::optional<Words> cut = of_unit ? cutter.cut(t) : std::move(t)) tokens.push_back(std::move(*cut));
+    }
+    p.tokens = std::move(tokens);
+    return together(p);
   }
 
   /// A span begins so many pixels later.

@@ -12,6 +12,7 @@
 #include "number/bits.hpp"
 #include "stimulus/frames.hpp"
 #include "stimulus/random.hpp"
+#include "stimulus/random_frames.hpp"
 #include "stream/fields.hpp"
 #include "support/configs.hpp"
 #include "support/pictures.hpp"
@@ -27,6 +28,16 @@ fs::path write(const fs::path& path, const Config& config, const std::vector<Wor
   StreamFileWriter writer(path, config);
   for (const Words& words : frames) writer.frame(words);
   if (!origin.empty()) writer.origin(origin);
+  writer.finish();
+  return path;
+}
+
+/// The same words as a port may bring them.
+fs::path write_port(const fs::path& path, const Config& config, const Words& words) {
+  StreamFileWriter writer(path, config);
+  writer.begin_port_frame();
+  writer.words(words);
+  writer.end_frame();
   writer.finish();
   return path;
 }
@@ -172,6 +183,39 @@ TEST_CASE("random streams of unlike frames: symmetric, and as many differ as hav
     CHECK(d.same == (x == y));
     check_symmetric(a, b, d);
   }
+}
+
+TEST_CASE("frames that break any rule are compared to their end, and are the same where their words are") {
+  const TempFolder folder("stream-diff");
+  Random random(test_seed(3));
+  CAPTURE(test_seed(3));
+  for (int round = 0; round < 200; ++round) {
+    const Config c = random_config(random, 60);
+    Words x = damaged_frame(random, c, 1);
+    Words y = random.chance(0.3) ? sound_frame(random, c, 1) : x;
+    if (random.chance(0.7)) y.resize(static_cast<std::size_t>(random.in(1, static_cast<int>(y.size()))));
+    if (random.chance(0.3)) y.back() ^= 1U << random.in(0, 31);
+    const fs::path a = write_port(folder.path / "a.kage", c, x);
+    const fs::path b = write_port(folder.path / "b.kage", c, y);
+    const StreamDiff d = diff(a, b);
+    CAPTURE(round, x.size(), y.size());
+    CHECK(d.same == (x == y));
+    REQUIRE(d.first.has_value() == !d.same);
+    CHECK((d.same || d.different_tokens > 0));
+    check_symmetric(a, b, d);
+  }
+}
+
+TEST_CASE("the same words checked and unchecked are a difference of sections") {
+  const TempFolder folder("stream-diff");
+  const Config c = plain_config();
+  const StreamDiff d =
+      diff(write(folder.path / "a.kage", c, {plain_frame(c)}), write_port(folder.path / "b.kage", c, plain_frame(c)));
+  CHECK(d.different_frames == 1);
+  CHECK(d.different_tokens == 0);
+  REQUIRE(d.first);
+  CHECK(d.first->field == "section");
+  CHECK_THAT(d.first->b, Catch::Matchers::StartsWith("PORT"));
 }
 
 TEST_CASE("a token put in between is one difference, not all that follow") {

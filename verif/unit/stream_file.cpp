@@ -76,6 +76,51 @@ TEST_CASE("a stream file gives back configuration and frames") {
   CHECK(counts.of_kind[15] == 3);
 }
 
+TEST_CASE("a frame as a port brings it is not checked, but has a word at least") {
+  Scratch scratch;
+  const fs::path path = scratch.dir / "p.kage";
+  for (const std::size_t words : {0U, 1U, 7U}) {
+    StreamFileWriter w(path, Config{});
+    w.begin_port_frame();
+    w.words(std::vector<std::uint32_t>(words, 0xFFFFFFFFU));
+    w.end_frame();
+    w.finish();
+    if (words == 0) {
+      CHECK_THAT(refusal(path), Catch::Matchers::ContainsSubstring("a frame without words, which no port can bring"));
+      continue;
+    }
+    CHECK(refusal(path).empty());
+    CHECK(StreamFile(path).is_port_frame(0));
+    CHECK(StreamFile(path).frame(0).size() == words);
+  }
+}
+
+TEST_CASE("a walk over a frame that breaks rules goes over its tokens, and says what is left") {
+  const Config c;
+  const Layout layout(c);
+  std::vector<std::uint32_t> sound;
+  Random random(test_seed());
+  random_frame(random, c, 20, 2, sound);
+  const auto told = [&](std::vector<std::uint32_t> words, std::vector<std::uint32_t> more) {
+    words.insert(words.end(), more.begin(), more.end());
+    TokenWalk walk(layout, words);
+    std::size_t walked = std::min<std::size_t>(words.size(), kHeaderWords);
+    for (auto token = walk.next(); !token.empty(); token = walk.next()) walked += token.size();
+    CHECK(walked + walk.rest().size() == words.size());
+    CHECK(count_tokens(c, words).words == words.size());
+    return walk.rest_text();
+  };
+  for (std::size_t words = 0; words <= kHeaderWords; ++words)
+    CHECK(told({sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(words)}, {}).empty());
+  CHECK(told(sound, {}).empty());
+  CHECK(told(sound, {0}) == "1 word behind END");
+  CHECK(told(sound, {15, 15}) == "2 words behind END");
+  const std::vector<std::uint32_t> header(sound.begin(), sound.begin() + kHeaderWords);
+  CHECK(told(header, {0, 1}) == "kind 0, which is no token here");
+  CHECK(told(header, {5, 1}) == "kind 5, which is no token here");  // TREE, without units
+  CHECK(told(header, {14, 6, 1}) == "OP of " + std::to_string(layout.words[6]) + " words, cut after 2");
+}
+
 TEST_CASE("a writer that does not finish leaves nothing") {
   Scratch scratch;
   {

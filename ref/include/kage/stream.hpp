@@ -231,7 +231,36 @@ class StreamFile {
   std::unique_ptr<Data> data_;
 };
 
-/// What the words of a frame, sound or not, have of tokens: up to the first word that begins none, or to END.
+/// The tokens of a frame that may break any rule, one after the other. The walk ends behind END, at the first word that
+/// begins no token, at a token that the frame's end cuts, or at the frame's end; nothing past that is read.
+class TokenWalk {
+ public:
+  /// `layout` and `words`, which begin with the header, must outlive the walk.
+  TokenWalk(const Layout& layout, std::span<const std::uint32_t> words);
+
+  /// The words of the next token; none where the walk has ended.
+  [[nodiscard]] std::span<const std::uint32_t> peek() const;
+
+  /// The same, and the walk goes on behind them.
+  std::span<const std::uint32_t> next();
+
+  /// What has not been walked over.
+  [[nodiscard]] std::span<const std::uint32_t> rest() const { return rest_; }
+
+  /// What the rest of an ended walk is: "2 words behind END", "kind 0, which is no token here", "OP of 5 words, cut
+  /// after 2"; nothing where there is none.
+  [[nodiscard]] std::string rest_text() const;
+
+ private:
+  const Layout* layout_;
+  std::span<const std::uint32_t> rest_;
+  bool ended_ = false;  // by END
+};
+
+/// Words as they are: "0x00000006 0x0000001f".
+std::string words_text(std::span<const std::uint32_t> words);
+
+/// What the words of a frame, sound or not, have of tokens, as far as a TokenWalk goes.
 TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> words);
 
 /// True if the file begins like a stream file.

@@ -16,10 +16,12 @@ namespace kage {
 /// Where two frames first differ. Tokens are numbered as errors and `kage info --tokens` number them: 0 is the header.
 struct StreamPlace {
   int frame = 0;
-  std::optional<int> line;  ///< nothing in the header and in the frame's state, which come before the lines
+  std::optional<int> line;  ///< nothing in the header and the frame's state, before the lines, and behind the lines
   std::uint64_t token = 0;
   std::string field;  ///< as docs/stream.md names it, "color[1]" for channel 1; "kind" where the tokens are of two
-                      ///< kinds, "token" or "frame" where one of the streams has none there
+                      ///< kinds, "token" or "frame" where one of the streams has none there; "header", "words" and
+                      ///< "bits behind the last field" of what breaks the rules of tokens, "section" where the words
+                      ///< are the same and one is FRAM, the other PORT
   std::string a;      ///< the token in words, as to_string() has it
   std::string b;
 };

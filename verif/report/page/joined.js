@@ -52,7 +52,7 @@
     const row = (f) => {
       const part = partOf(f);
       const address = f.same === null ? null : page(part, f.scene);
-      return [name(f.scene), link(String(f.frame), address && `${address}#frame=${f.frame}`), word(f.same), part.name,
+      return [name(f.scene), link(String(f.frame), address && `${address}#frame=${f.frame}`), f.same === null ? word(null) : Parts.verdictWord(f), part.name,
               ...f.stalls ? [...numbers(f), count(f.words)] : Array(heads.length + 1).fill("")];
     };
     table($("table"), ["scene", "frame", "verdict", "run", ...heads, "words"], data.frames.map(row));

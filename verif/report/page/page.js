@@ -73,6 +73,7 @@ const Report = (() => {
     if (!frame.golden) text += " It has no pixels.";
     else if (frame.golden.data === null) text += ` Its picture is not on this page, which would be too large: see ${frame.golden.name}.`;
     else if (missing()) text += ` The RTL's picture is not on this page, which would be too large: see ${missing().name}.`;
+    else if (frame.taken) text += " Not run this time: an earlier run found that golden model and RTL are the same, bit for bit.";
     else if (frame.same) text += " Golden model and RTL are the same, bit for bit.";
     else if (mode === "difference") text += " Red differs, the brighter the further apart.";
     if (frame.error) text += ` ${frame.same ? "Both cores" : "The golden model"} ended it with ${frame.error.text}.`;
@@ -250,7 +251,7 @@ const Report = (() => {
     const sums = (name) => data.frames.reduce((sum, f) => sum + f[name], 0);
     const numbers = ["cycles", "starved", "blocked", "spans", "span_pixels", "segments", "words"];
     table($("table"), heads,
-          data.frames.map((f) => [f.number, f.same ? "same" : "different", ...numbers.map((n) => count(f[n]))]),
+          data.frames.map((f) => [f.number, Parts.verdictWord(f), ...numbers.map((n) => count(f[n]))]),
           data.frames.length > 1 ? ["all", "", ...numbers.map((n) => count(sums(n)))] : null);
     data.frames.forEach((f, i) => { if (!f.same) $("table").tBodies[0].rows[i].className = "bad"; });
     if (data.frames.length < data.compared)

@@ -54,6 +54,9 @@ const Parts = (() => {
     if (terms.length) $("first").append(list);
   }
 
+  // The verdict of a frame that has one.
+  const verdictWord = (frame) => !frame.same ? "different" : frame.taken ? "same, by an earlier run" : "same";
+
   // The terms of a first divergence; of none, where one was looked for, the text that says so.
   function divergenceTerms(divergence, none) {
     if (!divergence) return none ? [["First divergence", none]] : [];
@@ -87,5 +90,5 @@ const Parts = (() => {
     }
   }
 
-  return {data, $, make, count, plural, table, command, verdict, divergenceTerms, configTable, sideways};
+  return {data, $, make, count, plural, table, command, verdict, verdictWord, divergenceTerms, configTable, sideways};
 })();

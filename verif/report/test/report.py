@@ -203,6 +203,22 @@ def stalls_by_phase(b, frame):
         check(said[name] == [s["input_starved"], s["output_blocked"]], f"stalls of {name}: {said}")
 
 
+def recalled_run(b):
+    """Which frames were compared by an earlier run: in the headline, the table, and below the picture."""
+    b.open("taken/report.html")
+    check("3 frames, 2 of them taken from earlier runs" in b.run("document.getElementById('headline').innerText"), "the headline")
+    taken = json.load(open("taken.json"))["verdicts"]["taken_frames"]
+    heads, *rows, _ = sheet(b, "table")
+    said = [row[heads.index("verdict")] for row in rows]
+    check(said == ["same, by an earlier run" if i in taken else "same" for i in range(3)], f"verdicts in the table: {said}")
+    check(all(row[heads.index("clocks")] > 0 for row in rows), "no clocks of a frame that was taken")
+    for i in range(3):
+        b.run(f"document.querySelector('#strip button[data-frame=\"{i}\"]').click()")
+        b.until(f"document.getElementById('caption').innerText.startsWith('Frame {i},')")
+        told = "an earlier run found that" in b.run("document.getElementById('caption').innerText")
+        check(told == (i in taken), f"the caption of frame {i}")
+
+
 def different_run(b):
     b.open("different/report.html")
     check(b.run("document.querySelector('h1').innerText").strip().endswith("Different"), "the verdict is not Different")
@@ -386,7 +402,7 @@ def histories(b):
 
 
 with Browser(chromium) as browser:
-    for part in (before_pictures, same_run, different_run, full_page, odd_name, joined_run, histories):
+    for part in (before_pictures, same_run, recalled_run, different_run, full_page, odd_name, joined_run, histories):
         part(browser)
     check(not browser.errors, f"the console has errors: {browser.errors[:3]}")
     outside = [u for u in browser.requests if not u.startswith(("data:", "file:")) or (u.startswith("file:") and not u.endswith("report.html"))]

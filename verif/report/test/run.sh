@@ -18,6 +18,15 @@ expect 0 "$kage" cosim courtyard --size 64x48 --frames 1 --out none --no-report 
 [ ! -e none/report.html ] || fail "--no-report writes one"
 json none.json 'j["report"] is None'
 
+# A run of which an earlier one has compared all frames but one. Verdicts of its own, models of the common cache.
+models=${XDG_CACHE_HOME:-$HOME/.cache}/kage
+mkdir -p own/kage && ln -s "$models"/{models,verilator} own/kage/
+recalled=(env XDG_CACHE_HOME="$PWD/own" "$kage" cosim courtyard --size 160x120 --frames 3 --cache-verdicts --out taken --json taken.json)
+expect 0 "${recalled[@]}"
+rm "own/kage/verdicts/$(ls own/kage/verdicts | head -n 1)"
+expect 0 "${recalled[@]}"
+json taken.json 'j["verdicts"]["taken"] == 2'
+
 # Names are text, whatever is in them; options come through a shell again as they were.
 name="a<b>&'\"\$x <!-- --> <script>alert(1)"
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --out "$name.kage"

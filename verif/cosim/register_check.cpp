@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mutants/registers.hpp"
+#include "cosim/register_check.hpp"
 
 #include <fmt/format.h>
+
+#include <utility>
 
 #include "kage/defs.hpp"
 #include "kage/registers.h"
 #include "kage/stream.hpp"
 
-namespace kage::verif {
+namespace kage::cosim {
 namespace {
 
 constexpr int kOkay = 0;
@@ -22,14 +24,15 @@ struct Wrong {
 /// Throws Wrong at the first thing that is.
 class Checker {
  public:
-  Checker(cosim::RtlCore& rtl, const Inputs& inputs) : rtl_(rtl), inputs_(inputs) {}
+  Checker(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames)
+      : rtl_(rtl), config_(config), frames_(frames) {}
 
   void all() {
     constants();
     addresses();
     frames();
     dropped();
-    if (inputs_.config.units > 1) behind();
+    if (config_.units > 1) behind();
     interrupt();
     cycles();
     watchdog();
@@ -52,7 +55,7 @@ class Checker {
   }
 
   void constants() {
-    const Config& c = inputs_.config;
+    const Config& c = config_;
     expect("ID", KAGE_REG_ID, 0x4B414745);
     expect("VERSION", KAGE_REG_VERSION, kStreamVersion);
     expect("PARAM_HASH", KAGE_REG_PARAM_HASH, param_hash(c));
@@ -83,10 +86,10 @@ class Checker {
   }
 
   void frames() {
-    for (const TrialFrame& f : inputs_.sequences.front().frames) {
+    for (const KnownFrame& f : frames_) {
       if (f.end.status.width == 0) continue;  // its header is refused: the driver resets the core
-      rtl_.feed(f.words, cosim::kNowhere);
-      const cosim::FrameEnd end = rtl_.finish(cosim::kNowhere);
+      rtl_.feed(f.words, kNowhere);
+      const FrameEnd end = rtl_.finish(kNowhere);
       ++count_;
       blocked_ += static_cast<std::uint32_t>(end.stalls.blocked);
       if (f.end.status.error != ErrorCode::NONE) ++errors_;
@@ -103,16 +106,16 @@ class Checker {
 
   // A frame with an error lasts until its input has come.
   void dropped() {
-    for (const TrialFrame& f : inputs_.sequences.front().frames) {
+    for (const KnownFrame& f : frames_) {
       if (f.end.status.width == 0 || f.end.status.error == ErrorCode::NONE) continue;
-      rtl_.feed(f.words, cosim::kNowhere);  // but for the last beat
+      rtl_.feed(f.words, kNowhere);  // but for the last beat
       rtl_.pass(kLong);
       const bool early = read("ERRORS", KAGE_REG_ERRORS) != errors_;
       if (early) {
         expect("STATUS, while input is dropped", KAGE_REG_STATUS, 0b0111);
         expect("FRAMES, while input is dropped", KAGE_REG_FRAMES, count_);
       }
-      (void)rtl_.finish(cosim::kNowhere);
+      (void)rtl_.finish(kNowhere);
       ++count_;
       ++errors_;
       expect("FRAMES", KAGE_REG_FRAMES, count_);
@@ -122,7 +125,7 @@ class Checker {
 
   // One unit has its line, another a part of it, others nothing.
   void behind() {
-    const Config& c = inputs_.config;
+    const Config& c = config_;
     std::vector<std::uint32_t> words;
     TokenWriter w(c, words);
     w.header({8, 1, 0, 0});
@@ -142,11 +145,11 @@ class Checker {
     // The whole beats of them.
     const auto beat = static_cast<std::size_t>(c.beat_words);
     const std::size_t cut = some / beat * beat + 1;
-    rtl_.feed(std::span(words).first(cut), cosim::kNowhere);
+    rtl_.feed(std::span(words).first(cut), kNowhere);
     rtl_.pass(kLong);
     expect("TREE", KAGE_REG_TREE, 1U << 31 | 1U);
-    rtl_.feed(std::span(words).subspan(cut), cosim::kNowhere);
-    (void)rtl_.finish(cosim::kNowhere);
+    rtl_.feed(std::span(words).subspan(cut), kNowhere);
+    (void)rtl_.finish(kNowhere);
     ++count_;
     expect("FRAMES", KAGE_REG_FRAMES, count_);
     expect("ERRORS", KAGE_REG_ERRORS, errors_);
@@ -175,22 +178,22 @@ class Checker {
 
   // A frame whose second half does not come.
   void watchdog() {
-    const TrialFrame& f = inputs_.sequences.front().frames.front();
-    rtl_.feed(std::span(f.words).first(f.words.size() - static_cast<std::size_t>(inputs_.config.beat_words)),
-              cosim::kNowhere);
+    const KnownFrame& f = frames_.front();
+    rtl_.feed(std::span(f.words).first(f.words.size() - static_cast<std::size_t>(config_.beat_words)), kNowhere);
     write("WATCHDOG", KAGE_REG_WATCHDOG, kWatchdog);
     rtl_.pass(4 * std::uint64_t{kWatchdog} + 20 * static_cast<std::uint64_t>(f.end.status.width) * 20);
     expect("STATUS", KAGE_REG_STATUS, 0b0101);
     expect("IRQ", KAGE_REG_IRQ, 4);
     same("STALL", 1U << 8, read("STALL", KAGE_REG_STALL) & 0x300U);
-    rtl_.feed(std::span(f.words).last(static_cast<std::size_t>(inputs_.config.beat_words)), cosim::kNowhere);
-    (void)rtl_.finish(cosim::kNowhere);
+    rtl_.feed(std::span(f.words).last(static_cast<std::size_t>(config_.beat_words)), kNowhere);
+    (void)rtl_.finish(kNowhere);
     const std::uint32_t starved = read("STARVED", KAGE_REG_STARVED);
     if (starved < kWatchdog) throw Wrong{fmt::format("STARVED: expected at least {}, got {}", kWatchdog, starved)};
   }
 
-  cosim::RtlCore& rtl_;
-  const Inputs& inputs_;
+  RtlCore& rtl_;
+  const Config& config_;
+  std::span<const KnownFrame> frames_;
   std::uint32_t count_ = 0;   // of frames that have ended
   std::uint32_t errors_ = 0;  // of them with an error
   std::uint32_t blocked_ = 0;
@@ -198,13 +201,25 @@ class Checker {
 
 }  // namespace
 
-std::optional<std::string> wrong_register(cosim::RtlCore& rtl, const Inputs& inputs) {
+KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words) {
+  KnownFrame f;
+  f.words = std::move(words);
+  const auto golden = make_golden(config);
+  const LineSink sink = [&f](int, std::span<const std::uint8_t> line) {
+    f.lines.emplace_back(line.begin(), line.end());
+  };
+  golden->feed(f.words, sink);
+  f.end = golden->finish(sink);
+  return f;
+}
+
+std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames) {
   try {
-    Checker(rtl, inputs).all();
+    Checker(rtl, config, frames).all();
   } catch (const Wrong& w) {
     return w.what;
   }
   return std::nullopt;
 }
 
-}  // namespace kage::verif
+}  // namespace kage::cosim

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage cosim --cache-verdicts: frames whose verdicts earlier runs have left are not run again.
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "cosim/recall.hpp"
+#include "cosim_run.hpp"
+#include "kage/error.hpp"
+
+namespace kage::cli {
+namespace {
+
+/// A line on standard error, once in a run: scenes may have the same trouble.
+void tell_once(const std::string& line) {
+  static std::mutex mutex;
+  static std::set<std::string> told;
+  const std::lock_guard lock(mutex);
+  if (told.insert(line).second) say(line);
+}
+
+}  // namespace
+
+void option_cache_verdicts(CLI::App& command, bool& cache) {
+  // Taken as they are read, so that the last one counts.
+  const auto flag = [&](const char* name, bool value, const char* about) {
+    command
+        .add_flag_callback(
+            name, [&cache, value] { cache = value; }, about)
+        ->trigger_on_parse();
+  };
+  flag("--cache-verdicts", true,
+       "do not run a frame again of which an earlier run with this option said that it is the same: with the same\n"
+       "words behind the same frame (--jobs 1: behind the same frames), RTL, configuration, stalls and seed.\n"
+       "Verdicts are kept in ~/.cache/kage/verdicts. None is taken or kept with --fault");
+  flag("--no-cache-verdicts", false, "run every frame: it undoes a --cache-verdicts before it; the default");
+}
+
+void SceneRun::no_verdicts(std::string why) {
+  no_verdicts_ = std::move(why);
+  recall_.reset();
+  tell_once(fmt::format("kage: note: no verdicts of earlier runs are taken, and none is kept: {}\n", no_verdicts_));
+}
+
+void SceneRun::open_verdicts() {
+  if (!o_.cache_verdicts) return;
+  if (!o_.rtl.fault.empty()) return no_verdicts("with --fault every frame is run");
+  if (o_.rtl.options.mutant != 0) return no_verdicts("with --mutant every frame is run");
+  if (o_.rtl.options.prelude) return no_verdicts("random:mixed runs every frame, for other frames go ahead of its own");
+  const cosim::RtlIdentity rtl = identity_of(source_->config());
+  if (rtl.behaviour.empty()) return no_verdicts(rtl.why_not);
+  cosim::RecallOptions recall;
+  try {
+    recall.store = std::make_shared<cosim::VerdictStore>();
+  } catch (const Error& e) {
+    return no_verdicts(e.what());
+  }
+  recall.context = cosim::recall_context(rtl, o_.rtl.options);
+  // What only a history of many frames shows is for --jobs 1.
+  recall.whole = o_.jobs == 1;
+  model_key_ = rtl.model_key;
+  recall_ = std::move(recall);
+}
+
+/// The golden model works through all frames of the range; those without a verdict go through both cores then.
+cosim::Report SceneRun::recall(Part& part) {
+  const auto golden = cosim::make_golden(source_->config().config);
+  TempFiles none;
+  cosim::RunOptions options = run_options(part.range, none);
+  options.begin = [this](int frame) {
+    check_interrupt();
+    if (state_.beyond(frame)) throw cosim::Enough();
+  };
+  options.same = [this](const cosim::FrameResult&) {
+    const std::lock_guard lock(progress_mutex_);
+    frame_progress_->next();
+  };
+  Source& source = source_of(part);
+  const auto before = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
+  std::vector<cosim::Report> reports;
+  for (const auto& s : cosim::recall(part.range, steps_, heard_feed(part), before, *golden, options, *recall_)) {
+    if (!s->taken) s->report = simulate_and_keep(part, s->range, s->files);
+    part.files.take(s->files);
+    reports.push_back(std::move(s->report));
+    if (!reports.back().same) break;
+  }
+  return cosim::join(std::move(reports));
+}
+
+cosim::Report SceneRun::simulate_and_keep(Part& part, const cosim::FrameRange& range, TempFiles& files) {
+  (void)model();
+  const auto golden = cosim::make_golden(source_->config().config);
+  // Report and coverage have heard of these frames already.
+  Source& source = source_of(part);
+  const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
+  const auto run = [&](const cosim::FrameRange& frames) {
+    cosim::VerdictKeeper keeper(*golden, *recall_);
+    cosim::RunOptions options = run_options(frames, files);
+    options.begin = [&, begin = options.begin](int frame) {
+      begin(frame);
+      keeper.next(frame);
+    };
+    options.same = [&](const cosim::FrameResult& result) { keeper.same(result); };
+    cosim::Report report = run_rtl(frames, feed, keeper, options);
+    verdicts_kept_ += keeper.kept();
+    return report;
+  };
+  cosim::Report report = run(range);
+  if (!report.broken) return report;
+  // As in join(): what fails on a new core, and not in its place, is run from the first frame.
+  cosim::FrameRange whole = range;
+  whole.before = frames_before(range);
+  return run(whole);
+}
+
+/// The model of the scene, built when the first of its frames needs it.
+const cosim::Model& SceneRun::model() {
+  const std::lock_guard lock(model_mutex_);
+  if (model_error_) std::rethrow_exception(model_error_);
+  if (!model_.library.empty()) return model_;
+  try {
+    cosim::Model model = model_of(source_->config(), o_.rtl);
+    if (model.library.stem() != model_key_)
+      throw Error("the RTL was changed while verdicts were looked up: run it again");
+    model_ = std::move(model);
+  } catch (...) {
+    model_error_ = std::current_exception();
+    throw;
+  }
+  return model_;
+}
+
+Json SceneRun::verdicts_of(const cosim::Report& r) const {
+  const std::string trouble = recall_ ? recall_->store->trouble() : no_verdicts_;
+  if (recall_ && !trouble.empty()) tell_once(fmt::format("kage: note: verdicts are not kept: {}\n", trouble));
+  return {{"cached", recall_.has_value()},
+          {"taken", r.taken.size()},
+          {"taken_frames", r.taken},
+          {"kept", verdicts_kept_.load()},
+          {"trouble", trouble.empty() ? Json(nullptr) : Json(trouble)}};
+}
+
+}  // namespace kage::cli

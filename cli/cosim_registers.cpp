@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim_registers.hpp"
+
+#include <vector>
+
+#include "cosim/register_check.hpp"
+#include "number/mixed.hpp"
+#include "stimulus/random_frames.hpp"
+
+namespace kage::cli {
+namespace {
+
+constexpr int kSound = 12;
+constexpr int kDamaged = 12;
+
+/// Percent of clocks in which no output is taken: some, so that clocks are lost to be counted.
+constexpr int kBackpressure = 50;
+
+}  // namespace
+
+std::optional<cosim::Difference> register_difference(const std::filesystem::path& library, const Config& config,
+                                                     const cosim::RtlOptions& options, int frame) {
+  const std::uint64_t seed = mixed(options.seed);
+  std::vector<cosim::KnownFrame> frames;
+  for (int i = 0; i < kSound + kDamaged; ++i) {
+    const verif::Manner manner = i < kSound ? verif::Manner::sound : verif::Manner::damaged;
+    frames.push_back(cosim::known_frame(config, verif::RandomFrames(config, manner, seed).words(i)));
+  }
+  cosim::RtlOptions own = options;
+  own.prelude = {};
+  own.backpressure_percent = kBackpressure;
+  cosim::Difference d;
+  d.frame = frame;
+  try {
+    const auto wrong = cosim::wrong_register(*cosim::make_rtl(library, config, own), config, frames);
+    if (!wrong) return std::nullopt;
+    d.field = "register";
+    d.remark = *wrong;
+  } catch (const cosim::AssertionError& e) {
+    d.field = "assertion";
+    d.assertion = e.where();
+    d.remark = std::string(e.what()) + ", while registers were read and written";
+  }
+  return d;
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "cosim/compare.hpp"
+#include "cosim/rtl.hpp"
+#include "kage/config.hpp"
+
+namespace kage::cli {
+
+/// What random:mixed asks of the registers, once its frames are the same: a new core gets some random frames, sound and
+/// damaged, and its registers are held against what they must say (cosim::wrong_register). A difference is told as one
+/// of frame `frame`, with the register in its remark.
+std::optional<cosim::Difference> register_difference(const std::filesystem::path& library, const Config& config,
+                                                     const cosim::RtlOptions& options, int frame);
+
+}  // namespace kage::cli

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "regress_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include "kage/error.hpp"
+#include "kage/scene.hpp"
+
+namespace kage::cli {
+namespace {
+
+/// Percent of clocks without input, and without output taken.
+struct StallPattern {
+  int idle;
+  int backpressure;
+};
+constexpr std::array kStalls{StallPattern{0, 0}, StallPattern{30, 30}, StallPattern{0, 70}, StallPattern{60, 0}};
+
+/// A source of random frames.
+struct RandomSource {
+  const char* input;
+  const char* name;
+};
+constexpr std::array kRandom{RandomSource{"random", "random"}, RandomSource{"random:damaged", "damaged"},
+                             RandomSource{"random:mixed", "mixed"}};
+
+/// How many of them a run has. Those of the first round are few: most defects show in the first frames of some
+/// configuration, so every configuration has its first frames before any has many.
+constexpr int kFirstFrames = 20;
+constexpr int kFrames = 60;
+
+/// Frames of a scene, and their width where the configuration has it.
+constexpr int kSceneFrames = 2;
+constexpr int kSceneWidth = 96;
+
+std::string short_name(const NamedConfig& c) { return std::filesystem::path(c.name).stem().string(); }
+
+class Round {
+ public:
+  Round(int round, std::uint64_t seed, const std::vector<std::string>& more)
+      : round_(round), seed_(seed), more_(more) {}
+
+  void random(const NamedConfig& c, std::size_t source) {
+    const RandomSource& s = kRandom[source];
+    add(fmt::format("{}.{}.{}", s.name, short_name(c), round_), c, source,
+        {s.input, "--frames", std::to_string(round_ == 0 ? kFirstFrames : kFrames)});
+  }
+
+  void scene(const NamedConfig& c, const std::string& scene) {
+    const int width = std::min(kSceneWidth, c.config.max_width);
+    add(fmt::format("{}.{}.{}", scene, short_name(c), round_), c, 0,
+        {scene, "--frames", std::to_string(kSceneFrames), "--size",
+         fmt::format("{}x{}", width, std::max(1, width * 3 / 4)), "--degrade"});
+  }
+
+  std::vector<PlannedRun> runs;
+
+ private:
+  void add(std::string name, const NamedConfig& c, std::size_t shift, std::vector<std::string> arguments) {
+    const StallPattern& stalls = kStalls[(static_cast<std::size_t>(round_) + shift) % kStalls.size()];
+    const auto option = [&](const char* flag, const std::string& value) {
+      arguments.insert(arguments.end(), {flag, value});
+    };
+    option("--config", c.name);
+    option("--seed", std::to_string(seed_ + static_cast<std::uint64_t>(round_)));
+    if (stalls.idle != 0) option("--idle", std::to_string(stalls.idle));
+    if (stalls.backpressure != 0) option("--backpressure", std::to_string(stalls.backpressure));
+    arguments.insert(arguments.end(), more_.begin(), more_.end());
+    runs.push_back({std::move(name), short_name(c), std::move(arguments)});
+  }
+
+  int round_;
+  std::uint64_t seed_;
+  const std::vector<std::string>& more_;
+};
+
+}  // namespace
+
+std::vector<PlannedRun> plan_round(const std::vector<NamedConfig>& configs, int round, std::uint64_t seed,
+                                   const std::vector<std::string>& more) {
+  std::set<std::string> names;
+  for (const NamedConfig& c : configs)
+    if (!names.insert(short_name(c)).second)
+      throw Error(fmt::format("--config: two configurations are called {}", short_name(c)));
+  Round r(round, seed, more);
+  for (std::size_t source = 0; source < kRandom.size(); ++source)
+    for (const NamedConfig& c : configs) r.random(c, source);
+  const std::vector<std::string>& scenes = builtin_scenes();
+  for (std::size_t i = 0; i < configs.size(); ++i)
+    r.scene(configs[i], scenes[(static_cast<std::size_t>(round) + i) % scenes.size()]);
+  return std::move(r.runs);
+}
+
+}  // namespace kage::cli

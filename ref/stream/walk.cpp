@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames that may break any rule, token by token.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "kage/stream.hpp"
+
+namespace kage {
+
+TokenWalk::TokenWalk(const Layout& layout, std::span<const std::uint32_t> words)
+    : layout_(&layout), rest_(words.subspan(std::min<std::size_t>(words.size(), kHeaderWords))) {}
+
+std::span<const std::uint32_t> TokenWalk::peek() const {
+  if (ended_ || rest_.empty()) return {};
+  const auto length = static_cast<std::size_t>(layout_->words[rest_[0] & 15U]);
+  return length > rest_.size() ? std::span<const std::uint32_t>() : rest_.first(length);
+}
+
+std::span<const std::uint32_t> TokenWalk::next() {
+  const auto token = peek();
+  if (token.empty()) return {};
+  ended_ = static_cast<Kind>(token[0] & 15U) == Kind::END;
+  rest_ = rest_.subspan(token.size());
+  return token;
+}
+
+std::string TokenWalk::rest_text() const {
+  if (rest_.empty()) return "";
+  if (ended_) return fmt::format("{} word{} behind END", rest_.size(), rest_.size() == 1 ? "" : "s");
+  const std::size_t kind = rest_[0] & 15U;
+  if (layout_->words[kind] == 0) return fmt::format("kind {}, which is no token here", kind);
+  return fmt::format("{} of {} words, cut after {}", kKindNames[kind], layout_->words[kind], rest_.size());
+}
+
+std::string words_text(std::span<const std::uint32_t> words) { return fmt::format("{:#010x}", fmt::join(words, " ")); }
+
+TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> words) {
+  const Layout layout(config);
+  TokenCounts counts;
+  counts.words = words.size();
+  TokenWalk walk(layout, words);
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) {
+    const Token t = decode(config, layout, token);
+    ++counts.of_kind[static_cast<std::size_t>(t.kind)];
+    if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::TP) {
+      ++counts.spans;
+      counts.span_pixels += static_cast<std::uint64_t>(std::max(0, t.span.xr - t.span.xl));
+    }
+    if (t.kind == Kind::FACE) counts.units = std::max(counts.units, t.segment.unit + 1);
+  }
+  return counts;
+}
+
+}  // namespace kage

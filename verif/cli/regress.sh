@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage regress: the runs of a round, its verdict, what it tells of a difference, and what a signal leaves.
+. "$(dirname "$0")/common.bash"
+
+echo '{MAX_WIDTH: 64, LANES: 4}' >small.yaml
+echo '{MAX_WIDTH: 64, LANES: 4, LIGHTS: 2, COUNT_BITS: 2, CLASS_BITS: 4}' >lights.yaml
+mkdir other
+cp lights.yaml other/small.yaml
+
+# Sound RTL, two rounds of two configurations, by one job and by three: the same runs, whatever the time.
+for jobs in 1 3; do
+  expect 0 "$kage" regress --rounds 2 --config small.yaml --config tiny --seed 5 --jobs $jobs --out regress --json $jobs.json --junit $jobs.xml
+  grep -q '^same: 16 runs, ' "$temp/stdout" || fail "two rounds are not 16 runs: $(cat "$temp/stdout")"
+  grep -Eq '^  small.yaml +8 runs +.* same$' "$temp/stdout" || fail "no line for small.yaml: $(cat "$temp/stdout")"
+  [ -s regress/report.html ] || fail "no page"
+done
+python3 - <<'PY' || fail "what is run depends on the jobs, or JSON and JUnit do not tell of it"
+import json, xml.etree.ElementTree as xml
+one, three = (json.load(open(f"{n}.json")) for n in (1, 3))
+rows = lambda j: [(r["scene"], r["frames"], r["cycles"], r["pixels_compared"], r["again"]) for r in j["scenes"]]
+assert rows(one) == rows(three)
+assert one["runs"] == 16 and one["same"] and not one["interrupted"] and one["first_difference"] is None
+names = [r["scene"] for r in one["scenes"]]
+assert len(set(names)) == 16 and names[:2] == ["random.small.0", "random.tiny.0"], names
+assert {r["seed"] for r in one["scenes"]} == {5, 6}
+cases = [c for c in xml.parse("1.xml").iter("testcase")]
+assert [c.get("name") for c in cases] == names
+assert cases[0].get("classname") == "kage.regress.small_yaml" and cases[1].get("classname") == "kage.regress.tiny"
+PY
+
+# The line that a run stands for gives the same.
+again=$(python3 -c 'import json; print(json.load(open("1.json"))["scenes"][2]["again"])')
+expect 0 ${again/#kage /$kage } --out again --json again.json
+python3 - <<'PY' || fail "a run by its own line is another: $again"
+import json
+a, b = json.load(open("again.json")), json.load(open("1.json"))["scenes"][2]
+assert all(a[k] == b[k] for k in ("frames", "cycles", "pixels_compared", "spans", "config")), (a["cycles"], b["cycles"])
+PY
+
+# A defect that only shows where a frame comes while the one before it still leaves: random:mixed alone sends such.
+expect 0 "$kage" cosim random --config lights.yaml --frames 60 --fault early_table --no-report --out plain
+expect 1 "$kage" regress --rounds 3 --config lights.yaml --fault early_table --out broken --json broken.json --junit broken.xml
+grep -q '^different: ' "$temp/stdout" || fail "no verdict: $(cat "$temp/stdout")"
+grep -q '^mixed.lights.[0-2]: different: ' "$temp/stdout" || fail "not found by random:mixed: $(cat "$temp/stdout")"
+again=$(sed -n 's/^again: \(kage cosim random:mixed .*\)/\1/p' "$temp/stdout")
+[ -n "$again" ] || fail "no line that repeats it: $(cat "$temp/stdout")"
+expect 1 ${again/#kage /$kage }
+python3 - <<'PY' || fail "JSON or JUnit of a difference"
+import json, os, xml.etree.ElementTree as xml
+j = json.load(open("broken.json"))
+last = j["scenes"][-1]
+assert not j["same"] and not last["same"] and all(r["same"] for r in j["scenes"][:-1])
+assert j["first_difference"]["scene"] == last["scene"] and os.path.exists(last["report"]), last["report"]
+assert len(list(xml.parse("broken.xml").iter("failure"))) == 1
+PY
+
+# Registers: a mutant that pixels do not show.
+number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index("reader_moving") + 1)' "$source/verif/mutants/mutants.yaml")
+expect 1 "$kage" regress --rounds 1 --config tiny --mutant "$number" --out mutant --no-divergence
+grep -q '^first difference: frame [0-9]*: .*' "$temp/stdout" || fail "no difference: $(cat "$temp/stdout")"
+grep -q '^mixed.tiny.0: different' "$temp/stdout" || fail "a mutant of the watchdog is found by another run: $(cat "$temp/stdout")"
+
+# The time ends it, and a signal does, with what was done.
+expect 0 "$kage" regress --minutes 0.05 --config tiny --out timed --json timed.json
+python3 -c 'import json; j = json.load(open("timed.json")); assert 2.9 < j["seconds"] < 20 and j["runs"] > 4, j["seconds"]' ||
+  fail "three seconds are not three seconds: $(cat "$temp/stdout")"
+"$kage" regress --minutes 5 --config tiny --out signalled --json signalled.json >"$temp/stdout" 2>"$temp/stderr" &
+pid=$!
+sleep 3
+kill -INT $pid
+rc=0
+wait $pid || rc=$?
+[ $rc = 130 ] || fail "after a signal the code is $rc: $(cat "$temp/stderr")"
+grep -q '^same: interrupted after ' "$temp/stdout" || fail "a signal leaves no verdict of what was done: $(cat "$temp/stdout" "$temp/stderr")"
+python3 -c 'import json; j = json.load(open("signalled.json")); assert j["interrupted"] and j["runs"] > 0' || fail "JSON after a signal"
+
+# What it refuses, in one line.
+trouble "--config: two configurations are called small" "$kage" regress --config small.yaml --config other/small.yaml --rounds 1
+trouble "nosuch" "$kage" regress --config nosuch --rounds 1
+trouble "--minutes" "$kage" regress --minutes 0
+done_testing
