@@ -59,14 +59,6 @@ struct ParsedRun {
   }
 };
 
-/// The report of a run, under the name that the plan gives it.
-Json report_of(const ParsedRun& run, SceneRun& scene) {
-  TempFiles none;
-  Json j = scene.finish(none);
-  j["scene"] = run.plan.name;
-  return j;
-}
-
 class Regress {
  public:
   explicit Regress(const RegressCommand& o) : o_(o), start_(Clock::now()) {
@@ -143,23 +135,23 @@ class Regress {
  private:
   static constexpr int kNone = std::numeric_limits<int>::max();
   struct Done {
-    std::unique_ptr<ParsedRun> run;
+    PlannedRun plan;
     Json report;
   };
 
   void repeat(TempFiles& files) {
     Done& d = done_.at(first_);
-    const std::string folder = (std::filesystem::path(o_.out) / d.run->plan.name).string();
-    const auto again = std::make_unique<ParsedRun>(d.run->plan, folder);
-    again->command.no_divergence = o_.no_divergence;
-    SceneRun scene(again->command, 0);
+    const std::string folder = (std::filesystem::path(o_.out) / d.plan.name).string();
+    ParsedRun again(d.plan, folder);
+    again.command.no_divergence = o_.no_divergence;
+    SceneRun scene(again.command, 0);
     scene.prepare(1);
     scene.run(0);
     Json report = scene.finish(files);
-    report["scene"] = d.run->plan.name;
+    report["scene"] = d.plan.name;
     notes_ = scene.notes();
     if (report["same"].get<bool>()) {
-      notes_.push_back(fmt::format("{}: run again it comes out the same", d.run->plan.name));
+      notes_.push_back(fmt::format("{}: run again it comes out the same", d.plan.name));
       return;
     }
     d.report = std::move(report);
@@ -199,21 +191,23 @@ class Regress {
   }
 
   void run_one(int index, PlannedRun plan) {
-    auto run = std::make_unique<ParsedRun>(std::move(plan));
-    run->command.out.clear();
-    run->command.no_report = run->command.no_divergence = run->command.silent = true;
-    run->command.threads = 1;  // of this run; the others have the processors
-    run->command.enough = [this, index] { return time_is_over() || index > first_; };
-    SceneRun scene(run->command, 0);
+    ParsedRun run(std::move(plan));
+    run.command.out.clear();
+    run.command.no_report = run.command.no_divergence = run.command.silent = true;
+    run.command.threads = 1;  // of this run; the others have the processors
+    run.command.enough = [this, index] { return time_is_over() || index > first_; };
+    SceneRun scene(run.command, 0);
     scene.prepare(1);
     scene.run(0);
-    Json report = report_of(*run, scene);
+    TempFiles none;
+    Json report = scene.finish(none);
+    report["scene"] = run.plan.name;
     report["each"] = Json::array();  // too many to tell
     report["frame_seconds"] = Json::array();
     const std::lock_guard lock(mutex_);
     frames_ += report["frames"].get<std::uint64_t>();
     if (!report["same"].get<bool>() && index < first_) first_ = index;
-    done_.emplace(index, Done{std::move(run), std::move(report)});
+    done_.emplace(index, Done{std::move(run.plan), std::move(report)});
   }
 
   const RegressCommand& o_;
@@ -240,6 +234,15 @@ class Regress {
   bool interrupted_ = false;
   std::exception_ptr error_;
 };
+
+/// The page's runs: as many of the first as it has room for, and the last, which is the one that differs if one does.
+constexpr std::size_t kListedRuns = 1000;
+
+Json for_page(Json report) {
+  Json& runs = report["scenes"];
+  if (runs.size() > kListedRuns) runs.erase(runs.begin() + kListedRuns - 1, runs.end() - 1);
+  return report;
+}
 
 /// A case for each run; classname kage.regress.CONFIGURATION.
 void write_junit(JUnitWriter& junit, const Json& report) {
@@ -301,7 +304,7 @@ int run(const RegressCommand& o) {
   JUnitWriter junit(files, o.ci.junit, "kage regress");
   regress.look_into(files);
   Json j = regress.report();
-  write_joined_page(files, page, j, !regress.interrupted());
+  write_joined_page(files, page, for_page(j), !regress.interrupted());
   j["report"] = page;
   write_junit(junit, j);
   write_json(o, j, files);
