@@ -73,6 +73,7 @@ cosim::Report SceneRun::recall(Part& part) {
     if (state_.beyond(frame)) throw cosim::Enough();
   };
   options.same = [this](const cosim::FrameResult&) {
+    if (o_.silent) return;
     const std::lock_guard lock(progress_mutex_);
     frame_progress_->next();
   };
@@ -83,7 +84,8 @@ cosim::Report SceneRun::recall(Part& part) {
     if (!s->taken) s->report = simulate_and_keep(part, s->range, s->files);
     part.files.take(s->files);
     reports.push_back(std::move(s->report));
-    if (!reports.back().same) break;
+    // Behind a difference, or where the run was to go no further, nothing is counted.
+    if (!reports.back().same || reports.back().frames < s->range.steps.below(s->range.end)) break;
   }
   return cosim::join(std::move(reports));
 }

@@ -99,11 +99,18 @@ for jobs in 2 1; do
   frames --jobs $jobs --frames 6
   json r.json "j['verdicts']['taken'] == 6"
 done
-# Malformed frames too.
-malformed=(random:mixed --frames 40 --config small.yaml --out none --no-report --idle 10 --cache-verdicts --json m.json)
+# Malformed frames too; those of random:mixed never, since what goes ahead of a frame there is not among its words.
+malformed=(random:damaged --frames 40 --config small.yaml --out none --no-report --idle 10 --cache-verdicts --json m.json)
 expect 0 "$kage" cosim "${malformed[@]}"
 expect 0 "$kage" cosim "${malformed[@]}"
 json m.json "j['verdicts']['taken'] == 40 and j['frames'] == 40"
+ls "$verdicts" >before
+for _ in 1 2; do
+  expect 0 "$kage" cosim "${malformed[@]/random:damaged/random:mixed}" --seed 2
+  json m.json "j['frames'] == 40 and not j['verdicts']['cached'] and 'random:mixed' in j['verdicts']['trouble']"
+  grep -q '^kage: note: no verdicts of earlier runs are taken, and none is kept: random:mixed ' stderr || fail "$(cat stderr)"
+done
+diff before <(ls "$verdicts") || fail "random:mixed has left verdicts"
 
 # Comments in the RTL are no other RTL: nothing is run, and no model is built for it. Any other change is.
 rm -rf "$verdicts"
