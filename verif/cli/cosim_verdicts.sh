@@ -116,14 +116,12 @@ diff before <(ls "$verdicts") || fail "random:mixed has left verdicts"
 rm -rf "$verdicts"
 cosim 0 0 5 --jobs 1
 cosim 0 0 5
-sed -i -e '1a // one more' -e 's,^endmodule,/* an end\n*/\n\n&,' data/rtl/pixel_banked.sv
+sed -i -e "1a // one more, of $(date +%s.%N), so that no model is of this text" -e 's,^endmodule,/* an end\n*/\n\n&,' data/rtl/pixel_banked.sv
 sed -i '1i // and here' data/rtl/include/kage_pixel_next.svh
 sed -i 's/;$/; \/\/ so/' data/rtl/registers.sv
-built=$(find "$models/models" -name '*.so' | wc -l)
 cosim 0 5 0
-[ "$(find "$models/models" -name '*.so' | wc -l)" = "$built" ] || fail "a model was built for comments"
 json r.json "j['build_seconds'] == 0"
-cp -r data/rtl sound
+rm -rf data/rtl && cp -r "$source/rtl" data/
 # A fault in the RTL itself, which no verdict of the sound RTL may hide; and none is kept of what differs.
 patch -s --no-backup-if-mismatch -p1 -d data -i "$source/verif/faults/wrong_compare.patch" || fail "no defect to put in"
 for jobs in 1 2; do
@@ -133,7 +131,7 @@ for jobs in 1 2; do
   expect 1 "$kage" cosim "${run[@]}" --cache-verdicts --jobs $jobs --no-divergence --out out --json r.json
   json r.json "not j['same'] and j['first_difference']['frame'] not in j['verdicts']['taken_frames']"
 done
-rm -rf data/rtl && cp -r sound data/rtl
+rm -rf data/rtl && cp -r "$source/rtl" data/
 cosim 0 5 0
 cosim 0 5 0 --jobs 1
 
