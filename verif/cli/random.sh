@@ -54,4 +54,9 @@ done
 trouble "--frame 60: there are 60 frames, from 0 on" "$kage" cosim random --frames 60 --frame 60
 trouble "--frame and --shard" "$kage" cosim random --frame 1 --shard 1/2
 no_leftovers
+# The registers are right whatever the frames of a seed are: short ones, refused ones.
+for seed in {1..25}; do
+  expect 0 "$kage" cosim random:mixed --frames 3 --config small.yaml --seed "$seed" --no-report --out mixed
+done
+
 done_testing
