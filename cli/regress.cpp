@@ -335,9 +335,9 @@ void add_regress(CLI::App& app, Action& action) {
       "  kage regress --config glass --config mine.yaml --minutes 1\n"
       "  kage regress --rounds 2 --json -\n"
       "Each run is a kage cosim: sound, damaged and mixed random frames and the built-in scenes, in every\n"
-      "configuration, with ports that stop and ports that do not. What finds most in a second comes first\n"
-      "(docs/regress.md). The first difference ends the regression: its run is repeated with pictures, waveform,\n"
-      "page and the stage that differs first, in DIR/RUN, and the line of kage cosim that repeats it is printed.\n"
+      "configuration, with ports that stop and ports that do not (docs/regress.md). The first\n"
+      "difference ends the regression: its run is repeated with pictures, waveform, page and the stage that differs\n"
+      "first, in DIR/RUN, and the line of kage cosim that repeats it is printed.\n"
       "DIR/report.html is over all runs. The RTL models that are missing are built before the time begins.\n"
       "Exit code 0: the same. 1: different. 2: trouble. After Ctrl-C what was done is told, and the code is 130.");
   const auto o = std::make_shared<RegressCommand>();

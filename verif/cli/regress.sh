@@ -63,11 +63,11 @@ grep -q '^mixed.tiny.0: different' "$temp/stdout" || fail "a mutant of the watch
 
 # The time ends it, and a signal does, with what was done.
 expect 0 "$kage" regress --minutes 0.05 --config tiny --out timed --json timed.json
-python3 -c 'import json; j = json.load(open("timed.json")); assert 2.9 < j["seconds"] < 20 and j["runs"] > 4, j["seconds"]' ||
+python3 -c 'import json; j = json.load(open("timed.json")); assert j["seconds"] > 2.9 and j["runs"] > 0 and not j["interrupted"], j["seconds"]' ||
   fail "three seconds are not three seconds: $(cat "$temp/stdout")"
-"$kage" regress --minutes 5 --config tiny --out signalled --json signalled.json >"$temp/stdout" 2>"$temp/stderr" &
+KAGE_PROGRESS=0.2 "$kage" regress --minutes 60 --config tiny --out signalled --json signalled.json >"$temp/stdout" 2>"$temp/stderr" &
 pid=$!
-sleep 3
+until grep -q "^[1-9][0-9]* run" "$temp/stderr" || ! kill -0 $pid; do sleep 0.1; done  # some have ended
 kill -INT $pid
 rc=0
 wait $pid || rc=$?
