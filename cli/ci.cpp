@@ -81,8 +81,8 @@ void option_shard(CLI::App& command, Shard& shard) {
       ->type_name("I/N");
 }
 
-void option_junit(CLI::App& command, std::string& path) {
-  command.add_option("--junit", path, "write JUnit XML: a test case for each frame")->type_name("FILE");
+void option_junit(CLI::App& command, std::string& path, const std::string& each) {
+  command.add_option("--junit", path, "write JUnit XML: a test case for each " + each)->type_name("FILE");
 }
 
 void option_annotate(CLI::App& command, std::string& annotate) {

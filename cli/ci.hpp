@@ -43,7 +43,7 @@ struct CiOptions {
 };
 
 void option_shard(CLI::App& command, Shard& shard);
-void option_junit(CLI::App& command, std::string& path);
+void option_junit(CLI::App& command, std::string& path, const std::string& each = "frame");
 void option_annotate(CLI::App& command, std::string& annotate);
 
 /// Adds to the report of a run what kage merge needs to know of it: "scene", "total_frames", "first_frame" and

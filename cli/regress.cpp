@@ -349,8 +349,7 @@ void add_regress(CLI::App& app, Action& action) {
       ->check(whole_number(1, 1000000))
       ->type_name("N");
   c->add_option("--config", o->configs,
-                "a configuration, by name or file; may be given several times. Default: all\n"
-                "named ones")
+                "a configuration, by name or file; may be given several times. Default: all named ones")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
@@ -358,7 +357,7 @@ void add_regress(CLI::App& app, Action& action) {
   c->add_option("--out", o->out, "folder for report.html and what is found out about a difference, default out")
       ->type_name("DIR");
   option_json(*c, *o);
-  option_junit(*c, o->ci.junit);
+  option_junit(*c, o->ci.junit, "run");
   option_annotate(*c, o->ci.annotate);
   c->add_option("--jobs", o->jobs,
                 "runs at a time; default one per processor, within half of the memory at 256 MiB a job")
