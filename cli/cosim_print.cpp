@@ -67,27 +67,27 @@ ReportLock::ReportLock(const std::string& folder) : lock_(folder, O_RDONLY | O_D
         fmt::format("{}: another run writes its report there: give one of them a folder of its own by --out", folder));
 }
 
-void print_verdict(const Json& j, const std::string& who) {
-  const auto number = [&](const char* key) { return j[key].get<std::uint64_t>(); };
+void print_verdict(const Json& report, const std::string& who) {
+  const auto number = [&](const char* key) { return report[key].get<std::uint64_t>(); };
   fmt::print("{}{}: {}{}, {}{}x{}, {} compared, {}{}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n", who,
-             j["same"].get<bool>() ? "same" : "different", counted(number("frames"), "frame"),
-             cosim::taken_text(taken_of(j)), j["sizes_vary"].get<bool>() ? "up to " : "", number("width"),
+             report["same"].get<bool>() ? "same" : "different", counted(number("frames"), "frame"),
+             cosim::taken_text(taken_of(report)), report["sizes_vary"].get<bool>() ? "up to " : "", number("width"),
              number("height"), counted(number("pixels_compared"), "pixel"), counted(number("spans"), "span"),
-             and_segments(number("segments")), counted(number("cycles"), "cycle"), j["golden_seconds"].get<double>(),
-             j["rtl_seconds"].get<double>(), number("seed"));
+             and_segments(number("segments")), counted(number("cycles"), "cycle"),
+             report["golden_seconds"].get<double>(), report["rtl_seconds"].get<double>(), number("seed"));
 }
 
-void print_report(const Json& j, const std::string& who, const std::string& folder) {
-  if (!has_frames(j)) {
+void print_report(const Json& report, const std::string& who, const std::string& folder) {
+  if (!has_frames(report)) {
     fmt::print("{}no frame in this shard\n", who);
     return;
   }
-  print_verdict(j, who);
-  if (j.contains("coverage")) print_coverage(j["coverage"]);
-  if (!j["same"].get<bool>()) print_difference(j["first_difference"]);
-  if (const Json& kept = j["kept"]; !kept.is_null()) print_kept(kept);
-  if (!j["pictures"].empty()) fmt::print("pictures: {}\n", pictures_of(j, folder));
-  if (!j["report"].is_null()) fmt::print("report: {}\n", j["report"].get<std::string>());
+  print_verdict(report, who);
+  if (report.contains("coverage")) print_coverage(report["coverage"]);
+  if (!report["same"].get<bool>()) print_difference(report["first_difference"]);
+  if (const Json& kept = report["kept"]; !kept.is_null()) print_kept(kept);
+  if (!report["pictures"].empty()) fmt::print("pictures: {}\n", pictures_of(report, folder));
+  if (!report["report"].is_null()) fmt::print("report: {}\n", report["report"].get<std::string>());
 }
 
 }  // namespace kage::cli

@@ -271,7 +271,7 @@ int bless_folder(const DiffCommand& o) {
                        unchanged, changed.size(), added.size(), o.prune ? removed.size() : missing.size(),
                        o.prune ? "removed" : "missing");
   if (o.prune && !missing.empty()) lines += fmt::format(", {} missing", missing.size());
-  lines += "\n";
+  lines += '\n';
   if (!missing.empty())
     lines += o.prune ? "what is neither picture nor stream stays\n"
                      : fmt::format("what is missing in {} stays; --prune removes it\n", o.a);

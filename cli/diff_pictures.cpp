@@ -76,7 +76,7 @@ std::string details(const DiffResult& r) {
                         region.box.x, region.box.y, counted(region.pixels, "pixel"));
   }
   if (r.region_count > kShown) text += fmt::format(", and {} more", r.region_count - kShown);
-  if (!r.regions.empty()) text += "\n";
+  if (!r.regions.empty()) text += '\n';
   std::vector<std::string> measures;
   if (r.psnr) measures.push_back(fmt::format("PSNR {:.2f} dB", *r.psnr));
   if (r.flip) measures.push_back(fmt::format("FLIP mean {:.4f}, at most {:.4f}", r.flip->mean, r.flip->most));

@@ -52,7 +52,7 @@ std::string describe(const StreamDiff& d) {
   if (d.different_frames != 0 && d.tokens_compared)
     text +=
         fmt::format(", {} and {} in them", counted(d.different_lines, "line"), counted(d.different_tokens, "token"));
-  text += "\n";
+  text += '\n';
   if (!d.tokens_compared) text += "tokens are not compared: the same words mean others in the two configurations\n";
   for (const StreamDiff::Parameter& p : d.parameters)
     text += fmt::format("configuration: {} is {} in A, {} in B\n", p.name, p.a, p.b);

@@ -105,7 +105,7 @@ class Regress {
       repeat(files);
     } catch (const Interrupted&) {
       interrupted_ = true;
-      notes_.push_back("interrupted after the verdict");
+      notes_.emplace_back("interrupted after the verdict");
     }
   }
 

@@ -127,15 +127,15 @@ Plane filtered(const Plane& plane, Size size, const Kernel& along_x, const Kerne
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       double sum = 0;
-      for (int i = -rx; i <= rx; ++i)
-        sum += along_x[static_cast<std::size_t>(i + rx)] * plane[at(std::clamp(x + i, 0, size.width - 1), y)];
+      for (int i = 0; i <= 2 * rx; ++i)
+        sum += along_x[static_cast<std::size_t>(i)] * plane[at(std::clamp(x + i - rx, 0, size.width - 1), y)];
       half[at(x, y)] = sum;
     }
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
       double sum = 0;
-      for (int i = -ry; i <= ry; ++i)
-        sum += along_y[static_cast<std::size_t>(i + ry)] * half[at(x, std::clamp(y + i, 0, size.height - 1))];
+      for (int i = 0; i <= 2 * ry; ++i)
+        sum += along_y[static_cast<std::size_t>(i)] * half[at(x, std::clamp(y + i - ry, 0, size.height - 1))];
       out[at(x, y)] = sum;
     }
   return out;

@@ -2,6 +2,7 @@
 #include "mesh.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "transform.hpp"
@@ -66,7 +67,7 @@ class Builder {
     return {alpha(s), p.unlit, p.double_sided ? Sides::both : reversed ? Sides::back : Sides::front};
   }
   [[nodiscard]] std::uint8_t alpha(const Source& s) const {
-    return static_cast<std::uint8_t>(std::clamp(raw_.primitives[s.primitive].alpha, 0.0, 1.0) * 255 + 0.5);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(raw_.primitives[s.primitive].alpha, 0.0, 1.0) * 255));
   }
   std::uint32_t add(const ShadingVertex& v) {
     mesh_.shading.push_back(v);

@@ -243,7 +243,7 @@ TEST_CASE("family 20: alpha 0 and 255 are identities, and 1000 layers are off by
     GoldenCore core(c);
     std::vector<std::uint8_t> line;
     (void)core.frame(words, [&](int, std::span<const std::uint8_t> p) { line.assign(p.begin(), p.end()); });
-    REQUIRE(line.size() == 64 * 3);
+    REQUIRE(line.size() == std::size_t{64} * 3);
     double most = 0;
     for (std::size_t x = 0; x < 64; ++x)
       for (std::size_t i = 0; i < 3; ++i) {

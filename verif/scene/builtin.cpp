@@ -124,7 +124,7 @@ TEST_CASE("built-in scenes: a volume per face, patches and counting give one pic
     for (int i = 0; i < scene.frame_count(); i += 4) {
       const SceneFrame f = scene.frame(i, scene.frame_count());
       const FrameGeometry simple = make_geometry(f, wide_enough(), 96, 72, per_face);
-      pixels += 96 * 72;
+      pixels += std::size_t{96} * 72;
       for (const int bits : {1, 2, 3, 8}) {
         CAPTURE(name, i, bits);
         Config c = wide_enough();

@@ -123,7 +123,7 @@ const std::vector<Outline> kBoxFaces{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
 
 std::vector<glm::dvec3> box_points() {
   std::vector<glm::dvec3> p;
-  for (int i = 0; i < 8; ++i) p.push_back({(i & 1) != 0 ? 3 : 0, (i & 2) != 0 ? 2 : 0, (i & 4) != 0 ? 1 : 0});
+  for (int i = 0; i < 8; ++i) p.emplace_back((i & 1) != 0 ? 3 : 0, (i & 2) != 0 ? 2 : 0, (i & 4) != 0 ? 1 : 0);
   return p;
 }
 const glm::dvec3 kBoxMiddle{1.5, 1, 0.5};
@@ -135,8 +135,8 @@ Body prism(std::uint32_t n, std::size_t from = 0) {
     const double a = 2 * portable::kPi * i / n;
     const auto x = static_cast<float>(portable::cos(a));
     const auto z = static_cast<float>(-portable::sin(a));
-    b.points.push_back({x, 0, z});
-    b.points.push_back({x, 1.3F, z});
+    b.points.emplace_back(x, 0, z);
+    b.points.emplace_back(x, 1.3F, z);
   }
   Outline low;
   Outline high;
@@ -217,7 +217,7 @@ TEST_CASE("a face of many triangles, with corners on its edges and within it, be
   constexpr std::uint32_t kZ = 5;
   const auto at = [](std::uint32_t i, std::uint32_t k) { return i * (kZ + 1) + k; };
   for (std::uint32_t i = 0; i <= kX; ++i)
-    for (std::uint32_t k = 0; k <= kZ; ++k) b.points.push_back({static_cast<float>(i * 0.7), 0, -1.0 * k});
+    for (std::uint32_t k = 0; k <= kZ; ++k) b.points.emplace_back(static_cast<float>(i * 0.7), 0, -1.0 * k);
   const auto low = static_cast<std::uint32_t>(b.points.size());
   for (const std::uint32_t v : {at(0, 0), at(kX, 0), at(kX, kZ), at(0, kZ)})
     b.points.push_back(b.points[v] + glm::dvec3{0, -0.5, 0});
@@ -293,7 +293,7 @@ TEST_CASE("triangles of smooth faces stay triangles") {
 }
 
 TEST_CASE("one corner's normal or colour keeps a triangle apart") {
-  for (const std::size_t corner : {3, 4, 5})
+  for (const std::size_t corner : {3U, 4U, 5U})
     for (const bool color : {false, true}) {
       Body b;
       b.points = box_points();
@@ -314,7 +314,7 @@ TEST_CASE("faces that meet at a flat angle are one within the tolerance, two bey
     b.points[3].x -= share * kPlanarTolerance * std::sqrt(14.0);
     b.triangle({1, 3, 7});
     b.triangle({1, 7, 5});
-    for (std::size_t i : {0, 2, 4, 3, 5}) b.face(kBoxFaces[i], {1, 1, 1}, false, i == 4 || i == 3 ? 1 : 0);
+    for (std::size_t i : {0U, 2U, 4U, 3U, 5U}) b.face(kBoxFaces[i], {1, 1, 1}, false, i == 4 || i == 3 ? 1 : 0);
     const Merged m = merge(b);
     CAPTURE(share);
     CHECK(m.sizes() == (share < 1 ? Sizes{{4, 6}} : Sizes{{3, 2}, {4, 5}}));
@@ -343,7 +343,7 @@ TEST_CASE("scenes: polygons of plain and mirrored nodes face outward, and of a c
   positions.insert(positions.end(), {1.5F, 1, 0.6F});
   std::vector<std::uint16_t> indices;
   for (const Outline& f : kBoxFaces)
-    for (const std::size_t i : {0, 1, 2, 0, 2, 3}) indices.push_back(static_cast<std::uint16_t>(f[i]));
+    for (const std::size_t i : {0U, 1U, 2U, 0U, 2U, 3U}) indices.push_back(static_cast<std::uint16_t>(f[i]));
   const std::vector<std::uint16_t> dent{4, 5, 8, 5, 7, 8, 7, 6, 8, 6, 4, 8};
   std::vector<std::uint16_t> dented(indices.begin(), indices.begin() + 30);
   dented.insert(dented.end(), dent.begin(), dent.end());

@@ -26,7 +26,7 @@ Topology run(const Solid& s, std::uint64_t budget = kSceneBudget) { return analy
 Solid box(const glm::dvec3& size = {1, 1, 1}) {
   Solid s;
   for (int i = 0; i < 8; ++i)
-    s.points.push_back({(i & 1) != 0 ? size.x : 0, (i & 2) != 0 ? size.y : 0, (i & 4) != 0 ? size.z : 0});
+    s.points.emplace_back((i & 1) != 0 ? size.x : 0, (i & 2) != 0 ? size.y : 0, (i & 4) != 0 ? size.z : 0);
   const std::uint32_t quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& q : quads) {
@@ -45,7 +45,7 @@ Solid torus(std::uint32_t n, std::uint32_t m) {
       const double a = 2 * p::kPi * i / n;
       const double b = 2 * p::kPi * k / m;
       const double r = 2 + p::cos(b);
-      s.points.push_back({r * p::cos(a), p::sin(b), -r * p::sin(a)});
+      s.points.emplace_back(r * p::cos(a), p::sin(b), -r * p::sin(a));
       const std::uint32_t j = (i + 1) % n;
       const std::uint32_t l = (k + 1) % m;
       s.triangles.push_back({i * m + k, j * m + k, j * m + l});
@@ -58,14 +58,14 @@ Solid torus(std::uint32_t n, std::uint32_t m) {
 Solid ball(std::uint32_t n) {
   namespace p = kage::portable;
   Solid s;
-  s.points.push_back({0, -1, 0});
+  s.points.emplace_back(0, -1, 0);
   for (std::uint32_t i = 1; i < n; ++i)
     for (std::uint32_t k = 0; k < 2 * n; ++k) {
       const double a = p::kPi * i / n;
       const double b = p::kPi * k / n;
-      s.points.push_back({p::sin(a) * p::cos(b), -p::cos(a), -p::sin(a) * p::sin(b)});
+      s.points.emplace_back(p::sin(a) * p::cos(b), -p::cos(a), -p::sin(a) * p::sin(b));
     }
-  s.points.push_back({0, 1, 0});
+  s.points.emplace_back(0, 1, 0);
   const auto at = [&](std::uint32_t ring, std::uint32_t k) { return 1 + ring * 2 * n + k % (2 * n); };
   const auto top = static_cast<std::uint32_t>(s.points.size() - 1);
   for (std::uint32_t k = 0; k < 2 * n; ++k) {
@@ -87,9 +87,9 @@ Solid bowl(std::uint32_t n, double depth) {
     for (std::uint32_t k = 0; k <= n; ++k) {
       const double x = static_cast<double>(i) / n - 0.5;
       const double y = static_cast<double>(k) / n - 0.5;
-      s.points.push_back({x, y, depth * (x * x + y * y)});
+      s.points.emplace_back(x, y, depth * (x * x + y * y));
     }
-  s.points.push_back({0, 0, -1});
+  s.points.emplace_back(0, 0, -1);
   const auto tip = static_cast<std::uint32_t>(s.points.size() - 1);
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::uint32_t k = 0; k < n; ++k) {
@@ -173,9 +173,11 @@ TEST_CASE("a Klein bottle is closed by its edges, but nothing is its outside") {
   Solid s;
   const std::uint32_t n = 5;
   std::mt19937 random(3);
-  for (std::uint32_t i = 0; i < n * n; ++i)
-    s.points.push_back({static_cast<double>(random() % 997), static_cast<double>(random() % 991),
-                        static_cast<double>(random() % 983)});
+  for (std::uint32_t i = 0; i < n * n; ++i) {
+    const auto x = static_cast<double>(random() % 997);
+    const auto y = static_cast<double>(random() % 991);
+    s.points.emplace_back(x, y, static_cast<double>(random() % 983));
+  }
   const auto at = [&](std::uint32_t i, std::uint32_t k) { return i < n ? i * n + k % n : (n - k % n) % n; };
   for (std::uint32_t i = 0; i < n; ++i)
     for (std::uint32_t k = 0; k < n; ++k) {
@@ -211,8 +213,8 @@ TEST_CASE("components: by shared edges, not by shared vertices, and in order of 
   }
   s.triangles = mixed;
   // A third touches the first box at one vertex only.
-  s.points.push_back({-1, 0, 0});
-  s.points.push_back({0, -1, 0});
+  s.points.emplace_back(-1, 0, 0);
+  s.points.emplace_back(0, -1, 0);
   s.triangles.push_back({0, 16, 17});
   const Topology t = run(s);
   REQUIRE(t.components.size() == 3);
@@ -266,9 +268,9 @@ TEST_CASE("a star wound twice round its inside is not convex") {
   // A double pyramid over a line that winds twice: pentagram {5/2}. All its dihedral angles bulge.
   namespace p = kage::portable;
   Solid s;
-  for (int i = 0; i < 5; ++i) s.points.push_back({p::cos(4 * p::kPi * i / 5), 0, -p::sin(4 * p::kPi * i / 5)});
-  s.points.push_back({0, 1, 0});
-  s.points.push_back({0, -1, 0});
+  for (int i = 0; i < 5; ++i) s.points.emplace_back(p::cos(4 * p::kPi * i / 5), 0, -p::sin(4 * p::kPi * i / 5));
+  s.points.emplace_back(0, 1, 0);
+  s.points.emplace_back(0, -1, 0);
   for (std::uint32_t i = 0; i < 5; ++i) {
     s.triangles.push_back({i, (i + 1) % 5, 5});
     s.triangles.push_back({(i + 1) % 5, i, 6});
