@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cosim/rtl.hpp"
+#include "cosim/waveform.hpp"
 #include "cosim_json.hpp"
 #include "cosim_registers.hpp"
 #include "files/quiet_stderr.hpp"
@@ -238,22 +239,19 @@ cosim::Report SceneRun::join(TempFiles& files) {
   return cosim::join(std::move(reports));
 }
 
-/// How the RTL is run with monitors.
-cosim::DivergenceOptions SceneRun::monitors() const {
-  cosim::DivergenceOptions options = cli::monitors(source_->config(), o_.rtl);
+/// How the RTL is run again.
+cosim::ReplayOptions SceneRun::replay(ModelFor what) const {
+  cosim::ReplayOptions options = cli::replay(source_->config(), o_.rtl, what);
   options.steps = steps_;
   return options;
 }
 
 /// The stage that a frame which came out different departs in first.
-std::optional<cosim::Divergence> SceneRun::find_divergence(TempFiles& files, int frame) {
+std::optional<cosim::Divergence> SceneRun::find_divergence(int frame) {
   Source& source = *source_;
   const Config& config = source.config().config;
-  cosim::DivergenceOptions options = monitors();
+  const cosim::ReplayOptions options = replay(ModelFor::kMonitors);
   progress_.show("looking for the stage that differs first");
-  if (!o_.out.empty())
-    options.waveform = std::filesystem::path(o_.out) / fmt::format("{}_{:04}.fst", source.name(), frame);
-  options.files = &files;
   if (const std::string missing = cosim::make_rtl(options.library, config)->missing_monitors(); !missing.empty())
     source.note(fmt::format("the RTL has no longer the nets that these watch, and what they watch is not looked at: {}",
                             missing));
@@ -265,6 +263,22 @@ std::optional<cosim::Divergence> SceneRun::find_divergence(TempFiles& files, int
   }
   progress_.clear();
   return d;
+}
+
+/// Writes the waveform round a divergence that was found in the run's frame `frame`, or one before it.
+void SceneRun::write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame) {
+  Source& source = *source_;
+  try {
+    const cosim::ReplayOptions options = replay(ModelFor::kWaveforms);
+    progress_.show("writing the waveform");
+    const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
+    cosim::write_waveform(
+        divergence, feed, source.config().config, options,
+        {.path = std::filesystem::path(o_.out) / fmt::format("{}_{:04}.fst", source.name(), frame), .files = &files});
+  } catch (const Error& e) {
+    source.note(fmt::format("no waveform was written: {}", e.what()));
+  }
+  progress_.clear();
 }
 
 /// Writes the frame to a stream file, as small as it can be made and still comes out different on a new core.
@@ -346,19 +360,18 @@ Json SceneRun::finish(TempFiles& files) {
   try {
     if (r.first_difference && !o_.no_divergence) {
       try {
-        divergence = find_divergence(files, r.first_difference->frame);
+        divergence = find_divergence(r.first_difference->frame);
         searched = true;
-        if (divergence && !divergence->no_waveform.empty())
-          source.note(fmt::format("no waveform was written: {}", divergence->no_waveform));
       } catch (const Error& e) {
         progress_.clear();
         source.note(fmt::format("the stage that differs first was not found: {}", e.what()));
       }
     }
+    if (divergence && !o_.out.empty()) write_waveform(files, *divergence, r.first_difference->frame);
     if (r.first_difference && source.is_random() && !o_.out.empty() && r.first_difference->field != "register")
       kept = keep_frame(files, *r.first_difference);
     if (report_) {
-      const auto watch = [&] { return monitors(); };
+      const auto watch = [&] { return replay(ModelFor::kMonitors); };
       // Where the monitors could not be had for the search, the page does without them too.
       page = report_->write(files, o_.out, r, o_.seed, divergence, searched ? watch : RunReport::Watch());
     }

@@ -115,8 +115,9 @@ class SceneRun {
   const cosim::Model& model();
   [[nodiscard]] Json verdicts_of(const cosim::Report& r) const;
   cosim::Report join(TempFiles& files);
-  cosim::DivergenceOptions monitors() const;
-  std::optional<cosim::Divergence> find_divergence(TempFiles& files, int frame);
+  cosim::ReplayOptions replay(ModelFor what) const;
+  std::optional<cosim::Divergence> find_divergence(int frame);
+  void write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame);
   Json keep_frame(TempFiles& files, const cosim::Difference& difference);
   Json report_of(const cosim::Report& r, const std::optional<cosim::Divergence>& divergence, bool searched,
                  const std::string& page, const Json& kept, const TempFiles& files) const;

@@ -89,7 +89,7 @@ class RtlLines {
 };
 
 std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, const Pixel& at) {
-  cosim::DivergenceOptions options = monitors(source.config(), o.run);
+  cosim::ReplayOptions options = replay(source.config(), o.run, ModelFor::kMonitors);
   options.rtl.seed = o.seed;
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   return cosim::watch_pixel(o.frame, o.frame, feed, source.config().config, options, at.x, at.y);

@@ -154,7 +154,7 @@ void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
   const std::vector<std::uint32_t> words = source_.words(frame);
   const auto feed = [&](int i, const WordSink& sink) { return source_.frame(i, sink); };
   const Config& config = page.config.config;
-  const cosim::DivergenceOptions options = watch ? watch() : cosim::DivergenceOptions();
+  const cosim::ReplayOptions options = watch ? watch() : cosim::ReplayOptions();
   const auto provenance = source_.provenance(frame);
   // What an earlier frame left in the core shows only behind it.
   const int from = page.divergence ? std::min(frame, page.divergence->from) : frame;

@@ -60,7 +60,7 @@ class RunReport {
   /// Who hears the frames that the source makes.
   [[nodiscard]] Listener& listener() { return listener_; }
 
-  using Watch = std::function<cosim::DivergenceOptions()>;
+  using Watch = std::function<cosim::ReplayOptions()>;
 
   /// Writes FOLDER/report.html, which gets its name with the others of `files`, the run's pictures among them, and
   /// returns it. `watch` gives the options to run the RTL with monitors by; it is

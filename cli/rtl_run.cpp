@@ -58,20 +58,27 @@ void refuse_rtl(const RtlRun& rtl, const std::string& why) {
   if (given != nullptr) throw Error(fmt::format("{}: {}", given, why));
 }
 
-cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, bool traced) {
+cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor what) {
   tell_other_rtl();
   Progress progress;
-  const std::string what =
-      fmt::format("the RTL model of configuration {}{}", config.name, traced ? " with monitors" : "");
-  cosim::Model model = cosim::find_model(
-      config.config,
-      {.fault = rtl.fault, .traced = traced, .mutants = rtl.options.mutant != 0, .progress = [&](double seconds) {
-         check_interrupt();
-         progress.show(fmt::format("building {}: {:.0f} s", what, seconds));
-       }});
+  const bool monitors = what == ModelFor::kMonitors;
+  const bool waves = what == ModelFor::kWaveforms;
+  const std::string name = fmt::format("the RTL model of configuration {}{}", config.name,
+                                       monitors ? " with monitors"
+                                       : waves  ? " for waveforms"
+                                                : "");
+  cosim::Model model =
+      cosim::find_model(config.config, {.fault = rtl.fault,
+                                        .monitors = monitors,
+                                        .waves = waves,
+                                        .mutants = rtl.options.mutant != 0,
+                                        .progress = [&](double seconds) {
+                                          check_interrupt();
+                                          progress.show(fmt::format("building {}: {:.0f} s", name, seconds));
+                                        }});
   progress.clear();
   if (!model.damage.empty())
-    say(fmt::format("kage: {} was damaged ({}) and has been built anew: {}\n", what, model.damage,
+    say(fmt::format("kage: {} was damaged ({}) and has been built anew: {}\n", name, model.damage,
                     model.library.string()));
   return model;
 }
@@ -83,9 +90,9 @@ cosim::RtlIdentity identity_of(const NamedConfig& config) {
 
 std::string rtl_directory() { return std::filesystem::absolute(data_directory() / "rtl").lexically_normal().string(); }
 
-cosim::DivergenceOptions monitors(const NamedConfig& config, const RtlRun& rtl) {
-  cosim::DivergenceOptions options;
-  options.library = model_of(config, rtl, true).library;
+cosim::ReplayOptions replay(const NamedConfig& config, const RtlRun& rtl, ModelFor what) {
+  cosim::ReplayOptions options;
+  options.library = model_of(config, rtl, what).library;
   options.rtl = rtl.options;
   options.rtl.assertions = false;
   options.wait = check_interrupt;

@@ -29,9 +29,12 @@ void option_rtl(CLI::App& command, RtlRun& rtl);
 /// Throws Error if one of these is given, of a command that runs no RTL this time.
 void refuse_rtl(const RtlRun& rtl, const std::string& why);
 
+/// What a model is for besides pixels.
+enum class ModelFor { kPixels, kMonitors, kWaveforms };
+
 /// The model of a configuration; says how long it takes where it has to be built. Notes on standard error, once in a
 /// run, if the current folder is of a tree with another rtl/ than the model's.
-cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, bool traced = false);
+cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor what = ModelFor::kPixels);
 
 /// What tells whether that model behaves as another run's did. Notes the same.
 cosim::RtlIdentity identity_of(const NamedConfig& config);
@@ -39,7 +42,7 @@ cosim::RtlIdentity identity_of(const NamedConfig& config);
 /// Where the RTL is that models are built of.
 std::string rtl_directory();
 
-/// To run it with monitors. Assertions are not looked at: what differs comes before what they say of it.
-cosim::DivergenceOptions monitors(const NamedConfig& config, const RtlRun& rtl);
+/// To run it again by such a model. Assertions are not looked at: what differs comes before what they say of it.
+cosim::ReplayOptions replay(const NamedConfig& config, const RtlRun& rtl, ModelFor what);
 
 }  // namespace kage::cli

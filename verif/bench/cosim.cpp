@@ -53,7 +53,7 @@ void compare_cost(const Scene& scene, const Config& config, const std::filesyste
                static_cast<std::uint32_t>(i), frames.emplace_back(), 1);
   const auto golden = cosim::make_golden(config);
   const auto rtl = cosim::make_rtl(library, config);
-  const auto traced = cosim::make_rtl(cosim::find_model(config, {.traced = true}).library, config);
+  const auto monitored = cosim::make_rtl(cosim::find_model(config, {.monitors = true}).library, config);
   std::uint64_t sum = 0;  // somebody reads the pixels
   const LineSink sink = [&sum](int, std::span<const std::uint8_t> pixels) { sum += pixels.back(); };
   const cosim::Feed feed = [&](int i, const WordSink& out) {
@@ -80,7 +80,7 @@ void compare_cost(const Scene& scene, const Config& config, const std::filesyste
     time(compared, [&] { (void)cosim::run(scene.frame_count(), feed, *golden, *rtl, options); });
     if (run % 3 == 0)
       time(watched, [&] {
-        for (const auto& words : frames) (void)traced->frame(words, sink);
+        for (const auto& words : frames) (void)monitored->frame(words, sink);
       });
   }
   fmt::print(

@@ -10,7 +10,6 @@
 #include "cosim/blame.hpp"
 #include "cosim/event_search.hpp"
 #include "cosim/replay.hpp"
-#include "cosim/waveform.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
@@ -41,7 +40,7 @@ struct Found {
 };
 
 // One frame on a core that has seen those before it.
-Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& config, const DivergenceOptions& options,
+Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& config, const ReplayOptions& options,
                    const Watch& watch) {
   EventSearch search(config, rtl.unwatched(), watch);
   Found found;
@@ -111,10 +110,10 @@ bool alike(const Found& a, const Found& b) {
 // The first of the frames from .. frame, on one core, in which something differs: a frame may leave the core in a state
 // that only a later one shows. `watch` is told of `frame` alone; with it no frame stops at a difference, lest the next
 // one go on within it.
-Found search(int from, int frame, const Feed& feed, const Config& config, const DivergenceOptions& options,
+Found search(int from, int frame, const Feed& feed, const Config& config, const ReplayOptions& options,
              const Watch& watch = {}) {
   const auto rtl = make_rtl(options.library, config, options.rtl);
-  if (!rtl->traced()) throw Error(fmt::format("{}: a model without monitors", options.library.string()));
+  if (!rtl->monitored()) throw Error(fmt::format("{}: a model without monitors", options.library.string()));
   const Watch nothing = watch ? [](const ExpectedEvent&, const kage_rtl_event&) {} : Watch();
   for (int i = from;; i += options.steps.step) {
     Found found = search_frame(*rtl, i, feed, config, options, i == frame ? watch : nothing);
@@ -186,16 +185,9 @@ void describe_part(Divergence& d, const Config& config, const kage_rtl_event& pa
 }
 
 // Of the frame that RtlOptions::prelude puts ahead of this one.
-std::optional<Divergence> ahead_of(int frame, const Config& config, const DivergenceOptions& options) {
-  const std::vector<std::uint32_t> words = options.rtl.prelude(frame);
-  DivergenceOptions alone = options;
-  alone.rtl.prelude = {};
-  alone.steps = {frame, 1};
-  const Feed feed = [&](int, const WordSink& sink) {
-    sink(words);
-    return TokenCounts{};
-  };
-  auto d = find_divergence(frame, feed, config, alone);
+std::optional<Divergence> ahead_of(int frame, const Config& config, const ReplayOptions& options) {
+  const Replay alone = replay_ahead(frame, options);
+  auto d = find_divergence(frame, alone.feed, config, alone.options);
   if (d) d->ahead = true;
   return d;
 }
@@ -203,7 +195,7 @@ std::optional<Divergence> ahead_of(int frame, const Config& config, const Diverg
 }  // namespace
 
 std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
-                                          const DivergenceOptions& options) {
+                                          const ReplayOptions& options) {
   // What a frame before has left in the core is mostly of the very last one; each time twice as many are taken.
   const FrameSteps& steps = options.steps;
   const int before = (frame - steps.first) / steps.step;
@@ -218,12 +210,13 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   Divergence d;
   d.initial_state = options.rtl.initial != 0;  // the run's own has nothing of the kind
   for (std::uint64_t other = 1; other <= kOtherStates && !d.initial_state; ++other) {
-    DivergenceOptions with_other = options;
+    ReplayOptions with_other = options;
     with_other.rtl.initial += other;
     d.initial_state = !alike(found, search(from, found.frame, feed, config, with_other));
   }
   d.frame = found.frame;
   d.from = from;
+  d.clock = found.clock;
   d.cycle = found.clock - std::min(found.clock, found.start);
   if (found.mismatch) {
     describe_mismatch(d, found, config);
@@ -245,19 +238,11 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   }
   if (found.part) describe_part(d, config, *found.part);
   d.what = describe(d.stage);
-  if (!options.waveform.empty()) {
-    try {
-      d.save_file = write_waveform(from, found.frame, feed, config, options, found.clock).string();
-      d.waveform = options.waveform.string();
-    } catch (const Error& e) {  // what was found stands without it
-      d.no_waveform = e.what();
-    }
-  }
   return d;
 }
 
 std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const Config& config,
-                                  const DivergenceOptions& options, int x, int y) {
+                                  const ReplayOptions& options, int x, int y) {
   std::vector<RtlTouch> touches;
   const auto watch = [&](const ExpectedEvent& e, const kage_rtl_event& a) {
     const bool seen = e.stage == Stage::pixel || e.stage == Stage::exit || e.stage == Stage::out;

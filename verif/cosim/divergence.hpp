@@ -13,7 +13,6 @@
 #include "cosim/rtl.hpp"
 #include "cosim/run.hpp"
 #include "cosim/stages.hpp"
-#include "files/temp_file.hpp"
 
 namespace kage::cosim {
 
@@ -31,33 +30,30 @@ struct Divergence {
   std::string expected;  ///< as a person reads it
   std::string actual;
   std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered
+  std::uint64_t clock = 0;  ///< the same, since the replay's first
   std::uint32_t token = 0;  ///< index in the frame
   std::string token_text;   ///< "SP [12, 40) ..."
   std::string source;       ///< the part of the scene it came from, if the caller knows it: find_divergence() does not
   std::string waits;        ///< of a core that hangs: who waits for whom
   bool ahead = false;       ///< it is in the frame that RtlOptions::prelude put right ahead of `frame`
   bool initial_state = false;  ///< it depends on what registers and memories hold at first
-  std::string waveform;        ///< the FST file, empty if none was written
+  std::string waveform;        ///< the FST file, empty if none was written: write_waveform()
   std::string save_file;       ///< the GTKWave save file beside it
-  std::string no_waveform;     ///< why none was written, though one was asked for
 };
 
-struct DivergenceOptions {
-  std::filesystem::path library;  ///< of a traced model
+/// How frames are run again.
+struct ReplayOptions {
+  std::filesystem::path library;  ///< of a model: with monitors for a search, for waveforms for a waveform
   RtlOptions rtl;
-  FrameSteps steps;                ///< which frames the run had
-  std::filesystem::path waveform;  ///< FST file to write, empty for none; the save file has .gtkw in its place
-  TempFiles* files = nullptr;      ///< gets both, for the caller to commit; nullptr: they are committed at once
-  std::uint64_t before = 100;      ///< clocks of waveform before the divergence
-  std::uint64_t after = 50;        ///< and after it
-  std::function<void()> wait;      ///< called now and then; may throw, which ends the search
+  FrameSteps steps;            ///< which frames the run had
+  std::function<void()> wait;  ///< called now and then; may throw, which ends the replay
 };
 
 /// Run frame `frame` again, alone on a fresh core; if that shows nothing, with the one of the run before it, then with
 /// 2, 4, ... and at last all of them before it. Empty if the stages agree everywhere: then the difference lies where no
 /// monitor looks (describe_none()).
 std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
-                                          const DivergenceOptions& options);
+                                          const ReplayOptions& options);
 
 /// What the RTL did to a pixel, where the golden model's history has the same.
 struct RtlTouch {
@@ -71,7 +67,7 @@ struct RtlTouch {
 
 /// Run the frames `from` .. `frame` with monitors and tell what they saw of pixel (x, y) in the last of them.
 std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const Config& config,
-                                  const DivergenceOptions& options, int x, int y);
+                                  const ReplayOptions& options, int x, int y);
 
 /// One line: "frame 0, line 17, x 204: state of a pixel (rtl/pixel_banked.sv), field dsf: expected 1, got 0, ...".
 std::string describe(const Divergence& divergence);

@@ -87,11 +87,8 @@ HiddenFolder work_folder(const fs::path& folder) {
 nlohmann::ordered_json about(const Config& config, const ModelOptions& options) {
   nlohmann::ordered_json values;
   for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
-  return {{"config", values},
-          {"fault", options.fault},
-          {"traced", options.traced},
-          {"mutants", options.mutants},
-          {"tools", model_tools()}};
+  return {{"config", values},       {"fault", options.fault},     {"monitors", options.monitors},
+          {"waves", options.waves}, {"mutants", options.mutants}, {"tools", model_tools()}};
 }
 
 }  // namespace
@@ -143,7 +140,8 @@ Model find_model(const Config& config, const ModelOptions& options) {
                                    (work / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
   if (!options.fault.empty()) command.insert(command.end(), {"--fault", options.fault});
-  if (options.traced) command.emplace_back("--trace");
+  if (options.monitors) command.emplace_back("--monitors");
+  if (options.waves) command.emplace_back("--waves");
   if (options.mutants) command.emplace_back("--mutants");
   command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
                                  "--keep", (work / "build").string()});

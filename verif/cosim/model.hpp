@@ -23,7 +23,8 @@ using BuildProgress = std::function<void(double seconds)>;
 
 struct ModelOptions {
   std::string fault = {};  ///< a deliberate defect of verif/faults; empty for none
-  bool traced = false;     ///< with monitors and waveforms (slower)
+  bool monitors = false;   ///< with those of verif/monitors (slower)
+  bool waves = false;      ///< able to write waveforms (slower)
   bool mutants = false;    ///< with all mutants of verif/mutants, behind RtlOptions::mutant (slower)
   BuildProgress progress = {};
 };

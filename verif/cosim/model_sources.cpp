@@ -56,7 +56,7 @@ std::vector<fs::path> model_sources(const fs::path& data, const ModelOptions& op
   const std::string& fault = options.fault;
   std::vector<fs::path> files;
   std::vector<const char*> folders{"rtl", "rtl/include", "rtl/defs", "verif/rtl_model"};
-  if (options.traced) folders.push_back("verif/monitors");
+  if (options.monitors) folders.push_back("verif/monitors");
   for (const char* folder : folders) {
     if (!fs::is_directory(data / folder))
       throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
@@ -85,7 +85,8 @@ std::string model_key(const fs::path& data, const std::vector<fs::path>& files, 
   }
   for (const ParamInfo& p : kParams) hash.add(fmt::format("{}={}", p.name, config.*(p.member)));
   hash.add(options.fault);
-  hash.add(std::string_view(options.traced ? "traced" : ""));
+  hash.add(std::string_view(options.monitors ? "monitors" : ""));
+  hash.add(std::string_view(options.waves ? "waves" : ""));
   hash.add(std::string_view(options.mutants ? "mutants" : ""));
   hash.add(tools.verilator);
   hash.add(tools.cxx);

@@ -7,8 +7,9 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <utility>
 
-#include "cosim/rtl.hpp"
+#include "cosim/divergence.hpp"
 #include "cosim/run.hpp"
 
 namespace kage::cosim {
@@ -21,6 +22,23 @@ void in_pieces(const Feed& feed, int frame, Take take) {
     for (; !words.empty(); words = words.subspan(std::min(words.size(), kPiece)))
       take(words.first(std::min(words.size(), kPiece)));
   });
+}
+
+struct Replay {
+  Feed feed;
+  ReplayOptions options;
+};
+
+/// The replay of the frame alone that RtlOptions::prelude puts ahead of `frame`.
+inline Replay replay_ahead(int frame, const ReplayOptions& options) {
+  ReplayOptions alone = options;
+  alone.rtl.prelude = {};
+  alone.steps = {frame, 1};
+  return {[words = options.rtl.prelude(frame)](int, const WordSink& sink) {
+            sink(words);
+            return TokenCounts{};
+          },
+          std::move(alone)};
 }
 
 }  // namespace kage::cosim

@@ -93,7 +93,7 @@ class Rtl : public RtlCore {
   }
 
   [[nodiscard]] bool stuck() const override { return open_ && stuck_; }
-  [[nodiscard]] bool traced() const override { return table_->traced != 0; }
+  [[nodiscard]] bool monitored() const override { return table_->monitored != 0; }
   [[nodiscard]] std::string missing_monitors() const override { return table_->missing_monitors; }
   [[nodiscard]] std::uint32_t unwatched() const override { return table_->unwatched; }
   void record(bool on, std::function<void()> often) override {
@@ -111,7 +111,7 @@ class Rtl : public RtlCore {
   std::uint32_t handshakes() override { return static_cast<std::uint32_t>(table_->handshakes(model_)); }
   std::uint64_t clock() override { return table_->clock(model_); }
   void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) override {
-    table_->wave(model_, path.c_str(), first, last);
+    if (table_->wave(model_, path.c_str(), first, last) != 0) throw Error("a model that writes no waveforms");
   }
   int end_wave() override { return table_->end_wave(model_); }
 

@@ -28,7 +28,8 @@ struct RtlOptions {
   std::function<std::vector<std::uint32_t>(int number)> prelude = {};
 };
 
-/// The RTL, simulated. What lies past Core needs a model that was built with tracing.
+/// The RTL, simulated. Events and handshakes need a model that was built with monitors, waveforms one that was built
+/// for them (ModelOptions).
 class RtlCore : public Core {
  public:
   /// An AXI4-Lite access while the streams go on: its response (0 is OKAY), -1 if none comes.
@@ -44,7 +45,7 @@ class RtlCore : public Core {
   /// Let so many clocks pass at most; fewer if nothing moves any more.
   virtual void pass(std::uint64_t clocks) = 0;
 
-  [[nodiscard]] virtual bool traced() const = 0;
+  [[nodiscard]] virtual bool monitored() const = 0;
 
   /// Monitors that do not fit the RTL, "a, b", and a bit for each stage of which there are no events therefore.
   [[nodiscard]] virtual std::string missing_monitors() const = 0;
@@ -65,7 +66,7 @@ class RtlCore : public Core {
   virtual std::uint64_t clock() = 0;
 
   /// Write a waveform of the clocks first .. last to an FST file; it is whole once they have passed, or with the
-  /// model's end.
+  /// model's end. Throws Error if the model was not built for waveforms.
   virtual void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) = 0;
 
   /// Ends it. 0: it is whole; else the errno of what could not be written.

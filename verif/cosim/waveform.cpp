@@ -56,16 +56,17 @@ std::string save_file(const std::filesystem::path& wave, const Config& config, s
   return text;
 }
 
-void record(const std::filesystem::path& path, const std::string& name, int from, int frame, const Feed& feed,
-            const Config& config, const DivergenceOptions& options, std::uint64_t clock) {
+void record(const std::filesystem::path& path, const std::string& name, const Divergence& d, const Feed& feed,
+            const Config& config, const ReplayOptions& options, const Waveform& wave) {
   // Verilator's writer maps temporary files, which on a full disk have no pages.
   guard_pages();
   const int lost = lost_pages();
   const auto rtl = make_rtl(options.library, config, options.rtl);
-  const std::uint64_t end = clock + options.after;
-  rtl->wave(path, clock > options.before ? clock - options.before : 0, end);
+  const std::uint64_t end = d.clock + wave.after;
+  rtl->wave(path, d.clock > wave.before ? d.clock - wave.before : 0, end);
+  rtl->record(true);  // the model has no monitors, but the driver treats a frame ahead as it did in the search
   try {
-    for (int i = from; i <= frame; i += options.steps.step) {
+    for (int i = d.from; i <= d.frame; i += options.steps.step) {
       rtl->begin(i);
       in_pieces(feed, i, [&](std::span<const std::uint32_t> piece) {
         rtl->feed(piece, kNowhere);
@@ -86,18 +87,25 @@ void record(const std::filesystem::path& path, const std::string& name, int from
 
 }  // namespace
 
-std::filesystem::path write_waveform(int from, int frame, const Feed& feed, const Config& config,
-                                     const DivergenceOptions& options, std::uint64_t clock) {
+void write_waveform(Divergence& d, const Feed& feed, const Config& config, const ReplayOptions& options,
+                    const Waveform& wave) {
   TempFiles files;
-  record(files.add(options.waveform), options.waveform.string(), from, frame, feed, config, options, clock);
-  auto path = options.waveform;
+  const std::string name = wave.path.string();
+  if (d.ahead) {
+    const Replay alone = replay_ahead(d.frame, options);
+    record(files.add(wave.path), name, d, alone.feed, config, alone.options, wave);
+  } else {
+    record(files.add(wave.path), name, d, feed, config, options, wave);
+  }
+  auto path = wave.path;
   path.replace_extension(".gtkw");
-  write_text(files, path.string(), save_file(options.waveform, config, clock));
-  if (options.files != nullptr)
-    options.files->take(files);
+  write_text(files, path.string(), save_file(wave.path, config, d.clock));
+  if (wave.files != nullptr)
+    wave.files->take(files);
   else
     files.commit();
-  return path;
+  d.waveform = name;
+  d.save_file = path.string();
 }
 
 }  // namespace kage::cosim

@@ -53,7 +53,7 @@ class Trials {
   std::optional<Verdict> attempt(std::size_t i, int mutant) {
     Inputs& inputs = all_[i];
     if (inputs.sequences.empty()) {
-      libraries_[i] = cosim::find_model(inputs.config, {.traced = true, .mutants = true}).library;
+      libraries_[i] = cosim::find_model(inputs.config, {.monitors = true, .mutants = true}).library;
       make_frames(inputs, seed_);
       // No mutant selected: the same. Without that no verdict means anything.
       if (const auto v = try_mutant(libraries_[i], inputs, 0))
@@ -149,8 +149,8 @@ void print_speed() {
   };
   measure("plain", {});
   measure("with mutants", {.mutants = true});
-  measure("with monitors", {.traced = true});
-  measure("with monitors and mutants", {.traced = true, .mutants = true});
+  measure("with monitors", {.monitors = true});
+  measure("with monitors and mutants", {.monitors = true, .mutants = true});
 }
 
 int run_all(std::vector<std::string> arguments) {

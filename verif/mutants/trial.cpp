@@ -37,7 +37,7 @@ std::string module_of(const std::string& where) { return std::filesystem::path(w
 // Of the frames up to one; assertions would end that too early.
 std::optional<cosim::Divergence> diverges(int frame, const std::filesystem::path& library, const Inputs& inputs,
                                           const Sequence& sequence, const cosim::RtlOptions& rtl) {
-  cosim::DivergenceOptions options;
+  cosim::ReplayOptions options;
   options.library = library;
   options.rtl = rtl;
   options.rtl.assertions = false;

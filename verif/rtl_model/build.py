@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build the RTL model of one configuration: a shared library with the C interface of rtl_model.h.
 
-usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--trace] [--mutants] [--quick] [--jobs N] [--keep DIR] [--sources]
+usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--quick] [--jobs N] [--keep DIR] [--sources]
 
   PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
   --fault NAME   apply verif/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
   --define       a macro for Verilator
-  --trace        with the monitors of verif/monitors and waveforms
+  --monitors     with the monitors of verif/monitors, which tell what passes between modules
+  --waves        able to write waveforms
   --mutants      with every mutant of verif/mutants/mutants.yaml behind a select; one whose text the RTL has not exactly once stops the build
-  --quick        for a model that runs little, as those of --trace and --mutants do: loops over lanes and processors stay
+  --quick        for a model that runs little, as those of --monitors, --waves and --mutants do: loops over lanes and processors stay
                  loops, and the compiler takes less care. A systolic core of 64 processors takes 5 s to build in place of 36
   --jobs N       compilers at a time (default 2)
   --keep DIR     build in DIR and leave it there (default: a temporary directory, removed)
@@ -127,10 +128,10 @@ def parameters(arguments):
     return values
 
 
-def sources(fault=None, trace=False, mutants=False):
+def sources(fault=None, monitors=False, mutants=False):
     files = sorted(p for p in RTL.glob("*.sv")) + sorted((RTL / "include").glob("*.svh"))
     files += [RTL / "defs/kage.yaml", HERE / "rtl_model.h", HERE / "rtl_model.cpp", HERE / "initial_state.hpp", HERE / "build.py"]
-    if trace:
+    if monitors:
         files += sorted(MONITORS.iterdir())
     if mutants:
         files.append(MUTANTS)
@@ -224,7 +225,8 @@ def main():
     parser.add_argument("params", nargs="*")
     parser.add_argument("--fault")
     parser.add_argument("--define", action="append", default=[])
-    parser.add_argument("--trace", action="store_true")
+    parser.add_argument("--monitors", action="store_true")
+    parser.add_argument("--waves", action="store_true")
     parser.add_argument("--mutants", action="store_true")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
@@ -234,7 +236,7 @@ def main():
     if args.fault and not (FAULTS / f"{args.fault}.patch").exists():
         fail(f"{args.fault}: no {FAULTS / (args.fault + '.patch')}")
     if args.sources:
-        print("\n".join(map(str, sources(args.fault, args.trace, args.mutants))))
+        print("\n".join(map(str, sources(args.fault, args.monitors, args.mutants))))
         return
     if not args.out:
         fail("no OUT.so given")
@@ -276,7 +278,7 @@ def build(out, values, args, work):
         f"constexpr unsigned kMaxWidth = {values['MAX_WIDTH']};\n")
 
     # Loops over processors run 2-3 times as fast unrolled, but then 640 of them take over a minute to build.
-    quick = args.quick or args.trace or args.mutants
+    quick = args.quick or args.monitors or args.waves or args.mutants
     unroll = 8 if quick else values["MAX_WIDTH"] if values["ARRANGEMENT"] == 0 and 64 < values["MAX_WIDTH"] <= 128 else 64
     verilator = os.environ.get("VERILATOR") or "verilator"
     obj = work / "obj"
@@ -286,13 +288,15 @@ def build(out, values, args, work):
     command = [verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", obj, "-O3", "--x-initial", "unique",
                "--flatten", "--assert", "--unroll-count", str(unroll), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
-    if args.trace:
+    if args.waves:
+        command.append("--trace-fst")
+    if args.monitors:
         (work / "kage_trace_numbers.svh").write_text(trace_numbers())
-        command += ["--trace-fst", f"-I{MONITORS}", f"-I{work}"]
+        command += [f"-I{MONITORS}", f"-I{work}"]
     if args.mutants:  # what is wrong on purpose may be bad style
         command += ["-Wno-fatal", work / "kage_mutants.sv"]
     command += sorted(rtl.glob("*.sv"))
-    monitors = sorted(MONITORS.glob("*.sv")) if args.trace else []
+    monitors = sorted(MONITORS.glob("*.sv")) if args.monitors else []
     missing = []
     while not run("verilator", command + monitors, log, lambda text: leave_out(monitors, missing, text)):
         pass
@@ -303,9 +307,9 @@ def build(out, values, args, work):
     cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
     make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", f"OPT_FAST={'-O1' if quick else '-O2'}", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={shlex.join(cxx)}"]
     extra = ["verilated_threads.o"] if needs_threads(obj) else []
-    if args.trace:
+    if args.waves:
         extra.append("verilated_fst_c.o")
-    if args.trace or args.mutants:
+    if args.monitors or args.mutants:
         extra.append("verilated_dpi.o")
     runtime = Runtime(verilator, cxx, [*make[-4:], cflags], obj)
     runtime.take(["verilated.o", *extra])
@@ -315,11 +319,11 @@ def build(out, values, args, work):
     partial = out.with_name(f".{out.name}.{os.getpid()}")
     out.parent.mkdir(parents=True, exist_ok=True)
     try:
-        run("linking the model", [*cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", *(["-DKAGE_TRACED"] if args.trace else []),
-                                  *(["-DKAGE_MUTANTS"] if args.mutants else []), f"-I{obj}", f"-I{work}",
+        has = [f"-DKAGE_{part.upper()}" for part in ("monitors", "waves", "mutants") if getattr(args, part)]
+        run("linking the model", [*cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", *has, f"-I{obj}", f"-I{work}",
                                   f"-I{HERE}", "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
                                   HERE / "rtl_model.cpp", obj / "Vkage__ALL.a", obj / "verilated.o", *(obj / e for e in extra),
-                                  *(["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fflush", "fclose"))] if args.trace else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
+                                  *(["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fflush", "fclose"))] if args.waves else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
         os.replace(partial, out)
     finally:
         partial.unlink(missing_ok=True)

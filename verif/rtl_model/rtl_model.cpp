@@ -15,16 +15,16 @@
 #include "initial_state.hpp"
 #include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
 #include "verilated.h"
-#if defined(KAGE_TRACED) || defined(KAGE_MUTANTS)
+#if defined(KAGE_MONITORS) || defined(KAGE_MUTANTS)
 #include "Vkage__Dpi.h"
 #endif
-#ifdef KAGE_TRACED
+#ifdef KAGE_WAVES
 #include "verilated_fst_c.h"
 #endif
 
 namespace {
 
-#ifdef KAGE_TRACED
+#ifdef KAGE_WAVES
 /// The errno of what first could not be written of a waveform: 0 for nothing.
 int wave_error = 0;
 #endif
@@ -142,14 +142,14 @@ struct kage_rtl {
   bool recording = false;
   std::vector<kage_rtl_event> events;
   std::int64_t handshakes = 0;
-#ifdef KAGE_TRACED
+#ifdef KAGE_WAVES
   std::unique_ptr<VerilatedFstC> fst;
   std::string wave_path;
   std::uint64_t wave_first = 1, wave_last = 0;
 #endif
 
   explicit kage_rtl(std::uint64_t seed) : initial(seed) {
-#ifdef KAGE_TRACED
+#ifdef KAGE_WAVES
     context.traceEverOn(true);
 #endif
     enter();
@@ -205,7 +205,7 @@ struct kage_rtl {
     ++clocks;
   }
 
-#ifdef KAGE_TRACED
+#ifdef KAGE_WAVES
   void dump(std::uint64_t clock, std::uint64_t time) {
     if (clock < wave_first || clock > wave_last) return;
     if (!fst) {
@@ -415,7 +415,12 @@ const kage_rtl_table kTable = {
     kMutants,
     kMissingMonitors,
     kUnwatched,
-#ifdef KAGE_TRACED
+#ifdef KAGE_MONITORS
+    1,
+#else
+    0,
+#endif
+#ifdef KAGE_WAVES
     1,
 #else
     0,
@@ -465,7 +470,7 @@ const kage_rtl_table kTable = {
     [](kage_rtl* m, kage_rtl_stats* out) { *out = m->stats; },
     [](kage_rtl* m) { m->stats = {}; },
     [](kage_rtl* m) { return m->clocks; },
-#ifdef KAGE_TRACED
+#ifdef KAGE_MONITORS
     [](kage_rtl* m, int on) {
       m->recording = on != 0;
       return 0;
@@ -478,8 +483,12 @@ const kage_rtl_table kTable = {
       return m->events.data();
     },
     [](kage_rtl* m) { m->events.clear(); },
-#ifdef KAGE_TRACED
+#ifdef KAGE_MONITORS
     [](kage_rtl* m) { return m->handshakes; },
+#else
+    [](kage_rtl*) -> std::int64_t { return -1; },
+#endif
+#ifdef KAGE_WAVES
     [](kage_rtl* m, const char* path, std::uint64_t first, std::uint64_t last) {
       m->close_wave();
       m->wave_path = path;
@@ -493,7 +502,6 @@ const kage_rtl_table kTable = {
       return wave_error;
     },
 #else
-    [](kage_rtl*) -> std::int64_t { return -1; },
     [](kage_rtl*, const char*, std::uint64_t, std::uint64_t) { return -1; },
     [](kage_rtl*) { return -1; },
 #endif
@@ -501,7 +509,7 @@ const kage_rtl_table kTable = {
 
 }  // namespace
 
-#ifdef KAGE_TRACED
+#ifdef KAGE_WAVES
 // The library is linked so that these take the place of the C functions (build.py: --wrap): Verilator's writer of FST
 // does not look whether what it writes gets written. stdio keeps the error with the file until it is closed.
 extern "C" {
@@ -529,7 +537,9 @@ int __wrap_fclose(FILE* file) {
   return __real_fclose(file);
 }
 }
+#endif
 
+#ifdef KAGE_MONITORS
 // Called by verif/monitors.
 void kage_trace(int stage, int unit, const svBitVecVal* values) {
   kage_rtl& m = *current;

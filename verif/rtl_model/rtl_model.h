@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 9u
+#define KAGE_RTL_ABI 10u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -118,7 +118,8 @@ typedef struct {
    * there are no events therefore. */
   const char* missing_monitors;
   uint32_t unwatched;
-  int traced; /* built with monitors and waveforms; without, record(), wave(), end_wave() and handshakes() return -1 */
+  int monitored; /* built with monitors; without, record() and handshakes() return -1 */
+  int waves;     /* able to write waveforms; else wave() and end_wave() return -1 */
 
   /* A model out of reset, its registers and memories at random values that `seed` decides. NULL if out of memory. */
   kage_rtl* (*create)(uint64_t seed);

@@ -64,8 +64,8 @@ TEST_CASE("sound RTL does not diverge in any stage") {
   CAPTURE(test_seed());
   for (const auto& [name, c] : configurations()) {
     CAPTURE(name);
-    DivergenceOptions options;
-    options.library = find_model(c, {.traced = true}).library;
+    ReplayOptions options;
+    options.library = find_model(c, {.monitors = true}).library;
     CHECK(make_rtl(options.library, c)->missing_monitors().empty());
     auto frames = random_frames(random, c, 60);
     for (std::size_t i = 40; i < frames.size(); ++i) {
@@ -187,8 +187,8 @@ TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
     next.tp(span);
     next.eol(1);
     next.end();
-    DivergenceOptions options;
-    options.library = find_model(c, {.traced = true}).library;
+    ReplayOptions options;
+    options.library = find_model(c, {.monitors = true}).library;
     const auto rtl = make_rtl(options.library, c, {});
     CHECK(rtl->frame(frames[0], kNowhere).status.error == ErrorCode::ORDER);
     CHECK(rtl->frame(frames[1], kNowhere).status.error == ErrorCode::NONE);
@@ -226,8 +226,8 @@ TEST_CASE("a TP among volumes paints what it finds in shadow, and that is no div
     span.alpha = 99;
     w.tp(span);
     w.end();
-    DivergenceOptions options;
-    options.library = find_model(c, {.traced = true}).library;
+    ReplayOptions options;
+    options.library = find_model(c, {.monitors = true}).library;
     CHECK(make_rtl(options.library, c, {})->frame(frames[0], kNowhere).status.error == ErrorCode::ORDER);
     const auto d = find_divergence(0, feed_of(frames), c, options);
     if (d) UNSCOPED_INFO(describe(*d));

@@ -138,7 +138,7 @@ TEST_CASE("what a register holds at first is the same with monitors, and is told
     return TokenCounts{};
   };
   const Model plain = find_model(config(), {.fault = "unreset_shade"});
-  const Model traced = find_model(config(), {.fault = "unreset_shade", .traced = true});
+  const Model monitored = find_model(config(), {.fault = "unreset_shade", .monitors = true});
   std::set<std::int64_t> seen;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     CAPTURE(seed);
@@ -153,10 +153,10 @@ TEST_CASE("what a register holds at first is the same with monitors, and is told
       return r.first_difference->actual;
     };
     const std::int64_t actual = first(plain);
-    CHECK(first(traced) == actual);
+    CHECK(first(monitored) == actual);
     seen.insert(actual);
-    DivergenceOptions search;
-    search.library = traced.library;
+    ReplayOptions search;
+    search.library = monitored.library;
     search.rtl = options;
     const auto d = find_divergence(0, feed, config(), search);
     REQUIRE(d);
@@ -172,8 +172,8 @@ TEST_CASE("what a register holds at first is the same with monitors, and is told
     wall(out);
     out.op(span(137, 139, 1000, 30));
   };
-  DivergenceOptions search;
-  search.library = find_model(config(), {.fault = "wrong_compare", .traced = true}).library;
+  ReplayOptions search;
+  search.library = find_model(config(), {.fault = "wrong_compare", .monitors = true}).library;
   const Feed ties = [&](int frame, const WordSink& sink) {
     sink(make(frame, tie, {}));
     return TokenCounts{};
