@@ -34,9 +34,8 @@ constexpr std::array kRandom{RandomSource{"random", "random"}, RandomSource{"ran
 constexpr int kFirstFrames = 20;
 constexpr int kFrames = 60;
 
-/// Frames of a scene, and their width where the configuration has it.
-constexpr int kSceneFrames = 2;
-constexpr int kSceneWidth = 96;
+/// Width of a scene's frames where the configuration has it. Small, but pixel centres are where `depths` wants them.
+constexpr int kSceneWidth = 160;
 
 std::string short_name(const NamedConfig& c) { return std::filesystem::path(c.name).stem().string(); }
 
@@ -54,8 +53,7 @@ class Round {
   void scene(const NamedConfig& c, const std::string& scene) {
     const int width = std::min(kSceneWidth, c.config.max_width);
     add(fmt::format("{}.{}.{}", scene, short_name(c), round_), c, 0,
-        {scene, "--frames", std::to_string(kSceneFrames), "--size",
-         fmt::format("{}x{}", width, std::max(1, width * 3 / 4)), "--degrade"});
+        {scene, "--size", fmt::format("{}x{}", width, std::max(1, width * 3 / 4)), "--degrade"});
   }
 
   std::vector<PlannedRun> runs;

@@ -286,9 +286,9 @@ bool Scene::needs_smooth() const { return data_->smooth; }
 const std::string& Scene::name() const { return data_->name; }
 
 const std::vector<std::string>& builtin_scenes() {
-  static const std::vector<std::string> kNames{"courtyard",    "knot",    "inside", "edges",
-                                               "polyhedra",    "fifteen", "glass",  "penumbra",
-                                               "three-lights", "canopy",  "cutaway"};
+  static const std::vector<std::string> kNames{"courtyard",    "knot",    "inside",  "edges",
+                                               "polyhedra",    "fifteen", "glass",   "penumbra",
+                                               "three-lights", "canopy",  "cutaway", "depths"};
   return kNames;
 }
 

@@ -187,11 +187,17 @@ def put_in(rtl, package):
         text = (rtl / name).read_text()
         of_file.sort(key=lambda p: p[0])
         for before, after in zip(of_file, of_file[1:]):
-            if before[1] > after[0]:
+            if before[1] > after[0] and before[:2] != after[:2]:
                 fail(f"mutant {after[3]['name']}: overlaps {before[3]['name']}")
-        for begin, end, number, m in reversed(of_file):
-            choice = f"(kage_mutants::selected == {number} ? {m['with']} : {m.get('port', text[begin:end])})"
-            text = f"{text[:begin]}.{m['port']}{choice}, {text[end:]}" if "port" in m else text[:begin] + choice + text[end:]
+        # Those of one text stand in each other's place for "the sound RTL".
+        together = {}
+        for begin, end, number, m in of_file:
+            together.setdefault((begin, end, m.get("port")), []).append((number, m["with"]))
+        for (begin, end, port), choices in reversed(together.items()):
+            choice = port or text[begin:end]
+            for number, mutated in choices:
+                choice = f"(kage_mutants::selected == {number} ? {mutated} : {choice})"
+            text = f"{text[:begin]}.{port}{choice}, {text[end:]}" if port else text[:begin] + choice + text[end:]
         (rtl / name).write_text(text)
     # Sampled in reset: asked for at each place, it would cost more than the model.
     top = (rtl / "kage_top.sv").read_text()

@@ -120,7 +120,7 @@ TEST_CASE("files that are none") {
   const std::string missing = (dir.path() / "missing.obj").string();
   const std::string none =
       ": no such file, and no built-in scene of that name (there are courtyard, knot, inside, edges, polyhedra, "
-      "fifteen, glass, penumbra, three-lights, canopy, cutaway)";
+      "fifteen, glass, penumbra, three-lights, canopy, cutaway, depths)";
   CHECK(refusal(missing) == missing + none);
   CHECK(refusal("courtyrad") == "courtyrad" + none);
   CHECK(refusal(dir.path().string()) == dir.path().string() + ": is a directory");

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The built-in scenes reach what they are made for: mutants of the RTL (docs/mutants.md) that need a rare thing in a frame
+# make these scenes come out different.
+. "$(dirname "$0")/common.bash"
+
+# reaches SCENE CONFIGURATION SIZE MUTANT...: each is found, and the sound RTL draws the same.
+reaches() {
+  local scene=$1 config=$2 size=$3 mutant number run
+  run=(cosim "$scene" --config "$config" --size "$size" --no-divergence --out out)
+  expect 0 "$kage" "${run[@]}"
+  for mutant in "${@:4}"; do
+    number=$(python3 -c "
+import sys, yaml
+print([m['name'] for m in yaml.safe_load(open(sys.argv[1]))].index(sys.argv[2]) + 1)" "$source/verif/mutants/mutants.yaml" "$mutant")
+    expect 1 "$kage" "${run[@]}" --mutant "$number"
+    grep -q '^different: ' stdout || fail "$mutant: $(cat stdout)"
+  done
+}
+
+# Depths in both halves of the range, ties, and depths beyond both ends, from spans and from units.
+reaches depths polyhedra 160x120 next_signed next_tie cell_signed unit_clamp unit_clamp_high
+reaches depths systolic64 64x48 systolic_clamp
+# A core without FSF darkens on a line's way out, by the count and by what the eye is within.
+reaches inside counting 64x48 command_eol_bias
+done_testing
