@@ -34,7 +34,8 @@ struct Found {
   std::uint64_t clock = 0;
   std::string misconduct;
   std::uint32_t handshakes = 0;
-  bool given_up = false;  // the frame has not ended
+  bool handshakes_known = false;  // their monitor fits the RTL
+  bool given_up = false;          // the frame has not ended
 
   [[nodiscard]] bool any() const { return mismatch || unexpected || part; }
 };
@@ -75,6 +76,7 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   }
   rtl.record(true);
   found.handshakes = rtl.handshakes();
+  found.handshakes_known = (rtl.unwatched() >> KAGE_STAGE_HANDSHAKE & 1U) == 0;
   found.mismatch = search.first();
   found.unexpected = search.unexpected();
   found.part = search.part();
@@ -226,8 +228,9 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   }
   if (found.mismatch || found.unexpected) d.module = blame(config, found.clue);
   // What has no handshake waits for nobody.
-  const bool waits = d.stage != Stage::claim && d.stage != Stage::error && d.stage != Stage::face &&
-                     d.stage != Stage::table && d.stage != Stage::state && d.stage != Stage::end;
+  const bool waits = found.handshakes_known && d.stage != Stage::claim && d.stage != Stage::error &&
+                     d.stage != Stage::face && d.stage != Stage::table && d.stage != Stage::state &&
+                     d.stage != Stage::end;
   if (!found.misconduct.empty() && waits && (d.field == "missing" || !found.mismatch)) {
     const Waiting w = waiting(config, found.handshakes);
     d.waits = w.text;

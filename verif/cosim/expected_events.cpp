@@ -75,7 +75,11 @@ ExpectedEvent ExpectedEvents::no_error(int line, std::uint32_t token) {
 }
 
 void ExpectedEvents::put(ExpectedEvent e) {
-  if ((unwatched_ >> static_cast<unsigned>(e.stage) & 1U) == 0) queue(e.stage, e.unit).push_back(e);
+  if (watched(e.stage)) queue(e.stage, e.unit).push_back(e);
+}
+
+ExpectedEvent& ExpectedEvents::newest(Stage stage, int unit) {
+  return watched(stage) ? queue(stage, unit).back() : nowhere_;
 }
 
 // Two words a value, the first in the lower half; in the last {header, lacking, cut, final}.
@@ -141,7 +145,7 @@ void ExpectedEvents::command(int kind, int xl, int xr, int step) {
 void ExpectedEvents::span_command(const Token& t, const LineView& line) {
   const SpanToken& s = t.span;
   command(number(t.kind), s.xl, s.xr, of_command);
-  ExpectedEvent& e = queue(Stage::command, 0).back();
+  ExpectedEvent& e = newest(Stage::command, 0);
   const auto say = [&](int index, std::uint64_t value) {
     e.value[static_cast<std::size_t>(index)] = value;
     e.cares |= 1U << index;
@@ -263,7 +267,7 @@ void ExpectedEvents::state(std::uint64_t bias, bool matters) {
 // What frame_control does before a line's first TP.
 void ExpectedEvents::paint(const LineView& line) {
   state(bias_, config_.count_bits == 0);
-  if (config_.count_bits > 0) queue(Stage::state, 0).back().cares |= 2;
+  if (config_.count_bits > 0) newest(Stage::state, 0).cares |= 2;
   const bool by_loads = config_.count_bits > 0 && resolved_;
   const std::uint64_t one = std::uint64_t{1} << config_.shade_frac;
   const auto painted = [&](int x) {
@@ -280,7 +284,7 @@ void ExpectedEvents::paint(const LineView& line) {
   };
   if (!by_loads) {
     command(number(Kind::RESOLVE), 0, width_, of_command);
-    ExpectedEvent& e = queue(Stage::command, 0).back();
+    ExpectedEvent& e = newest(Stage::command, 0);
     e.value[3] = bias_;
     e.cares |= config_.dsf_bits > 0 ? 8U : 0U;
     if (config_.count_bits == 0 && config_.dsf_bits > 0) {
@@ -307,7 +311,7 @@ void ExpectedEvents::paint(const LineView& line) {
     e.cares = 3;
     put(e);
     command(kCmdLoad, x, x + 1, of_load_command);
-    ExpectedEvent& c = queue(Stage::command, 0).back();
+    ExpectedEvent& c = newest(Stage::command, 0);
     c.load = true;
     c.x = x;
     for (unsigned i = 0; i < static_cast<unsigned>(config_.channels); ++i) {
@@ -315,7 +319,7 @@ void ExpectedEvents::paint(const LineView& line) {
       c.cares |= 1U << (7 + i);
     }
     touch(kCmdLoad, x, s, of_loaded);
-    queue(Stage::pixel, x).back().load = true;
+    newest(Stage::pixel, x).load = true;
   }
 }
 
@@ -360,7 +364,7 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
     }
     case Kind::TREE:
       put(event(Stage::claim, of_control));
-      queue(Stage::claim, 0).back().cares = 1;
+      newest(Stage::claim, 0).cares = 1;
       break;
     case Kind::RESOLVE:
       bias_ = line.bias();
@@ -393,7 +397,7 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
 void ExpectedEvents::end_line(const LineView* line) {
   command(number(Kind::EOL), 0, width_, of_command);
   if (line != nullptr && config_.dsf_bits > 0) {
-    ExpectedEvent& e = queue(Stage::command, 0).back();
+    ExpectedEvent& e = newest(Stage::command, 0);
     e.value[3] = painted_ ? 0 : bias_;
     e.cares |= 8;
   }
@@ -412,7 +416,7 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
   const SpanToken& s = t.span;
   const int kind = number(t.kind);
   const auto came = [&](int x, std::uint64_t z, std::uint64_t color, std::uint32_t cares) {
-    ExpectedEvent& e = queue(Stage::pixel, x).back();
+    ExpectedEvent& e = newest(Stage::pixel, x);
     e.value[1] = z;
     e.value[2] = color;
     e.cares |= cares;
@@ -490,7 +494,7 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
 
 void ExpectedEvents::ended() {
   put(event(Stage::end, of_end));
-  queue(Stage::end, 0).back().cares = 1;
+  newest(Stage::end, 0).cares = 1;
 }
 
 void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {

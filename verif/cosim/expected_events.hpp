@@ -79,6 +79,10 @@ class ExpectedEvents : public CoreObserver {
 
   ExpectedEvent event(Stage stage, int step) const;
   void put(ExpectedEvent e);
+  [[nodiscard]] bool watched(Stage stage) const { return (unwatched_ >> static_cast<unsigned>(stage) & 1U) == 0; }
+  /// What was put() last into a queue, for more to be said of it; of a stage that nothing watches, something to write
+  /// to.
+  ExpectedEvent& newest(Stage stage, int unit);
   void token_words(std::span<const std::uint32_t> words, bool final);
   void wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words);
   void command(int kind, int xl, int xr, int step);
@@ -96,6 +100,7 @@ class ExpectedEvents : public CoreObserver {
 
   Config config_;
   std::uint32_t unwatched_;
+  ExpectedEvent nowhere_;
   int depth_bits_;
   int ramp_bits_;
   std::array<std::vector<std::deque<ExpectedEvent>>, kStages> queues_;
