@@ -187,12 +187,17 @@ void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards) {
     if (place >= seconds.size())
       junit.skip(name, fmt::format("not compared: frame {} is different", difference["frame"].get<int>()));
     else if (!difference.is_null() && place + 1 == seconds.size())
-      junit.fail(name, seconds[place].get<double>(), difference["text"].get<std::string>(), text_of(difference),
-                 place_of(difference).file);
+      junit_difference(junit, name, seconds[place].get<double>(), difference);
     else
       junit.pass(name, seconds[place].get<double>(),
                  taken.count(frame) == 0 ? "" : "the verdict of the RTL is taken from an earlier run");
   }
+}
+
+void junit_difference(JUnitWriter& junit, const std::string& name, double seconds, const Json& difference,
+                      const std::string& again) {
+  const std::string details = again.empty() ? text_of(difference) : text_of(difference) + "\nagain: " + again;
+  junit.fail(name, seconds, difference["text"].get<std::string>(), details, place_of(difference).file);
 }
 
 void annotate_difference(const std::string& annotate, const Json& report, std::FILE* to) {

@@ -72,6 +72,11 @@ std::uint64_t taken_of(const Json& report);
 /// difference were not compared and are skipped.
 void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards);
 
+/// A failed case: a report's first difference with the first divergence, and the RTL file to blame. `again` is the
+/// command that repeats it, if it is to be told.
+void junit_difference(JUnitWriter& junit, const std::string& name, double seconds, const Json& difference,
+                      const std::string& again = "");
+
 /// If `annotate` or, where that is empty, the environment ($GITHUB_ACTIONS) asks for it: a line on `to` by which GitHub
 /// shows the first difference at the RTL file whose stage made it.
 void annotate_difference(const std::string& annotate, const Json& report, std::FILE* to);

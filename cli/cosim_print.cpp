@@ -39,7 +39,7 @@ void print_kept(const Json& kept) {
              counted(number("lines"), "line"), counted(number("tokens"), "token"), counted(number("width"), "pixel"),
              number("words"), counted(number("words_before"), "word"));
   if (kept["alone"].get<bool>())
-    fmt::print("again: {}\n", kept["again"].get<std::string>());
+    fmt::print("that frame again: {}\n", kept["again"].get<std::string>());
   else
     fmt::print("alone, on a new core, it comes out the same: it takes the frames before it, or stalls of its place\n");
 }

@@ -91,7 +91,7 @@ class Data {
     for (const Json& s : scenes_) names += (names.empty() ? "" : ", ") + s["name"].get<std::string>();
     j["name"] = names;
     j["headline"] = fmt::format(
-        "{}, {} of {}{}{}, {} compared",
+        "{}{}, {} of {}{}{}, {} compared", report.value("interrupted", false) ? "interrupted after " : "",
         regress ? counted(report["runs"].get<std::uint64_t>(), "run") : counted(scenes_.size(), "scene"),
         counted(report["frames"].get<std::uint64_t>(), "frame"), report["total_frames"].get<std::uint64_t>(),
         merged_ ? " in " + counted(parts_.size(), "shard") : "", cosim::taken_text(taken_of(report)),

@@ -100,6 +100,7 @@ int run(int argc, char** argv) {
   app.set_version_flag("-V,--version", "kage " KAGE_VERSION);
   app.footer(
       "kage cosim courtyard is a good start; kage help COMMAND explains a command, kage list lists scenes.\n"
+      "After a change to the RTL kage regress says in five minutes whether it is still right.\n"
       "Exit codes: 0 same or done, 1 different, 2 trouble.");
   app.require_subcommand(0, 1);
   app.option_defaults()->multi_option_policy(

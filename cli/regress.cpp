@@ -125,6 +125,7 @@ class Regress {
     j["command"] = "kage regress";
     j["again"] = command_line(*o_.command);
     j["runs"] = runs;
+    j["rounds"] = rounds_;
     j["seed"] = o_.seed;
     j["seconds"] = seconds_;
     j["build_seconds"] = build_seconds_;
@@ -254,7 +255,7 @@ void write_junit(JUnitWriter& junit, const Json& report) {
     if (d.is_null())
       junit.pass(name, seconds);
     else
-      junit.fail(name, seconds, d["text"].get<std::string>(), r["again"].get<std::string>());
+      junit_difference(junit, name, seconds, d, r["again"].get<std::string>());
   }
   junit.close();
 }
@@ -284,11 +285,12 @@ void print_configurations(const Json& report) {
 }
 
 void print_summary(const Json& j) {
-  fmt::print(
-      "{}: {}{}, {}, {} compared, {}, {:.0f} s, seed {}\n", j["same"].get<bool>() ? "same" : "different",
-      j["interrupted"].get<bool>() ? "interrupted after " : "", counted(j["runs"].get<std::uint64_t>(), "run"),
-      counted(j["frames"].get<std::uint64_t>(), "frame"), counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
-      counted(j["cycles"].get<std::uint64_t>(), "cycle"), j["seconds"].get<double>(), j["seed"].get<std::uint64_t>());
+  fmt::print("{}: {}{} of {}, {}, {} compared, {}, {:.0f} s, seed {}\n", j["same"].get<bool>() ? "same" : "different",
+             j["interrupted"].get<bool>() ? "interrupted after " : "", counted(j["runs"].get<std::uint64_t>(), "run"),
+             counted(j["rounds"].get<std::uint64_t>(), "round"), counted(j["frames"].get<std::uint64_t>(), "frame"),
+             counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
+             counted(j["cycles"].get<std::uint64_t>(), "cycle"), j["seconds"].get<double>(),
+             j["seed"].get<std::uint64_t>());
 }
 
 int run(const RegressCommand& o) {
@@ -316,9 +318,9 @@ int run(const RegressCommand& o) {
     if (!regress.same()) {
       const Json& d = regress.different();
       print_report(d, d["scene"].get<std::string>() + ": ", regress.folder());
-      fmt::print("again: {}\n", d["again"].get<std::string>());
+      fmt::print("that run again: {}\n", d["again"].get<std::string>());
     }
-    fmt::print("report: {}\n", page);
+    fmt::print("report over all runs: {}\n", page);
   }
   if (!regress.same()) annotate_difference(o.ci.annotate, regress.different(), to);
   if (!regress.same()) return kDifferent;
@@ -339,14 +341,17 @@ void add_regress(CLI::App& app, Action& action) {
       "difference ends the regression: its run is repeated with pictures, waveform, page and the stage that differs\n"
       "first, in DIR/RUN, and the line of kage cosim that repeats it is printed.\n"
       "DIR/report.html is over all runs. The RTL models that are missing are built before the time begins.\n"
-      "Exit code 0: the same. 1: different. 2: trouble. After Ctrl-C what was done is told, and the code is 130.");
+      "Exit code 0: the same. 1: different. 2: trouble. A signal ends it with what was done, and the code is 130\n"
+      "(Ctrl-C), 143 (SIGTERM) or 129 (SIGHUP), if no difference was found before.");
   const auto o = std::make_shared<RegressCommand>();
   o->out = "out";
-  c->add_option("--minutes", o->minutes, "time to run, default 5; the runs that are under way then end early")
-      ->check(real_number(0.01, 10000))
-      ->type_name("M");
+  auto* const minutes =
+      c->add_option("--minutes", o->minutes, "time to run, default 5; the runs that are under way then end early")
+          ->check(real_number(0.01, 10000))
+          ->type_name("M");
   c->add_option("--rounds", o->rounds, "so many rounds in place of a time: what is run is the same on every machine")
       ->check(whole_number(1, 1000000))
+      ->excludes(minutes)
       ->type_name("N");
   c->add_option("--config", o->configs,
                 "a configuration, by name or file; may be given several times. Default: all named ones")

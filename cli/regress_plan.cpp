@@ -52,7 +52,9 @@ class Round {
 
   void scene(const NamedConfig& c, const std::string& scene) {
     const int width = std::min(kSceneWidth, c.config.max_width);
-    add(fmt::format("{}.{}.{}", scene, short_name(c), round_), c, 0,
+    // Scenes and patterns of stalls would come round together: 4 divides 12.
+    const std::size_t turn = static_cast<std::size_t>(round_) / builtin_scenes().size();
+    add(fmt::format("{}.{}.{}", scene, short_name(c), round_), c, turn,
         {scene, "--size", fmt::format("{}x{}", width, std::max(1, width * 3 / 4)), "--degrade"});
   }
 

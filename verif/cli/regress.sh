@@ -43,7 +43,7 @@ expect 0 "$kage" cosim random --config lights.yaml --frames 60 --fault early_tab
 expect 1 "$kage" regress --rounds 3 --config lights.yaml --fault early_table --out broken --json broken.json --junit broken.xml
 grep -q '^different: ' "$temp/stdout" || fail "no verdict: $(cat "$temp/stdout")"
 grep -q '^mixed.lights.[0-2]: different: ' "$temp/stdout" || fail "not found by random:mixed: $(cat "$temp/stdout")"
-again=$(sed -n 's/^again: \(kage cosim random:mixed .*\)/\1/p' "$temp/stdout")
+again=$(sed -n 's/^that run again: \(kage cosim random:mixed .*\)/\1/p' "$temp/stdout")
 [ -n "$again" ] || fail "no line that repeats it: $(cat "$temp/stdout")"
 expect 1 ${again/#kage /$kage }
 python3 - <<'PY' || fail "JSON or JUnit of a difference"

@@ -18,8 +18,10 @@ print([m['name'] for m in yaml.safe_load(open(sys.argv[1]))].index(sys.argv[2]) 
   done
 }
 
-# Depths in both halves of the range, ties, and depths beyond both ends, from spans and from units.
+# Depths in both halves of the range, ties, and depths beyond both ends, from units, from spans in groups and in columns.
 reaches depths polyhedra 160x120 next_signed next_tie cell_signed unit_clamp unit_clamp_high
+reaches depths default 160x120 ramp_under ramp_over
+reaches depths default 320x240 ramp_under ramp_over
 reaches depths systolic64 64x48 systolic_clamp
 # A core without FSF darkens on a line's way out, by the count and by what the eye is within.
 reaches inside counting 64x48 command_eol_bias

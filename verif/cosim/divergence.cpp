@@ -54,7 +54,8 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   };
   rtl.begin(frame);
   rtl.record(true, take);
-  const auto end = [&] { search.end(rtl.clock(), (rtl.handshakes() >> 4 & 3U) == 2); };
+  found.handshakes_known = (rtl.unwatched() >> KAGE_STAGE_HANDSHAKE & 1U) == 0;
+  const auto end = [&] { search.end(rtl.clock(), !found.handshakes_known || (rtl.handshakes() >> 4 & 3U) == 2); };
   try {
     in_pieces(feed, frame, [&](std::span<const std::uint32_t> piece) {
       search.feed(piece);
@@ -76,7 +77,6 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   }
   rtl.record(true);
   found.handshakes = rtl.handshakes();
-  found.handshakes_known = (rtl.unwatched() >> KAGE_STAGE_HANDSHAKE & 1U) == 0;
   found.mismatch = search.first();
   found.unexpected = search.unexpected();
   found.part = search.part();
@@ -227,7 +227,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
     describe_unexpected(d, found);
   }
   if (found.mismatch || found.unexpected) d.module = blame(config, found.clue);
-  // What has no handshake waits for nobody.
+  // What has no handshake waits for nobody; and who waits is not known where the handshakes' monitor does not fit.
   const bool waits = found.handshakes_known && d.stage != Stage::claim && d.stage != Stage::error &&
                      d.stage != Stage::face && d.stage != Stage::table && d.stage != Stage::state &&
                      d.stage != Stage::end;

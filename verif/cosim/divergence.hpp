@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cosim/rtl.hpp"
+#include "cosim/replay.hpp"
 #include "cosim/run.hpp"
 #include "cosim/stages.hpp"
 
@@ -39,14 +39,6 @@ struct Divergence {
   bool initial_state = false;  ///< it depends on what registers and memories hold at first
   std::string waveform;        ///< the FST file, empty if none was written: write_waveform()
   std::string save_file;       ///< the GTKWave save file beside it
-};
-
-/// How frames are run again.
-struct ReplayOptions {
-  std::filesystem::path library;  ///< of a model: with monitors for a search, for waveforms for a waveform
-  RtlOptions rtl;
-  FrameSteps steps;            ///< which frames the run had
-  std::function<void()> wait;  ///< called now and then; may throw, which ends the replay
 };
 
 /// Run frame `frame` again, alone on a fresh core; if that shows nothing, with the one of the run before it, then with

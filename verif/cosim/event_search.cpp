@@ -8,8 +8,7 @@
 namespace kage::cosim {
 namespace {
 
-// Of parts that are wrong in the same clock: wires come before what is given wrong by them, small modules before those
-// that have them within.
+// At equal clocks the wiring is to blame first, then small modules, then those that have them within.
 int rank(const kage_rtl_event& part) {
   if (part.value[0] == KAGE_PART_TOP || part.value[0] == KAGE_PART_PIXEL_CORE) return 0;
   return part.value[0] <= KAGE_PART_LANE_RAMP ? 1 : 2;
@@ -27,6 +26,7 @@ EventSearch::EventSearch(const Config& config, std::uint32_t unwatched, Watch wa
     : watch_(std::move(watch)),
       config_(config),
       expected_(config, unwatched),
+      tokens_watched_((unwatched >> KAGE_STAGE_TOKEN & 1U) == 0),
       golden_(config),
       seen_(std::numeric_limits<std::uint64_t>::max()) {
   golden_.observe(this);
@@ -172,6 +172,7 @@ void EventSearch::offer(const Mismatch& m) {
 // token only the token itself, which is the first thing of it, is surely before.
 bool EventSearch::unexpected_leads() const {
   if (!unexpected_ || !first_) return false;
+  if (!tokens_watched_) return unexpected_->clock < first_->clock;  // of which token it comes is not known
   const std::uint32_t token = first_->expected.token;
   return token > unexpected_token_ ||
          (token == unexpected_token_ && static_cast<Stage>(unexpected_->stage) == Stage::token);

@@ -25,15 +25,16 @@ using Watch = std::function<void(const ExpectedEvent&, const kage_rtl_event&)>;
 /// is ahead is kept. finish() when the frame has ended, then end().
 class EventSearch : private CoreObserver {
  public:
-  /// With `watch`, nothing stops at a difference. `unwatched`: as RtlCore has it.
+  /// With `watch`, nothing stops at a difference. `unwatched`: as RtlCore has it. Where tokens are not watched, which
+  /// of two differences comes first is taken from their clocks, and is less sure.
   explicit EventSearch(const Config& config, std::uint32_t unwatched = 0, Watch watch = {});
 
   void feed(std::span<const std::uint32_t> words);
   void finish();
   void take(std::span<const kage_rtl_event> events);
 
-  /// Nothing more will come: what is still expected is missing. What waits for the pixels to take it (`blocked`) would
-  /// have come; it is they who differ.
+  /// Nothing more will come: what is still expected is missing. What waits for the pixels to take it (`blocked`, or may
+  /// be) would have come; it is they who differ.
   void end(std::uint64_t clock, bool blocked);
 
   /// Events of the golden core that are kept until the RTL does its part and would be missing if it did not; but those
@@ -73,6 +74,7 @@ class EventSearch : private CoreObserver {
   Watch watch_;
   Config config_;
   ExpectedEvents expected_;
+  bool tokens_watched_;
   GoldenCore golden_;
   std::vector<Kind> kinds_;  // of each token but the header, the one that is wrong included
   std::array<bool, kStages> stopped_{};

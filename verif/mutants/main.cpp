@@ -5,8 +5,9 @@
 // usage: mutants [--markdown] [--sample N | NAME...]
 //        mutants --speed     what monitors and mutants cost in clocks a second
 //
-// Without names all of verif/mutants/mutants.yaml. Which N a sample has is by a seed that is printed: $KAGE_SEED, else
-// another one in each run. Exit code 0: all as they should be; 1: not; 2: trouble.
+// Without names all of verif/mutants/mutants.yaml. Frames are by $KAGE_SEED; what lives through them is given those of
+// the next seven seeds. Which N a sample has is by a seed that is printed: $KAGE_SEED, else another one in each run.
+// Exit code 0: all as they should be; 1: not; 2: trouble.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -39,6 +40,7 @@ struct Result {
   std::string config;  ///< in which it was found out
   std::string expected;
   std::optional<Verdict> verdict;
+  std::uint64_t set = 0;  ///< of frames, that found it out
 
   [[nodiscard]] bool right() const { return verdict && verdict->module == expected; }
   [[nodiscard]] bool fine() const { return mutant.equivalent.empty() ? right() || !mutant.known.empty() : !verdict; }
@@ -90,24 +92,25 @@ Result run(const Mutant& m, Trials& trials) {
       r.config = inputs.name;
       r.expected = m.module_in(inputs.config);
       r.verdict = trials.attempt(i, set, m.number);
+      r.set = set;
     }
   return r;
 }
 
-std::string end_of(const Result& r) {
+std::string end_of(const Result& r, std::uint64_t seed) {
   if (!r.verdict) return r.mutant.equivalent.empty() ? "LIVES" : "equivalent";
-  return r.verdict->how;
+  return r.set == 0 ? r.verdict->how : fmt::format("{} (seed {})", r.verdict->how, seed + r.set);
 }
 
-void print_row(const Result& r, bool markdown) {
+void print_row(const Result& r, std::uint64_t seed, bool markdown) {
   const std::string module = r.verdict ? r.verdict->module : "";
   const std::string named = r.verdict && !r.right() ? fmt::format("{} (not {})", module, r.expected) : module;
   if (markdown) {
     fmt::print("| {} | {} | {}: {} | {} | {} | {} |\n", r.mutant.name, r.mutant.file, r.mutant.kind, r.mutant.breaks,
-               r.verdict ? r.config : "", end_of(r), named);
+               r.verdict ? r.config : "", end_of(r, seed), named);
   } else {
-    fmt::print("{:<22} {:<18} {:<16} {:<10} {}\n", r.mutant.name, std::filesystem::path(r.mutant.file).stem().string(),
-               r.verdict ? r.config : "", end_of(r), named);
+    fmt::print("{:<22} {:<18} {:<16} {:<18} {}\n", r.mutant.name, std::filesystem::path(r.mutant.file).stem().string(),
+               r.verdict ? r.config : "", end_of(r, seed), named);
     if (r.verdict && !r.right()) fmt::print("    {}\n", r.verdict->text);
   }
   std::fflush(stdout);
@@ -198,17 +201,20 @@ int run_all(std::vector<std::string> arguments) {
   std::vector<Result> results;
   for (const Mutant& m : mutants) {
     results.push_back(run(m, trials));
-    print_row(results.back(), markdown);
+    print_row(results.back(), test_seed(), markdown);
   }
 
   const auto count = [&](auto is) { return std::count_if(results.begin(), results.end(), is); };
   const auto equivalent = count([](const Result& r) { return !r.mutant.equivalent.empty(); });
   const auto killed = count([](const Result& r) { return r.mutant.equivalent.empty() && r.verdict; });
+  const auto further = count([](const Result& r) { return r.verdict && r.set > 0; });
   const auto right = count([](const Result& r) { return r.mutant.equivalent.empty() && r.right(); });
   const auto wanted = static_cast<std::ptrdiff_t>(results.size()) - equivalent;
   fmt::print(
-      "{}{} mutants, {} of them equivalent; of the other {}: {} killed, {} live; {} named right, {} wrong; {:.0f} s\n",
-      markdown ? "\n" : "", results.size(), equivalent, wanted, killed, wanted - killed, right, killed - right,
+      "{}{} mutants, {} of them equivalent; of the other {}: {} killed, {} of these by further seeds, {} live; {} "
+      "named "
+      "right, {} wrong; {:.0f} s\n",
+      markdown ? "\n" : "", results.size(), equivalent, wanted, killed, further, wanted - killed, right, killed - right,
       since(start));
   return std::all_of(results.begin(), results.end(), [](const Result& r) { return r.fine(); }) ? 0 : 1;
 }

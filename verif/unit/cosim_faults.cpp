@@ -130,7 +130,9 @@ TEST_CASE("a token lost in a stall shows at its own pixels") {
   check("lost_token", opaque, {}, 4, 203, 20, 100);
 }
 
-TEST_CASE("what a register holds at first is the same with monitors, and is told where a fault depends on it") {
+TEST_CASE(
+    "what a register holds at first is the same with monitors and for waveforms, and is told where a fault depends on "
+    "it") {
   const LineMaker opaque = [](TokenWriter& out, int, int) { wall(out); };
   const LineMaker volumes = [](TokenWriter& out, int, int) { out.sp(volume(10, 20, 1)); };
   const Feed feed = [&](int frame, const WordSink& sink) {
@@ -139,6 +141,7 @@ TEST_CASE("what a register holds at first is the same with monitors, and is told
   };
   const Model plain = find_model(config(), {.fault = "unreset_shade"});
   const Model monitored = find_model(config(), {.fault = "unreset_shade", .monitors = true});
+  const Model waves = find_model(config(), {.fault = "unreset_shade", .waves = true});
   std::set<std::int64_t> seen;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     CAPTURE(seed);
@@ -154,6 +157,7 @@ TEST_CASE("what a register holds at first is the same with monitors, and is told
     };
     const std::int64_t actual = first(plain);
     CHECK(first(monitored) == actual);
+    CHECK(first(waves) == actual);
     seen.insert(actual);
     ReplayOptions search;
     search.library = monitored.library;
