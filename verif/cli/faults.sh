@@ -15,7 +15,7 @@ for patch in "$source"/verif/faults/*.patch; do
   # Defects of the tree need ties, or a line ahead of time, which this scene has not: ctest rtl/fault_NAME finds those.
   if grep -qE '^(\+\+\+ .*(compare|tree|expansion)|The tree)' "$patch"; then continue; fi
   # No scene has more samples than a counter holds, and a table comes early only where the way out is slow: ctest rtl/fault_NAME.
-  # Every scene says its shade: ctest unit/cosim_faults. A core that does nothing right, no test may pass: tools/dead-cores.
+  # Every scene says its shade: ctest unit/cosim_faults. Cores that do nothing right: rtl/core_clocks.
   case $name in count_wraps | early_table | unreset_shade | dead_*) continue ;; esac
   frames=courtyard.kage
   case $name in blend_* | resolve_*) frames=glass.kage ;; sample_* | *_light) frames=lights.kage ;; esac

@@ -11,7 +11,7 @@ cp lights.yaml other/small.yaml
 # Sound RTL, two rounds of two configurations, by one job and by three: the same runs, whatever the time.
 for jobs in 1 3; do
   expect 0 "$kage" regress --rounds 2 --config small.yaml --config tiny --seed 5 --jobs $jobs --out regress --json $jobs.json --junit $jobs.xml
-  grep -q '^same: 16 runs, ' "$temp/stdout" || fail "two rounds are not 16 runs: $(cat "$temp/stdout")"
+  grep -q '^same: 16 runs of 2 rounds, ' "$temp/stdout" || fail "two rounds are not 16 runs: $(cat "$temp/stdout")"
   grep -Eq '^  small.yaml +8 runs +.* same$' "$temp/stdout" || fail "no line for small.yaml: $(cat "$temp/stdout")"
   [ -s regress/report.html ] || fail "no page"
 done
