@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <deque>
 
+#include "arena/arena.hpp"
 #include "frontend/band.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
@@ -125,7 +125,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   const int wave = threads == 1 ? 1 : 8;
   std::deque<Band> made;
   for (int i = 0; i < wave; ++i) made.emplace_back(frame, origins != nullptr);
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  Arena arena(threads);
   for (int first = 0; first < bands; first += wave) {
     const int end = std::min(first + wave, bands);
     const auto of = [&](int b) -> Band& { return made[static_cast<std::size_t>(b - first)]; };

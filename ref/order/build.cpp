@@ -6,7 +6,6 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for_each.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +13,7 @@
 #include <mutex>
 #include <optional>
 
+#include "arena/arena.hpp"
 #include "kage/error.hpp"
 #include "order/build_node.hpp"
 #include "order/splitter.hpp"
@@ -60,7 +60,7 @@ class Builder {
     std::optional<tbb::global_control> allowed;
     if (options_.threads > tbb::info::default_concurrency())
       allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
-    tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
+    Arena arena(options_.threads);
     // A tbb::task_group that finds no memory for a task waits for that task for ever, in its destructor.
     const SharedSet first = std::make_shared<Set>(std::move(all));
     arena.execute([&] {
