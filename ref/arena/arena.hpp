@@ -22,7 +22,7 @@ class Arena {
 
  private:
   // oneTBB 2022 that finds no memory while it sets up an arena waits for ever for a lock that it holds itself, so the
-  // memory is asked for before. What it takes is some 100 KiB.
+  // memory is asked for before, and more than it takes.
   static constexpr std::size_t kBooks = std::size_t{4} << 20;
 
   void start() {

@@ -420,11 +420,6 @@ const kage_rtl_table kTable = {
 #else
     0,
 #endif
-#ifdef KAGE_WAVES
-    1,
-#else
-    0,
-#endif
     [](std::uint64_t seed) { return new (std::nothrow) kage_rtl(seed); },
     [](kage_rtl* m) { delete m; },
     [](kage_rtl* m, int mutant) {

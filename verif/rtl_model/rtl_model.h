@@ -119,7 +119,6 @@ typedef struct {
   const char* missing_monitors;
   uint32_t unwatched;
   int monitored; /* built with monitors; without, record() and handshakes() return -1 */
-  int waves;     /* able to write waveforms; else wave() and end_wave() return -1 */
 
   /* A model out of reset, its registers and memories at random values that `seed` decides. NULL if out of memory. */
   kage_rtl* (*create)(uint64_t seed);
@@ -196,7 +195,7 @@ typedef struct {
   int64_t (*handshakes)(kage_rtl*);
 
   /* Write an FST waveform of the clocks `first` to `last` to `path`, which is there whole once they have passed or the
-   * model is destroyed. One time unit is half a clock. */
+   * model is destroyed. One time unit is half a clock. -1: the model was not built for waveforms. */
   int (*wave)(kage_rtl*, const char* path, uint64_t first, uint64_t last);
 
   /* End the waveform where it stands. 0: it is whole; else the errno of what could not be written of it. */

@@ -140,7 +140,7 @@ TEST_CASE(
         CHECK_FALSE(sound->unexpected());
         CHECK_FALSE(sound->part());
         if (i != 0) continue;
-        // The first command, or the last pixel of video where commands are not watched, is wrong in its first value.
+        // The first command, or the first pixel of video where commands are not watched, is wrong in its first value.
         const int wrong = (unwatched >> KAGE_STAGE_COMMAND & 1U) == 0 ? KAGE_STAGE_COMMAND : KAGE_STAGE_OUT;
         const auto one =
             std::find_if(seen.begin(), seen.end(), [&](const kage_rtl_event& e) { return e.stage == wrong; });
