@@ -17,7 +17,8 @@
 extern "C" {
 #endif
 
-#define KAGE_RTL_ABI 10u
+/* Rises with every change of kage_rtl_table. A program refuses a model of another number: the table begins with it. */
+#define KAGE_RTL_ABI 11u
 
 typedef struct kage_rtl kage_rtl;
 
