@@ -104,7 +104,7 @@ cosim::Report SceneRun::simulate_and_keep(Part& part, const cosim::FrameRange& r
       keeper.next(frame);
     };
     options.same = [&](const cosim::FrameResult& result) { keeper.same(result); };
-    cosim::Report report = run_rtl(frames, feed, keeper, options);
+    cosim::Report report = run_rtl(part, frames, feed, keeper, options);
     verdicts_kept_ += keeper.kept();
     return report;
   };

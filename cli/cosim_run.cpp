@@ -14,7 +14,6 @@
 #include "cosim/waveform.hpp"
 #include "cosim_json.hpp"
 #include "cosim_registers.hpp"
-#include "files/quiet_stderr.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "report/html.hpp"
@@ -49,6 +48,12 @@ void remove_old_evidence(TempFiles& files, const std::string& folder, const std:
         files.remove(path);
     }
 }
+
+/// Takes what the RTL writes in a frame that is run once more.
+constexpr auto kTold = [](int, std::string_view) {};
+
+/// Bytes of what the RTL writes that a range keeps.
+constexpr std::size_t kMostRtlText = std::size_t{1} << 20;
 
 /// How long a frame is made smaller.
 constexpr std::chrono::seconds kShrinkTime{60};
@@ -191,22 +196,46 @@ void SceneRun::check_registers(Part& part) {
 cosim::Report SceneRun::simulate(Part& part, const cosim::FrameRange& range) {
   const auto golden = cosim::make_golden(source_->config().config);
   cosim::RunOptions options = run_options(range, part.files);
-  return run_rtl(range, heard_feed(part), *golden, options);
+  return run_rtl(part, range, heard_feed(part), *golden, options);
+}
+
+/// One job tells at once what the RTL writes. Of several, each keeps it, so that join() can tell it in the order of
+/// frames, and nothing of frames behind the first difference. A silent run is made again if it comes out different.
+void SceneRun::take_rtl_text(Part& part, std::string_view text) const {
+  if (o_.silent) return;
+  if (o_.jobs == 1)
+    fmt::print(stderr, "{}", text);
+  else if (part.rtl_text.size() < kMostRtlText && part.rtl_text.size() + text.size() >= kMostRtlText)
+    part.rtl_text += "\n... (from here on --jobs 1 tells what the RTL writes)\n";
+  else if (part.rtl_text.size() < kMostRtlText)
+    part.rtl_text += text;
 }
 
 /// On a new core; the first frame of all on one with another initial state besides.
-cosim::Report SceneRun::run_rtl(const cosim::FrameRange& range, const cosim::Feed& feed, cosim::Core& golden,
-                                cosim::RunOptions& options) {
+cosim::Report SceneRun::run_rtl(Part& part, const cosim::FrameRange& range, const cosim::Feed& feed,
+                                cosim::Core& golden, cosim::RunOptions& options) {
   const Config& config = source_->config().config;
-  const auto rtl = cosim::make_rtl(model_.library, config, o_.rtl.options);
+  const std::size_t text_before = part.rtl_text.size();
+  cosim::RtlOptions own_state = o_.rtl.options;
+  own_state.text = [&](int frame, std::string_view text) {
+    if (frame >= range.steps.first) take_rtl_text(part, text);
+  };
+  const auto rtl = cosim::make_rtl(model_.library, config, own_state);
   std::unique_ptr<cosim::RtlCore> other;
+  std::string other_text;
   if (range.steps.first == steps_.first) {
     cosim::RtlOptions other_state = o_.rtl.options;
     other_state.initial = kOtherState;
+    other_state.text = [&](int, std::string_view text) {
+      if (other_text.size() < kMostRtlText) other_text += text;
+    };
     other = cosim::make_rtl(model_.library, config, other_state);
     options.other_state = other.get();
   }
-  return cosim::run(range.end, feed, golden, *rtl, options);
+  cosim::Report report = cosim::run(range.end, feed, golden, *rtl, options);
+  if (report.broken) part.rtl_text.resize(text_before);  // these frames are run again
+  if (report.first_difference && report.first_difference->other_state) take_rtl_text(part, other_text);
+  return report;
 }
 
 /// What one thread would have found, and its files.
@@ -215,7 +244,10 @@ cosim::Report SceneRun::join(TempFiles& files) {
   bool whole = false;  // ranges are run anew, from the first frame on
   for (auto& part : parts_) {
     const bool ahead = part->range.before == 0;
-    if (part->error && !(whole && !ahead)) std::rethrow_exception(part->error);
+    if (part->error && !(whole && !ahead)) {
+      fmt::print(stderr, "{}", part->rtl_text);
+      std::rethrow_exception(part->error);
+    }
     // On a new core a frame comes out different, or the frame before the range fails, which in its place may not: it is
     // what one job finds that counts.
     if (!ahead && (whole || part->report.broken || !part->report.same)) {
@@ -227,6 +259,7 @@ cosim::Report SceneRun::join(TempFiles& files) {
       part->report = simulate(*part, range);
       if (part->begun > part->report.frames) count_again(*part);
     }
+    fmt::print(stderr, "{}", part->rtl_text);
     files.take(part->files);
     if (part->share) source_->absorb(*part->share);
     if (part->ear) report_->listener().absorb(*part->ear);
@@ -243,6 +276,7 @@ cosim::Report SceneRun::join(TempFiles& files) {
 cosim::ReplayOptions SceneRun::replay(ModelFor what) const {
   cosim::ReplayOptions options = cli::replay(source_->config(), o_.rtl, what);
   options.steps = steps_;
+  options.rtl.text = kTold;
   return options;
 }
 
@@ -295,6 +329,7 @@ Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference)
     const auto golden = cosim::make_golden(config);
     cosim::RtlOptions as_file = o_.rtl.options;  // kage cosim FILE puts nothing ahead
     as_file.prelude = {};
+    as_file.text = kTold;
     const auto rtl = cosim::make_rtl(model_.library, config, as_file);
     cosim::RunOptions options;
     options.refusals = true;
@@ -312,13 +347,8 @@ Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference)
     return std::chrono::steady_clock::now() - begin < kShrinkTime;
   };
   std::vector<std::uint32_t> small = words;
-  bool alone = false;
-  {
-    std::optional<QuietStderr> quiet;  // what a failing assertion says, each time again
-    if (!difference.assertion.empty()) quiet.emplace();
-    alone = differs(words);
-    if (alone && !o_.no_shrink) small = verif::shrink(config, words, differs, more);
-  }
+  const bool alone = differs(words);
+  if (alone && !o_.no_shrink) small = verif::shrink(config, words, differs, more);
   progress_.clear();
   const std::string path =
       (std::filesystem::path(o_.out) / fmt::format("{}_{:04}.kage", source_->name(), frame)).string();

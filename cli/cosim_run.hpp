@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "ci.hpp"
@@ -89,7 +90,8 @@ class SceneRun {
     std::unique_ptr<verif::Coverage> coverage;
     TempFiles files;
     cosim::Report report;
-    int begun = 0;  // of its frames: those compared, and what was made ahead of the comparison
+    std::string rtl_text;  // what the RTL wrote in its frames, and is told by join()
+    int begun = 0;         // of its frames: those compared, and what was made ahead of the comparison
     std::exception_ptr error;
   };
 
@@ -99,8 +101,9 @@ class SceneRun {
   cosim::RunOptions run_options(const cosim::FrameRange& range, TempFiles& files);
   cosim::Feed heard_feed(Part& part);
   cosim::Report simulate(Part& part, const cosim::FrameRange& range);
-  cosim::Report run_rtl(const cosim::FrameRange& range, const cosim::Feed& feed, cosim::Core& golden,
+  cosim::Report run_rtl(Part& part, const cosim::FrameRange& range, const cosim::Feed& feed, cosim::Core& golden,
                         cosim::RunOptions& options);
+  void take_rtl_text(Part& part, std::string_view text) const;
   /// How many frames of the run come before the range.
   [[nodiscard]] int frames_before(const cosim::FrameRange& range) const {
     return (range.steps.first - steps_.first) / steps_.step;

@@ -34,6 +34,7 @@ struct RegressCommand : Options {
   int rounds = 0;  // 0: as many as the minutes hold
   int jobs = 0;    // 0: default_jobs()
   bool no_divergence = false;
+  bool list = false;  // the runs are told, and none is made
   RtlRun rtl;
   CiOptions ci;
   const CLI::App* command = nullptr;
@@ -68,6 +69,16 @@ class Regress {
     for (const char* name : kRtlOptions)
       if (const CLI::Option* option = o_.command->get_option_no_throw(name); option != nullptr && option->count() != 0)
         more_.insert(more_.end(), {name, option->results().back()});
+  }
+
+  /// A line for each run of the first rounds: its name, and the command that it stands for.
+  void list(int rounds) const {
+    for (int round = 0; round < rounds; ++round)
+      for (const PlannedRun& run : plan_round(configs_, round, o_.seed, more_)) {
+        std::string line = run.name + ": kage cosim";
+        for (const std::string& argument : run.arguments) line += " " + quoted(argument);
+        fmt::print("{}\n", line);
+      }
   }
 
   /// Builds what models are missing; then the time begins.
@@ -294,6 +305,10 @@ void print_summary(const Json& j) {
 }
 
 int run(const RegressCommand& o) {
+  if (o.list) {
+    Regress(o).list(std::max(1, o.rounds));
+    return kSame;
+  }
   const OutFolder folder(o.out);
   const ReportLock lock(o.out);
   check_json(o);
@@ -336,6 +351,7 @@ void add_regress(CLI::App& app, Action& action) {
       "  kage regress --minutes 30 --seed 7 --junit regress.xml\n"
       "  kage regress --config glass --config mine.yaml --minutes 1\n"
       "  kage regress --rounds 2 --json -\n"
+      "  kage regress --list --config glass\n"
       "Each run is a kage cosim: sound, damaged and mixed random frames and the built-in scenes, in every\n"
       "configuration, with ports that stop and ports that do not (docs/regress.md). The first\n"
       "difference ends the regression: its run is repeated with pictures, waveform, page and the stage that differs\n"
@@ -353,6 +369,7 @@ void add_regress(CLI::App& app, Action& action) {
       ->check(whole_number(1, 1000000))
       ->excludes(minutes)
       ->type_name("N");
+  c->add_flag("--list", o->list, "run nothing, but print the runs of the first round, or of --rounds N, as commands");
   c->add_option("--config", o->configs,
                 "a configuration, by name or file; may be given several times. Default: all named ones")
       ->allow_extra_args(false)

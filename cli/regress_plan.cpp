@@ -10,6 +10,7 @@
 
 #include "kage/error.hpp"
 #include "kage/scene.hpp"
+#include "stimulus/random_frames.hpp"
 
 namespace kage::cli {
 namespace {
@@ -20,14 +21,6 @@ struct StallPattern {
   int backpressure;
 };
 constexpr std::array kStalls{StallPattern{0, 0}, StallPattern{30, 30}, StallPattern{0, 70}, StallPattern{60, 0}};
-
-/// A source of random frames.
-struct RandomSource {
-  const char* input;
-  const char* name;
-};
-constexpr std::array kRandom{RandomSource{"random", "random"}, RandomSource{"random:damaged", "damaged"},
-                             RandomSource{"random:mixed", "mixed"}};
 
 /// How many of them a run has. Those of the first round are few: most defects show in the first frames of some
 /// configuration, so every configuration has its first frames before any has many.
@@ -45,9 +38,10 @@ class Round {
       : round_(round), seed_(seed), more_(more) {}
 
   void random(const NamedConfig& c, std::size_t source) {
-    const RandomSource& s = kRandom[source];
-    add(fmt::format("{}.{}.{}", s.name, short_name(c), round_), c, source,
-        {s.input, "--frames", std::to_string(round_ == 0 ? kFirstFrames : kFrames)});
+    const std::string input = verif::kRandomSources[source].name;
+    const std::string name = input.substr(input.find(':') + 1);
+    add(fmt::format("{}.{}.{}", name, short_name(c), round_), c, source,
+        {input, "--frames", std::to_string(round_ == 0 ? kFirstFrames : kFrames)});
   }
 
   void scene(const NamedConfig& c, const std::string& scene) {
@@ -88,7 +82,7 @@ std::vector<PlannedRun> plan_round(const std::vector<NamedConfig>& configs, int 
     if (!names.insert(short_name(c)).second)
       throw Error(fmt::format("--config: two configurations are called {}", short_name(c)));
   Round r(round, seed, more);
-  for (std::size_t source = 0; source < kRandom.size(); ++source)
+  for (std::size_t source = 0; source < verif::kRandomSources.size(); ++source)
     for (const NamedConfig& c : configs) r.random(c, source);
   const std::vector<std::string>& scenes = builtin_scenes();
   for (std::size_t i = 0; i < configs.size(); ++i)

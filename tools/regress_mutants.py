@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """See tools/regress-mutants."""
 import argparse
+import concurrent.futures
+import itertools
 import json
+import math
+import os
 import pathlib
+import random
+import shlex
 import subprocess
 import sys
 import tempfile
+import time
 
 import yaml
 
@@ -29,8 +36,6 @@ def run(kage, number, options, out):
 
 def plot(rows, minutes, path):
     """The share that is found against seconds, logarithmic."""
-    import math
-
     width, height, left, right, top, bottom = 640, 360, 56, 16, 16, 44
     least, most = 0.1, 60 * minutes
     x = lambda s: left + (width - left - right) * math.log(max(s, least) / least) / math.log(most / least)
@@ -58,6 +63,74 @@ def plot(rows, minutes, path):
     pathlib.Path(path).write_text("\n".join(out) + "\n")
 
 
+KINDS = ("random", "damaged", "mixed", "scene")  # in the order of a round of kage regress
+
+
+def kind(name):
+    """What sort of run "damaged.glass.0" is."""
+    return name.split(".")[0] if name.split(".")[0] in KINDS else "scene"
+
+
+def cosim(kage, line, *more):
+    """The report of a run, and its seconds, the program's start among them."""
+    start = time.monotonic()
+    done = subprocess.run([kage, *shlex.split(line)[1:], "--no-report", "--json", "-", *more], capture_output=True, text=True)
+    if done.returncode not in (0, 1):
+        sys.exit(f"{line}: exit code {done.returncode}: {done.stderr.strip()}")
+    return json.loads(done.stdout), time.monotonic() - start
+
+
+def expected_module(mutant, config):
+    """The module that is to be named (verif/mutants/list.cpp)."""
+    module = mutant.get("module", pathlib.Path(mutant["file"]).stem)
+    return ("pixel_banked" if config["ARRANGEMENT"] else "pixel_systolic") if module == "pixels" else module
+
+
+def try_each(kage, number, mutant, options):
+    """Every run of the first round on its own; of each kind the first that finds the mutant says which module it names."""
+    command = [kage, "regress", "--list", "--mutant", str(number), "--seed", str(options.seed)]
+    listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+    runs = []
+    for name, _, line in (text.partition(": ") for text in listed):
+        report, seconds = cosim(kage, line, "--no-divergence", "--jobs", "1", "--threads", "1", "--no-shrink")
+        run = {"run": name, "kind": kind(name), "found": not report["same"], "seconds": seconds}
+        if run["found"] and not any(r["found"] and r["kind"] == run["kind"] for r in runs):
+            report, _ = cosim(kage, line, "--jobs", "1", "--no-shrink")
+            divergence = (report.get("first_difference") or {}).get("divergence") or {}
+            run["named"] = divergence.get("module", "")
+            run["right"] = run["named"] == expected_module(mutant, report["config"])
+        runs.append(run)
+    return {"name": mutant["name"], "runs": runs}
+
+
+def seconds_to_find(row, order):
+    """When the runs of a row, kind after kind, find the mutant; with all of them over if they do not."""
+    total = 0.0
+    for k in order:
+        for r in row["runs"]:
+            if r["kind"] == k:
+                total += r["seconds"]
+                if r["found"]:
+                    return total
+    return total
+
+
+def tell_each(rows):
+    configs = len({r["run"].split(".")[1] for r in rows[0]["runs"]})
+    print(f"\n{len(rows)} mutants, each kind of the first round, {configs} configurations\n")
+    print("| runs | found | named right, of those found | seconds, median |\n|---|---|---|---|")
+    for kinds in [(k,) for k in ("scene", *KINDS[:3])] + [KINDS]:
+        found = [row for row in rows if any(r["found"] for r in row["runs"] if r["kind"] in kinds)]
+        first = [next(r for k in kinds for r in row["runs"] if r["kind"] == k and r["found"]) for row in found]
+        total = sorted(sum(r["seconds"] for r in row["runs"] if r["kind"] in kinds) for row in rows)
+        right = sum(r["right"] for r in first)
+        name = "all of them" if kinds == KINDS else f"{kinds[0]}"
+        print(f"| {name} | {len(found)} ({len(found) / len(rows):.0%}) | {right} ({right / max(1, len(found)):.0%}) | {total[len(total) // 2]:.1f} |")
+    means = {order: sum(seconds_to_find(row, order) for row in rows) / len(rows) for order in itertools.permutations(KINDS)}
+    best = min(means, key=means.get)
+    print(f"\nmean seconds until a mutant is found, one run at a time: {', '.join(KINDS)}: {means[KINDS]:.2f}; the best order, {', '.join(best)}: {means[best]:.2f}")
+
+
 def main():
     parser = argparse.ArgumentParser(prog="tools/regress-mutants")
     parser.add_argument("kage")
@@ -66,17 +139,31 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--plot")
     parser.add_argument("--json")
+    parser.add_argument("--each", action="store_true")
+    parser.add_argument("--sample", type=int)
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
     mutants = yaml.safe_load((options.source / "verif/mutants/mutants.yaml").read_text())
     unknown = set(options.names) - {m["name"] for m in mutants}
     if unknown:
         sys.exit(f"tools/regress-mutants: no mutant is called {sorted(unknown)[0]}")
+    chosen = [(n, m) for n, m in enumerate(mutants, 1) if "equivalent" not in m and (not options.names or m["name"] in options.names)]
+    if options.sample and options.sample < len(chosen):
+        chosen = sorted(random.Random(options.seed).sample(chosen, options.sample), key=lambda c: c[0])
+    if options.each:
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            rows = []
+            for row in pool.map(lambda c: try_each(options.kage, *c, options), chosen):
+                rows.append(row)
+                found = [r for r in row["runs"] if r["found"]]
+                print(f"{row['name']:<28} found by {len(found)} of {len(row['runs'])} runs", flush=True)
+        tell_each(rows)
+        if options.json:
+            pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
+        return
     rows = []
     with tempfile.TemporaryDirectory() as out:
-        for number, mutant in enumerate(mutants, 1):
-            if "equivalent" in mutant or (options.names and mutant["name"] not in options.names):
-                continue
+        for number, mutant in chosen:
             row = {"name": mutant["name"], **run(options.kage, number, options, out)}
             rows.append(row)
             verdict = f"{row['seconds']:7.1f} s  {row['run']}" if row["found"] else "  not found"

@@ -12,11 +12,8 @@ class QuietStderr {
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
 
-  /// Where standard error led before: a descriptor, or -1 where there is none left for it.
-  [[nodiscard]] int kept() const { return kept_; }
-
  private:
-  int kept_;
+  int kept_;  // where standard error led before: a descriptor, or -1 where there is none left for it
 };
 
 }  // namespace kage

@@ -51,6 +51,7 @@ for command in render "stream --out r.kage" info "info --tokens 0" order; do
     trouble "$kind: random frames are for kage cosim and kage explain" "$kage" $command $kind
   done
 done
+trouble "random:foo: no such random frames (there are random, random:damaged, random:mixed)" "$kage" cosim random:foo
 trouble "--frame 60: there are 60 frames, from 0 on" "$kage" cosim random --frames 60 --frame 60
 trouble "--frame and --shard" "$kage" cosim random --frame 1 --shard 1/2
 no_leftovers

@@ -29,6 +29,17 @@ assert [c.get("name") for c in cases] == names
 assert cases[0].get("classname") == "kage.regress.small_yaml" and cases[1].get("classname") == "kage.regress.tiny"
 PY
 
+# --list tells these runs, makes none, and leaves nothing.
+expect 0 "$kage" regress --list --rounds 2 --config small.yaml --config tiny --seed 5
+python3 - <<'PY' || fail "--list tells other runs: $(cat "$temp/stdout")"
+import json
+lines = open("stdout").read().splitlines()
+scenes = json.load(open("1.json"))["scenes"]
+assert [line.split(": ")[0] for line in lines] == [r["scene"] for r in scenes]
+assert [line.split(": ")[1] for line in lines] == [r["again"] for r in scenes], (lines[2], scenes[2]["again"])
+PY
+[ ! -e out ] || fail "--list made the folder"
+
 # The line that a run stands for gives the same.
 again=$(python3 -c 'import json; print(json.load(open("1.json"))["scenes"][2]["again"])')
 expect 0 ${again/#kage /$kage } --out again --json again.json

@@ -56,6 +56,7 @@ class Rtl : public RtlCore {
     model_ = table_->create(initial_seed(options));
     if (model_ == nullptr) throw Error(fmt::format("{}: out of memory", path.string()));
     table_->assertions(model_, options.assertions ? 1 : 0);
+    if (options_.text) table_->on_text(model_, take_text, this);
     if (options.mutant != 0) {
       if (table_->select(model_, options.mutant) != 0)
         throw Error(fmt::format("{}: has no mutant {}", path.string(), options.mutant));
@@ -148,6 +149,12 @@ class Rtl : public RtlCore {
     if (!failure.empty()) throw AssertionError("rtl/" + failure);
     if (why == KAGE_RTL_ASSERT) throw Error("the RTL ends the simulation by $finish");
     return why;
+  }
+
+  /// Called by the driver.
+  static void take_text(void* rtl, const char* piece) {
+    const auto* self = static_cast<const Rtl*>(rtl);
+    self->options_.text(self->number_, piece);
   }
 
   /// The first words of a frame are coming.

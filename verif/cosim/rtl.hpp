@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cosim/core.hpp"
@@ -21,6 +22,10 @@ struct RtlOptions {
   int backpressure_percent = 0;  ///< share of clocks without output taken
   int mutant = 0;                ///< of a model that has mutants: which one it is, from 1; 0: none
   bool assertions = true;        ///< false: go on where the RTL's assertions fail
+
+  /// Gets what the RTL writes, as by $display or an assertion that fails, in pieces of any size, with the number of the
+  /// frame at hand. Without it, the text goes to standard error.
+  std::function<void(int frame, std::string_view text)> text = {};
 
   /// Gives the words of a sound frame for every number. With it, some frames meet a core that was reset within such a
   /// frame just before, and some come right behind one, before its pixels have left; which do follows from seed and

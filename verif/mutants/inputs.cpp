@@ -31,7 +31,7 @@ std::vector<Inputs> trial_configurations() {
     c.smooth = 1, c.count_bits = 2, c.lights = 3, c.class_bits = 3, c.translucency = 1, c.shade_frac = 4;
   });
   add("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.seg_bits = 4, c.translucency = 1; });
-  add("counting", [](Config& c) { c.dsf_bits = 3, c.arrangement = 0; });
+  add("counting_systolic", [](Config& c) { c.dsf_bits = 3, c.arrangement = 0; });
   add("smooth_systolic", [](Config& c) { c.smooth = 1, c.color_frac = 6, c.arrangement = 0; });
   add("lights_systolic", [](Config& c) {
     c.fsf = 0, c.dsf_bits = 2, c.count_bits = 2, c.lights = 2, c.class_bits = 2, c.translucency = 1, c.arrangement = 0;

@@ -41,6 +41,7 @@ import yaml
 
 HERE = pathlib.Path(__file__).resolve().parent
 RTL = pathlib.Path(os.environ.get("KAGE_RTL_DIR", HERE.parent.parent / "rtl")).resolve()
+FROM_VERILATOR = HERE / "from_verilator.hpp"
 FAULTS = HERE.parent / "faults"
 MONITORS = HERE.parent / "monitors"
 MUTANTS = HERE.parent / "mutants/mutants.yaml"
@@ -130,7 +131,7 @@ def parameters(arguments):
 
 def sources(fault=None, monitors=False, mutants=False):
     files = sorted(p for p in RTL.glob("*.sv")) + sorted((RTL / "include").glob("*.svh"))
-    files += [RTL / "defs/kage.yaml", HERE / "rtl_model.h", HERE / "rtl_model.cpp", HERE / "initial_state.hpp", HERE / "build.py"]
+    files += [RTL / "defs/kage.yaml", HERE / "rtl_model.h", HERE / "rtl_model.cpp", FROM_VERILATOR, HERE / "build.py"]
     if monitors:
         files += sorted(MONITORS.iterdir())
     if mutants:
@@ -221,7 +222,7 @@ def name_initial_state(obj):
         text = re.sub(r"VL_RAND_RESET_W\((\d+), " + name + r"\);", lambda m: f'kage_initial_words({m[1]}, {m[2]}, "{m[3]}", {index(m[4])});', text)
         if "VL_RAND_RESET" in text or "___024root" not in path.name:  # a name says where in the whole core, since --flatten leaves one module
             fail(f"this Verilator draws the initial state in a way that is not known: {path.name}")
-        path.write_text(f'#include "{HERE / "initial_state.hpp"}"\n{text}')
+        path.write_text(text)
 
 
 def main():
@@ -288,9 +289,8 @@ def build(out, values, args, work):
     unroll = 8 if quick else values["MAX_WIDTH"] if values["ARRANGEMENT"] == 0 and 64 < values["MAX_WIDTH"] <= 128 else 64
     verilator = os.environ.get("VERILATOR") or "verilator"
     obj = work / "obj"
-    # What the RTL says, as of an assertion, is no result: standard output is for those. The quotes are for make's shell.
-    to_stderr = "'-DVL_PRINTF(...)=fprintf(stderr,__VA_ARGS__)'"
-    cflags = f"-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP {to_stderr}"
+    # What the RTL writes goes through the driver. The header is copied, so that these flags are the same in every source tree.
+    cflags = f"-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP -DVL_PRINTF=kage_printf -include {FROM_VERILATOR.name}"
     command = [verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", obj, "-O3", "--x-initial", "unique",
                "--flatten", "--assert", "--unroll-count", str(unroll), "--unroll-stmts", "1000000", "-Wall", f"-I{rtl / 'include'}", "-CFLAGS", cflags]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
@@ -309,6 +309,7 @@ def build(out, values, args, work):
     with open(work / "params.inc", "a") as params:
         params.write(unwatched(missing))
     name_initial_state(obj)
+    shutil.copy(FROM_VERILATOR, obj)
 
     cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
     make = ["make", "-C", obj, "-f", "Vkage.mk", f"-j{args.jobs}", f"OPT_FAST={'-O1' if quick else '-O2'}", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1", f"CXX={shlex.join(cxx)}"]
@@ -344,7 +345,7 @@ class Runtime:
         self.obj = obj
         versions = [subprocess.run([*tool, "--version"], capture_output=True, text=True).stdout for tool in ([verilator], cxx)]
         own = (obj / "Vkage_classes.mk").read_text().split("### Object file lists")[0]  # threads, tracing and the like
-        key = hashlib.sha256("\0".join([*versions, *flags, own]).encode()).hexdigest()[:24]
+        key = hashlib.sha256("\0".join([*versions, *flags, own, FROM_VERILATOR.read_text()]).encode()).hexdigest()[:24]
         cache = os.environ.get("XDG_CACHE_HOME") or (os.path.join(os.environ["HOME"], ".cache") if os.environ.get("HOME") else None)
         self.folder = pathlib.Path(cache) / "kage" / "verilator" / key if cache else None
         if self.folder:

@@ -3,7 +3,9 @@
 // The driver around a verilated kage_top: queues, stall patterns, checks of the video port. See rtl_model.h.
 #include "rtl_model.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdarg>
 #include <cstdio>
 #include <deque>
 #include <memory>
@@ -12,7 +14,7 @@
 #include <vector>
 
 #include "Vkage.h"
-#include "initial_state.hpp"
+#include "from_verilator.hpp"
 #include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
 #include "verilated.h"
 #if defined(KAGE_MONITORS) || defined(KAGE_MUTANTS)
@@ -138,6 +140,8 @@ struct kage_rtl {
 
   int mutant = 0;
   std::string failure;  // the first assertion that failed
+  void (*text)(void* user, const char* piece) = nullptr;
+  void* text_user = nullptr;
 
   bool recording = false;
   std::vector<kage_rtl_event> events;
@@ -428,6 +432,10 @@ const kage_rtl_table kTable = {
       return 0;
     },
     [](kage_rtl* m, int on) { m->context.assertOn(on != 0); },
+    [](kage_rtl* m, void (*text)(void* user, const char* piece), void* user) {
+      m->text = text;
+      m->text_user = user;
+    },
     [](kage_rtl* m) { return m->failure.c_str(); },
     [](kage_rtl* m, std::uint32_t clocks) { m->reset(clocks); },
     [](kage_rtl* m, std::uint32_t input, std::uint32_t output, std::uint64_t seed) { m->stalls(input, output, seed); },
@@ -551,6 +559,25 @@ void kage_trace(int stage, int unit, const svBitVecVal* values) {
     e.value[i] = values[2 * i] | static_cast<std::uint64_t>(values[2 * i + 1]) << 32;
 }
 #endif
+
+int kage_printf(const char* format, ...) {
+  std::va_list arguments;
+  va_start(arguments, format);
+  int length = 0;
+  if (current == nullptr || current->text == nullptr) {
+    length = std::vfprintf(stderr, format, arguments);
+  } else {
+    std::va_list again;
+    va_copy(again, arguments);
+    length = std::max(0, std::vsnprintf(nullptr, 0, format, again));
+    va_end(again);
+    std::string piece(static_cast<std::size_t>(length), '\0');
+    std::vsnprintf(piece.data(), piece.size() + 1, format, arguments);
+    current->text(current->text_user, piece.c_str());
+  }
+  va_end(arguments);
+  return length;
+}
 
 // FNV-1a of the name, then the mixer of splitmix64, so that neighbours in a memory have nothing in common.
 std::uint64_t kage_initial(unsigned bits, const char* name, std::uint64_t index) {

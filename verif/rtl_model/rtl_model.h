@@ -132,8 +132,12 @@ typedef struct {
   /* Whether assertions of the RTL are looked at; they are from create() on. */
   void (*assertions)(kage_rtl*, int on);
 
-  /* The file and line of the assertion that failed, "frame_control.sv:312"; "" if none has. Its message is on standard
-   * error. */
+  /* What the RTL writes from now on, as by $display or an assertion that fails, goes to `text` with `user`, in pieces
+   * of any size; to standard error where `text` is NULL, as it does from create() on. */
+  void (*on_text)(kage_rtl*, void (*text)(void* user, const char* piece), void* user);
+
+  /* The file and line of the assertion that failed, "frame_control.sv:312"; "" if none has. Its message has gone where
+   * on_text() says. */
   const char* (*failure)(kage_rtl*);
 
   /* Hold reset for `clocks` (at least 1). Queued beats, expected frames and a half-finished register access are

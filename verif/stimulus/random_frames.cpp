@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stimulus/random_frames.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "kage/error.hpp"
 #include "number/mixed.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
@@ -126,10 +129,12 @@ Words damaged_frame(Random& random, const Config& c, std::uint32_t number) {
 }
 
 std::optional<Manner> random_manner(const std::string& name) {
-  if (name == "random") return Manner::sound;
-  if (name == "random:damaged") return Manner::damaged;
-  if (name == "random:mixed") return Manner::mixed;
-  return std::nullopt;
+  for (const RandomSource& source : kRandomSources)
+    if (name == source.name) return source.manner;
+  if (!name.starts_with("random:")) return std::nullopt;
+  std::string names;
+  for (const RandomSource& source : kRandomSources) names += fmt::format("{}{}", names.empty() ? "" : ", ", source.name);
+  throw Error(fmt::format("{}: no such random frames (there are {})", name, names));
 }
 
 Words RandomFrames::words(int index) const {

@@ -3,6 +3,7 @@
 // Random frames one after the other, as kage cosim random sends them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -30,7 +31,17 @@ enum class Manner {
   mixed     ///< either, as likely; some meet a core that was just reset, or is still at work on another frame
 };
 
-/// The manner that "random", "random:damaged" or "random:mixed" asks for; none for any other text.
+/// What each manner is asked for by.
+struct RandomSource {
+  const char* name;
+  Manner manner;
+};
+inline constexpr std::array kRandomSources{RandomSource{"random", Manner::sound},
+                                           RandomSource{"random:damaged", Manner::damaged},
+                                           RandomSource{"random:mixed", Manner::mixed}};
+
+/// The manner that a name of kRandomSources asks for; none for any other text that does not begin as they do. Throws
+/// Error for "random:" with a manner that there is not.
 std::optional<Manner> random_manner(const std::string& name);
 
 /// Frames that follow from configuration, manner, seed and their number alone: no frame depends on another.

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first value of every register and memory: build.py puts these in place of Verilator's random ones.
+// What Verilator's own code calls in rtl_model.cpp: build.py sees to it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+
+/// In place of printf(), for what the RTL writes: see on_text of rtl_model.h.
+int kage_printf(const char* format, ...) __attribute__((format(printf, 1, 2)));
+
+// The first value of every register and memory, in place of Verilator's random ones.
 
 /// So many bits, up to 64, that follow from the model's seed, the name and the index.
 std::uint64_t kage_initial(unsigned bits, const char* name, std::uint64_t index);

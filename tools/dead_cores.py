@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""See tools/dead-cores."""
+import argparse
+import collections
+import ctypes
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+MAY_USE_A_CORE = r"^(cli|rtl|examples|mutants)/|^unit/(cosim_|core_clocks)"
+LONGEST = 1800  # seconds a test may take
+
+# Tests that a core which is wrong in every way leaves as they are, and why.
+EXEMPT = {
+    r"rtl/fault_": "looks for a fault: any will do",
+    r"rtl/failed_assertion": "looks for a failed assertion, behind which no pixel counts",
+}
+
+# Goes into the driver of the copied tree: a core that was made leaves a mark.
+MARK = """
+  if (const char* mark = std::getenv("KAGE_DEAD_CORES_MARK")) {
+    if (FILE* file = std::fopen(mark, "a")) std::fclose(file);
+  }
+"""
+
+
+class Trouble(Exception):
+    pass
+
+
+class Table(ctypes.Structure):
+    """The beginning of kage_rtl_table (verif/rtl_model/rtl_model.h)."""
+
+    _fields_ = [
+        ("abi", ctypes.c_uint32),
+        ("param_count", ctypes.c_uint32),
+        ("param_names", ctypes.POINTER(ctypes.c_char_p)),
+        ("param_values", ctypes.POINTER(ctypes.c_int32)),
+    ]
+
+
+def parameters(library):
+    """PARAM=VALUE of a model; read by a process of its own, which keeps no library open."""
+    text = (
+        "import ctypes, sys; sys.path.insert(0, sys.argv[1]); from dead_cores import Table\n"
+        "api = ctypes.CDLL(sys.argv[2]).kage_rtl_api; api.restype = ctypes.POINTER(Table); t = api()[0]\n"
+        "print(*(f'{t.param_names[i].decode()}={t.param_values[i]}' for i in range(t.param_count)))"
+    )
+    command = [sys.executable, "-c", text, str(pathlib.Path(__file__).parent), str(library)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
+
+
+def tests(build, wanted):
+    command = ["ctest", "--test-dir", build, "--show-only=json-v1"]
+    listed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    chosen = [t for t in listed["tests"] if re.search(wanted, t["name"]) and "command" in t]
+    chosen = [t for t in chosen if not any(re.search("^" + pattern, t["name"]) for pattern in EXEMPT)]
+    if not chosen:
+        raise Trouble(f"--tests {wanted}: no such test")
+    return chosen
+
+
+class Tree:
+    """A copy of the tree whose cores leave a mark, with a fault or without, and the models of tests that are given one."""
+
+    def __init__(self, top, work, fault):
+        self.top = top
+        self.copy = work / "tree"
+        self.cache = work / "cache"
+        self.models = work / "models"
+        self.mark = work / "mark"
+        self.scratch = work / "scratch"
+        files = subprocess.run(["git", "-C", top, "ls-files", "-z"], check=True, capture_output=True).stdout.split(b"\0")
+        for name in filter(None, map(os.fsdecode, files)):
+            source = top / name
+            if source.is_file():
+                (self.copy / name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(source, self.copy / name)
+        if fault:
+            patch = top / "verif/faults" / f"{fault}.patch"
+            if not patch.exists():
+                raise Trouble(f"--fault {fault}: no {patch}")
+            subprocess.run(["patch", "--quiet", "--fuzz=0", "--batch", "-p1", "-d", self.copy, "-i", patch], check=True)
+        driver = self.copy / "verif/rtl_model/rtl_model.cpp"
+        head, begin, tail = driver.read_text().partition("explicit kage_rtl(std::uint64_t seed) : initial(seed) {\n")
+        if not begin:
+            raise Trouble(f"{driver}: no constructor to put the mark in")
+        driver.write_text("#include <cstdlib>\n" + head + begin + MARK + tail)
+        for folder in (self.models, self.cache, self.scratch):
+            folder.mkdir()
+
+    def model(self, library):
+        """The same model, of this tree's core."""
+        out = self.models / pathlib.Path(library).name
+        if not out.exists():
+            command = [self.copy / "verif/rtl_model/build.py", out, *parameters(library), "--quick"]
+            subprocess.run(command, check=True, env={**os.environ, "XDG_CACHE_HOME": str(self.cache)})
+        return str(out)
+
+    def run(self, test):
+        """("passes" | "fails" | "left out" | "takes too long", whether it made a core, seconds)."""
+        command = []
+        for word in test["command"]:
+            if word.endswith(".so"):
+                word = self.model(word)
+            elif word == str(self.top) or word.startswith(str(self.top) + "/verif/"):
+                word = str(self.copy) + word[len(str(self.top)) :]
+            command.append(word)
+        self.mark.unlink(missing_ok=True)
+        environment = {**os.environ, "KAGE_DATA_DIR": str(self.copy), "XDG_CACHE_HOME": str(self.cache)}
+        environment |= {"KAGE_DEAD_CORES_MARK": str(self.mark), "TMPDIR": str(self.scratch)}
+        properties = {p["name"]: p["value"] for p in test.get("properties", [])}
+        environment.update(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
+        start = time.monotonic()
+        process = subprocess.Popen(
+            command, cwd=properties.get("WORKING_DIRECTORY"), env=environment, start_new_session=True,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+        try:
+            code = process.wait(timeout=LONGEST)
+            verdict = "passes" if (code == 0) != bool(properties.get("WILL_FAIL")) else "fails"
+            if code == properties.get("SKIP_RETURN_CODE"):
+                verdict = "left out"
+        except subprocess.TimeoutExpired:
+            verdict = "takes too long"
+        finally:
+            try:
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            process.wait()
+            shutil.rmtree(self.scratch, ignore_errors=True)
+            self.scratch.mkdir()
+        return verdict, self.mark.exists(), time.monotonic() - start
+
+
+def run(options):
+    faults = options.fault or sorted(p.stem for p in (options.top / "verif/faults").glob("dead_*.patch"))
+    chosen = tests(options.build, options.tests)
+    rows = []
+    for fault in ["", *faults]:
+        with tempfile.TemporaryDirectory(prefix="kage-dead-") as work:
+            tree = Tree(options.top, pathlib.Path(work), fault)
+            for test in chosen:
+                verdict, core, seconds = tree.run(test)
+                rows.append({"core": fault or "sound", "test": test["name"], "verdict": verdict, "uses_core": core, "seconds": seconds})
+                print(f"{fault or 'sound':<14} {verdict:<14} {'core' if core else '-':<5} {seconds:6.1f} s  {test['name']}", flush=True)
+        if not fault:  # the others have nothing to say
+            uses = {row["test"] for row in rows if row["verdict"] == "passes" and row["uses_core"]}
+            chosen = [t for t in chosen if t["name"] in uses]
+    return rows
+
+
+def tell(rows):
+    """Prints what came of it; returns the exit code."""
+    sound = [row for row in rows if row["core"] == "sound"]
+    dead = [row for row in rows if row["core"] != "sound"]
+    named = lambda these: ", ".join(sorted({row["test"] for row in these}))
+    without = [row for row in sound if row["verdict"] == "passes" and not row["uses_core"]]
+    left_out = [row for row in sound if row["verdict"] == "left out"]
+    broken = [row for row in sound if row["verdict"] not in ("passes", "left out")]
+    print(f"{len(sound)} tests with the sound core: {sum(row['verdict'] == 'passes' for row in sound)} pass, {len(without)} of these make no core")
+    for core in dict.fromkeys(row["core"] for row in dead):
+        verdicts = collections.Counter(row["verdict"] for row in dead if row["core"] == core)
+        print(f"{core}: {', '.join(f'{count} {verdict}' for verdict, count in sorted(verdicts.items()))}")
+    if without:
+        print(f"make no core: {named(without)}")
+    if left_out:
+        print(f"left out here: {named(left_out)}")
+    late = [row for row in dead if row["verdict"] == "takes too long"]
+    if late:
+        print(f"do not end with a dead core: {named(late)}")
+    passed = [row for row in dead if row["verdict"] == "passes"]
+    if passed:
+        print("PASS with a dead core: " + ", ".join(f"{row['test']} ({row['core']})" for row in passed))
+    if broken:
+        raise Trouble(f"these do not pass with the sound core: {named(broken)}")
+    if not dead:
+        raise Trouble("none of these tests makes a core")
+    return 1 if passed or late else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/dead-cores")
+    parser.add_argument("top", type=pathlib.Path)
+    parser.add_argument("build")
+    parser.add_argument("--fault", action="append", default=[])
+    parser.add_argument("--tests", default=MAY_USE_A_CORE)
+    parser.add_argument("--json", type=pathlib.Path)
+    options = parser.parse_args()
+    rows = run(options)
+    if options.json:
+        options.json.write_text(json.dumps(rows, indent=1) + "\n")
+    return tell(rows)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except Trouble as e:
+        print(f"tools/dead-cores: {e}", file=sys.stderr)
+    except subprocess.CalledProcessError as e:
+        print(f"tools/dead-cores: {' '.join(map(str, e.cmd))}: exit code {e.returncode}", file=sys.stderr)
+    except OSError as e:
+        print(f"tools/dead-cores: {e}", file=sys.stderr)
+    sys.exit(2)
