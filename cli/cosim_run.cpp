@@ -369,7 +369,7 @@ Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference)
           {"alone", alone},
           {"lines", counts.of_kind[static_cast<std::size_t>(Kind::EOL)]},
           {"tokens", tokens},
-          {"width", small.size() < 2 ? 0U : small[1] & 0xFFFFU},
+          {"width", FrameHeader::read(small).width},
           {"words", small.size()},
           {"words_before", words.size()},
           {"again", again}};

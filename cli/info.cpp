@@ -52,12 +52,14 @@ std::array<std::uint8_t, 3> unpacked(std::uint32_t color) {
 std::string header_text(const Config& config, std::span<const std::uint32_t> words) {
   if (words.size() < kHeaderWords)
     return fmt::format("header of {} words, cut after {}: {}", kHeaderWords, words.size(), words_text(words));
-  std::string text = fmt::format("header: {}x{}, background {}, frame number {}", words[1] & 0xffff, words[1] >> 16,
-                                 color_text(config, unpacked(words[3])), words[4]);
-  const std::uint32_t magic = kStreamMagic << 16 | kStreamVersion;
-  if (words[0] != magic) text += fmt::format(", magic_version {:#010x} and not {:#010x}", words[0], magic);
-  if (words[2] != param_hash(config))
-    text += fmt::format(", param_hash {:#010x} and not {:#010x}", words[2], param_hash(config));
+  const FrameHeader h = FrameHeader::read(words);
+  std::string text = fmt::format("header: {}x{}, background {}, frame number {}", h.width, h.height,
+                                 color_text(config, unpacked(h.background)), h.frame);
+  std::array<std::uint32_t, 1> ours{};
+  FrameHeader{}.write(ours);
+  if (!h.known()) text += fmt::format(", magic_version {:#010x} and not {:#010x}", words[0], ours[0]);
+  if (h.param_hash != param_hash(config))
+    text += fmt::format(", param_hash {:#010x} and not {:#010x}", h.param_hash, param_hash(config));
   return text;
 }
 

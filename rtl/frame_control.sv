@@ -140,14 +140,14 @@ module frame_control #(
   // ---- header ------------------------------------------------------------------------------------------------------
   logic [15:0] head_width, head_height;
   logic [3:0] head_error;
-  assign head_width  = token_i[47:32];
-  assign head_height = token_i[63:48];
+  assign head_width  = token_i[HeaderWidthLsb+:16];
+  assign head_height = token_i[HeaderHeightLsb+:16];
   always_comb begin
     if (token_cut_i) head_error = ErrLastEarly;
-    else if (token_i[31:0] != {16'(StreamMagic), 16'(StreamVersion)}) head_error = ErrHeader;
+    else if (token_i[HeaderVersionLsb+:32] != {16'(StreamMagic), 16'(StreamVersion)}) head_error = ErrHeader;
     else if (head_width == '0 || head_width > 16'(MAX_WIDTH)) head_error = ErrSize;
     else if (head_height == '0 || head_height[15]) head_error = ErrSize;
-    else if (token_i[95:64] != ParamHash) head_error = ErrParams;
+    else if (token_i[HeaderParamHashLsb+:32] != ParamHash) head_error = ErrParams;
     else head_error = ErrNone;
   end
 
@@ -234,7 +234,7 @@ module frame_control #(
   assign frame_end_o = (good && !token_header_i && is_end) || (state_q == StBlank && lines_done && !dropping_i);
   assign error_o = bad;
   assign error_code_o = error_code;
-  assign error_frame_o = token_header_i ? (token_cut_i ? 32'd0 : token_i[159:128]) : frame_q;
+  assign error_frame_o = token_header_i ? (token_cut_i ? 32'd0 : token_i[HeaderFrameLsb+:32]) : frame_q;
   assign error_line_o = token_header_i ? 16'd0 : 16'(line_q);
   assign error_token_o = token_header_i ? 32'd0 : fault_token;
   assign error_unit_o = token_header_i ? 6'd0 : fault_unit;
@@ -254,10 +254,10 @@ module frame_control #(
 
   always_ff @(posedge clk_i) begin
     if (accept && token_header_i) begin
-      width_q <= token_i[32+:X_BITS];
-      height_q <= bad ? '0 : token_i[62:48];  // no lines after an error in the header
-      background_q <= token_i[96+:RgbBits];
-      frame_q <= token_i[159:128];
+      width_q <= token_i[HeaderWidthLsb+:X_BITS];
+      height_q <= bad ? '0 : token_i[HeaderHeightLsb+:15];  // no lines after an error in the header
+      background_q <= token_i[HeaderBackgroundLsb+:RgbBits];
+      frame_q <= token_i[HeaderFrameLsb+:32];
       line_q <= '0;
       index_q <= 32'd1;
       painted_q <= 1'b0;

@@ -57,7 +57,7 @@ struct kage_golden final : kage::CoreObserver {
     index = 0;
     words.assign(w.begin(), w.end());
     token = {};
-    height = static_cast<int>(w[1] >> 16);
+    height = kage::FrameHeader::read(w).height;
     line = accepted = true;
     resolved = false;
   }
@@ -332,9 +332,10 @@ const char* kage_golden_token_text(kage_golden* core) {
   (void)guarded(core, [&] {
     if (core->index < 0)
       core->text.clear();
-    else if (core->kind == KAGE_KIND_HEADER)
-      core->text = fmt::format("header {}x{}", core->words[1] & 0xFFFFU, core->words[1] >> 16);
-    else
+    else if (core->kind == KAGE_KIND_HEADER) {
+      const kage::FrameHeader h = kage::FrameHeader::read(core->words);
+      core->text = fmt::format("header {}x{}", h.width, h.height);
+    } else
       core->text = kage::to_string(core->config, core->token);
     return 0;
   });

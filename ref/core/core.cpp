@@ -38,12 +38,10 @@ struct GoldenCore::Data {
   std::uint64_t came = 0;   // words
 
   /// The error of a header that arrived whole.
-  [[nodiscard]] ErrorCode check_header(std::span<const std::uint32_t> words) const {
-    if (words[0] != (kStreamMagic << 16 | kStreamVersion)) return ErrorCode::HEADER;
-    const int width = static_cast<int>(words[1] & 0xFFFFU);
-    const int height = static_cast<int>(words[1] >> 16);
-    if (width < 1 || width > config.max_width || height < 1 || height > 32767) return ErrorCode::SIZE;
-    return words[2] == param_hash(config) ? ErrorCode::NONE : ErrorCode::PARAMS;
+  [[nodiscard]] ErrorCode check_header(const FrameHeader& h) const {
+    if (!h.known()) return ErrorCode::HEADER;
+    if (h.width < 1 || h.width > config.max_width || h.height < 1 || h.height > kMaxHeight) return ErrorCode::SIZE;
+    return h.param_hash == param_hash(config) ? ErrorCode::NONE : ErrorCode::PARAMS;
   }
 
   void apply() {
@@ -119,12 +117,13 @@ struct GoldenCore::Data {
   }
 
   void header(std::span<const std::uint32_t> h, const LineSink& sink) {
-    number = h[4];
-    if (const ErrorCode e = check_header(h); e != ErrorCode::NONE) return fail(e, sink);
-    status.width = static_cast<int>(h[1] & 0xFFFFU);
-    status.height = static_cast<int>(h[1] >> 16);
+    const FrameHeader read = FrameHeader::read(h);
+    number = read.frame;
+    if (const ErrorCode e = check_header(read); e != ErrorCode::NONE) return fail(e, sink);
+    status.width = read.width;
+    status.height = read.height;
     rules.start(config, status.width, status.height);
-    pixels.start(status.width, h[3]);
+    pixels.start(status.width, read.background);
     tree.start(status.width);
     out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(config.channels));
     taken = kHeaderWords;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kage/derived.hpp"
+
 namespace kage {
 
 void ExpansionUnit::start() {
@@ -26,7 +28,7 @@ void ExpansionUnit::add_segment(const SegmentToken& s, int width) {
 }
 
 void ExpansionUnit::expand(TreeLine& out) {
-  const int shift = 64 - (config_.z_bits + config_.z_frac + 2);
+  const int shift = 64 - derived::depth_bits(config_);
   const std::int64_t z_max = (std::int64_t{1} << config_.z_bits) - 2;
   const std::uint64_t clear = ((std::uint64_t{1} << config_.z_bits) - 1) << TreeLine::kIndexBits | 0xFFFFU;
   std::size_t x = 0;

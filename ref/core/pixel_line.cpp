@@ -3,13 +3,15 @@
 
 #include <algorithm>
 
+#include "kage/derived.hpp"
+
 namespace kage {
 namespace {
 
 constexpr std::uint32_t kLit = 1U << 24;
 
 DepthRamp depth_ramp(const Config& c, const SpanToken& s) {
-  const int spare = 64 - (c.z_bits + c.z_frac + 2);
+  const int spare = 64 - derived::depth_bits(c);
   return {static_cast<std::int64_t>(static_cast<std::uint64_t>(s.z) << spare),
           static_cast<std::int64_t>(static_cast<std::uint64_t>(s.dz) << spare), 30 - c.z_bits, (1 << c.z_bits) - 2};
 }
@@ -67,7 +69,7 @@ void PixelLine::op(const SpanToken& s) {
 
 // Without SMOOTH a ramp that does not rise: 8 bits on top of 22, as the kernels have it.
 std::array<ColorRamp, 3> PixelLine::color_ramps(const SpanToken& s) const {
-  const int spare = config_.smooth == 0 ? 22 : 32 - (10 + config_.color_frac);
+  const int spare = config_.smooth == 0 ? 22 : 32 - derived::ramp_bits(config_);
   std::array<ColorRamp, 3> ramps{};
   for (std::size_t c = 0; c < 3; ++c)
     ramps[c] = {static_cast<std::int32_t>(static_cast<std::uint32_t>(s.color[c]) << spare),

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 
+#include "kage/derived.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {
@@ -22,7 +23,7 @@ inline std::int64_t wrapped(std::uint64_t sum, int bits) {
 inline std::uint32_t span_depth(const Config& c, const SpanToken& s, int x) {
   const std::int64_t sum =
       wrapped(static_cast<std::uint64_t>(s.z) + static_cast<std::uint64_t>(s.dz) * static_cast<std::uint64_t>(x - s.xl),
-              c.z_bits + c.z_frac + 2);
+              derived::depth_bits(c));
   const std::int64_t most = (std::int64_t{1} << c.z_bits) - 2;
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(sum >> c.z_frac, 1, most));
 }
@@ -37,7 +38,7 @@ inline std::array<std::uint8_t, 3> span_color(const Config& c, const SpanToken& 
     }
     const std::int64_t sum =
         wrapped(static_cast<std::uint64_t>(std::int64_t{s.color[i]} + std::int64_t{s.dcolor[i]} * (x - s.xl)),
-                10 + c.color_frac);
+                derived::ramp_bits(c));
     color[i] = static_cast<std::uint8_t>(std::clamp<std::int64_t>(sum >> c.color_frac, 0, 255));
   }
   return color;

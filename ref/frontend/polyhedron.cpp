@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "kage/derived.hpp"
+
 namespace kage {
 
 PolyhedronScanner::PolyhedronScanner(const FrameGeometry& geometry, const Config& config)
@@ -11,7 +13,7 @@ PolyhedronScanner::PolyhedronScanner(const FrameGeometry& geometry, const Config
       z_bits_(config.z_bits),
       z_frac_(config.z_frac),
       max_dx_((1 << config.dx_bits) - 1) {
-  const int bits = config.z_bits + config.z_frac + 2;
+  const int bits = derived::depth_bits(config);
   least_z_ = config.classic != 0 ? 0 : -(std::int64_t{1} << (bits - 1));
   most_z_ = config.classic != 0 ? 32767 : (std::int64_t{1} << (bits - 1)) - 1;
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "kage/derived.hpp"
 #include "kage/geometry.hpp"
 #include "kage/stream.hpp"
 #include "number/int128.hpp"
@@ -33,7 +34,7 @@ class SpanSetup {
         round_half_(shift_ > 0 ? std::int64_t{1} << (shift_ - 1) : 0) {}
 
   /// For the depth of spans and segments.
-  static SpanSetup depth(const Config& config) { return {config.z_frac, config.z_bits + config.z_frac + 2}; }
+  static SpanSetup depth(const Config& config) { return {config.z_frac, derived::depth_bits(config)}; }
 
   struct Ramp {
     std::int64_t start;

@@ -64,16 +64,14 @@ struct FrameChecker::Data {
   }
 
   void check_header(std::span<const std::uint32_t> words) {
-    header.frame = words[4];
-    if (words[0] != (kStreamMagic << 16 | kStreamVersion)) fail(ErrorCode::HEADER);
-    const int width = static_cast<int>(words[1] & 0xFFFFU);
-    const int height = static_cast<int>(words[1] >> 16);
-    if (width < 1 || height < 1 || width > config.max_width || height > 32767) fail(ErrorCode::SIZE);
-    if (words[2] != param_hash(config)) fail(ErrorCode::PARAMS);
-    if (words[3] >> 24 != 0) fail("background has bits past its channels");
-    header = {width, height, words[3], words[4]};
+    header = FrameHeader::read(words);
+    if (!header.known()) fail(ErrorCode::HEADER);
+    if (header.width < 1 || header.height < 1 || header.width > config.max_width || header.height > kMaxHeight)
+      fail(ErrorCode::SIZE);
+    if (header.param_hash != param_hash(config)) fail(ErrorCode::PARAMS);
+    if (header.background >> 24 != 0) fail("background has bits past its channels");
     header_seen = true;
-    rules.start(config, width, height);
+    rules.start(config, header.width, header.height);
     faces.assign(static_cast<std::size_t>(config.units), {});
     at = kHeaderWords;
     token = 1;

@@ -25,6 +25,22 @@ std::string allowed_values(const ParamInfo& p) {
   return list;
 }
 
+/// The values of a rule's parameters: " (FSF 1, DSF_BITS 0)".
+std::string values_of(const Config& config, const RuleInfo& rule) {
+  std::string text;
+  for (const ParamInfo& p : kParams) {
+    const std::size_t at = rule.legal.find(p.name);
+    if (at == std::string_view::npos) continue;
+    const std::size_t end = at + p.name.size();
+    const auto in_name = [&](std::size_t i) {
+      return rule.legal[i] == '_' || (rule.legal[i] >= 'A' && rule.legal[i] <= 'Z');
+    };
+    if ((at > 0 && in_name(at - 1)) || (end < rule.legal.size() && in_name(end))) continue;  // part of another's name
+    text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", p.name, config.*(p.member));
+  }
+  return text + ")";
+}
+
 Config from_yaml(const YAML::Node& node, const std::string& where) {
   if (!node.IsMap()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
   Config config;
@@ -74,20 +90,8 @@ void validate(const Config& config, const std::string& where) {
     if (v < p.min || v > p.max || (p.allowed != 0 && ((p.allowed >> v) & 1U) == 0))
       throw Error(fmt::format("{}: {} is {}, legal are {}", where, p.name, v, allowed_values(p)));
   }
-  if (config.fsf != 0 && config.dsf_bits == 0) throw Error(fmt::format("{}: FSF needs DSF_BITS > 0", where));
-  if (config.count_bits != 0 && config.dsf_bits == 0)
-    throw Error(fmt::format("{}: COUNT_BITS > 0 needs DSF_BITS > 0", where));
-  if (config.class_bits > 1 && config.count_bits == 0)
-    throw Error(fmt::format("{}: CLASS_BITS > 1 needs COUNT_BITS > 0", where));
-  if (config.lights > 1 && (config.count_bits == 0 || config.class_bits == 1))
-    throw Error(fmt::format("{}: LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1", where));
-  if (config.color_frac != 0 && config.smooth == 0) throw Error(fmt::format("{}: COLOR_FRAC > 0 needs SMOOTH", where));
-  if (config.classic != 0 &&
-      (config.z_bits != 15 || config.z_frac != 0 || config.face_bits != 7 || config.dx_bits != 9))
-    throw Error(fmt::format("{}: CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9", where));
-  if (config.max_width > (1 << config.x_bits) - 1)
-    throw Error(fmt::format("{}: MAX_WIDTH is {}, X_BITS = {} holds {}", where, config.max_width, config.x_bits,
-                            (1 << config.x_bits) - 1));
+  for (const RuleInfo& rule : kRules)
+    if (!rule.holds(config)) throw Error(fmt::format("{}: {}{}", where, rule.text, values_of(config, rule)));
 }
 
 std::vector<NamedConfig> named_configs() {

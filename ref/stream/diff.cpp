@@ -111,12 +111,14 @@ class FrameComparer {
     ++diff_.different_tokens;
     if (in_a.size() < kHeaderWords || in_b.size() < kHeaderWords)
       return field("header", words_text(in_a), words_text(in_b));
+    const FrameHeader a = FrameHeader::read(a_);
+    const FrameHeader b = FrameHeader::read(b_);
     field("magic_version", fmt::format("{:#010x}", a_[0]), fmt::format("{:#010x}", b_[0]));
-    field("width", fmt::format("{} pixels", a_[1] & 0xffff), fmt::format("{} pixels", b_[1] & 0xffff));
-    field("height", fmt::format("{} lines", a_[1] >> 16), fmt::format("{} lines", b_[1] >> 16));
-    field("param_hash", fmt::format("{:#010x}", a_[2]), fmt::format("{:#010x}", b_[2]));
-    field("background", fmt::format("{:#08x}", a_[3]), fmt::format("{:#08x}", b_[3]));
-    field("frame", fmt::format("frame number {}", a_[4]), fmt::format("frame number {}", b_[4]));
+    field("width", fmt::format("{} pixels", a.width), fmt::format("{} pixels", b.width));
+    field("height", fmt::format("{} lines", a.height), fmt::format("{} lines", b.height));
+    field("param_hash", fmt::format("{:#010x}", a.param_hash), fmt::format("{:#010x}", b.param_hash));
+    field("background", fmt::format("{:#08x}", a.background), fmt::format("{:#08x}", b.background));
+    field("frame", fmt::format("frame number {}", a.frame), fmt::format("frame number {}", b.frame));
   }
 
   /// True if the groups differ.

@@ -45,11 +45,11 @@ void TokenWriter::header(const FrameHeader& h) {
   for (const auto& [name, value] : {std::pair{"width", h.width}, {"height", h.height}})
     if (value < 0 || value > 0xFFFF)
       throw Error(fmt::format("header: {} is {}, which 16 bits do not hold", name, value));
-  out_->push_back(kStreamMagic << 16 | kStreamVersion);
-  out_->push_back(static_cast<std::uint32_t>(h.height) << 16 | static_cast<std::uint32_t>(h.width));
-  out_->push_back(param_hash(config_));
-  out_->push_back(h.background);
-  out_->push_back(h.frame);
+  FrameHeader whole = h;
+  whole.param_hash = param_hash(config_);
+  std::array<std::uint32_t, kHeaderWords> words{};
+  whole.write(words);
+  out_->insert(out_->end(), words.begin(), words.end());
 }
 
 /// Writes a token. `fields` calls its argument with name, value and Field of each field in turn. They are checked as

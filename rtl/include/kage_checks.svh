@@ -71,4 +71,25 @@ end
 if (BEAT_WORDS != 1 && BEAT_WORDS != 2 && BEAT_WORDS != 4 && BEAT_WORDS != 8) begin : gen_bad_beat_words
   `KAGE_ILLEGAL("BEAT_WORDS must be one of 1 2 4 8")
 end
+if (!(FSF == 0 || DSF_BITS > 0)) begin : gen_bad_fsf_alone
+  `KAGE_ILLEGAL("FSF needs DSF_BITS > 0: it collects what DSF counts")
+end
+if (!(COUNT_BITS == 0 || DSF_BITS > 0)) begin : gen_bad_count_alone
+  `KAGE_ILLEGAL("COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow")
+end
+if (!(CLASS_BITS == 1 || COUNT_BITS > 0)) begin : gen_bad_class_alone
+  `KAGE_ILLEGAL("CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample")
+end
+if (!(LIGHTS == 1 || (COUNT_BITS > 0 && CLASS_BITS > 1))) begin : gen_bad_lights_alone
+  `KAGE_ILLEGAL("LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table")
+end
+if (!(COLOR_FRAC == 0 || SMOOTH > 0)) begin : gen_bad_color_frac_alone
+  `KAGE_ILLEGAL("COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction")
+end
+if (!(CLASSIC == 0 || (Z_BITS == 15 && Z_FRAC == 0 && FACE_BITS == 7 && DX_BITS == 9))) begin : gen_bad_classic_segment
+  `KAGE_ILLEGAL("CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9: the paper's segment")
+end
+if (!(MAX_WIDTH < 1 << X_BITS)) begin : gen_bad_width_for_x
+  `KAGE_ILLEGAL("MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width")
+end
 // verilog_lint: waive-stop line-length

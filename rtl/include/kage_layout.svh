@@ -7,6 +7,14 @@ localparam int StreamVersion = 1;
 localparam int StreamMagic = 'h4b47;
 localparam int HeaderWords = 5;
 
+localparam int HeaderVersionLsb = 0;
+localparam int HeaderMagicLsb = 16;
+localparam int HeaderWidthLsb = 32;
+localparam int HeaderHeightLsb = 48;
+localparam int HeaderParamHashLsb = 64;
+localparam int HeaderBackgroundLsb = 96;
+localparam int HeaderFrameLsb = 128;
+
 localparam logic [3:0] KindShade = 4'd1;
 localparam logic [3:0] KindTable = 4'd2;
 localparam logic [3:0] KindFace = 4'd3;

@@ -21,7 +21,7 @@ using cosim::Phase;
 cosim::PhaseSums sums_of(const Config& c, std::span<const std::uint32_t> words) {
   const Layout layout(c);
   cosim::PhaseCounter counter(c);
-  counter.start(static_cast<int>(words[1] & 0xFFFFU));
+  counter.start(FrameHeader::read(words).width);
   for (std::size_t at = kHeaderWords; at < words.size();) {
     const Token t = decode(c, layout, words.subspan(at));
     counter.token(t);

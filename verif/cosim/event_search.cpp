@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "kage/derived.hpp"
+
 namespace kage::cosim {
 namespace {
 
@@ -45,7 +47,7 @@ LineSink EventSearch::sink() {
 }
 
 void EventSearch::header(std::span<const std::uint32_t> words, const LineView& line) {
-  height_ = words[1] >> 16;
+  height_ = static_cast<std::uint32_t>(FrameHeader::read(words).height);
   expected_.header(words, line);
 }
 
@@ -131,7 +133,7 @@ bool EventSearch::is_token(const kage_rtl_event& segment) const {
   for (std::size_t i = 0; i < words.size(); ++i)
     words[i] = static_cast<std::uint32_t>(token_.value[i / 2] >> i % 2 * 32);
   const SegmentToken s = decode(config_, layout, words).segment;
-  const std::uint64_t all = (std::uint64_t{1} << (config_.z_bits + config_.z_frac + 2)) - 1;
+  const std::uint64_t all = (std::uint64_t{1} << derived::depth_bits(config_)) - 1;
   return segment.unit == s.unit && segment.value[0] == (static_cast<std::uint64_t>(s.z) & all) &&
          segment.value[1] == static_cast<std::uint64_t>(s.dx) && segment.value[2] == static_cast<std::uint64_t>(s.face);
 }

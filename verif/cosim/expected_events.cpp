@@ -4,13 +4,10 @@
 #include <algorithm>
 
 #include "core/span_value.hpp"
+#include "kage/derived.hpp"
 
 namespace kage::cosim {
 namespace {
-
-// Commands that no token is: rtl/include/kage_widths.svh.
-constexpr int kCmdLoad = 1;
-constexpr int kCmdOut = 2;
 
 // The order of a token's events. A line that goes out and comes back has its own steps behind those of the token.
 enum Step {
@@ -42,8 +39,8 @@ int number(Kind kind) { return static_cast<int>(kind); }
 ExpectedEvents::ExpectedEvents(const Config& config, std::uint32_t unwatched)
     : config_(config),
       unwatched_(unwatched),
-      depth_bits_(config.z_bits + config.z_frac + 2),
-      ramp_bits_(config.smooth != 0 ? 10 + config.color_frac : 8) {
+      depth_bits_(derived::depth_bits(config)),
+      ramp_bits_(derived::ramp_bits(config)) {
   for (auto& q : queues_) q.resize(1);
   queues_[static_cast<std::size_t>(Stage::unit)].resize(static_cast<std::size_t>(std::max(config.units, 1)));
   queues_[static_cast<std::size_t>(Stage::pixel)].resize(static_cast<std::size_t>(config.max_width));
@@ -115,11 +112,12 @@ void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView
     for (auto& q : queues) q.clear();
   failed_ = false;
   width_ = line.width();
-  height_ = static_cast<int>(words[1] >> 16);
+  const FrameHeader h = FrameHeader::read(words);
+  height_ = h.height;
   y_ = 0;
   token_ = 0;
   eol_token_.clear();
-  background_ = low(words[3], 8 * config_.channels);
+  background_ = low(h.background, derived::rgb_bits(config_));
   shade_ = 0;
   resolved_ = painted_ = false;
   bias_ = 0;
@@ -299,7 +297,7 @@ void ExpectedEvents::paint(const LineView& line) {
     for (int x = 0; x < width_; ++x) touch(number(Kind::RESOLVE), x, painted(x), of_pixel);
     return;
   }
-  command(kCmdOut, 0, width_, of_command);
+  command(number(derived::kCommandOut), 0, width_, of_command);
   line_event(false, true, of_command);
   leave(before_resolve_, false);
   painted_ = true;
@@ -310,7 +308,7 @@ void ExpectedEvents::paint(const LineView& line) {
     e.value = {static_cast<std::uint64_t>(x), packed(s.color)};
     e.cares = 3;
     put(e);
-    command(kCmdLoad, x, x + 1, of_load_command);
+    command(number(derived::kCommandLoad), x, x + 1, of_load_command);
     ExpectedEvent& c = newest(Stage::command, 0);
     c.load = true;
     c.x = x;
@@ -318,7 +316,7 @@ void ExpectedEvents::paint(const LineView& line) {
       c.value[7 + i] = std::uint64_t{s.color[i]} << config_.color_frac;
       c.cares |= 1U << (7 + i);
     }
-    touch(kCmdLoad, x, s, of_loaded);
+    touch(number(derived::kCommandLoad), x, s, of_loaded);
     newest(Stage::pixel, x).load = true;
   }
 }

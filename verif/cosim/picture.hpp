@@ -26,10 +26,9 @@ class FramePicture {
   /// The next line from the top. The file is begun with the first.
   void line(std::span<const std::uint8_t> pixels) {
     if (!writer_) {
-      const auto width = static_cast<int>(head_[1] & 0xFFFF);
-      const auto height = static_cast<int>(head_[1] >> 16);
-      writer_ =
-          std::make_unique<ImageWriter>(path_, width, height, width == 0 ? 0 : static_cast<int>(pixels.size()) / width);
+      const FrameHeader h = FrameHeader::read(head_);
+      writer_ = std::make_unique<ImageWriter>(path_, h.width, h.height,
+                                              h.width == 0 ? 0 : static_cast<int>(pixels.size()) / h.width);
     }
     writer_->line(pixels);
   }

@@ -192,7 +192,8 @@ class Rtl : public RtlCore {
   /// A frame comes whole, and is announced to the model.
   std::vector<std::uint32_t> submit_earlier() {
     std::vector<std::uint32_t> words = options_.prelude(number_);
-    table_->expect(model_, words[1] & 0xFFFF, words[1] >> 16);
+    const FrameHeader h = FrameHeader::read(words);
+    table_->expect(model_, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
     table_->submit(model_, words.data(), words.size(), 1);
     return words;
   }
@@ -237,8 +238,9 @@ class Rtl : public RtlCore {
   void announce() {
     if (announced_ || held_.size() < kHeaderWords) return;
     announced_ = true;
-    width_ = held_[1] & 0xFFFF;
-    height_ = held_[1] >> 16;
+    const FrameHeader h = FrameHeader::read(held_);
+    width_ = static_cast<std::uint32_t>(h.width);
+    height_ = static_cast<std::uint32_t>(h.height);
     left_ = std::uint64_t{width_} * height_;
     table_->expect(model_, width_, height_);
   }

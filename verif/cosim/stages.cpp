@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kage/defs.hpp"
+#include "kage/derived.hpp"
 
 namespace kage::cosim {
 namespace {
@@ -62,7 +63,7 @@ std::string value_text(const Config& config, Stage stage, int index, std::uint64
   const bool ramp = (stage == Stage::command && (index == 4 || index == 5)) || (stage == Stage::face && index == 3) ||
                     (stage == Stage::segment && index == 0);
   if (ramp) {
-    const int spare = 64 - (config.z_bits + config.z_frac + 2);
+    const int spare = 64 - derived::depth_bits(config);
     const auto fixed = static_cast<std::int64_t>(value << spare) >> spare;
     return fmt::format("{}", static_cast<double>(fixed) / static_cast<double>(std::int64_t{1} << config.z_frac));
   }

@@ -10,6 +10,7 @@
 #include "files/lost_pages.hpp"
 #include "files/plain_io.hpp"
 #include "files/temp_file.hpp"
+#include "kage/derived.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
@@ -35,7 +36,7 @@ std::string save_file(const std::filesystem::path& wave, const Config& config, s
                           : fmt::format("@{}\ntop.kage_top.{}[{}:0]\n", n.decimal ? 24 : 22, n.name, n.bits - 1);
   };
   const int x = config.x_bits;
-  const int depth = config.z_bits + config.z_frac + 2;
+  const int depth = derived::depth_bits(config);
   group("clock", {{"clk_i"}, {"rst_ni"}});
   group("token_reader to frame_control", {{"token_valid"}, {"token_ready"}, {"token_header"}});
   group("frame_control to pixels", {{"cmd_valid"},

@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
   try {
     const kage::StreamFile file(argv[1]);
     const std::span<const std::uint32_t> words = file.frame(0);
-    std::printf("P%c %u %u 255\n", file.config().channels == 3 ? '6' : '5', words[1] & 0xffff, words[1] >> 16);
+    const kage::FrameHeader header = kage::FrameHeader::read(words);
+    std::printf("P%c %d %d 255\n", file.config().channels == 3 ? '6' : '5', header.width, header.height);
     kage::GoldenCore core(file.config());
     const kage::FrameStatus status = core.frame(words, [](int, std::span<const std::uint8_t> pixels) {
       std::fwrite(pixels.data(), 1, pixels.size(), stdout);  // a line, top to bottom

@@ -56,12 +56,13 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
   if (broken_) return;
   cutter_.feed(piece);
   if (header_) {
-    const auto h = cutter_.take(kHeaderWords);
-    if (h.empty()) return;
+    const auto words_of_header = cutter_.take(kHeaderWords);
+    if (words_of_header.empty()) return;
+    const FrameHeader h = FrameHeader::read(words_of_header);
     header_ = false;
-    width_ = static_cast<int>(h[1] & 0xFFFFU);
+    width_ = h.width;
     counter_.start(width_);
-    frames_.back().background = h[3];
+    frames_.back().background = h.background;
     frames_.back().tokens = 1;
   }
   while (const std::uint32_t* first = cutter_.peek()) {

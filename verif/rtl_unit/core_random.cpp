@@ -54,7 +54,10 @@ struct Trial {
   }
 
   /// The model's driver counts every pixel that no announced frame has room for.
-  void announce(kage_rtl* m, const Words& words) const { api.expect(m, words[1] & 0xFFFFU, words[1] >> 16); }
+  void announce(kage_rtl* m, const Words& words) const {
+    const FrameHeader h = FrameHeader::read(words);
+    api.expect(m, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
+  }
 
   bool run() {
     Random random(seed);

@@ -45,7 +45,8 @@ std::vector<std::uint8_t> pixels_of(const Loaded& l, const std::vector<std::uint
   verif::Random random(seed);
   l.api->stalls(m, static_cast<std::uint32_t>(random.in(8000, 65536)),
                 static_cast<std::uint32_t>(random.in(8000, 65536)), seed);
-  l.api->expect(m, words[1] & 0xFFFFU, words[1] >> 16);
+  const FrameHeader h = FrameHeader::read(words);
+  l.api->expect(m, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
   l.api->submit(m, words.data(), words.size(), 1);
   if (l.api->run(m, UINT64_MAX, 50'000'000) != KAGE_RTL_IDLE) {
     std::printf("%s did not come to rest, seed %llu\n", l.name, static_cast<unsigned long long>(seed));

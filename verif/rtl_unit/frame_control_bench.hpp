@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench.hpp"
-#include "kage/defs.hpp"
+#include "kage/derived.hpp"
 
 namespace kage::rtl {
 
@@ -17,8 +17,6 @@ inline constexpr kage::Config kGlass = [] {
   c.translucency = 1;
   return c;
 }();
-inline constexpr Kind kOut =
-    Kind::TABLE;  // a command without token: the line's pixels leave and come back (kage_widths.svh)
 inline constexpr int kMaxWidth = 64;
 
 struct Token {
@@ -163,7 +161,7 @@ Outcome run(Dice& dice, const std::vector<Token>& tokens, bool fields = true) {
     }
     if (top->cmd_valid_o && top->cmd_ready_i) {
       const auto kind = static_cast<Kind>(top->cmd_kind_o);
-      if (kind == kOut) loading = dice.between(1, 20);
+      if (kind == kage::derived::kCommandOut) loading = dice.between(1, 20);
       // TP has no count.
       out.commands.push_back({kind, top->cmd_xl_o, top->cmd_xr_o, kind == Kind::TP ? 0U : top->cmd_count_o});
       out.shares.push_back(top->cmd_share_o);

@@ -100,14 +100,28 @@ TEST_CASE("ES has its light; after RESOLVE a line's first TP waits until its col
     REQUIRE(out.errors.empty());
     const auto three = [](std::uint64_t share) { return share | share << 9 | share << 18; };
     REQUIRE(out.table == std::vector<Entry>{{1, 0, three(5)}, {1, 1, three(256)}, {1, 2, three(7)}, {2, 0, three(1)}});
-    REQUIRE(out.commands ==
-            std::vector<Command>{
-                {Kind::OP, 0, 20, 1}, {Kind::OP, 1, 2, 0},   {Kind::NC, 0, 20, 1}, {Kind::EV, 0, 20, 0},
-                {Kind::ES, 1, 19, 2}, {Kind::NC, 0, 20, 1},  {Kind::EV, 0, 20, 0}, {Kind::NC, 0, 20, 1},
-                {Kind::EV, 0, 20, 0}, {Kind::ES, 0, 20, 1},  {kOut, 0, 20, 0},     {Kind::TP, 3, 9, 0},
-                {Kind::TP, 3, 9, 0},  {Kind::EOL, 0, 20, 0}, {Kind::OP, 0, 1, 0},  {Kind::RESOLVE, 0, 20, 0},
-                {Kind::TP, 3, 9, 0},  {Kind::EOL, 0, 20, 0}, {Kind::NC, 0, 20, 1}, {Kind::EV, 0, 20, 0},
-                {Kind::ES, 2, 3, 0},  {Kind::EOL, 0, 20, 0}});
+    REQUIRE(out.commands == std::vector<Command>{{Kind::OP, 0, 20, 1},
+                                                 {Kind::OP, 1, 2, 0},
+                                                 {Kind::NC, 0, 20, 1},
+                                                 {Kind::EV, 0, 20, 0},
+                                                 {Kind::ES, 1, 19, 2},
+                                                 {Kind::NC, 0, 20, 1},
+                                                 {Kind::EV, 0, 20, 0},
+                                                 {Kind::NC, 0, 20, 1},
+                                                 {Kind::EV, 0, 20, 0},
+                                                 {Kind::ES, 0, 20, 1},
+                                                 {kage::derived::kCommandOut, 0, 20, 0},
+                                                 {Kind::TP, 3, 9, 0},
+                                                 {Kind::TP, 3, 9, 0},
+                                                 {Kind::EOL, 0, 20, 0},
+                                                 {Kind::OP, 0, 1, 0},
+                                                 {Kind::RESOLVE, 0, 20, 0},
+                                                 {Kind::TP, 3, 9, 0},
+                                                 {Kind::EOL, 0, 20, 0},
+                                                 {Kind::NC, 0, 20, 1},
+                                                 {Kind::EV, 0, 20, 0},
+                                                 {Kind::ES, 2, 3, 0},
+                                                 {Kind::EOL, 0, 20, 0}});
     REQUIRE(out.loads == std::vector<bool>{true, false, false, false});
     REQUIRE(out.painted == std::vector<bool>{false, true, true, false});
   });

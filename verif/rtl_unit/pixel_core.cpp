@@ -14,16 +14,15 @@
 #include "Vpixel_soft_systolic.h"
 #include "Vpixel_systolic.h"
 #include "bench.hpp"
-#include "kage/defs.hpp"
+#include "kage/derived.hpp"
 
 using namespace kage::rtl;
 using kage::Kind;
 
 namespace {
 
-// Commands without token (kage_widths.svh): one pixel's colour comes back; the line's pixels leave but stay.
-constexpr Kind kLoad = Kind::SHADE;
-constexpr Kind kOut = Kind::TABLE;
+using kage::derived::kCommandLoad;
+using kage::derived::kCommandOut;
 
 struct Shape {
   int lanes;  // of the exit; 0: systolic
@@ -107,10 +106,10 @@ class Reference {
           p.fsf = 0;
           break;
         }
-        case kLoad:
+        case kCommandLoad:
           for (int ch = 0; ch < s_.channels; ++ch) p.color[ch] = color(c, ch, 0);
           break;
-        default:  // EOL and kOut, after which DSF and FSF are of no use
+        default:  // EOL and kCommandOut, after which DSF and FSF are of no use
           out.push_back(leaving(p, c.count));
           p.counts = {};
       }
@@ -176,8 +175,8 @@ Command random_command(Dice& dice, const Shape& s, int width, int home) {
   return c;
 }
 
-/// RESOLVE before a line's first TP, TP or any other command after it. With counters also kOut, and then a kLoad for
-/// each pixel from `loads` on.
+/// RESOLVE before a line's first TP, TP or any other command after it. With counters also kCommandOut, and then a
+/// kCommandLoad for each pixel from `loads` on.
 Command translucent(Dice& dice, const Shape& s, Command c, int width, bool& painted, int& loads) {
   if (painted && dice.percent(30)) return c;
   if (painted) {
@@ -186,13 +185,13 @@ Command translucent(Dice& dice, const Shape& s, Command c, int width, bool& pain
     return c;
   }
   if (loads >= 0) {
-    c.kind = kLoad;
+    c.kind = kCommandLoad;
     c.xl = loads++;
     c.xr = loads;
     painted = loads == width;
   } else {
     const bool out = s.count_bits > 0 && dice.percent(70);
-    c.kind = out ? kOut : Kind::RESOLVE;
+    c.kind = out ? kCommandOut : Kind::RESOLVE;
     c.xl = 0;
     c.xr = width;
     loads = out ? 0 : -1;
@@ -283,7 +282,7 @@ void pixel_test(const Shape& s) {
         offer.taken();
         have = false;
         reference.apply(c, expected);
-        if (c.kind == kOut) {
+        if (c.kind == kCommandOut) {
           widths.push_back(width);
           colored.push_back(false);
         }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/span_value.hpp"
+#include "kage/derived.hpp"
 
 namespace kage::verif {
 
@@ -125,10 +126,10 @@ void Coverage::hit_span(const Span& points, const SpanToken& s, int width) {
 }
 
 Coverage::Range Coverage::depth_range() const {
-  return {config_.z_bits + config_.z_frac + 2, config_.z_frac, 1, (std::int64_t{1} << config_.z_bits) - 2};
+  return {derived::depth_bits(config_), config_.z_frac, 1, (std::int64_t{1} << config_.z_bits) - 2};
 }
 
-Coverage::Range Coverage::color_range() const { return {10 + config_.color_frac, config_.color_frac, 0, 255}; }
+Coverage::Range Coverage::color_range() const { return {derived::ramp_bits(config_), config_.color_frac, 0, 255}; }
 
 void Coverage::hit_ramp(const Ramp& points, std::int64_t start, std::int64_t step, int count, const Range& range) {
   if (count == 0) return;
@@ -144,7 +145,7 @@ void Coverage::hit_ramp(const Ramp& points, std::int64_t start, std::int64_t ste
 void Coverage::header(std::span<const std::uint32_t> words, const LineView& line) {
   hit(one_wide_, line.width() == 1);
   hit(widest_, line.width() == config_.max_width);
-  hit(one_line_, words[1] >> 16 == 1);
+  hit(one_line_, FrameHeader::read(words).height == 1);
   state_told_ = shade_ = has_spans_ = false;
   table_.clear();
   faces_.assign(static_cast<std::size_t>(config_.units), {});

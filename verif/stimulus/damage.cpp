@@ -34,9 +34,12 @@ void damage(Random& random, std::vector<std::uint32_t>& words) {
         word = noise();
         break;
       case 7:
-        if (words.size() > 1)
-          words[1] = static_cast<std::uint32_t>(random.in(0, 6)) << 16 |
-                     static_cast<std::uint32_t>(random.in(0, static_cast<int>(words[1] & 0xFFFFU) + 1));
+        if (words.size() > 1) {
+          FrameHeader h = FrameHeader::read(words);
+          h.height = random.in(0, 6);
+          h.width = random.in(0, h.width + 1) & 0xFFFF;
+          h.write(words);
+        }
         break;
       default:
         word ^= 1U << random.in(0, 31);

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "kage/derived.hpp"
+
 namespace kage::verif {
 namespace {
 
@@ -46,7 +48,7 @@ SpanToken random_span(Random& random, const Config& c, int width, const FrameSty
                               : random.in(s.xl, width);
   if (random.chance(0.1)) s.xl = 0;
   const int count = s.xr - s.xl;
-  const int depth_bits = c.z_bits + c.z_frac + 2;
+  const int depth_bits = derived::depth_bits(c);
   random_ramp(random, depth_bits, count, s.z, s.dz);
   s.normal_class = random_class(random, c, classes);
   for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i) {
@@ -56,7 +58,7 @@ SpanToken random_span(Random& random, const Config& c, int width, const FrameSty
     }
     std::int64_t start = 0;
     std::int64_t step = 0;
-    random_ramp(random, 10 + c.color_frac, count, start, step);
+    random_ramp(random, derived::ramp_bits(c), count, start, step);
     s.color[i] = static_cast<std::int32_t>(start);
     s.dcolor[i] = static_cast<std::int32_t>(step);
   }
@@ -74,8 +76,8 @@ SpanToken random_span(Random& random, const Config& c, int width, const FrameSty
   }
   for (std::size_t i = 0; c.smooth != 0 && i < static_cast<std::size_t>(c.channels); ++i) {
     if (!random.chance(0.3)) continue;
-    s.color[i] = static_cast<std::int32_t>(random_field(random, 10 + c.color_frac));
-    s.dcolor[i] = static_cast<std::int32_t>(random_field(random, 10 + c.color_frac));
+    s.color[i] = static_cast<std::int32_t>(random_field(random, derived::ramp_bits(c)));
+    s.dcolor[i] = static_cast<std::int32_t>(random_field(random, derived::ramp_bits(c)));
   }
   return s;
 }
@@ -151,7 +153,7 @@ class RandomTree {
   }
 
  private:
-  [[nodiscard]] int depth_bits() const { return config_.z_bits + config_.z_frac + 2; }
+  [[nodiscard]] int depth_bits() const { return derived::depth_bits(config_); }
 
   SegmentToken face(int unit, int number, bool port) {
     SegmentToken t;

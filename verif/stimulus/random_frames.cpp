@@ -16,8 +16,8 @@ namespace {
 using Words = std::vector<std::uint32_t>;
 
 // A height that flipped bits made great takes long and shows no more; one past 15 bits is refused, so it may stay.
-constexpr std::uint32_t kMostLines = 40;
-constexpr std::uint32_t kLinesRefused = 1U << 15;
+constexpr int kMostLines = 40;
+constexpr int kLinesRefused = kMaxHeight + 1;
 
 // A whole token lost, doubled, or put where it does not belong.
 void misplace(Random& random, const Config& c, Words& words) {
@@ -61,7 +61,7 @@ void near_miss(Random& random, const Config& c, Words& words) {
     const auto of_unit = [&](TokenPlaces::At face) { return places.get(face, layout.face_unit) == unit; };
     places.put(*at, layout.seg_face, static_cast<std::uint64_t>(std::count_if(faces.begin(), faces.end(), of_unit)));
   } else if (const auto at = any(Kind::OP)) {
-    places.put(*at, layout.op_xr, (words[1] & 0xFFFFU) + 1);
+    places.put(*at, layout.op_xr, static_cast<std::uint64_t>(FrameHeader::read(words).width) + 1);
   }
 }
 
@@ -123,7 +123,7 @@ Words damaged_frame(Random& random, const Config& c, std::uint32_t number) {
     make_wrong(random, c, words);
     if (random.chance(0.1)) make_wrong(random, c, words);
     if (words.empty() || words == sound) continue;  // a port brings a beat at least
-    const std::uint32_t lines = words.size() == 1 ? 0 : words[1] >> 16;
+    const int lines = FrameHeader::read(words).height;
     if (lines <= kMostLines || lines >= kLinesRefused) return words;
   }
 }
@@ -133,7 +133,8 @@ std::optional<Manner> random_manner(const std::string& name) {
     if (name == source.name) return source.manner;
   if (!name.starts_with("random:")) return std::nullopt;
   std::string names;
-  for (const RandomSource& source : kRandomSources) names += fmt::format("{}{}", names.empty() ? "" : ", ", source.name);
+  for (const RandomSource& source : kRandomSources)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", source.name);
   throw Error(fmt::format("{}: no such random frames (there are {})", name, names));
 }
 

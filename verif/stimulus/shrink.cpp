@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/span_value.hpp"
+#include "kage/derived.hpp"
 #include "stimulus/damage.hpp"
 #include "stream/fields.hpp"
 
@@ -16,6 +17,8 @@ namespace kage::verif {
 namespace {
 
 using Words = std::vector<std::uint32_t>;
+
+std::uint32_t width_of(const Words& frame) { return static_cast<std::uint32_t>(FrameHeader::read(frame).width); }
 
 /// A frame taken apart.
 struct Parts {
@@ -51,7 +54,7 @@ class SegmentPlaces {
     std::uint32_t x = 0;  ///< its first pixel
   };
 
-  explicit SegmentPlaces(const Words& header) : width_(header.size() < 2 ? 0 : header[1] & 0xFFFFU) {}
+  explicit SegmentPlaces(const Words& header) : width_(width_of(header)) {}
 
   Place next(const SegmentToken& s) {
     const auto unit = static_cast<std::size_t>(s.unit);
@@ -73,7 +76,7 @@ class SegmentPlaces {
 class SegmentCutter {
  public:
   SegmentCutter(const Config& c, const Layout& layout, const Words& header, std::uint32_t step, bool left)
-      : config_(c), layout_(layout), places_(header), width_(header[1] & 0xFFFFU), step_(step), left_(left) {}
+      : config_(c), layout_(layout), places_(header), width_(width_of(header)), step_(step), left_(left) {}
 
   /// What becomes of a FACE or SEG, nothing if it goes.
   std::optional<Words> cut(const Words& token) {
@@ -107,8 +110,8 @@ class SegmentCutter {
   };
 
   [[nodiscard]] std::int64_t depth_after(std::int64_t z, std::int64_t dz, std::uint64_t pixels) const {
-    const std::int64_t sum = wrapped(static_cast<std::uint64_t>(z) + pixels * static_cast<std::uint64_t>(dz),
-                                     config_.z_bits + config_.z_frac + 2);
+    const std::int64_t sum =
+        wrapped(static_cast<std::uint64_t>(z) + pixels * static_cast<std::uint64_t>(dz), derived::depth_bits(config_));
     // A classic segment cannot begin past what its field holds: at its first pixel the same is drawn at the border.
     const std::int64_t most = (std::int64_t{1} << config_.z_bits) - 1;
     return config_.classic != 0 ? std::clamp<std::int64_t>(sum, 0, most) : sum;
@@ -171,9 +174,10 @@ class Shrinker {
   /// The frame with these tokens, its height and its EOLs numbered anew if lines have gone.
   [[nodiscard]] Words numbered(Parts p, std::size_t gone) const {
     if (gone == 0 || p.header.size() < 2) return together(p);
-    const std::uint32_t height = p.header[1] >> 16;
-    if (height <= gone) return words_;
-    p.header[1] -= static_cast<std::uint32_t>(gone) << 16;
+    FrameHeader h = FrameHeader::read(p.header);
+    if (static_cast<std::size_t>(h.height) <= gone) return words_;
+    h.height -= static_cast<int>(gone);
+    h.write(p.header);
     Words words = together(p);
     TokenPlaces places(config_, words);
     std::uint64_t y = 0;
@@ -237,15 +241,17 @@ class Shrinker {
     if (words_.size() < 2) return false;
     bool any = false;
     for (const bool left : {false, true})
-      for (std::uint32_t step = std::max(words_[1] & 0xFFFFU, 1U) - 1; step > 0; step /= 2)
-        while (more_() && (words_[1] & 0xFFFFU) > step && narrower(step, left)) any = true;
+      for (std::uint32_t step = std::max(width_of(words_), 1U) - 1; step > 0; step /= 2)
+        while (more_() && width_of(words_) > step && narrower(step, left)) any = true;
     return any;
   }
 
   bool narrower(std::uint32_t step, bool left) {
     Words words = with_segments_cut(step, left);
-    words[1] -= step;
-    const std::uint64_t width = words[1] & 0xFFFFU;
+    FrameHeader h = FrameHeader::read(words);
+    h.width -= static_cast<int>(step);
+    h.write(words);
+    const std::uint64_t width = width_of(words);
     const auto moved = [&](std::uint64_t x) {
       return left ? x - std::min<std::uint64_t>(x, step) : std::min(x, width);
     };

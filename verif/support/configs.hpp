@@ -16,18 +16,11 @@ inline Config random_config(Random& random, int width = 4096) {
     while (p.allowed != 0 && ((p.allowed >> v) & 1U) == 0) v = random.in(p.min, p.max);
     c.*(p.member) = v;
   }
-  if (c.dsf_bits == 0) c.fsf = 0;
-  if (c.dsf_bits == 0 || random.chance(0.4)) c.count_bits = 0;
-  if (c.count_bits == 0 || random.chance(0.4)) c.class_bits = 1;
-  if (c.class_bits == 1) c.lights = 1;
-  if (c.smooth == 0) c.color_frac = 0;
-  if (c.classic != 0) {  // the paper's segment
-    c.z_bits = 15;
-    c.z_frac = 0;
-    c.face_bits = 7;
-    c.dx_bits = 9;
-  }
-  c.max_width = std::min(width, (1 << c.x_bits) - 1);
+  if (random.chance(0.4)) c.count_bits = 0;
+  if (random.chance(0.4)) c.class_bits = 1;
+  c.max_width = width;
+  for (const RuleInfo& rule : kRules)
+    if (!rule.holds(c)) rule.repair(c);
   validate(c, "random configuration");
   return c;
 }

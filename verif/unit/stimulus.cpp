@@ -291,7 +291,7 @@ TEST_CASE("a frame is made as small as what is wanted of it lets it be") {
       const TokenCounts counts = count_tokens(c, small);
       CHECK(counts.of_kind[static_cast<std::size_t>(Kind::EOL)] == 1);
       CHECK(counts.of_kind[static_cast<std::size_t>(Kind::OP)] == 1);
-      CHECK((small[1] & 0xFFFFU) == 1);
+      CHECK(FrameHeader::read(small).width == 1);
       // A class holds its table; else header, OP, EOL and END are left.
       if (counts.of_kind[static_cast<std::size_t>(Kind::TABLE)] > 0) continue;
       CHECK(small.size() ==
@@ -373,7 +373,7 @@ TEST_CASE("a tree gets as narrow as the pixel that is wanted of it, wherever in 
       CAPTURE(name, i, *wanted);
       const Words least = shrink(c, words, keeps, [] { return true; });
       CHECK(keeps(least));
-      CHECK((least[1] & 0xFFFFU) == 1);
+      CHECK(FrameHeader::read(least).width == 1);
       const TokenCounts counts = count_tokens(c, least);
       CHECK(counts.of_kind[static_cast<std::size_t>(Kind::SEG)] == static_cast<std::uint64_t>(c.units));
       CHECK(counts.of_kind[static_cast<std::size_t>(Kind::TREE)] == 1);

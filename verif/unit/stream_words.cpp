@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tokens to words and back.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "catch.hpp"
@@ -167,15 +169,20 @@ TEST_CASE("counters need DSF, a table counters, several lights both") {
   c.lights = 4;
   CHECK_NOTHROW(validate(c, "c"));
   c.class_bits = 1;
-  CHECK_THROWS_WITH(validate(c, "c"), "c: LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1");
+  CHECK_THROWS_WITH(validate(c, "c"),
+                    "c: LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table "
+                    "(COUNT_BITS 2, LIGHTS 4, CLASS_BITS 1)");
   c.class_bits = 2;
   c.count_bits = 0;
-  CHECK_THROWS_WITH(validate(c, "c"), "c: CLASS_BITS > 1 needs COUNT_BITS > 0");
+  CHECK_THROWS_WITH(
+      validate(c, "c"),
+      "c: CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample (COUNT_BITS 0, CLASS_BITS 2)");
   c = Config{};
   c.count_bits = 1;
   CHECK_NOTHROW(validate(c, "c"));
   c.dsf_bits = c.fsf = 0;
-  CHECK_THROWS_WITH(validate(c, "c"), "c: COUNT_BITS > 0 needs DSF_BITS > 0");
+  CHECK_THROWS_WITH(validate(c, "c"),
+                    "c: COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow (DSF_BITS 0, COUNT_BITS 1)");
 }
 
 TEST_CASE("tokens of light say what they are") {
@@ -212,7 +219,10 @@ TEST_CASE("the paper's segments need the paper's widths") {
   for (int Config::*member : {&Config::z_bits, &Config::z_frac, &Config::face_bits, &Config::dx_bits}) {
     Config other = c;
     ++(other.*member);
-    CHECK_THROWS_WITH(validate(other, "c"), "c: CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9");
+    CHECK_THROWS_WITH(validate(other, "c"),
+                      fmt::format("c: CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9: the paper's "
+                                  "segment (Z_BITS {}, Z_FRAC {}, FACE_BITS {}, DX_BITS {}, CLASSIC 1)",
+                                  other.z_bits, other.z_frac, other.face_bits, other.dx_bits));
   }
 }
 

@@ -5,13 +5,54 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace kage {
 
 inline constexpr std::uint32_t kStreamVersion = 1;
 inline constexpr std::uint32_t kStreamMagic = 0x4b47;
+inline constexpr int kMaxHeight = 32767;  ///< lines of a frame
 inline constexpr std::uint32_t kHeaderWords = 5;
+
+/// A frame's header. Fields of 16 bits hold 0 .. 65535.
+struct FrameHeader {
+  int width = 0;  ///< pixels of a line
+  int height = 0;  ///< lines
+  std::uint32_t background = 0;  ///< channel c in bits 8c .. 8c + 7
+  std::uint32_t frame = 0;  ///< its number, for messages
+  std::uint32_t version = kStreamVersion;  ///< of the stream
+  std::uint32_t magic = kStreamMagic;  ///< KG
+  std::uint32_t param_hash = 0;  ///< that of the core's configuration
+
+  /// The header at the beginning of `words`. Words that are missing count as 0.
+  static constexpr FrameHeader read(std::span<const std::uint32_t> words) {
+    FrameHeader h;
+    h.version = (words.size() > 0 ? words[0] : 0) & 0xFFFF;
+    h.magic = (words.size() > 0 ? words[0] : 0) >> 16 & 0xFFFF;
+    h.width = static_cast<int>((words.size() > 1 ? words[1] : 0) & 0xFFFF);
+    h.height = static_cast<int>((words.size() > 1 ? words[1] : 0) >> 16 & 0xFFFF);
+    h.param_hash = (words.size() > 2 ? words[2] : 0);
+    h.background = (words.size() > 3 ? words[3] : 0);
+    h.frame = (words.size() > 4 ? words[4] : 0);
+    return h;
+  }
+
+  /// Writes it to the beginning of `words`, as far as there are words.
+  constexpr void write(std::span<std::uint32_t> words) const {
+    const std::array<std::uint32_t, kHeaderWords> all{
+        static_cast<std::uint32_t>(version) | static_cast<std::uint32_t>(magic) << 16,
+        static_cast<std::uint32_t>(width) | static_cast<std::uint32_t>(height) << 16,
+        static_cast<std::uint32_t>(param_hash),
+        static_cast<std::uint32_t>(background),
+        static_cast<std::uint32_t>(frame),
+    };
+    for (std::size_t i = 0; i < all.size() && i < words.size(); ++i) words[i] = all[i];
+  }
+
+  /// Whether magic and version are this stream's.
+  [[nodiscard]] constexpr bool known() const { return magic == kStreamMagic && version == kStreamVersion; }
+};
 
 /// A configuration of the core. Members keep the lower-case names of the parameters in the definition file.
 struct Config {
@@ -78,6 +119,31 @@ inline constexpr std::array<ParamInfo, 23> kParams{{
     {"LANES", &Config::lanes, 4, 1, 32, false, 0x100010116, "banked: pixels worked on per clock"},
     {"MAX_WIDTH", &Config::max_width, 640, 1, 32767, false, 0x0, "pixels of the longest line; systolic: the number of processors"},
     {"BEAT_WORDS", &Config::beat_words, 4, 1, 8, false, 0x116, "32-bit words in a beat of the input port"},
+}};
+
+/// A rule that binds parameters together. `text` says it, and why; `legal` is it as an expression of parameters.
+struct RuleInfo {
+  std::string_view text;
+  std::string_view legal;
+  bool (*holds)(const Config&);
+  void (*repair)(Config&);  ///< makes it hold; rule after rule, all of them
+};
+
+inline constexpr std::array<RuleInfo, 7> kRules{{
+    {"FSF needs DSF_BITS > 0: it collects what DSF counts", "FSF == 0 || DSF_BITS > 0",
+     [](const Config& c) { return c.fsf == 0 || c.dsf_bits > 0; }, [](Config& c) { c.fsf = 0; }},
+    {"COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow", "COUNT_BITS == 0 || DSF_BITS > 0",
+     [](const Config& c) { return c.count_bits == 0 || c.dsf_bits > 0; }, [](Config& c) { c.count_bits = 0; }},
+    {"CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample", "CLASS_BITS == 1 || COUNT_BITS > 0",
+     [](const Config& c) { return c.class_bits == 1 || c.count_bits > 0; }, [](Config& c) { c.class_bits = 1; }},
+    {"LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table", "LIGHTS == 1 || (COUNT_BITS > 0 && CLASS_BITS > 1)",
+     [](const Config& c) { return c.lights == 1 || (c.count_bits > 0 && c.class_bits > 1); }, [](Config& c) { c.lights = 1; }},
+    {"COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction", "COLOR_FRAC == 0 || SMOOTH > 0",
+     [](const Config& c) { return c.color_frac == 0 || c.smooth > 0; }, [](Config& c) { c.color_frac = 0; }},
+    {"CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9: the paper's segment", "CLASSIC == 0 || (Z_BITS == 15 && Z_FRAC == 0 && FACE_BITS == 7 && DX_BITS == 9)",
+     [](const Config& c) { return c.classic == 0 || (c.z_bits == 15 && c.z_frac == 0 && c.face_bits == 7 && c.dx_bits == 9); }, [](Config& c) { c.z_bits = 15; c.z_frac = 0; c.face_bits = 7; c.dx_bits = 9; }},
+    {"MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width", "MAX_WIDTH < 1 << X_BITS",
+     [](const Config& c) { return c.max_width < 1 << c.x_bits; }, [](Config& c) { c.max_width = (1 << c.x_bits) - 1; }},
 }};
 
 /// Hash of the parameters that affect pixels: FNV-1a over their values in the order of the definition file.

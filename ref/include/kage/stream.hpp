@@ -17,14 +17,6 @@
 
 namespace kage {
 
-/// The five words that open a frame.
-struct FrameHeader {
-  int width = 0;
-  int height = 0;
-  std::uint32_t background = 0;  ///< channel c in bits 8c .. 8c + 7
-  std::uint32_t frame = 0;
-};
-
 /// A span with depth: OP, SP and TP. Colour is used by OP and TP only.
 struct SpanToken {
   int xl = 0;
