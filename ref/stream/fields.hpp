@@ -3,6 +3,9 @@
 // clang-format off
 #pragma once
 
+#include <cstddef>
+#include <type_traits>
+
 #include "kage/defs.hpp"
 
 namespace kage {
@@ -87,6 +90,111 @@ void each_field(const Layout& layout, Kind kind, F f) {
       break;
     case Kind::END:
       break;
+  }
+}
+
+/// Calls f<K>() with the kind as a template argument; nothing for what is no kind.
+template <class F>
+constexpr void with_kind(Kind kind, F&& f) {
+  switch (kind) {
+    case Kind::SHADE: return f.template operator()<Kind::SHADE>();
+    case Kind::TABLE: return f.template operator()<Kind::TABLE>();
+    case Kind::FACE: return f.template operator()<Kind::FACE>();
+    case Kind::SEG: return f.template operator()<Kind::SEG>();
+    case Kind::TREE: return f.template operator()<Kind::TREE>();
+    case Kind::OP: return f.template operator()<Kind::OP>();
+    case Kind::SP: return f.template operator()<Kind::SP>();
+    case Kind::NC: return f.template operator()<Kind::NC>();
+    case Kind::IF: return f.template operator()<Kind::IF>();
+    case Kind::EV: return f.template operator()<Kind::EV>();
+    case Kind::ES: return f.template operator()<Kind::ES>();
+    case Kind::RESOLVE: return f.template operator()<Kind::RESOLVE>();
+    case Kind::TP: return f.template operator()<Kind::TP>();
+    case Kind::EOL: return f.template operator()<Kind::EOL>();
+    case Kind::END: return f.template operator()<Kind::END>();
+  }
+}
+
+/// Calls f(name, value, Field) for each field that a token of kind K has in the configuration, in order. `value` is the
+/// member of `token` that holds it: `token` is a Token, or has those members of it that the kind needs.
+template <Kind K, class T, class F>
+constexpr void visit_fields([[maybe_unused]] const Config& config, [[maybe_unused]] const Layout& layout,
+                            [[maybe_unused]] T& token, [[maybe_unused]] F f) {
+  if constexpr (K == Kind::SHADE) {
+    f("shade", token.shade, layout.shade_shade);
+  }
+  if constexpr (K == Kind::TABLE) {
+    f("class", token.table.normal_class, layout.table_class);
+    f("light", token.table.light, layout.table_light);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+      f("share", token.table.share[c], layout.table_share[c]);
+  }
+  if constexpr (K == Kind::FACE) {
+    f("unit", token.segment.unit, layout.face_unit);
+    f("face", token.segment.face, layout.face_face);
+    f("index", token.segment.index, layout.face_index);
+    if (layout.face_class.bits != 0) f("class", token.segment.normal_class, layout.face_class);
+    f("dz", token.segment.dz, layout.face_dz);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+      f("color", token.segment.color[c], layout.face_color[c]);
+  }
+  if constexpr (K == Kind::SEG) {
+    f("unit", token.segment.unit, layout.seg_unit);
+    std::conditional_t<std::is_const_v<T>, const int, int> pad = 0;
+    f("pad", pad, layout.seg_pad);
+    f("z", token.segment.z, layout.seg_z);
+    f("sync", token.segment.sync, layout.seg_sync);
+    f("dx", token.segment.dx, layout.seg_dx);
+    f("face", token.segment.face, layout.seg_face);
+  }
+  if constexpr (K == Kind::OP) {
+    f("xl", token.span.xl, layout.op_xl);
+    f("xr", token.span.xr, layout.op_xr);
+    if (layout.op_class.bits != 0) f("class", token.span.normal_class, layout.op_class);
+    f("z", token.span.z, layout.op_z);
+    f("dz", token.span.dz, layout.op_dz);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+      f("color", token.span.color[c], layout.op_color[c]);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+      f("dcolor", token.span.dcolor[c], layout.op_dcolor[c]);
+  }
+  if constexpr (K == Kind::SP) {
+    f("xl", token.span.xl, layout.sp_xl);
+    f("xr", token.span.xr, layout.sp_xr);
+    f("w", token.span.w, layout.sp_w);
+    f("z", token.span.z, layout.sp_z);
+    f("dz", token.span.dz, layout.sp_dz);
+  }
+  if constexpr (K == Kind::NC) {
+    f("xl", token.span.xl, layout.nc_xl);
+    f("xr", token.span.xr, layout.nc_xr);
+    f("w", token.span.w, layout.nc_w);
+  }
+  if constexpr (K == Kind::IF) {
+    f("w", token.span.w, layout.if_w);
+  }
+  if constexpr (K == Kind::EV) {
+    f("xl", token.span.xl, layout.ev_xl);
+    f("xr", token.span.xr, layout.ev_xr);
+  }
+  if constexpr (K == Kind::ES) {
+    f("xl", token.span.xl, layout.es_xl);
+    f("xr", token.span.xr, layout.es_xr);
+    f("light", token.table.light, layout.es_light);
+  }
+  if constexpr (K == Kind::TP) {
+    f("xl", token.span.xl, layout.tp_xl);
+    f("xr", token.span.xr, layout.tp_xr);
+    f("alpha", token.span.alpha, layout.tp_alpha);
+    f("z", token.span.z, layout.tp_z);
+    f("dz", token.span.dz, layout.tp_dz);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+      f("color", token.span.color[c], layout.tp_color[c]);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+      f("dcolor", token.span.dcolor[c], layout.tp_dcolor[c]);
+  }
+  if constexpr (K == Kind::EOL) {
+    f("y", token.y, layout.eol_y);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
+#include "stream/fields.hpp"
 
 namespace kage {
 namespace {
@@ -16,17 +17,6 @@ constexpr unsigned code(Kind k) { return static_cast<unsigned>(k); }
 [[noreturn, gnu::cold, gnu::noinline]] void refuse(Kind kind, const char* name, std::int64_t value, Field f) {
   throw Error(fmt::format("{}: {} is {}, which {}{} bits do not hold", kKindNames[code(kind)], name, value,
                           f.is_signed ? "signed " : "", f.bits));
-}
-
-/// Depth and colour, which OP and TP have alike: call put with name, value and Field of each in turn.
-template <class Put>
-void put_ramps(Put put, const Config& config, const SpanToken& s, Field z, Field dz, const Field (&color)[3],
-               const Field (&dcolor)[3]) {
-  put("z", s.z, z);
-  put("dz", s.dz, dz);
-  const auto channels = static_cast<std::size_t>(config.channels);
-  for (std::size_t c = 0; c < channels; ++c) put("color", s.color[c], color[c]);
-  for (std::size_t c = 0; c < channels; ++c) put("dcolor", s.dcolor[c], dcolor[c]);
 }
 
 /// What a class says at the end of OP and FACE: nothing in a core without shadows.
@@ -52,203 +42,89 @@ void TokenWriter::header(const FrameHeader& h) {
   out_->insert(out_->end(), words.begin(), words.end());
 }
 
-/// Writes a token. `fields` calls its argument with name, value and Field of each field in turn. They are checked as
-/// they go by, with one question at the end.
-template <typename Fields>
-void TokenWriter::pack(Kind kind, const Fields& fields) {
+/// Writes a token of kind K, of which `t` has the members. Values are checked as they go by, with one question at the
+/// end.
+template <Kind K, class T>
+void TokenWriter::pack(const T& t) {
   std::array<std::uint32_t, 16> words;  // more than the longest token; only those written are read
   BitPacker p(words.data());
-  p.put(code(kind), Field{0, 4, false});
-  fields([&p](const char*, std::int64_t value, Field f) { p.put(value, f); });
+  p.put(code(K), Field{0, 4, false});
+  visit_fields<K>(config_, layout_, t, [&p](const char*, const auto& value, Field f) { p.put(value, f); });
   const std::uint32_t* end = p.close();
   if (!p.whole()) [[unlikely]]
-    fields([kind](const char* name, std::int64_t value, Field f) {
-      if (beyond(value, f) != 0) refuse(kind, name, value, f);
+    visit_fields<K>(config_, layout_, t, [](const char* name, const auto& value, Field f) {
+      if (beyond(value, f) != 0) refuse(K, name, value, f);
     });
   // Few words: not worth the call that inserting a range is.
   std::vector<std::uint32_t>& out = *out_;
   for (const std::uint32_t* w = words.data(); w != end; ++w) out.push_back(*w);
 }
 
+namespace {
+
+// What pack() is given in place of a whole Token.
+struct OfSpan {
+  const SpanToken& span;
+};
+struct OfSegment {
+  const SegmentToken& segment;
+};
+struct OfTable {
+  const TableToken& table;
+};
+struct OfRange {
+  struct {
+    int xl, xr, w;
+  } span;
+};
+
+}  // namespace
+
 void TokenWriter::shade(std::uint32_t shade) {
-  pack(Kind::SHADE, [&](auto put) { put("shade", shade, layout_.shade_shade); });
+  const struct {
+    std::uint32_t shade;
+  } t{shade};
+  pack<Kind::SHADE>(t);
 }
-
-void TokenWriter::table(const TableToken& entry) {
-  pack(Kind::TABLE, [&](auto put) {
-    put("class", entry.normal_class, layout_.table_class);
-    put("light", entry.light, layout_.table_light);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c)
-      put("share", entry.share[c], layout_.table_share[c]);
-  });
-}
-
-void TokenWriter::face(const SegmentToken& face) {
-  pack(Kind::FACE, [&](auto put) {
-    put("unit", face.unit, layout_.face_unit);
-    put("face", face.face, layout_.face_face);
-    put("index", face.index, layout_.face_index);
-    put("class", layout_.face_class.bits != 0 ? face.normal_class : 0, layout_.face_class);
-    put("dz", face.dz, layout_.face_dz);
-    for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c)
-      put("color", face.color[c], layout_.face_color[c]);
-  });
-}
-
-void TokenWriter::seg(const SegmentToken& segment) {
-  pack(Kind::SEG, [&](auto put) {
-    put("unit", segment.unit, layout_.seg_unit);
-    put("pad", 0, layout_.seg_pad);
-    put("z", segment.z, layout_.seg_z);
-    put("sync", segment.sync ? 1 : 0, layout_.seg_sync);
-    put("dx", segment.dx, layout_.seg_dx);
-    put("face", segment.face, layout_.seg_face);
-  });
-}
-
-void TokenWriter::tree() { out_->push_back(code(Kind::TREE)); }
-
-void TokenWriter::op(const SpanToken& s) {
-  pack(Kind::OP, [&](auto put) {
-    put("xl", s.xl, layout_.op_xl);
-    put("xr", s.xr, layout_.op_xr);
-    put("class", layout_.op_class.bits != 0 ? s.normal_class : 0, layout_.op_class);
-    put_ramps(put, config_, s, layout_.op_z, layout_.op_dz, layout_.op_color, layout_.op_dcolor);
-  });
-}
-
-void TokenWriter::sp(const SpanToken& s) {
-  pack(Kind::SP, [&](auto put) {
-    put("xl", s.xl, layout_.sp_xl);
-    put("xr", s.xr, layout_.sp_xr);
-    put("w", s.w, layout_.sp_w);
-    put("z", s.z, layout_.sp_z);
-    put("dz", s.dz, layout_.sp_dz);
-  });
-}
-
-void TokenWriter::nc(int xl, int xr, int w) {
-  pack(Kind::NC, [&](auto put) {
-    put("xl", xl, layout_.nc_xl);
-    put("xr", xr, layout_.nc_xr);
-    put("w", w, layout_.nc_w);
-  });
-}
-
-void TokenWriter::inside(int w) {
-  pack(Kind::IF, [&](auto put) { put("w", w, layout_.if_w); });
-}
-
-void TokenWriter::ev(int xl, int xr) {
-  pack(Kind::EV, [&](auto put) {
-    put("xl", xl, layout_.ev_xl);
-    put("xr", xr, layout_.ev_xr);
-  });
-}
-
+void TokenWriter::table(const TableToken& entry) { pack<Kind::TABLE>(OfTable{entry}); }
+void TokenWriter::face(const SegmentToken& face) { pack<Kind::FACE>(OfSegment{face}); }
+void TokenWriter::seg(const SegmentToken& segment) { pack<Kind::SEG>(OfSegment{segment}); }
+void TokenWriter::tree() { pack<Kind::TREE>(0); }
+void TokenWriter::op(const SpanToken& s) { pack<Kind::OP>(OfSpan{s}); }
+void TokenWriter::sp(const SpanToken& s) { pack<Kind::SP>(OfSpan{s}); }
+void TokenWriter::nc(int xl, int xr, int w) { pack<Kind::NC>(OfRange{{xl, xr, w}}); }
+void TokenWriter::inside(int w) { pack<Kind::IF>(OfRange{{0, 0, w}}); }
+void TokenWriter::ev(int xl, int xr) { pack<Kind::EV>(OfRange{{xl, xr, 0}}); }
 void TokenWriter::es(int xl, int xr, int light) {
-  pack(Kind::ES, [&](auto put) {
-    put("xl", xl, layout_.es_xl);
-    put("xr", xr, layout_.es_xr);
-    put("light", light, layout_.es_light);
-  });
+  const struct {
+    struct {
+      int xl, xr;
+    } span;
+    struct {
+      int light;
+    } table;
+  } t{{xl, xr}, {light}};
+  pack<Kind::ES>(t);
 }
-
-void TokenWriter::resolve() { out_->push_back(code(Kind::RESOLVE)); }
-
-void TokenWriter::tp(const SpanToken& s) {
-  pack(Kind::TP, [&](auto put) {
-    put("xl", s.xl, layout_.tp_xl);
-    put("xr", s.xr, layout_.tp_xr);
-    put("alpha", s.alpha, layout_.tp_alpha);
-    put_ramps(put, config_, s, layout_.tp_z, layout_.tp_dz, layout_.tp_color, layout_.tp_dcolor);
-  });
-}
-
+void TokenWriter::resolve() { pack<Kind::RESOLVE>(0); }
+void TokenWriter::tp(const SpanToken& s) { pack<Kind::TP>(OfSpan{s}); }
 void TokenWriter::eol(int y) {
-  pack(Kind::EOL, [&](auto put) { put("y", y, layout_.eol_y); });
+  const struct {
+    int y;
+  } t{y};
+  pack<Kind::EOL>(t);
 }
+void TokenWriter::end() { pack<Kind::END>(0); }
 
-void TokenWriter::end() { out_->push_back(code(Kind::END)); }
-
-void decode(const Config& config, const Layout& l, std::span<const std::uint32_t> words, Token& t) {
+void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& t) {
   t.kind = static_cast<Kind>(words[0] & 15U);
   BitUnpacker in(words);
   static_cast<void>(in.take(Field{0, 4, false}));
-  const auto get = [&](Field f) { return in.take(f); };
-  const auto geti = [&](Field f) { return static_cast<int>(in.take(f)); };
-  const auto channels = static_cast<std::size_t>(config.channels);
-  const auto range = [&](Field xl, Field xr) {
-    t.span.xl = geti(xl);
-    t.span.xr = geti(xr);
-  };
-  const auto ramps = [&](Field z, Field dz, const Field(&color)[3], const Field(&dcolor)[3]) {
-    t.span.z = get(z);
-    t.span.dz = get(dz);
-    for (std::size_t c = 0; c < channels; ++c) t.span.color[c] = geti(color[c]);
-    for (std::size_t c = 0; c < channels; ++c) t.span.dcolor[c] = geti(dcolor[c]);
-  };
-  switch (t.kind) {
-    case Kind::SHADE:
-      t.shade = static_cast<std::uint32_t>(get(l.shade_shade));
-      break;
-    case Kind::TABLE:
-      t.table.normal_class = geti(l.table_class);
-      t.table.light = geti(l.table_light);
-      for (std::size_t c = 0; c < channels; ++c) t.table.share[c] = static_cast<std::uint32_t>(get(l.table_share[c]));
-      break;
-    case Kind::FACE:
-      t.segment.unit = geti(l.face_unit);
-      t.segment.face = geti(l.face_face);
-      t.segment.index = geti(l.face_index);
-      t.segment.normal_class = geti(l.face_class);
-      t.segment.dz = get(l.face_dz);
-      for (std::size_t c = 0; c < channels; ++c) t.segment.color[c] = geti(l.face_color[c]);
-      break;
-    case Kind::SEG:
-      t.segment.unit = geti(l.seg_unit);
-      static_cast<void>(get(l.seg_pad));
-      t.segment.z = get(l.seg_z);
-      t.segment.sync = get(l.seg_sync) != 0;
-      t.segment.dx = geti(l.seg_dx);
-      t.segment.face = geti(l.seg_face);
-      break;
-    case Kind::OP:
-      range(l.op_xl, l.op_xr);
-      t.span.normal_class = geti(l.op_class);
-      ramps(l.op_z, l.op_dz, l.op_color, l.op_dcolor);
-      break;
-    case Kind::SP:
-      range(l.sp_xl, l.sp_xr);
-      t.span.w = geti(l.sp_w);
-      t.span.z = get(l.sp_z);
-      t.span.dz = get(l.sp_dz);
-      break;
-    case Kind::TP:
-      range(l.tp_xl, l.tp_xr);
-      t.span.alpha = geti(l.tp_alpha);
-      ramps(l.tp_z, l.tp_dz, l.tp_color, l.tp_dcolor);
-      break;
-    case Kind::NC:
-      range(l.nc_xl, l.nc_xr);
-      t.span.w = geti(l.nc_w);
-      break;
-    case Kind::IF:
-      t.span.w = geti(l.if_w);
-      break;
-    case Kind::EV:
-      range(l.ev_xl, l.ev_xr);
-      break;
-    case Kind::ES:
-      range(l.es_xl, l.es_xr);
-      t.table.light = geti(l.es_light);
-      break;
-    case Kind::EOL:
-      t.y = geti(l.eol_y);
-      break;
-    default:
-      break;
-  }
+  with_kind(t.kind, [&]<Kind K>() {
+    visit_fields<K>(config, layout, t, [&in](const char*, auto& value, Field f) {
+      value = static_cast<std::remove_reference_t<decltype(value)>>(in.take(f));
+    });
+  });
 }
 
 Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words) {

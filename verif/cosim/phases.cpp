@@ -5,32 +5,6 @@
 #include <limits>
 
 namespace kage::cosim {
-namespace {
-
-Phase phase_of(Kind kind) {
-  switch (kind) {
-    case Kind::OP:
-    case Kind::TREE:
-      return Phase::opaque;
-    case Kind::SP:
-    case Kind::NC:
-    case Kind::IF:
-      return Phase::volumes;
-    case Kind::EV:
-      return Phase::volume_ends;
-    case Kind::ES:
-      return Phase::samples;
-    case Kind::TP:
-      return Phase::translucent;
-    case Kind::EOL:
-      return Phase::line_out;
-    default:
-      return Phase::state;
-  }
-}
-
-}  // namespace
-
 void PhaseMarker::mark(std::span<const std::uint32_t> words, std::vector<std::uint8_t>& marks) {
   marks.reserve(marks.size() + words.size());
   for (const std::uint32_t word : words) {

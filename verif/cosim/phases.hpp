@@ -7,21 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "cosim/clock_phases.hpp"
 #include "kage/stream.hpp"
 
 namespace kage::cosim {
-
-enum class Phase : std::uint8_t { state, opaque, volumes, volume_ends, samples, translucent, line_out };
-inline constexpr std::size_t kPhases = 7;
-
-/// What belongs to each: "SP, NC, IF".
-inline constexpr std::array<std::string_view, kPhases> kPhaseTokens{
-    "SHADE, TABLE, FACE, SEG, RESOLVE, END", "OP, TREE", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
-inline constexpr std::array<std::string_view, kPhases> kPhaseNames{
-    "state", "opaque", "volumes", "ends of volumes", "light samples", "translucent", "line out"};
 
 /// Clocks that a core with a clock lost at its ports.
 struct Stalls {

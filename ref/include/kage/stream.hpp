@@ -79,8 +79,8 @@ class TokenWriter {
   void end();
 
  private:
-  template <typename Fields>
-  void pack(Kind kind, const Fields& fields);
+  template <Kind K, class T>
+  void pack(const T& token);
 
   Config config_;
   Layout layout_;
