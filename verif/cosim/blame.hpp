@@ -30,12 +30,12 @@ std::string blame(const Config& config, const Clue& clue);
 /// The module of an event of Stage::part.
 std::string part_name(const Config& config, const kage_rtl_event& event);
 
-/// Who waits for whom, of kage_rtl_table::handshakes: "frame_control's command waits for pixel_banked".
+/// Who waits for whom, of RtlCore::handshakes(): "frame_control's command waits for pixel_banked".
 struct Waiting {
   std::string text;
   std::string module;       ///< the one furthest down the way that does not take what is offered; empty if none
   bool lacks_line = false;  ///< that is line_out, which has been given no line: if one is missing, it is not to blame
 };
-Waiting waiting(const Config& config, std::uint32_t handshakes);
+Waiting waiting(const Config& config, const Handshakes& handshakes);
 
 }  // namespace kage::cosim

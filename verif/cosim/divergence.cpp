@@ -33,7 +33,7 @@ struct Found {
   std::uint64_t start = 0;  // clock of the frame's first word
   std::uint64_t clock = 0;
   std::string misconduct;
-  std::uint32_t handshakes = 0;
+  Handshakes handshakes;
   bool handshakes_known = false;  // their monitor fits the RTL
   bool given_up = false;          // the frame has not ended
 
@@ -54,8 +54,8 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   };
   rtl.begin(frame);
   rtl.record(true, take);
-  found.handshakes_known = (rtl.unwatched() >> KAGE_STAGE_HANDSHAKE & 1U) == 0;
-  const auto end = [&] { search.end(rtl.clock(), !found.handshakes_known || (rtl.handshakes() >> 4 & 3U) == 2); };
+  found.handshakes_known = (rtl.unwatched() >> kHandshakeStage & 1U) == 0;
+  const auto end = [&] { search.end(rtl.clock(), !found.handshakes_known || rtl.handshakes().waits(Port::tree)); };
   try {
     in_pieces(feed, frame, [&](std::span<const std::uint32_t> piece) {
       search.feed(piece);
@@ -81,7 +81,7 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   found.unexpected = search.unexpected();
   found.part = search.part();
   if (found.mismatch || found.unexpected) found.clue = search.clue();
-  found.clue.dropping = (found.handshakes >> 22 & 1U) != 0;
+  found.clue.dropping = found.handshakes.dropping();
   if (found.mismatch) {
     found.clock = found.mismatch->clock;
   } else if (found.unexpected) {
@@ -94,7 +94,7 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
 // Whether two searches have seen the same thing at the same time. What is not looked at of an event may be anything.
 bool alike(const Found& a, const Found& b) {
   const auto place = [](const std::optional<kage_rtl_event>& e, bool which) {
-    return e ? std::tuple(e->stage, e->unit, which ? e->value[0] : 0, e->clock)
+    return e ? std::tuple(e->stage, e->unit, which ? e->value[at::part::part] : 0, e->clock)
              : std::tuple(-1, 0, std::uint64_t{0}, std::uint64_t{0});
   };
   if (a.frame != b.frame || a.misconduct != b.misconduct || place(a.unexpected, false) != place(b.unexpected, false) ||
@@ -182,8 +182,8 @@ void describe_part(Divergence& d, const Config& config, const kage_rtl_event& pa
   d.stage = Stage::part;
   d.module = part_name(config, part);
   d.field = "output";
-  d.expected = fmt::format("{:#x}", part.value[1]);
-  d.actual = fmt::format("{:#x}", part.value[2]);
+  d.expected = fmt::format("{:#x}", part.value[at::part::expected]);
+  d.actual = fmt::format("{:#x}", part.value[at::part::actual]);
 }
 
 // Of the frame that RtlOptions::prelude puts ahead of this one.
@@ -235,7 +235,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
     const Waiting w = waiting(config, found.handshakes);
     d.waits = w.text;
     // Pixels that have no place to go to wait within.
-    const bool exit_free = (found.handshakes >> 18 & 1U) != 0;
+    const bool exit_free = found.handshakes.ready(Port::exit);
     if (w.module.empty() && d.stage == Stage::exit && !exit_free) d.module = "line_out";
     if (!w.module.empty() && !(w.lacks_line && d.stage == Stage::line)) d.module = w.module;
   }
@@ -257,7 +257,7 @@ std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const C
     t.cycle = a.clock;
     t.same = first_difference(e, a) < 0;
     // A pixel's state comes behind what was brought to it.
-    for (int i = e.stage == Stage::pixel ? 3 : 0; i < KAGE_RTL_EVENT_VALUES; ++i)
+    for (int i = e.stage == Stage::pixel ? at::pixel::z : 0; i < KAGE_RTL_EVENT_VALUES; ++i)
       if ((e.cares >> i & 1U) != 0)
         t.text += fmt::format("{}{} {}", t.text.empty() ? "" : ", ", value_name(e.stage, i),
                               value_text(config, e.stage, i, a.value[i]));

@@ -11,15 +11,15 @@ namespace kage::cosim {
 namespace {
 
 // At equal clocks the wiring is to blame first, then small modules, then those that have them within.
-int rank(const kage_rtl_event& part) {
-  if (part.value[0] == KAGE_PART_TOP || part.value[0] == KAGE_PART_PIXEL_CORE) return 0;
-  return part.value[0] <= KAGE_PART_LANE_RAMP ? 1 : 2;
-}
+int rank(const kage_rtl_event& part) { return static_cast<int>(kParts.at(part.value[at::part::part]).level); }
+
+/// The kind of the token that the event is of.
+Kind kind_of(const kage_rtl_event& token) { return static_cast<Kind>(token.value[at::token::words] & 15U); }
 
 /// An error of the RTL where none is to be.
 bool raised(const Mismatch& m) {
   return m.expected.stage == Stage::error && m.actual &&
-         m.expected.value[0] == static_cast<std::uint64_t>(ErrorCode::NONE);
+         m.expected.value[at::error::code] == static_cast<std::uint64_t>(ErrorCode::NONE);
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ EventSearch::EventSearch(const Config& config, std::uint32_t unwatched, Watch wa
     : watch_(std::move(watch)),
       config_(config),
       expected_(config, unwatched),
-      tokens_watched_((unwatched >> KAGE_STAGE_TOKEN & 1U) == 0),
+      tokens_watched_((unwatched >> static_cast<int>(Stage::token) & 1U) == 0),
       golden_(config),
       seen_(std::numeric_limits<std::uint64_t>::max()) {
   golden_.observe(this);
@@ -86,7 +86,7 @@ void EventSearch::take(const kage_rtl_event& a) {
     token_ = a;
     if (unexpected_ && unexpected_->clock == a.clock)
       unexpected_token_ = tokens_ - 1;  // events of a clock have no order
-    if (static_cast<Kind>(a.value[0] & 15U) == Kind::END) at_last_ = a.value[11] != 0;
+    if (kind_of(a) == Kind::END) at_last_ = a.value[at::token::at_last] != 0;
   }
   if (stopped(a)) return;
   std::deque<ExpectedEvent>& q = expected_.queue(stage, a.unit);
@@ -127,27 +127,28 @@ void EventSearch::take(const kage_rtl_event& a) {
 }
 
 bool EventSearch::is_token(const kage_rtl_event& segment) const {
-  if (static_cast<Kind>(token_.value[0] & 15U) != Kind::SEG) return false;
+  if (kind_of(token_) != Kind::SEG) return false;
   const Layout layout(config_);
   std::vector<std::uint32_t> words(static_cast<std::size_t>(layout.words[static_cast<std::size_t>(Kind::SEG)]));
   for (std::size_t i = 0; i < words.size(); ++i)
-    words[i] = static_cast<std::uint32_t>(token_.value[i / 2] >> i % 2 * 32);
+    words[i] = static_cast<std::uint32_t>(token_.value[at::token::words + i / 2] >> i % 2 * 32);
   const SegmentToken s = decode(config_, layout, words).segment;
   const std::uint64_t all = (std::uint64_t{1} << derived::depth_bits(config_)) - 1;
-  return segment.unit == s.unit && segment.value[0] == (static_cast<std::uint64_t>(s.z) & all) &&
-         segment.value[1] == static_cast<std::uint64_t>(s.dx) && segment.value[2] == static_cast<std::uint64_t>(s.face);
+  return segment.unit == s.unit && segment.value[at::segment::z] == (static_cast<std::uint64_t>(s.z) & all) &&
+         segment.value[at::segment::dx] == static_cast<std::uint64_t>(s.dx) &&
+         segment.value[at::segment::face] == static_cast<std::uint64_t>(s.face);
 }
 
 // An error belongs to its token, however early or late it comes.
 void EventSearch::take_error(std::deque<ExpectedEvent>& q, const kage_rtl_event& a) {
   const std::uint32_t token = tokens_ == 0 ? 0 : tokens_ - 1;
-  if (q.empty() && !ended_ && static_cast<ErrorCode>(a.value[0]) == ErrorCode::LAST_LATE) {
+  if (q.empty() && !ended_ && static_cast<ErrorCode>(a.value[at::error::code]) == ErrorCode::LAST_LATE) {
     ahead_.push_back(a);  // the golden core says so with the frame's end
     return;
   }
   if (q.empty() || token < q.front().token) {
     again_ = expected_.failed() && q.empty();
-    offer({ExpectedEvents::no_error(static_cast<int>(a.value[2]), token), a, 0, a.clock});
+    offer({ExpectedEvents::no_error(static_cast<int>(a.value[at::error::line]), token), a, at::error::code, a.clock});
   } else if (token > q.front().token) {
     offer({q.front(), std::nullopt, -1, a.clock});
   } else {

@@ -2,6 +2,7 @@
 #include "cosim/expected_events.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/span_value.hpp"
 #include "kage/derived.hpp"
@@ -24,9 +25,6 @@ enum Step {
   of_out,
   of_end
 };
-
-// Where a token's flags are.
-constexpr std::size_t kTokenFlags = KAGE_RTL_EVENT_VALUES - 1;
 
 std::uint64_t low(std::int64_t value, int bits) {
   return static_cast<std::uint64_t>(value) & (bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1);
@@ -67,7 +65,7 @@ ExpectedEvent ExpectedEvents::no_error(int line, std::uint32_t token) {
   e.line = line;
   e.token = token;
   e.step = of_control;
-  e.cares = 1;
+  e.look_at(at::error::code);
   return e;
 }
 
@@ -79,19 +77,18 @@ ExpectedEvent& ExpectedEvents::newest(Stage stage, int unit) {
   return watched(stage) ? queue(stage, unit).back() : nowhere_;
 }
 
-// Two words a value, the first in the lower half; in the last {header, lacking, cut, final}.
+// Two words a value, the first in the lower half.
 void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool final) {
   ExpectedEvent e = event(Stage::token, of_token);
-  for (std::size_t i = 0; i < words.size() && i / 2 < e.value.size(); ++i) {
-    e.value[i / 2] |= std::uint64_t{words[i]} << (i % 2 * 32);
-    e.cares |= 1U << (i / 2);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::size_t place = at::token::words + i / 2;
+    e.expect(static_cast<int>(place), e.value[place] | std::uint64_t{words[i]} << (i % 2 * 32));
   }
   if (words.size() % 2 != 0) {
-    e.masked = static_cast<int>(words.size() / 2);
+    e.masked = at::token::words + static_cast<int>(words.size() / 2);
     e.mask = 0xFFFFFFFFU;
   }
-  e.value[kTokenFlags] = (token_ == 0 ? 8U : 0U) | (final ? 1U : 0U);
-  e.cares |= 1U << kTokenFlags;
+  e.expect(at::token::flags, (token_ == 0 ? flag::header : 0) | (final ? flag::final_word : 0));
   put(e);
 }
 
@@ -101,9 +98,8 @@ void ExpectedEvents::wrong_token(ErrorCode code, bool header, std::span<const st
   e.token = header ? 0 : token_ + 1;
   const bool cut = code == ErrorCode::LAST_EARLY;
   const bool end = !header && !words.empty() && static_cast<Kind>(words[0] & 15U) == Kind::END;
-  e.value[kTokenFlags] =
-      (header ? 8U : 0U) | (code == ErrorCode::KIND ? 4U : 0U) | (cut ? 2U : 0U) | (cut || end ? 1U : 0U);
-  e.cares = 1U << kTokenFlags;
+  e.expect(at::token::flags, (header ? flag::header : 0) | (code == ErrorCode::KIND ? flag::lacking : 0) |
+                                 (cut ? flag::cut : 0) | (cut || end ? flag::final_word : 0));
   put(e);
 }
 
@@ -130,13 +126,11 @@ std::uint64_t ExpectedEvents::packed(const std::array<std::uint8_t, 3>& color) c
   return all;
 }
 
-// kind, xl, xr, count, z, dz, share, 3 colours, 3 slopes.
 void ExpectedEvents::command(int kind, int xl, int xr, int step) {
   ExpectedEvent e = event(Stage::command, step);
-  e.value[0] = static_cast<std::uint64_t>(kind);
-  e.value[1] = static_cast<std::uint64_t>(xl);
-  e.value[2] = static_cast<std::uint64_t>(xr);
-  e.cares = 7;
+  e.expect(at::command::kind, static_cast<std::uint64_t>(kind));
+  e.expect(at::command::xl, static_cast<std::uint64_t>(xl));
+  e.expect(at::command::xr, static_cast<std::uint64_t>(xr));
   put(e);
 }
 
@@ -144,63 +138,57 @@ void ExpectedEvents::span_command(const Token& t, const LineView& line) {
   const SpanToken& s = t.span;
   command(number(t.kind), s.xl, s.xr, of_command);
   ExpectedEvent& e = newest(Stage::command, 0);
-  const auto say = [&](int index, std::uint64_t value) {
-    e.value[static_cast<std::size_t>(index)] = value;
-    e.cares |= 1U << index;
-  };
-  const int dsf = std::max(config_.dsf_bits, 1);
+  using namespace at::command;
   switch (t.kind) {
     case Kind::OP:
-      say(3, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(s.normal_class) : 0);
+      e.expect(count, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(s.normal_class) : 0);
       break;
     case Kind::SP:
     case Kind::NC:
-      say(3, low(s.w, dsf));
+      e.expect(count, low(s.w, derived::dsf_bus_bits(config_)));
       break;
     case Kind::EV:
-      say(3, line.bias());
+      e.expect(count, line.bias());
       break;
     case Kind::ES:
-      say(3, (config_.lights > 1 ? static_cast<std::uint64_t>(t.table.light) << (config_.fsf != 0 ? 0 : dsf) : 0) |
-                 (config_.fsf != 0 ? 0 : line.bias()));
+      e.expect(count,
+               (config_.lights > 1 ? static_cast<std::uint64_t>(t.table.light) << derived::light_at(config_) : 0) |
+                   (config_.fsf != 0 ? 0 : line.bias()));
       break;
     default:
-      say(6, static_cast<std::uint64_t>(s.alpha));
+      e.expect(share, static_cast<std::uint64_t>(s.alpha));
       break;
   }
   // ES and, with several lights, nothing else of its count: FSF leaves the low bits open.
   if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP) {
-    say(4, low(s.z, depth_bits_));
-    say(5, low(s.dz, depth_bits_));
+    e.expect(z, low(s.z, depth_bits_));
+    e.expect(dz, low(s.dz, depth_bits_));
   }
   if (t.kind != Kind::OP && t.kind != Kind::TP) return;
   for (int c = 0; c < config_.channels; ++c) {
-    say(7 + c, low(s.color[static_cast<std::size_t>(c)], ramp_bits_));
-    if (config_.smooth != 0) say(10 + c, low(s.dcolor[static_cast<std::size_t>(c)], ramp_bits_));
+    e.expect(color + c, low(s.color[static_cast<std::size_t>(c)], ramp_bits_));
+    if (config_.smooth != 0) e.expect(dcolor + c, low(s.dcolor[static_cast<std::size_t>(c)], ramp_bits_));
   }
 }
 
-// kind, z, colour; z, colour, class, DSF, FSF, counts.
 void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
   ExpectedEvent e = event(Stage::pixel, step);
   e.unit = e.x = x;
   std::uint64_t counts = 0;
   for (int l = 0; l < config_.lights && config_.count_bits > 0; ++l)
     counts |= std::uint64_t{after.counts[static_cast<std::size_t>(l)]} << l * config_.count_bits;
-  e.value = {static_cast<std::uint64_t>(kind),
-             0,
-             0,
-             after.z,
-             packed(after.color),
-             config_.dsf_bits > 0 ? after.normal_class : 0,
-             painted_ ? 0 : after.dsf,
-             painted_ ? 0 : after.fsf,
-             counts};
-  // With counters nobody asks for the flags of a painted line.
-  e.cares = painted_ && config_.count_bits > 0 ? 0b100111001 : 0b111111001;
+  e.expect(at::pixel::kind, static_cast<std::uint64_t>(kind));
+  e.expect(at::pixel::z, after.z);
+  e.expect(at::pixel::color, packed(after.color));
+  e.expect(at::pixel::normal_class, config_.dsf_bits > 0 ? after.normal_class : 0);
+  e.expect(at::pixel::counts, counts);
+  if (!painted_ || config_.count_bits == 0) {  // with counters nobody asks for the flags of a painted line
+    e.expect(at::pixel::dsf, painted_ ? 0 : after.dsf);
+    e.expect(at::pixel::fsf, painted_ ? 0 : after.fsf);
+  }
   // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one
   // that ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
-  if (clear(after) && !painted_) e.cares &= ~(1U << 4);
+  if (clear(after) && !painted_) e.ignore(at::pixel::color);
   put(e);
 }
 
@@ -227,16 +215,21 @@ std::vector<ExpectedEvents::Leaving> ExpectedEvents::all_leaving(const LineView&
   return all;
 }
 
-// first, blank, load, painted, width, background, shade.
 void ExpectedEvents::line_event(bool blank, bool load, int step) {
   ExpectedEvent e = event(Stage::line, step);
-  e.value = {y_ == 0 ? 1U : 0U, blank ? 1U : 0U, load ? 1U : 0U, painted_ ? 1U : 0U, static_cast<std::uint64_t>(width_),
-             background_,       shade_};
-  e.cares = blank ? 0b0110111 : 0b1111111;
+  e.expect(at::line::first, y_ == 0 ? 1 : 0);
+  e.expect(at::line::blank, blank ? 1 : 0);
+  e.expect(at::line::load, load ? 1 : 0);
+  e.expect(at::line::width, static_cast<std::uint64_t>(width_));
+  e.expect(at::line::background, background_);
+  if (!blank) {
+    e.expect(at::line::painted, painted_ ? 1 : 0);
+    e.expect(at::line::shade, shade_);
+  }
   put(e);
 }
 
-// colour, covered, dark, class, counts. If banked, the pixels past the width in the last group leave too. The colour of
+// If banked, the pixels past the width in the last group leave too. The colour of
 // a pixel without surface is nobody's until the line is painted, as in touch(): the way out takes the background.
 void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
   const int lanes = config_.arrangement == 1 ? config_.lanes : 1;
@@ -247,8 +240,11 @@ void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
     e.unit = x == end - 1 ? 1 : 0;
     if (x < width_ && !blank) {
       const Leaving& l = pixels[static_cast<std::size_t>(x)];
-      e.value = {l.color, l.covered ? 1U : 0U, l.dark ? 1U : 0U, config_.class_bits > 1 ? l.normal_class : 0, l.counts};
-      e.cares = l.covered || painted_ ? 0b11111 : 0b11110;
+      if (l.covered || painted_) e.expect(at::exit::color, l.color);
+      e.expect(at::exit::covered, l.covered ? 1 : 0);
+      e.expect(at::exit::dark, l.dark ? 1 : 0);
+      e.expect(at::exit::normal_class, config_.class_bits > 1 ? l.normal_class : 0);
+      e.expect(at::exit::counts, l.counts);
     }
     put(e);
   }
@@ -257,15 +253,17 @@ void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
 // What line_phase says, where that is made use of.
 void ExpectedEvents::state(std::uint64_t bias, bool matters) {
   ExpectedEvent e = event(Stage::state, of_token);
-  e.value = {bias, resolved_ ? 1U : 0U};
-  e.cares = matters && config_.dsf_bits > 0 ? 1 : 0;
+  e.expect(at::state::bias, bias);
+  e.expect(at::state::resolved, resolved_ ? 1 : 0);
+  e.ignore(at::state::resolved);
+  if (!matters || config_.dsf_bits == 0) e.ignore(at::state::bias);
   put(e);
 }
 
 // What frame_control does before a line's first TP.
 void ExpectedEvents::paint(const LineView& line) {
   state(bias_, config_.count_bits == 0);
-  if (config_.count_bits > 0) newest(Stage::state, 0).cares |= 2;
+  if (config_.count_bits > 0) newest(Stage::state, 0).look_at(at::state::resolved);
   const bool by_loads = config_.count_bits > 0 && resolved_;
   const std::uint64_t one = std::uint64_t{1} << config_.shade_frac;
   const auto painted = [&](int x) {
@@ -283,16 +281,10 @@ void ExpectedEvents::paint(const LineView& line) {
   if (!by_loads) {
     command(number(Kind::RESOLVE), 0, width_, of_command);
     ExpectedEvent& e = newest(Stage::command, 0);
-    e.value[3] = bias_;
-    e.cares |= config_.dsf_bits > 0 ? 8U : 0U;
-    if (config_.count_bits == 0 && config_.dsf_bits > 0) {
-      e.value[6] = shade_;
-      e.cares |= 1U << 6;
-    }
-    for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c) {
-      e.value[7 + c] = (background_ >> 8 * c & 255U) << config_.color_frac;
-      e.cares |= 1U << (7 + c);
-    }
+    if (config_.dsf_bits > 0) e.expect(at::command::count, bias_);
+    if (config_.count_bits == 0 && config_.dsf_bits > 0) e.expect(at::command::share, shade_);
+    for (int c = 0; c < config_.channels; ++c)
+      e.expect(at::command::color + c, (background_ >> 8 * c & 255U) << config_.color_frac);
     painted_ = true;
     for (int x = 0; x < width_; ++x) touch(number(Kind::RESOLVE), x, painted(x), of_pixel);
     return;
@@ -305,17 +297,15 @@ void ExpectedEvents::paint(const LineView& line) {
     const PixelState s = painted(x);
     ExpectedEvent e = event(Stage::load, of_load);
     e.x = x;
-    e.value = {static_cast<std::uint64_t>(x), packed(s.color)};
-    e.cares = 3;
+    e.expect(at::load::x, static_cast<std::uint64_t>(x));
+    e.expect(at::load::color, packed(s.color));
     put(e);
     command(number(derived::kCommandLoad), x, x + 1, of_load_command);
     ExpectedEvent& c = newest(Stage::command, 0);
     c.load = true;
     c.x = x;
-    for (unsigned i = 0; i < static_cast<unsigned>(config_.channels); ++i) {
-      c.value[7 + i] = std::uint64_t{s.color[i]} << config_.color_frac;
-      c.cares |= 1U << (7 + i);
-    }
+    for (int i = 0; i < config_.channels; ++i)
+      c.expect(at::command::color + i, std::uint64_t{s.color[static_cast<std::size_t>(i)]} << config_.color_frac);
     touch(number(derived::kCommandLoad), x, s, of_loaded);
     newest(Stage::pixel, x).load = true;
   }
@@ -331,9 +321,10 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
       break;
     case Kind::TABLE: {
       ExpectedEvent e = event(Stage::table, of_control);
-      e.value = {static_cast<std::uint64_t>(t.table.normal_class), static_cast<std::uint64_t>(t.table.light)};
-      for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c) e.value[2 + c] = t.table.share[c];
-      e.cares = 0b11111;
+      e.expect(at::table::normal_class, static_cast<std::uint64_t>(t.table.normal_class));
+      e.expect(at::table::light, static_cast<std::uint64_t>(t.table.light));
+      for (int c = 0; c < 3; ++c)  // channels that there are not are told as 0
+        e.expect(at::table::share + c, c < config_.channels ? t.table.share[static_cast<std::size_t>(c)] : 0);
       put(e);
       break;
     }
@@ -341,11 +332,14 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
       const SegmentToken& f = t.segment;
       ExpectedEvent e = event(Stage::face, of_control);
       e.unit = f.unit;
-      e.value = {static_cast<std::uint64_t>(f.face), static_cast<std::uint64_t>(f.index),
-                 config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0, low(f.dz, depth_bits_)};
+      e.expect(at::face::face, static_cast<std::uint64_t>(f.face));
+      e.expect(at::face::index, static_cast<std::uint64_t>(f.index));
+      e.expect(at::face::normal_class, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0);
+      e.expect(at::face::dz, low(f.dz, depth_bits_));
+      std::uint64_t color = 0;
       for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
-        e.value[4] |= static_cast<std::uint64_t>(f.color[c]) << 8 * c;
-      e.cares = 0b11111;
+        color |= static_cast<std::uint64_t>(f.color[c]) << 8 * c;
+      e.expect(at::face::color, color);
       put(e);
       break;
     }
@@ -354,15 +348,16 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
       const SegmentToken& s = t.segment;
       ExpectedEvent e = event(Stage::segment, of_control);
       e.unit = s.unit;
-      e.value = {low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_), static_cast<std::uint64_t>(s.dx),
-                 static_cast<std::uint64_t>(s.face)};
-      e.cares = s.face == (1 << config_.face_bits) - 1 ? 0b110 : 0b111;
+      if (s.face != (1 << config_.face_bits) - 1)
+        e.expect(at::segment::z, low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_));
+      e.expect(at::segment::dx, static_cast<std::uint64_t>(s.dx));
+      e.expect(at::segment::face, static_cast<std::uint64_t>(s.face));
       put(e);
       break;
     }
     case Kind::TREE:
       put(event(Stage::claim, of_control));
-      newest(Stage::claim, 0).cares = 1;
+      newest(Stage::claim, 0).look_at(0);  // it has no values: that it comes matters
       break;
     case Kind::RESOLVE:
       bias_ = line.bias();
@@ -396,8 +391,7 @@ void ExpectedEvents::end_line(const LineView* line) {
   command(number(Kind::EOL), 0, width_, of_command);
   if (line != nullptr && config_.dsf_bits > 0) {
     ExpectedEvent& e = newest(Stage::command, 0);
-    e.value[3] = painted_ ? 0 : bias_;
-    e.cares |= 8;
+    e.expect(at::command::count, painted_ ? 0 : bias_);
   }
   line_event(line == nullptr, false, of_command);
   if (line == nullptr)
@@ -413,11 +407,10 @@ void ExpectedEvents::end_line(const LineView* line) {
 void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineView& line) {
   const SpanToken& s = t.span;
   const int kind = number(t.kind);
-  const auto came = [&](int x, std::uint64_t z, std::uint64_t color, std::uint32_t cares) {
+  const auto came = [&](int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color) {
     ExpectedEvent& e = newest(Stage::pixel, x);
-    e.value[1] = z;
-    e.value[2] = color;
-    e.cares |= cares;
+    if (z) e.expect(at::pixel::z_came, *z);
+    if (color) e.expect(at::pixel::color_came, *color);
   };
   switch (t.kind) {
     case Kind::TREE: {
@@ -429,18 +422,25 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
           ExpectedEvent e = event(Stage::unit, of_unit);
           e.unit = u;
           e.x = x;
-          e.value = {p.z, p.index, packed(p.color), config_.dsf_bits > 0 ? p.normal_class : 0};
-          e.cares = p.z == clear ? 1 : 0b1111;
+          e.expect(at::unit::z, p.z);
+          if (p.z != clear) {
+            e.expect(at::unit::index, p.index);
+            e.expect(at::unit::color, packed(p.color));
+            e.expect(at::unit::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
+          }
           put(e);
         }
         const auto p = line.tree_pixel(x);
         ExpectedEvent e = event(Stage::tree, of_tree);
         e.x = x;
-        e.value = {p.z, packed(p.color), config_.dsf_bits > 0 ? p.normal_class : 0};
-        e.cares = p.z == clear ? 1 : 0b111;
+        e.expect(at::tree::z, p.z);
+        if (p.z != clear) {
+          e.expect(at::tree::color, packed(p.color));
+          e.expect(at::tree::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
+        }
         put(e);
         touch(kind, x, line.pixel(x), of_pixel);
-        came(x, p.z, packed(p.color), p.z == clear ? 0b10 : 0b110);
+        came(x, p.z, p.z == clear ? std::nullopt : std::optional(packed(p.color)));
       }
       break;
     }
@@ -454,8 +454,8 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
         touch(kind, x, line.pixel(x), of_pixel);
         const bool depth = t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP;
         const bool colored = t.kind == Kind::OP || t.kind == Kind::TP;
-        came(x, depth ? span_depth(config_, s, x) : 0, colored ? packed(span_color(config_, s, x)) : 0,
-             (depth ? 2U : 0U) | (colored ? 4U : 0U));
+        came(x, depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
+             colored ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
       }
       break;
     default:
@@ -474,8 +474,11 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
   // Where it shows: the token that is to blame may have come before.
   e.token = status.width == 0 ? 0 : status.error == ErrorCode::LAST_LATE ? token_ : token_ + 1;
   failed_at_ = e.token;
-  e.value = {static_cast<std::uint64_t>(status.error), status.frame, status.line, status.token, status.unit};
-  e.cares = 0b11111;
+  e.expect(at::error::code, static_cast<std::uint64_t>(status.error));
+  e.expect(at::error::frame, status.frame);
+  e.expect(at::error::line, status.line);
+  e.expect(at::error::token, status.token);
+  e.expect(at::error::unit, status.unit);
   put(e);
   if (status.width == 0) return;
   token_ = failed_at_;
@@ -492,7 +495,7 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
 
 void ExpectedEvents::ended() {
   put(event(Stage::end, of_end));
-  newest(Stage::end, 0).cares = 1;
+  newest(Stage::end, 0).look_at(0);
 }
 
 void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
@@ -502,11 +505,12 @@ void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
     e.line = y;
     e.token = eol_token_[static_cast<std::size_t>(y)];
     e.x = x;
+    std::uint64_t color = 0;
     for (std::size_t c = 0; c < channels; ++c)
-      e.value[0] |= std::uint64_t{pixels[static_cast<std::size_t>(x) * channels + c]} << 8 * c;
-    e.value[1] = x == 0 && y == 0 ? 1 : 0;
-    e.value[2] = x + 1 == width_ ? 1 : 0;
-    e.cares = 7;
+      color |= std::uint64_t{pixels[static_cast<std::size_t>(x) * channels + c]} << 8 * c;
+    e.expect(at::out::color, color);
+    e.expect(at::out::tuser, x == 0 && y == 0 ? 1 : 0);
+    e.expect(at::out::tlast, x + 1 == width_ ? 1 : 0);
     put(e);
   }
 }

@@ -25,6 +25,14 @@ struct ExpectedEvent {
   bool load = false;        ///< a command, or what it does, that brings a colour back
   std::uint32_t cares = 0;  ///< bit i: value i matters
   std::array<std::uint64_t, KAGE_RTL_EVENT_VALUES> value{};
+  /// Value i is to be this, or matters as it is, or does not matter.
+  void expect(int i, std::uint64_t v) {
+    value[static_cast<std::size_t>(i)] = v;
+    look_at(i);
+  }
+  void look_at(int i) { cares |= 1U << i; }
+  void ignore(int i) { cares &= ~(1U << i); }
+
   int masked = -1;  ///< of this value only the bits of `mask` matter
   std::uint64_t mask = ~std::uint64_t{0};
 };

@@ -46,7 +46,8 @@ int first_difference(const ExpectedEvent& e, const kage_rtl_event& a) {
   for (int i = 0; i < KAGE_RTL_EVENT_VALUES; ++i) {
     if ((e.cares >> i & 1U) == 0) continue;
     const auto at = static_cast<std::size_t>(i);
-    const bool unseen = e.stage == Stage::pixel && (i == 1 || i == 2) && a.value[i] == ~std::uint64_t{0};
+    const bool unseen = e.stage == Stage::pixel && (i == at::pixel::z_came || i == at::pixel::color_came) &&
+                        a.value[i] == ~std::uint64_t{0};
     if (!unseen && ((e.value[at] ^ a.value[i]) & (i == e.masked ? e.mask : ~std::uint64_t{0})) != 0) return i;
   }
   return e.stage != Stage::pixel && e.unit != a.unit ? kUnitValue : -1;
@@ -56,7 +57,8 @@ MismatchText describe(const Config& config, const Mismatch& m) {
   const ExpectedEvent& e = m.expected;
   if (!m.actual) {
     return {"missing",
-            e.stage == Stage::command ? value_text(config, e.stage, 0, e.value[0]) : std::string(describe(e.stage)),
+            e.stage == Stage::command ? value_text(config, e.stage, at::command::kind, e.value[at::command::kind])
+                                      : std::string(describe(e.stage)),
             "nothing"};
   }
   if (m.value == kUnitValue)

@@ -62,7 +62,7 @@ std::vector<fs::path> model_sources(const fs::path& data, const ModelOptions& op
       throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
     for (const auto& entry : fs::directory_iterator(data / folder)) {
       const std::string name = entry.path().filename().string();
-      if (entry.is_regular_file() && name != "configs.yaml" && name.front() != '.')
+      if (entry.is_regular_file() && name != "configs.yaml" && name != "stages.yaml" && name.front() != '.')
         files.push_back(fs::path(folder) / name);
     }
   }

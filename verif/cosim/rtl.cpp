@@ -109,7 +109,7 @@ class Rtl : public RtlCore {
     table_->clear_events(model_);
     return events_;
   }
-  std::uint32_t handshakes() override { return static_cast<std::uint32_t>(table_->handshakes(model_)); }
+  Handshakes handshakes() override { return Handshakes(static_cast<std::uint32_t>(table_->handshakes(model_))); }
   std::uint64_t clock() override { return table_->clock(model_); }
   void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) override {
     if (table_->wave(model_, path.c_str(), first, last) != 0) throw Error("a model that writes no waveforms");

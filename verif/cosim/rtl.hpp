@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cosim/core.hpp"
+#include "cosim/stage_values.hpp"
 #include "rtl_model/rtl_model.h"
 
 namespace kage::cosim {
@@ -65,7 +66,7 @@ class RtlCore : public Core {
   virtual std::span<const kage_rtl_event> take_events() = 0;
 
   /// Who waits for whom: kage_rtl_table::handshakes.
-  virtual std::uint32_t handshakes() = 0;
+  virtual Handshakes handshakes() = 0;
 
   /// Clocks of the model's life.
   virtual std::uint64_t clock() = 0;

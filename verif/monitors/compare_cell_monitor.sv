@@ -30,8 +30,8 @@ module compare_cell_monitor #(
     if (!rst_ni) begin
       held_q <= 1'b0;
     end else begin
-      trace_part(PartCompareCell, {509'd0, take, take, held_q}, {509'd0, left_ready_o, right_ready_o, out_valid_o});
-      if (held_q) trace_part(PartCompareCell, 512'({last_q, data_q}), 512'({out_last_o, out_data_o}));
+      trace_module(PartCompareCell, {509'd0, take, take, held_q}, {509'd0, left_ready_o, right_ready_o, out_valid_o});
+      if (held_q) trace_module(PartCompareCell, 512'({last_q, data_q}), 512'({out_last_o, out_data_o}));
       if (!held_q || out_ready_i) held_q <= take;
     end
     if (take) begin

@@ -48,16 +48,16 @@ module compare_tree_monitor #(
         wait_q <= 0;
         for (int u = 0; u < UNITS; u++) held_q[u] <= 0;
       end else begin
-        if (out_valid_o) trace_part(PartCompareTree, 512'(1), 512'(whole));
-        if (out_valid_o && whole) trace_part(PartCompareTree, 512'(best), 512'({out_last_o, out_data_o}));
+        if (out_valid_o) trace_module(PartCompareTree, 512'(1), 512'(whole));
+        if (out_valid_o && whole) trace_module(PartCompareTree, 512'(best), 512'({out_last_o, out_data_o}));
         if (pop) at_q <= (at_q + 1) % Most;
-        trace_part(PartCompareTree, 512'(1), 512'(wait_q <= Levels));
+        trace_module(PartCompareTree, 512'(1), 512'(wait_q <= Levels));
         wait_q <= whole && !out_valid_o ? wait_q + 1 : 0;
         for (int u = 0; u < UNITS; u++) begin
           if (in_valid_i[u] && in_ready_o[u]) begin
             words[u*Most+(at_q+held_q[u])%Most] <= {in_last_i[u], in_data_i[u*DATA_BITS+:DATA_BITS]};
           end
-          trace_part(PartCompareTree, 512'(1), 512'(held_q[u] <= Levels));
+          trace_module(PartCompareTree, 512'(1), 512'(held_q[u] <= Levels));
           held_q[u] <= held_q[u] + 32'(in_valid_i[u] && in_ready_o[u]) - 32'(pop);
         end
       end

@@ -39,7 +39,8 @@ module expansion_unit_monitor #(
         sum_q <= whole ? 0 : sum;
         if (seg_dx_i == '0 || sum > 32'(width_i)) lost_q <= 1'b1;
       end
-      if (px_valid_o && !lost_q) trace_part(PartExpansionUnit, {510'd0, 1'b1, last}, {510'd0, lines_q > 0, px_last_o});
+      if (px_valid_o && !lost_q)
+        trace_module(PartExpansionUnit, {510'd0, 1'b1, last}, {510'd0, lines_q > 0, px_last_o});
       if (whole) widths[(at_q+lines_q)%Most] <= sum;
       if (px_valid_o && px_ready_i && lines_q > 0) begin
         x_q <= last ? 0 : x_q + 1;

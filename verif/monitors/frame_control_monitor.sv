@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What line_phase tells frame_control where that makes use of it, as events (rtl_model.h); and rules of frame_control's
+// What line_phase tells frame_control where that makes use of it, as events (rtl/defs/stages.yaml); and rules of frame_control's
 // own outputs: a segment that waits stays, nothing is taken or given while a line is on its way out and back, units are
 // told of an error, and a frame ends with END or once its input has been dropped.
 `default_nettype none
@@ -21,7 +21,7 @@ module frame_control_monitor #(
 
   always_ff @(posedge clk_i) begin
     if (rst_ni && (emit_paint || (good && !token_header_i && uses_state))) begin
-      kage_trace(StageState, 0, trace5(64'(bias), 64'(resolved), 64'd0, 64'd0, 64'd0));
+      trace_state(0, 64'(bias), 64'(resolved));
     end
   end
 
@@ -37,15 +37,15 @@ module frame_control_monitor #(
     else if (frame_control.line_valid_o && frame_control.line_load_o) loading_q <= 1'b1;
     if (rst_ni) begin
       if (waits_q) begin
-        trace_part(PartFrameControl, 512'({1'b1, segment_q}), 512'({frame_control.tree_seg_valid_o, segment}));
+        trace_module(PartFrameControl, 512'({1'b1, segment_q}), 512'({frame_control.tree_seg_valid_o, segment}));
       end
       if (loading_q) begin
-        trace_part(PartFrameControl, '0, 512'(frame_control.line_valid_o || frame_control.accept));
+        trace_module(PartFrameControl, '0, 512'(frame_control.line_valid_o || frame_control.accept));
       end
-      trace_part(PartFrameControl, 512'(UNITS > 0 && frame_control.error_o && !token_header_i),
-                 512'(frame_control.tree_flush_o));
+      trace_module(PartFrameControl, 512'(UNITS > 0 && frame_control.error_o && !token_header_i),
+                   512'(frame_control.tree_flush_o));
       if (frame_control.frame_end_o) begin
-        trace_part(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));
+        trace_module(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));
       end
     end
   end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The commands to the pixels, and lines to the way out, as events (rtl_model.h).
+// The commands to the pixels, and lines to the way out, as events (rtl/defs/stages.yaml).
 // Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
@@ -57,34 +57,15 @@ module kage_top_commands_monitor #(
     waits_q <= rst_ni && cmd_valid && !cmd_ready;
     fixed_q <= fixed;
     if (rst_ni) begin
-      if (waits_q) trace_part(PartTokenCommand, 512'({1'b1, fixed_q}), 512'({cmd_valid, fixed}));
+      if (waits_q) trace_module(PartTokenCommand, 512'({1'b1, fixed_q}), 512'({cmd_valid, fixed}));
       if (line_valid && line_ready) begin
-        kage_trace(StageLine, 0, TraceBits'({
-                   64'(line_shade),
-                   64'(line_background),
-                   64'(line_width),
-                   64'(line_painted),
-                   64'(line_load),
-                   64'(line_blank),
-                   64'(line_first)
-                   }));
+        trace_line(0, 64'(line_first), 64'(line_blank), 64'(line_load), 64'(line_painted), 64'(line_width),
+                   64'(line_background), 64'(line_shade));
       end
       if (pixel_valid && pixel_ready) begin
-        kage_trace(StageCommand, 0, {
-                   ramp(dcolor, 2),
-                   ramp(dcolor, 1),
-                   ramp(dcolor, 0),
-                   ramp(pixel_color, 2),
-                   ramp(pixel_color, 1),
-                   ramp(pixel_color, 0),
-                   64'(cmd_share),
-                   64'(cmd_dz),
-                   64'(cmd_z),
-                   64'(cmd_count),
-                   64'(pixel_xr),
-                   64'(pixel_xl),
-                   64'(pixel_kind)
-                   });
+        trace_command(0, 64'(pixel_kind), 64'(pixel_xl), 64'(pixel_xr), 64'(cmd_count), 64'(cmd_z), 64'(cmd_dz),
+                      64'(cmd_share), {ramp(pixel_color, 2), ramp(pixel_color, 1), ramp(pixel_color, 0)}, {
+                      ramp(dcolor, 2), ramp(dcolor, 1), ramp(dcolor, 0)});
       end
     end
   end

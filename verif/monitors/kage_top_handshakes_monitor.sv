@@ -37,36 +37,35 @@ module kage_top_handshakes_monitor #(
 );
   `include "kage_trace.svh"
 
-  always_ff @(posedge clk_i) begin
-    if (rst_ni) begin
-      // Who waits for whom, every clock; the driver keeps the newest.
-      kage_trace(StageHandshake, 0, TraceBits'({
-                 dropping,
-                 loading && !load_valid && !queue_valid,
-                 1'b0,
-                 pixel_valid && !pixel_ready,
-                 exit_free,
-                 token_valid && token_header,
-                 UNITS == 0 || tree_frame_ready,
-                 m_axis_tvalid_o,
-                 m_axis_tready_i,
-                 load_valid,
-                 load_ready,
-                 line_valid,
-                 line_ready,
-                 pixel_valid,
-                 pixel_ready,
-                 cmd_valid,
-                 cmd_ready,
-                 tree_valid,
-                 tree_ready,
-                 tree_seg_valid,
-                 tree_seg_ready,
-                 token_valid,
-                 token_ready
-                 }));
-    end
+  // Who waits for whom, every clock; the driver keeps the newest.
+  logic [HandshakeBits-1:0] now;
+  always_comb begin
+    now = '0;
+    now[HandshakeTokenReady] = token_ready;
+    now[HandshakeTokenValid] = token_valid;
+    now[HandshakeSegmentReady] = tree_seg_ready;
+    now[HandshakeSegmentValid] = tree_seg_valid;
+    now[HandshakeTreeReady] = tree_ready;
+    now[HandshakeTreeValid] = tree_valid;
+    now[HandshakeCommandReady] = cmd_ready;
+    now[HandshakeCommandValid] = cmd_valid;
+    now[HandshakePixelReady] = pixel_ready;
+    now[HandshakePixelValid] = pixel_valid;
+    now[HandshakeLineReady] = line_ready;
+    now[HandshakeLineValid] = line_valid;
+    now[HandshakeLoadReady] = load_ready;
+    now[HandshakeLoadValid] = load_valid;
+    now[HandshakeVideoReady] = m_axis_tready_i;
+    now[HandshakeVideoValid] = m_axis_tvalid_o;
+    now[HandshakeFrameReady] = UNITS == 0 || tree_frame_ready;
+    now[HandshakeFrameValid] = token_valid && token_header;
+    now[HandshakeExitReady] = exit_free;
+    now[HandshakeExitValid] = pixel_valid && !pixel_ready;
+    now[HandshakeReturnLineValid] = loading && !load_valid && !queue_valid;  // ready never: a line that comes is no wait
+    now[HandshakeDropping] = dropping;
   end
+
+  always_ff @(posedge clk_i) if (rst_ni) kage_trace(StageHandshake, 0, TraceBits'(now));
 
 endmodule
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels that leave the core of pixels, come back to it, and go out, as events (rtl_model.h).
+// The pixels that leave the core of pixels, come back to it, and go out, as events (rtl/defs/stages.yaml).
 // Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
@@ -30,30 +30,26 @@ module kage_top_pixels_monitor #(
   `include "kage_trace.svh"
 
   localparam int CountersBits = COUNT_BITS > 0 ? TallyBits : 1;
-  // A pixel that leaves: {counts, class, dark, covered, colour}.
-  function automatic logic [TraceBits-1:0] leaving(input logic [ExitBits-1:0] pixel);
-    leaving = trace5(
-        64'(pixel[RgbBits-1:0]),
-        64'(pixel[RgbBits]),
-        DSF_BITS > 0 && COUNT_BITS == 0 ? 64'(pixel[ExitBits-1]) : 64'd0,
-        COUNT_BITS > 0 && CLASS_BITS > 1 ? 64'(pixel[ExitClassAt+:CLASS_BITS]) : 64'd0,
-        COUNT_BITS > 0 ? 64'(pixel[ExitCountAt+:CountersBits]) : 64'd0
-    );
+  function automatic void trace_leaving(input logic last, input logic [ExitBits-1:0] pixel);
+    trace_exit(32'(last), 64'(pixel[RgbBits-1:0]), 64'(pixel[RgbBits]),
+               DSF_BITS > 0 && COUNT_BITS == 0 ? 64'(pixel[ExitBits-1]) : 64'd0,
+               COUNT_BITS > 0 && CLASS_BITS > 1 ? 64'(pixel[ExitClassAt+:CLASS_BITS]) : 64'd0,
+               COUNT_BITS > 0 ? 64'(pixel[ExitCountAt+:CountersBits]) : 64'd0);
   endfunction
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      trace_part(PartPixels, 512'(exit_take && exit_free), 512'(exit_take));
+      trace_module(PartPixels, 512'(exit_take && exit_free), 512'(exit_take));
       if (exit_valid) begin
         for (int l = 0; l < EXIT_LANES; l++) begin
-          kage_trace(StageExit, 32'(exit_last && l == EXIT_LANES - 1), leaving(exit_data[l*ExitBits+:ExitBits]));
+          trace_leaving(exit_last && l == EXIT_LANES - 1, exit_data[l*ExitBits+:ExitBits]);
         end
       end
       if (load_valid && load_ready) begin
-        kage_trace(StageLoad, 0, trace5(64'(load_x), 64'(load_color), 64'd0, 64'd0, 64'd0));
+        trace_load(0, 64'(load_x), 64'(load_color));
       end
       if (m_axis_tvalid_o && m_axis_tready_i) begin
-        kage_trace(StageOut, 0, trace5(64'(m_axis_tdata_o), 64'(m_axis_tuser_o), 64'(m_axis_tlast_o), 64'd0, 64'd0));
+        trace_out(0, 64'(m_axis_tdata_o), 64'(m_axis_tuser_o), 64'(m_axis_tlast_o));
       end
     end
   end

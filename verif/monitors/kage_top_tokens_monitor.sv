@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events (rtl_model.h).
+// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events (rtl/defs/stages.yaml).
 // Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
@@ -42,21 +42,16 @@ module kage_top_tokens_monitor #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       if (token_valid && token_ready) begin
-        kage_trace(
-            StageToken, 0, {
-            60'd0, token_header, token_lacking, token_cut, token_final, 63'd0, token_at_last, (TraceBits - 128)'(token)
-            });
+        trace_token(0, 704'(token), 64'(token_at_last), 64'({token_header, token_lacking, token_cut, token_final}));
       end
       if (table_valid) begin
-        kage_trace(
-            StageTable, 0, trace5(
-            64'(table_class), 64'(table_light), share(table_share, 0), share(table_share, 1), share(table_share, 2)));
+        trace_table(0, 64'(table_class), 64'(table_light), {
+                    share(table_share, 2), share(table_share, 1), share(table_share, 0)});
       end
       if (error) begin
-        kage_trace(StageError, 0, trace5(
-                   64'(error_code), 64'(error_frame), 64'(error_line), 64'(error_token), 64'(error_unit)));
+        trace_error(0, 64'(error_code), 64'(error_frame), 64'(error_line), 64'(error_token), 64'(error_unit));
       end
-      if (frame_end) kage_trace(StageEnd, 0, '0);
+      if (frame_end) trace_end(0);
     end
   end
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What frame_control gives to the compare tree, and the tree's pixels, as events (rtl_model.h).
+// What frame_control gives to the compare tree, and the tree's pixels, as events (rtl/defs/stages.yaml).
 // Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
@@ -31,21 +31,17 @@ module kage_top_tree_monitor #(
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      if (tree_claim) kage_trace(StageClaim, 0, '0);
+      if (tree_claim) trace_claim(0);
       if (tree_face_valid) begin
-        kage_trace(StageFace, 32'(tree_unit), trace5(
-                   64'(tree_face),
-                   64'(tree_entry[ORDER_BITS-1:0]),
+        trace_face(32'(tree_unit), 64'(tree_face), 64'(tree_entry[ORDER_BITS-1:0]),
                    ClassBits > 0 ? 64'(tree_entry[ORDER_BITS+:CLASS_BITS]) : 64'd0,
-                   64'(tree_entry[ORDER_BITS+ClassBits+:DepthBits]),
-                   64'(tree_entry[EntryBits-1-:RgbBits])
-                   ));
+                   64'(tree_entry[ORDER_BITS+ClassBits+:DepthBits]), 64'(tree_entry[EntryBits-1-:RgbBits]));
       end
       if (tree_seg_valid && tree_seg_ready) begin
-        kage_trace(StageSegment, 32'(tree_unit), trace5(64'(tree_seg_z), 64'(tree_dx), 64'(tree_face), 64'd0, 64'd0));
+        trace_segment(32'(tree_unit), 64'(tree_seg_z), 64'(tree_dx), 64'(tree_face));
       end
       if (tree_valid && tree_ready) begin
-        kage_trace(StageTree, 0, trace5(64'(tree_z), 64'(tree_color), 64'(tree_class), 64'd0, 64'd0));
+        trace_tree(0, 64'(tree_z), 64'(tree_color), 64'(tree_class));
       end
     end
   end

@@ -12,8 +12,8 @@ module kage_top_wires_monitor #(
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      trace_part(PartTop, 512'd1,
-                 512'({
+      trace_module(PartTop, 512'd1,
+                   512'({
                  kage_top.s_axis_tvalid_i,
                  kage_top.s_axis_tdata_i,
                  kage_top.s_axis_tlast_i,
@@ -26,8 +26,8 @@ module kage_top_wires_monitor #(
                  kage_top.u_reader.token_ready_i,
                  kage_top.u_reader.drop_i
                  }));
-      trace_part(PartTop, 512'd1,
-                 512'({
+      trace_module(PartTop, 512'd1,
+                   512'({
                  kage_top.token_valid,
                  kage_top.token,
                  kage_top.token_header,
@@ -58,8 +58,8 @@ module kage_top_wires_monitor #(
                  kage_top.u_control.tree_frame_ready_i,
                  kage_top.u_control.tree_seg_ready_i
                  }));
-      trace_part(PartTop, 512'd1,
-                 512'({
+      trace_module(PartTop, 512'd1,
+                   512'({
                  kage_top.line_valid,
                  kage_top.line_first,
                  kage_top.line_blank,
@@ -72,8 +72,8 @@ module kage_top_wires_monitor #(
                  } == {
                  kage_top.u_lines.in_valid_i, kage_top.u_lines.in_data_i, kage_top.u_lines.out_ready_i
                  }));
-      trace_part(PartTop, 512'd1,
-                 512'({
+      trace_module(PartTop, 512'd1,
+                   512'({
                  kage_top.cmd_valid,
                  kage_top.cmd_kind,
                  kage_top.cmd_xl,
@@ -98,8 +98,8 @@ module kage_top_wires_monitor #(
                  kage_top.u_loads.load_last_i,
                  kage_top.u_loads.out_ready_i
                  }));
-      trace_part(PartTop, 512'd1,
-                 512'({
+      trace_module(PartTop, 512'd1,
+                   512'({
                  kage_top.pixel_valid,
                  kage_top.pixel_kind,
                  kage_top.pixel_xl,
@@ -136,8 +136,8 @@ module kage_top_wires_monitor #(
                  kage_top.u_pixels.tree_drop_i,
                  kage_top.u_pixels.exit_free_i
                  }));
-      trace_part(PartTop, 512'd1,
-                 512'({
+      trace_module(PartTop, 512'd1,
+                   512'({
                  kage_top.exit_take,
                  kage_top.exit_valid,
                  kage_top.exit_last,
@@ -164,8 +164,8 @@ module kage_top_wires_monitor #(
                  kage_top.u_out.line_background_i,
                  kage_top.u_out.line_shade_i
                  }));
-      trace_part(PartTop, 512'd1,
-                 512'({
+      trace_module(PartTop, 512'd1,
+                   512'({
                  kage_top.table_valid,
                  kage_top.table_class,
                  kage_top.table_light,
@@ -181,46 +181,46 @@ module kage_top_wires_monitor #(
                  kage_top.u_out.m_ready_i
                  }));
       // STATUS and the counters
-      trace_part(PartTop, 512'({
-                 kage_top.in_frame || kage_top.lines_q != '0,
-                 kage_top.m_axis_tvalid_o && !kage_top.m_axis_tready_i,
-                 kage_top.frame_end,
-                 kage_top.error,
-                 kage_top.draining,
-                 kage_top.behind
-                 }), 512'({
-                 kage_top.u_registers.open_i,
-                 kage_top.u_registers.waiting_output_i,
-                 kage_top.u_registers.frame_end_i,
-                 kage_top.u_registers.error_i,
-                 kage_top.u_registers.draining_i,
-                 kage_top.u_registers.behind_i
-                 }));
-      trace_part(PartTop, 512'({
-                 kage_top.error_code,
-                 kage_top.error_frame,
-                 kage_top.error_line,
-                 kage_top.error_token,
-                 kage_top.error_unit,
-                 kage_top.behind_unit,
-                 kage_top.behind_line
-                 }), 512'({
-                 kage_top.u_registers.error_code_i,
-                 kage_top.u_registers.error_frame_i,
-                 kage_top.u_registers.error_line_i,
-                 kage_top.u_registers.error_token_i,
-                 kage_top.u_registers.error_unit_i,
-                 kage_top.u_registers.behind_unit_i,
-                 kage_top.u_registers.behind_line_i
-                 }));
+      trace_module(PartTop, 512'({
+                   kage_top.in_frame || kage_top.lines_q != '0,
+                   kage_top.m_axis_tvalid_o && !kage_top.m_axis_tready_i,
+                   kage_top.frame_end,
+                   kage_top.error,
+                   kage_top.draining,
+                   kage_top.behind
+                   }), 512'({
+                   kage_top.u_registers.open_i,
+                   kage_top.u_registers.waiting_output_i,
+                   kage_top.u_registers.frame_end_i,
+                   kage_top.u_registers.error_i,
+                   kage_top.u_registers.draining_i,
+                   kage_top.u_registers.behind_i
+                   }));
+      trace_module(PartTop, 512'({
+                   kage_top.error_code,
+                   kage_top.error_frame,
+                   kage_top.error_line,
+                   kage_top.error_token,
+                   kage_top.error_unit,
+                   kage_top.behind_unit,
+                   kage_top.behind_line
+                   }), 512'({
+                   kage_top.u_registers.error_code_i,
+                   kage_top.u_registers.error_frame_i,
+                   kage_top.u_registers.error_line_i,
+                   kage_top.u_registers.error_token_i,
+                   kage_top.u_registers.error_unit_i,
+                   kage_top.u_registers.behind_unit_i,
+                   kage_top.u_registers.behind_line_i
+                   }));
     end
   end
 
   if (UNITS > 0) begin : gen_tree
     always_ff @(posedge clk_i) begin
       if (rst_ni) begin
-        trace_part(PartTop, 512'd1,
-                   512'({
+        trace_module(PartTop, 512'd1,
+                     512'({
                    kage_top.tree_frame_start,
                    kage_top.tree_flush,
                    kage_top.tree_claim,

@@ -67,8 +67,8 @@ module lane_ramp_monitor #(
     used_q   <= (Delay * LANES)'({used_q, used});
     for (int l = 0; l < LANES; l++) begin
       if (used_q[(Delay-1)*LANES+l]) begin
-        trace_part(PartLaneRamp, 512'(values_q[((Delay-1)*LANES+l)*OUT_BITS+:OUT_BITS]),
-                   512'(value_o[l*OUT_BITS+:OUT_BITS]));
+        trace_module(PartLaneRamp, 512'(values_q[((Delay-1)*LANES+l)*OUT_BITS+:OUT_BITS]),
+                     512'(value_o[l*OUT_BITS+:OUT_BITS]));
       end
     end
   end

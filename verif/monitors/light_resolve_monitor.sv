@@ -68,7 +68,7 @@ module light_resolve_monitor #(
         for (int i = 1; i < LightStages; i++) results_q[i] <= results_q[i-1];
       end
       if (rst_ni && valid_q[2+LightStages] && known_q[LightStages-1]) begin
-        trace_part(PartLightResolve, 512'(results_q[LightStages-1]), 512'({colored, factor}));
+        trace_module(PartLightResolve, 512'(results_q[LightStages-1]), 512'({colored, factor}));
       end
     end
   end else begin : gen_none

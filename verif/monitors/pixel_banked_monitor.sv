@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each command does to each pixel of its range, as events (rtl_model.h), where pixels are in block RAM.
+// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where pixels are in block RAM.
 `default_nettype none
 
 module pixel_banked_monitor #(
@@ -31,10 +31,8 @@ module pixel_banked_monitor #(
     if (rst_ni && group_valid && now_kind != KindEol && now_kind != CmdOut) begin
       for (int l = 0; l < LANES; l++) begin
         if (now_lanes[l]) begin
-          kage_trace(
-              StagePixel, 32'(now_addr) * LANES + l, trace_pixel(
-              now_kind, 64'(now_z[l*Z_BITS+:Z_BITS]), 64'(now_color[l*RgbBits+:RgbBits]), next[l*PIXEL_BITS+:PIXEL_BITS]
-              ));
+          trace_pixel_state(32'(now_addr) * LANES + l, now_kind, 64'(now_z[l*Z_BITS+:Z_BITS]),
+                            64'(now_color[l*RgbBits+:RgbBits]), next[l*PIXEL_BITS+:PIXEL_BITS]);
         end
       end
     end

@@ -23,7 +23,7 @@ module pixel_core_monitor #(
   end else begin : gen_systolic
     assign same = `KAGE_GIVEN(pixel_core.gen_systolic.u_pixels) == `KAGE_GIVEN(pixel_core);
   end
-  always_ff @(posedge clk_i) if (rst_ni) trace_part(PartPixelCore, 512'd1, 512'(same));
+  always_ff @(posedge clk_i) if (rst_ni) trace_module(PartPixelCore, 512'd1, 512'(same));
 
 endmodule
 

@@ -48,12 +48,12 @@ module pixel_loads_monitor #(
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      trace_part(
+      trace_module(
           PartPixelLoads, {
           508'd0, cmd_valid || load, pixel_ready && !load, HasLoads && pixel_ready, load && load_last && pixel_ready}, {
           508'd0, pixel_valid, cmd_ready, load_ready, loads_done});
       if (cmd_valid || load) begin
-        trace_part(PartPixelLoads, 512'(command), 512'({pixel_kind, pixel_xl, pixel_xr, pixel_color, pixel_dcolor}));
+        trace_module(PartPixelLoads, 512'(command), 512'({pixel_kind, pixel_xl, pixel_xr, pixel_color, pixel_dcolor}));
       end
     end
   end

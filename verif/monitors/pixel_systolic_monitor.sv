@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each command does to each pixel of its range, as events (rtl_model.h), where every pixel has a processor.
+// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a processor.
 `default_nettype none
 
 module pixel_systolic_monitor #(
@@ -26,7 +26,7 @@ module pixel_systolic_monitor #(
     if (rst_ni) begin
       for (int i = 0; i < PIXELS; i++) begin
         if (hit[i] && kind_q[i*4+:4] != KindEol && kind_q[i*4+:4] != CmdOut) begin
-          kage_trace(StagePixel, i, trace_pixel(kind_q[i*4+:4], '1, '1, pixel_d[i*PIXEL_BITS+:PIXEL_BITS]));
+          trace_pixel_state(i, kind_q[i*4+:4], '1, '1, pixel_d[i*PIXEL_BITS+:PIXEL_BITS]);
         end
       end
     end

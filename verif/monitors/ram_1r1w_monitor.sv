@@ -38,7 +38,7 @@ module ram_1r1w_monitor #(
       known_q <= written[rd_addr_i] && !(wr_en_i && wr_addr_i == rd_addr_i);
     end
     if (known_q && rd_data_o != expected_q) begin
-      for (int i = 0; i < Pieces; i++) trace_part(PartRam1r1w, expected[i*512+:512], actual[i*512+:512]);
+      for (int i = 0; i < Pieces; i++) trace_module(PartRam1r1w, expected[i*512+:512], actual[i*512+:512]);
     end
   end
 

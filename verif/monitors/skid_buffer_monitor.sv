@@ -26,8 +26,8 @@ module skid_buffer_monitor #(
     if (!rst_ni) begin
       held_q <= '0;
     end else begin
-      trace_part(PartSkidBuffer, {510'd0, held_q != 2'd2, held_q != '0}, {510'd0, in_ready_o, out_valid_o});
-      if (held_q != '0) trace_part(PartSkidBuffer, 512'(first_q), 512'(out_data_o));
+      trace_module(PartSkidBuffer, {510'd0, held_q != 2'd2, held_q != '0}, {510'd0, in_ready_o, out_valid_o});
+      if (held_q != '0) trace_module(PartSkidBuffer, 512'(first_q), 512'(out_data_o));
       held_q <= held_q + 2'(push) - 2'(pop);
       if (pop) first_q <= held_q == 2'd2 ? second_q : in_data_i;
       else if (push && held_q == '0) first_q <= in_data_i;

@@ -28,8 +28,8 @@ module stream_fifo_monitor #(
       held_q <= 0;
       at_q   <= 0;
     end else begin
-      trace_part(PartStreamFifo, {510'd0, held_q != DEPTH, held_q != 0}, {510'd0, in_ready_o, out_valid_o});
-      if (held_q != 0) trace_part(PartStreamFifo, 512'(words[at_q]), 512'(out_data_o));
+      trace_module(PartStreamFifo, {510'd0, held_q != DEPTH, held_q != 0}, {510'd0, in_ready_o, out_valid_o});
+      if (held_q != 0) trace_module(PartStreamFifo, 512'(words[at_q]), 512'(out_data_o));
       if (push) words[(at_q+held_q)%DEPTH] <= in_data_i;
       if (pop) at_q <= (at_q + 1) % DEPTH;
       held_q <= held_q + 32'(push) - 32'(pop);

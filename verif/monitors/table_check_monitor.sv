@@ -36,8 +36,8 @@ module table_check_monitor #(
 
   always_ff @(posedge clk_i) begin
     if (known_q) begin
-      trace_part(PartTableCheck, {509'd0, closed_q, range, 32'(span_class_i) > entries_q / LIGHTS}, {
-                 509'd0, order_error_o, range_error_o, lacking_o});
+      trace_module(PartTableCheck, {509'd0, closed_q, range, 32'(span_class_i) > entries_q / LIGHTS}, {
+                   509'd0, order_error_o, range_error_o, lacking_o});
     end
     if (frame_start_i) begin
       known_q   <= 1'b1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels that each expansion unit gives to the compare tree, as events (rtl_model.h); and whether each unit is given
+// The pixels that each expansion unit gives to the compare tree, as events (rtl/defs/stages.yaml); and whether each unit is given
 // the faces and segments that are its own.
 `default_nettype none
 
@@ -22,24 +22,19 @@ module tree_core_monitor #(
   localparam int RgbBits = 8 * CHANNELS;
   localparam int ClassWidth = CLASS_BITS > 0 ? CLASS_BITS : 1;
 
-  function automatic logic [TraceBits-1:0] of_point(input logic [POINT_BITS-1:0] point);
-    of_point = trace5(
-        64'(point[POINT_BITS-1-:Z_BITS]),
-        64'(point[POINT_BITS-Z_BITS-1-:ORDER_BITS]),
-        64'(point[CLASS_BITS+:RgbBits]),
-        CLASS_BITS > 0 ? 64'(point[ClassWidth-1:0]) : 64'd0,
-        64'd0
-    );
+  function automatic void trace_point(input int u, input logic [POINT_BITS-1:0] point);
+    trace_unit(u, 64'(point[POINT_BITS-1-:Z_BITS]), 64'(point[POINT_BITS-Z_BITS-1-:ORDER_BITS]),
+               64'(point[CLASS_BITS+:RgbBits]), CLASS_BITS > 0 ? 64'(point[ClassWidth-1:0]) : 64'd0);
   endfunction
 
   for (genvar u = 0; u < UNITS; u++) begin : gen_unit
     always_ff @(posedge clk_i) begin
       if (rst_ni) begin
-        trace_part(PartTreeCore, {
-                   510'd0,
-                   tree_core.face_valid_i && 32'(tree_core.face_unit_i) == u,
-                   tree_core.seg_valid_i && 32'(tree_core.seg_unit_i) == u
-                   }, {510'd0, tree_core.gen_unit[u].u_unit.face_valid_i, tree_core.gen_unit[u].u_unit.seg_valid_i});
+        trace_module(PartTreeCore, {
+                     510'd0,
+                     tree_core.face_valid_i && 32'(tree_core.face_unit_i) == u,
+                     tree_core.seg_valid_i && 32'(tree_core.seg_unit_i) == u
+                     }, {510'd0, tree_core.gen_unit[u].u_unit.face_valid_i, tree_core.gen_unit[u].u_unit.seg_valid_i});
       end
     end
   end
@@ -47,7 +42,7 @@ module tree_core_monitor #(
   always_ff @(posedge clk_i) begin
     if (rst_ni && !flush) begin
       for (int u = 0; u < UNITS; u++) begin
-        if (px_valid[u] && px_ready[u]) kage_trace(StageUnit, u, of_point(px_data[u*POINT_BITS+:POINT_BITS]));
+        if (px_valid[u] && px_ready[u]) trace_point(u, px_data[u*POINT_BITS+:POINT_BITS]);
       end
     end
   end

@@ -141,14 +141,6 @@ def sources(fault=None, monitors=False, mutants=False):
     return files
 
 
-def trace_numbers():
-    """The numbers of rtl_model.h that the monitors use, in SystemVerilog."""
-    header = (HERE / "rtl_model.h").read_text()
-    numbers = re.findall(r"^ *KAGE_((?:STAGE|PART)_\w+) = (\d+)", header, re.M)
-    numbers += [("TRACE_VALUES", re.search(r"^#define KAGE_RTL_EVENT_VALUES (\d+)$", header, re.M)[1])]
-    return "".join(f"localparam int {''.join(w.capitalize() for w in name.split('_'))} = {n};\n" for name, n in numbers)
-
-
 def leave_out(monitors, missing, text):
     """Take the monitors that do not fit the RTL from one list to the other; False if that is not all that is wrong. The RTL may have been
     given other names within: then its own stage goes unwatched, and the others do not."""
@@ -165,10 +157,12 @@ def leave_out(monitors, missing, text):
 
 def unwatched(missing):
     """What the driver says of monitors that were left out: their names, and the stages that nothing gives events of."""
-    stages = set(re.findall(r"kage_trace\(\s*Stage(\w+)", "".join(m.read_text() for m in missing)))
-    if stages & {"Token", "Error"}:  # an error is looked for at the token that it came with
-        stages |= {"Token", "Error"}
-    bits = " | ".join(f"1U << KAGE_STAGE_{s.upper()}" for s in sorted(stages)) or "0"
+    numbers = dict(re.findall(r"^#define KAGE_STAGE_(\w+) (\d+)$", (MONITORS / "stages.h").read_text(), re.M)) if missing else {}
+    told = re.findall(r"\btrace_([a-z]+)|\bkage_trace\(Stage([A-Z][a-z]+)", "".join(m.read_text() for m in missing))
+    stages = {(a or b).upper() for a, b in told} & set(numbers) - {"PART"}
+    if stages & {"TOKEN", "ERROR"}:  # an error is looked for at the token that it came with
+        stages |= {"TOKEN", "ERROR"}
+    bits = " | ".join(f"1U << {numbers[s]}" for s in sorted(stages)) or "0"
     return f'const char* const kMissingMonitors = "{", ".join(m.stem for m in missing)}";\nconstexpr std::uint32_t kUnwatched = {bits};\n'
 
 
@@ -297,8 +291,7 @@ def build(out, values, args, work):
     if args.waves:
         command.append("--trace-fst")
     if args.monitors:
-        (work / "kage_trace_numbers.svh").write_text(trace_numbers())
-        command += [f"-I{MONITORS}", f"-I{work}"]
+        command.append(f"-I{MONITORS}")
     if args.mutants:  # what is wrong on purpose may be bad style
         command += ["-Wno-fatal", work / "kage_mutants.sv"]
     command += sorted(rtl.glob("*.sv"))
@@ -328,7 +321,7 @@ def build(out, values, args, work):
     try:
         has = [f"-DKAGE_{part.upper()}" for part in ("monitors", "waves", "mutants") if getattr(args, part)]
         run("linking the model", [*cxx, "-std=c++17", "-O2", "-fPIC", "-fvisibility=hidden", "-fno-gnu-unique", "-shared", *has, f"-I{obj}", f"-I{work}",
-                                  f"-I{HERE}", "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
+                                  f"-I{HERE}", *([f"-I{MONITORS}"] if args.monitors else []), "-isystem", f"{include}/include", "-isystem", f"{include}/include/vltstd", "-o", partial,
                                   HERE / "rtl_model.cpp", obj / "Vkage__ALL.a", obj / "verilated.o", *(obj / e for e in extra),
                                   *(["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fflush", "fclose"))] if args.waves else []), "-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"], log)
         os.replace(partial, out)

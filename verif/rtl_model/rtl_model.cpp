@@ -20,6 +20,9 @@
 #if defined(KAGE_MONITORS) || defined(KAGE_MUTANTS)
 #include "Vkage__Dpi.h"
 #endif
+#ifdef KAGE_MONITORS
+#include "stages.h"
+#endif
 #ifdef KAGE_WAVES
 #include "verilated_fst_c.h"
 #endif

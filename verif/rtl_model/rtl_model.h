@@ -32,53 +32,8 @@ enum {
   KAGE_RTL_DRY = 5     /* every queued beat is taken */
 };
 
-/* What passes between the modules of the core, and within some; build.py hands the numbers to the monitors.
- * Values are as the RTL has them, without sign. */
-enum {
-  KAGE_STAGE_TOKEN = 0,   /* frame_control takes a token: its words, two a value, the first in the lower half; in the
-                             last two values at_last and {header, lacking, cut, final} */
-  KAGE_STAGE_TABLE = 1,   /* an entry of the light table: class, light, shares */
-  KAGE_STAGE_FACE = 2,    /* a face to a unit: face, index, class, dz, colour */
-  KAGE_STAGE_SEGMENT = 3, /* a segment to a unit: z, dx, face */
-  KAGE_STAGE_UNIT = 4,    /* a unit's pixel to the compare tree: z, index, colour, class */
-  KAGE_STAGE_TREE = 5,    /* the tree's pixel: z, colour, class */
-  KAGE_STAGE_LINE = 6,    /* a line to the way out: first, blank, load, painted, width, background, shade */
-  KAGE_STAGE_COMMAND = 7, /* a command to the pixels: kind, xl, xr, count, z, dz, share, 3 colours, 3 slopes */
-  KAGE_STAGE_PIXEL = 8,   /* what it did to pixel `unit`: kind, z and colour that came (all ones: not seen), then the
-                             state: z, colour, class, DSF, FSF, counts */
-  KAGE_STAGE_EXIT = 9,    /* a pixel leaves the core of pixels: colour, covered, dark, class, counts; unit 1: a line's
-                             last group */
-  KAGE_STAGE_LOAD = 10,   /* a pixel's colour comes back from the way out: x, colour */
-  KAGE_STAGE_OUT = 11,    /* a pixel of video: colour, TUSER, TLAST */
-  KAGE_STAGE_ERROR = 12,  /* an error is found: code, frame, line, token, unit */
-  KAGE_STAGE_PART = 13,  /* a small module does not do what its header says, whatever it was given: which (KAGE_PART_*),
-                             the 64 bits from the lowest wrong one on as they should be, as they are */
-  KAGE_STAGE_CLAIM = 14, /* frame_control asks for a line of the tree */
-  KAGE_STAGE_STATE = 15, /* of the line, as EV, ES, EOL or the painting of a line finds it: bias, resolved */
-  KAGE_STAGE_END = 16,   /* a frame has ended for frame_control */
-  KAGE_STAGE_HANDSHAKE = 17 /* not an event: see handshakes() */
-};
-
-/* Modules that are watched from their ports alone, and modules whose wires to others are. */
-enum {
-  KAGE_PART_RAM_1R1W = 0,
-  KAGE_PART_STREAM_FIFO = 1,
-  KAGE_PART_SKID_BUFFER = 2,
-  KAGE_PART_COMPARE_CELL = 3,
-  KAGE_PART_LIGHT_RESOLVE = 4,
-  KAGE_PART_PIXEL_LOADS = 5,
-  KAGE_PART_LANE_RAMP = 6,
-  KAGE_PART_TOKEN_COMMAND = 7, /* a command changes while it waits */
-  KAGE_PART_PIXELS = 8,        /* pixels leave without a place for them */
-  KAGE_PART_TREE_CORE = 9,     /* a unit is given what is another's, or not what is its own */
-  KAGE_PART_TOP = 10,          /* what a module is given is not what the net of that name has */
-  KAGE_PART_PIXEL_CORE = 11,   /* likewise */
-  KAGE_PART_COMPARE_TREE = 12,
-  KAGE_PART_EXPANSION_UNIT = 13, /* a line has another length than its segments */
-  KAGE_PART_FRAME_CONTROL = 14,  /* a rule of its handshakes */
-  KAGE_PART_TABLE_CHECK = 15
-};
-
+/* What passes between the modules of the core, and within some, as the monitors tell it. Which stages there are, and what
+ * the values of each are: rtl/defs/stages.yaml. */
 #define KAGE_RTL_EVENT_VALUES 13
 
 typedef struct {

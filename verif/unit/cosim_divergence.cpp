@@ -3,7 +3,6 @@
 // configuration, the frames and the stalls; where a defect is built in it names the module that has it.
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <iterator>
 #include <memory>
 
@@ -62,22 +61,21 @@ std::vector<SmallConfig> configurations() {
   };
 }
 
-constexpr std::uint32_t bits(std::initializer_list<int> stages) {
-  std::uint32_t all = 0;
-  for (const int stage : stages) all |= 1U << stage;
-  return all;
+template <class... Stages>
+constexpr std::uint32_t bits(Stages... stages) {
+  return ((1U << static_cast<int>(stages)) | ...);
 }
 
 // What is lost with each monitor that gives events (build.py finds it in the monitors' text).
 constexpr std::array kMonitors{
-    bits({KAGE_STAGE_TOKEN, KAGE_STAGE_TABLE, KAGE_STAGE_ERROR, KAGE_STAGE_END}),
-    bits({KAGE_STAGE_LINE, KAGE_STAGE_COMMAND}),
-    bits({KAGE_STAGE_CLAIM, KAGE_STAGE_FACE, KAGE_STAGE_SEGMENT, KAGE_STAGE_TREE}),
-    bits({KAGE_STAGE_EXIT, KAGE_STAGE_LOAD, KAGE_STAGE_OUT}),
-    bits({KAGE_STAGE_HANDSHAKE}),
-    bits({KAGE_STAGE_UNIT}),
-    bits({KAGE_STAGE_PIXEL}),
-    bits({KAGE_STAGE_STATE}),
+    bits(Stage::token, Stage::table, Stage::error, Stage::end),
+    bits(Stage::line, Stage::command),
+    bits(Stage::claim, Stage::face, Stage::segment, Stage::tree),
+    bits(Stage::exit, Stage::load, Stage::out),
+    bits(kHandshakeStage),
+    bits(Stage::unit),
+    bits(Stage::pixel),
+    bits(Stage::state),
 };
 
 }  // namespace
@@ -141,14 +139,14 @@ TEST_CASE(
         CHECK_FALSE(sound->part());
         if (i != 0) continue;
         // The first command, or the first pixel of video where commands are not watched, is wrong in its first value.
-        const int wrong = (unwatched >> KAGE_STAGE_COMMAND & 1U) == 0 ? KAGE_STAGE_COMMAND : KAGE_STAGE_OUT;
-        const auto one =
-            std::find_if(seen.begin(), seen.end(), [&](const kage_rtl_event& e) { return e.stage == wrong; });
+        const Stage wrong = (unwatched & bits(Stage::command)) == 0 ? Stage::command : Stage::out;
+        const auto one = std::find_if(seen.begin(), seen.end(),
+                                      [&](const kage_rtl_event& e) { return static_cast<Stage>(e.stage) == wrong; });
         REQUIRE(one != seen.end());
         one->value[0] ^= 1;
         const auto found = search(seen);
         REQUIRE(found->first());
-        CHECK(static_cast<int>(found->first()->expected.stage) == wrong);
+        CHECK(found->first()->expected.stage == wrong);
       }
     }
   }
