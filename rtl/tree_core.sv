@@ -10,7 +10,8 @@
 // Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be leaving then,
 //   none of the one before that. After a frame with an error flush_i, one clock or more, drops what has not been claimed: lines claimed
 //   leave first, and frame_ready_o is low until the rest is gone. No face, segment or claim comes from flush_i until the next frame_start_i.
-// Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its work.
+// Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its work; or
+//   something has entered a unit or the tree so few clocks ago that what follows from it may not have shown yet.
 // Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of the tree.
 // Throughput: a pixel a clock, no bubble in a line.
 // Needs UNITS > 0: a core without units leaves it out.
@@ -53,6 +54,11 @@ module tree_core #(
     output logic moving_o
 );
 
+  // From the segment that completes a line to its first pixel at line_* nothing shows. A watchdog with a lower limit than that
+  // would take it for a standstill, and the pixel for progress behind it.
+  localparam int Way = 6 + $clog2(UNITS);  // the latency
+  logic [Way-1:0] way_q;
+
   // ---- lines claimed, flush ----------------------------------------------------------------------------------------
   logic [ClaimBits-1:0] claimed_q, claimed;  // lines asked for that have not left
   logic [ClaimBits-1:0] old_q;  // those of them that belong to earlier frames
@@ -65,7 +71,7 @@ module tree_core #(
   assign held = line_last_o && claimed_q == '0;
   assign line_valid_o = point_valid && !held;
   assign point_ready = line_ready_i && !held;
-  assign moving_o = flush || (claimed_q != '0 && (line_ready_i || !point_valid));
+  assign moving_o = flush || (claimed_q != '0 && (line_ready_i || !point_valid)) || way_q != '0;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -122,6 +128,11 @@ module tree_core #(
         .px_data_o   (px_data[u*PointBits+:PointBits]),
         .px_last_o   (px_last[u])
     );
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) way_q <= '0;
+    else way_q <= {way_q[Way-2:0], (seg_valid_i && seg_ready_o) || (px_valid & px_ready) != '0};
   end
 
   // ---- tree --------------------------------------------------------------------------------------------------------

@@ -53,7 +53,7 @@ struct TreeFrame {
 };
 
 TreeFrame tree_frame(Dice& dice, const kage::Config& c, int width, int height, const std::vector<int>& order,
-                     std::uint32_t number, const Fault& fault = {}) {
+                     std::uint32_t number, const Fault& fault = {}, int faces = 1) {
   TreeFrame f;
   kage::TokenWriter w(c, f.words);
   std::uint32_t token = 0;
@@ -62,8 +62,8 @@ TreeFrame tree_frame(Dice& dice, const kage::Config& c, int width, int height, c
   for (t.unit = 0; t.unit < c.units; ++t.unit) {
     t.index = t.unit;
     t.color = {t.unit, 100, 200};
-    w.face(t);
-    ++token;
+    for (t.face = 0; t.face < faces; ++t.face, ++token) w.face(t);
+    t.face = 0;
   }
   for (int y = 0; y < height; ++y) {
     f.unit_ends.emplace_back();
@@ -185,6 +185,42 @@ void waiting_test(const kage::Config& c) {
   });
 }
 
+/// Input stops where all units have a line, which comes through units and tree before its TREE: it is on its way for
+/// some clocks in which no port shows it. A limit of fewer bites once all the same.
+template <class Model>
+void line_on_its_way_test(const kage::Config& c) {
+  each_seed(40, [&](Dice& dice) {
+    const int limit = dice.between(1, 12);
+    const auto beat = static_cast<std::size_t>(c.beat_words);
+    TreeFrame f;
+    std::vector<std::size_t> ends;
+    for (int faces = 1; ends.empty() || ends.back() % beat != 0; ++faces) {  // till the first line's TREE begins a beat
+      f = tree_frame(dice, c, dice.between(3, 15), 3, random_order(dice, c.units), 0, {}, faces);
+      ends = f.unit_ends.front();
+    }
+    const std::size_t beats = ends.back() / beat;
+    CAPTURE(limit);
+    Core<Model> core(dice, c);
+    core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
+    core.write(KAGE_REG_CONTROL, kIrqWatchdog);
+    core.submit(f.words);
+    const std::size_t all = core.beats_left();
+    while (all - core.beats_left() < beats) core.clock();
+    core.in.held = true;
+    for (int n = 0; core.bites == 0; ++n) {
+      REQUIRE(n < 200 + limit);
+      core.clock();
+    }
+    core.write(KAGE_REG_IRQ, kIrqWatchdog);
+    for (int n = 0; n < 200; ++n) core.clock();
+    REQUIRE(core.bites == 1);
+    core.in.held = false;
+    core.finish();
+    REQUIRE(core.bites == 1);
+    REQUIRE(core.read(KAGE_REG_ERRORS) == 0);
+  });
+}
+
 /// Output stands still until units are full and let the stream wait: it is the output that is named, and the tree waits
 /// for nobody.
 template <class Model>
@@ -224,6 +260,12 @@ TEST_CASE("With units: reset, a watchdog that never bites a healthy frame, and o
   healthy_test<Vkage_units3>(three_systolic());
   standstill_test<Vkage_units5>(five());
   standstill_test<Vkage_units3>(three_systolic());
+}
+
+TEST_CASE("A line on its way through units and tree is no standstill, however low the watchdog's limit",
+          "[kage_top_units]") {
+  line_on_its_way_test<Vkage_units5>(five());
+  line_on_its_way_test<Vkage_units3>(three_systolic());
 }
 
 TEST_CASE("A unit that is short is named with its line and the TREE", "[kage_top_units]") {
