@@ -142,7 +142,7 @@ def main():
     parser.add_argument("--each", action="store_true")
     parser.add_argument("--sample", type=int)
     parser.add_argument("names", nargs="*")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     mutants = yaml.safe_load((options.source / "verif/mutants/mutants.yaml").read_text())
     unknown = set(options.names) - {m["name"] for m in mutants}
     if unknown:
