@@ -20,6 +20,7 @@ LONGEST = 1800  # seconds a test may take
 # Tests that a core which is wrong in every way leaves as they are, and why.
 EXEMPT = {
     r"rtl/fault_": "looks for a fault: any will do",
+    r"cli/usage": "looks at what command lines are refused with",
     r"rtl/failed_assertion": "looks for a failed assertion, behind which no pixel counts",
 }
 
