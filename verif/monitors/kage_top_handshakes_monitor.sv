@@ -61,7 +61,7 @@ module kage_top_handshakes_monitor #(
     now[HandshakeFrameValid] = token_valid && token_header;
     now[HandshakeExitReady] = exit_free;
     now[HandshakeExitValid] = pixel_valid && !pixel_ready;
-    now[HandshakeReturnLineValid] = loading && !load_valid && !queue_valid;  // ready never: a line that comes is no wait
+    now[HandshakeReturnLineValid] = loading && !load_valid && !queue_valid;  // never ready
     now[HandshakeDropping] = dropping;
   end
 
