@@ -15,7 +15,7 @@ namespace {
 constexpr int kOkay = 0;
 constexpr int kSlverr = 2;
 constexpr std::uint32_t kWatchdog = 50;  // clocks
-constexpr std::uint64_t kLong = 20000;   // more than any frame here takes
+constexpr std::uint64_t kLong = 20000;   // more than the spans of any frame here take
 
 struct Wrong {
   std::string what;
@@ -109,7 +109,10 @@ class Checker {
     for (const KnownFrame& f : frames_) {
       if (f.end.status.width == 0 || f.end.status.error == ErrorCode::NONE) continue;
       rtl_.feed(f.words, kNowhere);  // but for the last beat
-      rtl_.pass(kLong);
+      // Its lines must be out: a blank pixel takes a clock, or several where the output's ready stops.
+      const auto pixels =
+          static_cast<std::uint64_t>(f.end.status.width) * static_cast<std::uint64_t>(f.end.status.height);
+      rtl_.pass(kLong + 20 * pixels);
       const bool early = read("ERRORS", KAGE_REG_ERRORS) != errors_;
       if (early) {
         expect("STATUS, while input is dropped", KAGE_REG_STATUS, 0b0111);
