@@ -64,17 +64,45 @@ bool is_ours(int lock, const fs::path& folder) {
   return !ec && entries == 1;
 }
 
+bool write_mark(int lock) { return write(lock, kMark.data(), kMark.size()) == static_cast<ssize_t>(kMark.size()); }
+
+/// Makes the lock of `folder`, taken and with its mark, in one step: its file gets its name last. So a process that is
+/// killed leaves an empty folder or one that git ignores. -1: this file system or machine has no files without names.
+/// -2, errno is set: the folder is gone, since a sweep found it empty, or the disk is full.
+int make_lock_at_once(const fs::path& folder) {
+  const int lock = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+  if (lock < 0) return -1;
+  int result = -1;
+  if (flock(lock, LOCK_EX | LOCK_NB) == 0) {
+    const std::string self = fmt::format("/proc/self/fd/{}", lock);
+    if (!write_mark(lock))
+      result = -2;
+    else if (linkat(AT_FDCWD, self.c_str(), AT_FDCWD, (folder / kLockName).c_str(), AT_SYMLINK_FOLLOW) == 0)
+      return lock;
+    else if (access(folder.c_str(), F_OK) != 0)
+      result = -2;
+  }
+  const int error = errno;
+  (void)close(lock);
+  errno = error;
+  return result;
+}
+
 /// Makes the folder `path` with its lock; -1 with errno set if it cannot. EEXIST: the name is taken.
 int make(const fs::path& path) {
   if (mkdir(path.c_str(), 0700) != 0) return -1;
-  const int lock = open_lock(path, O_CREAT | O_EXCL);
-  int error = lock >= 0 ? take(lock) : errno == ENOENT ? ESTALE : errno;
+  int lock = make_lock_at_once(path);
+  if (lock >= 0) return lock;
+  int error = errno;
+  if (lock == -1) {
+    lock = open_lock(path, O_CREAT | O_EXCL);
+    error = lock >= 0 ? take(lock) : errno;
+  }
   // Another process, which sweeps, has found the folder before it was locked: that process removes it.
-  const bool swept = error == EWOULDBLOCK || error == ESTALE;
+  const bool swept = error == EWOULDBLOCK || error == ESTALE || error == ENOENT;
   // A file system without locks, as some that reach over a network: the folder serves without one.
-  if (lock >= 0 && !swept)
-    error = write(lock, kMark.data(), kMark.size()) == static_cast<ssize_t>(kMark.size()) ? 0 : errno;
-  if (error == 0) return lock;
+  if (lock >= 0 && !swept) error = write_mark(lock) ? 0 : errno;
+  if (lock >= 0 && error == 0) return lock;
   if (!swept) remove_locked(path);
   if (lock >= 0) (void)close(lock);
   errno = swept ? EEXIST : error;
