@@ -13,11 +13,14 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
-#include "cosim/model_cache.hpp"
+#include "command.hpp"
+#include "cosim/model/model_cache.hpp"
 #include "cosim/verdict_store.hpp"
 #include "kage/config.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

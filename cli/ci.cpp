@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "kage/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 namespace {

@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
 #include "cosim/run.hpp"
 #include "junit.hpp"
+#include "options.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

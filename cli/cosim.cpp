@@ -8,12 +8,16 @@
 #include <optional>
 
 #include "ci.hpp"
-#include "common.hpp"
+#include "command.hpp"
 #include "cosim/recall.hpp"
 #include "cosim_print.hpp"
 #include "cosim_run.hpp"
 #include "joined.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+#include "text.hpp"
 #include "workers.hpp"
 
 namespace kage::cli {

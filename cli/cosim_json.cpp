@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cosim_json.hpp"
 
+#include "options.hpp"
+#include "results.hpp"
+
 namespace kage::cli {
 namespace {
 

@@ -5,9 +5,10 @@
 
 #include <optional>
 
-#include "cosim/divergence.hpp"
+#include "cosim/diverge/divergence.hpp"
 #include "cosim/run.hpp"
 #include "cosim_run.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

@@ -8,6 +8,8 @@
 #include "ci.hpp"
 #include "cosim/recall.hpp"
 #include "kage/error.hpp"
+#include "results.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

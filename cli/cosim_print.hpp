@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "common.hpp"
-#include "cosim/lock.hpp"
+#include "cosim/model/lock.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

@@ -8,6 +8,10 @@
 #include "cosim/recall.hpp"
 #include "cosim_run.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+#include "standard_files.hpp"
 
 namespace kage::cli {
 namespace {

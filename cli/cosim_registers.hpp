@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "cosim/compare.hpp"
-#include "cosim/rtl.hpp"
+#include "cosim/model/rtl.hpp"
 #include "kage/config.hpp"
 
 namespace kage::cli {

@@ -10,14 +10,17 @@
 #include <system_error>
 #include <utility>
 
-#include "cosim/rtl.hpp"
-#include "cosim/waveform.hpp"
+#include "cosim/diverge/waveform.hpp"
+#include "cosim/model/rtl.hpp"
+#include "cosim/report/html.hpp"
 #include "cosim_json.hpp"
 #include "cosim_registers.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
-#include "report/html.hpp"
+#include "results.hpp"
+#include "signals.hpp"
 #include "stimulus/shrink.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

@@ -14,14 +14,16 @@
 #include <vector>
 
 #include "ci.hpp"
-#include "common.hpp"
-#include "cosim/divergence.hpp"
-#include "cosim/model.hpp"
+#include "cosim/diverge/divergence.hpp"
+#include "cosim/model/model.hpp"
 #include "cosim/ranges.hpp"
 #include "cosim/recall.hpp"
+#include "options.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "results.hpp"
 #include "rtl_run.hpp"
+#include "signals.hpp"
 #include "source.hpp"
 #include "stimulus/coverage.hpp"
 

@@ -9,9 +9,12 @@
 #include <charconv>
 #include <limits>
 
+#include "command.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "kage/stream.hpp"
+#include "options.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 namespace {

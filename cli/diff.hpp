@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
 #include "kage/diff.hpp"
+#include "options.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

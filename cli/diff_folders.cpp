@@ -6,14 +6,20 @@
 #include <list>
 #include <optional>
 
+#include "command.hpp"
 #include "diff.hpp"
-#include "files/quiet_stderr.hpp"
+#include "file/quiet_stderr.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "mapped.hpp"
+#include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+#include "standard_files.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

@@ -7,12 +7,15 @@
 #include <cmath>
 #include <cstdio>
 
+#include "command.hpp"
 #include "diff.hpp"
-#include "files/quiet_stderr.hpp"
+#include "file/quiet_stderr.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
+#include "results.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 
+#include "command.hpp"
 #include "diff.hpp"
 #include "junit.hpp"
 #include "kage/stream_diff.hpp"
 #include "mapped.hpp"
+#include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

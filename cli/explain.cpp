@@ -8,9 +8,11 @@
 #include <charconv>
 #include <memory>
 
-#include "common.hpp"
-#include "cosim/divergence.hpp"
+#include "command.hpp"
+#include "cosim/diverge/divergence.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
 #include "rtl_run.hpp"
 #include "source.hpp"
 

@@ -6,10 +6,11 @@
 #include <memory>
 #include <string>
 
-#include "common.hpp"
+#include "command.hpp"
 #include "completion.hpp"
 #include "kage/error.hpp"
 #include "man_page.hpp"
+#include "usage.hpp"
 
 namespace kage::cli {
 namespace {

@@ -8,15 +8,19 @@
 #include <limits>
 #include <memory>
 
-#include "common.hpp"
+#include "command.hpp"
 #include "info_scene.hpp"
 #include "kage/error.hpp"
 #include "kage/explain.hpp"
 #include "kage/paths.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
+#include "options.hpp"
 #include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
 #include "source.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

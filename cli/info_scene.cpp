@@ -7,10 +7,15 @@
 #include <algorithm>
 #include <string_view>
 
+#include "command.hpp"
 #include "kage/config.hpp"
 #include "kage/scene.hpp"
+#include "options.hpp"
 #include "remarks.hpp"
+#include "results.hpp"
+#include "signals.hpp"
 #include "source.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

@@ -11,8 +11,11 @@
 
 #include "ci.hpp"
 #include "cosim/recall.hpp"
+#include "cosim/report/html.hpp"
 #include "kage/error.hpp"
-#include "report/html.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "common.hpp"
-#include "files/temp_file.hpp"
+#include "file/temp_file.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

@@ -9,8 +9,7 @@
 #include <ctime>
 #include <utility>
 
-#include "common.hpp"
-#include "report/html.hpp"
+#include "cosim/report/html.hpp"
 
 namespace kage::cli {
 

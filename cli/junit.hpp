@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "files/temp_file.hpp"
+#include "file/temp_file.hpp"
 
 namespace kage::cli {
 

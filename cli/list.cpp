@@ -8,12 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
-#include "cosim/model.hpp"
+#include "command.hpp"
+#include "cosim/model/model.hpp"
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "kage/scene.hpp"
+#include "options.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 namespace {
@@ -33,7 +35,7 @@ std::string differences(const Config& config) {
 
 /// What a fault does: the second line of its patch.
 std::string about_fault(const std::string& name) {
-  std::ifstream patch(data_directory() / "verif/faults" / (name + ".patch"));
+  std::ifstream patch(data_directory() / "verif/cosim/model/faults" / (name + ".patch"));
   std::string line;
   std::getline(patch, line);
   std::getline(patch, line);

@@ -13,10 +13,15 @@
 #include <string>
 #include <system_error>
 
-#include "common.hpp"
+#include "command.hpp"
+#include "commit.hpp"  // made by cmake/KageCommit.cmake
 #include "kage/error.hpp"
 #include "mapped.hpp"
+#include "options.hpp"
+#include "signals.hpp"
 #include "simd/targets.hpp"
+#include "standard_files.hpp"
+#include "usage.hpp"
 
 namespace {
 
@@ -88,7 +93,7 @@ void find_data() {
   std::error_code ec;
   const fs::path prefix = fs::read_symlink("/proc/self/exe", ec).parent_path().parent_path();
   if (ec) return;
-  if (fs::exists(prefix / "share/kage/rtl/configs.yaml", ec))
+  if (fs::exists(prefix / "share/kage/rtl/defs/configs.yaml", ec))
     setenv("KAGE_DATA_DIR", (prefix / "share/kage").c_str(), 0);
   const fs::path modules = prefix / KAGE_INSTALL_LIBDIR / "kage";
   if (fs::exists(modules / "libkage_pictures.so", ec)) setenv("KAGE_MODULE_DIR", modules.c_str(), 0);
@@ -97,7 +102,7 @@ void find_data() {
 int run(int argc, char** argv) {
   CLI::App app("kage: a span-stream rendering core, its golden model and its co-simulation", "kage");
   app.formatter(help_formatter());
-  app.set_version_flag("-V,--version", "kage " KAGE_VERSION);
+  app.set_version_flag("-V,--version", "kage " KAGE_VERSION KAGE_COMMIT);
   app.footer(
       "kage cosim courtyard is a good start; kage help COMMAND explains a command, kage list lists scenes.\n"
       "After a change to the RTL kage regress says in five minutes whether it is still right.\n"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "options.hpp"
 #include "words.hpp"
 
 namespace kage::cli {

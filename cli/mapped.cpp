@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "files/lost_pages.hpp"
+#include "file/lost_pages.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cli {

@@ -12,12 +12,16 @@
 #include <vector>
 
 #include "ci.hpp"
-#include "common.hpp"
+#include "command.hpp"
 #include "cosim/recall.hpp"
 #include "joined.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
 #include "shards.hpp"
+#include "signals.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
+#include "command.hpp"
 #include "kage/config.hpp"
+#include "options.hpp"
+#include "results.hpp"
 #include "rtl_run.hpp"
 
 namespace kage::cli {
@@ -46,7 +48,7 @@ void add_model(CLI::App& app, Action& action) {
                             "  kage model default full\n"
                             "  kage model mine.yaml --json -");
   const auto o = std::make_shared<ModelCommand>();
-  c->add_option("CONFIG", o->configs, "names in rtl/configs.yaml or YAML files, default: all names")
+  c->add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
   option_fault(*c, o->fault);

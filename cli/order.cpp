@@ -13,12 +13,18 @@
 #include <numeric>
 #include <optional>
 
-#include "common.hpp"
+#include "command.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
 #include "order/baseline.hpp"
 #include "order/measure.hpp"
+#include "order_build.hpp"
+#include "progress.hpp"
+#include "results.hpp"
 #include "scene/order_mesh.hpp"
+#include "signals.hpp"
 #include "source.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

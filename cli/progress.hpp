@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How far a row of frames has come: how many, at what rate, and how long the rest will take at that rate.
+// How far a run has come, on standard error; of frames: how many, at what rate, and how long the rest will take.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,25 @@
 
 namespace kage::cli {
 
-class Progress;
+/// How far work has come, on standard error: on a terminal a line that is written over and over; in a pipe, a file or
+/// on a dumb terminal a line every ten seconds, so none where the work does not last. $KAGE_PROGRESS is another number
+/// of seconds, 0: no lines.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(const std::string& text);
+  void clear();
+
+ private:
+  bool terminal_ = false;
+  bool shown_ = false;
+  std::chrono::duration<double> pause_{10};  // between lines where there is no terminal
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 /// "courtyard: frame 3/8, 1.6 frames/s, 4 s left". `done` frames took `seconds`; before the first is done, and for less
 /// than a tenth of a second, there is no rate.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "kage/stream.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

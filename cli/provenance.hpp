@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
 #include "kage/explain.hpp"
 #include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
 #include "kage/scene.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
 #include "kage/config.hpp"
 #include "kage/scene.hpp"
+#include "options.hpp"
 
 namespace kage::cli {
 

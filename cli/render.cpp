@@ -6,12 +6,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "common.hpp"
+#include "command.hpp"
 #include "cosim/core.hpp"
 #include "cosim/picture.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
 #include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
 #include "source.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

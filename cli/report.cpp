@@ -8,9 +8,11 @@
 #include <set>
 #include <utility>
 
-#include "cosim/model.hpp"
+#include "cosim/model/model.hpp"
 #include "kage/error.hpp"
 #include "rtl_run.hpp"
+#include "signals.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

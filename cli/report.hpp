@@ -7,10 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "common.hpp"
-#include "cosim/divergence.hpp"
+#include "cosim/diverge/divergence.hpp"
+#include "cosim/report/page.hpp"
 #include "cosim/run.hpp"
-#include "report/page.hpp"
 #include "source.hpp"
 
 namespace kage::cli {

@@ -5,6 +5,12 @@
 
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+#include "standard_files.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

@@ -6,11 +6,11 @@
 #include <array>
 #include <string>
 
-#include "common.hpp"
-#include "cosim/divergence.hpp"
-#include "cosim/model.hpp"
-#include "cosim/rtl_identity.hpp"
+#include "cosim/diverge/divergence.hpp"
+#include "cosim/model/model.hpp"
+#include "cosim/model/rtl_identity.hpp"
 #include "kage/config.hpp"
+#include "options.hpp"
 
 namespace kage::cli {
 

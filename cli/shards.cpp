@@ -9,6 +9,9 @@
 
 #include "ci.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
+#include "results.hpp"
+#include "signals.hpp"
 
 namespace kage::cli {
 namespace {

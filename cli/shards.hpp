@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
+#include "results.hpp"
 
 namespace kage::cli {
 

@@ -12,6 +12,11 @@
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
 #include "mapped.hpp"
+#include "options.hpp"
+#include "order_build.hpp"
+#include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
 
 namespace kage::cli {
 namespace {

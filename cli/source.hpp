@@ -8,14 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "common.hpp"
 #include "kage/config.hpp"
 #include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
+#include "options.hpp"
+#include "progress.hpp"
 #include "provenance.hpp"
 #include "remarks.hpp"
+#include "results.hpp"
 #include "stimulus/random_frames.hpp"
 
 namespace kage::cli {

@@ -6,10 +6,15 @@
 #include <cstdio>
 #include <memory>
 
-#include "common.hpp"
+#include "command.hpp"
 #include "kage/error.hpp"
+#include "options.hpp"
 #include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
 #include "source.hpp"
+#include "standard_files.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 namespace {

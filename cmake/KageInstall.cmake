@@ -13,14 +13,15 @@ install(FILES ${PROJECT_BINARY_DIR}/kageConfig.cmake ${PROJECT_BINARY_DIR}/kageC
               ${PROJECT_SOURCE_DIR}/cmake/KageDependencies.cmake DESTINATION ${package_dir})
 
 install(DIRECTORY rtl scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kage)
-install(DIRECTORY verif/report/page DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/report)
-install(DIRECTORY verif/rtl_model verif/monitors verif/faults DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif USE_SOURCE_PERMISSIONS OPTIONAL)
+install(DIRECTORY verif/cosim/report/page DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/report)
+install(DIRECTORY verif/cosim/model/driver verif/cosim/model/faults DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/model USE_SOURCE_PERMISSIONS)
+install(DIRECTORY verif/cosim/diverge/monitors DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/diverge)
 
 # What a person reads: the pages as their links to each other expect them, and the benches that docs/benches.md shows.
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
-install(DIRECTORY verif/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/verif PATTERN "*.sh" EXCLUDE)
+install(DIRECTORY verif/test/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/verif/test PATTERN "*.sh" EXCLUDE)
 
 # For builds without CMake: pkg-config --cflags --libs kage. The static libraries ask for what they are linked with.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")

@@ -16,8 +16,8 @@
 `default_nettype none
 
 module expansion_unit #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     localparam int ZStored = CLASSIC > 0 ? 15 : DepthBits  // the paper's depth is unsigned
 ) (
     input wire logic clk_i,

@@ -22,8 +22,8 @@
 `default_nettype none
 
 module frame_control #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int MAX_WIDTH   = 640,
     parameter int TOKEN_WORDS = 5
 ) (
@@ -104,7 +104,7 @@ module frame_control #(
     output logic [ 5:0] behind_unit_o,
     output logic [14:0] behind_line_o   // its first line that is not whole; without units the line at hand
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
 
   localparam logic [1:0] StHeader = 2'd0;
   localparam logic [1:0] StBody = 2'd1;  // tokens of an error-free frame
@@ -162,7 +162,7 @@ module frame_control #(
   assign lines_done = line_q == height_q;
 
   token_check #(
-      `include "kage_pixel_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
       .TOKEN_WORDS(TOKEN_WORDS)
   ) u_check (
       .clk_i,
@@ -283,7 +283,7 @@ module frame_control #(
 
   // ---- command register --------------------------------------------------------------------------------------------
   token_command #(
-      `include "kage_pixel_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
       .TOKEN_WORDS(TOKEN_WORDS)
   ) u_command (
       .clk_i,

@@ -13,9 +13,9 @@
 `include "kage_illegal.svh"
 
 module kage_top #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
-    `include "kage_impl_params.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    `include "generated/kage_impl_params.svh"
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -54,10 +54,10 @@ module kage_top #(
 
     output logic irq_o
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
 
   // ---- legal parameters --------------------------------------------------------------------------------------------
-  `include "kage_checks.svh"
+  `include "generated/kage_checks.svh"
 
   localparam int FrontWords = TokenWords > HeaderWords ? TokenWords : HeaderWords;
   localparam int ExitLanes = ARRANGEMENT == 1 ? LANES : 1;
@@ -68,7 +68,7 @@ module kage_top #(
   logic drop, dropping, reader_busy, reader_moving;
 
   token_reader #(
-      `include "kage_pixel_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
       .BEAT_WORDS (BEAT_WORDS),
       .TOKEN_WORDS(FrontWords)
   ) u_reader (
@@ -140,7 +140,7 @@ module kage_top #(
   logic [15:0] error_line;
 
   frame_control #(
-      `include "kage_pixel_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
       .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(FrontWords)
   ) u_control (
@@ -320,7 +320,7 @@ module kage_top #(
   );
 
   pixel_core #(
-      `include "kage_pixel_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
       .ARRANGEMENT(ARRANGEMENT),
       .LANES(LANES),
       .MAX_WIDTH(MAX_WIDTH)
@@ -354,7 +354,7 @@ module kage_top #(
   );
 
   line_out #(
-      `include "kage_pixel_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
       .LANES(ExitLanes),
       .MAX_WIDTH(MAX_WIDTH)
   ) u_out (
@@ -412,8 +412,8 @@ module kage_top #(
       tree_moving || (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
-      `include "kage_pixel_param_map.svh"
-      `include "kage_impl_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
+      `include "generated/kage_impl_param_map.svh"
   ) u_registers (
       .clk_i,
       .rst_ni,

@@ -15,8 +15,8 @@
 `default_nettype none
 
 module line_out #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int LANES = 4,  // pixels of a group
     parameter int MAX_WIDTH = 640
 ) (

@@ -10,8 +10,8 @@
 `default_nettype none
 
 module line_phase #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     localparam int KindBits = 4
 ) (
     input wire logic clk_i,
@@ -25,7 +25,7 @@ module line_phase #(
     output logic                     resolved_o,
     output logic      [ DsfBits-1:0] bias_o
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
 
   localparam logic [1:0] PhaseOpaque = 2'd0;
   localparam logic [1:0] PhaseVolume = 2'd1;

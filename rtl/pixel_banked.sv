@@ -17,15 +17,15 @@
 `default_nettype none
 
 module pixel_banked #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int LANES = 4,
     parameter int MAX_WIDTH = 640,
     localparam int ExitLanes = LANES
 ) (
     `include "kage_pixel_ports.svh"
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
   `include "kage_pixel_next.svh"
 
   localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;

@@ -5,8 +5,8 @@
 `default_nettype none
 
 module pixel_core #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int ARRANGEMENT = 1,
     parameter int LANES = 4,
     parameter int MAX_WIDTH = 640,
@@ -17,7 +17,7 @@ module pixel_core #(
 
   if (ARRANGEMENT == 1) begin : gen_banked
     pixel_banked #(
-        `include "kage_pixel_param_map.svh"
+        `include "generated/kage_pixel_param_map.svh"
         .LANES(LANES),
         .MAX_WIDTH(MAX_WIDTH)
     ) u_pixels (
@@ -25,7 +25,7 @@ module pixel_core #(
     );
   end else begin : gen_systolic
     pixel_systolic #(
-        `include "kage_pixel_param_map.svh"
+        `include "generated/kage_pixel_param_map.svh"
         .MAX_WIDTH(MAX_WIDTH)
     ) u_pixels (
         .*

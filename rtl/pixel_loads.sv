@@ -9,8 +9,8 @@
 `default_nettype none
 
 module pixel_loads #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     localparam int KindBits = 4
 ) (
     input  wire logic                 in_valid_i,

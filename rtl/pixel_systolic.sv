@@ -17,14 +17,14 @@
 `default_nettype none
 
 module pixel_systolic #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter  int MAX_WIDTH = 64,
     localparam int ExitLanes = 1
 ) (
     `include "kage_pixel_ports.svh"
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
   `include "kage_pixel_next.svh"
 
   localparam bit HasOut = TRANSLUCENCY > 0 && COUNT_BITS > 0;

@@ -11,8 +11,8 @@
 `default_nettype none
 
 module registers #(
-    `include "kage_pixel_params.svh"
-    `include "kage_impl_params.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_impl_params.svh"
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -55,8 +55,8 @@ module registers #(
     input wire logic [ 5:0] behind_unit_i,
     input wire logic [14:0] behind_line_i      // without such a unit the line at hand
 );
-  `include "kage_layout.svh"
-  `include "kage_registers.svh"
+  `include "generated/kage_layout.svh"
+  `include "generated/kage_registers.svh"
 
   localparam logic [31:0] Shape = {1'(ARRANGEMENT), 5'd0, 4'(BEAT_WORDS), 6'(LANES), 16'(MAX_WIDTH)};
   localparam logic [1:0] RespOkay = 2'b00;

@@ -23,8 +23,8 @@
 `default_nettype none
 
 module segment_check #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     localparam int CodeBits = 4
 ) (
     input wire logic clk_i,
@@ -64,7 +64,7 @@ module segment_check #(
     output logic [UnitBits-1:0] behind_unit_o,
     output logic [         1:0] behind_ahead_o
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
 
   localparam int SumBits = (X_BITS > DX_BITS ? X_BITS : DX_BITS) + 1;
 

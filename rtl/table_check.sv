@@ -14,8 +14,8 @@
 `default_nettype none
 
 module table_check #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     localparam int FactorBits = SHADE_FRAC + 1
 ) (
     input wire logic clk_i,

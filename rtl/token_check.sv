@@ -15,8 +15,8 @@
 `default_nettype none
 
 module token_check #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int TOKEN_WORDS = 5,
     localparam int CodeBits = 4
 ) (
@@ -50,7 +50,7 @@ module token_check #(
     output logic [        5:0] behind_unit_o,
     output logic [        1:0] behind_ahead_o
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
 
   localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
 

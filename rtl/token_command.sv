@@ -10,8 +10,8 @@
 `default_nettype none
 
 module token_command #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int TOKEN_WORDS = 5
 ) (
     input wire logic clk_i,
@@ -42,7 +42,7 @@ module token_command #(
     output logic      [SlopeBits-1:0] cmd_dcolor_o,
     output logic      [ShareBits-1:0] cmd_share_o
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
 
   logic [3:0] kind;
   logic is_tp, whole, unused_token;

@@ -14,7 +14,7 @@
 `include "kage_illegal.svh"
 
 module token_reader #(
-    `include "kage_pixel_params.svh"
+    `include "generated/kage_pixel_params.svh"
     parameter int BEAT_WORDS  = 4,
     parameter int TOKEN_WORDS = 5   // the longest of all tokens and the header
 ) (
@@ -42,7 +42,7 @@ module token_reader #(
     output logic busy_o,      // some of a frame has come in and its end has not been passed on
     output logic moving_o     // something changes in here, though no beat comes and no token is taken
 );
-  `include "kage_layout.svh"
+  `include "generated/kage_layout.svh"
 
   if (TOKEN_WORDS < TokenWords || TOKEN_WORDS < HeaderWords) begin : gen_bad_token_words
     `KAGE_ILLEGAL("TOKEN_WORDS must hold every token and the header")

@@ -18,8 +18,8 @@
 `default_nettype none
 
 module tree_core #(
-    `include "kage_pixel_params.svh"
-    `include "kage_widths.svh"
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     localparam int ClaimBits = 5  // no more than 16 lines fit in units and tree
 ) (
     input wire logic clk_i,

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """See tools/dead-cores."""
+
 import argparse
 import collections
 import ctypes
@@ -14,7 +15,7 @@ import sys
 import tempfile
 import time
 
-MAY_USE_A_CORE = r"^(cli|rtl|examples|mutants)/|^unit/(cosim_|core_clocks)"
+MAY_USE_A_CORE = r"^(cli|rtl|examples|mutants)/|^unit/cosim/"
 LONGEST = 1800  # seconds a test may take
 
 # Tests that a core which is wrong in every way leaves as they are, and why.
@@ -37,7 +38,7 @@ class Trouble(Exception):
 
 
 class Table(ctypes.Structure):
-    """The beginning of kage_rtl_table (verif/rtl_model/rtl_model.h)."""
+    """The beginning of kage_rtl_table (verif/cosim/model/driver/rtl_model.h)."""
 
     _fields_ = [
         ("abi", ctypes.c_uint32),
@@ -78,18 +79,20 @@ class Tree:
         self.models = work / "models"
         self.mark = work / "mark"
         self.scratch = work / "scratch"
-        files = subprocess.run(["git", "-C", top, "ls-files", "-z"], check=True, capture_output=True).stdout.split(b"\0")
+        files = subprocess.run(["git", "-C", top, "ls-files", "-z"], check=True, capture_output=True).stdout.split(
+            b"\0"
+        )
         for name in filter(None, map(os.fsdecode, files)):
             source = top / name
             if source.is_file():
                 (self.copy / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(source, self.copy / name)
         if fault:
-            patch = top / "verif/faults" / f"{fault}.patch"
+            patch = top / "verif/cosim/model/faults" / f"{fault}.patch"
             if not patch.exists():
                 raise Trouble(f"--fault {fault}: no {patch}")
             subprocess.run(["patch", "--quiet", "--fuzz=0", "--batch", "-p1", "-d", self.copy, "-i", patch], check=True)
-        driver = self.copy / "verif/rtl_model/rtl_model.cpp"
+        driver = self.copy / "verif/cosim/model/driver/rtl_model.cpp"
         head, begin, tail = driver.read_text().partition("explicit kage_rtl(std::uint64_t seed) : initial(seed) {\n")
         if not begin:
             raise Trouble(f"{driver}: no constructor to put the mark in")
@@ -101,7 +104,7 @@ class Tree:
         """The same model, of this tree's core."""
         out = self.models / pathlib.Path(library).name
         if not out.exists():
-            command = [self.copy / "verif/rtl_model/build.py", out, *parameters(library), "--quick"]
+            command = [self.copy / "verif/cosim/model/driver/build.py", out, *parameters(library), "--quick"]
             subprocess.run(command, check=True, env={**os.environ, "XDG_CACHE_HOME": str(self.cache)})
         return str(out)
 
@@ -121,8 +124,14 @@ class Tree:
         environment.update(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
         start = time.monotonic()
         process = subprocess.Popen(
-            command, cwd=properties.get("WORKING_DIRECTORY"), env=environment, start_new_session=True,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+            command,
+            cwd=properties.get("WORKING_DIRECTORY"),
+            env=environment,
+            start_new_session=True,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            stdin=subprocess.DEVNULL,
+        )
         try:
             code = process.wait(timeout=LONGEST)
             verdict = "passes" if (code == 0) != bool(properties.get("WILL_FAIL")) else "fails"
@@ -142,7 +151,7 @@ class Tree:
 
 
 def run(options):
-    faults = options.fault or sorted(p.stem for p in (options.top / "verif/faults").glob("dead_*.patch"))
+    faults = options.fault or sorted(p.stem for p in (options.top / "verif/cosim/model/faults").glob("dead_*.patch"))
     chosen = tests(options.build, options.tests)
     rows = []
     for fault in ["", *faults]:
@@ -150,8 +159,19 @@ def run(options):
             tree = Tree(options.top, pathlib.Path(work), fault)
             for test in chosen:
                 verdict, core, seconds = tree.run(test)
-                rows.append({"core": fault or "sound", "test": test["name"], "verdict": verdict, "uses_core": core, "seconds": seconds})
-                print(f"{fault or 'sound':<14} {verdict:<14} {'core' if core else '-':<5} {seconds:6.1f} s  {test['name']}", flush=True)
+                rows.append(
+                    {
+                        "core": fault or "sound",
+                        "test": test["name"],
+                        "verdict": verdict,
+                        "uses_core": core,
+                        "seconds": seconds,
+                    }
+                )
+                print(
+                    f"{fault or 'sound':<14} {verdict:<14} {'core' if core else '-':<5} {seconds:6.1f} s  {test['name']}",
+                    flush=True,
+                )
         if not fault:  # the others have nothing to say
             uses = {row["test"] for row in rows if row["verdict"] == "passes" and row["uses_core"]}
             chosen = [t for t in chosen if t["name"] in uses]
@@ -162,11 +182,16 @@ def tell(rows):
     """Prints what came of it; returns the exit code."""
     sound = [row for row in rows if row["core"] == "sound"]
     dead = [row for row in rows if row["core"] != "sound"]
-    named = lambda these: ", ".join(sorted({row["test"] for row in these}))
+
+    def named(these):
+        return ", ".join(sorted({row["test"] for row in these}))
+
     without = [row for row in sound if row["verdict"] == "passes" and not row["uses_core"]]
     left_out = [row for row in sound if row["verdict"] == "left out"]
     broken = [row for row in sound if row["verdict"] not in ("passes", "left out")]
-    print(f"{len(sound)} tests with the sound core: {sum(row['verdict'] == 'passes' for row in sound)} pass, {len(without)} of these make no core")
+    print(
+        f"{len(sound)} tests with the sound core: {sum(row['verdict'] == 'passes' for row in sound)} pass, {len(without)} of these make no core"
+    )
     for core in dict.fromkeys(row["core"] for row in dead):
         verdicts = collections.Counter(row["verdict"] for row in dead if row["core"] == core)
         print(f"{core}: {', '.join(f'{count} {verdict}' for verdict, count in sorted(verdicts.items()))}")

@@ -6,6 +6,7 @@ build=${KAGE_BUILD:-$top/build/release}
 build_type=Release
 unity=ON # a build that is made once: cmake/KageBuild.cmake
 log_dir=$top/build/log
+# shellcheck disable=SC2034 # who sources this uses it
 jobs=${KAGE_JOBS:-$(nproc)}
 . "$top/tools/pypi.sh"
 child=

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """See tools/regress-mutants."""
+
 import argparse
 import concurrent.futures
 import itertools
@@ -38,8 +39,13 @@ def plot(rows, minutes, path):
     """The share that is found against seconds, logarithmic."""
     width, height, left, right, top, bottom = 640, 360, 56, 16, 16, 44
     least, most = 0.1, 60 * minutes
-    x = lambda s: left + (width - left - right) * math.log(max(s, least) / least) / math.log(most / least)
-    y = lambda share: height - bottom - (height - top - bottom) * share
+
+    def x(s):
+        return left + (width - left - right) * math.log(max(s, least) / least) / math.log(most / least)
+
+    def y(share):
+        return height - bottom - (height - top - bottom) * share
+
     found = sorted(r["seconds"] for r in rows if r["found"])
     points = [(least, 0.0)]
     for i, seconds in enumerate(found):
@@ -55,10 +61,16 @@ def plot(rows, minutes, path):
         out.append(f'<text x="{left - 6}" y="{y(share) + 4:.1f}" text-anchor="end">{share:.0%}</text>')
     for seconds in (0.1, 1, 10, 60, 300):
         if seconds <= most:
-            out.append(f'<line x1="{x(seconds):.1f}" x2="{x(seconds):.1f}" y1="{top}" y2="{height - bottom}" stroke="#eee"/>')
-            out.append(f'<text x="{x(seconds):.1f}" y="{height - bottom + 18}" text-anchor="middle">{seconds:g} s</text>')
+            out.append(
+                f'<line x1="{x(seconds):.1f}" x2="{x(seconds):.1f}" y1="{top}" y2="{height - bottom}" stroke="#eee"/>'
+            )
+            out.append(
+                f'<text x="{x(seconds):.1f}" y="{height - bottom + 18}" text-anchor="middle">{seconds:g} s</text>'
+            )
     out.append(f'<polyline points="{line}" fill="none" stroke="#1f6feb" stroke-width="2"/>')
-    out.append(f'<text x="{(left + width - right) / 2}" y="{height - 6}" text-anchor="middle">time of kage regress</text>')
+    out.append(
+        f'<text x="{(left + width - right) / 2}" y="{height - 6}" text-anchor="middle">time of kage regress</text>'
+    )
     out.append("</svg>")
     pathlib.Path(path).write_text("\n".join(out) + "\n")
 
@@ -74,7 +86,9 @@ def kind(name):
 def cosim(kage, line, *more):
     """The report of a run, and its seconds, the program's start among them."""
     start = time.monotonic()
-    done = subprocess.run([kage, *shlex.split(line)[1:], "--no-report", "--json", "-", *more], capture_output=True, text=True)
+    done = subprocess.run(
+        [kage, *shlex.split(line)[1:], "--no-report", "--json", "-", *more], capture_output=True, text=True
+    )
     if done.returncode not in (0, 1):
         sys.exit(f"{line}: exit code {done.returncode}: {done.stderr.strip()}")
     return json.loads(done.stdout), time.monotonic() - start
@@ -125,10 +139,16 @@ def tell_each(rows):
         total = sorted(sum(r["seconds"] for r in row["runs"] if r["kind"] in kinds) for row in rows)
         right = sum(r["right"] for r in first)
         name = "all of them" if kinds == KINDS else f"{kinds[0]}"
-        print(f"| {name} | {len(found)} ({len(found) / len(rows):.0%}) | {right} ({right / max(1, len(found)):.0%}) | {total[len(total) // 2]:.1f} |")
-    means = {order: sum(seconds_to_find(row, order) for row in rows) / len(rows) for order in itertools.permutations(KINDS)}
+        print(
+            f"| {name} | {len(found)} ({len(found) / len(rows):.0%}) | {right} ({right / max(1, len(found)):.0%}) | {total[len(total) // 2]:.1f} |"
+        )
+    means = {
+        order: sum(seconds_to_find(row, order) for row in rows) / len(rows) for order in itertools.permutations(KINDS)
+    }
     best = min(means, key=means.get)
-    print(f"\nmean seconds until a mutant is found, one run at a time: {', '.join(KINDS)}: {means[KINDS]:.2f}; the best order, {', '.join(best)}: {means[best]:.2f}")
+    print(
+        f"\nmean seconds until a mutant is found, one run at a time: {', '.join(KINDS)}: {means[KINDS]:.2f}; the best order, {', '.join(best)}: {means[best]:.2f}"
+    )
 
 
 def main():
@@ -147,7 +167,11 @@ def main():
     unknown = set(options.names) - {m["name"] for m in mutants}
     if unknown:
         sys.exit(f"tools/regress-mutants: no mutant is called {sorted(unknown)[0]}")
-    chosen = [(n, m) for n, m in enumerate(mutants, 1) if "equivalent" not in m and (not options.names or m["name"] in options.names)]
+    chosen = [
+        (n, m)
+        for n, m in enumerate(mutants, 1)
+        if "equivalent" not in m and (not options.names or m["name"] in options.names)
+    ]
     if options.sample and options.sample < len(chosen):
         chosen = sorted(random.Random(options.seed).sample(chosen, options.sample), key=lambda c: c[0])
     if options.each:

@@ -5,11 +5,11 @@
 #include <array>
 #include <vector>
 
+#include "contract/rules.hpp"
 #include "core/pixel_line.hpp"
 #include "core/tree_core.hpp"
 #include "kage/stream.hpp"
 #include "stream/cutter.hpp"
-#include "stream/rules.hpp"
 
 namespace kage {
 

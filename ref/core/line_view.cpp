@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an observer of the golden core sees of the line at hand.
+#include "contract/rules.hpp"
 #include "core/pixel_line.hpp"
 #include "core/tree_core.hpp"
 #include "kage/core.hpp"
-#include "stream/rules.hpp"
 
 namespace kage {
 

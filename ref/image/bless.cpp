@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "files/temp_file.hpp"
+#include "file/temp_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
 #include "kage/stream_diff.hpp"

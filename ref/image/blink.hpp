@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "files/temp_file.hpp"
+#include "file/temp_file.hpp"
 #include "kage/diff.hpp"
 
 namespace kage {

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "files/output_file.hpp"
+#include "file/output_file.hpp"
 
 namespace kage {
 

@@ -10,10 +10,10 @@
 #include <set>
 #include <string_view>
 
+#include "file/regular_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
-#include "number/regular_file.hpp"
 
 namespace kage {
 namespace {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "files/temp_file.hpp"
+#include "file/temp_file.hpp"
 #include "kage/image.hpp"
 
 namespace kage {

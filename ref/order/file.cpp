@@ -18,7 +18,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "files/temp_file.hpp"
+#include "file/temp_file.hpp"
 #include "kage/error.hpp"
 #include "order/data.hpp"
 

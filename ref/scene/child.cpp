@@ -22,10 +22,10 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "file/regular_file.hpp"
 #include "import.hpp"
 #include "kage/error.hpp"
 #include "notes.hpp"
-#include "number/regular_file.hpp"
 #include "wire.hpp"
 
 #if defined(__SANITIZE_ADDRESS__)

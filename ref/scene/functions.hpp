@@ -2,7 +2,7 @@
 //
 // Trigonometric functions whose results do not depend on compiler, libm or machine: only + - * / and sqrt, which IEEE
 // 754 rounds correctly everywhere. Errors against the true value are a few units in the last place over the stated
-// domains (verif/unit/scene_functions.cpp measures them).
+// domains (verif/test/unit/scene/functions.cpp measures them).
 #pragma once
 
 namespace kage::portable {

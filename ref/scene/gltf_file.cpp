@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "base64.hpp"
+#include "file/base64.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "notes.hpp"

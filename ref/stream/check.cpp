@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "contract/rules.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
 #include "stream/cutter.hpp"
-#include "stream/rules.hpp"
 
 namespace kage {
 namespace {

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
+#include "contract/fields.hpp"
 #include "number/bits.hpp"
-#include "stream/fields.hpp"
 
 namespace kage {
 

@@ -24,13 +24,13 @@
 #include <cstring>
 #include <optional>
 
-#include "files/plain_io.hpp"
-#include "files/temp_file.hpp"
+#include "contract/config_text.hpp"
+#include "file/plain_io.hpp"
+#include "file/regular_file.hpp"
+#include "file/temp_file.hpp"
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
-#include "number/regular_file.hpp"
-#include "stream/config_text.hpp"
 
 namespace kage {
 namespace {

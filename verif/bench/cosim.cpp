@@ -13,8 +13,8 @@
 
 #include "bench/program.hpp"
 #include "cosim/core.hpp"
-#include "cosim/model.hpp"
-#include "cosim/rtl.hpp"
+#include "cosim/model/model.hpp"
+#include "cosim/model/rtl.hpp"
 #include "cosim/run.hpp"
 #include "kage/config.hpp"
 #include "kage/frontend.hpp"

@@ -12,12 +12,12 @@
 #include <memory>
 #include <optional>
 
+#include "bench/others/packets.hpp"
+#include "bench/others/stencil.hpp"
 #include "geometry/view.hpp"
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
-#include "others/packets.hpp"
-#include "others/stencil.hpp"
-#include "support/on_ground.hpp"
+#include "test/support/on_ground.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "frontend/tree_plan.hpp"
 #include "kage/geometry.hpp"
 #include "kage/stream.hpp"
-#include "support/shapes.hpp"
+#include "test/support/shapes.hpp"
 
 namespace {
 

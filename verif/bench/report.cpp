@@ -8,10 +8,10 @@
 #include <chrono>
 
 #include "cosim/core.hpp"
+#include "cosim/report/page.hpp"
 #include "kage/config.hpp"
 #include "kage/frontend.hpp"
 #include "kage/scene.hpp"
-#include "report/page.hpp"
 
 namespace {
 

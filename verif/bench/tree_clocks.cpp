@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "cosim/core.hpp"
-#include "cosim/model.hpp"
-#include "cosim/rtl.hpp"
+#include "cosim/model/model.hpp"
+#include "cosim/model/rtl.hpp"
 #include "kage/config.hpp"
 #include "kage/stream.hpp"
 

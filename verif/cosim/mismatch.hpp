@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "cosim/expected_events.hpp"
+#include "cosim/diverge/expected_events.hpp"
 
 namespace kage::cosim {
 

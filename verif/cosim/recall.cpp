@@ -6,8 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "cosim/model/sha256.hpp"
 #include "cosim/picture.hpp"
-#include "cosim/sha256.hpp"
 
 namespace kage::cosim {
 namespace {

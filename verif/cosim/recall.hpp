@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "cosim/model/rtl.hpp"
+#include "cosim/model/rtl_identity.hpp"
+#include "cosim/model/sha256.hpp"
 #include "cosim/ranges.hpp"
-#include "cosim/rtl.hpp"
-#include "cosim/rtl_identity.hpp"
 #include "cosim/run.hpp"
-#include "cosim/sha256.hpp"
 #include "cosim/verdict_store.hpp"
 
 namespace kage::cosim {

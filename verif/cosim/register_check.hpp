@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cosim/rtl.hpp"
+#include "cosim/model/rtl.hpp"
 #include "kage/config.hpp"
 
 namespace kage::cosim {

@@ -10,7 +10,7 @@
 
 #include "cosim/compare.hpp"
 #include "cosim/core.hpp"
-#include "files/temp_file.hpp"
+#include "file/temp_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"

@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "cosim/descriptor.hpp"
-#include "cosim/sha256.hpp"
-#include "cosim/trust.hpp"
+#include "cosim/model/sha256.hpp"
+#include "cosim/model/trust.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cosim/model_cache.hpp"
+#include "cosim/model/model_cache.hpp"
 #include "cosim/phases.hpp"
 
 namespace kage::cosim {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cosim/model/rtl.hpp"
 #include "cosim/register_check.hpp"
-#include "cosim/rtl.hpp"
 #include "kage/config.hpp"
 
 namespace kage::verif {

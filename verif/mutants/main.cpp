@@ -19,7 +19,7 @@
 #include <set>
 #include <utility>
 
-#include "cosim/model.hpp"
+#include "cosim/model/model.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "mutants/list.hpp"
@@ -37,7 +37,7 @@ struct Result {
   Mutant mutant;
   std::string config;  ///< in which it was found out
   std::string expected;
-  std::optional<Verdict> verdict;
+  std::optional<TrialVerdict> verdict;
   std::uint64_t set = 0;  ///< of frames, that found it out
 
   [[nodiscard]] bool right() const { return verdict && verdict->module == expected; }
@@ -54,7 +54,7 @@ class Trials {
 
   [[nodiscard]] const std::vector<Inputs>& all() const { return all_; }
 
-  std::optional<Verdict> attempt(std::size_t i, std::uint64_t set, int mutant) {
+  std::optional<TrialVerdict> attempt(std::size_t i, std::uint64_t set, int mutant) {
     const auto [it, is_new] = sets_.try_emplace({i, set}, all_[i]);
     Inputs& inputs = it->second;
     std::filesystem::path& library = libraries_[i];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mutants/trial.hpp"
 
-#include "cosim/blame.hpp"
 #include "cosim/compare.hpp"
-#include "cosim/divergence.hpp"
+#include "cosim/diverge/blame.hpp"
+#include "cosim/diverge/divergence.hpp"
 #include "cosim/register_check.hpp"
 #include "cosim/run.hpp"
 
@@ -48,13 +48,13 @@ std::optional<cosim::Divergence> diverges(int frame, const std::filesystem::path
   return cosim::find_divergence(frame, feed, inputs.config, options);
 }
 
-std::optional<Verdict> try_sequence(const std::filesystem::path& library, const Inputs& inputs,
-                                    const Sequence& sequence, int mutant) {
+std::optional<TrialVerdict> try_sequence(const std::filesystem::path& library, const Inputs& inputs,
+                                         const Sequence& sequence, int mutant) {
   cosim::RtlOptions options = sequence.rtl;
   options.mutant = mutant;
   const auto rtl = make_rtl(library, inputs.config, options);
   for (int i = 0; i < static_cast<int>(sequence.frames.size()); ++i) {
-    Verdict v;
+    TrialVerdict v;
     try {
       const auto d = compare(*rtl, sequence.frames[static_cast<std::size_t>(i)], i, inputs.config.channels);
       if (!d) continue;
@@ -80,7 +80,7 @@ std::optional<std::string> sound_divergence(const std::filesystem::path& library
   return std::nullopt;
 }
 
-std::optional<Verdict> try_mutant(const std::filesystem::path& library, const Inputs& inputs, int mutant) {
+std::optional<TrialVerdict> try_mutant(const std::filesystem::path& library, const Inputs& inputs, int mutant) {
   for (const Sequence& s : inputs.sequences)
     if (auto v = try_sequence(library, inputs, s, mutant)) return v;
   cosim::RtlOptions options = inputs.sequences.front().rtl;
@@ -90,7 +90,7 @@ std::optional<Verdict> try_mutant(const std::filesystem::path& library, const In
   try {
     wrong = wrong_register(*make_rtl(library, inputs.config, options), inputs.config, inputs.sequences.front().frames);
   } catch (const cosim::AssertionError& e) {
-    return Verdict{"assertion", module_of(e.where()), e.what()};
+    return TrialVerdict{"assertion", module_of(e.where()), e.what()};
   }
   if (!wrong && mutant != 0) return std::nullopt;
   // Again with monitors: registers may say truly what a module says wrong. Of the sound RTL they say nothing.
@@ -99,9 +99,9 @@ std::optional<Verdict> try_mutant(const std::filesystem::path& library, const In
   (void)wrong_register(*rtl, inputs.config, inputs.sequences.front().frames);
   for (const kage_rtl_event& e : rtl->take_events())
     if (static_cast<cosim::Stage>(e.stage) == cosim::Stage::part)
-      return Verdict{"register", cosim::part_name(inputs.config, e), wrong.value_or("so a monitor says")};
+      return TrialVerdict{"register", cosim::part_name(inputs.config, e), wrong.value_or("so a monitor says")};
   if (!wrong) return std::nullopt;
-  return Verdict{"register", "registers", *wrong};
+  return TrialVerdict{"register", "registers", *wrong};
 }
 
 }  // namespace kage::verif

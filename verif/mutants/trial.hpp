@@ -12,7 +12,7 @@
 namespace kage::verif {
 
 /// How a mutant was found out.
-struct Verdict {
+struct TrialVerdict {
   std::string how;     ///< "different", "error", "hang", "assertion", "register"
   std::string module;  ///< the search for the first divergence names
   std::string text;    ///< what it says, or what the registers or the assertion say
@@ -22,6 +22,6 @@ struct Verdict {
 std::optional<std::string> sound_divergence(const std::filesystem::path& library, const Inputs& inputs);
 
 /// Nothing if the mutant (0: the sound RTL) is the same as the golden core in all of them.
-std::optional<Verdict> try_mutant(const std::filesystem::path& library, const Inputs& inputs, int mutant);
+std::optional<TrialVerdict> try_mutant(const std::filesystem::path& library, const Inputs& inputs, int mutant);
 
 }  // namespace kage::verif

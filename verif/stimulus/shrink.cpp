@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "contract/fields.hpp"
 #include "core/span_value.hpp"
 #include "kage/derived.hpp"
 #include "stimulus/damage.hpp"
-#include "stream/fields.hpp"
 
 namespace kage::verif {
 namespace {

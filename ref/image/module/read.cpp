@@ -7,10 +7,10 @@
 
 #include <new>
 
+#include "file/regular_file.hpp"
 #include "image/module/table.hpp"
 #include "image/png_chunks.hpp"
 #include "kage/error.hpp"
-#include "number/regular_file.hpp"
 
 namespace kage::picture_module {
 namespace {

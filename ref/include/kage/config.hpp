@@ -21,7 +21,7 @@ struct NamedConfig {
 /// `where` opens the message: "my.yaml: Z_BITS is 40, legal are 4 .. 28".
 void validate(const Config& config, const std::string& where);
 
-/// The named configurations of rtl/configs.yaml, in listed order, all valid.
+/// The named configurations of rtl/defs/configs.yaml, in listed order, all valid.
 std::vector<NamedConfig> named_configs();
 
 /// The configuration with this name, or the one in this file: YAML, one `PARAMETER: value` a line, others at their

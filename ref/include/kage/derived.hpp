@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // clang-format off
 //
-// Numbers that follow from the parameters; in SystemVerilog: rtl/include/kage_widths.svh.
+// Numbers that follow from the parameters; in SystemVerilog: rtl/include/generated/kage_widths.svh.
 #pragma once
 
 #include "kage/defs.hpp"

@@ -114,7 +114,7 @@ enum {
 /* KAGE_GOLDEN_ABI of the library. It grows when something here changes its meaning. */
 int kage_golden_abi(void);
 
-/* A core of a configuration: a name in rtl/configs.yaml, a YAML file, or a stream file, whose own it then is. NULL
+/* A core of a configuration: a name in rtl/defs/configs.yaml, a YAML file, or a stream file, whose own it then is. NULL
  * after an error, whose text kage_golden_error(NULL) has. */
 kage_golden* kage_golden_create(const char* config);
 

@@ -169,7 +169,7 @@ class StreamFileWriter {
   /// Where the frames come from, as JSON text (docs/stream.md, Files): once, after the last frame. Cores ignore it.
   void origin(const std::string& json);
 
-  /// Ends the file, which gets its name now, or, the second way, with the others of `files` (ref/files/temp_file.hpp).
+  /// Ends the file, which gets its name now, or, the second way, with the others of `files` (ref/file/temp_file.hpp).
   void finish();
   void finish(TempFiles& files);
 

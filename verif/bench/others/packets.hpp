@@ -10,8 +10,8 @@
 #include <glm/vec3.hpp>
 #include <type_traits>
 
-#include "others/looks.hpp"
-#include "scene/embree_scene.hpp"
+#include "bench/others/looks.hpp"
+#include "opinion/embree_scene.hpp"
 
 namespace kage::verif {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "others/stencil.hpp"
+#include "bench/others/stencil.hpp"
 
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "others/looks.hpp"
+#include "bench/others/looks.hpp"
 #include "shadow/volumes.hpp"
 
 namespace kage::verif {

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <map>
+
+#include "kage/error.hpp"
+#include "kage/light.hpp"
+#include "kage/order.hpp"
+#include "kage/scene.hpp"
+
+namespace kage::cli {
+
+CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+  return {[least, most](const std::string& text) {
+            std::uint64_t value = 0;
+            const char* const end = text.data() + text.size();
+            const auto [stop, error] = std::from_chars(text.data(), end, value);
+            if (error != std::errc{} || stop != end || value < least || value > most)
+              return fmt::format("{} is not a whole number from {} to {}", text, least,
+                                 most == std::numeric_limits<std::uint64_t>::max() ? "2^64 - 1" : fmt::to_string(most));
+            // CLI11 would take it for octal.
+            return text.size() > 1 && text.front() == '0' ? text + " begins with 0" : std::string();
+          },
+          "", "whole"};
+}
+
+CLI::Validator real_number(double least, double most, const char* least_text) {
+  return {[least, most, first = least_text != nullptr ? std::string(least_text) : fmt::format("{}", least)](
+              const std::string& text) {
+            const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+            char* stop = nullptr;
+            const double value = plain ? std::strtod(text.c_str(), &stop) : 0;
+            if (!plain || text.empty() || *stop != '\0') return text + " is not a number";
+            return value >= least && value <= most ? std::string()
+                                                   : text + fmt::format(" is not in {} .. {}", first, most);
+          },
+          "", "number"};
+}
+
+void option_size(CLI::App& command, Options& options) {
+  command
+      .add_option_function<std::string>(
+          "--size",
+          [&options](const std::string& text) {
+            const char* const end = text.data() + text.size();
+            Size size;
+            const auto w = std::from_chars(text.data(), end, size.width);
+            if (w.ec != std::errc{} || w.ptr == end || *w.ptr != 'x')
+              throw CLI::ValidationError("--size", text + " is not WxH, like 640x480");
+            const auto h = std::from_chars(w.ptr + 1, end, size.height);
+            if (h.ec != std::errc{} || h.ptr != end)
+              throw CLI::ValidationError("--size", text + " is not WxH, like 640x480");
+            if (size.width < 1 || size.width > kMaxSize || size.height < 1 || size.height > kMaxSize)
+              throw CLI::ValidationError("--size", fmt::format("{}: width and height are 1 .. {}", text, kMaxSize));
+            options.size = size;
+            options.size_given = true;
+          },
+          "picture size, default 640x480")
+      ->type_name("WxH");
+}
+
+static void option_frames(CLI::App& command, Options& options) {
+  command
+      .add_option("--frames", options.frames,
+                  "number of frames, spread over the animation or the camera path, default: the scene's own")
+      ->check(whole_number(1, kMostFrames))
+      ->type_name("N");
+}
+
+static void option_config(CLI::App& command, Options& options) {
+  command
+      .add_option("--config", options.config,
+                  "the core's parameters: a name in rtl/defs/configs.yaml or a YAML file of PARAMETER: value lines, "
+                  "default: the first name that can draw it all")
+      ->type_name("NAME|FILE");
+}
+
+void option_seed(CLI::App& command, Options& options) {
+  command.add_option("--seed", options.seed, "seed of everything random, default 1")
+      ->check(whole_number())
+      ->type_name("S");
+}
+
+void option_json(CLI::App& command, Options& options) {
+  command.add_option("--json", options.json, "write the result as JSON; - is standard output, with nothing else on it")
+      ->type_name("FILE");
+}
+
+static std::string what_a_scene_is() {
+  return fmt::format(
+      "a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), a stream file, or, "
+      "for cosim and explain, random frames (random, random:damaged, random:mixed)",
+      fmt::join(builtin_scenes(), ", "));
+}
+
+void option_scene(CLI::App& command, Options& options) {
+  command.add_option("SCENE", options.input, what_a_scene_is())->required();
+}
+
+void option_scenes(CLI::App& command, std::vector<std::string>& inputs) {
+  command.add_option("SCENE", inputs, "one or more, each " + what_a_scene_is())->required();
+}
+
+static void option_degrade(CLI::App& command, Options& options) {
+  command.add_flag(
+      "--degrade", options.degrade,
+      "where the configuration lacks something, draw without it (no shadows, those of one light, hard ones; flat, grey "
+      "or opaque instead of smooth, coloured or translucent) instead of refusing");
+}
+
+static void option_units_only(CLI::App& command, Options& options) {
+  command.add_flag(
+      "--units-only", options.units_only,
+      "refuse a frame in which a convex polyhedron finds no expansion unit, instead of drawing it by spans");
+}
+
+static const std::map<std::string, TranslucentWay>& translucent_ways() {
+  static const std::map<std::string, TranslucentWay> kWays{{"exact", TranslucentWay::exact},
+                                                           {"centroid", TranslucentWay::centroid},
+                                                           {"submission", TranslucentWay::submission}};
+  return kWays;
+}
+
+std::string name_of(TranslucentWay way) {
+  for (const auto& [name, value] : translucent_ways())
+    if (value == way) return name;
+  return {};
+}
+
+static void option_translucent(CLI::App& command, Options& options) {
+  command
+      .add_option_function<std::string>(
+          "--order", [&options](const std::string& name) { options.order = translucent_ways().at(name); },
+          "order of translucent faces, default exact; the others show what cheaper orders get wrong")
+      ->option_text("exact|centroid|submission")
+      ->check(CLI::IsMember({"exact", "centroid", "submission"}))
+      ->type_name("WAY");
+  command
+      .add_option("--alpha", options.alpha,
+                  "multiply the alpha of every material by A, 1/255 to 1; below 1 all is translucent")
+      ->option_text("A")
+      ->check(real_number(1.0 / 255, 1, "1/255"))
+      ->type_name("A");
+}
+
+static void option_cull(CLI::App& command, Options& options) {
+  command.add_flag("--cull", options.cull,
+                   "leave out faces of single-sided materials that are turned away from the eye; they cast shadows all "
+                   "the same");
+}
+
+static void option_lights(CLI::App& command, Options& options) {
+  command
+      .add_option("--samples", options.samples,
+                  fmt::format("points that stand for a light that is no point itself: a disc, rectangle or sphere; "
+                              "default {}",
+                              options.samples))
+      ->check(whole_number(1, kMaxSamples))
+      ->type_name("N");
+  command
+      .add_option("--classes", options.classes,
+                  fmt::format("normals that the table of several lights tells apart, spread evenly; default {}",
+                              options.classes))
+      ->check(whole_number(1, kMaxClasses))
+      ->type_name("N");
+}
+
+void option_max_fragments(CLI::App& command, Options& options) {
+  command
+      .add_option(
+          "--max-fragments", options.max_fragments,
+          fmt::format("refuse a visibility order that would cut its faces into more than N fragments, default {} or "
+                      "four times the faces, whichever is more: faces through one another are cut into more and more "
+                      "(docs/order.md)",
+                      OrderBuildOptions::kFragments))
+      ->check(whole_number())
+      ->type_name("N");
+}
+
+void option_threads(CLI::App& command, Options& options) {
+  command.add_option("--threads", options.threads, "threads to use, default: one per processor")
+      ->check(whole_number(1, 1024))
+      ->type_name("N");
+}
+
+void option_outside(CLI::App& command, Options& options) {
+  command.add_flag("--allow-outside", options.allow_outside,
+                   "read files that a scene's file names (buffers, materials) wherever they lie, instead of refusing "
+                   "those outside its folder");
+}
+
+void option_fault(CLI::App& command, std::string& fault) {
+  command
+      .add_option("--fault", fault,
+                  "build the RTL with a deliberate defect, to see it found: a patch of verif/cosim/model/faults")
+      ->type_name("NAME");
+}
+
+void options_of_frames(CLI::App& command, Options& options) {
+  option_size(command, options);
+  option_frames(command, options);
+  option_config(command, options);
+  option_degrade(command, options);
+  option_units_only(command, options);
+  option_translucent(command, options);
+  option_cull(command, options);
+  option_max_fragments(command, options);
+  option_lights(command, options);
+  option_seed(command, options);
+  option_threads(command, options);
+  option_outside(command, options);
+}
+
+}  // namespace kage::cli

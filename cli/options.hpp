@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Options that several subcommands have.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kage/geometry.hpp"
+
+namespace kage::cli {
+
+/// A whole number from `least` to `most`, in decimal. As text: of CLI11's own numbers 010 is 8, and a minus sign or too
+/// many digits wrap round in an unsigned one.
+CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
+
+/// A number from `least` to `most`, written as people write it: strtod() would take nan, inf and hexadecimal. Messages
+/// call the least one `least_text`, where that is given.
+CLI::Validator real_number(double least, double most, const char* least_text = nullptr);
+
+/// The most frames of a run, and the most shards.
+inline constexpr int kMostFrames = 1000000;
+
+/// A picture's size, "640x480".
+struct Size {
+  int width = 640;
+  int height = 480;
+};
+
+/// Options that several subcommands have, and what they default to.
+struct Options {
+  std::string input;
+  Size size;
+  bool size_given = false;
+  int frames = 0;  ///< 0: as many as the scene has
+  std::string config;
+  std::uint64_t seed = 1;
+  std::string out;
+  std::string json;
+  int threads = 0;  ///< 0: one per processor
+  bool degrade = false;
+  bool units_only = false;  ///< polyhedra that find no unit are an error
+  TranslucentWay order = TranslucentWay::exact;
+  double alpha = 1;
+  bool cull = false;           ///< faces are not drawn if the eye sees the side that their material does not show
+  bool allow_outside = false;  ///< files that a scene's file names may lie outside its folder
+  std::optional<std::uint64_t> max_fragments;  ///< that the order of translucent faces may cut; none: order.hpp's
+  int samples = Look{}.samples;                ///< of a light that is no point
+  int classes = Look{}.classes;                ///< of normals
+};
+
+/// As --order has it.
+std::string name_of(TranslucentWay way);
+
+/// What every command that makes frames takes: --size, --frames, --config, --degrade, --units-only, --order, --alpha,
+/// --cull, --max-fragments, --samples, --classes, --seed, --threads, --allow-outside.
+void options_of_frames(CLI::App& command, Options& options);
+void option_max_fragments(CLI::App& command, Options& options);
+void option_seed(CLI::App& command, Options& options);
+void option_json(CLI::App& command, Options& options);
+void option_scene(CLI::App& command, Options& options);                   // SCENE, a positional
+void option_scenes(CLI::App& command, std::vector<std::string>& inputs);  // one or more of them
+void option_threads(CLI::App& command, Options& options);
+void option_size(CLI::App& command, Options& options);
+void option_outside(CLI::App& command, Options& options);  // --allow-outside
+void option_fault(CLI::App& command, std::string& fault);
+
+}  // namespace kage::cli

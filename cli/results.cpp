@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "results.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <set>
+
+#include "kage/error.hpp"
+
+namespace kage::cli {
+
+bool json_only(const Options& options) { return options.json == "-"; }
+
+void check_json(const Options& options) {
+  if (options.json.empty() || json_only(options)) return;
+  TempFiles file;
+  const OutputFile probe(file, options.json);
+}
+
+void finish(const Options& options, const Json& value, TempFiles& files, const std::string& text) {
+  const std::string json = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (!options.json.empty() && !json_only(options)) write_text(files, options.json, json);
+  files.place();
+  const std::string& said = json_only(options) ? json : text;
+  if (!said.empty()) {
+    const bool whole = std::fwrite(said.data(), 1, said.size(), stdout) == said.size() && std::fflush(stdout) == 0;
+    if (!whole) throw Error("standard output: cannot be written");
+  }
+  files.settle();
+}
+
+void write_json(const Options& options, const Json& value, TempFiles& files) { finish(options, value, files, ""); }
+
+void write_json(const Options& options, const Json& value) {
+  TempFiles files;
+  write_json(options, value, files);
+}
+
+Json to_json(const Config& config) {
+  Json object = Json::object();
+  for (const ParamInfo& p : kParams) object[std::string(p.name)] = config.*(p.member);
+  return object;
+}
+
+OutFolder::OutFolder(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  std::vector<fs::path> missing;
+  for (fs::path p = path; !p.empty() && !fs::exists(p, ec); p = p.parent_path()) missing.insert(missing.begin(), p);
+  // One by one, so that a failure half-way leaves none: the destructor of a half-made object does not run.
+  for (const fs::path& p : missing) {
+    if (fs::create_directory(p, ec)) made_.insert(made_.begin(), p);
+    if (ec) break;
+  }
+  if (ec || !fs::is_directory(path, ec)) {
+    remove();
+    throw Error(fmt::format("{}: the folder cannot be made: {}", path.string(), ec ? ec.message() : "not a folder"));
+  }
+  if (::access(path.c_str(), W_OK | X_OK) != 0) {
+    const int error = errno;
+    remove();
+    throw Error(fmt::format("{}: cannot be written to: {}", path.string(), std::strerror(error)));
+  }
+}
+
+OutFolder::~OutFolder() { remove(); }
+
+void OutFolder::remove() {
+  for (const std::filesystem::path& p : made_) (void)::rmdir(p.c_str());  // refuses one with something in it
+  made_.clear();
+}
+
+std::filesystem::path resolved(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code ec;
+  return fs::weakly_canonical(fs::absolute(path, ec), ec);
+}
+
+void refuse_twice(const std::vector<std::string>& paths) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& path : paths)
+    if (!path.empty() && !seen.insert(resolved(path)).second)
+      throw Error(fmt::format("{}: is to be written twice", path));
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A run's results: JSON, the files that appear together at its end, and the folder they are in.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "file/temp_file.hpp"
+#include "kage/defs.hpp"
+#include "options.hpp"
+
+namespace kage::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// Whether `--json -` claims standard output for itself.
+bool json_only(const Options& options);
+
+/// Throws Error if what --json names cannot be written: before the work, not after it.
+void check_json(const Options& options);
+
+/// Ends a run: writes `value` where --json says, if it was given, gives all of `files` their names, and prints `text`
+/// unless JSON has standard output. All appear or none: if standard output fails, files are as they were.
+void finish(const Options& options, const Json& value, TempFiles& files, const std::string& text);
+
+/// The same for a run that prints on its own.
+void write_json(const Options& options, const Json& value, TempFiles& files);
+void write_json(const Options& options, const Json& value);
+
+/// The parameters as an object, in the order of the definition file.
+Json to_json(const Config& config);
+
+/// A folder for what a run writes, made with those above it. What was made and is empty in the end is removed again, so
+/// that a run that fails leaves nothing.
+class OutFolder {
+ public:
+  /// Throws Error if the folder cannot be made or written to.
+  explicit OutFolder(const std::filesystem::path& path);
+  ~OutFolder();
+  OutFolder(const OutFolder&) = delete;
+  OutFolder& operator=(const OutFolder&) = delete;
+
+ private:
+  void remove();
+  std::vector<std::filesystem::path> made_;  // the innermost first
+};
+
+/// The same for all names of a file, links too; empty if there can be no such file.
+std::filesystem::path resolved(const std::string& path);
+
+/// Throws Error if two of the files that are to be written, by whatever name, are one. Empty paths are none.
+void refuse_twice(const std::vector<std::string>& paths);
+
+}  // namespace kage::cli

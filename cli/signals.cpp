@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "signals.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+
+namespace kage::cli {
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;  // the number of the first signal
+
+// The second one ends the program wherever it waits, destructors and exit handlers among that. What it leaves in hidden
+// folders the next run removes, and its children die with it.
+void on_signal(int number) {
+  if (signalled != 0) _exit(kSignalled + number);
+  signalled = number;
+}
+
+}  // namespace
+
+void catch_signals() {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  if (hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup's wish stands
+  // A reader that has gone away, and a file larger than ulimit -f allows, are errors of the write: what is half done is
+  // tidied up.
+  action.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, &action, nullptr);
+  sigaction(SIGXFSZ, &action, nullptr);
+}
+
+bool interrupted() { return signalled != 0; }
+
+int interrupted_code() { return kSignalled + signalled; }
+
+void check_interrupt() {
+  if (interrupted()) throw Interrupted{};
+}
+
+}  // namespace kage::cli

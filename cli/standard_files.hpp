@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Standard input, output and error.
+#pragma once
+
+#include <string>
+
+namespace kage::cli {
+
+/// Opens those of standard input, output and error that are closed on /dev/null: else a file of results would get their
+/// number, and with it what is meant for a person.
+void open_standard_files();
+
+/// Writes to standard error. Where that cannot be, nobody is there to be told.
+void say(const std::string& text);
+
+}  // namespace kage::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+
+namespace kage::cli {
+
+std::string gtkwave_line(const std::string& save_file) { return "gtkwave " + quoted(save_file); }
+
+std::string quoted(const std::string& text) {
+  const auto plain = [](char c) {
+    return (std::isalnum(static_cast<unsigned char>(c)) != 0) ||
+           std::string_view("_./,:=+-@%").find(c) != std::string_view::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string out = "'";
+  for (const char c : text) {
+    if (c == '\'')
+      out += "'\\''";
+    else
+      out += c;
+  }
+  return out + "'";
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kage/config.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <set>
+
+#include "contract/config_text.hpp"
+#include "file/regular_file.hpp"
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+
+namespace kage {
+namespace {
+
+std::string allowed_values(const ParamInfo& p) {
+  if (p.allowed == 0) return fmt::format("{} .. {}", p.min, p.max);
+  std::string list;
+  for (int v = p.min; v <= p.max; ++v)
+    if ((p.allowed >> v) & 1U) list += fmt::format("{}{}", list.empty() ? "" : ", ", v);
+  return list;
+}
+
+/// The values of a rule's parameters: " (FSF 1, DSF_BITS 0)".
+std::string values_of(const Config& config, const RuleInfo& rule) {
+  std::string text;
+  for (const ParamInfo& p : kParams) {
+    const std::size_t at = rule.legal.find(p.name);
+    if (at == std::string_view::npos) continue;
+    const std::size_t end = at + p.name.size();
+    const auto in_name = [&](std::size_t i) {
+      return rule.legal[i] == '_' || (rule.legal[i] >= 'A' && rule.legal[i] <= 'Z');
+    };
+    if ((at > 0 && in_name(at - 1)) || (end < rule.legal.size() && in_name(end))) continue;  // part of another's name
+    text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", p.name, config.*(p.member));
+  }
+  return text + ")";
+}
+
+Config from_yaml(const YAML::Node& node, const std::string& where) {
+  if (!node.IsMap()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
+  Config config;
+  std::set<std::string> seen;
+  for (const auto& entry : node) {
+    if (!entry.first.IsScalar()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
+    const auto name = entry.first.as<std::string>();
+    const auto* p = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& i) { return i.name == name; });
+    if (p == kParams.end())
+      throw Error(fmt::format(
+          "{}: {}: no such parameter{}", where, name,
+          entry.second.IsScalar() ? "" : "; a file has the parameters of one configuration, with no name over them"));
+    if (!seen.insert(name).second) throw Error(fmt::format("{}: {}: given twice", where, name));
+    int value = 0;
+    if (!entry.second.IsScalar() || !YAML::convert<int>::decode(entry.second, value))
+      throw Error(fmt::format("{}: {}: not a whole number", where, name));
+    config.*(p->member) = value;
+  }
+  validate(config, where);
+  return config;
+}
+
+YAML::Node read_yaml(const std::string& path) {
+  check_regular(path);
+  try {
+    return YAML::LoadFile(path);
+  } catch (const YAML::BadFile&) {
+    throw Error(fmt::format("{}: cannot be read", path));
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: line {}: {}", path, e.mark.line + 1, e.msg));
+  }
+}
+
+}  // namespace
+
+Config config_from_text(const std::string& text, const std::string& where) {
+  try {
+    return from_yaml(YAML::Load(text), where);
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: configuration, line {}: {}", where, e.mark.line + 1, e.msg));
+  }
+}
+
+void validate(const Config& config, const std::string& where) {
+  for (const ParamInfo& p : kParams) {
+    const int v = config.*(p.member);
+    if (v < p.min || v > p.max || (p.allowed != 0 && ((p.allowed >> v) & 1U) == 0))
+      throw Error(fmt::format("{}: {} is {}, legal are {}", where, p.name, v, allowed_values(p)));
+  }
+  for (const RuleInfo& rule : kRules)
+    if (!rule.holds(config)) throw Error(fmt::format("{}: {}{}", where, rule.text, values_of(config, rule)));
+}
+
+std::vector<NamedConfig> named_configs() {
+  const std::string path = (data_directory() / "rtl/defs/configs.yaml").string();
+  const YAML::Node all = read_yaml(path);
+  if (!all.IsMap()) throw Error(fmt::format("{}: not a list of configurations", path));
+  std::vector<NamedConfig> list;
+  for (const auto& entry : all) {
+    const auto name = entry.first.as<std::string>();
+    list.push_back({name, from_yaml(entry.second, fmt::format("{}: {}", path, name))});
+  }
+  return list;
+}
+
+NamedConfig load_config(const std::string& name_or_file) {
+  const auto named = named_configs();
+  for (const NamedConfig& n : named)
+    if (n.name == name_or_file) return n;
+  if (!std::filesystem::exists(name_or_file)) {
+    std::string names;
+    for (const NamedConfig& n : named) names += (names.empty() ? "" : ", ") + n.name;
+    throw Error(fmt::format("{}: no such file, and no configuration of that name (there are {})", name_or_file, names));
+  }
+  return {name_or_file, from_yaml(read_yaml(name_or_file), name_or_file)};
+}
+
+std::string to_yaml(const Config& config) {
+  std::string text;
+  for (const ParamInfo& p : kParams) text += fmt::format("{}: {}\n", p.name, config.*(p.member));
+  return text;
+}
+
+namespace {
+
+/// Of any core.
+int most_lights() {
+  for (const ParamInfo& p : kParams)
+    if (p.member == &Config::lights) return p.max;
+  return 0;
+}
+
+}  // namespace
+
+std::vector<std::string> lacks(const Config& config, const Needs& needs) {
+  std::vector<std::string> missing;
+  if (needs.shadows && config.dsf_bits == 0) missing.emplace_back("shadows (DSF_BITS > 0)");
+  // Counting may do with one volume; whether it does is known once it is made.
+  if (needs.shadows && needs.several_volumes && config.fsf == 0 && config.dsf_bits <= 1)
+    missing.emplace_back("several volumes (FSF)");
+  if (needs.shadows && needs.lights > config.lights)
+    missing.push_back(
+        needs.lights > most_lights()
+            ? fmt::format("shadows of {} lights (a core has LIGHTS {} at most)", needs.lights, most_lights())
+            : fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
+  if (needs.shadows && needs.samples > 1 && needs.samples >> config.count_bits != 0)
+    missing.push_back(
+        fmt::format("soft shadows (COUNT_BITS >= {})", std::bit_width(static_cast<unsigned>(needs.samples))));
+  if (needs.smooth && config.smooth == 0) missing.emplace_back("smooth colour (SMOOTH)");
+  if (needs.translucency && config.translucency == 0) missing.emplace_back("translucency (TRANSLUCENCY)");
+  if (needs.color && config.channels == 1) missing.emplace_back("colour (CHANNELS = 3)");
+  if (needs.width > config.max_width) missing.push_back(fmt::format("MAX_WIDTH >= {}", needs.width));
+  return missing;
+}
+
+namespace {
+
+/// One line of YAML: `config` made as wide as `needs` asks, and with several lights for as many lights and samples; ""
+/// if even that does not do.
+std::string widened(Config config, const Needs& needs) {
+  const auto width = static_cast<unsigned>(needs.width);
+  config.max_width = std::max(config.max_width, needs.width);
+  config.x_bits = std::max(config.x_bits, static_cast<int>(std::bit_width(width)));
+  // ceil(log2 width) keeps the error in depth near half an LSB up to the end of a line.
+  config.z_frac = std::max(config.z_frac, static_cast<int>(std::bit_width(width - 1)));
+  if (config.lights > 1) {
+    config.lights = std::max(config.lights, needs.lights);
+    config.count_bits =
+        std::max(config.count_bits, static_cast<int>(std::bit_width(static_cast<unsigned>(needs.samples))));
+  }
+  std::string line;
+  for (const ParamInfo& p : kParams) {
+    if (config.*(p.member) > p.max) return "";
+    if (config.*(p.member) != Config{}.*(p.member))
+      line += fmt::format("{}{}: {}", line.empty() ? "" : ", ", p.name, config.*(p.member));
+  }
+  return lacks(config, needs).empty() ? "{" + line + "}" : "";
+}
+
+}  // namespace
+
+NamedConfig choose_config(const Needs& needs) {
+  if (needs.shadows && needs.lights > most_lights())
+    throw Error(
+        fmt::format("{} lights cast shadows, and a core tells at most {} apart; with a configuration given, "
+                    "--degrade lets the first one cast alone",
+                    needs.lights, most_lights()));
+  std::string nearest;
+  std::vector<std::string> lacking;
+  for (const NamedConfig& n : named_configs()) {
+    const auto missing = lacks(n.config, needs);
+    if (missing.empty()) return n;
+    if (!nearest.empty() && missing.size() >= lacking.size()) continue;
+    nearest = n.name;
+    lacking = missing;
+  }
+  throw Error(fmt::format("no named configuration (rtl/defs/configs.yaml) can draw this: the nearest, {}, lacks {}",
+                          nearest, fmt::join(lacking, ", ")));
+}
+
+std::string widened_config(const Needs& needs) {
+  for (const NamedConfig& n : named_configs())
+    if (std::string line = widened(n.config, needs); !line.empty()) return line;
+  return "";
+}
+
+}  // namespace kage

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The first divergence: after a frame has come out different, it is run again with monitors, and what passes between
+// the RTL's modules is held against what the golden core says must.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cosim/diverge/replay.hpp"
+#include "cosim/diverge/stages.hpp"
+#include "cosim/run.hpp"
+
+namespace kage::cosim {
+
+/// Where the RTL first departs, in the order in which a token passes the stages, not that of clocks: what a wrong stage
+/// does to those behind it comes later in that order, however early it shows.
+struct Divergence {
+  int frame = 0;
+  int from = 0;   ///< the first frame of the replay that showed it
+  int line = -1;  ///< -1: not of a line
+  int x = -1;     ///< -1: not of a pixel
+  Stage stage{};
+  std::string module;    ///< of rtl/: "pixel_banked"
+  std::string what;      ///< "state of a pixel"
+  std::string field;     ///< "z"; "missing": it never came; "unexpected": nothing more was to come
+  std::string expected;  ///< as a person reads it
+  std::string actual;
+  std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered
+  std::uint64_t clock = 0;  ///< the same, since the replay's first
+  std::uint32_t token = 0;  ///< index in the frame
+  std::string token_text;   ///< "SP [12, 40) ..."
+  std::string source;       ///< the part of the scene it came from, if the caller knows it: find_divergence() does not
+  std::string waits;        ///< of a core that hangs: who waits for whom
+  bool ahead = false;       ///< it is in the frame that RtlOptions::prelude put right ahead of `frame`
+  bool initial_state = false;  ///< it depends on what registers and memories hold at first
+  std::string waveform;        ///< the FST file, empty if none was written: write_waveform()
+  std::string save_file;       ///< the GTKWave save file beside it
+};
+
+/// Run frame `frame` again, alone on a fresh core; if that shows nothing, with the one of the run before it, then with
+/// 2, 4, ... and at last all of them before it. Empty if the stages agree everywhere: then the difference lies where no
+/// monitor looks (describe_none()).
+std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
+                                          const ReplayOptions& options);
+
+/// What the RTL did to a pixel, where the golden model's history has the same.
+struct RtlTouch {
+  std::uint32_t token = 0;
+  Stage stage{};            ///< pixel, exit or out
+  bool load = false;        ///< its colour came back from the way out
+  std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered
+  bool same = true;
+  std::string text;  ///< the values as a person reads them: "z 812, color 10,20,30, class 1, dsf 1, fsf 0"
+};
+
+/// Run the frames `from` .. `frame` with monitors and tell what they saw of pixel (x, y) in the last of them.
+std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const Config& config,
+                                  const ReplayOptions& options, int x, int y);
+
+/// One line: "frame 0, line 17, x 204: state of a pixel (rtl/pixel_banked.sv), field dsf: expected 1, got 0, ...".
+std::string describe(const Divergence& divergence);
+
+/// One line for a difference of which find_divergence() finds nothing: where to look.
+std::string describe_none(const Difference& difference);
+
+}  // namespace kage::cosim

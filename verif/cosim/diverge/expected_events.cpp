@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/diverge/expected_events.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/span_value.hpp"
+#include "kage/derived.hpp"
+
+namespace kage::cosim {
+namespace {
+
+// The order of a token's events. A line that goes out and comes back has its own steps behind those of the token.
+enum Step {
+  of_token,
+  of_control,
+  of_unit,
+  of_tree,
+  of_command,
+  of_pixel,
+  of_exit,
+  of_load,
+  of_load_command,
+  of_loaded,
+  of_out,
+  of_end
+};
+
+std::uint64_t low(std::int64_t value, int bits) {
+  return static_cast<std::uint64_t>(value) & (bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1);
+}
+
+int number(Kind kind) { return static_cast<int>(kind); }
+
+}  // namespace
+
+ExpectedEvents::ExpectedEvents(const Config& config, std::uint32_t unwatched)
+    : config_(config),
+      unwatched_(unwatched),
+      depth_bits_(derived::depth_bits(config)),
+      ramp_bits_(derived::ramp_bits(config)) {
+  for (auto& q : queues_) q.resize(1);
+  queues_[static_cast<std::size_t>(Stage::unit)].resize(static_cast<std::size_t>(std::max(config.units, 1)));
+  queues_[static_cast<std::size_t>(Stage::pixel)].resize(static_cast<std::size_t>(config.max_width));
+}
+
+std::deque<ExpectedEvent>& ExpectedEvents::queue(Stage stage, int unit) {
+  auto& queues = queues_[static_cast<std::size_t>(stage)];
+  const auto i = static_cast<std::size_t>(unit);
+  return queues[stage == Stage::unit || stage == Stage::pixel ? std::min(i, queues.size() - 1) : 0];
+}
+
+ExpectedEvent ExpectedEvents::event(Stage stage, int step) const {
+  ExpectedEvent e;
+  e.stage = stage;
+  e.line = y_;
+  e.token = token_;
+  e.step = step;
+  return e;
+}
+
+ExpectedEvent ExpectedEvents::no_error(int line, std::uint32_t token) {
+  ExpectedEvent e;
+  e.stage = Stage::error;
+  e.line = line;
+  e.token = token;
+  e.step = of_control;
+  e.look_at(at::error::code);
+  return e;
+}
+
+void ExpectedEvents::put(ExpectedEvent e) {
+  if (watched(e.stage)) queue(e.stage, e.unit).push_back(e);
+}
+
+ExpectedEvent& ExpectedEvents::newest(Stage stage, int unit) {
+  return watched(stage) ? queue(stage, unit).back() : nowhere_;
+}
+
+// Two words a value, the first in the lower half.
+void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool final) {
+  ExpectedEvent e = event(Stage::token, of_token);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::size_t place = at::token::words + i / 2;
+    e.expect(static_cast<int>(place), e.value[place] | std::uint64_t{words[i]} << (i % 2 * 32));
+  }
+  if (words.size() % 2 != 0) {
+    e.masked = at::token::words + static_cast<int>(words.size() / 2);
+    e.mask = 0xFFFFFFFFU;
+  }
+  e.expect(at::token::flags, (token_ == 0 ? flag::header : 0) | (final ? flag::final_word : 0));
+  put(e);
+}
+
+// A token that is refused: its words may not be there, but what token_reader says of them is known.
+void ExpectedEvents::wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words) {
+  ExpectedEvent e = event(Stage::token, of_token);
+  e.token = header ? 0 : token_ + 1;
+  const bool cut = code == ErrorCode::LAST_EARLY;
+  const bool end = !header && !words.empty() && static_cast<Kind>(words[0] & 15U) == Kind::END;
+  e.expect(at::token::flags, (header ? flag::header : 0) | (code == ErrorCode::KIND ? flag::lacking : 0) |
+                                 (cut ? flag::cut : 0) | (cut || end ? flag::final_word : 0));
+  put(e);
+}
+
+void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView& line) {
+  for (auto& queues : queues_)
+    for (auto& q : queues) q.clear();
+  failed_ = false;
+  width_ = line.width();
+  const FrameHeader h = FrameHeader::read(words);
+  height_ = h.height;
+  y_ = 0;
+  token_ = 0;
+  eol_token_.clear();
+  background_ = low(h.background, derived::rgb_bits(config_));
+  shade_ = 0;
+  resolved_ = painted_ = false;
+  bias_ = 0;
+  token_words(words, false);
+}
+
+std::uint64_t ExpectedEvents::packed(const std::array<std::uint8_t, 3>& color) const {
+  std::uint64_t all = 0;
+  for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c) all |= std::uint64_t{color[c]} << 8 * c;
+  return all;
+}
+
+void ExpectedEvents::command(int kind, int xl, int xr, int step) {
+  ExpectedEvent e = event(Stage::command, step);
+  e.expect(at::command::kind, static_cast<std::uint64_t>(kind));
+  e.expect(at::command::xl, static_cast<std::uint64_t>(xl));
+  e.expect(at::command::xr, static_cast<std::uint64_t>(xr));
+  put(e);
+}
+
+void ExpectedEvents::span_command(const Token& t, const LineView& line) {
+  const SpanToken& s = t.span;
+  command(number(t.kind), s.xl, s.xr, of_command);
+  ExpectedEvent& e = newest(Stage::command, 0);
+  using namespace at::command;
+  switch (t.kind) {
+    case Kind::OP:
+      e.expect(count, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(s.normal_class) : 0);
+      break;
+    case Kind::SP:
+    case Kind::NC:
+      e.expect(count, low(s.w, derived::dsf_bus_bits(config_)));
+      break;
+    case Kind::EV:
+      e.expect(count, line.bias());
+      break;
+    case Kind::ES:
+      e.expect(count,
+               (config_.lights > 1 ? static_cast<std::uint64_t>(t.table.light) << derived::light_at(config_) : 0) |
+                   (config_.fsf != 0 ? 0 : line.bias()));
+      break;
+    default:
+      e.expect(share, static_cast<std::uint64_t>(s.alpha));
+      break;
+  }
+  // ES and, with several lights, nothing else of its count: FSF leaves the low bits open.
+  if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP) {
+    e.expect(z, low(s.z, depth_bits_));
+    e.expect(dz, low(s.dz, depth_bits_));
+  }
+  if (t.kind != Kind::OP && t.kind != Kind::TP) return;
+  for (int c = 0; c < config_.channels; ++c) {
+    e.expect(color + c, low(s.color[static_cast<std::size_t>(c)], ramp_bits_));
+    if (config_.smooth != 0) e.expect(dcolor + c, low(s.dcolor[static_cast<std::size_t>(c)], ramp_bits_));
+  }
+}
+
+void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
+  ExpectedEvent e = event(Stage::pixel, step);
+  e.unit = e.x = x;
+  std::uint64_t counts = 0;
+  for (int l = 0; l < config_.lights && config_.count_bits > 0; ++l)
+    counts |= std::uint64_t{after.counts[static_cast<std::size_t>(l)]} << l * config_.count_bits;
+  e.expect(at::pixel::kind, static_cast<std::uint64_t>(kind));
+  e.expect(at::pixel::z, after.z);
+  e.expect(at::pixel::color, packed(after.color));
+  e.expect(at::pixel::normal_class, config_.dsf_bits > 0 ? after.normal_class : 0);
+  e.expect(at::pixel::counts, counts);
+  if (!painted_ || config_.count_bits == 0) {  // with counters nobody asks for the flags of a painted line
+    e.expect(at::pixel::dsf, painted_ ? 0 : after.dsf);
+    e.expect(at::pixel::fsf, painted_ ? 0 : after.fsf);
+  }
+  // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one
+  // that ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
+  if (clear(after) && !painted_) e.ignore(at::pixel::color);
+  put(e);
+}
+
+ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolved) const {
+  Leaving l;
+  l.color = packed(s.color);
+  l.covered = !clear(s);
+  if (config_.count_bits > 0) {
+    l.normal_class = s.normal_class;
+    for (int i = 0; i < config_.lights && s.normal_class != 0; ++i)
+      l.counts |= std::uint64_t{s.counts[static_cast<std::size_t>(i)]} << i * config_.count_bits;
+  } else if (config_.dsf_bits > 0 && !resolved) {
+    const bool shadow =
+        config_.fsf != 0 ? s.fsf != 0 : low(static_cast<std::int64_t>(s.dsf + bias_), config_.dsf_bits) != 0;
+    l.dark = shadow && s.normal_class != 0;
+  }
+  return l;
+}
+
+std::vector<ExpectedEvents::Leaving> ExpectedEvents::all_leaving(const LineView& line) const {
+  std::vector<Leaving> all;
+  all.reserve(static_cast<std::size_t>(width_));
+  for (int x = 0; x < width_; ++x) all.push_back(leaving(line.pixel(x), painted_));
+  return all;
+}
+
+void ExpectedEvents::line_event(bool blank, bool load, int step) {
+  ExpectedEvent e = event(Stage::line, step);
+  e.expect(at::line::first, y_ == 0 ? 1 : 0);
+  e.expect(at::line::blank, blank ? 1 : 0);
+  e.expect(at::line::load, load ? 1 : 0);
+  e.expect(at::line::width, static_cast<std::uint64_t>(width_));
+  e.expect(at::line::background, background_);
+  if (!blank) {
+    e.expect(at::line::painted, painted_ ? 1 : 0);
+    e.expect(at::line::shade, shade_);
+  }
+  put(e);
+}
+
+// If banked, the pixels past the width in the last group leave too. The colour of
+// a pixel without surface is nobody's until the line is painted, as in touch(): the way out takes the background.
+void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
+  const int lanes = config_.arrangement == 1 ? config_.lanes : 1;
+  const int end = (width_ + lanes - 1) / lanes * lanes;
+  for (int x = 0; x < end; ++x) {
+    ExpectedEvent e = event(Stage::exit, of_exit);
+    if (x < width_) e.x = x;
+    e.unit = x == end - 1 ? 1 : 0;
+    if (x < width_ && !blank) {
+      const Leaving& l = pixels[static_cast<std::size_t>(x)];
+      if (l.covered || painted_) e.expect(at::exit::color, l.color);
+      e.expect(at::exit::covered, l.covered ? 1 : 0);
+      e.expect(at::exit::dark, l.dark ? 1 : 0);
+      e.expect(at::exit::normal_class, config_.class_bits > 1 ? l.normal_class : 0);
+      e.expect(at::exit::counts, l.counts);
+    }
+    put(e);
+  }
+}
+
+// What line_phase says, where that is made use of.
+void ExpectedEvents::state(std::uint64_t bias, bool matters) {
+  ExpectedEvent e = event(Stage::state, of_token);
+  e.expect(at::state::bias, bias);
+  e.expect(at::state::resolved, resolved_ ? 1 : 0);
+  e.ignore(at::state::resolved);
+  if (!matters || config_.dsf_bits == 0) e.ignore(at::state::bias);
+  put(e);
+}
+
+// What frame_control does before a line's first TP.
+void ExpectedEvents::paint(const LineView& line) {
+  state(bias_, config_.count_bits == 0);
+  if (config_.count_bits > 0) newest(Stage::state, 0).look_at(at::state::resolved);
+  const bool by_loads = config_.count_bits > 0 && resolved_;
+  const std::uint64_t one = std::uint64_t{1} << config_.shade_frac;
+  const auto painted = [&](int x) {
+    PixelState s = line.pixel(x);
+    // A TP that is refused may come among volumes, and what is painted is darkened.
+    const bool dark = leaving(s, resolved_).dark;
+    for (unsigned c = 0; c < 3; ++c) {
+      if (clear(s))
+        s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
+      else if (dark)
+        s.color[c] = static_cast<std::uint8_t>((s.color[c] * (one - shade_) + one / 2) >> config_.shade_frac);
+    }
+    return s;
+  };
+  if (!by_loads) {
+    command(number(Kind::RESOLVE), 0, width_, of_command);
+    ExpectedEvent& e = newest(Stage::command, 0);
+    if (config_.dsf_bits > 0) e.expect(at::command::count, bias_);
+    if (config_.count_bits == 0 && config_.dsf_bits > 0) e.expect(at::command::share, shade_);
+    for (int c = 0; c < config_.channels; ++c)
+      e.expect(at::command::color + c, (background_ >> 8 * c & 255U) << config_.color_frac);
+    painted_ = true;
+    for (int x = 0; x < width_; ++x) touch(number(Kind::RESOLVE), x, painted(x), of_pixel);
+    return;
+  }
+  command(number(derived::kCommandOut), 0, width_, of_command);
+  line_event(false, true, of_command);
+  leave(before_resolve_, false);
+  painted_ = true;
+  for (int x = 0; x < width_; ++x) {
+    const PixelState s = painted(x);
+    ExpectedEvent e = event(Stage::load, of_load);
+    e.x = x;
+    e.expect(at::load::x, static_cast<std::uint64_t>(x));
+    e.expect(at::load::color, packed(s.color));
+    put(e);
+    command(number(derived::kCommandLoad), x, x + 1, of_load_command);
+    ExpectedEvent& c = newest(Stage::command, 0);
+    c.load = true;
+    c.x = x;
+    for (int i = 0; i < config_.channels; ++i)
+      c.expect(at::command::color + i, std::uint64_t{s.color[static_cast<std::size_t>(i)]} << config_.color_frac);
+    touch(number(derived::kCommandLoad), x, s, of_loaded);
+    newest(Stage::pixel, x).load = true;
+  }
+}
+
+void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> words,
+                            const LineView& line) {
+  token_ = index;
+  token_words(words, t.kind == Kind::END);
+  switch (t.kind) {
+    case Kind::SHADE:
+      shade_ = t.shade;
+      break;
+    case Kind::TABLE: {
+      ExpectedEvent e = event(Stage::table, of_control);
+      e.expect(at::table::normal_class, static_cast<std::uint64_t>(t.table.normal_class));
+      e.expect(at::table::light, static_cast<std::uint64_t>(t.table.light));
+      for (int c = 0; c < 3; ++c)  // channels that there are not are told as 0
+        e.expect(at::table::share + c, c < config_.channels ? t.table.share[static_cast<std::size_t>(c)] : 0);
+      put(e);
+      break;
+    }
+    case Kind::FACE: {
+      const SegmentToken& f = t.segment;
+      ExpectedEvent e = event(Stage::face, of_control);
+      e.unit = f.unit;
+      e.expect(at::face::face, static_cast<std::uint64_t>(f.face));
+      e.expect(at::face::index, static_cast<std::uint64_t>(f.index));
+      e.expect(at::face::normal_class, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0);
+      e.expect(at::face::dz, low(f.dz, depth_bits_));
+      std::uint64_t color = 0;
+      for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
+        color |= static_cast<std::uint64_t>(f.color[c]) << 8 * c;
+      e.expect(at::face::color, color);
+      put(e);
+      break;
+    }
+    case Kind::SEG: {
+      if (!line.segment_taken()) break;
+      const SegmentToken& s = t.segment;
+      ExpectedEvent e = event(Stage::segment, of_control);
+      e.unit = s.unit;
+      if (s.face != (1 << config_.face_bits) - 1)
+        e.expect(at::segment::z, low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_));
+      e.expect(at::segment::dx, static_cast<std::uint64_t>(s.dx));
+      e.expect(at::segment::face, static_cast<std::uint64_t>(s.face));
+      put(e);
+      break;
+    }
+    case Kind::TREE:
+      put(event(Stage::claim, of_control));
+      newest(Stage::claim, 0).look_at(0);  // it has no values: that it comes matters
+      break;
+    case Kind::RESOLVE:
+      bias_ = line.bias();
+      before_resolve_ = all_leaving(line);
+      resolved_ = true;
+      break;
+    case Kind::TP:
+      if (!resolved_) bias_ = line.bias();
+      if (!painted_) paint(line);
+      [[fallthrough]];
+    case Kind::OP:
+    case Kind::SP:
+    case Kind::NC:
+    case Kind::EV:
+    case Kind::ES:
+      if (t.kind == Kind::EV || t.kind == Kind::ES) state(line.bias(), t.kind == Kind::EV || config_.fsf == 0);
+      if (t.span.xl < t.span.xr) span_command(t, line);
+      break;
+    case Kind::EOL:
+      if (!resolved_) bias_ = line.bias();
+      state(bias_, !painted_);
+      end_line(&line);
+      break;
+    default:
+      break;
+  }
+}
+
+// `line`: nullptr where it is blank.
+void ExpectedEvents::end_line(const LineView* line) {
+  command(number(Kind::EOL), 0, width_, of_command);
+  if (line != nullptr && config_.dsf_bits > 0) {
+    ExpectedEvent& e = newest(Stage::command, 0);
+    e.expect(at::command::count, painted_ ? 0 : bias_);
+  }
+  line_event(line == nullptr, false, of_command);
+  if (line == nullptr)
+    leave({}, true);
+  else
+    leave(resolved_ && !painted_ ? before_resolve_ : all_leaving(*line), false);
+  eol_token_.push_back(token_);
+  ++y_;
+  resolved_ = painted_ = false;
+  bias_ = 0;
+}
+
+void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineView& line) {
+  const SpanToken& s = t.span;
+  const int kind = number(t.kind);
+  const auto came = [&](int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color) {
+    ExpectedEvent& e = newest(Stage::pixel, x);
+    if (z) e.expect(at::pixel::z_came, *z);
+    if (color) e.expect(at::pixel::color_came, *color);
+  };
+  switch (t.kind) {
+    case Kind::TREE: {
+      command(kind, 0, width_, of_command);
+      const std::uint64_t clear = (std::uint64_t{1} << config_.z_bits) - 1;
+      for (int x = 0; x < width_; ++x) {
+        for (int u = 0; u < config_.units; ++u) {
+          const auto p = line.unit_pixel(u, x);
+          ExpectedEvent e = event(Stage::unit, of_unit);
+          e.unit = u;
+          e.x = x;
+          e.expect(at::unit::z, p.z);
+          if (p.z != clear) {
+            e.expect(at::unit::index, p.index);
+            e.expect(at::unit::color, packed(p.color));
+            e.expect(at::unit::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
+          }
+          put(e);
+        }
+        const auto p = line.tree_pixel(x);
+        ExpectedEvent e = event(Stage::tree, of_tree);
+        e.x = x;
+        e.expect(at::tree::z, p.z);
+        if (p.z != clear) {
+          e.expect(at::tree::color, packed(p.color));
+          e.expect(at::tree::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
+        }
+        put(e);
+        touch(kind, x, line.pixel(x), of_pixel);
+        came(x, p.z, p.z == clear ? std::nullopt : std::optional(packed(p.color)));
+      }
+      break;
+    }
+    case Kind::OP:
+    case Kind::TP:
+    case Kind::SP:
+    case Kind::NC:
+    case Kind::EV:
+    case Kind::ES:
+      for (int x = s.xl; x < s.xr; ++x) {
+        touch(kind, x, line.pixel(x), of_pixel);
+        const bool depth = t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP;
+        const bool colored = t.kind == Kind::OP || t.kind == Kind::TP;
+        came(x, depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
+             colored ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
+      }
+      break;
+    default:
+      break;
+  }
+}
+
+void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) {
+  failed_ = true;
+  if (status.width == 0) {  // nothing of the frame before is left
+    token_ = 0;
+    y_ = 0;
+  }
+  if (status.error != ErrorCode::LAST_LATE) wrong_token(status.error, status.width == 0, words);
+  ExpectedEvent e = event(Stage::error, of_control);
+  // Where it shows: the token that is to blame may have come before.
+  e.token = status.width == 0 ? 0 : status.error == ErrorCode::LAST_LATE ? token_ : token_ + 1;
+  failed_at_ = e.token;
+  e.expect(at::error::code, static_cast<std::uint64_t>(status.error));
+  e.expect(at::error::frame, status.frame);
+  e.expect(at::error::line, status.line);
+  e.expect(at::error::token, status.token);
+  e.expect(at::error::unit, status.unit);
+  put(e);
+  if (status.width == 0) return;
+  token_ = failed_at_;
+  // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line; not if it is
+  // cut.
+  if (config_.translucency != 0 && status.error != ErrorCode::LAST_EARLY && !words.empty() && !painted_ &&
+      (words[0] & 15U) == static_cast<std::uint32_t>(Kind::TP)) {
+    if (!resolved_) bias_ = line.bias();
+    paint(line);
+  }
+  // The line at hand and all others leave as background.
+  while (y_ < height_) end_line(nullptr);
+}
+
+void ExpectedEvents::ended() {
+  put(event(Stage::end, of_end));
+  newest(Stage::end, 0).look_at(0);
+}
+
+void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
+  const auto channels = static_cast<std::size_t>(config_.channels);
+  for (int x = 0; x < width_; ++x) {
+    ExpectedEvent e = event(Stage::out, of_out);
+    e.line = y;
+    e.token = eol_token_[static_cast<std::size_t>(y)];
+    e.x = x;
+    std::uint64_t color = 0;
+    for (std::size_t c = 0; c < channels; ++c)
+      color |= std::uint64_t{pixels[static_cast<std::size_t>(x) * channels + c]} << 8 * c;
+    e.expect(at::out::color, color);
+    e.expect(at::out::tuser, x == 0 && y == 0 ? 1 : 0);
+    e.expect(at::out::tlast, x + 1 == width_ ? 1 : 0);
+    put(e);
+  }
+}
+
+}  // namespace kage::cosim

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The events that the RTL's stages must give for a frame, made of what the golden core does.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "cosim/diverge/stages.hpp"
+#include "kage/core.hpp"
+#include "kage/stream.hpp"
+
+namespace kage::cosim {
+
+/// One event, and where in the frame it belongs.
+struct ExpectedEvent {
+  Stage stage{};
+  int unit = 0;             ///< an expansion unit's number, a pixel's x; of a pixel that leaves, 1: its line's last
+  int line = 0;             ///< lines that had ended
+  std::uint32_t token = 0;  ///< index of the token it comes of
+  int step = 0;             ///< order among the events of a token: those of a later step follow from earlier ones
+  int x = -1;               ///< the pixel, where it is of one
+  bool load = false;        ///< a command, or what it does, that brings a colour back
+  std::uint32_t cares = 0;  ///< bit i: value i matters
+  std::array<std::uint64_t, KAGE_RTL_EVENT_VALUES> value{};
+  /// Value i is to be this, or matters as it is, or does not matter.
+  void expect(int i, std::uint64_t v) {
+    value[static_cast<std::size_t>(i)] = v;
+    look_at(i);
+  }
+  void look_at(int i) { cares |= 1U << i; }
+  void ignore(int i) { cares &= ~(1U << i); }
+
+  int masked = -1;  ///< of this value only the bits of `mask` matter
+  std::uint64_t mask = ~std::uint64_t{0};
+};
+
+/// Feeds on a golden core: events gather in queues as it works. One queue a stage, but one a unit and one a pixel's
+/// column, because the RTL works on those beside each other.
+class ExpectedEvents : public CoreObserver {
+ public:
+  /// Without those of stages that nothing watches: a bit for each, RtlCore::unwatched().
+  explicit ExpectedEvents(const Config& config, std::uint32_t unwatched = 0);
+
+  /// Its queue; empty if nothing is expected. `unit` as in the event.
+  std::deque<ExpectedEvent>& queue(Stage stage, int unit);
+
+  /// Calls `each` with every queue that is not empty.
+  template <class Each>
+  void for_each(Each each) {
+    for (auto& queues : queues_)
+      for (auto& q : queues)
+        if (!q.empty()) each(q);
+  }
+
+  /// In place of an error that should not be, found at this token.
+  [[nodiscard]] static ExpectedEvent no_error(int line, std::uint32_t token);
+
+  /// After an error the tokens that are dropped, and what the lost line would have been, are nobody's concern.
+  [[nodiscard]] bool failed() const { return failed_; }
+
+  /// The token at which the error shows; none before it is dropped.
+  [[nodiscard]] std::uint32_t failed_at() const { return failed_at_; }
+
+  /// The golden core has ended the frame.
+  void ended();
+
+  /// A line has left the golden core.
+  void line(int y, std::span<const std::uint8_t> pixels);
+
+  void header(std::span<const std::uint32_t> words, const LineView& line) override;
+  void before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,
+              const LineView& line) override;
+  void after(std::uint32_t index, const Token& token, const LineView& line) override;
+  void failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) override;
+
+ private:
+  struct Leaving {
+    std::uint64_t color = 0;
+    bool covered = false;
+    bool dark = false;
+    std::uint64_t normal_class = 0;
+    std::uint64_t counts = 0;
+  };
+
+  ExpectedEvent event(Stage stage, int step) const;
+  void put(ExpectedEvent e);
+  [[nodiscard]] bool watched(Stage stage) const { return (unwatched_ >> static_cast<unsigned>(stage) & 1U) == 0; }
+  /// What was put() last into a queue, for more to be said of it; of a stage that nothing watches, something to write
+  /// to.
+  ExpectedEvent& newest(Stage stage, int unit);
+  void token_words(std::span<const std::uint32_t> words, bool final);
+  void wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words);
+  void command(int kind, int xl, int xr, int step);
+  void span_command(const Token& t, const LineView& line);
+  void touch(int kind, int x, const PixelState& after, int step);
+  void state(std::uint64_t bias, bool matters);
+  void paint(const LineView& line);
+  void end_line(const LineView* line);
+  void line_event(bool blank, bool load, int step);
+  void leave(const std::vector<Leaving>& pixels, bool blank);
+  [[nodiscard]] Leaving leaving(const PixelState& s, bool resolved) const;
+  [[nodiscard]] std::vector<Leaving> all_leaving(const LineView& line) const;
+  [[nodiscard]] bool clear(const PixelState& s) const { return s.z == (1U << config_.z_bits) - 1U; }
+  [[nodiscard]] std::uint64_t packed(const std::array<std::uint8_t, 3>& color) const;
+
+  Config config_;
+  std::uint32_t unwatched_;
+  ExpectedEvent nowhere_;
+  int depth_bits_;
+  int ramp_bits_;
+  std::array<std::vector<std::deque<ExpectedEvent>>, kStages> queues_;
+
+  // Of the frame:
+  bool failed_ = false;
+  std::uint32_t failed_at_ = 0;
+  int width_ = 0;
+  int height_ = 0;
+  int y_ = 0;                // lines that have ended
+  std::uint32_t token_ = 0;  // the one at hand
+  std::uint64_t background_ = 0;
+  std::uint64_t shade_ = 0;
+
+  // Of the line:
+  bool resolved_ = false;
+  bool painted_ = false;
+  std::uint64_t bias_ = 0;                // of the last that had one
+  std::vector<Leaving> before_resolve_;   // what was there when RESOLVE came
+  std::vector<std::uint32_t> eol_token_;  // of each line
+};
+
+}  // namespace kage::cosim

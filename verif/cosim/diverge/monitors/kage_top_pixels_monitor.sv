@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pixels that leave the core of pixels, come back to it, and go out, as events (rtl/defs/stages.yaml).
+// Bound into kage_top, so the netlist never sees it.
+//
+// Ports have the names of kage_top's nets, which `.*` connects.
+`default_nettype none
+
+module kage_top_pixels_monitor #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    parameter int EXIT_LANES = 4
+) (
+    input wire logic                           clk_i,
+    input wire logic                           rst_ni,
+    input wire logic                           exit_free,
+    input wire logic                           exit_take,
+    input wire logic                           exit_valid,
+    input wire logic                           exit_last,
+    input wire logic [EXIT_LANES*ExitBits-1:0] exit_data,
+    input wire logic                           load_valid,
+    input wire logic                           load_ready,
+    input wire logic [             X_BITS-1:0] load_x,
+    input wire logic [            RgbBits-1:0] load_color,
+    input wire logic                           m_axis_tvalid_o,
+    input wire logic                           m_axis_tready_i,
+    input wire logic [            RgbBits-1:0] m_axis_tdata_o,
+    input wire logic                           m_axis_tuser_o,
+    input wire logic                           m_axis_tlast_o
+);
+  `include "kage_trace.svh"
+
+  localparam int CountersBits = COUNT_BITS > 0 ? TallyBits : 1;
+  function automatic void trace_leaving(input logic last, input logic [ExitBits-1:0] pixel);
+    trace_exit(32'(last), 64'(pixel[RgbBits-1:0]), 64'(pixel[RgbBits]),
+               DSF_BITS > 0 && COUNT_BITS == 0 ? 64'(pixel[ExitBits-1]) : 64'd0,
+               COUNT_BITS > 0 && CLASS_BITS > 1 ? 64'(pixel[ExitClassAt+:CLASS_BITS]) : 64'd0,
+               COUNT_BITS > 0 ? 64'(pixel[ExitCountAt+:CountersBits]) : 64'd0);
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      trace_module(PartPixels, 512'(exit_take && exit_free), 512'(exit_take));
+      if (exit_valid) begin
+        for (int l = 0; l < EXIT_LANES; l++) begin
+          trace_leaving(exit_last && l == EXIT_LANES - 1, exit_data[l*ExitBits+:ExitBits]);
+        end
+      end
+      if (load_valid && load_ready) begin
+        trace_load(0, 64'(load_x), 64'(load_color));
+      end
+      if (m_axis_tvalid_o && m_axis_tready_i) begin
+        trace_out(0, 64'(m_axis_tdata_o), 64'(m_axis_tuser_o), 64'(m_axis_tlast_o));
+      end
+    end
+  end
+
+endmodule
+
+bind kage_top kage_top_pixels_monitor #(
+    `include "generated/kage_pixel_param_map.svh"
+    .EXIT_LANES(ExitLanes)
+) u_pixels_monitor (.*);
+
+`default_nettype wire

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events (rtl/defs/stages.yaml).
+// Bound into kage_top, so the netlist never sees it.
+//
+// Ports have the names of kage_top's nets, which `.*` connects.
+`default_nettype none
+
+module kage_top_tokens_monitor #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    parameter int FRONT_WORDS = 5
+) (
+    input wire logic                      clk_i,
+    input wire logic                      rst_ni,
+    input wire logic                      token_valid,
+    input wire logic                      token_ready,
+    input wire logic [FRONT_WORDS*32-1:0] token,
+    input wire logic                      token_header,
+    input wire logic                      token_lacking,
+    input wire logic                      token_cut,
+    input wire logic                      token_final,
+    input wire logic                      token_at_last,
+    input wire logic                      table_valid,
+    input wire logic [    CLASS_BITS-1:0] table_class,
+    input wire logic [     LightBits-1:0] table_light,
+    input wire logic [EntryShareBits-1:0] table_share,
+    input wire logic                      frame_end,
+    input wire logic                      error,
+    input wire logic [               3:0] error_code,
+    input wire logic [              31:0] error_frame,
+    input wire logic [              15:0] error_line,
+    input wire logic [              31:0] error_token,
+    input wire logic [               5:0] error_unit
+);
+  `include "kage_trace.svh"
+
+  // A channel of a table's share, as far as there are so many.
+  function automatic logic [63:0] share(input logic [EntryShareBits-1:0] shares, input int channel);
+    share = channel < CHANNELS ? 64'(shares[(channel<CHANNELS?channel : 0)*(SHADE_FRAC+1)+:SHADE_FRAC+1]) : '0;
+  endfunction
+
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      if (token_valid && token_ready) begin
+        trace_token(0, 704'(token), 64'(token_at_last), 64'({token_header, token_lacking, token_cut, token_final}));
+      end
+      if (table_valid) begin
+        trace_table(0, 64'(table_class), 64'(table_light), {
+                    share(table_share, 2), share(table_share, 1), share(table_share, 0)});
+      end
+      if (error) begin
+        trace_error(0, 64'(error_code), 64'(error_frame), 64'(error_line), 64'(error_token), 64'(error_unit));
+      end
+      if (frame_end) trace_end(0);
+    end
+  end
+
+endmodule
+
+bind kage_top kage_top_tokens_monitor #(
+    `include "generated/kage_pixel_param_map.svh"
+    .FRONT_WORDS(FrontWords)
+) u_tokens_monitor (.*);
+
+`default_nettype wire

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a processor.
+`default_nettype none
+
+module pixel_systolic_monitor #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    parameter int PIXELS = 64,
+    parameter int PIXEL_BITS = 32,
+    parameter int CLASS_AT = 0,
+    parameter int DSF_AT = 0,
+    parameter int FSF_AT = 0,
+    parameter int COUNT_AT = 0
+) (
+    input wire logic                         clk_i,
+    input wire logic                         rst_ni,
+    input wire logic [           PIXELS-1:0] hit,
+    input wire logic [         PIXELS*4-1:0] kind_q,
+    input wire logic [PIXELS*PIXEL_BITS-1:0] pixel_d
+);
+  `include "kage_trace.svh"
+  `include "generated/kage_layout.svh"
+  `include "kage_trace_pixel.svh"
+
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      for (int i = 0; i < PIXELS; i++) begin
+        if (hit[i] && kind_q[i*4+:4] != KindEol && kind_q[i*4+:4] != CmdOut) begin
+          trace_pixel_state(i, kind_q[i*4+:4], '1, '1, pixel_d[i*PIXEL_BITS+:PIXEL_BITS]);
+        end
+      end
+    end
+  end
+
+endmodule
+
+bind pixel_systolic pixel_systolic_monitor #(
+    `include "generated/kage_pixel_param_map.svh"
+    .PIXELS(N),
+    .PIXEL_BITS(PixelBits),
+    .CLASS_AT(PixelClassAt),
+    .DSF_AT(PixelDsfAt),
+    .FSF_AT(PixelFsfAt),
+    .COUNT_AT(PixelCountAt)
+) u_monitor (.*);
+
+`default_nettype wire

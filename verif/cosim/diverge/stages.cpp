@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/diverge/stages.hpp"
+
+#include <fmt/format.h>
+
+#include "kage/defs.hpp"
+#include "kage/derived.hpp"
+
+namespace kage::cosim {
+namespace {
+
+const ValueInfo& info(Stage stage, int index) {
+  return kStageInfo[static_cast<std::size_t>(stage)].values[static_cast<std::size_t>(index)];
+}
+
+std::string kind_text(std::uint64_t kind) {
+  const auto is = [kind](Kind command) { return kind == static_cast<std::uint64_t>(command); };
+  if (is(derived::kCommandLoad)) return "LOAD";
+  if (is(derived::kCommandOut)) return "OUT";
+  return std::string(kKindNames[kind % kKindNames.size()]);
+}
+
+}  // namespace
+
+std::string_view describe(Stage stage) { return kStageInfo[static_cast<std::size_t>(stage)].text; }
+
+std::string_view value_name(Stage stage, int index) {
+  const std::string_view name = info(stage, index).name;
+  return name.empty() ? "words" : name;
+}
+
+std::string value_text(const Config& config, Stage stage, int index, std::uint64_t value) {
+  switch (info(stage, index).as) {
+    case ValueText::kind:
+      return kind_text(value);
+    case ValueText::flags:
+      return fmt::format("{:04b}", value);
+    case ValueText::words:
+      return fmt::format("{:#018x}", value);
+    case ValueText::ramp: {
+      const int spare = 64 - derived::depth_bits(config);
+      const auto fixed = static_cast<std::int64_t>(value << spare) >> spare;
+      return fmt::format("{}", static_cast<double>(fixed) / static_cast<double>(std::int64_t{1} << config.z_frac));
+    }
+    case ValueText::color:
+      if (config.channels == 1) return fmt::format("{}", value & 255);
+      return fmt::format("{},{},{}", value & 255, value >> 8 & 255, value >> 16 & 255);
+    case ValueText::depth:
+      if (value == (std::uint64_t{1} << config.z_bits) - 1) return "clear";
+      break;
+    case ValueText::number:
+      break;
+  }
+  return fmt::format("{}", value);
+}
+
+}  // namespace kage::cosim

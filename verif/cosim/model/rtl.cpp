@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/model/rtl.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cosim/stopwatch.hpp"
+#include "kage/core.hpp"
+#include "kage/error.hpp"
+#include "kage/registers.h"
+#include "number/mixed.hpp"
+
+namespace kage::cosim {
+namespace {
+
+constexpr std::uint32_t kAlways = 65536;
+
+std::uint64_t initial_seed(const RtlOptions& options) {
+  return options.initial == 0 ? options.seed : mixed(options.seed, ~options.initial);
+}
+
+/// The library, closed with the object.
+class Library {
+ public:
+  explicit Library(const std::filesystem::path& path) : handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
+    if (handle_ == nullptr) throw Error(fmt::format("{}: cannot be loaded: {}", path.string(), dlerror()));
+  }
+  ~Library() { dlclose(handle_); }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+  [[nodiscard]] const kage_rtl_table* table() const {
+    const auto function = reinterpret_cast<kage_rtl_api_function>(dlsym(handle_, KAGE_RTL_API_SYMBOL));
+    return function == nullptr ? nullptr : function();
+  }
+
+ private:
+  void* handle_;
+};
+
+class Rtl : public RtlCore {
+ public:
+  Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
+      : config_(config), options_(options), library_(path), table_(library_.table()), marker_(config) {
+    if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
+      throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
+    for (const ParamInfo& p : kParams)
+      if (built_with(p.name) != config.*(p.member))
+        throw Error(fmt::format("{}: {} is not that of the configuration", path.string(), p.name));
+    model_ = table_->create(initial_seed(options));
+    if (model_ == nullptr) throw Error(fmt::format("{}: out of memory", path.string()));
+    table_->assertions(model_, options.assertions ? 1 : 0);
+    if (options_.text) table_->on_text(model_, take_text, this);
+    if (options.mutant != 0) {
+      if (table_->select(model_, options.mutant) != 0)
+        throw Error(fmt::format("{}: has no mutant {}", path.string(), options.mutant));
+      table_->reset(model_, 3);
+    }
+    begin(0);
+  }
+  ~Rtl() override { table_->destroy(model_); }
+
+  [[nodiscard]] int channels() const override { return config_.channels; }
+
+  void begin(int number) override {
+    const auto share = [](int stopped) { return kAlways - kAlways * static_cast<std::uint32_t>(stopped) / 100; };
+    table_->stalls(model_, share(options_.idle_percent), share(options_.backpressure_percent),
+                   mixed(options_.seed, static_cast<std::uint64_t>(number)));
+    number_ = number;
+  }
+
+  void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
+    Stopwatch watch(seconds_);
+    open();
+    if (stuck_) return;  // it takes nothing more
+    held_.insert(held_.end(), words.begin(), words.end());
+    marker_.mark(words, marks_);
+    announce();
+    if (!announced_ || held_.empty()) return;
+    // The last beat waits here: TLAST may belong to it.
+    const auto beat = static_cast<std::size_t>(config_.beat_words);
+    const std::size_t n = (held_.size() - 1) / beat * beat;
+    if (n == 0) return;
+    submit(n, false);
+    const LineSink outside = watch.outside(sink);
+    const int why = in_slices([&] { return table_->run_dry(model_, slice()); }, outside);
+    stuck_ = checked(why) == KAGE_RTL_STUCK;
+  }
+
+  [[nodiscard]] bool stuck() const override { return open_ && stuck_; }
+  [[nodiscard]] bool monitored() const override { return table_->monitored != 0; }
+  [[nodiscard]] std::string missing_monitors() const override { return table_->missing_monitors; }
+  [[nodiscard]] std::uint32_t unwatched() const override { return table_->unwatched; }
+  void record(bool on, std::function<void()> often) override {
+    recording_ = on;
+    table_->record(model_, on ? 1 : 0);
+    often_ = std::move(often);
+  }
+  std::span<const kage_rtl_event> take_events() override {
+    std::uint64_t count = 0;
+    const kage_rtl_event* events = table_->events(model_, &count);
+    events_.assign(events, events + count);
+    table_->clear_events(model_);
+    return events_;
+  }
+  Handshakes handshakes() override { return Handshakes(static_cast<std::uint32_t>(table_->handshakes(model_))); }
+  std::uint64_t clock() override { return table_->clock(model_); }
+  void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) override {
+    if (table_->wave(model_, path.c_str(), first, last) != 0) throw Error("a model that writes no waveforms");
+  }
+  int end_wave() override { return table_->end_wave(model_); }
+
+  int read_register(std::uint32_t address, std::uint32_t& value) override {
+    return table_->reg_read(model_, address, &value);
+  }
+  int write_register(std::uint32_t address, std::uint32_t value) override {
+    return table_->reg_write(model_, address, value);
+  }
+  int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) override {
+    return table_->reg_write_late(model_, address, value, strobes);
+  }
+  [[nodiscard]] bool interrupt() const override { return table_->irq(model_) != 0; }
+  void pass(std::uint64_t clocks) override { (void)checked(table_->run(model_, kForever, clocks)); }
+
+  FrameEnd finish(const LineSink& sink) override {
+    FrameEnd end;
+    {
+      Stopwatch watch(seconds_);
+      open();
+      finish(end, watch.outside(sink));
+    }
+    end.seconds = std::exchange(seconds_, 0);
+    open_ = false;
+    return end;
+  }
+
+ private:
+  static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t kMostClocks = 50'000'000;  // of a small frame
+
+  [[nodiscard]] int checked(int why) const {
+    const std::string failure = table_->failure(model_);
+    if (!failure.empty()) throw AssertionError("rtl/" + failure);
+    if (why == KAGE_RTL_ASSERT) throw Error("the RTL ends the simulation by $finish");
+    return why;
+  }
+
+  /// Called by the driver.
+  static void take_text(void* rtl, const char* piece) {
+    const auto* self = static_cast<const Rtl*>(rtl);
+    self->options_.text(self->number_, piece);
+  }
+
+  /// The first words of a frame are coming.
+  void open() {
+    if (open_) return;
+    open_ = true;
+    if (broken_) table_->reset(model_, 2);
+    if (broken_) errors_ = frames_ = 0;
+    broken_ = stuck_ = announced_ = false;
+    width_ = height_ = 0;
+    left_ = 0;
+    y_ = 0;
+    line_.clear();
+    held_.clear();
+    marks_.clear();
+    marker_.start();
+    table_->clear_pixels(model_);
+    if (options_.prelude) prelude();
+    table_->clear_stats(model_);
+  }
+
+  /// What RtlOptions::prelude says of the frame at hand.
+  void prelude() {
+    ahead_ = 0;
+    earlier_.clear();
+    earlier_wrong_ = 0;
+    const std::uint64_t chance = mixed(mixed(options_.seed, static_cast<std::uint64_t>(number_)));
+    constexpr std::uint64_t kOf = 8;
+    if (chance % kOf < 2)
+      cut(chance / kOf);
+    else if (chance % kOf < 4)
+      follow();
+  }
+
+  /// A frame comes whole, and is announced to the model.
+  std::vector<std::uint32_t> submit_earlier() {
+    std::vector<std::uint32_t> words = options_.prelude(number_);
+    const FrameHeader h = FrameHeader::read(words);
+    table_->expect(model_, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
+    table_->submit(model_, words.data(), words.size(), 1);
+    return words;
+  }
+
+  /// A reset within a frame, or behind it.
+  void cut(std::uint64_t chance) {
+    table_->record(model_, 0);
+    (void)submit_earlier();
+    (void)checked(table_->run(model_, kForever, chance % 2048));
+    table_->reset(model_, 1 + static_cast<std::uint32_t>(chance / 2048 % 3));
+    table_->clear_pixels(model_);
+    table_->record(model_, recording_ ? 1 : 0);
+    errors_ = frames_ = 0;
+  }
+
+  /// A frame ahead of the one at hand, which does not wait for its end.
+  void follow() {
+    if (recording_) table_->record(model_, 0);
+    const std::vector<std::uint32_t> words = submit_earlier();
+    (void)GoldenCore(config_).frame(words, [&](int, std::span<const std::uint8_t> line) {
+      earlier_.insert(earlier_.end(), line.begin(), line.end());
+    });
+    ahead_ = recording_ ? 0 : 1;
+    if (!recording_) return;
+    (void)checked(table_->run(model_, earlier_.size() / static_cast<std::size_t>(config_.channels), kMostClocks));
+    (void)wait_for_end();
+    table_->clear_pixels(model_);
+    earlier_.clear();
+    table_->record(model_, 1);
+  }
+
+  /// The first of what is held.
+  void submit(std::size_t words, bool last) {
+    const auto n = static_cast<std::ptrdiff_t>(words);
+    table_->mark(model_, marks_.data(), words);
+    table_->submit(model_, held_.data(), words, last ? 1 : 0);
+    held_.erase(held_.begin(), held_.begin() + n);
+    marks_.erase(marks_.begin(), marks_.begin() + n);
+  }
+
+  /// Once the header is there whole, the model is told of the frame's size.
+  void announce() {
+    if (announced_ || held_.size() < kHeaderWords) return;
+    announced_ = true;
+    const FrameHeader h = FrameHeader::read(held_);
+    width_ = static_cast<std::uint32_t>(h.width);
+    height_ = static_cast<std::uint32_t>(h.height);
+    left_ = std::uint64_t{width_} * height_;
+    table_->expect(model_, width_, height_);
+  }
+
+  void finish(FrameEnd& end, const LineSink& sink) {
+    // A frame may end within its header: cores read the rest of its last beat as zeros, and the header may be whole
+    // then.
+    if (!announced_) {
+      const auto beat = static_cast<std::size_t>(config_.beat_words);
+      held_.resize((held_.size() + beat - 1) / beat * beat, 0);
+      marks_.resize(held_.size(), 0);
+      announce();
+    }
+    const bool any = width_ != 0 && height_ != 0;
+    int why = KAGE_RTL_STUCK;
+    if (!stuck_) {
+      submit(held_.size(), true);
+      why = in_slices([&] { return table_->run(model_, any ? earlier_pixels() + left_ : kForever, slice()); }, sink);
+    }
+    (void)checked(why);
+    std::string trouble;
+    if (why == KAGE_RTL_STUCK)
+      trouble = "the core hangs, with input waiting";
+    else if (why == KAGE_RTL_PIXELS)
+      trouble = wait_for_end();
+    else if (any)
+      trouble = "the core went idle";
+    end.status = status();
+    take_pixels(sink);
+    (void)checked(why);  // the core works on while registers are read
+    broken_ = why != KAGE_RTL_PIXELS || !trouble.empty();
+
+    const bool header_error = end.status.error == ErrorCode::HEADER || end.status.error == ErrorCode::SIZE ||
+                              end.status.error == ErrorCode::PARAMS ||
+                              (end.status.error == ErrorCode::LAST_EARLY && end.status.token == 0);
+    if (header_error && why != KAGE_RTL_STUCK) trouble.clear();
+    if (!line_.empty()) sink(static_cast<int>(y_), line_);
+    if (!header_error) {
+      end.status.width = static_cast<int>(width_);
+      end.status.height = static_cast<int>(height_);
+    }
+
+    kage_rtl_stats stats{};
+    table_->stats(model_, &stats);
+    if (trouble.empty() && (earlier_wrong_ != 0 || !earlier_.empty())) trouble = kAheadWrong;
+    end.misconduct = misconduct(stats, trouble);
+    end.cycles = stats.cycles;
+    static_assert(std::tuple_size_v<PhaseStalls> == KAGE_RTL_MARKS);
+    end.stalls = {};
+    for (std::size_t i = 0; i < KAGE_RTL_MARKS; ++i) {
+      end.phase_stalls[i] = {stats.starved[i], stats.blocked[i]};
+      end.stalls.starved += stats.starved[i];
+      end.stalls.blocked += stats.blocked[i];
+    }
+  }
+
+  [[nodiscard]] int built_with(std::string_view name) const {
+    for (std::uint32_t i = 0; i < table_->param_count; ++i)
+      if (name == table_->param_names[i]) return table_->param_values[i];
+    return -1;
+  }
+
+  std::uint32_t read(std::uint32_t address) {
+    std::uint32_t value = 0;
+    const int answer = table_->reg_read(model_, address, &value);
+    (void)checked(KAGE_RTL_LIMIT);
+    if (answer != 0) throw Error(fmt::format("RTL model: register {:#04x} does not answer", address));
+    return value;
+  }
+
+  /// The last pixel leaves before END is read: wait until the core has counted the frame.
+  std::string wait_for_end() {
+    for (int tries = 0; tries < 10000; ++tries)
+      if (read(KAGE_REG_FRAMES) == frames_ + 1 + ahead_) {
+        frames_ += 1 + std::exchange(ahead_, 0);
+        return {};
+      }
+    return "the frame does not end";
+  }
+
+  FrameStatus status() {
+    FrameStatus s;
+    const std::uint32_t errors = read(KAGE_REG_ERRORS);
+    if (errors == errors_) return s;
+    errors_ = errors;
+    const std::uint32_t error = read(KAGE_REG_ERROR);
+    s.error = static_cast<ErrorCode>(error & 15);
+    s.line = error >> 16;
+    s.frame = read(KAGE_REG_ERROR_FRAME);
+    s.token = read(KAGE_REG_ERROR_TOKEN);
+    s.unit = read(KAGE_REG_ERROR_UNIT);
+    return s;
+  }
+
+  /// Clocks after which events are handed over. The model sees that a core has come to rest after 8 MAX_WIDTH + 4096
+  /// clocks with output ready: the slice has twice as many.
+  [[nodiscard]] std::uint64_t slice() const {
+    const auto rest = 8 * static_cast<std::uint64_t>(config_.max_width) + 4096;
+    return often_ ? 2 * rest * 100 / (100 - static_cast<unsigned>(options_.backpressure_percent)) : kForever;
+  }
+
+  template <class Run>
+  int in_slices(Run run, const LineSink& sink) {
+    while (true) {
+      const int why = run();
+      take_pixels(sink);
+      if (why != KAGE_RTL_LIMIT) return why;
+      if (often_) often_();
+    }
+  }
+
+  /// Pixels to come of the frame ahead.
+  [[nodiscard]] std::uint64_t earlier_pixels() const {
+    return earlier_.size() / static_cast<std::size_t>(config_.channels);
+  }
+
+  /// Those of a frame ahead are looked at here. Whole lines go to the sink, the beginning of another stays. Pixels past
+  /// the frame's size are counted by the model.
+  void take_pixels(const LineSink& sink) {
+    std::uint64_t count = 0;
+    const std::uint8_t* pixels = table_->pixels(model_, &count);
+    const auto channels = static_cast<std::size_t>(config_.channels);
+    const std::size_t line_bytes = std::size_t{width_} * channels;
+    const auto earlier = static_cast<std::size_t>(std::min(count, earlier_pixels())) * channels;
+    if (!std::equal(pixels, pixels + earlier, earlier_.begin())) ++earlier_wrong_;
+    earlier_.erase(earlier_.begin(), earlier_.begin() + static_cast<std::ptrdiff_t>(earlier));
+    pixels += earlier;
+    count = std::min(count - earlier / channels, left_);
+    left_ -= count;
+    std::span<const std::uint8_t> bytes(pixels, static_cast<std::size_t>(count) * channels);
+    while (!bytes.empty()) {
+      const auto part = bytes.first(std::min(bytes.size(), line_bytes - line_.size()));
+      bytes = bytes.subspan(part.size());
+      if (part.size() == line_bytes) {
+        sink(static_cast<int>(y_++), part);
+        continue;
+      }
+      line_.insert(line_.end(), part.begin(), part.end());
+      if (line_.size() < line_bytes) continue;
+      sink(static_cast<int>(y_++), line_);
+      line_.clear();
+    }
+    table_->clear_pixels(model_);
+  }
+
+  static std::string misconduct(const kage_rtl_stats& stats, const std::string& trouble) {
+    std::string text = trouble;
+    const auto add = [&](std::uint64_t n, const char* what) {
+      if (n != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
+    };
+    add(stats.user_errors, "pixels with a wrong TUSER");
+    add(stats.last_errors, "pixels with a wrong TLAST");
+    add(stats.extra_pixels, "pixels too many");
+    add(stats.unstable, "clocks in which a waiting pixel changed");
+    return text;
+  }
+
+  Config config_;
+  RtlOptions options_;
+  Library library_;
+  const kage_rtl_table* table_;
+  kage_rtl* model_ = nullptr;
+  std::uint32_t frames_ = 0;
+  std::uint32_t errors_ = 0;
+  bool broken_ = false;
+  bool recording_ = false;
+  int number_ = 0;
+  std::vector<kage_rtl_event> events_;  // the last ones taken
+  std::function<void()> often_;
+
+  // Of the frame ahead of the one at hand:
+  std::uint32_t ahead_ = 0;            // 1: there is one whose end was not seen yet
+  std::vector<std::uint8_t> earlier_;  // its pixels to come, as the golden core has them
+  int earlier_wrong_ = 0;              // pieces of them that came otherwise
+
+  // Of the frame at hand:
+  bool open_ = false;
+  bool announced_ = false;
+  bool stuck_ = false;
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  std::uint64_t left_ = 0;           // pixels to come
+  std::uint32_t y_ = 0;              // of the line to come
+  std::vector<std::uint8_t> line_;   // the part of it that is here
+  std::vector<std::uint32_t> held_;  // not yet submitted
+  std::vector<std::uint8_t> marks_;  // of those words
+  PhaseMarker marker_;
+  double seconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<RtlCore> make_rtl(const std::filesystem::path& library, const Config& config,
+                                  const RtlOptions& options) {
+  return std::make_unique<Rtl>(library, config, options);
+}
+
+}  // namespace kage::cosim

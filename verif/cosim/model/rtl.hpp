@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cosim/core.hpp"
+#include "cosim/diverge/stage_values.hpp"
+#include "cosim/model/driver/rtl_model.h"
+
+namespace kage::cosim {
+
+struct RtlOptions {
+  std::uint64_t seed = 1;        ///< of the stalls, and of the initial state
+  std::uint64_t initial = 0;     ///< another one's initial state, with this seed's stalls: 0 is its own
+  int idle_percent = 0;          ///< share of clocks without input offered
+  int backpressure_percent = 0;  ///< share of clocks without output taken
+  int mutant = 0;                ///< of a model that has mutants: which one it is, from 1; 0: none
+  bool assertions = true;        ///< false: go on where the RTL's assertions fail
+
+  /// Gets what the RTL writes, as by $display or an assertion that fails, in pieces of any size, with the number of the
+  /// frame at hand. Without it, the text goes to standard error.
+  std::function<void(int frame, std::string_view text)> text = {};
+
+  /// Gives the words of a sound frame for every number. With it, some frames meet a core that was reset within such a
+  /// frame just before, and some come right behind one, before its pixels have left; which do follows from seed and
+  /// number. Its pixels are looked at too. A core that records has seen its end before.
+  std::function<std::vector<std::uint32_t>(int number)> prelude = {};
+};
+
+/// The RTL, simulated. Events and handshakes need a model that was built with monitors, waveforms one that was built
+/// for them (ModelOptions).
+class RtlCore : public Core {
+ public:
+  /// An AXI4-Lite access while the streams go on: its response (0 is OKAY), -1 if none comes.
+  virtual int read_register(std::uint32_t address, std::uint32_t& value) = 0;
+  virtual int write_register(std::uint32_t address, std::uint32_t value) = 0;
+  /// Of the bytes in `strobes` alone, the data some clocks behind the address.
+  virtual int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) = 0;
+  [[nodiscard]] virtual bool interrupt() const = 0;
+
+  /// Whether it stood still in the frame at hand, with input waiting: it takes nothing more of it.
+  [[nodiscard]] virtual bool stuck() const = 0;
+
+  /// Let so many clocks pass at most; fewer if nothing moves any more.
+  virtual void pass(std::uint64_t clocks) = 0;
+
+  [[nodiscard]] virtual bool monitored() const = 0;
+
+  /// Monitors that do not fit the RTL, "a, b", and a bit for each stage of which there are no events therefore.
+  [[nodiscard]] virtual std::string missing_monitors() const = 0;
+  [[nodiscard]] virtual std::uint32_t unwatched() const = 0;
+
+  /// Record events from now on, or no longer. `often` is called within feed() and finish() once so many clocks have
+  /// passed that events should be taken, whatever the core does; it may throw, and then the core can be given nothing
+  /// more.
+  virtual void record(bool on, std::function<void()> often = {}) = 0;
+
+  /// The events since the last call. Valid until the next.
+  virtual std::span<const kage_rtl_event> take_events() = 0;
+
+  /// Who waits for whom: kage_rtl_table::handshakes.
+  virtual Handshakes handshakes() = 0;
+
+  /// Clocks of the model's life.
+  virtual std::uint64_t clock() = 0;
+
+  /// Write a waveform of the clocks first .. last to an FST file; it is whole once they have passed, or with the
+  /// model's end. Throws Error if the model was not built for waveforms.
+  virtual void wave(const std::filesystem::path& path, std::uint64_t first, std::uint64_t last) = 0;
+
+  /// Ends it. 0: it is whole; else the errno of what could not be written.
+  virtual int end_wave() = 0;
+};
+
+/// The RTL, simulated by the model library that find_model() gave. Throws Error if the library does not fit.
+std::unique_ptr<RtlCore> make_rtl(const std::filesystem::path& library, const Config& config,
+                                  const RtlOptions& options = {});
+
+}  // namespace kage::cosim

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cosim/report/page.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <set>
+
+#include "contract/fields.hpp"
+#include "cosim/recall.hpp"
+#include "cosim/report/html.hpp"
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+
+namespace kage::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The pictures that the page holds: as many as there is room for.
+class Pictures {
+ public:
+  /// `made`: those that have no names yet, or nullptr.
+  explicit Pictures(const TempFiles* made) : made_(made) {}
+
+  /// null for no picture; else {name, data}: data is its place in the list, null where it does not fit.
+  Json add(const std::string& path) {
+    if (path.empty()) return nullptr;
+    Json j;
+    j["name"] = fs::path(path).filename().string();
+    j["data"] = nullptr;
+    std::error_code error;
+    fs::path now = made_ != nullptr ? made_->now(path) : fs::path(path);
+    const auto size = fs::file_size(now, error);
+    if (error || fs::path(path).extension() != ".png" || bytes_ + size / 3 * 4 + 8 > kPictureBytes) return j;
+    bytes_ += size / 3 * 4 + 8;
+    j["data"] = paths_.size();
+    paths_.push_back(std::move(now));
+    return j;
+  }
+
+  /// What they take at most.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+  /// The list, one picture in memory at a time.
+  void write(std::ostream& out) const {
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      const std::string file = read_file(paths_[i]);
+      out << (i == 0 ? "\"" : ",\"") << base64({reinterpret_cast<const std::uint8_t*>(file.data()), file.size()})
+          << '"';
+    }
+  }
+
+ private:
+  const TempFiles* made_;
+  std::size_t bytes_ = 0;
+  std::vector<fs::path> paths_;
+};
+
+/// The pictures of the different frame: NAME_0000_actual.png and _difference.png.
+std::string picture_that_ends(const cosim::Report& run, std::string_view end) {
+  for (const std::string& p : run.pictures)
+    if (p.ends_with(end)) return p;
+  return {};
+}
+
+Json phases_of(const cosim::PhaseSums& sums) {
+  Json j = Json::array();
+  for (const auto& s : sums.of) j.push_back({s.tokens, s.pixels, s.clocks});
+  return j;
+}
+
+Json frames_of(const Page& page, Pictures& pictures) {
+  const cosim::Report& run = *page.run;
+  // The frame that differs is the last, and its pictures matter most.
+  std::vector<Json> frames(run.each.size());
+  for (std::size_t k = run.each.size(); k-- > 0;) {
+    const cosim::FrameResult& r = run.each[k];
+    const bool different = run.first_difference && k + 1 == run.each.size();
+    const int number = r.frame;
+    Json& j = frames[k];
+    j["number"] = number;
+    j["same"] = !different;
+    j["taken"] = r.taken;
+    j["width"] = r.status.width;
+    j["height"] = r.status.height;
+    j["cycles"] = r.cycles;
+    j["starved"] = r.stalls.starved;
+    j["blocked"] = r.stalls.blocked;
+    j["stalls"] = Json::array();
+    for (const cosim::Stalls& s : r.phase_stalls) j["stalls"].push_back({s.starved, s.blocked});
+    j["spans"] = r.counts.spans;
+    j["span_pixels"] = r.counts.span_pixels;
+    j["segments"] = r.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
+    j["words"] = r.counts.words;
+    j["error"] = r.status.error == ErrorCode::NONE
+                     ? Json(nullptr)
+                     : Json{{"text", cosim::describe(r.status)}, {"line", r.status.line}, {"token", r.status.token}};
+    for (const TokenStore* store : {page.tokens, different ? page.wanted : nullptr}) {
+      if (store == nullptr || static_cast<std::size_t>(number) >= store->frames().size()) continue;
+      const FrameTokens& t = store->frames()[static_cast<std::size_t>(number)];
+      j["tokens"] = t.tokens;
+      j["background"] = t.background;
+      j["phases"] = phases_of(t.phases);
+      j["video"] = t.phases.video;
+      j["designed"] = t.phases.clocks();
+    }
+    j["golden"] = pictures.add(r.picture);
+    j["rtl"] = different ? pictures.add(picture_that_ends(run, "_actual.png")) : Json(nullptr);
+    j["difference"] = different ? pictures.add(picture_that_ends(run, "_difference.png")) : Json(nullptr);
+  }
+  Json j = Json::array();
+  for (Json& f : frames) j.push_back(std::move(f));
+  return j;
+}
+
+/// The list of bands that fit into `room` bytes: those of the different frame first, one in memory at a time.
+void write_bands(std::ostream& out, const Page& page, std::size_t room) {
+  std::set<std::pair<int, int>> there;
+  // After a difference some of the frames behind it may have been made already.
+  const int last = page.run->first_difference ? page.run->first_difference->frame : std::numeric_limits<int>::max();
+  for (const TokenStore* store : {page.wanted, page.tokens}) {
+    if (store == nullptr) continue;
+    for (const Band& b : store->bands()) {
+      if (b.frame > last || there.count({b.frame, b.line}) != 0) continue;
+      const std::string text = fmt::format("{}[{},{},{},{},\"{}\"]", there.empty() ? "" : ",", b.frame, b.line, b.token,
+                                           b.ahead, store->text(b));
+      if (text.size() > room) return;
+      room -= text.size();
+      there.insert({b.frame, b.line});
+      out << text;
+    }
+  }
+}
+
+/// Where the fields of each kind are: [[name, channel, lsb, bits, signed], ...], for the script to decode by.
+Json layout_of(const Config& config) {
+  const Layout layout(config);
+  Json j = Json::array();
+  for (std::size_t k = 0; k < kKindNames.size(); ++k) {
+    Json fields = Json::array();
+    if (layout.words[k] != 0)
+      each_field(layout, static_cast<Kind>(k), [&](const char* name, int channel, Field f) {
+        if (f.bits != 0) fields.push_back({name, channel, f.lsb, f.bits, f.is_signed});
+      });
+    j.push_back({{"name", kKindNames[k]}, {"words", layout.words[k]}, {"fields", std::move(fields)}});
+  }
+  return j;
+}
+
+Json told_of(const Page& page) {
+  Json told = Json::array();
+  std::size_t bytes = 0;
+  for (const ToldPixel& p : page.told) {
+    Json touches = Json::array();
+    for (const PixelTouch& t : p.history.touches) {
+      Json j{{"token", t.token}, {"text", t.text}, {"effect", t.effect}};
+      if (t.what.kind == Kind::TREE) j["tree"] = describe_tree(page.config.config, p.history);
+      if (const auto from = p.from.find(t.token); from != p.from.end()) j["from"] = from->second;
+      if (!(t.before == t.after)) j["now"] = describe(page.config.config, t.after);
+      touches.push_back(std::move(j));
+    }
+    Json rtl = Json::array();
+    for (const cosim::RtlTouch& t : p.rtl)
+      rtl.push_back({{"token", t.token},
+                     {"stage", cosim::describe(t.stage)},
+                     {"state", t.stage == cosim::Stage::pixel},
+                     {"load", t.load},
+                     {"cycle", t.cycle},
+                     {"same", t.same},
+                     {"text", t.text}});
+    Json j{{"frame", p.frame},
+           {"x", p.history.x},
+           {"y", p.history.y},
+           {"touches", std::move(touches)},
+           {"color_text", p.history.color_text},
+           {"rtl", std::move(rtl)}};
+    bytes += script_text(j).size();
+    if (bytes > kToldBytes) break;
+    told.push_back(std::move(j));
+  }
+  return told;
+}
+
+std::string headline(const Page& page) {
+  const cosim::Report& r = *page.run;
+  return fmt::format("{}: {} {}{}, {}x{}, {} pixels compared{}", r.same ? "same" : "different", r.frames,
+                     r.frames == 1 ? "frame" : "frames", cosim::taken_text(r.taken.size()), r.width, r.height,
+                     r.pixels_compared, page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
+}
+
+Json data_of(const Page& page, Pictures& pictures) {
+  const cosim::Report& run = *page.run;
+  Json j;
+  j["same"] = run.same;
+  j["name"] = page.name;
+  j["headline"] = headline(page);
+  j["first"] = nullptr;
+  if (run.first_difference) {
+    const cosim::Difference& d = *run.first_difference;
+    j["first"] = {{"text", cosim::describe(d)}, {"frame", d.frame}, {"x", d.x}, {"y", d.line}};
+  }
+  j["no_divergence"] = page.searched && run.first_difference && !page.divergence
+                           ? Json(cosim::describe_none(*run.first_difference))
+                           : Json(nullptr);
+  j["divergence"] = nullptr;
+  if (page.divergence)
+    j["divergence"] = {
+        {"text", cosim::describe(*page.divergence)}, {"waits", page.divergence->waits}, {"gtkwave", page.gtkwave}};
+  j["different_pixels"] = nullptr;
+  if (run.difference) {
+    j["different_pixels"] = run.difference->different_pixels;
+    j["region_count"] = run.difference->region_count;
+  }
+  j["frames"] = frames_of(page, pictures);
+  j["compared"] = run.frames;
+  j["told"] = told_of(page);
+  j["phase_names"] = cosim::kPhaseNames;
+  j["phase_tokens"] = cosim::kPhaseTokens;
+  j["config_name"] = page.config.name;
+  j["config"] = Json::object();
+  for (const ParamInfo& p : kParams) j["config"][std::string(p.name)] = page.config.config.*(p.member);
+  j["meanings"] = meanings();
+  j["seed"] = page.seed;
+  j["golden_seconds"] = run.expected_seconds;
+  j["rtl_seconds"] = run.actual_seconds;
+  j["notes"] = page.notes;
+  j["degraded"] = page.degraded;
+  j["versions"] = page.versions;
+  j["again"] = page.again;
+  j["explain"] = page.explain;
+  j["explain_rtl"] = page.explain_rtl;
+  j["folder"] = page.folder;
+  j["rtl"] = page.rtl;
+  j["layout"] = layout_of(page.config.config);
+  j["band_lines"] = kBandLines;
+  return j;
+}
+
+}  // namespace
+
+void write_page(TempFiles& files, const fs::path& path, const Page& page) {
+  const Html html(headline(page) + " - " + page.name, headline(page), "run", {"parts", "explain", "view", "page"});
+  Pictures pictures(page.made);
+  std::string data = script_text(data_of(page, pictures));
+  data.pop_back();  // the brace: two lists follow
+  OutputFile out(files, path);
+  html.write(out, [&](std::ostream& to) {
+    to << data << ",\"pictures\":[";
+    pictures.write(to);
+    to << "],\"bands\":[";
+    constexpr std::size_t kRest = 64;  // the brackets
+    const std::size_t taken = html.bytes() + data.size() + pictures.bytes() + kRest;
+    // Tokens get the room that is left.
+    write_bands(to, page, taken < kPageBytes ? kPageBytes - taken : 0);
+    to << "]}";
+  });
+  out.close();
+}
+
+}  // namespace kage::report

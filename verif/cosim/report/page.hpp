@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The report of a run: one HTML page that needs nothing else (docs/report.md).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cosim/diverge/divergence.hpp"
+#include "cosim/report/html.hpp"
+#include "cosim/report/token_store.hpp"
+#include "cosim/run.hpp"
+#include "file/temp_file.hpp"
+#include "kage/config.hpp"
+#include "kage/explain.hpp"
+
+namespace kage::report {
+
+/// What pictures may take: those beyond it are named.
+inline constexpr std::size_t kPictureBytes = 6'000'000;
+/// What the histories of told pixels may take: those beyond it are left out.
+inline constexpr std::size_t kToldBytes = 500'000;
+
+/// A pixel with its history, told by the golden model, and by the RTL where it was watched.
+struct ToldPixel {
+  int frame = 0;
+  PixelHistory history;
+  std::vector<cosim::RtlTouch> rtl;
+  std::map<std::uint32_t, std::string> from;  ///< by token: which part of the scene it is of
+};
+
+/// What the page tells. All text may be anything: it is escaped.
+struct Page {
+  std::string name;  ///< of the scene or stream
+  const cosim::Report* run = nullptr;
+  const TempFiles* made = nullptr;  ///< the files of the run, where they have no names yet; or nullptr
+  NamedConfig config;
+  std::uint64_t seed = 0;
+  std::optional<cosim::Divergence> divergence;
+  bool searched = true;  ///< after a difference the stage was looked for
+  std::vector<std::string> notes;
+  std::vector<std::string> degraded;
+  std::vector<std::string> versions;
+  std::vector<ToldPixel> told;
+  std::string gtkwave;      ///< the command line that shows the divergence's waveform
+  std::string again;        ///< the command line of the run
+  std::string explain;      ///< that of kage explain, without --frame and --pixel
+  std::string explain_rtl;  ///< what it ends with where the RTL is to be told too
+  std::string rtl_options;  ///< --fault, --idle and --backpressure, as they were given; or ""
+  std::string folder;       ///< where both are to be given
+  std::string rtl;          ///< folder of the RTL that was run
+  const TokenStore* tokens = nullptr;
+  const TokenStore* wanted = nullptr;  ///< of the different frame, to be there before all others; or nullptr
+};
+
+/// Writes the page, which gets its name with the others of `files`. Throws Error that names it.
+void write_page(TempFiles& files, const std::filesystem::path& path, const Page& page);
+
+}  // namespace kage::report

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+# Shared by the tests of the command line: bash TEST.sh KAGE SOURCE. Sets $kage, $source and a temporary $temp, where the test runs.
+# shellcheck shell=bash
+set -uo pipefail
+# shellcheck disable=SC2034 # tests use it
+kage=$1 source=$2
+temp=$(mktemp -d)
+trap 'rm -rf "$temp"' EXIT
+cd "$temp" || exit 1
+failures=0
+# What is printed is not to depend on how slow the machine is.
+export KAGE_PROGRESS=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# expect RC COMMAND...: the exit code; output lands in $temp/stdout and $temp/stderr.
+expect() {
+  local want=$1 rc=0
+  shift
+  "$@" >"$temp/stdout" 2>"$temp/stderr" </dev/null || rc=$?
+  [ $rc = "$want" ] || { fail "$* : exit $rc, expected $want"; sed 's/^/    /' "$temp/stderr"; }
+}
+
+# trouble TEXT COMMAND...: exit 2, nothing on standard output, exactly one line "kage: ... TEXT ..." on standard error.
+trouble() {
+  local text=$1
+  shift
+  expect 2 "$@"
+  [ ! -s "$temp/stdout" ] || fail "$* : says something on standard output"
+  [ "$(wc -l <"$temp/stderr")" = 1 ] || { fail "$* : not one line on standard error"; sed 's/^/    /' "$temp/stderr"; }
+  grep -q '^kage: ' "$temp/stderr" || fail "$* : the line does not begin with 'kage: '"
+  grep -qF -- "$text" "$temp/stderr" || { fail "$* : the line does not name '$text'"; sed 's/^/    /' "$temp/stderr"; }
+}
+
+# json FILE EXPRESSION: true in Python, with the file's content as j.
+json() {
+  python3 -c "import json,sys; j=json.load(open(sys.argv[1])); sys.exit(0 if ($2) else 1)" "$1" || { fail "$1: not so: $2"; head -c 600 "$1"; }
+}
+
+# no_leftovers [FOLDER]: no file is there that a run had not finished.
+no_leftovers() {
+  local left
+  left=$(find "${1:-.}" -name '.kage-*')
+  [ -z "$left" ] || fail "unfinished files are left: $left"
+}
+
+# data_copy FOLDER: a copy of the data that kage builds RTL models and pages from: RTL, scenes, drivers, monitors, faults, page.
+data_copy() {
+  local part
+  for part in rtl scenes verif/cosim/model/driver verif/cosim/model/faults verif/cosim/diverge/monitors verif/cosim/report/page; do
+    mkdir -p "$(dirname "$1/$part")"
+    cp -r "$source/$part" "$1/$part"
+  done
+}
+
+done_testing() {
+  [ $failures = 0 ] && echo "all passed"
+  exit $((failures != 0))
+}

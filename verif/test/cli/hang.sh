@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# RTL that stands still, or sends pixels for ever and never asks for the next token: "different", soon and in little
+# memory, however much of the frame was to come.
+. "$(dirname "$0")/common.bash"
+
+data_copy data
+echo '{MAX_WIDTH: 1024, LANES: 2, COUNT_BITS: 5, SMOOTH: 1, COLOR_FRAC: 8}' >small.yaml
+export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
+# A large frame: what the golden core expects of it takes gigabytes.
+scene=(penumbra --size 1024x1500 --frames 1 --samples 16 --config small.yaml)
+
+# defect TEXT WITH: a change of line_out, which the divergence must name.
+defect() {
+  rm -rf data/rtl
+  cp -r "$source/rtl" data/
+  grep -qF "$1" data/rtl/line_out.sv || fail "no '$1' to change"
+  python3 - "$@" <<'PY'
+import pathlib, sys
+path = pathlib.Path("data/rtl/line_out.sv")
+path.write_text(path.read_text().replace(sys.argv[1], sys.argv[2], 1))
+PY
+  expect 1 timeout 300 "$kage" cosim "${scene[@]}" --out out --json v.json --junit v.xml
+  cp stdout said
+  json v.json "not j['same'] and j['first_difference']['divergence']['module']=='line_out'"
+  grep -q '<failure' v.xml && [ -s out/report.html ] || fail "no JUnit or page"
+  kib=$(python3 - "$kage" cosim "${scene[@]}" --out again <<'PY'
+import resource, subprocess, sys
+rc = subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, timeout=300).returncode
+print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss if rc == 1 else 0)
+PY
+  )
+  echo "$1, now $2: $kib KiB; $(grep '^first d' said)"
+  [ "$kib" -gt 0 ] && [ "$kib" -lt 400000 ] || fail "the search takes $kib KiB"
+}
+
+defect "taken_q + 2'(exit_take_i) - 2'(line_left)" "taken_q + 2'(exit_take_i)"
+grep -q "pixel_banked's line waits for line_out" said || fail "not told who waits: $(cat said)"
+defect "issue_last = x_q == width_q - 1'b1;" "issue_last = width_q == '0;"
+done_testing

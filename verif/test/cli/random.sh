@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Random frames as a source: kage cosim random, random:damaged, random:mixed; what they reach; what is kept of one that differs.
+. "$(dirname "$0")/common.bash"
+
+echo '{MAX_WIDTH: 64, LANES: 4, TRANSLUCENCY: 1}' >small.yaml
+for kind in random random:damaged random:mixed; do
+  expect 0 "$kage" cosim $kind --frames 60 --config small.yaml --idle 20 --backpressure 20 --out sound --json $kind.json
+  json $kind.json 'j["same"] is True and j["frames"] == 60 and j["kept"] is None and j["pictures"] == []'
+done
+[ -s sound/report.html ] && [ -z "$(find sound -name "*.png")" ] || fail "pictures of random frames that are the same"
+expect 0 "$kage" cosim random:mixed --frames 60 --config small.yaml --idle 20 --backpressure 20 --jobs 3 --out sound --json again.json
+json again.json 'j["cycles"] == json.load(open("random:mixed.json"))["cycles"]'
+expect 0 "$kage" cosim random --frames 60 --config small.yaml --seed 2 --out sound --json other.json
+json other.json 'j["pixels_compared"] != json.load(open("random.json"))["pixels_compared"]'
+expect 0 "$kage" cosim random:damaged --frames 60 --config small.yaml --frame 59 --out sound --json alone.json
+json alone.json 'j["frames"] == 1 and j["first_frame"] == 59'
+
+# What is reached.
+expect 0 "$kage" cosim random:mixed --frames 300 --config small.yaml --coverage --out sound --json c.json
+json c.json 'j["coverage"]["frames"] == 300 and all(p["frames"] > 0 for p in j["coverage"]["points"] if p["group"] == "token")'
+grep -q 'OP as deep as what it meets .* of 300 frames' stdout || fail "no coverage told: $(cat stdout)"
+
+# A defect: it is found, named, kept small, and the kept frame shows it again.
+expect 1 "$kage" cosim random --frames 60 --config small.yaml --fault wrong_compare --out broken --json b.json --junit b.xml
+json b.json 'j["first_difference"]["divergence"]["module"] == "pixel_banked"'
+json b.json 'j["kept"]["alone"] and j["kept"]["lines"] == 1 and j["kept"]["tokens"] <= 4 and j["kept"]["width"] == 1'
+file=$(python3 -c 'import json; print(json.load(open("b.json"))["kept"]["file"])')
+grep -qF "that frame again: kage cosim $file --seed 1 --fault wrong_compare" stdout || fail "not told how to run it again: $(cat stdout)"
+expect 1 "$kage" cosim "$file" --fault wrong_compare --out kept
+expect 0 "$kage" cosim "$file" --out kept
+expect 0 "$kage" info "$file"
+expect 1 "$kage" cosim random --frames 60 --config small.yaml --fault wrong_compare --no-shrink --out broken --json n.json
+json n.json 'j["kept"]["words"] == j["kept"]["words_before"] and j["kept"]["words"] > 12'
+frame=$(python3 -c 'import json; print(json.load(open("b.json"))["first_difference"]["frame"])')
+expect 1 "$kage" cosim random --frames 60 --config small.yaml --fault wrong_compare --frame "$frame" --out one
+expect 0 "$kage" explain random --frames 60 --config small.yaml --frame "$frame" --pixel 0,0
+
+# A core that loses tokens under stalls: frames that break rules are kept as they are.
+expect 1 "$kage" cosim random:damaged --frames 200 --config small.yaml --fault lost_token --idle 30 --backpressure 30 --no-divergence --out lost --json l.json
+json l.json 'j["kept"]["words"] <= j["kept"]["words_before"]'
+expect 0 "$kage" info "$(python3 -c 'import json; print(json.load(open("l.json"))["kept"]["file"])')"
+
+for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" --cull "--alpha 0.5" --allow-outside; do
+  # shellcheck disable=SC2086
+  trouble "random: ${option%% *}: random frames " "$kage" cosim random $option
+done
+for command in render "stream --out r.kage" info "info --tokens 0" order; do
+  for kind in random random:damaged random:mixed; do
+    # shellcheck disable=SC2086
+    trouble "$kind: random frames are for kage cosim and kage explain" "$kage" $command $kind
+  done
+done
+trouble "random:foo: no such random frames (there are random, random:damaged, random:mixed)" "$kage" cosim random:foo
+trouble "--frame 60: there are 60 frames, from 0 on" "$kage" cosim random --frames 60 --frame 60
+trouble "--frame and --shard" "$kage" cosim random --frame 1 --shard 1/2
+# Registers are read while the rest of a frame is dropped, once all its lines are out: with this seed that takes more clocks
+# than a bound without the picture's size allowed.
+expect 0 "$kage" cosim random:mixed --frames 60 --config default --seed 7 --no-report --out registers
+
+no_leftovers
+# The registers are right whatever the frames of a seed are: short ones, refused ones.
+for seed in {1..25}; do
+  expect 0 "$kage" cosim random:mixed --frames 3 --config small.yaml --seed "$seed" --no-report --out mixed
+done
+
+done_testing

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the commands that a page of documentation shows and compares what they print with what it shows.
+
+usage: shown.py PAGE CODE...
+
+Each "sh" block that is followed by a plain block is run, in the page's order, in the folder at hand; its exit code must
+be the CODE at that place. Times ("0.123 s") may be any.
+"""
+
+import difflib
+import os
+import re
+import subprocess
+import sys
+
+
+def timeless(text):
+    return re.sub(r"\b\d+\.\d{3} s\b", "0.000 s", text).splitlines()
+
+
+def main():
+    text = open(sys.argv[1]).read()
+    codes = [int(c) for c in sys.argv[2:]]
+    pairs = re.findall(r"^```sh\n(.*?)^```\n\n```\n(.*?)^```$", text, flags=re.S | re.M)
+    if not len(pairs) == len(codes) == text.count("```sh\n"):
+        sys.exit(
+            f"{sys.argv[1]}: {len(pairs)} commands with output, {len(codes)} exit codes, {text.count('```sh')} commands"
+        )
+    path = os.getcwd() + "/bin:" + os.environ["PATH"]
+    bad = False
+    for (commands, shown), code in zip(pairs, codes):
+        ran = subprocess.run(["bash", "-c", commands], capture_output=True, text=True, env={**os.environ, "PATH": path})
+        if ran.returncode != code or timeless(ran.stdout) != timeless(shown):
+            print(
+                f"exit {ran.returncode}",
+                ran.stderr,
+                *difflib.unified_diff(timeless(shown), timeless(ran.stdout), lineterm=""),
+                sep="\n",
+            )
+            bad = True
+    sys.exit(bad)
+
+
+main()

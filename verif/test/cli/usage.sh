@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Help, version, and a command line that makes no sense.
+. "$(dirname "$0")/common.bash"
+
+expect 0 "$kage" --help
+[ "$(wc -L <stdout)" -le 110 ] || fail "--help has long lines"
+expect 0 "$kage" --version
+for command in cosim render stream info explain diff merge model order; do
+  expect 0 "$kage" $command --help
+  grep -q Examples: stdout || fail "$command --help has no examples"
+  [ "$(wc -L <stdout)" -le 110 ] || fail "$command --help has long lines"
+done
+
+# The last of an option given twice counts.
+expect 0 "$kage" stream courtyard --size 640x480 --size 32x24 --frames 2 --frames 1 --out twice.kage
+expect 0 "$kage" info twice.kage --json twice.json
+json twice.json 'j["frames"]==1 and j["lines"]==24'
+
+# line TEXT COMMAND...: exactly that line, so nothing of the parser's own words and lists.
+line() {
+  trouble "$@"
+  [ "$(cat stderr)" = "$1" ] || fail "${*:2}: says '$(cat stderr)'"
+}
+line "kage: no command given; see kage --help" "$kage"
+line "kage: nonsense: no such command; see kage --help" "$kage" nonsense
+line "kage: rendr: no such command (did you mean render?); see kage --help" "$kage" rendr courtyard --out none
+line "kage: cosmi: no such command (did you mean cosim?); see kage --help" "$kage" cosmi
+line "kage: --verson: no such option (did you mean --version?); see kage --help" "$kage" --verson
+line "kage: --sise: no such option (did you mean --size?); see kage render --help" "$kage" render courtyard --sise 3x3
+line "kage: --conf=x: no such option (did you mean --config?); see kage cosim --help" "$kage" cosim courtyard --conf=x
+line "kage: --frobnicate: no such option; see kage info --help" "$kage" info x --frobnicate
+# A variable that a script forgot to set.
+line "kage: SCENE: its value is empty; see kage render --help" "$kage" render ""
+line "kage: --out: its value is empty; see kage render --help" "$kage" render courtyard --out ""
+line "kage: --json: its value is missing; see kage cosim --help" "$kage" cosim courtyard --json=
+line "kage: CONFIG: its value is empty; see kage model --help" "$kage" model ""
+line "kage: --size: options come after the command; see kage render --help" "$kage" --size 3x3 render courtyard
+line "kage: b: an argument too many; see kage render --help" "$kage" render courtyard b c
+line "kage: --frames: its value is missing; see kage render --help" "$kage" render courtyard --frames
+line "kage: A is missing; see kage diff --help" "$kage" diff
+line "kage: --seed: -1 is not a whole number from 0 to 2^64 - 1; see kage cosim --help" "$kage" cosim courtyard --seed -1
+trouble 18446744073709551616 "$kage" cosim courtyard --seed 18446744073709551616
+trouble "--lsb" "$kage" diff a b --lsb many
+trouble "--size" "$kage" render courtyard --size 640
+trouble "--size" "$kage" render courtyard --size 0x480
+trouble "--size" "$kage" render courtyard --size 640x480x3
+trouble "--size" "$kage" render courtyard --size -1x480
+trouble "--frames" "$kage" render courtyard --frames 0
+trouble "--threads" "$kage" render courtyard --threads 0
+line "kage: --frames: 1000001 is not a whole number from 1 to 1000000; see kage render --help" "$kage" render courtyard --frames 1000001
+# CLI11 alone would take these for 8, 16 and no number at all, which is within any limits.
+line "kage: --frames: 010 begins with 0; see kage render --help" "$kage" render courtyard --frames 010
+line "kage: --samples: 0x10 is not a whole number from 1 to 255; see kage render --help" "$kage" render penumbra --samples 0x10
+line "kage: --alpha: 0 is not in 1/255 .. 1; see kage render --help" "$kage" render courtyard --alpha 0
+expect 0 "$kage" stream courtyard --alpha 0.00392156862745098 --size 32x24 --frames 1 --out faint.kage
+line "kage: --alpha: nan is not a number; see kage render --help" "$kage" render courtyard --alpha nan
+trouble "--out" "$kage" stream courtyard
+trouble "no such file" "$kage" model nowhere.yaml
+printf 'Z_BITS: 40\n' >wide.yaml
+trouble "wide.yaml" "$kage" model wide.yaml
+printf 'Z_BITS: [\n' >broken.yaml
+trouble "broken.yaml" "$kage" model broken.yaml
+printf 'DEPTH: 4\n' >unknown.yaml
+trouble "DEPTH" "$kage" model unknown.yaml
+line "kage: unknown.yaml: DEPTH: no such parameter" "$kage" model unknown.yaml
+printf 'mine:\n  LANES: 4\n' >named.yaml
+line "kage: named.yaml: mine: no such parameter; a file has the parameters of one configuration, with no name over them" "$kage" model named.yaml
+line "kage: courtyard: configuration systolic64 lacks MAX_WIDTH >= 640; --size up to 64 wide fits" \
+  "$kage" render courtyard --config systolic64 --out none
+expect 0 "$kage" render courtyard --config systolic64 --size 64x48 --frames 1 --out fits
+expect 2 "$kage" render glass --config systolic64 --size 64x48 --out none
+! grep -q 'wide fits' stderr || fail "a size is offered though none would do: $(cat stderr)"
+
+# What is meant for a person lands in no file of results, and nobody to hear it is no reason to fall over.
+expect 0 "$kage" stream courtyard --size 64x48 --frames 3 --out heard.kage
+for closed in '2>&-' '0<&- 1>&- 2>&-' '2>/dev/full'; do
+  rc=0
+  (eval "KAGE_PROGRESS=0.0000001 \"\$kage\" stream courtyard --size 64x48 --frames 3 --out unheard.kage >/dev/null $closed") || rc=$?
+  cmp -s heard.kage unheard.kage || fail "stream $closed: another file"
+  [[ $rc == 0 || $closed == *'1>&-'* ]] || fail "stream $closed: exit $rc"
+  rc=0
+  (eval "\"\$kage\" info nothing.kage >/dev/null $closed") || rc=$?
+  [ $rc = 2 ] || fail "info $closed: exit $rc of a file that is not there"
+done
+# What is told and does not arrive is trouble; a reader who has had enough knows.
+for command in "info heard.kage" "info heard.kage --json -" "cosim heard.kage --no-report --out full" "diff heard.kage heard.kage"; do
+  rc=0
+  # shellcheck disable=SC2086
+  "$kage" $command >/dev/full 2>stderr || rc=$?
+  [ $rc = 2 ] && grep -q '^kage: standard output: cannot be written' stderr || fail "$command >/dev/full: exit $rc, $(cat stderr)"
+done
+# A run that cannot say its result leaves what was there before.
+mkdir kept && echo old >kept/heard_0000.png && cp kept/heard_0000.png kept/s.kage && cp kept/heard_0000.png kept/t.bsp
+for command in "render heard.kage --out kept" "stream courtyard --size 32x24 --frames 1 --out kept/s.kage" \
+  "order $source/verif/test/meshes/sixteen_faces.obj --eyes 2 --repeats 1 --save kept/t.bsp"; do
+  # shellcheck disable=SC2086
+  trouble "standard output: cannot be written" sh -c 'exec "$@" >/dev/full' sh "$kage" $command
+done
+[ "$(cat kept/*)" = "$(printf 'old\nold\nold')" ] || fail "a run that failed left: $(ls -l kept)"
+set +o pipefail
+"$kage" info heard.kage --tokens 0 2>stderr | head -n 1 >first
+set -o pipefail
+[ -s first ] && [ ! -s stderr ] || fail "info | head: $(cat stderr)"
+done_testing

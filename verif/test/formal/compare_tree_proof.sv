@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is proved of compare_tree, for any stalls of any input and of the output (verif/test/formal/run.sh):
+//   1. an output is, data and last, the least of the units' oldest pixels that have not been output, the lowest unit's on equal keys;
+//   2. every unit's pixels come to an output once, in order: an output uses up one pixel of each unit, and never more are inside
+//      than the tree has levels;
+//   3. an output that waits stays as it is;
+//   4. nothing gets stuck: with all inputs valid and the output ready, ceil(log2 UNITS) clocks fill the tree.
+//
+// How: a queue per unit, beside the tree, holds the pixels that went in and have not come out. Its oldest pixels must be what the
+// output says. For induction the same is demanded of each node inside: a node that holds a pixel holds the least of its units' pixels
+// at the place that the nodes above it leave. run.sh connects the inside_* wires to the tree's own.
+//
+// Why small widths say it for all: the tree looks at data in one place only, the `<` of a cell, and that at keys only; all else
+// is copied. What it does depends on how the keys of the UNITS pixels that meet are ordered, ties included, and UNITS <= 5 different keys
+// make all such orders; here are 2^KEY_BITS = 8. That data are copied whole is seen by a payload that is free in each pixel.
+`default_nettype none
+
+module compare_tree_proof #(
+    parameter int UNITS = 4,
+    parameter int KEY_BITS = 3,
+    parameter int DATA_BITS = 5,
+    localparam int Levels = $clog2(UNITS),
+    localparam int Nodes = 2 * UNITS + Levels  // at least as many as the tree has
+) (
+    input wire logic                       clk_i,
+    input wire logic                       rst_ni,
+    input wire logic [          UNITS-1:0] in_valid_i,
+    input wire logic [UNITS*DATA_BITS-1:0] in_data_i,
+    input wire logic [          UNITS-1:0] in_last_i,
+    input wire logic                       out_ready_i
+);
+  localparam int Word = DATA_BITS + 1;  // {data, last}
+
+  logic [UNITS-1:0] in_ready;
+  logic out_valid, out_last;
+  logic [DATA_BITS-1:0] out_data;
+  compare_tree #(
+      .UNITS    (UNITS),
+      .KEY_BITS (KEY_BITS),
+      .DATA_BITS(DATA_BITS)
+  ) dut (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i,
+      .in_ready_o (in_ready),
+      .in_data_i,
+      .in_last_i,
+      .out_valid_o(out_valid),
+      .out_ready_i,
+      .out_data_o (out_data),
+      .out_last_o (out_last)
+  );
+
+  // The tree's nodes, level by level; level 0 is the inputs.
+  (* keep *) logic [Nodes-1:0] inside_valid;
+  (* keep *) logic [Nodes-1:0] inside_last;
+  (* keep *) logic [Nodes*DATA_BITS-1:0] inside_data;
+  function automatic integer nodes(input integer level);
+    nodes = (UNITS + (1 << level) - 1) >> level;
+  endfunction
+  function automatic integer first(input integer level);
+    first = 0;
+    for (int k = 0; k < level; k++) first = first + nodes(k);
+  endfunction
+
+  // ---- the queues --------------------------------------------------------------------------------------------------
+  logic [UNITS*(Levels+1)*Word-1:0] queue_q, queue_d;  // unit u, place p: oldest first
+  logic [UNITS*4-1:0] count_q, count_d;
+  logic output_taken;
+  assign output_taken = out_valid && out_ready_i;
+  always_comb begin
+    queue_d = queue_q;
+    count_d = count_q;
+    for (int u = 0; u < UNITS; u++) begin
+      if (output_taken) begin
+        for (int p = 0; p < Levels; p++) begin
+          queue_d[(u*(Levels+1)+p)*Word+:Word] = queue_d[(u*(Levels+1)+p+1)*Word+:Word];
+        end
+        count_d[u*4+:4] = count_d[u*4+:4] - 4'd1;
+      end
+      if (in_valid_i[u] && in_ready[u]) begin
+        for (int p = 0; p <= Levels; p++) begin
+          if (count_d[u*4+:4] == 4'(p)) begin
+            queue_d[(u*(Levels+1)+p)*Word+:Word] = {in_data_i[u*DATA_BITS+:DATA_BITS], in_last_i[u]};
+          end
+        end
+        count_d[u*4+:4] = count_d[u*4+:4] + 4'd1;
+      end
+    end
+  end
+  always_ff @(posedge clk_i) begin
+    queue_q <= queue_d;
+    count_q <= rst_ni ? count_d : '0;
+  end
+
+  // ---- surroundings: reset at the start; lines of the same width in all units --------------------------------------
+  logic started_q = 1'b0;
+  always_ff @(posedge clk_i) started_q <= 1'b1;
+  always_comb assume (rst_ni == started_q);
+  for (genvar u = 0; u < UNITS; u++) begin : gen_unit
+    for (genvar v = 0; v < UNITS; v++) begin : gen_other
+      if (u != v) begin : gen_same_width
+        always_comb begin
+          if (in_valid_i[u] && in_valid_i[v] && count_q[u*4+:4] == count_q[v*4+:4]) begin
+            assume (in_last_i[u] == in_last_i[v]);
+          end
+          for (int p = 0; p <= Levels; p++) begin
+            if (in_valid_i[u] && count_q[u*4+:4] == 4'(p) && count_q[v*4+:4] > 4'(p)) begin
+              assume (in_last_i[u] == queue_q[(v*(Levels+1)+p)*Word]);
+            end
+            // The queues agree on where lines end.
+            if (rst_ni && count_q[u*4+:4] > 4'(p) && count_q[v*4+:4] > 4'(p)) begin
+              assert (queue_q[(u*(Levels+1)+p)*Word] == queue_q[(v*(Levels+1)+p)*Word]);
+            end
+          end
+        end
+      end
+    end
+  end
+
+  // ---- every node: the least of its units' pixels at its place -----------------------------------------------------
+  for (genvar k = 1; k <= Levels; k++) begin : gen_level
+    for (genvar i = 0; i < nodes(k); i++) begin : gen_node
+      logic [3:0] place;  // pixels of the same units that are further on
+      logic [Word-1:0] least, pixel;
+      always_comb begin
+        place = '0;
+        for (int l = k + 1; l <= Levels; l++) place = place + 4'(inside_valid[first(l)+(i>>(l-k))]);
+        least = '1;
+        pixel = '0;
+        for (int u = UNITS - 1; u >= 0; u--) begin
+          if (u >> k == i) begin
+            pixel = '0;
+            for (int p = 0; p <= Levels; p++) begin
+              if (place == 4'(p)) pixel = queue_q[(u*(Levels+1)+p)*Word+:Word];
+            end
+            if (u == UNITS - 1 || u == ((i + 1) << k) - 1 || pixel[Word-1-:KEY_BITS] <= least[Word-1-:KEY_BITS]) begin
+              least = pixel;
+            end
+            if (rst_ni && inside_valid[first(k)+i]) assert (count_q[u*4+:4] > place);
+          end
+        end
+        if (rst_ni && inside_valid[first(k)+i]) begin
+          assert ({inside_data[(first(k)+i)*DATA_BITS+:DATA_BITS], inside_last[first(k)+i]} == least);
+        end
+      end
+    end
+  end
+  for (genvar u = 0; u < UNITS; u++) begin : gen_count
+    logic [3:0] held;
+    always_comb begin
+      held = '0;
+      for (int l = 1; l <= Levels; l++) held = held + 4'(inside_valid[first(l)+(u>>l)]);
+      if (rst_ni) assert (count_q[u*4+:4] == held);
+    end
+  end
+
+  // ---- the output, by the queues alone -----------------------------------------------------------------------------
+  logic [Word-1:0] oldest, winner;
+  always_comb begin
+    winner = queue_q[0+:Word];
+    oldest = '0;
+    for (int u = 1; u < UNITS; u++) begin
+      oldest = queue_q[u*(Levels+1)*Word+:Word];
+      if (oldest[Word-1-:KEY_BITS] < winner[Word-1-:KEY_BITS]) winner = oldest;
+    end
+    if (rst_ni) begin
+      for (int u = 0; u < UNITS; u++) begin
+        if (out_valid) assert (count_q[u*4+:4] != '0);
+        assert (count_q[u*4+:4] <= 4'(Levels));
+      end
+      if (out_valid) assert ({out_data, out_last} == winner);
+    end
+  end
+
+  logic waits_q = 1'b0;
+  logic [Word-1:0] before_q;
+  always_ff @(posedge clk_i) begin
+    waits_q  <= rst_ni && out_valid && !out_ready_i;
+    before_q <= {out_data, out_last};
+  end
+  always_comb if (rst_ni && waits_q) assert (out_valid && {out_data, out_last} == before_q);
+
+  // ---- no standstill: after k clocks of full supply and demand the first k levels are full -------------------------
+  logic [3:0] flowing_q = '0;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || !(&in_valid_i) || !out_ready_i) flowing_q <= '0;
+    else if (flowing_q != 4'(Levels)) flowing_q <= flowing_q + 4'd1;
+  end
+  for (genvar k = 1; k <= Levels; k++) begin : gen_flow
+    for (genvar i = 0; i < nodes(k); i++) begin : gen_full
+      always_comb if (rst_ni && flowing_q >= 4'(k)) assert (inside_valid[first(k)+i]);
+    end
+  end
+  always_comb if (rst_ni && flowing_q == 4'(Levels)) assert (out_valid);
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the build into a temporary prefix, then configures, builds and runs a project that knows nothing but that prefix.
+# What docs/building.md and docs/order.md show of that project must be in it.
+# usage: run.sh BUILD SOURCE CXX
+set -euo pipefail
+[ $# = 3 ] || { echo "usage: run.sh BUILD SOURCE CXX" >&2; exit 2; }
+build=$1 source=$2 cxx=$3
+temp=$(mktemp -d)
+trap 'rm -rf "$temp"' EXIT
+cmake --install "$build" --prefix "$temp/prefix" >/dev/null
+cmake -S "$source/verif/test/package" -B "$temp/build" -G Ninja -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$temp/prefix" ${KAGE_PACKAGE_FLAGS:+-DCMAKE_CXX_FLAGS="$KAGE_PACKAGE_FLAGS"}
+cmake --build "$temp/build"
+KAGE_DATA_DIR="$temp/prefix/share/kage" "$temp/build/consumer"
+"$temp/build/order_consumer"
+for file in rtl/defs/kage.yaml rtl/defs/configs.yaml; do
+  [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
+done
+# What is installed to be read is whole: each link of each page leads to a file that is there.
+doc=$temp/prefix/share/doc/kage
+[ -d "$doc" ] || doc=$(dirname "$(find "$temp/prefix" -name README.md -path '*doc*' | head -n 1)")
+links=0
+while IFS=: read -r page link; do
+  [ -e "$(dirname "$page")/$link" ] || { echo "installed: $page: $link: no such file" >&2; exit 1; }
+  links=$((links + 1))
+done < <(grep -roE '\]\([A-Za-z][A-Za-z0-9_./-]*' --include=*.md "$doc" | sed 's/:\](/:/' | grep -vE ':(https?|int)$')
+[ $links -gt 60 ] || { echo "installed pages have only $links links" >&2; exit 1; }
+for file in man/man1/kage.1 bash-completion/completions/kage zsh/site-functions/_kage doc/kage/verif/test/examples/c/pixel_check.c; do
+  [ -s "$temp/prefix/share/$file" ] || { echo "not installed: share/$file" >&2; exit 1; }
+done
+# Without CMake: pkg-config knows what to compile and link with.
+pc=$(dirname "$(find "$temp/prefix" -name kage.pc)")
+if command -v pkg-config >/dev/null; then
+  export PKG_CONFIG_PATH=$pc
+  # shellcheck disable=SC2046
+  "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} "$source/verif/test/package/golden.cpp" -o "$temp/golden_pc" $(pkg-config --cflags --libs kage)
+  # shellcheck disable=SC2046
+  "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} "$source/verif/test/package/order.cpp" -o "$temp/order_pc" $(pkg-config --cflags --libs kage-order)
+  "$temp/order_pc"
+  # shellcheck disable=SC2046
+  [ -z "$(LD_TRACE_LOADED_OBJECTS=1 "$temp/golden_pc" | grep -E 'OpenImageIO|assimp')" ] || { echo "who links kage binds OpenImageIO" >&2; exit 1; }
+fi
+shows() { # DOC FILE: each line of the code block behind the comment that names the file is in the file
+  awk -v mark="<!-- $2 has these lines -->" '$0 == mark { on = 1; next } on && /^```$/ { exit } on && !/^```/' "$source/$1" >"$temp/shown"
+  [ "$(grep -c . "$temp/shown")" -gt 3 ] || { echo "$1 shows nothing of $2" >&2; exit 1; }
+  while IFS= read -r line; do
+    grep -qF -- "$(sed 's/^ *//' <<<"$line")" "$source/$2" || { echo "$1 shows '$line', which $2 has not" >&2; exit 1; }
+  done <"$temp/shown"
+}
+shows docs/building.md verif/test/package/golden.cpp
+shows docs/order.md verif/test/package/order.cpp
+# The installed program, moved to another prefix, finds RTL, scenes and model builder beside itself.
+mv "$temp/prefix" "$temp/moved"
+if [ -x "$temp/moved/bin/kage" ]; then
+  cd "$temp"
+  # Its own modules, though those of the build are there too.
+  for module in pictures meshes; do
+    [ -n "$(find moved -path "*/kage/libkage_$module.so")" ] || { echo "not installed: libkage_$module.so" >&2; exit 1; }
+  done
+  env -u KAGE_DATA_DIR moved/bin/kage cosim courtyard --size 64x48 --frames 1 --out pictures
+  [ -s pictures/report.html ] || { echo "no report of an installed kage" >&2; exit 1; }
+  env -u KAGE_DATA_DIR moved/bin/kage stream courtyard --size 64x48 --frames 1 --out courtyard.kage
+  build/golden_consumer courtyard.kage >courtyard.ppm
+  moved/bin/kage stream courtyard --size 64x48 --frames 1 --config default --out default.kage
+  LD_LIBRARY_PATH=$(dirname "$(find moved -name libkage_golden.so)") build/c_consumer default.kage
+  LD_DEBUG=files LD_DEBUG_OUTPUT=$temp/bound moved/bin/kage diff courtyard.ppm pictures/courtyard_0000.png
+  grep -q "calling init: $temp/moved/.*/libkage_pictures.so" "$temp"/bound.* || { echo "an installed kage opens another's module" >&2; exit 1; }
+fi

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every named configuration is elaborated by each tool that reads SystemVerilog here: Verilator, Icarus Verilog, yosys, slang.
+
+usage: elaborate.py SOURCE_DIR READER... [--pyslang FOLDER]
+
+  READER     verilator, iverilog, yosys or slang; one that is missing is a failure
+  --pyslang  the folder of the Python package of slang
+
+Each tool must also refuse an illegal parameter, by its message: else "accepted" would say nothing. Icarus Verilog refuses
+when the simulation starts (rtl/include/kage_illegal.svh).
+"""
+
+import argparse
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import yaml
+
+ILLEGAL = {"LANES": 3}
+REASON = "LANES must be one of"
+
+
+def output_of(command, cwd):
+    done = subprocess.run(
+        [str(c) for c in command],
+        cwd=cwd,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        stdin=subprocess.DEVNULL,
+        text=True,
+    )
+    return done.returncode, done.stdout
+
+
+class Readers:
+    """A method a tool: what it says of `values`, and whether it accepts them."""
+
+    def __init__(self, source, work):
+        self.rtl, self.work = source / "rtl", work
+        self.files = sorted(self.rtl.glob("*.sv"))
+        self.include = self.rtl / "include"
+
+    def verilator(self, values):
+        status, text = output_of(
+            [
+                "verilator",
+                "--lint-only",
+                "-Wall",
+                f"-I{self.include}",
+                "--top-module",
+                "kage_top",
+                *(f"-G{k}={v}" for k, v in values.items()),
+                *self.files,
+            ],
+            self.work,
+        )
+        return status == 0, text
+
+    def iverilog(self, values):
+        # -P sets parameters of the top module only, so kage_top is the top.
+        status, text = output_of(
+            [
+                "iverilog",
+                "-g2012",
+                f"-I{self.include}",
+                "-s",
+                "kage_top",
+                "-o",
+                "kage.vvp",
+                *(f"-Pkage_top.{k}={v}" for k, v in values.items()),
+                *self.files,
+            ],
+            self.work,
+        )
+        if status != 0:
+            return False, text
+        status, text = output_of(["vvp", "-N", "kage.vvp", "-none"], self.work)  # no stimulus: it ends at time 0
+        return status == 0, text
+
+    def yosys(self, values):
+        sets = " ".join(f"-chparam {k} {v}" for k, v in values.items())
+        # -defer: each module with the parameters that it is given alone, for defaults may be illegal (compare_tree without units).
+        script = f"read_verilog -sv -defer -I{self.include} {' '.join(map(str, self.files))}; hierarchy -check -top kage_top {sets}"
+        status, text = output_of(["yosys", "-q", "-p", script], self.work)
+        # yosys 0.23 names the line, but leaves out what it says.
+        place = re.search(r"^(\S+):(\d+): ERROR", text, re.M)
+        line = pathlib.Path(place[1]).read_text().splitlines()[int(place[2]) - 1] if place else ""
+        return status == 0, text + line
+
+    def slang(self, values):
+        import pyslang
+
+        driver = pyslang.driver.Driver()
+        driver.addStandardArgs()
+        words = [
+            "slang",
+            f"-I{self.include}",
+            "--top",
+            "kage_top",
+            "--single-unit",
+            *(f"-G{k}={v}" for k, v in values.items()),
+            *map(str, self.files),
+        ]
+        if not driver.parseCommandLine(" ".join(words)) or not driver.processOptions() or not driver.parseAllSources():
+            return False, "slang does not read the sources"
+        compilation = driver.createCompilation()
+        errors = [d for d in compilation.getAllDiagnostics() if d.isError()]
+        return not errors, pyslang.DiagnosticEngine.reportAll(driver.sourceManager, errors)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("source", type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("readers", nargs="+", choices=["verilator", "iverilog", "yosys", "slang"])
+    parser.add_argument("--pyslang", default="")
+    args = parser.parse_intermixed_args()
+    sys.path.insert(0, args.pyslang)
+    configurations = {
+        name: values or {}
+        for name, values in yaml.safe_load((args.source / "rtl/defs/configs.yaml").read_text()).items()
+    }
+    bad = 0
+    with tempfile.TemporaryDirectory() as work:
+        for reader in args.readers:
+            read = getattr(Readers(args.source, pathlib.Path(work)), reader)
+            good = 0
+            for name, values in configurations.items():
+                accepted, text = read(values)
+                good += accepted
+                if not accepted:
+                    bad += 1
+                    print(f"{reader}: {name}: refused: {text}", flush=True)
+            accepted, text = read({**configurations["default"], **ILLEGAL})
+            if accepted or REASON not in text:
+                bad += 1
+                print(f"{reader}: LANES=3: {'accepted' if accepted else 'refused, but not because ' + REASON}: {text}")
+            print(f"{reader}: {good} configurations of {len(configurations)}")
+    sys.exit(bad != 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// The line on which one plane cuts another on the picture, against rational numbers: whatever the planes, each pixel
+// lies on the side that the exact line has it on, unless it lies within 2^-13 of a pixel of that line.
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+
+#include "geometry/translucent.hpp"
+#include "stimulus/random.hpp"
+#include "test/support/catch.hpp"
+#include "test/support/shapes.hpp"
+
+namespace kage::verif {
+namespace {
+
+using Number = boost::multiprecision::cpp_rational;
+using Point = std::array<Number, 3>;
+using Face = std::array<glm::dvec3, 3>;
+
+Point exact(const glm::dvec3& p) { return {Number(p.x), Number(p.y), Number(p.z)}; }
+Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+Number dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+Point normal(const Face& f) {
+  const Point d = minus(exact(f[1]), exact(f[0]));
+  const Point e = minus(exact(f[2]), exact(f[0]));
+  return {d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]};
+}
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+/// The value of the node's plane where the ray of pixel (x, y), in pixels from the first one's centre, meets the face's
+/// plane, times a positive factor that is the same for all pixels with `side`; linear in x and y.
+Number value_at(const Camera& c, const Face& face, const Face& node, int side, const Number& x, const Number& y) {
+  const Number unit(c.half_height / (kHeight / 2.0));
+  const Number ex = (x + Number(1) / 2 - kWidth / 2) * unit;
+  const Number ey = (Number(kHeight / 2) - y - Number(1) / 2) * unit;
+  const Point eye = exact(c.eye);
+  Point across{};
+  for (std::size_t i = 0; i < 3; ++i) across[i] = ex * exact(c.right)[i] + ey * exact(c.up)[i];
+  Point from = eye;
+  Point way = exact(c.forward);
+  for (std::size_t i = 0; i < 3; ++i) (c.perspective ? way : from)[i] += across[i];
+  const Point n = normal(node);
+  const Point m = normal(face);
+  // At from + t way, t = -(m . (from - face)) / (m . way).
+  const Number m_from = dot(m, minus(from, exact(face[0])));
+  const Number n_from = dot(n, minus(from, exact(node[0])));
+  // Times m . way, which against the view is negative where the eye is before the face.
+  return -side * (n_from * dot(m, way) - m_from * dot(n, way));
+}
+
+struct Judged {
+  int pixels = 0;
+  int near = 0;
+  int wrong = 0;
+  int both = 0;  // lines with pixels on either side
+};
+
+void judge(const Camera& camera, const Face& face, const Face& node, Judged& sum) {
+  const int side = eye_side(camera, face);
+  if (side == 0 || normal(node) == Point{0, 0, 0}) return;  // no tree has a node without a plane
+  const View view(camera, kWidth, kHeight, 24, 100);
+  const CutLine line = cut_line(view, camera, face, side, node);
+  const auto at = [&](const Number& x, const Number& y) { return value_at(camera, face, node, side, x, y); };
+  const Number c = at(0, 0);
+  const Number a = at(1, 0) - c;
+  const Number b = at(0, 1) - c;
+  const Number slope = std::max<Number>(abs(a), abs(b));
+  bool front = false;
+  bool back = false;
+  for (int y = 0; y < kHeight; y += 5)
+    for (int x = 0; x < kWidth; x += 5) {
+      const Number value = a * x + b * y + c;
+      ++sum.pixels;
+      if (abs(value) * 8192 <= slope) {
+        ++sum.near;
+        continue;
+      }
+      const bool found = line.a * x + line.b * y + line.c >= 0;
+      (value > 0 ? front : back) = true;
+      sum.wrong += found == (value > 0) ? 0 : 1;
+    }
+  sum.both += front && back ? 1 : 0;
+}
+
+Camera random_camera(Random& random) {
+  Camera c;
+  look_at(c, {random.real(-1, 1), random.real(-1, 1), random.real(2, 4)},
+          {random.real(-0.3, 0.3), random.real(-0.3, 0.3), 0});
+  c.perspective = random.chance(0.6);
+  c.half_height = c.perspective ? 0.5 : 1.5;
+  c.near = 0.1;
+  return c;
+}
+
+glm::dvec3 random_place(Random& random) { return {random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)}; }
+
+Face random_face(Random& random) { return {random_place(random), random_place(random), random_place(random)}; }
+
+/// A triangle that is `width` wide, next to an edge of which its third corner lies.
+Face sliver(Random& random, double width) {
+  Face f = random_face(random);
+  for (int i = 0; i < 3; ++i) f[1][i] = f[0][i] + width * random.real(-1, 1);
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("cut lines of planes in general position") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  Judged sum;
+  for (int i = 0; i < 200; ++i) judge(random_camera(random), random_face(random), random_face(random), sum);
+  CHECK(sum.wrong == 0);
+  CHECK(sum.both > 100);
+  CHECK(sum.near * 100 < sum.pixels);
+}
+
+TEST_CASE("family 37: cut lines of faces next to nothing wide, down to one unit in the last place") {
+  Random random(test_seed(2));
+  CAPTURE(test_seed(2));
+  Judged sum;
+  for (int i = 0; i < 300; ++i) {
+    const double width = std::pow(10.0, random.in(-18, -8));
+    Face node = sliver(random, width);
+    // At the pole of a sphere: one corner on the axis, two close to it, with coordinates smaller than any rounding.
+    if (i % 2 == 0)
+      node = {glm::dvec3{width * random.real(-1, 1), -0.5, width * random.real(-1, 1)},
+              glm::dvec3{width * random.real(-1, 1), -0.5, width * random.real(-1, 1)}, random_place(random)};
+    // Which corner comes first decides how much of the width is left in a difference of doubles.
+    std::rotate(node.begin(), node.begin() + random.in(0, 2), node.end());
+    judge(random_camera(random), random_face(random), node, sum);
+  }
+  CHECK(sum.wrong == 0);
+  CHECK(sum.both > 150);
+  CHECK(sum.near * 100 < sum.pixels);
+}
+
+TEST_CASE("family 37: cut lines of planes that nearly coincide, and of eyes next to a plane") {
+  Random random(test_seed(3));
+  CAPTURE(test_seed(3));
+  Judged sum;
+  for (int i = 0; i < 300; ++i) {
+    Camera camera = random_camera(random);
+    const Face face = random_face(random);
+    Face node = face;
+    const double off = std::pow(10.0, random.in(-17, -3));
+    for (glm::dvec3& p : node) p += off * random_place(random);
+    if (i % 4 == 0) {  // a plane that nearly holds the eye
+      node = random_face(random);
+      camera.eye = node[0] + 2.0 * (node[1] - node[0]) + off * random_place(random);
+    }
+    judge(camera, face, node, sum);
+  }
+  CHECK(sum.wrong == 0);
+  CHECK(sum.both > 150);
+}
+
+TEST_CASE("cut lines at the ends of what doubles hold") {
+  Random random(test_seed(4));
+  CAPTURE(test_seed(4));
+  Judged sum;
+  for (const double size : {0x1p-120, 0x1p-40, 0x1p40, 0x1p120})
+    for (int i = 0; i < 30; ++i) {
+      Camera camera = random_camera(random);
+      camera.eye *= size;
+      if (!camera.perspective) camera.half_height *= size;
+      Face face = random_face(random);
+      Face node = i % 2 == 0 ? random_face(random) : sliver(random, 1e-17);
+      for (Face* f : {&face, &node})
+        for (glm::dvec3& p : *f) p *= size;
+      judge(camera, face, node, sum);
+    }
+  CHECK(sum.wrong == 0);
+  CHECK(sum.both > 40);
+}
+
+}  // namespace kage::verif

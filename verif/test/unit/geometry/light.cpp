@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light samples, what lights send where, classes of normals, and family 30: how far a table's shares are off.
+#include "kage/light.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "geometry/light_table.hpp"
+#include "stimulus/random.hpp"
+#include "test/support/catch.hpp"
+
+namespace kage::verif {
+namespace {
+
+glm::dvec3 direction(Random& random) {
+  for (;;) {
+    const glm::dvec3 v(random.real(-1, 1), random.real(-1, 1), random.real(-1, 1));
+    const double n = glm::dot(v, v);
+    if (n > 0.01 && n < 1) return v / std::sqrt(n);
+  }
+}
+
+Light disc() {
+  Light l;
+  l.directional = false;
+  l.position = {1, 2, 3};
+  l.shape = LightShape::disc;
+  l.axis_u = {0.5, 0, 0};
+  l.axis_v = {0, 0.3, 0.4};
+  return l;
+}
+
+/// Largest distance from a direction to the nearest of the normals, found by trying and improving.
+double covering_radius(const NormalClasses& classes, Random& random) {
+  double worst = 0;
+  for (int start = 0; start < 4000; ++start) {
+    glm::dvec3 at = direction(random);
+    const auto off = [&](const glm::dvec3& v) {
+      const glm::dvec3 d = v - classes.normal(classes.nearest(v));
+      return std::sqrt(glm::dot(d, d));
+    };
+    double here = off(at);
+    for (double step = 0.3; step > 1e-4; step /= 1.5) {
+      const glm::dvec3 moved = glm::normalize(at + direction(random) * (step * here));
+      if (off(moved) > here) at = moved, here = off(moved);
+    }
+    worst = std::max(worst, here);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("light points: the middle for one, else spread over the shape, by the seed") {
+  Light l = disc();
+  CHECK(light_points(l, 1, 7)[0].position == l.position);
+  for (const LightShape shape : {LightShape::disc, LightShape::rectangle, LightShape::sphere})
+    for (const int n : {2, 3, 15, 64, 255}) {
+      l.shape = shape;
+      const auto points = light_points(l, n, 7);
+      REQUIRE(points.size() == static_cast<std::size_t>(n));
+      glm::dvec3 sum{0, 0, 0};
+      std::set<std::pair<double, double>> places;
+      for (const LightPoint& p : points) {
+        CHECK_FALSE(p.directional);
+        const glm::dvec3 off = p.position - l.position;
+        sum += off;
+        places.emplace(off.x, off.y);
+        if (shape == LightShape::sphere) {
+          CHECK(std::abs(std::sqrt(glm::dot(off, off)) - 0.5) < 1e-12);
+          continue;
+        }
+        const double u = glm::dot(off, l.axis_u) / glm::dot(l.axis_u, l.axis_u);
+        const double v = glm::dot(off, l.axis_v) / glm::dot(l.axis_v, l.axis_v);
+        const glm::dvec3 left = off - l.axis_u * u - l.axis_v * v;
+        CHECK(glm::dot(left, left) < 1e-20);
+        if (shape == LightShape::disc)
+          CHECK(u * u + v * v <= 1);
+        else
+          CHECK(std::max(std::abs(u), std::abs(v)) <= 1);
+      }
+      CHECK(places.size() == points.size());
+      // Evenly: the middle of 3 or more points is near the light's.
+      INFO(fmt::format("shape {}, {} points", static_cast<int>(shape), n));
+      if (n > 2) CHECK(std::sqrt(glm::dot(sum, sum)) / n < 1.2 / n);
+      CHECK(light_points(l, n, 8)[0].position != points[0].position);
+      CHECK(light_points(l, n, 7)[1].position == points[1].position);
+    }
+  l.shape = LightShape::point;
+  CHECK(light_points(l, 255, 7).size() == 1);
+  CHECK(light_points(Light{}, 255, 7).size() == 1);
+}
+
+TEST_CASE("light points leave no gap: every half-plane has its share of a disc, to within a few points") {
+  const Light l = disc();
+  Random random(5);
+  for (const int n : {15, 63, 255}) {
+    double worst = 0;
+    const auto points = light_points(l, n, 3);
+    for (int i = 0; i < 500; ++i) {
+      const double a = random.real(0, 2 * M_PI);
+      const double h = random.real(-1, 1);
+      int count = 0;
+      for (const LightPoint& p : points) {
+        const glm::dvec3 off = p.position - l.position;
+        const double u = glm::dot(off, l.axis_u) / glm::dot(l.axis_u, l.axis_u);
+        const double v = glm::dot(off, l.axis_v) / glm::dot(l.axis_v, l.axis_v);
+        count += u * std::cos(a) + v * std::sin(a) < h ? 1 : 0;
+      }
+      const double share = 1 - (std::acos(h) - h * std::sqrt(1 - h * h)) / M_PI;  // of the disc
+      worst = std::max(worst, std::abs(count - share * n));
+    }
+    INFO(fmt::format("{} points: off by {:.2f} points", n, worst));
+    CHECK(worst < std::sqrt(n));  // chance would be off by as much as a rule, and by three times that at times
+  }
+}
+
+TEST_CASE("attenuation is glTF's: inverse square, range, cone") {
+  Light l;
+  CHECK(attenuation(l, {5, 5, 5}) == 1);
+  l.directional = false;
+  l.falls_off = true;
+  l.position = {0, 3, 0};
+  CHECK(attenuation(l, {0, 1, 0}) == 0.25);
+  CHECK(attenuation(l, l.position) == 0);
+  l.range = 4;
+  CHECK(attenuation(l, {0, 1, 0}) == Approx(0.25 * (1 - std::pow(2.0 / 4, 4))));
+  CHECK(attenuation(l, {0, -1, 0}) == 0);
+  CHECK(attenuation(l, {0, -7, 0}) == 0);
+  l.range = 0;
+  l.spot = true;
+  l.direction = {0, -1, 0};
+  l.inner_cosine = std::cos(0.3);
+  l.outer_cosine = std::cos(0.6);
+  const auto at = [&](double angle) { return attenuation(l, {2 * std::sin(angle), 3 - 2 * std::cos(angle), 0}) * 4; };
+  CHECK(at(0) == Approx(1));
+  CHECK(at(0.29) == Approx(1));
+  CHECK(at(0.61) == 0);
+  CHECK(at(3) == 0);
+  const double t = (std::cos(0.45) - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6));
+  CHECK(at(0.45) == Approx(t * t));
+  // Seen at an angle; nothing from behind, nothing infinite beside the light.
+  l.spot = false;
+  CHECK(received(l, {0, 1, 0}, {0, 1, 0}).x == Approx(0.25));
+  CHECK(received(l, {0, 1, 0}, {0.6, 0.8, 0}).x == Approx(0.2));
+  CHECK(received(l, {0, 1, 0}, {0, -1, 0}).x == 0);
+  CHECK(std::isfinite(received(l, {1e-200, 3, 0}, {-1, 0, 0}).x));
+}
+
+TEST_CASE("normal classes: the nearest is the nearest, and they cover the sphere evenly") {
+  Random random(11);
+  for (const int n : {1, 2, 8, 15, 100, 1024, 2047}) {
+    const NormalClasses classes(n);
+    REQUIRE(classes.count() == n);
+    for (int i = 0; i < 2000; ++i) {
+      glm::dvec3 v = direction(random);
+      if (i < 6) v = {i == 0, i == 1, i == 2}, v -= glm::dvec3(i == 3, i == 4, i == 5);
+      double best = 9;
+      int expected = 0;
+      for (int k = 1; k <= n; ++k) {
+        const glm::dvec3 d = v - classes.normal(k);
+        if (glm::dot(d, d) < best) best = glm::dot(d, d), expected = k;
+      }
+      REQUIRE(classes.nearest(v) == expected);
+    }
+    // A cap of the share 1/n has the radius 2 / sqrt(n): no set covers better than that, this one nearly so.
+    if (n < 8) continue;
+    const double radius = covering_radius(classes, random);
+    std::printf("%d classes: every normal is within %.3f of one (%.2f of 2 / sqrt(n))\n", n, radius,
+                radius * std::sqrt(n) / 2);
+    CHECK(radius < 1.6 * 2 / std::sqrt(n));
+  }
+}
+
+// Where lights S of all T are kept out of a surface with ambient light a, it loses g S of its colour, g = loss(T, a) /
+// T. Between two normals at distance r, S and T differ by at most W_S r and W_T r, the weights of their lights, and a
+// by 0.04 r. g and T |dg/dT| are at most k, the steepest slope of the loss, which is that at T = 0: so g S differs by
+// at most k (W_S + W_T + 0.04) r (docs/shadows.md).
+TEST_CASE("family 30: a table's shares are within the bound for directional lights, in every state of shadow") {
+  Random random(3);
+  double closest = 0;
+  const double steepest = (srgb_encode(0.2 + 1e-6) / srgb_encode(0.2) - 1) / 1e-6;
+  for (int round = 0; round < 60; ++round) {
+    std::vector<Light> lights(static_cast<std::size_t>(random.in(1, 8)));
+    std::vector<int> samples;
+    for (Light& l : lights) {
+      l.direction = direction(random);
+      l.color =
+          glm::dvec3(random.real(0, 1), random.real(0, 1), random.real(0, 1)) / static_cast<double>(lights.size());
+      samples.push_back(1);
+    }
+    const glm::dvec3 up{0, 1, 0};
+    const Lighting lighting(lights, up);
+    Config config;
+    config.count_bits = 1;
+    config.lights = static_cast<int>(lights.size());
+    config.class_bits = 11;
+    config.shade_frac = 16;
+    Look look;
+    look.classes = 1 << random.in(3, 10);
+    const NormalClasses classes(look.classes);
+    const double radius = covering_radius(classes, random) * 1.02;
+    LightTable table(config, look, lights, lighting, samples);
+    FrameGeometry g;
+    std::vector<glm::dvec3> normals;
+    std::vector<std::bitset<kMaxLights>> lit;
+    for (int i = 0; i < 200; ++i) {
+      // Between two classes, and on the edge of what a light reaches, as well as anywhere.
+      glm::dvec3 n = direction(random);
+      if (i % 3 == 1) n = glm::normalize(classes.normal(random.in(1, classes.count())) + n * 0.02 * radius);
+      if (i % 3 == 2) {
+        const glm::dvec3& d =
+            lights[static_cast<std::size_t>(random.in(0, static_cast<int>(lights.size()) - 1))].direction;
+        n = glm::normalize(n - d * glm::dot(n, d) + d * 1e-6);
+      }
+      std::bitset<kMaxLights> reach;
+      for (std::size_t l = 0; l < lights.size(); ++l) reach[l] = glm::dot(n, lights[l].direction) < 0;
+      if (reach.none()) continue;
+      normals.push_back(n);
+      lit.push_back(reach);
+      g.polygons.emplace_back().normal_class = table.classify(n, {}, 1, reach);
+    }
+    table.finish(g);
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const auto exact = lighting.shares({}, normals[i], lit[i], false);
+      const glm::dvec3 white = lighting.displayed({}, normals[i], {1, 1, 1}, lit[i], false);
+      for (unsigned state = 0; state < 1U << lights.size(); ++state)
+        for (int c = 0; c < 3; ++c) {
+          double got = 0;
+          double right = 0;
+          double shadowed_weight = 0;
+          double weight = 0;
+          for (std::size_t l = 0; l < lights.size(); ++l) {
+            weight += 0.8 * lights[l].color[c];
+            if ((state >> l & 1U) == 0) continue;
+            shadowed_weight += 0.8 * lights[l].color[c];
+            right += exact[l][c];
+            got +=
+                g.shares[(g.polygons[i].normal_class - 1) * lights.size() + l][static_cast<std::size_t>(c)] / 65536.0;
+          }
+          constexpr double kAmbientWeight = 0.04;
+          const double bound = white[c] * (steepest * (shadowed_weight + weight + kAmbientWeight) * radius +
+                                           static_cast<double>(lights.size()) * 0x1p-17);
+          const double off = white[c] * std::abs(got - right);
+          REQUIRE(off <= bound);
+          closest = std::max(closest, off / bound);
+        }
+    }
+  }
+  std::printf("family 30: largest share of the bound %.2f\n", closest);
+  CHECK(closest > 0.1);
+}
+
+}  // namespace kage::verif

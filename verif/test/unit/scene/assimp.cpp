@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: Apache-2.0
+// Formats that Assimp reads, the same file by both readers, and real meshes where Debian's packages carry them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <set>
+
+#include "files.hpp"
+#include "scene/import.hpp"
+#include "scene/polygon.hpp"
+#include "scene/transform.hpp"
+#include "test/support/catch.hpp"
+
+using namespace kage;
+using test::TempDirectory;
+
+namespace {
+
+constexpr const char* kCube = R"(o cube
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)";
+
+constexpr const char* kCollada = R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_cameras><camera id="eye" name="eye"><optics><technique_common><perspective>
+  <yfov>40</yfov><aspect_ratio>1.5</aspect_ratio><znear>0.5</znear><zfar>50</zfar>
+</perspective></technique_common></optics></camera></library_cameras>
+<library_lights><light id="lamp"><technique_common><point><color>2 1 0</color></point></technique_common></light></library_lights>
+<library_geometries><geometry id="g"><mesh>
+  <source id="p"><float_array id="pa" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+    <accessor source="#pa" count="3" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+    <param name="Z" type="float"/></accessor></technique_common></source>
+  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_animations><animation>
+  <source id="t"><float_array id="ta" count="2">0 1</float_array><technique_common>
+    <accessor source="#ta" count="2" stride="1"><param name="TIME" type="float"/></accessor></technique_common></source>
+  <source id="k"><float_array id="ka" count="6">0 0 0 2 0 0</float_array><technique_common>
+    <accessor source="#ka" count="2" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+    <param name="Z" type="float"/></accessor></technique_common></source>
+  <source id="i"><Name_array id="ia" count="2">LINEAR LINEAR</Name_array><technique_common>
+    <accessor source="#ia" count="2" stride="1"><param name="INTERPOLATION" type="name"/></accessor></technique_common></source>
+  <sampler id="s"><input semantic="INPUT" source="#t"/><input semantic="OUTPUT" source="#k"/>
+    <input semantic="INTERPOLATION" source="#i"/></sampler>
+  <channel source="#s" target="mover/move"/>
+</animation></library_animations>
+<library_visual_scenes><visual_scene id="scene">
+  <node id="mover" name="mover"><translate sid="move">0 0 0</translate><instance_geometry url="#g"/></node>
+  <node id="c" name="c"><translate>0 0 5</translate><instance_camera url="#eye"/></node>
+  <node id="l" name="l"><translate>3 4 5</translate><instance_light url="#lamp"/></node>
+</visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#scene"/></scene>
+</COLLADA>
+)";
+
+std::vector<glm::dvec3> flat(std::initializer_list<std::array<double, 2>> p) {
+  std::vector<glm::dvec3> out;
+  for (const auto& q : p) out.emplace_back(q[0], q[1], 0);
+  return out;
+}
+
+// Twice the area of each triangle, signed; their sum is the polygon's.
+std::vector<double> areas(const std::vector<glm::dvec3>& p) {
+  std::vector<double> a;
+  for (const auto& t : scene::triangulate(p)) a.push_back(scene::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).z);
+  return a;
+}
+
+// World positions of all triangles' corners, unordered, to compare two readings of a file.
+std::multiset<std::array<float, 3>> corner_set(const scene::RawScene& s) {
+  std::multiset<std::array<float, 3>> out;
+  std::vector<scene::Affine> world;
+  for (const scene::RawNode& n : s.nodes) {
+    const scene::Affine own = n.fixed ? n.matrix : scene::compose(n.translation, n.rotation, n.scale);
+    world.push_back(n.parent < 0 ? own : world[static_cast<std::size_t>(n.parent)] * own);
+    if (n.mesh < 0) continue;
+    for (const scene::RawPrimitive& p : s.meshes[static_cast<std::size_t>(n.mesh)].primitives)
+      for (const std::size_t c : p.corners) {
+        const glm::dvec3 q = world.back().point({p.positions[3 * c], p.positions[3 * c + 1], p.positions[3 * c + 2]});
+        // Assimp's matrices are floats: compare to a thousandth.
+        out.insert({static_cast<float>(std::nearbyint(q.x * 1e3)), static_cast<float>(std::nearbyint(q.y * 1e3)),
+                    static_cast<float>(std::nearbyint(q.z * 1e3))});
+      }
+  }
+  return out;
+}
+
+/// A file that tools/deps installs. Missing is a failure, unless KAGE_WITHOUT_MESHES is set (docs/building.md).
+bool present(const std::string& path) {
+  if (std::filesystem::exists(path)) return true;
+  CAPTURE(path);
+  if (std::getenv("KAGE_WITHOUT_MESHES") == nullptr)
+    FAIL_CHECK("not installed: tools/deps test");
+  else
+    WARN("not installed, not tested: " << path);
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("polygons: convex as fans, concave by ears, what crosses itself somehow") {
+  CHECK(scene::triangulate(flat({{0, 0}, {1, 0}})).empty());
+  CHECK(areas(flat({{0, 0}, {2, 0}, {2, 1}, {0, 1}})) == std::vector<double>{2, 2});
+  const auto check_area = [](const std::vector<glm::dvec3>& p, double twice) {
+    double sum = 0;
+    for (const double a : areas(p)) {
+      CHECK(a * twice > 0);
+      sum += a;
+    }
+    CHECK(sum == Approx(twice));
+  };
+  check_area(flat({{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}), 20);                              // a notch from above
+  check_area(flat({{0, 4}, {2, 1}, {4, 4}, {4, 0}, {0, 0}}), -20);                             // the other way round
+  check_area(flat({{0, 0}, {1, 1}, {2, 0}, {1, 4}}), 6);                                       // an arrow
+  check_area(flat({{0, 0}, {6, 0}, {6, 1}, {1, 1}, {1, 5}, {6, 5}, {6, 6}, {0, 6}}), 2 * 16);  // a bracket
+  CHECK(areas(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})).size() == 2);
+  CHECK(areas(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}})).size() == 3);
+}
+
+TEST_CASE("a cube of quads: faces keep the file's numbers, the solid is closed and convex") {
+  const TempDirectory dir;
+  const Scene s = Scene::load(dir.write("cube.obj", kCube));
+  CHECK(s.name() == "cube");
+  const SceneFrame f = s.frame(0, 1);
+  REQUIRE(f.triangles.size() == 12);
+  CHECK(f.vertices.size() == 8);
+  for (std::size_t i = 0; i < 12; ++i) CHECK(f.triangles[i].face == i / 2);
+  REQUIRE(f.components.size() == 1);
+  CHECK(f.components[0].convex);
+  CHECK_FALSE(s.needs_smooth());
+}
+
+TEST_CASE("the side that a file shows stays the same, whichever way a triangle is turned") {
+  const TempDirectory dir;
+  const auto backs = [&dir](const std::vector<std::string>& turned) {
+    std::string text = kCube;
+    for (const std::string& face : turned)
+      text.replace(text.find(face), face.size(), "f " + std::string(face.rbegin(), face.rend() - 2));
+    const Scene s = Scene::load(dir.write("cube.obj", text));
+    std::string sides;
+    for (const Triangle& t : s.frame(0, 1).triangles)
+      sides += t.sides == Sides::back ? 'b' : t.sides == Sides::front ? 'f' : '2';
+    return sides;
+  };
+  CHECK(backs({}) == "ffffffffffff");
+  CHECK(backs({"f 5 6 7 8"}) == "ffbbffffffff");
+  CHECK(backs({"f 4 3 2 1", "f 5 6 7 8", "f 1 2 6 5", "f 2 3 7 6", "f 3 4 8 7", "f 4 1 5 8"}) == "bbbbbbbbbbbb");
+}
+
+TEST_CASE("an OBJ file keeps all vertices, however it is written") {
+  const TempDirectory dir;
+  const auto load = [&dir](const std::string& vertex) {
+    return Scene::load(dir.write("point.obj", "v 0 0 0\nv 1 0 0\n" + vertex + "\nv 0 2 2\nf 1 2 3\n"));
+  };
+  // Assimp alone leaves most of these out, so that the face's third corner is (0, 2, 2).
+  for (const char* third :
+       {"v 0 1 0.5", "v 0 1 .5", "v\t0 \t1\t.5 ", "  v 0 1 0.5", "\tv 0 1 0.5\r", "v 0 1 0.5 # 4 5",
+        "v 0 1 0.5 # information", "v 0 1 0.5#4 5", "v 0 1 .5 # .5", "v 0 1 \\\n.5", "v 0 1\\\r\n 0.5", "v 0 2 1 2",
+        "v 0 1 .5 .25 .5 .75", "# a comment \\\nv 0 1 0.5", "vn 0 0 1 # \\\nv 0 1 0.5", "o a # b\\\nv 0 1 0.5",
+        "#\rv 0 1 0.5\r#", "o a \\\nb\nv 0 1 0.5"}) {
+    CAPTURE(third);
+    const glm::dvec3 corner = load(third).frame(0, 1).vertices[2];
+    CHECK(corner.x == 0);
+    CHECK(corner.y == 1);
+    CHECK(corner.z == 0.5);
+  }
+  CHECK(load("v 0 1 -.5").frame(0, 1).vertices[2].z == -0.5);
+  CHECK(load("v 0 1 +.5").frame(0, 1).vertices[2].z == 0.5);
+  // A byte order mark is no part of the first vertex.
+  CHECK(Scene::load(dir.write("mark.obj", "\xEF\xBB\xBFv 3 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 1 2 3\n"))
+            .frame(0, 1)
+            .vertices[0]
+            .x == 3);
+  // Faces and normals too.
+  const Scene indented = Scene::load(
+      dir.write("faces.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn .5 0 0\nvn 0 0 1\n f 1//2 2//2 \\\n3//2 # 4\n"));
+  CHECK(indented.frame(0, 1).triangles.size() == 1);
+  CHECK(indented.frame(0, 1).shading[0].normal == glm::dvec3{0, 0, 1});
+}
+
+TEST_CASE("an OBJ file with a vertex that is none is refused") {
+  const TempDirectory dir;
+  const auto load = [&dir](const std::string& vertex) {
+    Scene::load(dir.write("point.obj", "v 0 0 0\nv 1 0 0\n" + vertex + "\nv 0 2 2\nf 1 2 3\n"));
+  };
+  using Catch::Matchers::EndsWith;
+  const std::pair<const char*, int> counts[]{
+      {"", 0}, {"1", 1}, {"1 2", 2}, {"1 2 3 4 5", 5}, {"1 2 3 4 5 6 7", 7}, {"1 2 # 3", 2}, {"\\\n1", 1}};
+  for (const auto& [numbers, count] : counts) {
+    CAPTURE(numbers);
+    CHECK_THROWS_WITH(load(std::string("v ") + numbers),
+                      EndsWith("point.obj: line 3: a vertex has 3 numbers, 4 with w or 6 with a colour, not " +
+                               std::to_string(count)));
+  }
+  CHECK_THROWS_WITH(load("v 1 2 abc"), EndsWith("point.obj: line 3: abc is not a number"));
+  CHECK_THROWS_WITH(load("v 1 2 ."), EndsWith("point.obj: line 3: . is not a number"));
+  CHECK_THROWS_WITH(load("v 1 2 -"), EndsWith("point.obj: line 3: - is not a number"));
+  CHECK_THROWS_WITH(load("v 1 2 4\\"), EndsWith("point.obj: line 3: v is not a number"));
+}
+
+TEST_CASE("materials of other formats give their diffuse colour; textures are noted") {
+  const TempDirectory dir;
+  dir.write("paint.mtl", "newmtl red\nKd 0.5 0.25 0.125\nmap_Kd red.png\nnewmtl glass\nKd 0 0 1\nd 0.5\n");
+  std::string text = std::string("mtllib paint.mtl\n") + kCube;
+  text.replace(text.find("f 4 3 2 1"), 0, "usemtl red\n");
+  text.replace(text.find("f 4 1 5 8"), 0, "usemtl glass\n");
+  const Scene s = Scene::load(dir.write("cube.obj", text));
+  const SceneFrame f = s.frame(0, 1);
+  // Two materials, one solid; but where one is translucent, what is left is open.
+  REQUIRE(f.components.size() == 2);
+  CHECK_FALSE(f.components[0].translucent);
+  CHECK_FALSE(f.components[0].closed);
+  CHECK(f.components[1].translucent);
+  CHECK(f.triangles[f.components[0].first].alpha == 255);
+  CHECK(f.triangles[f.components[1].first].alpha == 128);
+  CHECK(Scene::load(dir.write("cube2.obj", text), {0.5}).frame(0, 1).triangles[f.components[1].first].alpha == 64);
+  CHECK(f.shading[f.triangles[0].shading[0]].color == glm::dvec3{0.5, 0.25, 0.125});
+  CHECK(test::has_note(s, "1 texture is ignored"));
+  CHECK_FALSE(test::has_note(s, "alpha"));
+}
+
+TEST_CASE("materials of other formats: emission over black is unlit, other emission and gloss are noted") {
+  const TempDirectory dir;
+  const auto load = [&dir](const std::string& look) {
+    (void)dir.write("look.mtl", "newmtl m\n" + look);
+    return Scene::load(dir.write("t.obj", "mtllib look.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  };
+  const auto first = [](const Scene& s) { return s.frame(0, 1).triangles[0]; };
+  const Scene lamp = load("Kd 0 0 0\nKe 0.5 0.25 1\nKs 0 0 0\n");
+  CHECK(first(lamp).unlit);
+  CHECK(lamp.frame(0, 1).shading[0].color == glm::dvec3{0.5, 0.25, 1});
+  CHECK(lamp.contents().unlit == 1);
+  const Scene both = load("Kd 0.5 0.5 0.5\nKe 0 1 0\nKs 0 0 0\n");
+  CHECK_FALSE(first(both).unlit);
+  CHECK(test::has_note(both, "1 material emits light, which is ignored"));
+  CHECK_FALSE(test::has_note(both, "glossy"));
+  const Scene gloss = load("Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 90\n");
+  CHECK(test::has_note(gloss, "1 material is glossy, which is ignored"));
+  CHECK_FALSE(test::has_note(gloss, "emits"));
+}
+
+TEST_CASE("materials that an OBJ file names and does not get are told") {
+  const TempDirectory dir;
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto load = [&](const std::string& head) { return Scene::load(dir.write("t.obj", head + triangle)); };
+  const auto told = [](const Scene& s) {
+    return test::has_note(s, "no file") || test::has_note(s, "no material") || test::has_note(s, "grey");
+  };
+  (void)dir.write("look.mtl", "# a library\n  newmtl  red\nKd 1 0 0\nnewmtl dark red \r\nKd 0.5 0 0\n");
+  CHECK_FALSE(told(load("")));
+  CHECK_FALSE(told(load("mtllib look.mtl\n")));
+  CHECK_FALSE(told(load("mtllib look.mtl\nusemtl red\n")));
+  CHECK_FALSE(told(load("mtllib look.mtl \nusemtl dark red\n")));
+  CHECK_FALSE(told(load("mtllib look.mtl\nusemtl rde\nusemtl red\n")));  // nothing is drawn of it
+  // The file is not there: it is named once, whatever is asked of it.
+  const Scene lost = load("mtllib nothere.mtl\nmtllib nothere.mtl\nusemtl red\n");
+  CHECK(test::has_note(lost, "no file nothere.mtl: its materials are drawn grey"));
+  CHECK_FALSE(test::has_note(lost, "no material"));
+  CHECK(test::has_note(load("mtllib look.mtl\nusemtl rde\n"), "no material 'rde': drawn grey"));
+  CHECK(test::has_note(load("usemtl red\n"), "no material 'red': drawn grey"));
+  std::string many = "mtllib look.mtl\n";
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g"})
+    many += std::string("usemtl ") + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -3\n";
+  CHECK(test::has_note(load(many + "usemtl red\n"), "no materials 'a', 'b', 'c', 'd', 'e' and 2 more: drawn grey"));
+  // Assimp looks for one of the scene's own name then.
+  (void)dir.write("t.mtl", "newmtl red\nKd 1 0 0\n");
+  const Scene own = load("mtllib nothere.mtl\nusemtl red\n");
+  CHECK(test::has_note(own, "no file nothere.mtl: the materials are those of t.mtl"));
+  CHECK_FALSE(test::has_note(own, "grey"));
+  CHECK(own.frame(0, 1).shading[0].color == glm::dvec3{1, 0, 0});
+}
+
+TEST_CASE("camera, light and animation of another format") {
+  const TempDirectory dir;
+  const Scene s = Scene::load(dir.write("scene.dae", kCollada));
+  const SceneFrame f = s.frame(1, 2);
+  // Assimp turns the vertical angle into a horizontal one, in floats, by libm; back again it is the file's.
+  CHECK(f.camera.perspective);
+  CHECK(f.camera.half_height == Approx(std::tan(20 * 3.14159265358979 / 180)).epsilon(1e-6));
+  CHECK(f.camera.near == Approx(0.5));
+  CHECK(f.camera.far == Approx(50));
+  CHECK(f.camera.eye == glm::dvec3{0, 0, 5});
+  CHECK(f.camera.forward == glm::dvec3{0, 0, -1});
+  CHECK(f.camera.up == glm::dvec3{0, 1, 0});
+  CHECK_FALSE(f.lights[0].directional);
+  CHECK(f.lights[0].position == glm::dvec3{3, 4, 5});
+  CHECK(f.lights[0].color == glm::dvec3{1, 0.5, 0});
+  CHECK(s.objects() == std::vector<std::string>{"mover"});
+  CHECK(s.frame_count() == 8);
+  CHECK(s.frame(0, 2).vertices[0] == glm::dvec3{0, 0, 0});
+  CHECK(f.vertices[0] == glm::dvec3{1, 0, 0});  // half way from (0 0 0) to (2 0 0)
+}
+
+TEST_CASE("both readers see the same triangles in a glTF file") {
+  const std::string root = "/usr/share/assimp/models/glTF2/";
+  if (!present(root)) return;
+  for (const char* file : {"BoxTextured-glTF/BoxTextured.gltf", "BoxTextured-glTF-Binary/BoxTextured.glb",
+                           "BoxTextured-glTF-Embedded/BoxTextured.gltf",
+                           "2CylinderEngine-glTF-Binary/2CylinderEngine.glb", "ClearCoat-glTF/ClearCoatTest.gltf",
+                           "cameras/Cameras.gltf", "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_04.gltf",
+                           "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_05.gltf",
+                           "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_06.gltf",
+                           "glTF-Asset-Generator/Mesh_PrimitiveMode/Mesh_PrimitiveMode_12.gltf",
+                           "glTF-Sample-Models/AnimatedMorphCube-glTF/AnimatedMorphCube.gltf"}) {
+    INFO(file);
+    const auto ours = corner_set(scene::import_gltf(scene::GltfFile(root + file, file)));
+    const auto theirs = corner_set(scene::import_assimp(root + file, file));
+    CHECK(ours.size() == theirs.size());
+    std::size_t unlike = 0;
+    for (const auto& p : ours) unlike += theirs.count(p) == 0 ? 1 : 0;
+    CHECK(unlike * 50 <= ours.size());  // those that a thousandth's rounding parts
+  }
+}
+
+TEST_CASE("real meshes") {
+  struct Expected {
+    const char* file;
+    std::size_t triangles;
+  };
+  const std::string root = "/usr/share/glmark2/models/";
+  if (!present(root)) return;
+  for (const Expected& e : {Expected{"horse.3ds", 7172},
+                            {"bunny.obj", 69666},
+                            {"cat.3ds", 14348},
+                            {"asteroid-low.3ds", 480},
+                            {"asteroid-high.3ds", 48000},
+                            {"cube.3ds", 12}}) {
+    const std::string path = root + e.file;
+    if (!present(path)) continue;
+    const Scene s = Scene::load(path);
+    const SceneFrame f = s.frame(3, 8);
+    std::size_t closed = 0;
+    std::size_t convex = 0;
+    std::size_t counted = 0;
+    for (const Component& c : f.components) {
+      REQUIRE(c.first == counted);
+      counted += c.count;
+      closed += c.closed ? 1 : 0;
+      convex += c.convex ? 1 : 0;
+      REQUIRE(c.reason.empty() == c.convex);
+    }
+    std::printf("%s: %zu triangles, %zu vertices, %zu components, %zu closed, %zu convex\n", e.file, f.triangles.size(),
+                f.vertices.size(), f.components.size(), closed, convex);
+    CHECK(counted == f.triangles.size());
+    CHECK(f.triangles.size() == e.triangles);
+    double worst = 0;
+    for (const ShadingVertex& v : f.shading) worst = std::max(worst, std::abs(kage::length(v.normal) - 1));
+    CHECK(worst < 1e-12);
+  }
+}
+
+TEST_CASE("topology of meshes from CGAL's demo") {
+  struct Expected {
+    const char* file;
+    std::size_t triangles;
+    std::size_t vertices;
+    std::size_t components;
+    std::size_t closed;
+    std::size_t convex;
+  };
+  const std::string archive = "/usr/share/doc/libcgal-demo/data.tar.gz";
+  if (!present(archive)) return;
+  const TempDirectory dir;
+  REQUIRE(std::system(("tar xzf " + archive + " -C " + dir.path().string()).c_str()) == 0);
+  for (const Expected& e : {Expected{"tetrahedron", 4, 4, 1, 1, 1},
+                            {"cube_quad", 12, 8, 1, 1, 1},
+                            {"icosahedron", 20, 12, 1, 1, 1},
+                            {"cube-meshed", 1728, 866, 1, 1, 1},
+                            {"geosphere", 320, 162, 1, 1, 1},
+                            {"larger_sphere", 1620, 812, 1, 1, 1},
+                            {"open_cube", 10, 8, 1, 0, 0},
+                            {"star", 24, 14, 1, 1, 0},
+                            {"eight", 634, 315, 1, 1, 0},
+                            {"elephant", 5558, 2775, 1, 1, 0},
+                            {"elephant-with-holes", 4463, 2733, 1, 0, 0},
+                            {"knot2", 11520, 5760, 2, 2, 0}}) {
+    INFO(e.file);
+    const SceneFrame f =
+        Scene::load((dir.path() / "data/meshes" / (std::string(e.file) + ".off")).string()).frame(0, 1);
+    std::size_t closed = 0;
+    std::size_t convex = 0;
+    for (const Component& c : f.components) {
+      closed += c.closed ? 1 : 0;
+      convex += c.convex ? 1 : 0;
+    }
+    CHECK(f.triangles.size() == e.triangles);
+    CHECK(f.vertices.size() == e.vertices);
+    CHECK(f.components.size() == e.components);
+    CHECK(closed == e.closed);
+    CHECK(convex == e.convex);
+  }
+}
