@@ -18,7 +18,7 @@ install(DIRECTORY verif/cosim/model/driver verif/cosim/model/faults DESTINATION 
 install(DIRECTORY verif/cosim/diverge/monitors DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/diverge)
 
 # What a person reads: the pages as their links to each other expect them, and the benches that docs/benches.md shows.
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
 install(DIRECTORY verif/test/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/verif/test PATTERN "*.sh" EXCLUDE)
