@@ -66,12 +66,19 @@ bool keep_log(const std::string& text, const fs::path& temp, const fs::path& log
   }
 }
 
+/// OutputFile names the cause of a write that fails; std::filesystem::copy_file says "Input/output error" where a disk
+/// fills up within a file.
 void copy_sources(const fs::path& data, const std::vector<fs::path>& files, const fs::path& copy) {
   std::error_code ec;
   for (const fs::path& file : files) {
+    const std::string name = fmt::format("RTL model: {}", (copy / file).string());
     fs::create_directories((copy / file).parent_path(), ec);
-    if (!ec) fs::copy_file(data / file, copy / file, ec);
-    if (ec) throw Error(fmt::format("RTL model: {}: cannot be written: {}", (copy / file).string(), ec.message()));
+    if (ec) throw Error(fmt::format("{}: cannot be written: {}", name, ec.message()));
+    OutputFile out(copy / file, name);
+    out.copy(data / file);
+    out.close();
+    fs::permissions(copy / file, fs::status(data / file).permissions(), ec);  // build.py is run
+    if (ec) throw Error(fmt::format("{}: cannot be written: {}", name, ec.message()));
   }
 }
 
