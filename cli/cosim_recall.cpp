@@ -52,7 +52,7 @@ void SceneRun::open_verdicts() {
   if (!o_.rtl.fault.empty()) return no_verdicts("with --fault every frame is run");
   if (o_.rtl.options.mutant != 0) return no_verdicts("with --mutant every frame is run");
   if (o_.rtl.options.prelude) return no_verdicts("random:mixed runs every frame, for other frames go ahead of its own");
-  const cosim::RtlIdentity rtl = identity_of(source_->config());
+  const cosim::RtlIdentity rtl = identity_of(source_->named_config());
   if (rtl.behaviour.empty()) return no_verdicts(rtl.why_not);
   cosim::RecallOptions recall;
   try {
@@ -69,7 +69,7 @@ void SceneRun::open_verdicts() {
 
 /// The golden model works through all frames of the range; those without a verdict go through both cores then.
 cosim::Report SceneRun::recall(Part& part) {
-  const auto golden = cosim::make_golden(source_->config().config);
+  const auto golden = cosim::make_golden(source_->config());
   TempFiles none;
   cosim::RunOptions options = run_options(part.range, none);
   options.begin = [this](int frame) {
@@ -96,7 +96,7 @@ cosim::Report SceneRun::recall(Part& part) {
 
 cosim::Report SceneRun::simulate_and_keep(Part& part, const cosim::FrameRange& range, TempFiles& files) {
   (void)model();
-  const auto golden = cosim::make_golden(source_->config().config);
+  const auto golden = cosim::make_golden(source_->config());
   // Report and coverage have heard of these frames already.
   Source& source = source_of(part);
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
@@ -126,7 +126,7 @@ const cosim::Model& SceneRun::model() {
   if (model_error_) std::rethrow_exception(model_error_);
   if (!model_.library.empty()) return model_;
   try {
-    cosim::Model model = model_of(source_->config(), o_.rtl);
+    cosim::Model model = model_of(source_->named_config(), o_.rtl);
     if (model.library.stem() != model_key_)
       throw Error("the RTL was changed while verdicts were looked up: run it again");
     model_ = std::move(model);

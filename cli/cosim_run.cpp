@@ -90,7 +90,7 @@ void SceneRun::prepare(int ranges) {
   if (frames() == 0) return;
   if (!o_.out.empty()) folder_ = std::make_unique<OutFolder>(o_.out);
   open_verdicts();
-  if (!recall_) model_ = model_of(source_->config(), o_.rtl);
+  if (!recall_) model_ = model_of(source_->named_config(), o_.rtl);
   frame_progress_.emplace(progress_, source_->name(), frames());
   if (!o_.no_report && !o_.out.empty()) report_.emplace(*source_, o_.input, *o_.command);
   const int end = o_.frame >= 0 ? o_.frame + 1 : total_;
@@ -156,7 +156,7 @@ cosim::RunOptions SceneRun::run_options(const cosim::FrameRange& range, TempFile
 cosim::Feed SceneRun::heard_feed(Part& part) {
   Source& source = source_of(part);
   Listener* const ear = !report_ ? nullptr : part.ear ? part.ear.get() : &report_->listener();
-  if (o_.coverage) part.coverage = std::make_unique<verif::Coverage>(source_->config().config);
+  if (o_.coverage) part.coverage = std::make_unique<verif::Coverage>(source_->config());
   return [&part, &source, ear, first = part.range.steps.first](int i, const WordSink& sink) {
     if (i < first) return source.frame(i, sink);
     ++part.begun;
@@ -176,7 +176,7 @@ void SceneRun::count_again(Part& part) {
   const cosim::FrameSteps steps = part.range.steps;
   Source& source = source_of(part);
   source.count_anew(steps.first - steps.step);
-  if (part.coverage) part.coverage = std::make_unique<verif::Coverage>(source.config().config);
+  if (part.coverage) part.coverage = std::make_unique<verif::Coverage>(source.config());
   for (int i = 0; i < part.report.frames; ++i) {
     (void)source.frame(steps.first + i * steps.step, [&](std::span<const std::uint32_t> words) {
       if (part.coverage) part.coverage->words(words);
@@ -192,12 +192,12 @@ void SceneRun::check_registers(Part& part) {
   if (steps.first != steps_.first || !o_.rtl.options.prelude || !report.same || report.frames == 0) return;
   check_interrupt();
   const int last = steps.first + (report.frames - 1) * steps.step;
-  report.first_difference = register_difference(model_.library, source_->config().config, o_.rtl.options, last);
+  report.first_difference = register_difference(model_.library, source_->config(), o_.rtl.options, last);
   report.same = !report.first_difference;
 }
 
 cosim::Report SceneRun::simulate(Part& part, const cosim::FrameRange& range) {
-  const auto golden = cosim::make_golden(source_->config().config);
+  const auto golden = cosim::make_golden(source_->config());
   cosim::RunOptions options = run_options(range, part.files);
   return run_rtl(part, range, heard_feed(part), *golden, options);
 }
@@ -217,7 +217,7 @@ void SceneRun::take_rtl_text(Part& part, std::string_view text) const {
 /// On a new core; the first frame of all on one with another initial state besides.
 cosim::Report SceneRun::run_rtl(Part& part, const cosim::FrameRange& range, const cosim::Feed& feed,
                                 cosim::Core& golden, cosim::RunOptions& options) {
-  const Config& config = source_->config().config;
+  const Config& config = source_->config();
   const std::size_t text_before = part.rtl_text.size();
   cosim::RtlOptions own_state = o_.rtl.options;
   own_state.text = [&](int frame, std::string_view text) {
@@ -277,7 +277,7 @@ cosim::Report SceneRun::join(TempFiles& files) {
 
 /// How the RTL is run again.
 cosim::ReplayOptions SceneRun::replay(ModelFor what) const {
-  cosim::ReplayOptions options = cli::replay(source_->config(), o_.rtl, what);
+  cosim::ReplayOptions options = cli::replay(source_->named_config(), o_.rtl, what);
   options.steps = steps_;
   options.rtl.text = kTold;
   return options;
@@ -286,7 +286,7 @@ cosim::ReplayOptions SceneRun::replay(ModelFor what) const {
 /// The stage that a frame which came out different departs in first.
 std::optional<cosim::Divergence> SceneRun::find_divergence(int frame) {
   Source& source = *source_;
-  const Config& config = source.config().config;
+  const Config& config = source.config();
   const cosim::ReplayOptions options = replay(ModelFor::kMonitors);
   progress_.show("looking for the stage that differs first");
   if (const std::string missing = cosim::make_rtl(options.library, config)->missing_monitors(); !missing.empty())
@@ -310,7 +310,7 @@ void SceneRun::write_waveform(TempFiles& files, cosim::Divergence& divergence, i
     progress_.show("writing the waveform");
     const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
     cosim::write_waveform(
-        divergence, feed, source.config().config, options,
+        divergence, feed, source.config(), options,
         {.path = std::filesystem::path(o_.out) / fmt::format("{}_{:04}.fst", source.name(), frame), .files = &files});
   } catch (const Error& e) {
     source.note(fmt::format("no waveform was written: {}", e.what()));
@@ -321,7 +321,7 @@ void SceneRun::write_waveform(TempFiles& files, cosim::Divergence& divergence, i
 /// Writes the frame to a stream file, as small as it can be made and still comes out different on a new core.
 Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference) {
   const int frame = difference.frame;
-  const Config& config = source_->config().config;
+  const Config& config = source_->config();
   const std::vector<std::uint32_t> words = source_->words(frame);
   const auto error_of = [&](const std::vector<std::uint32_t>& w) {
     return GoldenCore(config).frame(w, [](int, std::span<const std::uint8_t>) {}).error;
@@ -447,8 +447,8 @@ Json SceneRun::report_of(const cosim::Report& r, const std::optional<cosim::Dive
   j["golden_seconds"] = r.expected_seconds;
   j["rtl_seconds"] = r.actual_seconds;
   j["build_seconds"] = model_.build_seconds;
-  j["config_name"] = source.config().name;
-  j["config"] = cli::to_json(source.config().config);
+  j["config_name"] = source.named_config().name;
+  j["config"] = cli::to_json(source.config());
   j["seed"] = o_.seed;
   j["versions"] = versions();
   j["again"] = again_line(*o_.command);

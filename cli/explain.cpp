@@ -19,6 +19,12 @@
 namespace kage::cli {
 namespace {
 
+Json to_json(const TokenSource& s) {
+  const auto number = [](int n) { return n < 0 ? Json(nullptr) : Json(n); };
+  return {{"role", s.role},         {"object", s.object},       {"component", number(s.component)},
+          {"face", number(s.face)}, {"light", number(s.light)}, {"sample", number(s.sample)}};
+}
+
 struct ExplainCommand : Options {
   int frame = 0;
   std::string pixel;
@@ -91,10 +97,10 @@ class RtlLines {
 };
 
 std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, const Pixel& at) {
-  cosim::ReplayOptions options = replay(source.config(), o.run, ModelFor::kMonitors);
+  cosim::ReplayOptions options = replay(source.named_config(), o.run, ModelFor::kMonitors);
   options.rtl.seed = o.seed;
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
-  return cosim::watch_pixel(o.frame, o.frame, feed, source.config().config, options, at.x, at.y);
+  return cosim::watch_pixel(o.frame, o.frame, feed, source.config(), options, at.x, at.y);
 }
 
 int run(const ExplainCommand& o) {
@@ -102,7 +108,7 @@ int run(const ExplainCommand& o) {
   check_json(o);
   const Pixel at = parse_pixel(o.pixel);
   Source source(o);
-  const Config& config = source.config().config;
+  const Config& config = source.config();
   if (o.frame >= source.frames())
     throw Error(fmt::format("{}: --frame {}: there are frames 0 to {}", o.input, o.frame, source.frames() - 1));
   const std::vector<std::uint32_t> words = source.words(o.frame);
@@ -134,7 +140,7 @@ int run(const ExplainCommand& o) {
     j["text"] = t.text;
     j["z"] = t.z ? Json(*t.z) : Json(nullptr);
     j["effect"] = t.effect;
-    j["source"] = sources.count(t.token) != 0 ? sources[t.token].json() : Json(nullptr);
+    j["source"] = sources.count(t.token) != 0 ? to_json(sources[t.token]) : Json(nullptr);
     j["before"] = to_json(t.before, config);
     j["after"] = to_json(t.after, config);
     j["bias"] = t.bias;

@@ -72,7 +72,7 @@ Json contents_of(const Scene& scene, const SceneFrame& frame) {
 
 /// Which named configurations draw it, what the others lack, and what is told of the pictures.
 void add_configurations(const Options& o, const Scene& scene, const SceneFrame& frame, Json& j) {
-  const Needs needs = needs_of(scene, frame, o.size, o.samples);
+  const Needs needs = needs_of(scene, frame, o.size.width, o.size.height, o.samples);
   j["size"] = {o.size.width, o.size.height};
   j["configurations"] = Json::array();
   j["configuration"] = nullptr;

@@ -7,10 +7,10 @@
 #include <memory>
 
 #include "command.hpp"
-#include "cosim/core.hpp"
-#include "cosim/picture.hpp"
 #include "kage/error.hpp"
+#include "kage/pipeline.hpp"
 #include "options.hpp"
+#include "pipeline/frame_picture.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
@@ -29,10 +29,8 @@ int run(const RenderCommand& o) {
   check_json(o);
   refuse_random(o.input);
   Source source(o);
-  const Config& config = source.config().config;
-  const auto golden = cosim::make_golden(config);
+  Renderer renderer(source);
   TokenCounts counts;
-  double seconds = 0;
   TempFiles files;
   Json names = Json::array();
   Size size;
@@ -43,19 +41,17 @@ int run(const RenderCommand& o) {
     frame_progress.next();
     const auto path =
         std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
-    cosim::FramePicture picture(path);
-    const LineSink line = [&](int, std::span<const std::uint8_t> pixels) { picture.line(pixels); };
-    counts += source.frame(i, [&](std::span<const std::uint32_t> words) {
-      check_interrupt();
-      frame_progress.wait();
-      picture.words(words);
-      golden->feed(words, line);
-    });
-    const cosim::FrameEnd end = golden->finish(line);
-    if (end.status.error != ErrorCode::NONE)
-      throw Error(fmt::format("{}: frame {}: {}", o.input, i, cosim::describe(end.status)));
-    seconds += end.seconds;
-    size = {end.status.width, end.status.height};
+    FramePicture picture(path);
+    const FrameStatus status = renderer.frame(
+        i, [&](int, std::span<const std::uint8_t> pixels) { picture.line(pixels); },
+        [&](std::span<const std::uint32_t> words) {
+          check_interrupt();
+          frame_progress.wait();
+          picture.words(words);
+        });
+    if (status.error != ErrorCode::NONE) throw Error(fmt::format("{}: frame {}: {}", o.input, i, describe(status)));
+    counts += renderer.counts();
+    size = {status.width, status.height};
     picture.close();
     picture.hand_over(files);
     names.push_back(path.string());
@@ -68,8 +64,8 @@ int run(const RenderCommand& o) {
   j["height"] = size.height;
   j["spans"] = counts.spans;
   j["span_pixels"] = counts.span_pixels;
-  j["golden_seconds"] = seconds;
-  j["config"] = cli::to_json(config);
+  j["golden_seconds"] = renderer.seconds();
+  j["config"] = cli::to_json(source.config());
   j["degraded"] = source.degraded();
   j["files"] = names;
   j["notes"] = source.notes();

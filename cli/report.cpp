@@ -109,7 +109,7 @@ std::vector<std::string> versions() {
 }
 
 Listener::Listener(Source& source) : source_(source) {
-  keep([&] { tokens_.emplace(source.config().config, report::kPageBytes); });
+  keep([&] { tokens_.emplace(source.config(), report::kPageBytes); });
 }
 
 void Listener::keep(const std::function<void()>& step) {
@@ -187,7 +187,7 @@ std::string RunReport::write(TempFiles& files, const std::string& folder, const 
   page.name = source_.name();
   page.run = &run;
   page.made = &files;
-  page.config = source_.config();
+  page.config = source_.named_config();
   page.seed = seed;
   page.divergence = divergence;
   if (divergence && !divergence->save_file.empty()) page.gtkwave = gtkwave_line(divergence->save_file);

@@ -35,34 +35,7 @@ constexpr double kShapeTolerance = 0.01;
 // Random frames of a run that does not say how many.
 constexpr int kRandomFrames = 200;
 
-// Words of a file's frame that go on at a time.
-constexpr std::size_t kPieceWords = 4096;
-
-bool is_grey(const glm::dvec3& c) { return c.x == c.y && c.y == c.z; }
-
 }  // namespace
-
-Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, int samples) {
-  Needs needs;
-  needs.width = size.width;
-  needs.height = size.height;
-  std::size_t casters = 0;
-  for (const Component& c : frame.components) {
-    needs.translucency = needs.translucency || c.translucent;
-    if (c.translucent) continue;
-    ++casters;
-    needs.several_volumes = needs.several_volumes || casters > 1 || !c.convex;
-  }
-  needs.shadows = casters > 0;
-  needs.smooth = scene.needs_smooth();
-  needs.lights = static_cast<int>(frame.lights.size());
-  const auto any_light = [&](auto what) { return std::any_of(frame.lights.begin(), frame.lights.end(), what); };
-  if (any_light([](const Light& l) { return l.shape != LightShape::point; })) needs.samples = samples;
-  needs.color =
-      any_light([](const Light& l) { return !is_grey(l.color); }) ||
-      std::any_of(frame.shading.begin(), frame.shading.end(), [](const ShadingVertex& v) { return !is_grey(v.color); });
-  return needs;
-}
 
 void refuse_order_tree(const std::string& path) {
   if (is_order_file(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
@@ -122,6 +95,7 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);
   stream_ = std::make_shared<const StreamFile>(options.input);
+  draw();
   name_ = plain_name(options.input);
   frames_ = stream_->frame_count();
   if (options.frames > frames_)
@@ -138,6 +112,7 @@ void Source::open_stream(const Options& options) {
 
 void Source::open_scene(const Options& options) {
   load_scene(options);
+  draw();
   remarks_.emplace(config_.config, options.size, options.cull);
 }
 
@@ -148,7 +123,6 @@ void Source::load_scene(const Options& options) {
   notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
   progress_ = std::make_unique<Progress>();
-  settle(options);
   if (options_.size.width > kMaxSize || options_.size.height > kMaxSize)
     throw Error(
         fmt::format("--size: {}x{}: at most {}x{}", options_.size.width, options_.size.height, kMaxSize, kMaxSize));
@@ -160,7 +134,7 @@ void Source::load_scene(const Options& options) {
         fmt::format("the camera's own pictures are {:.3g} times as wide as high, these {:.3g}: --size is "
                     "to be had in its shape",
                     asked, shape));
-  Needs needs = needs_of(*scene_, first, options.size, options.samples);
+  Needs needs = needs_of(*scene_, first, options.size.width, options.size.height, options.samples);
   if (options.config.empty()) {
     try {
       config_ = choose_config(needs);
@@ -175,6 +149,7 @@ void Source::load_scene(const Options& options) {
   config_ = load_config(options.config);
   std::vector<std::string> missing = lacks(config_.config, needs);
   if (!missing.empty() && options.degrade) {
+    if (needs.samples >> config_.config.count_bits != 0) options_.samples = 1;  // no soft shadows
     degraded_ = missing;
     needs.shadows = needs.smooth = needs.color = needs.translucency = false;
     needs.lights = needs.samples = 1;
@@ -190,14 +165,27 @@ void Source::load_scene(const Options& options) {
   if (!degraded_.empty()) notes_.push_back(fmt::format("drawn without {}", fmt::join(degraded_, ", ")));
 }
 
-void Source::settle(const Options& options) {
-  look_.translucent = options.order;
-  look_.samples = options.samples;
-  look_.seed = options.seed;
-  look_.classes = options.classes;
-  look_.cull = options.cull;
-  order_ = TranslucentOrder(progress_ ? order_build(options, *progress_, name_ + ": order of translucent faces")
-                                      : order_build(options));
+// Each source has its own, which keep what does not change from frame to frame.
+void Source::draw() {
+  if (stream_) {
+    stream_frames_ = std::make_unique<StreamFrames>(stream_);
+    return;
+  }
+  DrawOptions draw;
+  draw.width = options_.size.width;
+  draw.height = options_.size.height;
+  draw.frames = frames_;
+  draw.look.translucent = options_.order;
+  draw.look.samples = options_.samples;
+  draw.look.seed = options_.seed;
+  draw.look.classes = options_.classes;
+  draw.look.cull = options_.cull;
+  draw.look.fit = options_.degrade;
+  draw.order =
+      progress_ ? order_build(options_, *progress_, name_ + ": order of translucent faces") : order_build(options_);
+  draw.threads = options_.threads;
+  draw.name = name_;
+  scene_frames_ = std::make_unique<SceneFrames>(scene_, config_.config, std::move(draw));
 }
 
 std::unique_ptr<Source> Source::share(int last) const {
@@ -209,14 +197,14 @@ std::unique_ptr<Source> Source::share(int last) const {
   s->stream_ = stream_;
   s->scene_ = scene_;
   s->random_ = random_;
-  if (scene_) s->settle(options_);
+  if (!random_) s->draw();
   s->count_anew(last);
   return s;
 }
 
 void Source::count_anew(int last) {
   last_ = last;
-  made_ = blank_ = units_ = 0;
+  made_ = blank_ = unfit_ = units_ = 0;
   ways_.clear();
   if (scene_) remarks_.emplace(config_.config, options_.size, options_.cull);
 }
@@ -225,6 +213,7 @@ void Source::absorb(const Source& share) {
   last_ = std::max(last_, share.last_);
   made_ += share.made_;
   blank_ += share.blank_;
+  unfit_ += share.unfit_;
   units_ = std::max(units_, share.units_);
   if (remarks_) remarks_->absorb(*share.remarks_);
   if (ways_.empty()) ways_.resize(share.ways_.size());
@@ -256,6 +245,9 @@ std::vector<std::string> Source::notes() const {
   if (blank_ > 0)
     all.push_back(
         fmt::format("nothing is to be seen{}: no face covers the centre of a pixel", in_frames(blank_, made_)));
+  if (unfit_ > 0)
+    all.push_back(
+        fmt::format("drawn with one shadow volume a light sample{}: more need FSF", in_frames(unfit_, made_)));
   if (remarks_)
     for (std::string& note : remarks_->notes()) all.push_back(std::move(note));
   return all;
@@ -276,26 +268,13 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   return counts;
 }
 
-std::vector<std::uint32_t> Source::words(int index) {
-  std::vector<std::uint32_t> all;
-  frame(index, [&](std::span<const std::uint32_t> piece) { all.insert(all.end(), piece.begin(), piece.end()); });
-  return all;
-}
-
 TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {
-  TokenCounts counts;
-  auto words = stream_->frame(index, &counts);
-  std::vector<std::uint32_t> copy;
-  while (!words.empty()) {
+  check_interrupt();
+  return stream_frames_->frame(index, [&](std::span<const std::uint32_t> piece) {
     check_interrupt();
-    const auto piece = words.first(std::min(words.size(), kPieceWords));
-    words = words.subspan(piece.size());
-    // A copy, so that whatever happens to the file from now on, all who read these words read the same.
-    copy.assign(piece.begin(), piece.end());
-    check_mapped();
-    sink(copy);
-  }
-  return counts;
+    check_mapped();  // before anybody reads the piece
+    sink(piece);
+  });
 }
 
 TokenCounts Source::frame_of_chance(int index, const WordSink& sink) {
@@ -306,31 +285,18 @@ TokenCounts Source::frame_of_chance(int index, const WordSink& sink) {
 }
 
 TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
-  FrameChecker checker(config_.config, fmt::format("{}: frame {}", name_, index), 0);
-  const SceneFrame frame = scene_->frame(index, frames_);
-  if (!again_) remarks_->add(*scene_, frame);
-  const FrameGeometry geometry = this->geometry(index, frame);
-  PolyhedraReport report;
+  FrameParts parts;
   bool recorded = false;
-  make_frame(
-      geometry, config_.config, static_cast<std::uint32_t>(index),
-      [&](std::span<const std::uint32_t> words) {
-        check_interrupt();
-        if (!recorded) record(index, frame, geometry, report);
-        recorded = true;
-        checker.feed(words);
-        sink(words);
-      },
-      options_.threads, &report);
-  return checker.finish();
-}
-
-FrameGeometry Source::geometry(int index, const SceneFrame& frame) {
   try {
-    FrameGeometry made =
-        make_geometry(frame, config_.config, options_.size.width, options_.size.height, look_, &order_, &shadows_);
-    if (progress_) progress_->clear();
-    return made;
+    return scene_frames_->frame(
+        index,
+        [&](std::span<const std::uint32_t> words) {
+          check_interrupt();
+          if (!recorded) record(index, parts);
+          recorded = true;
+          sink(words);
+        },
+        parts);
   } catch (const TooManyFragments& e) {
     refuse_fragments(fmt::format("{}: frame {}", options_.input, index), e);
   }
@@ -338,17 +304,24 @@ FrameGeometry Source::geometry(int index, const SceneFrame& frame) {
 
 std::optional<Provenance> Source::provenance(int index) {
   if (!scene_) return std::nullopt;
-  SceneFrame frame = scene_->frame(index, frames_);
-  FrameGeometry geometry = this->geometry(index, frame);
-  FrameOrigins origins;
-  make_frame(
-      geometry, config_.config, static_cast<std::uint32_t>(index),
-      [](std::span<const std::uint32_t>) { check_interrupt(); }, options_.threads, nullptr, &origins);
-  return Provenance(scene_->objects(), std::move(frame), std::move(geometry), std::move(origins));
+  try {
+    return scene_frames_->provenance(index, [&](std::span<const std::uint32_t>) {
+      check_interrupt();
+      if (progress_) progress_->clear();
+    });
+  } catch (const TooManyFragments& e) {
+    refuse_fragments(fmt::format("{}: frame {}", options_.input, index), e);
+  }
 }
 
-// The report is complete before the frame's first words.
-void Source::record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report) {
+// The parts are complete before the frame's first words.
+void Source::record(int index, const FrameParts& parts) {
+  const SceneFrame& frame = parts.scene;
+  const FrameGeometry& geometry = parts.geometry;
+  const PolyhedraReport& report = parts.polyhedra;
+  if (progress_) progress_->clear();
+  if (!again_) remarks_->add(*scene_, frame);
+  if (!again_ && geometry.left_out > 0) ++unfit_;
   const int units = config_.config.units;
   if (units == 0) {
     if (options_.units_only && !geometry.polyhedra.empty())

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "kage/config.hpp"
-#include "kage/frontend.hpp"
-#include "kage/geometry.hpp"
+#include "kage/pipeline.hpp"
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
 #include "options.hpp"
 #include "progress.hpp"
-#include "provenance.hpp"
 #include "remarks.hpp"
 #include "results.hpp"
 #include "stimulus/random_frames.hpp"
@@ -30,7 +28,7 @@ void refuse_random(const std::string& input);
 
 /// Where frames come from: a scene, drawn as the options say, a stream file, or chance. A few bands of a frame are in
 /// memory at a time.
-class Source {
+class Source : public FrameSource {
  public:
   /// Opens options.input and settles the configuration: --config, else the stream's own, else the first named one that
   /// has what the scene needs. Throws Error if a configuration lacks what the scene needs and --degrade is not given.
@@ -46,8 +44,9 @@ class Source {
   /// Nothing is counted yet, as of a share of frames behind `last`.
   void count_anew(int last);
 
-  [[nodiscard]] const NamedConfig& config() const { return config_; }
-  [[nodiscard]] int frames() const { return frames_; }
+  [[nodiscard]] const Config& config() const override { return config_.config; }
+  [[nodiscard]] const NamedConfig& named_config() const { return config_; }
+  [[nodiscard]] int frames() const override { return frames_; }
   [[nodiscard]] const std::string& name() const { return name_; }
 
   /// Sentences for the person: what was ignored or added, which configuration was chosen, and in how many of the frames
@@ -86,10 +85,7 @@ class Source {
 
   /// Hands the words of frame `index` to `sink`, piece by piece, and returns their counts. check_interrupt() may end it
   /// between the pieces, and while translucent faces are put in order, which shows its own progress.
-  TokenCounts frame(int index, const WordSink& sink);
-
-  /// All of them at once.
-  std::vector<std::uint32_t> words(int index);
+  TokenCounts frame(int index, const WordSink& sink) override;
 
   /// What the tokens of frame `index` come from; nothing if the frames are a stream's.
   [[nodiscard]] std::optional<Provenance> provenance(int index);
@@ -97,8 +93,7 @@ class Source {
  private:
   TokenCounts frame_of_stream(int index, const WordSink& sink);
   TokenCounts frame_of_scene(int index, const WordSink& sink);
-  FrameGeometry geometry(int index, const SceneFrame& frame);
-  void record(int index, const SceneFrame& frame, const FrameGeometry& geometry, const PolyhedraReport& report);
+  void record(int index, const FrameParts& parts);
   TokenCounts frame_of_chance(int index, const WordSink& sink);
   void open_stream(const Options& options);
   void open_random(const Options& options, verif::Manner manner);
@@ -106,7 +101,7 @@ class Source {
   void load_scene(const Options& options);
 
   Source() = default;
-  void settle(const Options& options);
+  void draw();
 
   Options options_;
   NamedConfig config_;
@@ -117,14 +112,14 @@ class Source {
   std::shared_ptr<const StreamFile> stream_;
   std::shared_ptr<const Scene> scene_;
   std::optional<verif::RandomFrames> random_;
-  Look look_;
   std::unique_ptr<Progress> progress_;  // of the order's build; a share is silent
-  TranslucentOrder order_;
-  ShadowCache shadows_;
+  std::unique_ptr<SceneFrames> scene_frames_;
+  std::unique_ptr<StreamFrames> stream_frames_;
   int last_ = -1;  // the highest frame made: a run goes up, so one up to it is a replay, which counts no more
   bool again_ = false;
   int made_ = 0;                         // frames
   int blank_ = 0;                        // of those, without any opaque span or segment
+  int unfit_ = 0;                        // of those, with fewer shadow volumes than the scene has
   std::optional<FrameRemarks> remarks_;  // of a scene
   struct Way {
     std::string object;
@@ -136,9 +131,6 @@ class Source {
   std::vector<Way> ways_;  // by component
   int units_ = 0;
 };
-
-/// What drawing `scene` takes, judged by the frame at hand.
-Needs needs_of(const Scene& scene, const SceneFrame& frame, const Size& size, int samples);
 
 /// The ways that a stream file holds (Source::ways()), or null.
 Json ways_of(const StreamFile& file);

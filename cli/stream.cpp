@@ -30,7 +30,7 @@ int run(const Options& o) {
   refuse_random(o.input);
   Source source(o);
   if (source.is_stream()) source.note("copied from a stream file");
-  const Config& config = source.config().config;
+  const Config& config = source.config();
   StreamFileWriter writer =
       piped(o) ? StreamFileWriter(STDOUT_FILENO, "standard output", config) : StreamFileWriter(o.out, config);
   TokenCounts counts;

@@ -36,7 +36,6 @@ struct kage_golden final : kage::CoreObserver {
   int state = KAGE_GOLDEN_MORE;  // MORE: in the frame or before it
   bool accepted = false;         // a token, since it was last asked
   bool line = false;             // there is one at hand
-  bool resolved = false;         // the line has been
   int height = 0;
 
   int kind = KAGE_KIND_HEADER;
@@ -59,7 +58,6 @@ struct kage_golden final : kage::CoreObserver {
     token = {};
     height = kage::FrameHeader::read(w).height;
     line = accepted = true;
-    resolved = false;
   }
 
   void before(std::uint32_t i, const kage::Token& t, std::span<const std::uint32_t> w,
@@ -73,8 +71,6 @@ struct kage_golden final : kage::CoreObserver {
       state = KAGE_GOLDEN_END;
       line = false;
     }
-    if (t.kind == Kind::RESOLVE) resolved = true;
-    if (t.kind == Kind::EOL) resolved = false;
   }
 
   void after(std::uint32_t /*index*/, const kage::Token& /*token*/, const kage::LineView& /*view*/) override {
@@ -360,11 +356,10 @@ int kage_golden_pixel(kage_golden* core, int x, int field) {
       return static_cast<int>(p.z);
     case KAGE_PIXEL_CLASS:
       return clear ? int{KAGE_PIXEL_ANY} : static_cast<int>(p.normal_class);
-    // RESOLVE clears the flags. The golden core leaves that to EOL, since nothing between reads them.
     case KAGE_PIXEL_DSF:
-      return core->resolved ? 0 : static_cast<int>(p.dsf);
+      return static_cast<int>(p.dsf);
     case KAGE_PIXEL_FSF:
-      return core->resolved ? 0 : static_cast<int>(p.fsf);
+      return static_cast<int>(p.fsf);
     default:
       return clear && !line.painted() ? int{KAGE_PIXEL_ANY}
                                       : p.color[static_cast<std::size_t>(field - KAGE_PIXEL_COLOR)];

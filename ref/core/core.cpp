@@ -2,6 +2,8 @@
 // Frame control: header, order of tokens, errors, and the lines of a frame.
 #include "kage/core.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <vector>
 
@@ -210,6 +212,12 @@ FrameStatus GoldenCore::frame(std::span<const std::uint32_t> words, const LineSi
   data_->start();
   data_->feed(words, sink);
   return data_->finish(sink);
+}
+
+std::string describe(const FrameStatus& status) {
+  const auto code = static_cast<std::size_t>(status.error);
+  if (status.error == ErrorCode::NONE) return "no error";
+  return fmt::format("{} at line {}, token {}: {}", kErrorNames[code], status.line, status.token, kErrorTexts[code]);
 }
 
 }  // namespace kage

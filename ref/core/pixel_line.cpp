@@ -42,6 +42,13 @@ void PixelLine::start(int width, std::uint32_t background) {
   clear_counts();
 }
 
+void PixelLine::clear_flags() {
+  if (!shadow_touched_) return;
+  std::fill_n(dsf_.begin(), width_, 0U);
+  std::fill_n(fsf_.begin(), width_, 0U);
+  shadow_touched_ = false;
+}
+
 void PixelLine::tree(const TreeLine& line) {
   for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
     const auto z = static_cast<std::int32_t>(line.key[x] >> TreeLine::kIndexBits);
@@ -127,7 +134,15 @@ std::uint32_t PixelLine::factor(std::size_t x, std::size_t channel) const {
 }
 
 void PixelLine::resolve() {
-  if (config_.count_bits > 0) return resolve_counts();
+  if (config_.count_bits > 0)
+    resolve_counts();
+  else
+    resolve_flags();
+  bias_ = 0;
+  clear_flags();
+}
+
+void PixelLine::resolve_flags() {
   const std::uint32_t keep = (1U << config_.shade_frac) - shade_;
   const std::uint32_t half = 1U << (config_.shade_frac - 1);
   const std::int32_t clear = (1 << config_.z_bits) - 1;
@@ -139,11 +154,9 @@ void PixelLine::resolve() {
     for (unsigned at = 0; at < 24; at += 8) darkened |= (((a >> at & 255U) * keep + half) >> config_.shade_frac) << at;
     attr_[x] = darkened | kLit;
   }
-  bias_ = 0;
 }
 
 void PixelLine::resolve_counts() {
-  bias_ = 0;
   if (!any_count_) return;
   const std::uint32_t half = 1U << (config_.shade_frac - 1);
   const std::int32_t clear = (1 << config_.z_bits) - 1;
@@ -194,11 +207,7 @@ void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
   line_bytes(width_, zb_.data(), attr_.data(), painted_ || blank ? -1 : clear, background_, config_.channels,
              out.data());
   std::fill_n(zb_.begin(), width, clear);
-  if (shadow_touched_) {
-    std::fill_n(dsf_.begin(), width, 0U);
-    std::fill_n(fsf_.begin(), width, 0U);
-    shadow_touched_ = false;
-  }
+  clear_flags();
   if (any_count_) clear_counts();
   bias_ = 0;
   painted_ = false;

@@ -31,7 +31,7 @@ class PixelLine {
   void inside(int w);                  ///< IF: bias += w
   void ev(int xl, int xr);             ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
   void es(int xl, int xr, int light);  ///< count[light] += FSF; FSF = 0; bias = 0
-  void resolve();                      ///< darken what is lit and in shadow
+  void resolve();                      ///< darken what is lit and in shadow; DSF = FSF = counts = bias = 0
   void tp(const SpanToken& s);         ///< where Z < ZB: colour is blended
 
   [[nodiscard]] PixelState state(int x) const;
@@ -45,7 +45,9 @@ class PixelLine {
 
  private:
   [[nodiscard]] std::uint32_t factor(std::size_t x, std::size_t channel) const;
+  void resolve_flags();
   void resolve_counts();
+  void clear_flags();
   void clear_counts();
   [[nodiscard]] std::array<ColorRamp, 3> color_ramps(const SpanToken& s) const;
 
@@ -56,9 +58,9 @@ class PixelLine {
   std::vector<std::array<std::uint32_t, 3>> shares_;  // the frame's table, by class - 1, then light
   std::uint32_t dsf_mask_ = 0;
   std::uint32_t bias_ = 0;
-  bool shadow_touched_ = false;
-  bool any_count_ = false;  // a counter of the line may be other than 0
-  bool painted_ = false;    // translucent spans have come: uncovered pixels have the background's colour
+  bool shadow_touched_ = false;  // a flag of the line may be other than 0
+  bool any_count_ = false;       // a counter of the line may be other than 0
+  bool painted_ = false;         // translucent spans have come: uncovered pixels have the background's colour
   // A pixel's state, one array a field. Arrays reach past the width by the longest vector, so that kernels need no
   // scalar tail.
   std::vector<std::int32_t> zb_;

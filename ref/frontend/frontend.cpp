@@ -90,8 +90,9 @@ void write_table(const FrameGeometry& g, const Config& config, TokenWriter& writ
 
 }  // namespace
 
-void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink, int threads,
-                PolyhedraReport* report, FrameOrigins* origins) {
+void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink,
+                const FrameOptions& options) {
+  FrameOrigins* const origins = options.origins;
   if (g.width > (1 << config.x_bits) - 1)
     throw Error(fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits,
                             (1 << config.x_bits) - 1));
@@ -109,7 +110,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   else if (shadows)
     writer.shade(g.shade);
   FramePlan frame = prepare(g, config);
-  if (report != nullptr) *report = frame.tree.report();
+  if (options.report != nullptr) *options.report = frame.tree.report();
   if (origins != nullptr) *origins = {};
   if (frame.tree.any()) {
     frame.tree.faces(writer);
@@ -122,10 +123,10 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
 
   const int bands = (g.height + kBandLines - 1) / kBandLines;
   // A few bands at a time, handed on in order: memory holds no more than those.
-  const int wave = threads == 1 ? 1 : 8;
+  const int wave = options.threads == 1 ? 1 : 8;
   std::deque<Band> made;
   for (int i = 0; i < wave; ++i) made.emplace_back(frame, origins != nullptr);
-  Arena arena(threads);
+  Arena arena(options.threads);
   for (int first = 0; first < bands; first += wave) {
     const int end = std::min(first + wave, bands);
     const auto of = [&](int b) -> Band& { return made[static_cast<std::size_t>(b - first)]; };
@@ -153,10 +154,10 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
 }
 
 void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, std::vector<std::uint32_t>& out,
-                int threads) {
+                const FrameOptions& options) {
   make_frame(
       g, config, number,
-      [&out](std::span<const std::uint32_t> words) { out.insert(out.end(), words.begin(), words.end()); }, threads);
+      [&out](std::span<const std::uint32_t> words) { out.insert(out.end(), words.begin(), words.end()); }, options);
 }
 
 }  // namespace kage

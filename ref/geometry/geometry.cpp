@@ -79,6 +79,7 @@ class Builder {
         volumes.make(i, caster,
                      [&](const WorldVolume& v, std::uint32_t component) { maker.add(v, caster, i, component, casts); });
       }
+      if (look_->fit && config_->fsf == 0) keep_first_volumes();
     }
     if (config_->translucency > 0) draw_translucent();
     table_->finish(out_);
@@ -86,6 +87,15 @@ class Builder {
   }
 
  private:
+  // Faces and edges of those that go stay where they are: nothing names them any more.
+  void keep_first_volumes() {
+    const std::size_t all = out_.volumes.size();
+    const auto end = std::unique(out_.volumes.begin(), out_.volumes.end(),
+                                 [](const ShadowVolume& a, const ShadowVolume& b) { return a.sample == b.sample; });
+    out_.volumes.erase(end, out_.volumes.end());
+    out_.left_out = static_cast<std::uint32_t>(all - out_.volumes.size());
+  }
+
   void sample_lights() {
     for (std::size_t l = 0; l < frame_->lights.size(); ++l) {
       std::vector<LightPoint> points{frame_->lights[l]};  // the middle, then the samples unless they are the middle
@@ -448,17 +458,17 @@ void check_look(const Look& look) {
 
 }  // namespace
 
-FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
-                            TranslucentOrder* order, ShadowCache* shadows) {
+FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height,
+                            const GeometryOptions& options) {
   if (width < 1 || height < 1 || width > kMaxSize || height > kMaxSize)
     throw Error(fmt::format("size {}x{}: width and height must be 1 .. {}", width, height, kMaxSize));
   if (frame.polygons.empty()) throw Error("the scene has no faces");
   check_finite(frame);
-  check_look(look);
+  check_look(options.look);
   TranslucentOrder fresh_order;
   ShadowCache fresh_shadows;
-  return Builder(frame, config, width, height, look, order != nullptr ? *order : fresh_order,
-                 shadows != nullptr ? *shadows : fresh_shadows)
+  return Builder(frame, config, width, height, options.look, options.order != nullptr ? *options.order : fresh_order,
+                 options.shadows != nullptr ? *options.shadows : fresh_shadows)
       .build();
 }
 

@@ -55,7 +55,7 @@ void compare_cost(const Scene& scene, const Config& config, const std::filesyste
   std::vector<std::vector<std::uint32_t>> frames;
   for (int i = 0; i < scene.frame_count(); ++i)
     make_frame(make_geometry(scene.frame(i, scene.frame_count()), config, 640, 480), config,
-               static_cast<std::uint32_t>(i), frames.emplace_back(), 1);
+               static_cast<std::uint32_t>(i), frames.emplace_back(), {.threads = 1});
   const auto golden = cosim::make_golden(config);
   const auto rtl = cosim::make_rtl(library, config);
   const auto monitored = cosim::make_rtl(cosim::find_model(config, {.monitors = true}).library, config);
@@ -149,7 +149,7 @@ int main() {
     std::vector<std::uint32_t> words;
     const double front = least(5, [&] {
       words.clear();
-      make_frame(g, config, static_cast<std::uint32_t>(i), words, 1);
+      make_frame(g, config, static_cast<std::uint32_t>(i), words, {.threads = 1});
     });
     const TokenCounts counts = check_frame(config, words, "bench", 0);
     std::uint64_t sum = 0;  // somebody reads the pixels

@@ -66,7 +66,7 @@ Hit hit(const SceneFrame& f, const Polygon& face, int x, int y) {
 
 /// What the picture of frame `f` is off by, were each light's intensity kept for every pixel.
 void measure(const SceneFrame& f, const Config& config, const Look& look, double radius, Errors& e) {
-  const FrameGeometry g = make_geometry(f, config, kWidth, kHeight, look);
+  const FrameGeometry g = make_geometry(f, config, kWidth, kHeight, {.look = look});
   const auto picture = draw(g, config);
   const auto unshadowed = draw(only_sample(g, ~0U), for_one_sample(config));
   const auto seen = seen_polygons(g, config);
@@ -135,8 +135,8 @@ void table_errors(const char* title, const Scene& scene, bool suns, bool flat) {
       Look look;
       look.classes = classes;
       measure(f, c, look, 1.36 * 2 / std::sqrt(classes), e);
-      used =
-          std::max(used, make_geometry(f, c, kWidth, kHeight, look).shares.size() / static_cast<std::size_t>(c.lights));
+      used = std::max(used, make_geometry(f, c, kWidth, kHeight, {.look = look}).shares.size() /
+                                static_cast<std::size_t>(c.lights));
     }
     fmt::print("  {:5} normals, {:4} classes in use: mean {:6.3f} LSB, at most {:6.2f}{}\n", classes, used,
                e.sum / static_cast<double>(e.count), e.worst,
@@ -152,11 +152,11 @@ void sample_costs(const Scene& scene) {
     Look look;
     look.samples = samples;
     auto start = Clock::now();
-    const FrameGeometry g = make_geometry(f, c, 640, 480, look);
+    const FrameGeometry g = make_geometry(f, c, 640, 480, {.look = look});
     const double geometry = since(start);
     std::vector<std::uint32_t> words;
     start = Clock::now();
-    make_frame(g, c, 0, words, 1);
+    make_frame(g, c, 0, words, {.threads = 1});
     const double front_end = since(start);
     const TokenCounts counts = check_frame(c, words, "frame", 0);
     GoldenCore core(c);

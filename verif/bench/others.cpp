@@ -100,7 +100,7 @@ Renderer kage_renderer(const Setting& s, const std::string& name, int dsf_bits) 
   r.name = name;
   r.render = [&s, config, core, words](Shown shown, Parts& parts, Picture& out) {
     parts.begin();
-    FrameGeometry g = make_geometry(s.frame, config, s.width, s.height, s.look);
+    FrameGeometry g = make_geometry(s.frame, config, s.width, s.height, {.look = s.look});
     parts.end("geometry");
     if (shown == Shown::shadow) {
       g.shade = 1U << config.shade_frac;
@@ -109,7 +109,7 @@ Renderer kage_renderer(const Setting& s, const std::string& name, int dsf_bits) 
     }
     parts.begin();
     words->clear();
-    make_frame(g, config, 0, *words, 1);
+    make_frame(g, config, 0, *words, {.threads = 1});
     parts.end("front end");
     out.clear();
     const FrameStatus status = core->frame(

@@ -45,7 +45,7 @@ int main() {
                                                         : "default";
     const Config c = load_config(config).config;
     std::vector<std::uint32_t> words;
-    make_frame(make_geometry(f, c, 640, 480), c, 0, words, 1);
+    make_frame(make_geometry(f, c, 640, 480), c, 0, words, {.threads = 1});
     const cosim::PhaseSums s = sums_of(c, words);
     const auto clocks = [&](Phase phase) { return s.of[static_cast<std::size_t>(phase)].clocks; };
     const auto rtl = cosim::make_rtl(cosim::find_model(c).library, c);

@@ -58,7 +58,8 @@ int main() {
         frames,
         [&](int i, const WordSink& sink) {
           std::vector<std::uint32_t> words;
-          make_frame(make_geometry(scene.frame(i, frames), c, 640, 480), c, static_cast<std::uint32_t>(i), words, 1);
+          make_frame(make_geometry(scene.frame(i, frames), c, 640, 480), c, static_cast<std::uint32_t>(i), words,
+                     {.threads = 1});
           const TokenCounts counts = check_frame(c, words, name, 0);
           Clock clock;
           tokens.begin(i);

@@ -75,19 +75,19 @@ void measure(const Scene& scene, const glm::dvec3& sun, const char* called, int 
     f.lights[0].direction = sun;
     add_floor(f);
     auto start = Clock::now();
-    const FrameGeometry g = make_geometry(f, config, 640, 480, look);
+    const FrameGeometry g = make_geometry(f, config, 640, 480, {.look = look});
     sum.geometry += since(start);
     // The next frame's, with casters and light where they are.
     ShadowCache kept;
-    (void)make_geometry(f, config, 640, 480, look, nullptr, &kept);
+    (void)make_geometry(f, config, 640, 480, {.look = look, .shadows = &kept});
     start = Clock::now();
-    (void)make_geometry(f, config, 640, 480, look, nullptr, &kept);
+    (void)make_geometry(f, config, 640, 480, {.look = look, .shadows = &kept});
     sum.again += since(start);
     sum.volumes += g.volumes.size();
     for (const VolumeFace& face : g.volume_faces) sum.sides += g.polygons[face.polygon].source == ~0U ? 1 : 0;
     std::vector<std::uint32_t> words;
     start = Clock::now();
-    make_frame(g, config, 0, words, 1);
+    make_frame(g, config, 0, words, {.threads = 1});
     sum.front_end += since(start);
     count_tokens(config, words, sum);
     GoldenCore core(config);

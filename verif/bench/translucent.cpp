@@ -39,11 +39,11 @@ Run run(const Scene& scene, TranslucentWay way) {
   for (int i = 0; i < frames; ++i) {
     const SceneFrame f = scene.frame(i, frames);
     auto start = Clock::now();
-    FrameGeometry g = make_geometry(f, config, 640, 480, look, &order);
+    FrameGeometry g = make_geometry(f, config, 640, 480, {.look = look, .order = &order});
     if (i == 0) {  // with the tree; once more without
       r.tree = since(start);
       start = Clock::now();
-      g = make_geometry(f, config, 640, 480, look, &order);
+      g = make_geometry(f, config, 640, 480, {.look = look, .order = &order});
       r.tree -= since(start);
     }
     r.geometry += since(start);
@@ -51,7 +51,7 @@ Run run(const Scene& scene, TranslucentWay way) {
     for (const Component& c : f.components) r.faces += c.translucent ? c.polygon_count : 0;
     std::vector<std::uint32_t> words;
     start = Clock::now();
-    make_frame(g, config, static_cast<std::uint32_t>(i), words, 1);
+    make_frame(g, config, static_cast<std::uint32_t>(i), words, {.threads = 1});
     r.front_end += since(start);
     r.spans += check_frame(config, words, "frame", 0).of_kind[static_cast<std::size_t>(Kind::TP)];
     GoldenCore core(config);

@@ -77,7 +77,4 @@ class Core {
 /// The golden model.
 std::unique_ptr<Core> make_golden(const Config& config);
 
-/// "ORDER at line 3, token 17: a token where its phase does not allow it", or "no error".
-std::string describe(const FrameStatus& status);
-
 }  // namespace kage::cosim

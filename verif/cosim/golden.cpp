@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "cosim/core.hpp"
-#include "cosim/stopwatch.hpp"
+#include "pipeline/stopwatch.hpp"
 
 namespace kage::cosim {
 namespace {
@@ -39,11 +37,5 @@ class Golden : public Core {
 }  // namespace
 
 std::unique_ptr<Core> make_golden(const Config& config) { return std::make_unique<Golden>(config); }
-
-std::string describe(const FrameStatus& status) {
-  const auto code = static_cast<std::size_t>(status.error);
-  if (status.error == ErrorCode::NONE) return "no error";
-  return fmt::format("{} at line {}, token {}: {}", kErrorNames[code], status.line, status.token, kErrorTexts[code]);
-}
 
 }  // namespace kage::cosim

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cosim/model/sha256.hpp"
-#include "cosim/picture.hpp"
+#include "pipeline/frame_picture.hpp"
 
 namespace kage::cosim {
 namespace {

@@ -14,9 +14,9 @@
 #include <thread>
 #include <utility>
 
-#include "cosim/picture.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
+#include "pipeline/frame_picture.hpp"
 
 namespace kage::cosim {
 namespace {

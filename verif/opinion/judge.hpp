@@ -40,7 +40,7 @@ struct Judgement {
 /// Pixels of a frame: 24-bit colour each.
 inline std::vector<std::uint32_t> draw(const FrameGeometry& g, const Config& config) {
   std::vector<std::uint32_t> words;
-  make_frame(g, config, 0, words, 1);
+  make_frame(g, config, 0, words, {.threads = 1});
   check_frame(config, words, "front end", 0);
   GoldenCore core(config);
   std::vector<std::uint32_t> pixels;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "kage/defs.hpp"
 
@@ -26,6 +27,9 @@ struct FrameStatus {
 
   bool operator==(const FrameStatus&) const = default;
 };
+
+/// "ORDER at line 3, token 17: a token where its phase does not allow it", or "no error".
+std::string describe(const FrameStatus& status);
 
 /// What a core keeps of a pixel of the line at hand (docs/stream.md, "The pixel's state").
 struct PixelState {

@@ -49,16 +49,21 @@ struct FrameOrigins {
   std::vector<TokenOrigin> translucent;  ///< of each TP
 };
 
-/// Make the frame's words from first to last. Lines are made in bands, on up to `threads` threads (0: all there are),
-/// and handed on band by band; the words do not depend on the number of threads. Cost is linear in the spans. Throws
-/// Error if the configuration cannot hold the frame (width, volumes). With UNITS > 0 polyhedra go to units, in draw
-/// order up to the first that finds none; the rest become spans, which changes no pixel. `report` and `origins` are
-/// filled if given.
+/// How a frame's words are made, and what is to be told of them.
+struct FrameOptions {
+  int threads = 0;                    ///< at most; 0: one per processor. The words do not depend on it
+  PolyhedraReport* report = nullptr;  ///< filled before the first words
+  FrameOrigins* origins = nullptr;    ///< filled with the words
+};
+
+/// Make the frame's words from first to last. Lines are made in bands and handed on band by band. Cost is linear in the
+/// spans. Throws Error if the configuration cannot hold the frame (width, volumes). With UNITS > 0 polyhedra go to
+/// units, in draw order up to the first that finds none; the rest become spans, which changes no pixel.
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number, const WordSink& sink,
-                int threads = 0, PolyhedraReport* report = nullptr, FrameOrigins* origins = nullptr);
+                const FrameOptions& options = {});
 
 /// The same, appended to `out`.
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number,
-                std::vector<std::uint32_t>& out, int threads = 0);
+                std::vector<std::uint32_t>& out, const FrameOptions& options = {});
 
 }  // namespace kage

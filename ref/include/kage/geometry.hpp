@@ -160,6 +160,7 @@ struct FrameGeometry {
   std::vector<VolumeFace> volume_faces;
   std::vector<NearEdge> near_edges;
   std::vector<ShadowVolume> volumes;  ///< in order of their samples
+  std::uint32_t left_out = 0;         ///< volumes that Look::fit has dropped
   std::vector<Polyhedron> polyhedra;  ///< in draw order; their polygons are the first of the drawn ones
   std::vector<PolyhedronEdge> polyhedron_edges;
   std::vector<SpanReason> span_reasons;   ///< of each of SceneFrame::components
@@ -193,6 +194,8 @@ struct Look {
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
   VolumeWay volumes = VolumeWay::fewest;
   bool leave_out = true;  ///< shadows that can meet nothing seen, which changes no picture
+  bool fit = false;       ///< without FSF only the first volume of each light sample stays, for FSF collects several;
+                          ///< FrameGeometry::left_out counts the others. Else make_frame() refuses the frame
   bool cull = false;  ///< faces are not drawn if the eye sees the side that their material does not show (Sides); they
                       ///< cast shadows all the same
   TranslucentWay translucent = TranslucentWay::exact;
@@ -236,13 +239,20 @@ class ShadowCache {
   std::unique_ptr<Data> data_;
 };
 
+/// How a frame's geometry is made.
+struct GeometryOptions {
+  Look look = {};
+  TranslucentOrder* order = nullptr;  ///< that of the frames before; nullptr: made anew
+  ShadowCache* shadows = nullptr;     ///< likewise
+};
+
 /// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
 /// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, of how many lights and
-/// samples, and whether translucent faces are blended (else they are opaque and drawn last). `order` and `shadows`, if
-/// given, are those of frames before. Throws Error if width or height is not 1 .. kMaxSize, if there are no faces, if a
-/// vertex, the camera, a light or `look` is not as its type says, or if a light that is not at infinity is more than
-/// 2^40 times as far from the scene, or as large, as that is large; TooManyFragments as TranslucentOrder says.
-FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {},
-                            TranslucentOrder* order = nullptr, ShadowCache* shadows = nullptr);
+/// samples, and whether translucent faces are blended (else they are opaque and drawn last). Throws Error if width or
+/// height is not 1 .. kMaxSize, if there are no faces, if a vertex, the camera, a light or the look is not as its type
+/// says, or if a light that is not at infinity is more than 2^40 times as far from the scene, or as large, as that is
+/// large; TooManyFragments as TranslucentOrder says.
+FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height,
+                            const GeometryOptions& options = {});
 
 }  // namespace kage

@@ -183,8 +183,8 @@ void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
   e.expect(at::pixel::normal_class, config_.dsf_bits > 0 ? after.normal_class : 0);
   e.expect(at::pixel::counts, counts);
   if (!painted_ || config_.count_bits == 0) {  // with counters nobody asks for the flags of a painted line
-    e.expect(at::pixel::dsf, painted_ ? 0 : after.dsf);
-    e.expect(at::pixel::fsf, painted_ ? 0 : after.fsf);
+    e.expect(at::pixel::dsf, after.dsf);
+    e.expect(at::pixel::fsf, after.fsf);
   }
   // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one
   // that ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
@@ -276,6 +276,7 @@ void ExpectedEvents::paint(const LineView& line) {
       else if (dark)
         s.color[c] = static_cast<std::uint8_t>((s.color[c] * (one - shade_) + one / 2) >> config_.shade_frac);
     }
+    s.dsf = s.fsf = 0;  // as a RESOLVE leaves them
     return s;
   };
   if (!by_loads) {

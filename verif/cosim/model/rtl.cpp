@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "cosim/stopwatch.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
 #include "number/mixed.hpp"
+#include "pipeline/stopwatch.hpp"
 
 namespace kage::cosim {
 namespace {

@@ -95,7 +95,7 @@ Json frames_of(const Page& page, Pictures& pictures) {
     j["words"] = r.counts.words;
     j["error"] = r.status.error == ErrorCode::NONE
                      ? Json(nullptr)
-                     : Json{{"text", cosim::describe(r.status)}, {"line", r.status.line}, {"token", r.status.token}};
+                     : Json{{"text", describe(r.status)}, {"line", r.status.line}, {"token", r.status.token}};
     for (const TokenStore* store : {page.tokens, different ? page.wanted : nullptr}) {
       if (store == nullptr || static_cast<std::size_t>(number) >= store->frames().size()) continue;
       const FrameTokens& t = store->frames()[static_cast<std::size_t>(number)];

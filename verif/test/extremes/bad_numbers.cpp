@@ -118,7 +118,7 @@ TEST_CASE("family 10: a light, or a look, beyond what can be drawn is an error t
   const auto look = [](auto change) {
     Look l;
     change(l);
-    return make_geometry(scene(), Config{}, 64, 48, l);
+    return make_geometry(scene(), Config{}, 64, 48, {.look = l});
   };
   CHECK_THROWS_AS(look([](Look& l) { l.samples = 0; }), Error);
   CHECK_THROWS_AS(look([](Look& l) { l.samples = 256; }), Error);

@@ -180,7 +180,7 @@ TEST_CASE("family 24: where the eye is in several shadows, IF has their number")
   std::vector<std::uint32_t> words;
   Look look;
   look.leave_out = false;  // they fall behind the eye
-  make_frame(make_geometry(f, config, kWidth, kHeight, look), config, 0, words, 1);
+  make_frame(make_geometry(f, config, kWidth, kHeight, {.look = look}), config, 0, words, {.threads = 1});
   const Layout layout(config);
   int inside = 0;
   for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) {
@@ -223,7 +223,7 @@ TEST_CASE("family 26: counting volumes that reach further give the same picture,
     Look further;
     further.extrusion = 3;
     same_but_near_ties(make_geometry(f, config, kWidth, kHeight), config,
-                       make_geometry(f, config, kWidth, kHeight, further), config);
+                       make_geometry(f, config, kWidth, kHeight, {.look = further}), config);
   }
 }
 
@@ -271,7 +271,7 @@ TEST_CASE("family 28: open, inverted, inconsistent, non-manifold, torn casters c
     Look per_face;
     per_face.volumes = VolumeWay::per_face;
     same_but_near_ties(make_geometry(f, config, kWidth, kHeight), config,
-                       make_geometry(f, Config{}, kWidth, kHeight, per_face), Config{});
+                       make_geometry(f, Config{}, kWidth, kHeight, {.look = per_face}), Config{});
   }
 }
 

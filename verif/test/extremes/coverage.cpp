@@ -196,10 +196,10 @@ TEST_CASE("family 7: zero area, collinear and repeated vertices make no span and
     FrameBuilder with(kWidth, kHeight);
     with.add(rectangle(0, 0, 10, 10), plane(1000), {1, 2, 3});
     std::vector<std::uint32_t> plain;
-    make_frame(with.frame(), Config{}, 0, plain, 1);
+    make_frame(with.frame(), Config{}, 0, plain, {.threads = 1});
     with.add(o, plane(10), {255, 255, 255});
     std::vector<std::uint32_t> more;
-    make_frame(with.frame(), Config{}, 0, more, 1);
+    make_frame(with.frame(), Config{}, 0, more, {.threads = 1});
     CHECK(more == plain);
   }
 }
@@ -225,7 +225,7 @@ TEST_CASE("family 9: coordinates at the guard band are exact, one past is refuse
     FrameBuilder b(40, 30);
     b.add({{0, 0}, {x, y}, {2560, 100}}, plane(1000));
     std::vector<std::uint32_t> words;
-    make_frame(b.frame(), Config{}, 0, words, 1);
+    make_frame(b.frame(), Config{}, 0, words, {.threads = 1});
     check_frame(Config{}, words, "test", 0);
   };
   for (const std::int32_t at : {kLimit, -kLimit}) {

@@ -149,7 +149,7 @@ TEST_CASE("family 19: colour from 0 to 255 and back is in range and monotone") {
           b.frame().polygons[0].color_planes = 0;
           for (int c = 0; c < 3; ++c) b.frame().color_planes.push_back(plane(up ? 0 : 255, up ? step : -step));
           std::vector<std::uint32_t> words;
-          make_frame(b.frame(), config, 0, words, 1);
+          make_frame(b.frame(), config, 0, words, {.threads = 1});
           check_frame(config, words, "test", 0);
           GoldenCore core(config);
           std::vector<std::uint8_t> p;

@@ -53,7 +53,7 @@ TEST_CASE("family 29: a picture of several lights and samples follows from their
     c.color_frac = 6 * c.smooth;
     c = config_for_lights(f, look.samples, c);
     if (c.class_bits > 1) c.class_bits = random.in(2, 11);
-    const FrameGeometry g = make_geometry(f, c, 64, 48, look);
+    const FrameGeometry g = make_geometry(f, c, 64, 48, {.look = look});
     const auto expected = expected_picture(g, c);
     const auto got = draw(g, c);
     REQUIRE(got.size() == expected.size());
@@ -91,13 +91,13 @@ TEST_CASE("family 29: N equal samples give 0 or N, and the picture of one sample
     Config c;
     c.count_bits = 8;
     c.shade_frac = 16;
-    const FrameGeometry g = make_geometry(f, c, 48, 36, look);
+    const FrameGeometry g = make_geometry(f, c, 48, 36, {.look = look});
     REQUIRE(g.sample_light.size() == static_cast<std::size_t>(n));
     for (const auto& k : shadow_counts(g, c)) REQUIRE((k[0] == 0 || k[0] == static_cast<std::uint32_t>(n)));
     Look one = look;
     one.samples = 1;
     const auto many = draw(g, c);
-    const auto single = draw(make_geometry(f, c, 48, 36, one), c);
+    const auto single = draw(make_geometry(f, c, 48, 36, {.look = one}), c);
     // n shares are each rounded by half of 2^-16: of 255, less than half an LSB, and a rounding of the colour.
     for (std::size_t i = 0; i < many.size(); ++i)
       for (unsigned k = 0; k < 24; k += 8)
@@ -113,7 +113,7 @@ TEST_CASE("a sample's shadow is that of a scene with a light there and no other"
     Look look;
     look.samples = 4;
     Config c = config_for_lights(f, look.samples);
-    const FrameGeometry g = make_geometry(f, c, 64, 48, look);
+    const FrameGeometry g = make_geometry(f, c, 64, 48, {.look = look});
     std::uint32_t sample = 0;
     for (std::size_t l = 0; l < f.lights.size(); ++l)
       for (const LightPoint& p : light_points(f.lights[l], look.samples, look.seed + l)) {
@@ -121,7 +121,7 @@ TEST_CASE("a sample's shadow is that of a scene with a light there and no other"
         Light light;
         static_cast<LightPoint&>(light) = p;
         alone.lights = {light};
-        const FrameGeometry h = make_geometry(alone, for_one_sample(c), 64, 48, look);
+        const FrameGeometry h = make_geometry(alone, for_one_sample(c), 64, 48, {.look = look});
         const bool same = sample_shadow(g, c, sample) == sample_shadow(h, c, 0);
         REQUIRE(same);
         ++sample;
@@ -141,13 +141,13 @@ TEST_CASE("more samples than the counter holds, or more lights than there are, a
   c.shade_frac = 12;
   Look look;
   look.samples = 7;
-  CHECK_NOTHROW(make_geometry(f, c, 16, 16, look));
+  CHECK_NOTHROW(make_geometry(f, c, 16, 16, {.look = look}));
   look.samples = 8;
-  CHECK_THROWS_WITH(make_geometry(f, c, 16, 16, look), "8 samples of a light do not fit COUNT_BITS = 3");
+  CHECK_THROWS_WITH(make_geometry(f, c, 16, 16, {.look = look}), "8 samples of a light do not fit COUNT_BITS = 3");
   f.lights.resize(kMaxLights + 1);
-  CHECK_THROWS_WITH(make_geometry(f, c, 16, 16, look), "65 lights: there must be 1 .. 64");
+  CHECK_THROWS_WITH(make_geometry(f, c, 16, 16, {.look = look}), "65 lights: there must be 1 .. 64");
   f.lights.clear();
-  CHECK_THROWS_WITH(make_geometry(f, c, 16, 16, look), "0 lights: there must be 1 .. 64");
+  CHECK_THROWS_WITH(make_geometry(f, c, 16, 16, {.look = look}), "0 lights: there must be 1 .. 64");
 }
 
 }  // namespace kage::verif

@@ -135,7 +135,7 @@ TEST_CASE("family 24: a section with the near plane that covers the whole line i
   const auto counts = [&](const glm::dvec3& eye) {
     look_at(f.camera, eye, eye + glm::dvec3(0, -0.5, 1));
     std::vector<std::uint32_t> words;
-    make_frame(make_geometry(f, Config{}, kWidth, kHeight, look), Config{}, 0, words, 1);
+    make_frame(make_geometry(f, Config{}, kWidth, kHeight, {.look = look}), Config{}, 0, words, {.threads = 1});
     return check_frame(Config{}, words, "test", 0).of_kind;
   };
   const auto kind = [](Kind k) { return static_cast<std::size_t>(k); };
@@ -177,7 +177,7 @@ TEST_CASE("family 26: volumes that reach further give the same picture, up to ne
     Look further;
     further.extrusion = 3;
     different += same_but_near_ties(make_geometry(f, config, kWidth, kHeight), config,
-                                    make_geometry(f, config, kWidth, kHeight, further), config);
+                                    make_geometry(f, config, kWidth, kHeight, {.look = further}), config);
     pixels += std::size_t{kWidth} * kHeight;
   }
   CAPTURE(different);

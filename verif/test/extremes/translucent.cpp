@@ -65,7 +65,7 @@ TEST_CASE("family 14: the fragments of a face part its pixels exactly, with its 
     Look whole;
     whole.translucent = TranslucentWay::submission;
     const FrameGeometry cut = make_geometry(f, glass(), kWidth, kHeight);
-    const FrameGeometry uncut = make_geometry(f, glass(), kWidth, kHeight, whole);
+    const FrameGeometry uncut = make_geometry(f, glass(), kWidth, kHeight, {.look = whole});
     fragments += cut.fragments.size();
     faces += uncut.fragments.size();
     const auto pixels = pixels_of_faces(cut, glass());
@@ -103,9 +103,9 @@ TEST_CASE("the judge of layers tells a wrong order: by centroid, by submission, 
     const SceneFrame f = random_glass(random, 8, 1, 1);
     Look look;
     look.translucent = TranslucentWay::centroid;
-    by_centroid += compare_layers(f, make_geometry(f, glass(), kWidth, kHeight, look), glass()).wrong;
+    by_centroid += compare_layers(f, make_geometry(f, glass(), kWidth, kHeight, {.look = look}), glass()).wrong;
     look.translucent = TranslucentWay::submission;
-    by_submission += compare_layers(f, make_geometry(f, glass(), kWidth, kHeight, look), glass()).wrong;
+    by_submission += compare_layers(f, make_geometry(f, glass(), kWidth, kHeight, {.look = look}), glass()).wrong;
     FrameGeometry g = make_geometry(f, glass(), kWidth, kHeight);
     if (g.fragments.size() < 2) continue;
     const auto before = draw_numbers(g, glass());
@@ -189,7 +189,7 @@ TEST_CASE("family 37: coplanar, nearly coplanar and duplicate panes, and panes t
     Look whole;
     whole.translucent = TranslucentWay::submission;
     const auto pixels = pixels_of_faces(make_geometry(same, glass(), kWidth, kHeight), glass());
-    CHECK(pixels == pixels_of_faces(make_geometry(same, glass(), kWidth, kHeight, whole), glass()));
+    CHECK(pixels == pixels_of_faces(make_geometry(same, glass(), kWidth, kHeight, {.look = whole}), glass()));
     CHECK(std::all_of(pixels.begin(), pixels.end(), [](const auto& p) { return std::get<0>(p.second) == 1; }));
   }
 }

@@ -48,7 +48,7 @@ TEST_CASE("family 14: a fragment of smooth colour has its face's colour and dept
     Look look;
     look.translucent = TranslucentWay::submission;
     const FrameGeometry parts = make_geometry(f, config, kWidth, kHeight);
-    const FrameGeometry whole = make_geometry(f, config, kWidth, kHeight, look);
+    const FrameGeometry whole = make_geometry(f, config, kWidth, kHeight, {.look = look});
     const FacePixels pixels = pixels_of_faces(parts, config);
     CHECK(pixels == pixels_of_faces(whole, config));
     int twice = 0;
@@ -96,8 +96,8 @@ TEST_CASE("an order kept from other frames changes no frame, whatever moved mean
     }
     Look look;
     if (random.chance(0.1)) look.translucent = TranslucentWay::centroid;
-    const auto words = words_of(make_geometry(f, config, kWidth, kHeight, look, &kept), config, 3);
-    CHECK(words == words_of(make_geometry(f, config, kWidth, kHeight, look), config));
+    const auto words = words_of(make_geometry(f, config, kWidth, kHeight, {.look = look, .order = &kept}), config, 3);
+    CHECK(words == words_of(make_geometry(f, config, kWidth, kHeight, {.look = look}), config));
     changed += words != before ? 1 : 0;
     before = words;
   }
@@ -120,7 +120,7 @@ TEST_CASE("a build of the order that ended early changes no frame after it") {
   const SceneFrame second = random_glass(random, 5, 2);
   const SceneFrame large = random_glass(random, 300, 0);
   const auto words = [&](const SceneFrame& f, TranslucentOrder* order) {
-    return words_of(make_geometry(f, config, kWidth, kHeight, {}, order), config, 3);
+    return words_of(make_geometry(f, config, kWidth, kHeight, {.order = order}), config, 3);
   };
   for (const SceneFrame* f : {&first, &second, &first}) {
     stop = true;
@@ -140,7 +140,7 @@ TEST_CASE("fragments for a core without a blender are refused before the first w
   const FrameGeometry g = make_geometry(random_glass(random, 4, 0), glass(), kWidth, kHeight);
   CHECK(!g.fragments.empty());
   std::vector<std::uint32_t> words;
-  CHECK_THROWS_AS(make_frame(g, Config{}, 0, words, 1), Error);
+  CHECK_THROWS_AS(make_frame(g, Config{}, 0, words, {.threads = 1}), Error);
   CHECK(words.empty());
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("family 37: faces in one plane are drawn in the order of the mesh, fro
     Look look;
     look.translucent = TranslucentWay::submission;
     CHECK(words_of(make_geometry(f, glass(), kWidth, kHeight), glass()) ==
-          words_of(make_geometry(f, glass(), kWidth, kHeight, look), glass()));
+          words_of(make_geometry(f, glass(), kWidth, kHeight, {.look = look}), glass()));
   }
 }
 

@@ -48,6 +48,7 @@ shows() { # DOC FILE: each line of the code block behind the comment that names 
     grep -qF -- "$(sed 's/^ *//' <<<"$line")" "$source/$2" || { echo "$1 shows '$line', which $2 has not" >&2; exit 1; }
   done <"$temp/shown"
 }
+shows README.md verif/test/package/draw.cpp
 shows docs/building.md verif/test/package/golden.cpp
 shows docs/order.md verif/test/package/order.cpp
 # The installed program, moved to another prefix, finds RTL, scenes and model builder beside itself.
@@ -62,6 +63,10 @@ if [ -x "$temp/moved/bin/kage" ]; then
   [ -s pictures/report.html ] || { echo "no report of an installed kage" >&2; exit 1; }
   env -u KAGE_DATA_DIR moved/bin/kage stream courtyard --size 64x48 --frames 1 --out courtyard.kage
   build/golden_consumer courtyard.kage >courtyard.ppm
+  # The whole way by the library, to the very picture that the program draws.
+  KAGE_DATA_DIR=$temp/moved/share/kage build/draw_consumer courtyard drawn.png
+  moved/bin/kage render courtyard --frames 1 --size 640x480 --out drawn
+  moved/bin/kage diff drawn.png drawn/courtyard_0000.png
   moved/bin/kage stream courtyard --size 64x48 --frames 1 --config default --out default.kage
   LD_LIBRARY_PATH=$(dirname "$(find moved -name libkage_golden.so)") build/c_consumer default.kage
   LD_DEBUG=files LD_DEBUG_OUTPUT=$temp/bound moved/bin/kage diff courtyard.ppm pictures/courtyard_0000.png

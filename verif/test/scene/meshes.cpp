@@ -85,7 +85,7 @@ TEST_CASE("the meshes of CGAL's demo below 50000 faces: coverage, surfaces and s
       // However many faces have a volume, the picture is the same.
       Look per_face;
       per_face.volumes = VolumeWay::per_face;
-      const FrameGeometry simple = make_geometry(frame, config, 48, 36, per_face);
+      const FrameGeometry simple = make_geometry(frame, config, 48, 36, {.look = per_face});
       for (const int bits : {1, 2, 4}) {
         CAPTURE(bits);
         Config counting = wide();

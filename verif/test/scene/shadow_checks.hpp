@@ -32,7 +32,7 @@ inline SceneFrame box_threes(std::span<const int> order, double aside) {
 
 /// The golden core's picture is the oracle's.
 inline void judge_all(const SceneFrame& f, const Config& config, int width, int height, const Look& look = {}) {
-  const Judgement j = judge(make_geometry(f, config, width, height, look), config);
+  const Judgement j = judge(make_geometry(f, config, width, height, {.look = look}), config);
   INFO(j.text());
   CHECK(j.good());
 }
@@ -42,7 +42,7 @@ inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, 
   Look look;
   look.far_ends = true;
   look.leave_out = false;
-  const FrameGeometry g = make_geometry(f, config, width, height, look);
+  const FrameGeometry g = make_geometry(f, config, width, height, {.look = look});
   Oracle oracle(g, config);
   std::uint64_t wrong = 0;
   std::uint64_t touched = 0;

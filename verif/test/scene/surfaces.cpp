@@ -76,7 +76,7 @@ TEST_CASE("culled faces are not seen, and cast the shadows that rays say") {
     config.units = i % 2 == 0 ? 0 : 2;
     CAPTURE(i);
     const SceneFrame f = sided_scene(random);
-    const FrameGeometry g = make_geometry(f, config, kWidth, kHeight, look);
+    const FrameGeometry g = make_geometry(f, config, kWidth, kHeight, {.look = look});
     Config spans = config;
     spans.units = 0;  // colours that stand for faces' numbers fit no unit's table
     count += compare_with_rays(f, g, spans, CulledRays(f));
@@ -103,7 +103,7 @@ TEST_CASE("culled translucent faces are left out, and the others keep their orde
   const auto fragments = [&](Sides sides) {
     for (Triangle& t : f.triangles)
       if (t.alpha < 255 && t.vertex[0] >= f.vertices.size() - 4) t.sides = sides;  // of the last pane
-    return make_geometry(f, config, kWidth, kHeight, look).fragments.size();
+    return make_geometry(f, config, kWidth, kHeight, {.look = look}).fragments.size();
   };
   CHECK(fragments(Sides::both) == 6);
   CHECK(fragments(Sides::front) == 6);

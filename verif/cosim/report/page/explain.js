@@ -186,7 +186,7 @@ const Explain = (() => {
         }
         case "RESOLVE": {
           const text = this.resolve();
-          this.bias = 0;
+          this.dsf = this.fsf = this.bias = 0;
           this.counts.fill(0);
           return text;
         }

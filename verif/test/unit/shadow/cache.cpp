@@ -14,7 +14,7 @@ std::vector<std::uint32_t> words_of(const SceneFrame& f, const Config& c, Shadow
   Look look;
   look.samples = 3;
   std::vector<std::uint32_t> words;
-  make_frame(make_geometry(f, c, 64, 48, look, nullptr, kept), c, 0, words, 1);
+  make_frame(make_geometry(f, c, 64, 48, {.look = look, .shadows = kept}), c, 0, words, {.threads = 1});
   return words;
 }
 
@@ -127,7 +127,7 @@ TEST_CASE(
   all.leave_out = false;
   ShadowCache kept;
   const auto caps_and_sides = [&](ShadowCache* c) {
-    return make_geometry(e, Config{}, 64, 48, all, nullptr, c).volume_faces.size();
+    return make_geometry(e, Config{}, 64, 48, {.look = all, .shadows = c}).volume_faces.size();
   };
   const std::size_t with = caps_and_sides(&kept);
   move(e, 1, {0, 0, -50});
@@ -150,7 +150,7 @@ TEST_CASE(
   const auto same = [&] {
     const auto words = [&](ShadowCache* cache) {
       std::vector<std::uint32_t> w;
-      make_frame(make_geometry(f, c, 64, 48, look, nullptr, cache), c, 0, w, 1);
+      make_frame(make_geometry(f, c, 64, 48, {.look = look, .shadows = cache}), c, 0, w, {.threads = 1});
       return w;
     };
     const auto with = words(&kept);

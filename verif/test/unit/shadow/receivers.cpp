@@ -37,7 +37,7 @@ TEST_CASE("shadows left out change no pixel of random scenes") {
     f.camera.half_height *= random.chance(0.5) ? 0.2 : 1;  // narrow views leave more out
     Config c;
     c.dsf_bits = 1 + i % 3;
-    const FrameGeometry with = make_geometry(f, c, kWidth, kHeight, all);
+    const FrameGeometry with = make_geometry(f, c, kWidth, kHeight, {.look = all});
     const FrameGeometry without = make_geometry(f, c, kWidth, kHeight);
     fewer += faces(without) < faces(with) ? 1 : 0;
     CHECK(draw(with, c) == draw(without, c));
@@ -59,7 +59,7 @@ TEST_CASE("of a row of bodies those cast whose shadows may be seen") {
       c.dsf_bits = bits;
       Look all;
       all.leave_out = false;
-      const FrameGeometry with = make_geometry(f, c, kWidth, kHeight, all);
+      const FrameGeometry with = make_geometry(f, c, kWidth, kHeight, {.look = all});
       const FrameGeometry without = make_geometry(f, c, kWidth, kHeight);
       CHECK(2 * faces(without) < faces(with));
       CHECK(faces(without) > 0);
@@ -69,7 +69,8 @@ TEST_CASE("of a row of bodies those cast whose shadows may be seen") {
       CHECK(make_geometry(f, c, kWidth, kHeight).volumes.empty());
       // Shadows that come from behind the eye are seen.
       look_at(f.camera, {20, 1, 0.9}, {20, 0, -0.5});
-      CHECK(draw(make_geometry(f, c, kWidth, kHeight, all), c) == draw(make_geometry(f, c, kWidth, kHeight), c));
+      CHECK(draw(make_geometry(f, c, kWidth, kHeight, {.look = all}), c) ==
+            draw(make_geometry(f, c, kWidth, kHeight), c));
     }
 }
 

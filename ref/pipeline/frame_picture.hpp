@@ -8,8 +8,9 @@
 #include <span>
 
 #include "image/save.hpp"
+#include "kage/stream.hpp"
 
-namespace kage::cosim {
+namespace kage {
 
 /// The picture of a frame, written as the frame flows by: its words tell the size, its lines the rest.
 class FramePicture {
@@ -56,4 +57,4 @@ class FramePicture {
   std::unique_ptr<ImageWriter> writer_;
 };
 
-}  // namespace kage::cosim
+}  // namespace kage

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "provenance.hpp"
+#include "kage/provenance.hpp"
 
 #include <fmt/format.h>
 
 #include "kage/stream.hpp"
-#include "results.hpp"
 
-namespace kage::cli {
+namespace kage {
 
 std::string TokenSource::text() const {
   const bool of_shadow = role != "face" && role != "polyhedron";
@@ -16,12 +15,6 @@ std::string TokenSource::text() const {
   if (light >= 0) t += fmt::format(", light {}", light);
   if (sample >= 0) t += fmt::format(" sample {}", sample);
   return t;
-}
-
-Json TokenSource::json() const {
-  const auto number = [](int n) { return n < 0 ? Json(nullptr) : Json(n); };
-  return {{"role", role},         {"object", object},       {"component", number(component)},
-          {"face", number(face)}, {"light", number(light)}, {"sample", number(sample)}};
 }
 
 std::string Provenance::object_of(std::uint32_t component) const {
@@ -116,4 +109,4 @@ std::map<std::uint32_t, TokenSource> Provenance::of_history(const Config& config
   return all;
 }
 
-}  // namespace kage::cli
+}  // namespace kage

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,10 @@
 #include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
 #include "kage/scene.hpp"
-#include "results.hpp"
 
-namespace kage::cli {
+namespace kage {
 
-/// The part of the scene that a token draws, or that casts the shadow which it is of.
+/// The part of the scene that a token draws, or that casts the shadow which the token is of.
 struct TokenSource {
   std::string role;    ///< "face", "polyhedron", "cap", "side", "section with the near plane" or "end"; of a volume but
                        ///< for the first two
@@ -28,7 +28,6 @@ struct TokenSource {
   int sample = -1;     ///< of that light, from 0
 
   [[nodiscard]] std::string text() const;  ///< "the side of the shadow of gem, face 3, light 0 sample 2"
-  [[nodiscard]] Json json() const;
 };
 
 /// A frame's geometry with the names behind it.
@@ -40,12 +39,13 @@ class Provenance {
         geometry_(std::move(geometry)),
         origins_(std::move(origins)) {}
 
-  /// Of those tokens of the frame that come of a part of the scene: spans, and ends of volumes.
+  /// Sources of those tokens among `wanted` (indices in the frame) that come of a part of the scene: spans, and ends of
+  /// volumes. `words`: the whole frame.
   [[nodiscard]] std::map<std::uint32_t, TokenSource> of_tokens(const Config& config,
                                                                std::span<const std::uint32_t> words,
                                                                const std::set<std::uint32_t>& wanted) const;
 
-  /// Of a pixel's history: of its tokens, and of each TREE the polyhedron that came through it.
+  /// Sources of the tokens of a pixel's history, and of each TREE the polyhedron that came through it.
   [[nodiscard]] std::map<std::uint32_t, TokenSource> of_history(const Config& config,
                                                                 std::span<const std::uint32_t> words,
                                                                 const PixelHistory& history) const;
@@ -62,4 +62,4 @@ class Provenance {
   FrameOrigins origins_;
 };
 
-}  // namespace kage::cli
+}  // namespace kage

@@ -6,7 +6,7 @@
 
 #include "kage/core.hpp"
 
-namespace kage::cosim {
+namespace kage {
 
 /// Adds to `seconds` the time it lives, but not what a sink takes.
 class Stopwatch {
@@ -34,4 +34,4 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
-}  // namespace kage::cosim
+}  // namespace kage

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "kage/error.hpp"
+#include "kage/pipeline.hpp"
+
+namespace kage {
+namespace {
+
+// Words of a file's frame that go on at a time.
+constexpr std::size_t kPieceWords = 4096;
+
+void check_index(int index, int frames) {
+  if (index < 0 || index >= frames) throw Error(fmt::format("frame {}: there are {}", index, frames));
+}
+
+Config chosen(const Scene& scene, const DrawOptions& options) {
+  const int frames = options.frames > 0 ? options.frames : scene.frame_count();
+  return choose_config(needs_of(scene, scene.frame(0, frames), options.width, options.height, options.look.samples))
+      .config;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> FrameSource::words(int index) {
+  std::vector<std::uint32_t> all;
+  frame(index, [&](std::span<const std::uint32_t> piece) { all.insert(all.end(), piece.begin(), piece.end()); });
+  return all;
+}
+
+SceneFrames::SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options)
+    : scene_(std::move(scene)), config_(config), options_(std::move(options)), order_(options_.order) {
+  frames_ = options_.frames > 0 ? options_.frames : scene_->frame_count();
+  if (options_.name.empty()) options_.name = scene_->name();
+}
+
+SceneFrames::SceneFrames(Scene scene, DrawOptions options)
+    : config_(chosen(scene, options)), options_(std::move(options)), order_(options_.order) {
+  scene_ = std::make_shared<const Scene>(std::move(scene));
+  frames_ = options_.frames > 0 ? options_.frames : scene_->frame_count();
+  if (options_.name.empty()) options_.name = scene_->name();
+}
+
+TokenCounts SceneFrames::frame(int index, const WordSink& sink) {
+  FrameParts parts;
+  return make(index, sink, parts, nullptr);
+}
+
+TokenCounts SceneFrames::frame(int index, const WordSink& sink, FrameParts& parts) {
+  return make(index, sink, parts, nullptr);
+}
+
+Provenance SceneFrames::provenance(int index, const WordSink& sink) {
+  FrameParts parts;
+  FrameOrigins origins;
+  make(index, sink, parts, &origins);
+  return {scene_->objects(), std::move(parts.scene), std::move(parts.geometry), std::move(origins)};
+}
+
+TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts, FrameOrigins* origins) {
+  check_index(index, frames_);
+  const std::string where = fmt::format("{}: frame {}", options_.name, index);
+  FrameChecker checker(config_, where, 0);
+  bool begun = false;  // then checker and sink say for themselves where they are
+  try {
+    parts.scene = scene_->frame(index, frames_);
+    parts.geometry = make_geometry(parts.scene, config_, options_.width, options_.height,
+                                   {.look = options_.look, .order = &order_, .shadows = &shadows_});
+    make_frame(parts.geometry, config_, static_cast<std::uint32_t>(index),
+               [&](std::span<const std::uint32_t> words) {
+                 begun = true;
+                 checker.feed(words);
+                 sink(words);
+               },
+               {.threads = options_.threads, .report = &parts.polyhedra, .origins = origins});
+  } catch (const TooManyFragments&) {
+    throw;
+  } catch (const Error& e) {
+    if (begun) throw;
+    throw Error(fmt::format("{}: {}", where, e.what()));
+  }
+  return checker.finish();
+}
+
+StreamFrames::StreamFrames(std::shared_ptr<const StreamFile> file) : file_(std::move(file)), config_(file_->config()) {}
+
+TokenCounts StreamFrames::frame(int index, const WordSink& sink) {
+  check_index(index, frames());
+  TokenCounts counts;
+  std::span<const std::uint32_t> words = file_->frame(index, &counts);
+  std::vector<std::uint32_t> copy;
+  while (!words.empty()) {
+    const auto piece = words.first(std::min(words.size(), kPieceWords));
+    words = words.subspan(piece.size());
+    copy.assign(piece.begin(), piece.end());
+    sink(copy);
+  }
+  return counts;
+}
+
+}  // namespace kage
