@@ -159,6 +159,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--plot")
     parser.add_argument("--json")
+    parser.add_argument("--resume", action="store_true")
     parser.add_argument("--each", action="store_true")
     parser.add_argument("--sample", type=int)
     parser.add_argument("names", nargs="*")
@@ -186,10 +187,19 @@ def main():
             pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
         return
     rows = []
+    kept = {}
+    if options.resume:
+        if not options.json:
+            sys.exit("tools/regress-mutants: --resume needs --json FILE")
+        if pathlib.Path(options.json).exists():
+            kept = {row["name"]: row for row in json.loads(pathlib.Path(options.json).read_text())}
     with tempfile.TemporaryDirectory() as out:
         for number, mutant in chosen:
-            row = {"name": mutant["name"], **run(options.kage, number, options, out)}
+            row = kept.get(mutant["name"]) or {"name": mutant["name"], **run(options.kage, number, options, out)}
             rows.append(row)
+            if options.json:
+                unmet = [r for n, r in kept.items() if n not in {row["name"] for row in rows}]
+                pathlib.Path(options.json).write_text(json.dumps(rows + unmet, indent=1) + "\n")
             verdict = f"{row['seconds']:7.1f} s  {row['run']}" if row["found"] else "  not found"
             print(f"{row['name']:<28} {verdict}", flush=True)
     found = [r["seconds"] for r in rows if r["found"]]
@@ -198,8 +208,6 @@ def main():
         if seconds <= 60 * options.minutes:
             so_far = sum(s <= seconds for s in found)
             print(f"  after {seconds:>3} s: {so_far} ({so_far / len(rows):.1%})")
-    if options.json:
-        pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
     if options.plot:
         plot(rows, options.minutes, options.plot)
 

@@ -94,22 +94,26 @@ void compare_cost(const Scene& scene, const Config& config, const std::filesyste
       both * 1e3, compared * 1e3, (compared / both - 1) * 100, watched * 1e3);
 }
 
-/// kage cosim with 1, 2, 4 and 8 jobs, as a program. What limits it: the processors, and the frame before each range
-/// but the first, which is run again so that the range finds the core as one job would.
+/// kage cosim with 1, 2, 4 and 8 jobs, as a program. What limits it: the processors, of which one job keeps a little more
+/// than one busy, and the frame before each range but the first, which is run again so that the range finds the core as
+/// one job would. What the processors allow is what as many programs of one job each reach beside each other.
 void jobs_cost() {
   namespace fs = std::filesystem;
-  constexpr int kFrames = 32;
+  constexpr int kFrames = 96;
   const fs::path folder = fs::temp_directory_path() / fmt::format("kage-jobs-{}", getpid());
   fmt::print("\nkage cosim courtyard --frames {} --no-report --jobs N, on {} processors; least of 3 runs\n", kFrames,
              std::thread::hardware_concurrency());
   fmt::print("{:>4} {:>9} {:>9} {:>11} {:>15} {:>16} {:>9}\n", "jobs", "seconds", "frames/s", "against 1",
              "processor s", "processors busy", "MiB");
+  const auto program = [&](int jobs, const std::string& out) {
+    return bench::run_program({KAGE_PROGRAM, "cosim", "courtyard", "--frames", std::to_string(kFrames), "--no-report",
+                               "--jobs", std::to_string(jobs), "--out", (folder / out).string()});
+  };
   double one = 0;
   for (const int jobs : {1, 2, 4, 8}) {
     bench::ProgramCost least{1e300, 0, 0};
     for (int i = 0; i < 3; ++i) {
-      const auto cost = bench::run_program({KAGE_PROGRAM, "cosim", "courtyard", "--frames", std::to_string(kFrames),
-                                            "--no-report", "--jobs", std::to_string(jobs), "--out", folder.string()});
+      const auto cost = program(jobs, "0");
       if (cost.seconds < least.seconds) least = cost;
     }
     if (jobs == 1) one = least.seconds;
@@ -117,6 +121,14 @@ void jobs_cost() {
                kFrames / least.seconds, one / least.seconds, least.processor, least.processor / least.seconds,
                least.mib);
   }
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  const double beside = least(3, [&] {
+    std::vector<std::thread> programs;
+    for (int i = 0; i < processors; ++i) programs.emplace_back([&, i] { program(1, std::to_string(i)); });
+    for (std::thread& t : programs) t.join();
+  });
+  fmt::print("{} programs of one job each beside each other: {:.2f} frames/s, {:.2f} times one\n", processors,
+             processors * kFrames / beside, processors * one / beside);
   fs::remove_all(folder);
 }
 
