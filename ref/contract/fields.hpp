@@ -6,92 +6,9 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "kage/defs.hpp"
+#include "kage/stream.hpp"
 
 namespace kage {
-
-/// Calls f(name, channel, Field) for each field of a token of this kind, in order; channel is -1 for what is not
-/// repeated. An absent field has no bits.
-template <class F>
-void each_field(const Layout& layout, Kind kind, F f) {
-  switch (kind) {
-    case Kind::SHADE:
-      f("shade", -1, layout.shade_shade);
-      break;
-    case Kind::TABLE:
-      f("class", -1, layout.table_class);
-      f("light", -1, layout.table_light);
-      for (int i = 0; i < 3; ++i) f("share", i, layout.table_share[i]);
-      break;
-    case Kind::FACE:
-      f("unit", -1, layout.face_unit);
-      f("face", -1, layout.face_face);
-      f("index", -1, layout.face_index);
-      f("class", -1, layout.face_class);
-      f("dz", -1, layout.face_dz);
-      for (int i = 0; i < 3; ++i) f("color", i, layout.face_color[i]);
-      break;
-    case Kind::SEG:
-      f("unit", -1, layout.seg_unit);
-      f("pad", -1, layout.seg_pad);
-      f("z", -1, layout.seg_z);
-      f("sync", -1, layout.seg_sync);
-      f("dx", -1, layout.seg_dx);
-      f("face", -1, layout.seg_face);
-      break;
-    case Kind::TREE:
-      break;
-    case Kind::OP:
-      f("xl", -1, layout.op_xl);
-      f("xr", -1, layout.op_xr);
-      f("class", -1, layout.op_class);
-      f("z", -1, layout.op_z);
-      f("dz", -1, layout.op_dz);
-      for (int i = 0; i < 3; ++i) f("color", i, layout.op_color[i]);
-      for (int i = 0; i < 3; ++i) f("dcolor", i, layout.op_dcolor[i]);
-      break;
-    case Kind::SP:
-      f("xl", -1, layout.sp_xl);
-      f("xr", -1, layout.sp_xr);
-      f("w", -1, layout.sp_w);
-      f("z", -1, layout.sp_z);
-      f("dz", -1, layout.sp_dz);
-      break;
-    case Kind::NC:
-      f("xl", -1, layout.nc_xl);
-      f("xr", -1, layout.nc_xr);
-      f("w", -1, layout.nc_w);
-      break;
-    case Kind::IF:
-      f("w", -1, layout.if_w);
-      break;
-    case Kind::EV:
-      f("xl", -1, layout.ev_xl);
-      f("xr", -1, layout.ev_xr);
-      break;
-    case Kind::ES:
-      f("xl", -1, layout.es_xl);
-      f("xr", -1, layout.es_xr);
-      f("light", -1, layout.es_light);
-      break;
-    case Kind::RESOLVE:
-      break;
-    case Kind::TP:
-      f("xl", -1, layout.tp_xl);
-      f("xr", -1, layout.tp_xr);
-      f("alpha", -1, layout.tp_alpha);
-      f("z", -1, layout.tp_z);
-      f("dz", -1, layout.tp_dz);
-      for (int i = 0; i < 3; ++i) f("color", i, layout.tp_color[i]);
-      for (int i = 0; i < 3; ++i) f("dcolor", i, layout.tp_dcolor[i]);
-      break;
-    case Kind::EOL:
-      f("y", -1, layout.eol_y);
-      break;
-    case Kind::END:
-      break;
-  }
-}
 
 /// Calls f<K>() with the kind as a template argument; nothing for what is no kind.
 template <class F>
@@ -115,87 +32,98 @@ constexpr void with_kind(Kind kind, F&& f) {
   }
 }
 
-/// Calls f(name, value, Field) for each field that a token of kind K has in the configuration, in order. `value` is the
-/// member of `token` that holds it: `token` is a Token, or has those members of it that the kind needs.
+/// Calls f(name, channel, value, Field) for each field that a token of kind K has in the configuration, in order; the
+/// channel is -1 for what is not repeated. `value` is the member of `token` that holds it: `token` is a Token, or has
+/// those members of it that the kind needs.
 template <Kind K, class T, class F>
 constexpr void visit_fields([[maybe_unused]] const Config& config, [[maybe_unused]] const Layout& layout,
                             [[maybe_unused]] T& token, [[maybe_unused]] F f) {
   if constexpr (K == Kind::SHADE) {
-    f("shade", token.shade, layout.shade_shade);
+    f("shade", -1, token.shade, layout.shade_shade);
   }
   if constexpr (K == Kind::TABLE) {
-    f("class", token.table.normal_class, layout.table_class);
-    f("light", token.table.light, layout.table_light);
+    f("class", -1, token.table.normal_class, layout.table_class);
+    f("light", -1, token.table.light, layout.table_light);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-      f("share", token.table.share[c], layout.table_share[c]);
+      f("share", static_cast<int>(c), token.table.share[c], layout.table_share[c]);
   }
   if constexpr (K == Kind::FACE) {
-    f("unit", token.segment.unit, layout.face_unit);
-    f("face", token.segment.face, layout.face_face);
-    f("index", token.segment.index, layout.face_index);
-    if (layout.face_class.bits != 0) f("class", token.segment.normal_class, layout.face_class);
-    f("dz", token.segment.dz, layout.face_dz);
+    f("unit", -1, token.segment.unit, layout.face_unit);
+    f("face", -1, token.segment.face, layout.face_face);
+    f("index", -1, token.segment.index, layout.face_index);
+    if (layout.face_class.bits != 0) f("class", -1, token.segment.normal_class, layout.face_class);
+    f("dz", -1, token.segment.dz, layout.face_dz);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-      f("color", token.segment.color[c], layout.face_color[c]);
+      f("color", static_cast<int>(c), token.segment.color[c], layout.face_color[c]);
   }
   if constexpr (K == Kind::SEG) {
-    f("unit", token.segment.unit, layout.seg_unit);
+    f("unit", -1, token.segment.unit, layout.seg_unit);
     std::conditional_t<std::is_const_v<T>, const int, int> pad = 0;
-    f("pad", pad, layout.seg_pad);
-    f("z", token.segment.z, layout.seg_z);
-    f("sync", token.segment.sync, layout.seg_sync);
-    f("dx", token.segment.dx, layout.seg_dx);
-    f("face", token.segment.face, layout.seg_face);
+    f("pad", -1, pad, layout.seg_pad);
+    f("z", -1, token.segment.z, layout.seg_z);
+    f("sync", -1, token.segment.sync, layout.seg_sync);
+    f("dx", -1, token.segment.dx, layout.seg_dx);
+    f("face", -1, token.segment.face, layout.seg_face);
   }
   if constexpr (K == Kind::OP) {
-    f("xl", token.span.xl, layout.op_xl);
-    f("xr", token.span.xr, layout.op_xr);
-    if (layout.op_class.bits != 0) f("class", token.span.normal_class, layout.op_class);
-    f("z", token.span.z, layout.op_z);
-    f("dz", token.span.dz, layout.op_dz);
+    f("xl", -1, token.span.xl, layout.op_xl);
+    f("xr", -1, token.span.xr, layout.op_xr);
+    if (layout.op_class.bits != 0) f("class", -1, token.span.normal_class, layout.op_class);
+    f("z", -1, token.span.z, layout.op_z);
+    f("dz", -1, token.span.dz, layout.op_dz);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-      f("color", token.span.color[c], layout.op_color[c]);
+      f("color", static_cast<int>(c), token.span.color[c], layout.op_color[c]);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-      f("dcolor", token.span.dcolor[c], layout.op_dcolor[c]);
+      f("dcolor", static_cast<int>(c), token.span.dcolor[c], layout.op_dcolor[c]);
   }
   if constexpr (K == Kind::SP) {
-    f("xl", token.span.xl, layout.sp_xl);
-    f("xr", token.span.xr, layout.sp_xr);
-    f("w", token.span.w, layout.sp_w);
-    f("z", token.span.z, layout.sp_z);
-    f("dz", token.span.dz, layout.sp_dz);
+    f("xl", -1, token.span.xl, layout.sp_xl);
+    f("xr", -1, token.span.xr, layout.sp_xr);
+    f("w", -1, token.span.w, layout.sp_w);
+    f("z", -1, token.span.z, layout.sp_z);
+    f("dz", -1, token.span.dz, layout.sp_dz);
   }
   if constexpr (K == Kind::NC) {
-    f("xl", token.span.xl, layout.nc_xl);
-    f("xr", token.span.xr, layout.nc_xr);
-    f("w", token.span.w, layout.nc_w);
+    f("xl", -1, token.span.xl, layout.nc_xl);
+    f("xr", -1, token.span.xr, layout.nc_xr);
+    f("w", -1, token.span.w, layout.nc_w);
   }
   if constexpr (K == Kind::IF) {
-    f("w", token.span.w, layout.if_w);
+    f("w", -1, token.span.w, layout.if_w);
   }
   if constexpr (K == Kind::EV) {
-    f("xl", token.span.xl, layout.ev_xl);
-    f("xr", token.span.xr, layout.ev_xr);
+    f("xl", -1, token.span.xl, layout.ev_xl);
+    f("xr", -1, token.span.xr, layout.ev_xr);
   }
   if constexpr (K == Kind::ES) {
-    f("xl", token.span.xl, layout.es_xl);
-    f("xr", token.span.xr, layout.es_xr);
-    f("light", token.table.light, layout.es_light);
+    f("xl", -1, token.span.xl, layout.es_xl);
+    f("xr", -1, token.span.xr, layout.es_xr);
+    f("light", -1, token.table.light, layout.es_light);
   }
   if constexpr (K == Kind::TP) {
-    f("xl", token.span.xl, layout.tp_xl);
-    f("xr", token.span.xr, layout.tp_xr);
-    f("alpha", token.span.alpha, layout.tp_alpha);
-    f("z", token.span.z, layout.tp_z);
-    f("dz", token.span.dz, layout.tp_dz);
+    f("xl", -1, token.span.xl, layout.tp_xl);
+    f("xr", -1, token.span.xr, layout.tp_xr);
+    f("alpha", -1, token.span.alpha, layout.tp_alpha);
+    f("z", -1, token.span.z, layout.tp_z);
+    f("dz", -1, token.span.dz, layout.tp_dz);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-      f("color", token.span.color[c], layout.tp_color[c]);
+      f("color", static_cast<int>(c), token.span.color[c], layout.tp_color[c]);
     for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-      f("dcolor", token.span.dcolor[c], layout.tp_dcolor[c]);
+      f("dcolor", static_cast<int>(c), token.span.dcolor[c], layout.tp_dcolor[c]);
   }
   if constexpr (K == Kind::EOL) {
-    f("y", token.y, layout.eol_y);
+    f("y", -1, token.y, layout.eol_y);
   }
+}
+
+/// The same without values: calls f(name, channel, Field) for the fields of a token of this kind.
+template <class F>
+void each_field(const Config& config, const Layout& layout, Kind kind, F f) {
+  const Token token;
+  with_kind(kind, [&]<Kind K>() {
+    visit_fields<K>(config, layout, token,
+                    [&f](const char* name, int channel, const auto&, Field field) { f(name, channel, field); });
+  });
 }
 
 }  // namespace kage

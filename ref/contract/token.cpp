@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <concepts>
+#include <iterator>
 
 #include "contract/fields.hpp"
+#include "contract/token_text.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
@@ -19,12 +22,68 @@ constexpr unsigned code(Kind k) { return static_cast<unsigned>(k); }
                           f.is_signed ? "signed " : "", f.bits));
 }
 
-/// What a class says at the end of OP and FACE: nothing in a core without shadows.
-std::string class_text(const Config& config, int normal_class) {
-  if (config.dsf_bits == 0) return "";
-  if (config.class_bits == 1) return normal_class != 0 ? " lit" : " unlit";
-  return fmt::format(" class {}", normal_class);
-}
+/// The forms of a token's text (`text` in rtl/defs/kage.yaml).
+class TokenText {
+ public:
+  explicit TokenText(const Config& config)
+      : config_(config), z_unit_(std::ldexp(1.0, -config.z_frac)), color_unit_(std::ldexp(1.0, -config.color_frac)) {}
+
+  void text(std::string_view text) { s_ += text; }
+
+  void as_plain(std::integral auto value) { add("{}", value); }
+  template <class V>
+  void as_plain(const std::array<V, 3>& channels) {
+    each_channel([&](std::size_t c) { add("{}", channels[c]); });
+  }
+  void as_sign(int value) { add("{:+}", value); }
+  void as_depth(std::int64_t value) { add("{}", static_cast<double>(value) * z_unit_); }
+  void as_share(const auto& value) {
+    as_plain(value);
+    add("/{}", 1U << config_.shade_frac);
+  }
+  void as_ramp(const std::array<std::int32_t, 3>& color, const std::array<std::int32_t, 3>& slope) {
+    each_channel([&](std::size_t c) {
+      add("{}", color[c] * color_unit_);
+      if (config_.smooth != 0) add("{:+}", slope[c] * color_unit_);
+    });
+  }
+  /// Nothing in a core without shadows.
+  void as_class(int normal_class) {
+    if (config_.dsf_bits == 0) return;
+    if (config_.class_bits == 1)
+      text(normal_class != 0 ? " lit" : " unlit");
+    else
+      add(" class {}", normal_class);
+  }
+  void as_face(int face, std::int64_t z) {
+    if (face == (1 << config_.face_bits) - 1) return text(" blank");
+    add(" face {} z ", face);
+    as_depth(z);
+  }
+  void as_flag(std::string_view name, bool set) {
+    if (set) add(" {}", name);
+  }
+
+  /// The text; that of what is no kind.
+  [[nodiscard]] std::string take() { return s_.empty() ? std::string(kKindNames[0]) : std::move(s_); }
+
+ private:
+  template <class V>
+  void add(fmt::format_string<const V&> form, const V& value) {
+    fmt::format_to(std::back_inserter(s_), form, value);
+  }
+  void each_channel(const auto& f) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c) {
+      if (c > 0) s_ += ',';
+      f(c);
+    }
+  }
+
+  const Config& config_;
+  double z_unit_;
+  double color_unit_;
+  std::string s_;
+};
 
 }  // namespace
 
@@ -49,10 +108,10 @@ void TokenWriter::pack(const T& t) {
   std::array<std::uint32_t, 16> words;  // more than the longest token; only those written are read
   BitPacker p(words.data());
   p.put(code(K), Field{0, 4, false});
-  visit_fields<K>(config_, layout_, t, [&p](const char*, const auto& value, Field f) { p.put(value, f); });
+  visit_fields<K>(config_, layout_, t, [&p](const char*, int, const auto& value, Field f) { p.put(value, f); });
   const std::uint32_t* end = p.close();
   if (!p.whole()) [[unlikely]]
-    visit_fields<K>(config_, layout_, t, [](const char* name, const auto& value, Field f) {
+    visit_fields<K>(config_, layout_, t, [](const char* name, int, const auto& value, Field f) {
       if (beyond(value, f) != 0) refuse(K, name, value, f);
     });
   // Few words: not worth the call that inserting a range is.
@@ -117,7 +176,7 @@ void decode(const Config& config, const Layout& layout, std::span<const std::uin
   BitUnpacker in(words);
   static_cast<void>(in.take(Field{0, 4, false}));
   with_kind(t.kind, [&]<Kind K>() {
-    visit_fields<K>(config, layout, t, [&in](const char*, auto& value, Field f) {
+    visit_fields<K>(config, layout, t, [&in](const char*, int, auto& value, Field f) {
       value = static_cast<std::remove_reference_t<decltype(value)>>(in.take(f));
     });
   });
@@ -130,61 +189,9 @@ Token decode(const Config& config, const Layout& layout, std::span<const std::ui
 }
 
 std::string to_string(const Config& config, const Token& t) {
-  std::string s(kKindNames[code(t.kind)]);
-  const double z_unit = std::ldexp(1.0, -config.z_frac);
-  const SpanToken& p = t.span;
-  switch (t.kind) {
-    case Kind::SHADE:
-      return s + fmt::format(" {}/{}", t.shade, 1U << config.shade_frac);
-    case Kind::TABLE:
-      s += fmt::format(" class {} light {} share", t.table.normal_class, t.table.light);
-      for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-        s += fmt::format("{}{}", c == 0 ? " " : ",", t.table.share[c]);
-      return s + fmt::format("/{}", 1U << config.shade_frac);
-    case Kind::FACE: {
-      const SegmentToken& f = t.segment;
-      s += fmt::format(" unit {} face {} index {} dz {} color", f.unit, f.face, f.index,
-                       static_cast<double>(f.dz) * z_unit);
-      for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-        s += fmt::format("{}{}", c == 0 ? " " : ",", f.color[c]);
-      return s + class_text(config, f.normal_class);
-    }
-    case Kind::SEG: {
-      const SegmentToken& g = t.segment;
-      s += fmt::format(" unit {} dx {}", g.unit, g.dx);
-      s += g.face == (1 << config.face_bits) - 1
-               ? " blank"
-               : fmt::format(" face {} z {}", g.face, static_cast<double>(g.z) * z_unit);
-      return s + (g.sync ? " sync" : "");
-    }
-    case Kind::OP:
-    case Kind::TP: {
-      s += fmt::format(" [{}, {}) z {} dz {} color", p.xl, p.xr, static_cast<double>(p.z) * z_unit,
-                       static_cast<double>(p.dz) * z_unit);
-      const double c_unit = std::ldexp(1.0, -config.color_frac);
-      for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c) {
-        s += fmt::format("{}{}", c == 0 ? " " : ",", p.color[c] * c_unit);
-        if (config.smooth != 0) s += fmt::format("{:+}", p.dcolor[c] * c_unit);
-      }
-      if (t.kind == Kind::TP) return s + fmt::format(" alpha {}", p.alpha);
-      return s + class_text(config, p.normal_class);
-    }
-    case Kind::SP:
-      return s + fmt::format(" [{}, {}) w {:+} z {} dz {}", p.xl, p.xr, p.w, static_cast<double>(p.z) * z_unit,
-                             static_cast<double>(p.dz) * z_unit);
-    case Kind::NC:
-      return s + fmt::format(" [{}, {}) w {:+}", p.xl, p.xr, p.w);
-    case Kind::IF:
-      return s + fmt::format(" w {:+}", p.w);
-    case Kind::EV:
-      return s + fmt::format(" [{}, {})", p.xl, p.xr);
-    case Kind::ES:
-      return s + fmt::format(" [{}, {}) light {}", p.xl, p.xr, t.table.light);
-    case Kind::EOL:
-      return s + fmt::format(" {}", t.y);
-    default:
-      return s;
-  }
+  TokenText text(config);
+  tell_token(text, t);
+  return text.take();
 }
 
 }  // namespace kage

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/error.hpp"
 
@@ -52,22 +53,8 @@ class History : public CoreObserver {
 
  private:
   [[nodiscard]] bool touches(const Token& t) const {
-    switch (t.kind) {
-      case Kind::OP:
-      case Kind::SP:
-      case Kind::NC:
-      case Kind::EV:
-      case Kind::ES:
-      case Kind::TP:
-        return t.span.xl <= x_ && x_ < t.span.xr;
-      case Kind::TREE:
-      case Kind::IF:
-      case Kind::RESOLVE:
-      case Kind::EOL:
-        return true;
-      default:
-        return false;
-    }
+    const KindInfo& info = info_of(t.kind);
+    return info.whole_line || (info.range && t.span.xl <= x_ && x_ < t.span.xr);
   }
 
   [[nodiscard]] std::string depth(std::uint32_t z) const { return z == clear_ ? "clear" : fmt::format("{}", z); }

@@ -8,6 +8,7 @@
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
+#include "stream/count.hpp"
 #include "stream/cutter.hpp"
 
 namespace kage {
@@ -99,17 +100,14 @@ struct FrameChecker::Data {
       of_unit.push_back(t.segment.dz);
     }
     if (t.kind == Kind::SEG) check_segment(t.segment, body);
-    ++counts.of_kind[kind];
-    if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::TP) {
-      const SpanToken& s = t.span;
-      const int count = s.xr - s.xl;
-      ++counts.spans;
-      counts.span_pixels += static_cast<std::uint64_t>(count);
-      if (!span_fits(s.z, s.dz, count, layout.op_z.bits)) fail("the span's depth overflows");
-      if (config.smooth != 0 && (t.kind == Kind::OP || t.kind == Kind::TP))
-        for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
-          if (!span_fits(s.color[c], s.dcolor[c], count, layout.op_color[c].bits)) fail("the span's colour overflows");
-    }
+    count_token(counts, t);
+    const KindInfo& info = info_of(t.kind);
+    const SpanToken& s = t.span;
+    const int count = s.xr - s.xl;
+    if (info.depth && !span_fits(s.z, s.dz, count, layout.op_z.bits)) fail("the span's depth overflows");
+    if (info.color && config.smooth != 0)
+      for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+        if (!span_fits(s.color[c], s.dcolor[c], count, layout.op_color[c].bits)) fail("the span's colour overflows");
     at += body.size();
     if (t.kind == Kind::END)
       ended = true;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "contract/kinds.hpp"
 #include "kage/stream_diff.hpp"
 #include "stream/field_diff.hpp"
 
@@ -25,17 +26,17 @@ class GroupReader {
  public:
   GroupReader(const Layout& layout, Words frame) : walk_(layout, frame) {}
 
-  /// SHADE, TABLE and FACE; may be none.
+  /// The frame's state; may be none.
   void state(Group& group) {
     start(group);
-    while (is(Kind::SHADE) || is(Kind::TABLE) || is(Kind::FACE)) take(group);
+    while (info_of(kind()).state) take(group);
   }
 
   /// The next line; false behind the last one.
   bool line(Group& group) {
     start(group);
-    while (!walk_.peek().empty() && !is(Kind::END)) {
-      const bool last = is(Kind::EOL);
+    while (!walk_.peek().empty() && kind() != Kind::END) {
+      const bool last = kind() == Kind::EOL;
       take(group);
       if (last) break;
     }
@@ -45,14 +46,15 @@ class GroupReader {
   /// Behind the last line: END, then the words that are no token; either may be missing.
   void end(Group& group) {
     start(group);
-    if (is(Kind::END)) take(group);
+    if (kind() == Kind::END) take(group);
     if (!walk_.rest().empty()) group.tokens.push_back(walk_.rest());
   }
 
  private:
-  [[nodiscard]] bool is(Kind kind) const {
+  /// Of the next token; 0, which is no kind, where there is none.
+  [[nodiscard]] Kind kind() const {
     const Words token = walk_.peek();
-    return !token.empty() && static_cast<Kind>(token[0] & 15U) == kind;
+    return token.empty() ? Kind{} : static_cast<Kind>(token[0] & 15U);
   }
 
   void start(Group& group) const {
@@ -159,7 +161,7 @@ class FrameComparer {
   [[nodiscard]] std::string field(Words a, Words b) const {
     if (a.empty() || b.empty()) return "token";
     if (!is_token(a) || !is_token(b)) return "words";
-    const std::optional<FieldDiff> in_field = first_field_diff(layout_, a, b);
+    const std::optional<FieldDiff> in_field = first_field_diff(config_, a, b);
     return in_field ? in_field->name : "bits behind the last field";  // which are zero in checked frames
   }
 

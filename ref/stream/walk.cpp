@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kage/stream.hpp"
+#include "stream/count.hpp"
 
 namespace kage {
 
@@ -43,11 +44,7 @@ TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> wo
   TokenWalk walk(layout, words);
   for (auto token = walk.next(); !token.empty(); token = walk.next()) {
     const Token t = decode(config, layout, token);
-    ++counts.of_kind[static_cast<std::size_t>(t.kind)];
-    if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::TP) {
-      ++counts.spans;
-      counts.span_pixels += static_cast<std::uint64_t>(std::max(0, t.span.xr - t.span.xl));
-    }
+    count_token(counts, t);
     if (t.kind == Kind::FACE) counts.units = std::max(counts.units, t.segment.unit + 1);
   }
   return counts;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "contract/kinds.hpp"
+
 namespace kage::cosim {
 void PhaseMarker::mark(std::span<const std::uint32_t> words, std::vector<std::uint8_t>& marks) {
   marks.reserve(marks.size() + words.size());
@@ -30,9 +32,9 @@ void PhaseCounter::token(const Token& t) {
   };
   const Phase phase = phase_of(t.kind);
   PhaseSums::Sum& sum = sums_.of[static_cast<std::size_t>(phase)];
-  if (t.kind == Kind::EOL || t.kind == Kind::TREE) {
+  if (info_of(t.kind).line_clocks) {
     clocks = groups(0, width_);
-  } else if (phase != Phase::state && t.kind != Kind::IF) {
+  } else if (info_of(t.kind).range) {
     clocks = std::max(clocks, groups(t.span.xl, t.span.xr));
     sum.pixels += static_cast<std::uint64_t>(t.span.xr - t.span.xl);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/derived.hpp"
 
@@ -48,8 +49,8 @@ Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
   widest_ = add(true, "frame", "as wide as can be");
   one_line_ = add(true, "frame", "of one line");
   bare_line_ = add(true, "frame", "a line with nothing on it");
-  for (const Kind k : {Kind::OP, Kind::SP, Kind::NC, Kind::EV, Kind::ES, Kind::TP})
-    span_[static_cast<std::size_t>(k)] = add_span(has(k), std::string(kKindNames[static_cast<std::size_t>(k)]));
+  for (std::size_t k = 0; k < span_.size(); ++k)
+    if (kKindInfo[k].range) span_[k] = add_span(layout.words[k] != 0, std::string(kKindNames[k]));
   depth_ = add_ramp(true, "depth", "a span's depth");
   tie_ = add(true, "depth", "OP as deep as what it meets");
   behind_ = add(true, "depth", "OP behind what it meets");

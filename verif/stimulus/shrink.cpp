@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contract/fields.hpp"
+#include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/derived.hpp"
 #include "stimulus/damage.hpp"
@@ -198,7 +199,7 @@ class Shrinker {
       bool state = true;  // what stands before the first line stays
       SegmentPlaces segments(p.header);
       for (Words& t : p.tokens) {
-        state = state && (is(t, Kind::SHADE) || is(t, Kind::TABLE) || is(t, Kind::FACE));
+        state = state && info_of(static_cast<Kind>(t[0] & 15U)).state;
         const std::size_t of = is(t, Kind::SEG) ? segments.next(decode(config_, layout_, t).segment).line : line;
         const bool gone = !state && !is(t, Kind::END) && of >= first && of < last;
         line += is(t, Kind::EOL) ? 1U : 0U;
@@ -259,7 +260,7 @@ class Shrinker {
     for (const TokenPlaces::At at : places.all()) {
       const auto kind = static_cast<Kind>(words[static_cast<std::size_t>(at)] & 15U);
       std::uint64_t cut = 0;  // pixels that a span loses at its left: it goes on with the depth and colour behind them
-      each_field(layout_, kind, [&](std::string_view name, int, Field field) {
+      each_field(config_, layout_, kind, [&](std::string_view name, int, Field field) {
         if (field.bits == 0 || (name != "xl" && name != "xr")) return;
         const std::uint64_t x = places.get(at, field);
         if (name == "xl" && left && x < step) cut = step - x;
@@ -287,7 +288,7 @@ class Shrinker {
     const auto ramp = [&](std::string_view start, std::string_view step) {
       std::array<Field, 3> starts{};
       std::array<Field, 3> steps{};
-      each_field(layout_, kind, [&](std::string_view name, int channel, Field field) {
+      each_field(config_, layout_, kind, [&](std::string_view name, int channel, Field field) {
         const auto i = static_cast<std::size_t>(std::max(channel, 0));
         if (name == start) starts[i] = field;
         if (name == step) steps[i] = field;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/derived.hpp"
 
@@ -160,11 +161,11 @@ void ExpectedEvents::span_command(const Token& t, const LineView& line) {
       break;
   }
   // ES and, with several lights, nothing else of its count: FSF leaves the low bits open.
-  if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP) {
+  if (info_of(t.kind).depth) {
     e.expect(z, low(s.z, depth_bits_));
     e.expect(dz, low(s.dz, depth_bits_));
   }
-  if (t.kind != Kind::OP && t.kind != Kind::TP) return;
+  if (!info_of(t.kind).color) return;
   for (int c = 0; c < config_.channels; ++c) {
     e.expect(color + c, low(s.color[static_cast<std::size_t>(c)], ramp_bits_));
     if (config_.smooth != 0) e.expect(dcolor + c, low(s.dcolor[static_cast<std::size_t>(c)], ramp_bits_));
@@ -453,10 +454,9 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
     case Kind::ES:
       for (int x = s.xl; x < s.xr; ++x) {
         touch(kind, x, line.pixel(x), of_pixel);
-        const bool depth = t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP;
-        const bool colored = t.kind == Kind::OP || t.kind == Kind::TP;
-        came(x, depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
-             colored ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
+        const KindInfo& info = info_of(t.kind);
+        came(x, info.depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
+             info.color ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
       }
       break;
     default:

@@ -140,7 +140,7 @@ Json layout_of(const Config& config) {
   for (std::size_t k = 0; k < kKindNames.size(); ++k) {
     Json fields = Json::array();
     if (layout.words[k] != 0)
-      each_field(layout, static_cast<Kind>(k), [&](const char* name, int channel, Field f) {
+      each_field(config, layout, static_cast<Kind>(k), [&](const char* name, int channel, Field f) {
         if (f.bits != 0) fields.push_back({name, channel, f.lsb, f.bits, f.is_signed});
       });
     j.push_back({{"name", kKindNames[k]}, {"words", layout.words[k]}, {"fields", std::move(fields)}});

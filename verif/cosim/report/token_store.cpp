@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "contract/kinds.hpp"
 #include "kage/error.hpp"
 
 namespace kage::report {
@@ -80,10 +81,9 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
 void TokenStore::token(std::span<const std::uint32_t> words) {
   decode(config_, layout_, words, t_);
   counter_.token(t_);
-  const bool state = t_.kind == Kind::SHADE || t_.kind == Kind::TABLE || t_.kind == Kind::FACE;
   const std::uint32_t index = frames_.back().tokens++;
   // The state ends with the first token that is of a line.
-  if (band_.line < 0 && !state) {
+  if (band_.line < 0 && !info_of(t_.kind).state) {
     close_band();
     open_band(0, index);
   }

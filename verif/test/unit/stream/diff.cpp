@@ -127,7 +127,7 @@ TEST_CASE("random streams: the same as themselves, symmetric, and one changed bi
     bool state = kind == Kind::SHADE || kind == Kind::TABLE || kind == Kind::FACE;
     for (std::size_t i = 0; i < number; ++i) line += static_cast<Kind>(words[starts[i]] & 15U) == Kind::EOL ? 1 : 0;
     std::string field;
-    each_field(layout, kind, [&](const char* name, int channel, Field f) {
+    each_field(c, layout, kind, [&](const char* name, int channel, Field f) {
       if (bit >= f.lsb && bit < f.lsb + std::size_t{f.bits})
         field = channel < 0 ? std::string(name) : std::string(name) + "[" + std::to_string(channel) + "]";
     });
