@@ -6,7 +6,6 @@
 #include <limits>
 #include <set>
 
-#include "contract/fields.hpp"
 #include "cosim/recall.hpp"
 #include "cosim/report/html.hpp"
 #include "kage/error.hpp"
@@ -133,21 +132,6 @@ void write_bands(std::ostream& out, const Page& page, std::size_t room) {
   }
 }
 
-/// Where the fields of each kind are: [[name, channel, lsb, bits, signed], ...], for the script to decode by.
-Json layout_of(const Config& config) {
-  const Layout layout(config);
-  Json j = Json::array();
-  for (std::size_t k = 0; k < kKindNames.size(); ++k) {
-    Json fields = Json::array();
-    if (layout.words[k] != 0)
-      each_field(config, layout, static_cast<Kind>(k), [&](const char* name, int channel, Field f) {
-        if (f.bits != 0) fields.push_back({name, channel, f.lsb, f.bits, f.is_signed});
-      });
-    j.push_back({{"name", kKindNames[k]}, {"words", layout.words[k]}, {"fields", std::move(fields)}});
-  }
-  return j;
-}
-
 Json told_of(const Page& page) {
   Json told = Json::array();
   std::size_t bytes = 0;
@@ -232,7 +216,6 @@ Json data_of(const Page& page, Pictures& pictures) {
   j["explain_rtl"] = page.explain_rtl;
   j["folder"] = page.folder;
   j["rtl"] = page.rtl;
-  j["layout"] = layout_of(page.config.config);
   j["band_lines"] = kBandLines;
   return j;
 }
@@ -240,7 +223,8 @@ Json data_of(const Page& page, Pictures& pictures) {
 }  // namespace
 
 void write_page(TempFiles& files, const fs::path& path, const Page& page) {
-  const Html html(headline(page) + " - " + page.name, headline(page), "run", {"parts", "explain", "view", "page"});
+  const Html html(headline(page) + " - " + page.name, headline(page), "run",
+                  {"parts", "stream", "explain", "view", "page"});
   Pictures pictures(page.made);
   std::string data = script_text(data_of(page, pictures));
   data.pop_back();  // the brace: two lists follow

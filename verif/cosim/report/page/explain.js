@@ -9,7 +9,7 @@ const Explain = (() => {
   const clear = 2 ** c.Z_BITS - 1;
   const dsfMask = 2 ** c.DSF_BITS - 1;
   const blank = 2 ** c.FACE_BITS - 1;
-  const kindNumber = Object.fromEntries(data.layout.map((k, i) => [k.name, i]));
+  const stream = Stream.of(c);
 
   // ---- words and tokens
 
@@ -25,67 +25,7 @@ const Explain = (() => {
     return band.words;
   }
 
-  // Fields are 63 bits at most by the format and 42 in every legal configuration, so a Number holds them.
-  function field(words, at, lsb, bits, signed) {
-    let value = 0;
-    for (let done = 0; done < bits;) {
-      const bit = lsb + done;
-      const take = Math.min(32 - bit % 32, bits - done);
-      const part = Math.floor(words[at + Math.floor(bit / 32)] / 2 ** (bit % 32)) % 2 ** take;
-      value += part * 2 ** done;
-      done += take;
-    }
-    return signed && value >= 2 ** (bits - 1) ? value - 2 ** bits : value;
-  }
-
-  function decode(words, at) {
-    const kind = data.layout[words[at] & 15];
-    const token = {kind: kind.name, words: kind.words};
-    for (const [name, channel, lsb, bits, signed] of kind.fields) {
-      const value = field(words, at, lsb, bits, signed);
-      if (channel < 0) token[name] = value;
-      else (token[name] ??= [])[channel] = value;
-    }
-    return token;
-  }
-
-  // ---- numbers and words for people
-
-  // As the program prints a double: the shortest text that gives it back.
-  function number(v) {
-    if (v !== 0 && Math.abs(v) < 1e-4) return v.toExponential().replace(/e-(\d)$/, "e-0$1");
-    return String(v);
-  }
-  const signed = (v) => (v < 0 ? "" : "+") + number(v);
   const colorText = (color) => color.slice(0, c.CHANNELS).join(",");
-  const zText = (z) => number(z / 2 ** c.Z_FRAC);
-  const classText = (t) =>
-    c.DSF_BITS === 0 ? "" : c.CLASS_BITS === 1 ? (t.class ? " lit" : " unlit") : ` class ${t.class}`;
-
-  function tokenText(t) {
-    const range = `[${t.xl}, ${t.xr})`;
-    switch (t.kind) {
-      case "OP":
-      case "TP": {
-        const unit = 2 ** c.COLOR_FRAC;
-        const color = t.color.map((v, i) => number(v / unit) + (c.SMOOTH ? signed(t.dcolor[i] / unit) : ""));
-        return `${t.kind} ${range} z ${zText(t.z)} dz ${zText(t.dz)} color ${color.join(",")}` +
-            (t.kind === "TP" ? ` alpha ${t.alpha}` : classText(t));
-      }
-      case "SP":
-        return `SP ${range} w ${signed(t.w)} z ${zText(t.z)} dz ${zText(t.dz)}`;
-      case "NC":
-        return `NC ${range} w ${signed(t.w)}`;
-      case "IF":
-        return `IF w ${signed(t.w)}`;
-      case "EV":
-        return `EV ${range}`;
-      case "ES":
-        return `ES ${range} light ${t.light ?? 0}`;
-      default:
-        return t.kind;
-    }
-  }
 
   // ---- what a span brings to a pixel
 
@@ -93,9 +33,9 @@ const Explain = (() => {
     return Number(BigInt.asIntN(bits, BigInt(value) + BigInt(step) * BigInt(k)) >> BigInt(frac));
   }
   const clamp = (v, low, high) => Math.min(Math.max(v, low), high);
-  const depthAt = (z, dz, k) => clamp(ramp(z, dz, k, c.Z_BITS + c.Z_FRAC + 2, c.Z_FRAC), 1, clear - 1);
+  const depthAt = (z, dz, k) => clamp(ramp(z, dz, k, stream.width.depth_bits, c.Z_FRAC), 1, clear - 1);
   const colorAt = (t, x) => !c.SMOOTH ? t.color :
-      t.color.map((v, i) => clamp(ramp(v, t.dcolor[i], x - t.xl, 10 + c.COLOR_FRAC, c.COLOR_FRAC), 0, 255));
+      t.color.map((v, i) => clamp(ramp(v, t.dcolor[i], x - t.xl, stream.width.ramp_bits, c.COLOR_FRAC), 0, 255));
 
   // ---- the pixel
 
@@ -174,15 +114,14 @@ const Explain = (() => {
               (this.fsf ? "; FSF is 1" : "");
         }
         case "ES": {
-          const light = t.light ?? 0;
           const shadow = c.FSF ? this.fsf !== 0 : this.sum() !== 0;
           this.bias = 0;
           if (!here) return "";
-          if (shadow) this.counts[light] = Math.min(this.counts[light] + 1, 2 ** c.COUNT_BITS - 1);
+          if (shadow) this.counts[t.light] = Math.min(this.counts[t.light] + 1, 2 ** c.COUNT_BITS - 1);
           if (c.FSF) this.fsf = 0;
           else this.dsf = 0;
-          return `end of a sample of light ${light}: ` +
-              `${shadow ? "in shadow" : "not in shadow"}; count ${this.counts[light]}`;
+          return `end of a sample of light ${t.light}: ` +
+              `${shadow ? "in shadow" : "not in shadow"}; count ${this.counts[t.light]}`;
         }
         case "RESOLVE": {
           const text = this.resolve();
@@ -200,7 +139,7 @@ const Explain = (() => {
     count(w) {
       const before = this.dsf;
       this.dsf = (before + w) & dsfMask;
-      return `DSF ${before} ${signed(w)} = ${this.dsf}`;
+      return `DSF ${before} ${Stream.withSign(w)} = ${this.dsf}`;
     }
 
     // Which tells what is lost, and takes it.
@@ -307,7 +246,7 @@ const Explain = (() => {
     if (band.state) return band.state;
     const words = await unpack(band);
     for (let at = 0; at < words.length;) {
-      const t = decode(words, at);
+      const t = stream.decode(words, at);
       at += t.words;
       if (t.kind === "SHADE") state.shade = t.shade;
       if (t.kind === "TABLE") state.shares.push(t.share);
@@ -340,7 +279,7 @@ const Explain = (() => {
     let index = band.token - band.ahead;
     let text = "";
     for (let at = 0; at < words.length && line <= y; ++index) {
-      const t = decode(words, at);
+      const t = stream.decode(words, at);
       at += t.words;
       if (failed && index >= frame.error.token) break;
       if (t.kind === "SEG") units.add(t);
@@ -357,7 +296,7 @@ const Explain = (() => {
       const done = t.kind === "TREE" ? tree(pixel, units, frame) : {effect: pixel.does(t)};
       if (done.effect === "") continue;
       const after = pixel.text();
-      pixel.touches.push({token: index, text: tokenText(t), ...done, ...(after === before ? {} : {now: after})});
+      pixel.touches.push({token: index, text: stream.text(t), ...done, ...(after === before ? {} : {now: after})});
     }
     if (failed) return {touches: pixel.touches, color_text: "background: the frame has an error on this line or before", color: pixel.background};
     const drawn = pixel.z !== clear || pixel.painted;
