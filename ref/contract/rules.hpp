@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "contract/kinds.hpp"
+#include "contract/order.hpp"
 #include "contract/segment_rules.hpp"
 #include "kage/stream.hpp"
 
@@ -19,11 +21,9 @@ class TokenRules {
     width_ = width;
     height_ = height;
     line_ = 0;
-    phase_ = Phase::state;
-    shade_seen_ = false;
-    volume_open_ = false;
-    sample_open_ = false;
-    has_tree_ = false;
+    phase_ = order_rules::Phase::state;
+    marks_ = 0;
+    marks_of_core_ = order_rules::marks_of(config);
     next_class_ = 1;
     next_light_ = 0;
     segments_.start(config, width, height);
@@ -34,7 +34,7 @@ class TokenRules {
   /// The error of this token, which has index `token`, or NONE; then the machine has moved on. Kinds that the
   /// configuration lacks are the caller's.
   ErrorCode accept(const Token& t, std::uint32_t token) {
-    if (!in_order(t.kind)) return ErrorCode::ORDER;
+    if (!rule(t.kind).allows(phase_, marks_)) return ErrorCode::ORDER;
     if (!in_range(t)) return ErrorCode::RANGE;
     if (const ErrorCode e = accept_segment(t, token); e != ErrorCode::NONE) return e;
     if (t.kind == Kind::EOL && t.y != line_) return ErrorCode::LINE;
@@ -56,43 +56,7 @@ class TokenRules {
   [[nodiscard]] int line() const { return line_; }
 
  private:
-  enum class Phase { state, ahead, opaque, volume, resolved, translucent };
-
-  [[nodiscard]] bool in_order(Kind k) const {
-    if (k == Kind::END) return true;
-    if (line_ >= height_) return false;
-    const bool ahead = phase_ == Phase::state || phase_ == Phase::ahead;
-    const bool opaque = phase_ == Phase::opaque || (ahead && !has_tree_);
-    switch (k) {
-      case Kind::SHADE:
-        return phase_ == Phase::state && !shade_seen_;
-      case Kind::TABLE:
-      case Kind::FACE:
-        return phase_ == Phase::state;
-      case Kind::SEG:
-        return phase_ == Phase::state || (phase_ == Phase::ahead && has_tree_);
-      case Kind::TREE:
-        return phase_ == Phase::ahead && has_tree_;
-      case Kind::OP:
-        return opaque;
-      case Kind::SP:
-      case Kind::NC:
-      case Kind::IF:
-        return opaque || phase_ == Phase::volume;
-      case Kind::EV:
-        return phase_ == Phase::volume && volume_open_;
-      case Kind::RESOLVE:
-        return phase_ == Phase::volume && (config_->fsf == 0 || !volume_open_) &&
-               (config_->count_bits == 0 || !sample_open_);
-      case Kind::ES:
-        return phase_ == Phase::volume && (config_->fsf == 0 || !volume_open_) && sample_open_;
-      case Kind::TP:
-      case Kind::EOL:
-        return opaque || phase_ == Phase::resolved || phase_ == Phase::translucent;
-      default:
-        return false;
-    }
-  }
+  static constexpr const order_rules::Rule& rule(Kind k) { return order_rules::kRules[static_cast<std::size_t>(k)]; }
 
   [[nodiscard]] bool in_range(const Token& t) const {
     switch (t.kind) {
@@ -107,13 +71,8 @@ class TokenRules {
         return in_line(t.span) && has_class(t.span.normal_class);
       case Kind::ES:
         return in_line(t.span) && t.table.light < config_->lights;
-      case Kind::SP:
-      case Kind::NC:
-      case Kind::EV:
-      case Kind::TP:
-        return in_line(t.span);
       default:
-        return true;
+        return !info_of(t.kind).range || in_line(t.span);
     }
   }
 
@@ -140,64 +99,25 @@ class TokenRules {
   }
 
   void move(Kind k) {
-    switch (k) {
-      case Kind::SHADE:
-        shade_seen_ = true;
-        break;
-      case Kind::TABLE:
-        if (++next_light_ < config_->lights) break;
-        next_light_ = 0;
-        ++next_class_;
-        break;
-      case Kind::SEG:
-        phase_ = Phase::ahead;
-        has_tree_ = true;
-        break;
-      case Kind::TREE:
-      case Kind::OP:
-        phase_ = Phase::opaque;
-        break;
-      case Kind::SP:
-      case Kind::NC:
-      case Kind::IF:
-        phase_ = Phase::volume;
-        volume_open_ = true;
-        sample_open_ = true;
-        break;
-      case Kind::ES:
-        sample_open_ = false;
-        break;
-      case Kind::EV:
-        volume_open_ = false;
-        break;
-      case Kind::RESOLVE:
-        phase_ = Phase::resolved;
-        break;
-      case Kind::TP:
-        phase_ = Phase::translucent;
-        break;
-      case Kind::EOL:
-        phase_ = Phase::ahead;
-        volume_open_ = false;
-        sample_open_ = false;
-        ++line_;
-        break;
-      default:
-        break;
+    const order_rules::Rule& r = rule(k);
+    marks_ = static_cast<order_rules::Marks>(((marks_ & ~r.clears) | r.sets) & marks_of_core_);
+    if (r.moves) phase_ = order_rules::entered(r.to, marks_);
+    if (k == Kind::TABLE && ++next_light_ == config_->lights) {
+      next_light_ = 0;
+      ++next_class_;
     }
+    if (k == Kind::EOL && ++line_ == height_) phase_ = order_rules::Phase::behind;
   }
 
   const Config* config_ = nullptr;
   int width_ = 0;
   int height_ = 0;
   int line_ = 0;
-  Phase phase_ = Phase::state;
-  bool shade_seen_ = false;
-  bool volume_open_ = false;
-  bool sample_open_ = false;  // an SP, NC or IF came after the last ES
-  int next_class_ = 1;        // of the table's next entry
+  order_rules::Phase phase_{};
+  order_rules::Marks marks_ = 0;
+  order_rules::Marks marks_of_core_ = 0;
+  int next_class_ = 1;  // of the table's next entry
   int next_light_ = 0;
-  bool has_tree_ = false;
   SegmentRules segments_;
   SegmentRules::Outcome outcome_;
   SegmentRules::Fault fault_;
