@@ -2,11 +2,12 @@
 // The phases of a line (docs/stream.md, "Order in a line") and its bias: whether a token may stand where it does. frame_control asks about the
 // token it has and acts on the answer; nothing here waits.
 //
-// Question: kind_i. in_order_o, combinational, for OP, SP, NC, IF, EV, ES, RESOLVE, TP and EOL; 1 for all others, which are not of a line.
-// Acts: start_i, one clock, when a line begins; take_i, one clock, when the token was good and has been taken, with IF's w_i; clear_bias_i.
+// Question: kind_i. in_order_o, combinational, for what is of a line by kage_order.svh; 1 for all others.
+// Acts: start_i, one clock, when a line begins, and then take_i does not count; take_i, one clock, when the token was good and has been taken,
+//   with IF's w_i; clear_bias_i.
 // State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token.
 // Latency: answer 0, state 1 clock. Throughput: a token a clock.
-// Cost: DSF_BITS + 4 flip-flops; with counters one more.
+// Cost: DSF_BITS + 3 flip-flops; with counters one more.
 `default_nettype none
 
 module line_phase #(
@@ -27,59 +28,34 @@ module line_phase #(
 );
   `include "generated/kage_layout.svh"
 
-  localparam logic [1:0] PhaseOpaque = 2'd0;
-  localparam logic [1:0] PhaseVolume = 2'd1;
-  localparam logic [1:0] PhaseResolved = 2'd2;
-  localparam logic [1:0] PhaseTranslucent = 2'd3;
+  `include "generated/kage_order.svh"
 
-  logic [1:0] phase_q;
-  logic volume_open_q;  // an SP, NC or IF came after the last EV
-  logic sample_open_q;  // an SP, NC or IF came after the last ES
+  logic [PhaseBits-1:0] phase_q;
+  logic [Marks-1:0] marks_q;
   logic [DsfBits-1:0] bias_q;
 
-  logic in_volume, volume_done, sample_done;
-  assign in_volume = phase_q == PhaseVolume;
-  assign volume_done = FSF == 0 || !volume_open_q;
-  assign sample_done = COUNT_BITS == 0 || !sample_open_q;
+  logic [3:0] phases;  // in which the token may stand
+  logic [Marks-1:0] with_marks, without_marks;
+  assign phases = order_in(kind_i);
+  assign with_marks = order_with(kind_i);
+  assign without_marks = order_without(kind_i);
+  assign in_order_o = phases[phase_q] && (marks_q & with_marks) == with_marks && (marks_q & without_marks) == '0;
   assign resolved_o = phase_q == PhaseResolved;
   assign bias_o = bias_q;
-  always_comb begin
-    unique case (kind_i)
-      KindOp: in_order_o = phase_q == PhaseOpaque;
-      KindSp, KindNc, KindIf: in_order_o = phase_q == PhaseOpaque || in_volume;
-      KindEv: in_order_o = in_volume && volume_open_q;
-      KindEs: in_order_o = in_volume && volume_done && !sample_done;
-      KindResolve: in_order_o = in_volume && volume_done && sample_done;
-      KindTp, KindEol: in_order_o = !in_volume;
-      default: in_order_o = 1'b1;
-    endcase
-  end
 
   always_ff @(posedge clk_i) begin
     if (start_i) begin
       phase_q <= PhaseOpaque;
-      volume_open_q <= 1'b0;
-      sample_open_q <= 1'b0;
-      bias_q <= '0;
+      marks_q <= '0;
+      bias_q  <= '0;
     end else begin
       if (clear_bias_i) bias_q <= '0;
-      if (take_i && TRANSLUCENCY > 0 && kind_i == KindTp) phase_q <= PhaseTranslucent;
-      if (take_i && DSF_BITS > 0) begin
-        if (kind_i == KindSp || kind_i == KindNc || kind_i == KindIf) begin
-          phase_q <= PhaseVolume;
-          volume_open_q <= 1'b1;
-          sample_open_q <= COUNT_BITS > 0;
-        end
-        if (kind_i == KindIf) bias_q <= bias_q + w_i;
-        if (kind_i == KindResolve) phase_q <= PhaseResolved;
-        if (FSF > 0 && kind_i == KindEv) begin
-          volume_open_q <= 1'b0;
-          bias_q <= '0;
-        end
-        if (COUNT_BITS > 0 && kind_i == KindEs) begin
-          sample_open_q <= 1'b0;
-          bias_q <= '0;
-        end
+      if (take_i) begin
+        if (order_moves(kind_i)) phase_q <= order_to(kind_i);
+        marks_q <= (marks_q & ~order_clears(kind_i)) | order_sets(kind_i);
+        if (DSF_BITS > 0 && kind_i == KindIf) bias_q <= bias_q + w_i;
+        if (FSF > 0 && kind_i == KindEv) bias_q <= '0;
+        if (COUNT_BITS > 0 && kind_i == KindEs) bias_q <= '0;
       end
     end
   end

@@ -51,6 +51,7 @@ module token_check #(
     output logic [        1:0] behind_ahead_o
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_order.svh"
 
   localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
 
@@ -59,7 +60,7 @@ module token_check #(
 
   // ---- order, range, line ------------------------------------------------------------------------------------------
   logic [3:0] kind;
-  logic is_shade, is_op, is_eol, is_end, is_es, is_table, is_span;
+  logic is_shade, is_eol, is_end, is_es, is_span;
   logic [X_BITS-1:0] xl, xr;
   logic in_phase, in_order, in_range, in_line, good, light_lacking;
   logic tree_order_error, tree_range_error, tree_error;  // those of FACE, SEG and TREE; see gen_tree below
@@ -68,14 +69,11 @@ module token_check #(
   logic [CodeBits-1:0] tree_code;
   assign kind = token_i[3:0];
   assign is_shade = kind == KindShade;
-  assign is_op = kind == KindOp;
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_es = COUNT_BITS > 0 && kind == KindEs;
-  assign is_table = CLASS_BITS > 1 && kind == KindTable;
-  assign is_span = is_op || kind == KindSp || kind == KindNc || kind == KindEv || is_es ||
-      (TRANSLUCENCY > 0 && kind == KindTp);
-  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in OP, SP, NC, EV, ES and TP
+  assign is_span = kind_has_range(kind);
+  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in all that have a range
   assign xr = token_i[OpXrLsb+:X_BITS];
   assign light_lacking = is_es && 32'(token_i[EsLightLsb+:LightBits]) >= 32'(LIGHTS);
   always_comb begin
@@ -119,8 +117,10 @@ module token_check #(
 
   // ---- light table -------------------------------------------------------------------------------------------------
   if (CLASS_BITS > 1) begin : gen_table
-    logic lacking, class_used, entry_error;
+    logic is_op, is_table, lacking, class_used, entry_error;
     logic [CLASS_BITS-1:0] span_class;
+    assign is_op = kind == KindOp;
+    assign is_table = kind == KindTable;
     if (UNITS > 0) begin : gen_faces
       assign class_used = is_op || kind == KindFace;
       assign span_class = is_op ? token_i[OpClassLsb+:CLASS_BITS] : token_i[FaceClassLsb+:CLASS_BITS];
@@ -137,7 +137,7 @@ module token_check #(
         .clk_i,
         .frame_start_i(start_i),
         .take_table_i (take_i && is_table),
-        .take_other_i (take_i && !is_table && !(UNITS > 0 && kind == KindFace)),
+        .take_other_i (take_i && !kind_is_state(kind)),
         .class_i      (token_i[TableClassLsb+:CLASS_BITS]),
         .light_i      (token_i[TableLightLsb+:LightBits]),
         .share_i      (token_i[TableShareLsb+:EntryShareBits]),
@@ -187,12 +187,12 @@ module token_check #(
         .rst_ni,
         .frame_start_i(start_i),
         .take_i,
-        .is_shade_i   (is_shade || is_table),
+        .is_shade_i   (kind_is_state(kind) && !is_face),
         .is_face_i    (is_face),
         .is_seg_i     (is_seg),
         .is_tree_i    (is_tree),
         .is_eol_i     (is_eol),
-        .is_other_i   (!(is_shade || is_table || is_face || is_seg || is_tree || is_eol || is_end)),
+        .is_other_i   (!(kind_is_state(kind) || is_seg || is_tree || is_eol || is_end)),
         .width_i,
         .lines_left_i,
         .token_i      (index_i),
@@ -217,7 +217,7 @@ module token_check #(
     );
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = (^lines_left_i) ^ rst_ni ^ good ^ start_i ^ is_table;
+    assign unused_tree = (^lines_left_i) ^ rst_ni ^ good ^ start_i;
     assign {tree_order_error, tree_range_error, tree_error, tree_code, shade_seen_q} = '0;
     assign {seg_goes_o, fault_unit_o, behind_o, behind_unit_o, behind_ahead_o} = '0;
     assign fault_token_o = index_i;
