@@ -43,20 +43,18 @@ struct Place {
 };
 
 /// Of the stage that differs first; else of the assertion that failed.
-Place place_of(const Json& difference) {
-  if (!difference["divergence"].is_null()) return {difference["divergence"]["file"].get<std::string>(), ""};
-  if (difference["assertion"].is_null()) return {};
-  const std::string at = difference["assertion"].get<std::string>();
+Place place_of(const report::DifferenceRecord& difference) {
+  if (difference.divergence) return {difference.divergence->file(), ""};
+  if (!difference.assertion) return {};
+  const std::string& at = *difference.assertion;
   const std::size_t colon = at.rfind(':');
   return {at.substr(0, colon), colon == std::string::npos ? "" : at.substr(colon + 1)};
 }
 
 /// First difference and first divergence, a line each.
-std::string text_of(const Json& difference) {
-  std::string text = difference["text"].get<std::string>();
-  if (!difference["divergence"].is_null())
-    text += "\nfirst divergence: " + difference["divergence"]["text"].get<std::string>();
-  return text;
+std::string text_of(const report::DifferenceRecord& difference) {
+  return difference.divergence ? difference.text + "\nfirst divergence: " + difference.divergence->text
+                               : difference.text;
 }
 
 }  // namespace
@@ -97,122 +95,49 @@ void option_annotate(CLI::App& command, std::string& annotate) {
       ->type_name("WHERE");
 }
 
-void describe_run(Json& report, const std::string& scene, int total, const Shard& shard, cosim::FrameSteps steps,
-                  Json options) {
-  report["scene"] = scene;
-  report["total_frames"] = total;
-  report["first_frame"] = steps.first;
-  report["frame_step"] = steps.step;
-  report["shard"] = shard.given ? Json{{"index", shard.index}, {"count", shard.count}} : Json(nullptr);
-  report["options"] = std::move(options);
-}
-
-Json no_frames(const std::string& scene, int total) {
-  return {{"same", nullptr}, {"frames", 0}, {"scene", scene}, {"total_frames", total}};
-}
-
-bool has_frames(const Json& report) { return report["frames"] != 0; }
-
-Json all_verdicts(const std::vector<const Json*>& parts) {
-  bool cached = false;
-  std::uint64_t taken = 0, kept = 0;
-  Json trouble = nullptr;
-  for (const Json* p : parts) {
-    cached = cached || p->at("cached").get<bool>();
-    taken += p->at("taken").get<std::uint64_t>();
-    kept += p->at("kept").get<std::uint64_t>();
-    if (trouble.is_null()) trouble = p->at("trouble");
-  }
-  return {{"cached", cached}, {"taken", taken}, {"kept", kept}, {"trouble", trouble}};
-}
-
-std::uint64_t taken_of(const Json& report) { return report["verdicts"]["taken"].get<std::uint64_t>(); }
-
-Json all_scenes(std::vector<Json> scenes) {
-  Json j;
-  bool same = true;
-  Json first = nullptr;
-  for (const Json& r : scenes) {
-    if (!has_frames(r)) continue;
-    same = same && r["same"].get<bool>();
-    if (!first.is_null() || r["first_difference"].is_null()) continue;
-    first = {{"scene", r["scene"]}};
-    first.update(r["first_difference"]);
-  }
-  const auto sum = [&](const Json::json_pointer& at, auto total) {
-    for (const Json& r : scenes)
-      if (has_frames(r)) total += r.at(at).get<decltype(total)>();
-    return total;
-  };
-  const auto count = [&](const char* at) { return sum(Json::json_pointer(at), std::uint64_t{0}); };
-  const auto seconds = [&](const char* at) { return sum(Json::json_pointer(at), 0.0); };
-  const Json& any = *std::find_if(scenes.begin(), scenes.end(), has_frames);
-  j["same"] = same;
-  for (const char* key : {"frames", "pixels_compared", "spans", "span_pixels", "segments", "cycles"})
-    j[key] = count((std::string("/") + key).c_str());
-  j["stalled"] = {{"input_starved", count("/stalled/input_starved")},
-                  {"output_blocked", count("/stalled/output_blocked")}};
-  std::uint64_t total = 0;
-  for (const Json& r : scenes) total += r["total_frames"].get<std::uint64_t>();
-  j["total_frames"] = total;
-  j["shard"] = any["shard"];
-  std::vector<const Json*> verdicts;
-  for (const Json& r : scenes)
-    if (has_frames(r)) verdicts.push_back(&r["verdicts"]);
-  j["verdicts"] = all_verdicts(verdicts);
-  for (const char* key : {"golden_seconds", "rtl_seconds", "build_seconds"})
-    j[key] = seconds((std::string("/") + key).c_str());
-  j["seed"] = any["seed"];
-  j["first_difference"] = first;
-  j["scenes"] = std::move(scenes);
-  return j;
-}
-
-void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards) {
-  junit.group(shards.front()->at("scene").get<std::string>());
-  const int total = shards.front()->at("total_frames").get<int>();
-  std::map<int, const Json*> by_first;
+void junit_frames(JUnitWriter& junit, const std::vector<const report::SceneRecord*>& shards) {
+  junit.group(shards.front()->scene);
+  std::map<int, const report::SceneRecord*> by_first;
   std::set<int> taken;
-  for (const Json* shard : shards) {
-    by_first[shard->at("first_frame").get<int>()] = shard;
-    for (const Json& frame : shard->at("verdicts").at("taken_frames")) taken.insert(frame.get<int>());
+  for (const report::SceneRecord* shard : shards) {
+    by_first[shard->first_frame] = shard;
+    taken.insert(shard->verdicts.taken_frames.begin(), shard->verdicts.taken_frames.end());
   }
-  const int step = shards.front()->at("frame_step").get<int>();
-  for (int frame = 0; frame < total; ++frame) {
+  const int step = shards.front()->frame_step;
+  for (int frame = 0; frame < shards.front()->total_frames; ++frame) {
     const auto found = by_first.find(frame % step);
-    if (found == by_first.end()) continue;  // a single report may be that of one shard: it tells of its own frames
-    const Json& shard = *found->second;
+    if (found == by_first.end()) continue;  // a single record may be that of one shard: it tells of its own frames
+    const auto& seconds = found->second->frame_seconds;
+    const auto& difference = found->second->first_difference;
     const auto place = static_cast<std::size_t>(frame / step);
-    const Json& seconds = shard["frame_seconds"];
     const std::string name = fmt::format("frame {}", frame);
-    const Json& difference = shard["first_difference"];
     if (place >= seconds.size())
-      junit.skip(name, fmt::format("not compared: frame {} is different", difference["frame"].get<int>()));
-    else if (!difference.is_null() && place + 1 == seconds.size())
-      junit_difference(junit, name, seconds[place].get<double>(), difference);
+      junit.skip(name,
+                 difference ? fmt::format("not compared: frame {} is different", difference->frame) : "not compared");
+    else if (difference && place + 1 == seconds.size())
+      junit_difference(junit, name, seconds[place].value_or(0), *difference);
     else
-      junit.pass(name, seconds[place].get<double>(),
+      junit.pass(name, seconds[place].value_or(0),
                  taken.count(frame) == 0 ? "" : "the verdict of the RTL is taken from an earlier run");
   }
 }
 
-void junit_difference(JUnitWriter& junit, const std::string& name, double seconds, const Json& difference,
-                      const std::string& again) {
+void junit_difference(JUnitWriter& junit, const std::string& name, double seconds,
+                      const report::DifferenceRecord& difference, const std::string& again) {
   const std::string details = again.empty() ? text_of(difference) : text_of(difference) + "\nagain: " + again;
-  junit.fail(name, seconds, difference["text"].get<std::string>(), details, place_of(difference).file);
+  junit.fail(name, seconds, difference.text, details, place_of(difference).file);
 }
 
-void annotate_difference(const std::string& annotate, const Json& report, std::FILE* to) {
-  const Json& difference = report["first_difference"];
-  if (difference.is_null() || !wants_github(annotate)) return;
-  const auto [file, line] = place_of(difference);
-  const std::string title = fmt::format("kage cosim {}: frame {} is different", report["scene"].get<std::string>(),
-                                        difference["frame"].get<int>());
+void annotate_difference(const std::string& annotate, const report::SceneRecord& scene, std::FILE* to) {
+  const auto& difference = scene.first_difference;
+  if (!difference || !wants_github(annotate)) return;
+  const auto [file, line] = place_of(*difference);
+  const std::string title = fmt::format("kage cosim {}: frame {} is different", scene.scene, difference->frame);
   const auto property = [](const char* name, const std::string& value) {
     return value.empty() ? "" : fmt::format("{}={},", name, for_github(value, true));
   };
   fmt::print(to, "::error {}{}title={}::{}\n", property("file", file), property("line", line), for_github(title, true),
-             for_github(text_of(difference), false));
+             for_github(text_of(*difference), false));
 }
 
 }  // namespace kage::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What kage cosim and kage merge do for continuous integration: shards of the frames, JUnit cases and annotations of a
-// verdict, several scenes as one. Both work from the report's JSON, so that a joined report says what its parts said.
+// verdict. Both work from the run's record, so that a joined one says what its parts said.
 #pragma once
 
 #include <cstdint>
@@ -47,39 +47,17 @@ void option_shard(CLI::App& command, Shard& shard);
 void option_junit(CLI::App& command, std::string& path, const std::string& each = "frame");
 void option_annotate(CLI::App& command, std::string& annotate);
 
-/// Adds to the report of a run what kage merge needs to know of it: "scene", "total_frames", "first_frame" and
-/// "frame_step", which of them it has, "shard", and "options", what decides the words and clocks besides.
-void describe_run(Json& report, const std::string& scene, int total, const Shard& shard, cosim::FrameSteps steps,
-                  Json options);
-
-/// What stands in for the report of a scene of which a shard has no frame.
-Json no_frames(const std::string& scene, int total);
-
-/// Whether a report is such a one.
-bool has_frames(const Json& report);
-
-/// "verdicts" of several reports as one: how many frames have their verdicts from earlier runs, how many verdicts are
-/// kept for later ones, and what was in the way of that.
-Json all_verdicts(const std::vector<const Json*>& parts);
-
-/// The reports of several scenes as one, which has them in "scenes": sums, and the first difference of the first scene
-/// that has one, with that scene's name.
-Json all_scenes(std::vector<Json> scenes);
-
-/// How many frames of a report have their verdicts from earlier runs.
-std::uint64_t taken_of(const Json& report);
-
-/// A case for each frame of a scene's reports, which are those of all shards, or of a single run. Frames behind a
+/// A case for each frame of a scene's records, which are those of all shards, or of a single run. Frames behind a
 /// difference were not compared and are skipped.
-void junit_frames(JUnitWriter& junit, const std::vector<const Json*>& shards);
+void junit_frames(JUnitWriter& junit, const std::vector<const report::SceneRecord*>& shards);
 
-/// A failed case: a report's first difference with the first divergence, and the RTL file to blame. `again` is the
+/// A failed case: a scene's first difference with the first divergence, and the RTL file to blame. `again` is the
 /// command that repeats it, if it is to be told.
-void junit_difference(JUnitWriter& junit, const std::string& name, double seconds, const Json& difference,
-                      const std::string& again = "");
+void junit_difference(JUnitWriter& junit, const std::string& name, double seconds,
+                      const report::DifferenceRecord& difference, const std::string& again = "");
 
 /// If `annotate` or, where that is empty, the environment ($GITHUB_ACTIONS) asks for it: a line on `to` by which GitHub
 /// shows the first difference at the RTL file whose stage made it.
-void annotate_difference(const std::string& annotate, const Json& report, std::FILE* to);
+void annotate_difference(const std::string& annotate, const report::SceneRecord& scene, std::FILE* to);
 
 }  // namespace kage::cli

@@ -68,10 +68,11 @@ void compare(const Scenes& scenes, int jobs) {
 }
 
 /// Writes the page over all scenes; its name, or nothing: the verdict stands without it.
-std::string joined_page(const CosimCommand& o, const Json& j, SceneRun& last, TempFiles& files) {
+std::optional<std::string> joined_page(const CosimCommand& o, const report::RunRecord& record, SceneRun& last,
+                                       TempFiles& files) {
   std::string page = (std::filesystem::path(o.out) / "report.html").string();
   try {
-    write_joined_page(files, page, j);
+    write_joined_page(files, page, record);
     return page;
   } catch (const Interrupted&) {
     last.interrupt();
@@ -79,7 +80,7 @@ std::string joined_page(const CosimCommand& o, const Json& j, SceneRun& last, Te
   } catch (const std::exception& e) {
     last.note(fmt::format("no report over all scenes was written: {}", e.what()));
   }
-  return {};
+  return std::nullopt;
 }
 
 int run(const CosimCommand& o) {
@@ -90,46 +91,44 @@ int run(const CosimCommand& o) {
   refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit,
                 o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   const Scenes scenes = open(o);
-  const bool several = scenes.size() > 1;
   compare(scenes, o.jobs > 0 ? o.jobs : default_jobs());
   TempFiles files;
   JUnitWriter junit(files, o.ci.junit, "kage cosim");
-  std::vector<Json> reports;
+  report::RunRecord record;
+  record.several = scenes.size() > 1;
   for (const auto& scene : scenes) {
-    reports.push_back(scene->finish(files));
+    record.scenes.push_back(scene->finish(files));
     if (scene->interrupted() && scene != scenes.back()) throw Interrupted{};
   }
-  const auto who = [&](const Json& r) { return several ? r["scene"].get<std::string>() + ": " : std::string(); };
-  Json j = several ? all_scenes(reports) : reports.front();
-  std::string page;
-  if (several && !o.no_report && !o.out.empty()) page = joined_page(o, j, *scenes.back(), files);
-  if (several) j["report"] = page.empty() ? Json(nullptr) : Json(page);
+  const auto who = [&](const report::SceneRecord& s) { return record.several ? s.scene + ": " : std::string(); };
+  if (record.several && !o.no_report && !o.out.empty()) record.page = joined_page(o, record, *scenes.back(), files);
   try {
-    for (const Json& r : reports)
-      if (has_frames(r)) junit_frames(junit, {&r});
+    for (const report::SceneRecord& s : record.scenes)
+      if (s.frames != 0) junit_frames(junit, {&s});
     junit.close();
-    write_json(o, j, files);
+    write_json(o, to_json(record), files);
   } catch (const Error&) {
     // No file of the run appears, but what it found is told.
-    for (const Json& r : reports)
-      if (has_frames(r) && !json_only(o)) print_verdict(r, who(r));
+    for (const report::SceneRecord& s : record.scenes)
+      if (s.frames != 0 && !json_only(o)) print_verdict(s, who(s));
     throw;
   }
-  const bool same = j["same"].get<bool>();
   for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const report::SceneRecord& s = record.scenes[i];
     for (const std::string& note : scenes[i]->notes()) fmt::print(json_only(o) ? stderr : stdout, "{}\n", note);
-    if (!json_only(o)) print_report(reports[i], who(reports[i]), scenes[i]->command().out);
-    if (has_frames(reports[i])) annotate_difference(o.ci.annotate, reports[i], json_only(o) ? stderr : stdout);
+    if (!json_only(o)) print_report(s, who(s), scenes[i]->command().out);
+    if (s.frames != 0) annotate_difference(o.ci.annotate, s, json_only(o) ? stderr : stdout);
   }
-  if (several && !json_only(o))
-    fmt::print("{}: {}, {} of {}{}, {} compared, {}, seed {}\n", same ? "same" : "different",
-               counted(scenes.size(), "scene"), counted(j["frames"].get<std::uint64_t>(), "frame"),
-               j["total_frames"].get<std::uint64_t>(), cosim::taken_text(taken_of(j)),
-               counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
-               counted(j["cycles"].get<std::uint64_t>(), "cycle"), o.seed);
-  if (several && !json_only(o) && !page.empty()) fmt::print("report: {}\n", page);
+  const report::TotalsRecord totals = record.totals();
+  if (record.several && !json_only(o)) {
+    fmt::print("{}: {}, {} of {}{}, {} compared, {}, seed {}\n", totals.same ? "same" : "different",
+               counted(scenes.size(), "scene"), counted(totals.frames, "frame"), totals.total_frames,
+               cosim::taken_text(totals.taken), counted(totals.pixels_compared, "pixel"),
+               counted(totals.cycles, "cycle"), o.seed);
+    if (record.page) fmt::print("report: {}\n", *record.page);
+  }
   if (scenes.back()->interrupted()) return interrupted_code();
-  return same ? kSame : kDifferent;
+  return totals.same ? kSame : kDifferent;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What kage cosim prints of a report, and who else may write one meanwhile.
+// What kage cosim prints of a scene's record, and who else may write one meanwhile.
 #pragma once
 
 #include <string>
@@ -19,10 +19,10 @@ class ReportLock {
   cosim::Lock lock_;
 };
 
-/// The first line of a report: "same: 8 frames, 640x480, ...". `who` begins it.
-void print_verdict(const Json& report, const std::string& who);
+/// The first line of a scene: "same: 8 frames, 640x480, ...". `who` begins it.
+void print_verdict(const report::SceneRecord& scene, const std::string& who);
 
 /// All of it: verdict, coverage, first difference, the frame that was kept, pictures in `folder`, page.
-void print_report(const Json& report, const std::string& who, const std::string& folder);
+void print_report(const report::SceneRecord& scene, const std::string& who, const std::string& folder);
 
 }  // namespace kage::cli

@@ -137,14 +137,13 @@ const cosim::Model& SceneRun::model() {
   return model_;
 }
 
-Json SceneRun::verdicts_of(const cosim::Report& r) const {
+report::VerdictsRecord SceneRun::verdicts_of(const cosim::Report& r) const {
   const std::string trouble = recall_ ? recall_->store->trouble() : no_verdicts_;
   if (recall_ && !trouble.empty()) tell_once(fmt::format("kage: note: verdicts are not kept: {}\n", trouble));
-  return {{"cached", recall_.has_value()},
-          {"taken", r.taken.size()},
-          {"taken_frames", r.taken},
-          {"kept", verdicts_kept_.load()},
-          {"trouble", trouble.empty() ? Json(nullptr) : Json(trouble)}};
+  return {.cached = recall_.has_value(),
+          .taken_frames = r.taken,
+          .kept = static_cast<std::uint64_t>(verdicts_kept_.load()),
+          .trouble = trouble.empty() ? std::nullopt : std::optional(trouble)};
 }
 
 }  // namespace kage::cli

@@ -13,7 +13,6 @@
 #include "cosim/diverge/waveform.hpp"
 #include "cosim/model/rtl.hpp"
 #include "cosim/report/html.hpp"
-#include "cosim_json.hpp"
 #include "cosim_registers.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -50,6 +49,19 @@ void remove_old_evidence(TempFiles& files, const std::string& folder, const std:
           std::find(r.pictures.begin(), r.pictures.end(), path.string()) == r.pictures.end())
         files.remove(path);
     }
+}
+
+/// What decides words and clocks besides scene, size, configuration and seed.
+report::OptionsRecord options_of(const CosimCommand& o) {
+  return {.fault = o.rtl.fault,
+          .idle = o.rtl.options.idle_percent,
+          .backpressure = o.rtl.options.backpressure_percent,
+          .degrade = o.degrade,
+          .order = name_of(o.order),
+          .alpha = o.alpha,
+          .cull = o.cull,
+          .samples = o.samples,
+          .classes = o.classes};
 }
 
 /// Takes what the RTL writes in a frame that is run once more.
@@ -319,7 +331,7 @@ void SceneRun::write_waveform(TempFiles& files, cosim::Divergence& divergence, i
 }
 
 /// Writes the frame to a stream file, as small as it can be made and still comes out different on a new core.
-Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference) {
+report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference) {
   const int frame = difference.frame;
   const Config& config = source_->config();
   const std::vector<std::uint32_t> words = source_->words(frame);
@@ -368,27 +380,31 @@ Json SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference)
   for (const char* name : kRtlOptions)
     if (const CLI::Option* option = o_.command->get_option(name); option->count() != 0)
       again += fmt::format(" {} {}", name, quoted(option->results().back()));
-  return {{"file", path},
-          {"alone", alone},
-          {"lines", counts.of_kind[static_cast<std::size_t>(Kind::EOL)]},
-          {"tokens", tokens},
-          {"width", FrameHeader::read(small).width},
-          {"words", small.size()},
-          {"words_before", words.size()},
-          {"again", again}};
+  return {.file = path,
+          .alone = alone,
+          .lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)],
+          .tokens = tokens,
+          .width = FrameHeader::read(small).width,
+          .words = small.size(),
+          .words_before = words.size(),
+          .again = again};
 }
 
-Json SceneRun::finish(TempFiles& files) {
+report::SceneRecord SceneRun::finish(TempFiles& files) {
   Source& source = *source_;
-  if (frames() == 0) return no_frames(source.name(), total_);
+  if (frames() == 0) {
+    report::SceneRecord none;
+    none.scene = source.name();
+    none.total_frames = total_;
+    return none;
+  }
   const cosim::Report r = join(files);
   progress_.clear();
   remove_old_evidence(files, o_.out, source.name(), source.is_random(), steps_, r);
   if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;
+  report::SceneRecord record = record_of(r);
   std::optional<cosim::Divergence> divergence;
   bool searched = false;
-  std::string page;
-  Json kept;
   // The verdict stands whatever becomes of what is said about it.
   try {
     if (r.first_difference && !o_.no_divergence) {
@@ -402,11 +418,13 @@ Json SceneRun::finish(TempFiles& files) {
     }
     if (divergence && !o_.out.empty()) write_waveform(files, *divergence, r.first_difference->frame);
     if (r.first_difference && source.is_random() && !o_.out.empty() && r.first_difference->field != "register")
-      kept = keep_frame(files, *r.first_difference);
+      record.kept = keep_frame(files, *r.first_difference);
+    record.first_difference = report::difference_record(r.first_difference, divergence, searched);
     if (report_) {
       const auto watch = [&] { return replay(ModelFor::kMonitors); };
       // Where the monitors could not be had for the search, the page does without them too.
-      page = report_->write(files, o_.out, r, o_.seed, divergence, searched ? watch : RunReport::Watch());
+      record.page = report_->write(files, o_.out, r, record, divergence, searched ? watch : RunReport::Watch());
+      record.page_crc32 = report::checksum(files.now(*record.page));
     }
   } catch (const Interrupted&) {
     interrupted_ = true;
@@ -415,58 +433,43 @@ Json SceneRun::finish(TempFiles& files) {
     source.note(fmt::format("no report was written: {}", e.what()));
   }
   progress_.clear();
-  for (const std::string& note : source.notes()) notes_.push_back(fmt::format("{}: {}", source.name(), note));
-  Json report = report_of(r, divergence, searched, page, kept, files);
+  record.first_difference = report::difference_record(r.first_difference, divergence, searched);
+  record.notes = source.notes();
+  for (const std::string& note : record.notes) notes_.push_back(fmt::format("{}: {}", source.name(), note));
   report_.reset();
   source_.reset();  // its memory
-  return report;
+  return record;
 }
 
-Json SceneRun::report_of(const cosim::Report& r, const std::optional<cosim::Divergence>& divergence, bool searched,
-                         const std::string& page, const Json& kept, const TempFiles& files) const {
+/// All of it but what is found out about a difference, the page, and the notes.
+report::SceneRecord SceneRun::record_of(const cosim::Report& r) const {
   const Source& source = *source_;
-  Json j;
-  j["same"] = r.same;
-  j["frames"] = r.frames;
-  j["width"] = r.width;
-  j["height"] = r.height;
-  j["sizes_vary"] = r.pixels_compared != static_cast<std::uint64_t>(r.frames) * static_cast<std::uint64_t>(r.width) *
-                                             static_cast<std::uint64_t>(r.height);
-  j["pixels_compared"] = r.pixels_compared;
-  j["spans"] = r.spans;
-  j["span_pixels"] = r.span_pixels;
-  j["segments"] = r.segments;
-  j["units"] = source.units();
-  j["polyhedra"] = source.ways();
-  j["cycles"] = r.cycles;
-  j["stalled"] = to_json(r.stalls);
-  describe_run(j, source.name(), source.frames(), o_.ci.shard, steps_, options_of(o_));
-  j["frame_seconds"] = r.frame_seconds;
-  j["each"] = to_json(r.each, r.first_difference);
-  j["verdicts"] = verdicts_of(r);
-  j["golden_seconds"] = r.expected_seconds;
-  j["rtl_seconds"] = r.actual_seconds;
-  j["build_seconds"] = model_.build_seconds;
-  j["config_name"] = source.named_config().name;
-  j["config"] = cli::to_json(source.config());
-  j["seed"] = o_.seed;
-  j["versions"] = versions();
-  j["again"] = again_line(*o_.command);
-  j["folder"] = std::filesystem::current_path().string();
-  j["rtl"] = rtl_directory();
-  j["degraded"] = source.degraded();
-  j["pictures"] = r.pictures;
-  j["report"] = page.empty() ? Json(nullptr) : Json(page);
-  j["report_crc32"] = page.empty() ? Json(nullptr) : Json(report::checksum(files.now(page)));
-  j["first_difference"] = to_json(r.first_difference, divergence, searched);
-  j["kept"] = kept;
-  j["notes"] = source.notes();
-  if (!coverage_) return j;
-  Json points = Json::array();
-  for (const verif::CoveragePoint& p : coverage_->points())
-    points.push_back({{"group", p.group}, {"name", p.name}, {"frames", p.frames}});
-  j["coverage"] = {{"frames", coverage_->frames()}, {"points", std::move(points)}};
-  return j;
+  report::SceneRecord record;
+  record.take(r);
+  record.scene = source.name();
+  record.total_frames = source.frames();
+  record.first_frame = steps_.first;
+  record.frame_step = steps_.step;
+  if (o_.ci.shard.given) record.shard = {o_.ci.shard.index, o_.ci.shard.count};
+  record.options = options_of(o_);
+  record.units = static_cast<std::uint64_t>(source.units());
+  record.ways = source.ways();
+  record.verdicts = verdicts_of(r);
+  record.build_seconds = model_.build_seconds;
+  record.config_name = source.named_config().name;
+  record.config = source.config();
+  record.seed = o_.seed;
+  record.versions = versions();
+  record.again = again_line(*o_.command);
+  record.folder = std::filesystem::current_path().string();
+  record.rtl = rtl_directory();
+  record.degraded = source.degraded();
+  if (coverage_) {
+    auto& coverage = record.coverage.emplace();
+    coverage.frames = coverage_->frames();
+    for (const verif::CoveragePoint& p : coverage_->points()) coverage.points.push_back({p.group, p.name, p.frames});
+  }
+  return record;
 }
 
 }  // namespace kage::cli

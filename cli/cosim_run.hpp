@@ -74,8 +74,8 @@ class SceneRun {
   void run(int range);
 
   /// All ranges have ended: looks for the stage that differs first, and writes the page. What the scene writes gets its
-  /// names with the others of `files`. Returns the scene's report; throws what ended a range before any difference.
-  Json finish(TempFiles& files);
+  /// names with the others of `files`. Returns the scene's record; throws what ended a range before any difference.
+  report::SceneRecord finish(TempFiles& files);
 
   /// After finish():
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
@@ -118,14 +118,13 @@ class SceneRun {
   cosim::Report recall(Part& part);
   cosim::Report simulate_and_keep(Part& part, const cosim::FrameRange& range, TempFiles& files);
   const cosim::Model& model();
-  [[nodiscard]] Json verdicts_of(const cosim::Report& r) const;
+  [[nodiscard]] report::VerdictsRecord verdicts_of(const cosim::Report& r) const;
   cosim::Report join(TempFiles& files);
   cosim::ReplayOptions replay(ModelFor what) const;
   std::optional<cosim::Divergence> find_divergence(int frame);
   void write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame);
-  Json keep_frame(TempFiles& files, const cosim::Difference& difference);
-  Json report_of(const cosim::Report& r, const std::optional<cosim::Divergence>& divergence, bool searched,
-                 const std::string& page, const Json& kept, const TempFiles& files) const;
+  report::KeptRecord keep_frame(TempFiles& files, const cosim::Difference& difference);
+  [[nodiscard]] report::SceneRecord record_of(const cosim::Report& r) const;
 
   CosimCommand o_;  // with its input and its folder
   std::unique_ptr<Source> source_;

@@ -31,18 +31,15 @@ struct InfoCommand : Options {
 
 /// "gem, component 2: by segments in 7 frames, by spans in 1 frame: why"; frames in which it is not seen are in
 /// neither.
-std::string describe_way(const Json& w) {
-  const auto first = w.value("component", std::uint64_t{0});
-  const auto count = w.value("components", std::uint64_t{1});
-  std::string text = fmt::format(
-      "{}, {}: ", w.value("object", "?"),
-      count == 1 ? fmt::format("component {}", first) : fmt::format("components {} to {}", first, first + count - 1));
-  const auto by_units = w.value("unit_frames", 0);
-  const auto by_spans = w.value("span_frames", 0);
-  if (by_units > 0) text += "by segments in " + counted(by_units, "frame") + (by_spans > 0 ? ", " : "");
-  if (by_spans > 0) text += "by spans in " + counted(by_spans, "frame");
-  if (by_units == 0 && by_spans == 0) text += "not seen";
-  if (w["why"].is_string()) text += ": " + w["why"].get<std::string>();
+std::string describe_way(const report::WayRecord& w) {
+  std::string text =
+      fmt::format("{}, {}: ", w.object,
+                  w.components == 1 ? fmt::format("component {}", w.component)
+                                    : fmt::format("components {} to {}", w.component, w.component + w.components - 1));
+  if (w.unit_frames > 0) text += "by segments in " + counted(w.unit_frames, "frame") + (w.span_frames > 0 ? ", " : "");
+  if (w.span_frames > 0) text += "by spans in " + counted(w.span_frames, "frame");
+  if (w.unit_frames == 0 && w.span_frames == 0) text += "not seen";
+  if (w.why) text += ": " + *w.why;
   return text;
 }
 
@@ -127,8 +124,8 @@ int describe_stream(const InfoCommand& o) {
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
   j["units"] = counts.units;
-  const Json ways = ways_of(file);
-  j["polyhedra"] = ways;
+  const report::WayRecords ways = ways_of(file);
+  j["polyhedra"] = to_json(ways);
   j["bytes"] = file.bytes();
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
   write_json(o, j);
@@ -138,7 +135,8 @@ int describe_stream(const InfoCommand& o) {
                counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"), counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
-    for (const Json& w : ways.is_array() ? ways : Json::array()) fmt::print("\n{}", describe_way(w));
+    for (const report::WayRecord& w : ways.value_or(std::vector<report::WayRecord>()))
+      fmt::print("\n{}", describe_way(w));
     fmt::print("\nconfiguration:");
     for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
     fmt::print("\n");

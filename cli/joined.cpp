@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "ci.hpp"
 #include "cosim/recall.hpp"
 #include "cosim/report/html.hpp"
 #include "kage/error.hpp"
@@ -47,63 +47,66 @@ std::vector<fs::path> places_of(const fs::path& named, const std::string& file, 
   return places;
 }
 
-/// Where the page of a run is, or is to be with the others of `files`; or "". `part` is its report, or what kage merge
-/// keeps of it.
-fs::path page_of(const Json& part, const TempFiles& files) {
-  if (part["report"].is_null() || part["report_crc32"].is_null()) return {};
-  const std::string file = part.contains("file") ? part["file"].get<std::string>() : "";
-  for (const fs::path& place : places_of(part["report"].get<std::string>(), file, part["folder"].get<std::string>())) {
+/// Where the page of a run is, or is to be with the others of `files`; or "". `file` is that which the part's report
+/// came from, if any.
+fs::path page_of(const report::PartRecord& part, const std::string& file, const TempFiles& files) {
+  if (!part.page || !part.page_crc32) return {};
+  for (const fs::path& place : places_of(*part.page, file, part.folder)) {
     std::error_code error;
     const fs::path now = files.now(place);
     if (!fs::is_regular_file(now, error) || fs::file_size(now, error) > report::kPageBytes || error) continue;
-    if (report::checksum(now) == part["report_crc32"].get<std::string>()) return place;
+    if (report::checksum(now) == *part.page_crc32) return place;
   }
   return {};
 }
 
-Json stalls_of(const Json& j) { return {j["stalled"]["input_starved"], j["stalled"]["output_blocked"]}; }
+/// A scene as the page lists it: its record, without what is listed by frame or by shard.
+Json listed(report::SceneRecord scene) {
+  scene.frame_seconds.clear();
+  scene.each.clear();
+  scene.ways.reset();
+  scene.pictures.clear();
+  scene.coverage.reset();
+  scene.shards.clear();
+  Json j = to_json(scene);
+  j.erase("verdicts");
+  return j;
+}
 
 /// The page's data, part by part.
 class Data {
  public:
-  Data(fs::path page, const TempFiles& files) : page_(std::move(page)), files_(files) {}
+  Data(fs::path page, const TempFiles& files, const report::RunRecord& record)
+      : page_(std::move(page)), files_(files), record_(record) {}
 
-  void scene(const Json& r) {
+  void scene(const report::SceneRecord& s) {
     const std::size_t number = scenes_.size();
-    Json j;
-    j["name"] = r["scene"];
-    for (const char* key : {"same", "frames", "total_frames", "width", "height", "cycles", "spans", "span_pixels",
-                            "segments", "config_name", "config", "seed", "degraded", "notes"})
-      j[key] = r[key];
-    j["stalls"] = stalls_of(r);
-    scenes_.push_back(std::move(j));
-    if (r.contains("shards"))
-      for (const Json& shard : r["shards"]) part(number, shard);
-    else
-      part(number, r);
-    frames(number, r);
+    scenes_.push_back(listed(s));
+    names_ += (names_.empty() ? "" : ", ") + s.scene;
+    for (const report::ShardRecord& shard : s.shards) part(number, shard, &shard);
+    if (!s.joined) part(number, s, nullptr);
+    frames(number, s);
   }
 
-  /// All of it, with what the whole report says.
-  Json finish(const Json& report) {
+  /// All of it, with what the whole record says.
+  Json finish() {
+    const report::TotalsRecord totals = record_.totals();
+    const auto& regress = record_.regress;
     Json j;
-    j["same"] = report["same"];
-    const bool regress = report.contains("runs");
-    j["command"] = merged_ ? "kage merge" : regress ? "kage regress" : "kage cosim";
-    std::string names;
-    for (const Json& s : scenes_) names += (names.empty() ? "" : ", ") + s["name"].get<std::string>();
-    j["name"] = names;
-    j["headline"] = fmt::format(
-        "{}{}, {} of {}{}{}, {} compared", report.value("interrupted", false) ? "interrupted after " : "",
-        regress ? counted(report["runs"].get<std::uint64_t>(), "run") : counted(scenes_.size(), "scene"),
-        counted(report["frames"].get<std::uint64_t>(), "frame"), report["total_frames"].get<std::uint64_t>(),
-        merged_ ? " in " + counted(parts_.size(), "shard") : "", cosim::taken_text(taken_of(report)),
-        counted(report["pixels_compared"].get<std::uint64_t>(), "pixel"));
-    j["seed"] = report["seed"];
+    j["same"] = totals.same;
+    j["command"] = record_.merged ? "kage merge" : regress ? "kage regress" : "kage cosim";
+    j["name"] = names_;
+    j["headline"] =
+        fmt::format("{}{}, {} of {}{}{}, {} compared", regress && regress->interrupted ? "interrupted after " : "",
+                    regress ? counted(record_.scenes.size(), "run") : counted(scenes_.size(), "scene"),
+                    counted(totals.frames, "frame"), totals.total_frames,
+                    record_.merged ? " in " + counted(parts_.size(), "shard") : "", cosim::taken_text(totals.taken),
+                    counted(totals.pixels_compared, "pixel"));
+    j["seed"] = regress ? regress->seed : record_.any().seed;
     j["scenes"] = std::move(scenes_);
     j["parts"] = Json::array();
     for (auto& [index, p] : parts_) {
-      if (regress) p["again"] = report["again"];
+      if (regress) p["again"] = regress->again;
       j["parts"].push_back(std::move(p));
     }
     j["frames"] = std::move(frames_);
@@ -114,43 +117,36 @@ class Data {
 
  private:
   /// What a shard, or the run, has of the scene.
-  void part(std::size_t scene, const Json& r) {
-    merged_ = r.contains("index");
-    const int index = merged_ ? r["index"].get<int>() : 1;
+  void part(std::size_t scene, const report::PartRecord& r, const report::ShardRecord* shard) {
+    const int index = shard != nullptr ? shard->number.index : 1;
     Json& p = parts_[index];
-    if (p.is_null()) {
-      p["index"] = index;
-      p["name"] = merged_ ? fmt::format("Shard {}/{}", index, r["count"].get<int>()) : "The run";
-      p["same"] = true;
-      p["file"] = merged_ ? r["file"] : Json(nullptr);
-      for (const char* key : {"again", "folder", "rtl", "versions"}) p[key] = r[key];
-      p["golden_seconds"] = p["rtl_seconds"] = 0.0;
-      p["runs"] = Json::array();
-    }
-    p["same"] = p["same"].get<bool>() && r["same"].get<bool>();
-    for (const char* key : {"golden_seconds", "rtl_seconds"}) p[key] = p[key].get<double>() + r[key].get<double>();
+    if (p.is_null())
+      p = {{"index", index},
+           {"name", shard != nullptr ? fmt::format("Shard {}/{}", index, shard->number.count) : "The run"},
+           {"same", true},
+           {"file", shard != nullptr ? Json(shard->file) : Json(nullptr)},
+           {"again", r.again},
+           {"folder", r.folder},
+           {"rtl", r.rtl},
+           {"versions", r.versions},
+           {"golden_seconds", 0.0},
+           {"rtl_seconds", 0.0},
+           {"runs", Json::array()}};
+    p["same"] = p["same"].get<bool>() && r.same;
+    p["golden_seconds"] = p["golden_seconds"].get<double>() + r.golden_seconds;
+    p["rtl_seconds"] = p["rtl_seconds"].get<double>() + r.rtl_seconds;
+    const auto& d = r.first_difference;
+    const bool shown = d && d->waveform && d->divergence && d->divergence->save_file;
     p["runs"].push_back({{"scene", scene},
-                         {"same", r["same"]},
-                         {"frames", r["frames"]},
-                         {"page", link(r)},
-                         {"difference", difference(r["first_difference"])}});
+                         {"same", r.same},
+                         {"frames", r.frames},
+                         {"page", link(r, shard != nullptr ? shard->file : "")},
+                         {"difference", to_json(d)},
+                         {"gtkwave", shown ? Json(gtkwave_line(*d->divergence->save_file)) : Json(nullptr)}});
   }
 
-  /// What is told of a difference.
-  static Json difference(const Json& d) {
-    if (d.is_null()) return nullptr;
-    Json j{{"text", d["text"]}, {"frame", d["frame"]}, {"no_divergence", d["no_divergence"]}, {"divergence", nullptr}};
-    const Json& by = d["divergence"];
-    if (by.is_null()) return j;
-    const bool shown = !d["waveform"].is_null() && by["save_file"].is_string();
-    j["divergence"] = {{"text", by["text"]},
-                       {"waits", by["waits"]},
-                       {"gtkwave", shown ? Json(gtkwave_line(by["save_file"].get<std::string>())) : Json(nullptr)}};
-    return j;
-  }
-
-  Json link(const Json& r) const {
-    const fs::path found = page_of(r, files_);
+  Json link(const report::PartRecord& part, const std::string& file) const {
+    const fs::path found = page_of(part, file, files_);
     if (found.empty()) return nullptr;
     std::error_code error;
     const fs::path folder = page_.parent_path().empty() ? "." : page_.parent_path();
@@ -159,43 +155,43 @@ class Data {
   }
 
   /// A row for each frame: those behind a difference were not compared. What a long run keeps no numbers of has none.
-  void frames(std::size_t scene, const Json& r) {
-    if (r["each"].empty()) return;
-    std::map<std::uint64_t, const Json*> known, parts;
-    for (const Json& frame : r["each"]) known[frame["frame"].get<std::uint64_t>()] = &frame;
-    if (r.contains("shards"))
-      for (const Json& p : r["shards"]) parts[p["first_frame"].get<std::uint64_t>()] = &p;
-    else
-      parts[r["first_frame"].get<std::uint64_t>()] = &r;
-    const std::set<std::uint64_t> taken = r["verdicts"]["taken_frames"];
-    const auto step = parts.begin()->second->at("frame_step").get<std::uint64_t>();
-    for (std::uint64_t n = 0; n < r["total_frames"].get<std::uint64_t>(); ++n) {
-      const auto owner = parts.find(n % step);
-      if (owner == parts.end()) continue;  // of a shard that is not told of
-      const Json& p = *owner->second;
+  void frames(std::size_t scene, const report::SceneRecord& s) {
+    if (s.each.empty()) return;
+    struct Owner {
+      int index;
+      int frames;
+    };
+    std::map<int, const report::FrameRecord*> known;
+    std::map<int, Owner> owners;  // by their first frame
+    for (const report::FrameRecord& frame : s.each) known[frame.frame] = &frame;
+    for (const report::ShardRecord& p : s.shards) owners[p.first_frame] = {p.number.index, p.frames};
+    if (!s.joined) owners[s.first_frame] = {1, s.frames};
+    const std::set<int> taken(s.verdicts.taken_frames.begin(), s.verdicts.taken_frames.end());
+    const int step = s.joined ? s.shards.front().frame_step : s.frame_step;
+    for (int n = 0; n < s.total_frames; ++n) {
+      const auto owner = owners.find(n % step);
+      if (owner == owners.end()) continue;  // of a shard that is not told of
       const auto found = known.find(n);
       const bool is_known = found != known.end();
-      const bool differs = is_known && !found->second->at("same").get<bool>();
+      const bool differs = is_known && !found->second->same;
       if (!differs && frames_.size() >= kListedFrames) {
         ++left_out_;
         continue;
       }
-      Json row{{"scene", scene}, {"frame", n}, {"part", p.contains("index") ? p["index"].get<int>() : 1}};
+      Json row = is_known ? to_json(*found->second) : Json{{"frame", n}};
+      row["scene"] = scene;
+      row["part"] = owner->second.index;
       row["taken"] = taken.count(n) != 0;
-      row["same"] = n / step < p["frames"].get<std::uint64_t>() ? Json(!differs) : Json(nullptr);
-      if (is_known) {
-        row["stalls"] = stalls_of(*found->second);
-        for (const char* key : {"cycles", "spans", "span_pixels", "segments", "words"})
-          row[key] = found->second->at(key);
-      }
+      row["same"] = n / step < owner->second.frames ? Json(!differs) : Json(nullptr);
       frames_.push_back(std::move(row));
     }
   }
 
   fs::path page_;
   const TempFiles& files_;
-  bool merged_ = false;  // of shards
+  const report::RunRecord& record_;
   std::vector<Json> scenes_;
+  std::string names_;
   std::map<int, Json> parts_;
   std::vector<Json> frames_;
   std::uint64_t left_out_ = 0;
@@ -203,31 +199,32 @@ class Data {
 
 }  // namespace
 
-void keep_page(const fs::path& path, const std::string& file, const Json& report) {
-  const auto keep = [&](const Json& named, const Json& folder) {
-    if (!named.is_string() || !folder.is_string()) return;
-    for (const fs::path& place : places_of(named.get<std::string>(), file, folder.get<std::string>())) {
+void keep_page(const fs::path& path, const std::string& file, const report::RunRecord& record) {
+  const auto keep = [&](const std::optional<std::string>& named, const std::string& folder) {
+    if (!named) return;
+    for (const fs::path& place : places_of(*named, file, folder)) {
       std::error_code error;
       if (fs::equivalent(place, path, error))
         throw Error(fmt::format("{}: is the page of {}: it is not written over", path.string(), file));
     }
   };
-  if (!report.contains("scenes")) return keep(report["report"], report["folder"]);
-  for (const Json& scene : report["scenes"]) {
-    if (!has_frames(scene)) continue;
-    keep(scene["report"], scene["folder"]);
-    if (report.contains("report")) keep(report["report"], scene["folder"]);
+  for (const report::SceneRecord& scene : record.scenes) {
+    if (scene.frames == 0) continue;
+    keep(scene.page, scene.folder);
+    keep(record.page, scene.folder);
   }
 }
 
-void write_joined_page(TempFiles& files, const fs::path& path, const Json& report, bool interruptible) {
-  Data data(path, files);
-  const Json whole = Json::array({report});
-  for (const Json& scene : report.contains("scenes") ? report["scenes"] : whole) {
+void write_joined_page(TempFiles& files, const fs::path& path, const report::RunRecord& record, bool interruptible) {
+  Data data(path, files, record);
+  const std::size_t count = record.scenes.size();
+  const bool all = !record.regress || count <= kListedRuns;
+  for (std::size_t i = 0; i < count; ++i) {
     if (interruptible) check_interrupt();
-    if (has_frames(scene)) data.scene(scene);
+    const bool wanted = all || i + 1 < kListedRuns || i + 1 == count;
+    if (wanted && record.scenes[i].frames != 0) data.scene(record.scenes[i]);
   }
-  const Json j = data.finish(report);
+  const Json j = data.finish();
   const std::string plain = (j["same"].get<bool>() ? "same: " : "different: ") + j["headline"].get<std::string>();
   const report::Html html(plain + " - " + j["name"].get<std::string>(), plain, "joined", {"parts", "joined"});
   const std::string text = report::script_text(j);

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -34,138 +31,94 @@ struct MergeCommand : Options {
 /// What a shard has of a scene.
 struct Part {
   const ShardFile* shard;
-  const Json& report;
+  const report::SceneRecord& scene;
 };
 
 /// Those that have frames of it.
 std::vector<Part> parts_of(const std::vector<ShardFile>& shards, std::size_t scene) {
   std::vector<Part> parts;
   for (const ShardFile& s : shards)
-    if (has_frames(s.scene(scene))) parts.push_back({&s, s.scene(scene)});
+    if (s.record.scenes[scene].frames != 0) parts.push_back({&s, s.record.scenes[scene]});
   return parts;
 }
 
-std::uint64_t sum(const std::vector<Part>& parts, const char* key) {
-  std::uint64_t total = 0;
-  for (const Part& p : parts) total += p.report[key].get<std::uint64_t>();
-  return total;
+/// Those that are not there yet.
+void unite(std::vector<std::string>& all, const std::vector<std::string>& more) {
+  for (const std::string& text : more)
+    if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
 }
 
-double sum_seconds(const std::vector<Part>& parts, const char* key) {
-  double total = 0;
-  for (const Part& p : parts) total += p.report[key].get<double>();
-  return total;
-}
-
-/// The texts of all lists, each once.
-Json united(const std::vector<Part>& parts, const char* key) {
-  Json all = Json::array();
-  std::set<std::string> seen;
-  for (const Part& p : parts)
-    for (const Json& text : p.report[key])
-      if (seen.insert(text.get<std::string>()).second) all.push_back(text);
-  return all;
-}
-
-/// In the order of frames; null for those that were not compared.
-Json frame_seconds(const std::vector<Part>& parts) {
-  const auto total = parts.front().report["total_frames"].get<std::size_t>();
-  Json all = Json::array();
-  all.get_ref<Json::array_t&>().resize(total);
-  for (const Part& p : parts) {
-    auto frame = p.report["first_frame"].get<std::size_t>();
-    for (const Json& seconds : p.report["frame_seconds"]) {
-      all[frame] = seconds;
-      frame += p.report["frame_step"].get<std::size_t>();
-    }
+/// In the order of frames; nothing for those that were not compared.
+void take_seconds(report::SceneRecord& all, const report::SceneRecord& s) {
+  all.frame_seconds.resize(static_cast<std::size_t>(all.total_frames));
+  auto frame = static_cast<std::size_t>(s.first_frame);
+  for (const auto& seconds : s.frame_seconds) {
+    all.frame_seconds[frame] = seconds;
+    frame += static_cast<std::size_t>(s.frame_step);
   }
-  return all;
 }
 
-/// What is known of single frames, in their order.
-Json each(const std::vector<Part>& parts) {
-  std::map<std::uint64_t, const Json*> frames;
-  for (const Part& p : parts)
-    for (const Json& frame : p.report["each"]) frames[frame["frame"].get<std::uint64_t>()] = &frame;
-  Json all = Json::array();
-  for (const auto& [number, frame] : frames) all.push_back(*frame);
-  return all;
+void take_verdicts(report::VerdictsRecord& all, const report::VerdictsRecord& v) {
+  all.cached = all.cached || v.cached;
+  all.taken_frames.insert(all.taken_frames.end(), v.taken_frames.begin(), v.taken_frames.end());
+  all.kept += v.kept;
+  if (!all.trouble) all.trouble = v.trouble;
 }
 
-/// Those of all shards, and which frames they are of.
-Json verdicts(const std::vector<Part>& parts) {
-  std::vector<const Json*> all;
-  std::set<std::uint64_t> frames;
-  for (const Part& p : parts) {
-    all.push_back(&p.report["verdicts"]);
-    for (const Json& frame : p.report["verdicts"]["taken_frames"]) frames.insert(frame.get<std::uint64_t>());
-  }
-  Json j = all_verdicts(all);
-  j["taken_frames"] = frames;
-  return j;
-}
-
-/// All shards' reports of a scene as the report of one run. Polyhedra, which each shard tells of in its own frames,
+/// All shards' records of a scene as the record of one run. Polyhedra, which each shard tells of in its own frames,
 /// stay with it, in `shards`.
-Json merged(const std::vector<Part>& parts) {
-  const Json& any = parts.front().report;
-  Json j;
-  Json first = nullptr, shards = Json::array();
-  bool same = true;
-  std::uint64_t units = 0, starved = 0, blocked = 0;
-  for (const Part& p : parts) {
-    const Json& r = p.report;
-    same = same && r["same"].get<bool>();
-    const Json& d = r["first_difference"];
-    if (!d.is_null() && (first.is_null() || d["frame"] < first["frame"])) first = d;
-    units = std::max(units, r["units"].get<std::uint64_t>());
-    starved += r["stalled"]["input_starved"].get<std::uint64_t>();
-    blocked += r["stalled"]["output_blocked"].get<std::uint64_t>();
-    Json shard{{"index", p.shard->index}, {"count", p.shard->count}, {"file", p.shard->file}};
-    for (const char* key : {"same", "frames", "first_frame", "frame_step", "golden_seconds", "rtl_seconds", "again",
-                            "folder", "rtl", "versions", "report", "report_crc32", "polyhedra", "first_difference"})
-      shard[key] = r[key];
-    shards.push_back(std::move(shard));
+report::SceneRecord merged(const std::vector<Part>& parts) {
+  report::SceneRecord all;
+  const report::SceneRecord& any = parts.front().scene;
+  all.joined = true;
+  all.scene = any.scene;
+  all.total_frames = any.total_frames;
+  all.width = any.width;
+  all.height = any.height;
+  all.options = any.options;
+  all.config_name = any.config_name;
+  all.config = any.config;
+  all.seed = any.seed;
+  all.degraded = any.degraded;
+  for (const auto& [shard, s] : parts) {
+    all.same = all.same && s.same;
+    all.frames += s.frames;
+    all.pixels_compared += s.pixels_compared;
+    all.spans += s.spans;
+    all.span_pixels += s.span_pixels;
+    all.segments += s.segments;
+    all.units = std::max(all.units, s.units);
+    all.cycles += s.cycles;
+    all.stalls.starved += s.stalls.starved;
+    all.stalls.blocked += s.stalls.blocked;
+    take_seconds(all, s);
+    all.each.insert(all.each.end(), s.each.begin(), s.each.end());
+    take_verdicts(all.verdicts, s.verdicts);
+    all.golden_seconds += s.golden_seconds;
+    all.rtl_seconds += s.rtl_seconds;
+    all.build_seconds += s.build_seconds;
+    unite(all.versions, s.versions);
+    unite(all.pictures, s.pictures);
+    unite(all.notes, s.notes);
+    const auto& d = s.first_difference;
+    if (d && (!all.first_difference || d->frame < all.first_difference->frame)) all.first_difference = d;
+    report::ShardRecord& own = all.shards.emplace_back();
+    static_cast<report::PartRecord&>(own) = s;
+    own.number = shard->number;
+    own.file = shard->file;
   }
-  j["same"] = same;
-  j["frames"] = sum(parts, "frames");
-  j["width"] = any["width"];
-  j["height"] = any["height"];
-  for (const char* key : {"pixels_compared", "spans", "span_pixels", "segments"}) j[key] = sum(parts, key);
-  j["units"] = units;
-  j["polyhedra"] = nullptr;
-  j["cycles"] = sum(parts, "cycles");
-  j["stalled"] = {{"input_starved", starved}, {"output_blocked", blocked}};
-  j["scene"] = any["scene"];
-  j["total_frames"] = any["total_frames"];
-  j["first_frame"] = 0;
-  j["frame_step"] = 1;
-  j["shard"] = nullptr;
-  j["options"] = any["options"];
-  j["frame_seconds"] = frame_seconds(parts);
-  j["each"] = each(parts);
-  j["verdicts"] = verdicts(parts);
-  for (const char* key : {"golden_seconds", "rtl_seconds", "build_seconds"}) j[key] = sum_seconds(parts, key);
-  j["config_name"] = any["config_name"];
-  j["config"] = any["config"];
-  j["seed"] = any["seed"];
-  j["versions"] = united(parts, "versions");
-  j["degraded"] = any["degraded"];
-  j["pictures"] = united(parts, "pictures");
-  j["first_difference"] = first;
-  j["notes"] = united(parts, "notes");
-  j["shards"] = shards;
-  return j;
+  std::sort(all.each.begin(), all.each.end(), [](const auto& a, const auto& b) { return a.frame < b.frame; });
+  std::sort(all.verdicts.taken_frames.begin(), all.verdicts.taken_frames.end());
+  return all;
 }
 
-void print_shards(const Json& report, const std::string& who) {
-  for (const Json& shard : report["shards"]) {
-    const Json& d = shard["first_difference"];
-    if (d.is_null()) continue;
-    const std::string begin =
-        fmt::format("{}shard {}/{}, first ", who, shard["index"].get<int>(), shard["count"].get<int>());
-    fmt::print("{}difference: {}\n", begin, d["text"].get<std::string>());
-    if (!d["divergence"].is_null()) fmt::print("{}divergence: {}\n", begin, d["divergence"]["text"].get<std::string>());
+void print_shards(const report::SceneRecord& scene, const std::string& who) {
+  for (const report::ShardRecord& shard : scene.shards) {
+    const auto& d = shard.first_difference;
+    if (!d) continue;
+    const std::string begin = fmt::format("{}shard {}/{}, first ", who, shard.number.index, shard.number.count);
+    fmt::print("{}difference: {}\n", begin, d->text);
+    if (d->divergence) fmt::print("{}divergence: {}\n", begin, d->divergence->text);
   }
 }
 
@@ -181,40 +134,39 @@ int run(const MergeCommand& o) {
                 o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   TempFiles files;
   const std::vector<ShardFile> shards = read_shards(o.inputs);
-  const std::size_t count = shards.front().scenes();
-  const bool several = shards.front().report.contains("scenes");
+  const std::size_t count = shards.front().record.scenes.size();
+  report::RunRecord all;
+  all.merged = true;
+  all.several = shards.front().record.several;
   JUnitWriter junit(files, o.junit, "kage cosim");
-  std::vector<Json> scenes;
   for (std::size_t i = 0; i < count; ++i) {
     check_interrupt();
     const std::vector<Part> parts = parts_of(shards, i);
-    scenes.push_back(merged(parts));
-    std::vector<const Json*> reports;
-    reports.reserve(parts.size());
-    for (const Part& p : parts) reports.push_back(&p.report);
-    junit_frames(junit, reports);
+    all.scenes.push_back(merged(parts));
+    std::vector<const report::SceneRecord*> scenes;
+    scenes.reserve(parts.size());
+    for (const Part& p : parts) scenes.push_back(&p.scene);
+    junit_frames(junit, scenes);
   }
   junit.close();
-  Json j = several ? all_scenes(scenes) : scenes.front();
-  std::string page;
   if (!o.out.empty()) {
-    page = (std::filesystem::path(o.out) / "report.html").string();
-    for (const ShardFile& s : shards) keep_page(page, s.file, s.report);
-    write_joined_page(files, page, j);
+    const std::string page = (std::filesystem::path(o.out) / "report.html").string();
+    for (const ShardFile& s : shards) keep_page(page, s.file, s.record);
+    write_joined_page(files, page, all);
+    all.page = page;
   }
-  j["report"] = page.empty() ? Json(nullptr) : Json(page);
-  write_json(o, j, files);
-  const bool same = j["same"].get<bool>();
-  if (json_only(o)) return same ? kSame : kDifferent;
-  fmt::print("{}: {}{} of {} in {}{}, {}{} compared, {}, seed {}\n", same ? "same" : "different",
-             several ? counted(count, "scene") + ", " : "", counted(j["frames"].get<std::uint64_t>(), "frame"),
-             j["total_frames"].get<std::uint64_t>(), counted(shards.size(), "shard"), cosim::taken_text(taken_of(j)),
-             several ? "" : fmt::format("{}x{}, ", j["width"].get<int>(), j["height"].get<int>()),
-             counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
-             counted(j["cycles"].get<std::uint64_t>(), "cycle"), j["seed"].get<std::uint64_t>());
-  for (const Json& scene : scenes) print_shards(scene, several ? scene["scene"].get<std::string>() + ", " : "");
-  if (!page.empty()) fmt::print("report: {}\n", page);
-  return same ? kSame : kDifferent;
+  write_json(o, to_json(all), files);
+  const report::TotalsRecord totals = all.totals();
+  if (json_only(o)) return totals.same ? kSame : kDifferent;
+  const report::SceneRecord& any = all.scenes.front();
+  fmt::print("{}: {}{} of {} in {}{}, {}{} compared, {}, seed {}\n", totals.same ? "same" : "different",
+             all.several ? counted(count, "scene") + ", " : "", counted(totals.frames, "frame"), totals.total_frames,
+             counted(shards.size(), "shard"), cosim::taken_text(totals.taken),
+             all.several ? "" : fmt::format("{}x{}, ", any.width, any.height), counted(totals.pixels_compared, "pixel"),
+             counted(totals.cycles, "cycle"), any.seed);
+  for (const report::SceneRecord& scene : all.scenes) print_shards(scene, all.several ? scene.scene + ", " : "");
+  if (all.page) fmt::print("report: {}\n", *all.page);
+  return totals.same ? kSame : kDifferent;
 }
 
 }  // namespace

@@ -129,31 +129,28 @@ class Regress {
   [[nodiscard]] bool same() const { return first_ == kNone; }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
   [[nodiscard]] const std::string& folder() const { return folder_; }
-  [[nodiscard]] const Json& different() const { return done_.at(first_).report; }
+  [[nodiscard]] const report::SceneRecord& different() const { return done_.at(first_).record; }
 
   /// What was run, and what came of it.
-  [[nodiscard]] Json report() const {
-    std::vector<Json> reports;
-    for (const auto& [index, d] : done_) reports.push_back(d.report);
-    if (reports.empty()) throw Interrupted{};  // nothing else keeps the first run from its end
-    const std::size_t runs = reports.size();
-    Json j = all_scenes(std::move(reports));
-    j["command"] = "kage regress";
-    j["again"] = command_line(*o_.command);
-    j["runs"] = runs;
-    j["rounds"] = rounds_;
-    j["seed"] = o_.seed;
-    j["seconds"] = seconds_;
-    j["build_seconds"] = build_seconds_;
-    j["interrupted"] = interrupted_;
-    return j;
+  [[nodiscard]] report::RunRecord record() const {
+    report::RunRecord all;
+    all.several = true;
+    for (const auto& [index, d] : done_) all.scenes.push_back(d.record);
+    if (all.scenes.empty()) throw Interrupted{};  // nothing else keeps the first run from its end
+    all.regress = {.again = command_line(*o_.command),
+                   .rounds = rounds_,
+                   .seed = o_.seed,
+                   .seconds = seconds_,
+                   .build_seconds = build_seconds_,
+                   .interrupted = interrupted_};
+    return all;
   }
 
  private:
   static constexpr int kNone = std::numeric_limits<int>::max();
   struct Done {
     PlannedRun plan;
-    Json report;
+    report::SceneRecord record;
   };
 
   void repeat(TempFiles& files) {
@@ -164,14 +161,14 @@ class Regress {
     SceneRun scene(again.command, 0);
     scene.prepare(1);
     scene.run(0);
-    Json report = scene.finish(files);
-    report["scene"] = d.plan.name;
+    report::SceneRecord record = scene.finish(files);
+    record.scene = d.plan.name;
     notes_ = scene.notes();
-    if (report["same"].get<bool>()) {
+    if (record.same) {
       notes_.push_back(fmt::format("{}: run again it comes out the same", d.plan.name));
       return;
     }
-    d.report = std::move(report);
+    d.record = std::move(record);
     folder_ = folder;
   }
 
@@ -217,14 +214,14 @@ class Regress {
     scene.prepare(1);
     scene.run(0);
     TempFiles none;
-    Json report = scene.finish(none);
-    report["scene"] = run.plan.name;
-    report["each"] = Json::array();  // too many to tell
-    report["frame_seconds"] = Json::array();
+    report::SceneRecord record = scene.finish(none);
+    record.scene = run.plan.name;
+    record.each.clear();  // too many to tell
+    record.frame_seconds.clear();
     const std::lock_guard lock(mutex_);
-    frames_ += report["frames"].get<std::uint64_t>();
-    if (!report["same"].get<bool>() && index < first_) first_ = index;
-    done_.emplace(index, Done{std::move(run.plan), std::move(report)});
+    frames_ += static_cast<std::uint64_t>(record.frames);
+    if (!record.same && index < first_) first_ = index;
+    done_.emplace(index, Done{std::move(run.plan), std::move(record)});
   }
 
   const RegressCommand& o_;
@@ -252,32 +249,21 @@ class Regress {
   std::exception_ptr error_;
 };
 
-/// The page's runs: as many of the first as it has room for, and the last, which is the one that differs if one does.
-constexpr std::size_t kListedRuns = 1000;
-
-Json for_page(Json report) {
-  Json& runs = report["scenes"];
-  if (runs.size() > kListedRuns) runs.erase(runs.begin() + kListedRuns - 1, runs.end() - 1);
-  return report;
-}
-
 /// A case for each run; classname kage.regress.CONFIGURATION.
-void write_junit(JUnitWriter& junit, const Json& report) {
-  for (const Json& r : report["scenes"]) {
-    junit.group(r["config_name"].get<std::string>());
-    const std::string name = r["scene"].get<std::string>();
-    const double seconds = r["golden_seconds"].get<double>() + r["rtl_seconds"].get<double>();
-    const Json& d = r["first_difference"];
-    if (d.is_null())
-      junit.pass(name, seconds);
+void write_junit(JUnitWriter& junit, const report::RunRecord& record) {
+  for (const report::SceneRecord& r : record.scenes) {
+    junit.group(r.config_name);
+    const double seconds = r.golden_seconds + r.rtl_seconds;
+    if (r.first_difference)
+      junit_difference(junit, r.scene, seconds, *r.first_difference, r.again);
     else
-      junit_difference(junit, name, seconds, d, r["again"].get<std::string>());
+      junit.pass(r.scene, seconds);
   }
   junit.close();
 }
 
 /// What each configuration had.
-void print_configurations(const Json& report) {
+void print_configurations(const report::RunRecord& record) {
   struct Sum {
     std::uint64_t runs = 0;
     std::uint64_t frames = 0;
@@ -285,13 +271,12 @@ void print_configurations(const Json& report) {
   };
   std::vector<std::string> order;
   std::map<std::string, Sum> sums;
-  for (const Json& r : report["scenes"]) {
-    const auto name = r["config_name"].get<std::string>();
-    if (sums.count(name) == 0) order.push_back(name);
-    Sum& s = sums[name];
+  for (const report::SceneRecord& r : record.scenes) {
+    if (sums.count(r.config_name) == 0) order.push_back(r.config_name);
+    Sum& s = sums[r.config_name];
     ++s.runs;
-    s.frames += r["frames"].get<std::uint64_t>();
-    s.same = s.same && r["same"].get<bool>();
+    s.frames += static_cast<std::uint64_t>(r.frames);
+    s.same = s.same && r.same;
   }
   for (const std::string& name : order) {
     const Sum& s = sums[name];
@@ -300,13 +285,13 @@ void print_configurations(const Json& report) {
   }
 }
 
-void print_summary(const Json& j) {
-  fmt::print("{}: {}{} of {}, {}, {} compared, {}, {:.0f} s, seed {}\n", j["same"].get<bool>() ? "same" : "different",
-             j["interrupted"].get<bool>() ? "interrupted after " : "", counted(j["runs"].get<std::uint64_t>(), "run"),
-             counted(j["rounds"].get<std::uint64_t>(), "round"), counted(j["frames"].get<std::uint64_t>(), "frame"),
-             counted(j["pixels_compared"].get<std::uint64_t>(), "pixel"),
-             counted(j["cycles"].get<std::uint64_t>(), "cycle"), j["seconds"].get<double>(),
-             j["seed"].get<std::uint64_t>());
+void print_summary(const report::RunRecord& record) {
+  const report::TotalsRecord totals = record.totals();
+  const report::RegressRecord& r = *record.regress;
+  fmt::print("{}: {}{} of {}, {}, {} compared, {}, {:.0f} s, seed {}\n", totals.same ? "same" : "different",
+             r.interrupted ? "interrupted after " : "", counted(record.scenes.size(), "run"),
+             counted(r.rounds, "round"), counted(totals.frames, "frame"), counted(totals.pixels_compared, "pixel"),
+             counted(totals.cycles, "cycle"), r.seconds, r.seed);
 }
 
 int run(const RegressCommand& o) {
@@ -325,20 +310,20 @@ int run(const RegressCommand& o) {
   TempFiles files;
   JUnitWriter junit(files, o.ci.junit, "kage regress");
   regress.look_into(files);
-  Json j = regress.report();
-  write_joined_page(files, page, for_page(j), !regress.interrupted());
-  j["report"] = page;
-  write_junit(junit, j);
-  write_json(o, j, files);
+  report::RunRecord record = regress.record();
+  write_joined_page(files, page, record, !regress.interrupted());
+  record.page = page;
+  write_junit(junit, record);
+  write_json(o, to_json(record), files);
   std::FILE* const to = json_only(o) ? stderr : stdout;
   for (const std::string& note : regress.notes()) fmt::print(to, "{}\n", note);
   if (!json_only(o)) {
-    print_summary(j);
-    print_configurations(j);
+    print_summary(record);
+    print_configurations(record);
     if (!regress.same()) {
-      const Json& d = regress.different();
-      print_report(d, d["scene"].get<std::string>() + ": ", regress.folder());
-      fmt::print("that run again: {}\n", d["again"].get<std::string>());
+      const report::SceneRecord& d = regress.different();
+      print_report(d, d.scene + ": ", regress.folder());
+      fmt::print("that run again: {}\n", d.again);
     }
     fmt::print("report over all runs: {}\n", page);
   }

@@ -149,17 +149,18 @@ const report::TokenStore& Listener::tokens() const {
 RunReport::RunReport(Source& source, std::string input, const CLI::App& command)
     : source_(source), input_(std::move(input)), command_(command), listener_(source) {}
 
-void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
+void RunReport::tell_pixels(report::Page& page, const std::optional<cosim::Divergence>& divergence,
+                            const Watch& watch) {
   const int frame = page.run->first_difference->frame;
   const auto pixels = pixels_of(*page.run, *page.made);
   if (pixels.empty()) return;
   const std::vector<std::uint32_t> words = source_.words(frame);
   const auto feed = [&](int i, const WordSink& sink) { return source_.frame(i, sink); };
-  const Config& config = page.config.config;
+  const Config& config = page.record.config;
   const cosim::ReplayOptions options = watch ? watch() : cosim::ReplayOptions();
   const auto provenance = source_.provenance(frame);
   // What an earlier frame left in the core shows only behind it.
-  const int from = page.divergence ? std::min(frame, page.divergence->from) : frame;
+  const int from = divergence ? std::min(frame, divergence->from) : frame;
   const auto begin = std::chrono::steady_clock::now();
   for (const auto& [x, y] : pixels) {
     check_interrupt();
@@ -180,21 +181,15 @@ void RunReport::tell_pixels(report::Page& page, const Watch& watch) {
   }
 }
 
-std::string RunReport::write(TempFiles& files, const std::string& folder, const cosim::Report& run, std::uint64_t seed,
-                             const std::optional<cosim::Divergence>& divergence, const Watch& watch) {
+std::string RunReport::write(TempFiles& files, const std::string& folder, const cosim::Report& run,
+                             const report::SceneRecord& record, const std::optional<cosim::Divergence>& divergence,
+                             const Watch& watch) {
   report::Page page;
   page.tokens = &listener_.tokens();
-  page.name = source_.name();
+  page.record = record;
   page.run = &run;
   page.made = &files;
-  page.config = source_.named_config();
-  page.seed = seed;
-  page.divergence = divergence;
   if (divergence && !divergence->save_file.empty()) page.gtkwave = gtkwave_line(divergence->save_file);
-  page.searched = static_cast<bool>(watch);
-  page.degraded = source_.degraded();
-  page.versions = versions();
-  page.again = again_line(command_);
   const CLI::App* explain = command_.get_parent()->get_subcommand("explain");
   page.explain = command_line(command_, *explain, input_);
   for (const char* name : kRtlOptions)
@@ -202,21 +197,19 @@ std::string RunReport::write(TempFiles& files, const std::string& folder, const 
       page.rtl_options +=
           fmt::format("{}{} {}", page.rtl_options.empty() ? "" : " ", name, quoted(o->results().back()));
   page.explain_rtl = (page.rtl_options.empty() ? "" : " " + page.rtl_options) + " --rtl";
-  page.folder = std::filesystem::current_path().string();
-  page.rtl = rtl_directory();
   std::optional<report::TokenStore> wanted;
   if (run.first_difference) {
     const std::set<int> bands = bands_that_differ(run);
     const int frame = run.first_difference->frame;
-    wanted.emplace(page.config.config, report::kPageBytes);
+    wanted.emplace(record.config, report::kPageBytes);
     wanted->choose([&](int, int line) { return line < 0 || bands.count(line) != 0; });
     wanted->begin(frame);
     source_.frame(frame, [&](std::span<const std::uint32_t> words) { wanted->words(words); });
     wanted->end();
     page.wanted = &*wanted;
-    tell_pixels(page, watch);
+    tell_pixels(page, divergence, watch);
   }
-  page.notes = source_.notes();
+  page.record.notes = source_.notes();
   const auto path = std::filesystem::path(folder) / "report.html";
   TempFiles own;  // half a page is not to be among the others
   report::write_page(own, path, page);

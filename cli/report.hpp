@@ -62,13 +62,14 @@ class RunReport {
   using Watch = std::function<cosim::ReplayOptions()>;
 
   /// Writes FOLDER/report.html, which gets its name with the others of `files`, the run's pictures among them, and
-  /// returns it. `watch` gives the options to run the RTL with monitors by; it is
-  /// asked only after a difference, and empty where no stage is to be looked for. Throws Error if there can be no page.
-  std::string write(TempFiles& files, const std::string& folder, const cosim::Report& run, std::uint64_t seed,
-                    const std::optional<cosim::Divergence>& divergence, const Watch& watch);
+  /// returns it. `record` is that of `run`. `watch` gives the options to run the RTL with monitors by; it is asked only
+  /// after a difference, and empty where no stage is to be looked for. Throws Error if there can be no page.
+  std::string write(TempFiles& files, const std::string& folder, const cosim::Report& run,
+                    const report::SceneRecord& record, const std::optional<cosim::Divergence>& divergence,
+                    const Watch& watch);
 
  private:
-  void tell_pixels(report::Page& page, const Watch& watch);
+  void tell_pixels(report::Page& page, const std::optional<cosim::Divergence>& divergence, const Watch& watch);
 
   Source& source_;
   std::string input_;

@@ -40,12 +40,6 @@ void write_json(const Options& options, const Json& value) {
   write_json(options, value, files);
 }
 
-Json to_json(const Config& config) {
-  Json object = Json::object();
-  for (const ParamInfo& p : kParams) object[std::string(p.name)] = config.*(p.member);
-  return object;
-}
-
 OutFolder::OutFolder(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code ec;

@@ -4,17 +4,17 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "cosim/report/run_record.hpp"
 #include "file/temp_file.hpp"
-#include "kage/defs.hpp"
 #include "options.hpp"
 
 namespace kage::cli {
 
-using Json = nlohmann::ordered_json;
+using report::Json;
+using report::to_json;
 
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);
@@ -29,9 +29,6 @@ void finish(const Options& options, const Json& value, TempFiles& files, const s
 /// The same for a run that prints on its own.
 void write_json(const Options& options, const Json& value, TempFiles& files);
 void write_json(const Options& options, const Json& value);
-
-/// The parameters as an object, in the order of the definition file.
-Json to_json(const Config& config);
 
 /// A folder for what a run writes, made with those above it. What was made and is empty in the end is removed again, so
 /// that a run that fails leaves nothing.

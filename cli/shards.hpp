@@ -13,15 +13,8 @@ namespace kage::cli {
 /// What one shard reported.
 struct ShardFile {
   std::string file;
-  Json report;
-  int index = 0;  ///< from 1
-  int count = 1;
-
-  /// Of its scenes, in order: a report of a single scene is its own.
-  [[nodiscard]] std::size_t scenes() const { return report.contains("scenes") ? report["scenes"].size() : 1; }
-  [[nodiscard]] const Json& scene(std::size_t i) const {
-    return report.contains("scenes") ? report["scenes"][i] : report;
-  }
+  report::RunRecord record;
+  report::ShardNumber number;
 };
 
 /// The files in the order of their shards. Throws Error unless all are whole reports of one run's shards, each there

@@ -367,49 +367,41 @@ void Source::record(int index, const FrameParts& parts) {
   }
 }
 
-Json Source::ways() const {
+report::WayRecords Source::ways() const {
   if (stream_) return ways_of(*stream_);
-  if (config_.config.units == 0) return nullptr;
-  Json list = Json::array();
+  if (config_.config.units == 0) return std::nullopt;
+  std::vector<report::WayRecord> list;
   for (std::size_t c = 0; c < ways_.size();) {
     const Way& w = ways_[c];
     std::size_t end = c + 1;
     while (w.reason != SpanReason::none && w.unit_frames == 0 && end < ways_.size() && ways_[end].object == w.object &&
            ways_[end].reason == w.reason && ways_[end].unit_frames == 0 && ways_[end].span_frames == w.span_frames)
       ++end;
-    list.push_back({{"object", w.object},
-                    {"component", c},
-                    {"components", end - c},
-                    {"unit_frames", w.unit_frames},
-                    {"span_frames", w.span_frames},
-                    {"why", w.why.empty() ? Json(nullptr) : Json(w.why)}});
+    list.push_back({.object = w.object,
+                    .component = c,
+                    .components = end - c,
+                    .unit_frames = static_cast<std::uint64_t>(w.unit_frames),
+                    .span_frames = static_cast<std::uint64_t>(w.span_frames),
+                    .why = w.why.empty() ? std::nullopt : std::optional(w.why)});
     c = end;
   }
   return list;
 }
 
-Json ways_of(const StreamFile& file) {
+report::WayRecords ways_of(const StreamFile& file) {
   const Json origin = Json::parse(file.origin(), nullptr, false);
-  if (!origin.is_object() || !origin.contains("polyhedra") || !origin["polyhedra"].is_array()) return nullptr;
+  if (!origin.is_object() || !origin.contains("polyhedra")) return std::nullopt;
   // Whoever wrote the file: what is not of this form is not taken, and nothing else is copied.
-  const auto number = [](const Json& w, const char* key, std::uint64_t most) {
-    return w.contains(key) && w[key].is_number_unsigned() && w[key].get<std::uint64_t>() <= most;
-  };
-  const auto frames = static_cast<std::uint64_t>(file.frame_count());
-  Json list = Json::array();
-  for (const Json& w : origin["polyhedra"]) {
-    if (!w.is_object() || !w.contains("object") || !w["object"].is_string() || !number(w, "component", ~0U) ||
-        !number(w, "components", ~0U) || !number(w, "unit_frames", frames) || !number(w, "span_frames", frames) ||
-        !w.contains("why") || !(w["why"].is_string() || w["why"].is_null()))
-      return nullptr;
-    list.push_back({{"object", w["object"].get<std::string>()},
-                    {"component", w["component"].get<std::uint64_t>()},
-                    {"components", w["components"].get<std::uint64_t>()},
-                    {"unit_frames", w["unit_frames"].get<std::uint64_t>()},
-                    {"span_frames", w["span_frames"].get<std::uint64_t>()},
-                    {"why", w["why"].is_null() ? Json(nullptr) : Json(w["why"].get<std::string>())}});
+  try {
+    report::WayRecords ways = report::ways_from_json(origin["polyhedra"]);
+    const auto frames = static_cast<std::uint64_t>(file.frame_count());
+    for (const report::WayRecord& w : ways.value_or(std::vector<report::WayRecord>()))
+      if (w.component > ~0U || w.components > ~0U || w.unit_frames > frames || w.span_frames > frames)
+        return std::nullopt;
+    return ways;
+  } catch (const Error&) {
+    return std::nullopt;
   }
-  return list;
 }
 
 std::string notes_text(const Source& source) {

@@ -77,8 +77,8 @@ class Source : public FrameSource {
   /// How each component of the scene went in the frames made so far, if the configuration has units: object, component,
   /// in how many frames a unit had it and in how many it became spans, and why in the last of those. Neighbours that
   /// can be no polyhedron for the same reason are one entry, with their number and the first one's why: a soup of
-  /// triangles has as many components as faces. Of a stream: as the file has it, else null.
-  [[nodiscard]] Json ways() const;
+  /// triangles has as many components as faces. Of a stream: as the file has it, if it has.
+  [[nodiscard]] report::WayRecords ways() const;
 
   /// Most units in use in a frame.
   [[nodiscard]] int units() const { return units_; }
@@ -132,8 +132,8 @@ class Source : public FrameSource {
   int units_ = 0;
 };
 
-/// The ways that a stream file holds (Source::ways()), or null.
-Json ways_of(const StreamFile& file);
+/// The ways that a stream file holds (Source::ways()), if it does.
+report::WayRecords ways_of(const StreamFile& file);
 
 /// The notes, a line each. They are told once the work is done: a failure says one line and nothing else.
 std::string notes_text(const Source& source);

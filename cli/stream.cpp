@@ -53,7 +53,7 @@ int run(const Options& o) {
   progress.clear();
   Json origin;
   origin["scene"] = source.name();
-  origin["polyhedra"] = source.ways();
+  origin["polyhedra"] = to_json(source.ways());
   if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
   TempFiles files;
   writer.finish(files);

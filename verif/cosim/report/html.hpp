@@ -5,18 +5,17 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "cosim/report/run_record.hpp"
+
 namespace kage::report {
 
 /// No page is larger.
 inline constexpr std::size_t kPageBytes = 10'000'000;
-
-using Json = nlohmann::ordered_json;
 
 /// Text for HTML or XML, between quotes too. What XML cannot hold, and bytes that are no UTF-8, become U+FFFD.
 std::string escaped(std::string_view text);

@@ -69,6 +69,7 @@ Json phases_of(const cosim::PhaseSums& sums) {
   return j;
 }
 
+/// Each frame's record, with what this page has of it besides.
 Json frames_of(const Page& page, Pictures& pictures) {
   const cosim::Report& run = *page.run;
   // The frame that differs is the last, and its pictures matter most.
@@ -78,20 +79,9 @@ Json frames_of(const Page& page, Pictures& pictures) {
     const bool different = run.first_difference && k + 1 == run.each.size();
     const int number = r.frame;
     Json& j = frames[k];
-    j["number"] = number;
-    j["same"] = !different;
-    j["taken"] = r.taken;
+    j = to_json(page.record.each[k]);
     j["width"] = r.status.width;
     j["height"] = r.status.height;
-    j["cycles"] = r.cycles;
-    j["starved"] = r.stalls.starved;
-    j["blocked"] = r.stalls.blocked;
-    j["stalls"] = Json::array();
-    for (const cosim::Stalls& s : r.phase_stalls) j["stalls"].push_back({s.starved, s.blocked});
-    j["spans"] = r.counts.spans;
-    j["span_pixels"] = r.counts.span_pixels;
-    j["segments"] = r.counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
-    j["words"] = r.counts.words;
     j["error"] = r.status.error == ErrorCode::NONE
                      ? Json(nullptr)
                      : Json{{"text", describe(r.status)}, {"line", r.status.line}, {"token", r.status.token}};
@@ -139,9 +129,9 @@ Json told_of(const Page& page) {
     Json touches = Json::array();
     for (const PixelTouch& t : p.history.touches) {
       Json j{{"token", t.token}, {"text", t.text}, {"effect", t.effect}};
-      if (t.what.kind == Kind::TREE) j["tree"] = describe_tree(page.config.config, p.history);
+      if (t.what.kind == Kind::TREE) j["tree"] = describe_tree(page.record.config, p.history);
       if (const auto from = p.from.find(t.token); from != p.from.end()) j["from"] = from->second;
-      if (!(t.before == t.after)) j["now"] = describe(page.config.config, t.after);
+      if (!(t.before == t.after)) j["now"] = describe(page.record.config, t.after);
       touches.push_back(std::move(j));
     }
     Json rtl = Json::array();
@@ -173,49 +163,30 @@ std::string headline(const Page& page) {
                      r.pixels_compared, page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
 }
 
+/// The run's record, without what is listed by frame, and what this page has besides.
 Json data_of(const Page& page, Pictures& pictures) {
   const cosim::Report& run = *page.run;
+  SceneRecord record = page.record;
+  record.each.clear();
+  record.frame_seconds.clear();
+  record.coverage.reset();
   Json j;
-  j["same"] = run.same;
-  j["name"] = page.name;
+  j["run"] = to_json(record);
+  j["run"].erase("verdicts");
   j["headline"] = headline(page);
-  j["first"] = nullptr;
-  if (run.first_difference) {
-    const cosim::Difference& d = *run.first_difference;
-    j["first"] = {{"text", cosim::describe(d)}, {"frame", d.frame}, {"x", d.x}, {"y", d.line}};
-  }
-  j["no_divergence"] = page.searched && run.first_difference && !page.divergence
-                           ? Json(cosim::describe_none(*run.first_difference))
-                           : Json(nullptr);
-  j["divergence"] = nullptr;
-  if (page.divergence)
-    j["divergence"] = {
-        {"text", cosim::describe(*page.divergence)}, {"waits", page.divergence->waits}, {"gtkwave", page.gtkwave}};
+  j["gtkwave"] = page.gtkwave;
   j["different_pixels"] = nullptr;
   if (run.difference) {
     j["different_pixels"] = run.difference->different_pixels;
     j["region_count"] = run.difference->region_count;
   }
   j["frames"] = frames_of(page, pictures);
-  j["compared"] = run.frames;
   j["told"] = told_of(page);
   j["phase_names"] = cosim::kPhaseNames;
   j["phase_tokens"] = cosim::kPhaseTokens;
-  j["config_name"] = page.config.name;
-  j["config"] = Json::object();
-  for (const ParamInfo& p : kParams) j["config"][std::string(p.name)] = page.config.config.*(p.member);
   j["meanings"] = meanings();
-  j["seed"] = page.seed;
-  j["golden_seconds"] = run.expected_seconds;
-  j["rtl_seconds"] = run.actual_seconds;
-  j["notes"] = page.notes;
-  j["degraded"] = page.degraded;
-  j["versions"] = page.versions;
-  j["again"] = page.again;
   j["explain"] = page.explain;
   j["explain_rtl"] = page.explain_rtl;
-  j["folder"] = page.folder;
-  j["rtl"] = page.rtl;
   j["band_lines"] = kBandLines;
   return j;
 }
@@ -223,7 +194,7 @@ Json data_of(const Page& page, Pictures& pictures) {
 }  // namespace
 
 void write_page(TempFiles& files, const fs::path& path, const Page& page) {
-  const Html html(headline(page) + " - " + page.name, headline(page), "run",
+  const Html html(headline(page) + " - " + page.record.scene, headline(page), "run",
                   {"parts", "stream", "explain", "view", "page"});
   Pictures pictures(page.made);
   std::string data = script_text(data_of(page, pictures));

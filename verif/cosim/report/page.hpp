@@ -5,17 +5,15 @@
 
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cosim/diverge/divergence.hpp"
 #include "cosim/report/html.hpp"
+#include "cosim/report/run_record.hpp"
 #include "cosim/report/token_store.hpp"
 #include "cosim/run.hpp"
 #include "file/temp_file.hpp"
-#include "kage/config.hpp"
 #include "kage/explain.hpp"
 
 namespace kage::report {
@@ -35,24 +33,14 @@ struct ToldPixel {
 
 /// What the page tells. All text may be anything: it is escaped.
 struct Page {
-  std::string name;  ///< of the scene or stream
+  SceneRecord record;  ///< of the run; its page is this one
   const cosim::Report* run = nullptr;
   const TempFiles* made = nullptr;  ///< the files of the run, where they have no names yet; or nullptr
-  NamedConfig config;
-  std::uint64_t seed = 0;
-  std::optional<cosim::Divergence> divergence;
-  bool searched = true;  ///< after a difference the stage was looked for
-  std::vector<std::string> notes;
-  std::vector<std::string> degraded;
-  std::vector<std::string> versions;
   std::vector<ToldPixel> told;
   std::string gtkwave;      ///< the command line that shows the divergence's waveform
-  std::string again;        ///< the command line of the run
   std::string explain;      ///< that of kage explain, without --frame and --pixel
   std::string explain_rtl;  ///< what it ends with where the RTL is to be told too
   std::string rtl_options;  ///< --fault, --idle and --backpressure, as they were given; or ""
-  std::string folder;       ///< where both are to be given
-  std::string rtl;          ///< folder of the RTL that was run
   const TokenStore* tokens = nullptr;
   const TokenStore* wanted = nullptr;  ///< of the different frame, to be there before all others; or nullptr
 };

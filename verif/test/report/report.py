@@ -117,7 +117,7 @@ def same_run(b):
     check(b.run("document.querySelectorAll('#strip button').length") == 8, "not eight frames")
     check(
         b.run(
-            "Explain.data.frames.every(f => Array.from({length: 480}, (_, y) => Explain.has(f.number, y)).every(Boolean))"
+            "Explain.data.frames.every(f => Array.from({length: 480}, (_, y) => Explain.has(f.frame, y)).every(Boolean))"
         ),
         "the courtyard's page lacks tokens",
     )
@@ -355,7 +355,7 @@ def full_page(b):
     b.open("full/report.html")
     missing = b.run(
         "(() => { for (const f of Explain.data.frames) for (let y = 0; y < f.height; ++y)"
-        " if (!Explain.has(f.number, y)) return [f.number, y]; return null; })()"
+        " if (!Explain.has(f.frame, y)) return [f.frame, y]; return null; })()"
     )
     check(missing is not None, "all of polyhedra fits: this test needs a larger run")
     if missing:
@@ -448,7 +448,7 @@ def joined_run(b):
     # The tokens of a shard's frames, whatever their numbers.
     b.open("part/report.html")
     check(
-        b.run("Explain.data.frames.map(f => [f.number, Explain.has(f.number, 40)]).join()") == "1,true,4,true",
+        b.run("Explain.data.frames.map(f => [f.frame, Explain.has(f.frame, 40)]).join()") == "1,true,4,true",
         "tokens of a shard's frames are missing",
     )
     # One scene, all the same; a frame that is no shard's first.

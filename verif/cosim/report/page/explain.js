@@ -5,7 +5,7 @@
 
 const Explain = (() => {
   const data = Parts.data;
-  const c = data.config;
+  const c = data.run.config;
   const clear = 2 ** c.Z_BITS - 1;
   const dsfMask = 2 ** c.DSF_BITS - 1;
   const blank = 2 ** c.FACE_BITS - 1;
@@ -267,7 +267,7 @@ const Explain = (() => {
 
   // {touches: [{token, text, effect, now, tree}], color_text, color}, or null where the page lacks the tokens.
   async function history(number, x, y) {
-    const frame = data.frames.find((f) => f.number === number);
+    const frame = data.frames.find((f) => f.frame === number);
     if (!frame || !has(number, y)) return null;
     const failed = frame.error !== null && frame.error.line <= y;
     const state = await frameState(number);

@@ -4,7 +4,7 @@
 
 (() => {
   const {data, $, make, count, plural, table, command} = Parts;
-  const name = (scene) => data.scenes[scene].name;
+  const name = (scene) => data.scenes[scene].scene;  // each is a record: docs/schema/cosim.json
   const word = (same) => same === null ? "not compared" : same ? "same" : "different";
   const page = (part, scene) => part.runs.find((r) => r.scene === scene)?.page ?? null;
   const link = (text, address) => address === null ? text : make("a", text, {href: address});
@@ -23,28 +23,26 @@
     const [first, ...more] = differences();
     const terms = [];
     if (first) {
-      const {text, divergence, no_divergence, frame} = first.difference;
+      const {text, frame} = first.difference;
       terms.push(["First difference", ofScene(first.scene, text)]);
-      terms.push(...Parts.divergenceTerms(divergence, no_divergence));
+      terms.push(...Parts.divergenceTerms(first.difference, first.gtkwave));
       if (first.page) terms.push(["Look at it", link(`frame ${frame} on the page of its run`, first.page)]);
     }
     if (more.length) terms.push(["Other runs", `${plural(more.length, "difference")} more, below`]);
-    Parts.verdict(data.command, data.headline, terms);
+    Parts.verdict(data.same, data.command, data.name, data.headline, terms);
   }
 
-  const numbers = (j) => [j.cycles, ...j.stalls ?? [], j.spans, j.span_pixels, j.segments].map(count);
+  const numbers = (r) => Parts.numbers(r).map(count);
   const heads = ["clocks", "no input", "output blocked", "spans", "span pixels", "segments"];
   const bad = (element, rows) => rows.forEach((r, i) => { if (r.same !== true) element.tBodies[0].rows[i].className = r.same === null ? "none" : "bad"; });
 
   function scenes() {
-    const sum = (of) => data.scenes.reduce((n, s) => n + of(s), 0);
-    const sums = {cycles: sum((s) => s.cycles), stalls: [sum((s) => s.stalls[0]), sum((s) => s.stalls[1])],
-                  spans: sum((s) => s.spans), span_pixels: sum((s) => s.span_pixels), segments: sum((s) => s.segments)};
+    const columns = data.scenes.map((s) => [s.frames, s.total_frames, ...Parts.numbers(s)]);
+    const [frames, total, ...sums] = columns.reduce((sum, row) => sum.map((n, i) => n + row[i])).map(count);
     table($("scenes"), ["scene", "verdict", "frames compared", "of", "size", ...heads, "configuration"],
-          data.scenes.map((s) => [s.name, word(s.same), count(s.frames), count(s.total_frames), `${s.width}x${s.height}`,
+          data.scenes.map((s) => [s.scene, word(s.same), count(s.frames), count(s.total_frames), `${s.width}x${s.height}`,
                                   ...numbers(s), s.config_name]),
-          several ? ["all", word(data.same), count(sum((s) => s.frames)), count(sum((s) => s.total_frames)), "",
-                     ...numbers(sums), ""] : null);
+          several ? ["all", word(data.same), frames, total, "", ...sums, ""] : null);
     bad($("scenes"), data.scenes);
   }
 
@@ -53,7 +51,7 @@
       const part = partOf(f);
       const address = f.same === null ? null : page(part, f.scene);
       return [name(f.scene), link(String(f.frame), address && `${address}#frame=${f.frame}`), f.same === null ? word(null) : Parts.verdictWord(f), part.name,
-              ...f.stalls ? [...numbers(f), count(f.words)] : Array(heads.length + 1).fill("")];
+              ...f.stalled ? [...numbers(f), count(f.words)] : Array(heads.length + 1).fill("")];
     };
     table($("table"), ["scene", "frame", "verdict", "run", ...heads, "words"], data.frames.map(row));
     bad($("table"), data.frames);
@@ -85,7 +83,7 @@
       $("parts").prepend(make("p", "The shards were made by different versions.", {class: "badly"}));
     for (const s of data.scenes) {
       const said = [...s.degraded.map((what) => `drawn without ${what}`), ...s.notes];
-      for (const note of said) $("parts").append(make("p", `${s.name}: ${note}`, {class: "note"}));
+      for (const note of said) $("parts").append(make("p", `${s.scene}: ${note}`, {class: "note"}));
     }
   }
 
@@ -95,7 +93,7 @@
     for (const s of data.scenes) {
       const key = JSON.stringify([s.config_name, s.config]);
       if (!groups.has(key)) groups.set(key, {scene: s, names: []});
-      groups.get(key).names.push(s.name);
+      groups.get(key).names.push(s.scene);
     }
     for (const {scene, names} of groups.values()) {
       const element = make("table");

@@ -4,22 +4,23 @@
 
 const Report = (() => {
   const {data, $, make, count, plural, table, command} = Parts;
-  const channels = data.config.CHANNELS;
+  const {run} = data;  // its record: docs/schema/cosim.json
+  const first = run.first_difference;
+  const channels = run.config.CHANNELS;
 
   // ---- verdict
 
   function verdict() {
     const terms = [];
-    if (data.first) terms.push(["First difference", data.first.text]);
-    terms.push(...Parts.divergenceTerms(data.divergence, data.no_divergence));
+    if (first) terms.push(["First difference", first.text], ...Parts.divergenceTerms(first, data.gtkwave));
     if (data.different_pixels !== null)
       terms.push(["Differing pixels", `${count(data.different_pixels)} in ${plural(data.region_count, "region")}`]);
-    if (data.degraded.length) terms.push(["Left out", data.degraded.join("; ")]);
-    Parts.verdict("kage cosim", data.headline.replace(/^\w+: /, "") + (data.same ? "" : "; a difference ends the run"), terms);
-    if (data.first && data.first.x >= 0) {
+    if (run.degraded.length) terms.push(["Left out", run.degraded.join("; ")]);
+    Parts.verdict(run.same, "kage cosim", run.scene, data.headline.replace(/^\w+: /, "") + (run.same ? "" : "; a difference ends the run"), terms);
+    if (first && first.x !== null) {
       const button = make("button", "Show that pixel", {type: "button", id: "show-first"});
       button.addEventListener("click", () => {
-        select(data.first.frame, data.first.x, data.first.y, 16);
+        select(first.frame, first.x, first.line, 16);
         View.canvas.scrollIntoView({block: "center"});
         View.canvas.focus({preventScroll: true});
       });
@@ -69,7 +70,7 @@ const Report = (() => {
 
   function caption() {
     const name = modes.find(([m]) => m === mode)[1];
-    let text = `Frame ${frame.number}, ${mode === "wipe" ? "golden on the left, RTL on the right" : name.replace(/^[GD]/, (s) => s.toLowerCase())}.`;
+    let text = `Frame ${frame.frame}, ${mode === "wipe" ? "golden on the left, RTL on the right" : name.replace(/^[GD]/, (s) => s.toLowerCase())}.`;
     if (!frame.golden) text += " It has no pixels.";
     else if (frame.golden.data === null) text += ` Its picture is not on this page, which would be too large: see ${frame.golden.name}.`;
     else if (missing()) text += ` The RTL's picture is not on this page, which would be too large: see ${missing().name}.`;
@@ -81,8 +82,8 @@ const Report = (() => {
   }
 
   async function setFrame(number) {
-    const mine = frame = data.frames.find((f) => f.number === number) ?? frame;
-    for (const b of $("strip").children) b.setAttribute("aria-pressed", b.dataset.frame === String(frame.number));
+    const mine = frame = data.frames.find((f) => f.frame === number) ?? frame;
+    for (const b of $("strip").children) b.setAttribute("aria-pressed", b.dataset.frame === String(frame.frame));
     const golden = await decoded(frame.golden);
     const rtl = frame.same ? golden : await decoded(frame.rtl);
     const difference = frame.same ? golden && {...golden, dim: true} : await decoded(frame.difference);
@@ -99,7 +100,7 @@ const Report = (() => {
   function step(by) {
     const at = data.frames.indexOf(frame) + by;
     if (at < 0 || at >= data.frames.length) return;
-    select(data.frames[at].number, chosen?.x ?? 0, chosen?.y ?? 0);
+    select(data.frames[at].frame, chosen?.x ?? 0, chosen?.y ?? 0);
     $("strip").children[at].scrollIntoView({block: "nearest", inline: "nearest"});
   }
 
@@ -108,9 +109,9 @@ const Report = (() => {
       const picture = f.golden && f.golden.data !== null
         ? make("img", "", {src: address(f.golden), alt: "", loading: "lazy"})
         : make("span", "no picture", {class: "none"});
-      const label = make("span", f.same ? `${f.number}: same` : `${f.number}: different`, f.same ? {} : {class: "bad"});
-      const button = make("button", [picture, label], {type: "button", "data-frame": f.number, "aria-pressed": false});
-      button.addEventListener("click", () => select(f.number, chosen?.x ?? 0, chosen?.y ?? 0));
+      const label = make("span", f.same ? `${f.frame}: same` : `${f.frame}: different`, f.same ? {} : {class: "bad"});
+      const button = make("button", [picture, label], {type: "button", "data-frame": f.frame, "aria-pressed": false});
+      button.addEventListener("click", () => select(f.frame, chosen?.x ?? 0, chosen?.y ?? 0));
       $("strip").append(button);
     }
     for (const [m, name] of modes) {
@@ -134,10 +135,10 @@ const Report = (() => {
     if (frame.same) return;
     const jump = (text, x, y) => {
       const b = make("button", text, {type: "button"});
-      b.addEventListener("click", () => select(frame.number, x, y, 16));
+      b.addEventListener("click", () => select(frame.frame, x, y, 16));
       $("regions").append(b);
     };
-    const told = data.told.filter((p) => p.frame === frame.number);
+    const told = data.told.filter((p) => p.frame === frame.frame);
     if (told.length) {
       $("regions").append("Told with the RTL's values:");
       for (const p of told) jump(`${p.x},${p.y}`, p.x, p.y);
@@ -232,7 +233,7 @@ const Report = (() => {
   }
 
   async function select(number, x, y, least = 0) {
-    const there = number === frame.number && $("strip").querySelector("[aria-pressed=true]");
+    const there = number === frame.frame && $("strip").querySelector("[aria-pressed=true]");
     if (!there && !await setFrame(number)) return;
     chosen = {x: Math.min(Math.max(x, 0), frame.width - 1), y: Math.min(Math.max(y, 0), frame.height - 1)};
     if (!frame.golden) chosen = null;
@@ -241,46 +242,47 @@ const Report = (() => {
     if (!chosen) return;
     $("x").value = chosen.x;
     $("y").value = chosen.y;
-    await explain(frame.number, chosen.x, chosen.y);
+    await explain(frame.frame, chosen.x, chosen.y);
   }
 
   // ---- tables
 
   function frames() {
     const heads = ["frame", "verdict", "clocks", "no input", "output blocked", "spans", "span pixels", "segments", "words"];
-    const sums = (name) => data.frames.reduce((sum, f) => sum + f[name], 0);
-    const numbers = ["cycles", "starved", "blocked", "spans", "span_pixels", "segments", "words"];
+    const numbers = data.frames.map((f) => [...Parts.numbers(f), f.words]);
+    const sums = numbers.reduce((sum, row) => sum.map((n, i) => n + row[i]));
     table($("table"), heads,
-          data.frames.map((f) => [f.number, Parts.verdictWord(f), ...numbers.map((n) => count(f[n]))]),
-          data.frames.length > 1 ? ["all", "", ...numbers.map((n) => count(sums(n)))] : null);
+          data.frames.map((f, i) => [f.frame, Parts.verdictWord(f), ...numbers[i].map(count)]),
+          data.frames.length > 1 ? ["all", "", ...sums.map(count)] : null);
     data.frames.forEach((f, i) => { if (!f.same) $("table").tBodies[0].rows[i].className = "bad"; });
-    if (data.frames.length < data.compared)
-      $("table").after(make("p", `${plural(data.compared, "frame")} were compared; this page has the first ` +
+    if (data.frames.length < run.frames)
+      $("table").after(make("p", `${plural(run.frames, "frame")} were compared; this page has the first ` +
           "of them, and one that is different.", {class: "note"}));
   }
 
   function phases() {
-    $("phases-title").textContent = `Frame ${frame.number} by phase`;
+    $("phases-title").textContent = `Frame ${frame.frame} by phase`;
     if (!frame.phases) return $("phases").replaceChildren();
+    const stalls = (name) => Parts.stalls(frame.stalled_by_phase[name] ?? {input_starved: 0, output_blocked: 0}).map(count);
     const share = (n) => frame.cycles ? `${(100 * n / frame.cycles).toFixed(1)} %` : "";
     const rows = frame.phases.map(([tokens, pixels, clocks], i) =>
-        [data.phase_names[i], count(clocks), share(clocks), count(tokens), count(pixels), ...frame.stalls[i].map(count), data.phase_tokens[i]]);
+        [data.phase_names[i], count(clocks), share(clocks), count(tokens), count(pixels), ...stalls(data.phase_names[i]), data.phase_tokens[i]]);
     rows.push(["video", count(frame.video), share(frame.video), "", "", "", "", ""]);
     const left = frame.cycles - frame.designed;
-    if (frame.cycles) rows.push(["the rest", count(left), share(left), "", "", ...frame.stalls.at(-1).map(count), ""]);
+    if (frame.cycles) rows.push(["the rest", count(left), share(left), "", "", ...stalls("behind the last token"), ""]);
     table($("phases"), ["phase", "clocks", "of the frame's", "tokens", "pixels", "no input", "output blocked", "which"], rows,
-          ["RTL", count(frame.cycles), "", "", "", count(frame.starved), count(frame.blocked), ""]);
+          ["RTL", count(frame.cycles), "", "", "", ...Parts.stalls(frame.stalled).map(count), ""]);
     for (const row of $("phases").rows) row.cells[7].className = "words";
   }
 
   function rest() {
-    $("again").append(make("p", ["In ", make("code", data.folder), ", with the RTL of ", make("code", data.rtl), ":"]), command(data.again));
-    $("again").append(make("p", `Seed ${data.seed}. Golden model ${data.golden_seconds.toFixed(3)} s, RTL ` +
-        `${data.rtl_seconds.toFixed(3)} s.`));
-    $("again").append(make("p", `Made by ${data.versions.join("; ")}.`, {class: "note"}));
-    for (const note of data.notes) $("again").append(make("p", note, {class: "note"}));
-    $("config-name").textContent = data.config_name;
-    Parts.configTable($("config"), data.config);
+    $("again").append(make("p", ["In ", make("code", run.folder), ", with the RTL of ", make("code", run.rtl), ":"]), command(run.again));
+    $("again").append(make("p", `Seed ${run.seed}. Golden model ${run.golden_seconds.toFixed(3)} s, RTL ` +
+        `${run.rtl_seconds.toFixed(3)} s.`));
+    $("again").append(make("p", `Made by ${run.versions.join("; ")}.`, {class: "note"}));
+    for (const note of run.notes) $("again").append(make("p", note, {class: "note"}));
+    $("config-name").textContent = run.config_name;
+    Parts.configTable($("config"), run.config);
   }
 
   // ---- keys and buttons
@@ -289,7 +291,7 @@ const Report = (() => {
     if (e.ctrlKey || e.metaKey || e.altKey) return;
     const far = e.shiftKey ? 10 : 1;
     const move = {ArrowLeft: [-far, 0], ArrowRight: [far, 0], ArrowUp: [0, -far], ArrowDown: [0, far]}[e.key];
-    if (move && chosen) select(frame.number, chosen.x + move[0], chosen.y + move[1]);
+    if (move && chosen) select(frame.frame, chosen.x + move[0], chosen.y + move[1]);
     else if (e.key === " ") setMode(mode === "rtl" ? "golden" : "rtl");
     else if (["1", "2", "3", "4"].includes(e.key)) setMode(modes[e.key - 1][0]);
     else if (e.key === "+" || e.key === "=") zoom(2);
@@ -312,25 +314,25 @@ const Report = (() => {
     strip();
     frames();
     rest();
-    setMode(data.same ? "golden" : "difference");
+    setMode(run.same ? "golden" : "difference");
     Parts.sideways();
     View.canvas.addEventListener("keydown", key);  // single letters are the picture's alone
-    View.canvas.addEventListener("pixel", (e) => select(frame.number, e.detail.x, e.detail.y));
+    View.canvas.addEventListener("pixel", (e) => select(frame.frame, e.detail.x, e.detail.y));
     $("in").addEventListener("click", () => zoom(2));
     $("out").addEventListener("click", () => zoom(0.5));
     $("fit").addEventListener("click", () => View.fit());
     $("wipe").addEventListener("input", () => View.wipe($("wipe").value / 100));
     $("goto").addEventListener("submit", (e) => {
       e.preventDefault();
-      select(frame.number, Number($("x").value), Number($("y").value));
+      select(frame.frame, Number($("x").value), Number($("y").value));
     });
     // A page over several runs links to frames: #frame=3.
     const linked = /^#frame=(\d+)$/.exec(location.hash);
-    const shown = linked ? Number(linked[1]) : data.first ? data.first.frame : frame.number;
-    const first = data.first && data.first.x >= 0 && data.first.frame === shown ? data.first : null;
-    frame = data.frames.find((f) => f.number === shown) ?? frame;
+    const shown = linked ? Number(linked[1]) : first ? first.frame : frame.frame;
+    const pixel = first && first.x !== null && first.frame === shown ? {x: first.x, y: first.line} : null;
+    frame = data.frames.find((f) => f.frame === shown) ?? frame;
     View.set(frame, {});  // the size is known before the pictures are
-    await select(frame.number, first ? first.x : Math.floor(frame.width / 2), first ? first.y : Math.floor(frame.height / 2));
+    await select(frame.frame, pixel ? pixel.x : Math.floor(frame.width / 2), pixel ? pixel.y : Math.floor(frame.height / 2));
     document.body.dataset.ready = "yes";
   }
 

@@ -16,6 +16,10 @@ const Parts = (() => {
   const count = (n) => n === undefined || n === null ? "" : n.toLocaleString("en").replaceAll(",", "\u202f");
   const plural = (n, what) => `${count(n)} ${what}${n === 1 ? "" : "s"}`;
 
+  // Of a record's clocks those that the RTL lost at its ports; and what the tables have of it.
+  const stalls = (s) => [s.input_starved, s.output_blocked];
+  const numbers = (r) => [r.cycles, ...stalls(r.stalled), r.spans, r.span_pixels, r.segments];
+
   function table(element, heads, rows, foot) {
     const row = (cells, tag) => make("tr", cells.map((c) => make(tag, c instanceof Node ? c : String(c))));
     element.replaceChildren(make("thead", row(heads, "th")), make("tbody", rows.map((r) => row(r, "td"))));
@@ -42,12 +46,12 @@ const Parts = (() => {
   }
 
   // What the verdict is of: the command's words, the name; then terms of [what, text or element].
-  function verdict(command, headline, terms) {
-    $("verdict").className = data.same ? "same" : "different";
+  function verdict(same, command, name, headline, terms) {
+    $("verdict").className = same ? "same" : "different";
     $("command").textContent = command;
-    $("name").textContent = data.name;
-    $("mark").textContent = data.same ? "\u2713" : "\u2717";
-    $("word").textContent = data.same ? "Same" : "Different";
+    $("name").textContent = name;
+    $("mark").textContent = same ? "\u2713" : "\u2717";
+    $("word").textContent = same ? "Same" : "Different";
     $("headline").textContent = headline;
     const list = make("dl");
     for (const [term, text] of terms) list.append(make("dt", term), make("dd", text));
@@ -57,12 +61,12 @@ const Parts = (() => {
   // The verdict of a frame that has one.
   const verdictWord = (frame) => !frame.same ? "different" : frame.taken ? "same, by an earlier run" : "same";
 
-  // The terms of a first divergence; of none, where one was looked for, the text that says so.
-  function divergenceTerms(divergence, none) {
-    if (!divergence) return none ? [["First divergence", none]] : [];
+  // The terms of a difference's first divergence; of none, where one was looked for, the text that says so.
+  function divergenceTerms({divergence, no_divergence}, gtkwave) {
+    if (!divergence) return no_divergence ? [["First divergence", no_divergence]] : [];
     const terms = [["First divergence", divergence.text]];
     if (divergence.waits) terms.push(["Who waits", divergence.waits]);
-    if (divergence.gtkwave) terms.push(["Waveform", make("code", divergence.gtkwave)]);
+    if (gtkwave) terms.push(["Waveform", make("code", gtkwave)]);
     return terms;
   }
 
@@ -90,5 +94,5 @@ const Parts = (() => {
     }
   }
 
-  return {data, $, make, count, plural, table, command, verdict, verdictWord, divergenceTerms, configTable, sideways};
+  return {data, $, make, count, plural, stalls, numbers, table, command, verdict, verdictWord, divergenceTerms, configTable, sideways};
 })();
