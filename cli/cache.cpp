@@ -202,7 +202,7 @@ int run(const CacheCommand& o) {
   if (o.what == "prune") j["verdicts"]["removed"] = gone_verdicts;
   text += text_of_verdicts(j["verdicts"]);
   TempFiles files;
-  finish(o, j, files, text);
+  finish(o, {"kage.cache/1", j}, files, text);
   return rc;
 }
 

@@ -106,7 +106,7 @@ int run(const CosimCommand& o) {
     for (const report::SceneRecord& s : record.scenes)
       if (s.frames != 0) junit_frames(junit, {&s});
     junit.close();
-    write_json(o, to_json(record), files);
+    write_json(o, record, files);
   } catch (const Error&) {
     // No file of the run appears, but what it found is told.
     for (const report::SceneRecord& s : record.scenes)

@@ -221,7 +221,7 @@ int diff_two_folders(const DiffCommand& o) {
   if (totals.only_b != 0) lines += fmt::format(", {} only in {}", totals.only_b, o.b);
   lines += "\n" + left_out(pair.left_out);
   if (!o.out.empty() && totals.viewed != 0) lines += fmt::format("heat maps and blink pictures: {}\n", o.out);
-  finish(o, to_json(totals, pair), files, lines);
+  finish(o, {"kage.diff-folders/1", to_json(totals, pair)}, files, lines);
   return same ? kSame : kDifferent;
 }
 
@@ -282,7 +282,7 @@ int bless_folder(const DiffCommand& o) {
     lines += o.prune ? "what is neither picture nor stream stays\n"
                      : fmt::format("what is missing in {} stays; --prune removes it\n", o.a);
   TempFiles files;
-  const auto say = [&] { finish(o, j, files, lines); };
+  const auto say = [&] { finish(o, {"kage.diff-bless/1", j}, files, lines); };
   if (o.dry_run)
     say();
   else

@@ -145,7 +145,7 @@ int diff_two_pictures(const DiffCommand& o) {
   if (heat) text += fmt::format("heat map: {}\n", o.out);
   if (!o.out.empty() && !heat) text += "no heat map: the pictures are unlike\n";
   if (!o.blink.empty()) text += fmt::format("blink picture: {}\n", o.blink);
-  finish(o, to_json(result), files, text);
+  finish(o, {"kage.diff-pictures/1", to_json(result)}, files, text);
   return result.same ? kSame : kDifferent;
 }
 

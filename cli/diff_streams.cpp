@@ -116,7 +116,7 @@ int diff_two_streams(const DiffCommand& o) {
   else
     junit.fail("sections", 0, d.reason);
   junit.close();
-  finish(o, to_json(d), files, describe(d));
+  finish(o, {"kage.diff-streams/1", to_json(d)}, files, describe(d));
   return d.same ? kSame : kDifferent;
 }
 

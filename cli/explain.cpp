@@ -177,7 +177,7 @@ int run(const ExplainCommand& o) {
                         {"text", t.text}});
   const bool differs = std::any_of(rtl.begin(), rtl.end(), [](const cosim::RtlTouch& t) { return !t.same; });
   const int rc = o.check && differs ? kDifferent : kSame;
-  write_json(o, j);
+  write_json(o, {"kage.explain/1", j});
   print_notes(source, o);
   if (json_only(o)) return rc;
   fmt::print("frame {}, pixel {},{}: {} it{}\n", o.frame, at.x, at.y,

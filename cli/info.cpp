@@ -128,7 +128,7 @@ int describe_stream(const InfoCommand& o) {
   j["polyhedra"] = to_json(ways);
   j["bytes"] = file.bytes();
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
-  write_json(o, j);
+  write_json(o, {"kage.info-stream/1", j});
   if (!json_only(o)) {
     fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
                unchecked > 0 ? fmt::format(" ({} unchecked: PORT)", unchecked) : "", counted(lines, "line"),

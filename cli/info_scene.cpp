@@ -151,7 +151,7 @@ int describe_scene(const Options& o) {
   Json j = contents_of(scene, frame);
   add_configurations(o, scene, frame, j);
   check_interrupt();
-  write_json(o, j);
+  write_json(o, {"kage.info-scene/1", j});
   if (!json_only(o)) print(o, j);
   return kSame;
 }

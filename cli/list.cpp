@@ -97,7 +97,7 @@ int run(const ListCommand& o) {
     j[group.name] = entries;
   }
   TempFiles files;
-  finish(o, j, files, text);
+  finish(o, {"kage.list/1", j}, files, text);
   return kSame;
 }
 

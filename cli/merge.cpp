@@ -155,7 +155,7 @@ int run(const MergeCommand& o) {
     write_joined_page(files, page, all);
     all.page = page;
   }
-  write_json(o, to_json(all), files);
+  write_json(o, all, files);
   const report::TotalsRecord totals = all.totals();
   if (json_only(o)) return totals.same ? kSame : kDifferent;
   const report::SceneRecord& any = all.scenes.front();

@@ -36,7 +36,7 @@ int run(const ModelCommand& o) {
                  {"build_seconds", model.build_seconds},
                  {"config", to_json(named.config)}});
   }
-  write_json(o, j);
+  write_json(o, {"kage.model/1", j});
   return kSame;
 }
 

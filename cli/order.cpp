@@ -259,7 +259,8 @@ int run(const OrderCommand& o) {
   const order::Measured measured = order::measure(tree, options);
   progress.clear();
   if (!o.plot.empty()) write_text(files, o.plot, plot(measured, tree, o.input));
-  finish(o, to_json(tree, measured, o, build_seconds), files, text_of(tree, measured, o, build_seconds));
+  finish(o, {"kage.order/1", to_json(tree, measured, o, build_seconds)}, files,
+         text_of(tree, measured, o, build_seconds));
   for (const order::MeasureRow& r : measured.rows)
     if (!r.identical) return kDifferent;
   return kSame;

@@ -314,7 +314,7 @@ int run(const RegressCommand& o) {
   write_joined_page(files, page, record, !regress.interrupted());
   record.page = page;
   write_junit(junit, record);
-  write_json(o, to_json(record), files);
+  write_json(o, record, files);
   std::FILE* const to = json_only(o) ? stderr : stdout;
   for (const std::string& note : regress.notes()) fmt::print(to, "{}\n", note);
   if (!json_only(o)) {

@@ -70,7 +70,7 @@ int run(const RenderCommand& o) {
   j["files"] = names;
   j["notes"] = source.notes();
   finish(
-      o, j, files,
+      o, {"kage.render/1", j}, files,
       notes_text(source) + fmt::format("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width,
                                        size.height, counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
                                        and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), o.out));

@@ -13,6 +13,20 @@
 
 namespace kage::cli {
 
+Document::Document(std::string_view schema, const Json& value) {
+  const auto named = [&](const Json& object) {
+    Json j{{"schema", schema}};
+    j.update(object);
+    return j;
+  };
+  if (!value.is_array()) {
+    json_ = named(value);
+    return;
+  }
+  json_ = Json::array();
+  for (const Json& entry : value) json_.push_back(named(entry));
+}
+
 bool json_only(const Options& options) { return options.json == "-"; }
 
 void check_json(const Options& options) {
@@ -21,8 +35,8 @@ void check_json(const Options& options) {
   const OutputFile probe(file, options.json);
 }
 
-void finish(const Options& options, const Json& value, TempFiles& files, const std::string& text) {
-  const std::string json = value.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text) {
+  const std::string json = document.json().dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   if (!options.json.empty() && !json_only(options)) write_text(files, options.json, json);
   files.place();
   const std::string& said = json_only(options) ? json : text;
@@ -33,11 +47,13 @@ void finish(const Options& options, const Json& value, TempFiles& files, const s
   files.settle();
 }
 
-void write_json(const Options& options, const Json& value, TempFiles& files) { finish(options, value, files, ""); }
+void write_json(const Options& options, const Document& document, TempFiles& files) {
+  finish(options, document, files, "");
+}
 
-void write_json(const Options& options, const Json& value) {
+void write_json(const Options& options, const Document& document) {
   TempFiles files;
-  write_json(options, value, files);
+  write_json(options, document, files);
 }
 
 OutFolder::OutFolder(const std::filesystem::path& path) {

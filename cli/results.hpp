@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cosim/report/run_record.hpp"
@@ -16,19 +17,31 @@ namespace kage::cli {
 using report::Json;
 using report::to_json;
 
+/// What --json writes. It names its schema by its first key; a list does in each of its entries. The schema of
+/// "kage.list/1" is docs/schema/list.json.
+class Document {
+ public:
+  Document(std::string_view schema, const Json& value);
+  Document(const report::RunRecord& record) : json_(to_json(record)) {}  // NOLINT(google-explicit-constructor)
+  [[nodiscard]] const Json& json() const { return json_; }
+
+ private:
+  Json json_;
+};
+
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);
 
 /// Throws Error if what --json names cannot be written: before the work, not after it.
 void check_json(const Options& options);
 
-/// Ends a run: writes `value` where --json says, if it was given, gives all of `files` their names, and prints `text`
-/// unless JSON has standard output. All appear or none: if standard output fails, files are as they were.
-void finish(const Options& options, const Json& value, TempFiles& files, const std::string& text);
+/// Ends a run: writes `document` where --json says, if it was given, gives all of `files` their names, and prints
+/// `text` unless JSON has standard output. All appear or none: if standard output fails, files are as they were.
+void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text);
 
 /// The same for a run that prints on its own.
-void write_json(const Options& options, const Json& value, TempFiles& files);
-void write_json(const Options& options, const Json& value);
+void write_json(const Options& options, const Document& document, TempFiles& files);
+void write_json(const Options& options, const Document& document);
 
 /// A folder for what a run writes, made with those above it. What was made and is empty in the end is removed again, so
 /// that a run that fails leaves nothing.

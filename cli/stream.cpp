@@ -67,16 +67,17 @@ int run(const Options& o) {
   j["config"] = to_json(config);
   j["degraded"] = source.degraded();
   j["notes"] = source.notes();
+  const Document document("kage.stream/1", j);
   const std::string text = fmt::format(
       "{}{}: {}, {} over {}{}, {}\n", notes_text(source), piped(o) ? "standard output" : o.out,
       counted(source.frames(), "frame"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
       and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), counted(counts.words, "word"));
   if (piped(o)) {
-    finish(o, j, files, "");
+    finish(o, document, files, "");
     say(text);
     return kSame;
   }
-  finish(o, j, files, text);
+  finish(o, document, files, text);
   if (json_only(o)) print_notes(source, o);
   return kSame;
 }

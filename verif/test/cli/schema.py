@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+"""JSON of all commands against the schemas: schema.py KAGE SCHEMAS FOLDER, with FOLDER/COMMAND.N.json."""
+
+import copy
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+import jsonschema
+
+kage, folder, written = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+failures = 0
+
+
+def check(good, what):
+    global failures
+    if not good:
+        failures += 1
+        print("FAILED:", what)
+
+
+schemas = {path.stem: json.loads(path.read_text()) for path in sorted(folder.glob("*.json"))}
+
+
+def validator(name):
+    """Schemas refer to each other by the names of their files."""
+    schema = schemas[name]
+    try:
+        from referencing import Registry
+        from referencing.jsonschema import DRAFT202012
+    except ImportError:  # jsonschema 4.10 of Debian 12
+        store = {f"{n}.json": s for n, s in schemas.items()}
+        resolver = jsonschema.RefResolver(f"{name}.json", schema, store=store)
+        return jsonschema.Draft202012Validator(schema, resolver=resolver)
+    registry = Registry().with_resources((f"{n}.json", DRAFT202012.create_resource(s)) for n, s in schemas.items())
+    return jsonschema.Draft202012Validator(schema, registry=registry)
+
+
+def closed(name, schema, place=""):
+    """Each object says which keys it may have, and each key what it is."""
+    if isinstance(schema, list):
+        for i, part in enumerate(schema):
+            closed(name, part, f"{place}/{i}")
+    if not isinstance(schema, dict):
+        return
+    if "properties" in schema:
+        check(schema.get("additionalProperties") is False, f"{name}{place}: takes any key")
+        for key, value in schema["properties"].items():
+            parts = [value, *value.get("anyOf", [])]
+            told = any(word in part for part in parts for word in ("description", "$ref", "const"))
+            check(told, f"{name}{place}: {key}: what is it?")
+    for key, value in schema.items():
+        closed(name, value, f"{place}/{key}")
+
+
+for name, schema in schemas.items():
+    jsonschema.Draft202012Validator.check_schema(schema)
+    closed(name, schema)
+    check(f"({name}.json)" in (folder / "README.md").read_text(), f"{name}: docs/schema/README.md does not name it")
+
+validators = {name: validator(name) for name in schemas}
+named, wrote = set(), set()
+
+
+def good(name, document):
+    return validators[name].is_valid(document)
+
+
+def spoilt(name, document, where):
+    """Without one of its keys, or with another one, it is not of its schema: else the schema would hold anything."""
+    entries = document if isinstance(document, list) else [document]
+    for i, entry in enumerate(entries):
+        for key in [*entry, None]:
+            other = copy.deepcopy(entries)
+            if key is None:
+                other[i]["nosuch"] = 1
+            else:
+                del other[i][key]
+            if key in ("coverage", "scenes", "configs", "faults", "left", "bytes"):
+                continue  # not always there
+            whole = other if isinstance(document, list) else other[0]
+            check(
+                not good(name, whole),
+                f"{where}: {name} takes it {'with a strange key' if key is None else f'without {key}'}",
+            )
+
+
+for path in sorted(written.iterdir()):
+    document = json.loads(path.read_text())
+    entries = document if isinstance(document, list) else [document]
+    check(entries and all(next(iter(e)) == "schema" for e in entries), f"{path.name}: the schema is not its first key")
+    match = re.fullmatch(r"kage\.([a-z-]+)/\d+", entries[0]["schema"])
+    if not match or match[1] not in schemas:
+        check(False, f"{path.name}: no schema {entries[0]['schema']}")
+        continue
+    name = match[1]
+    named.add(name)
+    wrote.add(path.name.split(".")[0])
+    for error in validators[name].iter_errors(document):
+        best = jsonschema.exceptions.best_match([error])
+        check(False, f"{path.name}: {name}: {'/'.join(map(str, best.absolute_path))}: {best.message[:300]}")
+    spoilt(name, document, path.name)
+
+check(named == set(schemas), f"schemas that no command names: {set(schemas) - named}")
+text = subprocess.run([kage, "--help"], capture_output=True, text=True, check=True).stdout
+commands = re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1].split("\n\n")[0], re.M)
+check(len(commands) >= 12, f"these are all commands: {commands}")
+for command in commands:
+    text = subprocess.run([kage, "help", command], capture_output=True, text=True, check=True).stdout
+    check(("--json" in text) == (command in wrote), f"kage {command}: --json is not tried here")
+sys.exit(failures != 0)

@@ -1,0 +1,129 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# What commands write by --json is of the schema that it names: docs/schema. Every command that has --json writes here, and
+# every schema is one that a command names.
+. "$(dirname "$0")/common.bash"
+unset GITHUB_ACTIONS
+mkdir json
+
+# said RC COMMAND ARGUMENT...: the command ends so and leaves its JSON as json/COMMAND.N.json, and the same in $last.
+number=0
+said() {
+  local want=$1 command=$2
+  shift 2
+  last=json/$command.$((number += 1)).json
+  expect "$want" "$kage" "$command" "$@" --json "$last"
+  [ -s "$last" ] || fail "kage $command $*: no JSON"
+}
+small=(--size 64x48 --frames 2 --config default)
+
+# One scene: the same, with all that may be there besides; different; a hang; frames that end in an error; one that is kept.
+said 0 cosim courtyard "${small[@]}" --coverage --out same
+models=${XDG_CACHE_HOME:-$HOME/.cache}/kage
+mkdir -p own/kage && ln -s "$models"/{models,verilator} own/kage/  # verdicts of its own, models of the common cache
+for taken in 0 2; do
+  XDG_CACHE_HOME=$PWD/own said 0 cosim courtyard "${small[@]}" --cache-verdicts --no-report --out taken
+  json "$last" 'j["verdicts"]["taken"]=='$taken
+done
+XDG_CACHE_HOME=$PWD/own said 0 cache verify
+json "$last" 'j["verdicts"]["verdicts"]==2 and j["verdicts"]["damaged"]==0'
+said 0 cosim polyhedra --size 64x48 --frames 2 --config polyhedra --idle 20 --no-report --out same
+json "$last" 'j["polyhedra"] and any(f["stalled_by_phase"] for f in j["each"])'
+said 1 cosim courtyard "${small[@]}" --fault wrong_compare --out different
+json "$last" 'j["first_difference"]["divergence"] and j["first_difference"]["waveform"]'
+said 1 cosim courtyard "${small[@]}" --fault wrong_compare --no-divergence --no-report --out different
+said 1 cosim courtyard "${small[@]}" --fault dead_hang --no-report --no-divergence --out hang
+said 0 cosim random:damaged --frames 20 --config tiny --no-report --out damaged
+said 1 cosim random --frames 20 --config default --fault wrong_compare --no-shrink --no-divergence --no-report --out random
+json "$last" 'j["kept"]["again"].startswith("kage cosim ")'
+
+# Several scenes, in shards of which one has no frame of a scene; joined; likewise of one scene.
+for i in 1 2; do
+  said 0 cosim courtyard inside --size 64x48 --frames 1 --shard $i/2 --out few$i
+  cp "$last" few$i.json
+  said 1 cosim courtyard "${small[@]}" --shard $i/2 --fault wrong_compare --no-divergence --out part$i
+  cp "$last" part$i.json
+done
+said 0 merge few1.json few2.json --out few
+said 1 merge part1.json part2.json
+json "$last" 'j["schema"]=="kage.merge/1" and len(j["shards"])==2'
+json part1.json 'j["schema"]=="kage.cosim/1"'
+
+# Only reports of this version are joined.
+python3 - <<'PY'
+import json
+j = json.load(open("part1.json"))
+json.dump(j | {"schema": "kage.cosim/2"}, open("later.json", "w"))
+del j["schema"]
+json.dump(j, open("none.json", "w"))
+PY
+trouble 'later.json: no report of kage cosim: schema is "kage.cosim/2", and this kage reads kage.cosim/1' "$kage" merge later.json part2.json
+trouble 'none.json: no report of kage cosim: it names no schema' "$kage" merge none.json part2.json
+
+# Trouble has no JSON.
+expect 2 "$kage" cosim nowhere.obj --json trouble.json
+[ ! -e trouble.json ] || fail "trouble leaves JSON"
+
+# The regression: the same, different, and ended by a signal.
+said 0 regress --rounds 1 --config tiny --out regress
+said 1 regress --rounds 1 --config default --fault wrong_compare --no-divergence --out regress
+KAGE_PROGRESS=0.2 "$kage" regress --minutes 60 --config tiny --out regress --json json/regress.0.json >/dev/null 2>progress &
+pid=$!
+until grep -q "^[1-9][0-9]* run" progress || ! kill -0 $pid; do sleep 0.1; done
+kill -INT $pid
+wait $pid
+json json/regress.0.json 'j["interrupted"] is True'
+
+# Streams and pictures.
+said 0 stream courtyard "${small[@]}" --out a.kage
+said 0 stream polyhedra --size 64x48 --frames 1 --config polyhedra --out p.kage
+"$kage" stream courtyard "${small[@]}" --out - --json json/stream.0.json >piped.kage 2>stderr || fail "a stream into a pipe"
+"$kage" stream glass --size 64x48 --frames 1 --config glass --out g.kage >/dev/null
+"$kage" stream inside "${small[@]}" --out b.kage >/dev/null
+said 0 info a.kage
+said 0 info p.kage
+said 0 info courtyard
+said 0 info penumbra
+said 0 render courtyard "${small[@]}" --out a
+said 0 render inside "${small[@]}" --exr --out exr
+"$kage" render inside "${small[@]}" --out b >/dev/null
+"$kage" render courtyard --size 32x24 --frames 1 --config default --out tiny >/dev/null
+said 0 diff a/courtyard_0000.png a/courtyard_0000.png
+said 1 diff a/courtyard_0000.png b/inside_0000.png --perceptual
+json "$last" 'j["flip"]["mean"] > 0 and j["regions"]'
+said 1 diff exr/inside_0000.exr exr/inside_0001.exr
+said 1 diff a/courtyard_0000.png tiny/courtyard_0000.png
+json "$last" 'j["width"] is None'
+mkdir other
+cp a/courtyard_0000.png other && cp b/inside_0000.png other/courtyard_0001.png && cp a.kage other/s.kage && cp b.kage a/s.kage
+echo text | tee a/only.txt >other/.hidden
+said 1 diff a other
+json "$last" 'j["first"]["frame"] and {f["missing"] for f in j["files"]}=={None, "B"} and j["not_compared"]'
+said 1 diff --bless --dry-run other a
+said 0 diff --bless --prune a other --exclude '*.txt'
+said 0 diff a.kage piped.kage
+said 1 diff a.kage b.kage
+said 1 diff a.kage g.kage
+json "$last" 'j["config"] and j["different_tokens"] is None'
+
+# Pixels, with the RTL and without.
+said 0 explain courtyard --size 64x48 --pixel 32,24 --rtl
+said 0 explain penumbra --size 64x48 --pixel 32,40 --changes
+said 0 explain p.kage --pixel 32,24
+said 0 explain polyhedra --size 64x48 --config polyhedra --pixel 32,24
+json "$last" 'any(t["kind"]=="TREE" for t in j["touches"])'
+
+# What there is.
+said 0 list
+said 0 list faults
+said 0 model default
+said 0 order glass --eyes 2 --repeats 1 --save glass.bsp
+said 0 order glass.bsp --eyes 2 --repeats 1
+said 0 cache
+said 0 cache list
+json "$last" 'j["models"]'
+mkdir empty
+XDG_CACHE_HOME=$PWD/empty said 0 cache prune --max-size 1M
+
+python3 "$source/verif/test/cli/schema.py" "$kage" "$source/docs/schema" json || fail "JSON and schemas"
+done_testing
