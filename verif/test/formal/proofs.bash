@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+# The proofs, and the defects that must be refuted: data for run.sh, which sources it.
+# shellcheck shell=bash
+#
+# proof NAME KEY=VALUE...
+#   module          whose proof it is; NAME if left out. The proof is verif/test/formal/MODULE_proof.sv
+#   rtl, rules      files of rtl/ and of verif/test/formal that it is made of
+#   set             PARAMETER=VALUE... of the proof
+#   inside          WIRE=NET...: wires of the proof that are nets within the module (dut), for induction
+#   own_assertions  yes: the assertions within the RTL are proved as well
+#   steps           clocks from the start: the base case, or the bound
+#   induction       clocks of the step; left out where the proof goes to a bound only
+#   cover           clocks in which every cover statement must be reached
+# defect NAME PROOF FILE SED-EXPRESSION: changes FILE of rtl/; PROOF must refute it. Every property of a module, lemmas aside, must be
+#   refuted by at least one.
+
+# ---- compare_tree ----------------------------------------------------------------------------------------------------
+tree_proof() { # UNITS: the wires of the proof are the tree's own: its lowest bits, the rest is unused
+  local units=$1 nodes=0 level=$1 data=5
+  while :; do
+    nodes=$((nodes + level))
+    [ $level -gt 1 ] || break
+    level=$(((level + 1) / 2))
+  done
+  proof "compare_tree_$units" module=compare_tree rtl="compare_cell compare_tree" own_assertions=yes set="UNITS=$units" inside="
+    inside_valid[$((nodes - 1)):0]=dut.gen_tree.valid inside_last[$((nodes - 1)):0]=dut.gen_tree.last
+    inside_data[$((nodes * data - 1)):0]=dut.gen_tree.data" steps=8 induction=2 cover=8
+}
+for units in 2 3 4 5; do tree_proof $units; done
+defect right_wins_ties compare_tree_3 compare_cell.sv 's/] < left_data_i/] <= left_data_i/'
+defect greatest_wins compare_tree_3 compare_cell.sv 's/] < left_data_i/] > left_data_i/'
+defect waiting_pixel_lost compare_tree_3 compare_cell.sv 's/else if (free) out_valid_o <= take/else out_valid_o <= take/'
+defect pixel_taken_alone compare_tree_3 compare_cell.sv 's/left_ready_o = take/left_ready_o = free \&\& left_valid_i/'
+defect pixel_doubled compare_tree_3 compare_cell.sv 's/right_ready_o = take/right_ready_o = take \&\& !left_last_i/'
+defect standstill compare_tree_3 compare_cell.sv 's/assign free = .*/assign free = !out_valid_o;/'
+defect passing_pixel_lost compare_tree_3 compare_tree.sv 's/assign ready\[Left\] = .*/assign ready[Left] = 1;/'
+defect neighbour_unseen compare_tree_3 compare_tree.sv 's/data\[(Left+1)\*/data[(Left)*/'
+defect line_end_lost compare_tree_3 compare_tree.sv 's/left_last_i *(last\[Left\])/left_last_i (1'"'"'b0)/'
+
+# ---- skid_buffer, stream_fifo ----------------------------------------------------------------------------------------
+proof skid_buffer rtl=skid_buffer rules="queue_rules stream_rules" inside="inside_spare=dut.spare_q" steps=8 induction=2 cover=10
+defect skid_spare_lost skid_buffer skid_buffer.sv 's/out_valid_q   <= spare_valid_q || in_valid_i/out_valid_q   <= in_valid_i/'
+defect skid_word_doubled skid_buffer skid_buffer.sv 's/spare_valid_q <= 1.b0;$/spare_valid_q <= spare_valid_q;/'
+defect skid_wrong_order skid_buffer skid_buffer.sv 's/spare_valid_q ? spare_q : in_data_i/in_data_i/'
+defect skid_word_overwritten skid_buffer skid_buffer.sv 's/if (out_free) out_q/if (out_free || in_valid_i) out_q/'
+defect skid_valid_falls skid_buffer skid_buffer.sv 's/assign out_free = .*/assign out_free = 1;/'
+defect skid_ready_by_output skid_buffer skid_buffer.sv 's/assign in_ready_o = .*/assign in_ready_o = !out_valid_q;/'
+defect skid_standstill skid_buffer skid_buffer.sv 's/assign out_valid_o = .*/assign out_valid_o = out_valid_q \&\& !in_valid_i;/'
+defect skid_kept_in_reset skid_buffer skid_buffer.sv 's/out_valid_q   <= 1.b0;/out_valid_q   <= out_valid_q;/'
+for depth in 2 4; do
+  fifo_memory=
+  for ((word = 0; word < depth; word++)); do fifo_memory+=" inside_memory[$((2 * word + 1)):$((2 * word))]=\\dut.mem[$word]"; done
+  proof stream_fifo_$depth module=stream_fifo rtl=stream_fifo rules="queue_rules stream_rules" set="DEPTH=$depth" \
+    inside="inside_count=dut.count_q inside_oldest=dut.rd_q inside_next=dut.wr_q$fifo_memory" steps=9 induction=2 cover=14
+done
+defect fifo_full_unseen stream_fifo_2 stream_fifo.sv 's/assign in_ready_o  = .*/assign in_ready_o = 1;/'
+defect fifo_empty_unseen stream_fifo_2 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = 1;/'
+defect fifo_word_lost stream_fifo_4 stream_fifo.sv 's/if (push && !pop) count_q/if (push \&\& !out_ready_i) count_q/'
+defect fifo_word_doubled stream_fifo_4 stream_fifo.sv 's/if (pop) rd_q/if (pop \&\& !push) rd_q/'
+defect fifo_capacity_unused stream_fifo_4 stream_fifo.sv 's/assign in_ready_o  = .*/assign in_ready_o = count_q < 3;/'
+defect fifo_ready_by_valid stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = count_q != 0 \&\& out_ready_i;/'
+defect fifo_valid_falls stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = count_q != 0 \&\& !(count_q == 2 \&\& in_valid_i);/'
+defect fifo_data_move stream_fifo_4 stream_fifo.sv 's/assign out_data_o  = .*/assign out_data_o = mem[out_ready_i ? rd_q : wr_q];/'
+defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/count_q <= '0;/;/"
