@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is proved of registers at its ports, for any masters and any events, and a reset at any time (verif/test/formal/run.sh).
+//   By induction (MODEL 0): the rules of AXI4-Lite (lite_rules).
+//   To a bound (MODEL 1), against a model of docs/stream.md, and further (MODEL 2) with a plain master, which writes whole words, reads
+//   nothing, and resets at the start only:
+//     interrupt       irq_o is high while a bit of IRQ is set whose bit in CONTROL is, and only then.
+//     bites           once as many clocks as WATCHDOG says have passed in a frame without progress, bit 2 of IRQ is set until it is cleared.
+//     never_before    it is set at no other moment: not sooner, not twice for one standstill, and not with a limit of 0.
+//     value_read      a read gives what the register held in the clock of its address: what was written, counted, or kept of an error
+//                     or of a bite; 0 where there is none.
+//     read_answer,    SLVERR for addresses past the last register, OKAY for all others.
+//     write_answer
+// The limit is free, all 32 bits of it: those beyond the bound must not bite within it.
+//
+// How: the model keeps what has been written, by the handshakes alone, and counts how many clocks the present standstill has lasted.
+// It knows nothing of the module's own counter, which stops at the limit.
+`default_nettype none
+
+module registers_proof #(
+    parameter int MODEL = 1
+) (
+    input wire logic        clk_i,
+    input wire logic        rst_ni,
+    input wire logic        awvalid_i,
+    input wire logic [ 7:0] awaddr_i,
+    input wire logic        wvalid_i,
+    input wire logic [31:0] wdata_i,
+    input wire logic [ 3:0] wstrb_i,
+    input wire logic        bready_i,
+    input wire logic        arvalid_i,
+    input wire logic [ 7:0] araddr_i,
+    input wire logic        rready_i,
+    input wire logic        open_i,
+    input wire logic        draining_i,
+    input wire logic        waiting_input_i,
+    input wire logic        waiting_output_i,
+    input wire logic        progress_i,
+    input wire logic        frame_end_i,
+    input wire logic        error_i,
+    input wire logic [ 3:0] error_code_i,
+    input wire logic [31:0] error_frame_i,
+    input wire logic [15:0] error_line_i,
+    input wire logic [31:0] error_token_i,
+    input wire logic [ 5:0] error_unit_i,
+    input wire logic        behind_i,
+    input wire logic [ 5:0] behind_unit_i,
+    input wire logic [14:0] behind_line_i
+);
+  `include "generated/kage_registers.svh"
+
+  logic awready, wready, bvalid, arready, rvalid, irq;
+  logic [1:0] bresp, rresp;
+  logic [31:0] rdata;
+  registers dut (
+      .clk_i,
+      .rst_ni,
+      .awvalid_i,
+      .awready_o(awready),
+      .awaddr_i,
+      .wvalid_i,
+      .wready_o (wready),
+      .wdata_i,
+      .wstrb_i,
+      .bvalid_o (bvalid),
+      .bready_i,
+      .bresp_o  (bresp),
+      .arvalid_i,
+      .arready_o(arready),
+      .araddr_i,
+      .rvalid_o (rvalid),
+      .rready_i,
+      .rdata_o  (rdata),
+      .rresp_o  (rresp),
+      .irq_o    (irq),
+      .open_i,
+      .draining_i,
+      .waiting_input_i,
+      .waiting_output_i,
+      .progress_i,
+      .frame_end_i,
+      .error_i,
+      .error_code_i,
+      .error_frame_i,
+      .error_line_i,
+      .error_token_i,
+      .error_unit_i,
+      .behind_i,
+      .behind_unit_i,
+      .behind_line_i
+  );
+  if (MODEL < 2) begin : gen_axi
+    lite_rules axi (
+        .clk_i,
+        .rst_ni,
+        .awvalid_i,
+        .awready_i(awready),
+        .wvalid_i,
+        .wready_i (wready),
+        .bvalid_i (bvalid),
+        .bready_i,
+        .bresp_i  (bresp),
+        .arvalid_i,
+        .arready_i(arready),
+        .rvalid_i (rvalid),
+        .rready_i,
+        .rdata_i  (rdata),
+        .rresp_i  (rresp)
+    );
+  end
+
+  // ---- surroundings: reset at the start, and whenever it pleases; with MODEL 2 a plain master ----------------------
+  logic started_q = 1'b0;
+  always_ff @(posedge clk_i) started_q <= 1'b1;
+  always_comb if (!started_q) assume (!rst_ni);
+  if (MODEL > 1) begin : gen_plain
+    always_comb begin
+      assume (rst_ni == started_q);
+      assume (wvalid_i == awvalid_i && wstrb_i == '1 && awaddr_i[1:0] == '0);
+      assume (bready_i && !arvalid_i);
+    end
+  end
+
+  if (MODEL > 0) begin : gen_model
+    localparam logic [7:0] Past = RegStall + 8'd4;  // the first address without a register
+
+    // ---- writes: what has been taken, and the clock in which it counts ---------------------------------------------
+    logic address_q, data_q, write;
+    logic [7:0] at_q;
+    logic [31:0] new_q, mask_q;
+    assign write = address_q && data_q && !bvalid;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) begin
+        address_q <= 1'b0;
+        data_q <= 1'b0;
+      end else begin
+        if (awvalid_i && awready) address_q <= 1'b1;
+        else if (write) address_q <= 1'b0;
+        if (wvalid_i && wready) data_q <= 1'b1;
+        else if (write) data_q <= 1'b0;
+      end
+      if (awvalid_i && awready) at_q <= awaddr_i;
+      if (wvalid_i && wready) begin
+        new_q  <= wdata_i;
+        mask_q <= {{8{wstrb_i[3]}}, {8{wstrb_i[2]}}, {8{wstrb_i[1]}}, {8{wstrb_i[0]}}};
+      end
+    end
+    function automatic logic [31:0] after(input logic [31:0] old, input logic [7:0] register);
+      after = write && at_q[7:2] == register[7:2] ? (old & ~mask_q) | (new_q & mask_q) : old;
+    endfunction
+
+    // ---- the watchdog: how long the standstill lasts ---------------------------------------------------------------
+    logic [31:0] limit_q;
+    logic [ 4:0] still_q;  // clocks of this standstill so far, since WATCHDOG was last written
+    logic bite, anew;
+    assign anew = write && at_q[7:2] == RegWatchdog[7:2];
+    assign bite = open_i && !progress_i && limit_q != '0 && 32'(still_q) + 32'd1 == limit_q;
+
+    // ---- all others ------------------------------------------------------------------------------------------------
+    logic [31:0] control_q, errors_q, frames_q, cycles_q, starved_q, blocked_q, error_frame_q, error_token_q, stall_q;
+    logic [31:0] cleared, tree;
+    logic [19:0] error_q;
+    logic [ 5:0] unit_q;
+    logic [ 2:0] irq_q;
+    assign cleared = write && at_q[7:2] == RegIrq[7:2] ? new_q & mask_q : '0;
+    assign tree = waiting_input_i && behind_i ? {1'b1, behind_line_i, 10'd0, behind_unit_i} : '0;
+    always_ff @(posedge clk_i) begin
+      control_q <= after(control_q, RegControl) & 32'd7;
+      limit_q   <= after(limit_q, RegWatchdog);
+      still_q   <= open_i && !progress_i && !anew ? still_q + 5'd1 : '0;
+      irq_q     <= (irq_q & ~cleared[2:0]) | {bite, error_i, frame_end_i};
+      cycles_q  <= cycles_q + 32'd1;
+      if (frame_end_i) frames_q <= frames_q + 32'd1;
+      if (error_i) errors_q <= errors_q + 32'd1;
+      if (waiting_input_i) starved_q <= starved_q + 32'd1;
+      if (waiting_output_i) blocked_q <= blocked_q + 32'd1;
+      if (error_i) begin
+        error_q <= {error_line_i, error_code_i};
+        error_frame_q <= error_frame_i;
+        error_token_q <= error_token_i;
+        unit_q <= error_unit_i;
+      end
+      if (bite) begin
+        stall_q <= tree;
+        stall_q[30:16] <= behind_line_i;
+        stall_q[9:8] <= {waiting_output_i, waiting_input_i};
+      end
+      if (!rst_ni) begin
+        {control_q, limit_q, still_q, irq_q, cycles_q, frames_q, errors_q, starved_q, blocked_q} <= '0;
+        {error_q, error_frame_q, error_token_q, unit_q, stall_q} <= '0;
+      end
+    end
+
+    // ---- reads: what the register holds in the clock of its address ------------------------------------------------
+    logic [31:0] value, value_q;
+    logic known, known_q;  // PARAM_HASH and SHAPE follow from parameters
+    logic [7:0] asked_q;
+    always_comb begin
+      value = '0;
+      known = 1'b1;
+      case ({
+        araddr_i[7:2], 2'b00
+      })
+        RegId: value = 32'h4b414745;
+        RegVersion: value = 32'd1;
+        RegParamHash, RegShape: known = 1'b0;
+        RegControl: value = control_q;
+        RegIrq: value = 32'(irq_q);
+        RegWatchdog: value = limit_q;
+        RegStatus: value = {28'd0, waiting_output_i, waiting_input_i, draining_i, open_i};
+        RegError: value = {error_q[19:4], 12'd0, error_q[3:0]};
+        RegErrorFrame: value = error_frame_q;
+        RegErrorToken: value = error_token_q;
+        RegErrors: value = errors_q;
+        RegFrames: value = frames_q;
+        RegCycles: value = cycles_q;
+        RegStarved: value = starved_q;
+        RegBlocked: value = blocked_q;
+        RegErrorUnit: value = 32'(unit_q);
+        RegTree: value = tree;
+        RegStall: value = stall_q;
+        default: value = '0;
+      endcase
+    end
+    logic answer_bad_q;
+    always_ff @(posedge clk_i) begin
+      if (arvalid_i && arready) begin
+        asked_q <= araddr_i;
+        value_q <= value;
+        known_q <= known;
+      end
+      if (write) answer_bad_q <= at_q >= Past;
+    end
+
+    // A bite, whatever has been cleared since, and clocks of the standstill that went on behind it.
+    logic bitten_q, cleared_q, again_q;
+    always_ff @(posedge clk_i) begin
+      bitten_q  <= rst_ni && (bitten_q || bite);
+      cleared_q <= rst_ni && (cleared_q || (irq_q[2] && cleared[2]));
+      again_q   <= rst_ni && (again_q || (bite && cleared_q));
+    end
+    always_comb begin
+      if (rst_ni && started_q) begin
+        interrupt : assert (irq == ((irq_q & control_q[2:0]) != '0));
+        if (control_q[2] && irq_q[2]) bites : assert (irq);
+        if (control_q == 32'd4 && !irq_q[2]) never_before : assert (!irq);
+        if (rvalid && known_q) value_read : assert (rdata == value_q);
+        if (rvalid) read_answer : assert (rresp == (asked_q >= Past ? 2'b10 : 2'b00));
+        if (bvalid) write_answer : assert (bresp == (answer_bad_q ? 2'b10 : 2'b00));
+      end
+    end
+
+    // ---- what the rules are about happens within the bound ---------------------------------------------------------
+    always_comb begin
+      if (rst_ni && started_q) begin
+        bite_at_once : cover (irq && control_q == 32'd4 && limit_q == 32'd1);
+        bite_in_three : cover (irq && control_q == 32'd4 && limit_q == 32'd3);
+        other_irq : cover (irq && control_q == 32'd2);
+        no_second_bite : cover (cleared_q && still_q == 5'd3 && limit_q == 32'd1 && !irq_q[2]);
+        second_bite : cover (again_q && irq_q[2]);
+        if (MODEL == 1) bite_read : cover (rvalid && asked_q == RegStall && value_q[9:8] == 2'b11 && bitten_q);
+        if (MODEL == 1)
+          partly_written : cover (limit_q[15:0] == 16'h0100 && limit_q[31:16] == '0 && mask_q == 32'h0000ff00);
+        if (MODEL == 1) past_read : cover (rvalid && rresp == 2'b10);
+        past_written : cover (bvalid && bresp == 2'b10);
+      end
+    end
+  end
+
+endmodule
+
+`default_nettype wire
