@@ -88,3 +88,17 @@ defect strobe_ignored registers registers.sv 's/write_limit) limit_q <= .*/write
 defect register_wrong registers registers.sv 's/RegErrorToken: value = error_token_q/RegErrorToken: value = error_frame_q/'
 defect read_past_okay registers registers.sv 's/araddr_i > RegLast/araddr_i > RegBlocked/'
 defect write_past_okay registers registers.sv "s/aw_addr_q > RegLast + 8'd3/aw_addr_q > RegLast + 8'd4/"
+
+# ---- line_phase ------------------------------------------------------------------------------------------------------
+proof line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
+proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 COUNT_BITS=0 TRANSLUCENCY=0" steps=12 cover=12
+proof line_phase_samples module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1" steps=12 cover=12
+proof line_phase_counts module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=2 TRANSLUCENCY=0" steps=12 cover=12
+proof line_phase_plain module=line_phase rtl=line_phase set="DSF_BITS=0 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
+defect phase_op_in_volume line_phase line_phase.sv 's/KindOp: in_order_o = .*/KindOp: in_order_o = !resolved_o;/'
+defect phase_volume_left_open line_phase line_phase.sv 's/assign volume_done = .*/assign volume_done = 1;/'
+defect phase_sample_left_open line_phase_samples line_phase.sv 's/assign sample_done = .*/assign sample_done = 1;/'
+defect phase_tp_unseen line_phase line_phase.sv 's/assign resolved_o = .*/assign resolved_o = phase_q[1];/'
+defect phase_bias_kept line_phase line_phase.sv '/KindEv) begin/,/end/s/bias_q <= .0;/;/'
+defect phase_bias_not_cleared line_phase line_phase.sv 's/if (clear_bias_i) bias_q/if (clear_bias_i \&\& resolved_o) bias_q/'
+defect phase_line_leaks line_phase_counts line_phase.sv 's/if (start_i) begin/if (start_i \&\& !volume_open_q) begin/'

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is proved of line_phase at its ports, to a bound of tokens, for any tokens of a line that are in order (verif/test/formal/run.sh):
+//   order          a token is in order where docs/stream.md ("Order in a line") lets it stand, and nowhere else, for each kind;
+//   resolved_last  resolved_o says that a RESOLVE was the line's last token;
+//   bias_sum       bias_o is the sum of the IFs since the line began, or since the last EV, ES or clearing, modulo 2^DSF_BITS.
+//
+// How: the proof keeps which kinds the line has had, and decides by that; the module keeps a phase. Only tokens that the proof lets
+// stand are taken, of kinds that the configuration has: frame_control takes no others.
+//
+// Why small widths say it for all: a count is only added to, modulo its width. DSF_BITS is 2 here, 1 and 0 besides. proofs.bash has five
+// sets of parameters: with and without FSF, counters and translucency.
+`default_nettype none
+
+module line_phase_proof #(
+    parameter int DSF_BITS = 2,
+    parameter int FSF = 1,
+    parameter int COUNT_BITS = 0,
+    parameter int TRANSLUCENCY = 1,
+    localparam int DsfBits = DSF_BITS > 0 ? DSF_BITS : 1
+) (
+    input wire logic               clk_i,
+    input wire logic               start_i,
+    input wire logic               take_i,
+    input wire logic               clear_bias_i,
+    input wire logic [        3:0] kind_i,
+    input wire logic [DsfBits-1:0] w_i
+);
+  // The kinds by docs/stream.md.
+  localparam logic [3:0] Op = 4'd6, Sp = 4'd7, Nc = 4'd8, If = 4'd9, Ev = 4'd10, Es = 4'd11, Resolve = 4'd12, Tp = 4'd13;
+  localparam logic [3:0] Eol = 4'd14;
+
+  logic in_order, resolved;
+  logic [DsfBits-1:0] bias;
+  line_phase #(
+      .DSF_BITS(DSF_BITS),
+      .FSF(FSF),
+      .COUNT_BITS(COUNT_BITS),
+      .TRANSLUCENCY(TRANSLUCENCY)
+  ) dut (
+      .clk_i,
+      .start_i,
+      .take_i,
+      .clear_bias_i,
+      .kind_i,
+      .w_i,
+      .in_order_o(in_order),
+      .resolved_o(resolved),
+      .bias_o    (bias)
+  );
+
+  // ---- what the line has had ---------------------------------------------------------------------------------------
+  logic shadow_q, shadow_since_ev_q, shadow_since_es_q, resolve_q, tp_q;
+  logic [DsfBits-1:0] sum_q;
+  logic is_shadow, closed, may;
+  assign is_shadow = kind_i == Sp || kind_i == Nc || kind_i == If;
+  assign closed = !(FSF > 0 && shadow_since_ev_q);
+  always_comb begin
+    case (kind_i)
+      Op: may = !shadow_q && !tp_q;
+      Sp, Nc, If: may = !resolve_q && !tp_q;
+      Ev: may = shadow_since_ev_q && !resolve_q;
+      Es: may = shadow_since_es_q && closed && !resolve_q;
+      Resolve: may = shadow_q && closed && !(COUNT_BITS > 0 && shadow_since_es_q) && !resolve_q;
+      Tp, Eol: may = !shadow_q || resolve_q;
+      default: may = 1'b1;  // not of a line
+    endcase
+  end
+  always_ff @(posedge clk_i) begin
+    if (start_i) begin
+      {shadow_q, shadow_since_ev_q, shadow_since_es_q, resolve_q, tp_q} <= '0;
+      sum_q <= '0;
+    end else begin
+      if (clear_bias_i) sum_q <= '0;
+      if (take_i) begin
+        if (is_shadow) {shadow_q, shadow_since_ev_q, shadow_since_es_q} <= '1;
+        if (kind_i == Ev) shadow_since_ev_q <= 1'b0;
+        if (kind_i == Es) shadow_since_es_q <= 1'b0;
+        if (kind_i == Ev || kind_i == Es) sum_q <= '0;
+        if (kind_i == If) sum_q <= sum_q + w_i;
+        if (kind_i == Resolve) resolve_q <= 1'b1;
+        if (kind_i == Tp) tp_q <= 1'b1;
+      end
+    end
+  end
+
+  // ---- surroundings ------------------------------------------------------------------------------------------------
+  logic started_q = 1'b0;
+  logic has;  // the configuration has the kind
+  always_comb begin
+    case (kind_i)
+      Sp, Nc, If, Resolve: has = DSF_BITS > 0;
+      Ev: has = FSF > 0;
+      Es: has = COUNT_BITS > 0;
+      Tp: has = TRANSLUCENCY > 0;
+      default: has = 1'b1;
+    endcase
+  end
+  always_ff @(posedge clk_i) started_q <= 1'b1;
+  always_comb begin
+    assume (start_i || started_q);
+    if (take_i) assume (has && may);
+    if (take_i) assume (!clear_bias_i);
+  end
+
+  // ---- the answer --------------------------------------------------------------------------------------------------
+  always_comb begin
+    if (started_q) begin
+      if (has) order : assert (in_order == may);
+      resolved_last : assert (resolved == (resolve_q && !tp_q));
+      bias_sum : assert (bias == sum_q);
+    end
+  end
+
+  // ---- what the rules are about happens within the bound -----------------------------------------------------------
+  logic [3:0] taken_q;  // tokens of the line
+  logic samples_q;  // it has had two samples, or two volumes
+  always_ff @(posedge clk_i) begin
+    if (start_i) begin
+      taken_q   <= '0;
+      samples_q <= 1'b0;
+    end else if (take_i && !(&taken_q)) begin
+      taken_q <= taken_q + 1'b1;
+      if (is_shadow && shadow_q && (COUNT_BITS > 0 ? !shadow_since_es_q : FSF > 0 && !shadow_since_ev_q))
+        samples_q <= 1'b1;
+    end
+  end
+  always_comb begin
+    if (started_q) begin
+      whole_line : cover (take_i && kind_i == Eol && taken_q >= 4'd6);
+      out_of_order : cover (has && !may && taken_q >= 4'd4);
+      if (DSF_BITS > 0)
+        resolved_line : cover (resolved && taken_q >= 4'd5 && (samples_q || (FSF == 0 && COUNT_BITS == 0)));
+      if (DSF_BITS > 0 && TRANSLUCENCY > 0) translucent_line : cover (resolve_q && tp_q && kind_i == Eol && take_i);
+      if (DSF_BITS > 1) wraps : cover (take_i && kind_i == If && DsfBits'(sum_q + w_i) < sum_q);
+    end
+  end
+
+endmodule
+
+`default_nettype wire
