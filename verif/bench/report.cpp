@@ -38,14 +38,13 @@ int main() {
              "packing s", "writing s", "page bytes", "lines told %");
   for (const std::string& name : builtin_scenes()) {
     const Scene scene = Scene::load(name);
-    report::Page page;
-    page.config = load_config(name == "penumbra"       ? "soft"
-                              : name == "three-lights" ? "lights"
-                              : name == "glass"        ? "glass"
-                              : name == "polyhedra"    ? "polyhedra"
-                              : name == "knot"         ? "full"
-                                                       : "default");
-    const Config& c = page.config.config;
+    const NamedConfig config = load_config(name == "penumbra"       ? "soft"
+                                           : name == "three-lights" ? "lights"
+                                           : name == "glass"        ? "glass"
+                                           : name == "polyhedra"    ? "polyhedra"
+                                           : name == "knot"         ? "full"
+                                                                    : "default");
+    const Config& c = config.config;
     const int frames = std::min(8, scene.frame_count());
     report::TokenStore tokens(c, report::kPageBytes);
     double packing = 0;
@@ -71,7 +70,11 @@ int main() {
           return counts;
         },
         *golden, *other, options);
-    page.name = name;
+    report::Page page;
+    page.record.take(run);
+    page.record.scene = name;
+    page.record.config_name = config.name;
+    page.record.config = c;
     page.run = &run;
     page.tokens = &tokens;
     Clock clock;
@@ -81,7 +84,7 @@ int main() {
     const double writing = clock.lap();
     int told = 0;
     for (const report::Band& b : tokens.bands()) told += b.line < 0 ? 0 : report::kBandLines;
-    fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10.3f} {:>10.3f} {:>12} {:>14.1f}\n", name, page.config.name, frames,
+    fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10.3f} {:>10.3f} {:>12} {:>14.1f}\n", name, config.name, frames,
                count, packing, writing, fs::file_size(folder / "report.html"), 100.0 * told / (480.0 * frames));
   }
   fs::remove_all(folder);
