@@ -51,7 +51,7 @@ module line_phase #(
     end else begin
       if (clear_bias_i) bias_q <= '0;
       if (take_i) begin
-        if (order_moves(kind_i)) phase_q <= order_to(kind_i);
+        phase_q <= order_to(kind_i, phase_q);
         marks_q <= (marks_q & ~order_clears(kind_i)) | order_sets(kind_i);
         if (DSF_BITS > 0 && kind_i == KindIf) bias_q <= bias_q + w_i;
         if (FSF > 0 && kind_i == KindEv) bias_q <= '0;

@@ -37,7 +37,7 @@ def run(kage, number, options, out):
 
 def plot(rows, minutes, path):
     """The share that is found against seconds, logarithmic."""
-    width, height, left, right, top, bottom = 640, 360, 56, 16, 16, 44
+    width, height, left, right, top, bottom = 640, 360, 72, 16, 16, 44
     least, most = 0.1, 60 * minutes
 
     def x(s):
@@ -64,12 +64,16 @@ def plot(rows, minutes, path):
             out.append(
                 f'<line x1="{x(seconds):.1f}" x2="{x(seconds):.1f}" y1="{top}" y2="{height - bottom}" stroke="#eee"/>'
             )
+            anchor = "end" if seconds == most else "middle"
             out.append(
-                f'<text x="{x(seconds):.1f}" y="{height - bottom + 18}" text-anchor="middle">{seconds:g} s</text>'
+                f'<text x="{x(seconds):.1f}" y="{height - bottom + 18}" text-anchor="{anchor}">{seconds:g} s</text>'
             )
     out.append(f'<polyline points="{line}" fill="none" stroke="#1f6feb" stroke-width="2"/>')
     out.append(
         f'<text x="{(left + width - right) / 2}" y="{height - 6}" text-anchor="middle">time of kage regress</text>'
+    )
+    out.append(
+        f'<text transform="translate(14 {(top + height - bottom) / 2}) rotate(-90)" text-anchor="middle">mutants found</text>'
     )
     out.append("</svg>")
     pathlib.Path(path).write_text("\n".join(out) + "\n")
@@ -84,11 +88,11 @@ def kind(name):
 
 
 def cosim(kage, line, *more):
-    """The report of a run, and its seconds, the program's start among them."""
+    """The report of a run, and its seconds, the program's start among them. Runs beside each other have folders of their own."""
     start = time.monotonic()
-    done = subprocess.run(
-        [kage, *shlex.split(line)[1:], "--no-report", "--json", "-", *more], capture_output=True, text=True
-    )
+    with tempfile.TemporaryDirectory() as out:
+        command = [kage, *shlex.split(line)[1:], "--no-report", "--json", "-", "--out", out, *more]
+        done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode not in (0, 1):
         sys.exit(f"{line}: exit code {done.returncode}: {done.stderr.strip()}")
     return json.loads(done.stdout), time.monotonic() - start

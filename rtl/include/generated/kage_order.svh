@@ -41,21 +41,13 @@ function automatic logic [Marks-1:0] order_without(input logic [3:0] kind);
   endcase
 endfunction
 
-// Whether it leads to another phase, and to which.
-function automatic logic order_moves(input logic [3:0] kind);
+// The phase behind it. One function of kind and phase: yosys makes smaller logic of it than of two of kind.
+function automatic logic [PhaseBits-1:0] order_to(input logic [3:0] kind, input logic [PhaseBits-1:0] phase);
   unique case (kind)
-    KindSp, KindNc, KindIf, KindResolve: order_moves = DSF_BITS > 0;
-    KindTp: order_moves = TRANSLUCENCY > 0;
-    default: order_moves = 1'b0;
-  endcase
-endfunction
-
-function automatic logic [PhaseBits-1:0] order_to(input logic [3:0] kind);
-  unique case (kind)
-    KindSp, KindNc, KindIf: order_to = PhaseVolume;
-    KindResolve: order_to = PhaseResolved;
-    KindTp: order_to = PhaseTranslucent;
-    default: order_to = PhaseOpaque;
+    KindSp, KindNc, KindIf: order_to = DSF_BITS > 0 ? PhaseVolume : phase;
+    KindResolve: order_to = DSF_BITS > 0 ? PhaseResolved : phase;
+    KindTp: order_to = TRANSLUCENCY > 0 ? PhaseTranslucent : phase;
+    default: order_to = phase;
   endcase
 endfunction
 

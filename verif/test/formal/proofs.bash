@@ -95,10 +95,11 @@ proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 C
 proof line_phase_samples module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1" steps=12 cover=12
 proof line_phase_counts module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=2 TRANSLUCENCY=0" steps=12 cover=12
 proof line_phase_plain module=line_phase rtl=line_phase set="DSF_BITS=0 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
-defect phase_op_in_volume line_phase line_phase.sv 's/KindOp: in_order_o = .*/KindOp: in_order_o = !resolved_o;/'
-defect phase_volume_left_open line_phase line_phase.sv 's/assign volume_done = .*/assign volume_done = 1;/'
-defect phase_sample_left_open line_phase_samples line_phase.sv 's/assign sample_done = .*/assign sample_done = 1;/'
+defect phase_op_in_volume line_phase line_phase.sv 's/assign phases = .*/assign phases = order_in(kind_i) | (kind_i == KindOp ? 4'"'"'b0010 : 4'"'"'b0000);/'
+defect phase_end_of_no_volume line_phase line_phase.sv "s/assign with_marks = .*/assign with_marks = '0;/"
+defect phase_volume_left_open line_phase line_phase.sv 's/assign without_marks = .*/assign without_marks = order_without(kind_i) \& ~MarkVolume;/'
+defect phase_sample_left_open line_phase_samples line_phase.sv 's/assign without_marks = .*/assign without_marks = order_without(kind_i) \& ~MarkSample;/'
 defect phase_tp_unseen line_phase line_phase.sv 's/assign resolved_o = .*/assign resolved_o = phase_q[1];/'
-defect phase_bias_kept line_phase line_phase.sv '/KindEv) begin/,/end/s/bias_q <= .0;/;/'
+defect phase_bias_kept line_phase line_phase.sv "/kind_i == KindEv/s/bias_q <= '0;/;/"
 defect phase_bias_not_cleared line_phase line_phase.sv 's/if (clear_bias_i) bias_q/if (clear_bias_i \&\& resolved_o) bias_q/'
-defect phase_line_leaks line_phase_counts line_phase.sv 's/if (start_i) begin/if (start_i \&\& !volume_open_q) begin/'
+defect phase_line_leaks line_phase_counts line_phase.sv "s/if (start_i) begin/if (start_i \&\& marks_q == '0) begin/"
