@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The phases of a line (docs/stream.md, "Order in a line") and its bias: whether a token may stand where it does. frame_control asks about the
-// token it has and acts on the answer; nothing here waits.
+// The phases of a line (docs/stream.md, "Order in a line") and its bias: whether a token may stand where it does. token_check asks about the
+// token that frame_control has; nothing here waits.
 //
 // Question: kind_i. in_order_o, combinational, for what is of a line by kage_order.svh; 1 for all others.
 // Acts: start_i, one clock, when a line begins, and then take_i does not count; take_i, one clock, when the token was good and has been taken,

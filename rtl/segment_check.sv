@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules for FACE, SEG and TREE (docs/stream.md, "Units and the tree"): what each unit has been given, which tokens may come, and
-// which fault a TREE raises. frame_control asks about the token it has and acts on the answer; nothing here waits.
+// which fault a TREE raises. token_check asks about the token that frame_control has; nothing here waits.
 //
-// Question: is_*_i, at most one, says what the token is, *_i brings its fields; all hold still while the token waits. line_left_i is the height less
+// Question: is_*_i, at most one, says what the token is, *_i brings its fields; all hold still while the token waits. lines_left_i is the height less
 //   the number of EOLs accepted. Every answer is combinational, and valid for the kinds it names.
 // Acts: frame_start_i, one clock, at a good header. take_i, one clock, when the token was good and has been taken; a token that is refused by
 //   any check must not be taken, and then nothing but the next frame_start_i counts.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules for the light table (docs/stream.md, "What a pixel does"): its entries come in order, and no class is used before the
-// frame's table has it whole. frame_control asks about the token it has and acts on the answer; nothing here waits.
+// frame's table has it whole. token_check asks about the token that frame_control has; nothing here waits.
 //
 // Question: class_i and light_i are TABLE's, share_i its shares, span_class_i the class of OP or FACE. Answers are combinational:
 //   order_error_o   TABLE may not come any more: something other than TABLE and FACE has come

@@ -161,7 +161,7 @@ void Fast::move_to(const Eye& eye) {
 
 void Fast::test(double way) {
   path_ += way;
-  // Not ">": of ways that are not known, nothing is.
+  // Written !(a <= b) so that NaN resets the limits.
   if (!(path_ <= kLongestPath)) {
     path_ = 0;
     std::fill_n(limits_.begin(), blocks_, -1.0F);

@@ -48,8 +48,8 @@ endfunction
 
 // Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel, or the tree's, of RESOLVE the
 // background; `count` is the class for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE, {light, bias} for ES; `share`
-// is TP's alpha and RESOLVE's shade. RESOLVE comes only where TPs follow: else the way out darkens. With counters it darkens nothing: where
-// there is something to darken CmdOut lets the line go to the way out and CmdLoad brings its colours back. EOL clears.
+// is TP's alpha and RESOLVE's shade. RESOLVE reaches the pixels only where TPs follow; otherwise line_out darkens. With counters RESOLVE darkens
+// nothing: where there is something to darken CmdOut sends the line to line_out and CmdLoad brings its colours back. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [3:0] kind,
                                                     input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
                                                     input logic [CountBits-1:0] count,

@@ -71,7 +71,7 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
     search.take(rtl.take_events());
     end();
   } catch (const Enough&) {
-    // What the rest of the frame is expected to do is no news of a core that takes no more of it.
+    // If the core hangs, ignore what the rest of the frame would have produced.
     if (rtl.stuck()) found.misconduct = rtl.finish(kNowhere).misconduct;
     if (found.given_up) end();
   }

@@ -43,7 +43,7 @@ class EventSearch : private CoreObserver {
 
   /// The first in the order of tokens and stages, of those seen by now; none if unexpected() comes before it.
   [[nodiscard]] std::optional<Mismatch> first() const { return unexpected_leads() ? std::nullopt : first_; }
-  /// The first event for which no place was.
+  /// First RTL event that matches no expected event.
   [[nodiscard]] const std::optional<kage_rtl_event>& unexpected() const { return unexpected_; }
   /// The first small module that broke its own contract.
   [[nodiscard]] const std::optional<kage_rtl_event>& part() const { return part_; }

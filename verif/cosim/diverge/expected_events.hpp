@@ -55,10 +55,10 @@ class ExpectedEvents : public CoreObserver {
         if (!q.empty()) each(q);
   }
 
-  /// In place of an error that should not be, found at this token.
+  /// Expected event for a token at which the RTL must not report an error.
   [[nodiscard]] static ExpectedEvent no_error(int line, std::uint32_t token);
 
-  /// After an error the tokens that are dropped, and what the lost line would have been, are nobody's concern.
+  /// Whether the frame has an error. From it on the dropped tokens and the lost line are not compared.
   [[nodiscard]] bool failed() const { return failed_; }
 
   /// The token at which the error shows; none before it is dropped.
