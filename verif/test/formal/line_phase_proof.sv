@@ -26,8 +26,8 @@ module line_phase_proof #(
     input wire logic [DsfBits-1:0] w_i
 );
   // The kinds by docs/stream.md.
-  localparam logic [3:0] Op = 4'd6, Sp = 4'd7, Nc = 4'd8, If = 4'd9, Ev = 4'd10, Es = 4'd11, Resolve = 4'd12, Tp = 4'd13;
-  localparam logic [3:0] Eol = 4'd14;
+  localparam logic [3:0] Op = 4'd6, Sp = 4'd7, Nc = 4'd8, If = 4'd9, Ev = 4'd10, Es = 4'd11, Resolve = 4'd12;
+  localparam logic [3:0] Tp = 4'd13, Eol = 4'd14;
 
   logic in_order, resolved;
   logic [DsfBits-1:0] bias;

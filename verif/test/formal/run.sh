@@ -55,9 +55,10 @@ translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, wi
   script="read_verilog -sv ${of[$proof.own_assertions]:+-formal} -Irtl/include ${rtl[*]}; "
   script+="read_verilog -sv -formal -Irtl/include ${own[*]}; "
   for word in ${of[$proof.set]}; do script+="chparam -set ${word%%=*} ${word#*=} $top; "; done
-  script+="hierarchy -check -top $top; proc; flatten; "
+  script+="hierarchy -check -top $top; rename -top $top; proc; flatten; "
+  script+="memory_collect; memory_map; "
   if [ -n "${of[$proof.inside]}" ]; then # before anything is left out that a defect leaves without a use
-    script+="memory_collect; memory_map; cd $top; "
+    script+="cd $top; "
     for word in ${of[$proof.inside]}; do script+="connect -set ${word%%=*} ${word#*=}; "; done
     script+="cd ..; "
   fi
@@ -96,7 +97,7 @@ run_defect() { # NAME: the proof must refute it from reset on; that it is not pr
   sed "${of[$name.expression]}" "rtl/$file" >"$work/$file"
   if cmp -s "$work/$file" "rtl/$file"; then echo "run.sh: $name: changes nothing" >&2; exit 2; fi
   translate "$proof" "$name" "$file"
-  if solve "$name" -t "${of[$proof.steps]}" --keep-going; then :; fi
+  if solve "$name" -t "${of[$proof.defect_steps]:-${of[$proof.steps]}}" --keep-going; then :; fi
   failed=$(sed -n 's/.*Assert failed in [^:]*: //p' "$work/$name.said" | sed 's/ .*//')
   found=$(properties <<<"$failed")
   for property in $found; do refuted[${of[$proof.module]}:$property]=1; done
