@@ -129,3 +129,37 @@ defect reader_ready_falls token_reader_2 token_reader.sv 's/assign s_ready_o = r
 defect reader_standstill token_reader_2 token_reader.sv 's/if (last_q || (push && s_last_i)) begin/if (push \&\& s_last_i) begin/'
 defect reader_idle_unseen token_reader_2 token_reader.sv 's/assign busy_o = .*/assign busy_o = !header_q || beats_q != 0;/'
 defect reader_moves_unseen token_reader_2 token_reader.sv 's/assign moving_o = .*/assign moving_o = take;/'
+
+# ---- line_out --------------------------------------------------------------------------------------------------------
+out_proof() { # NAME STEPS DEFECT_STEPS SET...
+  proof "$1" module=line_out rtl="line_out skid_buffer ram_1r1w light_resolve" rules=stream_rules own_assertions=yes \
+    set="${*:4}" steps="$2" cover="$2" defect_steps="$3"
+}
+out_proof line_out 13 12 MAX_WIDTH=2 LANES=1
+out_proof line_out_groups 14 13 MAX_WIDTH=3 LANES=2
+out_proof line_out_frames 19 18 MAX_WIDTH=1 LANES=1 STALLS=0
+out_proof line_out_resets 12 12 MAX_WIDTH=1 LANES=1 RESETS=1
+out_proof line_out_colors 13 12 MAX_WIDTH=1 LANES=1 LINES=1 DSF_BITS=1 FOLLOWED=8
+out_proof line_out_loads 13 12 MAX_WIDTH=2 LANES=1 DSF_BITS=1 COUNT_BITS=1 TRANSLUCENCY=1 MOST_WAIT=11
+defect out_pixel_lost line_out line_out.sv 's/if (!rst_ni) valid_q <= .*/if (!rst_ni || (start \&\& sending_q)) valid_q <= 0;/'
+defect out_buffers_exchanged line_out line_out.sv "s/rd_addr_q   <= rd_second_q ? '0 : .*/rd_addr_q   <= '0;/"
+defect out_address_stuck line_out_groups line_out.sv 's/rd_addr_q <= rd_addr_q + 1.b1;/rd_addr_q <= rd_addr_q;/'
+defect out_lane_wrong line_out_groups line_out.sv 's/lane_at_q\[LaneBits+:LaneBits\] == LaneBits.(l)/lane_at_q[0+:LaneBits] == LaneBits'"'"'(l)/'
+defect out_last_early line_out line_out.sv "s/assign issue_last = .*/assign issue_last = 1'b1;/"
+defect out_user_each_line line_out line_out.sv 's/first_q <= line_first_i;/first_q <= 1;/'
+defect out_frame_early line_out_frames line_out.sv 's/!line_first_i || valid_q == .0;/1;/'
+defect out_before_it_came line_out line_out.sv 's/assign next_begun = .*/assign next_begun = 1;/'
+defect out_buffer_unfreed line_out line_out.sv "s/taken_q + 2'(exit_take_i) - 2'(line_left)/taken_q + 2'(exit_take_i)/"
+defect out_standstill line_out_frames line_out.sv 's/assign start = .*/assign start = line_valid_i \&\& next_begun \&\& may_start \&\& taken_q[1];/'
+defect out_moves_unseen line_out line_out.sv 's/assign moving_o = .*/assign moving_o = start || (go \&\& sending_q);/'
+defect out_video_falls line_out skid_buffer.sv 's/assign out_free = .*/assign out_free = 1;/'
+defect out_reset_lets_through line_out_resets skid_buffer.sv "s/out_valid_q   <= 1'b0;/out_valid_q <= out_valid_q;/"
+defect out_rounds_down line_out_colors line_out.sv "s/(SHADE_FRAC + 9)'(1 << (SHADE_FRAC - 1));/'0;/"
+defect out_blank_shown line_out_colors line_out.sv 's/ && !blank_at_q\[LightStages+2\]//'
+defect out_load_to_video line_out_loads line_out.sv 's/valid_q\[Depth-1\] && !load_at_q\[Depth-1\]/valid_q[Depth-1]/'
+defect out_load_places line_out_loads line_out.sv 's/load_last_o ? .0 : load_x_q + 1.b1/load_x_q + 1'"'"'b1/'
+defect out_load_moves line_out_loads line_out.sv 's/assign go = load_valid_o ? load_ready_i : video_go;/assign go = load_valid_o || video_go;/'
+defect out_load_falls line_out_loads line_out.sv 's/assign load_valid_o = .*/assign load_valid_o = valid_q[Depth-1] \&\& load_at_q[Depth-1] \&\& !line_valid_i;/'
+defect out_load_in_reset line_out_loads line_out.sv 's/if (!rst_ni) valid_q <= .0;/if (0) ;/'
+defect out_load_early line_out_loads line_out.sv 's/if (!rst_ni) valid_q <= .0;/if (!rst_ni) valid_q <= 1;/'
+defect out_loads_without line_out line_out.sv 's/assign {load_valid_o, load_x_o.*/assign load_valid_o = m_valid_o; assign {load_x_o, load_color_o, load_last_o} = 0;/'
