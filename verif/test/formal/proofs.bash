@@ -140,7 +140,7 @@ out_proof line_out_groups 14 13 MAX_WIDTH=3 LANES=2
 out_proof line_out_frames 19 18 MAX_WIDTH=1 LANES=1 STALLS=0
 out_proof line_out_resets 12 12 MAX_WIDTH=1 LANES=1 RESETS=1
 out_proof line_out_colors 13 12 MAX_WIDTH=1 LANES=1 LINES=1 DSF_BITS=1 FOLLOWED=8
-out_proof line_out_loads 13 12 MAX_WIDTH=2 LANES=1 DSF_BITS=1 COUNT_BITS=1 TRANSLUCENCY=1 MOST_WAIT=11
+out_proof line_out_loads 14 14 MAX_WIDTH=2 LANES=1 DSF_BITS=1 COUNT_BITS=1 TRANSLUCENCY=1 MOST_WAIT=11
 defect out_pixel_lost line_out line_out.sv 's/if (!rst_ni) valid_q <= .*/if (!rst_ni || (start \&\& sending_q)) valid_q <= 0;/'
 defect out_buffers_exchanged line_out line_out.sv "s/rd_addr_q   <= rd_second_q ? '0 : .*/rd_addr_q   <= '0;/"
 defect out_address_stuck line_out_groups line_out.sv 's/rd_addr_q <= rd_addr_q + 1.b1;/rd_addr_q <= rd_addr_q;/'
