@@ -94,9 +94,9 @@ void compare_cost(const Scene& scene, const Config& config, const std::filesyste
       both * 1e3, compared * 1e3, (compared / both - 1) * 100, watched * 1e3);
 }
 
-/// kage cosim with 1, 2, 4 and 8 jobs, as a program. What limits it: the processors, of which one job keeps a little more
-/// than one busy, and the frame before each range but the first, which is run again so that the range finds the core as
-/// one job would. What the processors allow is what as many programs of one job each reach beside each other.
+/// kage cosim with 1, 2, 4 and 8 jobs, as a program. What limits it: the processors, of which one job keeps a little
+/// more than one busy, and the frame before each range but the first, which is run again so that the range finds the
+/// core as one job would. What the processors allow is what as many programs of one job each reach beside each other.
 void jobs_cost() {
   namespace fs = std::filesystem;
   constexpr int kFrames = 96;

@@ -84,8 +84,8 @@ int main() {
     const double writing = clock.lap();
     int told = 0;
     for (const report::Band& b : tokens.bands()) told += b.line < 0 ? 0 : report::kBandLines;
-    fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10.3f} {:>10.3f} {:>12} {:>14.1f}\n", name, config.name, frames,
-               count, packing, writing, fs::file_size(folder / "report.html"), 100.0 * told / (480.0 * frames));
+    fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10.3f} {:>10.3f} {:>12} {:>14.1f}\n", name, config.name, frames, count,
+               packing, writing, fs::file_size(folder / "report.html"), 100.0 * told / (480.0 * frames));
   }
   fs::remove_all(folder);
   return 0;

@@ -240,8 +240,8 @@ struct RunRecord {
   /// The schema of its JSON: "kage.cosim/1".
   [[nodiscard]] std::string_view schema() const;
 
-  /// What to_json() made. Throws Error without a file's name: of another version, or "KEY is not what it should be", with
-  /// its place. What the JSON says twice, as sums, is made anew. Keys that are not known are passed over.
+  /// What to_json() made. Throws Error without a file's name: of another version, or "KEY is not what it should be",
+  /// with its place. What the JSON says twice, as sums, is made anew. Keys that are not known are passed over.
   static RunRecord from_json(const Json& json);
 };
 
