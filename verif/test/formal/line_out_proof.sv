@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of line_out at its ports, to a bound of clocks, for any pixels and any stalls of both ways out (verif/test/formal/run.sh):
-//   pixels       the video is the pixels of the lines without line_load_i, none lost, doubled or out of order, each with the colour that
-//                the module's head gives: the background, its own, or its own times 1 - shade, rounded once;
+// What is proved of line_out at its ports, to a bound of clocks, for any pixels and any stalls of both ways out
+// (verif/test/formal/run.sh):
+//   pixels       the video is the pixels of the lines without line_load_i, none lost, doubled or out of order, each
+//                with the colour that the module's head gives: the background, its own, or its own times 1 - shade,
+//                rounded once;
 //   marks        TUSER is on a frame's first pixel only, TLAST on a line's last only;
 //   loads        with counters and translucency a line with line_load_i leaves by load_*: its places and its end,
 //   load_pixels  and its colours; without them (no_loads) nothing does;
 //   *_early      a line leaves only after it has been announced and has begun to come in;
 //   lines        an announced line is taken only after it has begun to come in;
-//   prompt       while a line is in and announced, a pixel leaves within MOST_WAIT clocks in which the ways out are ready: no standstill;
+//   prompt       while a line is in and announced, a pixel leaves within MOST_WAIT clocks in which the ways out are
+//                ready: no standstill;
 //   buffers      a buffer is free while fewer than two lines are in or on their way;
-//   video.*, load_out.*  what waits stays as it is; reset silences it (stream_rules): m_axis of kage_top is this output;
+//   video.*, load_out.*  what waits stays as it is; reset silences it (stream_rules): m_axis of kage_top is this
+//   output;
 //   moves        while neither moving_o nor a port moves, no valid changes: the watchdog misses nothing.
 // The RTL's own assertions hold as well.
 //
-// How: LINES lines, free but fixed for the run, are the script. The surroundings bring them to both inputs, groups without stops behind
-// exit_take_i, as pixel_core does, and the script says what must come out. Lines of a frame have one width, background and shade.
+// How: LINES lines, free but fixed for the run, are the script. The surroundings bring them to both inputs, groups
+// without stops behind exit_take_i, as pixel_core does, and the script says what must come out. Lines of a frame have
+// one width, background and shade.
 //
-// Why small widths say it for all: pixels and channels are computed alike, each for itself; here is one channel. proofs.bash follows one
-// bit of the colour through lines of up to three pixels in groups of one and two, and all eight bits of a line of one pixel.
+// Why small widths say it for all: pixels and channels are computed alike, each for itself; here is one channel.
+// proofs.bash follows one bit of the colour through lines of up to three pixels in groups of one and two, and all eight
+// bits of a line of one pixel.
 `default_nettype none
 
 module line_out_proof #(

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of line_phase at its ports, to a bound of tokens, for any tokens of a line that are in order (verif/test/formal/run.sh):
-//   order          a token is in order where docs/stream.md ("Order in a line") lets it stand, and nowhere else, for each kind;
+// What is proved of line_phase at its ports, to a bound of tokens, for any tokens of a line that are in order
+// (verif/test/formal/run.sh):
+//   order          a token is in order where docs/stream.md ("Order in a line") lets it stand, and nowhere else, for
+//                  each kind;
 //   resolved_last  resolved_o says that a RESOLVE was the line's last token;
-//   bias_sum       bias_o is the sum of the IFs since the line began, or since the last EV, ES or clearing, modulo 2^DSF_BITS.
+//   bias_sum       bias_o is the sum of the IFs since the line began, or since the last EV, ES or clearing, modulo
+//                  2^DSF_BITS.
 //
-// How: the proof keeps which kinds the line has had, and decides by that; the module keeps a phase. Only tokens that the proof lets
-// stand are taken, of kinds that the configuration has: frame_control takes no others.
+// How: the proof keeps which kinds the line has had, and decides by that; the module keeps a phase. Only tokens that
+// the proof lets stand are taken, of kinds that the configuration has: frame_control takes no others.
 //
-// Why small widths say it for all: a count is only added to, modulo its width. DSF_BITS is 2 here, 1 and 0 besides. proofs.bash has five
-// sets of parameters: with and without FSF, counters and translucency.
+// Why small widths say it for all: a count is only added to, modulo its width. DSF_BITS is 2 here, 1 and 0 besides.
+// proofs.bash has five sets of parameters: with and without FSF, counters and translucency.
 `default_nettype none
 
 module line_phase_proof #(

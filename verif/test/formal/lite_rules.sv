@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an AXI4-Lite port owes to its master; a proof puts it on the wires of the port. The master may do anything, even what AXI4
-// forbids it: nothing is assumed.
+// What an AXI4-Lite port owes to its master; a proof puts it on the wires of the port. The master may do anything, even
+// what AXI4 forbids it: nothing is assumed.
 //
 //   b.*, r.*     responses stay, with what goes with them, until they are taken; reset silences them (stream_rules).
 //   in_reset     nothing is ready in reset, so no request is taken and lost.
-//   b_answers    a write's response answers an address and data that have been taken and not been answered: none too many.
+//   b_answers    a write's response answers an address and data that have been taken and not been answered: none too
+//                many.
 //   r_answers    so does a read's.
-//   b_comes      a write is answered in the second clock after the later of its address and data, or after the answer before it has
-//                been taken.
+//   b_comes      a write is answered in the second clock after the later of its address and data, or after the answer
+//                before it has been taken.
 //   r_comes      a read is answered in the clock after its address.
 //   takes        whatever has no request under way is ready: no standstill.
 //   capacity     at most two addresses, two data and one read are under way.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of a first-in first-out buffer between two valid/ready ports, held against a reference queue. A proof puts it beside the
-// buffer, on the same wires; skid_buffer_proof and stream_fifo_proof do.
+// The rules of a first-in first-out buffer between two valid/ready ports, held against a reference queue. A proof puts
+// it beside the buffer, on the same wires; skid_buffer_proof and stream_fifo_proof do.
 //
-//   order     a word that waits at the output is the oldest of those that went in and have not come out: none lost, doubled or
-//             out of order. Reset empties the queue, so no word comes out after a reset that went in before it.
-//   arrival   a word is at the output one clock after it has become the oldest: the output is valid whenever something is inside.
+//   order     a word that waits at the output is the oldest of those that went in and have not come out: none lost,
+//             doubled or out of order. Reset empties the queue, so no word comes out after a reset that went in before
+//             it.
+//   arrival   a word is at the output one clock after it has become the oldest: the output is valid whenever something
+//             is inside.
 //   capacity  the input is ready whenever less than CAPACITY words are inside, and not otherwise.
-//   deadline  a word leaves within CAPACITY clocks in which the output is ready, whatever else goes on. mark_i, free, chooses the word.
+//   deadline  a word leaves within CAPACITY clocks in which the output is ready, whatever else goes on. mark_i, free,
+//             chooses the word.
 //
 // count_o and words_o are the queue: a proof by induction says with them what the registers of the buffer hold.
 `default_nettype none

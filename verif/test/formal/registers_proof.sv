@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of registers at its ports, for any masters and any events, and a reset at any time (verif/test/formal/run.sh).
+// What is proved of registers at its ports, for any masters and any events, and a reset at any time
+// (verif/test/formal/run.sh).
 //   By induction (MODEL 0): the rules of AXI4-Lite (lite_rules).
-//   To a bound (MODEL 1), against a model of docs/stream.md, and further (MODEL 2) with a plain master, which writes whole words, reads
-//   nothing, and resets at the start only:
+//   To a bound (MODEL 1), against a model of docs/stream.md, and further (MODEL 2) with a plain master, which writes
+//   whole words, reads nothing, and resets at the start only:
 //     interrupt       irq_o is high while a bit of IRQ is set whose bit in CONTROL is, and only then.
-//     bites           once as many clocks as WATCHDOG says have passed in a frame without progress, bit 2 of IRQ is set until it is cleared.
-//     never_before    it is set at no other moment: not sooner, not twice for one standstill, and not with a limit of 0.
-//     value_read      a read gives what the register held in the clock of its address: what was written, counted, or kept of an error
-//                     or of a bite; 0 where there is none.
+//     bites           once as many clocks as WATCHDOG says have passed in a frame without progress, bit 2 of IRQ is set
+//                     until it is cleared.
+//     never_before    it is set at no other moment: not sooner, not twice for one standstill, and not with a limit of
+//                     0.
+//     value_read      a read gives what the register held in the clock of its address: what was written, counted, or
+//                     kept of an error or of a bite; 0 where there is none.
 //     read_answer,    SLVERR for addresses past the last register, OKAY for all others.
 //     write_answer
 // The limit is free, all 32 bits of it: those beyond the bound must not bite within it.
 //
-// How: the model keeps what has been written, by the handshakes alone, and counts how many clocks the present standstill has lasted.
-// It knows nothing of the module's own counter, which stops at the limit.
+// How: the model keeps what has been written, by the handshakes alone, and counts how many clocks the present
+// standstill has lasted. It knows nothing of the module's own counter, which stops at the limit.
 `default_nettype none
 
 module registers_proof #(

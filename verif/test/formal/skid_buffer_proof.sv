@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is proved of skid_buffer, for any stalls of both sides and a reset at any time (verif/test/formal/run.sh):
-//   1. words come out once, in order, one clock after they have become the oldest, within as many ready clocks as words fit;
+//   1. words come out once, in order, one clock after they have become the oldest, within as many ready clocks as words
+//   fit;
 //      two words fit, and the input is ready whenever one more does (queue_rules);
 //   2. an output that waits stays as it is, and reset silences it: m_axis of kage_top is such an output (stream_rules).
 //
-// How: by induction. The queue of queue_rules says what is inside; the ports show both valid bits and the output's register, and
-// lemma_spare says the same of the spare register, which run.sh connects to inside_spare.
+// How: by induction. The queue of queue_rules says what is inside; the ports show both valid bits and the output's
+// register, and lemma_spare says the same of the spare register, which run.sh connects to inside_spare.
 //
-// Why small widths say it for all: no bit of a word is looked at, all are copied alike. BITS bits are free in each word.
+// Why small widths say it for all: no bit of a word is looked at, all are copied alike. BITS bits are free in each
+// word.
 `default_nettype none
 module skid_buffer_proof #(
     parameter int BITS = 2

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a valid/ready output, and so an AXI4-Stream one, owes to whom it feeds; a proof puts it on the wires of the output.
+// What a valid/ready output, and so an AXI4-Stream one, owes to whom it feeds; a proof puts it on the wires of the
+// output.
 //
 //   stays   valid stays until ready.
 //   same    what goes with valid stays as it is until ready.
-//   silent  after a clock of reset nothing is valid, so from the second clock of a reset on, and in the first one behind it.
+//   silent  after a clock of reset nothing is valid, so from the second clock of a reset on, and in the first one
+//           behind it.
 `default_nettype none
 
 module stream_rules #(

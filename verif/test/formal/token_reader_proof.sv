@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of token_reader at its ports, to a bound of clocks, for any words, any stalls of both sides, drops wherever they are
-// allowed, and, to a lesser bound, a reset at any time (verif/test/formal/run.sh):
+// What is proved of token_reader at its ports, to a bound of clocks, for any words, any stalls of both sides, drops
+// wherever they are allowed, and, to a lesser bound, a reset at any time (verif/test/formal/run.sh):
 //   whole        a token is offered only when all its words have come, or TLAST has cut it;
-//   flags        header, lacking, cut and final are right: by the kind of its first word, by where the frame's TLAST lies;
-//   words        the words of a token are the next ones of the frame: none lost, doubled or out of order. After a final token, or
-//                one that is dropped, the next is the header of the next frame;
+//   flags        header, lacking, cut and final are right: by the kind of its first word, by where the frame's TLAST
+//                lies;
+//   words        the words of a token are the next ones of the frame: none lost, doubled or out of order. After a final
+//                token, or one that is dropped, the next is the header of the next frame;
 //   kind_first   so is the kind of its first word;
 //   first_in_last  token_at_last_o says whether the token's first word is in TLAST's beat;
-//   prompt       a token is offered in the second clock after the beat that completes it, or right behind the token before it;
+//   prompt       a token is offered in the second clock after the beat that completes it, or right behind the token
+//                before it;
 //   takes        the input is ready from the second clock on in which no token is complete: no standstill;
-//   ready_stays  a ready input stays ready until a beat comes;  in_reset  and is not ready in reset: no beat is taken and lost;
+//   ready_stays  a ready input stays ready until a beat comes;  in_reset  and is not ready in reset: no beat is taken
+//                and lost;
 //   out.*        a token that waits stays as it is, flags and all; reset silences it (stream_rules);
 //   busy_in_frame  busy_o is high while something of a frame has come in and its end has not been passed on;
 //   still        while neither a port nor moving_o moves, nothing changes: the watchdog misses nothing.
 // The RTL's own assertions hold as well.
 //
-// How: the proof keeps all words that came since reset and how far the tokens have gone: of a word its kind and bit BIT.
+// How: the proof keeps all words that came since reset and how far the tokens have gone: of a word its kind and bit
+// BIT.
 //
-// Why that says it for all: but for the kind no bit of a word is looked at, all are copied alike. The parameters of proofs.bash make tokens of one, two
-// and three words and a header of five, in beats of one, two and four: tokens that share a beat, and tokens of several.
+// Why that says it for all: but for the kind no bit of a word is looked at, all are copied alike. The parameters of
+// proofs.bash make tokens of one, two and three words and a header of five, in beats of one, two and four: tokens that
+// share a beat, and tokens of several.
 `default_nettype none
 
 module token_reader_proof #(
