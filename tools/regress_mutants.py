@@ -79,6 +79,13 @@ def plot(rows, minutes, path):
     pathlib.Path(path).write_text("\n".join(out) + "\n")
 
 
+def write_whole(path, rows):
+    """The file is there whole or as it was before."""
+    part = pathlib.Path(f"{path}.part")
+    part.write_text(json.dumps(rows, indent=1) + "\n")
+    part.replace(path)
+
+
 KINDS = ("random", "damaged", "mixed", "scene")  # in the order of a round of kage regress
 
 
@@ -179,6 +186,8 @@ def main():
     ]
     if options.sample and options.sample < len(chosen):
         chosen = sorted(random.Random(options.seed).sample(chosen, options.sample), key=lambda c: c[0])
+    if options.each and options.resume:
+        sys.exit("tools/regress-mutants: --each begins anew: leave out --resume")
     if options.each:
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             rows = []
@@ -197,13 +206,20 @@ def main():
             sys.exit("tools/regress-mutants: --resume needs --json FILE")
         if pathlib.Path(options.json).exists():
             kept = {row["name"]: row for row in json.loads(pathlib.Path(options.json).read_text())}
+        asked = (options.seed, options.minutes)
+        others = [n for n, row in kept.items() if (row.get("seed"), row.get("minutes")) != asked]
+        if others:
+            sys.exit(f"tools/regress-mutants: {options.json}: {others[0]} was run with another --seed or --minutes")
     with tempfile.TemporaryDirectory() as out:
         for number, mutant in chosen:
-            row = kept.get(mutant["name"]) or {"name": mutant["name"], **run(options.kage, number, options, out)}
+            row = kept.get(mutant["name"])
+            if not row:
+                row = {"name": mutant["name"], "seed": options.seed, "minutes": options.minutes}
+                row |= run(options.kage, number, options, out)
             rows.append(row)
             if options.json:
                 unmet = [r for n, r in kept.items() if n not in {row["name"] for row in rows}]
-                pathlib.Path(options.json).write_text(json.dumps(rows + unmet, indent=1) + "\n")
+                write_whole(options.json, rows + unmet)
             verdict = f"{row['seconds']:7.1f} s  {row['run']}" if row["found"] else "  not found"
             print(f"{row['name']:<28} {verdict}", flush=True)
     found = [r["seconds"] for r in rows if r["found"]]

@@ -18,21 +18,32 @@ FrameStatus Renderer::frame(int index, const LineSink& sink, const WordSink& wor
       Stopwatch watch(seconds_);
       core_.feed(piece, watch.outside(sink));
     });
+    Stopwatch watch(seconds_);
+    return core_.finish(watch.outside(sink));
   } catch (...) {
     core_ = GoldenCore(source_->config());  // what came of the frame is forgotten
     throw;
   }
-  Stopwatch watch(seconds_);
-  return core_.finish(watch.outside(sink));
 }
 
 Image Renderer::image(int index) {
-  std::vector<std::uint8_t> data;
-  const FrameStatus status =
-      frame(index, [&](int, std::span<const std::uint8_t> line) { data.insert(data.end(), line.begin(), line.end()); });
+  Image image;
+  std::vector<std::uint32_t> head;  // of the header: the picture's size
+  const FrameStatus status = frame(
+      index,
+      [&](int y, std::span<const std::uint8_t> line) {
+        if (y == 0) {
+          const FrameHeader header = FrameHeader::read(head);
+          image = Image(header.width, header.height, source_->config().channels);
+        }
+        std::copy(line.begin(), line.end(), image.data.begin() + static_cast<std::ptrdiff_t>(image.index(0, y)));
+      },
+      [&](std::span<const std::uint32_t> words) {
+        if (head.size() < kHeaderWords)
+          head.insert(head.end(), words.begin(),
+                      words.begin() + static_cast<std::ptrdiff_t>(std::min(words.size(), kHeaderWords - head.size())));
+      });
   if (status.error != ErrorCode::NONE) throw Error(fmt::format("frame {}: {}", index, describe(status)));
-  Image image(status.width, status.height, source_->config().channels);
-  image.data = std::move(data);
   return image;
 }
 

@@ -20,13 +20,18 @@ class Stopwatch {
   LineSink outside(const LineSink& sink) {
     return [this, &sink](int y, std::span<const std::uint8_t> pixels) {
       stop();
+      const Restart restart{start_};  // even if the sink throws: its time is never counted
       sink(y, pixels);
-      start_ = Clock::now();
     };
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  struct Restart {
+    Clock::time_point& start;
+    ~Restart() { start = Clock::now(); }
+  };
 
   void stop() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
 

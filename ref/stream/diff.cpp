@@ -161,7 +161,7 @@ class FrameComparer {
   [[nodiscard]] std::string field(Words a, Words b) const {
     if (a.empty() || b.empty()) return "token";
     if (!is_token(a) || !is_token(b)) return "words";
-    const std::optional<FieldDiff> in_field = first_field_diff(config_, a, b);
+    const std::optional<FieldDiff> in_field = first_field_diff(config_, layout_, a, b);
     return in_field ? in_field->name : "bits behind the last field";  // which are zero in checked frames
   }
 

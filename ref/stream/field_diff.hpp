@@ -22,8 +22,8 @@ struct FieldDiff {
 
 /// The first field in which two tokens differ; nothing if they are equal up to their last field. Tokens of two kinds
 /// differ in their kind and need not be of one length.
-inline std::optional<FieldDiff> first_field_diff(const Config& config, std::span<const std::uint32_t> a,
-                                                 std::span<const std::uint32_t> b) {
+inline std::optional<FieldDiff> first_field_diff(const Config& config, const Layout& layout,
+                                                 std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   BitUnpacker of_a(a);
   BitUnpacker of_b(b);
   const Field kind{0, 4, false};
@@ -31,7 +31,7 @@ inline std::optional<FieldDiff> first_field_diff(const Config& config, std::span
   if (found->a != found->b) return found;
   const auto of = static_cast<Kind>(found->a);
   found.reset();
-  each_field(config, Layout(config), of, [&](const char* name, int channel, Field f) {
+  each_field(config, layout, of, [&](const char* name, int channel, Field f) {
     if (found) return;
     const std::int64_t va = of_a.take(f);
     const std::int64_t vb = of_b.take(f);

@@ -31,7 +31,7 @@ std::optional<MismatchText> describe_words(const Config& config, const Mismatch&
     if (at == kHeaderWords) return std::nullopt;
     return MismatchText{kNames[at], fmt::format("{:#010x}", expected[at]), fmt::format("{:#010x}", actual[at])};
   }
-  const auto field = first_field_diff(config, expected, actual);
+  const auto field = first_field_diff(config, Layout(config), expected, actual);
   if (!field) return std::nullopt;
   const auto text = [&](std::int64_t value) {
     if (field->name == "kind") return std::string(kKindNames[static_cast<std::size_t>(value)]);

@@ -64,7 +64,8 @@ struct FrameParts {
 /// The frames of a scene. Order and shadows that do not change are kept from frame to frame, which changes no word.
 class SceneFrames : public FrameSource {
  public:
-  /// Drawn with `config`. What `config` lacks of the scene's needs (needs_of(), lacks()) is left out of the picture.
+  /// Drawn with `config`. Throws Error if `options` are not as they say. What `config` lacks of the scene's needs
+  /// (needs_of(), lacks()) is left out of the picture.
   SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options = {});
 
   /// Drawn with the first named configuration that has all that the first frame needs. Throws Error if none has.
@@ -77,7 +78,7 @@ class SceneFrames : public FrameSource {
   /// As frame(); `parts` is filled before `sink` gets the first words.
   TokenCounts frame(int index, const WordSink& sink, FrameParts& parts);
 
-  /// What the tokens of frame `index` come from. `sink` gets the frame's words.
+  /// What the tokens of frame `index` come from. `sink` gets the frame's words, which are not checked once more.
   Provenance provenance(int index, const WordSink& sink);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }

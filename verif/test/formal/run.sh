@@ -65,6 +65,8 @@ translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, wi
   script+="prep -top $top; $lower setundef -undriven -anyseq; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2"
   yosys -q -l "$work/$name.log" -p "$script" >"$work/$name.out" 2>&1 ||
     { echo "run.sh: $name: yosys failed" >&2; tail -5 "$work/$name.out" >&2; exit 2; }
+  # A name that is nowhere would be a free bit, which refutes everything.
+  if grep -h -m1 "implicitly declared" "$work/$name.log" "$work/$name.out" >&2; then echo "run.sh: $name: names what is not there" >&2; exit 2; fi
   # A proof of nothing succeeds.
   for word in assert cover; do
     grep -q "^; yosys-smt2-$word " "$work/$name.smt2" || { echo "run.sh: $name: no $word reaches the solver" >&2; exit 2; }
@@ -98,6 +100,7 @@ run_defect() { # NAME: the proof must refute it from reset on; that it is not pr
   if cmp -s "$work/$file" "rtl/$file"; then echo "run.sh: $name: changes nothing" >&2; exit 2; fi
   translate "$proof" "$name" "$file"
   if solve "$name" -t "${of[$proof.defect_steps]:-${of[$proof.steps]}}" --keep-going; then :; fi
+  grep -qi "Status: \(passed\|failed\)" "$work/$name.said" || { echo "run.sh: $name: the solver gave no answer" >&2; exit 2; }
   failed=$(sed -n 's/.*Assert failed in [^:]*: //p' "$work/$name.said" | sed 's/ .*//')
   found=$(properties <<<"$failed")
   for property in $found; do refuted[${of[$proof.module]}:$property]=1; done
