@@ -335,6 +335,8 @@ class Codec:
 
     def unpack(self, words, at=0):
         """The token whose words begin there, and how many they are."""
+        if at >= len(words):
+            raise ValueError("the words end where a token should begin")
         kind = words[at] & 15
         if kind not in self.names:
             raise ValueError(f"kind {kind}, which is no token here")
@@ -352,6 +354,9 @@ class Codec:
                 token[field] = value
             else:
                 token.setdefault(field, []).append(value)
+        used = max((lsb + bits for _, _, lsb, bits, _ in places), default=4)
+        if whole >> used:
+            raise ValueError(f"{name}: bits behind its last field are set")
         return token, count
 
     def pack(self, token):
@@ -360,6 +365,9 @@ class Codec:
         if name not in self.layout:
             raise ValueError(f"{name}, which is no token here")
         places, count = self.layout[name]
+        unknown = set(token) - {"kind"} - {place[0] for place in places}
+        if unknown:
+            raise ValueError(f"{name} has no {min(unknown)} here")
         whole = TOKENS[name][0]
         for field, channel, lsb, bits, signed in places:
             value = token.get(field, 0 if channel < 0 else (0,) * self.config.CHANNELS)
@@ -371,13 +379,18 @@ class Codec:
         return [whole >> 32 * i & 0xFFFFFFFF for i in range(count)]
 
     def tokens(self, words):
-        """The tokens of a frame, behind its header, up to END."""
-        at = len(HEADER)
+        """The tokens of a frame, behind its header, up to END, which is the last. An error names the token."""
+        at, index = len(HEADER), 1
         while True:
-            token, count = self.unpack(words, at)
+            try:
+                token, count = self.unpack(words, at)
+            except ValueError as e:
+                raise ValueError(f"token {index}, word {at}: {e}") from None
             yield token
-            at += count
+            at, index = at + count, index + 1
             if token["kind"] == "END":
+                if at != len(words):
+                    raise ValueError(f"{len(words) - at} words behind END")
                 return
 
     def text(self, token):
@@ -434,18 +447,26 @@ FILE_MAGIC = b"KAGESTRM"
 
 
 def read_sections(data):
-    """The sections of a stream file: (tag, payload), one after the other, checksums right."""
+    """The sections of a stream file: (tag, payload), one after the other, checksums right, DONE the last."""
     if data[:8] != FILE_MAGIC:
         raise ValueError("no stream file")
-    at, headers = 8, 0
+    at, headers, tag = 8, 0, b""
     while at < len(data):
+        if at + 16 > len(data):
+            raise ValueError(f"byte {at}: the file is cut in a section's head")
+        if tag == b"DONE":
+            raise ValueError(f"byte {at}: a section behind DONE")
         tag, crc, size = struct.unpack_from("<4sIQ", data, at)
+        if at + 16 + (size + 7) // 8 * 8 > len(data):
+            raise ValueError(f"byte {at}: the file is cut in {tag.decode(errors='replace')}")
         payload = data[at + 16 : at + 16 + size]
         if zlib.crc32(payload) != crc or (tag == b"DONE" and struct.unpack("<QI", payload)[1] != headers):
-            raise ValueError(f"byte {at}: the checksum of {tag.decode()} is wrong")
+            raise ValueError(f"byte {at}: the checksum of {tag.decode(errors='replace')} is wrong")
         yield tag.decode(), payload
         headers = zlib.crc32(data[at : at + 16], headers)
         at += 16 + (size + 7) // 8 * 8
+    if tag != b"DONE":
+        raise ValueError("the file lacks DONE, its last section: it is cut")
 
 
 def write_sections(sections):

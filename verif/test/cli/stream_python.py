@@ -73,6 +73,38 @@ for words in ([0], [13], [6]):  # no kind, one that the configuration lacks, a c
     except ValueError:
         continue
     fail(f"{words} is unpacked")
+for wrong in ({"kind": "OP", "xll": 3}, {"kind": "EOL", "y": 2**16}):  # a field that there is not; one that is too large
+    try:
+        codec.pack(wrong)
+    except ValueError:
+        continue
+    fail(f"{wrong} is packed")
+
+
+def refused(text, work):
+    """What `work` does has to end in a ValueError that says `text`."""
+    try:
+        work()
+    except ValueError as e:
+        if text in str(e):
+            return
+        fail(f"{e} and not {text}")
+    fail(f"not refused: {text}")
+
+
+frame = codec.write_header(width=4, height=1, background=0, frame=0) + codec.pack({"kind": "EOL", "y": 0})
+end = codec.pack({"kind": "END"})
+list(codec.tokens(frame + end))  # is whole
+refused("token 2, word 6: the words end where a token should begin", lambda: list(codec.tokens(frame)))
+refused("1 words behind END", lambda: list(codec.tokens(frame + end + [0])))
+refused("END: bits behind its last field are set", lambda: list(codec.tokens(frame + [end[0] | 1 << 31])))
+data = pathlib.Path(files[0]).read_bytes()
+for size in (*range(8, len(data), max(1, len(data) // 300)), *range(len(data) - 40, len(data))):  # cut anywhere
+    refused("cut", lambda size=size: list(ks.read_sections(data[:size])))
+spoilt = bytearray(data)
+spoilt[40] ^= 1
+refused("the checksum of CONF is wrong", lambda: list(ks.read_sections(bytes(spoilt))))
+refused("no stream file", lambda: list(ks.read_sections(b"PNG")))
 if ks.Config(MAX_WIDTH=2048).faults() != ["MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width"]:
     fail(ks.Config(MAX_WIDTH=2048).faults())
 print(" ".join(sorted(kinds)))
