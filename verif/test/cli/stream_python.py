@@ -73,7 +73,10 @@ for words in ([0], [13], [6]):  # no kind, one that the configuration lacks, a c
     except ValueError:
         continue
     fail(f"{words} is unpacked")
-for wrong in ({"kind": "OP", "xll": 3}, {"kind": "EOL", "y": 2**16}):  # a field that there is not; one that is too large
+for wrong in (
+    {"kind": "OP", "xll": 3},
+    {"kind": "EOL", "y": 2**16},
+):  # a field that there is not; one that is too large
     try:
         codec.pack(wrong)
     except ValueError:
