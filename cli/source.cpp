@@ -95,7 +95,7 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);
   stream_ = std::make_shared<const StreamFile>(options.input);
-  draw();
+  open_frames();
   name_ = plain_name(options.input);
   frames_ = stream_->frame_count();
   if (options.frames > frames_)
@@ -112,7 +112,7 @@ void Source::open_stream(const Options& options) {
 
 void Source::open_scene(const Options& options) {
   load_scene(options);
-  draw();
+  open_frames();
   remarks_.emplace(config_.config, options.size, options.cull);
 }
 
@@ -149,7 +149,6 @@ void Source::load_scene(const Options& options) {
   config_ = load_config(options.config);
   std::vector<std::string> missing = lacks(config_.config, needs);
   if (!missing.empty() && options.degrade) {
-    if (needs.samples >> config_.config.count_bits != 0) options_.samples = 1;  // no soft shadows
     degraded_ = missing;
     needs.shadows = needs.smooth = needs.color = needs.translucency = false;
     needs.lights = needs.samples = 1;
@@ -166,7 +165,7 @@ void Source::load_scene(const Options& options) {
 }
 
 // Each source has its own, which keep what does not change from frame to frame.
-void Source::draw() {
+void Source::open_frames() {
   if (stream_) {
     stream_frames_ = std::make_unique<StreamFrames>(stream_);
     return;
@@ -197,7 +196,7 @@ std::unique_ptr<Source> Source::share(int last) const {
   s->stream_ = stream_;
   s->scene_ = scene_;
   s->random_ = random_;
-  if (!random_) s->draw();
+  if (!random_) s->open_frames();
   s->count_anew(last);
   return s;
 }

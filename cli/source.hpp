@@ -101,7 +101,7 @@ class Source : public FrameSource {
   void load_scene(const Options& options);
 
   Source() = default;
-  void draw();
+  void open_frames();
 
   Options options_;
   NamedConfig config_;

@@ -34,7 +34,7 @@ module line_phase #(
   logic [Marks-1:0] marks_q;
   logic [DsfBits-1:0] bias_q;
 
-  logic [3:0] phases;  // in which the token may stand
+  logic [Phases-1:0] phases;  // in which the token may stand
   logic [Marks-1:0] with_marks, without_marks;
   assign phases = order_in(kind_i);
   assign with_marks = order_with(kind_i);

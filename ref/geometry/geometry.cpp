@@ -100,7 +100,8 @@ class Builder {
     for (std::size_t l = 0; l < frame_->lights.size(); ++l) {
       std::vector<LightPoint> points{frame_->lights[l]};  // the middle, then the samples unless they are the middle
       if (l < casting_ && config_->count_bits > 0) {
-        const auto samples = light_points(frame_->lights[l], look_->samples, look_->seed + l);
+        const bool fits = !look_->fit || look_->samples >> config_->count_bits == 0;
+        const auto samples = light_points(frame_->lights[l], fits ? look_->samples : 1, look_->seed + l);
         if (samples.size() > 1) points.insert(points.end(), samples.begin(), samples.end());
         if (samples.size() >> config_->count_bits > 0)
           throw Error(

@@ -46,12 +46,11 @@ SceneFrames::SceneFrames(std::shared_ptr<const Scene> scene, const Config& confi
   if (options_.name.empty()) options_.name = scene_->name();
 }
 
-SceneFrames::SceneFrames(Scene scene, DrawOptions options)
-    : config_(chosen(scene, options)), options_(std::move(options)), order_(options_.order) {
-  scene_ = std::make_shared<const Scene>(std::move(scene));
-  frames_ = options_.frames > 0 ? options_.frames : scene_->frame_count();
-  if (options_.name.empty()) options_.name = scene_->name();
-}
+SceneFrames::SceneFrames(std::shared_ptr<const Scene> scene, const DrawOptions& options)
+    : SceneFrames(scene, chosen(*scene, options), options) {}  // a copy: chosen() reads it
+
+SceneFrames::SceneFrames(Scene scene, const DrawOptions& options)
+    : SceneFrames(std::make_shared<const Scene>(std::move(scene)), options) {}
 
 TokenCounts SceneFrames::frame(int index, const WordSink& sink) {
   FrameParts parts;

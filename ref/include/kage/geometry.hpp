@@ -194,9 +194,10 @@ struct Look {
   bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
   VolumeWay volumes = VolumeWay::fewest;
   bool leave_out = true;  ///< shadows that can meet nothing seen, which changes no picture
-  bool fit = false;       ///< without FSF only the first volume of each light sample stays: the first in draw order of
-                          ///< those that meet something seen, so that it may be another's in the next frame.
-                          ///< FrameGeometry::left_out counts the others. Else make_frame() refuses the frame
+  bool fit = false;  ///< the picture is made to fit the configuration, where it would be refused: a light whose samples
+                     ///< COUNT_BITS does not hold is its middle, and without FSF only the first volume of each light
+                     ///< sample stays. It is the first in draw order of those that meet something seen, so it may be
+                     ///< another's in the next frame; FrameGeometry::left_out counts the others
   bool cull = false;  ///< faces are not drawn if the eye sees the side that their material does not show (Sides); they
                       ///< cast shadows all the same
   TranslucentWay translucent = TranslucentWay::exact;

@@ -69,7 +69,8 @@ class SceneFrames : public FrameSource {
   SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options = {});
 
   /// Drawn with the first named configuration that has all that the first frame needs. Throws Error if none has.
-  explicit SceneFrames(Scene scene, DrawOptions options = {});
+  explicit SceneFrames(std::shared_ptr<const Scene> scene, const DrawOptions& options = {});
+  explicit SceneFrames(Scene scene, const DrawOptions& options = {});
 
   [[nodiscard]] const Config& config() const override { return config_; }
   [[nodiscard]] int frames() const override { return frames_; }

@@ -4,6 +4,7 @@
 // verilog_lint: waive-start line-length
 /* verilator lint_off UNUSEDPARAM */
 // The phases and marks of a line, those that line_phase keeps.
+localparam int Phases = 4;
 localparam int PhaseBits = 2;
 localparam logic [PhaseBits-1:0] PhaseOpaque = PhaseBits'(0);  // a line without its volumes
 localparam logic [PhaseBits-1:0] PhaseVolume = PhaseBits'(1);  // a line within its volumes
@@ -14,7 +15,7 @@ localparam logic [Marks-1:0] MarkVolume = Marks'(FSF > 0 ? 1 : 0);  // a volume 
 localparam logic [Marks-1:0] MarkSample = Marks'(COUNT_BITS > 0 ? 2 : 0);  // a sample is open
 
 // Bit p: a token of this kind may stand in phase p. For what is not of a line line_phase does not say.
-function automatic logic [3:0] order_in(input logic [3:0] kind);
+function automatic logic [Phases-1:0] order_in(input logic [3:0] kind);
   unique case (kind)
     KindOp: order_in = 4'b0001;
     KindSp, KindNc, KindIf: order_in = 4'b0011;
