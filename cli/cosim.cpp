@@ -154,10 +154,11 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
   options_of_frames(*c, o);
   option_json(*c, o);
   option_rtl(*c, o.rtl);
-  c->add_option("--jobs", o.jobs,
-                "RTL models at a time, each with frames of its own; default one per processor, within half of the\n"
-                "memory at 256 MiB a job. What is found does not depend on it, but for what only a history of more\n"
-                "than one frame shows: --jobs 1 has it")
+  c->add_option(
+       "--jobs", o.jobs,
+       "RTL models that run at the same time, each with frames of its own; default one per processor, as far as "
+       "half of the memory holds 256 MiB for each. The result is the same for every N, except for a defect "
+       "that needs a history of several frames: only --jobs 1 gives each frame all frames before it")
       ->check(whole_number(1, 4096))
       ->type_name("N");
   option_cache_verdicts(*c, o.cache_verdicts);

@@ -35,10 +35,13 @@ void option_cache_verdicts(CLI::App& command, bool& cache) {
         ->trigger_on_parse();
   };
   flag("--cache-verdicts", true,
-       "do not run a frame again of which an earlier run with this option said that it is the same: with the same\n"
-       "words behind the same frame (--jobs 1: behind the same frames), RTL, configuration, stalls and seed.\n"
-       "Verdicts are kept in ~/.cache/kage/verdicts. None is taken or kept with --fault");
-  flag("--no-cache-verdicts", false, "run every frame: it undoes a --cache-verdicts before it; the default");
+       "skip a frame that an earlier run with this option found the same, if its words, the frame before it (with "
+       "--jobs 1 "
+       "all frames before it), the RTL, the configuration, the stalls and the seed are those of the earlier run. "
+       "Verdicts "
+       "are kept in ~/.cache/kage/verdicts; a run with --fault leaves them alone");
+  flag("--no-cache-verdicts", false,
+       "run every frame, also where --cache-verdicts stands before this option; the default");
 }
 
 void SceneRun::no_verdicts(std::string why) {

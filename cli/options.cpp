@@ -157,7 +157,7 @@ static void option_cull(CLI::App& command, Options& options) {
 static void option_lights(CLI::App& command, Options& options) {
   command
       .add_option("--samples", options.samples,
-                  fmt::format("points that stand for a light that is no point itself: a disc, rectangle or sphere; "
+                  fmt::format("points that stand for an area light (a disc, rectangle or sphere); "
                               "default {}",
                               options.samples))
       ->check(whole_number(1, kMaxSamples))
