@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+"""See tools/fpga."""
+
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import sys
+import time
+
+import core
+import flow
+import programs
+import timing
+from trouble import Trouble
+
+
+class Progress:
+    """A line a step, with its seconds, on standard error."""
+
+    def __init__(self):
+        self.steps = {}
+
+    def step(self, title, work):
+        start = time.monotonic()
+        done = work()
+        seconds = time.monotonic() - start
+        self.steps[title] = seconds
+        print(f"{title:<28} {seconds:6.1f} s", file=sys.stderr, flush=True)
+        return done
+
+
+def netlist_of(folder, design):
+    text = json.loads((folder / f"{design.name}.json").read_text())
+    return text["modules"][design.top]
+
+
+def measure(tools, device, design, seeds, folder, progress, title):
+    """Synthesizes and places by every seed; gives the reports."""
+    progress.step(f"{title}: synthesis", lambda: flow.synthesize(tools, device, design, folder))
+    return [
+        progress.step(f"{title}: place, seed {s}", lambda s=s: flow.place(tools, device, design, folder, s))
+        for s in range(1, seeds + 1)
+    ]
+
+
+def figures_of(top, device, what, options, tools, folder):
+    progress = Progress()
+    bits = what.loop_bits
+    yardsticks = {}
+    for name in ("least_loop", "lone_adder"):
+        design = flow.Design(name, name, {"BITS": bits})
+        reports = measure(tools, device, design, options.seeds, folder, progress, name.replace("_", " "))
+        yardsticks[name] = flow.spread([flow.clock_of(r) for r in reports])
+    design = flow.Design("kage", "kage_wrap", what.values)
+    reports = measure(tools, device, design, options.seeds, folder, progress, "core")
+    clocks = [flow.clock_of(r) for r in reports]
+    median = sorted(range(len(clocks)), key=lambda i: clocks[i])[(len(clocks) - 1) // 2]
+    bitstream = progress.step("bitstream", lambda: flow.pack(tools, device, design, folder, median + 1))
+    netlist = netlist_of(folder, design)
+    modules = json.loads((folder / "kage-modules.json").read_text())["modules"]
+    places = timing.Places(modules, next(n for n in modules if timing.Places.plain(n) == "kage_wrap"), netlist)
+    report = reports[median]
+    return {
+        "schema": "kage.fpga/1",
+        "device": device.name,
+        "core": what.name,
+        "parameters": what.parameters,
+        "tools": {n: tools.find(n).version for n in ("yosys", f"nextpnr-{device.family}")},
+        "cells": flow.cells_of(device, report, netlist),
+        "clock_mhz": flow.spread(clocks),
+        "least_loop_mhz": yardsticks["least_loop"],
+        "lone_adder_mhz": yardsticks["lone_adder"],
+        "loop_bits": bits,
+        "share": flow.spread(clocks)["median"] / yardsticks["least_loop"]["median"],
+        "worst_path": timing.worst_path(report, places),
+        "worst_endpoints": timing.worst_endpoints(report, places, 10),
+        "bitstream": bitstream,
+        "seconds": progress.steps,
+    }
+
+
+def tell(f):
+    """The figures for people."""
+    clock, loop, adder = (f[k]["median"] for k in ("clock_mhz", "least_loop_mhz", "lone_adder_mhz"))
+    seeds = len(f["clock_mhz"]["all"])
+    print(f"{f['device']}, {f['core']}; " + ", ".join(f"{k} {v}" for k, v in f["tools"].items()))
+    print("  ".join(f"{k.upper()} {v['used']} of {v['available']}" for k, v in f["cells"].items()))
+    text = f"clock {clock:.1f} MHz"
+    if seeds > 1:
+        text += f" (median of {seeds} seeds; worst {f['clock_mhz']['worst']:.1f}, best {f['clock_mhz']['best']:.1f})"
+    print(
+        f"{text}: {100 * f['share']:.0f} % of the least loop of {f['loop_bits']} bits, {loop:.1f} MHz; a lone adder reaches {adder:.1f}"
+    )
+    p = f["worst_path"]
+    print(f"worst path {p['ns']:.2f} ns, logic {p['logic_ns']:.2f}, route {p['route_ns']:.2f}: {p['from']}")
+    for module, cells in p["through"]:
+        print(f"    through {cells} cell{'s' if cells > 1 else ''} of {module}")
+    print(f"    to {p['to']}")
+    print("latest registers:")
+    for row in f["worst_endpoints"]:
+        print(f"    {row['ns']:6.2f} ns  {row['register']}")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/fpga", add_help=False, allow_abbrev=False)
+    parser.add_argument("--top", type=pathlib.Path, required=True)
+    parser.add_argument("--wheels", type=pathlib.Path, required=True)
+    parser.add_argument("device")
+    parser.add_argument("core", nargs="*")
+    parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--out", type=pathlib.Path)
+    parser.add_argument("--json")
+    parser.add_argument("--tools", choices=("wheels", "system"), default="wheels")
+    options = parser.parse_args()
+    if not 1 <= options.seeds <= 100:
+        raise Trouble(f"--seeds {options.seeds}: legal is 1 .. 100")
+    top = options.top
+    device = core.find_device(top, options.device)
+    what = core.find_core(top, options.core)
+    out = options.out or top / "build/fpga" / f"{device.name}-{what.name}"
+    work = out.with_name(f"{out.name}.part{os.getpid()}")
+    tools = programs.Programs(options.tools, options.wheels, top)
+    try:
+        work.mkdir(parents=True)
+        shutil.copytree(top / "rtl", work / "rtl")
+        shutil.copytree(top / "constraints", work / "constraints")
+        figures = figures_of(top, device, what, options, tools, work)
+        (work / "figures.json").write_text(json.dumps(figures, indent=2) + "\n")
+        for folder in ("rtl", "constraints"):
+            shutil.rmtree(work / folder)
+        if out.exists():
+            shutil.rmtree(out)
+        work.rename(out)
+    except OSError as e:
+        raise Trouble(f"{e.filename}: {e.strerror}") from e
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+    if options.json == "-":
+        print(json.dumps(figures, indent=2))
+        return
+    tell(figures)
+    print(f"bitstream, netlist, logs: {out}")
+    if options.json:
+        pathlib.Path(options.json).write_text(json.dumps(figures, indent=2) + "\n")
+
+
+try:
+    main()
+except Trouble as trouble:
+    print(f"tools/fpga: {trouble}", file=sys.stderr)
+    sys.exit(2)
+except KeyboardInterrupt:
+    sys.exit(130)

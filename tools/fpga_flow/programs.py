@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""yosys, nextpnr and the packers: where they are, which version, and running one with its output in a log."""
+
+import dataclasses
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+from trouble import Trouble
+
+# Debian packages, and the oldest version that the flow was tried with.
+PROGRAMS = {
+    "yosys": ("yosys", (0, 23)),
+    "nextpnr-ecp5": ("nextpnr-ecp5", (0, 7)),
+    "nextpnr-ice40": ("nextpnr-ice40", (0, 7)),
+    "ecppack": ("prjtrellis", None),
+    "icepack": ("fpga-icestorm", None),
+}
+
+
+@dataclasses.dataclass
+class Program:
+    name: str
+    command: tuple
+    version: str
+
+
+class Programs:
+    def __init__(self, which, wheels, top):
+        self.which, self.wheels, self.top = which, wheels, top
+        self.environment = dict(os.environ)
+        if which == "wheels":
+            # The wheels hold WebAssembly, which is compiled once for this machine and kept.
+            self.environment["YOWASP_CACHE_DIR"] = str(wheels / "compiled")
+            self.environment["PYTHONPATH"] = str(wheels)
+
+    def find(self, name):
+        if self.which == "wheels":
+            path = self.wheels / "bin" / f"yowasp-{name}"
+            if not path.is_file():
+                raise Trouble(f"{path}: missing; tools/deps fpga installs it")
+            command = (sys.executable, str(path))
+        else:
+            path = shutil.which(name)
+            if not path:
+                raise Trouble(
+                    f"{name}: not found; Debian's package is {PROGRAMS[name][0]}, or leave --tools system out"
+                )
+            command = (path,)
+        program = Program(name, command, "")
+        oldest = PROGRAMS[name][1]
+        if oldest:
+            text = self.output([*command, "-V" if name == "yosys" else "--version"])
+            m = re.search(r"(\d+)\.(\d+)(?:\.(\d+))?", text)
+            if not m:
+                raise Trouble(f"{name}: says no version: {text.strip()[:80]}")
+            program.version = m.group(0)
+            if (int(m.group(1)), int(m.group(2))) < oldest:
+                print(
+                    f"tools/fpga: note: {name} {m.group(0)} is older than {oldest[0]}.{oldest[1]}, the oldest one tried",
+                    file=sys.stderr,
+                )
+        return program
+
+    def output(self, command):
+        done = subprocess.run(command, capture_output=True, text=True, env=self.environment, stdin=subprocess.DEVNULL)
+        return done.stdout + done.stderr
+
+    def run(self, program, arguments, folder, log):
+        """Runs in `folder` (relative paths: the wheels see no absolute ones in /tmp); a failure tells the log's first error."""
+        command = [*program.command, *map(str, arguments)]
+        path = pathlib.Path(folder) / log
+        with open(path, "w") as out:
+            done = subprocess.run(
+                command,
+                cwd=folder,
+                stdout=out,
+                stderr=subprocess.STDOUT,
+                stdin=subprocess.DEVNULL,
+                env=self.environment,
+            )
+        if done.returncode != 0:
+            text = path.read_text(errors="replace")
+            error = next(
+                (line for line in text.splitlines() if re.search(r"\bERROR\b|\bFatal\b", line)),
+                (text.strip().splitlines() or ["no output"])[-1],
+            )
+            kept = self.top / "build/log" / f"fpga-{log}"
+            kept.parent.mkdir(parents=True, exist_ok=True)
+            kept.write_text(text)
+            raise Trouble(f"{program.name}: exit code {done.returncode}: {error.strip()} (log: {kept})")
+        return path.read_text(errors="replace")
