@@ -36,8 +36,9 @@ module kage_wrap #(
   logic [1:0] bresp, rresp;
   logic [31:0] rdata;
 
-  assign {rst_n, s_valid, s_data, s_last, m_ready, awvalid, awaddr, wvalid, wdata, wstrb, bready, arvalid, araddr, rready} =
-      in_q;
+  logic [RegisterIn-1:0] register_in;
+  assign {rst_n, s_valid, s_data, s_last, m_ready, register_in} = in_q;
+  assign {awvalid, awaddr, wvalid, wdata, wstrb, bready, arvalid, araddr, rready} = register_in;
   assign out = {
     s_ready, m_valid, m_data, m_user, m_last, awready, wready, bvalid, bresp, arready, rvalid, rdata, rresp, irq
   };
