@@ -50,67 +50,73 @@ module token_reader #(
 
   localparam int WindowBeats = (TOKEN_WORDS + 2 * BEAT_WORDS - 2) / BEAT_WORDS;  // beats that a token can touch
   localparam int Depth = 2 ** $clog2(WindowBeats + 1);
-  localparam int PtrBits = $clog2(Depth);
-  localparam int OffBits = BEAT_WORDS > 1 ? $clog2(BEAT_WORDS) : 1;
-  localparam int WordsBits = $clog2(Depth * BEAT_WORDS + 1);
+  localparam int AddrBits = $clog2(Depth);
+  localparam int OffBits = $clog2(BEAT_WORDS);
   localparam int BeatBits = 32 * BEAT_WORDS;
+  // Places in the stream, counted in beats or words, modulo 4 times what there is room for: so a difference of two has a sign.
+  localparam int BeatAtBits = AddrBits + 2;
+  localparam int AtBits = BeatAtBits + OffBits;
 
-  // ---- beats, oldest first -----------------------------------------------------------------------------------------
+  // ---- beats that came ---------------------------------------------------------------------------------------------
   logic [BeatBits-1:0] mem[Depth];
-  logic [PtrBits-1:0] rd_q;
-  logic [PtrBits:0] beats_q;
-  logic [OffBits-1:0] off_q;  // words of the oldest beat that are gone
-  logic last_q;  // the newest beat had TLAST
-  logic header_q, dropping_q;
+  logic [4*BEAT_WORDS-1:0] kinds[Depth];  // each word's lowest bits, for a second address
+  logic [BeatAtBits-1:0] end_beat_q;  // behind the newest
+  logic last_q;  // the newest had TLAST
+  logic dropping_q, flushed_q;
 
+  logic [AtBits-1:0] front_at_q;  // the front's first word, below; no word before it is needed any more
+  logic [BeatAtBits-1:0] front_beat, beats_held, next_end_beat;
   logic push;
-  assign s_ready_o = rst_ni && !beats_q[PtrBits] && !last_q;
+  assign front_beat = BeatAtBits'(front_at_q >> OffBits);
+  assign beats_held = end_beat_q - front_beat;
+  assign s_ready_o = rst_ni && beats_held != BeatAtBits'(Depth) && !last_q;
   assign push = s_valid_i && s_ready_o;
+  assign next_end_beat = end_beat_q + BeatAtBits'(push);
 
-  // ---- the token at the front ------------------------------------------------------------------------------------
+  // ---- looking ahead: where the token behind the front begins, of what kind it is, and where it ends ---------------
+  // So the kind's length, found by an address, is not in one path with what taking a token depends on.
+  logic [AtBits-1:0] next_at_q, next_end_at, words_ahead;
+  logic header_q;  // the next one is the frame's header
+  logic next_there, look;
+  logic [4*BEAT_WORDS-1:0] next_kinds;
+  logic [3:0] next_kind;
+  logic [4:0] next_words;
+  assign words_ahead = (AtBits'(end_beat_q) << OffBits) - next_at_q;
+  assign next_there  = !words_ahead[AtBits-1] && words_ahead != '0;
+  assign next_kinds  = kinds[AddrBits'(next_at_q>>OffBits)];
+  if (BEAT_WORDS > 1) begin : gen_next_kind
+    assign next_kind = next_kinds[4*next_at_q[OffBits-1:0]+:4];
+  end else begin : gen_next_kind
+    assign next_kind = next_kinds;
+  end
+  assign next_words  = header_q ? 5'(HeaderWords) : token_words(next_kind) == 5'd0 ? 5'd1 : token_words(next_kind);
+  assign next_end_at = next_at_q + AtBits'(next_words);
+
+  // ---- the token at the front --------------------------------------------------------------------------------------
+  logic front_valid_q, front_header_q, front_lacking_q, front_is_end_q;
+  logic [AtBits-1:0] front_end_at_q, words_over;
+  logic whole, cut, take, out_free;
+  assign words_over = (AtBits'(end_beat_q) << OffBits) - front_end_at_q;
+  assign whole = !words_over[AtBits-1];
+  assign cut = last_q && !whole;
+  assign take = front_valid_q && (whole || cut) && out_free && !dropping_q;
+  // Behind the last word of a frame that was not ended a token of no words is looked at, which is cut.
+  assign look = (!front_valid_q || take) && (next_there || last_q) && !dropping_q;
+
   logic [WindowBeats*BeatBits-1:0] window;
   logic [TOKEN_WORDS*32-1:0] front;
-  logic [WordsBits-1:0] available, need;
-  logic [4:0] kind_words;
-  logic lacking, whole, cut, is_end, take, out_free;
-
   always_comb begin
-    for (int i = 0; i < WindowBeats; i++) window[i*BeatBits+:BeatBits] = mem[PtrBits'(rd_q+PtrBits'(i))];
+    for (int i = 0; i < WindowBeats; i++) window[i*BeatBits+:BeatBits] = mem[AddrBits'(front_beat+BeatAtBits'(i))];
   end
-
   if (BEAT_WORDS > 1) begin : gen_align
     always_comb begin
       front = window[0+:TOKEN_WORDS*32];
       for (int o = 1; o < BEAT_WORDS; o++) begin
-        if (off_q == OffBits'(o)) front = window[o*32+:TOKEN_WORDS*32];
+        if (front_at_q[OffBits-1:0] == OffBits'(o)) front = window[o*32+:TOKEN_WORDS*32];
       end
     end
-    assign available = {beats_q, {OffBits{1'b0}}} - WordsBits'(off_q);
   end else begin : gen_word_beats
     assign front = window[0+:TOKEN_WORDS*32];
-    assign available = beats_q;
-  end
-
-  assign kind_words = token_words(front[3:0]);
-  assign lacking = !header_q && kind_words == 5'd0;
-  always_comb begin
-    if (header_q) need = WordsBits'(HeaderWords);
-    else if (lacking) need = WordsBits'(1);
-    else need = WordsBits'(kind_words);
-  end
-  assign whole = available >= need;
-  assign cut = last_q && !whole && (!header_q || available != '0);
-  assign is_end = whole && !header_q && front[3:0] == KindEnd;
-  assign take = out_free && !dropping_q && (whole || cut);
-
-  // Where the front moves to when a token is taken; a cut token takes nothing, since the rest is dropped anyway.
-  logic [WordsBits-1:0] next_words;
-  logic [PtrBits:0] gone;  // beats that are used up
-  assign next_words = WordsBits'(off_q) + need;
-  if (BEAT_WORDS > 1) begin : gen_gone
-    assign gone = next_words[OffBits+:PtrBits+1];
-  end else begin : gen_gone_words
-    assign gone = next_words;
   end
 
   // ---- output register -------------------------------------------------------------------------------------------
@@ -126,17 +132,17 @@ module token_reader #(
   assign token_at_last_o = token_at_last_q;
   assign out_free = !token_valid_q || token_ready_i;
   assign dropping_o = dropping_q;
-  assign busy_o = !header_q || dropping_q || token_valid_q || beats_q != '0;
-  assign moving_o = take || (dropping_q && (last_q || beats_q != '0));
+  assign busy_o = !header_q || dropping_q || token_valid_q || words_ahead != '0;
+  assign moving_o = take || look || (dropping_q && (last_q || !flushed_q));
 
   always_ff @(posedge clk_i) begin
     if (take) begin
       token_q <= front;
-      token_header_q <= header_q;
-      token_lacking_q <= lacking && !cut;
+      token_header_q <= front_header_q;
+      token_lacking_q <= front_lacking_q && !cut;
       token_cut_q <= cut;
-      token_final_q <= cut || is_end;
-      token_at_last_q <= last_q && beats_q == (PtrBits + 1)'(1);
+      token_final_q <= cut || front_is_end_q;
+      token_at_last_q <= last_q && beats_held == BeatAtBits'(1);
     end
     if (!rst_ni) token_valid_q <= 1'b0;
     else if (out_free) token_valid_q <= take && !drop_i;
@@ -144,18 +150,33 @@ module token_reader #(
 
   // ---- state -------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
-    if (push) mem[PtrBits'(rd_q+beats_q[PtrBits-1:0])] <= s_data_i;
+    if (push) begin
+      mem[AddrBits'(end_beat_q)] <= s_data_i;
+      for (int w = 0; w < BEAT_WORDS; w++) kinds[AddrBits'(end_beat_q)][4*w+:4] <= s_data_i[32*w+:4];
+    end
+    if (look) begin
+      front_header_q  <= header_q;
+      front_lacking_q <= !header_q && token_words(next_kind) == 5'd0;
+      front_is_end_q  <= !header_q && next_kind == KindEnd;
+      front_end_at_q  <= next_end_at;
+    end
     if (!rst_ni) begin
-      rd_q <= '0;
-      beats_q <= '0;
-      off_q <= '0;
+      end_beat_q <= '0;
+      next_at_q <= '0;
+      front_at_q <= '0;
+      front_valid_q <= 1'b0;
       last_q <= 1'b0;
       header_q <= 1'b1;
       dropping_q <= 1'b0;
+      flushed_q <= 1'b0;
     end else begin
+      end_beat_q <= next_end_beat;
+      flushed_q  <= dropping_q;
       if (dropping_q) begin
-        beats_q <= '0;
-        off_q   <= '0;
+        // What is held goes; the next frame begins with a beat.
+        next_at_q <= AtBits'(next_end_beat) << OffBits;
+        front_at_q <= AtBits'(next_end_beat) << OffBits;
+        front_valid_q <= 1'b0;
         if (last_q || (push && s_last_i)) begin
           last_q <= 1'b0;
           header_q <= 1'b1;
@@ -163,15 +184,13 @@ module token_reader #(
         end
       end else begin
         if (push) last_q <= s_last_i;
-        beats_q <= beats_q + (PtrBits + 1)'(push) - (take && !cut ? gone : '0);
-        if (take) begin
-          header_q <= 1'b0;
-          if (!cut) begin
-            rd_q  <= rd_q + gone[PtrBits-1:0];
-            off_q <= BEAT_WORDS > 1 ? next_words[OffBits-1:0] : '0;
-          end
+        if (look) begin
+          next_at_q  <= next_end_at;
+          front_at_q <= next_at_q;
+          header_q   <= 1'b0;
         end
-        dropping_q <= drop_i || (take && (cut || is_end));
+        front_valid_q <= look || (front_valid_q && !take);
+        dropping_q <= drop_i || (take && (cut || front_is_end_q));
       end
     end
   end
@@ -182,8 +201,8 @@ module token_reader #(
     if (rst_ni) begin
       // 1. Only a token that is accepted and not final can ask for the rest to be dropped.
       assert (!drop_i || (token_valid_q && token_ready_i && !token_final_q));
-      // 2. What is used up was there.
-      assert (!(take && !cut) || gone <= beats_q);
+      // 2. What is held fits. (Behind a cut token the front may lie past what came.)
+      assert (dropping_q || beats_held <= BeatAtBits'(Depth));
     end
   end
 `endif

@@ -107,28 +107,29 @@ defect phase_line_leaks line_phase_counts line_phase.sv "s/if (start_i) begin/if
 
 # ---- token_reader ----------------------------------------------------------------------------------------------------
 reader_proof() { # NAME BEAT_WORDS STEPS SET...
-  proof "$1" module=token_reader rtl=token_reader rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=7 \
+  proof "$1" module=token_reader rtl=token_reader rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=8 \
     set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=$2 MAX_WORDS=$(($2 * $3)) ${*:4}"
 }
-reader_proof token_reader_1 1 9
-reader_proof token_reader_2 2 8
-reader_proof token_reader_4 4 8
-reader_proof token_reader_resets 2 6 RESETS=1 BIT=4
-defect reader_beat_lost token_reader_2 token_reader.sv 's/if (push) mem/if (push \&\& !take) mem/'
-defect reader_words_shifted token_reader_2 token_reader.sv 's/if (off_q == OffBits.(o)) front/if (off_q == OffBits'"'"'(o) \&\& !token_valid_q) front/'
-defect reader_word_skipped token_reader_2 token_reader.sv "s/WordsBits'(HeaderWords)/WordsBits'(HeaderWords + 1)/"
-defect reader_token_doubled token_reader_2 token_reader.sv 's/off_q <= BEAT_WORDS > 1/if (token_ready_i) off_q <= BEAT_WORDS > 1/'
-defect reader_cut_unseen token_reader_4 token_reader.sv 's/assign cut = .*/assign cut = last_q \&\& !whole \&\& available != 0;/'
+reader_proof token_reader_1 1 10
+reader_proof token_reader_2 2 9
+reader_proof token_reader_4 4 9
+reader_proof token_reader_resets 2 7 RESETS=1 BIT=4
+defect reader_beat_lost token_reader_2 token_reader.sv 's/if (push) begin/if (push \&\& !take) begin/'
+defect reader_words_shifted token_reader_2 token_reader.sv "s/== OffBits'(o)) front/== OffBits'(o) \&\& !token_valid_q) front/"
+defect reader_word_skipped token_reader_2 token_reader.sv "s/5'(HeaderWords) :/5'(HeaderWords + 1) :/"
+defect reader_token_doubled token_reader_2 token_reader.sv 's/next_at_q  <= next_end_at/if (token_ready_i) next_at_q <= next_end_at/'
+defect reader_cut_unseen token_reader_4 token_reader.sv 's/(next_there || last_q)/next_there/'
 defect reader_rest_kept token_reader_4 token_reader.sv 's/dropping_q <= drop_i ||/dropping_q <=/'
 defect reader_at_last_wrong token_reader_2 token_reader.sv 's/token_at_last_q <= .*/token_at_last_q <= last_q;/'
 defect reader_token_moves token_reader_2 token_reader.sv 's/^    if (take) begin/    if (whole) begin/'
 defect reader_token_falls token_reader_2 token_reader.sv 's/else if (out_free) token_valid_q <= take/else token_valid_q <= take/'
 defect reader_beat_lost_in_reset token_reader_resets token_reader.sv 's/assign s_ready_o = rst_ni &&/assign s_ready_o =/'
 defect reader_token_in_reset token_reader_resets token_reader.sv 's/if (!rst_ni) token_valid_q <= .*/if (0) ;/'
-defect reader_ready_falls token_reader_2 token_reader.sv 's/assign s_ready_o = rst_ni/assign s_ready_o = rst_ni \&\& !(token_valid_q \&\& !beats_q[0])/'
+defect reader_ready_falls token_reader_2 token_reader.sv 's/assign s_ready_o = rst_ni/assign s_ready_o = rst_ni \&\& !(token_valid_q \&\& beats_held[0])/'
 defect reader_standstill token_reader_2 token_reader.sv 's/if (last_q || (push && s_last_i)) begin/if (push \&\& s_last_i) begin/'
-defect reader_idle_unseen token_reader_2 token_reader.sv 's/assign busy_o = .*/assign busy_o = !header_q || beats_q != 0;/'
-defect reader_moves_unseen token_reader_2 token_reader.sv 's/assign moving_o = .*/assign moving_o = take;/'
+defect reader_idle_unseen token_reader_2 token_reader.sv "s/assign busy_o = .*/assign busy_o = !header_q || words_ahead != '0;/"
+defect reader_moves_unseen token_reader_2 token_reader.sv 's/assign moving_o = .*/assign moving_o = take || look;/'
+defect reader_look_unseen token_reader_2 token_reader.sv 's/assign moving_o = take || look/assign moving_o = take/'
 
 # ---- line_out --------------------------------------------------------------------------------------------------------
 out_proof() { # NAME STEPS DEFECT_STEPS SET...

@@ -8,8 +8,9 @@
 //                token, or one that is dropped, the next is the header of the next frame;
 //   kind_first   so is the kind of its first word;
 //   first_in_last  token_at_last_o says whether the token's first word is in TLAST's beat;
-//   prompt       a token is offered in the second clock after the beat that completes it, or right behind the token
+//   prompt       a token is offered in the third clock after the beat that completes it, or right behind the token
 //                before it;
+//   on_its_way   until then moving_o is high: a complete token never waits in here;
 //   takes        the input is ready from the second clock on in which no token is complete: no standstill;
 //   ready_stays  a ready input stays ready until a beat comes;  in_reset  and is not ready in reset: no beat is taken
 //                and lost;
@@ -99,8 +100,8 @@ module token_reader_proof #(
   logic [AtBits-1:0] in_q, out_q;  // words that came; words that are gone
   logic [AtBits-1:0] end_q, next_end_q;  // where the frame ends, and the next one
   logic has_end_q, has_next_end_q, skip_q, header_q;
-  logic [AtBits-1:0] in_before_q;  // the same a clock ago
-  logic has_end_before_q;
+  logic [AtBits-1:0] in_before_q, in_before2_q;  // the same a clock and two clocks ago
+  logic has_end_before_q, has_next_end_before_q, has_end_before2_q;
 
   logic [3:0] kind;
   logic [4:0] kind_words;
@@ -110,21 +111,25 @@ module token_reader_proof #(
   assign kind_words = token_words(kind);
   assign need = header_q ? AtBits'(HeaderWords) : kind_words == '0 ? AtBits'(1) : AtBits'(kind_words);
   assign available = skip_q ? '0 : (has_end_q ? end_q : in_q) - out_q;
-  assign available_before = skip_q || !has_end_before_q && in_before_q < out_q ? '0 :
-      (has_end_before_q ? end_q : in_before_q) - out_q;
+  assign available_before = skip_q || !has_end_before2_q && in_before2_q < out_q ? '0 :
+      (has_end_before2_q ? end_q : in_before2_q) - out_q;
   assign is_whole = available >= need && !skip_q;
   assign is_cut = has_end_q && !is_whole && !skip_q;
   assign is_end = !header_q && is_whole && kind == KindEnd;
-  assign was_complete = !skip_q && (available_before >= need || has_end_before_q);
+  assign was_complete = !skip_q && (available_before >= need || has_end_before2_q);
   assign frame_done = pop && (final_one || drop_i);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      {in_q, out_q, in_before_q, has_end_q, has_next_end_q, has_end_before_q, skip_q} <= '0;
+      {in_q, out_q, in_before_q, in_before2_q, skip_q} <= '0;
+      {has_end_q, has_next_end_q, has_end_before_q, has_next_end_before_q, has_end_before2_q} <= '0;
       header_q <= 1'b1;
     end else begin
       in_before_q <= in_q;
+      in_before2_q <= in_before_q;
       has_end_before_q <= frame_done ? has_next_end_q : has_end_q;
+      has_next_end_before_q <= !frame_done && has_next_end_q;
+      has_end_before2_q <= frame_done ? has_next_end_before_q : has_end_before_q;
       if (push) begin
         for (int w = 0; w < BEAT_WORDS; w++) begin
           for (int k = 0; k < MAX_WORDS; k++) begin
@@ -205,6 +210,7 @@ module token_reader_proof #(
         end
       end
       if (was_complete) prompt : assert (token_valid);
+      if (!token_valid && (is_whole || is_cut)) on_its_way : assert (moving);
       takes : assert (held_q < 2'd2);
       if (ready_waits_q) ready_stays : assert (s_ready);
       if (header_q == 1'b0 || skip_q || available != '0) busy_in_frame : assert (busy);
