@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // An expansion unit: makes pixels of the segments of convex polyhedra that do not overlap on the screen. [Ohno 1985]
 //
-// Segments: seg_* is valid/ready. A line's segments come in order, of 1 .. 2^DX_BITS - 1 pixels each, at most 2^SEG_BITS of them; the line is
-//   complete when they sum to width_i. Two lines are buffered, a half of the RAM each: seg_ready_o falls while both halves
-//   hold a line that has not been read out whole. A line is expanded only when it is complete, so it has no bubble from its first pixel to its last.
-// Faces: face_valid_i writes an entry of the table of the frame that came in last; segments may name it from the next clock on. The
-//   table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs while they leave: whoever
-//   gives frame_start_i sees to it that no line is left of the frame before that one, and that no line is half filled.
-// Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >> Z_FRAC, 1, 2^Z_BITS - 2), with the
-//   face's index, colour and class. Face all ones is blank: Z and index all ones, colour and class 0. px_data_o = {Z, index, colour, class}.
+// Segments: seg_* is valid/ready. A line's segments come in order, of 1 .. 2^DX_BITS - 1 pixels each, at most
+//   2^SEG_BITS of them; the line is complete when they sum to width_i. Two lines are buffered, a half of the RAM each:
+//   seg_ready_o falls while both halves hold a line that has not been read out whole. A line is expanded only when it
+//   is complete, so it has no bubble from its first pixel to its last.
+// Faces: face_valid_i writes an entry of the table of the frame that came in last; segments may name it from the next
+//   clock on. The table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs
+//   while they leave: whoever gives frame_start_i sees to it that no line is left of the frame before that one, and
+//   that no line is half filled.
+// Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >>
+//   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. Face all ones is blank: Z and index all ones,
+//   colour and class 0. px_data_o = {Z, index, colour, class}.
 // flush_i drops all lines, in one clock; the table stays.
 // width_i matters with segments only, and holds still while a line comes in.
-// Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that are buffered without a gap.
-// Cost: RAMs of 2^(SEG_BITS + 1) segments and 2^(FACE_BITS + 1) entries, an adder of DepthBits, about 4 registers of a segment's width.
+// Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that
+//   are buffered without a gap.
+// Cost: RAMs of 2^(SEG_BITS + 1) segments and 2^(FACE_BITS + 1) entries, an adder of DepthBits, about 4 registers of a
+//   segment's width.
 `default_nettype none
 
 module expansion_unit #(
@@ -91,8 +96,8 @@ module expansion_unit #(
   end
 
   // ---- prefetch: the word of a segment, a register behind it, its face ---------------------------------------------
-  // Stage k holds a segment while valid_q[k]; move k lets it take what is before it. Nothing is read ahead of its time: a RAM keeps
-  // what it gave until the stage moves.
+  // Stage k holds a segment while valid_q[k]; move k lets it take what is before it. Nothing is read ahead of its time:
+  // a RAM keeps what it gave until the stage moves.
   logic load;  // the Z generator takes a segment
   logic read, read_end;
   logic [2:0] valid_q, last_q;
@@ -231,8 +236,8 @@ module expansion_unit #(
     if (clear) mid_line_q <= 1'b0;
     else if (px_valid_o && px_ready_i) mid_line_q <= !px_last_o;
     if (rst_ni) begin
-      // 1. A segment has pixels and stays in its line, and the line in its half: behind the last place nothing comes. (What is in the
-      // last place may leave the line short: that line will not be completed.)
+      // 1. A segment has pixels and stays in its line, and the line in its half: behind the last place nothing comes.
+      // (What is in the last place may leave the line short: that line will not be completed.)
       assert (!seg_take || (seg_dx_i != '0 && 16'(sum_q) + 16'(seg_dx_i) <= 16'(width_i)));
       assert (!seg_take || wr_at_q != '0 || sum_q == '0);
       // 2. No frame begins in the middle of a line.

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame: checks its header, asks token_check about its tokens, keeps the line's number, and turns tokens into commands for the
-// pixels and lines for the way out. What is downstream never sees a malformed stream.
+// The frame: checks its header, asks token_check about its tokens, keeps the line's number, and turns tokens into
+// commands for the pixels and lines for the way out. What is downstream never sees a malformed stream.
 //
-// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o waits for
-//   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command, so lines and
-//   EOL commands come in the same order.
-// Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE
-//   take their clock here and go no further: cmd_count_o brings the line's bias with EV, ES and EOL. A line's first TP is preceded by the
-//   command RESOLVE, which has no token: over the whole line, with the background as its colour. It costs a clock.
-//   With counters, if there was a RESOLVE to do, it is preceded by the command CmdOut instead: the line's pixels leave, by a line that says
-//   line_load_o, and come back as loads. Nothing is taken or given until loads_done_i, one clock, says that they have.
-// Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they are taken, and wait for table_free_i: that
-//   nothing of the frame before is left there.
-// Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands
-//   clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
-// Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its unit by
-//   tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose unit is at fault goes
-//   nowhere. tree_claim_o, one clock, says that a TREE became a command; tree_flush_o, one clock, that there will be no more of this
-//   frame. Without units these outputs are 0 and the inputs do not matter.
+// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o
+//   waits for line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a
+//   command, so lines and EOL commands come in the same order.
+// Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans,
+//   SHADE, IF and RESOLVE take their clock here and go no further: cmd_count_o brings the line's bias with EV, ES and
+//   EOL. A line's first TP is preceded by the command RESOLVE, which has no token: over the whole line, with the
+//   background as its colour. It costs a clock. With counters, if there was a RESOLVE to do, it is preceded by the
+//   command CmdOut instead: the line's pixels leave, by a line that says line_load_o, and come back as loads. Nothing
+//   is taken or given until loads_done_i, one clock, says that they have.
+// Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they are taken, and wait for
+//   table_free_i: that nothing of the frame before is left there.
+// Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL
+//   commands clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
+// Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its
+//   unit by tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose
+//   unit is at fault goes nowhere. tree_claim_o, one clock, says that a TREE became a command; tree_flush_o, one clock,
+//   that there will be no more of this frame. Without units these outputs are 0 and the inputs do not matter.
 // Latency: 1 clock from token to command. Throughput: a token a clock.
 `default_nettype none
 
@@ -208,8 +209,8 @@ module frame_control #(
   assign emit_eol = body_eol || blank_eol;
   assign emit_span = good && !token_header_i && is_span && token_i[OpXlLsb+:X_BITS] != token_i[OpXrLsb+:X_BITS];
   assign emit_tree = good && !token_header_i && is_tree;
-  // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line is blank, and
-  // to the latter it does no harm. Not if it is cut: then not even its kind may be there.
+  // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line
+  // is blank, and to the latter it does no harm. Not if it is cut: then not even its kind may be there.
   assign must_paint = is_tp && !token_cut_i && !painted_q;
   assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
       (line_ready_i || !by_loads);

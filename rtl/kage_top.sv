@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage: a span-stream rendering core. Frames of tokens in, video out; docs/stream.md is the contract, docs/rtl.md the guide.
+// kage: a span-stream rendering core. Frames of tokens in, video out; docs/stream.md is the contract, docs/rtl.md the
+// guide.
 //
 //   s_axis -> token_reader -> frame_control -> pixel_core -> line_out -> m_axis
 //                                    \---- lines ----^          registers on s_axil
 //                     frame_control -> tree_core -> pixel_core      (UNITS > 0)
 //
-// Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of s_axis and
-//   s_axil, which rst_ni keeps low.
-// Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame. Nothing is taken and lost
-//   in reset: no input is ready. The valids are low from the second clock of it on.
+// Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of
+//   s_axis and s_axil, which rst_ni keeps low.
+// Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame. Nothing is taken
+//   and lost in reset: no input is ready. The valids are low from the second clock of it on.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -119,8 +120,9 @@ module kage_top #(
   logic [        X_BITS-1:0] load_x;
   logic [       RgbBits-1:0] load_color;
 
-  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each has one
-  // pixel, 5 + LightStages in line_out's pipeline and 2 behind it. So is one that comes back as loads, until its last has been taken.
+  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each
+  // has one pixel, 5 + LightStages in line_out's pipeline and 2 behind it. So is one that comes back as loads, until
+  // its last has been taken.
   localparam int LinesBits = COUNT_BITS > 0 ? 5 : 4;
   logic [LinesBits-1:0] lines_q;
 
@@ -405,8 +407,8 @@ module kage_top #(
   assign frame_here = in_frame || lines_q != '0;
   assign waiting_input = in_frame && hungry && !token_valid && s_axis_tready_o && !s_axis_tvalid_i;
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
-  // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
-  // if one of them does.
+  // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
+  // only if one of them does.
   assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
       told_q || painting || frame_end || line_valid || (pixel_valid && pixel_ready) || pixels_moving || out_moving ||
       tree_moving || (m_axis_tvalid_o && m_axis_tready_i);

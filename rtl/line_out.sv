@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way out: two line buffers, so that the next line is worked on while this one leaves at a pixel a clock; the multiplier of
-// RESOLVE; background where nothing was drawn; AXI4-Stream video.
+// The way out: two line buffers, so that the next line is worked on while this one leaves at a pixel a clock; the
+// multiplier of RESOLVE; background where nothing was drawn; AXI4-Stream video.
 //
-// Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by exit_valid_i
-//   (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's width and colours, in the
-//   order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's last.
-// Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour, times 1 - shade if it is dark, rounded once:
-//   (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC. With counters every pixel has a factor of its own: light_resolve, which table_* loads.
-// Loads (counters and translucency): a line with line_load_i leaves by load_*, valid/ready, not by m_*: each pixel's place and colour.
-// Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so the one
-//   multiplier per channel here does the work of LANES of them in the pass that empties the line.
+// Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by
+//   exit_valid_i (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's
+//   width and colours, in the order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's
+//   last.
+// Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour,
+//   times 1 - shade if it is dark, rounded once: (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC. With
+//   counters every pixel has a factor of its own: light_resolve, which table_* loads.
+// Loads (counters and translucency): a line with line_load_i leaves by load_*, valid/ready, not by m_*: each pixel's
+//   place and colour.
+// Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so
+//   the one multiplier per channel here does the work of LANES of them in the pass that empties the line.
 // Latency: 8 clocks from a line's first group to its first pixel, and with counters LightStages more.
-// Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without shadows), light_resolve.
+// Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without
+//   shadows), light_resolve.
 `default_nettype none
 
 module line_out #(
@@ -115,8 +119,9 @@ module line_out #(
   logic [SHADE_FRAC:0] keep_q;  // 1 - shade; with counters shade
   logic [Depth-1:0] valid_q;
 
-  // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake them.
-  // A frame's first line waits for the pipeline to drain, since background and shade are kept once, not per stage.
+  // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake
+  // them. A frame's first line waits for the pipeline to drain, since background and shade are kept once, not per
+  // stage.
   logic next_begun, may_start;
   assign next_begun = begun_q > 2'(sending_q);
   assign may_start = sending_q ? go && issue_last && !line_first_i : !line_first_i || valid_q == '0;

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels of a line in block RAM, LANES to a word: spans are walked one aligned group of LANES pixels a clock.
 //
-// Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL, or a CmdOut, starts its pass when exit_free_i is high, takes the
-//   buffer by a clock of exit_take_o, and then brings the line's groups in order by exit_valid_o, without stops; the last with
-//   exit_last_o. Pixels past the line's width in the last group are void.
-// Tree (UNITS > 0): a second line buffer of {Z, colour, class} is filled one pixel a clock from tree_*, whether or not a TREE is near.
-//   A TREE waits until a line is in it whole, then reads it group by group along with the state; the next line comes in right behind.
-//   tree_drop_i forgets a part of a line.
-// Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut takes one per group of
-//   the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first: what the RAM held never matters.
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL, or a CmdOut, starts its pass when
+//   exit_free_i is high, takes the buffer by a clock of exit_take_o, and then brings the line's groups in order by
+//   exit_valid_o, without stops; the last with exit_last_o. Pixels past the line's width in the last group are void.
+// Tree (UNITS > 0): a second line buffer of {Z, colour, class} is filled one pixel a clock from tree_*, whether or not
+//   a TREE is near. A TREE waits until a line is in it whole, then reads it group by group along with the state; the
+//   next line comes in right behind. tree_drop_i forgets a part of a line.
+// Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut
+//   takes one per group of the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first:
+//   what the RAM held never matters.
 // Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1.
-// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the newest in
-//   front of the comparison, the two older ones in front of the register behind the RAM. The tree's buffer needs none: see there.
-// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units another of as
-//   many words.
+// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the
+//   newest in front of the comparison, the two older ones in front of the register behind the RAM. The tree's buffer
+//   needs none: see there.
+// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units
+//   another of as many words.
 `default_nettype none
 
 module pixel_banked #(
@@ -261,9 +263,9 @@ module pixel_banked #(
     assign in_lane_end = in_lane_q == OffBits'(LANES - 1) || tree_last_i;
     assign tree_moving = in_take;
 
-    // The pass that starts now reads its group g in Levels + g clocks. The next line comes in after Levels clocks, when group 0 is
-    // read: its group g, even if it ends there with one pixel, is written 2 + g clocks later at the earliest, so the pass is ahead of
-    // it all the way. Until then full_q speaks of the old line.
+    // The pass that starts now reads its group g in Levels + g clocks. The next line comes in after Levels clocks, when
+    // group 0 is read: its group g, even if it ends there with one pixel, is written 2 + g clocks later at the
+    // earliest, so the pass is ahead of it all the way. Until then full_q speaks of the old line.
     assign passes = (Levels + 1)'({passes_q, take3 && next_kind == KindTree});
     assign tree_here = full_q && passes_q == '0;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where colours come back to the pixels: the commands of frame_control, and between them a line's colours from the way out, a command
-// CmdLoad of one pixel each.
+// Where colours come back to the pixels: the commands of frame_control, and between them a line's colours from the way
+// out, a command CmdLoad of one pixel each.
 //
-// Handshake: in_*, load_* and out_* are valid/ready. Loads go first; frame_control gives no command from its CmdOut until done_o, one clock, says
-//   that the line's last load has been taken, so neither side ever waits for the other.
+// Handshake: in_*, load_* and out_* are valid/ready. Loads go first; frame_control gives no command from its CmdOut
+//   until done_o, one clock, says that the line's last load has been taken, so neither side ever waits for the other.
 // Latency: 0. Throughput: a command a clock.
 // Cost: the choice of a command's kind, range, colour and slope. Without counters or without translucency wires only.
 `default_nettype none

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels of a line as a chain of processors, one a pixel: commands move one processor a clock, as in Matsumoto's line of
-// pixel processors, and a new one may enter every clock, whatever its length.
+// The pixels of a line as a chain of processors, one a pixel: commands move one processor a clock, as in Matsumoto's
+// line of pixel processors, and a new one may enter every clock, whatever its length.
 //
-// Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL or CmdOut can be made to wait: for exit_free_i, and for the
-//   line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's pixels then leave one a clock by
-//   exit_valid_o, without stops; the last with exit_last_o. The next line's commands follow right behind the EOL.
-// Tree (UNITS > 0): a TREE enters when tree_* offers its line's first pixel, and takes one a clock from then on, in step with its way
-//   down the chain: the pixel that was taken a clock ago stands before all processors, and it is that of the one TREE is at. So it needs a
-//   line without bubbles, and no buffer. The next TREE waits until the line is through, at most its width.
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL or CmdOut can be made to wait: for
+//   exit_free_i, and for the line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's
+//   pixels then leave one a clock by exit_valid_o, without stops; the last with exit_last_o. The next line's commands
+//   follow right behind the EOL.
+// Tree (UNITS > 0): a TREE enters when tree_* offers its line's first pixel, and takes one a clock from then on, in
+//   step with its way down the chain: the pixel that was taken a clock ago stands before all processors, and it is that
+//   of the one TREE is at. So it needs a line without bubbles, and no buffer. The next TREE waits until the line is
+//   through, at most its width.
 // Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 2 clocks.
-// Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels leave.
-// After reset an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted; commands
-//   follow right behind it, the first line's EOL waits until it is through.
-// Cost: MAX_WIDTH times a command, a depth adder, a comparison and a pixel's state. The loops below are over vectors in one
-//   process: instances would simulate at half the speed.
+// Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels
+//   leave.
+// Reset: an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted;
+//   commands follow right behind it, the first line's EOL waits until it is through.
+// Cost: MAX_WIDTH times a command, a depth adder, a comparison and a pixel's state. The loops below are over vectors in
+//   one process: instances would simulate at half the speed.
 `default_nettype none
 
 module pixel_systolic #(
@@ -56,8 +59,8 @@ module pixel_systolic #(
 
 
   // ---- the chain ---------------------------------------------------------------------------------------------------
-  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, whether its range had begun, depth and colour
-  // at this pixel, and the pixel's state.
+  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, whether its range had begun,
+  // depth and colour at this pixel, and the pixel's state.
   logic [N-1:0] valid_q, begun_q, hit;
   logic [N*4-1:0] kind_q;
   logic [N*X_BITS-1:0] xl_q, xr_q;
@@ -202,7 +205,8 @@ module pixel_systolic #(
   end
 
   // ---- exit --------------------------------------------------------------------------------------------------------
-  // EOL enters in clock t, is at processor i in t + 1 + i; that pixel is in joined_q in t + 2 + i, in exit_data_o in t + 3 + i.
+  // EOL enters in clock t and is at processor i in t + 1 + i; that pixel is in joined_q in t + 2 + i, and in
+  // exit_data_o in t + 3 + i.
   logic [ExitBits-1:0] all;
   logic at_q, joined_valid_q, at_last, joined_last_q;
   always_comb begin

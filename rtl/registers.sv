@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of docs/stream.md on AXI4-Lite, the interrupt, the counters and the watchdog.
 //
-// Handshake: AXI4-Lite. Address and data of a write are taken in either order, one write and one read under way at a time.
-//   Addresses without a register answer SLVERR and change nothing; writes to read-only registers are taken and ignored.
-//   WSTRB is honoured. In reset nothing is ready. Latency: 1 clock from the address to a read's data.
-// Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of its clearing
-//   wins.
-// Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts it anew.
-//   Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
+// Handshake: AXI4-Lite. Address and data of a write are taken in either order, and held. A write is done, and answered,
+//   in the clock in which both are held and no response waits; so the next write's address and data are taken while the
+//   response of the one before waits, and that write is done once the response has been taken. One read is under way at
+//   a time: the next address is taken when the data of the one before have been. Addresses without a register answer
+//   SLVERR and change nothing; writes to read-only registers are taken and ignored. WSTRB is honoured. In reset nothing
+//   is ready. Latency: 1 clock from the address to a read's data, 2 from the later of address and data to a write's
+//   response.
+// Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of
+//   its clearing wins.
+// Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts
+//   it anew. Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
 `default_nettype none
 
 module registers #(

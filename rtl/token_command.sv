@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command that frame_control gives the pixels, made of the token at hand, and the register that holds it until they take it.
+// The command that frame_control gives the pixels, made of the token at hand, and the register that holds it until they
+// take it.
 //
-// Handshake: free_o says that a command may be made: in a clock in which it is high, at most one of make_*_i may be, and that command is in
-//   cmd_* from the next clock on, which is valid/ready. Token, width, share, bias and background are those of that clock.
-// Commands: make_span_i, of the token, which has a range; make_tree_i, make_eol_i, make_paint_i and make_out_i, over the whole line:
-//   TREE, EOL, RESOLVE with the background as its colour, and CmdOut.
+// Handshake: free_o says that a command may be made: in a clock in which it is high, at most one of make_*_i may be,
+//   and that command is in cmd_* from the next clock on, which is valid/ready. Token, width, share, bias and background
+//   are those of that clock.
+// Commands: make_span_i, of the token, which has a range; make_tree_i, make_eol_i, make_paint_i and make_out_i, over
+//   the whole line: TREE, EOL, RESOLVE with the background as its colour, and CmdOut.
 // Latency: 1 clock. Throughput: a command a clock.
 // Cost: a register of a command, the choice among the places of fields.
 `default_nettype none

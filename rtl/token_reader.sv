@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Beats to tokens: cuts the words of the input port into the frame's header and its tokens, one whole token at a time.
 //
-// Handshake: s_* is AXI4-Stream; s_ready_o depends on registers and on rst_ni, which keeps it low: no beat is taken and lost in
-//   reset. token_* is valid/ready, the token and its flags stable
-//   while it waits. drop_i may be high only with token_ready_i, and only for a token without token_final_o: the rest of the frame
-//   is then dropped up to and with TLAST. The reader drops the rest by itself after a final token (END, or one that TLAST cut).
-// Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks is passed
-//   on as soon as its first word is there. A cut token is passed on with token_cut_o and whatever words there are.
+// Handshake: s_* is AXI4-Stream; s_ready_o depends on registers and on rst_ni, which keeps it low: no beat is taken and
+//   lost in reset. token_* is valid/ready, the token and its flags stable while it waits. drop_i may be high only with
+//   token_ready_i, and only for a token without token_final_o: the rest of the frame is then dropped up to and with
+//   TLAST. The reader drops the rest by itself after a final token (END, or one that TLAST cut).
+// Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks
+//   is passed on as soon as its first word is there. A cut token is passed on with token_cut_o and whatever words there
+//   are.
 // Capacity: the beats a token can touch and one more, at least. Latency: 2 clocks from the beat that completes a token.
 // Throughput: a token a clock, or as many clocks as the port needs for its words. A frame's end costs 2 clocks.
 // Cost: the beats' registers, a multiplexer per word of the longest token over beats and words of a beat.

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The expansion units and their compare tree: one opaque layer, a line at a time, of faces and segments. [Ohno 1985]
 //
-// In: face_* takes an entry a clock; seg_* is valid/ready, and seg_ready_o, which depends on seg_unit_i, waits for that unit only.
-//   Both bring sound ones only: segment_check sees to it. width_i is the frame's, and matters with segments only.
-// Out: line_* is valid/ready: Z, class and colour of the nearest face at each pixel, line_last_o at a line's last. Z all ones: none.
-//   A line is offered as soon as all units have it, before it is asked for, but for its last pixel: that waits for the claim.
-// Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All units have the
-//   line complete by then. drop_o, one clock, says that a line of which a part has been taken will not come; nothing taken then counts.
-// Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be leaving then,
-//   none of the one before that. After a frame with an error flush_i, one clock or more, drops what has not been claimed: lines claimed
-//   leave first, and frame_ready_o is low until the rest is gone. No face, segment or claim comes from flush_i until the next frame_start_i.
-// Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its work; or
-//   something has entered a unit or the tree so few clocks ago that what follows from it may not have shown yet.
-// Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of the tree.
+// In: face_* takes an entry a clock; seg_* is valid/ready, and seg_ready_o, which depends on seg_unit_i, waits for that
+//   unit only. Both bring sound ones only: segment_check sees to it. width_i is the frame's, and matters with segments
+//   only.
+// Out: line_* is valid/ready: Z, class and colour of the nearest face at each pixel, line_last_o at a line's last. Z
+//   all ones: none. A line is offered as soon as all units have it, before it is asked for, but for its last pixel:
+//   that waits for the claim.
+// Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All
+//   units have the line complete by then. drop_o, one clock, says that a line of which a part has been taken will not
+//   come; nothing taken then counts.
+// Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be
+//   leaving then, none of the one before that. After a frame with an error flush_i, one clock or more, drops what has
+//   not been claimed: lines claimed leave first, and frame_ready_o is low until the rest is gone. No face, segment or
+//   claim comes from flush_i until the next frame_start_i.
+// Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its
+//   work; or something has entered a unit or the tree so few clocks ago that what follows from it may not have shown
+//   yet.
+// Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of
+//   the tree.
 // Throughput: a pixel a clock, no bubble in a line.
 // Needs UNITS > 0: a core without units leaves it out.
 `default_nettype none
@@ -54,8 +60,8 @@ module tree_core #(
     output logic moving_o
 );
 
-  // From the segment that completes a line to its first pixel at line_* nothing shows. A watchdog with a lower limit than that
-  // would take it for a standstill, and the pixel for progress behind it.
+  // From the segment that completes a line to its first pixel at line_* nothing shows. A watchdog with a lower limit
+  // than that would take it for a standstill, and the pixel for progress behind it.
   localparam int Way = 6 + $clog2(UNITS);  // the latency
   logic [Way-1:0] way_q;
 

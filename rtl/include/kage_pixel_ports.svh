@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ports of pixel_core and of both arrangements behind it: the one list. Included in a module that has the pixel parameters,
-// kage_widths.svh and ExitLanes.
+// Ports of pixel_core and of both arrangements behind it: the one list. Included in a module that has the pixel
+// parameters, kage_widths.svh and ExitLanes.
     input wire logic clk_i,
     input wire logic rst_ni,
 
-    // from frame_control
+    // from pixel_loads: frame_control's commands, and between them the colours that come back
     input  wire logic                 cmd_valid_i,
     output logic                      cmd_ready_o,
     input  wire logic [          3:0] cmd_kind_i,

@@ -94,7 +94,8 @@ module line_out_proof #(
     if (line_valid_i) assume (told_q != 3'(LINES));
   end
 
-  // The line of each way out: the next one of its sort. A line that goes back may overtake pixels that wait at the video port.
+  // The line of each way out: the next one of its sort. A line that goes back may overtake pixels that wait at the
+  // video port.
   logic [LINES-1:0] loaded;
   logic [2:0] video_from_q, load_from_q, video_line, load_line;
   logic [1:0] video_x_q, load_x_q, video_width, load_width;

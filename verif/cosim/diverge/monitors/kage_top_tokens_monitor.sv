@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events (rtl/defs/stages.yaml).
-// Bound into kage_top, so the netlist never sees it.
+// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events
+// (rtl/defs/stages.yaml). Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
 `default_nettype none

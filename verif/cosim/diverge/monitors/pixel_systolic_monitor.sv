@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a processor.
+// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a
+// processor.
 `default_nettype none
 
 module pixel_systolic_monitor #(

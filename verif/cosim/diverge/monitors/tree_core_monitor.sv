@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels that each expansion unit gives to the compare tree, as events (rtl/defs/stages.yaml); and whether each unit is given
-// the faces and segments that are its own.
+// The pixels that each expansion unit gives to the compare tree, as events (rtl/defs/stages.yaml); and whether each
+// unit is given the faces and segments that are its own.
 `default_nettype none
 
 module tree_core_monitor #(
