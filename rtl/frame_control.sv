@@ -358,6 +358,8 @@ module frame_control #(
       assert (!cmd_valid_o || cmd_xl_o < cmd_xr_o);
       // 3. The line number never passes the height.
       assert (state_q == StHeader || line_q <= height_q);
+      // 4. The bias is cleared in no clock in which a token is taken: the proof of line_phase assumes it.
+      assert (!(good && !token_header_i) || !emit_paint);
     end
   end
 `endif

@@ -180,7 +180,7 @@ module line_out #(
     end
   end
 
-  // ---- stages 1 and 2: RAM and the register behind it, which holds a group while its lanes leave -------------------
+  // ---- stages 1 and 2: RAM, which holds a group while its lanes leave, and the register behind it ------------------
   logic [LANES*ExitBits-1:0] ram_data, group_q;
   ram_1r1w #(
       .BITS (LANES * ExitBits),
@@ -194,7 +194,7 @@ module line_out #(
       .rd_addr_i(rd_addr_q),
       .rd_data_o(ram_data)
   );
-  always_ff @(posedge clk_i) if (go && lane_at_q[LaneBits-1:0] == '0) group_q <= ram_data;
+  always_ff @(posedge clk_i) if (go) group_q <= ram_data;
 
   // ---- stage 3: one lane -------------------------------------------------------------------------------------------
   logic [ExitBits-1:0] pixel_d, pixel_q;

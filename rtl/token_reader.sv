@@ -127,7 +127,7 @@ module token_reader #(
   assign token_at_last_o = token_at_last_q;
   assign out_free = !token_valid_q || token_ready_i;
   assign dropping_o = dropping_q;
-  assign busy_o = !header_q || dropping_q || token_valid_q || beats_q != '0;
+  assign busy_o = !header_q || token_valid_q || beats_q != '0;
   assign moving_o = take || (dropping_q && (last_q || beats_q != '0));
 
   always_ff @(posedge clk_i) begin
@@ -185,6 +185,8 @@ module token_reader #(
       assert (!drop_i || (token_valid_q && token_ready_i && !token_final_q));
       // 2. What is used up was there.
       assert (!(take && !cut) || gone <= beats_q);
+      // 3. What is dropped is of a frame whose header has been taken: busy_o need not ask for dropping_q.
+      assert (!dropping_q || !header_q);
     end
   end
 `endif
