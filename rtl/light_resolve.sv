@@ -24,9 +24,7 @@ module light_resolve #(
     input wire logic clk_i,
 
     input wire logic                      table_valid_i,
-    input wire logic [    CLASS_BITS-1:0] table_class_i,
-    input wire logic [     LightBits-1:0] table_light_i,
-    input wire logic [EntryShareBits-1:0] table_share_i,
+    input wire logic [TableEntryBits-1:0] table_i,
     input wire logic [      SHADE_FRAC:0] shade_i,
 
     input  wire logic                           go_i,
@@ -34,6 +32,7 @@ module light_resolve #(
     output logic      [              RgbBits:0] pixel_o,
     output logic      [CHANNELS*FactorBits-1:0] factor_o
 );
+  `include "generated/kage_buses.svh"
 
   // At least 1, so that the file can be read with its defaults.
   localparam int Stages = LightStages > 0 ? LightStages : 1;
@@ -54,6 +53,8 @@ module light_resolve #(
   // ---- share of each light and channel, with the counts ------------------------------------------------------------
   logic [LIGHTS*Shares*FactorBits-1:0] shares;
   logic [Counts-1:0] counts;
+  table_entry_t entry;
+  assign entry = table_i;
   if (CLASS_BITS > 1) begin : gen_table
     logic [LIGHTS*EntryShareBits-1:0] entries, entries_q;
     logic [2*Counts-1:0] counts_q;
@@ -65,9 +66,9 @@ module light_resolve #(
           .WORDS(2 ** CLASS_BITS)
       ) u_shares (
           .clk_i,
-          .wr_en_i  (table_valid_i && table_light_i == LightBits'(l)),
-          .wr_addr_i(table_class_i),
-          .wr_data_i(table_share_i),
+          .wr_en_i  (table_valid_i && entry.light == LightBits'(l)),
+          .wr_addr_i(entry.normal_class),
+          .wr_data_i(entry.share),
           .rd_en_i  (go_i),
           .rd_addr_i(pixel_i[ExitClassAt+:CLASS_BITS]),
           .rd_data_o(entries[l*EntryShareBits+:EntryShareBits])
@@ -83,7 +84,7 @@ module light_resolve #(
     assign counts = counts_q[Counts+:Counts];
   end else begin : gen_shade
     logic unused_table;
-    assign unused_table = ^{table_valid_i, table_class_i, table_light_i, table_share_i};
+    assign unused_table = ^{table_valid_i, entry};
     assign shares = shade_i;
     assign counts = pixel_i[ExitCountAt+:Counts];
   end

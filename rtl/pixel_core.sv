@@ -17,16 +17,16 @@ module pixel_core #(
 
   if (ARRANGEMENT == 1) begin : gen_banked
     pixel_banked #(
-        `include "generated/kage_pixel_param_map.svh"
         .LANES(LANES),
-        .MAX_WIDTH(MAX_WIDTH)
+        .MAX_WIDTH(MAX_WIDTH),
+        `include "generated/kage_pixel_param_map.svh"
     ) u_pixels (
         .*
     );
   end else begin : gen_systolic
     pixel_systolic #(
+        .MAX_WIDTH(MAX_WIDTH),
         `include "generated/kage_pixel_param_map.svh"
-        .MAX_WIDTH(MAX_WIDTH)
     ) u_pixels (
         .*
     );

@@ -101,10 +101,7 @@ module token_check #(
   assign good = code_o == ErrNone;
 
   line_phase #(
-      .TRANSLUCENCY(TRANSLUCENCY),
-      .DSF_BITS(DSF_BITS),
-      .FSF(FSF),
-      .COUNT_BITS(COUNT_BITS)
+      `include "generated/kage_pixel_param_map.svh"
   ) u_phase (
       .clk_i,
       .start_i   (header_i || eol_i),
@@ -131,10 +128,7 @@ module token_check #(
       assign span_class = token_i[OpClassLsb+:CLASS_BITS];
     end
     table_check #(
-        .SHADE_FRAC(SHADE_FRAC),
-        .CHANNELS(CHANNELS),
-        .LIGHTS(LIGHTS),
-        .CLASS_BITS(CLASS_BITS)
+        `include "generated/kage_pixel_param_map.svh"
     ) u_table (
         .clk_i,
         .frame_start_i(start_i),
@@ -175,15 +169,7 @@ module token_check #(
     end
 
     segment_check #(
-        .X_BITS(X_BITS),
-        .Z_BITS(Z_BITS),
-        .Z_FRAC(Z_FRAC),
-        .UNITS(UNITS),
-        .FACE_BITS(FACE_BITS),
-        .DX_BITS(DX_BITS),
-        .SEG_BITS(SEG_BITS),
-        .ORDER_BITS(ORDER_BITS),
-        .CLASSIC(CLASSIC)
+        `include "generated/kage_pixel_param_map.svh"
     ) u_check (
         .clk_i,
         .rst_ni,
