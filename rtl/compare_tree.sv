@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compare tree: of UNITS streams of pixels the one with the least key at each pixel. [Ohno 1985]
 //
-// Shape: ceil(log2 UNITS) levels. A level pairs its neighbours in compare cells; one that is left over at the end passes through a
-//   register, so that all pixels of a line are in the same level at the same time.
+// Shape: ceil(log2 UNITS) levels. A level pairs its neighbours in compare cells; one that is left over at the end
+//   passes through a register, so that all pixels of a line are in the same level at the same time.
 // Result: the pixel with the least key, the upper KEY_BITS of its data; on equal keys that of the lowest unit.
-// Handshake: valid/ready on all sides. A pixel of each unit is taken in the same clock or later, level by level: a unit's
-//   ready depends on its neighbours' valids and, level by level, on out_ready_i. All units' lines have the same width.
+// Handshake: valid/ready on all sides. A pixel of each unit is taken in the same clock or later, level by level: a
+//   unit's ready depends on its neighbours' valids and, level by level, on out_ready_i. All units' lines have the same
+//   width.
 // Latency: ceil(log2 UNITS) clocks (0 with one unit: wires). Throughput: a pixel a clock. rst_ni low empties the tree.
 // Cost: UNITS - 1 compare cells and a register for each pixel that passes.
 `default_nettype none

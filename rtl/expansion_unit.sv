@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // An expansion unit: makes pixels of the segments of convex polyhedra that do not overlap on the screen. [Ohno 1985]
 //
-// Segments: seg_* is valid/ready. A line's segments come in order, of 1 .. 2^DX_BITS - 1 pixels each, at most 2^SEG_BITS of them; the line is
-//   complete when they sum to width_i. Two lines are buffered, a half of the RAM each: seg_ready_o falls while both halves
-//   hold a line that has not been read out whole. A line is expanded only when it is complete, so it has no bubble from its first pixel to its last.
-// Faces: face_valid_i writes an entry of the table of the frame that came in last; segments may name it from the next clock on. The
-//   table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs while they leave: whoever
-//   gives frame_start_i sees to it that no line is left of the frame before that one, and that no line is half filled.
-// Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >> Z_FRAC, 1, 2^Z_BITS - 2), with the
-//   face's index, colour and class. Face all ones is blank: Z and index all ones, colour and class 0. px_data_o = {Z, index, colour, class}.
+// Segments: seg_* is valid/ready, with the segment in piece_i. A line's segments come in order, of 1 .. 2^DX_BITS - 1
+//   pixels each, at most 2^SEG_BITS of them; the line is complete when they sum to width_i. Two lines are buffered, a
+//   half of the RAM each: seg_ready_o falls while both halves hold a line that has not been read out whole. A line is
+//   expanded only when it is complete, so it has no bubble from its first pixel to its last.
+// Faces: face_valid_i writes piece_i into the table of the frame that came in last; segments may name it from the next
+//   clock on. The table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs
+//   while they leave: whoever gives frame_start_i sees to it that no line is left of the frame before that one, and
+//   that no line is half filled.
+// Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >>
+//   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. Face all ones is blank: Z and index all ones,
+//   colour and class 0. px_data_o = {Z, index, colour, class}.
 // flush_i drops all lines, in one clock; the table stays.
 // width_i matters with segments only, and holds still while a line comes in.
-// Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that are buffered without a gap.
-// Cost: RAMs of 2^(SEG_BITS + 1) segments and 2^(FACE_BITS + 1) entries, an adder of DepthBits, about 4 registers of a segment's width.
+// Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that
+//   are buffered without a gap.
+// Cost: RAMs of 2^(SEG_BITS + 1) segments and 2^(FACE_BITS + 1) entries, an adder of DepthBits, about 4 registers of a
+//   segment's width.
 `default_nettype none
 
 module expansion_unit #(
@@ -27,21 +32,22 @@ module expansion_unit #(
     input wire logic              flush_i,
     input wire logic [X_BITS-1:0] width_i,
 
-    input wire logic                 face_valid_i,
-    input wire logic [FACE_BITS-1:0] face_number_i,
-    input wire logic [EntryBits-1:0] face_entry_i,
-
+    input  wire logic                 face_valid_i,
     input  wire logic                 seg_valid_i,
     output logic                      seg_ready_o,
-    input  wire logic [DepthBits-1:0] seg_z_i,
-    input  wire logic [  DX_BITS-1:0] seg_dx_i,
-    input  wire logic [FACE_BITS-1:0] seg_face_i,
+    input  wire logic [PieceBits-1:0] piece_i,
 
     output logic                      px_valid_o,
     input  wire logic                 px_ready_i,
     output logic      [PointBits-1:0] px_data_o,
     output logic                      px_last_o
 );
+  `include "generated/kage_buses.svh"
+
+  piece_t piece;
+  logic   unused_unit;
+  assign piece = piece_i;
+  assign unused_unit = ^piece.unit;  // the parent's choice
 
   localparam int WordBits = ZStored + DX_BITS + FACE_BITS;
 
@@ -57,7 +63,7 @@ module expansion_unit #(
   assign clear = !rst_ni || flush_i;
   assign seg_ready_o = !full_q[wr_half_q];
   assign seg_take = seg_valid_i && seg_ready_o;
-  assign sum = sum_q + X_BITS'(seg_dx_i);
+  assign sum = sum_q + X_BITS'(piece.dx);
   assign line_complete = seg_take && sum == width_i;
 
   always_ff @(posedge clk_i) begin
@@ -91,8 +97,8 @@ module expansion_unit #(
   end
 
   // ---- prefetch: the word of a segment, a register behind it, its face ---------------------------------------------
-  // Stage k holds a segment while valid_q[k]; move k lets it take what is before it. Nothing is read ahead of its time: a RAM keeps
-  // what it gave until the stage moves.
+  // Stage k holds a segment while valid_q[k]; move k lets it take what is before it. Nothing is read ahead of its time:
+  // a RAM keeps what it gave until the stage moves.
   logic load;  // the Z generator takes a segment
   logic read, read_end;
   logic [2:0] valid_q, last_q;
@@ -150,7 +156,7 @@ module expansion_unit #(
       .clk_i,
       .wr_en_i  (seg_take),
       .wr_addr_i({wr_half_q, wr_at_q}),
-      .wr_data_i({seg_z_i[ZStored-1:0], seg_dx_i, seg_face_i}),
+      .wr_data_i({piece.z[ZStored-1:0], piece.dx, piece.face}),
       .rd_en_i  (read),
       .rd_addr_i({rd_half_q, rd_at_q}),
       .rd_data_o(word)
@@ -162,8 +168,8 @@ module expansion_unit #(
   ) u_faces (
       .clk_i,
       .wr_en_i  (face_valid_i),
-      .wr_addr_i({wr_bank_q, face_number_i}),
-      .wr_data_i(face_entry_i),
+      .wr_addr_i({wr_bank_q, piece.face}),
+      .wr_data_i(piece.entry),
       .rd_en_i  (move2),
       .rd_addr_i({face_bank_q[1], word_q[FACE_BITS-1:0]}),
       .rd_data_o(entry)
@@ -231,16 +237,16 @@ module expansion_unit #(
     if (clear) mid_line_q <= 1'b0;
     else if (px_valid_o && px_ready_i) mid_line_q <= !px_last_o;
     if (rst_ni) begin
-      // 1. A segment has pixels and stays in its line, and the line in its half: behind the last place nothing comes. (What is in the
-      // last place may leave the line short: that line will not be completed.)
-      assert (!seg_take || (seg_dx_i != '0 && 16'(sum_q) + 16'(seg_dx_i) <= 16'(width_i)));
+      // 1. A segment has pixels and stays in its line, and the line in its half: behind the last place nothing comes.
+      // (What is in the last place may leave the line short: that line will not be completed.)
+      assert (!seg_take || (piece.dx != '0 && 16'(sum_q) + 16'(piece.dx) <= 16'(width_i)));
       assert (!seg_take || wr_at_q != '0 || sum_q == '0);
       // 2. No frame begins in the middle of a line.
       assert (!frame_start_i || flush_i || sum_q == '0);
       // 3. A line has no bubble.
       assert (!mid_line_q || px_valid_o);
       // 4. The paper's depth is unsigned.
-      assert (!seg_take || DepthBits'(seg_z_i[ZStored-1:0]) == seg_z_i);
+      assert (!seg_take || DepthBits'(piece.z[ZStored-1:0]) == piece.z);
     end
   end
 `endif

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame: checks its header, asks token_check about its tokens, keeps the line's number, and turns tokens into commands for the
-// pixels and lines for the way out. What is downstream never sees a malformed stream.
+// The frame: checks its header, asks token_check about its tokens, keeps the line's number, and turns tokens into
+// commands for the pixels and lines for the way out. What is downstream never sees a malformed stream.
 //
-// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o waits for
-//   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command, so lines and
-//   EOL commands come in the same order.
-// Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans, SHADE, IF and RESOLVE
-//   take their clock here and go no further: cmd_count_o brings the line's bias with EV, ES and EOL. A line's first TP is preceded by the
-//   command RESOLVE, which has no token: over the whole line, with the background as its colour. It costs a clock.
-//   With counters, if there was a RESOLVE to do, it is preceded by the command CmdOut instead: the line's pixels leave, by a line that says
-//   line_load_o, and come back as loads. Nothing is taken or given until loads_done_i, one clock, says that they have.
-// Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they are taken, and wait for table_free_i: that
-//   nothing of the frame before is left there.
-// Errors: the first one of a frame is reported by error_o for one clock. From then on the frame's lines are blank: EOL commands
-//   clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
-// Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its unit by
-//   tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose unit is at fault goes
-//   nowhere. tree_claim_o, one clock, says that a TREE became a command; tree_flush_o, one clock, that there will be no more of this
-//   frame. Without units these outputs are 0 and the inputs do not matter.
+// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o
+//   waits for line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a
+//   command, so lines and EOL commands come in the same order.
+// Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans,
+//   SHADE, IF and RESOLVE take their clock here and go no further: the command's count brings the line's bias with EV,
+//   ES and EOL. A line's first TP is preceded by the command RESOLVE, which has no token: over the whole line, with the
+//   background as its colour. It costs a clock. With counters, if there was a RESOLVE to do, it is preceded by the
+//   command CmdOut instead: the line's pixels leave, by a line that says `load`, and come back as loads. Nothing is
+//   taken or given until loads_done_i, one clock, says that they have.
+// Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they are taken, and wait for
+//   table_free_i: that nothing of the frame before is left there.
+// Errors: the first one of a frame is reported by error_* for one clock. From then on the frame's lines are blank: EOL
+//   commands clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
+// Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its
+//   unit by tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose
+//   unit is at fault goes nowhere. tree_claim_o, one clock, says that a TREE became a command; tree_flush_o, one clock,
+//   that there will be no more of this frame. Without units these outputs are 0 and the inputs do not matter.
 // Latency: 1 clock from token to command. Throughput: a token a clock.
 `default_nettype none
 
@@ -43,38 +44,22 @@ module frame_control #(
     input  wire logic                      dropping_i,
 
     // to the pixels
-    output logic                      cmd_valid_o,
-    input  wire logic                 cmd_ready_i,
-    output logic      [          3:0] cmd_kind_o,
-    output logic      [   X_BITS-1:0] cmd_xl_o,
-    output logic      [   X_BITS-1:0] cmd_xr_o,
-    output logic      [CountBits-1:0] cmd_count_o,   // as pixel_next has it
-    output logic      [DepthBits-1:0] cmd_z_o,
-    output logic      [DepthBits-1:0] cmd_dz_o,
-    output logic      [ColorBits-1:0] cmd_color_o,
-    output logic      [SlopeBits-1:0] cmd_dcolor_o,
-    output logic      [ShareBits-1:0] cmd_share_o,   // alpha of TP, shade of RESOLVE
-    input  wire logic                 loads_done_i,
+    output logic                        cmd_valid_o,
+    input  wire logic                   cmd_ready_i,
+    output logic      [CommandBits-1:0] cmd_o,
+    input  wire logic                   loads_done_i,
 
     // to the way out: the lines in order
     output logic                     line_valid_o,
     input  wire logic                line_ready_i,
-    output logic                     line_first_o,       // of its frame
-    output logic                     line_blank_o,       // background from its first pixel
-    output logic                     line_load_o,        // not for the video: it comes back to the pixels
-    output logic                     line_painted_o,     // every pixel has its colour: uncovered ones the background's
-    output logic      [  X_BITS-1:0] line_width_o,
-    output logic      [ RgbBits-1:0] line_background_o,
-    output logic      [SHADE_FRAC:0] line_shade_o,
+    output logic      [LineBits-1:0] line_o,
 
     // to the way out: entries of the light table
     input  wire logic                      table_free_i,
     output logic                           table_valid_o,
-    output logic      [    CLASS_BITS-1:0] table_class_o,
-    output logic      [     LightBits-1:0] table_light_o,
-    output logic      [EntryShareBits-1:0] table_share_o,
+    output logic      [TableEntryBits-1:0] table_o,
 
-    // to the units and the tree; the width is line_width_o
+    // to the units and the tree; the width is line_o's
     output logic                      tree_frame_start_o,
     input  wire logic                 tree_frame_ready_i,
     output logic                      tree_flush_o,
@@ -82,29 +67,21 @@ module frame_control #(
     output logic                      tree_face_valid_o,
     output logic                      tree_seg_valid_o,
     input  wire logic                 tree_seg_ready_i,
-    output logic      [ UnitBits-1:0] tree_unit_o,         // of FACE and SEG, as the next
-    output logic      [FACE_BITS-1:0] tree_face_o,
-    output logic      [EntryBits-1:0] tree_entry_o,
-    output logic      [DepthBits-1:0] tree_z_o,
-    output logic      [  DX_BITS-1:0] tree_dx_o,
+    output logic      [PieceBits-1:0] tree_piece_o,        // of FACE and SEG
 
     // to the registers
-    output logic        open_o,         // a frame's header has been taken and the frame has not ended
-    output logic        hungry_o,       // waits for a token or for TLAST
-    output logic        draining_o,     // input is being dropped after an error
-    output logic        painting_o,     // one clock: a TP waits while the RESOLVE or CmdOut before it becomes a command
-    output logic        frame_end_o,    // one clock
-    output logic        error_o,        // one clock, with the next five
-    output logic [ 3:0] error_code_o,
-    output logic [31:0] error_frame_o,
-    output logic [15:0] error_line_o,
-    output logic [31:0] error_token_o,
-    output logic [ 5:0] error_unit_o,
-    output logic        behind_o,       // a unit has less of the frame than another, with the next two; 1 clock late
-    output logic [ 5:0] behind_unit_o,
-    output logic [14:0] behind_line_o   // its first line that is not whole; without units the line at hand
+    output logic open_o,  // a frame's header has been taken and the frame has not ended
+    output logic hungry_o,  // waits for a token or for TLAST
+    output logic draining_o,  // input is being dropped after an error
+    output logic painting_o,  // one clock: a TP waits while the RESOLVE or CmdOut before it becomes a command
+    output logic frame_end_o,  // one clock
+    output logic error_valid_o,  // one clock, with the next
+    output logic [ErrorBits-1:0] error_o,
+    output logic behind_valid_o,  // a unit has less of the frame than another; 1 clock late
+    output logic [BehindBits-1:0] behind_o
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
 
   localparam logic [1:0] StHeader = 2'd0;
   localparam logic [1:0] StBody = 2'd1;  // tokens of an error-free frame
@@ -154,16 +131,16 @@ module frame_control #(
   // ---- body --------------------------------------------------------------------------------------------------------
   logic accept, good, emit_eol, emit_paint;  // what happens in this clock, see below
   logic lines_done, resolved, seg_goes, unit_behind;
-  logic [3:0] body_error;
+  logic [ 3:0] body_error;
   logic [31:0] fault_token;
-  logic [5:0] fault_unit;
+  logic [5:0] fault_unit, unit_of_behind;
   logic [1:0] ahead_of_behind;
   logic [DsfBits-1:0] bias;
   assign lines_done = line_q == height_q;
 
   token_check #(
+      .TOKEN_WORDS(TOKEN_WORDS),
       `include "generated/kage_pixel_param_map.svh"
-      .TOKEN_WORDS(TOKEN_WORDS)
   ) u_check (
       .clk_i,
       .rst_ni,
@@ -188,7 +165,7 @@ module frame_control #(
       .bias_o        (bias),
       .resolved_o    (resolved),
       .behind_o      (unit_behind),
-      .behind_unit_o (behind_unit_o),
+      .behind_unit_o (unit_of_behind),
       .behind_ahead_o(ahead_of_behind)
   );
 
@@ -208,8 +185,8 @@ module frame_control #(
   assign emit_eol = body_eol || blank_eol;
   assign emit_span = good && !token_header_i && is_span && token_i[OpXlLsb+:X_BITS] != token_i[OpXrLsb+:X_BITS];
   assign emit_tree = good && !token_header_i && is_tree;
-  // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line is blank, and
-  // to the latter it does no harm. Not if it is cut: then not even its kind may be there.
+  // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line
+  // is blank, and to the latter it does no harm. Not if it is cut: then not even its kind may be there.
   assign must_paint = is_tp && !token_cut_i && !painted_q;
   assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
       (line_ready_i || !by_loads);
@@ -219,28 +196,37 @@ module frame_control #(
   assign drop_o = bad && !token_final_i;
 
   assign line_valid_o = emit_eol || emit_out;
-  assign line_load_o = emit_out;
-  assign line_first_o = line_q == '0;
-  assign line_blank_o = blank_eol;
-  assign line_painted_o = painted_q;
-  assign line_width_o = width_q;
-  assign line_background_o = background_q;
-  assign line_shade_o = shade_q;
+  line_t line;
+  assign line_o = line;
+  assign line.first = line_q == '0;
+  assign line.blank = blank_eol;
+  assign line.load = emit_out;
+  assign line.painted = painted_q;
+  assign line.width = width_q;
+  assign line.background = background_q;
+  assign line.shade = shade_q;
 
   assign open_o = state_q != StHeader;
   assign hungry_o = state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done);
   assign painting_o = emit_paint;
   assign draining_o = state_q == StBlank && dropping_i;
   assign frame_end_o = (good && !token_header_i && is_end) || (state_q == StBlank && lines_done && !dropping_i);
-  assign error_o = bad;
-  assign error_code_o = error_code;
-  assign error_frame_o = token_header_i ? (token_cut_i ? 32'd0 : token_i[HeaderFrameLsb+:32]) : frame_q;
-  assign error_line_o = token_header_i ? 16'd0 : 16'(line_q);
-  assign error_token_o = token_header_i ? 32'd0 : fault_token;
-  assign error_unit_o = token_header_i ? 6'd0 : fault_unit;
+
+  error_t error;
+  assign error_valid_o = bad;
+  assign error_o = error;
+  assign error.code = error_code;
+  assign error.frame = token_header_i ? (token_cut_i ? 32'd0 : token_i[HeaderFrameLsb+:32]) : frame_q;
+  assign error.line = token_header_i ? 16'd0 : 16'(line_q);
+  assign error.token = token_header_i ? 32'd0 : fault_token;
+  assign error.unit = token_header_i ? 6'd0 : fault_unit;
+
   // None while a frame ends or is dropped: what the units hold then is not waited for.
-  assign behind_o = unit_behind && state_q == StBody;
-  assign behind_line_o = behind_o ? line_q + 15'(ahead_of_behind) : line_q;
+  behind_t behind;
+  assign behind_valid_o = unit_behind && state_q == StBody;
+  assign behind_o = behind;
+  assign behind.unit = unit_of_behind;
+  assign behind.line = behind_valid_o ? line_q + 15'(ahead_of_behind) : line_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -282,9 +268,11 @@ module frame_control #(
   end
 
   // ---- command register --------------------------------------------------------------------------------------------
+  command_t cmd;
+  assign cmd_o = cmd;
   token_command #(
+      .TOKEN_WORDS(TOKEN_WORDS),
       `include "generated/kage_pixel_param_map.svh"
-      .TOKEN_WORDS(TOKEN_WORDS)
   ) u_command (
       .clk_i,
       .rst_ni,
@@ -301,33 +289,29 @@ module frame_control #(
       .make_out_i  (emit_out),
       .cmd_valid_o,
       .cmd_ready_i,
-      .cmd_kind_o,
-      .cmd_xl_o,
-      .cmd_xr_o,
-      .cmd_count_o,
-      .cmd_z_o,
-      .cmd_dz_o,
-      .cmd_color_o,
-      .cmd_dcolor_o,
-      .cmd_share_o
+      .cmd_o       (cmd)
   );
 
   // ---- light table -------------------------------------------------------------------------------------------------
-  assign table_class_o = token_i[TableClassLsb+:CLASS_BITS];
-  assign table_light_o = token_i[TableLightLsb+:LightBits];
-  assign table_share_o = token_i[TableShareLsb+:EntryShareBits];
+  table_entry_t entry;
+  assign table_o = entry;
+  assign entry.normal_class = token_i[TableClassLsb+:CLASS_BITS];
+  assign entry.light = token_i[TableLightLsb+:LightBits];
+  assign entry.share = token_i[TableShareLsb+:EntryShareBits];
   assign table_valid_o = good && !token_header_i && is_table;
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
+  piece_t piece;  // yosys 0.23 finds no fields of a struct that a generate block declares
+  assign tree_piece_o = piece;
   if (UNITS > 0) begin : gen_tree
     logic is_face, is_seg;
     assign is_face = kind == KindFace;
     assign is_seg = kind == KindSeg;
-    assign tree_unit_o = is_face ? token_i[FaceUnitLsb+:UnitBits] : token_i[SegUnitLsb+:UnitBits];
-    assign tree_face_o = is_face ? token_i[FaceFaceLsb+:FACE_BITS] : token_i[SegFaceLsb+:FACE_BITS];
-    assign tree_entry_o = token_i[FaceIndexLsb+:EntryBits];
-    assign tree_z_o = DepthBits'(token_i[SegZLsb+:SegZBits]);
-    assign tree_dx_o = token_i[SegDxLsb+:DX_BITS];
+    assign piece.unit = is_face ? token_i[FaceUnitLsb+:UnitBits] : token_i[SegUnitLsb+:UnitBits];
+    assign piece.face = is_face ? token_i[FaceFaceLsb+:FACE_BITS] : token_i[SegFaceLsb+:FACE_BITS];
+    assign piece.entry = token_i[FaceIndexLsb+:EntryBits];
+    assign piece.z = DepthBits'(token_i[SegZLsb+:SegZBits]);
+    assign piece.dx = token_i[SegDxLsb+:DX_BITS];
 
     assign tree_frame_start_o = good && token_header_i;
     assign tree_flush_o = bad && !token_header_i;
@@ -342,7 +326,7 @@ module frame_control #(
     logic unused_tree;
     assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i ^ seg_goes;
     assign {tree_frame_start_o, tree_flush_o, tree_claim_o, tree_face_valid_o, tree_seg_valid_o} = '0;
-    assign {tree_unit_o, tree_face_o, tree_entry_o, tree_z_o, tree_dx_o} = '0;
+    assign piece = '0;
     assign frame_free = 1'b1;
     assign body_free = cmd_free;
   end
@@ -354,9 +338,11 @@ module frame_control #(
       // 1. The header is the first token of a frame and no other.
       assert (!accept || token_header_i == (state_q == StHeader));
       // 2. A command has pixels.
-      assert (!cmd_valid_o || cmd_xl_o < cmd_xr_o);
+      assert (!cmd_valid_o || cmd.xl < cmd.xr);
       // 3. The line number never passes the height.
       assert (state_q == StHeader || line_q <= height_q);
+      // 4. The bias is cleared in no clock in which a token is taken: the proof of line_phase assumes it.
+      assert (!(good && !token_header_i) || !emit_paint);
     end
   end
 `endif

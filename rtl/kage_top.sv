@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage: a span-stream rendering core. Frames of tokens in, video out; docs/stream.md is the contract, docs/rtl.md the guide.
+// kage: a span-stream rendering core. Frames of tokens in, video out; docs/stream.md is the contract, docs/rtl.md the
+// guide.
 //
 //   s_axis -> token_reader -> frame_control -> pixel_core -> line_out -> m_axis
 //                                    \---- lines ----^          registers on s_axil
 //                     frame_control -> tree_core -> pixel_core      (UNITS > 0)
 //
-// Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of s_axis and
-//   s_axil, which rst_ni keeps low.
-// Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame. Nothing is taken and lost
-//   in reset: no input is ready. The valids are low from the second clock of it on.
+// Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of
+//   s_axis and s_axil, which rst_ni keeps low.
+// Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame. Nothing is taken
+//   and lost in reset: no input is ready. The valids are low from the second clock of it on.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -55,6 +56,7 @@ module kage_top #(
     output logic irq_o
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
 
   // ---- legal parameters --------------------------------------------------------------------------------------------
   `include "generated/kage_checks.svh"
@@ -68,9 +70,9 @@ module kage_top #(
   logic drop, dropping, reader_busy, reader_moving;
 
   token_reader #(
-      `include "generated/kage_pixel_param_map.svh"
       .BEAT_WORDS (BEAT_WORDS),
-      .TOKEN_WORDS(FrontWords)
+      .TOKEN_WORDS(FrontWords),
+      `include "generated/kage_pixel_param_map.svh"
   ) u_reader (
       .clk_i,
       .rst_ni,
@@ -94,55 +96,32 @@ module kage_top #(
 
   // ---- tokens to commands and lines --------------------------------------------------------------------------------
   logic cmd_valid, cmd_ready;
-  logic [3:0] cmd_kind;
-  logic [X_BITS-1:0] cmd_xl, cmd_xr;
-  logic [CountBits-1:0] cmd_count;
-  logic [DepthBits-1:0] cmd_z, cmd_dz;
-  logic [ColorBits-1:0] cmd_color;
-  logic [SlopeBits-1:0] cmd_dcolor;
-  logic [ShareBits-1:0] cmd_share;
+  command_t cmd;
 
-  localparam int LineBits = 4 + X_BITS + RgbBits + SHADE_FRAC + 1;
-  logic line_valid, line_ready, line_first, line_blank, line_load, line_painted;
-  logic [  X_BITS-1:0] line_width;
-  logic [ RgbBits-1:0] line_background;
-  logic [SHADE_FRAC:0] line_shade;
-  logic queue_valid, queue_ready, queue_first, queue_blank, queue_load, queue_painted;
-  logic [  X_BITS-1:0] queue_width;
-  logic [ RgbBits-1:0] queue_background;
-  logic [SHADE_FRAC:0] queue_shade;
+  logic line_valid, line_ready, queue_valid, queue_ready;
+  line_t line, queue_line;
 
-  logic table_free, table_valid, load_valid, load_ready, load_last, loads_done;
-  logic [    CLASS_BITS-1:0] table_class;
-  logic [     LightBits-1:0] table_light;
-  logic [EntryShareBits-1:0] table_share;
-  logic [        X_BITS-1:0] load_x;
-  logic [       RgbBits-1:0] load_color;
+  logic table_free, table_valid, load_valid, load_ready, loads_done;
+  table_entry_t table_entry;
+  load_t load;
 
-  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each has one
-  // pixel, 5 + LightStages in line_out's pipeline and 2 behind it. So is one that comes back as loads, until its last has been taken.
+  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each
+  // has one pixel, 5 + LightStages in line_out's pipeline and 2 behind it. So is one that comes back as loads, until
+  // its last has been taken.
   localparam int LinesBits = COUNT_BITS > 0 ? 5 : 4;
   logic [LinesBits-1:0] lines_q;
 
   logic tree_frame_start, tree_frame_ready, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_seg_ready;
-  logic [ UnitBits-1:0] tree_unit;
-  logic [FACE_BITS-1:0] tree_face;
-  logic [EntryBits-1:0] tree_entry;
-  logic [DepthBits-1:0] tree_seg_z;
-  logic [  DX_BITS-1:0] tree_dx;
+  piece_t tree_piece;
 
-  logic frame_open, hungry, draining, painting, frame_end, error;
-  logic behind;
-  logic [5:0] error_unit, behind_unit;
-  logic [14:0] behind_line;
-  logic [ 3:0] error_code;
-  logic [31:0] error_frame, error_token;
-  logic [15:0] error_line;
+  logic frame_open, hungry, draining, painting, frame_end, error_valid, behind_valid;
+  error_t  error;
+  behind_t behind;
 
   frame_control #(
-      `include "generated/kage_pixel_param_map.svh"
       .MAX_WIDTH  (MAX_WIDTH),
-      .TOKEN_WORDS(FrontWords)
+      .TOKEN_WORDS(FrontWords),
+      `include "generated/kage_pixel_param_map.svh"
   ) u_control (
       .clk_i,
       .rst_ni,
@@ -158,30 +137,14 @@ module kage_top #(
       .dropping_i        (dropping),
       .cmd_valid_o       (cmd_valid),
       .cmd_ready_i       (cmd_ready),
-      .cmd_kind_o        (cmd_kind),
-      .cmd_xl_o          (cmd_xl),
-      .cmd_xr_o          (cmd_xr),
-      .cmd_count_o       (cmd_count),
-      .cmd_z_o           (cmd_z),
-      .cmd_dz_o          (cmd_dz),
-      .cmd_color_o       (cmd_color),
-      .cmd_dcolor_o      (cmd_dcolor),
-      .cmd_share_o       (cmd_share),
+      .cmd_o             (cmd),
       .loads_done_i      (loads_done),
       .line_valid_o      (line_valid),
       .line_ready_i      (line_ready),
-      .line_first_o      (line_first),
-      .line_blank_o      (line_blank),
-      .line_load_o       (line_load),
-      .line_painted_o    (line_painted),
-      .line_width_o      (line_width),
-      .line_background_o (line_background),
-      .line_shade_o      (line_shade),
+      .line_o            (line),
       .table_free_i      (table_free),
       .table_valid_o     (table_valid),
-      .table_class_o     (table_class),
-      .table_light_o     (table_light),
-      .table_share_o     (table_share),
+      .table_o           (table_entry),
       .tree_frame_start_o(tree_frame_start),
       .tree_frame_ready_i(tree_frame_ready),
       .tree_flush_o      (tree_flush),
@@ -189,25 +152,16 @@ module kage_top #(
       .tree_face_valid_o (tree_face_valid),
       .tree_seg_valid_o  (tree_seg_valid),
       .tree_seg_ready_i  (tree_seg_ready),
-      .tree_unit_o       (tree_unit),
-      .tree_face_o       (tree_face),
-      .tree_entry_o      (tree_entry),
-      .tree_z_o          (tree_seg_z),
-      .tree_dx_o         (tree_dx),
+      .tree_piece_o      (tree_piece),
       .open_o            (frame_open),
       .hungry_o          (hungry),
       .draining_o        (draining),
       .painting_o        (painting),
       .frame_end_o       (frame_end),
+      .error_valid_o     (error_valid),
       .error_o           (error),
-      .error_code_o      (error_code),
-      .error_frame_o     (error_frame),
-      .error_line_o      (error_line),
-      .error_token_o     (error_token),
-      .error_unit_o      (error_unit),
-      .behind_o          (behind),
-      .behind_unit_o     (behind_unit),
-      .behind_line_o     (behind_line)
+      .behind_valid_o    (behind_valid),
+      .behind_o          (behind)
   );
 
   // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer.
@@ -219,31 +173,18 @@ module kage_top #(
       .rst_ni,
       .in_valid_i (line_valid),
       .in_ready_o (line_ready),
-      .in_data_i  ({line_first, line_blank, line_load, line_painted, line_width, line_background, line_shade}),
+      .in_data_i  (line),
       .out_valid_o(queue_valid),
       .out_ready_i(queue_ready),
-      .out_data_o ({queue_first, queue_blank, queue_load, queue_painted, queue_width, queue_background, queue_shade})
+      .out_data_o (queue_line)
   );
 
   // ---- faces and segments to the tree's lines ----------------------------------------------------------------------
-  logic tree_valid, tree_ready, tree_last, tree_drop, tree_moving;
-  logic [CLASS_BITS-1:0] tree_class;
-  logic [Z_BITS-1:0] tree_z;
-  logic [RgbBits-1:0] tree_color;
+  logic tree_valid, tree_ready, tree_drop, tree_moving;
+  tree_pixel_t tree_pixel;
   if (UNITS > 0) begin : gen_tree
     tree_core #(
-        .X_BITS(X_BITS),
-        .Z_BITS(Z_BITS),
-        .Z_FRAC(Z_FRAC),
-        .CHANNELS(CHANNELS),
-        .DSF_BITS(DSF_BITS),
-        .CLASS_BITS(CLASS_BITS),
-        .UNITS(UNITS),
-        .FACE_BITS(FACE_BITS),
-        .DX_BITS(DX_BITS),
-        .SEG_BITS(SEG_BITS),
-        .ORDER_BITS(ORDER_BITS),
-        .CLASSIC(CLASSIC)
+        `include "generated/kage_pixel_param_map.svh"
     ) u_tree (
         .clk_i,
         .rst_ni,
@@ -251,32 +192,22 @@ module kage_top #(
         .frame_ready_o(tree_frame_ready),
         .flush_i      (tree_flush),
         .claim_i      (tree_claim),
-        .width_i      (line_width),
+        .width_i      (line.width),
         .face_valid_i (tree_face_valid),
-        .face_unit_i  (tree_unit),
-        .face_number_i(tree_face),
-        .face_entry_i (tree_entry),
         .seg_valid_i  (tree_seg_valid),
         .seg_ready_o  (tree_seg_ready),
-        .seg_unit_i   (tree_unit),
-        .seg_z_i      (tree_seg_z),
-        .seg_dx_i     (tree_dx),
-        .seg_face_i   (tree_face),
+        .piece_i      (tree_piece),
         .line_valid_o (tree_valid),
         .line_ready_i (tree_ready),
-        .line_z_o     (tree_z),
-        .line_class_o (tree_class),
-        .line_color_o (tree_color),
-        .line_last_o  (tree_last),
+        .line_o       (tree_pixel),
         .drop_o       (tree_drop),
         .moving_o     (tree_moving)
     );
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_frame_start, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_unit,
-                           tree_face,
-                           tree_entry, tree_seg_z, tree_dx, tree_ready};
-    assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_z, tree_class, tree_color, tree_last, tree_drop} = '0;
+    assign unused_tree = ^{tree_frame_start, tree_flush, tree_claim, tree_face_valid, tree_seg_valid,
+                           tree_piece, tree_ready};
+    assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_pixel, tree_drop} = '0;
     assign tree_moving = 1'b0;
   end
 
@@ -284,66 +215,37 @@ module kage_top #(
   logic exit_free, exit_take, exit_valid, exit_last, pixels_moving, out_moving;
   logic [ExitLanes*ExitBits-1:0] exit_data;
   logic pixel_valid, pixel_ready;
-  logic [3:0] pixel_kind;
-  logic [X_BITS-1:0] pixel_xl, pixel_xr;
-  logic [ColorBits-1:0] pixel_color;
-  logic [SlopeBits-1:0] pixel_dcolor;
+  command_t pixel_cmd;
 
   pixel_loads #(
-      .X_BITS(X_BITS),
-      .CHANNELS(CHANNELS),
-      .SMOOTH(SMOOTH),
-      .COLOR_FRAC(COLOR_FRAC),
-      .COUNT_BITS(COUNT_BITS),
-      .TRANSLUCENCY(TRANSLUCENCY)
+      `include "generated/kage_pixel_param_map.svh"
   ) u_loads (
       .in_valid_i  (cmd_valid),
       .in_ready_o  (cmd_ready),
-      .in_kind_i   (cmd_kind),
-      .in_xl_i     (cmd_xl),
-      .in_xr_i     (cmd_xr),
-      .in_color_i  (cmd_color),
-      .in_dcolor_i (cmd_dcolor),
+      .in_i        (cmd),
       .load_valid_i(load_valid),
       .load_ready_o(load_ready),
-      .load_x_i    (load_x),
-      .load_color_i(load_color),
-      .load_last_i (load_last),
+      .load_i      (load),
       .done_o      (loads_done),
       .out_valid_o (pixel_valid),
       .out_ready_i (pixel_ready),
-      .out_kind_o  (pixel_kind),
-      .out_xl_o    (pixel_xl),
-      .out_xr_o    (pixel_xr),
-      .out_color_o (pixel_color),
-      .out_dcolor_o(pixel_dcolor)
+      .out_o       (pixel_cmd)
   );
 
   pixel_core #(
-      `include "generated/kage_pixel_param_map.svh"
       .ARRANGEMENT(ARRANGEMENT),
       .LANES(LANES),
-      .MAX_WIDTH(MAX_WIDTH)
+      .MAX_WIDTH(MAX_WIDTH),
+      `include "generated/kage_pixel_param_map.svh"
   ) u_pixels (
       .clk_i,
       .rst_ni,
       .cmd_valid_i (pixel_valid),
       .cmd_ready_o (pixel_ready),
-      .cmd_kind_i  (pixel_kind),
-      .cmd_xl_i    (pixel_xl),
-      .cmd_xr_i    (pixel_xr),
-      .cmd_count_i (cmd_count),
-      .cmd_z_i     (cmd_z),
-      .cmd_dz_i    (cmd_dz),
-      .cmd_color_i (pixel_color),
-      .cmd_dcolor_i(pixel_dcolor),
-      .cmd_share_i (cmd_share),
+      .cmd_i       (pixel_cmd),
       .tree_valid_i(tree_valid),
       .tree_ready_o(tree_ready),
-      .tree_z_i    (tree_z),
-      .tree_class_i(tree_class),
-      .tree_color_i(tree_color),
-      .tree_last_i (tree_last),
+      .tree_i      (tree_pixel),
       .tree_drop_i (tree_drop),
       .exit_free_i (exit_free),
       .exit_take_o (exit_take),
@@ -354,41 +256,31 @@ module kage_top #(
   );
 
   line_out #(
-      `include "generated/kage_pixel_param_map.svh"
       .LANES(ExitLanes),
-      .MAX_WIDTH(MAX_WIDTH)
+      .MAX_WIDTH(MAX_WIDTH),
+      `include "generated/kage_pixel_param_map.svh"
   ) u_out (
       .clk_i,
       .rst_ni,
-      .exit_free_o      (exit_free),
-      .exit_take_i      (exit_take),
-      .exit_valid_i     (exit_valid),
-      .exit_last_i      (exit_last),
-      .exit_data_i      (exit_data),
-      .line_valid_i     (queue_valid),
-      .line_ready_o     (queue_ready),
-      .line_first_i     (queue_first),
-      .line_blank_i     (queue_blank),
-      .line_load_i      (queue_load),
-      .line_painted_i   (queue_painted),
-      .line_width_i     (queue_width),
-      .line_background_i(queue_background),
-      .line_shade_i     (queue_shade),
-      .table_valid_i    (table_valid),
-      .table_class_i    (table_class),
-      .table_light_i    (table_light),
-      .table_share_i    (table_share),
-      .load_valid_o     (load_valid),
-      .load_ready_i     (load_ready),
-      .load_x_o         (load_x),
-      .load_color_o     (load_color),
-      .load_last_o      (load_last),
-      .m_valid_o        (m_axis_tvalid_o),
-      .m_ready_i        (m_axis_tready_i),
-      .m_data_o         (m_axis_tdata_o),
-      .m_user_o         (m_axis_tuser_o),
-      .m_last_o         (m_axis_tlast_o),
-      .moving_o         (out_moving)
+      .exit_free_o  (exit_free),
+      .exit_take_i  (exit_take),
+      .exit_valid_i (exit_valid),
+      .exit_last_i  (exit_last),
+      .exit_data_i  (exit_data),
+      .line_valid_i (queue_valid),
+      .line_ready_o (queue_ready),
+      .line_i       (queue_line),
+      .table_valid_i(table_valid),
+      .table_i      (table_entry),
+      .load_valid_o (load_valid),
+      .load_ready_i (load_ready),
+      .load_o       (load),
+      .m_valid_o    (m_axis_tvalid_o),
+      .m_ready_i    (m_axis_tready_i),
+      .m_data_o     (m_axis_tdata_o),
+      .m_user_o     (m_axis_tuser_o),
+      .m_last_o     (m_axis_tlast_o),
+      .moving_o     (out_moving)
   );
 
   // ---- status ------------------------------------------------------------------------------------------------------
@@ -405,15 +297,15 @@ module kage_top #(
   assign frame_here = in_frame || lines_q != '0;
   assign waiting_input = in_frame && hungry && !token_valid && s_axis_tready_o && !s_axis_tvalid_i;
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
-  // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites only
-  // if one of them does.
+  // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
+  // only if one of them does.
   assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
       told_q || painting || frame_end || line_valid || (pixel_valid && pixel_ready) || pixels_moving || out_moving ||
       tree_moving || (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
-      `include "generated/kage_pixel_param_map.svh"
       `include "generated/kage_impl_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
   ) u_registers (
       .clk_i,
       .rst_ni,
@@ -441,15 +333,10 @@ module kage_top #(
       .waiting_output_i(waiting_output),
       .progress_i      (progress),
       .frame_end_i     (frame_end),
+      .error_valid_i   (error_valid),
       .error_i         (error),
-      .error_code_i    (error_code),
-      .error_frame_i   (error_frame),
-      .error_line_i    (error_line),
-      .error_token_i   (error_token),
-      .error_unit_i    (error_unit),
-      .behind_i        (behind),
-      .behind_unit_i   (behind_unit),
-      .behind_line_i   (behind_line)
+      .behind_valid_i  (behind_valid),
+      .behind_i        (behind)
   );
 
   // ---- assertions --------------------------------------------------------------------------------------------------

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A value that changes linearly along a span, for LANES neighbouring pixels at a time: depth, or one channel of colour.
 //
-// What it computes: clamp((start + (x - xl) * slope) >> FRAC, LO, HI) for x = first pixel of the group + lane; the sum in two's
-//   complement of BITS bits, the shift arithmetic. Lanes left of xl get values too, which nobody uses.
-// How: no products. Three set-up clocks make the value at the first group's first lane by subtracting the shifted slopes that the
-//   bits of xl's place in its group select. Then a tree doubles the number of lanes per clock: left half the same, right half
-//   plus slope x half the lanes. A multiplier per lane was the critical path of earlier cores.
-// Control: the parent moves the set-up stages (set_en_i bit k lets stage k + 1 take what is before it) and the walker (load_i:
-//   take the set-up's result; step_i: one group further). The rest is a pipeline that always moves.
+// What it computes: clamp((start + (x - xl) * slope) >> FRAC, LO, HI) for x = first pixel of the group + lane; the sum
+//   in two's complement of BITS bits, the shift arithmetic. Lanes left of xl get values too, which nobody uses.
+// How: no products. Three set-up clocks make the value at the first group's first lane by subtracting the shifted
+//   slopes that the bits of xl's place in its group select. Then a tree doubles the number of lanes per clock: left
+//   half the same, right half plus slope x half the lanes. A multiplier per lane was the critical path of earlier
+//   cores.
+// Control: the parent moves the set-up stages (set_en_i bit k lets stage k + 1 take what is before it) and the walker
+//   (load_i: take the set-up's result; step_i: one group further). The rest is a pipeline that always moves.
 // Latency: value_o belongs to the group the walker held $clog2(LANES) + 2 clocks ago.
 // Cost: about 2 x LANES adders and 3 x LANES registers of BITS bits. Nothing is reset.
 `default_nettype none
@@ -62,7 +63,8 @@ module lane_ramp #(
   end
 
   // ---- walker and lane tree ----------------------------------------------------------------------------------------
-  // Level k holds 2^k values, that of pixel i * LANES / 2^k of the group at place i; levels lie behind each other, the root first.
+  // Level k holds 2^k values, that of pixel i * LANES / 2^k of the group at place i; levels lie behind each other, the
+  // root first.
   logic [(2*LANES-1)*BITS-1:0] tree_d, tree_q;
   logic [(Levels+1)*BITS-1:0] slopes_d, slopes_q;  // the slope that goes with each level
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// RESOLVE for counters: what a pixel keeps of its colour, from its counts and class. One pixel a clock, where pixels leave one by one,
-// so table and products exist once, not LANES times.
+// RESOLVE for counters: what a pixel keeps of its colour, from its counts and class. One pixel a clock, where pixels
+// leave one by one, so table and products exist once, not LANES times.
 //
-// Pixels: pixel_i is {counts, class, covered, colour}, the class with a table only, the counts 0 where the class is. LightStages clocks of
-//   go_i later pixel_o is its {covered, colour}, and factor_o each channel's factor in 2^-SHADE_FRAC, channel 0 lowest:
-//   max(0, 2^SHADE_FRAC - sum over lights of count x share), where without a table share is shade_i, which holds still while pixels are within.
-// Table (CLASS_BITS > 1): table_valid_i writes the entry of a class and a light. No pixel within may be of a frame before: frame_control
-//   waits for the way out to be empty. What has not been written is never looked up with a count other than 0. No share is more than 1.
-// Latency: with a table 5 clocks: RAM, the register behind it, products, sums, factors; without one 2: product, factor. Throughput: a pixel a clock.
-// Cost: with a table a RAM of 2^CLASS_BITS x CHANNELS x (SHADE_FRAC + 1) bits and CHANNELS products of COUNT_BITS x (SHADE_FRAC + 1) bits for
-//   each light; without one a single product.
+// Pixels: pixel_i is {counts, class, covered, colour}, the class with a table only, the counts 0 where the class is.
+//   LightStages clocks of go_i later pixel_o is its {covered, colour}, and factor_o each channel's factor in
+//   2^-SHADE_FRAC, channel 0 lowest: max(0, 2^SHADE_FRAC - sum over lights of count x share), where without a table
+//   share is shade_i, which holds still while pixels are within.
+// Table (CLASS_BITS > 1): table_valid_i writes the entry of a class and a light. No pixel within may be of a frame
+//   before: frame_control waits for the way out to be empty. What has not been written is never looked up with a count
+//   other than 0. No share is more than 1.
+// Latency: with a table 5 clocks: RAM, the register behind it, products, sums, factors; without one 2: product, factor.
+//   Throughput: a pixel a clock.
+// Cost: with a table a RAM of 2^CLASS_BITS x CHANNELS x (SHADE_FRAC + 1) bits and CHANNELS products of COUNT_BITS x
+//   (SHADE_FRAC + 1) bits for each light; without one a single product.
 // Needs COUNT_BITS > 0: a core without counters leaves it out.
 `default_nettype none
 
@@ -21,9 +24,7 @@ module light_resolve #(
     input wire logic clk_i,
 
     input wire logic                      table_valid_i,
-    input wire logic [    CLASS_BITS-1:0] table_class_i,
-    input wire logic [     LightBits-1:0] table_light_i,
-    input wire logic [EntryShareBits-1:0] table_share_i,
+    input wire logic [TableEntryBits-1:0] table_i,
     input wire logic [      SHADE_FRAC:0] shade_i,
 
     input  wire logic                           go_i,
@@ -31,6 +32,7 @@ module light_resolve #(
     output logic      [              RgbBits:0] pixel_o,
     output logic      [CHANNELS*FactorBits-1:0] factor_o
 );
+  `include "generated/kage_buses.svh"
 
   // At least 1, so that the file can be read with its defaults.
   localparam int Stages = LightStages > 0 ? LightStages : 1;
@@ -51,6 +53,8 @@ module light_resolve #(
   // ---- share of each light and channel, with the counts ------------------------------------------------------------
   logic [LIGHTS*Shares*FactorBits-1:0] shares;
   logic [Counts-1:0] counts;
+  table_entry_t entry;
+  assign entry = table_i;
   if (CLASS_BITS > 1) begin : gen_table
     logic [LIGHTS*EntryShareBits-1:0] entries, entries_q;
     logic [2*Counts-1:0] counts_q;
@@ -62,9 +66,9 @@ module light_resolve #(
           .WORDS(2 ** CLASS_BITS)
       ) u_shares (
           .clk_i,
-          .wr_en_i  (table_valid_i && table_light_i == LightBits'(l)),
-          .wr_addr_i(table_class_i),
-          .wr_data_i(table_share_i),
+          .wr_en_i  (table_valid_i && entry.light == LightBits'(l)),
+          .wr_addr_i(entry.normal_class),
+          .wr_data_i(entry.share),
           .rd_en_i  (go_i),
           .rd_addr_i(pixel_i[ExitClassAt+:CLASS_BITS]),
           .rd_data_o(entries[l*EntryShareBits+:EntryShareBits])
@@ -80,7 +84,7 @@ module light_resolve #(
     assign counts = counts_q[Counts+:Counts];
   end else begin : gen_shade
     logic unused_table;
-    assign unused_table = ^{table_valid_i, table_class_i, table_light_i, table_share_i};
+    assign unused_table = ^{table_valid_i, entry};
     assign shares = shade_i;
     assign counts = pixel_i[ExitCountAt+:Counts];
   end

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way out: two line buffers, so that the next line is worked on while this one leaves at a pixel a clock; the multiplier of
-// RESOLVE; background where nothing was drawn; AXI4-Stream video.
+// The way out: two line buffers, so that the next line is worked on while this one leaves at a pixel a clock; the
+// multiplier of RESOLVE; background where nothing was drawn; AXI4-Stream video.
 //
-// Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by exit_valid_i
-//   (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's width and colours, in the
-//   order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's last.
-// Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour, times 1 - shade if it is dark, rounded once:
-//   (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC. With counters every pixel has a factor of its own: light_resolve, which table_* loads.
-// Loads (counters and translucency): a line with line_load_i leaves by load_*, valid/ready, not by m_*: each pixel's place and colour.
-// Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so the one
-//   multiplier per channel here does the work of LANES of them in the pass that empties the line.
+// Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by
+//   exit_valid_i (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's
+//   width and colours, in the order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's
+//   last.
+// Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour,
+//   times 1 - shade if it is dark, rounded once: (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC. With
+//   counters every pixel has a factor of its own: light_resolve, which table_* loads.
+// Loads (counters and translucency): a line with `load` leaves by load_*, valid/ready, not by m_*: each pixel's
+//   place and colour.
+// Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so
+//   the one multiplier per channel here does the work of LANES of them in the pass that empties the line.
 // Latency: 8 clocks from a line's first group to its first pixel, and with counters LightStages more.
-// Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without shadows), light_resolve.
+// Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without
+//   shadows), light_resolve.
 `default_nettype none
 
 module line_out #(
@@ -33,26 +37,16 @@ module line_out #(
     // from frame_control
     input  wire logic                line_valid_i,
     output logic                     line_ready_o,
-    input  wire logic                line_first_i,
-    input  wire logic                line_blank_i,
-    input  wire logic                line_load_i,
-    input  wire logic                line_painted_i,
-    input  wire logic [  X_BITS-1:0] line_width_i,
-    input  wire logic [ RgbBits-1:0] line_background_i,
-    input  wire logic [SHADE_FRAC:0] line_shade_i,
+    input  wire logic [LineBits-1:0] line_i,
 
     // from frame_control: entries of the light table
     input wire logic                      table_valid_i,
-    input wire logic [    CLASS_BITS-1:0] table_class_i,
-    input wire logic [     LightBits-1:0] table_light_i,
-    input wire logic [EntryShareBits-1:0] table_share_i,
+    input wire logic [TableEntryBits-1:0] table_i,
 
     // back to the pixels
-    output logic                    load_valid_o,
-    input  wire logic               load_ready_i,
-    output logic      [ X_BITS-1:0] load_x_o,
-    output logic      [RgbBits-1:0] load_color_o,
-    output logic                    load_last_o,
+    output logic                     load_valid_o,
+    input  wire logic                load_ready_i,
+    output logic      [LoadBits-1:0] load_o,
 
     // video
     output logic                    m_valid_o,
@@ -63,10 +57,14 @@ module line_out #(
 
     output logic moving_o  // pixels are on their way through here
 );
+  `include "generated/kage_buses.svh"
 
   localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;
   localparam int AddrBits = $clog2(2 * Groups);
   localparam int LaneBits = LANES > 1 ? $clog2(LANES) : 1;
+
+  line_t line;
+  assign line = line_i;
 
   // ---- buffers in use ----------------------------------------------------------------------------------------------
   logic [1:0] taken_q, begun_q;  // buffers not free; those whose line has begun to come in
@@ -115,11 +113,12 @@ module line_out #(
   logic [SHADE_FRAC:0] keep_q;  // 1 - shade; with counters shade
   logic [Depth-1:0] valid_q;
 
-  // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake them.
-  // A frame's first line waits for the pipeline to drain, since background and shade are kept once, not per stage.
+  // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake
+  // them. A frame's first line waits for the pipeline to drain, since background and shade are kept once, not per
+  // stage.
   logic next_begun, may_start;
   assign next_begun = begun_q > 2'(sending_q);
-  assign may_start = sending_q ? go && issue_last && !line_first_i : !line_first_i || valid_q == '0;
+  assign may_start = sending_q ? go && issue_last && !line.first : !line.first || valid_q == '0;
   assign start = line_valid_i && next_begun && may_start;
   assign line_ready_o = start;
   assign issue = sending_q;
@@ -134,13 +133,13 @@ module line_out #(
 
     if (start) begin
       x_q <= '0;
-      first_q <= line_first_i;
-      blank_q <= line_blank_i;
-      painted_q <= TRANSLUCENCY > 0 && line_painted_i;
-      width_q <= line_width_i;
-      if (line_first_i) background_q <= line_background_i;
-      load_q <= HasLoads && line_load_i;
-      if (line_first_i) keep_q <= COUNT_BITS > 0 ? line_shade_i : {1'b1, {SHADE_FRAC{1'b0}}} - line_shade_i;
+      first_q <= line.first;
+      blank_q <= line.blank;
+      painted_q <= TRANSLUCENCY > 0 && line.painted;
+      width_q <= line.width;
+      if (line.first) background_q <= line.background;
+      load_q <= HasLoads && line.load;
+      if (line.first) keep_q <= COUNT_BITS > 0 ? line.shade : {1'b1, {SHADE_FRAC{1'b0}}} - line.shade;
     end else if (go && issue) begin
       x_q <= x_q + 1'b1;
     end
@@ -175,7 +174,7 @@ module line_out #(
     end
   end
 
-  // ---- stages 1 and 2: RAM and the register behind it, which holds a group while its lanes leave -------------------
+  // ---- stages 1 and 2: RAM, which holds a group while its lanes leave, and the register behind it ------------------
   logic [LANES*ExitBits-1:0] ram_data, group_q;
   ram_1r1w #(
       .BITS (LANES * ExitBits),
@@ -189,7 +188,7 @@ module line_out #(
       .rd_addr_i(rd_addr_q),
       .rd_data_o(ram_data)
   );
-  always_ff @(posedge clk_i) if (go && lane_at_q[LaneBits-1:0] == '0) group_q <= ram_data;
+  always_ff @(posedge clk_i) if (go) group_q <= ram_data;
 
   // ---- stage 3: one lane -------------------------------------------------------------------------------------------
   logic [ExitBits-1:0] pixel_d, pixel_q;
@@ -213,19 +212,11 @@ module line_out #(
   logic [CHANNELS*(SHADE_FRAC+1)-1:0] factor;
   if (COUNT_BITS > 0) begin : gen_light
     light_resolve #(
-        .CHANNELS(CHANNELS),
-        .DSF_BITS(DSF_BITS),
-        .FSF(FSF),
-        .SHADE_FRAC(SHADE_FRAC),
-        .COUNT_BITS(COUNT_BITS),
-        .LIGHTS(LIGHTS),
-        .CLASS_BITS(CLASS_BITS)
+        `include "generated/kage_pixel_param_map.svh"
     ) u_light (
         .clk_i,
         .table_valid_i,
-        .table_class_i,
-        .table_light_i,
-        .table_share_i,
+        .table_i,
         .shade_i (keep_q),
         .go_i    (go),
         .pixel_i (pixel_q),
@@ -235,7 +226,7 @@ module line_out #(
     assign is_dark = 1'b1;  // by a factor of 1, if it is not
   end else begin : gen_dark
     logic unused_table;
-    assign unused_table = ^{table_valid_i, table_class_i, table_light_i, table_share_i};
+    assign unused_table = ^{table_valid_i, table_i};
     assign colored = pixel_q[RgbBits:0];
     assign is_dark = DSF_BITS > 0 && pixel_q[ExitBits-1];
     assign factor = {CHANNELS{keep_q}};
@@ -275,22 +266,24 @@ module line_out #(
   end
 
   // ---- output ------------------------------------------------------------------------------------------------------
-  logic video_go;
+  logic  video_go;
+  load_t load;
+  assign load_o = load;
   if (HasLoads) begin : gen_loads
     logic [X_BITS-1:0] load_x_q;
     assign load_valid_o = valid_q[Depth-1] && load_at_q[Depth-1];
-    assign load_color_o = color_q;
-    assign load_last_o = last_q[Depth-1];
-    assign load_x_o = load_x_q;
+    assign load.x = load_x_q;
+    assign load.color = color_q;
+    assign load.last = last_q[Depth-1];
     assign go = load_valid_o ? load_ready_i : video_go;
     always_ff @(posedge clk_i) begin
       if (!rst_ni) load_x_q <= '0;
-      else if (load_valid_o && load_ready_i) load_x_q <= load_last_o ? '0 : load_x_q + 1'b1;
+      else if (load_valid_o && load_ready_i) load_x_q <= load.last ? '0 : load_x_q + 1'b1;
     end
   end else begin : gen_no_loads
     logic unused_load;
-    assign unused_load = ^{load_ready_i, line_load_i};
-    assign {load_valid_o, load_x_o, load_color_o, load_last_o} = '0;
+    assign unused_load = ^{load_ready_i, line.load};
+    assign {load_valid_o, load} = '0;
     assign go = video_go;
   end
   skid_buffer #(

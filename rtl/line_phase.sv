@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The phases of a line (docs/stream.md, "Order in a line") and its bias: whether a token may stand where it does. token_check asks about the
-// token that frame_control has; nothing here waits.
+// The phases of a line (docs/stream.md, "Order in a line") and its bias: whether a token may stand where it does.
+// token_check asks about the token that frame_control has; nothing here waits.
 //
 // Question: kind_i. in_order_o, combinational. Tokens that belong to no line (kage_order.svh) always get 1.
-// Acts: start_i, one clock, when a line begins, and then take_i does not count; take_i, one clock, when the token was good and has been taken,
-//   with IF's w_i; clear_bias_i.
+// Acts: start_i, one clock, when a line begins, and then take_i does not count; take_i, one clock, when the token was
+//   good and has been taken, with IF's w_i; clear_bias_i.
 // State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token.
 // Latency: answer 0, state 1 clock. Throughput: a token a clock.
 // Cost: DSF_BITS + 3 flip-flops; with counters one more.

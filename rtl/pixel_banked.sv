@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pixels of a line in block RAM, LANES to a word: spans are walked one aligned group of LANES pixels a clock.
 //
-// Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL, or a CmdOut, starts its pass when exit_free_i is high, takes the
-//   buffer by a clock of exit_take_o, and then brings the line's groups in order by exit_valid_o, without stops; the last with
-//   exit_last_o. Pixels past the line's width in the last group are void.
-// Tree (UNITS > 0): a second line buffer of {Z, colour, class} is filled one pixel a clock from tree_*, whether or not a TREE is near.
-//   A TREE waits until a line is in it whole, then reads it group by group along with the state; the next line comes in right behind.
-//   tree_drop_i forgets a part of a line.
-// Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut takes one per group of
-//   the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first: what the RAM held never matters.
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL, or a CmdOut, starts its pass when
+//   exit_free_i is high, takes the buffer by a clock of exit_take_o, and then brings the line's groups in order by
+//   exit_valid_o, without stops; the last with exit_last_o. Pixels past the line's width in the last group are void.
+// Tree (UNITS > 0): a second line buffer of {Z, colour, class} is filled one pixel a clock from tree_*, whether or not
+//   a TREE is near. A TREE waits until a line is in it whole, then reads it group by group along with the state; the
+//   next line comes in right behind. tree_drop_i forgets a part of a line.
+// Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut
+//   takes one per group of the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first:
+//   what the RAM held never matters.
 // Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1.
-// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the newest in
-//   front of the comparison, the two older ones in front of the register behind the RAM. The tree's buffer needs none: see there.
-// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units another of as
-//   many words.
+// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the
+//   newest in front of the comparison, the two older ones in front of the register behind the RAM. The tree's buffer
+//   needs none: see there.
+// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units
+//   another of as many words.
 `default_nettype none
 
 module pixel_banked #(
@@ -26,6 +28,7 @@ module pixel_banked #(
     `include "kage_pixel_ports.svh"
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
   `include "kage_pixel_next.svh"
 
   localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;
@@ -35,6 +38,9 @@ module pixel_banked #(
   localparam int WordBits = LANES * PixelBits;
   localparam bit HasOut = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   localparam int Last = Levels + 2;  // the stage at which a group's next state is computed; the walker is stage 0
+
+  command_t cmd;
+  assign cmd = cmd_i;
 
   // ---- set-up stages -----------------------------------------------------------------------------------------------
   // What goes along unchanged: {kind, count, share, colour, first group, last group, first lane, last lane}.
@@ -48,13 +54,13 @@ module pixel_banked #(
   logic [OffBits-1:0] lane_first, lane_last;
   logic take3, tree_here, tree_moving;  // the tree's line is in its buffer; something of it moves
 
-  assign x_last = cmd_xr_i - 1'b1;
-  assign flat = SMOOTH > 0 ? '0 : cmd_color_i[FlatBits-1:0];
-  assign group_first = AddrBits'(cmd_xl_i >> Levels);
+  assign x_last = cmd.xr - 1'b1;
+  assign flat = SMOOTH > 0 ? '0 : cmd.color[FlatBits-1:0];
+  assign group_first = AddrBits'(cmd.xl >> Levels);
   assign group_last = AddrBits'(x_last >> Levels);
-  assign lane_first = LANES > 1 ? OffBits'(cmd_xl_i) : '0;
+  assign lane_first = LANES > 1 ? OffBits'(cmd.xl) : '0;
   assign lane_last = LANES > 1 ? OffBits'(x_last) : '0;
-  assign set_d = {cmd_kind_i, cmd_count_i, cmd_share_i, flat, group_first, group_last, lane_first, lane_last};
+  assign set_d = {cmd.kind, cmd.count, cmd.share, flat, group_first, group_last, lane_first, lane_last};
   assign set_en[2] = !set_valid_q[2] || take3;
   assign set_en[1] = set_valid_q[2:1] != 2'b11 || take3;
   assign set_en[0] = set_valid_q != 3'b111 || take3;
@@ -149,8 +155,8 @@ module pixel_banked #(
   ) u_depth (
       .clk_i,
       .set_en_i(set_en),
-      .start_i (cmd_z_i),
-      .slope_i (cmd_dz_i),
+      .start_i (cmd.z),
+      .slope_i (cmd.dz),
       .offset_i(lane_first),
       .load_i  (take3),
       .step_i  (step),
@@ -173,8 +179,8 @@ module pixel_banked #(
       ) u_color (
           .clk_i,
           .set_en_i(set_en),
-          .start_i (cmd_color_i[c*RampBits+:RampBits]),
-          .slope_i (cmd_dcolor_i[c*RampBits+:RampBits]),
+          .start_i (cmd.color[c*RampBits+:RampBits]),
+          .slope_i (cmd.dcolor[c*RampBits+:RampBits]),
           .offset_i(lane_first),
           .load_i  (take3),
           .step_i  (step),
@@ -206,7 +212,7 @@ module pixel_banked #(
 
   if (SMOOTH == 0) begin : gen_flat
     logic unused_dcolor;
-    assign unused_dcolor = ^cmd_dcolor_i;
+    assign unused_dcolor = ^cmd.dcolor;
     logic [Last*RgbBits-1:0] flat_q;
     always_ff @(posedge clk_i) flat_q <= {flat_q[(Last-1)*RgbBits-1:0], walk_flat_q};
     assign lane_color = {LANES{flat_q[(Last-1)*RgbBits+:RgbBits]}};
@@ -239,6 +245,8 @@ module pixel_banked #(
   logic [LANES*RgbBits-1:0] now_color;
   logic [LANES*CountBits-1:0] now_counts;
 
+  tree_pixel_t tree;
+  assign tree = tree_i;
   if (UNITS > 0) begin : gen_tree
     localparam int PaintBits = Z_BITS + RgbBits + ClassBits;
     // A pixel comes in a clock. The group's pixels gather in a register, which is written when it is complete.
@@ -250,20 +258,20 @@ module pixel_banked #(
     logic [LANES*PaintBits-1:0] in_word_q, tree_word, tree_q;
     logic in_lane_end;
     if (DSF_BITS > 0) begin : gen_class
-      assign in_pixel = {tree_class_i, tree_color_i, tree_z_i};
+      assign in_pixel = {tree.normal_class, tree.color, tree.z};
     end else begin : gen_no_class
       logic unused_class;
-      assign unused_class = ^tree_class_i;
-      assign in_pixel = {tree_color_i, tree_z_i};
+      assign unused_class = ^tree.normal_class;
+      assign in_pixel = {tree.color, tree.z};
     end
     assign tree_ready_o = !full_q;
     assign in_take = tree_valid_i && tree_ready_o && !tree_drop_i;
-    assign in_lane_end = in_lane_q == OffBits'(LANES - 1) || tree_last_i;
+    assign in_lane_end = in_lane_q == OffBits'(LANES - 1) || tree.last;
     assign tree_moving = in_take;
 
-    // The pass that starts now reads its group g in Levels + g clocks. The next line comes in after Levels clocks, when group 0 is
-    // read: its group g, even if it ends there with one pixel, is written 2 + g clocks later at the earliest, so the pass is ahead of
-    // it all the way. Until then full_q speaks of the old line.
+    // The pass that starts now reads its group g in Levels + g clocks. The next line comes in after Levels clocks, when
+    // group 0 is read: its group g, even if it ends there with one pixel, is written 2 + g clocks later at the
+    // earliest, so the pass is ahead of it all the way. Until then full_q speaks of the old line.
     assign passes = (Levels + 1)'({passes_q, take3 && next_kind == KindTree});
     assign tree_here = full_q && passes_q == '0;
 
@@ -277,9 +285,9 @@ module pixel_banked #(
       end else begin
         passes_q   <= passes;
         in_write_q <= in_take && in_lane_end;
-        if (in_take && tree_last_i) full_q <= 1'b1;
+        if (in_take && tree.last) full_q <= 1'b1;
         else if (passes[Levels]) full_q <= 1'b0;
-        if (tree_drop_i || (in_take && tree_last_i)) begin
+        if (tree_drop_i || (in_take && tree.last)) begin
           in_lane_q  <= '0;
           in_group_q <= '0;
         end else if (in_take) begin
@@ -321,7 +329,7 @@ module pixel_banked #(
     end
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_class_i, tree_color_i, tree_last_i, tree_drop_i};
+    assign unused_tree = ^{tree_valid_i, tree, tree_drop_i};
     assign tree_ready_o = 1'b0;
     assign {tree_here, tree_moving} = '0;
     assign now_z = lane_z;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels of a line behind one interface, in the arrangement that the configuration names; contract and cost are those of
-// pixel_banked or pixel_systolic. A group that leaves has ExitLanes pixels: LANES if banked, 1 if systolic. Ports are
-// those of kage_pixel_ports.svh in all three, so they are connected by name.
+// The pixels of a line behind one interface, in the arrangement that the configuration names; contract and cost are
+// those of pixel_banked or pixel_systolic. A group that leaves has ExitLanes pixels: LANES if banked, 1 if systolic.
+// Ports are those of kage_pixel_ports.svh in all three, so they are connected by name.
 `default_nettype none
 
 module pixel_core #(
@@ -17,16 +17,16 @@ module pixel_core #(
 
   if (ARRANGEMENT == 1) begin : gen_banked
     pixel_banked #(
-        `include "generated/kage_pixel_param_map.svh"
         .LANES(LANES),
-        .MAX_WIDTH(MAX_WIDTH)
+        .MAX_WIDTH(MAX_WIDTH),
+        `include "generated/kage_pixel_param_map.svh"
     ) u_pixels (
         .*
     );
   end else begin : gen_systolic
     pixel_systolic #(
+        .MAX_WIDTH(MAX_WIDTH),
         `include "generated/kage_pixel_param_map.svh"
-        .MAX_WIDTH(MAX_WIDTH)
     ) u_pixels (
         .*
     );

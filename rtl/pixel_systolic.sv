@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels of a line as a chain of processors, one a pixel: commands move one processor a clock, as in Matsumoto's line of
-// pixel processors, and a new one may enter every clock, whatever its length.
+// The pixels of a line as a chain of processors, one a pixel: commands move one processor a clock, as in Matsumoto's
+// line of pixel processors, and a new one may enter every clock, whatever its length.
 //
-// Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL or CmdOut can be made to wait: for exit_free_i, and for the
-//   line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's pixels then leave one a clock by
-//   exit_valid_o, without stops; the last with exit_last_o. The next line's commands follow right behind the EOL.
-// Tree (UNITS > 0): a TREE enters when tree_* offers its line's first pixel, and takes one a clock from then on, in step with its way
-//   down the chain: the pixel that was taken a clock ago stands before all processors, and it is that of the one TREE is at. So it needs a
-//   line without bubbles, and no buffer. The next TREE waits until the line is through, at most its width.
+// Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL or CmdOut can be made to wait: for
+//   exit_free_i, and for the line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's
+//   pixels then leave one a clock by exit_valid_o, without stops; the last with exit_last_o. The next line's commands
+//   follow right behind the EOL.
+// Tree (UNITS > 0): a TREE enters when tree_* offers its line's first pixel, and takes one a clock from then on, in
+//   step with its way down the chain: the pixel that was taken a clock ago stands before all processors, and it is that
+//   of the one TREE is at. So it needs a line without bubbles, and no buffer. The next TREE waits until the line is
+//   through, at most its width.
 // Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 2 clocks.
-// Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels leave.
-// After reset an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted; commands
-//   follow right behind it, the first line's EOL waits until it is through.
-// Cost: MAX_WIDTH times a command, a depth adder, a comparison and a pixel's state. The loops below are over vectors in one
-//   process: instances would simulate at half the speed.
+// Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels
+//   leave.
+// Reset: an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted;
+//   commands follow right behind it, the first line's EOL waits until it is through.
+// Cost: MAX_WIDTH times a command, a depth adder, a comparison and a pixel's state. The loops below are over vectors in
+//   one process: instances would simulate at half the speed.
 `default_nettype none
 
 module pixel_systolic #(
@@ -25,6 +28,7 @@ module pixel_systolic #(
     `include "kage_pixel_ports.svh"
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
   `include "kage_pixel_next.svh"
 
   localparam bit HasOut = TRANSLUCENCY > 0 && COUNT_BITS > 0;
@@ -32,13 +36,16 @@ module pixel_systolic #(
   localparam int Segment = 16;  // pixels whose exits are joined in one clock
   localparam int Segments = (N + Segment - 1) / Segment;
 
+  command_t cmd;
+  assign cmd = cmd_i;
+
   // ---- entry -------------------------------------------------------------------------------------------------------
   logic is_leaving, enter, tree_here, tree_moving;  // a TREE may enter; its line moves
   logic [X_BITS-1:0] leaving_q;  // pixels of the leaving line that its EOL has not reached
   logic sweep_q;  // that EOL is the one of reset
-  assign is_leaving = cmd_kind_i == KindEol || (HasOut && cmd_kind_i == CmdOut);
+  assign is_leaving = cmd.kind == KindEol || (HasOut && cmd.kind == CmdOut);
   assign cmd_ready_o = (!is_leaving || (exit_free_i && leaving_q == '0)) &&
-      (UNITS == 0 || cmd_kind_i != KindTree || tree_here);
+      (UNITS == 0 || cmd.kind != KindTree || tree_here);
   assign enter = cmd_valid_i && cmd_ready_o;
   assign exit_take_o = enter && is_leaving;
 
@@ -48,7 +55,7 @@ module pixel_systolic #(
       leaving_q <= X_BITS'(N - 1);
       sweep_q   <= 1'b1;
     end else begin
-      if (exit_take_o) leaving_q <= cmd_xr_i - 1'b1;
+      if (exit_take_o) leaving_q <= cmd.xr - 1'b1;
       else if (leaving_q != '0) leaving_q <= leaving_q - 1'b1;
       if (leaving_q == '0) sweep_q <= 1'b0;
     end
@@ -56,8 +63,8 @@ module pixel_systolic #(
 
 
   // ---- the chain ---------------------------------------------------------------------------------------------------
-  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, whether its range had begun, depth and colour
-  // at this pixel, and the pixel's state.
+  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, whether its range had begun,
+  // depth and colour at this pixel, and the pixel's state.
   logic [N-1:0] valid_q, begun_q, hit;
   logic [N*4-1:0] kind_q;
   logic [N*X_BITS-1:0] xl_q, xr_q;
@@ -96,6 +103,8 @@ module pixel_systolic #(
   logic [Z_BITS-1:0] tree_z;
   logic [RgbBits-1:0] tree_color;
   logic [CountBits-1:0] tree_count;
+  tree_pixel_t tree;
+  assign tree = tree_i;
   if (UNITS > 0) begin : gen_tree
     logic flows_q, take;  // a line has begun to come and not ended
     logic [Z_BITS-1:0] z1_q;
@@ -104,15 +113,15 @@ module pixel_systolic #(
     logic unused_drop;
     assign unused_drop = tree_drop_i;  // nothing is taken ahead of its TREE
     assign tree_here = tree_valid_i && !flows_q;
-    assign tree_ready_o = flows_q || (enter && cmd_kind_i == KindTree);
+    assign tree_ready_o = flows_q || (enter && cmd.kind == KindTree);
     assign tree_moving = flows_q;
     assign take = tree_valid_i && tree_ready_o;
     always_ff @(posedge clk_i) begin
       if (!rst_ni) flows_q <= 1'b0;
-      else if (take) flows_q <= !tree_last_i;
-      z1_q <= tree_z_i;
-      color1_q <= tree_color_i;
-      class1_q <= tree_class_i;
+      else if (take) flows_q <= !tree.last;
+      z1_q <= tree.z;
+      color1_q <= tree.color;
+      class1_q <= tree.normal_class;
     end
     assign tree_z = z1_q;
     assign tree_color = color1_q;
@@ -123,7 +132,7 @@ module pixel_systolic #(
 `endif
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_valid_i, tree_z_i, tree_class_i, tree_color_i, tree_last_i, tree_drop_i};
+    assign unused_tree = ^{tree_valid_i, tree, tree_drop_i};
     assign tree_ready_o = 1'b0;
     assign {tree_here, tree_moving, tree_z, tree_color, tree_count} = '0;
   end
@@ -178,10 +187,10 @@ module pixel_systolic #(
         end
       end
     end
-    always_ff @(posedge clk_i) dcolor_q <= (N * SlopeBits)'({dcolor_q, cmd_dcolor_i});
+    always_ff @(posedge clk_i) dcolor_q <= (N * SlopeBits)'({dcolor_q, cmd.dcolor});
   end else begin : gen_flat
     logic unused_dcolor;
-    assign unused_dcolor = ^cmd_dcolor_i;
+    assign unused_dcolor = ^cmd.dcolor;
     assign color_d = color_q;
   end
 
@@ -190,19 +199,20 @@ module pixel_systolic #(
     if (!rst_ni) valid_q <= N'(1);
     else valid_q <= N'({valid_q, enter});
     begun_q <= N'({hit, 1'b0});
-    kind_q  <= (N * 4)'({kind_q, rst_ni ? cmd_kind_i : KindEol});
-    xl_q    <= (N * X_BITS)'({xl_q, rst_ni ? cmd_xl_i : X_BITS'(0)});
-    xr_q    <= (N * X_BITS)'({xr_q, rst_ni ? cmd_xr_i : X_BITS'(N)});
-    count_q <= (N * CountBits)'({count_q, cmd_count_i});
-    z_q     <= (N * DepthBits)'({z_d, cmd_z_i});
-    dz_q    <= (N * DepthBits)'({dz_q, cmd_dz_i});
-    color_q <= (N * ColorBits)'({color_d, cmd_color_i});
-    share_q <= (N * ShareBits)'({share_q, cmd_share_i});
+    kind_q  <= (N * 4)'({kind_q, rst_ni ? cmd.kind : KindEol});
+    xl_q    <= (N * X_BITS)'({xl_q, rst_ni ? cmd.xl : X_BITS'(0)});
+    xr_q    <= (N * X_BITS)'({xr_q, rst_ni ? cmd.xr : X_BITS'(N)});
+    count_q <= (N * CountBits)'({count_q, cmd.count});
+    z_q     <= (N * DepthBits)'({z_d, cmd.z});
+    dz_q    <= (N * DepthBits)'({dz_q, cmd.dz});
+    color_q <= (N * ColorBits)'({color_d, cmd.color});
+    share_q <= (N * ShareBits)'({share_q, cmd.share});
     pixel_q <= pixel_d;
   end
 
   // ---- exit --------------------------------------------------------------------------------------------------------
-  // EOL enters in clock t, is at processor i in t + 1 + i; that pixel is in joined_q in t + 2 + i, in exit_data_o in t + 3 + i.
+  // EOL enters in clock t and is at processor i in t + 1 + i; that pixel is in joined_q in t + 2 + i, and in
+  // exit_data_o in t + 3 + i.
   logic [ExitBits-1:0] all;
   logic at_q, joined_valid_q, at_last, joined_last_q;
   always_comb begin

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A RAM with one write port and one read port, in the form that synthesis maps to block RAM.
 //
-// Latency: 1 clock from rd_en_i to rd_data_o, which holds until the next read. Reading the word that is written in the same clock
-// gives old, new or mixed bits: users see to it that such data are not used. Contents are unknown after power-up and kept by
-// reset.
+// Latency: 1 clock from rd_en_i to rd_data_o, which holds until the next read. Reading the word that is written in the
+// same clock gives old, new or mixed bits: users see to it that such data are not used. Contents are unknown after
+// power-up and kept by reset.
 `default_nettype none
 
 module ram_1r1w #(

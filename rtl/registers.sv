@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of docs/stream.md on AXI4-Lite, the interrupt, the counters and the watchdog.
 //
-// Handshake: AXI4-Lite. Address and data of a write are taken in either order, one write and one read under way at a time.
-//   Addresses without a register answer SLVERR and change nothing; writes to read-only registers are taken and ignored.
-//   WSTRB is honoured. In reset nothing is ready. Latency: 1 clock from the address to a read's data.
-// Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of its clearing
-//   wins.
-// Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts it anew.
-//   Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
+// Handshake: AXI4-Lite. Address and data of a write are taken in either order, and held. A write is done, and answered,
+//   in the clock in which both are held and no response waits; so the next write's address and data are taken while the
+//   response of the one before waits, and that write is done once the response has been taken. One read is under way at
+//   a time: the next address is taken when the data of the one before have been. Addresses without a register answer
+//   SLVERR and change nothing; writes to read-only registers are taken and ignored. WSTRB is honoured. In reset nothing
+//   is ready. Latency: 1 clock from the address to a read's data, 2 from the later of address and data to a write's
+//   response.
+// Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of
+//   its clearing wins.
+// Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts
+//   it anew. Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
 `default_nettype none
 
 module registers #(
     `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     `include "generated/kage_impl_params.svh"
 ) (
     input wire logic clk_i,
@@ -39,24 +44,25 @@ module registers #(
     output logic irq_o,
 
     // from the core
-    input wire logic        open_i,            // a frame is open, or pixels of one have not left
-    input wire logic        draining_i,
-    input wire logic        waiting_input_i,
-    input wire logic        waiting_output_i,
-    input wire logic        progress_i,        // something moves between the ports
-    input wire logic        frame_end_i,
-    input wire logic        error_i,
-    input wire logic [ 3:0] error_code_i,
-    input wire logic [31:0] error_frame_i,
-    input wire logic [15:0] error_line_i,
-    input wire logic [31:0] error_token_i,
-    input wire logic [ 5:0] error_unit_i,
-    input wire logic        behind_i,          // a unit has less of the frame than another, with the next two
-    input wire logic [ 5:0] behind_unit_i,
-    input wire logic [14:0] behind_line_i      // without such a unit the line at hand
+    input wire logic                  open_i,            // a frame is open, or pixels of one have not left
+    input wire logic                  draining_i,
+    input wire logic                  waiting_input_i,
+    input wire logic                  waiting_output_i,
+    input wire logic                  progress_i,        // something moves between the ports
+    input wire logic                  frame_end_i,
+    input wire logic                  error_valid_i,
+    input wire logic [ ErrorBits-1:0] error_i,
+    input wire logic                  behind_valid_i,    // a unit has less of the frame than another
+    input wire logic [BehindBits-1:0] behind_i
 );
   `include "generated/kage_layout.svh"
   `include "generated/kage_registers.svh"
+  `include "generated/kage_buses.svh"
+
+  error_t  error;
+  behind_t behind;
+  assign error  = error_i;
+  assign behind = behind_i;
 
   localparam logic [31:0] Shape = {1'(ARRANGEMENT), 5'd0, 4'(BEAT_WORDS), 6'(LANES), 16'(MAX_WIDTH)};
   localparam logic [1:0] RespOkay = 2'b00;
@@ -108,8 +114,8 @@ module registers #(
   assign write_irq = write && aw_addr_q[7:2] == RegIrq[7:2];
   assign write_limit = write && aw_addr_q[7:2] == RegWatchdog[7:2];
   assign bite = limit_q != '0 && open_i && !progress_i && idle_q == limit_q - 32'd1;
-  assign unit_waited = waiting_input_i && behind_i;
-  assign irq_set = {bite, error_i, frame_end_i};
+  assign unit_waited = waiting_input_i && behind_valid_i;
+  assign irq_set = {bite, error_valid_i, frame_end_i};
   assign irq_o = (irq_q & control_q) != '0;
 
   always_ff @(posedge clk_i) begin
@@ -136,17 +142,17 @@ module registers #(
       // idle_q stops at the limit: one bite for one standstill.
       if (write_limit || progress_i || !open_i) idle_q <= '0;
       else if (idle_q != limit_q) idle_q <= idle_q + 32'd1;
-      if (error_i) begin
-        error_code_q <= error_code_i;
-        error_line_q <= error_line_i;
-        error_frame_q <= error_frame_i;
-        error_token_q <= error_token_i;
-        error_unit_q <= error_unit_i;
+      if (error_valid_i) begin
+        error_code_q <= error.code;
+        error_line_q <= error.line;
+        error_frame_q <= error.frame;
+        error_token_q <= error.token;
+        error_unit_q <= error.unit;
         errors_q <= errors_q + 32'd1;
       end
       if (bite) begin
         stall_q <= {
-          unit_waited, behind_line_i, 6'd0, waiting_output_i, waiting_input_i, 2'd0, unit_waited ? behind_unit_i : 6'd0
+          unit_waited, behind.line, 6'd0, waiting_output_i, waiting_input_i, 2'd0, unit_waited ? behind.unit : 6'd0
         };
       end
       if (frame_end_i) frames_q <= frames_q + 32'd1;
@@ -179,7 +185,7 @@ module registers #(
       RegStarved: value = starved_q;
       RegBlocked: value = blocked_q;
       RegErrorUnit: value = 32'(error_unit_q);
-      RegTree: value = unit_waited ? {1'b1, behind_line_i, 10'd0, behind_unit_i} : '0;
+      RegTree: value = unit_waited ? {1'b1, behind.line, 10'd0, behind.unit} : '0;
       RegStall: value = stall_q;
       default: value = '0;
     endcase

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules for FACE, SEG and TREE (docs/stream.md, "Units and the tree"): what each unit has been given, which tokens may come, and
-// which fault a TREE raises. token_check asks about the token that frame_control has; nothing here waits.
+// The rules for FACE, SEG and TREE (docs/stream.md, "Units and the tree"): what each unit has been given, which tokens
+// may come, and which fault a TREE raises. token_check asks about the token that frame_control has; nothing here waits.
 //
-// Question: is_*_i, at most one, says what the token is, *_i brings its fields; all hold still while the token waits. lines_left_i is the height less
-//   the number of EOLs accepted. Every answer is combinational, and valid for the kinds it names.
-// Acts: frame_start_i, one clock, at a good header. take_i, one clock, when the token was good and has been taken; a token that is refused by
-//   any check must not be taken, and then nothing but the next frame_start_i counts.
+// Question: is_*_i, at most one, says what the token is, *_i brings its fields; all hold still while the token waits.
+//   lines_left_i is the height less the number of EOLs accepted. Every answer is combinational, and valid for the kinds
+//   it names.
+// Acts: frame_start_i, one clock, at a good header. take_i, one clock, when the token was good and has been taken; a
+//   token that is refused by any check must not be taken, and then nothing but the next frame_start_i counts.
 // Answers, in the order of the checks:
-//   order_error_o   FACE, SEG, TREE, SHADE, TABLE, EOL, or any other token but END (is_other_i), where its phase does not allow it: as far as the
-//                   tree is concerned; lines, volumes and the number of SHADEs are frame_control's
+//   order_error_o   FACE, SEG, TREE, SHADE, TABLE, EOL, or any other token but END (is_other_i), where its phase does
+//                   not allow it: as far as the tree is concerned. token_check judges lines and the number of SHADEs,
+//                   line_phase volumes
 //   range_error_o   FACE or SEG of a unit that the core lacks, FACE out of turn
 //   seg_pass_o      SEG: it goes to its unit; otherwise it is swallowed: its unit is or becomes at fault
 //   tree_error_o    TREE: a unit is at fault for this line; tree_code_o, tree_unit_o and tree_token_o say how
 // State: tree_o, the frame has a tree; due_o, the line's TREE has not been taken yet, so only SEG and TREE may come.
-//   behind_o, some unit has been given more than another: behind_unit_o is the lowest of those that have fewest lines complete, and
-//   behind_ahead_o how many of them more than have ended. 1 clock late.
-// Two faults are kept, the first SEG at fault for this line and for the next: no SEG can be at fault for a later one, and none
-//   is left from an earlier one, because that line's TREE has raised it.
+//   behind_o, some unit has been given more than another: behind_unit_o is the lowest of those that have fewest lines
+//   complete, and behind_ahead_o how many of them more than have ended. 1 clock late.
+// Two faults are kept, the first SEG at fault for this line and for the next: no SEG can be at fault for a later one,
+//   and none is left from an earlier one, because that line's TREE has raised it.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
 // Cost: per unit FACE_BITS + X_BITS + SEG_BITS + 4 flip-flops and the multiplexers to them; comparators once.
 // Needs UNITS > 0: a core without units leaves it out.

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a token of a frame's body is good: kind, order, range, line (docs/stream.md, "Errors"). frame_control asks about the token it has
-// and acts on the answer; nothing here waits. Headers are frame_control's own.
+// Whether a token of a frame's body is good: kind, order, range, line (docs/stream.md, "Errors"). frame_control asks
+// about the token it has and acts on the answer; nothing here waits. Headers are frame_control's own.
 //
-// Question: token_* as from token_reader; width_i, lines_left_i (the height less the EOLs accepted, with units only), lines_done_i (that is 0) and
-//   index_i, its number in the frame.
-// Answer, combinational: code_o, ErrNone if it is good, and of a fault that a TREE raises the unit and the token that are to blame, else unit 0
-//   and this token. seg_goes_o: it is good, and a SEG that its unit takes; a good SEG without it is swallowed.
-// Acts, each one clock: header_i, a header is taken, and start_i with it if it is good; take_i, the token is good and taken; eol_i, a line has
-//   ended; clear_bias_i.
-// State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token. behind_*_o: as segment_check has it, of units; without
-//   units 0.
+// Question: token_* as from token_reader; width_i, lines_left_i (the height less the EOLs accepted, with units only),
+//   lines_done_i (that is 0) and index_i, its number in the frame.
+// Answer, combinational: code_o, ErrNone if it is good, and of a fault that a TREE raises the unit and the token that
+//   are to blame, else unit 0 and this token. seg_goes_o: it is good, and a SEG that its unit takes; a good SEG without
+//   it is swallowed.
+// Acts, each one clock: header_i, a header is taken, and start_i with it if it is good; take_i, the token is good and
+//   taken; eol_i, a line has ended; clear_bias_i.
+// State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token. behind_*_o: as segment_check
+//   has it, of units; without units 0.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
-// Cost: line_phase, with CLASS_BITS > 1 table_check, with UNITS > 0 segment_check and a flip-flop; comparators of X_BITS and 16 bits.
+// Cost: line_phase, with CLASS_BITS > 1 table_check, with UNITS > 0 segment_check and a flip-flop; comparators of
+//   X_BITS and 16 bits.
 `default_nettype none
 
 module token_check #(
@@ -99,10 +101,7 @@ module token_check #(
   assign good = code_o == ErrNone;
 
   line_phase #(
-      .TRANSLUCENCY(TRANSLUCENCY),
-      .DSF_BITS(DSF_BITS),
-      .FSF(FSF),
-      .COUNT_BITS(COUNT_BITS)
+      `include "generated/kage_pixel_param_map.svh"
   ) u_phase (
       .clk_i,
       .start_i   (header_i || eol_i),
@@ -129,10 +128,7 @@ module token_check #(
       assign span_class = token_i[OpClassLsb+:CLASS_BITS];
     end
     table_check #(
-        .SHADE_FRAC(SHADE_FRAC),
-        .CHANNELS(CHANNELS),
-        .LIGHTS(LIGHTS),
-        .CLASS_BITS(CLASS_BITS)
+        `include "generated/kage_pixel_param_map.svh"
     ) u_table (
         .clk_i,
         .frame_start_i(start_i),
@@ -173,15 +169,7 @@ module token_check #(
     end
 
     segment_check #(
-        .X_BITS(X_BITS),
-        .Z_BITS(Z_BITS),
-        .Z_FRAC(Z_FRAC),
-        .UNITS(UNITS),
-        .FACE_BITS(FACE_BITS),
-        .DX_BITS(DX_BITS),
-        .SEG_BITS(SEG_BITS),
-        .ORDER_BITS(ORDER_BITS),
-        .CLASSIC(CLASSIC)
+        `include "generated/kage_pixel_param_map.svh"
     ) u_check (
         .clk_i,
         .rst_ni,

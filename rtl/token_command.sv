@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command that frame_control gives the pixels, made of the token at hand, and the register that holds it until they take it.
+// The command that frame_control gives the pixels, made of the token at hand, and the register that holds it until they
+// take it.
 //
-// Handshake: free_o says that a command may be made: in a clock in which it is high, at most one of make_*_i may be, and that command is in
-//   cmd_* from the next clock on, which is valid/ready. Token, width, share, bias and background are those of that clock.
-// Commands: make_span_i, of the token, which has a range; make_tree_i, make_eol_i, make_paint_i and make_out_i, over the whole line:
-//   TREE, EOL, RESOLVE with the background as its colour, and CmdOut.
+// Handshake: free_o says that a command may be made: in a clock in which it is high, at most one of make_*_i may be,
+//   and that command is in cmd_* from the next clock on, which is valid/ready. Token, width, share, bias and background
+//   are those of that clock.
+// Commands: make_span_i, of the token, which has a range; make_tree_i, make_eol_i, make_paint_i and make_out_i, over
+//   the whole line: TREE, EOL, RESOLVE with the background as its colour, and CmdOut.
 // Latency: 1 clock. Throughput: a command a clock.
 // Cost: a register of a command, the choice among the places of fields.
 `default_nettype none
@@ -30,19 +32,12 @@ module token_command #(
     input  wire logic make_paint_i,
     input  wire logic make_out_i,
 
-    output logic                      cmd_valid_o,
-    input  wire logic                 cmd_ready_i,
-    output logic      [          3:0] cmd_kind_o,
-    output logic      [   X_BITS-1:0] cmd_xl_o,
-    output logic      [   X_BITS-1:0] cmd_xr_o,
-    output logic      [CountBits-1:0] cmd_count_o,
-    output logic      [DepthBits-1:0] cmd_z_o,
-    output logic      [DepthBits-1:0] cmd_dz_o,
-    output logic      [ColorBits-1:0] cmd_color_o,
-    output logic      [SlopeBits-1:0] cmd_dcolor_o,
-    output logic      [ShareBits-1:0] cmd_share_o
+    output logic                        cmd_valid_o,
+    input  wire logic                   cmd_ready_i,
+    output logic      [CommandBits-1:0] cmd_o
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
 
   logic [3:0] kind;
   logic is_tp, whole, unused_token;
@@ -88,32 +83,34 @@ module token_command #(
     if (DSF_BITS == 0) count = '0;
   end
 
+  command_t cmd_q;
+  assign cmd_o = cmd_q;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) cmd_valid_o <= 1'b0;
     else if (free_o) cmd_valid_o <= make_span_i || whole;
     if (free_o) begin
-      cmd_kind_o <= make_eol_i ? KindEol : make_paint_i ? KindResolve : make_out_i ? CmdOut : kind;
-      cmd_xl_o <= whole ? '0 : token_i[OpXlLsb+:X_BITS];  // at the same place in all tokens with a range
-      cmd_xr_o <= whole ? width_i : token_i[OpXrLsb+:X_BITS];
-      cmd_z_o <= token_i[OpZLsb+:DepthBits];
-      cmd_dz_o <= token_i[OpDzLsb+:DepthBits];
-      cmd_color_o <= token_i[OpColorLsb+:ColorBits];
-      cmd_dcolor_o <= SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
-      cmd_share_o <= is_tp && !make_paint_i ? tp_share : share_i;
-      cmd_count_o <= count;
+      cmd_q.kind <= make_eol_i ? KindEol : make_paint_i ? KindResolve : make_out_i ? CmdOut : kind;
+      cmd_q.xl <= whole ? '0 : token_i[OpXlLsb+:X_BITS];  // at the same place in all tokens with a range
+      cmd_q.xr <= whole ? width_i : token_i[OpXrLsb+:X_BITS];
+      cmd_q.z <= token_i[OpZLsb+:DepthBits];
+      cmd_q.dz <= token_i[OpDzLsb+:DepthBits];
+      cmd_q.color <= token_i[OpColorLsb+:ColorBits];
+      cmd_q.dcolor <= SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
+      cmd_q.share <= is_tp && !make_paint_i ? tp_share : share_i;
+      cmd_q.count <= count;
       if (DSF_BITS > 0 && kind == KindSp) begin
-        cmd_z_o  <= token_i[SpZLsb+:DepthBits];
-        cmd_dz_o <= token_i[SpDzLsb+:DepthBits];
+        cmd_q.z  <= token_i[SpZLsb+:DepthBits];
+        cmd_q.dz <= token_i[SpDzLsb+:DepthBits];
       end
       if (is_tp) begin
-        cmd_z_o <= tp_z;
-        cmd_dz_o <= tp_dz;
-        cmd_color_o <= tp_color;
-        cmd_dcolor_o <= tp_dcolor;
+        cmd_q.z <= tp_z;
+        cmd_q.dz <= tp_dz;
+        cmd_q.color <= tp_color;
+        cmd_q.dcolor <= tp_dcolor;
       end
       if (make_paint_i) begin
-        cmd_color_o  <= background;
-        cmd_dcolor_o <= '0;
+        cmd_q.color  <= background;
+        cmd_q.dcolor <= '0;
       end
     end
   end

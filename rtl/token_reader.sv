@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Beats to tokens: cuts the words of the input port into the frame's header and its tokens, one whole token at a time.
 //
-// Handshake: s_* is AXI4-Stream; s_ready_o depends on registers and on rst_ni, which keeps it low: no beat is taken and lost in
-//   reset. token_* is valid/ready, the token and its flags stable
-//   while it waits. drop_i may be high only with token_ready_i, and only for a token without token_final_o: the rest of the frame
-//   is then dropped up to and with TLAST. The reader drops the rest by itself after a final token (END, or one that TLAST cut).
-// Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks is passed
-//   on as soon as its first word is there. A cut token is passed on with token_cut_o and whatever words there are.
-// Capacity: the beats a token can touch and one more, at least. Latency: 2 clocks from the beat that completes a token.
+// Handshake: s_* is AXI4-Stream; s_ready_o depends on registers and on rst_ni, which keeps it low: no beat is taken and
+//   lost in reset. token_* is valid/ready, the token and its flags stable while it waits. drop_i may be high only with
+//   token_ready_i, and only for a token without token_final_o: the rest of the frame is then dropped up to and with
+//   TLAST. The reader drops the rest by itself after a final token (END, or one that TLAST cut).
+// Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks
+//   is passed on as soon as its first word is there. A cut token is passed on with token_cut_o and whatever words there
+//   are.
+// Capacity: the beats a token can touch and one more, at least. Latency: 2 clocks from the beat that completes a token, 3
+//   if that beat also brings its first word.
 // Throughput: a token a clock, or as many clocks as the port needs for its words. A frame's end costs 2 clocks.
 // Cost: the beats' registers, a multiplexer per word of the longest token over beats and words of a beat.
 `default_nettype none
@@ -132,7 +134,7 @@ module token_reader #(
   assign token_at_last_o = token_at_last_q;
   assign out_free = !token_valid_q || token_ready_i;
   assign dropping_o = dropping_q;
-  assign busy_o = !header_q || dropping_q || token_valid_q || words_ahead != '0;
+  assign busy_o = !header_q || token_valid_q || words_ahead != '0;
   assign moving_o = take || look || (dropping_q && (last_q || !flushed_q));
 
   always_ff @(posedge clk_i) begin
@@ -203,6 +205,8 @@ module token_reader #(
       assert (!drop_i || (token_valid_q && token_ready_i && !token_final_q));
       // 2. What is held fits. (Behind a cut token the front may lie past what came.)
       assert (dropping_q || beats_held <= BeatAtBits'(Depth));
+      // 3. What is dropped is of a frame whose header has been taken: busy_o need not ask for dropping_q.
+      assert (!dropping_q || !header_q);
     end
   end
 `endif

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The expansion units and their compare tree: one opaque layer, a line at a time, of faces and segments. [Ohno 1985]
 //
-// In: face_* takes an entry a clock; seg_* is valid/ready, and seg_ready_o, which depends on seg_unit_i, waits for that unit only.
-//   Both bring sound ones only: segment_check sees to it. width_i is the frame's, and matters with segments only.
-// Out: line_* is valid/ready: Z, class and colour of the nearest face at each pixel, line_last_o at a line's last. Z all ones: none.
-//   A line is offered as soon as all units have it, before it is asked for, but for its last pixel: that waits for the claim.
-// Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All units have the
-//   line complete by then. drop_o, one clock, says that a line of which a part has been taken will not come; nothing taken then counts.
-// Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be leaving then,
-//   none of the one before that. After a frame with an error flush_i, one clock or more, drops what has not been claimed: lines claimed
-//   leave first, and frame_ready_o is low until the rest is gone. No face, segment or claim comes from flush_i until the next frame_start_i.
-// Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its work; or
-//   something has entered a unit or the tree so few clocks ago that what follows from it may not have shown yet.
-// Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of the tree.
+// In: piece_i is of a FACE or of a SEG, sound ones only: segment_check sees to it. face_valid_i takes a face's entry a
+//   clock; seg_valid_i and seg_ready_o are valid and ready of a segment, and seg_ready_o, which depends on the piece's
+//   unit, waits for that unit only. width_i is the frame's, and matters with segments only.
+// Out: line_* is valid/ready: Z, class and colour of the nearest face at each pixel, `last` at a line's last. Z all
+//   ones: none. A line is offered as soon as all units have it, before it is asked for, but for its last pixel: that
+//   waits for the claim.
+// Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All
+//   units have the line complete by then. drop_o, one clock, says that a line of which a part has been taken will not
+//   come; nothing taken then counts.
+// Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be
+//   leaving then, none of the one before that. After a frame with an error flush_i, one clock or more, drops what has
+//   not been claimed: lines claimed leave first, and frame_ready_o is low until the rest is gone. No face, segment or
+//   claim comes from flush_i until the next frame_start_i.
+// Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its
+//   work; or something has entered a unit or the tree so few clocks ago that what follows from it may not have shown
+//   yet.
+// Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of
+//   the tree.
 // Throughput: a pixel a clock, no bubble in a line.
 // Needs UNITS > 0: a core without units leaves it out.
 `default_nettype none
@@ -31,44 +37,38 @@ module tree_core #(
     input  wire logic              claim_i,
     input  wire logic [X_BITS-1:0] width_i,
 
-    input wire logic                 face_valid_i,
-    input wire logic [ UnitBits-1:0] face_unit_i,
-    input wire logic [FACE_BITS-1:0] face_number_i,
-    input wire logic [EntryBits-1:0] face_entry_i,   // the token's fields from index on
-
+    input  wire logic                 face_valid_i,
     input  wire logic                 seg_valid_i,
     output logic                      seg_ready_o,
-    input  wire logic [ UnitBits-1:0] seg_unit_i,
-    input  wire logic [DepthBits-1:0] seg_z_i,      // extended by 0 if CLASSIC
-    input  wire logic [  DX_BITS-1:0] seg_dx_i,
-    input  wire logic [FACE_BITS-1:0] seg_face_i,
+    input  wire logic [PieceBits-1:0] piece_i,
 
-    output logic                       line_valid_o,
-    input  wire logic                  line_ready_i,
-    output logic      [    Z_BITS-1:0] line_z_o,
-    output logic      [CLASS_BITS-1:0] line_class_o,
-    output logic      [   RgbBits-1:0] line_color_o,
-    output logic                       line_last_o,
-    output logic                       drop_o,
+    output logic                          line_valid_o,
+    input  wire logic                     line_ready_i,
+    output logic      [TreePixelBits-1:0] line_o,
+    output logic                          drop_o,
 
     output logic moving_o
 );
+  `include "generated/kage_buses.svh"
 
-  // From the segment that completes a line to its first pixel at line_* nothing shows. A watchdog with a lower limit than that
-  // would take it for a standstill, and the pixel for progress behind it.
+  // From the segment that completes a line to its first pixel at line_* nothing shows. A watchdog with a lower limit
+  // than that would take it for a standstill, and the pixel for progress behind it.
   localparam int Way = 6 + $clog2(UNITS);  // the latency
   logic [Way-1:0] way_q;
+
+  tree_pixel_t line;
+  assign line_o = line;
 
   // ---- lines claimed, flush ----------------------------------------------------------------------------------------
   logic [ClaimBits-1:0] claimed_q, claimed;  // lines asked for that have not left
   logic [ClaimBits-1:0] old_q;  // those of them that belong to earlier frames
   logic flushing_q, flush, line_left, point_valid, point_ready, held;
-  assign line_left = line_valid_o && line_ready_i && line_last_o;
+  assign line_left = line_valid_o && line_ready_i && line.last;
   assign claimed = claimed_q + ClaimBits'(claim_i) - ClaimBits'(line_left);
   assign flush = flushing_q && claimed_q == '0;
   assign frame_ready_o = !flushing_q && old_q == '0;
   assign drop_o = flush;
-  assign held = line_last_o && claimed_q == '0;
+  assign held = line.last && claimed_q == '0;
   assign line_valid_o = point_valid && !held;
   assign point_ready = line_ready_i && !held;
   assign moving_o = flush || (claimed_q != '0 && (line_ready_i || !point_valid)) || way_q != '0;
@@ -87,42 +87,33 @@ module tree_core #(
     end
   end
 
+  piece_t piece;
+  logic   unused_piece;
+  assign piece = piece_i;
+  assign unused_piece = ^piece;  // all but the unit is the units' own
+
   // ---- units -------------------------------------------------------------------------------------------------------
   logic [UNITS-1:0] seg_ready, px_valid, px_ready, px_last;
   logic [UNITS*PointBits-1:0] px_data;
 
   always_comb begin
     seg_ready_o = 1'b0;
-    for (int u = 0; u < UNITS; u++) if (seg_unit_i == UnitBits'(u)) seg_ready_o = seg_ready[u];
+    for (int u = 0; u < UNITS; u++) if (piece.unit == UnitBits'(u)) seg_ready_o = seg_ready[u];
   end
 
   for (genvar u = 0; u < UNITS; u++) begin : gen_unit
     expansion_unit #(
-        .X_BITS(X_BITS),
-        .Z_BITS(Z_BITS),
-        .Z_FRAC(Z_FRAC),
-        .CHANNELS(CHANNELS),
-        .DSF_BITS(DSF_BITS),
-        .CLASS_BITS(CLASS_BITS),
-        .FACE_BITS(FACE_BITS),
-        .DX_BITS(DX_BITS),
-        .SEG_BITS(SEG_BITS),
-        .ORDER_BITS(ORDER_BITS),
-        .CLASSIC(CLASSIC)
+        `include "generated/kage_pixel_param_map.svh"
     ) u_unit (
         .clk_i,
         .rst_ni,
         .frame_start_i,
         .flush_i     (flush),
         .width_i,
-        .face_valid_i(face_valid_i && face_unit_i == UnitBits'(u)),
-        .face_number_i,
-        .face_entry_i,
-        .seg_valid_i (seg_valid_i && seg_unit_i == UnitBits'(u)),
+        .face_valid_i(face_valid_i && piece.unit == UnitBits'(u)),
+        .seg_valid_i (seg_valid_i && piece.unit == UnitBits'(u)),
         .seg_ready_o (seg_ready[u]),
-        .seg_z_i,
-        .seg_dx_i,
-        .seg_face_i,
+        .piece_i,
         .px_valid_o  (px_valid[u]),
         .px_ready_i  (px_ready[u]),
         .px_data_o   (px_data[u*PointBits+:PointBits]),
@@ -137,6 +128,7 @@ module tree_core #(
 
   // ---- tree --------------------------------------------------------------------------------------------------------
   logic [PointBits-1:0] point;
+  logic last;
   compare_tree #(
       .UNITS    (UNITS),
       .KEY_BITS (KeyBits),
@@ -151,14 +143,15 @@ module tree_core #(
       .out_valid_o(point_valid),
       .out_ready_i(point_ready),
       .out_data_o (point),
-      .out_last_o (line_last_o)
+      .out_last_o (last)
   );
 
   logic unused_index;
   assign unused_index = ^point[PointBits-Z_BITS-1-:ORDER_BITS];
-  assign line_z_o = point[PointBits-1-:Z_BITS];
-  assign line_color_o = point[ClassBits+:RgbBits];
-  assign line_class_o = DSF_BITS > 0 ? point[CLASS_BITS-1:0] : '0;
+  assign line.z = point[PointBits-1-:Z_BITS];
+  assign line.color = point[ClassBits+:RgbBits];
+  assign line.normal_class = DSF_BITS > 0 ? point[CLASS_BITS-1:0] : '0;
+  assign line.last = last;
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS

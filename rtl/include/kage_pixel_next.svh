@@ -3,7 +3,8 @@
 //
 // What a token does to one pixel: the only place in the RTL that says so. Both arrangements loop over these functions.
 //
-// A pixel's state is one word, ZB lowest, then colour, then class, DSF, FSF and counters as far as the configuration has them.
+// A pixel's state is one word, ZB lowest, then colour, then class, DSF, FSF and counters as far as the configuration
+// has them.
 /* verilator lint_off UNUSEDPARAM */
 localparam int PixelBits = Z_BITS + RgbBits + ClassBits + DSF_BITS + FSF + TallyBits;
 // Places of the optional fields; 0, and never read, when they are absent.
@@ -15,9 +16,10 @@ localparam int TallyOne = COUNT_BITS > 0 ? COUNT_BITS : 1;  // one counter
 localparam logic [PixelBits-1:0] PixelClear = {{(PixelBits - Z_BITS) {1'b0}}, {Z_BITS{1'b1}}};
 /* verilator lint_on UNUSEDPARAM */
 
-localparam int BlendBits = SHADE_FRAC > 8 ? SHADE_FRAC + 8 : 16;  // all sums are taken modulo 2^BlendBits and come out right
-// A colour with a share of another: of TP `over` with alpha / 255, of RESOLVE (resolve = 1) black with shade / 2^SHADE_FRAC; rounded
-// once. There is one product a channel: share x (over - under), or share x under.
+// All sums are taken modulo 2^BlendBits and come out right.
+localparam int BlendBits = SHADE_FRAC > 8 ? SHADE_FRAC + 8 : 16;
+// A colour with a share of another: of TP `over` with alpha / 255, of RESOLVE (resolve = 1) black with shade /
+// 2^SHADE_FRAC; rounded once. There is one product a channel: share x (over - under), or share x under.
 function automatic logic [RgbBits-1:0] pixel_blend(input logic [RgbBits-1:0] under, input logic [RgbBits-1:0] over,
                                                    input logic [ShareBits-1:0] share, input logic resolve);
   logic signed [8:0] factor;
@@ -32,7 +34,8 @@ function automatic logic [RgbBits-1:0] pixel_blend(input logic [RgbBits-1:0] und
       mixed = {under[c*8+:8], 8'd128} - 16'(under[c*8+:8]) + 16'(product);
       mixed = mixed + (mixed >> 8);
       if (resolve) begin
-        pixel_blend[c*8+:8] = 8'(((BlendBits'(under[c*8+:8]) << SHADE_FRAC) + BlendBits'(1 << (SHADE_FRAC - 1)) - product) >> SHADE_FRAC);
+        product = (BlendBits'(under[c*8+:8]) << SHADE_FRAC) + BlendBits'(1 << (SHADE_FRAC - 1)) - product;
+        pixel_blend[c*8+:8] = 8'(product >> SHADE_FRAC);
       end else begin
         pixel_blend[c*8+:8] = mixed[15:8];
       end
@@ -40,16 +43,17 @@ function automatic logic [RgbBits-1:0] pixel_blend(input logic [RgbBits-1:0] und
   end
 endfunction
 
-// Whether a pixel is in shadow, with the line's bias. A line that has shadow flags is resolved before they are asked for (frame_control
-// sees to it), and one that has none has no flags set.
+// Whether a pixel is in shadow, with the line's bias. A line that has shadow flags is resolved before they are asked
+// for (frame_control sees to it), and one that has none has no flags set.
 function automatic logic pixel_shadow(input logic [PixelBits-1:0] pixel, input logic [DsfBits-1:0] bias);
   pixel_shadow = FSF > 0 ? pixel[PixelFsfAt] : (pixel[PixelDsfAt+:DsfBits] + bias) != '0;
 endfunction
 
-// Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel, or the tree's, of RESOLVE the
-// background; `count` is the class for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE, {light, bias} for ES; `share`
-// is TP's alpha and RESOLVE's shade. RESOLVE reaches the pixels only where TPs follow; otherwise line_out darkens. With counters RESOLVE darkens
-// nothing: where there is something to darken CmdOut sends the line to line_out and CmdLoad brings its colours back. EOL clears.
+// Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel, or the tree's, of
+// RESOLVE the background; `count` is the class for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE,
+// {light, bias} for ES; `share` is TP's alpha and RESOLVE's shade. RESOLVE reaches the pixels only where TPs follow;
+// otherwise line_out darkens. With counters RESOLVE darkens nothing: where there is something to darken CmdOut sends
+// the line to line_out and CmdLoad brings its colours back. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [3:0] kind,
                                                     input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
                                                     input logic [CountBits-1:0] count,
@@ -64,7 +68,9 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
     shadow = DSF_BITS > 0 && pixel_shadow(pixel, count[DsfBits-1:0]);
     dark = COUNT_BITS == 0 && shadow && pixel[PixelClassAt];
     blended = '0;
-    if (TRANSLUCENCY > 0) blended = pixel_blend(pixel[Z_BITS+:RgbBits], color, share, COUNT_BITS == 0 && kind == KindResolve);
+    if (TRANSLUCENCY > 0) begin
+      blended = pixel_blend(pixel[Z_BITS+:RgbBits], color, share, COUNT_BITS == 0 && kind == KindResolve);
+    end
     pixel_next = pixel;
     // TREE does what OP does.
     unique case (UNITS > 0 && kind == KindTree ? KindOp : kind)
@@ -111,8 +117,8 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
   end
 endfunction
 
-// What leaves a pixel at the end of its line: {dark, covered, colour}, without dark in a core without shadows; with counters
-// {counts, class, covered, colour}, counts of 0 where the class is. `bias` is the line's.
+// What leaves a pixel at the end of its line: {dark, covered, colour}, without dark in a core without shadows; with
+// counters {counts, class, covered, colour}, counts of 0 where the class is. `bias` is the line's.
 function automatic logic [ExitBits-1:0] pixel_exit(input logic [PixelBits-1:0] pixel, input logic [DsfBits-1:0] bias);
   begin
     pixel_exit = '0;

@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ports of pixel_core and of both arrangements behind it: the one list. Included in a module that has the pixel parameters,
-// kage_widths.svh and ExitLanes.
+// Ports of pixel_core and of both arrangements behind it: the one list. Included in a module that has the pixel
+// parameters, kage_widths.svh and ExitLanes.
     input wire logic clk_i,
     input wire logic rst_ni,
 
-    // from frame_control
-    input  wire logic                 cmd_valid_i,
-    output logic                      cmd_ready_o,
-    input  wire logic [          3:0] cmd_kind_i,
-    input  wire logic [   X_BITS-1:0] cmd_xl_i,
-    input  wire logic [   X_BITS-1:0] cmd_xr_i,
-    input  wire logic [CountBits-1:0] cmd_count_i,
-    input  wire logic [DepthBits-1:0] cmd_z_i,
-    input  wire logic [DepthBits-1:0] cmd_dz_i,
-    input  wire logic [ColorBits-1:0] cmd_color_i,
-    input  wire logic [SlopeBits-1:0] cmd_dcolor_i,
-    input  wire logic [ShareBits-1:0] cmd_share_i,
+    // from pixel_loads: frame_control's commands, and between them the colours that come back
+    input  wire logic                   cmd_valid_i,
+    output logic                        cmd_ready_o,
+    input  wire logic [CommandBits-1:0] cmd_i,
 
     // from tree_core: the line that the next TREE takes. Without units nothing of this matters.
-    input  wire logic               tree_valid_i,
-    output logic                    tree_ready_o,
-    input  wire logic [ Z_BITS-1:0] tree_z_i,
-    input  wire logic [CLASS_BITS-1:0] tree_class_i,
-    input  wire logic [RgbBits-1:0] tree_color_i,
-    input  wire logic               tree_last_i,
-    input  wire logic               tree_drop_i,
+    input  wire logic                     tree_valid_i,
+    output logic                          tree_ready_o,
+    input  wire logic [TreePixelBits-1:0] tree_i,
+    input  wire logic                     tree_drop_i,
 
     // to line_out
     input  wire logic                          exit_free_i,

@@ -27,6 +27,15 @@ localparam int UnitBits = UNITS > 32 ? 6 : (UNITS > 16 ? 5 : (UNITS > 8 ? 4 : (U
 localparam int EntryBits = ORDER_BITS + ClassBits + DepthBits + RgbBits,  // {colour, dz, class, index}, as FACE has them
 localparam int KeyBits = Z_BITS + ORDER_BITS,  // what the compare tree compares: {Z, index}
 localparam int PointBits = KeyBits + RgbBits + ClassBits,  // a pixel in the compare tree: {Z, index, colour, class}
+// The buses of kage_buses.svh.
+localparam int CommandBits = 4 + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // what the pixels of a range do
+localparam int LineBits = 1 + 1 + 1 + 1 + X_BITS + RgbBits + SHADE_FRAC + 1,  // a line, in the order of the lines
+localparam int TableEntryBits = CLASS_BITS + LightBits + EntryShareBits,  // an entry of the light table
+localparam int LoadBits = X_BITS + RgbBits + 1,  // a pixel's colour that comes back
+localparam int PieceBits = UnitBits + FACE_BITS + EntryBits + DepthBits + DX_BITS,  // a FACE or a SEG
+localparam int TreePixelBits = Z_BITS + CLASS_BITS + RgbBits + 1,  // the nearest face at a pixel of the tree's line
+localparam int ErrorBits = 4 + 32 + 16 + 32 + 6,  // a frame's first error
+localparam int BehindBits = 6 + 15,  // the unit that is behind
 // Commands without token, by kinds that never become commands.
 localparam logic [3:0] CmdLoad = 4'd1,  // a line's pixel comes back
 localparam logic [3:0] CmdOut = 4'd2,  // a line's pixels leave but stay

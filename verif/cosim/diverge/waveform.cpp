@@ -41,12 +41,13 @@ std::string save_file(const std::filesystem::path& wave, const Config& config, s
   group("token_reader to frame_control", {{"token_valid"}, {"token_ready"}, {"token_header"}});
   group("frame_control to pixels", {{"cmd_valid"},
                                     {"cmd_ready"},
-                                    {"cmd_kind", 4, true},
-                                    {"cmd_xl", x, true},
-                                    {"cmd_xr", x, true},
-                                    {"cmd_z", depth},
-                                    {"cmd_dz", depth}});
-  if (config.units > 0) group("tree", {{"tree_valid"}, {"tree_ready"}, {"tree_z", config.z_bits}, {"tree_last"}});
+                                    {"cmd.kind", 4, true},
+                                    {"cmd.xl", x, true},
+                                    {"cmd.xr", x, true},
+                                    {"cmd.z", depth},
+                                    {"cmd.dz", depth}});
+  if (config.units > 0)
+    group("tree", {{"tree_valid"}, {"tree_ready"}, {"tree_pixel.z", config.z_bits}, {"tree_pixel.last"}});
   group("pixels to line_out", {{"exit_valid"}, {"exit_last"}});
   group("lines", {{"line_valid"}, {"line_ready"}, {"queue_valid"}, {"queue_ready"}});
   group("video", {{"m_axis_tvalid_o"},

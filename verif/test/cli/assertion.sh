@@ -7,8 +7,8 @@ data_copy data
 echo '{MAX_WIDTH: 64, LANES: 2, BEAT_WORDS: 1}' >small.yaml
 export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
 # A span has a pixel more, and one that ends with the line is past its end.
-grep -q 'cmd_xr_i - 1' data/rtl/pixel_banked.sv || fail "no defect to put in"
-sed -i "s/cmd_xr_i - 1'b1/cmd_xr_i/" data/rtl/pixel_banked.sv
+grep -q 'cmd.xr - 1' data/rtl/pixel_banked.sv || fail "no defect to put in"
+sed -i "s/cmd\.xr - 1'b1/cmd.xr/" data/rtl/pixel_banked.sv
 
 expect 1 "$kage" cosim courtyard --size 64x48 --config small.yaml --out out --json v.json --junit v.xml --annotate github
 cp stdout said

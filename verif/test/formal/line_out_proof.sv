@@ -94,7 +94,8 @@ module line_out_proof #(
     if (line_valid_i) assume (told_q != 3'(LINES));
   end
 
-  // The line of each way out: the next one of its sort. A line that goes back may overtake pixels that wait at the video port.
+  // The line of each way out: the next one of its sort. A line that goes back may overtake pixels that wait at the
+  // video port.
   logic [LINES-1:0] loaded;
   logic [2:0] video_from_q, load_from_q, video_line, load_line;
   logic [1:0] video_x_q, load_x_q, video_width, load_width;
@@ -144,6 +145,17 @@ module line_out_proof #(
     end
   end
 
+  // What is announced, as line_t of kage_buses.svh has it.
+  logic [Frac+XBits+12:0] line;
+  assign line = {
+    first[told_q[1:0]],
+    blank[told_q[1:0]],
+    load[told_q[1:0]],
+    painted[told_q[1:0]],
+    XBits'(told_width) + 1'b1,
+    background[8*told_q[1:0]+:8],
+    shade[(Frac+1)*told_q[1:0]+:Frac+1]
+  };
   line_out #(
       .X_BITS(XBits),
       .CHANNELS(1),
@@ -157,35 +169,25 @@ module line_out_proof #(
   ) dut (
       .clk_i,
       .rst_ni,
-      .exit_free_o      (exit_free),
+      .exit_free_o  (exit_free),
       .exit_take_i,
-      .exit_valid_i     (exit_valid),
-      .exit_last_i      (exit_last),
+      .exit_valid_i (exit_valid),
+      .exit_last_i  (exit_last),
       .exit_data_i,
       .line_valid_i,
-      .line_ready_o     (line_ready),
-      .line_first_i     (first[told_q[1:0]]),
-      .line_blank_i     (blank[told_q[1:0]]),
-      .line_load_i      (load[told_q[1:0]]),
-      .line_painted_i   (painted[told_q[1:0]]),
-      .line_width_i     (XBits'(told_width) + 1'b1),
-      .line_background_i(background[8*told_q[1:0]+:8]),
-      .line_shade_i     (shade[(Frac+1)*told_q[1:0]+:Frac+1]),
-      .table_valid_i    (1'b0),
-      .table_class_i    ('0),
-      .table_light_i    ('0),
-      .table_share_i    ('0),
-      .load_valid_o     (load_valid),
+      .line_ready_o (line_ready),
+      .line_i       (line),
+      .table_valid_i(1'b0),
+      .table_i      ('0),
+      .load_valid_o (load_valid),
       .load_ready_i,
-      .load_x_o         (load_x),
-      .load_color_o     (load_color),
-      .load_last_o      (load_last),
-      .m_valid_o        (m_valid),
+      .load_o       ({load_x, load_color, load_last}),
+      .m_valid_o    (m_valid),
       .m_ready_i,
-      .m_data_o         (m_data),
-      .m_user_o         (m_user),
-      .m_last_o         (m_last),
-      .moving_o         (moving)
+      .m_data_o     (m_data),
+      .m_user_o     (m_user),
+      .m_last_o     (m_last),
+      .moving_o     (moving)
   );
   stream_rules #(
       .BITS(FOLLOWED + 2)

@@ -102,7 +102,7 @@ module line_phase_proof #(
   always_comb begin
     assume (start_i || started_q);
     if (take_i) assume (has && may);
-    if (take_i) assume (!clear_bias_i);
+    if (take_i) assume (!clear_bias_i);  // assertion 4 of frame_control
   end
 
   // ---- the answer --------------------------------------------------------------------------------------------------

@@ -147,8 +147,8 @@ defect out_buffers_exchanged line_out line_out.sv "s/rd_addr_q   <= rd_second_q 
 defect out_address_stuck line_out_groups line_out.sv 's/rd_addr_q <= rd_addr_q + 1.b1;/rd_addr_q <= rd_addr_q;/'
 defect out_lane_wrong line_out_groups line_out.sv 's/lane_at_q\[LaneBits+:LaneBits\] == LaneBits.(l)/lane_at_q[0+:LaneBits] == LaneBits'"'"'(l)/'
 defect out_last_early line_out line_out.sv "s/assign issue_last = .*/assign issue_last = 1'b1;/"
-defect out_user_each_line line_out line_out.sv 's/first_q <= line_first_i;/first_q <= 1;/'
-defect out_frame_early line_out_frames line_out.sv 's/!line_first_i || valid_q == .0;/1;/'
+defect out_user_each_line line_out line_out.sv 's/first_q <= line\.first;/first_q <= 1;/'
+defect out_frame_early line_out_frames line_out.sv 's/!line\.first || valid_q == .0;/1;/'
 defect out_before_it_came line_out line_out.sv 's/assign next_begun = .*/assign next_begun = 1;/'
 defect out_buffer_unfreed line_out line_out.sv "s/taken_q + 2'(exit_take_i) - 2'(line_left)/taken_q + 2'(exit_take_i)/"
 defect out_standstill line_out_frames line_out.sv 's/assign start = .*/assign start = line_valid_i \&\& next_begun \&\& may_start \&\& taken_q[1];/'
@@ -158,12 +158,12 @@ defect out_reset_lets_through line_out_resets skid_buffer.sv "s/out_valid_q   <=
 defect out_rounds_down line_out_colors line_out.sv "s/(SHADE_FRAC + 9)'(1 << (SHADE_FRAC - 1));/'0;/"
 defect out_blank_shown line_out_colors line_out.sv 's/ && !blank_at_q\[LightStages+2\]//'
 defect out_load_to_video line_out_loads line_out.sv 's/valid_q\[Depth-1\] && !load_at_q\[Depth-1\]/valid_q[Depth-1]/'
-defect out_load_places line_out_loads line_out.sv 's/load_last_o ? .0 : load_x_q + 1.b1/load_x_q + 1'"'"'b1/'
+defect out_load_places line_out_loads line_out.sv 's/load\.last ? .0 : load_x_q + 1.b1/load_x_q + 1'"'"'b1/'
 defect out_load_moves line_out_loads line_out.sv 's/assign go = load_valid_o ? load_ready_i : video_go;/assign go = load_valid_o || video_go;/'
 defect out_load_falls line_out_loads line_out.sv 's/assign load_valid_o = .*/assign load_valid_o = valid_q[Depth-1] \&\& load_at_q[Depth-1] \&\& !line_valid_i;/'
 defect out_load_in_reset line_out_loads line_out.sv 's/if (!rst_ni) valid_q <= .0;/if (0) ;/'
 defect out_load_early line_out_loads line_out.sv 's/if (!rst_ni) valid_q <= .0;/if (!rst_ni) valid_q <= 1;/'
-defect out_loads_without line_out line_out.sv 's/assign {load_valid_o, load_x_o.*/assign load_valid_o = m_valid_o; assign {load_x_o, load_color_o, load_last_o} = 0;/'
+defect out_loads_without line_out line_out.sv 's/assign {load_valid_o, load}.*/assign load_valid_o = m_valid_o; assign load = 0;/'
 
 # ---- kage_top --------------------------------------------------------------------------------------------------------
 # Its defects drive a port's outputs from other ports; those within the modules are above.

@@ -49,9 +49,9 @@ module token_reader_proof #(
   logic s_ready, token_valid, header, lacking, cut, final_one, at_last, dropping, busy, moving;
   logic [TokenWordsMost*32-1:0] token;
   token_reader #(
-      `include "generated/kage_pixel_param_map.svh"
       .BEAT_WORDS (BEAT_WORDS),
-      .TOKEN_WORDS(TokenWordsMost)
+      .TOKEN_WORDS(TokenWordsMost),
+      `include "generated/kage_pixel_param_map.svh"
   ) dut (
       .clk_i,
       .rst_ni,

@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "buses.hpp"
 #include "test/support/catch.hpp"
 #include "verilated.h"
 
@@ -87,6 +88,16 @@ std::uint64_t get(const VlWide<N>& port, int lsb, int bits) {
   for (int i = 0; i < bits; ++i)
     value |= static_cast<std::uint64_t>(port[static_cast<std::size_t>((lsb + i) / 32)] >> ((lsb + i) % 32) & 1) << i;
   return value;
+}
+
+/// A field of a bus, of 64 bits at most.
+template <class Port>
+void put(Port& port, const Place& field, std::uint64_t value) {
+  put(port, field.lsb, field.bits, value);
+}
+template <class Port>
+std::uint64_t get(const Port& port, const Place& field) {
+  return get(port, field.lsb, field.bits);
 }
 
 /// A module alone, out of reset.

@@ -72,7 +72,7 @@ void random_test(const TreeShape& s) {
       const bool can_give = defined == faces.size() && !giving.empty();
       if (offer(dice, can_give)) {
         top->seg_valid_i = 1;
-        put_segment(*top, giving.front());
+        put_segment(*top, s, giving.front());
       }
       top->px_ready_i = dice.percent(out_stall) ? 0 : 1;
       top.settle();
@@ -163,7 +163,7 @@ TEST_CASE("expansion_unit buffers two lines of 2^SEG_BITS segments and no more",
       quiet(*top, width);
       top->px_ready_i = clock >= 100 ? 1 : 0;
       top->seg_valid_i = given < segments.size() ? 1 : 0;
-      if (given < segments.size()) put_segment(*top, segments[given]);
+      if (given < segments.size()) put_segment(*top, kShape, segments[given]);
       top.settle();
       if (clock < 100 && given < 16) REQUIRE(top->seg_ready_o);
       if (clock < 100 && given == 16) REQUIRE(!top->seg_ready_o);
@@ -191,7 +191,7 @@ TEST_CASE("expansion_unit takes 6 clocks to a line's first pixel and leaves no g
       quiet(*top, width);
       top->px_ready_i = 1;
       top->seg_valid_i = given < width * lines ? 1 : 0;
-      put_segment(*top, {0, 1, kShape.blank()});
+      put_segment(*top, kShape, {0, 1, kShape.blank()});
       top.settle();
       if (top->px_valid_o) {
         if (taken == 0) first = top.clocks;

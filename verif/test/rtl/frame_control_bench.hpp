@@ -18,6 +18,9 @@ inline constexpr kage::Config kGlass = [] {
   return c;
 }();
 inline constexpr int kMaxWidth = 64;
+/// The configuration of a model; a test says it of those that are not of kConfig.
+template <class Model>
+inline constexpr kage::Config kConfigOf = kConfig;
 
 struct Token {
   std::array<std::uint32_t, 5> words{};
@@ -122,6 +125,11 @@ struct Outcome {
 template <class Model>
 Outcome run(Dice& dice, const std::vector<Token>& tokens, bool fields = true) {
   Bench<Model> top(dice);
+  constexpr kage::Config config = kConfigOf<Model>;
+  const CommandBus command(config);
+  const LineBus line(config);
+  const TableEntryBus entry(config);
+  const ErrorBus error(config);
   Offer offer(stall_percent(dice));
   const int cmd_stall = stall_percent(dice);
   const int line_stall = stall_percent(dice);
@@ -157,34 +165,40 @@ Outcome run(Dice& dice, const std::vector<Token>& tokens, bool fields = true) {
     }
     if (top->table_valid_o) {
       REQUIRE(top->table_free_i);
-      out.table.push_back({top->table_class_o, top->table_light_o, get(top->table_share_o, 0, 27)});
+      out.table.push_back({static_cast<unsigned>(get(top->table_o, entry.normal_class)),
+                           static_cast<unsigned>(get(top->table_o, entry.light)), get(top->table_o, entry.share)});
     }
     if (top->cmd_valid_o && top->cmd_ready_i) {
-      const auto kind = static_cast<Kind>(top->cmd_kind_o);
+      const auto field = [&](const Place& p) { return static_cast<unsigned>(get(top->cmd_o, p)); };
+      const auto kind = static_cast<Kind>(field(command.kind));
       if (kind == kage::derived::kCommandOut) loading = dice.between(1, 20);
       // TP has no count.
-      out.commands.push_back({kind, top->cmd_xl_o, top->cmd_xr_o, kind == Kind::TP ? 0U : top->cmd_count_o});
-      out.shares.push_back(top->cmd_share_o);
+      out.commands.push_back(
+          {kind, field(command.xl), field(command.xr), kind == Kind::TP ? 0U : field(command.count)});
+      out.shares.push_back(field(command.share));
       const auto ramp = [&](std::uint64_t z, std::uint64_t dz) {
-        REQUIRE(get(top->cmd_z_o, 0, 37) == z);
-        REQUIRE(get(top->cmd_dz_o, 0, 37) == dz);
+        REQUIRE(get(top->cmd_o, command.z) == z);
+        REQUIRE(get(top->cmd_o, command.dz) == dz);
       };
       if (kind == Kind::SP) ramp(0x11111111, 0x22222222);
       if (kind == Kind::OP && fields) ramp(0x123456789, 0x0FEDCBA98);
       if (kind == Kind::TP && fields) ramp(0x0F1234567, 0x0A9876543);
-      if (kind == Kind::OP && fields) REQUIRE(top->cmd_color_o == 0x332211);
-      if (kind == Kind::TP && fields) REQUIRE(top->cmd_color_o == 0x665544);
-      if (kind == Kind::RESOLVE) REQUIRE(top->cmd_color_o == 0x0A0B0C);
+      if (kind == Kind::OP && fields) REQUIRE(field(command.color) == 0x332211);
+      if (kind == Kind::TP && fields) REQUIRE(field(command.color) == 0x665544);
+      if (kind == Kind::RESOLVE) REQUIRE(field(command.color) == 0x0A0B0C);
     }
     if (top->line_valid_o) {
       REQUIRE(top->line_ready_i);
-      out.lines.push_back({static_cast<bool>(top->line_first_o), static_cast<bool>(top->line_blank_o),
-                           top->line_width_o, top->line_background_o, top->line_shade_o});
-      out.painted.push_back(top->line_painted_o != 0);
-      out.loads.push_back(top->line_load_o != 0);
+      const auto field = [&](const Place& p) { return static_cast<unsigned>(get(top->line_o, p)); };
+      out.lines.push_back({field(line.first) != 0, field(line.blank) != 0, field(line.width), field(line.background),
+                           field(line.shade)});
+      out.painted.push_back(field(line.painted) != 0);
+      out.loads.push_back(field(line.load) != 0);
     }
-    if (top->error_o)
-      out.errors.push_back({top->error_code_o, top->error_frame_o, top->error_line_o, top->error_token_o});
+    if (top->error_valid_o) {
+      const auto field = [&](const Place& p) { return static_cast<std::uint32_t>(get(top->error_o, p)); };
+      out.errors.push_back({field(error.code), field(error.frame), field(error.line), field(error.token)});
+    }
     if (top->frame_end_o) ++out.frames;
     if (dropping > 0) --dropping;
     const bool taken = offered && top->token_ready_o;

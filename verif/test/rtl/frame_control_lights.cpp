@@ -20,6 +20,14 @@ constexpr kage::Config kLights = [] {
   c.class_bits = 5;
   return c;
 }();
+
+}  // namespace
+
+template <>
+inline constexpr kage::Config kage::rtl::kConfigOf<Vframe_control_lights> = kLights;
+
+namespace {
+
 /// A token of the lights configuration, as `write` writes it.
 template <class Write>
 Token lights_token(Write write) {

@@ -20,6 +20,16 @@ struct Shape {
   bool translucent;
   int count_bits = 0, lights = 1, class_bits = 1;
 
+  [[nodiscard]] kage::Config config() const {
+    kage::Config c;
+    c.x_bits = 5;
+    c.shade_frac = shade_frac;
+    c.translucency = translucent ? 1 : 0;
+    c.count_bits = count_bits;
+    c.lights = lights;
+    c.class_bits = class_bits;
+    return c;
+  }
   [[nodiscard]] int pixel_bits() const {
     return count_bits == 0 ? 26 : 25 + (class_bits > 1 ? class_bits : 0) + lights * count_bits;
   }
@@ -61,17 +71,19 @@ std::uint32_t factor(const Shape& s, std::uint64_t pixel, const Table& table, st
 /// Write a whole table, an entry a clock.
 template <class Model>
 void load_table(Bench<Model>& top, Dice& dice, const Shape& s, Table& table) {
+  const TableEntryBus entry(s.config());
   table.resize(std::size_t{1} << s.class_bits);
   top->line_valid_i = top->exit_take_i = top->exit_valid_i = 0;
   top->table_valid_i = 1;
   for (std::size_t k = 1; k < table.size(); ++k)
     for (std::size_t light = 0; light < static_cast<std::size_t>(s.lights); ++light) {
-      put(top->table_class_i, k);
-      put(top->table_light_i, light);
+      put(top->table_i, entry.normal_class, k);
+      put(top->table_i, entry.light, light);
       for (std::size_t c = 0; c < 3; ++c) {
         table[k][light][c] = dice.percent(20) ? 1U << s.shade_frac
                                               : static_cast<std::uint32_t>(dice.bits(s.shade_frac)) >> dice.below(4);
-        put(top->table_share_i, static_cast<int>(c) * (s.shade_frac + 1), s.shade_frac + 1, table[k][light][c]);
+        put(top->table_i, entry.share.lsb + static_cast<int>(c) * (s.shade_frac + 1), s.shade_frac + 1,
+            table[k][light][c]);
       }
       top.edge();
     }
@@ -82,6 +94,8 @@ template <class Model>
 void line_test(const Shape& s) {
   each_seed(15, [&](Dice& dice) {
     Bench<Model> top(dice);
+    const LineBus line(s.config());
+    const LoadBus load(s.config());
     const int in_stall = stall_percent(dice);
     const int out_stall = stall_percent(dice);
     std::deque<Line> announced, to_fill;
@@ -136,13 +150,13 @@ void line_test(const Shape& s) {
       top->line_valid_i = announced.empty() ? 0 : 1;
       if (!announced.empty()) {
         const Line& l = announced.front();
-        top->line_first_i = l.first ? 1 : 0;
-        top->line_blank_i = l.blank ? 1 : 0;
-        top->line_painted_i = l.painted ? 1 : 0;
-        top->line_load_i = l.load ? 1 : 0;
-        top->line_width_i = static_cast<CData>(l.width);
-        top->line_background_i = l.background;
-        top->line_shade_i = static_cast<SData>(l.shade);
+        put(top->line_i, line.first, l.first ? 1 : 0);
+        put(top->line_i, line.blank, l.blank ? 1 : 0);
+        put(top->line_i, line.painted, l.painted ? 1 : 0);
+        put(top->line_i, line.load, l.load ? 1 : 0);
+        put(top->line_i, line.width, static_cast<std::uint64_t>(l.width));
+        put(top->line_i, line.background, l.background);
+        put(top->line_i, line.shade, l.shade);
       }
       top->exit_take_i = 0;
       top->exit_valid_i = 0;
@@ -179,9 +193,9 @@ void line_test(const Shape& s) {
       }
       if (top->load_valid_o) REQUIRE(!loads.empty());
       if (top->load_valid_o && top->load_ready_i) {
-        REQUIRE(top->load_color_o == loads.front().color);
-        REQUIRE(top->load_x_o == load_places.front());
-        REQUIRE(static_cast<bool>(top->load_last_o) == loads.front().last);
+        REQUIRE(get(top->load_o, load.color) == loads.front().color);
+        REQUIRE(get(top->load_o, load.x) == load_places.front());
+        REQUIRE((get(top->load_o, load.last) != 0) == loads.front().last);
         loads.pop_front();
         load_places.pop_front();
       }
@@ -217,14 +231,15 @@ TEST_CASE("line_out, counters of three lights, table, loads", "[line_out]") {
 TEST_CASE("line_out sends the lines of a frame without a gap", "[line_out]") {
   each_seed(2, [](Dice& dice) {
     Bench<Vline_out4> top(dice);
+    const LineBus line(Shape{4, 21, 8, true}.config());
     const int width = 16, lines = 10;
     int announced = 0, groups = 0, taken = 0, pixels = 0, first = 0, last = 0;
     top->m_ready_i = 1;
     for (int clock = 0; pixels < width * lines; ++clock) {
       top->line_valid_i = announced < lines ? 1 : 0;
-      top->line_first_i = announced == 0 ? 1 : 0;
-      top->line_blank_i = 0;
-      top->line_width_i = width;
+      put(top->line_i, line.first, announced == 0 ? 1 : 0);
+      put(top->line_i, line.blank, 0);
+      put(top->line_i, line.width, width);
       top->exit_take_i = 0;
       top->exit_valid_i = 0;
       top.settle();

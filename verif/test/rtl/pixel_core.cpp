@@ -30,6 +30,23 @@ struct Shape {
   int shade_frac;  // 0: no translucency
   int count_bits = 0, lights = 1, class_bits = 1;
 
+  [[nodiscard]] kage::Config config() const {
+    kage::Config c;
+    c.x_bits = x_bits;
+    c.z_bits = z_bits;
+    c.z_frac = z_frac;
+    c.channels = channels;
+    c.smooth = smooth;
+    c.color_frac = color_frac;
+    c.dsf_bits = dsf_bits;
+    c.fsf = fsf;
+    c.translucency = shade_frac > 0 ? 1 : 0;
+    if (shade_frac > 0) c.shade_frac = shade_frac;
+    c.count_bits = count_bits;
+    c.lights = lights;
+    c.class_bits = class_bits;
+    return c;
+  }
   [[nodiscard]] int light_at() const { return fsf != 0 ? 0 : dsf_bits; }  // of ES's light in the count
   [[nodiscard]] int exit_bits() const {
     if (dsf_bits == 0) return 8 * channels + 1;
@@ -207,17 +224,18 @@ Command translucent(Dice& dice, const Shape& s, Command c, int width, bool& pain
 
 template <class Model>
 void set_command(Model& top, const Shape& s, const Command& c) {
+  const CommandBus bus(s.config());
   const int ramp = s.smooth != 0 ? 10 + s.color_frac : 8;
-  top.cmd_kind_i = static_cast<CData>(c.kind);
-  put(top.cmd_xl_i, static_cast<std::uint64_t>(c.xl));
-  put(top.cmd_xr_i, static_cast<std::uint64_t>(c.xr));
-  put(top.cmd_count_i, c.count);
-  put(top.cmd_z_i, c.z);
-  put(top.cmd_dz_i, c.dz);
-  put(top.cmd_share_i, c.share);
+  put(top.cmd_i, bus.kind, static_cast<std::uint64_t>(c.kind));
+  put(top.cmd_i, bus.xl, static_cast<std::uint64_t>(c.xl));
+  put(top.cmd_i, bus.xr, static_cast<std::uint64_t>(c.xr));
+  put(top.cmd_i, bus.count, c.count);
+  put(top.cmd_i, bus.z, c.z);
+  put(top.cmd_i, bus.dz, c.dz);
+  put(top.cmd_i, bus.share, c.share);
   for (int ch = 0; ch < s.channels; ++ch) {
-    put(top.cmd_color_i, ch * ramp, ramp, c.color[ch]);
-    if (s.smooth != 0) put(top.cmd_dcolor_i, ch * ramp, ramp, c.dcolor[ch]);
+    put(top.cmd_i, bus.color.lsb + ch * ramp, ramp, c.color[ch]);
+    if (s.smooth != 0) put(top.cmd_i, bus.dcolor.lsb + ch * ramp, ramp, c.dcolor[ch]);
   }
 }
 

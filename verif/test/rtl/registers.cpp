@@ -11,6 +11,8 @@ using namespace kage::rtl;
 namespace {
 
 constexpr std::uint32_t kOkay = 0, kSlverr = 2;
+constexpr ErrorBus kError(kage::Config{});
+constexpr BehindBus kBehind(kage::Config{});
 
 class Axil {
  public:
@@ -21,8 +23,13 @@ class Axil {
   }
   void quiet() {
     top->open_i = top->draining_i = top->waiting_input_i = top->waiting_output_i = 0;
-    top->progress_i = top->frame_end_i = top->error_i = 0;
-    top->error_unit_i = top->behind_i = top->behind_unit_i = top->behind_line_i = 0;
+    top->progress_i = top->frame_end_i = top->error_valid_i = top->behind_valid_i = 0;
+    put(top->error_i, kError.unit, 0);
+    behind(0, 0);
+  }
+  void behind(std::uint64_t unit, std::uint64_t line) {
+    put(top->behind_i, kBehind.unit, unit);
+    put(top->behind_i, kBehind.line, line);
   }
   void clock() {
     top.settle();
@@ -139,12 +146,12 @@ TEST_CASE("Writes: byte strobes, read-only registers, addresses without a regist
 TEST_CASE("Errors, frames and the interrupt", "[registers]") {
   each_seed(10, [](Dice& dice) {
     Axil a(dice);
-    a.top->error_i = 1;
-    a.top->error_code_i = 6;
-    a.top->error_frame_i = 77;
-    a.top->error_line_i = 0x7001;
-    a.top->error_token_i = 123456;
-    a.top->error_unit_i = 61;
+    a.top->error_valid_i = 1;
+    put(a.top->error_i, kError.code, 6);
+    put(a.top->error_i, kError.frame, 77);
+    put(a.top->error_i, kError.line, 0x7001);
+    put(a.top->error_i, kError.token, 123456);
+    put(a.top->error_i, kError.unit, 61);
     a.clock();
     a.quiet();
     a.top->frame_end_i = 1;
@@ -190,9 +197,8 @@ TEST_CASE("Counters and status", "[registers]") {
     a.top->waiting_output_i = 0;
     CHECK(a.read(KAGE_REG_STATUS) == 0b0111);
     a.quiet();
-    a.top->behind_i = 1;
-    a.top->behind_unit_i = 37;
-    a.top->behind_line_i = 12345;
+    a.top->behind_valid_i = 1;
+    a.behind(37, 12345);
     a.top->waiting_input_i = 0;
     CHECK(a.read(KAGE_REG_TREE) == 0);  // the stream is not waited for
     a.top->waiting_input_i = 1;
@@ -217,9 +223,8 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.top->progress_i = 1;
     a.clock();
     a.top->progress_i = 0;
-    a.top->behind_i = a.top->waiting_input_i = 1;
-    a.top->behind_unit_i = 5;
-    a.top->behind_line_i = 77;
+    a.top->behind_valid_i = a.top->waiting_input_i = 1;
+    a.behind(5, 77);
     for (int i = 0; i < 19; ++i) {
       a.clock();
       REQUIRE(!a.top->irq_o);
@@ -227,8 +232,8 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.clock();
     CHECK(a.top->irq_o);
     // What was waited for then, whatever has come since.
-    a.top->behind_unit_i = 6;
-    a.top->behind_i = a.top->waiting_input_i = 0;
+    a.behind(6, 77);
+    a.top->behind_valid_i = a.top->waiting_input_i = 0;
     CHECK(a.read(KAGE_REG_STALL) == (1U << 31 | 77U << 16 | 1U << 8 | 5U));
     CHECK(a.read(KAGE_REG_TREE) == 0);
     a.write(KAGE_REG_IRQ, 4);

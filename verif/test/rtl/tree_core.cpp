@@ -29,8 +29,15 @@ struct Pixel {
 };
 
 template <class Top>
-Pixel pixel_of(const Top& top) {
-  return {top.line_z_o, top.line_color_o, top.line_class_o, top.line_last_o != 0};
+Pixel pixel_of(const Top& top, const TreeShape& s) {
+  const TreePixelBus pixel(s.config());
+  return {get(top.line_o, pixel.z), get(top.line_o, pixel.color), get(top.line_o, pixel.normal_class),
+          get(top.line_o, pixel.last) != 0};
+}
+
+template <class Top>
+void put_unit(Top& top, const TreeShape& s, int unit) {
+  put(top.piece_i, PieceBus(s.config()).unit, static_cast<std::uint64_t>(unit));
 }
 
 using Lines = std::vector<std::vector<Point>>;  // of each unit
@@ -143,12 +150,12 @@ void random_test(const TreeShape& s, int seeds = 25) {
         event = &events.front();
         if (event->kind == Event::kFace) {
           top->face_valid_i = 1;
-          top->face_unit_i = static_cast<CData>(event->unit);
+          put_unit(*top, s, event->unit);
           put_face(*top, s, event->number, event->face);
         } else if (event->kind == Event::kSegment) {
           top->seg_valid_i = 1;
-          top->seg_unit_i = static_cast<CData>(event->unit);
-          put_segment(*top, event->segment);
+          put_unit(*top, s, event->unit);
+          put_segment(*top, s, event->segment);
         } else {
           top->claim_i = 1;
         }
@@ -158,13 +165,13 @@ void random_test(const TreeShape& s, int seeds = 25) {
       top.settle();
 
       const bool out = top->line_valid_o && top->line_ready_i;
-      if (top->line_valid_o && !expected.empty()) REQUIRE(pixel_of(*top) == expected.front());
+      if (top->line_valid_o && !expected.empty()) REQUIRE(pixel_of(*top, s) == expected.front());
       if (waiting) {
         REQUIRE(top->line_valid_o);
-        REQUIRE(pixel_of(*top) == *waiting);
+        REQUIRE(pixel_of(*top, s) == *waiting);
       }
       const bool hold = top->line_valid_o && !out && !expected.empty();
-      waiting = hold ? std::optional(pixel_of(*top)) : std::nullopt;
+      waiting = hold ? std::optional(pixel_of(*top, s)) : std::nullopt;
       const bool done = event != nullptr && (event->kind != Event::kSegment || top->seg_ready_o);
       top.edge();
 
@@ -214,14 +221,14 @@ void clocks_test(int units) {
       quiet(*top, width);
       top->line_ready_i = 1;
       top->seg_valid_i = given < width * units ? 1 : 0;
-      top->seg_unit_i = static_cast<CData>(given / width);
-      put_segment(*top, {0, 1, s.blank()});
+      put_unit(*top, s, given / width);
+      put_segment(*top, s, {0, 1, s.blank()});
       top->claim_i = top.clocks == complete + 1 && complete != 0 ? 1 : 0;
       top.settle();
       if (top->line_valid_o) {
         if (taken == 0) first = top.clocks;
         REQUIRE(top.clocks == first + static_cast<std::uint64_t>(taken));  // no bubble
-        REQUIRE(top->line_last_o == (taken == width - 1 ? 1 : 0));
+        REQUIRE(pixel_of(*top, s).last == (taken == width - 1));
         ++taken;
       }
       if (top->seg_valid_i && top->seg_ready_o && ++given == width * units) complete = top.clocks;
@@ -243,8 +250,8 @@ void two_lines_test(int units) {
     for (int clock = 0; clock < 40 * units + 100; ++clock) {
       quiet(*top, width);
       top->seg_valid_i = given < 2 * width * units ? 1 : 0;
-      top->seg_unit_i = static_cast<CData>(given / width % units);
-      put_segment(*top, {0, 1, small(units).blank()});
+      put_unit(*top, small(units), given / width % units);
+      put_segment(*top, small(units), {0, 1, small(units).blank()});
       top->claim_i = clock == 40 * units || clock == 40 * units + 1 ? 1 : 0;
       top->line_ready_i = clock >= 40 * units + 1 ? 1 : 0;
       top.settle();
@@ -295,8 +302,8 @@ TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next f
     const auto clock = [&](bool flush, bool claim, bool ready) {
       quiet(*top, width);
       top->seg_valid_i = !flush && given < 4 ? 1 : 0;
-      top->seg_unit_i = static_cast<CData>(given % 2);
-      put_segment(*top, {0, width, small(2).blank()});
+      put_unit(*top, small(2), given % 2);
+      put_segment(*top, small(2), {0, width, small(2).blank()});
       top->flush_i = flush ? 1 : 0;
       top->claim_i = claim ? 1 : 0;
       top->line_ready_i = ready ? 1 : 0;

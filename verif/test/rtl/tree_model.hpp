@@ -16,6 +16,21 @@ struct TreeShape {
   int units, x_bits, z_bits, z_frac, channels, lit_bits, face_bits, dx_bits, seg_bits, order_bits;
   bool classic;
 
+  kage::Config config() const {
+    kage::Config c;
+    c.x_bits = x_bits;
+    c.z_bits = z_bits;
+    c.z_frac = z_frac;
+    c.channels = channels;
+    c.dsf_bits = c.fsf = lit_bits;
+    c.units = units;
+    c.face_bits = face_bits;
+    c.dx_bits = dx_bits;
+    c.seg_bits = seg_bits;
+    c.order_bits = order_bits;
+    c.classic = classic ? 1 : 0;
+    return c;
+  }
   int depth_bits() const { return z_bits + z_frac + 2; }
   int rgb_bits() const { return 8 * channels; }
   int blank() const { return (1 << face_bits) - 1; }
@@ -87,13 +102,14 @@ inline std::vector<Point> expand(const TreeShape& s, const std::vector<Face>& fa
   return points;
 }
 
-/// The inputs of a face and of a segment have the same names in both modules.
+/// Both modules take a face, and a segment, by piece_i.
 template <class Top>
 void put_face(Top& top, const TreeShape& s, int number, const Face& face) {
-  top.face_number_i = static_cast<CData>(number);
-  int at = 0;
+  const PieceBus piece(s.config());
+  put(top.piece_i, piece.face, static_cast<std::uint64_t>(number));
+  int at = piece.entry.lsb;
   const auto field = [&](int bits, std::uint64_t value) {
-    if (bits != 0) put(top.face_entry_i, at, bits, value);
+    if (bits != 0) put(top.piece_i, at, bits, value);
     at += bits;
   };
   field(s.order_bits, face.index);
@@ -103,10 +119,11 @@ void put_face(Top& top, const TreeShape& s, int number, const Face& face) {
 }
 
 template <class Top>
-void put_segment(Top& top, const Segment& segment) {
-  put(top.seg_z_i, segment.z);
-  put(top.seg_dx_i, static_cast<std::uint64_t>(segment.dx));
-  put(top.seg_face_i, static_cast<std::uint64_t>(segment.face));
+void put_segment(Top& top, const TreeShape& s, const Segment& segment) {
+  const PieceBus piece(s.config());
+  put(top.piece_i, piece.z, segment.z);
+  put(top.piece_i, piece.dx, static_cast<std::uint64_t>(segment.dx));
+  put(top.piece_i, piece.face, static_cast<std::uint64_t>(segment.face));
 }
 
 }  // namespace kage::rtl

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // compare_tree from its ports alone: of the units' pixels that were taken for a place, the one with the least key, on
-// equal keys the lowest unit's, as many clocks after the last of them as there are levels; and no more are taken of a unit
-// than there are registers for.
+// equal keys the lowest unit's, as many clocks after the last of them as there are levels; and no more are taken of a
+// unit than there are registers for.
 `default_nettype none
 
 module compare_tree_monitor #(

@@ -13,7 +13,7 @@ module expansion_unit_monitor #(
     input wire logic [ X_BITS-1:0] width_i,
     input wire logic               seg_valid_i,
     input wire logic               seg_ready_o,
-    input wire logic [DX_BITS-1:0] seg_dx_i,
+    input wire logic [DX_BITS-1:0] seg_dx,
     input wire logic               px_valid_o,
     input wire logic               px_ready_i,
     input wire logic               px_last_o
@@ -27,7 +27,7 @@ module expansion_unit_monitor #(
   logic lost_q;  // segments that make no line have come: what follows is anybody's
   logic take, whole, last;
   assign take  = seg_valid_i && seg_ready_o;
-  assign sum   = sum_q + 32'(seg_dx_i);
+  assign sum   = sum_q + 32'(seg_dx);
   assign whole = take && sum == 32'(width_i);
   assign last  = x_q + 1 == widths[at_q];
 
@@ -37,7 +37,7 @@ module expansion_unit_monitor #(
     end else begin
       if (take) begin
         sum_q <= whole ? 0 : sum;
-        if (seg_dx_i == '0 || sum > 32'(width_i)) lost_q <= 1'b1;
+        if (seg_dx == '0 || sum > 32'(width_i)) lost_q <= 1'b1;
       end
       if (px_valid_o && !lost_q)
         trace_module(PartExpansionUnit, {510'd0, 1'b1, last}, {510'd0, lines_q > 0, px_last_o});
@@ -55,6 +55,9 @@ endmodule
 bind expansion_unit expansion_unit_monitor #(
     .X_BITS (X_BITS),
     .DX_BITS(DX_BITS)
-) u_monitor (.*);
+) u_monitor (
+    .seg_dx(piece.dx),
+    .*
+);
 
 `default_nettype wire

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What line_phase tells frame_control where that makes use of it, as events (rtl/defs/stages.yaml); and rules of frame_control's
-// own outputs: a segment that waits stays, nothing is taken or given while a line is on its way out and back, units are
-// told of an error, and a frame ends with END or once its input has been dropped.
+// What line_phase tells frame_control where that makes use of it, as events (rtl/defs/stages.yaml); and rules of
+// frame_control's own outputs: a segment that waits stays, nothing is taken or given while a line is on its way out and
+// back, units are told of an error, and a frame ends with END or once its input has been dropped.
 `default_nettype none
 
 module frame_control_monitor #(
@@ -27,14 +27,12 @@ module frame_control_monitor #(
 
   logic waits_q, loading_q;
   logic [255:0] segment, segment_q;
-  assign segment = 256'({
-    frame_control.tree_unit_o, frame_control.tree_z_o, frame_control.tree_dx_o, frame_control.tree_face_o
-  });
+  assign segment = 256'(frame_control.tree_piece_o);
   always_ff @(posedge clk_i) begin
     waits_q   <= rst_ni && frame_control.tree_seg_valid_o && !frame_control.tree_seg_ready_i;
     segment_q <= segment;
     if (!rst_ni || frame_control.loads_done_i) loading_q <= 1'b0;
-    else if (frame_control.line_valid_o && frame_control.line_load_o) loading_q <= 1'b1;
+    else if (frame_control.line_valid_o && frame_control.line.load) loading_q <= 1'b1;
     if (rst_ni) begin
       if (waits_q) begin
         trace_module(PartFrameControl, 512'({1'b1, segment_q}), 512'({frame_control.tree_seg_valid_o, segment}));
@@ -42,7 +40,7 @@ module frame_control_monitor #(
       if (loading_q) begin
         trace_module(PartFrameControl, '0, 512'(frame_control.line_valid_o || frame_control.accept));
       end
-      trace_module(PartFrameControl, 512'(UNITS > 0 && frame_control.error_o && !token_header_i),
+      trace_module(PartFrameControl, 512'(UNITS > 0 && frame_control.error_valid_o && !token_header_i),
                    512'(frame_control.tree_flush_o));
       if (frame_control.frame_end_o) begin
         trace_module(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));

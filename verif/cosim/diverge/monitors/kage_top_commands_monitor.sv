@@ -10,61 +10,48 @@ module kage_top_commands_monitor #(
     `include "generated/kage_widths.svh"
     `include "generated/kage_impl_params.svh"
 ) (
-    input wire logic                 clk_i,
-    input wire logic                 rst_ni,
-    input wire logic                 cmd_valid,
-    input wire logic                 cmd_ready,
-    input wire logic [          3:0] cmd_kind,
-    input wire logic [   X_BITS-1:0] cmd_xl,
-    input wire logic [   X_BITS-1:0] cmd_xr,
-    input wire logic                 pixel_valid,
-    input wire logic                 pixel_ready,
-    input wire logic [          3:0] pixel_kind,
-    input wire logic [   X_BITS-1:0] pixel_xl,
-    input wire logic [   X_BITS-1:0] pixel_xr,
-    input wire logic [ColorBits-1:0] pixel_color,
-    input wire logic [SlopeBits-1:0] pixel_dcolor,
-    input wire logic [CountBits-1:0] cmd_count,
-    input wire logic [DepthBits-1:0] cmd_z,
-    input wire logic [DepthBits-1:0] cmd_dz,
-    input wire logic [ShareBits-1:0] cmd_share,
-    input wire logic                 line_valid,
-    input wire logic                 line_ready,
-    input wire logic                 line_first,
-    input wire logic                 line_blank,
-    input wire logic                 line_load,
-    input wire logic                 line_painted,
-    input wire logic [   X_BITS-1:0] line_width,
-    input wire logic [  RgbBits-1:0] line_background,
-    input wire logic [ SHADE_FRAC:0] line_shade
+    input wire logic                   clk_i,
+    input wire logic                   rst_ni,
+    input wire logic                   cmd_valid,
+    input wire logic                   cmd_ready,
+    input wire logic [CommandBits-1:0] cmd,
+    input wire logic                   pixel_valid,
+    input wire logic                   pixel_ready,
+    input wire logic [CommandBits-1:0] pixel_cmd,
+    input wire logic                   line_valid,
+    input wire logic                   line_ready,
+    input wire logic [   LineBits-1:0] line
 );
   `include "kage_trace.svh"
+  `include "generated/kage_buses.svh"
 
   // A channel of a span's colour, and of its slope, as far as there are so many.
   function automatic logic [63:0] ramp(input logic [ColorBits-1:0] color, input int channel);
     ramp = channel < CHANNELS ? 64'(color[(channel<CHANNELS?channel : 0)*RampBits+:RampBits]) : '0;
   endfunction
   logic [ColorBits-1:0] dcolor;
-  assign dcolor = SMOOTH > 0 ? ColorBits'(pixel_dcolor) : '0;
+  command_t taken;
+  line_t told;
+  assign taken  = pixel_cmd;
+  assign told   = line;
+  assign dcolor = SMOOTH > 0 ? ColorBits'(taken.dcolor) : '0;
 
-  // What of a command must not change while it waits.
-  localparam int FixedBits = 4 + 2 * X_BITS + 2 * DepthBits + CountBits;
+  // A command that waits stays.
   logic waits_q;
-  logic [FixedBits-1:0] fixed, fixed_q;
-  assign fixed = {cmd_kind, cmd_xl, cmd_xr, cmd_z, cmd_dz, cmd_count};
+  logic [CommandBits-1:0] cmd_q;
 
   always_ff @(posedge clk_i) begin
     waits_q <= rst_ni && cmd_valid && !cmd_ready;
-    fixed_q <= fixed;
+    cmd_q   <= cmd;
     if (rst_ni) begin
-      if (waits_q) trace_module(PartTokenCommand, 512'({1'b1, fixed_q}), 512'({cmd_valid, fixed}));
+      if (waits_q) trace_module(PartTokenCommand, 512'({1'b1, cmd_q}), 512'({cmd_valid, cmd}));
       if (line_valid && line_ready) begin
-        trace_line(0, 64'(line_first), 64'(line_blank), 64'(line_load), 64'(line_painted), 64'(line_width),
-                   64'(line_background), 64'(line_shade));
+        trace_line(0, 64'(told.first), 64'(told.blank), 64'(told.load), 64'(told.painted), 64'(told.width),
+                   64'(told.background), 64'(told.shade));
       end
       if (pixel_valid && pixel_ready) begin
-        trace_command(0, 64'(pixel_kind), 64'(pixel_xl), 64'(pixel_xr), 64'(cmd_count), 64'(cmd_z), 64'(cmd_dz),
-                      64'(cmd_share), {ramp(pixel_color, 2), ramp(pixel_color, 1), ramp(pixel_color, 0)}, {
+        trace_command(0, 64'(taken.kind), 64'(taken.xl), 64'(taken.xr), 64'(taken.count), 64'(taken.z), 64'(taken.dz),
+                      64'(taken.share), {ramp(taken.color, 2), ramp(taken.color, 1), ramp(taken.color, 0)}, {
                       ramp(dcolor, 2), ramp(dcolor, 1), ramp(dcolor, 0)});
       end
     end
@@ -73,8 +60,8 @@ module kage_top_commands_monitor #(
 endmodule
 
 bind kage_top kage_top_commands_monitor #(
-    `include "generated/kage_pixel_param_map.svh"
     `include "generated/kage_impl_param_map.svh"
+    `include "generated/kage_pixel_param_map.svh"
 ) u_commands_monitor (.*);
 
 `default_nettype wire

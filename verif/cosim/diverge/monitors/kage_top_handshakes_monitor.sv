@@ -70,8 +70,8 @@ module kage_top_handshakes_monitor #(
 endmodule
 
 bind kage_top kage_top_handshakes_monitor #(
-    `include "generated/kage_pixel_param_map.svh"
     `include "generated/kage_impl_param_map.svh"
+    `include "generated/kage_pixel_param_map.svh"
 ) u_handshakes_monitor (
     .loading(u_control.loading_q),
     .*

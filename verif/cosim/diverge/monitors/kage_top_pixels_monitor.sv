@@ -19,8 +19,7 @@ module kage_top_pixels_monitor #(
     input wire logic [EXIT_LANES*ExitBits-1:0] exit_data,
     input wire logic                           load_valid,
     input wire logic                           load_ready,
-    input wire logic [             X_BITS-1:0] load_x,
-    input wire logic [            RgbBits-1:0] load_color,
+    input wire logic [           LoadBits-1:0] load,
     input wire logic                           m_axis_tvalid_o,
     input wire logic                           m_axis_tready_i,
     input wire logic [            RgbBits-1:0] m_axis_tdata_o,
@@ -28,6 +27,13 @@ module kage_top_pixels_monitor #(
     input wire logic                           m_axis_tlast_o
 );
   `include "kage_trace.svh"
+  `include "generated/kage_buses.svh"
+
+  // What comes back; its event needs no end of line.
+  load_t back;
+  logic  unused_last;
+  assign back = load;
+  assign unused_last = back.last;
 
   localparam int CountersBits = COUNT_BITS > 0 ? TallyBits : 1;
   function automatic void trace_leaving(input logic last, input logic [ExitBits-1:0] pixel);
@@ -46,7 +52,7 @@ module kage_top_pixels_monitor #(
         end
       end
       if (load_valid && load_ready) begin
-        trace_load(0, 64'(load_x), 64'(load_color));
+        trace_load(0, 64'(back.x), 64'(back.color));
       end
       if (m_axis_tvalid_o && m_axis_tready_i) begin
         trace_out(0, 64'(m_axis_tdata_o), 64'(m_axis_tuser_o), 64'(m_axis_tlast_o));
@@ -57,8 +63,8 @@ module kage_top_pixels_monitor #(
 endmodule
 
 bind kage_top kage_top_pixels_monitor #(
+    .EXIT_LANES(ExitLanes),
     `include "generated/kage_pixel_param_map.svh"
-    .EXIT_LANES(ExitLanes)
 ) u_pixels_monitor (.*);
 
 `default_nettype wire

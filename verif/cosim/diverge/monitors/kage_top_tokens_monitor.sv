@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events (rtl/defs/stages.yaml).
-// Bound into kage_top, so the netlist never sees it.
+// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events
+// (rtl/defs/stages.yaml). Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
 `default_nettype none
@@ -21,18 +21,19 @@ module kage_top_tokens_monitor #(
     input wire logic                      token_final,
     input wire logic                      token_at_last,
     input wire logic                      table_valid,
-    input wire logic [    CLASS_BITS-1:0] table_class,
-    input wire logic [     LightBits-1:0] table_light,
-    input wire logic [EntryShareBits-1:0] table_share,
+    input wire logic [TableEntryBits-1:0] table_entry,
     input wire logic                      frame_end,
-    input wire logic                      error,
-    input wire logic [               3:0] error_code,
-    input wire logic [              31:0] error_frame,
-    input wire logic [              15:0] error_line,
-    input wire logic [              31:0] error_token,
-    input wire logic [               5:0] error_unit
+    input wire logic                      error_valid,
+    input wire logic [     ErrorBits-1:0] error
 );
   `include "kage_trace.svh"
+  `include "generated/kage_buses.svh"
+
+  // The buses by their fields.
+  table_entry_t entry;
+  error_t found;
+  assign entry = table_entry;
+  assign found = error;
 
   // A channel of a table's share, as far as there are so many.
   function automatic logic [63:0] share(input logic [EntryShareBits-1:0] shares, input int channel);
@@ -45,11 +46,11 @@ module kage_top_tokens_monitor #(
         trace_token(0, 704'(token), 64'(token_at_last), 64'({token_header, token_lacking, token_cut, token_final}));
       end
       if (table_valid) begin
-        trace_table(0, 64'(table_class), 64'(table_light), {
-                    share(table_share, 2), share(table_share, 1), share(table_share, 0)});
+        trace_table(0, 64'(entry.normal_class), 64'(entry.light), {
+                    share(entry.share, 2), share(entry.share, 1), share(entry.share, 0)});
       end
-      if (error) begin
-        trace_error(0, 64'(error_code), 64'(error_frame), 64'(error_line), 64'(error_token), 64'(error_unit));
+      if (error_valid) begin
+        trace_error(0, 64'(found.code), 64'(found.frame), 64'(found.line), 64'(found.token), 64'(found.unit));
       end
       if (frame_end) trace_end(0);
     end
@@ -58,8 +59,8 @@ module kage_top_tokens_monitor #(
 endmodule
 
 bind kage_top kage_top_tokens_monitor #(
+    .FRONT_WORDS(FrontWords),
     `include "generated/kage_pixel_param_map.svh"
-    .FRONT_WORDS(FrontWords)
 ) u_tokens_monitor (.*);
 
 `default_nettype wire

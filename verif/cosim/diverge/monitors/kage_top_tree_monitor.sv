@@ -10,38 +10,41 @@ module kage_top_tree_monitor #(
     `include "generated/kage_widths.svh"
     `include "generated/kage_impl_params.svh"
 ) (
-    input wire logic                  clk_i,
-    input wire logic                  rst_ni,
-    input wire logic                  tree_claim,
-    input wire logic                  tree_face_valid,
-    input wire logic                  tree_seg_valid,
-    input wire logic                  tree_seg_ready,
-    input wire logic [  UnitBits-1:0] tree_unit,
-    input wire logic [ FACE_BITS-1:0] tree_face,
-    input wire logic [ EntryBits-1:0] tree_entry,
-    input wire logic [ DepthBits-1:0] tree_seg_z,
-    input wire logic [   DX_BITS-1:0] tree_dx,
-    input wire logic                  tree_valid,
-    input wire logic                  tree_ready,
-    input wire logic [    Z_BITS-1:0] tree_z,
-    input wire logic [CLASS_BITS-1:0] tree_class,
-    input wire logic [   RgbBits-1:0] tree_color
+    input wire logic                     clk_i,
+    input wire logic                     rst_ni,
+    input wire logic                     tree_claim,
+    input wire logic                     tree_face_valid,
+    input wire logic                     tree_seg_valid,
+    input wire logic                     tree_seg_ready,
+    input wire logic [    PieceBits-1:0] tree_piece,
+    input wire logic                     tree_valid,
+    input wire logic                     tree_ready,
+    input wire logic [TreePixelBits-1:0] tree_pixel
 );
   `include "kage_trace.svh"
+  `include "generated/kage_buses.svh"
+
+  // The buses by their fields; events need no end of line.
+  piece_t piece;
+  tree_pixel_t pixel;
+  logic unused_last;
+  assign piece = tree_piece;
+  assign pixel = tree_pixel;
+  assign unused_last = pixel.last;
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       if (tree_claim) trace_claim(0);
       if (tree_face_valid) begin
-        trace_face(32'(tree_unit), 64'(tree_face), 64'(tree_entry[ORDER_BITS-1:0]),
-                   ClassBits > 0 ? 64'(tree_entry[ORDER_BITS+:CLASS_BITS]) : 64'd0,
-                   64'(tree_entry[ORDER_BITS+ClassBits+:DepthBits]), 64'(tree_entry[EntryBits-1-:RgbBits]));
+        trace_face(32'(piece.unit), 64'(piece.face), 64'(piece.entry[ORDER_BITS-1:0]),
+                   ClassBits > 0 ? 64'(piece.entry[ORDER_BITS+:CLASS_BITS]) : 64'd0,
+                   64'(piece.entry[ORDER_BITS+ClassBits+:DepthBits]), 64'(piece.entry[EntryBits-1-:RgbBits]));
       end
       if (tree_seg_valid && tree_seg_ready) begin
-        trace_segment(32'(tree_unit), 64'(tree_seg_z), 64'(tree_dx), 64'(tree_face));
+        trace_segment(32'(piece.unit), 64'(piece.z), 64'(piece.dx), 64'(piece.face));
       end
       if (tree_valid && tree_ready) begin
-        trace_tree(0, 64'(tree_z), 64'(tree_color), 64'(tree_class));
+        trace_tree(0, 64'(pixel.z), 64'(pixel.color), 64'(pixel.normal_class));
       end
     end
   end
@@ -49,8 +52,8 @@ module kage_top_tree_monitor #(
 endmodule
 
 bind kage_top kage_top_tree_monitor #(
-    `include "generated/kage_pixel_param_map.svh"
     `include "generated/kage_impl_param_map.svh"
+    `include "generated/kage_pixel_param_map.svh"
 ) u_tree_monitor (.*);
 
 `default_nettype wire

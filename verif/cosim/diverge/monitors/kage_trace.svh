@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Included inside a monitor: how an event is handed to the model's driver. What the stages' events hold: rtl/defs/stages.yaml.
+// Included inside a monitor: how an event is handed to the model's driver. rtl/defs/stages.yaml says what the stages'
+// events hold.
 /* verilator lint_off UNUSEDPARAM */
 `include "kage_trace_numbers.svh"
 localparam int TraceBits = 64 * TraceValues;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Included inside a monitor that has the pixel parameters and the places of a pixel's fields: tells what a command did to
-// pixel x. `z` and `color` are what came to it; all ones where the monitor cannot see them.
+// Included inside a monitor that has the pixel parameters and the places of a pixel's fields: tells what a command did
+// to pixel x. `z` and `color` are what came to it; all ones where the monitor cannot see them.
 localparam int TraceTallyBits = COUNT_BITS > 0 ? TallyBits : 1;
 
 function automatic void trace_pixel_state(input int x, input logic [3:0] kind, input logic [63:0] z,

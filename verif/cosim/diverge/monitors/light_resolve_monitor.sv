@@ -12,9 +12,7 @@ module light_resolve_monitor #(
     input wire logic                           clk_i,
     input wire logic                           rst_ni,
     input wire logic                           table_valid_i,
-    input wire logic [         CLASS_BITS-1:0] table_class_i,
-    input wire logic [          LightBits-1:0] table_light_i,
-    input wire logic [     EntryShareBits-1:0] table_share_i,
+    input wire logic [     TableEntryBits-1:0] table_i,
     input wire logic [           SHADE_FRAC:0] keep_q,
     input wire logic                           go,
     input wire logic [              Depth-1:0] valid_q,
@@ -23,8 +21,11 @@ module light_resolve_monitor #(
     input wire logic [CHANNELS*FactorBits-1:0] factor
 );
   `include "kage_trace.svh"
+  `include "generated/kage_buses.svh"
 
   if (COUNT_BITS > 0) begin : gen_light
+    table_entry_t entry;
+    assign entry = table_i;
     localparam int ResultBits = RgbBits + 1 + CHANNELS * FactorBits;
     logic [EntryShareBits-1:0] shares[2**CLASS_BITS*LIGHTS];
     // An entry that nothing has written may hold anything; who asks for it is wrong, not who answers.
@@ -59,8 +60,8 @@ module light_resolve_monitor #(
 
     always_ff @(posedge clk_i) begin
       if (table_valid_i) begin
-        shares[32'(table_class_i)*LIGHTS+32'(table_light_i)]  <= table_share_i;
-        written[32'(table_class_i)*LIGHTS+32'(table_light_i)] <= 1'b1;
+        shares[32'(entry.normal_class)*LIGHTS+32'(entry.light)]  <= entry.share;
+        written[32'(entry.normal_class)*LIGHTS+32'(entry.light)] <= 1'b1;
       end
       if (go) begin
         known_q <= {known_q[LightStages-2:0], known};
@@ -73,20 +74,13 @@ module light_resolve_monitor #(
     end
   end else begin : gen_none
     logic unused;
-    assign unused = ^{clk_i, rst_ni, table_valid_i, table_class_i, table_light_i, table_share_i, keep_q, go, valid_q,
-                      pixel_q, colored, factor};
+    assign unused = ^{clk_i, rst_ni, table_valid_i, table_i, keep_q, go, valid_q, pixel_q, colored, factor};
   end
 
 endmodule
 
 bind line_out light_resolve_monitor #(
-    .CHANNELS(CHANNELS),
-    .DSF_BITS(DSF_BITS),
-    .FSF(FSF),
-    .SHADE_FRAC(SHADE_FRAC),
-    .COUNT_BITS(COUNT_BITS),
-    .LIGHTS(LIGHTS),
-    .CLASS_BITS(CLASS_BITS)
+    `include "generated/kage_pixel_param_map.svh"
 ) u_light_monitor (.*);
 
 `default_nettype wire

@@ -41,14 +41,14 @@ module pixel_banked_monitor #(
 endmodule
 
 bind pixel_banked pixel_banked_monitor #(
-    `include "generated/kage_pixel_param_map.svh"
     .LANES(LANES),
     .ADDR_BITS(AddrBits),
     .PIXEL_BITS(PixelBits),
     .CLASS_AT(PixelClassAt),
     .DSF_AT(PixelDsfAt),
     .FSF_AT(PixelFsfAt),
-    .COUNT_AT(PixelCountAt)
+    .COUNT_AT(PixelCountAt),
+    `include "generated/kage_pixel_param_map.svh"
 ) u_monitor (
     .group_valid(valid[Last]),
     .*

@@ -4,9 +4,7 @@
 
 // The inputs of pixel_core, which are those of the arrangement.
 `define KAGE_GIVEN(at) { \
-    at.cmd_valid_i, at.cmd_kind_i, at.cmd_xl_i, at.cmd_xr_i, at.cmd_count_i, at.cmd_z_i, \
-    at.cmd_dz_i, at.cmd_color_i, at.cmd_dcolor_i, at.cmd_share_i, at.tree_valid_i, at.tree_z_i, \
-    at.tree_class_i, at.tree_color_i, at.tree_last_i, at.tree_drop_i, at.exit_free_i \
+    at.cmd_valid_i, at.cmd_i, at.tree_valid_i, at.tree_i, at.tree_drop_i, at.exit_free_i \
   }
 
 module pixel_core_monitor #(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a processor.
+// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a
+// processor.
 `default_nettype none
 
 module pixel_systolic_monitor #(
@@ -35,13 +36,13 @@ module pixel_systolic_monitor #(
 endmodule
 
 bind pixel_systolic pixel_systolic_monitor #(
-    `include "generated/kage_pixel_param_map.svh"
     .PIXELS(N),
     .PIXEL_BITS(PixelBits),
     .CLASS_AT(PixelClassAt),
     .DSF_AT(PixelDsfAt),
     .FSF_AT(PixelFsfAt),
-    .COUNT_AT(PixelCountAt)
+    .COUNT_AT(PixelCountAt),
+    `include "generated/kage_pixel_param_map.svh"
 ) u_monitor (.*);
 
 `default_nettype wire

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels that each expansion unit gives to the compare tree, as events (rtl/defs/stages.yaml); and whether each unit is given
-// the faces and segments that are its own.
+// The pixels that each expansion unit gives to the compare tree, as events (rtl/defs/stages.yaml); and whether each
+// unit is given the faces and segments that are its own.
 `default_nettype none
 
 module tree_core_monitor #(
@@ -32,8 +32,8 @@ module tree_core_monitor #(
       if (rst_ni) begin
         trace_module(PartTreeCore, {
                      510'd0,
-                     tree_core.face_valid_i && 32'(tree_core.face_unit_i) == u,
-                     tree_core.seg_valid_i && 32'(tree_core.seg_unit_i) == u
+                     tree_core.face_valid_i && 32'(tree_core.piece.unit) == u,
+                     tree_core.seg_valid_i && 32'(tree_core.piece.unit) == u
                      }, {510'd0, tree_core.gen_unit[u].u_unit.face_valid_i, tree_core.gen_unit[u].u_unit.seg_valid_i});
       end
     end

@@ -330,7 +330,7 @@ def build(out, values, args, work):
     ]
     command += [f"-G{n}={v}" for n, v in values.items()] + [f"-D{d}" for d in args.define]
     if args.waves:
-        command.append("--trace-fst")
+        command += ["--trace-fst", "--trace-structs"]  # a bus by its fields
     if args.monitors:
         command.append(f"-I{MONITORS}")
     if args.mutants:  # what is wrong on purpose may be bad style
