@@ -92,7 +92,8 @@ module frame_control #(
   logic painted_q;  // the line's colours are ready for TPs
   logic loading_q;  // they are on their way out and back
   logic [X_BITS-1:0] width_q;
-  logic [14:0] height_q, line_q;
+  logic [14:0] line_q, left_q;  // lines that have ended, and those that have not
+  logic lines_done_q;  // left_q is 0
   logic [31:0] frame_q, index_q;
   logic [RgbBits-1:0] background_q;
   logic [SHADE_FRAC:0] shade_q;
@@ -130,13 +131,12 @@ module frame_control #(
 
   // ---- body --------------------------------------------------------------------------------------------------------
   logic accept, good, emit_eol, emit_paint;  // what happens in this clock, see below
-  logic lines_done, resolved, seg_goes, unit_behind;
+  logic resolved, seg_goes, unit_behind;
   logic [ 3:0] body_error;
   logic [31:0] fault_token;
   logic [5:0] fault_unit, unit_of_behind;
   logic [1:0] ahead_of_behind;
   logic [DsfBits-1:0] bias;
-  assign lines_done = line_q == height_q;
 
   token_check #(
       .TOKEN_WORDS(TOKEN_WORDS),
@@ -150,8 +150,8 @@ module frame_control #(
       .token_at_last_i,
       .width_i       (width_q),
       .line_i        (line_q),
-      .lines_left_i  (height_q - line_q),
-      .lines_done_i  (lines_done),
+      .lines_left_i  (left_q),
+      .lines_done_i  (lines_done_q),
       .index_i       (index_q),
       .header_i      (accept && token_header_i),
       .start_i       (good && token_header_i),
@@ -181,7 +181,7 @@ module frame_control #(
   assign bad = accept && error_code != ErrNone;
   assign good = accept && error_code == ErrNone;
   assign body_eol = good && !token_header_i && is_eol;
-  assign blank_eol = state_q == StBlank && !lines_done && eol_free;
+  assign blank_eol = state_q == StBlank && !lines_done_q && eol_free;
   assign emit_eol = body_eol || blank_eol;
   assign emit_span = good && !token_header_i && is_span && token_i[OpXlLsb+:X_BITS] != token_i[OpXrLsb+:X_BITS];
   assign emit_tree = good && !token_header_i && is_tree;
@@ -207,10 +207,10 @@ module frame_control #(
   assign line.shade = shade_q;
 
   assign open_o = state_q != StHeader;
-  assign hungry_o = state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done);
+  assign hungry_o = state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done_q);
   assign painting_o = emit_paint;
   assign draining_o = state_q == StBlank && dropping_i;
-  assign frame_end_o = (good && !token_header_i && is_end) || (state_q == StBlank && lines_done && !dropping_i);
+  assign frame_end_o = (good && !token_header_i && is_end) || (state_q == StBlank && lines_done_q && !dropping_i);
 
   error_t error;
   assign error_valid_o = bad;
@@ -241,7 +241,8 @@ module frame_control #(
   always_ff @(posedge clk_i) begin
     if (accept && token_header_i) begin
       width_q <= token_i[HeaderWidthLsb+:X_BITS];
-      height_q <= bad ? '0 : token_i[HeaderHeightLsb+:15];  // no lines after an error in the header
+      left_q <= bad ? '0 : token_i[HeaderHeightLsb+:15];  // no lines after an error in the header
+      lines_done_q <= bad;
       background_q <= token_i[HeaderBackgroundLsb+:RgbBits];
       frame_q <= token_i[HeaderFrameLsb+:32];
       line_q <= '0;
@@ -253,6 +254,8 @@ module frame_control #(
       if (good) index_q <= index_q + 32'd1;
       if (emit_eol) begin
         line_q <= line_q + 15'd1;
+        left_q <= left_q - 15'd1;
+        lines_done_q <= left_q == 15'd1;
         painted_q <= 1'b0;
       end
       if (emit_paint) begin
@@ -339,8 +342,9 @@ module frame_control #(
       assert (!accept || token_header_i == (state_q == StHeader));
       // 2. A command has pixels.
       assert (!cmd_valid_o || cmd.xl < cmd.xr);
-      // 3. The line number never passes the height.
-      assert (state_q == StHeader || line_q <= height_q);
+      // 3. No line ends when all have ended.
+      assert (!emit_eol || !lines_done_q);
+      assert (state_q == StHeader || lines_done_q == (left_q == '0));
       // 4. The bias is cleared in no clock in which a token is taken: the proof of line_phase assumes it.
       assert (!(good && !token_header_i) || !emit_paint);
     end

@@ -98,8 +98,8 @@ module kage_top #(
   logic cmd_valid, cmd_ready;
   command_t cmd;
 
-  logic line_valid, line_ready, queue_valid, queue_ready;
-  line_t line, queue_line;
+  logic line_valid, line_ready, told_valid, told_ready, queue_valid, queue_ready;
+  line_t line, told_line, queue_line;
 
   logic table_free, table_valid, load_valid, load_ready, loads_done;
   table_entry_t table_entry;
@@ -164,16 +164,29 @@ module kage_top #(
       .behind_o          (behind)
   );
 
-  // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer.
-  stream_fifo #(
-      .BITS (LineBits),
-      .DEPTH(4)
-  ) u_lines (
+  // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer. The
+  // buffer in front of the queue parts the verdict on an EOL from what writes into the queue.
+  skid_buffer #(
+      .BITS(LineBits)
+  ) u_told (
       .clk_i,
       .rst_ni,
       .in_valid_i (line_valid),
       .in_ready_o (line_ready),
       .in_data_i  (line),
+      .out_valid_o(told_valid),
+      .out_ready_i(told_ready),
+      .out_data_o (told_line)
+  );
+  stream_fifo #(
+      .BITS (LineBits),
+      .DEPTH(2)
+  ) u_lines (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (told_valid),
+      .in_ready_o (told_ready),
+      .in_data_i  (told_line),
       .out_valid_o(queue_valid),
       .out_ready_i(queue_ready),
       .out_data_o (queue_line)
@@ -300,8 +313,7 @@ module kage_top #(
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
   // only if one of them does.
   assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
-      told_q || painting || frame_end || line_valid || (pixel_valid && pixel_ready) || pixels_moving || out_moving ||
-      tree_moving || (m_axis_tvalid_o && m_axis_tready_i);
+      told_q || painting || frame_end || line_valid || (told_valid && told_ready) || (pixel_valid && pixel_ready) || pixels_moving || out_moving || tree_moving || (m_axis_tvalid_o && m_axis_tready_i);
 
   registers #(
       `include "generated/kage_impl_param_map.svh"

@@ -104,11 +104,10 @@ module line_out #(
   localparam int Depth = 5 + LightStages;  // RAM, register, lane, factor, product, colour
   localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   logic go;  // the pipeline moves
-  logic start, sending_q, issue, issue_last;
-  logic [  X_BITS-1:0] x_q;
-  logic [LaneBits-1:0] lane;
+  logic start, sending_q, issue, issue_first_q, issue_last_q;  // the pixel that is issued is the line's first, its last
+  logic [  X_BITS-1:0] left_q;  // pixels of the line that have not been issued
+  logic [LaneBits-1:0] lane_q;
   logic first_q, blank_q, load_q, painted_q;
-  logic [X_BITS-1:0] width_q;
   logic [RgbBits-1:0] background_q;
   logic [SHADE_FRAC:0] keep_q;  // 1 - shade; with counters shade
   logic [Depth-1:0] valid_q;
@@ -118,13 +117,11 @@ module line_out #(
   // stage.
   logic next_begun, may_start;
   assign next_begun = begun_q > 2'(sending_q);
-  assign may_start = sending_q ? go && issue_last && !line.first : !line.first || valid_q == '0;
+  assign may_start = sending_q ? go && issue_last_q && !line.first : !line.first || valid_q == '0;
   assign start = line_valid_i && next_begun && may_start;
   assign line_ready_o = start;
   assign issue = sending_q;
-  assign issue_last = x_q == width_q - 1'b1;
-  assign line_left = sending_q && go && issue_last;
-  assign lane = LANES > 1 ? LaneBits'(x_q) : '0;
+  assign line_left = sending_q && go && issue_last_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) sending_q <= 1'b0;
@@ -132,16 +129,21 @@ module line_out #(
     else if (line_left) sending_q <= 1'b0;
 
     if (start) begin
-      x_q <= '0;
+      left_q <= line.width;
+      issue_first_q <= 1'b1;
+      issue_last_q <= line.width == X_BITS'(1);
+      lane_q <= '0;
       first_q <= line.first;
       blank_q <= line.blank;
       painted_q <= TRANSLUCENCY > 0 && line.painted;
-      width_q <= line.width;
       if (line.first) background_q <= line.background;
       load_q <= HasLoads && line.load;
       if (line.first) keep_q <= COUNT_BITS > 0 ? line.shade : {1'b1, {SHADE_FRAC{1'b0}}} - line.shade;
     end else if (go && issue) begin
-      x_q <= x_q + 1'b1;
+      left_q <= left_q - 1'b1;
+      issue_first_q <= 1'b0;
+      issue_last_q <= left_q == X_BITS'(2);
+      lane_q <= LANES > 1 ? lane_q + 1'b1 : '0;
     end
 
     if (!rst_ni) begin
@@ -150,7 +152,7 @@ module line_out #(
     end else if (line_left) begin
       rd_addr_q   <= rd_second_q ? '0 : AddrBits'(Groups);
       rd_second_q <= !rd_second_q;
-    end else if (go && issue && lane == LaneBits'(LANES - 1)) begin
+    end else if (go && issue && lane_q == LaneBits'(LANES - 1)) begin
       rd_addr_q <= rd_addr_q + 1'b1;
     end
   end
@@ -165,12 +167,12 @@ module line_out #(
     if (!rst_ni) valid_q <= '0;
     else if (go) valid_q <= {valid_q[Depth-2:0], issue};
     if (go) begin
-      user_q <= {user_q[Depth-2:0], first_q && x_q == '0};
-      last_q <= {last_q[Depth-2:0], issue_last};
+      user_q <= {user_q[Depth-2:0], first_q && issue_first_q};
+      last_q <= {last_q[Depth-2:0], issue_last_q};
       load_at_q <= {load_at_q[Depth-2:0], load_q};
       blank_at_q <= {blank_at_q[LightStages+1:0], blank_q};
       painted_at_q <= {painted_at_q[LightStages+1:0], painted_q};
-      lane_at_q <= {lane_at_q[LaneBits-1:0], lane};
+      lane_at_q <= {lane_at_q[LaneBits-1:0], lane_q};
     end
   end
 
@@ -184,7 +186,7 @@ module line_out #(
       .wr_en_i  (exit_valid_i),
       .wr_addr_i(wr_addr_q),
       .wr_data_i(exit_data_i),
-      .rd_en_i  (go && issue && lane == '0),
+      .rd_en_i  (go && issue && lane_q == '0),
       .rd_addr_i(rd_addr_q),
       .rd_data_o(ram_data)
   );

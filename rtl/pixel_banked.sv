@@ -88,7 +88,7 @@ module pixel_banked #(
   logic [OffBits-1:0] next_lane_first, next_lane_last;
   assign {next_kind, next_count, next_share, next_flat, next_group, next_end, next_lane_first, next_lane_last} = set3_q;
 
-  logic walk_valid_q, walk_first_q, walk_sweep_q, walk_at_end, step;
+  logic walk_valid_q, walk_first_q, walk_sweep_q, walk_at_end_q, step;
   logic [3:0] walk_kind_q;
   logic [CountBits-1:0] walk_count_q;
   logic [ShareBits-1:0] walk_share_q;
@@ -99,8 +99,7 @@ module pixel_banked #(
 
   assign walk_eol = walk_kind_q == KindEol;
   assign next_leaves = next_kind == KindEol || (HasOut && next_kind == CmdOut);
-  assign walk_at_end = walk_group_q == walk_end_q;
-  assign step = walk_valid_q && !walk_at_end;
+  assign step = walk_valid_q && !walk_at_end_q;
   assign take3 = set_valid_q[2] && !step && (!next_leaves || exit_free_i) &&
       (UNITS == 0 || next_kind != KindTree || tree_here);
   assign exit_take_o = take3 && next_leaves;
@@ -110,12 +109,14 @@ module pixel_banked #(
       // The sweep: an EOL over all groups whose pixels go nowhere.
       walk_valid_q <= 1'b1;
       walk_sweep_q <= 1'b1;
-      walk_kind_q  <= KindEol;
+      walk_kind_q <= KindEol;
       walk_group_q <= '0;
-      walk_end_q   <= AddrBits'(Groups - 1);
+      walk_end_q <= AddrBits'(Groups - 1);
+      walk_at_end_q <= Groups == 1;
     end else if (step) begin
-      walk_group_q <= walk_group_q + 1'b1;
-      walk_first_q <= 1'b0;
+      walk_group_q  <= walk_group_q + 1'b1;
+      walk_at_end_q <= walk_group_q + 1'b1 == walk_end_q;
+      walk_first_q  <= 1'b0;
     end else begin
       walk_valid_q <= take3;
       if (take3) begin
@@ -127,6 +128,7 @@ module pixel_banked #(
         walk_flat_q <= next_flat;
         walk_group_q <= next_group;
         walk_end_q <= next_end;
+        walk_at_end_q <= next_group == next_end;
         walk_lane_first_q <= next_lane_first;
         walk_lane_last_q <= next_lane_last;
       end
@@ -139,7 +141,7 @@ module pixel_banked #(
     walk_lanes = '0;
     for (int l = 0; l < LANES; l++) begin
       walk_lanes[l] = walk_eol || ((!walk_first_q || OffBits'(l) >= walk_lane_first_q) &&
-                                   (!walk_at_end || OffBits'(l) <= walk_lane_last_q));
+                                   (!walk_at_end_q || OffBits'(l) <= walk_lane_last_q));
     end
   end
 
@@ -201,7 +203,7 @@ module pixel_banked #(
   logic [InfoBits-1:0] info_walk;
   logic leaves;
   assign leaves = (walk_eol && !walk_sweep_q) || (HasOut && walk_kind_q == CmdOut);
-  assign info_walk = {walk_kind_q, walk_count_q, walk_share_q, walk_lanes, walk_group_q, walk_at_end, leaves};
+  assign info_walk = {walk_kind_q, walk_count_q, walk_share_q, walk_lanes, walk_group_q, walk_at_end_q, leaves};
   assign valid = {valid_q, walk_valid_q};
 
   always_ff @(posedge clk_i) begin
@@ -415,6 +417,7 @@ module pixel_banked #(
     if (rst_ni) begin
       // 1. The walker stays within the RAM.
       assert (!walk_valid_q || (walk_group_q <= walk_end_q && 32'(walk_end_q) < Groups));
+      assert (!walk_valid_q || walk_at_end_q == (walk_group_q == walk_end_q));
       // 2. A line's pass never starts without a place for its pixels.
       assert (!exit_take_o || exit_free_i);
     end

@@ -22,6 +22,8 @@ module ram_1r1w #(
     output logic      [    BITS-1:0] rd_data_o
 );
 
+  // The same in yosys, AMD's and Intel's words: no logic need make a word right that is read while it is written.
+  (* no_rw_check, rw_addr_collision = "no", ramstyle = "no_rw_check" *)
   logic [BITS-1:0] mem  [WORDS];
   logic [BITS-1:0] rd_q;
 

@@ -10,8 +10,10 @@
 //   response.
 // Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of
 //   its clearing wins.
+// What the core says goes into flip-flops here first, so that no path of the core ends in a counter: registers, interrupt
+//   and watchdog tell what was a clock ago.
 // Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts
-//   it anew. Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
+//   it anew, a write a clock later. Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
 `default_nettype none
 
 module registers #(
@@ -59,10 +61,25 @@ module registers #(
   `include "generated/kage_registers.svh"
   `include "generated/kage_buses.svh"
 
-  error_t  error;
-  behind_t behind;
-  assign error  = error_i;
-  assign behind = behind_i;
+  // ---- what the core says ------------------------------------------------------------------------------------------
+  logic open_q, draining_q, waiting_input_q, waiting_output_q, progress_q, frame_end_q, error_valid_q, behind_valid_q;
+  error_t  error_q;
+  behind_t behind_q;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      {open_q, draining_q, waiting_input_q, waiting_output_q}  <= '0;
+      {progress_q, frame_end_q, error_valid_q, behind_valid_q} <= '0;
+    end else begin
+      {open_q, draining_q, waiting_input_q, waiting_output_q} <= {
+        open_i, draining_i, waiting_input_i, waiting_output_i
+      };
+      {progress_q, frame_end_q, error_valid_q, behind_valid_q} <= {
+        progress_i, frame_end_i, error_valid_i, behind_valid_i
+      };
+    end
+    error_q  <= error_i;
+    behind_q <= behind_i;
+  end
 
   localparam logic [31:0] Shape = {1'(ARRANGEMENT), 5'd0, 4'(BEAT_WORDS), 6'(LANES), 16'(MAX_WIDTH)};
   localparam logic [1:0] RespOkay = 2'b00;
@@ -102,7 +119,8 @@ module registers #(
 
   // ---- registers ---------------------------------------------------------------------------------------------------
   logic [2:0] control_q, irq_q, irq_set;
-  logic [31:0] limit_q, idle_q;
+  logic [31:0] limit_q, last_idle_q, idle_q;  // last_idle_q is limit_q - 1, a clock late
+  logic limited_q, limit_new_q, bitten_q;
   logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
   logic [15:0] error_line_q;
   logic [ 3:0] error_code_q;
@@ -113,9 +131,9 @@ module registers #(
   assign write_control = write && aw_addr_q[7:2] == RegControl[7:2];
   assign write_irq = write && aw_addr_q[7:2] == RegIrq[7:2];
   assign write_limit = write && aw_addr_q[7:2] == RegWatchdog[7:2];
-  assign bite = limit_q != '0 && open_i && !progress_i && idle_q == limit_q - 32'd1;
-  assign unit_waited = waiting_input_i && behind_valid_i;
-  assign irq_set = {bite, error_valid_i, frame_end_i};
+  assign bite = limited_q && open_q && !progress_q && !limit_new_q && !bitten_q && idle_q == last_idle_q;
+  assign unit_waited = waiting_input_q && behind_valid_q;
+  assign irq_set = {bite, error_valid_q, frame_end_q};
   assign irq_o = (irq_q & control_q) != '0;
 
   always_ff @(posedge clk_i) begin
@@ -123,7 +141,10 @@ module registers #(
       control_q <= '0;
       irq_q <= '0;
       limit_q <= '0;
+      limited_q <= 1'b0;
+      limit_new_q <= 1'b0;
       idle_q <= '0;
+      bitten_q <= 1'b0;
       error_code_q <= ErrNone;
       error_line_q <= '0;
       error_frame_q <= '0;
@@ -139,27 +160,34 @@ module registers #(
       if (write_control) control_q <= (control_q & ~w_mask[2:0]) | (w_data_q[2:0] & w_mask[2:0]);
       if (write_limit) limit_q <= (limit_q & ~w_mask) | (w_data_q & w_mask);
       irq_q <= irq_set | (write_irq ? irq_q & ~(w_data_q[2:0] & w_mask[2:0]) : irq_q);
-      // idle_q stops at the limit: one bite for one standstill.
-      if (write_limit || progress_i || !open_i) idle_q <= '0;
-      else if (idle_q != limit_q) idle_q <= idle_q + 32'd1;
-      if (error_valid_i) begin
-        error_code_q <= error.code;
-        error_line_q <= error.line;
-        error_frame_q <= error.frame;
-        error_token_q <= error.token;
-        error_unit_q <= error.unit;
+      limited_q <= limit_q != '0;
+      limit_new_q <= write_limit;
+      if (write_limit || limit_new_q || progress_q || !open_q) begin
+        idle_q   <= '0;
+        bitten_q <= 1'b0;
+      end else begin
+        if (limited_q && !bitten_q) idle_q <= idle_q + 32'd1;
+        if (bite) bitten_q <= 1'b1;  // one bite for one standstill
+      end
+      if (error_valid_q) begin
+        error_code_q <= error_q.code;
+        error_line_q <= error_q.line;
+        error_frame_q <= error_q.frame;
+        error_token_q <= error_q.token;
+        error_unit_q <= error_q.unit;
         errors_q <= errors_q + 32'd1;
       end
       if (bite) begin
         stall_q <= {
-          unit_waited, behind.line, 6'd0, waiting_output_i, waiting_input_i, 2'd0, unit_waited ? behind.unit : 6'd0
+          unit_waited, behind_q.line, 6'd0, waiting_output_q, waiting_input_q, 2'd0, unit_waited ? behind_q.unit : 6'd0
         };
       end
-      if (frame_end_i) frames_q <= frames_q + 32'd1;
+      if (frame_end_q) frames_q <= frames_q + 32'd1;
       cycles_q <= cycles_q + 32'd1;
-      if (waiting_input_i) starved_q <= starved_q + 32'd1;
-      if (waiting_output_i) blocked_q <= blocked_q + 32'd1;
+      if (waiting_input_q) starved_q <= starved_q + 32'd1;
+      if (waiting_output_q) blocked_q <= blocked_q + 32'd1;
     end
+    last_idle_q <= limit_q - 32'd1;
   end
 
   // ---- read channel ------------------------------------------------------------------------------------------------
@@ -175,7 +203,7 @@ module registers #(
       RegControl: value = 32'(control_q);
       RegIrq: value = 32'(irq_q);
       RegWatchdog: value = limit_q;
-      RegStatus: value = {28'd0, waiting_output_i, waiting_input_i, draining_i, open_i};
+      RegStatus: value = {28'd0, waiting_output_q, waiting_input_q, draining_q, open_q};
       RegError: value = {error_line_q, 12'd0, error_code_q};
       RegErrorFrame: value = error_frame_q;
       RegErrorToken: value = error_token_q;
@@ -185,7 +213,7 @@ module registers #(
       RegStarved: value = starved_q;
       RegBlocked: value = blocked_q;
       RegErrorUnit: value = 32'(error_unit_q);
-      RegTree: value = unit_waited ? {1'b1, behind.line, 10'd0, behind.unit} : '0;
+      RegTree: value = unit_waited ? {1'b1, behind_q.line, 10'd0, behind_q.unit} : '0;
       RegStall: value = stall_q;
       default: value = '0;
     endcase

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command that frame_control gives the pixels, made of the token at hand, and the register that holds it until they
+// The command that frame_control gives the pixels, made of the token at hand, and the buffer that holds it until they
 // take it.
 //
-// Handshake: free_o says that a command may be made: in a clock in which it is high, at most one of make_*_i may be,
-//   and that command is in cmd_* from the next clock on, which is valid/ready. Token, width, share, bias and background
-//   are those of that clock.
+// Handshake: free_o says that a command may be made, and depends on registers only: in a clock in which it is high, at
+//   most one of make_*_i may be, and that command is in cmd_* from the next clock on, which is valid/ready. Token,
+//   width, share, bias and background are those of that clock.
 // Commands: make_span_i, of the token, which has a range; make_tree_i, make_eol_i, make_paint_i and make_out_i, over
 //   the whole line: TREE, EOL, RESOLVE with the background as its colour, and CmdOut.
 // Latency: 1 clock. Throughput: a command a clock.
-// Cost: a register of a command, the choice among the places of fields.
+// Cost: a skid_buffer of a command, the choice among the places of fields.
 `default_nettype none
 
 module token_command #(
@@ -45,7 +45,6 @@ module token_command #(
   assign kind = token_i[3:0];
   assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
   assign whole = make_eol_i || make_tree_i || make_paint_i || make_out_i;
-  assign free_o = !cmd_valid_o || cmd_ready_i;
 
   // The background's colour as a span has it.
   logic [ColorBits-1:0] background;
@@ -83,37 +82,46 @@ module token_command #(
     if (DSF_BITS == 0) count = '0;
   end
 
-  command_t cmd_q;
-  assign cmd_o = cmd_q;
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni) cmd_valid_o <= 1'b0;
-    else if (free_o) cmd_valid_o <= make_span_i || whole;
-    if (free_o) begin
-      cmd_q.kind <= make_eol_i ? KindEol : make_paint_i ? KindResolve : make_out_i ? CmdOut : kind;
-      cmd_q.xl <= whole ? '0 : token_i[OpXlLsb+:X_BITS];  // at the same place in all tokens with a range
-      cmd_q.xr <= whole ? width_i : token_i[OpXrLsb+:X_BITS];
-      cmd_q.z <= token_i[OpZLsb+:DepthBits];
-      cmd_q.dz <= token_i[OpDzLsb+:DepthBits];
-      cmd_q.color <= token_i[OpColorLsb+:ColorBits];
-      cmd_q.dcolor <= SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
-      cmd_q.share <= is_tp && !make_paint_i ? tp_share : share_i;
-      cmd_q.count <= count;
-      if (DSF_BITS > 0 && kind == KindSp) begin
-        cmd_q.z  <= token_i[SpZLsb+:DepthBits];
-        cmd_q.dz <= token_i[SpDzLsb+:DepthBits];
-      end
-      if (is_tp) begin
-        cmd_q.z <= tp_z;
-        cmd_q.dz <= tp_dz;
-        cmd_q.color <= tp_color;
-        cmd_q.dcolor <= tp_dcolor;
-      end
-      if (make_paint_i) begin
-        cmd_q.color  <= background;
-        cmd_q.dcolor <= '0;
-      end
+  command_t cmd;
+  always_comb begin
+    cmd.kind = make_eol_i ? KindEol : make_paint_i ? KindResolve : make_out_i ? CmdOut : kind;
+    cmd.xl = whole ? '0 : token_i[OpXlLsb+:X_BITS];  // at the same place in all tokens with a range
+    cmd.xr = whole ? width_i : token_i[OpXrLsb+:X_BITS];
+    cmd.z = token_i[OpZLsb+:DepthBits];
+    cmd.dz = token_i[OpDzLsb+:DepthBits];
+    cmd.color = token_i[OpColorLsb+:ColorBits];
+    cmd.dcolor = SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
+    cmd.share = is_tp && !make_paint_i ? tp_share : share_i;
+    cmd.count = count;
+    if (DSF_BITS > 0 && kind == KindSp) begin
+      cmd.z  = token_i[SpZLsb+:DepthBits];
+      cmd.dz = token_i[SpDzLsb+:DepthBits];
+    end
+    if (is_tp) begin
+      cmd.z = tp_z;
+      cmd.dz = tp_dz;
+      cmd.color = tp_color;
+      cmd.dcolor = tp_dcolor;
+    end
+    if (make_paint_i) begin
+      cmd.color  = background;
+      cmd.dcolor = '0;
     end
   end
+
+  // So free_o, and with it what takes tokens, does not depend on what the pixels take in this clock.
+  skid_buffer #(
+      .BITS(CommandBits)
+  ) u_buffer (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (make_span_i || whole),
+      .in_ready_o (free_o),
+      .in_data_i  (cmd),
+      .out_valid_o(cmd_valid_o),
+      .out_ready_i(cmd_ready_i),
+      .out_data_o (cmd_o)
+  );
 
 endmodule
 

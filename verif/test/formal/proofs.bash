@@ -66,8 +66,8 @@ defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/count_q <= '0;/;/"
 
 # ---- registers -------------------------------------------------------------------------------------------------------
 proof registers_axi module=registers rtl=registers rules="lite_rules stream_rules" set="MODEL=0" steps=8 induction=2 cover=8
-proof registers rtl=registers rules="lite_rules stream_rules" set="MODEL=1" steps=8 cover=8
-proof registers_watchdog module=registers rtl=registers rules="lite_rules stream_rules" set="MODEL=2" steps=14 cover=12
+proof registers rtl=registers rules="lite_rules stream_rules" set="MODEL=1" steps=9 cover=9
+proof registers_watchdog module=registers rtl=registers rules="lite_rules stream_rules" set="MODEL=2" steps=15 cover=13
 defect axil_b_falls registers_axi registers.sv 's/if (bvalid_o && bready_i) bvalid_o/if (bvalid_o) bvalid_o/'
 defect axil_b_twice registers_axi registers.sv 's/^        aw_held_q <= 1.b0;/        aw_held_q <= awvalid_i;/'
 defect axil_b_never registers_axi registers.sv 's/assign write = .*/assign write = aw_held_q \&\& w_held_q \&\& !bvalid_o \&\& bready_i;/'
@@ -79,11 +79,11 @@ defect axil_read_lost registers_axi registers.sv 's/assign arready_o = .*/assign
 defect axil_r_unasked registers_axi registers.sv 's/if (arvalid_i \&\& arready_o) rvalid_o/if (arready_o) rvalid_o/'
 defect axil_r_in_reset registers_axi registers.sv "s/^      rvalid_o <= 1'b0;/      ;/"
 defect axil_b_in_reset registers_axi registers.sv "s/^      bvalid_o  <= 1'b0;/      ;/"
-defect watchdog_late registers_watchdog registers.sv "s/idle_q == limit_q - 32'd1/idle_q == limit_q/"
-defect watchdog_early registers_watchdog registers.sv "s/idle_q == limit_q - 32'd1/idle_q == limit_q - 32'd2/"
-defect watchdog_again registers_watchdog registers.sv "s/if (write_limit || progress_i || !open_i) idle_q/if (bite || write_limit || progress_i || !open_i) idle_q/"
-defect watchdog_not_anew registers_watchdog registers.sv 's/if (write_limit || progress_i/if (progress_i/'
-defect watchdog_out_of_frame registers_watchdog registers.sv 's/|| progress_i || !open_i) idle_q/|| progress_i) idle_q/'
+defect watchdog_late registers_watchdog registers.sv "s/idle_q == last_idle_q/idle_q == limit_q/"
+defect watchdog_early registers_watchdog registers.sv "s/last_idle_q <= limit_q - 32'd1/last_idle_q <= limit_q - 32'd2/"
+defect watchdog_again registers_watchdog registers.sv 's/\&\& !bitten_q \&\& idle_q ==/\&\& idle_q ==/; s/if (bite) bitten_q/if (bite) idle_q/'
+defect watchdog_not_anew registers_watchdog registers.sv 's/if (write_limit || limit_new_q || progress_q/if (progress_q/'
+defect watchdog_out_of_frame registers_watchdog registers.sv 's/limited_q \&\& open_q \&\& /limited_q \&\& /; s/|| progress_q || !open_q) begin/|| progress_q) begin/'
 defect event_lost registers_watchdog registers.sv 's/irq_q <= irq_set | (write_irq ? \(.*\) : irq_q);/irq_q <= write_irq ? \1 : irq_set | irq_q;/'
 defect strobe_ignored registers registers.sv 's/write_limit) limit_q <= .*/write_limit) limit_q <= w_data_q;/'
 defect register_wrong registers registers.sv 's/RegErrorToken: value = error_token_q/RegErrorToken: value = error_frame_q/'

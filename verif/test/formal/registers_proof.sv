@@ -15,6 +15,7 @@
 //     write_answer
 // The limit is free, all 32 bits of it: those beyond the bound must not bite within it.
 //
+// What the core says counts a clock later, and a standstill begins anew in the clock after WATCHDOG was written.
 // How: the model keeps what has been written, by the handshakes alone, and counts how many clocks the present
 // standstill has lasted. It knows nothing of the module's own counter, which stops at the limit.
 `default_nettype none
@@ -122,6 +123,22 @@ module registers_proof #(
   if (MODEL > 0) begin : gen_model
     localparam logic [7:0] Past = RegStall + 8'd4;  // the first address without a register
 
+    // ---- what the core said a clock ago, which is what counts --------------------------------------------------------
+    logic open, draining, waiting_input, waiting_output, progress, frame_end, error, behind;
+    logic [3:0] error_code;
+    logic [31:0] error_frame, error_token;
+    logic [15:0] error_line;
+    logic [5:0] error_unit, behind_unit;
+    logic [14:0] behind_line;
+    always_ff @(posedge clk_i) begin
+      {open, draining, waiting_input, waiting_output} <= {open_i, draining_i, waiting_input_i, waiting_output_i};
+      {progress, frame_end, error, behind} <= {progress_i, frame_end_i, error_i, behind_i};
+      {error_code, error_frame, error_line} <= {error_code_i, error_frame_i, error_line_i};
+      {error_token, error_unit} <= {error_token_i, error_unit_i};
+      {behind_unit, behind_line} <= {behind_unit_i, behind_line_i};
+      if (!rst_ni) {open, draining, waiting_input, waiting_output, progress, frame_end, error, behind} <= '0;
+    end
+
     // ---- writes: what has been taken, and the clock in which it counts ---------------------------------------------
     logic address_q, data_q, write;
     logic [7:0] at_q;
@@ -149,10 +166,10 @@ module registers_proof #(
 
     // ---- the watchdog: how long the standstill lasts ---------------------------------------------------------------
     logic [31:0] limit_q;
-    logic [ 4:0] still_q;  // clocks of this standstill so far, since WATCHDOG was last written
-    logic bite, anew;
+    logic [ 4:0] still_q;  // clocks of this standstill so far, since the clock after WATCHDOG was last written
+    logic bite, anew, anew_q;
     assign anew = write && at_q[7:2] == RegWatchdog[7:2];
-    assign bite = open_i && !progress_i && limit_q != '0 && 32'(still_q) + 32'd1 == limit_q;
+    assign bite = open && !progress && !anew_q && limit_q != '0 && 32'(still_q) + 32'd1 == limit_q;
 
     // ---- all others ------------------------------------------------------------------------------------------------
     logic [31:0] control_q, errors_q, frames_q, cycles_q, starved_q, blocked_q, error_frame_q, error_token_q, stall_q;
@@ -161,27 +178,28 @@ module registers_proof #(
     logic [ 5:0] unit_q;
     logic [ 2:0] irq_q;
     assign cleared = write && at_q[7:2] == RegIrq[7:2] ? new_q & mask_q : '0;
-    assign tree = waiting_input_i && behind_i ? {1'b1, behind_line_i, 10'd0, behind_unit_i} : '0;
+    assign tree = waiting_input && behind ? {1'b1, behind_line, 10'd0, behind_unit} : '0;
     always_ff @(posedge clk_i) begin
       control_q <= after(control_q, RegControl) & 32'd7;
       limit_q   <= after(limit_q, RegWatchdog);
-      still_q   <= open_i && !progress_i && !anew ? still_q + 5'd1 : '0;
-      irq_q     <= (irq_q & ~cleared[2:0]) | {bite, error_i, frame_end_i};
+      still_q   <= open && !progress && !anew && !anew_q ? still_q + 5'd1 : '0;
+      anew_q    <= rst_ni && anew;
+      irq_q     <= (irq_q & ~cleared[2:0]) | {bite, error, frame_end};
       cycles_q  <= cycles_q + 32'd1;
-      if (frame_end_i) frames_q <= frames_q + 32'd1;
-      if (error_i) errors_q <= errors_q + 32'd1;
-      if (waiting_input_i) starved_q <= starved_q + 32'd1;
-      if (waiting_output_i) blocked_q <= blocked_q + 32'd1;
-      if (error_i) begin
-        error_q <= {error_line_i, error_code_i};
-        error_frame_q <= error_frame_i;
-        error_token_q <= error_token_i;
-        unit_q <= error_unit_i;
+      if (frame_end) frames_q <= frames_q + 32'd1;
+      if (error) errors_q <= errors_q + 32'd1;
+      if (waiting_input) starved_q <= starved_q + 32'd1;
+      if (waiting_output) blocked_q <= blocked_q + 32'd1;
+      if (error) begin
+        error_q <= {error_line, error_code};
+        error_frame_q <= error_frame;
+        error_token_q <= error_token;
+        unit_q <= error_unit;
       end
       if (bite) begin
         stall_q <= tree;
-        stall_q[30:16] <= behind_line_i;
-        stall_q[9:8] <= {waiting_output_i, waiting_input_i};
+        stall_q[30:16] <= behind_line;
+        stall_q[9:8] <= {waiting_output, waiting_input};
       end
       if (!rst_ni) begin
         {control_q, limit_q, still_q, irq_q, cycles_q, frames_q, errors_q, starved_q, blocked_q} <= '0;
@@ -205,7 +223,7 @@ module registers_proof #(
         RegControl: value = control_q;
         RegIrq: value = 32'(irq_q);
         RegWatchdog: value = limit_q;
-        RegStatus: value = {28'd0, waiting_output_i, waiting_input_i, draining_i, open_i};
+        RegStatus: value = {28'd0, waiting_output, waiting_input, draining, open};
         RegError: value = {error_q[19:4], 12'd0, error_q[3:0]};
         RegErrorFrame: value = error_frame_q;
         RegErrorToken: value = error_token_q;

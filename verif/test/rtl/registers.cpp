@@ -192,16 +192,20 @@ TEST_CASE("Counters and status", "[registers]") {
     for (int i = 0; i < 10; ++i) a.clock();
     CHECK(a.read(KAGE_REG_CYCLES) >= before + 10);
     a.top->open_i = a.top->waiting_output_i = 1;
+    a.clock();  // what the core says is seen a clock later
     CHECK(a.read(KAGE_REG_STATUS) == 0b1001);
     a.top->open_i = a.top->draining_i = a.top->waiting_input_i = 1;
     a.top->waiting_output_i = 0;
+    a.clock();
     CHECK(a.read(KAGE_REG_STATUS) == 0b0111);
     a.quiet();
     a.top->behind_valid_i = 1;
     a.behind(37, 12345);
     a.top->waiting_input_i = 0;
+    a.clock();
     CHECK(a.read(KAGE_REG_TREE) == 0);  // the stream is not waited for
     a.top->waiting_input_i = 1;
+    a.clock();
     CHECK(a.read(KAGE_REG_TREE) == (1U << 31 | 12345U << 16 | 37U));
   });
 }
@@ -225,7 +229,7 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.top->progress_i = 0;
     a.top->behind_valid_i = a.top->waiting_input_i = 1;
     a.behind(5, 77);
-    for (int i = 0; i < 19; ++i) {
+    for (int i = 0; i < 20; ++i) {  // a clock late
       a.clock();
       REQUIRE(!a.top->irq_o);
     }
@@ -234,6 +238,7 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     // What was waited for then, whatever has come since.
     a.behind(6, 77);
     a.top->behind_valid_i = a.top->waiting_input_i = 0;
+    a.clock();
     CHECK(a.read(KAGE_REG_STALL) == (1U << 31 | 77U << 16 | 1U << 8 | 5U));
     CHECK(a.read(KAGE_REG_TREE) == 0);
     a.write(KAGE_REG_IRQ, 4);
@@ -243,7 +248,7 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.clock();
     a.top->progress_i = 0;
     a.top->waiting_output_i = 1;
-    for (int i = 0; i < 20; ++i) a.clock();
+    for (int i = 0; i < 21; ++i) a.clock();
     CHECK(a.top->irq_o);
     CHECK(a.read(KAGE_REG_STALL) == (77U << 16 | 1U << 9));
     a.write(KAGE_REG_WATCHDOG, 0);
