@@ -101,7 +101,9 @@ module segment_check #(
 
   // ---- order and range ---------------------------------------------------------------------------------------------
   logic all_lines;  // the unit has all lines of the frame
-  assign all_lines = 15'(ahead) == lines_left_i;
+  logic [3:0] left_is;  // lines left: 0, 1, 2, 3; compared while the unit is chosen
+  always_comb for (int n = 0; n < 4; n++) left_is[n] = lines_left_i == 15'(n);
+  assign all_lines = left_is[ahead];
   always_comb begin
     order_error_o = 1'b0;
     if (is_shade_i || is_face_i) order_error_o = !state_q;
@@ -165,20 +167,32 @@ module segment_check #(
   end
 
   // ---- who is behind -----------------------------------------------------------------------------------------------
+  // The unit with least, the lowest of those: pairs of units, pairs of pairs, and so on. Node n has the nodes 2n and
+  // 2n + 1 below it; unit u is node Leaves + u, and a node without a unit never has less than one that has.
+  localparam int Leaves = 2 ** $clog2(UNITS);
   logic [1:0] least;
   logic [UnitBits-1:0] least_unit;
   logic uneven;
   always_comb begin
-    least = 2'd3;
-    least_unit = '0;
-    for (int u = UNITS - 1; u >= 0; u--) begin
-      if (ahead_q[u*2+:2] <= least) begin
-        least = ahead_q[u*2+:2];
-        least_unit = UnitBits'(u);
+    automatic logic [4*Leaves-1:0] ahead_at = '1;
+    automatic logic [2*Leaves*UnitBits-1:0] unit_at = '0;
+    for (int u = 0; u < UNITS; u++) begin
+      ahead_at[(Leaves+u)*2+:2] = ahead_q[u*2+:2];
+      unit_at[(Leaves+u)*UnitBits+:UnitBits] = UnitBits'(u);
+    end
+    for (int n = Leaves - 1; n > 0; n--) begin
+      if (ahead_at[4*n+:2] <= ahead_at[4*n+2+:2]) begin
+        ahead_at[2*n+:2] = ahead_at[4*n+:2];
+        unit_at[n*UnitBits+:UnitBits] = unit_at[2*n*UnitBits+:UnitBits];
+      end else begin
+        ahead_at[2*n+:2] = ahead_at[4*n+2+:2];
+        unit_at[n*UnitBits+:UnitBits] = unit_at[(2*n+1)*UnitBits+:UnitBits];
       end
     end
+    least = ahead_at[2+:2];
+    least_unit = unit_at[UnitBits+:UnitBits];
     uneven = sum_q != '0;
-    for (int u = 0; u < UNITS; u++) if (ahead_q[u*2+:2] != least) uneven = 1'b1;
+    for (int u = 0; u < UNITS; u++) if (ahead_q[u*2+:2] != ahead_q[1:0]) uneven = 1'b1;
   end
   always_ff @(posedge clk_i) begin
     behind_o <= rst_ni && tree_q && uneven;
@@ -215,20 +229,13 @@ module segment_check #(
   end
 
   // ---- at TREE -----------------------------------------------------------------------------------------------------
-  logic short_any;
-  logic [UnitBits-1:0] short_unit;
+  logic short_any;  // the unit with least has not this line
   always_comb begin
-    short_any  = 1'b0;
-    short_unit = '0;
-    for (int u = UNITS - 1; u >= 0; u--) begin
-      if (ahead_q[u*2+:2] == 2'd0) begin
-        short_any  = 1'b1;
-        short_unit = UnitBits'(u);
-      end
-    end
+    short_any = 1'b0;
+    for (int u = 0; u < UNITS; u++) if (ahead_q[u*2+:2] == 2'd0) short_any = 1'b1;
     tree_error_o = is_tree_i && (kept_q[0] || short_any);
     tree_code_o  = kept_q[0] ? kept_code_q[0+:CodeBits] : ErrUnitShort;
-    tree_unit_o  = kept_q[0] ? kept_unit_q[0+:UnitBits] : short_unit;
+    tree_unit_o  = kept_q[0] ? kept_unit_q[0+:UnitBits] : least_unit;
     tree_token_o = kept_q[0] ? kept_token_q[31:0] : token_i;
   end
 
