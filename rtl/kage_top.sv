@@ -312,8 +312,11 @@ module kage_top #(
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
   // only if one of them does.
-  assign progress = (s_axis_tvalid_i && s_axis_tready_o) || reader_moving || (token_valid && token_ready) ||
-      told_q || painting || frame_end || line_valid || (told_valid && told_ready) || (pixel_valid && pixel_ready) || pixels_moving || out_moving || tree_moving || (m_axis_tvalid_o && m_axis_tready_i);
+  logic ports_move, control_moves;
+  assign ports_move = (s_axis_tvalid_i && s_axis_tready_o) || (m_axis_tvalid_o && m_axis_tready_i);
+  assign control_moves = (token_valid && token_ready) || told_q || painting || frame_end || line_valid;
+  assign progress = ports_move || reader_moving || control_moves || (told_valid && told_ready) ||
+      (pixel_valid && pixel_ready) || pixels_moving || out_moving || tree_moving;
 
   registers #(
       `include "generated/kage_impl_param_map.svh"

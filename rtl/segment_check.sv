@@ -173,9 +173,11 @@ module segment_check #(
   logic [1:0] least;
   logic [UnitBits-1:0] least_unit;
   logic uneven;
+  logic [4*Leaves-1:0] ahead_at;
+  logic [2*Leaves*UnitBits-1:0] unit_at;
   always_comb begin
-    automatic logic [4*Leaves-1:0] ahead_at = '1;
-    automatic logic [2*Leaves*UnitBits-1:0] unit_at = '0;
+    ahead_at = '1;
+    unit_at  = '0;
     for (int u = 0; u < UNITS; u++) begin
       ahead_at[(Leaves+u)*2+:2] = ahead_q[u*2+:2];
       unit_at[(Leaves+u)*UnitBits+:UnitBits] = UnitBits'(u);
