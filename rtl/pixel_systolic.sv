@@ -10,7 +10,10 @@
 //   step with its way down the chain: the pixel that was taken a clock ago stands before all processors, and it is that
 //   of the one TREE is at. So it needs a line without bubbles, and no buffer. The next TREE waits until the line is
 //   through, at most its width.
-// Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 2 clocks.
+// Clocks of a processor: in the first the command's depth and colour at its pixel are clamped, in the second they are
+//   compared and the pixel's state changes. The chain moves on meanwhile, so what the second needs else of the command
+//   stands at the next processor.
+// Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 3 clocks.
 // Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels
 //   leave.
 // Reset: an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted;
@@ -63,15 +66,18 @@ module pixel_systolic #(
 
 
   // ---- the chain ---------------------------------------------------------------------------------------------------
-  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, whether its range had begun,
-  // depth and colour at this pixel, and the pixel's state.
-  logic [N-1:0] valid_q, begun_q, hit;
-  logic [N*4-1:0] kind_q;
+  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, depth and colour at this pixel;
+  // of the command that was at it a clock ago whether the pixel is in its range, depth and colour clamped; and the
+  // pixel's state. What goes along unchanged has a place more, for the last processor's second clock.
+  logic [N-1:0] valid_q, hit, hit_q;
+  logic [(N+1)*4-1:0] kind_q;
   logic [N*X_BITS-1:0] xl_q, xr_q;
-  logic [N*CountBits-1:0] count_q;
+  logic [(N+1)*CountBits-1:0] count_q;
   logic [N*DepthBits-1:0] z_q, dz_q, z_d;
+  logic [N*Z_BITS-1:0] depth_d, depth_q;
   logic [N*ColorBits-1:0] color_q, color_d;
-  logic [N*ShareBits-1:0] share_q;
+  logic [N*RgbBits-1:0] shown_d, shown_q;
+  logic [(N+1)*ShareBits-1:0] share_q;
   logic [N*PixelBits-1:0] pixel_q, pixel_d;
   logic [Segments*ExitBits-1:0] joined_d, joined_q;
 
@@ -107,9 +113,9 @@ module pixel_systolic #(
   assign tree = tree_i;
   if (UNITS > 0) begin : gen_tree
     logic flows_q, take;  // a line has begun to come and not ended
-    logic [Z_BITS-1:0] z1_q;
-    logic [RgbBits-1:0] color1_q;
-    logic [CLASS_BITS-1:0] class1_q;
+    logic [Z_BITS-1:0] z1_q, z2_q;
+    logic [RgbBits-1:0] color1_q, color2_q;
+    logic [CLASS_BITS-1:0] class1_q, class2_q;
     logic unused_drop;
     assign unused_drop = tree_drop_i;  // nothing is taken ahead of its TREE
     assign tree_here = tree_valid_i && !flows_q;
@@ -119,13 +125,13 @@ module pixel_systolic #(
     always_ff @(posedge clk_i) begin
       if (!rst_ni) flows_q <= 1'b0;
       else if (take) flows_q <= !tree.last;
-      z1_q <= tree.z;
-      color1_q <= tree.color;
-      class1_q <= tree.normal_class;
+      {z2_q, z1_q} <= {z1_q, tree.z};
+      {color2_q, color1_q} <= {color1_q, tree.color};
+      {class2_q, class1_q} <= {class1_q, tree.normal_class};
     end
-    assign tree_z = z1_q;
-    assign tree_color = color1_q;
-    assign tree_count = CountBits'(class1_q);
+    assign tree_z = z2_q;
+    assign tree_color = color2_q;
+    assign tree_count = CountBits'(class2_q);
 `ifndef SYNTHESIS
     // 1. A line that has begun to come has no bubble.
     always_ff @(posedge clk_i) if (rst_ni) assert (!flows_q || tree_valid_i);
@@ -137,34 +143,47 @@ module pixel_systolic #(
     assign {tree_here, tree_moving, tree_z, tree_color, tree_count} = '0;
   end
 
-  // The processor that the loop is at.
+  // The processor that the loop is at, in its first clock.
   logic begins;
+  logic [DepthBits-1:0] z;
+  always_comb begin
+    z_d = z_q;
+    depth_d = depth_q;
+    shown_d = shown_q;
+    {begins, z} = '0;
+    for (int i = 0; i < N; i++) begin
+      begins = (i > 0 && hit_q[i>0?i-1 : 0]) || xl_q[i*X_BITS+:X_BITS] == X_BITS'(i);
+      hit[i] = valid_q[i] && begins && xr_q[i*X_BITS+:X_BITS] != X_BITS'(i);
+      if (hit[i]) begin
+        z = z_q[i*DepthBits+:DepthBits];
+        z_d[i*DepthBits+:DepthBits] = z + dz_q[i*DepthBits+:DepthBits];
+        depth_d[i*Z_BITS+:Z_BITS] = clamp_z(z[Z_FRAC+:Z_BITS+2]);
+        shown_d[i*RgbBits+:RgbBits] = clamp_color(color_q[i*ColorBits+:ColorBits]);
+      end
+    end
+  end
+
+  // The same in its second clock.
   logic [3:0] kind;
   logic [CountBits-1:0] count;
-  logic [DepthBits-1:0] z;
   logic [Z_BITS-1:0] depth;
   logic [RgbBits-1:0] color;
   logic [PixelBits-1:0] pixel;
   logic [ExitBits-1:0] leaving;
-
   always_comb begin
     pixel_d = pixel_q;
-    z_d = z_q;
     joined_d = '0;
-    {begins, kind, count, z, depth, color, pixel, leaving} = '0;
+    {kind, count, depth, color, pixel, leaving} = '0;
     for (int i = 0; i < N; i++) begin
-      begins = begun_q[i] || xl_q[i*X_BITS+:X_BITS] == X_BITS'(i);
-      hit[i] = valid_q[i] && begins && xr_q[i*X_BITS+:X_BITS] != X_BITS'(i);
-      if (hit[i]) begin
-        kind = kind_q[i*4+:4];
-        count = count_q[i*CountBits+:CountBits];
-        z = z_q[i*DepthBits+:DepthBits];
-        color = clamp_color(color_q[i*ColorBits+:ColorBits]);
-        depth = clamp_z(z[Z_FRAC+:Z_BITS+2]);
+      if (hit_q[i]) begin
+        kind  = kind_q[(i+1)*4+:4];
+        count = count_q[(i+1)*CountBits+:CountBits];
+        depth = depth_q[i*Z_BITS+:Z_BITS];
+        color = shown_q[i*RgbBits+:RgbBits];
         if (UNITS > 0 && kind == KindTree) {depth, color, count} = {tree_z, tree_color, tree_count};
         pixel = pixel_q[i*PixelBits+:PixelBits];
-        z_d[i*DepthBits+:DepthBits] = z + dz_q[i*DepthBits+:DepthBits];
-        pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, depth, color, count, share_q[i*ShareBits+:ShareBits]);
+        pixel_d[i*PixelBits+:PixelBits] =
+            pixel_next(pixel, kind, depth, color, count, share_q[(i+1)*ShareBits+:ShareBits]);
         // Of the EOLs and CmdOuts in the chain only one is among its line's pixels: the OR of all exits is that one's.
         if (kind == KindEol || (HasOut && kind == CmdOut)) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count[DsfBits-1:0]);
@@ -198,42 +217,48 @@ module pixel_systolic #(
     // Only what says whether a command is there needs a reset. The first is the EOL that clears.
     if (!rst_ni) valid_q <= N'(1);
     else valid_q <= N'({valid_q, enter});
-    begun_q <= N'({hit, 1'b0});
-    kind_q  <= (N * 4)'({kind_q, rst_ni ? cmd.kind : KindEol});
+    if (!rst_ni) hit_q <= '0;
+    else hit_q <= hit;
+    kind_q  <= ((N + 1) * 4)'({kind_q, rst_ni ? cmd.kind : KindEol});
     xl_q    <= (N * X_BITS)'({xl_q, rst_ni ? cmd.xl : X_BITS'(0)});
     xr_q    <= (N * X_BITS)'({xr_q, rst_ni ? cmd.xr : X_BITS'(N)});
-    count_q <= (N * CountBits)'({count_q, cmd.count});
+    count_q <= ((N + 1) * CountBits)'({count_q, cmd.count});
     z_q     <= (N * DepthBits)'({z_d, cmd.z});
     dz_q    <= (N * DepthBits)'({dz_q, cmd.dz});
     color_q <= (N * ColorBits)'({color_d, cmd.color});
-    share_q <= (N * ShareBits)'({share_q, cmd.share});
+    share_q <= ((N + 1) * ShareBits)'({share_q, cmd.share});
+    depth_q <= depth_d;
+    shown_q <= shown_d;
     pixel_q <= pixel_d;
   end
 
   // ---- exit --------------------------------------------------------------------------------------------------------
-  // EOL enters in clock t and is at processor i in t + 1 + i; that pixel is in joined_q in t + 2 + i, and in
-  // exit_data_o in t + 3 + i.
+  // EOL enters in clock t and is at processor i in t + 1 + i and, for its second clock, in t + 2 + i; that pixel is in
+  // joined_q in t + 3 + i, and in exit_data_o in t + 4 + i.
   logic [ExitBits-1:0] all;
-  logic at_q, joined_valid_q, at_last, joined_last_q;
+  logic at_q, at2_q, joined_valid_q, at_last, at2_last_q, joined_last_q;
   always_comb begin
     all = '0;
     for (int s = 0; s < Segments; s++) all = all | joined_q[s*ExitBits+:ExitBits];
   end
   assign at_last  = leaving_q == '0;
   // Commands other than EOL need not be counted: nothing waits for them but the EOL behind them.
-  assign moving_o = leaving_q != '0 || at_q || joined_valid_q || exit_valid_o || tree_moving;
+  assign moving_o = leaving_q != '0 || at_q || at2_q || joined_valid_q || exit_valid_o || tree_moving;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       at_q <= 1'b0;
+      at2_q <= 1'b0;
       joined_valid_q <= 1'b0;
       exit_valid_o <= 1'b0;
     end else begin
       at_q <= exit_take_o || (leaving_q != '0 && !sweep_q);
-      joined_valid_q <= at_q;
+      at2_q <= at_q;
+      joined_valid_q <= at2_q;
       exit_valid_o <= joined_valid_q;
     end
     joined_q <= joined_d;
-    joined_last_q <= at_last;
+    at2_last_q <= at_last;
+    joined_last_q <= at2_last_q;
     exit_last_o <= joined_last_q;
     exit_data_o <= all;
   end

@@ -15,8 +15,8 @@ module pixel_systolic_monitor #(
 ) (
     input wire logic                         clk_i,
     input wire logic                         rst_ni,
-    input wire logic [           PIXELS-1:0] hit,
-    input wire logic [         PIXELS*4-1:0] kind_q,
+    input wire logic [           PIXELS-1:0] hit_q,
+    input wire logic [     (PIXELS+1)*4-1:0] kind_q,
     input wire logic [PIXELS*PIXEL_BITS-1:0] pixel_d
 );
   `include "kage_trace.svh"
@@ -26,8 +26,8 @@ module pixel_systolic_monitor #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       for (int i = 0; i < PIXELS; i++) begin
-        if (hit[i] && kind_q[i*4+:4] != KindEol && kind_q[i*4+:4] != CmdOut) begin
-          trace_pixel_state(i, kind_q[i*4+:4], '1, '1, pixel_d[i*PIXEL_BITS+:PIXEL_BITS]);
+        if (hit_q[i] && kind_q[(i+1)*4+:4] != KindEol && kind_q[(i+1)*4+:4] != CmdOut) begin
+          trace_pixel_state(i, kind_q[(i+1)*4+:4], '1, '1, pixel_d[i*PIXEL_BITS+:PIXEL_BITS]);
         end
       end
     end
