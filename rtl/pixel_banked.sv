@@ -4,18 +4,17 @@
 // Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL, or a CmdOut, starts its pass when
 //   exit_free_i is high, takes the buffer by a clock of exit_take_o, and then brings the line's groups in order by
 //   exit_valid_o, without stops; the last with exit_last_o. Pixels past the line's width in the last group are void.
-// Tree (UNITS > 0): a second line buffer of {Z, colour, class} is filled one pixel a clock from tree_*, whether or not
-//   a TREE is near. A TREE waits until a line is in it whole, then reads it group by group along with the state; the
-//   next line comes in right behind. tree_drop_i forgets a part of a line.
+// Tree (UNITS > 0): tree_line holds the tree's line, filled ahead of its TREE. A TREE waits until the line is in it
+//   whole, then reads it group by group along with the state. tree_drop_i forgets a part of a line.
 // Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut
 //   takes one per group of the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first:
 //   what the RAM held never matters.
 // Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1.
 // Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the
-//   newest in front of the comparison, the two older ones in front of the register behind the RAM. The tree's buffer
-//   needs none: see there.
+//   newest in front of the comparison, the two older ones in front of the register behind the RAM. The hazards of the
+//   tree's line are tree_line's.
 // Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units
-//   another of as many words.
+//   tree_line.
 `default_nettype none
 
 module pixel_banked #(
@@ -247,91 +246,46 @@ module pixel_banked #(
   logic [LANES*RgbBits-1:0] now_color;
   logic [LANES*CountBits-1:0] now_counts;
 
-  tree_pixel_t tree;
-  assign tree = tree_i;
   if (UNITS > 0) begin : gen_tree
-    localparam int PaintBits = Z_BITS + RgbBits + ClassBits;
-    // A pixel comes in a clock. The group's pixels gather in a register, which is written when it is complete.
-    logic full_q, in_take, in_write_q;
-    logic [Levels:0] passes_q, passes;  // bit k: a pass of TREE began k clocks ago; q: k + 1
-    logic [OffBits-1:0] in_lane_q;
-    logic [AddrBits-1:0] in_group_q, in_addr_q;
-    logic [PaintBits-1:0] in_pixel;
-    logic [LANES*PaintBits-1:0] in_word_q, tree_word, tree_q;
-    logic in_lane_end;
-    if (DSF_BITS > 0) begin : gen_class
-      assign in_pixel = {tree.normal_class, tree.color, tree.z};
-    end else begin : gen_no_class
-      logic unused_class;
-      assign unused_class = ^tree.normal_class;
-      assign in_pixel = {tree.color, tree.z};
-    end
-    assign tree_ready_o = !full_q;
-    assign in_take = tree_valid_i && tree_ready_o && !tree_drop_i;
-    assign in_lane_end = in_lane_q == OffBits'(LANES - 1) || tree.last;
-    assign tree_moving = in_take;
-
-    // The pass that starts now reads its group g in Levels + g clocks. The next line comes in after Levels clocks, when
-    // group 0 is read: its group g, even if it ends there with one pixel, is written 2 + g clocks later at the
-    // earliest, so the pass is ahead of it all the way. Until then full_q speaks of the old line.
-    assign passes = (Levels + 1)'({passes_q, take3 && next_kind == KindTree});
-    assign tree_here = full_q && passes_q == '0;
-
-    always_ff @(posedge clk_i) begin
-      if (!rst_ni) begin
-        full_q <= 1'b0;
-        passes_q <= '0;
-        in_write_q <= 1'b0;
-        in_lane_q <= '0;
-        in_group_q <= '0;
-      end else begin
-        passes_q   <= passes;
-        in_write_q <= in_take && in_lane_end;
-        if (in_take && tree.last) full_q <= 1'b1;
-        else if (passes[Levels]) full_q <= 1'b0;
-        if (tree_drop_i || (in_take && tree.last)) begin
-          in_lane_q  <= '0;
-          in_group_q <= '0;
-        end else if (in_take) begin
-          in_lane_q <= in_lane_end ? '0 : in_lane_q + 1'b1;
-          if (in_lane_end) in_group_q <= in_group_q + 1'b1;
-        end
-      end
-      in_addr_q <= in_group_q;
-      for (int l = 0; l < LANES; l++) begin
-        if (in_take && in_lane_q == OffBits'(l)) in_word_q[l*PaintBits+:PaintBits] <= in_pixel;
-      end
-    end
-
-    ram_1r1w #(
-        .BITS (LANES * PaintBits),
-        .WORDS(Groups)
-    ) u_line (
+    logic [LANES*Z_BITS-1:0] tree_z;
+    logic [LANES*RgbBits-1:0] tree_color;
+    logic [LANES*CLASS_BITS-1:0] tree_class;
+    tree_line #(
+        .LANES(LANES),
+        .MAX_WIDTH(MAX_WIDTH),
+        `include "generated/kage_pixel_param_map.svh"
+    ) u_tree_line (
         .clk_i,
-        .wr_en_i  (in_write_q),
-        .wr_addr_i(in_addr_q),
-        .wr_data_i(in_word_q),
-        .rd_en_i  (valid[Last-2]),
-        .rd_addr_i(addr_read),
-        .rd_data_o(tree_word)
+        .rst_ni,
+        .tree_valid_i,
+        .tree_ready_o,
+        .tree_i,
+        .drop_i    (tree_drop_i),
+        .here_o    (tree_here),
+        .pass_i    (take3 && next_kind == KindTree),
+        .rd_en_i   (valid[Last-2]),
+        .rd_group_i(addr_read),
+        .z_o       (tree_z),
+        .color_o   (tree_color),
+        .class_o   (tree_class),
+        .moving_o  (tree_moving)
     );
-    always_ff @(posedge clk_i) tree_q <= tree_word;
 
     always_comb begin
       now_z = lane_z;
       now_color = lane_color;
       now_counts = {LANES{now_count}};
       if (now_kind == KindTree) begin
+        now_z = tree_z;
+        now_color = tree_color;
         for (int l = 0; l < LANES; l++) begin
-          now_z[l*Z_BITS+:Z_BITS] = tree_q[l*PaintBits+:Z_BITS];
-          now_color[l*RgbBits+:RgbBits] = tree_q[l*PaintBits+Z_BITS+:RgbBits];
-          if (DSF_BITS > 0) now_counts[l*CountBits+:CountBits] = CountBits'(tree_q[(l+1)*PaintBits-1-:CLASS_BITS]);
+          if (DSF_BITS > 0) now_counts[l*CountBits+:CountBits] = CountBits'(tree_class[l*CLASS_BITS+:CLASS_BITS]);
         end
       end
     end
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_valid_i, tree, tree_drop_i};
+    assign unused_tree = ^{tree_valid_i, tree_i, tree_drop_i};
     assign tree_ready_o = 1'b0;
     assign {tree_here, tree_moving} = '0;
     assign now_z = lane_z;

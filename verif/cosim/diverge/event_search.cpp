@@ -70,7 +70,15 @@ void EventSearch::take(std::span<const kage_rtl_event> events) {
   // Units and tree work on a line as soon as its segments are there; its TREE says what they should have made.
   const std::vector<kage_rtl_event> ahead = std::exchange(ahead_, {});
   for (const kage_rtl_event& a : ahead) take(a);
-  for (const kage_rtl_event& a : events) take(a);
+  // Events of a clock have no order. That of the token that frame_control takes goes first: the others are held against
+  // it.
+  for (auto begin = events.begin(); begin != events.end();) {
+    const auto end = std::find_if(begin, events.end(), [&](const auto& a) { return a.clock != begin->clock; });
+    for (const bool token : {true, false})
+      for (auto a = begin; a != end; ++a)
+        if ((static_cast<Stage>(a->stage) == Stage::token) == token) take(*a);
+    begin = end;
+  }
 }
 
 void EventSearch::take(const kage_rtl_event& a) {
@@ -84,8 +92,6 @@ void EventSearch::take(const kage_rtl_event& a) {
   if (stage == Stage::token) {
     ++tokens_;
     token_ = a;
-    if (unexpected_ && unexpected_->clock == a.clock)
-      unexpected_token_ = tokens_ - 1;  // events of a clock have no order
     if (kind_of(a) == Kind::END) at_last_ = a.value[at::token::at_last] != 0;
   }
   if (stopped(a)) return;
