@@ -69,7 +69,7 @@ class Builder {
     if (config_->dsf_bits > 0) {
       VolumeMaker maker(*frame_, view_, clipper_, eye_points_, drawn_, look_->far_ends, out_);
       const std::vector<SpaceBox> boxes = component_boxes(*frame_);
-      VolumeCaster volumes(*frame_, boxes, config_->dsf_bits, look_->volumes, shadows_->data());
+      VolumeCaster volumes(*frame_, boxes, config_->dsf_bits, look_->volumes, ShadowCacheInside::of(*shadows_));
       std::optional<Receivers> receivers;
       if (look_->leave_out) receivers.emplace(*frame_, boxes, out_.width, out_.height, config_->translucency == 0);
       std::vector<bool> casts(frame_->components.size(), true);
@@ -166,7 +166,7 @@ class Builder {
       sides.push_back(eye_side(frame_->camera, triangle_of(*frame_, i)));
       if (sides.back() != 0 && !is_culled(i, sides.back())) draw(i);
     }
-    FragmentMaker(*frame_, view_, order_->data(), faces, sides)
+    FragmentMaker(*frame_, view_, TranslucentOrderInside::of(*order_), faces, sides)
         .make(
             look_->translucent,
             [this](std::uint32_t face) { return std::pair(drawn_[face].first, drawn_[face].count); }, out_);
