@@ -11,10 +11,12 @@
 namespace kage {
 namespace {
 
-// The middle, then the samples unless they are the middle.
-std::vector<LightPoint> points_of(const Light& light, std::size_t number, const Config& config, const Look& look) {
-  std::vector<LightPoint> points{light};
-  if (config.count_bits == 0) return points;
+// The middle, then the samples of a light that casts, unless they are the middle.
+std::vector<LightPoint> points_of(const Light& light, std::size_t number, bool casts, const Config& config,
+                                  const Look& look) {
+  const LightPoint& middle = light;
+  std::vector<LightPoint> points{middle};
+  if (!casts || config.count_bits == 0) return points;
   const bool fits = !look.fit || look.samples >> config.count_bits == 0;
   const auto samples = light_points(light, fits ? look.samples : 1, look.seed + number);
   if (samples.size() > 1) points.insert(points.end(), samples.begin(), samples.end());
@@ -29,8 +31,7 @@ SampledLights::SampledLights(const SceneFrame& frame, const Config& config, cons
   const std::size_t casting =
       config.dsf_bits > 0 ? std::min(frame.lights.size(), static_cast<std::size_t>(config.lights)) : 0;
   for (std::size_t l = 0; l < frame.lights.size(); ++l) {
-    const Light& light = frame.lights[l];
-    const auto points = l < casting ? points_of(light, l, config, look) : std::vector<LightPoint>{light};
+    const auto points = points_of(frame.lights[l], l, l < casting, config, look);
     const auto casters = ShadowCaster::of_points(frame, points, view.near_corners(), look.extrusion);
     middles.push_back(casters[0]);
     if (l >= casting) continue;
