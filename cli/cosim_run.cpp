@@ -19,6 +19,7 @@
 #include "results.hpp"
 #include "signals.hpp"
 #include "stimulus/shrink.hpp"
+#include "stream/finish.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
@@ -371,7 +372,7 @@ report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Differenc
   writer.begin_port_frame();
   writer.words(small);
   writer.end_frame();
-  writer.finish(files);
+  kage::finish(writer, files);
   const TokenCounts counts = count_tokens(config, small);
   std::uint64_t tokens = 0;
   for (const std::uint64_t n : counts.of_kind) tokens += n;

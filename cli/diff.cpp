@@ -10,8 +10,8 @@
 #include <limits>
 
 #include "command.hpp"
+#include "file/extension.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 #include "kage/stream.hpp"
 #include "options.hpp"
 #include "results.hpp"

@@ -8,12 +8,12 @@
 
 #include "command.hpp"
 #include "diff.hpp"
+#include "file/extension.hpp"
 #include "file/quiet_stderr.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 #include "mapped.hpp"
 #include "progress.hpp"
 #include "results.hpp"

@@ -9,10 +9,10 @@
 #include <memory>
 
 #include "command.hpp"
+#include "file/extension.hpp"
 #include "info_scene.hpp"
 #include "kage/error.hpp"
 #include "kage/explain.hpp"
-#include "kage/paths.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
 #include "options.hpp"

@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "cosim/model/model.hpp"
+#include "file/read_file.hpp"
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"

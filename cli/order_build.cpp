@@ -28,7 +28,7 @@ OrderBuildOptions order_build(const Options& options, Progress& progress, const 
 }
 
 void refuse_fragments(const std::string& where, const TooManyFragments& why) {
-  throw Error(fmt::format("{}: {} (--max-fragments)", where, why.what()));
+  throw Error(fmt::format("{} (--max-fragments)", TooManyFragments(why.limit(), where).what()));
 }
 
 }  // namespace kage::cli

@@ -14,6 +14,7 @@
 #include "signals.hpp"
 #include "source.hpp"
 #include "standard_files.hpp"
+#include "stream/finish.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
@@ -56,7 +57,7 @@ int run(const Options& o) {
   origin["polyhedra"] = to_json(source.ways());
   if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
   TempFiles files;
-  writer.finish(files);
+  kage::finish(writer, files);
   Json j;
   j["file"] = piped(o) ? Json(nullptr) : Json(o.out);
   j["frames"] = source.frames();

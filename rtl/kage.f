@@ -24,4 +24,5 @@ rtl/token_check.sv
 rtl/token_command.sv
 rtl/token_reader.sv
 rtl/tree_core.sv
+rtl/tree_line.sv
 rtl/kage_axi.v

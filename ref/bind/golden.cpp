@@ -8,13 +8,13 @@
 #include <array>
 #include <exception>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "contract/config_text.hpp"
+#include "golden_core.hpp"
+#include "golden_fields.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -22,97 +22,6 @@
 
 using kage::Config;
 using kage::Error;
-using kage::Kind;
-
-struct kage_golden final : kage::CoreObserver {
-  explicit kage_golden(const Config& c) : config(c), layout(c), core(c) { core.observe(this); }
-
-  Config config;
-  kage::Layout layout;
-  kage::GoldenCore core;
-  std::optional<kage::StreamFile> file;
-  std::span<const std::uint32_t> rest;  // words of the file's frame that next() has not read
-
-  int state = KAGE_GOLDEN_MORE;  // MORE: in the frame or before it
-  bool accepted = false;         // a token, since it was last asked
-  bool line = false;             // there is one at hand
-  int height = 0;
-
-  int kind = KAGE_KIND_HEADER;
-  int index = -1;
-  kage::Token token;
-  std::vector<std::uint32_t> words;
-
-  kage_golden_taker taker = nullptr;
-  void* user = nullptr;
-  int out_line = -1;
-  std::vector<std::uint8_t> out;
-
-  kage::FrameStatus status;
-  std::string error, text;
-
-  void header(std::span<const std::uint32_t> w, const kage::LineView& /*view*/) override {
-    kind = KAGE_KIND_HEADER;
-    index = 0;
-    words.assign(w.begin(), w.end());
-    token = {};
-    height = kage::FrameHeader::read(w).height;
-    line = accepted = true;
-  }
-
-  void before(std::uint32_t i, const kage::Token& t, std::span<const std::uint32_t> w,
-              const kage::LineView& /*view*/) override {
-    kind = static_cast<int>(t.kind);
-    index = static_cast<int>(i);
-    words.assign(w.begin(), w.end());
-    // The core's own token keeps fields of those before it.
-    token = kage::decode(config, layout, w);
-    if (t.kind == Kind::END) {
-      state = KAGE_GOLDEN_END;
-      line = false;
-    }
-  }
-
-  void after(std::uint32_t /*index*/, const kage::Token& /*token*/, const kage::LineView& /*view*/) override {
-    accepted = true;
-  }
-
-  void failed(const kage::FrameStatus& s, std::span<const std::uint32_t> /*words*/,
-              const kage::LineView& /*view*/) override {
-    status = s;
-    state = KAGE_GOLDEN_FAILED;
-    line = false;
-  }
-
-  void feed(std::span<const std::uint32_t> w) { core.feed(w, sink()); }
-
-  [[nodiscard]] kage::LineSink sink() {
-    return [this](int y, std::span<const std::uint8_t> pixels) {
-      out_line = y;
-      out.assign(pixels.begin(), pixels.end());
-      if (taker != nullptr) taker(user, y, out.data(), static_cast<int>(out.size()));
-    };
-  }
-
-  int word(std::uint32_t w) {
-    accepted = false;
-    feed({&w, 1});
-    return state == KAGE_GOLDEN_MORE && accepted ? KAGE_GOLDEN_TOKEN : state;
-  }
-
-  int finish() {
-    status = core.finish(sink());
-    fresh();
-    return static_cast<int>(status.error);
-  }
-
-  void fresh() {
-    state = KAGE_GOLDEN_MORE;
-    line = false;
-    index = out_line = -1;
-    rest = {};
-  }
-};
 
 namespace {
 
@@ -146,59 +55,6 @@ int guarded(kage_golden* core, Work&& work) noexcept {
 std::string given(const char* text, const char* what) {
   if (text == nullptr) throw Error(fmt::format("no {} given", what));
   return text;
-}
-
-/// Whether the configuration has a field of a pixel.
-bool has(const Config& c, int field) {
-  if (field >= KAGE_PIXEL_COUNT) return c.count_bits > 0 && field - KAGE_PIXEL_COUNT < c.lights;
-  if (field == KAGE_PIXEL_FSF) return c.fsf > 0;
-  if (field >= KAGE_PIXEL_CLASS) return c.dsf_bits > 0;
-  return field < KAGE_PIXEL_COLOR + c.channels;
-}
-
-long long token_field(const kage::Token& t, int kind, int field) {
-  const auto channel = [&](const auto& of, int first) { return of[static_cast<std::size_t>(field - first)]; };
-  if (field >= KAGE_TOKEN_COLOR && field < KAGE_TOKEN_DCOLOR)
-    return kind == KAGE_KIND_FACE ? channel(t.segment.color, KAGE_TOKEN_COLOR)
-                                  : channel(t.span.color, KAGE_TOKEN_COLOR);
-  if (field >= KAGE_TOKEN_DCOLOR && field < KAGE_TOKEN_ALPHA) return channel(t.span.dcolor, KAGE_TOKEN_DCOLOR);
-  if (field >= KAGE_TOKEN_SHARE && field < KAGE_TOKEN_Y) return channel(t.table.share, KAGE_TOKEN_SHARE);
-  switch (field) {
-    case KAGE_TOKEN_XL:
-      return t.span.xl;
-    case KAGE_TOKEN_XR:
-      return t.span.xr;
-    case KAGE_TOKEN_Z:
-      return kind == KAGE_KIND_SEG ? t.segment.z : t.span.z;
-    case KAGE_TOKEN_DZ:
-      return kind == KAGE_KIND_FACE ? t.segment.dz : t.span.dz;
-    case KAGE_TOKEN_W:
-      return t.span.w;
-    case KAGE_TOKEN_CLASS:
-      return kind == KAGE_KIND_FACE    ? t.segment.normal_class
-             : kind == KAGE_KIND_TABLE ? t.table.normal_class
-                                       : t.span.normal_class;
-    case KAGE_TOKEN_ALPHA:
-      return t.span.alpha;
-    case KAGE_TOKEN_SHADE:
-      return t.shade;
-    case KAGE_TOKEN_LIGHT:
-      return t.table.light;
-    case KAGE_TOKEN_Y:
-      return t.y;
-    case KAGE_TOKEN_UNIT:
-      return t.segment.unit;
-    case KAGE_TOKEN_FACE:
-      return t.segment.face;
-    case KAGE_TOKEN_INDEX:
-      return t.segment.index;
-    case KAGE_TOKEN_DX:
-      return t.segment.dx;
-    case KAGE_TOKEN_SYNC:
-      return t.segment.sync ? 1 : 0;
-    default:
-      return 0;
-  }
 }
 
 bool has_line(const kage_golden* core) { return core != nullptr && core->line; }
@@ -345,25 +201,11 @@ int kage_golden_bias(kage_golden* core) { return has_line(core) ? static_cast<in
 unsigned int kage_golden_background(kage_golden* core) { return has_line(core) ? core->core.line().background() : 0; }
 
 int kage_golden_pixel(kage_golden* core, int x, int field) {
-  if (!has_line(core) || field < 0 || field >= KAGE_PIXEL_FIELDS || !has(core->config, field)) return KAGE_PIXEL_ABSENT;
+  if (!has_line(core) || field < 0 || field >= KAGE_PIXEL_FIELDS || !has_pixel_field(core->config, field))
+    return KAGE_PIXEL_ABSENT;
   const kage::LineView line = core->core.line();
   if (x < 0 || x >= line.width()) return KAGE_PIXEL_ABSENT;
-  const kage::PixelState p = line.pixel(x);
-  const bool clear = p.z == (1U << core->config.z_bits) - 1;
-  if (field >= KAGE_PIXEL_COUNT) return static_cast<int>(p.counts[static_cast<std::size_t>(field - KAGE_PIXEL_COUNT)]);
-  switch (field) {
-    case KAGE_PIXEL_Z:
-      return static_cast<int>(p.z);
-    case KAGE_PIXEL_CLASS:
-      return clear ? int{KAGE_PIXEL_ANY} : static_cast<int>(p.normal_class);
-    case KAGE_PIXEL_DSF:
-      return static_cast<int>(p.dsf);
-    case KAGE_PIXEL_FSF:
-      return static_cast<int>(p.fsf);
-    default:
-      return clear && !line.painted() ? int{KAGE_PIXEL_ANY}
-                                      : p.color[static_cast<std::size_t>(field - KAGE_PIXEL_COLOR)];
-  }
+  return pixel_field(core->config, line, x, field);
 }
 
 const char* kage_golden_pixel_name(int field) {

@@ -14,6 +14,7 @@ namespace kage {
 struct KindInfo {
   bool state = false;        ///< part of the frame's state: it stands there and nowhere else
   bool span = false;         ///< counts as a span
+  bool volume = false;       ///< of a shadow volume: what it is made of, or its end
   bool range = false;        ///< the pixels xl <= x < xr
   bool whole_line = false;   ///< what it does is of the whole line
   bool line_clocks = false;  ///< takes a line's clocks, not those of its own pixels
@@ -24,21 +25,21 @@ struct KindInfo {
 /// By kind; what is no kind has nothing.
 inline constexpr std::array<KindInfo, 16> kKindInfo{{
     {},
-    {true, false, false, false, false, false, false},  // SHADE
-    {true, false, false, false, false, false, false},  // TABLE
-    {true, false, false, false, false, false, false},  // FACE
-    {false, false, false, false, false, false, false},  // SEG
-    {false, false, false, true, true, false, false},  // TREE
-    {false, true, true, false, false, true, true},  // OP
-    {false, true, true, false, false, true, false},  // SP
-    {false, true, true, false, false, false, false},  // NC
-    {false, false, false, true, false, false, false},  // IF
-    {false, false, true, false, false, false, false},  // EV
-    {false, false, true, false, false, false, false},  // ES
-    {false, false, false, true, false, false, false},  // RESOLVE
-    {false, true, true, false, false, true, true},  // TP
-    {false, false, false, true, true, false, false},  // EOL
-    {false, false, false, false, false, false, false},  // END
+    {true, false, false, false, false, false, false, false},  // SHADE
+    {true, false, false, false, false, false, false, false},  // TABLE
+    {true, false, false, false, false, false, false, false},  // FACE
+    {false, false, false, false, false, false, false, false},  // SEG
+    {false, false, false, false, true, true, false, false},  // TREE
+    {false, true, false, true, false, false, true, true},  // OP
+    {false, true, true, true, false, false, true, false},  // SP
+    {false, true, true, true, false, false, false, false},  // NC
+    {false, false, true, false, true, false, false, false},  // IF
+    {false, false, true, true, false, false, false, false},  // EV
+    {false, false, false, true, false, false, false, false},  // ES
+    {false, false, false, false, true, false, false, false},  // RESOLVE
+    {false, true, false, true, false, false, true, true},  // TP
+    {false, false, false, false, true, true, false, false},  // EOL
+    {false, false, false, false, false, false, false, false},  // END
 }};
 constexpr const KindInfo& info_of(Kind kind) { return kKindInfo[static_cast<std::size_t>(kind)]; }
 

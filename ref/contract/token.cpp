@@ -172,7 +172,7 @@ void TokenWriter::eol(int y) {
 void TokenWriter::end() { pack<Kind::END>(0); }
 
 void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& t) {
-  t.kind = static_cast<Kind>(words[0] & 15U);
+  t.kind = kind_of(words[0]);
   BitUnpacker in(words);
   static_cast<void>(in.take(Field{0, 4, false}));
   with_kind(t.kind, [&]<Kind K>() {

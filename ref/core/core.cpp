@@ -7,25 +7,21 @@
 #include <array>
 #include <vector>
 
-#include "contract/rules.hpp"
-#include "core/pixel_line.hpp"
-#include "core/tree_core.hpp"
+#include "core/line_parts.hpp"
 #include "kage/stream.hpp"
 #include "stream/cutter.hpp"
 
 namespace kage {
 
 struct GoldenCore::Data {
-  explicit Data(const Config& c) : config(c), layout(c), pixels(c), tree(c) {}
+  explicit Data(const Config& c) : config(c), layout(c), parts(c) {}
 
   /// Where in a frame the core is.
   enum class At { header, lines, ended, failed };
 
   Config config;
   Layout layout;
-  PixelLine pixels;
-  TreeCore tree;
-  TokenRules rules;
+  LineView::Parts parts;
   WordCutter cutter;
   std::vector<std::uint8_t> out;
   Token t;  // the one at hand
@@ -49,43 +45,43 @@ struct GoldenCore::Data {
   void apply() {
     switch (t.kind) {
       case Kind::SHADE:
-        pixels.set_shade(t.shade);
+        parts.pixels.set_shade(t.shade);
         break;
       case Kind::TABLE:
-        pixels.add_share(t.table);
+        parts.pixels.add_share(t.table);
         break;
       case Kind::FACE:
-        tree.add_face(t.segment);
+        parts.tree.add_face(t.segment);
         break;
       case Kind::SEG:
-        if (rules.outcome().taken) tree.add_segment(t.segment);
+        if (parts.rules.outcome().taken) parts.tree.add_segment(t.segment);
         break;
       case Kind::TREE:
-        pixels.tree(tree.take_line(observer != nullptr));
+        parts.pixels.tree(parts.tree.take_line(observer != nullptr));
         break;
       case Kind::OP:
-        pixels.op(t.span);
+        parts.pixels.op(t.span);
         break;
       case Kind::SP:
-        pixels.sp(t.span);
+        parts.pixels.sp(t.span);
         break;
       case Kind::TP:
-        pixels.tp(t.span);
+        parts.pixels.tp(t.span);
         break;
       case Kind::NC:
-        pixels.nc(t.span.xl, t.span.xr, t.span.w);
+        parts.pixels.nc(t.span.xl, t.span.xr, t.span.w);
         break;
       case Kind::IF:
-        pixels.inside(t.span.w);
+        parts.pixels.inside(t.span.w);
         break;
       case Kind::EV:
-        pixels.ev(t.span.xl, t.span.xr);
+        parts.pixels.ev(t.span.xl, t.span.xr);
         break;
       case Kind::ES:
-        pixels.es(t.span.xl, t.span.xr, t.table.light);
+        parts.pixels.es(t.span.xl, t.span.xr, t.table.light);
         break;
       case Kind::RESOLVE:
-        pixels.resolve();
+        parts.pixels.resolve();
         break;
       default:
         break;
@@ -93,7 +89,7 @@ struct GoldenCore::Data {
   }
 
   void emit(int y, bool blank, const LineSink& sink) {
-    pixels.finish(blank, out);
+    parts.pixels.finish(blank, out);
     sink(y, out);
   }
 
@@ -111,11 +107,11 @@ struct GoldenCore::Data {
     at = At::failed;
     status.error = e;
     status.frame = number;
-    status.line = lines ? static_cast<std::uint32_t>(rules.line()) : 0;
+    status.line = lines ? static_cast<std::uint32_t>(parts.rules.line()) : 0;
     status.token = token;
     if (observer != nullptr) observer->failed(status, words, view());
     if (!lines) return;
-    for (int y = rules.line(); y < status.height; ++y) emit(y, true, sink);
+    for (int y = parts.rules.line(); y < status.height; ++y) emit(y, true, sink);
   }
 
   void header(std::span<const std::uint32_t> h, const LineSink& sink) {
@@ -124,9 +120,9 @@ struct GoldenCore::Data {
     if (const ErrorCode e = check_header(read); e != ErrorCode::NONE) return fail(e, sink);
     status.width = read.width;
     status.height = read.height;
-    rules.start(config, status.width, status.height);
-    pixels.start(status.width, read.background);
-    tree.start(status.width);
+    parts.rules.start(config, status.width, status.height);
+    parts.pixels.start(status.width, read.background);
+    parts.tree.start(status.width);
     out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(config.channels));
     taken = kHeaderWords;
     token = 1;
@@ -146,15 +142,15 @@ struct GoldenCore::Data {
     while (at == At::lines) {
       const std::uint32_t* first = cutter.peek();
       if (first == nullptr) return;
-      const std::size_t n = layout.words[*first & 15U];
+      const std::size_t n = layout.words_of(*first);
       if (n == 0) return fail(ErrorCode::KIND, sink, std::span(first, 1));
       const auto body = cutter.take(n);
       if (body.empty()) return;
       decode(config, layout, body, t);
-      if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) {
-        if (rules.fault().code != ErrorCode::NONE) {
-          status.unit = rules.fault().unit;
-          token = rules.fault().token;
+      if (const ErrorCode e = parts.rules.accept(t, token); e != ErrorCode::NONE) {
+        if (parts.rules.fault().code != ErrorCode::NONE) {
+          status.unit = parts.rules.fault().unit;
+          token = parts.rules.fault().token;
         }
         return fail(e, sink, body);
       }
@@ -173,7 +169,7 @@ struct GoldenCore::Data {
     }
   }
 
-  [[nodiscard]] LineView view() const { return {pixels, tree, rules}; }
+  [[nodiscard]] LineView view() const { return LineView(parts); }
 
   FrameStatus finish(const LineSink& sink) {
     const auto beat = static_cast<std::uint64_t>(config.beat_words);
@@ -185,7 +181,7 @@ struct GoldenCore::Data {
     } else if (at == At::ended && taken / beat != came / beat - 1) {
       status.error = ErrorCode::LAST_LATE;  // all lines have left
       status.frame = number;
-      status.line = static_cast<std::uint32_t>(rules.line());
+      status.line = static_cast<std::uint32_t>(parts.rules.line());
       status.token = token;
       if (observer != nullptr) observer->failed(status, {}, view());
     }

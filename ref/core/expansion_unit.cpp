@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 
 namespace kage {
 

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an observer of the golden core sees of the line at hand.
-#include "contract/rules.hpp"
-#include "core/pixel_line.hpp"
-#include "core/tree_core.hpp"
-#include "kage/core.hpp"
+#include "core/line_parts.hpp"
 
 namespace kage {
 
-int LineView::y() const { return rules_->line(); }
-bool LineView::segment_taken() const { return rules_->outcome().taken; }
-int LineView::width() const { return pixels_->width(); }
-std::uint32_t LineView::bias() const { return pixels_->bias(); }
-std::uint32_t LineView::background() const { return pixels_->background(); }
-bool LineView::painted() const { return pixels_->painted(); }
-PixelState LineView::pixel(int x) const { return pixels_->state(x); }
+int LineView::y() const { return parts_->rules.line(); }
+bool LineView::segment_taken() const { return parts_->rules.outcome().taken; }
+int LineView::width() const { return parts_->pixels.width(); }
+std::uint32_t LineView::bias() const { return parts_->pixels.bias(); }
+std::uint32_t LineView::background() const { return parts_->pixels.background(); }
+bool LineView::painted() const { return parts_->pixels.painted(); }
+PixelState LineView::pixel(int x) const { return parts_->pixels.state(x); }
 
 namespace {
 
@@ -31,8 +28,8 @@ LineView::UnitPixel unit_pixel_of(const TreeLine& line, int x) {
 }  // namespace
 
 LineView::UnitPixel LineView::unit_pixel(int unit, int x) const {
-  return unit_pixel_of(tree_->unit_lines()[static_cast<std::size_t>(unit)], x);
+  return unit_pixel_of(parts_->tree.unit_lines()[static_cast<std::size_t>(unit)], x);
 }
-LineView::UnitPixel LineView::tree_pixel(int x) const { return unit_pixel_of(tree_->line(), x); }
+LineView::UnitPixel LineView::tree_pixel(int x) const { return unit_pixel_of(parts_->tree.line(), x); }
 
 }  // namespace kage

@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {

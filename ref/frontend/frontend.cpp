@@ -88,26 +88,30 @@ void write_table(const FrameGeometry& g, const Config& config, TokenWriter& writ
     writer.table({static_cast<int>(i / lights) + 1, static_cast<int>(i % lights), g.shares[i]});
 }
 
+// Throws Error if the configuration cannot hold the frame.
+void check_fits(const FrameGeometry& g, const Config& config) {
+  const int widest = (1 << config.x_bits) - 1;
+  if (g.width > widest)
+    throw Error(
+        fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits, widest));
+  check_guard(g);
+  check_volumes(g, config);
+  if (config.translucency == 0 && !g.fragments.empty())
+    throw Error("translucent faces need TRANSLUCENCY, which the configuration lacks");
+}
+
 }  // namespace
 
 void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, const WordSink& sink,
                 const FrameOptions& options) {
   FrameOrigins* const origins = options.origins;
-  if (g.width > (1 << config.x_bits) - 1)
-    throw Error(fmt::format("lines of {} pixels do not fit X_BITS = {}, which holds {}", g.width, config.x_bits,
-                            (1 << config.x_bits) - 1));
-  check_guard(g);
-  const bool shadows = config.dsf_bits > 0 && !g.volumes.empty();
-  check_volumes(g, config);
-  if (config.translucency == 0 && !g.fragments.empty())
-    throw Error("translucent faces need TRANSLUCENCY, which the configuration lacks");
-
+  check_fits(g, config);
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
   writer.header({g.width, g.height, g.background, number});
   if (config.class_bits > 1)
     write_table(g, config, writer);
-  else if (shadows)
+  else if (config.dsf_bits > 0 && !g.volumes.empty())
     writer.shade(g.shade);
   FramePlan frame = prepare(g, config);
   if (options.report != nullptr) *options.report = frame.tree.report();

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 #include "kage/geometry.hpp"
 #include "kage/stream.hpp"
 #include "number/int128.hpp"

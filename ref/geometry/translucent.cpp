@@ -140,7 +140,7 @@ CutLine cut_line(const View& view, const Camera& camera, const std::array<glm::d
   return view.line((camera.perspective ? static_cast<double>(side) : static_cast<double>(-side)) * found.l);
 }
 
-FragmentMaker::FragmentMaker(const SceneFrame& frame, const View& view, TranslucentOrder::Data& kept,
+FragmentMaker::FragmentMaker(const SceneFrame& frame, const View& view, TranslucentOrderInside::Data& kept,
                              std::span<const std::uint32_t> faces, std::span<const int> sides)
     : frame_(&frame), view_(&view), kept_(&kept), faces_(faces), sides_(sides) {}
 
@@ -164,7 +164,7 @@ std::span<const std::uint32_t> FragmentMaker::nodes() {
     kept_->tree.reset();
     kept_->tree = OrderTree::build(mesh, kept_->build);
     kept_->mesh = std::move(mesh);
-    kept_->order = make_order(*kept_->tree, OrderWay::kFast);
+    kept_->order = make_order(*kept_->tree, OrderWay::fast);
   }
   return kept_->order->update(eye_of(frame_->camera));
 }

@@ -34,12 +34,18 @@ int eye_side(const Camera& camera, const std::array<glm::dvec3, 3>& face);
 CutLine cut_line(const View& view, const Camera& camera, const std::array<glm::dvec3, 3>& face, int side,
                  const std::array<glm::dvec3, 3>& node);
 
+/// The library's way into what is kept of an order.
+struct TranslucentOrderInside {
+  using Data = TranslucentOrder::Data;
+  static Data& of(TranslucentOrder& order) { return *order.data_; }
+};
+
 /// Puts translucent faces in order.
 class FragmentMaker {
  public:
   /// `faces`: those to be put in order, into frame.polygons, in draw order; all are triangles. `sides`: of each the
   /// eye's.
-  FragmentMaker(const SceneFrame& frame, const View& view, TranslucentOrder::Data& kept,
+  FragmentMaker(const SceneFrame& frame, const View& view, TranslucentOrderInside::Data& kept,
                 std::span<const std::uint32_t> faces, std::span<const int> sides);
 
   /// Append the fragments to `out`, back to front. `drawn(face)` is the range {first, count} of a face's polygons.
@@ -81,7 +87,7 @@ class FragmentMaker {
 
   const SceneFrame* frame_;
   const View* view_;
-  TranslucentOrder::Data* kept_;
+  TranslucentOrderInside::Data* kept_;
   std::span<const std::uint32_t> faces_;
   std::span<const int> sides_;
   std::unordered_map<std::uint64_t, std::uint32_t> lines_;  // of node and face

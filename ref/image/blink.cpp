@@ -15,8 +15,8 @@
 #include <new>
 #include <vector>
 
+#include "file/extension.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 
 namespace kage {
 namespace {

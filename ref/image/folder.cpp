@@ -10,10 +10,10 @@
 #include <set>
 #include <string_view>
 
+#include "file/extension.hpp"
 #include "file/regular_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 
 namespace kage {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <optional>
 
+#include "file/extension.hpp"
 #include "image/encoder.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 
 namespace kage {
 namespace {

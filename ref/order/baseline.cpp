@@ -7,7 +7,7 @@ namespace kage::order {
 namespace {
 
 /// The order in which [Tanaka 2005] figure 2.4 makes nodes: both subtrees, then the node that combines them.
-std::vector<std::uint32_t> build_order(const OrderTree::Data& data) {
+std::vector<std::uint32_t> build_order(const TreeData& data) {
   std::vector<std::uint32_t> order;  // backwards
   std::vector<std::uint32_t> stack;
   if (data.nodes() != 0) stack.push_back(0);
@@ -23,7 +23,7 @@ std::vector<std::uint32_t> build_order(const OrderTree::Data& data) {
 
 }  // namespace
 
-BaselineA::Polygon* BaselineA::polygons_of(const OrderTree::Data& data, std::uint32_t node) {
+BaselineA::Polygon* BaselineA::polygons_of(const TreeData& data, std::uint32_t node) {
   Polygon* root = nullptr;
   for (std::uint32_t f = data.first_fragment[node + std::size_t{1}]; f-- > data.first_fragment[node];) {
     const FragmentRecord& r = data.fragments[f];
@@ -35,8 +35,7 @@ BaselineA::Polygon* BaselineA::polygons_of(const OrderTree::Data& data, std::uin
   return root;
 }
 
-BaselineA::BaselineA(const OrderTree::Data& data)
-    : scale_(data.faces.scale), nodes_(data.nodes()), order_(data.nodes()) {
+BaselineA::BaselineA(const TreeData& data) : scale_(data.faces.scale), nodes_(data.nodes()), order_(data.nodes()) {
   for (const std::uint32_t v : build_order(data)) {
     Polygon* const root = polygons_of(data, v);
     const std::array<std::uint32_t, 3> p = data.plane_vertices(v);
@@ -75,7 +74,7 @@ std::span<const BaselineA::Polygon* const> BaselineA::update(const Eye& eye) {
   return order_;
 }
 
-BaselineB::BaselineB(const OrderTree::Data& data) : data_(data), order_(data.nodes()), stack_(data.stats.depth + 2) {
+BaselineB::BaselineB(const TreeData& data) : data_(data), order_(data.nodes()), stack_(data.stats.depth + 2) {
   for (std::uint32_t v = 0; v < data.nodes(); ++v) {
     const float* const p = data.blocks.data() + v / kBlock * kBlock * 4 + v % kBlock;
     nodes_.push_back({p[0], p[kBlock], p[2 * kBlock], p[3 * kBlock], data.first_child(v), data.second_child(v)});

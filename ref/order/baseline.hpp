@@ -33,7 +33,7 @@ class BaselineA {
   static constexpr std::string_view kNodeText =
       "struct Node { double a, b, c, d; Polygon* root; Node* front_child; Node* back_child; }";
 
-  explicit BaselineA(const OrderTree::Data& data);
+  explicit BaselineA(const TreeData& data);
 
   /// Polygons back to front; those of one plane by their first.
   std::span<const Polygon* const> update(const Eye& eye);
@@ -42,7 +42,7 @@ class BaselineA {
 
  private:
   void display(const Node* tree);
-  [[nodiscard]] Polygon* polygons_of(const OrderTree::Data& data, std::uint32_t node);
+  [[nodiscard]] Polygon* polygons_of(const TreeData& data, std::uint32_t node);
 
   Scale scale_;
   std::vector<std::unique_ptr<Node>> nodes_;  // by number
@@ -61,12 +61,12 @@ class BaselineB {
     std::uint32_t front;
     std::uint32_t back;
   };
-  explicit BaselineB(const OrderTree::Data& data);
+  explicit BaselineB(const TreeData& data);
   std::span<const std::uint32_t> update(const Eye& eye);
   [[nodiscard]] std::uint64_t bytes() const { return nodes_.size() * sizeof(Node); }
 
  private:
-  const OrderTree::Data& data_;
+  const TreeData& data_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> stack_;

@@ -146,9 +146,7 @@ class Builder {
   }
 
   void check_limit(std::uint64_t fragments) const {
-    if (fragments > limit_)
-      throw TooManyFragments(
-          fmt::format("to be put in order, polygons would be cut into more than {} fragments", limit_));
+    if (fragments > limit_) throw TooManyFragments(limit_);
   }
 
   void report(Done& done) {
@@ -175,3 +173,12 @@ BuildTree build_tree(const Faces& faces, const OrderBuildOptions& options, Order
 }
 
 }  // namespace kage::order
+
+namespace kage {
+
+TooManyFragments::TooManyFragments(std::uint64_t limit, const std::string& where)
+    : Error(fmt::format("{}{}to be put in order, polygons would be cut into more than {} fragments", where,
+                        where.empty() ? "" : ": ", limit)),
+      limit_(limit) {}
+
+}  // namespace kage

@@ -32,6 +32,6 @@ struct BuildTree {
 BuildTree build_tree(const Faces& faces, const OrderBuildOptions& options, OrderBuildStats& stats);
 
 /// Numbers the nodes and takes all out of them into flat arrays; `data.faces` is there already.
-void lay_out(const BuildTree& tree, OrderTree::Data& data);
+void lay_out(const BuildTree& tree, TreeData& data);
 
 }  // namespace kage::order

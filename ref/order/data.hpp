@@ -112,4 +112,16 @@ struct OrderTree::Data {
   void derive();
 };
 
+/// The library's way into a tree.
+struct OrderTreeInside {
+  using Data = OrderTree::Data;
+  static const Data& of(const OrderTree& tree) { return *tree.data_; }
+};
+
+namespace order {
+
+using TreeData = OrderTreeInside::Data;
+inline const TreeData& data_of(const OrderTree& tree) { return OrderTreeInside::of(tree); }
+
+}  // namespace order
 }  // namespace kage

@@ -55,7 +55,7 @@ constexpr double kLongestPath = 64;
 
 class Fast final : public VisibilityOrder {
  public:
-  explicit Fast(const OrderTree::Data& data)
+  explicit Fast(const TreeData& data)
       : data_(data),
         eye_(data),
         parts_(data),
@@ -100,7 +100,7 @@ class Fast final : public VisibilityOrder {
             sides_.data(),     place_.data(),         order_.data(),          spare_.data()};
   }
 
-  const OrderTree::Data& data_;
+  const TreeData& data_;
   EyeSides eye_;
   Parts parts_;
   std::size_t blocks_;
@@ -133,8 +133,8 @@ void Fast::move_to(const Eye& eye) {
   }
   const bool same = placed_ && next.eye().perspective == eye_.eye().perspective && next.eye().at == eye_.eye().at;
   if (same) {
-    step_.tests = OrderStep::Tests::kBlocks;
-    step_.change = OrderStep::Change::kNone;
+    step_.tests = OrderStep::Tests::blocks;
+    step_.change = OrderStep::Change::none;
     step_.why = "the eye has not moved";
     return;
   }
@@ -142,18 +142,18 @@ void Fast::move_to(const Eye& eye) {
   eye_ = next;
   test(way);
   if (placed_ && step_.flips == 0) {
-    step_.change = OrderStep::Change::kNone;
+    step_.change = OrderStep::Change::none;
     step_.why = "no side changed";
     return;
   }
   step_.rebuild_cost = costs_.rebuild;
   if (placed_ && exchange_is_cheaper()) {
     exchange();
-    step_.change = OrderStep::Change::kExchange;
+    step_.change = OrderStep::Change::exchange;
     step_.why = "exchanging what changed costs less than a rebuild";
   } else {
     rebuild();
-    step_.change = OrderStep::Change::kRebuild;
+    step_.change = OrderStep::Change::rebuild;
     step_.why = placed_ ? "exchanging what changed costs more than a rebuild" : "there was no order yet";
   }
   placed_ = true;
@@ -175,10 +175,10 @@ void Fast::test(double way) {
     since_margin_ = 0;
     counts = test_blocks(blocks, query, path_);
     if (counts.blocks * 2 > blocks_) margin_ = counts.margins / static_cast<double>(counts.blocks);
-    step_.tests = OrderStep::Tests::kBlocks;
+    step_.tests = OrderStep::Tests::blocks;
   } else {
     counts = test_all(blocks, query);
-    step_.tests = OrderStep::Tests::kAll;
+    step_.tests = OrderStep::Tests::all;
   }
   step_.tested = std::min<std::uint64_t>(counts.blocks * kBlock, data_.nodes());
   step_.flips = counts.flips;
@@ -281,6 +281,6 @@ void Fast::calibrate() {
 
 }  // namespace
 
-std::unique_ptr<VisibilityOrder> make_fast(const OrderTree::Data& data) { return std::make_unique<Fast>(data); }
+std::unique_ptr<VisibilityOrder> make_fast(const TreeData& data) { return std::make_unique<Fast>(data); }
 
 }  // namespace kage::order

@@ -66,7 +66,7 @@ constexpr std::size_t kArrays = 11;
 constexpr std::size_t kHeader = 16 + 8 * kArrays;
 
 /// What is wrong with arrays that were read, or nothing.
-std::string check(const OrderTree::Data& d) {
+std::string check(const order::TreeData& d) {
   using order::Face;
   const std::size_t nodes = d.size.size();
   const auto bad = [](const char* what, std::size_t i) { return fmt::format("{} {} makes no sense", what, i); };

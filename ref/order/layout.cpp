@@ -43,7 +43,7 @@ std::vector<BuildNode*> preorder(BuildNode* root) {
   return nodes;
 }
 
-std::uint64_t depth_of(const OrderTree::Data& data) {
+std::uint64_t depth_of(const TreeData& data) {
   std::vector<std::uint64_t> depth(data.nodes(), 1);
   std::uint64_t deepest = 0;
   for (std::uint32_t v = 0; v < data.nodes(); ++v) {
@@ -54,7 +54,7 @@ std::uint64_t depth_of(const OrderTree::Data& data) {
   return deepest;
 }
 
-void add_fragment(const BuildFragment& f, OrderTree::Data& data) {
+void add_fragment(const BuildFragment& f, TreeData& data) {
   data.fragments.push_back(
       {f.face, static_cast<std::uint32_t>(data.cuts.size()), static_cast<std::uint32_t>(data.edges.size())});
   const Faces& faces = data.faces;
@@ -75,7 +75,7 @@ void add_fragment(const BuildFragment& f, OrderTree::Data& data) {
 
 }  // namespace
 
-void lay_out(const BuildTree& tree, OrderTree::Data& data) {
+void lay_out(const BuildTree& tree, TreeData& data) {
   const std::vector<BuildNode*> top_down = preorder(tree.root);
   for (std::size_t i = top_down.size(); i-- > 0;) {  // children before parents
     BuildNode& node = *top_down[i];

@@ -27,7 +27,7 @@ double median(std::vector<double> v) {
 double unit_random(std::uint64_t& state) { return static_cast<double>(next_random(state) >> 11U) * 0x1p-53; }
 
 /// Faces of an order, so that a walk has something to read.
-std::uint64_t walk(const OrderTree::Data& data, std::span<const std::uint32_t> order) {
+std::uint64_t walk(const TreeData& data, std::span<const std::uint32_t> order) {
   std::uint64_t sum = 0;
   for (const std::uint32_t v : order)
     for (std::uint32_t f = data.first_fragment[v]; f < data.first_fragment[v + std::size_t{1}]; ++f)
@@ -45,14 +45,14 @@ std::uint64_t walk(std::span<const BaselineA::Polygon* const> order) {
 class Measurement {
  public:
   Measurement(const OrderTree& tree, const MeasureOptions& options)
-      : data_(tree.data()),
+      : data_(data_of(tree)),
         tree_(tree),
         options_(options),
         a_(data_),
         b_(data_),
-        recursion_(make_order(tree, OrderWay::kRecursion)),
-        list_(make_order(tree, OrderWay::kSwitchingList)),
-        fast_(make_order(tree, OrderWay::kFast)) {}
+        recursion_(make_order(tree, OrderWay::recursion)),
+        list_(make_order(tree, OrderWay::switching_list)),
+        fast_(make_order(tree, OrderWay::fast)) {}
 
   Measured run() {
     Measured result;
@@ -134,8 +134,8 @@ class Measurement {
       const OrderStep& step = fast_->last_step();
       flips += static_cast<double>(step.flips);
       tested += static_cast<double>(step.tested);
-      row.rebuilds += step.change == OrderStep::Change::kRebuild ? 1 : 0;
-      row.exchanges += step.change == OrderStep::Change::kExchange ? 1 : 0;
+      row.rebuilds += step.change == OrderStep::Change::rebuild ? 1 : 0;
+      row.exchanges += step.change == OrderStep::Change::exchange ? 1 : 0;
       row.unsure += step.unsure;
       row.exact += step.exact;
     }
@@ -144,7 +144,7 @@ class Measurement {
     row.tested_share = all > 0 ? tested / all : 0;
   }
 
-  const OrderTree::Data& data_;
+  const TreeData& data_;
   const OrderTree& tree_;
   const MeasureOptions& options_;
   BaselineA a_;
@@ -158,7 +158,7 @@ class Measurement {
 }  // namespace
 
 std::vector<Eye> eyes_round(const OrderTree& tree, const MeasureOptions& options, double degrees) {
-  const OrderTree::Data& d = tree.data();
+  const TreeData& d = data_of(tree);
   const Scale back{-d.faces.scale.exponent};
   const auto eye = [&](double x, double y, double z) {
     const double r = 2.5 * d.radius;

@@ -33,7 +33,7 @@ std::uint64_t order_of(const std::uint32_t* size, std::uint32_t sides) {
 
 }  // namespace
 
-Parts::Parts(const OrderTree::Data& data) {
+Parts::Parts(const TreeData& data) {
   mark(data);
   parts_.resize(below(data.nodes()));
   const auto none = static_cast<std::uint32_t>(parts_.size());
@@ -61,7 +61,7 @@ Parts::Parts(const OrderTree::Data& data) {
   table_.shrink_to_fit();
 }
 
-void Parts::mark(const OrderTree::Data& data) {
+void Parts::mark(const TreeData& data) {
   const std::uint32_t n = data.nodes();
   starts_.assign(n / 64 + 1, {});
   for (std::uint32_t v = 0; v < n;) {
@@ -75,7 +75,7 @@ void Parts::mark(const OrderTree::Data& data) {
   }
 }
 
-std::uint32_t Parts::shape_entry(const OrderTree::Data& data, std::uint32_t first,
+std::uint32_t Parts::shape_entry(const TreeData& data, std::uint32_t first,
                                  std::vector<std::pair<std::uint32_t, std::uint32_t>>& known) {
   const std::uint32_t nodes = data.size[first];
   std::uint32_t shape = 0;  // sizes in preorder, a digit each

@@ -17,7 +17,7 @@ namespace kage::order {
 
 class Parts {
  public:
-  explicit Parts(const OrderTree::Data& data);
+  explicit Parts(const TreeData& data);
 
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
@@ -29,14 +29,14 @@ class Parts {
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
-  void mark(const OrderTree::Data& data);
+  void mark(const TreeData& data);
   /// Number of parts that begin below `node`.
   [[nodiscard]] std::uint32_t below(std::uint32_t node) const {
     const std::uint64_t low = starts_[node / 64].bits & ((std::uint64_t{1} << (node % 64)) - 1);
     return static_cast<std::uint32_t>(starts_[node / 64].before) +
            static_cast<std::uint32_t>(__builtin_popcountll(low));
   }
-  std::uint32_t shape_entry(const OrderTree::Data& data, std::uint32_t first,
+  std::uint32_t shape_entry(const TreeData& data, std::uint32_t first,
                             std::vector<std::pair<std::uint32_t, std::uint32_t>>& known);
 
   std::vector<Part> parts_;

@@ -9,7 +9,7 @@ namespace {
 
 class Recursion final : public VisibilityOrder {
  public:
-  explicit Recursion(const OrderTree::Data& data) : data_(data), eye_(data), front_(data.nodes()) {
+  explicit Recursion(const TreeData& data) : data_(data), eye_(data), front_(data.nodes()) {
     order_.reserve(data.nodes());
   }
 
@@ -61,7 +61,7 @@ class Recursion final : public VisibilityOrder {
     std::uint32_t node;
     bool far_done;
   };
-  const OrderTree::Data& data_;
+  const TreeData& data_;
   EyeSides eye_;
   std::vector<bool> front_;
   std::vector<std::uint32_t> order_;
@@ -70,8 +70,6 @@ class Recursion final : public VisibilityOrder {
 
 }  // namespace
 
-std::unique_ptr<VisibilityOrder> make_recursion(const OrderTree::Data& data) {
-  return std::make_unique<Recursion>(data);
-}
+std::unique_ptr<VisibilityOrder> make_recursion(const TreeData& data) { return std::make_unique<Recursion>(data); }
 
 }  // namespace kage::order

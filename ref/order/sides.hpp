@@ -10,7 +10,7 @@ namespace kage::order {
 
 class EyeSides {
  public:
-  explicit EyeSides(const OrderTree::Data& data) : data_(&data) {}
+  explicit EyeSides(const TreeData& data) : data_(&data) {}
 
   /// Throws Error if the eye is none.
   void set(const Eye& eye);
@@ -21,7 +21,7 @@ class EyeSides {
   /// Calls of front() that integers decided.
   [[nodiscard]] std::uint64_t exact() const { return exact_; }
 
-  /// For the planes of OrderTree::Data::blocks.
+  /// For the planes of TreeData::blocks.
   [[nodiscard]] SideQuery query() const;
 
   /// How much the distance to any plane of `blocks` may have changed since the eye was `before`; infinite if nothing is
@@ -31,7 +31,7 @@ class EyeSides {
   [[nodiscard]] const Eye& eye() const { return eye_; }
 
  private:
-  const OrderTree::Data* data_;
+  const TreeData* data_;
   Eye eye_;
   OrderPoint at_{};    // perspective: scaled as the vertices; parallel: against the view, by a power of two
   OrderPoint unit_{};  // parallel: against the view, length 1 to 2^-51

@@ -24,14 +24,14 @@ struct Element {
 
 class SwitchingList final : public VisibilityOrder {
  public:
-  explicit SwitchingList(const OrderTree::Data& data) : data_(data), eye_(data) {}
+  explicit SwitchingList(const TreeData& data) : data_(data), eye_(data) {}
 
   void move_to(const Eye& eye) override {
     eye_.set(eye);
     const std::uint64_t exact = eye_.exact();
     const bool first = list_.empty();
     step_ = {};
-    step_.tests = OrderStep::Tests::kAll;
+    step_.tests = OrderStep::Tests::all;
     if (first) make();
     for (const std::uint32_t v : switching_) {
       const bool front = eye_.front(v);
@@ -47,7 +47,7 @@ class SwitchingList final : public VisibilityOrder {
     }
     step_.tested = switching_.size();
     step_.exact = eye_.exact() - exact;
-    step_.change = step_.flips != 0 || first ? OrderStep::Change::kExchange : OrderStep::Change::kNone;
+    step_.change = step_.flips != 0 || first ? OrderStep::Change::exchange : OrderStep::Change::none;
     step_.why = "sublists of nodes whose side changed were exchanged";
     fresh_ = false;
   }
@@ -136,7 +136,7 @@ class SwitchingList final : public VisibilityOrder {
     moved_[p] = true;
   }
 
-  const OrderTree::Data& data_;
+  const TreeData& data_;
   EyeSides eye_;
   std::vector<Element> list_;
   std::vector<std::uint32_t> switching_;
@@ -149,7 +149,7 @@ class SwitchingList final : public VisibilityOrder {
 
 }  // namespace
 
-std::unique_ptr<VisibilityOrder> make_switching_list(const OrderTree::Data& data) {
+std::unique_ptr<VisibilityOrder> make_switching_list(const TreeData& data) {
   return std::make_unique<SwitchingList>(data);
 }
 

@@ -84,8 +84,8 @@ TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts
                  sink(words);
                },
                {.threads = options_.threads, .report = &parts.polyhedra, .origins = origins});
-  } catch (const TooManyFragments&) {
-    throw;
+  } catch (const TooManyFragments& e) {
+    throw TooManyFragments(e.limit(), where);
   } catch (const Error& e) {
     if (begun) throw;
     throw Error(fmt::format("{}: {}", where, e.what()));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "contract/kinds.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {
@@ -73,27 +74,22 @@ std::map<std::uint32_t, TokenSource> Provenance::of_tokens(const Config& config,
   std::size_t shadow = 0;
   std::size_t translucent = 0;
   for (std::uint32_t token = 1; !words.empty(); ++token) {
-    const auto kind = static_cast<Kind>(words[0] & 15U);
-    words = words.subspan(layout.words[words[0] & 15U]);
+    const auto kind = kind_of(words[0]);
+    words = words.subspan(layout.words_of(words[0]));
     const bool is_wanted = wanted.count(token) != 0;
     switch (kind) {
       case Kind::OP:
         if (is_wanted) all[token] = of_face(origins_.opaque[opaque].polygon);
         ++opaque;
         break;
-      case Kind::SP:
-      case Kind::NC:
-      case Kind::IF:
-      case Kind::EV:
-        if (is_wanted) all[token] = of_volume(origins_.shadow[shadow], kind);
-        ++shadow;
-        break;
       case Kind::TP:
         if (is_wanted) all[token] = of_face(origins_.translucent[translucent].polygon);
         ++translucent;
         break;
       default:
-        break;
+        if (!info_of(kind).volume) break;
+        if (is_wanted) all[token] = of_volume(origins_.shadow[shadow], kind);
+        ++shadow;
     }
   }
   return all;

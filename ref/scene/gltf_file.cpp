@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "file/base64.hpp"
+#include "file/extension.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 #include "notes.hpp"
 
 namespace kage::scene {

@@ -59,4 +59,10 @@ struct ShadowCache::Data {
   std::vector<KeptSample> samples_;
 };
 
+/// The library's way into a cache.
+struct ShadowCacheInside {
+  using Data = ShadowCache::Data;
+  static Data& of(ShadowCache& cache) { return *cache.data_; }
+};
+
 }  // namespace kage

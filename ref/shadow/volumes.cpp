@@ -16,7 +16,7 @@ constexpr std::uint64_t kTrials = 2'000'000;
 }  // namespace
 
 VolumeCaster::VolumeCaster(const SceneFrame& frame, std::span<const SpaceBox> boxes, int dsf_bits, VolumeWay way,
-                           ShadowCache::Data& kept)
+                           ShadowCacheInside::Data& kept)
     : frame_(&frame), boxes_(boxes), kept_(&kept), limit_((1 << dsf_bits) - 1), way_(way) {
   kept.take(frame, limit_, way);
 }

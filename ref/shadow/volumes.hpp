@@ -22,7 +22,7 @@ class VolumeCaster {
   /// Refers to `frame`, `boxes`, which are those of its components, and `kept`, which is that of frames before.
   /// `dsf_bits`: bits that the core counts with, >= 1.
   VolumeCaster(const SceneFrame& frame, std::span<const SpaceBox> boxes, int dsf_bits, VolumeWay way,
-               ShadowCache::Data& kept);
+               ShadowCacheInside::Data& kept);
 
   /// Call `sink` with every volume of a light sample, in order of their first casters. No ray of light meets more than
   /// 2^dsf_bits - 1 caps of a volume. `sample`: its number.
@@ -59,7 +59,7 @@ class VolumeCaster {
 
   const SceneFrame* frame_;
   std::span<const SpaceBox> boxes_;
-  ShadowCache::Data* kept_;
+  ShadowCacheInside::Data* kept_;
   KeptSample* sample_ = nullptr;  // the one being made
   std::vector<KeptSample::Volume> made_;
   int limit_;

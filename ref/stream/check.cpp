@@ -89,10 +89,10 @@ struct FrameChecker::Data {
   }
 
   void check_token(std::span<const std::uint32_t> body) {
-    const auto kind = body[0] & 15U;
     const Token t = decode(config, layout, body);
     if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) fail(e);
-    if (!padding_is_zero(body, layout.bits[kind])) fail("bits past the last field are not zero");
+    if (!padding_is_zero(body, layout.bits[static_cast<std::size_t>(t.kind)]))
+      fail("bits past the last field are not zero");
     if (t.kind != Kind::TABLE && t.kind != Kind::FACE && rules.class_cut()) fail("the light table ends within a class");
     if (t.kind == Kind::FACE) {
       auto& of_unit = faces[static_cast<std::size_t>(t.segment.unit)];
@@ -131,7 +131,7 @@ void FrameChecker::feed(std::span<const std::uint32_t> words) {
   }
   while (const std::uint32_t* first = d.cutter.peek()) {
     if (d.ended) d.fail("words after END");
-    const std::size_t n = d.layout.words[*first & 15U];
+    const std::size_t n = d.layout.words_of(*first);
     if (n == 0) d.fail(ErrorCode::KIND);
     const auto body = d.cutter.take(n);
     if (body.empty()) return;

@@ -54,7 +54,7 @@ class GroupReader {
   /// Of the next token; 0, which is no kind, where there is none.
   [[nodiscard]] Kind kind() const {
     const Words token = walk_.peek();
-    return token.empty() ? Kind{} : static_cast<Kind>(token[0] & 15U);
+    return token.empty() ? Kind{} : kind_of(token[0]);
   }
 
   void start(Group& group) const {
@@ -145,7 +145,7 @@ class FrameComparer {
 
   /// Whether words are one token whole. Those behind END may be by chance, and are told as that token then.
   [[nodiscard]] bool is_token(Words words) const {
-    return !words.empty() && layout_.words[words[0] & 15U] == words.size();
+    return !words.empty() && layout_.words_of(words[0]) == words.size();
   }
 
   [[nodiscard]] std::string words(Words token) const {

@@ -31,6 +31,7 @@
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
+#include "stream/finish.hpp"
 
 namespace kage {
 namespace {
@@ -158,18 +159,24 @@ void StreamFileWriter::frame(std::span<const std::uint32_t> w) {
 
 void StreamFileWriter::origin(const std::string& json) { data_->section("ORIG", json.data(), json.size()); }
 
-void StreamFileWriter::finish(TempFiles& files) {
+/// The library's way into a writer.
+struct StreamFileWriterInside {
+  static StreamFileWriter::Data& of(StreamFileWriter& writer) { return *writer.data_; }
+};
+
+void finish(StreamFileWriter& writer, TempFiles& files) {
+  auto& data = StreamFileWriterInside::of(writer);
   std::array<char, 12> payload{};
-  std::memcpy(payload.data(), &data_->frames, 8);
-  std::memcpy(payload.data() + 8, &data_->headers_crc, 4);
-  data_->section("DONE", payload.data(), payload.size());
-  data_->out->close();
-  if (data_->file) files.add(std::move(data_->file));
+  std::memcpy(payload.data(), &data.frames, 8);
+  std::memcpy(payload.data() + 8, &data.headers_crc, 4);
+  data.section("DONE", payload.data(), payload.size());
+  data.out->close();
+  if (data.file) files.add(std::move(data.file));
 }
 
 void StreamFileWriter::finish() {
   TempFiles files;
-  finish(files);
+  kage::finish(*this, files);
   files.commit();
 }
 

@@ -15,14 +15,14 @@ TokenWalk::TokenWalk(const Layout& layout, std::span<const std::uint32_t> words)
 
 std::span<const std::uint32_t> TokenWalk::peek() const {
   if (ended_ || rest_.empty()) return {};
-  const auto length = static_cast<std::size_t>(layout_->words[rest_[0] & 15U]);
+  const auto length = layout_->words_of(rest_[0]);
   return length > rest_.size() ? std::span<const std::uint32_t>() : rest_.first(length);
 }
 
 std::span<const std::uint32_t> TokenWalk::next() {
   const auto token = peek();
   if (token.empty()) return {};
-  ended_ = static_cast<Kind>(token[0] & 15U) == Kind::END;
+  ended_ = kind_of(token[0]) == Kind::END;
   rest_ = rest_.subspan(token.size());
   return token;
 }
@@ -30,9 +30,10 @@ std::span<const std::uint32_t> TokenWalk::next() {
 std::string TokenWalk::rest_text() const {
   if (rest_.empty()) return "";
   if (ended_) return fmt::format("{} word{} behind END", rest_.size(), rest_.size() == 1 ? "" : "s");
-  const std::size_t kind = rest_[0] & 15U;
-  if (layout_->words[kind] == 0) return fmt::format("kind {}, which is no token here", kind);
-  return fmt::format("{} of {} words, cut after {}", kKindNames[kind], layout_->words[kind], rest_.size());
+  const auto kind = static_cast<std::size_t>(kind_of(rest_[0]));
+  const std::size_t length = layout_->words_of(rest_[0]);
+  if (length == 0) return fmt::format("kind {}, which is no token here", kind);
+  return fmt::format("{} of {} words, cut after {}", kKindNames[kind], length, rest_.size());
 }
 
 std::string words_text(std::span<const std::uint32_t> words) { return fmt::format("{:#010x}", fmt::join(words, " ")); }

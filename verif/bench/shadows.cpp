@@ -49,7 +49,7 @@ struct Sum {
 
 void count_tokens(const Config& config, std::span<const std::uint32_t> words, Sum& sum) {
   const Layout layout(config);
-  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) {
+  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words_of(words[at])) {
     const Token t = decode(config, layout, words.subspan(at));
     const auto pixels = static_cast<std::uint64_t>(t.span.xr - t.span.xl);
     if (t.kind == Kind::SP || t.kind == Kind::NC) {

@@ -11,9 +11,8 @@ void PhaseMarker::mark(std::span<const std::uint32_t> words, std::vector<std::ui
   marks.reserve(marks.size() + words.size());
   for (const std::uint32_t word : words) {
     if (left_ == 0) {
-      const std::size_t kind = word & 15U;
-      left_ = layout_.words[kind];
-      phase_ = left_ == 0 ? Phase::state : phase_of(static_cast<Kind>(kind));
+      left_ = layout_.words_of(word);
+      phase_ = left_ == 0 ? Phase::state : phase_of(kind_of(word));
       if (left_ == 0) left_ = std::numeric_limits<std::uint64_t>::max();
     }
     --left_;

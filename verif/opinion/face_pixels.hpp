@@ -31,7 +31,7 @@ inline FacePixels pixels_of_faces(FrameGeometry g, const Config& config) {
   const Layout layout(config);
   FacePixels pixels;
   int y = 0;
-  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) {
+  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words_of(words[at])) {
     const Token t = decode(config, layout, std::span(words).subspan(at));
     if (t.kind == Kind::EOL) ++y;
     if (t.kind != Kind::TP) continue;

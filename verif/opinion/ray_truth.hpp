@@ -212,6 +212,45 @@ inline bool exact_shadow(const RayScene& rays, const glm::dvec3& origin, const g
                       light.directional ? INFINITY : 1, face);
 }
 
+/// The golden core's pictures of `whole` by what a pixel shows: the number of its polygon, or kNothing, and 0 where it
+/// is in shadow.
+struct RayPictures {
+  std::vector<std::uint32_t> seen;
+  std::vector<std::uint32_t> shadow;
+};
+
+inline RayPictures ray_pictures(const FrameGeometry& whole, const Config& config) {
+  RayPictures pictures;
+  FrameGeometry g = whole;
+  g.background = kNothing;
+  g.shade = 0;
+  for (std::uint32_t i = 0; i < g.drawn; ++i) {
+    g.polygons[i].lit = true;
+    for (unsigned c = 0; c < 3; ++c) g.polygons[i].color[c] = static_cast<std::uint8_t>(i >> (8 * c));
+  }
+  pictures.seen = draw(g, config);
+  g.shade = 1U << config.shade_frac;
+  g.background = 0x808080;
+  for (std::uint32_t i = 0; i < g.drawn; ++i) g.polygons[i].color = {255, 255, 255};
+  pictures.shadow = draw(g, config);
+  return pictures;
+}
+
+/// The ray through the middle of a pixel. Its direction has length 1 along forward: t is the distance that the near
+/// plane is measured in.
+struct PixelRay {
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+};
+
+inline PixelRay pixel_ray(const Camera& camera, int x, int y, int width, int height) {
+  const double unit = 2 * camera.half_height / height;
+  const glm::dvec3 across =
+      camera.right * ((x + 0.5 - width / 2.0) * unit) + camera.up * ((height / 2.0 - y - 0.5) * unit);
+  return {camera.perspective ? camera.eye : camera.eye + across,
+          camera.perspective ? camera.forward + across : camera.forward};
+}
+
 /// Compares the golden core's picture of `whole`, made from frame `f`, with rays through `f`, which `rays` follows, at
 /// every `step`th pixel of every `step`th line. Where the picture differs, is no near tie, and `exact`, if given, says
 /// what the picture says, the rays were wrong.
@@ -220,21 +259,8 @@ RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whole, cons
                            int step = 1, const RayScene* exact = nullptr) {
   const int width = whole.width;
   const int height = whole.height;
-  FrameGeometry g = whole;
-  g.background = kNothing;
-  g.shade = 0;
-  for (std::uint32_t i = 0; i < g.drawn; ++i) {
-    g.polygons[i].lit = true;
-    for (unsigned c = 0; c < 3; ++c) g.polygons[i].color[c] = static_cast<std::uint8_t>(i >> (8 * c));
-  }
-  const auto seen = draw(g, config);
-  g.shade = 1U << config.shade_frac;
-  g.background = 0x808080;
-  for (std::uint32_t i = 0; i < g.drawn; ++i) g.polygons[i].color = {255, 255, 255};
-  const auto shadow = draw(g, config);
-
+  const auto [seen, shadow] = ray_pictures(whole, config);
   const Camera& camera = f.camera;
-  const double unit = 2 * camera.half_height / height;
   Oracle oracle(whole, config);
   RayCount count;
   for (int y = 0; y < height; y += step) {
@@ -243,11 +269,7 @@ RayCount compare_with_rays(const SceneFrame& f, const FrameGeometry& whole, cons
       const std::size_t at =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       ++count.pixels;
-      const glm::dvec3 across =
-          camera.right * ((x + 0.5 - width / 2.0) * unit) + camera.up * ((height / 2.0 - y - 0.5) * unit);
-      const glm::dvec3 origin = camera.perspective ? camera.eye : camera.eye + across;
-      const glm::dvec3 direction = camera.perspective ? camera.forward + across : camera.forward;
-      // direction has length 1 along forward, so t is the distance that the near plane is measured in.
+      const auto [origin, direction] = pixel_ray(camera, x, y, width, height);
       const auto [nearest, surface] = rays.nearest(origin, direction, camera.near);
       const auto polygon = seen[at] == kNothing ? -1 : static_cast<std::int32_t>(seen[at]);
       const std::uint32_t shown = polygon < 0 ? kNothing : whole.polygons[static_cast<std::uint32_t>(polygon)].source;

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <string_view>
 
+#include "contract/derived.hpp"
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
-#include "kage/derived.hpp"
 
 namespace kage::verif {
 
@@ -193,13 +193,6 @@ void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const s
     case Kind::OP:
       opaque(t.span, line);
       break;
-    case Kind::SP:
-    case Kind::NC:
-    case Kind::IF:
-    case Kind::EV:
-    case Kind::ES:
-      volume(t, line);
-      break;
     case Kind::RESOLVE:
       resolve(line);
       break;
@@ -211,7 +204,7 @@ void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const s
       has_spans_ = false;
       break;
     default:
-      break;
+      if (info_of(t.kind).volume) volume(t, line);
   }
 }
 

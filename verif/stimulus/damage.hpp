@@ -19,10 +19,9 @@ class TokenPlaces {
 
   TokenPlaces(const Config& c, std::vector<std::uint32_t>& words) : layout_(c), words_(&words) {
     for (std::size_t at = kHeaderWords; at < words.size();) {
-      const std::size_t kind = words[at] & 15U;
-      const auto length = static_cast<std::size_t>(layout_.words[kind]);
+      const std::size_t length = layout_.words_of(words[at]);
       if (length == 0 || length > words.size() - at) return;
-      places_[kind].push_back(static_cast<At>(at));
+      places_[static_cast<std::size_t>(kind_of(words[at]))].push_back(static_cast<At>(at));
       all_.push_back(static_cast<At>(at));
       at += length;
     }

@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 
 namespace kage::verif {
 namespace {

@@ -28,7 +28,7 @@ void misplace(Random& random, const Config& c, Words& words) {
     return places.all()[static_cast<std::size_t>(random.in(0, static_cast<int>(places.all().size()) - 1))];
   };
   const TokenPlaces::At at = any();
-  const TokenPlaces::At length = change.length(static_cast<Kind>(words[static_cast<std::size_t>(at)] & 15U));
+  const TokenPlaces::At length = change.length(kind_of(words[static_cast<std::size_t>(at)]));
   if (random.chance(0.3))
     change.erase(at, length);
   else

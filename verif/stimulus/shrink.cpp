@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include "contract/derived.hpp"
 #include "contract/fields.hpp"
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
-#include "kage/derived.hpp"
 #include "stimulus/damage.hpp"
 
 namespace kage::verif {
@@ -45,7 +45,7 @@ Words together(const Parts& p) {
   return words;
 }
 
-bool is(const Words& token, Kind kind) { return static_cast<Kind>(token[0] & 15U) == kind; }
+bool is(const Words& token, Kind kind) { return kind_of(token[0]) == kind; }
 
 /// Where a SEG is: SEGs run ahead, and a unit's of a line sum to the width.
 class SegmentPlaces {
@@ -199,7 +199,7 @@ class Shrinker {
       bool state = true;  // what stands before the first line stays
       SegmentPlaces segments(p.header);
       for (Words& t : p.tokens) {
-        state = state && info_of(static_cast<Kind>(t[0] & 15U)).state;
+        state = state && info_of(kind_of(t[0])).state;
         const std::size_t of = is(t, Kind::SEG) ? segments.next(decode(config_, layout_, t).segment).line : line;
         const bool gone = !state && !is(t, Kind::END) && of >= first && of < last;
         line += is(t, Kind::EOL) ? 1U : 0U;
@@ -258,7 +258,7 @@ class Shrinker {
     };
     TokenPlaces places(config_, words);
     for (const TokenPlaces::At at : places.all()) {
-      const auto kind = static_cast<Kind>(words[static_cast<std::size_t>(at)] & 15U);
+      const auto kind = kind_of(words[static_cast<std::size_t>(at)]);
       std::uint64_t cut = 0;  // pixels that a span loses at its left: it goes on with the depth and colour behind them
       each_field(config_, layout_, kind, [&](std::string_view name, int, Field field) {
         if (field.bits == 0 || (name != "xl" && name != "xr")) return;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Configurations of the core: reading, checking, naming. The parameters themselves come from rtl/defs/kage.yaml by
-// defs.hpp.
+
+/// @file
+/// Configurations of the core: reading, checking, naming. The parameters themselves come from rtl/defs/kage.yaml by
+/// defs.hpp.
 #pragma once
 
 #include <string>
@@ -11,31 +12,37 @@
 
 namespace kage {
 
-/// A configuration and its name: that of the list, or the file it came from.
+/// A configuration and its name.
 struct NamedConfig {
-  std::string name;
-  Config config;
+  std::string name;  ///< that of the list, or the file it came from
+  Config config;     ///< the parameters, legal
 };
 
-/// Throws Error if a parameter is out of its range or two do not fit together (docs/stream.md, Parameters).
-/// `where` opens the message: "my.yaml: Z_BITS is 40, legal are 4 .. 28".
+/// Judges a configuration. Throws Error if a parameter is out of its range or two do not fit together (docs/stream.md,
+/// Parameters).
+/// @param config what is judged
+/// @param where opens the message: "my.yaml: Z_BITS is 40, legal are 4 .. 28"
 void validate(const Config& config, const std::string& where);
 
-/// The named configurations of rtl/defs/configs.yaml, in listed order, all valid.
+/// The list of rtl/defs/configs.yaml. Throws Error if kage's data is not there.
+/// @return the named configurations, in listed order, all legal
 std::vector<NamedConfig> named_configs();
 
-/// The configuration with this name, or the one in this file: YAML, one `PARAMETER: value` a line, others at their
-/// defaults.
+/// Finds a configuration. Throws Error that names the file, or the names there are.
+/// @param name_or_file a name of the list, or a file: YAML, one `PARAMETER: value` a line, others at their defaults
+/// @return the configuration, legal
 NamedConfig load_config(const std::string& name_or_file);
 
-/// The parameters as YAML, one a line, in the order of the definition file.
+/// Writes a configuration as load_config() reads it.
+/// @param config what is written
+/// @return YAML, one parameter a line, in the order of the definition file
 std::string to_yaml(const Config& config);
 
 /// What a scene asks of a core, as far as it decides which named configuration can draw it.
 struct Needs {
-  int width = 1;
-  int height = 1;
-  bool shadows = false;
+  int width = 1;                 ///< of the picture, in pixels
+  int height = 1;                ///< of the picture, in lines
+  bool shadows = false;          ///< something opaque casts shadows
   bool several_volumes = false;  ///< by parity more than one volume; with DSF_BITS > 1 one may do
   bool smooth = false;           ///< colour varies within a polygon
   bool color = false;            ///< some colour is not grey
@@ -44,15 +51,22 @@ struct Needs {
   int samples = 1;               ///< of a light, at most
 };
 
-/// What `config` lacks of `needs`: one word or phrase each ("SMOOTH", "MAX_WIDTH >= 1280"), empty if nothing.
+/// Compares a configuration with what is asked of it.
+/// @param config a legal configuration
+/// @param needs what is asked
+/// @return what it lacks, one word or phrase each ("SMOOTH", "MAX_WIDTH >= 1280"), empty if nothing
 std::vector<std::string> lacks(const Config& config, const Needs& needs);
 
-/// The first named configuration that lacks nothing; if there is none, Error names the one that lacks the fewest
-/// things, and those.
+/// Chooses among the named configurations. Throws Error if none has all; it names the one that lacks the fewest things,
+/// and those.
+/// @param needs what is asked
+/// @return the first that lacks nothing
 NamedConfig choose_config(const Needs& needs);
 
-/// The first named configuration that lacks only width, or some of its several lights or their samples, with as much of
-/// them as asked: the line of YAML that a file for load_config() would hold. Empty if there is none.
+/// Says what a file for load_config() would have to hold, where a named configuration lacks only width, or some of its
+/// several lights or their samples.
+/// @param needs what is asked
+/// @return the line of YAML of the first such configuration, with as much of them as asked; empty if there is none
 std::string widened_config(const Needs& needs);
 
 }  // namespace kage

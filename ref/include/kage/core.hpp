@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// The golden core: the pixels and the status that docs/stream.md demands for a frame of words, for any configuration.
-// It reads the words that the RTL reads and nothing else.
+
+/// @file
+/// The golden core: the pixels and the status that docs/stream.md demands for a frame of words, for any configuration.
+/// It reads the words that the RTL reads and nothing else.
 #pragma once
 
 #include <array>
@@ -17,18 +18,20 @@ namespace kage {
 
 /// How a frame ended. Without an error all but the size is 0.
 struct FrameStatus {
-  ErrorCode error = ErrorCode::NONE;
+  ErrorCode error = ErrorCode::NONE;  ///< what is wrong; NONE: nothing
   std::uint32_t frame = 0;  ///< number in the header of the erroneous frame; 0 when the header did not arrive whole
   std::uint32_t line = 0;   ///< EOLs accepted before the error
   std::uint32_t token = 0;  ///< index of the token in its frame; the header is 0
   std::uint32_t unit = 0;   ///< of SEGMENT, UNIT_LONG and UNIT_SHORT
   int width = 0;            ///< of the frame as it left the core; 0 x 0 after an error in the header
-  int height = 0;
+  int height = 0;           ///< likewise
 
   bool operator==(const FrameStatus&) const = default;
 };
 
-/// "ORDER at line 3, token 17: a token where its phase does not allow it", or "no error".
+/// Puts a status in words.
+/// @param status of any frame
+/// @return "ORDER at line 3, token 17: a token where its phase does not allow it", or "no error"
 std::string describe(const FrameStatus& status);
 
 /// What a core keeps of a pixel of the line at hand (docs/stream.md, "The pixel's state").
@@ -44,40 +47,51 @@ struct PixelState {
 };
 
 struct Token;
-class PixelLine;
-class TokenRules;
-class TreeCore;
 
 /// The line at hand, between tokens. Valid while the observer's function runs, or until the core is fed again.
 class LineView {
  public:
-  LineView(const PixelLine& pixels, const TreeCore& tree, const TokenRules& rules)
-      : pixels_(&pixels), tree_(&tree), rules_(&rules) {}
-
+  /// @return lines that have ended, 0 .. height; the height after the last
   [[nodiscard]] int y() const;  ///< lines that have ended; the height after the last
+  /// @return pixels of a line
   [[nodiscard]] int width() const;
+  /// @return what IF has added up since the last EV or ES, modulo 2^DSF_BITS
   [[nodiscard]] std::uint32_t bias() const;  ///< modulo 2^DSF_BITS
+  /// @return the header's colour: channel c in bits 8c .. 8c + 7
   [[nodiscard]] std::uint32_t background() const;
+  /// @return whether a TP of the line has come: clear pixels then have the background's colour
   [[nodiscard]] bool painted() const;  ///< a TP of the line has come: clear pixels have the background's colour
+  /// A pixel's state. Not checked.
+  /// @param x 0 .. width() - 1
+  /// @return what the core keeps of it
   [[nodiscard]] PixelState pixel(int x) const;
 
-  /// Whether the SEG that has just been accepted goes to its unit: those of a line that has failed ahead do not.
+  /// Those of a line that has failed ahead go to no unit.
+  /// @return whether the SEG that has just been accepted goes to its unit
   [[nodiscard]] bool segment_taken() const;
 
   /// Depth and draw index, colour and class of a unit's pixel before the tree merges them. Only after a TREE.
   struct UnitPixel {
-    std::uint32_t z = 0;
-    std::uint32_t index = 0;
-    std::array<std::uint8_t, 3> color{};
-    std::uint32_t normal_class = 0;
+    std::uint32_t z = 0;                  ///< 0 .. 2^Z_BITS - 1; all ones: the unit has nothing there
+    std::uint32_t index = 0;              ///< draw index of its polyhedron
+    std::array<std::uint8_t, 3> color{};  ///< by channel, as displayed
+    std::uint32_t normal_class = 0;       ///< 0 is unlit; without a table 1 is lit
   };
+  /// A unit's pixel before the tree. Not checked; only after a TREE. [Ohno 1985]
+  /// @param unit 0 .. UNITS - 1
+  /// @param x 0 .. width() - 1
+  /// @return what the unit's segments say of it
   [[nodiscard]] UnitPixel unit_pixel(int unit, int x) const;
+  /// The same after the tree: of all units the nearest.
+  /// @param x 0 .. width() - 1
+  /// @return what the tree hands on
   [[nodiscard]] UnitPixel tree_pixel(int x) const;  ///< after the tree
 
  private:
-  const PixelLine* pixels_;
-  const TreeCore* tree_;
-  const TokenRules* rules_;
+  friend class GoldenCore;  // which alone makes views
+  struct Parts;
+  explicit LineView(const Parts& parts) : parts_(&parts) {}
+  const Parts* parts_;
 };
 
 /// Told what the golden core does, token by token. Costs nothing where there is none.
@@ -101,34 +115,43 @@ class CoreObserver {
                       const LineView& /*line*/) {}
 };
 
-/// Takes the lines of a frame from top to bottom: `pixels` holds width x CHANNELS bytes.
+/// Takes the lines of a frame from top to bottom: the number `y` of each, and its `pixels`, width x CHANNELS bytes.
 using LineSink = std::function<void(int y, std::span<const std::uint8_t> pixels)>;
 
 /// The golden core. Not for use by two threads at once; independent objects are independent.
 class GoldenCore {
  public:
-  /// `config` must be valid (config.hpp).
+  /// A core between frames.
+  /// @param config a legal configuration (validate())
   explicit GoldenCore(const Config& config);
   ~GoldenCore();
   GoldenCore(GoldenCore&&) noexcept;
   GoldenCore& operator=(GoldenCore&&) noexcept;
 
-  /// The next words of the frame at hand, in pieces of any size. Lines go to `sink` as they end; no more than a line
-  /// and a token are kept. Errors in the words are no exceptions but a status, and background pixels.
+  /// Takes the next words of the frame at hand, in pieces of any size. No more than a line and a token are kept. Errors
+  /// in the words are no exceptions but a status, and background pixels.
+  /// @param words those that follow
+  /// @param sink gets the lines as they end; what it throws goes through, and the frame cannot go on
   void feed(std::span<const std::uint32_t> words, const LineSink& sink);
 
-  /// The frame's words have all been fed, TLAST with the beat of the last. That beat is filled with zeros up to
+  /// Ends the frame: its words have all been fed, TLAST with the beat of the last. That beat is filled with zeros up to
   /// BEAT_WORDS, as the port does it. What is fed next is the next frame.
+  /// @param sink gets the lines that are still to come, after an error
+  /// @return how the frame ended
   FrameStatus finish(const LineSink& sink);
 
-  /// Tell `observer` what happens from now on; nullptr: no one. It must outlive its use.
+  /// Has someone told what happens from now on.
+  /// @param observer must outlive its use; nullptr: no one
   void observe(CoreObserver* observer);
 
-  /// The line at hand, as the last token that was accepted left it: of an accepted header or later. Valid until the
-  /// core is fed again.
+  /// The line at hand, as the last token that was accepted left it: of an accepted header or later.
+  /// @return valid until the core is fed again
   [[nodiscard]] LineView line() const;
 
   /// A frame whose words are all there: what was fed before without finish() is forgotten, then feed() and finish().
+  /// @param words the whole frame
+  /// @param sink gets its lines
+  /// @return how the frame ended
   FrameStatus frame(std::span<const std::uint32_t> words, const LineSink& sink);
 
  private:

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Comparing pictures, and folders of them. docs/diff.md says what each threshold means. All functions throw kage::Error
-// that names the file; that is trouble, and never a verdict.
-//
-// Laws, whatever the options: the verdict is symmetric; with no threshold, "same" is equal bits and likes; a wider
-// threshold never turns "same" into "different". The one exception to "equal to itself" is a picture with a NaN.
+
+/// @file
+/// Comparing pictures, and folders of them. docs/diff.md says what each threshold means. All functions throw
+/// kage::Error that names the file; that is trouble, and never a verdict.
+///
+/// Laws, whatever the options: the verdict is symmetric; with no threshold, "same" is equal bits and likes; a wider
+/// threshold never turns "same" into "different". The one exception to "equal to itself" is a picture with a NaN.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +21,10 @@ namespace kage {
 
 /// Pixels x .. x + width - 1 of lines y .. y + height - 1, counted from the picture's first pixel.
 struct Box {
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
+  int x = 0;       ///< its first pixel
+  int y = 0;       ///< its first line
+  int width = 0;   ///< in pixels
+  int height = 0;  ///< in lines
   bool operator==(const Box&) const = default;
 };
 
@@ -40,8 +41,9 @@ struct DiffOptions {
   std::optional<std::uint64_t> max_pixels;  ///< so many different pixels are still "same"
   std::optional<double> max_percent;  ///< likewise, of all compared pixels; with both, both hold; with neither, none
   std::optional<Box> region;          ///< only these pixels; Error where they are not all in the picture
-  Image
-      mask;  ///< if not empty, only pixels that are not 0 in it: one channel, as load_mask() makes it; sizes are alike
+  /// If not empty, only pixels that are not 0 in it are compared: one channel, as load_mask() makes it; sizes are
+  /// alike.
+  Image mask;
   bool ignore_alpha = false;  ///< values of the alpha channel are not compared; pictures still both have one or not
   bool perceptual = false;    ///< compute DiffResult::perceptual_pixels and flip, which takes time
   int part = -1;              ///< of files that hold several pictures, the number of the one to compare, from 0
@@ -49,29 +51,30 @@ struct DiffOptions {
 
 /// The FLIP difference of [Andersson 2020] ("LDR-FLIP") over a picture's pixels, 0 (none is seen) to 1 each.
 struct FlipNumbers {
-  double mean = 0;
-  double most = 0;
+  double mean = 0;  ///< over all pixels
+  double most = 0;  ///< of any pixel
 };
 
 /// Outcome. Of pictures that are unlike in what no threshold tolerates (size, place, channels, types, colour space)
 /// only `same` and `reason` are set, and width is 0.
 struct DiffResult {
+  /// A value of a picture.
   struct Position {
-    int x = 0;
-    int y = 0;
-    int channel = 0;
+    int x = 0;        ///< its pixel
+    int y = 0;        ///< its line
+    int channel = 0;  ///< in the order of the file
   };
   /// The box of differing pixels that lie near each other (in tiles of 8 x 8 pixels that touch), and their number.
   /// Boxes of one comparison may overlap; each pixel is counted in one.
   struct Region {
-    Box box;
-    std::uint64_t pixels = 0;
+    Box box;                   ///< round all of them
+    std::uint64_t pixels = 0;  ///< that differ
   };
-  bool same = false;
-  std::string reason;  ///< why not, in words; empty if same
-  int width = 0;
-  int height = 0;
-  int channels = 0;
+  bool same = false;                   ///< the verdict
+  std::string reason;                  ///< why not, in words; empty if same
+  int width = 0;                       ///< of both pictures, in pixels
+  int height = 0;                      ///< likewise, in lines
+  int channels = 0;                    ///< likewise
   bool floats = false;                 ///< some channel is half, float or double
   std::uint64_t compared_pixels = 0;   ///< within region and mask
   std::uint64_t different_pixels = 0;  ///< compared and beyond the threshold, or with a NaN
@@ -90,6 +93,7 @@ struct DiffResult {
   std::optional<FlipNumbers> flip;  ///< of the pictures as DiffViews has them, all of them, taken for sRGB
 };
 
+/// Most boxes in DiffResult::regions.
 inline constexpr std::size_t kMaxRegions = 64;
 
 /// Pictures of a comparison, 8 bits and three channels, for people to look at. Values beyond 8 bits or outside 0 .. 1
@@ -97,71 +101,115 @@ inline constexpr std::size_t kMaxRegions = 64;
 struct DiffViews {
   Image heat;  ///< A dimmed; red, the brighter the further apart, where A and B differ; ochre where a threshold
                ///< tolerates it; pink at a NaN; blue where nothing was compared. Empty if the pictures are unlike
-  Image a;
-  Image b;
+  Image a;     ///< the first picture
+  Image b;     ///< the second one
 };
 
-/// Compare two picture files of any type OpenImageIO reads, one picture each.
+/// Compares two picture files. Throws Error where one cannot be read, holds several pictures and `options` name none,
+/// or `options` do not go with them.
+/// @param a any type that OpenImageIO reads
+/// @param b likewise
+/// @param options what is compared, and what is still the same
+/// @param views filled if given
+/// @return the outcome
 DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options = {},
                       DiffViews* views = nullptr);
 
-/// The same for pictures in memory; `heat` as DiffViews::heat.
+/// The same for pictures in memory.
+/// @param a the first picture
+/// @param b the second one
+/// @param options what is compared, and what is still the same
+/// @param heat filled if given, as DiffViews::heat
+/// @return the outcome
 DiffResult diff_images(const Image& a, const Image& b, const DiffOptions& options = {}, Image* heat = nullptr);
 
-/// A mask from a picture of any type: pixels that are not 0 in some channel other than alpha (or in alpha, if that is
-/// all there is) become 255. Throws Error if there is a NaN, or no such pixel.
+/// Makes a mask of a picture of any type. Throws Error if there is a NaN, or no pixel that would count.
+/// @param path the picture
+/// @return one channel: 255 where the picture is not 0 in some channel other than alpha (or in alpha, if that is all
+/// there is), else 0
 Image load_mask(const std::filesystem::path& path);
 
-/// Write `a` and `b` as a picture that shows one after the other, half a second each, for ever: an animated PNG (.png
-/// or .apng), whose first picture, `a`, is what a program shows that knows no animation. Three channels; where sizes
-/// are unlike, black fills up the smaller.
+/// Writes a picture that shows two, one after the other, half a second each, for ever: an animated PNG. Three channels;
+/// where sizes are unlike, black fills up the smaller.
+/// @param path ends in .png or .apng
+/// @param a the first picture; what a program shows that knows no animation
+/// @param b the second one
 void save_blink(const std::filesystem::path& path, const Image& a, const Image& b);
 
 /// A file's name in one or both of two folders, by '/' from the folder, subfolders included.
 struct FolderEntry {
-  enum class Sort { picture, stream, other };  ///< by the extension, as docs/diff.md lists them
-  std::string name;
-  Sort sort = Sort::other;
-  bool in_a = false;
-  bool in_b = false;
+  /// What a file is, by its extension, as docs/diff.md lists them.
+  enum class Sort : std::uint8_t {
+    picture,  ///< compared by diff_files()
+    stream,   ///< compared by diff_streams()
+    other,    ///< compared byte for byte
+  };
+  std::string name;         ///< by '/' from the folder
+  Sort sort = Sort::other;  ///< what it is
+  bool in_a = false;        ///< the first folder has it
+  bool in_b = false;        ///< the second one has it
 };
 
+/// The files of two folders.
 struct FolderPair {
   std::vector<FolderEntry> files;     ///< sorted by name
   std::vector<std::string> left_out;  ///< names of files and folders that are not compared, in either folder
 };
 
-/// Matches files by name. Left out are names that begin with a dot, and those that one of the patterns in `exclude`
-/// matches, as a whole or by their last part (fnmatch(); '*' takes a '/' too). Throws Error if a folder cannot be read.
+/// Matches files by name. Throws Error if a folder cannot be read.
+/// @param a the first folder
+/// @param b the second one
+/// @param exclude patterns that leave out the names that they match, as a whole or by their last part (fnmatch(); '*'
+/// takes a '/' too); names that begin with a dot are left out besides
+/// @return the files, and what is left out
 FolderPair pair_folders(const std::filesystem::path& a, const std::filesystem::path& b,
                         const std::vector<std::string>& exclude = {});
 
-/// Compares two files byte for byte: why they are not the same, in words; empty if they are.
+/// Compares two files byte for byte.
+/// @param a the first file
+/// @param b the second one
+/// @return why they are not the same, in words; empty if they are
 std::string diff_bytes(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// What becomes of a file of a reference folder.
 struct BlessEntry {
-  enum class What { same, changed, added, missing };
-  std::string name;
-  What what{};
-  std::string reason;  ///< changed: how, in words
-  FolderEntry::Sort sort = FolderEntry::Sort::picture;
+  /// How the new file stands to the reference.
+  enum class What : std::uint8_t {
+    same,     ///< it stays
+    changed,  ///< it is replaced
+    added,    ///< it comes into the reference
+    missing,  ///< the reference alone has it
+  };
+  std::string name;                                     ///< by '/' from the folder
+  What what{};                                          ///< how the new file stands to it
+  std::string reason;                                   ///< changed: how, in words
+  FolderEntry::Sort sort = FolderEntry::Sort::picture;  ///< what it is
 
-  /// Whether it goes where it is missing and that is asked for: what is neither picture nor stream always stays.
+  /// What is neither picture nor stream always stays.
+  /// @return whether it goes where it is missing and that is asked for
   [[nodiscard]] bool prunable() const { return what == What::missing && sort != FolderEntry::Sort::other; }
 };
 
-/// Compares all files of `fresh` with those of the folder `reference`, exactly, and changes nothing. A reference that
+/// Compares all files of a folder with those of a reference folder, exactly, and changes nothing. A reference that
 /// cannot be read counts as changed. Throws Error if a file of `fresh` cannot be read or holds a NaN, if there is none,
-/// if one folder lies in the other, or if what would be replaced is a link. `each` is called before each file; what it
-/// throws goes through. `exclude` as in pair_folders().
+/// if one folder lies in the other, or if what would be replaced is a link.
+/// @param fresh the new files
+/// @param reference the folder that they may go to
+/// @param each is called before each file with its name; what it throws goes through
+/// @param exclude as in pair_folders()
+/// @return what becomes of each file of either folder, sorted by name
 std::vector<BlessEntry> plan_bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
                                    const std::function<void(const std::string& name)>& each = {},
                                    const std::vector<std::string>& exclude = {});
 
-/// Does it: copies what is `changed` or `added` over, byte by byte, and with `prune` removes what is prunable(). Files
-/// that are `same` are not touched. All copies are written under other names before the first one gets its own. Where
-/// that fails half-way, or `done` throws, which is called once everything is in place, all is put back as it was.
+/// Does what was planned: copies what is `changed` or `added` over, byte by byte. Files that are `same` are not
+/// touched. All copies are written under other names before the first one gets its own. Where that fails half-way, or
+/// `done` throws, all is put back as it was. Throws Error that names the file.
+/// @param fresh the new files
+/// @param reference the folder that they go to
+/// @param plan what plan_bless() said of the two
+/// @param prune removes what is prunable()
+/// @param done is called once everything is in place
 void bless(const std::filesystem::path& fresh, const std::filesystem::path& reference,
            const std::vector<BlessEntry>& plan, bool prune, const std::function<void()>& done = {});
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// The exception of the library.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
+/// The library.
 namespace kage {
 
 /// What every function of the library throws on bad input. The message is one line and names file, place and cause,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// The front end: scan conversion of a frame's geometry into the words of a frame. Integers only.
+
+/// @file
+/// The front end: scan conversion of a frame's geometry into the words of a frame. Integers only.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@
 
 namespace kage {
 
-/// Takes the next words of a frame.
+/// Takes the next `words` of a frame.
 using WordSink = std::function<void(std::span<const std::uint32_t> words)>;
 
 /// How the polyhedra of a frame went.
@@ -23,7 +24,7 @@ struct PolyhedraReport {
 
   /// Why polyhedra became spans: one stopped the assignment, and all behind it in draw order went with it.
   enum class Stop : std::uint8_t {
-    none,
+    none,     ///< all have one, or are unseen
     no_unit,  ///< no unit has room for it: pixels, faces or segments
     depth,    ///< its depth goes on by no step that segments have
     index,    ///< ORDER_BITS holds no draw index for it
@@ -31,11 +32,12 @@ struct PolyhedraReport {
 
   std::vector<int> unit_of;  ///< of each of FrameGeometry::polyhedra: its unit, kSpans or kUnseen
   int units = 0;             ///< units with at least one
-  Stop stop = Stop::none;
+  Stop stop = Stop::none;    ///< what stopped the assignment
 };
 
 /// Where a token comes from.
 struct TokenOrigin {
+  /// The number of no polygon and no volume.
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   std::uint32_t polygon = kNone;  ///< into FrameGeometry::polygons
   std::uint32_t volume = kNone;   ///< into FrameGeometry::volumes
@@ -56,13 +58,24 @@ struct FrameOptions {
   FrameOrigins* origins = nullptr;    ///< filled with the words
 };
 
-/// Make the frame's words from first to last. Lines are made in bands and handed on band by band. Cost is linear in the
-/// spans. Throws Error if the configuration cannot hold the frame (width, volumes). With UNITS > 0 polyhedra go to
-/// units, in draw order up to the first that finds none; the rest become spans, which changes no pixel.
+/// Makes the frame's words from first to last. Lines are made in bands and handed on band by band. Cost is linear in
+/// the spans. With UNITS > 0 polyhedra go to units, in draw order up to the first that finds none; the rest become
+/// spans, which changes no pixel. Throws Error if the configuration cannot hold the frame (width, volumes). [Matsumoto]
+/// has the spans, [Ohno 1985] the units; docs/numbers.md every rounding.
+/// @param geometry made for this configuration (make_geometry())
+/// @param config a legal configuration
+/// @param frame_number goes into the header, for messages
+/// @param sink gets the words, piece by piece; what it throws goes through
+/// @param options how they are made, and what is to be told of them
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number, const WordSink& sink,
                 const FrameOptions& options = {});
 
-/// The same, appended to `out`.
+/// The same, the words in memory.
+/// @param geometry made for this configuration (make_geometry())
+/// @param config a legal configuration
+/// @param frame_number goes into the header, for messages
+/// @param out the words are appended to it
+/// @param options how they are made, and what is to be told of them
 void make_frame(const FrameGeometry& geometry, const Config& config, std::uint32_t frame_number,
                 std::vector<std::uint32_t>& out, const FrameOptions& options = {});
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Geometry: a scene's frame as integers on the screen. Left of it all is floating point, right of it nothing is.
-//
-// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left
-// pixel, whose centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is
-// nearer: 1 at the near plane, 2^Z_BITS - 2 at the far plane. docs/numbers.md has every rounding with its bound.
+
+/// @file
+/// Geometry: a scene's frame as integers on the screen. Left of it all is floating point, right of it nothing is.
+///
+/// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left
+/// pixel, whose centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is
+/// nearer: 1 at the near plane, 2^Z_BITS - 2 at the far plane. docs/numbers.md has every rounding with its bound.
 #pragma once
 
 #include <array>
@@ -28,8 +29,8 @@ inline constexpr int kPlaneFrac = 24;
 
 /// A vertex after the snap, 16.8.
 struct ScreenVertex {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
+  std::int32_t x = 0;  ///< to the right, in 1/256 pixel
+  std::int32_t y = 0;  ///< down, in 1/256 pixel
 
   bool operator==(const ScreenVertex&) const = default;
 };
@@ -38,23 +39,23 @@ struct ScreenVertex {
 /// terms of the design: A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| <=
 /// 2^60.
 struct ScreenPlane {
-  std::int64_t a = 0;
-  std::int64_t b = 0;
-  std::int64_t c = 0;
-  std::int32_t x0 = 0;
-  std::int32_t y0 = 0;
+  std::int64_t a = 0;   ///< slope in x, per pixel, in 2^-24
+  std::int64_t b = 0;   ///< slope in y, likewise
+  std::int64_t c = 0;   ///< value at the anchor, in 2^-24
+  std::int32_t x0 = 0;  ///< pixel of the anchor
+  std::int32_t y0 = 0;  ///< line of the anchor
 };
 
 /// A snapped polygon. Its outline is filled by winding number, so snapping may bend it without losing or doubling a
 /// pixel.
 struct ScreenPolygon {
-  std::uint32_t first_vertex = 0;  ///< into FrameGeometry::vertices
-  std::uint32_t vertex_count = 0;  ///< at least 3
-  ScreenPlane depth;
+  std::uint32_t first_vertex = 0;       ///< into FrameGeometry::vertices
+  std::uint32_t vertex_count = 0;       ///< at least 3
+  ScreenPlane depth;                    ///< in depth steps
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
-  bool lit =
-      false;  ///< eye and some light that casts shadows are on the same side of it, and it is not Triangle::unlit
+  /// Eye and some light that casts shadows are on the same side of it, and it is not Triangle::unlit.
+  bool lit = false;
   std::uint32_t normal_class = 0;  ///< into the light table, from 1; 0 if it is not lit or there is no table
   std::uint32_t source = 0;        ///< where it comes from, into SceneFrame::polygons; ~0 for a volume's side
   std::uint8_t alpha = 255;        ///< below 255: translucent
@@ -63,26 +64,26 @@ struct ScreenPolygon {
 /// A line over the screen where a node's plane of the visibility order cuts a translucent polygon: a pixel (x, y) lies
 /// before the plane if a x + b y + c >= 0. |a|, |b| <= 2^30, |c| <= 2^58.
 struct CutLine {
-  std::int64_t a = 0;
-  std::int64_t b = 0;
-  std::int64_t c = 0;
+  std::int64_t a = 0;  ///< by x
+  std::int64_t b = 0;  ///< by y
+  std::int64_t c = 0;  ///< at pixel (0, 0)
 };
 
 /// A fragment of a translucent face: of the face's polygons what lies on the given sides of lines. The fragments of a
 /// face share the lines that part them, so that each of its pixels belongs to exactly one.
 struct ScreenFragment {
   std::uint32_t first_polygon = 0;  ///< into FrameGeometry::polygons; of one face
-  std::uint32_t polygon_count = 0;
-  std::uint32_t first_cut = 0;  ///< into FrameGeometry::cuts
-  std::uint32_t cut_count = 0;
-  std::int32_t first_line = 0;  ///< it has pixels on no other lines than [first_line, end_line)
-  std::int32_t end_line = 0;
+  std::uint32_t polygon_count = 0;  ///< at least 1
+  std::uint32_t first_cut = 0;      ///< into FrameGeometry::cuts
+  std::uint32_t cut_count = 0;      ///< lines that part it from others
+  std::int32_t first_line = 0;      ///< it has pixels on no other lines than [first_line, end_line)
+  std::int32_t end_line = 0;        ///< one past the last
 };
 
 /// A side of a line.
 struct FragmentCut {
   std::uint32_t line = 0;  ///< into FrameGeometry::cut_lines
-  bool front = false;
+  bool front = false;      ///< before the line's plane
 };
 
 /// A polygon of a shadow volume.
@@ -95,31 +96,32 @@ struct VolumeFace {
 /// A piece of the outline of a volume's section with the near plane: right of an edge that goes down w more, right of
 /// one that goes up w less.
 struct NearEdge {
-  ScreenVertex from;
-  ScreenVertex to;
-  std::int32_t w = 1;
+  ScreenVertex from;   ///< where it begins
+  ScreenVertex to;     ///< where it ends
+  std::int32_t w = 1;  ///< its multiplicity
 };
 
 /// A shadow volume: all that delimits it before the far end, which lies behind everything drawn. With DSF_BITS = 1 no
 /// ray to the light meets two of its caps, with more at most 2^DSF_BITS - 1.
 struct ShadowVolume {
   std::uint32_t first_face = 0;  ///< into FrameGeometry::volume_faces
-  std::uint32_t face_count = 0;
+  std::uint32_t face_count = 0;  ///< at least 1
   std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
-  std::uint32_t near_count = 0;
-  std::uint32_t component = 0;  ///< of its first caster, into SceneFrame::components
-  std::uint32_t sample = 0;     ///< of light that it keeps out, into FrameGeometry::sample_light
+  std::uint32_t near_count = 0;  ///< 0: the near plane does not cut it
+  std::uint32_t component = 0;   ///< of its first caster, into SceneFrame::components
+  std::uint32_t sample = 0;      ///< of light that it keeps out, into FrameGeometry::sample_light
 };
 
 /// An edge of a polyhedron. Of the polygons at its two sides, `along` has it in its outline from `from` to `to`,
 /// `against` the other way round; one that is turned away, and not drawn, is kNoPolygon. [Ohno 1985: edge groups with
 /// right and left face.]
 struct PolyhedronEdge {
+  /// The number of no polygon.
   static constexpr std::uint32_t kNoPolygon = ~0U;
-  ScreenVertex from;
-  ScreenVertex to;
-  std::uint32_t along = kNoPolygon;
-  std::uint32_t against = kNoPolygon;
+  ScreenVertex from;                   ///< its lower vertex number
+  ScreenVertex to;                     ///< its higher one
+  std::uint32_t along = kNoPolygon;    ///< into FrameGeometry::polygons
+  std::uint32_t against = kNoPolygon;  ///< likewise
 };
 
 /// A convex polyhedron that is wholly before the near plane, of one colour per face. Its drawn polygons are those not
@@ -127,47 +129,50 @@ struct PolyhedronEdge {
 struct Polyhedron {
   std::uint32_t component = 0;      ///< into SceneFrame::components
   std::uint32_t first_polygon = 0;  ///< into FrameGeometry::polygons
-  std::uint32_t polygon_count = 0;
-  std::uint32_t first_edge = 0;  ///< into FrameGeometry::polyhedron_edges
-  std::uint32_t edge_count = 0;
+  std::uint32_t polygon_count = 0;  ///< those not turned away
+  std::uint32_t first_edge = 0;     ///< into FrameGeometry::polyhedron_edges
+  std::uint32_t edge_count = 0;     ///< those with a polygon that is drawn
 };
 
 /// Why a component is no polyhedron in a frame.
 enum class SpanReason : std::uint8_t {
-  none,  ///< it is one
-  not_closed,
-  not_convex,
-  cut,     ///< by the near plane or the guard band
-  colors,  ///< more than one within a face
-  translucent,
-  culled,  ///< Look::cull leaves out faces that the eye would see
+  none,         ///< it is one
+  not_closed,   ///< Component::closed
+  not_convex,   ///< Component::convex
+  cut,          ///< by the near plane or the guard band
+  colors,       ///< more than one within a face
+  translucent,  ///< a unit's pixels are opaque
+  culled,       ///< Look::cull leaves out faces that the eye would see
 };
 
 /// A frame on the screen.
 struct FrameGeometry {
-  int width = 0;
-  int height = 0;
-  std::uint32_t background = 0;
-  std::uint32_t shade = 0;  ///< darkening of a pixel by one shadowed sample, in 2^-SHADE_FRAC; without table
+  int width = 0;                 ///< of the picture, in pixels
+  int height = 0;                ///< likewise, in lines
+  std::uint32_t background = 0;  ///< channel c in bits 8c .. 8c + 7
+  std::uint32_t shade = 0;       ///< darkening of a pixel by one shadowed sample, in 2^-SHADE_FRAC; without table
   /// The same by class and light: entry (class - 1) LIGHTS + light. Empty without table.
   std::vector<std::array<std::uint32_t, 3>> shares;
   std::vector<std::uint8_t> sample_light;  ///< of each light sample its light; samples of a light are consecutive
-  std::vector<ScreenVertex> vertices;
+  std::vector<ScreenVertex> vertices;      ///< of all outlines
   /// First the opaque drawn ones, in draw order, then other faces of volumes, then translucent ones.
   std::vector<ScreenPolygon> polygons;
-  std::uint32_t drawn = 0;                ///< number of the opaque drawn ones
-  std::vector<ScreenPlane> color_planes;  ///< value in units of an 8-bit colour
-  std::vector<VolumeFace> volume_faces;
-  std::vector<NearEdge> near_edges;
-  std::vector<ShadowVolume> volumes;  ///< in order of their samples
-  std::uint32_t left_out = 0;         ///< volumes that Look::fit has dropped
-  std::vector<Polyhedron> polyhedra;  ///< in draw order; their polygons are the first of the drawn ones
-  std::vector<PolyhedronEdge> polyhedron_edges;
-  std::vector<SpanReason> span_reasons;   ///< of each of SceneFrame::components
-  std::vector<ScreenFragment> fragments;  ///< translucent ones, back to front
-  std::vector<FragmentCut> cuts;
-  std::vector<CutLine> cut_lines;
+  std::uint32_t drawn = 0;                       ///< number of the opaque drawn ones
+  std::vector<ScreenPlane> color_planes;         ///< value in units of an 8-bit colour
+  std::vector<VolumeFace> volume_faces;          ///< of all volumes
+  std::vector<NearEdge> near_edges;              ///< of all volumes
+  std::vector<ShadowVolume> volumes;             ///< in order of their samples
+  std::uint32_t left_out = 0;                    ///< volumes that Look::fit has dropped
+  std::vector<Polyhedron> polyhedra;             ///< in draw order; their polygons are the first of the drawn ones
+  std::vector<PolyhedronEdge> polyhedron_edges;  ///< of all polyhedra
+  std::vector<SpanReason> span_reasons;          ///< of each of SceneFrame::components
+  std::vector<ScreenFragment> fragments;         ///< translucent ones, back to front
+  std::vector<FragmentCut> cuts;                 ///< of all fragments
+  std::vector<CutLine> cut_lines;                ///< that cuts are sides of
 
+  /// A polygon's corners.
+  /// @param p one of `polygons`
+  /// @return its vertices, in order
   [[nodiscard]] std::span<const ScreenVertex> outline(const ScreenPolygon& p) const {
     return std::span(vertices).subspan(p.first_vertex, p.vertex_count);
   }
@@ -188,40 +193,42 @@ enum class VolumeWay : std::uint8_t {
 
 /// What the picture's maker decides.
 struct Look {
-  std::array<std::uint8_t, 3> background{38, 44, 56};
-  double darkening = 0.55;  ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
-  double extrusion = 1;     ///< volumes reach this many times as far as they must; for tests, >= 1
-  bool far_ends = false;    ///< volumes carry their far ends as faces too, which changes no picture; for tests
-  VolumeWay volumes = VolumeWay::fewest;
-  bool leave_out = true;  ///< shadows that can meet nothing seen, which changes no picture
-  bool fit = false;  ///< the picture is made to fit the configuration, where it would be refused: a light whose samples
-                     ///< COUNT_BITS does not hold is its middle, and without FSF only the first volume of each light
-                     ///< sample stays. It is the first in draw order of those that meet something seen, so it may be
-                     ///< another's in the next frame; FrameGeometry::left_out counts the others
-  bool cull = false;  ///< faces are not drawn if the eye sees the side that their material does not show (Sides); they
-                      ///< cast shadows all the same
-  TranslucentWay translucent = TranslucentWay::exact;
+  std::array<std::uint8_t, 3> background{38, 44, 56};  ///< as displayed: red, green, blue
+  double darkening = 0.55;                             ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
+  double extrusion = 1;   ///< volumes reach this many times as far as they must; for tests, >= 1
+  bool far_ends = false;  ///< volumes carry their far ends as faces too, which changes no picture; for tests
+  VolumeWay volumes = VolumeWay::fewest;  ///< how many volumes casters have
+  bool leave_out = true;                  ///< shadows that can meet nothing seen, which changes no picture
+  /// The picture is made to fit the configuration, where it would be refused: a light whose samples COUNT_BITS does not
+  /// hold is its middle, and without FSF only the first volume of each light sample stays. It is the first in draw
+  /// order of those that meet something seen, so it may be another's in the next frame; FrameGeometry::left_out counts
+  /// the others.
+  bool fit = false;
+  /// Faces are not drawn if the eye sees the side that their material does not show (Sides); they cast shadows all the
+  /// same.
+  bool cull = false;
+  TranslucentWay translucent = TranslucentWay::exact;  ///< how translucent faces are put in order
   int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;  ///< of their pattern
-  int classes =
-      1024;  ///< normals that a light table tells apart, 1 .. kMaxClasses; fewer if it has no room for those in use
+  /// Normals that a light table tells apart, 1 .. kMaxClasses; fewer if it has no room for those in use.
+  int classes = 1024;
 };
 
 /// Keeps the visibility order of a scene's translucent faces from frame to frame, so that what does not move is put in
 /// a tree once. It changes no frame. Not for several threads at once.
 class TranslucentOrder {
  public:
-  /// `build`: how trees are built. make_geometry() throws TooManyFragments past its limit; it calls `progress` while a
-  /// tree is built, and now and then, with 1, while it makes fragments of one.
+  /// Nothing is kept yet. make_geometry() throws TooManyFragments past the limit of `build`; it calls `progress` while
+  /// a tree is built, and now and then, with 1, while it makes fragments of one.
+  /// @param build how trees are built
   explicit TranslucentOrder(OrderBuildOptions build = {});
   ~TranslucentOrder();
   TranslucentOrder(TranslucentOrder&&) noexcept;
   TranslucentOrder& operator=(TranslucentOrder&&) noexcept;
 
-  struct Data;
-  [[nodiscard]] Data& data() { return *data_; }
-
  private:
+  friend struct TranslucentOrderInside;  // how the library itself comes to what is kept
+  struct Data;
   std::unique_ptr<Data> data_;
 };
 
@@ -229,31 +236,38 @@ class TranslucentOrder {
 /// casters that have not moved. It changes no frame. Not for several threads at once.
 class ShadowCache {
  public:
+  /// Nothing is kept yet.
   ShadowCache();
   ~ShadowCache();
   ShadowCache(ShadowCache&&) noexcept;
   ShadowCache& operator=(ShadowCache&&) noexcept;
 
-  struct Data;
-  [[nodiscard]] Data& data() { return *data_; }
-
  private:
+  friend struct ShadowCacheInside;  // how the library itself comes to what is kept
+  struct Data;
   std::unique_ptr<Data> data_;
 };
 
 /// How a frame's geometry is made.
 struct GeometryOptions {
-  Look look = {};
+  Look look = {};                     ///< what the picture's maker decides
   TranslucentOrder* order = nullptr;  ///< that of the frames before; nullptr: made anew
   ShadowCache* shadows = nullptr;     ///< likewise
 };
 
-/// Project, clip and snap a frame. `config` says how fine depth is, whether colour may vary within a polygon (else each
-/// polygon has the mean of its corners), whether it is grey, whether shadows are wanted, of how many lights and
-/// samples, and whether translucent faces are blended (else they are opaque and drawn last). Throws Error if width or
-/// height is not 1 .. kMaxSize, if there are no faces, if a vertex, the camera, a light or the look is not as its type
-/// says, or if a light that is not at infinity is more than 2^40 times as far from the scene, or as large, as that is
-/// large; TooManyFragments as TranslucentOrder says.
+/// Projects, clips and snaps a frame. docs/numbers.md has every rounding with its bound; [Matsumoto] has the volumes,
+/// [Ohno 1985] the polyhedra, [Tanaka 2005] the fragments. Throws Error if width or height is not 1 .. kMaxSize, if
+/// there are no faces, if a vertex, the camera, a light or the look is not as its type says, or if a light that is not
+/// at infinity is more than 2^40 times as far from the scene, or as large, as that is large; TooManyFragments as
+/// TranslucentOrder says.
+/// @param frame what is drawn
+/// @param config says how fine depth is, whether colour may vary within a polygon (else each polygon has the mean of
+/// its corners), whether it is grey, whether shadows are wanted, of how many lights and samples, and whether
+/// translucent faces are blended (else they are opaque and drawn last)
+/// @param width of the picture, in pixels
+/// @param height of the picture, in lines
+/// @param options how it is made
+/// @return the frame in integers
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height,
                             const GeometryOptions& options = {});
 

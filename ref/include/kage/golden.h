@@ -1,5 +1,6 @@
-/* SPDX-License-Identifier: Apache-2.0
- *
+/* SPDX-License-Identifier: Apache-2.0 */
+
+/** @file
  * The golden core as a C library, libkage_golden.so: for test benches in C, for SystemVerilog by DPI-C, and for any
  * language that calls C. A frame's words go in; after each token the state of every pixel of the line can be read, and
  * each line's pixels as they leave. docs/benches.md has examples, docs/stream.md is the contract.
@@ -26,180 +27,271 @@
 extern "C" {
 #endif
 
+/** Of this header: it grows when something here changes its meaning. */
 #define KAGE_GOLDEN_ABI 1
 
+/** A core. */
 typedef struct kage_golden kage_golden;
 
-/* What a word came to, and where in a frame a core is. */
+/** What a word came to, and where in a frame a core is. */
 enum {
-  KAGE_GOLDEN_ERROR = -1, /* the call could not be done */
-  KAGE_GOLDEN_MORE = 0,   /* the token is not whole yet */
-  KAGE_GOLDEN_TOKEN = 1,  /* a token (or the header, token 0) is whole and has done what it does */
-  KAGE_GOLDEN_END = 2,    /* END has come: what is fed before kage_golden_finish() is fill */
-  KAGE_GOLDEN_FAILED = 3  /* the frame has an error: words are ignored until kage_golden_finish() */
+  KAGE_GOLDEN_ERROR = -1, /**< the call could not be done */
+  KAGE_GOLDEN_MORE = 0,   /**< the token is not whole yet */
+  KAGE_GOLDEN_TOKEN = 1,  /**< a token (or the header, token 0) is whole and has done what it does */
+  KAGE_GOLDEN_END = 2,    /**< END has come: what is fed before kage_golden_finish() is fill */
+  KAGE_GOLDEN_FAILED = 3  /**< the frame has an error: words are ignored until kage_golden_finish() */
 };
 
-/* Fields of a pixel's state. */
+/** Fields of a pixel's state. */
 enum {
-  KAGE_PIXEL_Z = 0,      /* all ones: clear */
-  KAGE_PIXEL_COLOR = 1,  /* and 2, 3: by channel, 0 .. 255 */
-  KAGE_PIXEL_CLASS = 4,  /* 0 is unlit; without a table 1 is lit */
-  KAGE_PIXEL_DSF = 5,    /* 0 .. 2^DSF_BITS - 1 */
-  KAGE_PIXEL_FSF = 6,    /* 0 or 1 */
-  KAGE_PIXEL_COUNT = 7,  /* .. 14: by light */
-  KAGE_PIXEL_FIELDS = 15 /* how many there are */
+  KAGE_PIXEL_Z = 0,      /**< all ones: clear */
+  KAGE_PIXEL_COLOR = 1,  /**< and 2, 3: by channel, 0 .. 255 */
+  KAGE_PIXEL_CLASS = 4,  /**< 0 is unlit; without a table 1 is lit */
+  KAGE_PIXEL_DSF = 5,    /**< 0 .. 2^DSF_BITS - 1 */
+  KAGE_PIXEL_FSF = 6,    /**< 0 or 1 */
+  KAGE_PIXEL_COUNT = 7,  /**< up to 14: by light */
+  KAGE_PIXEL_FIELDS = 15 /**< how many there are */
 };
 
-/* What kage_golden_pixel() gives instead of a value. */
+/** What kage_golden_pixel() gives instead of a value. */
 enum {
-  KAGE_PIXEL_ABSENT = -1, /* the configuration has no such field, the line no such pixel, or there is no line */
-  KAGE_PIXEL_ANY = -2     /* never seen, so any value is right: class and (before a TP) colour of a clear pixel */
+  KAGE_PIXEL_ABSENT = -1, /**< the configuration has no such field, the line no such pixel, or there is no line */
+  KAGE_PIXEL_ANY = -2     /**< never seen, so any value is right: class and (before a TP) colour of a clear pixel */
 };
 
-/* Fields of a token, as in the table of tokens in docs/stream.md. */
+/** Fields of a token, as in the table of tokens in docs/stream.md. */
 enum {
-  KAGE_TOKEN_XL = 0,
-  KAGE_TOKEN_XR = 1,
-  KAGE_TOKEN_Z = 2,  /* signed, Z_FRAC fraction bits */
-  KAGE_TOKEN_DZ = 3, /* signed */
-  KAGE_TOKEN_W = 4,  /* signed */
-  KAGE_TOKEN_CLASS = 5,
-  KAGE_TOKEN_COLOR = 6,  /* .. 8: by channel */
-  KAGE_TOKEN_DCOLOR = 9, /* .. 11: by channel, signed */
-  KAGE_TOKEN_ALPHA = 12,
-  KAGE_TOKEN_SHADE = 13,
-  KAGE_TOKEN_LIGHT = 14,
-  KAGE_TOKEN_SHARE = 15, /* .. 17: by channel */
-  KAGE_TOKEN_Y = 18,
-  KAGE_TOKEN_UNIT = 19,
-  KAGE_TOKEN_FACE = 20,
-  KAGE_TOKEN_INDEX = 21,
-  KAGE_TOKEN_DX = 22,
-  KAGE_TOKEN_SYNC = 23,
-  KAGE_TOKEN_FIELDS = 24
+  KAGE_TOKEN_XL = 0,     /**< its first pixel */
+  KAGE_TOKEN_XR = 1,     /**< one past its last */
+  KAGE_TOKEN_Z = 2,      /**< signed, Z_FRAC fraction bits */
+  KAGE_TOKEN_DZ = 3,     /**< likewise, per pixel; signed */
+  KAGE_TOKEN_W = 4,      /**< multiplicity; signed */
+  KAGE_TOKEN_CLASS = 5,  /**< 0 is unlit; without a table 1 is lit */
+  KAGE_TOKEN_COLOR = 6,  /**< up to 8: by channel */
+  KAGE_TOKEN_DCOLOR = 9, /**< up to 11: by channel, signed */
+  KAGE_TOKEN_ALPHA = 12, /**< 0 .. 255 */
+  KAGE_TOKEN_SHADE = 13, /**< in 2^-SHADE_FRAC */
+  KAGE_TOKEN_LIGHT = 14, /**< from 0 */
+  KAGE_TOKEN_SHARE = 15, /**< up to 17: by channel, in 2^-SHADE_FRAC */
+  KAGE_TOKEN_Y = 18,     /**< number of the line */
+  KAGE_TOKEN_UNIT = 19,  /**< from 0 */
+  KAGE_TOKEN_FACE = 20,  /**< number in its unit */
+  KAGE_TOKEN_INDEX = 21, /**< draw index of a polyhedron */
+  KAGE_TOKEN_DX = 22,    /**< pixels */
+  KAGE_TOKEN_SYNC = 23,  /**< 0 or 1 */
+  KAGE_TOKEN_FIELDS = 24 /**< how many there are */
 };
 
-/* Kinds of tokens, as kage_golden_token_kind() gives them. */
+/** Kinds of tokens, as kage_golden_token_kind() gives them. */
 enum {
-  KAGE_KIND_HEADER = 0,
-  KAGE_KIND_SHADE = 1,
-  KAGE_KIND_TABLE = 2,
-  KAGE_KIND_FACE = 3,
-  KAGE_KIND_SEG = 4,
-  KAGE_KIND_TREE = 5,
-  KAGE_KIND_OP = 6,
-  KAGE_KIND_SP = 7,
-  KAGE_KIND_NC = 8,
-  KAGE_KIND_IF = 9,
-  KAGE_KIND_EV = 10,
-  KAGE_KIND_ES = 11,
-  KAGE_KIND_RESOLVE = 12,
-  KAGE_KIND_TP = 13,
-  KAGE_KIND_EOL = 14,
-  KAGE_KIND_END = 15
+  KAGE_KIND_HEADER = 0,   /**< token 0 */
+  KAGE_KIND_SHADE = 1,    /**< the darkening of shadow */
+  KAGE_KIND_TABLE = 2,    /**< an entry of the light table */
+  KAGE_KIND_FACE = 3,     /**< an entry of a unit's face table */
+  KAGE_KIND_SEG = 4,      /**< segment of a polyhedron */
+  KAGE_KIND_TREE = 5,     /**< take the compare tree's line */
+  KAGE_KIND_OP = 6,       /**< opaque span */
+  KAGE_KIND_SP = 7,       /**< shadow span */
+  KAGE_KIND_NC = 8,       /**< near-cap span */
+  KAGE_KIND_IF = 9,       /**< the eye is inside the volume */
+  KAGE_KIND_EV = 10,      /**< end of a volume */
+  KAGE_KIND_ES = 11,      /**< end of a light sample */
+  KAGE_KIND_RESOLVE = 12, /**< darken what is in shadow */
+  KAGE_KIND_TP = 13,      /**< translucent span */
+  KAGE_KIND_EOL = 14,     /**< end of the line */
+  KAGE_KIND_END = 15      /**< end of the frame */
 };
 
-/* Fields of a frame's status. */
+/** Fields of a frame's status. */
 enum {
-  KAGE_STATUS_ERROR = 0, /* the code of docs/stream.md, "Errors"; 0: none, and then the next four are 0 */
-  KAGE_STATUS_FRAME = 1, /* number in the header */
-  KAGE_STATUS_LINE = 2,  /* EOLs accepted before the error */
-  KAGE_STATUS_TOKEN = 3, /* index of the token in its frame */
-  KAGE_STATUS_UNIT = 4,
-  KAGE_STATUS_WIDTH = 5, /* 0 after an error in the header */
-  KAGE_STATUS_HEIGHT = 6,
-  KAGE_STATUS_FIELDS = 7
+  KAGE_STATUS_ERROR = 0,  /**< the code of docs/stream.md, "Errors"; 0: none, and then the next four are 0 */
+  KAGE_STATUS_FRAME = 1,  /**< number in the header */
+  KAGE_STATUS_LINE = 2,   /**< EOLs accepted before the error */
+  KAGE_STATUS_TOKEN = 3,  /**< index of the token in its frame */
+  KAGE_STATUS_UNIT = 4,   /**< of an error of a unit */
+  KAGE_STATUS_WIDTH = 5,  /**< 0 after an error in the header */
+  KAGE_STATUS_HEIGHT = 6, /**< likewise */
+  KAGE_STATUS_FIELDS = 7  /**< how many there are */
 };
 
-/* KAGE_GOLDEN_ABI of the library. It grows when something here changes its meaning. */
+/** The library's KAGE_GOLDEN_ABI.
+ * @return that of the header that it was built with */
 int kage_golden_abi(void);
 
-/* A core of a configuration: a name in rtl/defs/configs.yaml, a YAML file, or a stream file, whose own it then is. NULL
- * after an error, whose text kage_golden_error(NULL) has. */
+/** A core of a configuration.
+ * @param config a name in rtl/defs/configs.yaml, a YAML file, or a stream file, whose own it then is
+ * @return the core; NULL after an error, whose text kage_golden_error(NULL) has */
 kage_golden* kage_golden_create(const char* config);
 
-/* A core of parameters as YAML: "{Z_BITS: 16, LANES: 1}". Those left out have their defaults; "{}" is all of them. */
+/** A core of parameters.
+ * @param yaml "{Z_BITS: 16, LANES: 1}"; those left out have their defaults, "{}" is all of them
+ * @return the core; NULL after an error, whose text kage_golden_error(NULL) has */
 kage_golden* kage_golden_create_parameters(const char* yaml);
 
-/* NULL does nothing. */
+/** Ends a core.
+ * @param core is gone after this; NULL does nothing */
 void kage_golden_destroy(kage_golden* core);
 
-/* Why the last call on this core returned an error, one line; of NULL: the last error of a create in this thread. ""
- * if there was none. */
+/** Why the last call returned an error.
+ * @param core whose call; NULL: the last create in this thread
+ * @return one line; "" if there was none */
 const char* kage_golden_error(const kage_golden* core);
 
-/* The value of a parameter ("Z_BITS"), KAGE_GOLDEN_ERROR if there is none of that name. */
+/** The value of a parameter.
+ * @param core whose configuration
+ * @param name as in docs/stream.md, "Z_BITS"
+ * @return the value, KAGE_GOLDEN_ERROR if there is none of that name */
 int kage_golden_parameter(kage_golden* core, const char* name);
 
 /* --- Words in ---------------------------------------------------------------------------------------------------- */
 
-/* The next word of the frame at hand: MORE, TOKEN, END or FAILED. */
+/** The next word of the frame at hand.
+ * @param core gets it
+ * @param word the word
+ * @return KAGE_GOLDEN_MORE, KAGE_GOLDEN_TOKEN, KAGE_GOLDEN_END or KAGE_GOLDEN_FAILED */
 int kage_golden_word(kage_golden* core, unsigned int word);
 
-/* Words in one piece, tokens not told apart: where in the frame the core is then, MORE (so far no end), END or
- * FAILED. Faster than word by word. */
+/** Words in one piece, tokens not told apart. Faster than word by word.
+ * @param core gets them
+ * @param words `count` of them
+ * @param count at least 0
+ * @return where in the frame the core is then: KAGE_GOLDEN_MORE (so far no end), KAGE_GOLDEN_END or KAGE_GOLDEN_FAILED
+ */
 int kage_golden_feed(kage_golden* core, const unsigned int* words, int count);
 
-/* The frame's words have all been given, TLAST with the beat of the last. Returns the error code of the frame, 0 if it
- * has none. What is given next is the next frame. */
+/** The frame's words have all been given, TLAST with the beat of the last. What is given next is the next frame.
+ * @param core whose frame
+ * @return the error code of the frame (docs/stream.md, "Errors"), 0 if it has none */
 int kage_golden_finish(kage_golden* core);
 
-/* Take words from a stream file, which must have this core's pixel parameters; no other program may make it shorter
- * meanwhile. Returns the number of its frames. */
+/** Take words from a stream file, which must have this core's pixel parameters; no other program may make it shorter
+ * meanwhile.
+ * @param core reads them
+ * @param path the file
+ * @return the number of its frames */
 int kage_golden_open(kage_golden* core, const char* path);
 
-/* Frame `index` of that file is what kage_golden_next() reads, from its header on. A frame that was not finished is
- * forgotten. Returns 0. The frame's words are checked as strictly as kage info checks them. */
+/** Choose the frame that kage_golden_next() reads, from its header on. A frame that was not finished is forgotten. The
+ * frame's words are checked as strictly as kage info checks them.
+ * @param core has the file open
+ * @param index from 0
+ * @return 0 */
 int kage_golden_frame(kage_golden* core, int index);
 
-/* The next token of that frame: TOKEN, END or FAILED. Then, as with words, kage_golden_finish(). */
+/** The next token of that frame. After the last, as with words, kage_golden_finish().
+ * @param core has the file open
+ * @return KAGE_GOLDEN_TOKEN, KAGE_GOLDEN_END or KAGE_GOLDEN_FAILED */
 int kage_golden_next(kage_golden* core);
 
 /* --- The last token that was accepted ---------------------------------------------------------------------------- */
 
-int kage_golden_token_kind(kage_golden* core);                 /* KAGE_KIND_... */
-int kage_golden_token_index(kage_golden* core);                /* in its frame; the header is 0. -1 before it */
-int kage_golden_token_words(kage_golden* core);                /* how many it has */
-unsigned int kage_golden_token_word(kage_golden* core, int i); /* the i-th of them, 0 if there is none */
+/** Which token it is.
+ * @param core that accepted it
+ * @return KAGE_KIND_... */
+int kage_golden_token_kind(kage_golden* core);
 
-/* A field, KAGE_TOKEN_...; 0 if the token has none of that name. */
+/** Where in its frame it is.
+ * @param core that accepted it
+ * @return its index; the header is 0, -1 before it */
+int kage_golden_token_index(kage_golden* core);
+
+/** How long it is.
+ * @param core that accepted it
+ * @return how many words it has */
+int kage_golden_token_words(kage_golden* core);
+
+/** A word of it.
+ * @param core that accepted it
+ * @param i from 0
+ * @return the i-th of its words, 0 if there is none */
+unsigned int kage_golden_token_word(kage_golden* core, int i);
+
+/** A field of it.
+ * @param core that accepted it
+ * @param field KAGE_TOKEN_...
+ * @return its value; 0 if the token has none of that name */
 long long kage_golden_token_field(kage_golden* core, int field);
 
-/* "OP [12, 40) z 123.5 dz -0.25 color 10,20,30 lit". */
+/** The token in words.
+ * @param core that accepted it
+ * @return "OP [12, 40) z 123.5 dz -0.25 color 10,20,30 lit" */
 const char* kage_golden_token_text(kage_golden* core);
 
 /* --- The line at hand, after that token -------------------------------------------------------------------------- */
 
-int kage_golden_width(kage_golden* core); /* of the frame; 0 when there is none */
-int kage_golden_height(kage_golden* core);
-int kage_golden_line(kage_golden* core);                /* lines that have ended */
-int kage_golden_bias(kage_golden* core);                /* 0 .. 2^DSF_BITS - 1 */
-unsigned int kage_golden_background(kage_golden* core); /* channel c in bits 8c .. 8c + 7 */
+/** The frame's width.
+ * @param core whose frame
+ * @return pixels of a line; 0 when there is no frame */
+int kage_golden_width(kage_golden* core);
 
-/* A field of pixel x, KAGE_PIXEL_..., or KAGE_PIXEL_ABSENT or KAGE_PIXEL_ANY. After an EOL the line is clear. */
+/** The frame's height.
+ * @param core whose frame
+ * @return lines; 0 when there is no frame */
+int kage_golden_height(kage_golden* core);
+
+/** The line's number.
+ * @param core whose frame
+ * @return lines that have ended */
+int kage_golden_line(kage_golden* core);
+
+/** The line's bias.
+ * @param core whose line
+ * @return 0 .. 2^DSF_BITS - 1 */
+int kage_golden_bias(kage_golden* core);
+
+/** The frame's background.
+ * @param core whose frame
+ * @return channel c in bits 8c .. 8c + 7 */
+unsigned int kage_golden_background(kage_golden* core);
+
+/** A field of a pixel. After an EOL the line is clear.
+ * @param core whose line
+ * @param x from 0
+ * @param field KAGE_PIXEL_...
+ * @return its value, KAGE_PIXEL_ABSENT or KAGE_PIXEL_ANY */
 int kage_golden_pixel(kage_golden* core, int x, int field);
 
-/* The name of a pixel's field for messages: "z", "color[0]", "class", "dsf", "fsf", "count[0]". "" if there is none. */
+/** The name of a pixel's field for messages.
+ * @param field KAGE_PIXEL_...
+ * @return "z", "color[0]", "class", "dsf", "fsf", "count[0]"; "" if there is none */
 const char* kage_golden_pixel_name(int field);
 
 /* --- Lines out --------------------------------------------------------------------------------------------------- */
 
-/* The line that left last: its number, -1 before the frame's first, and channel `channel` of its pixel x, -1 if there
- * is none. After an error all lines that had not ended leave at once, as background. */
+/** The line that left last. After an error all lines that had not ended leave at once, as background.
+ * @param core whose frame
+ * @return its number, -1 before the frame's first */
 int kage_golden_out_line(kage_golden* core);
+
+/** A pixel of the line that left last.
+ * @param core whose frame
+ * @param x from 0
+ * @param channel from 0
+ * @return 0 .. 255, -1 if there is none */
 int kage_golden_out(kage_golden* core, int x, int channel);
 
-/* Every line as it leaves: CHANNELS bytes a pixel. `taker` must not call this core, nor leave but by returning; NULL:
- * no one. `user` is passed on. */
+/** Gets every line as it leaves: its number `y` and its `pixels`, `bytes` of them, CHANNELS a pixel. It must not call
+ * the core, nor leave but by returning. `user` is what kage_golden_on_line() was given. */
 typedef void (*kage_golden_taker)(void* user, int y, const unsigned char* pixels, int bytes);
+
+/** Have every line taken as it leaves.
+ * @param core whose lines
+ * @param taker gets them; NULL: no one
+ * @param user is passed on */
 void kage_golden_on_line(kage_golden* core, kage_golden_taker taker, void* user);
 
 /* --- How a frame ended ------------------------------------------------------------------------------------------- */
 
-/* A field, KAGE_STATUS_..., of the frame that was finished last, or has just failed; -1 if there is no such field. */
+/** A field of the frame that was finished last, or has just failed.
+ * @param core whose frame
+ * @param field KAGE_STATUS_...
+ * @return its value; -1 if there is no such field */
 long long kage_golden_status(kage_golden* core, int field);
 
-/* "no error", or name, meaning and place: "ORDER: a token where its phase does not allow it: frame 0, line 3, ...". */
+/** How that frame ended, in words.
+ * @param core whose frame
+ * @return "no error", or name, meaning and place: "ORDER: a token where its phase does not allow it: frame 0, line 3,
+ * ..." */
 const char* kage_golden_status_text(kage_golden* core);
 
 #ifdef __cplusplus

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Light that is sampled, and normals that are put in classes. [Matsumoto, section 6.]
+
+/// @file
+/// Light that is sampled, and normals that are put in classes. [Matsumoto, section 6.]
 #pragma once
 
 #include <cstdint>
@@ -16,29 +17,46 @@ inline constexpr int kMaxSamples = 255;
 /// Most normals that a light table tells apart.
 inline constexpr int kMaxClasses = 2047;
 
-/// The points that stand for a light, 1 <= samples <= kMaxSamples: a point or directional light's own one; of another
-/// its middle if `samples` is 1, else that many, spread evenly over its shape: the disc by a golden spiral, the
-/// rectangle by the lattice of the golden ratio, the ball's surface by a golden spiral from pole to pole. `seed` turns
-/// or shifts the pattern. The same on every machine.
+/// The points that stand for a light, spread evenly over its shape: the disc by a golden spiral, the rectangle by the
+/// lattice of the golden ratio, the ball's surface by a golden spiral from pole to pole. The same on every machine.
+/// [Matsumoto, section 6.]
+/// @param light any light
+/// @param samples 1 .. kMaxSamples
+/// @param seed turns or shifts the pattern
+/// @return a point or directional light's own one; of another its middle if `samples` is 1, else that many
 std::vector<LightPoint> light_points(const Light& light, int samples, std::uint64_t seed);
 
-/// Share of its intensity that reaches a point, without regard to its angle there: fall-off, range and cone, >= 0.
+/// How much of a light arrives at a place: fall-off, range and cone.
+/// @param light any light
+/// @param point in world space
+/// @return share of its intensity that reaches the point, without regard to its angle there, >= 0
 double attenuation(const Light& light, const glm::dvec3& point);
 
-/// What a surface at `point`, facing along the unit vector `normal`, gets of the light: its colour, attenuated, times
-/// the cosine; 0 from behind.
+/// What a surface gets of a light.
+/// @param light any light
+/// @param point of the surface, in world space
+/// @param normal of the surface there, of length 1
+/// @return linear: the light's colour, attenuated, times the cosine; 0 from behind
 glm::dvec3 received(const Light& light, const glm::dvec3& point, const glm::dvec3& normal);
 
 /// Unit normals spread evenly over the sphere, on a golden spiral from pole to pole, numbered from 1.
 class NormalClasses {
  public:
-  /// 1 <= count <= kMaxClasses.
+  /// The classes of a light table.
+  /// @param count how many, 1 .. kMaxClasses
   explicit NormalClasses(int count);
 
+  /// @return how many classes there are
   [[nodiscard]] int count() const { return static_cast<int>(normals_.size()); }
-  /// The normal of class 1 .. count().
+
+  /// The normal of a class. Not checked.
+  /// @param number of the class, 1 .. count()
+  /// @return of length 1
   [[nodiscard]] const glm::dvec3& normal(int number) const { return normals_[static_cast<std::size_t>(number - 1)]; }
-  /// The class whose normal is nearest; of several the first.
+
+  /// Puts a normal in a class.
+  /// @param unit of length 1
+  /// @return the number of the class whose normal is nearest; of several the first
   [[nodiscard]] int nearest(const glm::dvec3& unit) const;
 
  private:

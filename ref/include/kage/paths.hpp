@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// Where kage's data is.
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 namespace kage {
 
-/// Directory of kage's data (it holds scenes/ and rtl/): $KAGE_DATA_DIR, else the source tree that the library was
-/// built in, else share/kage under the install prefix. Throws Error if there is none.
+/// Finds the folder of kage's data, which holds scenes/ and rtl/. Throws Error if there is none.
+/// @return $KAGE_DATA_DIR, else the source tree that the library was built in, else share/kage under the install prefix
 std::filesystem::path data_directory();
-
-/// The whole of a file that kage made or has with it. Throws Error that names it.
-std::string read_file(const std::filesystem::path& path);
-
-/// The extension with its dot, letters of ASCII in lower case: ".png" of "a.PNG"; empty if there is none.
-std::string lower_extension(const std::filesystem::path& path);
 
 }  // namespace kage

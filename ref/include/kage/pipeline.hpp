@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// The whole way in one call: a scene, or a stream file, to words, and words to pixels. Each step has its own header
-// (scene.hpp, geometry.hpp, frontend.hpp, stream.hpp, core.hpp) for those who want to go between.
+
+/// @file
+/// The whole way in one call: a scene, or a stream file, to words, and words to pixels. Each step has its own header
+/// (scene.hpp, geometry.hpp, frontend.hpp, stream.hpp, core.hpp) for those who want to go between.
 #pragma once
 
 #include <cstdint>
@@ -29,26 +30,30 @@ class FrameSource {
   FrameSource(const FrameSource&) = delete;
   FrameSource& operator=(const FrameSource&) = delete;
 
-  /// What the words are for.
+  /// @return what the words are for
   [[nodiscard]] virtual const Config& config() const = 0;
 
-  /// How many frames there are.
+  /// @return how many frames there are
   [[nodiscard]] virtual int frames() const = 0;
 
-  /// Hands the words of frame `index`, 0 .. frames() - 1, to `sink`, piece by piece, and returns their counts. What
-  /// `sink` throws ends the frame. Throws Error if the frame cannot be made, or breaks a rule of docs/stream.md.
+  /// Makes a frame's words. Throws Error if the frame cannot be made, or breaks a rule of docs/stream.md.
+  /// @param index 0 .. frames() - 1
+  /// @param sink gets the words, piece by piece; what it throws ends the frame
+  /// @return counts of the tokens
   virtual TokenCounts frame(int index, const WordSink& sink) = 0;
 
-  /// All words of frame `index`.
+  /// The words in memory. Throws as frame().
+  /// @param index 0 .. frames() - 1
+  /// @return all words of the frame
   std::vector<std::uint32_t> words(int index);
 };
 
 /// How a scene is drawn.
 struct DrawOptions {
-  int width = 320;  ///< of the picture in pixels, 1 .. kMaxSize
-  int height = 240;
-  int frames = 0;  ///< equal steps through the scene's animation or orbit; 0: as many as the scene has
-  Look look = {};
+  int width = 320;               ///< of the picture in pixels, 1 .. kMaxSize
+  int height = 240;              ///< likewise, in lines
+  int frames = 0;                ///< equal steps through the scene's animation or orbit; 0: as many as the scene has
+  Look look = {};                ///< what the picture's maker decides
   OrderBuildOptions order = {};  ///< of translucent faces
   int threads = 0;               ///< 0: one per processor. The words do not depend on it
   std::string name = {};         ///< what messages call the scene; empty: Scene::name()
@@ -56,32 +61,53 @@ struct DrawOptions {
 
 /// What a frame of a scene was made of.
 struct FrameParts {
-  SceneFrame scene;
-  FrameGeometry geometry;
-  PolyhedraReport polyhedra;
+  SceneFrame scene;           ///< what is drawn
+  FrameGeometry geometry;     ///< the same on the screen
+  PolyhedraReport polyhedra;  ///< how polyhedra went to units
 };
 
 /// The frames of a scene. Order and shadows that do not change are kept from frame to frame, which changes no word.
 class SceneFrames : public FrameSource {
  public:
-  /// Drawn with `config`. Throws Error if `options` are not as they say. What `config` lacks of the scene's needs
-  /// (needs_of(), lacks()) is left out of the picture.
+  /// Drawn with a configuration. What it lacks of the scene's needs (needs_of(), lacks()) is left out of the picture.
+  /// Throws Error if `options` are not as they say.
+  /// @param scene what is drawn
+  /// @param config a legal configuration
+  /// @param options how it is drawn
   SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options = {});
 
   /// Drawn with the first named configuration that has all that the first frame needs. Throws Error if none has.
+  /// @param scene what is drawn
+  /// @param options how it is drawn
   explicit SceneFrames(std::shared_ptr<const Scene> scene, const DrawOptions& options = {});
+  /// The same for a scene that no one else needs.
+  /// @param scene what is drawn
+  /// @param options how it is drawn
   explicit SceneFrames(Scene scene, const DrawOptions& options = {});
 
+  /// @return what the scene is drawn with
   [[nodiscard]] const Config& config() const override { return config_; }
   [[nodiscard]] int frames() const override { return frames_; }
+  /// As FrameSource::frame(). Error and TooManyFragments begin with the scene's name and the frame.
+  /// @param index 0 .. frames() - 1
+  /// @param sink gets the words, piece by piece
+  /// @return counts of the tokens
   TokenCounts frame(int index, const WordSink& sink) override;
 
-  /// As frame(); `parts` is filled before `sink` gets the first words.
+  /// The same, and what the frame was made of.
+  /// @param index 0 .. frames() - 1
+  /// @param sink gets the words, piece by piece
+  /// @param parts filled before `sink` gets the first words
+  /// @return counts of the tokens
   TokenCounts frame(int index, const WordSink& sink, FrameParts& parts);
 
-  /// What the tokens of frame `index` come from. `sink` gets the frame's words, which are not checked once more.
+  /// Tells what the tokens of a frame come from.
+  /// @param index 0 .. frames() - 1
+  /// @param sink gets the frame's words, which are not checked once more
+  /// @return the frame's geometry with the names behind it
   Provenance provenance(int index, const WordSink& sink);
 
+  /// @return what is drawn
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
  private:
@@ -98,12 +124,18 @@ class SceneFrames : public FrameSource {
 /// The frames of a stream file.
 class StreamFrames : public FrameSource {
  public:
+  /// The frames of a file that is open.
+  /// @param file what is read
   explicit StreamFrames(std::shared_ptr<const StreamFile> file);
 
+  /// @return the file's configuration
   [[nodiscard]] const Config& config() const override { return config_; }
   [[nodiscard]] int frames() const override { return file_->frame_count(); }
 
   /// Each piece is a copy: whatever happens to the file, all who read the piece read the same words.
+  /// @param index 0 .. frames() - 1
+  /// @param sink gets the words, piece by piece
+  /// @return counts of the tokens
   TokenCounts frame(int index, const WordSink& sink) override;
 
  private:
@@ -111,26 +143,40 @@ class StreamFrames : public FrameSource {
   Config config_;
 };
 
-/// What drawing `scene` takes, judged by one of its frames. `samples`: of a light that is no point.
+/// Judges what drawing a scene takes, by one of its frames.
+/// @param scene what is drawn
+/// @param frame one of its frames
+/// @param width of the picture, in pixels
+/// @param height of the picture, in lines
+/// @param samples of a light that is no point, 1 .. kMaxSamples
+/// @return what a configuration must have
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples = Look{}.samples);
 
 /// Draws frames with the golden core.
 class Renderer {
  public:
-  /// `source` must outlive the renderer.
+  /// Draws the frames of a source.
+  /// @param source must outlive the renderer
   explicit Renderer(FrameSource& source);
 
-  /// Frame `index`, line by line from the top. An error in the words is a status, and background pixels. `words`, if
-  /// given, gets the frame's words too, each piece before the lines that come of it.
+  /// Draws a frame, line by line from the top. An error in the words is a status, and background pixels. Throws as
+  /// FrameSource::frame().
+  /// @param index 0 .. frames() - 1 of the source
+  /// @param sink gets the lines
+  /// @param words if given, gets the frame's words too, each piece before the lines that come of it
+  /// @return how the frame ended
   FrameStatus frame(int index, const LineSink& sink, const WordSink& words = {});
 
-  /// Frame `index`. Throws Error where its words have an error.
+  /// Draws a frame into memory. Throws Error where its words have an error.
+  /// @param index 0 .. frames() - 1 of the source
+  /// @return the picture
   Image image(int index);
 
-  /// Counts of the frame that was drawn last.
+  /// @return counts of the frame that was drawn last
   [[nodiscard]] const TokenCounts& counts() const { return counts_; }
 
-  /// Wall time that the golden core has taken for all frames so far; that of source and sink is not in it.
+  /// @return wall time that the golden core has taken for all frames so far, in seconds; that of source and sink is not
+  /// in it
   [[nodiscard]] double seconds() const { return seconds_; }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// What in a scene the tokens of a frame come from.
+
+/// @file
+/// What in a scene the tokens of a frame come from.
 #pragma once
 
 #include <cstdint>
@@ -27,25 +28,39 @@ struct TokenSource {
   int light = -1;      ///< of a volume, from 0
   int sample = -1;     ///< of that light, from 0
 
+  /// Puts the source in words.
+  /// @return "the side of the shadow of gem, face 3, light 0 sample 2"
   [[nodiscard]] std::string text() const;  ///< "the side of the shadow of gem, face 3, light 0 sample 2"
 };
 
 /// A frame's geometry with the names behind it.
 class Provenance {
  public:
+  /// Keeps what a frame was made of.
+  /// @param objects names, as Scene::objects()
+  /// @param frame what was drawn
+  /// @param geometry made of it
+  /// @param origins of the frame's words
   Provenance(std::vector<std::string> objects, SceneFrame frame, FrameGeometry geometry, FrameOrigins origins)
       : objects_(std::move(objects)),
         frame_(std::move(frame)),
         geometry_(std::move(geometry)),
         origins_(std::move(origins)) {}
 
-  /// Sources of those tokens among `wanted` (indices in the frame) that come of a part of the scene: spans, and ends of
-  /// volumes. `words`: the whole frame.
+  /// Tells where tokens come from.
+  /// @param config that of the words
+  /// @param words the whole frame
+  /// @param wanted indices in the frame
+  /// @return sources of those among `wanted` that come of a part of the scene: spans, and ends of volumes
   [[nodiscard]] std::map<std::uint32_t, TokenSource> of_tokens(const Config& config,
                                                                std::span<const std::uint32_t> words,
                                                                const std::set<std::uint32_t>& wanted) const;
 
-  /// Sources of the tokens of a pixel's history, and of each TREE the polyhedron that came through it.
+  /// Tells where the tokens of a pixel's history come from, and of each TREE the polyhedron that came through it.
+  /// @param config that of the words
+  /// @param words the whole frame
+  /// @param history of a pixel of the frame
+  /// @return sources by the tokens' indices in the frame
   [[nodiscard]] std::map<std::uint32_t, TokenSource> of_history(const Config& config,
                                                                 std::span<const std::uint32_t> words,
                                                                 const PixelHistory& history) const;

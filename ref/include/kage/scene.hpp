@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// Scenes: what is to be drawn, in floating point and in world space, frame by frame.
-//
-// Units and conventions, for all of this header: right-handed coordinates, lengths in the file's unit, angles in
-// radians. All numbers are finite; a file with others is refused. Colours are linear, 0 .. 1. A Scene does not change
-// once loaded, and any number of threads may call frame() at once.
+
+/// @file
+/// Scenes: what is to be drawn, in floating point and in world space, frame by frame.
+///
+/// Units and conventions, for all of this header: right-handed coordinates, lengths in the file's unit, angles in
+/// radians. All numbers are finite; a file with others is refused. Colours are linear, 0 .. 1. A Scene does not change
+/// once loaded, and any number of threads may call frame() at once.
 #pragma once
 
 #include <array>
@@ -21,11 +22,11 @@ namespace kage {
 /// A camera: an orthonormal frame at `eye`. The view ray of a pixel leaves `eye` (perspective) or a point of the plane
 /// through it (parallel) towards `forward`.
 struct Camera {
-  glm::dvec3 eye{0, 0, 0};
-  glm::dvec3 right{1, 0, 0};
-  glm::dvec3 up{0, 1, 0};
-  glm::dvec3 forward{0, 0, -1};
-  bool perspective = true;
+  glm::dvec3 eye{0, 0, 0};       ///< where it is, or the middle of the plane that parallel rays leave
+  glm::dvec3 right{1, 0, 0};     ///< unit, to the right of the picture
+  glm::dvec3 up{0, 1, 0};        ///< unit, to its top
+  glm::dvec3 forward{0, 0, -1};  ///< unit, into it
+  bool perspective = true;       ///< else parallel
   double half_height = 0.5;  ///< perspective: tan(vertical field of view / 2); parallel: half the height of the view
   double near = 0.1;         ///< distance of the near plane along forward, > 0
   double far = 0;            ///< distance of the far plane, > near; 0: not given. Geometry cuts nothing there
@@ -34,13 +35,18 @@ struct Camera {
 
 /// A point that light comes from, or, at infinity, a direction: what casts one set of shadows.
 struct LightPoint {
-  bool directional = true;
+  bool directional = true;         ///< at infinity
   glm::dvec3 direction{0, -1, 0};  ///< directional: unit vector the light travels along
   glm::dvec3 position{0, 0, 0};    ///< else
 };
 
 /// What a light that is no point extends over: the disc or rectangle that two half axes span, or a ball.
-enum class LightShape : std::uint8_t { point, disc, rectangle, sphere };
+enum class LightShape : std::uint8_t {
+  point,      ///< nothing: hard shadows
+  disc,       ///< an ellipse round `position`, with the half axes
+  rectangle,  ///< a parallelogram round `position`, with the half axes
+  sphere,     ///< a ball round `position`
+};
 
 /// A light. Fall-off and cone are those of glTF's KHR_lights_punctual. What is not a point shines as from its middle;
 /// only its shadows are soft.
@@ -51,16 +57,20 @@ struct Light : LightPoint {
   bool spot = false;          ///< not directional: it shines in a cone round `direction`,
   double inner_cosine = 1;    ///< fully within this angle,
   double outer_cosine = 0;    ///< not outside this one
-  LightShape shape = LightShape::point;
-  glm::dvec3 axis_u{0, 0, 0};  ///< disc, rectangle: half axes; sphere: its radius in x
-  glm::dvec3 axis_v{0, 0, 0};
+  LightShape shape = LightShape::point;  ///< what it extends over
+  glm::dvec3 axis_u{0, 0, 0};            ///< disc, rectangle: half axes; sphere: its radius in x
+  glm::dvec3 axis_v{0, 0, 0};            ///< disc, rectangle: the other one
 };
 
 /// Most lights of a scene.
 inline constexpr std::size_t kMaxLights = 64;
 
 /// Which sides of a triangle its material shows, as it is numbered here: `back` where the file's winding was turned.
-enum class Sides : std::uint8_t { both, front, back };
+enum class Sides : std::uint8_t {
+  both,   ///< it is double-sided
+  front,  ///< only where its corners are seen counter-clockwise
+  back,   ///< only where they are seen clockwise
+};
 
 /// A triangle, counter-clockwise seen from outside.
 struct Triangle {
@@ -90,13 +100,13 @@ struct ShadingVertex {
 /// A maximal set of triangles joined by shared edges, within one object, all of them opaque or all translucent.
 struct Component {
   std::uint32_t first = 0;  ///< first of its triangles; they are consecutive in SceneFrame::triangles
-  std::uint32_t count = 0;
-  bool closed =
-      false;  ///< every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0
+  std::uint32_t count = 0;  ///< of its triangles
+  /// Every edge is shared by exactly two triangles, in opposite directions, and the volume is not 0.
+  bool closed = false;
   bool translucent = false;  ///< its triangles have alpha < 255: they are drawn last, cast no shadow and take none
   bool convex = false;       ///< closed, and no vertex is further than the stated tolerance outside a face's plane
   std::uint32_t first_polygon = 0;  ///< its polygons are consecutive in SceneFrame::polygons
-  std::uint32_t polygon_count = 0;
+  std::uint32_t polygon_count = 0;  ///< of its polygons
   std::string reason;  ///< why it is not closed or not convex, naming the edge or vertex; empty if it is both
 };
 
@@ -104,16 +114,19 @@ struct Component {
 /// Vertices are welded: corners at the same position in the same object share an index, so neighbours share
 /// coordinates. Triangles of inside-out closed components are turned so that they face outward.
 struct SceneFrame {
-  Camera camera;
+  Camera camera;                                      ///< what the frame is seen by
   std::vector<Light> lights = std::vector<Light>(1);  ///< 1 to kMaxLights
-  std::vector<glm::dvec3> vertices;
-  std::vector<ShadingVertex> shading;
-  std::vector<Triangle>
-      triangles;  ///< in draw order: objects in the file's order, components in order of their first face
+  std::vector<glm::dvec3> vertices;                   ///< in world space
+  std::vector<ShadingVertex> shading;                 ///< what triangles look like at their corners
+  /// In draw order: objects in the file's order, components in order of their first face.
+  std::vector<Triangle> triangles;
   std::vector<Polygon> polygons;       ///< the same surface, in the same order
   std::vector<std::uint32_t> corners;  ///< of polygons, into vertices
   std::vector<Component> components;   ///< in the order of their triangles; every triangle and polygon belongs to one
 
+  /// A polygon's corners.
+  /// @param p one of `polygons`
+  /// @return into `vertices`, counter-clockwise seen from outside
   [[nodiscard]] std::span<const std::uint32_t> outline(const Polygon& p) const {
     return std::span(corners).subspan(p.first, p.count);
   }
@@ -144,7 +157,7 @@ struct SceneOptions {
 /// A scene loaded from a file.
 class Scene {
  public:
-  /// Load any file that Assimp reads, or a built-in scene by its name (`builtin_scenes()`).
+  /// Loads any file that Assimp reads, or a built-in scene. Throws Error that names file, place and cause.
   /// Import runs in a child process with limits of time and memory; its death is an Error like any other. The child is
   /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
   /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
@@ -152,28 +165,39 @@ class Scene {
   /// Intensities of lights are scaled by one factor, the same in all frames: at the middle of the scene, in the first
   /// frame, light that meets a surface head-on from all of them (cones and ranges aside) adds up to 1 in the largest
   /// channel.
+  /// @param name_or_path a name of builtin_scenes(), or a file
+  /// @param options how it is loaded
+  /// @return the scene, which does not change any more
   static Scene load(const std::string& name_or_path, const SceneOptions& options = {});
 
   ~Scene();
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
 
-  /// Number of frames of the scene's own camera path or animation, at least 1.
+  /// @return frames of the scene's own camera path or animation, at least 1
   [[nodiscard]] int frame_count() const;
 
-  /// Frame `index` of `count` equal steps through the animation (or the orbit, where the file has no camera).
+  /// A frame of so many equal steps through the animation (or the orbit, where the file has no camera). Throws Error if
+  /// there is no such frame, or a number in it is not finite.
+  /// @param index 0 .. count - 1
+  /// @param count at least 1
+  /// @return all that geometry needs
   [[nodiscard]] SceneFrame frame(int index, int count) const;
 
+  /// @return the names of the objects, as the file has them
   [[nodiscard]] const std::vector<std::string>& objects() const;
 
-  /// What the file holds that kage does not draw, and what was added: one sentence each ("2 textures are ignored").
+  /// @return what the file holds that kage does not draw, and what was added: one sentence each ("2 textures are
+  /// ignored")
   [[nodiscard]] const std::vector<std::string>& notes() const;
 
+  /// @return what of the file is used
   [[nodiscard]] const SceneContents& contents() const;
 
-  /// True where corners of some triangle differ in shading, so that colour varies within it.
+  /// @return whether corners of some triangle differ in shading, so that colour varies within it
   [[nodiscard]] bool needs_smooth() const;
 
+  /// @return that of the built-in scene, or the file's without folder and extension
   [[nodiscard]] const std::string& name() const;
 
  private:
@@ -182,7 +206,8 @@ class Scene {
   std::unique_ptr<Data> data_;
 };
 
-/// Names of the built-in scenes.
+/// What scenes/ has.
+/// @return the names of the built-in scenes
 const std::vector<std::string>& builtin_scenes();
 
 }  // namespace kage

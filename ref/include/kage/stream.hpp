@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-//
-// The frame stream: tokens to words, words to tokens, stream files. The contract is docs/stream.md.
+
+/// @file
+/// The frame stream: tokens to words, words to tokens, stream files. The contract is docs/stream.md.
 #pragma once
 
 #include <array>
@@ -19,7 +20,7 @@ namespace kage {
 
 /// A span with depth: OP, SP and TP. Colour is used by OP and TP only.
 struct SpanToken {
-  int xl = 0;
+  int xl = 0;                            ///< its first pixel
   int xr = 0;                            ///< half open, xl <= xr <= width
   std::int64_t z = 0;                    ///< at xl, Z_FRAC fraction bits, half an LSB included
   std::int64_t dz = 0;                   ///< per pixel
@@ -33,7 +34,7 @@ struct SpanToken {
 /// FACE and SEG: an entry of a unit's face table, and a run of pixels of one face (docs/stream.md, "Units and the
 /// tree").
 struct SegmentToken {
-  int unit = 0;
+  int unit = 0;                         ///< 0 .. UNITS - 1
   int face = 0;                         ///< SEG: 2^FACE_BITS - 1 is blank
   std::int64_t z = 0;                   ///< SEG: at the first pixel, as a span's; not for blank ones
   int dx = 0;                           ///< SEG: pixels, at least 1
@@ -56,27 +57,62 @@ struct TableToken {
 /// and value, and the words are as they were. The class is left out where the configuration has no shadows.
 class TokenWriter {
  public:
+  /// Writes behind what is there.
+  /// @param config a legal configuration
+  /// @param out must outlive the writer, or its use
   TokenWriter(const Config& config, std::vector<std::uint32_t>& out);
 
-  /// Go on writing elsewhere.
+  /// Goes on writing elsewhere.
+  /// @param out must outlive the writer, or its use
   void write_to(std::vector<std::uint32_t>& out) { out_ = &out; }
 
+  /// The frame's first words.
+  /// @param header its fields; fills in nothing
   void header(const FrameHeader& header);
+  /// SHADE.
+  /// @param shade share of its colour that a pixel in shadow loses, 0 .. 2^SHADE_FRAC
   void shade(std::uint32_t shade);
+  /// TABLE.
+  /// @param entry what it says
   void table(const TableToken& entry);
+  /// FACE.
+  /// @param face what it says
   void face(const SegmentToken& face);
+  /// SEG.
+  /// @param segment what it says
   void seg(const SegmentToken& segment);
-  void tree();
+  void tree();  ///< TREE
+  /// OP.
+  /// @param span what it says
   void op(const SpanToken& span);
+  /// SP.
+  /// @param span what it says
   void sp(const SpanToken& span);
+  /// NC.
+  /// @param xl its first pixel
+  /// @param xr one past its last
+  /// @param w signed multiplicity
   void nc(int xl, int xr, int w);
+  /// IF.
+  /// @param w signed multiplicity
   void inside(int w);  ///< IF
+  /// EV.
+  /// @param xl its first pixel
+  /// @param xr one past its last
   void ev(int xl, int xr);
+  /// ES.
+  /// @param xl its first pixel
+  /// @param xr one past its last
+  /// @param light 0 .. LIGHTS - 1
   void es(int xl, int xr, int light);
-  void resolve();
+  void resolve();  ///< RESOLVE
+  /// TP.
+  /// @param span what it says
   void tp(const SpanToken& span);
+  /// EOL.
+  /// @param y number of the line, from 0
   void eol(int y);
-  void end();
+  void end();  ///< END
 
  private:
   template <Kind K, class T>
@@ -89,31 +125,45 @@ class TokenWriter {
 
 /// Any token, decoded. `span.xl`, `span.xr` and `span.w` are also those of NC, IF, EV and ES.
 struct Token {
-  Kind kind{};
-  SpanToken span;
-  SegmentToken segment;  ///< FACE and SEG
-  TableToken table;      ///< TABLE; its light is also that of ES
-  std::uint32_t shade = 0;
-  int y = 0;  ///< EOL
+  Kind kind{};              ///< which token it is
+  SpanToken span;           ///< OP, SP, NC, IF, EV, ES and TP
+  SegmentToken segment;     ///< FACE and SEG
+  TableToken table;         ///< TABLE; its light is also that of ES
+  std::uint32_t shade = 0;  ///< SHADE: 0 .. 2^SHADE_FRAC
+  int y = 0;                ///< EOL
 };
 
-/// Decode the token that starts at `words[0]`; `words` must hold it whole.
+/// Decodes a token.
+/// @param config that of the words
+/// @param layout of the same configuration
+/// @param words hold the token whole, from `words[0]` on
+/// @return the token
 Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words);
 
 /// The same for one token after the other: fields that its kind does not have in this configuration stay as they are.
+/// @param config that of the words
+/// @param layout of the same configuration
+/// @param words hold the token whole, from `words[0]` on
+/// @param token gets what they say
 void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& token);
 
-/// One line that says what the token is: "OP [12, 40) z 123.5 dz -0.25 color 10,20,30 lit".
+/// Says in one line what the token is.
+/// @param config that of the token
+/// @param token of any kind
+/// @return "OP [12, 40) z 123.5 dz -0.25 color 10,20,30 lit"
 std::string to_string(const Config& config, const Token& token);
 
 /// Count of each kind of token, and words.
 struct TokenCounts {
-  std::array<std::uint64_t, 16> of_kind{};
-  std::uint64_t words = 0;
-  std::uint64_t spans = 0;        ///< OP, SP, NC, TP
-  std::uint64_t span_pixels = 0;  ///< pixels in them
-  int units = 0;                  ///< units with faces; of several frames, the most
+  std::array<std::uint64_t, 16> of_kind{};  ///< tokens, by Kind
+  std::uint64_t words = 0;                  ///< of 32 bits, the header's among them
+  std::uint64_t spans = 0;                  ///< OP, SP, NC, TP
+  std::uint64_t span_pixels = 0;            ///< pixels in them
+  int units = 0;                            ///< units with faces; of several frames, the most
 
+  /// Adds those of another frame.
+  /// @param other its counts
+  /// @return the sum
   TokenCounts& operator+=(const TokenCounts& other);
 };
 
@@ -123,14 +173,22 @@ struct TokenCounts {
 /// first word.
 class FrameChecker {
  public:
+  /// Checks a frame from its header on.
+  /// @param config a legal configuration
+  /// @param where opens the messages
+  /// @param offset of the first word in its file, in bytes
   FrameChecker(const Config& config, std::string where, std::uint64_t offset);
   ~FrameChecker();
   FrameChecker(const FrameChecker&) = delete;
   FrameChecker& operator=(const FrameChecker&) = delete;
 
+  /// Checks as much as has come. Throws Error on a fault.
+  /// @param words those that follow
   void feed(std::span<const std::uint32_t> words);
 
-  /// After the last words: the counts.
+  /// The frame's words have all come. Throws Error on a fault.
+  /// @param header filled if given
+  /// @return counts of the tokens
   TokenCounts finish(FrameHeader* header = nullptr);
 
  private:
@@ -138,42 +196,57 @@ class FrameChecker {
   std::unique_ptr<Data> data_;
 };
 
-/// The same for a frame whose words are all there.
+/// Checks a frame whose words are all there. Throws Error on a fault.
+/// @param config a legal configuration
+/// @param words the whole frame
+/// @param where opens the messages
+/// @param offset of the first word in its file, in bytes
+/// @param header filled if given
+/// @return counts of the tokens
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header = nullptr);
-
-class TempFiles;
 
 /// Writes a stream file. A file appears under its name only when finish() has succeeded; otherwise what was there
 /// stays. A pipe or a device gets each section once it is whole, a frame at a time: what it got of a stream that failed
 /// lacks the last section, DONE, so that no reader takes it for whole. Every error of writing is thrown as Error.
 class StreamFileWriter {
  public:
+  /// Begins a file.
+  /// @param path its name, or a pipe or a device
+  /// @param config that of the frames, legal
   StreamFileWriter(const std::filesystem::path& path, const Config& config);
-  /// Writes to the open file `fd` as to a pipe, and leaves it open. `name` is what messages call it.
+  /// Writes to an open file as to a pipe, and leaves it open.
+  /// @param fd the open file
+  /// @param name what messages call it
+  /// @param config that of the frames, legal
   StreamFileWriter(int fd, const std::string& name, const Config& config);
   ~StreamFileWriter();
   StreamFileWriter(const StreamFileWriter&) = delete;
   StreamFileWriter& operator=(const StreamFileWriter&) = delete;
 
-  /// A frame in pieces: begin_frame(), its words, end_frame(). No piece is kept.
+  /// Begins a frame in pieces: words() and end_frame() follow. No piece is kept.
   void begin_frame();
-  /// A frame as a port may bring it, sound or not (section PORT): a reader does not check it.
+  /// Begins a frame as a port may bring it, sound or not (section PORT): a reader does not check it.
   void begin_port_frame();
+  /// A piece of the frame that was begun.
+  /// @param words those that follow
   void words(std::span<const std::uint32_t> words);
+  /// Ends the frame that was begun.
   void end_frame();
 
   /// A frame whose words are all there.
+  /// @param words the whole frame
   void frame(std::span<const std::uint32_t> words);
 
-  /// Where the frames come from, as JSON text (docs/stream.md, Files): once, after the last frame. Cores ignore it.
+  /// Says where the frames come from (docs/stream.md, Files): once, after the last frame. Cores ignore it.
+  /// @param json text
   void origin(const std::string& json);
 
-  /// Ends the file, which gets its name now, or, the second way, with the others of `files` (ref/file/temp_file.hpp).
+  /// Ends the file, which gets its name now.
   void finish();
-  void finish(TempFiles& files);
 
  private:
+  friend struct StreamFileWriterInside;  // how the library itself names a file together with others
   struct Data;
   StreamFileWriter(std::unique_ptr<Data> data, const Config& config);
   std::unique_ptr<Data> data_;
@@ -193,29 +266,41 @@ struct StreamSection {
 /// frame() checks the section's checksum and the frame's tokens.
 class StreamFile {
  public:
+  /// Opens a file. Throws Error that names file and place where magic, version, configuration or the list of sections
+  /// are not right.
+  /// @param path its name
   explicit StreamFile(const std::filesystem::path& path);
   ~StreamFile();
   StreamFile(StreamFile&&) noexcept;
   StreamFile& operator=(StreamFile&&) noexcept;
 
+  /// @return that of the frames, legal
   [[nodiscard]] const Config& config() const;
+  /// @return how many frames the file has
   [[nodiscard]] int frame_count() const;
-  /// Whether frame `index` is as a port may bring it (section PORT): nothing in it has been checked but its checksum.
+  /// Whether a frame is as a port may bring it (section PORT): nothing in it has been checked but its checksum.
+  /// @param index 0 .. frame_count() - 1
+  /// @return true if it is
   [[nodiscard]] bool is_port_frame(int index) const;
+  /// @return the file's length
   [[nodiscard]] std::uint64_t bytes() const;
 
-  /// The text that StreamFileWriter::origin() took, or nothing.
+  /// @return the text that StreamFileWriter::origin() took, or nothing
   [[nodiscard]] const std::string& origin() const;
 
-  /// All sections but configuration, frames and end, in the file's order.
+  /// @return all sections but configuration, frames and end, in the file's order
   [[nodiscard]] std::vector<StreamSection> sections() const;
 
-  /// Frame `index` has been read: its pages need not stay in memory. Its words stay valid, and are read again from the
-  /// file where they are used once more. Without this a file that is read through comes to be in memory whole.
+  /// A frame has been read: its pages need not stay in memory. Its words stay valid, and are read again from the file
+  /// where they are used once more. Without this a file that is read through comes to be in memory whole.
+  /// @param index 0 .. frame_count() - 1
   void leave(int index) const;
 
-  /// Words of frame `index`, valid as long as this object. Checked on every call; counts are added to `counts` if
-  /// given.
+  /// Words of a frame, checked on every call. Throws Error that names file, frame, line, token and byte offset on a
+  /// fault.
+  /// @param index 0 .. frame_count() - 1
+  /// @param counts those of the frame are added, if given
+  /// @return the words, valid as long as this object
   [[nodiscard]] std::span<const std::uint32_t> frame(int index, TokenCounts* counts = nullptr) const;
 
  private:
@@ -227,20 +312,24 @@ class StreamFile {
 /// begins no token, at a token that the frame's end cuts, or at the frame's end; nothing past that is read.
 class TokenWalk {
  public:
-  /// `layout` and `words`, which begin with the header, must outlive the walk.
+  /// A walk from the first token behind the header.
+  /// @param layout must outlive the walk
+  /// @param words begin with the header, and must outlive the walk
   TokenWalk(const Layout& layout, std::span<const std::uint32_t> words);
 
-  /// The words of the next token; none where the walk has ended.
+  /// @return the words of the next token; none where the walk has ended
   [[nodiscard]] std::span<const std::uint32_t> peek() const;
 
-  /// The same, and the walk goes on behind them.
+  /// Goes on behind the next token.
+  /// @return its words; none where the walk has ended
   std::span<const std::uint32_t> next();
 
-  /// What has not been walked over.
+  /// @return what has not been walked over
   [[nodiscard]] std::span<const std::uint32_t> rest() const { return rest_; }
 
-  /// What the rest of an ended walk is: "2 words behind END", "kind 0, which is no token here", "OP of 5 words, cut
-  /// after 2"; nothing where there is none.
+  /// Puts in words what the rest of an ended walk is.
+  /// @return "2 words behind END", "kind 0, which is no token here", "OP of 5 words, cut after 2"; nothing where there
+  /// is none
   [[nodiscard]] std::string rest_text() const;
 
  private:
@@ -249,13 +338,20 @@ class TokenWalk {
   bool ended_ = false;  // by END
 };
 
-/// Words as they are: "0x00000006 0x0000001f".
+/// Writes words as they are.
+/// @param words any
+/// @return "0x00000006 0x0000001f"
 std::string words_text(std::span<const std::uint32_t> words);
 
-/// What the words of a frame, sound or not, have of tokens, as far as a TokenWalk goes.
+/// Counts what the words of a frame, sound or not, have of tokens, as far as a TokenWalk goes.
+/// @param config that of the words
+/// @param words the whole frame
+/// @return counts of the tokens
 TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> words);
 
-/// True if the file begins like a stream file.
+/// Looks at how a file begins.
+/// @param path any file
+/// @return true if it begins like a stream file
 bool is_stream_file(const std::filesystem::path& path);
 
 }  // namespace kage

@@ -12,7 +12,7 @@
 #include <iterator>
 #include <utility>
 
-#include "kage/paths.hpp"
+#include "file/extension.hpp"
 #include "scene/notes.hpp"
 
 namespace kage::scene::mesh_module {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 
 namespace kage::cosim {
 namespace {
@@ -14,7 +14,9 @@ namespace {
 int rank(const kage_rtl_event& part) { return static_cast<int>(kParts.at(part.value[at::part::part]).level); }
 
 /// The kind of the token that the event is of.
-Kind kind_of(const kage_rtl_event& token) { return static_cast<Kind>(token.value[at::token::words] & 15U); }
+Kind event_kind(const kage_rtl_event& token) {
+  return kind_of(static_cast<std::uint32_t>(token.value[at::token::words]));
+}
 
 /// An error of the RTL where none is to be.
 bool raised(const Mismatch& m) {
@@ -62,7 +64,7 @@ void EventSearch::after(std::uint32_t index, const Token& token, const LineView&
 }
 
 void EventSearch::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) {
-  if (!words.empty() && status.width != 0) kinds_.push_back(static_cast<Kind>(words[0] & 15U));
+  if (!words.empty() && status.width != 0) kinds_.push_back(kind_of(words[0]));
   expected_.failed(status, words, line);
 }
 
@@ -92,7 +94,7 @@ void EventSearch::take(const kage_rtl_event& a) {
   if (stage == Stage::token) {
     ++tokens_;
     token_ = a;
-    if (kind_of(a) == Kind::END) at_last_ = a.value[at::token::at_last] != 0;
+    if (event_kind(a) == Kind::END) at_last_ = a.value[at::token::at_last] != 0;
   }
   if (stopped(a)) return;
   std::deque<ExpectedEvent>& q = expected_.queue(stage, a.unit);
@@ -133,7 +135,7 @@ void EventSearch::take(const kage_rtl_event& a) {
 }
 
 bool EventSearch::is_token(const kage_rtl_event& segment) const {
-  if (kind_of(token_) != Kind::SEG) return false;
+  if (event_kind(token_) != Kind::SEG) return false;
   const Layout layout(config_);
   std::vector<std::uint32_t> words(static_cast<std::size_t>(layout.words[static_cast<std::size_t>(Kind::SEG)]));
   for (std::size_t i = 0; i < words.size(); ++i)

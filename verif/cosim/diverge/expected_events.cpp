@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "contract/derived.hpp"
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
-#include "kage/derived.hpp"
 
 namespace kage::cosim {
 namespace {
@@ -98,7 +98,7 @@ void ExpectedEvents::wrong_token(ErrorCode code, bool header, std::span<const st
   ExpectedEvent e = event(Stage::token, of_token);
   e.token = header ? 0 : token_ + 1;
   const bool cut = code == ErrorCode::LAST_EARLY;
-  const bool end = !header && !words.empty() && static_cast<Kind>(words[0] & 15U) == Kind::END;
+  const bool end = !header && !words.empty() && kind_of(words[0]) == Kind::END;
   e.expect(at::token::flags, (header ? flag::header : 0) | (code == ErrorCode::KIND ? flag::lacking : 0) |
                                  (cut ? flag::cut : 0) | (cut || end ? flag::final_word : 0));
   put(e);
@@ -135,8 +135,10 @@ void ExpectedEvents::command(int kind, int xl, int xr, int step) {
   put(e);
 }
 
+// None for an empty range.
 void ExpectedEvents::span_command(const Token& t, const LineView& line) {
   const SpanToken& s = t.span;
+  if (s.xl == s.xr) return;
   command(number(t.kind), s.xl, s.xr, of_command);
   ExpectedEvent& e = newest(Stage::command, 0);
   using namespace at::command;
@@ -369,14 +371,7 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
     case Kind::TP:
       if (!resolved_) bias_ = line.bias();
       if (!painted_) paint(line);
-      [[fallthrough]];
-    case Kind::OP:
-    case Kind::SP:
-    case Kind::NC:
-    case Kind::EV:
-    case Kind::ES:
-      if (t.kind == Kind::EV || t.kind == Kind::ES) state(line.bias(), t.kind == Kind::EV || config_.fsf == 0);
-      if (t.span.xl < t.span.xr) span_command(t, line);
+      span_command(t, line);
       break;
     case Kind::EOL:
       if (!resolved_) bias_ = line.bias();
@@ -384,7 +379,8 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
       end_line(&line);
       break;
     default:
-      break;
+      if (t.kind == Kind::EV || t.kind == Kind::ES) state(line.bias(), t.kind == Kind::EV || config_.fsf == 0);
+      if (info_of(t.kind).range) span_command(t, line);
   }
 }
 
@@ -446,21 +442,15 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
       }
       break;
     }
-    case Kind::OP:
-    case Kind::TP:
-    case Kind::SP:
-    case Kind::NC:
-    case Kind::EV:
-    case Kind::ES:
+    default: {
+      const KindInfo& info = info_of(t.kind);
+      if (!info.range) break;
       for (int x = s.xl; x < s.xr; ++x) {
         touch(kind, x, line.pixel(x), of_pixel);
-        const KindInfo& info = info_of(t.kind);
         came(x, info.depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
              info.color ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
       }
-      break;
-    default:
-      break;
+    }
   }
 }
 
@@ -486,7 +476,7 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
   // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line; not if it is
   // cut.
   if (config_.translucency != 0 && status.error != ErrorCode::LAST_EARLY && !words.empty() && !painted_ &&
-      (words[0] & 15U) == static_cast<std::uint32_t>(Kind::TP)) {
+      kind_of(words[0]) == Kind::TP) {
     if (!resolved_) bias_ = line.bias();
     paint(line);
   }

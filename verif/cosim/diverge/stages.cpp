@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "contract/derived.hpp"
 #include "kage/defs.hpp"
-#include "kage/derived.hpp"
 
 namespace kage::cosim {
 namespace {

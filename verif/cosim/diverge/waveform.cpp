@@ -6,11 +6,11 @@
 #include <initializer_list>
 #include <string>
 
+#include "contract/derived.hpp"
 #include "cosim/diverge/replay.hpp"
 #include "file/lost_pages.hpp"
 #include "file/plain_io.hpp"
 #include "file/temp_file.hpp"
-#include "kage/derived.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {

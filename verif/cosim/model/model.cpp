@@ -19,6 +19,7 @@
 #include "cosim/model/process.hpp"
 #include "file/hidden_folder.hpp"
 #include "file/output_file.hpp"
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 

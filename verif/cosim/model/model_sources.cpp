@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "cosim/model/sha256.hpp"
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 

@@ -16,6 +16,7 @@
 #include "cosim/model/model_sources.hpp"
 #include "cosim/model/process.hpp"
 #include "cosim/model/sha256.hpp"
+#include "file/read_file.hpp"
 #include "kage/paths.hpp"
 
 namespace kage::cosim {

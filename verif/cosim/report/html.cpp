@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "file/read_file.hpp"
 #include "kage/defs.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"

@@ -8,8 +8,8 @@
 
 #include "cosim/recall.hpp"
 #include "cosim/report/html.hpp"
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
-#include "kage/paths.hpp"
 
 namespace kage::report {
 namespace {

@@ -67,7 +67,7 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
     frames_.back().tokens = 1;
   }
   while (const std::uint32_t* first = cutter_.peek()) {
-    const std::size_t n = layout_.words[*first & 15U];
+    const std::size_t n = layout_.words_of(*first);
     // What is no token ends the frame for a core; the page has what came before.
     broken_ = n == 0;
     if (broken_) return;

@@ -60,7 +60,7 @@ RayCount follow_rays(const OrderTree& tree, Random& random, int eyes, int rays) 
   if (tree.face_count() == 0) return count;
   const OrderOracle oracle(tree);
   std::vector<std::unique_ptr<VisibilityOrder>> ways;
-  for (const OrderWay way : {OrderWay::kRecursion, OrderWay::kSwitchingList, OrderWay::kFast})
+  for (const OrderWay way : {OrderWay::recursion, OrderWay::switching_list, OrderWay::fast})
     ways.push_back(make_order(tree, way));
   for (int i = 0; i < eyes; ++i) {
     Eye eye = random_eye(random);
@@ -118,9 +118,9 @@ TEST_CASE("family 36: the eye on nodes' planes, on several at once", "[simd]") {
   CAPTURE(test_seed(2));
   for (int round = 0; round < 5; ++round) {
     const OrderTree tree = OrderTree::build(round % 2 == 0 ? lattice_panes(random, 30) : lattice_triangles(random, 30));
-    const auto recursion = make_order(tree, OrderWay::kRecursion);
-    const auto list = make_order(tree, OrderWay::kSwitchingList);
-    const auto fast = make_order(tree, OrderWay::kFast);
+    const auto recursion = make_order(tree, OrderWay::recursion);
+    const auto list = make_order(tree, OrderWay::switching_list);
+    const auto fast = make_order(tree, OrderWay::fast);
     int exact = 0;
     for (int i = 0; i < 400; ++i) {
       // Lattice points lie on many planes at once; lattice directions along many.
@@ -145,7 +145,7 @@ TEST_CASE("family 36: the eye on nodes' planes, on several at once", "[simd]") {
   const OrderTree tree = OrderTree::build(mesh);
   REQUIRE(tree.node_count() == 3);
   const OrderPoint on = tree.vertices()[tree.plane(0)[0]];
-  for (const OrderWay way : {OrderWay::kRecursion, OrderWay::kSwitchingList, OrderWay::kFast}) {
+  for (const OrderWay way : {OrderWay::recursion, OrderWay::switching_list, OrderWay::fast}) {
     const auto made = make_order(tree, way);
     const auto order = made->update(Eye::point({on[0], 7, 7}));
     const auto place = [&](std::uint32_t v) { return std::find(order.begin(), order.end(), v) - order.begin(); };
@@ -264,7 +264,7 @@ TEST_CASE("the oracle says no to a wrong order") {
   Random random(test_seed(7));
   const OrderTree tree = OrderTree::build(lattice_panes(random, 20));
   const OrderOracle oracle(tree);
-  const auto way = make_order(tree, OrderWay::kFast);
+  const auto way = make_order(tree, OrderWay::fast);
   int found = 0;
   for (int i = 0; i < 100; ++i) {
     const Eye eye = Eye::point(random_point(random, 10));

@@ -10,7 +10,7 @@ int main() {
     mesh.corners = {0, 1, 2, 3, 4, 5, 6, 7};
     mesh.polygons = {{0, 4}, {4, 4}};
     const kage::OrderTree tree = kage::OrderTree::build(mesh);
-    const auto order = kage::make_order(tree, kage::OrderWay::kFast);
+    const auto order = kage::make_order(tree, kage::OrderWay::fast);
     std::printf("back to front:");
     for (const std::uint32_t node : order->update(kage::Eye::point({0.5, 3, 4})))
       for (std::uint32_t f = tree.first_fragment(node); f < tree.first_fragment(node + 1); ++f)

@@ -14,6 +14,19 @@ cmake -S "$source/verif/test/package" -B "$temp/build" -G Ninja -DCMAKE_CXX_COMP
 cmake --build "$temp/build"
 KAGE_DATA_DIR="$temp/prefix/share/kage" "$temp/build/consumer"
 "$temp/build/order_consumer"
+# Each header can be included alone, and names no type that is not in one of them.
+headers=$(dirname "$(find "$temp/prefix" -path '*/kage/core.hpp')")
+for header in "$headers"/*; do
+  # shellcheck disable=SC2086
+  "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} -fsyntax-only -x c++ -I"${headers%/kage}" - <<<"#include <kage/${header##*/}>" ||
+    { echo "installed: ${header##*/} cannot be included alone" >&2; exit 1; }
+done
+declared=0
+while read -r kind name; do
+  grep -qE "^$kind $name( : .*)? \{" "$headers"/*.hpp || { echo "installed: $kind $name is declared and not defined" >&2; exit 1; }
+  declared=$((declared + 1))
+done < <(sed -nE 's/^(class|struct) ([A-Za-z]+);.*/\1 \2/p' "$headers"/*.hpp)
+[ $declared -gt 0 ] || { echo "no header declares what another defines: the check above sees nothing" >&2; exit 1; }
 for file in rtl/defs/kage.yaml rtl/defs/configs.yaml; do
   [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
 done

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench.hpp"
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 
 namespace kage::rtl {
 

@@ -36,7 +36,7 @@ Token lights_token(Write write) {
   write(writer);
   Token t;
   std::copy(words.begin(), words.end(), t.words.begin());
-  t.final = (words[0] & 15U) == static_cast<std::uint32_t>(Kind::END);
+  t.final = kage::kind_of(words[0]) == Kind::END;
   t.at_last = true;
   return t;
 }

@@ -14,7 +14,7 @@
 #include "Vpixel_soft_systolic.h"
 #include "Vpixel_systolic.h"
 #include "bench.hpp"
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 
 using namespace kage::rtl;
 using kage::Kind;

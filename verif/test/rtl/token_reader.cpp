@@ -9,6 +9,7 @@
 #include "Vtoken_reader4.h"
 #include "Vtoken_reader8.h"
 #include "bench.hpp"
+#include "kage/defs.hpp"
 
 using namespace kage::rtl;
 
@@ -50,7 +51,7 @@ std::vector<Expected> tokens_of(const Words& w, int beat) {
   for (std::size_t at = 0;;) {
     const int left = static_cast<int>(w.size() - at);
     const bool header = at == 0;
-    const int kind = left > 0 ? static_cast<int>(w[at] & 15) : 0;
+    const int kind = left > 0 ? static_cast<int>(kage::kind_of(w[at])) : 0;
     const int known = header ? 5 : kWords[static_cast<std::size_t>(kind)];
     const int need = std::max(known, 1);
     const bool cut = left < need;

@@ -61,7 +61,7 @@ inline std::vector<std::uint32_t> order_of_shape(const OrderShape& shape, const 
 
 /// A tree of a given shape. Not copied: the ways to the order keep its address.
 struct ShapedTree {
-  OrderTree::Data data;
+  order::TreeData data;
   std::vector<double> x;  ///< of each node's plane
 };
 
@@ -70,7 +70,7 @@ struct ShapedTree {
 /// where it is smaller.
 inline std::unique_ptr<const ShapedTree> tree_of_shape(Random& random, const OrderShape& shape) {
   auto tree = std::make_unique<ShapedTree>();
-  OrderTree::Data& d = tree->data;
+  order::TreeData& d = tree->data;
   const auto n = static_cast<std::uint32_t>(shape.size());
   tree->x.resize(n);
   d.size = shape;

@@ -70,7 +70,7 @@ template <class What>
 void each_token(const std::vector<std::uint32_t>& words, const Config& config, Kind kind, What what) {
   const Layout layout(config);
   for (std::size_t at = kHeaderWords; at < words.size();) {
-    const auto k = static_cast<Kind>(words[at] & 15U);
+    const auto k = kind_of(words[at]);
     if (k == kind) what(decode(config, layout, std::span(words).subspan(at)), at);
     at += static_cast<std::size_t>(layout.words[static_cast<std::size_t>(k)]);
   }

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "file/extension.hpp"
 #include "test/support/catch.hpp"
 
 TEST_CASE("the data folder is the source tree in a build, and what KAGE_DATA_DIR says when that is set") {

@@ -21,8 +21,8 @@ OrderMesh one(const std::vector<OrderPoint>& points) {
 }
 
 bool identical(const OrderTree& p, const OrderTree& q) {
-  const OrderTree::Data& a = p.data();
-  const OrderTree::Data& b = q.data();
+  const order::TreeData& a = order::data_of(p);
+  const order::TreeData& b = order::data_of(q);
   const auto cuts = [](const OrderFragment::Cut& x, const OrderFragment::Cut& y) {
     return x.node == y.node && x.front == y.front;
   };
@@ -135,7 +135,7 @@ TEST_CASE("polygons without area are left out, bent ones cut, collinear corners 
   // Without anything left there is an order too.
   const OrderTree none = OrderTree::build(one({{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
   CHECK(none.node_count() == 0);
-  for (const OrderWay way : {OrderWay::kRecursion, OrderWay::kSwitchingList, OrderWay::kFast})
+  for (const OrderWay way : {OrderWay::recursion, OrderWay::switching_list, OrderWay::fast})
     CHECK(make_order(none, way)->update(Eye::point({1, 2, 3})).empty());
   CHECK(OrderTree::build({}).node_count() == 0);
 }
@@ -156,8 +156,8 @@ TEST_CASE("coordinates as large, as small and as far apart as doubles are") {
   for (OrderPoint& p : mesh.vertices)
     for (double& x : p) x = std::ldexp(x, random.in(-900, 900));
   const OrderTree tree = OrderTree::build(mesh);
-  const auto recursion = make_order(tree, OrderWay::kRecursion);
-  const auto fast = make_order(tree, OrderWay::kFast);
+  const auto recursion = make_order(tree, OrderWay::recursion);
+  const auto fast = make_order(tree, OrderWay::fast);
   for (int i = 0; i < 50; ++i) {
     OrderPoint eye = random_point(random, 1);
     for (double& x : eye) x = std::ldexp(x, random.in(-900, 900));

@@ -50,8 +50,8 @@ TEST_CASE("a tree that was saved and loaded is the same") {
   const OrderTree loaded = OrderTree::load(*file);
   loaded.save(*file);
   CHECK(file.read() == bytes);
-  const auto p = make_order(tree, OrderWay::kFast);
-  const auto q = make_order(loaded, OrderWay::kFast);
+  const auto p = make_order(tree, OrderWay::fast);
+  const auto q = make_order(loaded, OrderWay::fast);
   for (int i = 0; i < 100; ++i) {
     const Eye eye = random_eye(random);
     const auto right = p->update(eye);

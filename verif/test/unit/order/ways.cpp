@@ -20,9 +20,9 @@ namespace {
 
 std::unique_ptr<VisibilityOrder> order_of(const ShapedTree& tree, OrderWay way) {
   switch (way) {
-    case OrderWay::kRecursion:
+    case OrderWay::recursion:
       return order::make_recursion(tree.data);
-    case OrderWay::kSwitchingList:
+    case OrderWay::switching_list:
       return order::make_switching_list(tree.data);
     default:
       return order::make_fast(tree.data);
@@ -68,9 +68,9 @@ class Wanderer {
 /// Steps in which the orders were not the same.
 int differing_steps(const OrderTree& tree, Random& random, int steps, std::set<OrderStep::Change>& changes,
                     std::set<OrderStep::Tests>& tests) {
-  const auto recursion = make_order(tree, OrderWay::kRecursion);
-  const auto list = make_order(tree, OrderWay::kSwitchingList);
-  const auto fast = make_order(tree, OrderWay::kFast);
+  const auto recursion = make_order(tree, OrderWay::recursion);
+  const auto list = make_order(tree, OrderWay::switching_list);
+  const auto fast = make_order(tree, OrderWay::fast);
   CHECK(recursion->order().empty());
   CHECK(list->order().empty());
   CHECK(fast->order().empty());
@@ -135,9 +135,9 @@ TEST_CASE("family 35: one order from all ways over wandering, swinging and jumpi
 TEST_CASE("every instruction set gives the same order") {
   Random random(test_seed(2));
   const OrderTree tree = OrderTree::build(bumpy_ball(random, 20, 30));
-  const auto recursion = make_order(tree, OrderWay::kRecursion);
+  const auto recursion = make_order(tree, OrderWay::recursion);
   on_every_target([&](const simd::Target& target) {
-    const auto fast = make_order(tree, OrderWay::kFast);
+    const auto fast = make_order(tree, OrderWay::fast);
     Wanderer eyes(random);
     CAPTURE(target.name);
     for (int i = 0; i < 300; ++i) {
@@ -159,9 +159,9 @@ TEST_CASE("trees of 0 to 48 nodes, of any shape, on every instruction set, in gu
         const auto tree = tree_of_shape(random, shape);
         if (nodes > 1) largest_back = std::max(largest_back, nodes - 1 - static_cast<int>(shape[1]));
         CAPTURE(target.name, nodes, round);
-        const auto recursion = order_of(*tree, OrderWay::kRecursion);
+        const auto recursion = order_of(*tree, OrderWay::recursion);
         const GuardedNew guarded(kEdges[round % 2]);
-        const auto fast = order_of(*tree, OrderWay::kFast);
+        const auto fast = order_of(*tree, OrderWay::fast);
         int differing = 0;
         for (int i = 0; i < 12; ++i) {
           const Eye eye = Eye::point({random.in(-1, nodes) + 0.5 * random.in(0, 1), 0.3, 0.4});
@@ -184,9 +184,9 @@ TEST_CASE("soups of 16 to 34 triangles on every instruction set, in guarded memo
       CAPTURE(target.name, round, tree.node_count());
       if (tree.front(0) != kNoNode && tree.back(0) != kNoNode)
         backs.insert(std::min(tree.subtree_size(tree.front(0)), tree.subtree_size(tree.back(0))));
-      const auto recursion = make_order(tree, OrderWay::kRecursion);
+      const auto recursion = make_order(tree, OrderWay::recursion);
       const GuardedNew guarded(kEdges[round % 2]);
-      const auto fast = make_order(tree, OrderWay::kFast);
+      const auto fast = make_order(tree, OrderWay::fast);
       int differing = 0;
       for (int i = 0; i < 20; ++i) {
         const Eye eye = random_eye(random);
@@ -205,7 +205,7 @@ TEST_CASE("soups of 16 to 34 triangles on every instruction set, in guarded memo
 TEST_CASE("the order is that of the tree: what the eye's plane hides comes first") {
   Random random(test_seed(3));
   const OrderTree tree = OrderTree::build(lattice_triangles(random, 30));
-  const auto fast = make_order(tree, OrderWay::kFast);
+  const auto fast = make_order(tree, OrderWay::fast);
   for (int i = 0; i < 200; ++i) {
     const auto order = fast->update(random_eye(random));
     REQUIRE(is_permutation(order, tree.node_count()));
@@ -230,12 +230,12 @@ TEST_CASE("the order is that of the tree: what the eye's plane hides comes first
 TEST_CASE("a step says what it did, and standing still costs no tests") {
   Random random(test_seed(4));
   const OrderTree tree = OrderTree::build(bumpy_ball(random, 40, 80));
-  const auto fast = make_order(tree, OrderWay::kFast);
+  const auto fast = make_order(tree, OrderWay::fast);
   fast->move_to(Eye::point({4, 0.3, 0.2}));
-  CHECK(fast->last_step().change == OrderStep::Change::kRebuild);
+  CHECK(fast->last_step().change == OrderStep::Change::rebuild);
   CHECK(fast->last_step().tested == tree.node_count());
   fast->move_to(Eye::point({4, 0.3, 0.2}));
-  CHECK(fast->last_step().change == OrderStep::Change::kNone);
+  CHECK(fast->last_step().change == OrderStep::Change::none);
   CHECK(fast->last_step().tested == 0);
   fast->move_to(Eye::point({4, 0.3001, 0.2}));
   CHECK(fast->last_step().tested < tree.node_count());
@@ -244,9 +244,9 @@ TEST_CASE("a step says what it did, and standing still costs no tests") {
     const OrderStep& s = fast->last_step();
     CHECK(!s.why.empty());
     CHECK(s.flips > 0);
-    CHECK(s.change != OrderStep::Change::kNone);
+    CHECK(s.change != OrderStep::Change::none);
     CHECK(s.rebuild_cost > 0);
-    CHECK((s.change == OrderStep::Change::kExchange) == (s.exchange_cost < s.rebuild_cost));
+    CHECK((s.change == OrderStep::Change::exchange) == (s.exchange_cost < s.rebuild_cost));
   }
 }
 
@@ -254,8 +254,8 @@ TEST_CASE("after a long way, a plane crossed by tiny steps is still seen to be c
   // How far the eye may go is kept in floats; where the way is long they are coarse, and must err to the safe side.
   Random random(test_seed(7));
   const OrderTree tree = OrderTree::build(bumpy_ball(random, 12, 24));
-  const auto fast = make_order(tree, OrderWay::kFast);
-  const auto recursion = make_order(tree, OrderWay::kRecursion);
+  const auto fast = make_order(tree, OrderWay::fast);
+  const auto recursion = make_order(tree, OrderWay::recursion);
   std::uint64_t flips = 0;
   int skipped = 0;
   int differing = 0;
@@ -283,7 +283,7 @@ TEST_CASE("after a long way, a plane crossed by tiny steps is still seen to be c
 TEST_CASE("eyes that are none are refused, and the order stays") {
   Random random(test_seed(5));
   const OrderTree tree = OrderTree::build(crossing_triangles(random, 10));
-  for (const OrderWay way : {OrderWay::kRecursion, OrderWay::kSwitchingList, OrderWay::kFast}) {
+  for (const OrderWay way : {OrderWay::recursion, OrderWay::switching_list, OrderWay::fast}) {
     const auto order = make_order(tree, way);
     const auto before = order->update(Eye::point({1, 2, 3}));
     const std::vector<std::uint32_t> kept(before.begin(), before.end());
@@ -292,7 +292,7 @@ TEST_CASE("eyes that are none are refused, and the order stays") {
     CHECK_THROWS_AS(order->move_to(Eye::parallel({0, 0, 0})), Error);
     CHECK(same(order->order(), kept));
     // Far beyond what the scaled numbers hold, and the smallest there are.
-    const auto reference = make_order(tree, OrderWay::kRecursion);
+    const auto reference = make_order(tree, OrderWay::recursion);
     for (const Eye& eye : {Eye::point({1e308, -1e308, 1e300}), Eye::point({5e-324, 0, 0}),
                            Eye::parallel({5e-324, 0, 0}), Eye::parallel({1e308, 1e308, -1e308})})
       CHECK(same(order->update(eye), reference->update(eye)));
@@ -302,7 +302,7 @@ TEST_CASE("eyes that are none are refused, and the order stays") {
 TEST_CASE("memory: tree and order take no more than the paper's nodes") {
   Random random(test_seed(6));
   const OrderTree tree = OrderTree::build(bumpy_ball(random, 50, 100));
-  const auto fast = make_order(tree, OrderWay::kFast);
+  const auto fast = make_order(tree, OrderWay::fast);
   for (int i = 0; i < 100; ++i) fast->move_to(Eye::point(random_point(random, 5)));
   CHECK(fast->bytes() <= std::uint64_t{56} * tree.node_count());  // BaselineA::Node
 }
@@ -312,7 +312,7 @@ TEST_CASE("a chain of 100000 nodes") {
   constexpr std::uint32_t kNodes = 100'000;
   Random random(test_seed(8));
   const auto tree = tree_of_shape(random, chain_shape(kNodes));
-  for (const OrderWay way : {OrderWay::kRecursion, OrderWay::kSwitchingList, OrderWay::kFast}) {
+  for (const OrderWay way : {OrderWay::recursion, OrderWay::switching_list, OrderWay::fast}) {
     const auto order = order_of(*tree, way);
     for (const double x : {-1.0, 2.0 * kNodes, 500.5, -1.0, 99'999.0}) {
       const auto found = order->update(Eye::point({x, 0.2, 0.2}));

@@ -45,6 +45,21 @@ TEST_CASE("a scene's frames have the words of geometry and front end, and the pi
   CHECK_THROWS_AS(frames.words(-1), Error);
 }
 
+TEST_CASE("an order that was refused names the scene, the frame and the limit") {
+  SceneFrames frames(std::make_shared<const Scene>(Scene::load("glass")), config_of("glass"),
+                     {.width = kWidth, .height = kHeight, .order = {.max_fragments = 5, .progress = {}}, .threads = 1});
+  std::string said;
+  std::uint64_t limit = 0;
+  try {
+    frames.words(1);
+  } catch (const TooManyFragments& e) {
+    said = e.what();
+    limit = e.limit();
+  }
+  CHECK(said == "glass: frame 1: to be put in order, polygons would be cut into more than 5 fragments");
+  CHECK(limit == 5);
+}
+
 TEST_CASE("a stream file's frames are its words, and its pictures the scene's") {
   SceneFrames frames(Scene::load("courtyard"), {.width = kWidth, .height = kHeight, .frames = 2});
   const std::filesystem::path path = std::filesystem::temp_directory_path() / "kage_pipeline_test.kage";

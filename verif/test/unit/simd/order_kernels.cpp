@@ -118,7 +118,7 @@ void check_sides(Random& random, int nodes, Edge edge, bool some) {
 /// What the kernels of placing.hpp work on, each array as long as it has to be.
 class PlacingCase {
  public:
-  PlacingCase(const OrderTree::Data& data, Edge edge)
+  PlacingCase(const order::TreeData& data, Edge edge)
       : parts_(data),
         nodes_(data.nodes()),
         size(std::span<const std::uint32_t>(data.size), edge),
@@ -164,7 +164,7 @@ class PlacingCase {
 
 void check_placing(Random& random, int nodes, Edge edge) {
   const OrderShape shape = random_shape(random, static_cast<std::uint32_t>(nodes));
-  OrderTree::Data data;
+  order::TreeData data;
   data.size = shape;
   PlacingCase c(data, edge);
   std::vector<bool> front(shape.size());

@@ -246,7 +246,7 @@ TEST_CASE("a frame that is cut within a token is not whole, so nothing is change
     REQUIRE(places.whole());
     std::set<std::size_t> ends{kHeaderWords};
     for (const TokenPlaces::At at : places.all())
-      ends.insert(static_cast<std::size_t>(at) + layout.words[whole[static_cast<std::size_t>(at)] & 15U]);
+      ends.insert(static_cast<std::size_t>(at) + layout.words_of(whole[static_cast<std::size_t>(at)]));
     for (std::size_t length = kHeaderWords; length <= whole.size(); ++length) {
       Words cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length));
       CHECK(TokenPlaces(c, cut).whole() == ends.contains(length));

@@ -116,16 +116,16 @@ TEST_CASE("random streams: the same as themselves, symmetric, and one changed bi
     const auto at_frame = static_cast<std::size_t>(random.in(0, static_cast<int>(frames.size()) - 1));
     Words words = frames[at_frame];
     std::vector<std::size_t> starts;
-    for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words[words[at] & 15U]) starts.push_back(at);
+    for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words_of(words[at])) starts.push_back(at);
     const auto number = static_cast<std::size_t>(random.in(0, static_cast<int>(starts.size()) - 1));
-    const auto kind = static_cast<Kind>(words[starts[number]] & 15U);
+    const auto kind = kind_of(words[starts[number]]);
     const int bits = layout.bits[static_cast<std::size_t>(kind)];
     if (bits <= 4) continue;
     const auto bit = static_cast<std::size_t>(random.in(4, bits - 1));
     words[starts[number] + bit / 32] ^= std::uint32_t{1} << (bit % 32);
     int line = 0;
     bool state = kind == Kind::SHADE || kind == Kind::TABLE || kind == Kind::FACE;
-    for (std::size_t i = 0; i < number; ++i) line += static_cast<Kind>(words[starts[i]] & 15U) == Kind::EOL ? 1 : 0;
+    for (std::size_t i = 0; i < number; ++i) line += kind_of(words[starts[i]]) == Kind::EOL ? 1 : 0;
     std::string field;
     each_field(c, layout, kind, [&](const char* name, int channel, Field f) {
       if (bit >= f.lsb && bit < f.lsb + std::size_t{f.bits})

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a handle of the C interface holds: a core, and what it has told of the frame at hand.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kage/core.hpp"
+#include "kage/golden.h"
+#include "kage/stream.hpp"
+
+struct kage_golden final : kage::CoreObserver {
+  explicit kage_golden(const kage::Config& c) : config(c), layout(c), core(c) { core.observe(this); }
+
+  kage::Config config;
+  kage::Layout layout;
+  kage::GoldenCore core;
+  std::optional<kage::StreamFile> file;
+  std::span<const std::uint32_t> rest;  // words of the file's frame that next() has not read
+
+  int state = KAGE_GOLDEN_MORE;  // MORE: in the frame or before it
+  bool accepted = false;         // a token, since it was last asked
+  bool line = false;             // there is one at hand
+  int height = 0;
+
+  int kind = KAGE_KIND_HEADER;
+  int index = -1;
+  kage::Token token;
+  std::vector<std::uint32_t> words;
+
+  kage_golden_taker taker = nullptr;
+  void* user = nullptr;
+  int out_line = -1;
+  std::vector<std::uint8_t> out;
+
+  kage::FrameStatus status;
+  std::string error, text;
+
+  void header(std::span<const std::uint32_t> w, const kage::LineView& /*view*/) override {
+    kind = KAGE_KIND_HEADER;
+    index = 0;
+    words.assign(w.begin(), w.end());
+    token = {};
+    height = kage::FrameHeader::read(w).height;
+    line = accepted = true;
+  }
+
+  void before(std::uint32_t i, const kage::Token& t, std::span<const std::uint32_t> w,
+              const kage::LineView& /*view*/) override {
+    kind = static_cast<int>(t.kind);
+    index = static_cast<int>(i);
+    words.assign(w.begin(), w.end());
+    // The core's own token keeps fields of those before it.
+    token = kage::decode(config, layout, w);
+    if (t.kind == kage::Kind::END) {
+      state = KAGE_GOLDEN_END;
+      line = false;
+    }
+  }
+
+  void after(std::uint32_t /*index*/, const kage::Token& /*token*/, const kage::LineView& /*view*/) override {
+    accepted = true;
+  }
+
+  void failed(const kage::FrameStatus& s, std::span<const std::uint32_t> /*words*/,
+              const kage::LineView& /*view*/) override {
+    status = s;
+    state = KAGE_GOLDEN_FAILED;
+    line = false;
+  }
+
+  void feed(std::span<const std::uint32_t> w) { core.feed(w, sink()); }
+
+  [[nodiscard]] kage::LineSink sink() {
+    return [this](int y, std::span<const std::uint8_t> pixels) {
+      out_line = y;
+      out.assign(pixels.begin(), pixels.end());
+      if (taker != nullptr) taker(user, y, out.data(), static_cast<int>(out.size()));
+    };
+  }
+
+  int word(std::uint32_t w) {
+    accepted = false;
+    feed({&w, 1});
+    return state == KAGE_GOLDEN_MORE && accepted ? KAGE_GOLDEN_TOKEN : state;
+  }
+
+  int finish() {
+    status = core.finish(sink());
+    fresh();
+    return static_cast<int>(status.error);
+  }
+
+  void fresh() {
+    state = KAGE_GOLDEN_MORE;
+    line = false;
+    index = out_line = -1;
+    rest = {};
+  }
+};

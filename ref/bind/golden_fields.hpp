@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fields of tokens and pixels by the numbers of the C interface.
+#pragma once
+
+#include "kage/core.hpp"
+#include "kage/stream.hpp"
+
+/// Whether the configuration has a field of a pixel, KAGE_PIXEL_...
+bool has_pixel_field(const kage::Config& c, int field);
+
+/// A field that the configuration has, of a pixel of the line; or KAGE_PIXEL_ANY.
+int pixel_field(const kage::Config& config, const kage::LineView& line, int x, int field);
+
+/// A field of a token of a kind, KAGE_TOKEN_...; 0 if it is not known.
+long long token_field(const kage::Token& t, int kind, int field);

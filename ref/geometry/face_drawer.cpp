@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/face_drawer.hpp"
+
+#include <algorithm>
+
+namespace kage {
+
+FramePoints::FramePoints(const SceneFrame& frame, const View& view, const ScreenFaces& faces) {
+  eye.reserve(frame.vertices.size());
+  for (const glm::dvec3& p : frame.vertices) eye.push_back(view.to_eye(p));
+  screen.reserve(eye.size());
+  for (const EyePoint& e : eye) screen.push_back(faces.screen_point(e));
+}
+
+FaceDrawer::FaceDrawer(const SceneFrame& frame, const Config& config, const View& view, Clipper& clipper,
+                       FaceShading& shading, FrameGeometry& out)
+    : frame_(&frame),
+      config_(&config),
+      clipper_(&clipper),
+      shading_(&shading),
+      out_(&out),
+      faces_(view, clipper, out),
+      points_(frame, view, faces_),
+      drawn_(frame.polygons.size()) {}
+
+void FaceDrawer::draw(std::uint32_t index) {
+  const Polygon& face = frame_->polygons[index];
+  const auto corners = frame_->outline(face);
+  const Triangle& t = frame_->triangles[face.triangle];
+  polygon_.clear();
+  snapped_.clear();
+  bool whole = true;
+  for (const std::uint32_t corner : corners) {
+    const ScreenPoint& at = points_.screen[corner];
+    polygon_.push_back(at.clip);
+    snapped_.push_back(at.vertex.at);
+    whole = whole && at.kept;
+  }
+  const FaceShading::Shaded shaded = shading_->shade(index, polygon_);
+
+  drawn_[index].first = static_cast<std::uint32_t>(out_->polygons.size());
+  if (!whole) clipper_->clip(polygon_, nullptr, false);
+  if (polygon_.empty()) return;
+  ScreenPolygon base;
+  base.lit = !t.unlit && shading_->takes_shadow(shaded);
+  base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
+  base.source = index;
+  base.depth = depth_plane(corners, t, whole);
+  for (std::size_t c = 0; c < 3; ++c)
+    base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(shaded.mean[static_cast<int>(c)], 0.0, 255.0), 0));
+  if (config_->smooth != 0 && !shaded.same_color)
+    add_fan(base);
+  else if (whole)
+    faces_.add(base, snapped_);
+  else
+    faces_.add(base, polygon_);
+  drawn_[index].count = static_cast<std::uint32_t>(out_->polygons.size()) - drawn_[index].first;
+}
+
+void FaceDrawer::undo(std::uint32_t index) {
+  out_->vertices.resize(out_->polygons.back().first_vertex);
+  out_->polygons.pop_back();
+  drawn_[index].count = 0;
+}
+
+// Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one depth
+// plane.
+void FaceDrawer::add_fan(const ScreenPolygon& base) {
+  std::vector<ClipPoint> triangle;
+  for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
+    triangle.assign({polygon_[0], polygon_[i], polygon_[i + 1]});
+    ScreenPolygon piece = base;
+    piece.color_planes = static_cast<std::int32_t>(out_->color_planes.size());
+    for (int c = 0; c < 3; ++c) out_->color_planes.push_back(ScreenFaces::color_plane(triangle, c));
+    faces_.add(piece, triangle);
+  }
+}
+
+// The plane of a drawn face, which is in polygon_ after clipping. A triangle's goes through its snapped vertices if it
+// is whole. More vertices than three do not lie in one plane once they are snapped: theirs is the unsnapped one, by the
+// triangle that the face has its plane of. Three corners are the face's own, even where it was put together from more
+// triangles.
+ScreenPlane FaceDrawer::depth_plane(std::span<const std::uint32_t> corners, const Triangle& t, bool whole) const {
+  if (corners.size() == 3 && whole)
+    if (const auto plane = plane_through(
+            {points_.screen[corners[0]].vertex, points_.screen[corners[1]].vertex, points_.screen[corners[2]].vertex}))
+      return *plane;
+  const auto own = corners.size() == 3 ? corners : std::span<const std::uint32_t>(t.vertex);
+  return faces_.unsnapped_plane(points_.eye[own[0]], points_.eye[own[1]], points_.eye[own[2]], polygon_);
+}
+
+}  // namespace kage

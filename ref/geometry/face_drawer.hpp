@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A face of the frame to polygons of the picture.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/face_shading.hpp"
+#include "geometry/screen_faces.hpp"
+
+namespace kage {
+
+/// The frame's vertices, seen from the camera and on the screen.
+struct FramePoints {
+  FramePoints(const SceneFrame& frame, const View& view, const ScreenFaces& faces);
+
+  std::vector<EyePoint> eye;
+  std::vector<ScreenPoint> screen;
+};
+
+/// Refers to what it is made of.
+class FaceDrawer {
+ public:
+  FaceDrawer(const SceneFrame& frame, const Config& config, const View& view, Clipper& clipper, FaceShading& shading,
+             FrameGeometry& out);
+
+  /// Appends what is seen of the face to the polygons, and notes which they are.
+  void draw(std::uint32_t index);
+
+  /// The face that was drawn last is not to be drawn: its polygon, one, goes again.
+  void undo(std::uint32_t index);
+
+  [[nodiscard]] const FramePoints& points() const { return points_; }
+  [[nodiscard]] const std::vector<DrawnRange>& drawn() const { return drawn_; }  ///< by SceneFrame::polygons
+
+ private:
+  void add_fan(const ScreenPolygon& base);
+  [[nodiscard]] ScreenPlane depth_plane(std::span<const std::uint32_t> corners, const Triangle& t, bool whole) const;
+
+  const SceneFrame* frame_;
+  const Config* config_;
+  Clipper* clipper_;
+  FaceShading* shading_;
+  FrameGeometry* out_;
+  ScreenFaces faces_;
+  FramePoints points_;
+  std::vector<DrawnRange> drawn_;
+  // Of the face being drawn:
+  std::vector<ClipPoint> polygon_;
+  std::vector<ScreenVertex> snapped_;
+};
+
+}  // namespace kage

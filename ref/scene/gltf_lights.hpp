@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF's lights (KHR_lights_punctual), and what they extend over.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "gltf_file.hpp"
+#include "raw.hpp"
+
+namespace kage::scene {
+
+/// Refers to what it is made of.
+class GltfLights {
+ public:
+  /// What is not drawn as the file has it.
+  struct Counts {
+    std::size_t black = 0;
+    std::size_t shaped_suns = 0;  ///< directional lights with a shape
+  };
+
+  GltfLights(GltfFile& file, RawScene& scene) : file_(&file), scene_(&scene) {}
+
+  /// Appends light `index` of the file, which shines from `node`, to the scene's.
+  void read(std::uint64_t index, std::uint32_t node);
+
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+ private:
+  using Json = GltfJson::Json;
+
+  void read_cone(const Json& json, Light& light, const std::string& place);
+  void read_shape(const Json& json, Light& light, const std::string& place);
+
+  GltfFile* file_;
+  RawScene* scene_;
+  Counts counts_;
+};
+
+}  // namespace kage::scene

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF's meshes: triangles of its primitives, with their materials.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "gltf_file.hpp"
+#include "gltf_materials.hpp"
+#include "raw.hpp"
+
+namespace kage::scene {
+
+/// Refers to what it is made of.
+class GltfMeshes {
+ public:
+  /// What is not drawn as the file has it, by primitives.
+  struct Counts {
+    std::size_t morphs = 0;
+    std::size_t thin = 0;   ///< points and lines
+    std::size_t bare = 0;   ///< without positions
+    std::size_t alpha = 0;  ///< by the colours of their vertices
+  };
+
+  GltfMeshes(GltfFile& file, RawScene& scene) : file_(&file), scene_(&scene) {}
+
+  /// The number in the scene of mesh `index` of the file, which is appended when it is first asked for.
+  std::int32_t read(std::uint64_t index);
+
+  [[nodiscard]] const GltfMaterials& materials() const { return materials_; }
+  [[nodiscard]] const Counts& counts() const { return counts_; }
+
+ private:
+  using Json = GltfJson::Json;
+
+  void read_primitive(const Json& json, RawMesh& mesh, const std::string& place);
+  void read_corners(const Json& json, RawPrimitive& primitive, const std::string& place);
+
+  GltfFile* file_;
+  RawScene* scene_;
+  GltfMaterials materials_;
+  std::map<std::uint64_t, std::int32_t> mesh_of_;  // file's mesh -> ours
+  Counts counts_;
+};
+
+}  // namespace kage::scene
