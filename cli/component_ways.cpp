@@ -106,7 +106,7 @@ std::vector<report::WayRecord> ComponentWays::records() const {
 }
 
 report::WayRecords ways_of(const StreamFile& file) {
-  const Json origin = Json::parse(file.origin(), nullptr, false);
+  const report::Json origin = report::Json::parse(file.origin(), nullptr, false);
   if (!origin.is_object() || !origin.contains("polyhedra")) return std::nullopt;
   // Whoever wrote the file: what is not of this form is not taken, and nothing else is copied.
   try {
