@@ -28,8 +28,8 @@ struct FrameHeader {
   /// The header at the beginning of `words`. Words that are missing count as 0.
   static constexpr FrameHeader read(std::span<const std::uint32_t> words) {
     FrameHeader h;
-    h.version = (words.size() > 0 ? words[0] : 0) & 0xFFFF;
-    h.magic = (words.size() > 0 ? words[0] : 0) >> 16 & 0xFFFF;
+    h.version = (!words.empty() ? words[0] : 0) & 0xFFFF;
+    h.magic = (!words.empty() ? words[0] : 0) >> 16 & 0xFFFF;
     h.width = static_cast<int>((words.size() > 1 ? words[1] : 0) & 0xFFFF);
     h.height = static_cast<int>((words.size() > 1 ? words[1] : 0) >> 16 & 0xFFFF);
     h.param_hash = (words.size() > 2 ? words[2] : 0);
