@@ -6,73 +6,23 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <system_error>
 #include <utility>
 
-#include "cosim/diverge/waveform.hpp"
 #include "cosim/model/rtl.hpp"
-#include "cosim/report/html.hpp"
 #include "cosim_registers.hpp"
-#include "kage/core.hpp"
 #include "kage/error.hpp"
-#include "results.hpp"
 #include "signals.hpp"
-#include "stimulus/shrink.hpp"
-#include "stream/finish.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
 namespace {
 
-/// The initial state in which the first frame is run besides.
-constexpr std::uint64_t kOtherState = 1;
-
 /// Memory that a job may take: its model, golden core, words on their way and share of the scene.
 constexpr std::uint64_t kJobBytes = std::uint64_t{256} << 20;
 
-/// With the new files goes what an earlier run into the folder left of frames that this one has compared: a difference
-/// that is no more, or was another. Of random frames only those that differ leave a picture, and the frame itself.
-void remove_old_evidence(TempFiles& files, const std::string& folder, const std::string& name, bool random,
-                         cosim::FrameSteps steps, const cosim::Report& r) {
-  namespace fs = std::filesystem;
-  if (folder.empty()) return;
-  std::vector<std::string> ends{"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"};
-  if (random) ends.insert(ends.end(), {".png", ".kage"});
-  for (int i = 0; i < r.frames; ++i)
-    for (const std::string& end : ends) {
-      const int frame = steps.first + i * steps.step;
-      if (end == ".kage" && r.first_difference && r.first_difference->frame == frame) continue;  // it is written anew
-      const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, frame, end);
-      std::error_code ec;
-      const fs::file_type type = fs::symlink_status(path, ec).type();
-      if ((type == fs::file_type::regular || type == fs::file_type::symlink) &&  // else it was not ours
-          std::find(r.pictures.begin(), r.pictures.end(), path.string()) == r.pictures.end())
-        files.remove(path);
-    }
-}
-
-/// What decides words and clocks besides scene, size, configuration and seed.
-report::OptionsRecord options_of(const CosimCommand& o) {
-  return {.fault = o.rtl.fault,
-          .idle = o.rtl.options.idle_percent,
-          .backpressure = o.rtl.options.backpressure_percent,
-          .degrade = o.degrade,
-          .order = name_of(o.order),
-          .alpha = o.alpha,
-          .cull = o.cull,
-          .samples = o.samples,
-          .classes = o.classes};
-}
-
-/// Takes what the RTL writes in a frame that is run once more.
-constexpr auto kTold = [](int, std::string_view) {};
-
 /// Bytes of what the RTL writes that a range keeps.
 constexpr std::size_t kMostRtlText = std::size_t{1} << 20;
-
-/// How long a frame is made smaller.
-constexpr std::chrono::seconds kShrinkTime{60};
 
 }  // namespace
 
@@ -286,191 +236,6 @@ cosim::Report SceneRun::join(TempFiles& files) {
   }
   parts_.clear();
   return cosim::join(std::move(reports));
-}
-
-/// How the RTL is run again.
-cosim::ReplayOptions SceneRun::replay(ModelFor what) const {
-  cosim::ReplayOptions options = cli::replay(source_->named_config(), o_.rtl, what);
-  options.steps = steps_;
-  options.rtl.text = kTold;
-  return options;
-}
-
-/// The stage that a frame which came out different departs in first.
-std::optional<cosim::Divergence> SceneRun::find_divergence(int frame) {
-  Source& source = *source_;
-  const Config& config = source.config();
-  const cosim::ReplayOptions options = replay(ModelFor::kMonitors);
-  progress_.show("looking for the stage that differs first");
-  if (const std::string missing = cosim::make_rtl(options.library, config)->missing_monitors(); !missing.empty())
-    source.note(fmt::format("the RTL has no longer the nets that these watch, and what they watch is not looked at: {}",
-                            missing));
-  const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
-  auto d = cosim::find_divergence(frame, feed, config, options);
-  if (const auto provenance = d ? source.provenance(d->frame) : std::nullopt) {
-    const auto sources = provenance->of_tokens(config, source.words(d->frame), {d->token});
-    if (!sources.empty()) d->source = sources.begin()->second.text();
-  }
-  progress_.clear();
-  return d;
-}
-
-/// Writes the waveform round a divergence that was found in the run's frame `frame`, or one before it.
-void SceneRun::write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame) {
-  Source& source = *source_;
-  try {
-    const cosim::ReplayOptions options = replay(ModelFor::kWaveforms);
-    progress_.show("writing the waveform");
-    const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
-    cosim::write_waveform(
-        divergence, feed, source.config(), options,
-        {.path = std::filesystem::path(o_.out) / fmt::format("{}_{:04}.fst", source.name(), frame), .files = &files});
-  } catch (const Error& e) {
-    source.note(fmt::format("no waveform was written: {}", e.what()));
-  }
-  progress_.clear();
-}
-
-/// Writes the frame to a stream file, as small as it can be made and still comes out different on a new core.
-report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference) {
-  const int frame = difference.frame;
-  const Config& config = source_->config();
-  const std::vector<std::uint32_t> words = source_->words(frame);
-  const auto error_of = [&](const std::vector<std::uint32_t>& w) {
-    return GoldenCore(config).frame(w, [](int, std::span<const std::uint8_t>) {}).error;
-  };
-  const ErrorCode error = error_of(words);
-  const auto differs = [&](const std::vector<std::uint32_t>& w) {
-    if (error_of(w) != error) return false;  // another one, which the frame need not have been kept for
-    const auto golden = cosim::make_golden(config);
-    cosim::RtlOptions as_file = o_.rtl.options;  // kage cosim FILE puts nothing ahead
-    as_file.prelude = {};
-    as_file.text = kTold;
-    const auto rtl = cosim::make_rtl(model_.library, config, as_file);
-    cosim::RunOptions options;
-    options.refusals = true;
-    options.two_threads = false;
-    const auto feed = [&](int, const WordSink& sink) {
-      sink(w);
-      return TokenCounts{};
-    };
-    return !cosim::run(1, feed, *golden, *rtl, options).same;
-  };
-  const auto begin = std::chrono::steady_clock::now();
-  const auto more = [&] {
-    check_interrupt();
-    progress_.show("making the frame smaller");
-    return std::chrono::steady_clock::now() - begin < kShrinkTime;
-  };
-  std::vector<std::uint32_t> small = words;
-  const bool alone = differs(words);
-  if (alone && !o_.no_shrink) small = verif::shrink(config, words, differs, more);
-  progress_.clear();
-  const std::string path =
-      (std::filesystem::path(o_.out) / fmt::format("{}_{:04}.kage", source_->name(), frame)).string();
-  StreamFileWriter writer(path, config);
-  writer.begin_port_frame();
-  writer.words(small);
-  writer.end_frame();
-  kage::finish(writer, files);
-  const TokenCounts counts = count_tokens(config, small);
-  std::uint64_t tokens = 0;
-  for (const std::uint64_t n : counts.of_kind) tokens += n;
-  std::string again = "kage cosim " + quoted(path);
-  again += fmt::format(" --seed {}", o_.seed);
-  for (const char* name : kRtlOptions)
-    if (const CLI::Option* option = o_.command->get_option(name); option->count() != 0)
-      again += fmt::format(" {} {}", name, quoted(option->results().back()));
-  return {.file = path,
-          .alone = alone,
-          .lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)],
-          .tokens = tokens,
-          .width = FrameHeader::read(small).width,
-          .words = small.size(),
-          .words_before = words.size(),
-          .again = again};
-}
-
-report::SceneRecord SceneRun::finish(TempFiles& files) {
-  Source& source = *source_;
-  if (frames() == 0) {
-    report::SceneRecord none;
-    none.scene = source.name();
-    none.total_frames = total_;
-    return none;
-  }
-  const cosim::Report r = join(files);
-  progress_.clear();
-  remove_old_evidence(files, o_.out, source.name(), source.is_random(), steps_, r);
-  if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;
-  report::SceneRecord record = record_of(r);
-  std::optional<cosim::Divergence> divergence;
-  bool searched = false;
-  // The verdict stands whatever becomes of what is said about it.
-  try {
-    if (r.first_difference && !o_.no_divergence) {
-      try {
-        divergence = find_divergence(r.first_difference->frame);
-        searched = true;
-      } catch (const Error& e) {
-        progress_.clear();
-        source.note(fmt::format("the stage that differs first was not found: {}", e.what()));
-      }
-    }
-    if (divergence && !o_.out.empty()) write_waveform(files, *divergence, r.first_difference->frame);
-    if (r.first_difference && source.is_random() && !o_.out.empty() && r.first_difference->field != "register")
-      record.kept = keep_frame(files, *r.first_difference);
-    record.first_difference = report::difference_record(r.first_difference, divergence, searched);
-    if (report_) {
-      const auto watch = [&] { return replay(ModelFor::kMonitors); };
-      // Where the monitors could not be had for the search, the page does without them too.
-      record.page = report_->write(files, o_.out, r, record, divergence, searched ? watch : RunReport::Watch());
-      record.page_crc32 = report::checksum(files.now(*record.page));
-    }
-  } catch (const Interrupted&) {
-    interrupted_ = true;
-    source.note("interrupted after the verdict");
-  } catch (const std::exception& e) {
-    source.note(fmt::format("no report was written: {}", e.what()));
-  }
-  progress_.clear();
-  record.first_difference = report::difference_record(r.first_difference, divergence, searched);
-  record.notes = source.notes();
-  for (const std::string& note : record.notes) notes_.push_back(fmt::format("{}: {}", source.name(), note));
-  report_.reset();
-  source_.reset();  // its memory
-  return record;
-}
-
-/// All of it but what is found out about a difference, the page, and the notes.
-report::SceneRecord SceneRun::record_of(const cosim::Report& r) const {
-  const Source& source = *source_;
-  report::SceneRecord record;
-  record.take(r);
-  record.scene = source.name();
-  record.total_frames = source.frames();
-  record.first_frame = steps_.first;
-  record.frame_step = steps_.step;
-  if (o_.ci.shard.given) record.shard = {o_.ci.shard.index, o_.ci.shard.count};
-  record.options = options_of(o_);
-  record.units = static_cast<std::uint64_t>(source.units());
-  record.ways = source.ways();
-  record.verdicts = verdicts_of(r);
-  record.build_seconds = model_.build_seconds;
-  record.config_name = source.named_config().name;
-  record.config = source.config();
-  record.seed = o_.seed;
-  record.versions = versions();
-  record.again = again_line(*o_.command);
-  record.folder = std::filesystem::current_path().string();
-  record.rtl = rtl_directory();
-  record.degraded = source.degraded();
-  if (coverage_) {
-    auto& coverage = record.coverage.emplace();
-    coverage.frames = coverage_->frames();
-    for (const verif::CoveragePoint& p : coverage_->points()) coverage.points.push_back({p.group, p.name, p.frames});
-  }
-  return record;
 }
 
 }  // namespace kage::cli

@@ -84,6 +84,11 @@ class SceneRun {
   void interrupt() { interrupted_ = true; }
 
  private:
+  /// The initial state in which the first frame is run besides.
+  static constexpr std::uint64_t kOtherState = 1;
+  /// Takes what the RTL writes in a frame that is run once more.
+  static void unheard(int /*frame*/, std::string_view /*text*/) {}
+
   /// A range, and what its thread has for itself.
   struct Part {
     cosim::FrameRange range;
@@ -121,8 +126,18 @@ class SceneRun {
   [[nodiscard]] report::VerdictsRecord verdicts_of(const cosim::Report& r) const;
   cosim::Report join(TempFiles& files);
   cosim::ReplayOptions replay(ModelFor what) const;
+
+  // What is found out after the verdict: cosim_finish.cpp, cosim_kept.cpp.
+  struct Search {
+    std::optional<cosim::Divergence> divergence;
+    bool made = false;  // the stage that differs first was looked for
+  };
+  bool after_verdict(const std::function<void()>& say);
+  void look_into(TempFiles& files, const cosim::Report& r, Search& search);
   std::optional<cosim::Divergence> find_divergence(int frame);
   void write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame);
+  void write_page(TempFiles& files, const cosim::Report& r, const Search& search, report::SceneRecord& record);
+  [[nodiscard]] bool differs_alone(const std::vector<std::uint32_t>& words) const;
   report::KeptRecord keep_frame(TempFiles& files, const cosim::Difference& difference);
   [[nodiscard]] report::SceneRecord record_of(const cosim::Report& r) const;
 

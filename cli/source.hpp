@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "component_ways.hpp"
 #include "kage/config.hpp"
 #include "kage/pipeline.hpp"
 #include "kage/scene.hpp"
@@ -121,19 +122,9 @@ class Source : public FrameSource {
   int blank_ = 0;                        // of those, without any opaque span or segment
   int unfit_ = 0;                        // of those, with fewer shadow volumes than the scene has
   std::optional<FrameRemarks> remarks_;  // of a scene
-  struct Way {
-    std::string object;
-    int unit_frames = 0;
-    int span_frames = 0;
-    SpanReason reason = SpanReason::none;
-    std::string why;
-  };
-  std::vector<Way> ways_;  // by component
+  ComponentWays ways_;
   int units_ = 0;
 };
-
-/// The ways that a stream file holds (Source::ways()), if it does.
-report::WayRecords ways_of(const StreamFile& file);
 
 /// The notes, a line each. They are told once the work is done: a failure says one line and nothing else.
 std::string notes_text(const Source& source);

@@ -92,7 +92,7 @@ class Tree:
             if not patch.exists():
                 raise Trouble(f"--fault {fault}: no {patch}")
             subprocess.run(["patch", "--quiet", "--fuzz=0", "--batch", "-p1", "-d", self.copy, "-i", patch], check=True)
-        driver = self.copy / "verif/cosim/model/driver/rtl_model.cpp"
+        driver = self.copy / "verif/cosim/model/driver/model.hpp"
         head, begin, tail = driver.read_text().partition("explicit kage_rtl(std::uint64_t seed) : initial(seed) {\n")
         if not begin:
             raise Trouble(f"{driver}: no constructor to put the mark in")

@@ -9,31 +9,6 @@
 #include "core/span_value.hpp"
 
 namespace kage::cosim {
-namespace {
-
-// The order of a token's events. A line that goes out and comes back has its own steps behind those of the token.
-enum Step {
-  of_token,
-  of_control,
-  of_unit,
-  of_tree,
-  of_command,
-  of_pixel,
-  of_exit,
-  of_load,
-  of_load_command,
-  of_loaded,
-  of_out,
-  of_end
-};
-
-std::uint64_t low(std::int64_t value, int bits) {
-  return static_cast<std::uint64_t>(value) & (bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1);
-}
-
-int number(Kind kind) { return static_cast<int>(kind); }
-
-}  // namespace
 
 ExpectedEvents::ExpectedEvents(const Config& config, std::uint32_t unwatched)
     : config_(config),
@@ -195,124 +170,37 @@ void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
   put(e);
 }
 
-ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolved) const {
-  Leaving l;
-  l.color = packed(s.color);
-  l.covered = !clear(s);
-  if (config_.count_bits > 0) {
-    l.normal_class = s.normal_class;
-    for (int i = 0; i < config_.lights && s.normal_class != 0; ++i)
-      l.counts |= std::uint64_t{s.counts[static_cast<std::size_t>(i)]} << i * config_.count_bits;
-  } else if (config_.dsf_bits > 0 && !resolved) {
-    const bool shadow =
-        config_.fsf != 0 ? s.fsf != 0 : low(static_cast<std::int64_t>(s.dsf + bias_), config_.dsf_bits) != 0;
-    l.dark = shadow && s.normal_class != 0;
-  }
-  return l;
-}
-
-std::vector<ExpectedEvents::Leaving> ExpectedEvents::all_leaving(const LineView& line) const {
-  std::vector<Leaving> all;
-  all.reserve(static_cast<std::size_t>(width_));
-  for (int x = 0; x < width_; ++x) all.push_back(leaving(line.pixel(x), painted_));
-  return all;
-}
-
-void ExpectedEvents::line_event(bool blank, bool load, int step) {
-  ExpectedEvent e = event(Stage::line, step);
-  e.expect(at::line::first, y_ == 0 ? 1 : 0);
-  e.expect(at::line::blank, blank ? 1 : 0);
-  e.expect(at::line::load, load ? 1 : 0);
-  e.expect(at::line::width, static_cast<std::uint64_t>(width_));
-  e.expect(at::line::background, background_);
-  if (!blank) {
-    e.expect(at::line::painted, painted_ ? 1 : 0);
-    e.expect(at::line::shade, shade_);
-  }
+void ExpectedEvents::table_event(const TableToken& t) {
+  ExpectedEvent e = event(Stage::table, of_control);
+  e.expect(at::table::normal_class, static_cast<std::uint64_t>(t.normal_class));
+  e.expect(at::table::light, static_cast<std::uint64_t>(t.light));
+  for (int c = 0; c < 3; ++c)  // channels that there are not are told as 0
+    e.expect(at::table::share + c, c < config_.channels ? t.share[static_cast<std::size_t>(c)] : 0);
   put(e);
 }
 
-// If banked, the pixels past the width in the last group leave too. The colour of
-// a pixel without surface is nobody's until the line is painted, as in touch(): the way out takes the background.
-void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
-  const int lanes = config_.arrangement == 1 ? config_.lanes : 1;
-  const int end = (width_ + lanes - 1) / lanes * lanes;
-  for (int x = 0; x < end; ++x) {
-    ExpectedEvent e = event(Stage::exit, of_exit);
-    if (x < width_) e.x = x;
-    e.unit = x == end - 1 ? 1 : 0;
-    if (x < width_ && !blank) {
-      const Leaving& l = pixels[static_cast<std::size_t>(x)];
-      if (l.covered || painted_) e.expect(at::exit::color, l.color);
-      e.expect(at::exit::covered, l.covered ? 1 : 0);
-      e.expect(at::exit::dark, l.dark ? 1 : 0);
-      e.expect(at::exit::normal_class, config_.class_bits > 1 ? l.normal_class : 0);
-      e.expect(at::exit::counts, l.counts);
-    }
-    put(e);
-  }
-}
-
-// What line_phase says, where that is made use of.
-void ExpectedEvents::state(std::uint64_t bias, bool matters) {
-  ExpectedEvent e = event(Stage::state, of_token);
-  e.expect(at::state::bias, bias);
-  e.expect(at::state::resolved, resolved_ ? 1 : 0);
-  e.ignore(at::state::resolved);
-  if (!matters || config_.dsf_bits == 0) e.ignore(at::state::bias);
+void ExpectedEvents::face_event(const SegmentToken& f) {
+  ExpectedEvent e = event(Stage::face, of_control);
+  e.unit = f.unit;
+  e.expect(at::face::face, static_cast<std::uint64_t>(f.face));
+  e.expect(at::face::index, static_cast<std::uint64_t>(f.index));
+  e.expect(at::face::normal_class, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0);
+  e.expect(at::face::dz, low(f.dz, depth_bits_));
+  std::uint64_t color = 0;
+  for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
+    color |= static_cast<std::uint64_t>(f.color[c]) << 8 * c;
+  e.expect(at::face::color, color);
   put(e);
 }
 
-// What frame_control does before a line's first TP.
-void ExpectedEvents::paint(const LineView& line) {
-  state(bias_, config_.count_bits == 0);
-  if (config_.count_bits > 0) newest(Stage::state, 0).look_at(at::state::resolved);
-  const bool by_loads = config_.count_bits > 0 && resolved_;
-  const std::uint64_t one = std::uint64_t{1} << config_.shade_frac;
-  const auto painted = [&](int x) {
-    PixelState s = line.pixel(x);
-    // A TP that is refused may come among volumes, and what is painted is darkened.
-    const bool dark = leaving(s, resolved_).dark;
-    for (unsigned c = 0; c < 3; ++c) {
-      if (clear(s))
-        s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
-      else if (dark)
-        s.color[c] = static_cast<std::uint8_t>((s.color[c] * (one - shade_) + one / 2) >> config_.shade_frac);
-    }
-    s.dsf = s.fsf = 0;  // as a RESOLVE leaves them
-    return s;
-  };
-  if (!by_loads) {
-    command(number(Kind::RESOLVE), 0, width_, of_command);
-    ExpectedEvent& e = newest(Stage::command, 0);
-    if (config_.dsf_bits > 0) e.expect(at::command::count, bias_);
-    if (config_.count_bits == 0 && config_.dsf_bits > 0) e.expect(at::command::share, shade_);
-    for (int c = 0; c < config_.channels; ++c)
-      e.expect(at::command::color + c, (background_ >> 8 * c & 255U) << config_.color_frac);
-    painted_ = true;
-    for (int x = 0; x < width_; ++x) touch(number(Kind::RESOLVE), x, painted(x), of_pixel);
-    return;
-  }
-  command(number(derived::kCommandOut), 0, width_, of_command);
-  line_event(false, true, of_command);
-  leave(before_resolve_, false);
-  painted_ = true;
-  for (int x = 0; x < width_; ++x) {
-    const PixelState s = painted(x);
-    ExpectedEvent e = event(Stage::load, of_load);
-    e.x = x;
-    e.expect(at::load::x, static_cast<std::uint64_t>(x));
-    e.expect(at::load::color, packed(s.color));
-    put(e);
-    command(number(derived::kCommandLoad), x, x + 1, of_load_command);
-    ExpectedEvent& c = newest(Stage::command, 0);
-    c.load = true;
-    c.x = x;
-    for (int i = 0; i < config_.channels; ++i)
-      c.expect(at::command::color + i, std::uint64_t{s.color[static_cast<std::size_t>(i)]} << config_.color_frac);
-    touch(number(derived::kCommandLoad), x, s, of_loaded);
-    newest(Stage::pixel, x).load = true;
-  }
+void ExpectedEvents::segment_event(const SegmentToken& s) {
+  ExpectedEvent e = event(Stage::segment, of_control);
+  e.unit = s.unit;
+  if (s.face != (1 << config_.face_bits) - 1)
+    e.expect(at::segment::z, low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_));
+  e.expect(at::segment::dx, static_cast<std::uint64_t>(s.dx));
+  e.expect(at::segment::face, static_cast<std::uint64_t>(s.face));
+  put(e);
 }
 
 void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> words,
@@ -323,42 +211,15 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
     case Kind::SHADE:
       shade_ = t.shade;
       break;
-    case Kind::TABLE: {
-      ExpectedEvent e = event(Stage::table, of_control);
-      e.expect(at::table::normal_class, static_cast<std::uint64_t>(t.table.normal_class));
-      e.expect(at::table::light, static_cast<std::uint64_t>(t.table.light));
-      for (int c = 0; c < 3; ++c)  // channels that there are not are told as 0
-        e.expect(at::table::share + c, c < config_.channels ? t.table.share[static_cast<std::size_t>(c)] : 0);
-      put(e);
+    case Kind::TABLE:
+      table_event(t.table);
       break;
-    }
-    case Kind::FACE: {
-      const SegmentToken& f = t.segment;
-      ExpectedEvent e = event(Stage::face, of_control);
-      e.unit = f.unit;
-      e.expect(at::face::face, static_cast<std::uint64_t>(f.face));
-      e.expect(at::face::index, static_cast<std::uint64_t>(f.index));
-      e.expect(at::face::normal_class, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0);
-      e.expect(at::face::dz, low(f.dz, depth_bits_));
-      std::uint64_t color = 0;
-      for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
-        color |= static_cast<std::uint64_t>(f.color[c]) << 8 * c;
-      e.expect(at::face::color, color);
-      put(e);
+    case Kind::FACE:
+      face_event(t.segment);
       break;
-    }
-    case Kind::SEG: {
-      if (!line.segment_taken()) break;
-      const SegmentToken& s = t.segment;
-      ExpectedEvent e = event(Stage::segment, of_control);
-      e.unit = s.unit;
-      if (s.face != (1 << config_.face_bits) - 1)
-        e.expect(at::segment::z, low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_));
-      e.expect(at::segment::dx, static_cast<std::uint64_t>(s.dx));
-      e.expect(at::segment::face, static_cast<std::uint64_t>(s.face));
-      put(e);
+    case Kind::SEG:
+      if (line.segment_taken()) segment_event(t.segment);
       break;
-    }
     case Kind::TREE:
       put(event(Stage::claim, of_control));
       newest(Stage::claim, 0).look_at(0);  // it has no values: that it comes matters
@@ -384,69 +245,56 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
   }
 }
 
-// `line`: nullptr where it is blank.
-void ExpectedEvents::end_line(const LineView* line) {
-  command(number(Kind::EOL), 0, width_, of_command);
-  if (line != nullptr && config_.dsf_bits > 0) {
-    ExpectedEvent& e = newest(Stage::command, 0);
-    e.expect(at::command::count, painted_ ? 0 : bias_);
+// What a pixel had to be compared with, at its event that was put() last.
+void ExpectedEvents::came(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color) {
+  ExpectedEvent& e = newest(Stage::pixel, x);
+  if (z) e.expect(at::pixel::z_came, *z);
+  if (color) e.expect(at::pixel::color_came, *color);
+}
+
+// What the units and the tree have for a line's pixels, each in turn, and what becomes of the pixels.
+void ExpectedEvents::tree_events(const LineView& line) {
+  command(number(Kind::TREE), 0, width_, of_command);
+  const std::uint64_t clear = (std::uint64_t{1} << config_.z_bits) - 1;
+  for (int x = 0; x < width_; ++x) {
+    for (int u = 0; u < config_.units; ++u) {
+      const auto p = line.unit_pixel(u, x);
+      ExpectedEvent e = event(Stage::unit, of_unit);
+      e.unit = u;
+      e.x = x;
+      e.expect(at::unit::z, p.z);
+      if (p.z != clear) {
+        e.expect(at::unit::index, p.index);
+        e.expect(at::unit::color, packed(p.color));
+        e.expect(at::unit::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
+      }
+      put(e);
+    }
+    const auto p = line.tree_pixel(x);
+    ExpectedEvent e = event(Stage::tree, of_tree);
+    e.x = x;
+    e.expect(at::tree::z, p.z);
+    if (p.z != clear) {
+      e.expect(at::tree::color, packed(p.color));
+      e.expect(at::tree::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
+    }
+    put(e);
+    touch(number(Kind::TREE), x, line.pixel(x), of_pixel);
+    came(x, p.z, p.z == clear ? std::nullopt : std::optional(packed(p.color)));
   }
-  line_event(line == nullptr, false, of_command);
-  if (line == nullptr)
-    leave({}, true);
-  else
-    leave(resolved_ && !painted_ ? before_resolve_ : all_leaving(*line), false);
-  eol_token_.push_back(token_);
-  ++y_;
-  resolved_ = painted_ = false;
-  bias_ = 0;
 }
 
 void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineView& line) {
   const SpanToken& s = t.span;
-  const int kind = number(t.kind);
-  const auto came = [&](int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color) {
-    ExpectedEvent& e = newest(Stage::pixel, x);
-    if (z) e.expect(at::pixel::z_came, *z);
-    if (color) e.expect(at::pixel::color_came, *color);
-  };
   switch (t.kind) {
-    case Kind::TREE: {
-      command(kind, 0, width_, of_command);
-      const std::uint64_t clear = (std::uint64_t{1} << config_.z_bits) - 1;
-      for (int x = 0; x < width_; ++x) {
-        for (int u = 0; u < config_.units; ++u) {
-          const auto p = line.unit_pixel(u, x);
-          ExpectedEvent e = event(Stage::unit, of_unit);
-          e.unit = u;
-          e.x = x;
-          e.expect(at::unit::z, p.z);
-          if (p.z != clear) {
-            e.expect(at::unit::index, p.index);
-            e.expect(at::unit::color, packed(p.color));
-            e.expect(at::unit::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
-          }
-          put(e);
-        }
-        const auto p = line.tree_pixel(x);
-        ExpectedEvent e = event(Stage::tree, of_tree);
-        e.x = x;
-        e.expect(at::tree::z, p.z);
-        if (p.z != clear) {
-          e.expect(at::tree::color, packed(p.color));
-          e.expect(at::tree::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
-        }
-        put(e);
-        touch(kind, x, line.pixel(x), of_pixel);
-        came(x, p.z, p.z == clear ? std::nullopt : std::optional(packed(p.color)));
-      }
+    case Kind::TREE:
+      tree_events(line);
       break;
-    }
     default: {
       const KindInfo& info = info_of(t.kind);
       if (!info.range) break;
       for (int x = s.xl; x < s.xr; ++x) {
-        touch(kind, x, line.pixel(x), of_pixel);
+        touch(number(t.kind), x, line.pixel(x), of_pixel);
         came(x, info.depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
              info.color ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
       }
@@ -487,23 +335,6 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
 void ExpectedEvents::ended() {
   put(event(Stage::end, of_end));
   newest(Stage::end, 0).look_at(0);
-}
-
-void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
-  const auto channels = static_cast<std::size_t>(config_.channels);
-  for (int x = 0; x < width_; ++x) {
-    ExpectedEvent e = event(Stage::out, of_out);
-    e.line = y;
-    e.token = eol_token_[static_cast<std::size_t>(y)];
-    e.x = x;
-    std::uint64_t color = 0;
-    for (std::size_t c = 0; c < channels; ++c)
-      color |= std::uint64_t{pixels[static_cast<std::size_t>(x) * channels + c]} << 8 * c;
-    e.expect(at::out::color, color);
-    e.expect(at::out::tuser, x == 0 && y == 0 ? 1 : 0);
-    e.expect(at::out::tlast, x + 1 == width_ ? 1 : 0);
-    put(e);
-  }
 }
 
 }  // namespace kage::cosim

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -85,6 +87,27 @@ class ExpectedEvents : public CoreObserver {
     std::uint64_t counts = 0;
   };
 
+  // The order of a token's events. A line that goes out and comes back has its own steps behind those of the token.
+  enum Step {
+    of_token,
+    of_control,
+    of_unit,
+    of_tree,
+    of_command,
+    of_pixel,
+    of_exit,
+    of_load,
+    of_load_command,
+    of_loaded,
+    of_out,
+    of_end
+  };
+
+  static std::uint64_t low(std::int64_t value, int bits) {
+    return static_cast<std::uint64_t>(value) & (bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1);
+  }
+  static int number(Kind kind) { return static_cast<int>(kind); }
+
   ExpectedEvent event(Stage stage, int step) const;
   void put(ExpectedEvent e);
   [[nodiscard]] bool watched(Stage stage) const { return (unwatched_ >> static_cast<unsigned>(stage) & 1U) == 0; }
@@ -95,14 +118,24 @@ class ExpectedEvents : public CoreObserver {
   void wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words);
   void command(int kind, int xl, int xr, int step);
   void span_command(const Token& t, const LineView& line);
+  void table_event(const TableToken& t);
+  void face_event(const SegmentToken& f);
+  void segment_event(const SegmentToken& s);
+  void tree_events(const LineView& line);
+  void came(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color);
   void touch(int kind, int x, const PixelState& after, int step);
+
+  // Of a line as a whole: expected_line.cpp.
   void state(std::uint64_t bias, bool matters);
   void paint(const LineView& line);
+  void load_back(int x, const PixelState& s);
+  [[nodiscard]] PixelState painted(const PixelState& before) const;
   void end_line(const LineView* line);
   void line_event(bool blank, bool load, int step);
   void leave(const std::vector<Leaving>& pixels, bool blank);
   [[nodiscard]] Leaving leaving(const PixelState& s, bool resolved) const;
   [[nodiscard]] std::vector<Leaving> all_leaving(const LineView& line) const;
+
   [[nodiscard]] bool clear(const PixelState& s) const { return s.z == (1U << config_.z_bits) - 1U; }
   [[nodiscard]] std::uint64_t packed(const std::array<std::uint8_t, 3>& color) const;
 

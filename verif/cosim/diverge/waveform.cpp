@@ -24,11 +24,12 @@ struct Net {
 };
 
 // The nets that GTKWave opens with; those of a vector's width must be as the RTL has them, which
-// verif/test/cli/waveform_nets.py holds.
+// verif/test/cli/waveform_nets.py holds. The edge that ends a clock stands at twice its number; the marker stands half
+// a clock before, where the nets have what the edge takes.
 std::string save_file(const std::filesystem::path& wave, const Config& config, std::uint64_t clock) {
   std::string text =
       fmt::format("[dumpfile] \"{}\"\n[timestart] {}\n*-4.0 {}\n", std::filesystem::absolute(wave).string(),
-                  clock > 20 ? 2 * (clock - 20) : 0, 2 * clock + 1);
+                  clock > 20 ? 2 * (clock - 20) : 0, 2 * clock - 1);
   const auto group = [&](const char* name, std::initializer_list<Net> nets) {
     text += fmt::format("@200\n-{}\n", name);
     for (const Net& n : nets)

@@ -91,12 +91,77 @@ HiddenFolder work_folder(const fs::path& folder) {
   }
 }
 
+/// Names and versions, a line each.
+std::vector<std::string> lines_of(const ModelTools& tools) {
+  const auto line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  return {line(tools.verilator), line(tools.compiler)};
+}
+
 /// What the cache says of a model, for `kage cache list`.
-nlohmann::ordered_json about(const Config& config, const ModelOptions& options) {
+nlohmann::ordered_json about(const Config& config, const ModelOptions& options, const ModelTools& tools) {
   nlohmann::ordered_json values;
   for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
   return {{"config", values},       {"fault", options.fault},     {"monitors", options.monitors},
-          {"waves", options.waves}, {"mutants", options.mutants}, {"tools", model_tools()}};
+          {"waves", options.waves}, {"mutants", options.mutants}, {"tools", lines_of(tools)}};
+}
+
+/// The command that builds the model in the folder `work` of the sources that lie in work/source.
+std::vector<std::string> build_command(const fs::path& work, const Config& config, const ModelOptions& options) {
+  std::vector<std::string> command{"env",
+                                   "-u",
+                                   "KAGE_RTL_DIR",
+                                   "TMPDIR=" + (work / "tmp").string(),
+                                   (work / "source/verif/cosim/model/driver/build.py").string(),
+                                   (work / "model.so").string()};
+  for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
+  if (!options.fault.empty()) command.insert(command.end(), {"--fault", options.fault});
+  if (options.monitors) command.emplace_back("--monitors");
+  if (options.waves) command.emplace_back("--waves");
+  if (options.mutants) command.emplace_back("--mutants");
+  command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
+                                 "--keep", (work / "build").string()});
+  return command;
+}
+
+/// Throws Error for a build that failed, with what it said. Messages name files of `data`, where a person can look at
+/// them.
+[[noreturn]] void refuse_build(const fs::path& work, const fs::path& data, const std::string& said,
+                               const fs::path& log) {
+  const fs::path copy = work / "source";
+  const std::string cause = with_path(telling_line(said), copy, data);
+  const fs::path own = work / "build/build.log";  // what build.py said is less than its log has
+  const bool kept = keep_log(with_path(fs::exists(own) ? read_file(own) : said, copy, data), work / "log", log);
+  throw Error(
+      fmt::format("RTL model: the build failed: {}{}", cause, kept ? fmt::format(" (log: {})", log.string()) : ""));
+}
+
+/// What is told while a model is being built, or waited for.
+class Waiting {
+ public:
+  explicit Waiting(const BuildProgress& progress) : progress_(progress) {}
+
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  void wait() const {
+    if (progress_) progress_(seconds());
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+
+ private:
+  const BuildProgress& progress_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Builds work/model.so.
+void build(const fs::path& work, const fs::path& data, const Config& config, const ModelOptions& options,
+           const Waiting& waiting, const fs::path& log) {
+  fs::create_directory(work / "tmp");  // the compilers' temporary files go with the rest if they are killed
+  if (options.progress) options.progress(0);
+  Process process(build_command(work, config, options));
+  bool ok = false;
+  while (!process.ended(ok)) waiting.wait();
+  if (!ok || !fs::exists(work / "model.so")) refuse_build(work, data, process.said(), log);
 }
 
 }  // namespace
@@ -104,7 +169,7 @@ nlohmann::ordered_json about(const Config& config, const ModelOptions& options) 
 Model find_model(const Config& config, const ModelOptions& options) {
   const fs::path data = data_directory();
   const ModelCache cache;
-  const std::vector<fs::path> files = model_sources(data, options);
+  const ModelSources sources = model_sources(data, options);
   std::string damage;
   // A model that is there and whole.
   const auto find = [&](const std::string& key) {
@@ -114,67 +179,27 @@ Model find_model(const Config& config, const ModelOptions& options) {
     cache.use(key);
     return true;
   };
-  const ModelTools tools = model_tool_versions(options);
-  const std::string now = model_key(data, files, config, options, tools);
+  const std::string now = model_key(data, sources, config, options, model_tool_versions(options));
   HiddenFolder::sweep(cache.folder());  // of builds that were killed
   if (find(now)) return {.library = cache.library(now)};
 
   // What is built is a copy: someone may change the RTL meanwhile, and the model must be of what its name says.
   const HiddenFolder hidden = work_folder(cache.folder());
   const fs::path& work = hidden.path();
-  const fs::path copy = work / "source";
-  copy_sources(data, files, copy);
-  const std::string key = model_key(copy, files, config, options, tools);
-
-  const auto start = std::chrono::steady_clock::now();
-  const auto wait = [&] {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (options.progress) options.progress(seconds);
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    return seconds;
-  };
+  copy_sources(data, sources.files, work / "source");
+  const ModelTools tools = model_tool_versions(options, true);
+  const std::string key = model_key(work / "source", sources, config, options, tools);
+  const Waiting waiting(options.progress);
   const Lock lock(cache.lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
-  while (!lock.try_lock()) wait();
+  while (!lock.try_lock()) waiting.wait();
   if (find(key)) return {.library = cache.library(key)};  // another program has built it
-
-  const fs::path log = cache.log(key);
-  // The compilers' temporary files lie there too, and go with the rest if they are killed.
-  fs::create_directory(work / "tmp");
-  std::vector<std::string> command{"env",
-                                   "-u",
-                                   "KAGE_RTL_DIR",
-                                   "TMPDIR=" + (work / "tmp").string(),
-                                   (copy / "verif/cosim/model/driver/build.py").string(),
-                                   (work / "model.so").string()};
-  for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
-  if (!options.fault.empty()) command.insert(command.end(), {"--fault", options.fault});
-  if (options.monitors) command.emplace_back("--monitors");
-  if (options.waves) command.emplace_back("--waves");
-  if (options.mutants) command.emplace_back("--mutants");
-  command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
-                                 "--keep", (work / "build").string()});
-  if (options.progress) options.progress(0);
-  Process build(command);
-  bool ok = false;
-  while (!build.ended(ok)) wait();
-  if (!ok || !fs::exists(work / "model.so")) {
-    // Messages name files where a person can look at them.
-    const std::string cause = with_path(telling_line(build.said()), copy, data);
-    const fs::path own = work / "build/build.log";  // what build.py said is less than its log has
-    const bool kept =
-        keep_log(with_path(fs::exists(own) ? read_file(own) : build.said(), copy, data), work / "log", log);
-    throw Error(
-        fmt::format("RTL model: the build failed: {}{}", cause, kept ? fmt::format(" (log: {})", log.string()) : ""));
-  }
-  cache.keep(key, work / "model.so", about(config, options));
-  return {.library = cache.library(key),
-          .build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-          .damage = damage};
+  build(work, data, config, options, waiting, cache.log(key));
+  cache.keep(key, work / "model.so", about(config, options, tools));
+  return {.library = cache.library(key), .build_seconds = waiting.seconds(), .damage = damage};
 }
 
 std::vector<std::string> model_tools() {
-  const auto line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
-  return {line(verilator_version()), line(compiler_version())};
+  return lines_of({.verilator = verilator_version(), .cxx = {}, .compiler = compiler_version()});
 }
 
 }  // namespace kage::cosim

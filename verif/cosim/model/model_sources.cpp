@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <fnmatch.h>
+#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
@@ -37,51 +39,96 @@ std::string output_of(const char* command) {
   }
 }
 
-}  // namespace
+constexpr const char* kVerilator = "\"${VERILATOR:-verilator}\" --version 2>/dev/null";
+constexpr const char* kCompiler = "${CXX:-c++} --version 2>/dev/null";
 
-std::string verilator_version() { return output_of("\"${VERILATOR:-verilator}\" --version 2>/dev/null"); }
-std::string compiler_version() { return output_of("${CXX:-c++} --version 2>/dev/null"); }
-
-ModelTools model_tool_versions(const ModelOptions& options) {
-  ModelTools tools;
-  tools.verilator = verilator_version();
-  if (tools.verilator.empty() && options.progress) options.progress(0);  // an interruption ends it too
-  if (tools.verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
-  const char* const cxx = std::getenv("CXX");
-  tools.cxx = cxx != nullptr ? cxx : "";
-  tools.compiler = compiler_version();
-  return tools;
+/// The patterns of a role of sources.yaml.
+std::vector<fs::path> patterns(const YAML::Node& roles, const char* role) {
+  std::vector<fs::path> all;
+  for (const YAML::Node& pattern : roles[role]) all.emplace_back(pattern.as<std::string>());
+  return all;
 }
 
-std::vector<fs::path> model_sources(const fs::path& data, const ModelOptions& options) {
-  const std::string& fault = options.fault;
+/// The files of a role, sorted. As in a shell, a pattern takes no hidden file.
+std::vector<fs::path> files_of(const fs::path& data, const YAML::Node& roles, const char* role) {
   std::vector<fs::path> files;
-  std::vector<const char*> folders{"rtl", "rtl/include", "rtl/include/generated", "rtl/defs",
-                                   "verif/cosim/model/driver"};
-  if (options.monitors) folders.push_back("verif/cosim/diverge/monitors");
-  for (const char* folder : folders) {
+  for (const fs::path& pattern : patterns(roles, role)) {
+    const fs::path folder = pattern.parent_path();
     if (!fs::is_directory(data / folder))
       throw Error(fmt::format("{}: no such folder: kage's RTL is not there", (data / folder).string()));
     for (const auto& entry : fs::directory_iterator(data / folder)) {
-      const std::string name = entry.path().filename().string();
-      if (entry.is_regular_file() && name != "configs.yaml" && name != "stages.yaml" && name.front() != '.')
-        files.push_back(fs::path(folder) / name);
+      const fs::path name = entry.path().filename();
+      if (entry.is_regular_file() && fnmatch(pattern.filename().c_str(), name.c_str(), FNM_PERIOD) == 0)
+        files.push_back(folder / name);
     }
-  }
-  if (options.mutants) files.emplace_back("verif/mutants/mutants.yaml");
-  if (!fault.empty()) {
-    files.push_back(fs::path("verif/cosim/model/faults") / (fault + ".patch"));
-    if (fault.find('/') != std::string::npos || !fs::exists(data / files.back()))
-      throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(fault_names(), ", ")));
   }
   std::sort(files.begin(), files.end());
   return files;
 }
 
-std::string model_key(const fs::path& data, const std::vector<fs::path>& files, const Config& config,
+/// The patch of a fault.
+fs::path fault_file(const fs::path& data, const YAML::Node& roles, const std::string& fault) {
+  for (const fs::path& file : files_of(data, roles, "fault"))
+    if (file.stem() == fault) return file;
+  throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(fault_names(), ", ")));
+}
+
+YAML::Node roles_of(const fs::path& data) {
+  const fs::path list = data / "verif/cosim/model/driver/sources.yaml";
+  try {
+    return YAML::Load(read_file(list));
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: {}", list.string(), e.what()));
+  }
+}
+
+}  // namespace
+
+const std::string& verilator_version() {
+  static const std::string version = output_of(kVerilator);
+  return version;
+}
+
+const std::string& compiler_version() {
+  static const std::string version = output_of(kCompiler);
+  return version;
+}
+
+ModelTools model_tool_versions(const ModelOptions& options, bool anew) {
+  ModelTools tools;
+  tools.verilator = anew ? output_of(kVerilator) : verilator_version();
+  if (tools.verilator.empty() && options.progress) options.progress(0);  // an interruption ends it too
+  if (tools.verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
+  const char* const cxx = std::getenv("CXX");
+  tools.cxx = cxx != nullptr ? cxx : "";
+  tools.compiler = anew ? output_of(kCompiler) : compiler_version();
+  return tools;
+}
+
+ModelSources model_sources(const fs::path& data, const ModelOptions& options) {
+  const YAML::Node roles = roles_of(data);
+  ModelSources sources{.files = {},
+                       .modules = files_of(data, roles, "modules"),
+                       .headers = files_of(data, roles, "headers"),
+                       .includes = patterns(roles, "includes")};
+  const auto add = [&](const std::vector<fs::path>& more) {
+    sources.files.insert(sources.files.end(), more.begin(), more.end());
+  };
+  add(sources.modules);
+  add(sources.headers);
+  add(files_of(data, roles, "parameters"));
+  add(files_of(data, roles, "driver"));
+  if (options.monitors) add(files_of(data, roles, "monitors"));
+  if (options.mutants) add(files_of(data, roles, "mutants"));
+  if (!options.fault.empty()) sources.files.push_back(fault_file(data, roles, options.fault));
+  std::sort(sources.files.begin(), sources.files.end());
+  return sources;
+}
+
+std::string model_key(const fs::path& data, const ModelSources& sources, const Config& config,
                       const ModelOptions& options, const ModelTools& tools) {
   Sha256 hash;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : sources.files) {
     hash.add(file.string());
     hash.add(read_file(data / file));
   }

@@ -18,19 +18,29 @@ struct ModelTools {
   std::string compiler;   ///< what it prints for --version
 };
 
-/// Each is empty if the tool cannot be run.
-std::string verilator_version();
-std::string compiler_version();
+/// Each is empty if the tool cannot be run. A program asks a tool once: `verilator --version` starts Perl, which takes
+/// longer than a small frame.
+const std::string& verilator_version();
+const std::string& compiler_version();
 
-/// Throws Error if there is no Verilator.
-ModelTools model_tool_versions(const ModelOptions& options);
+/// Throws Error if there is no Verilator. With `anew` the tools are asked now, as they may be others since this program
+/// asked first.
+ModelTools model_tool_versions(const ModelOptions& options, bool anew = false);
 
-/// The files that the model is made of, sorted, below `data`: all that build.py reads.
+/// What a model is made of: all that build.py reads, by verif/cosim/model/driver/sources.yaml. Paths are below the
+/// source tree, and sorted.
+struct ModelSources {
+  std::vector<std::filesystem::path> files;     ///< all
+  std::vector<std::filesystem::path> modules;   ///< of these, what Verilator is given
+  std::vector<std::filesystem::path> headers;   ///< of these, what the modules include
+  std::vector<std::filesystem::path> includes;  ///< the folders that it looks for headers in
+};
+
 /// Throws Error if folders are missing or there is no such fault.
-std::vector<std::filesystem::path> model_sources(const std::filesystem::path& data, const ModelOptions& options);
+ModelSources model_sources(const std::filesystem::path& data, const ModelOptions& options);
 
-/// The key of the model in the cache: see find_model().
-std::string model_key(const std::filesystem::path& data, const std::vector<std::filesystem::path>& files,
-                      const Config& config, const ModelOptions& options, const ModelTools& tools);
+/// The key of the model in the cache: see find_model(). `data` is the tree whose files are read.
+std::string model_key(const std::filesystem::path& data, const ModelSources& sources, const Config& config,
+                      const ModelOptions& options, const ModelTools& tools);
 
 }  // namespace kage::cosim

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cosim/model/rtl.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "cosim/model/rtl_library.hpp"
+#include "cosim/model/video_lines.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
@@ -25,34 +26,10 @@ std::uint64_t initial_seed(const RtlOptions& options) {
   return options.initial == 0 ? options.seed : mixed(options.seed, ~options.initial);
 }
 
-/// The library, closed with the object.
-class Library {
- public:
-  explicit Library(const std::filesystem::path& path) : handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-    if (handle_ == nullptr) throw Error(fmt::format("{}: cannot be loaded: {}", path.string(), dlerror()));
-  }
-  ~Library() { dlclose(handle_); }
-  Library(const Library&) = delete;
-  Library& operator=(const Library&) = delete;
-
-  [[nodiscard]] const kage_rtl_table* table() const {
-    const auto function = reinterpret_cast<kage_rtl_api_function>(dlsym(handle_, KAGE_RTL_API_SYMBOL));
-    return function == nullptr ? nullptr : function();
-  }
-
- private:
-  void* handle_;
-};
-
 class Rtl : public RtlCore {
  public:
   Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
-      : config_(config), options_(options), library_(path), table_(library_.table()), marker_(config) {
-    if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
-      throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
-    for (const ParamInfo& p : kParams)
-      if (built_with(p.name) != config.*(p.member))
-        throw Error(fmt::format("{}: {} is not that of the configuration", path.string(), p.name));
+      : config_(config), options_(options), library_(path, config), table_(library_.table()), marker_(config) {
     model_ = table_->create(initial_seed(options));
     if (model_ == nullptr) throw Error(fmt::format("{}: out of memory", path.string()));
     table_->assertions(model_, options.assertions ? 1 : 0);
@@ -165,9 +142,7 @@ class Rtl : public RtlCore {
     if (broken_) errors_ = frames_ = 0;
     broken_ = stuck_ = announced_ = false;
     width_ = height_ = 0;
-    left_ = 0;
-    y_ = 0;
-    line_.clear();
+    lines_.start();
     held_.clear();
     marks_.clear();
     marker_.start();
@@ -241,7 +216,7 @@ class Rtl : public RtlCore {
     const FrameHeader h = FrameHeader::read(held_);
     width_ = static_cast<std::uint32_t>(h.width);
     height_ = static_cast<std::uint32_t>(h.height);
-    left_ = std::uint64_t{width_} * height_;
+    lines_.expect(width_, height_, static_cast<std::size_t>(config_.channels));
     table_->expect(model_, width_, height_);
   }
 
@@ -258,7 +233,8 @@ class Rtl : public RtlCore {
     int why = KAGE_RTL_STUCK;
     if (!stuck_) {
       submit(held_.size(), true);
-      why = in_slices([&] { return table_->run(model_, any ? earlier_pixels() + left_ : kForever, slice()); }, sink);
+      why = in_slices([&] { return table_->run(model_, any ? earlier_pixels() + lines_.left() : kForever, slice()); },
+                      sink);
     }
     (void)checked(why);
     std::string trouble;
@@ -277,7 +253,7 @@ class Rtl : public RtlCore {
                               end.status.error == ErrorCode::PARAMS ||
                               (end.status.error == ErrorCode::LAST_EARLY && end.status.token == 0);
     if (header_error && why != KAGE_RTL_STUCK) trouble.clear();
-    if (!line_.empty()) sink(static_cast<int>(y_), line_);
+    lines_.end(sink);
     if (!header_error) {
       end.status.width = static_cast<int>(width_);
       end.status.height = static_cast<int>(height_);
@@ -295,12 +271,6 @@ class Rtl : public RtlCore {
       end.stalls.starved += stats.starved[i];
       end.stalls.blocked += stats.blocked[i];
     }
-  }
-
-  [[nodiscard]] int built_with(std::string_view name) const {
-    for (std::uint32_t i = 0; i < table_->param_count; ++i)
-      if (name == table_->param_names[i]) return table_->param_values[i];
-    return -1;
   }
 
   std::uint32_t read(std::uint32_t address) {
@@ -357,32 +327,15 @@ class Rtl : public RtlCore {
     return earlier_.size() / static_cast<std::size_t>(config_.channels);
   }
 
-  /// Those of a frame ahead are looked at here. Whole lines go to the sink, the beginning of another stays. Pixels past
-  /// the frame's size are counted by the model.
+  /// Those of a frame ahead are looked at here. Pixels past the frame's size are counted by the model.
   void take_pixels(const LineSink& sink) {
     std::uint64_t count = 0;
     const std::uint8_t* pixels = table_->pixels(model_, &count);
     const auto channels = static_cast<std::size_t>(config_.channels);
-    const std::size_t line_bytes = std::size_t{width_} * channels;
     const auto earlier = static_cast<std::size_t>(std::min(count, earlier_pixels())) * channels;
     if (!std::equal(pixels, pixels + earlier, earlier_.begin())) ++earlier_wrong_;
     earlier_.erase(earlier_.begin(), earlier_.begin() + static_cast<std::ptrdiff_t>(earlier));
-    pixels += earlier;
-    count = std::min(count - earlier / channels, left_);
-    left_ -= count;
-    std::span<const std::uint8_t> bytes(pixels, static_cast<std::size_t>(count) * channels);
-    while (!bytes.empty()) {
-      const auto part = bytes.first(std::min(bytes.size(), line_bytes - line_.size()));
-      bytes = bytes.subspan(part.size());
-      if (part.size() == line_bytes) {
-        sink(static_cast<int>(y_++), part);
-        continue;
-      }
-      line_.insert(line_.end(), part.begin(), part.end());
-      if (line_.size() < line_bytes) continue;
-      sink(static_cast<int>(y_++), line_);
-      line_.clear();
-    }
+    lines_.take(pixels + earlier, count - earlier / channels, sink);
     table_->clear_pixels(model_);
   }
 
@@ -400,7 +353,7 @@ class Rtl : public RtlCore {
 
   Config config_;
   RtlOptions options_;
-  Library library_;
+  RtlLibrary library_;
   const kage_rtl_table* table_;
   kage_rtl* model_ = nullptr;
   std::uint32_t frames_ = 0;
@@ -422,9 +375,7 @@ class Rtl : public RtlCore {
   bool stuck_ = false;
   std::uint32_t width_ = 0;
   std::uint32_t height_ = 0;
-  std::uint64_t left_ = 0;           // pixels to come
-  std::uint32_t y_ = 0;              // of the line to come
-  std::vector<std::uint8_t> line_;   // the part of it that is here
+  VideoLines lines_;
   std::vector<std::uint32_t> held_;  // not yet submitted
   std::vector<std::uint8_t> marks_;  // of those words
   PhaseMarker marker_;

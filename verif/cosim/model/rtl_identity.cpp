@@ -24,8 +24,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_rtl(const fs::path& file) {
-  return *file.begin() == "rtl" && (file.extension() == ".sv" || file.extension() == ".svh");
+/// Whether the preprocessor reads it.
+bool is_rtl(const ModelSources& sources, const fs::path& file) {
+  const auto in = [&](const std::vector<fs::path>& some) { return std::binary_search(some.begin(), some.end(), file); };
+  return in(sources.modules) || in(sources.headers);
 }
 
 /// Without blanks at the ends of lines, and without empty lines: what a comment leaves behind.
@@ -40,13 +42,12 @@ std::string without_rests(const std::string& text) {
   return out;
 }
 
-/// The RTL as the parser reads it; empty if there is none. That is what build.py gives to Verilator.
-std::string preprocessed(const fs::path& data, const std::vector<fs::path>& files) {
+/// The RTL as the parser reads it; empty if there is none.
+std::string preprocessed(const fs::path& data, const ModelSources& sources) {
   const char* const own = std::getenv("VERILATOR");
-  std::vector<std::string> command{own != nullptr && *own != '\0' ? own : "verilator", "-E", "-P",
-                                   "-I" + (data / "rtl/include").string()};
-  for (const fs::path& file : files)
-    if (file.parent_path() == "rtl" && file.extension() == ".sv") command.push_back((data / file).string());
+  std::vector<std::string> command{own != nullptr && *own != '\0' ? own : "verilator", "-E", "-P"};
+  for (const fs::path& folder : sources.includes) command.push_back("-I" + (data / folder).string());
+  for (const fs::path& file : sources.modules) command.push_back((data / file).string());
   Process process(command);
   bool ok = false;
   while (!process.ended(ok)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -72,21 +73,21 @@ RtlIdentity rtl_identity(const Config& config) {
   const fs::path data = data_directory();
   const ModelOptions sound;
   const ModelTools tools = model_tool_versions(sound);
-  const std::vector<fs::path> files = model_sources(data, sound);
-  RtlIdentity identity{.model_key = model_key(data, files, config, sound, tools)};
+  const ModelSources sources = model_sources(data, sound);
+  RtlIdentity identity{.model_key = model_key(data, sources, config, sound, tools)};
   if (const std::string tool = unknown_tool(tools); !tool.empty()) {
     identity.why_not = fmt::format("a tool's version does not say of what sources it was built: {}", tool);
     return identity;
   }
-  const std::string text = preprocessed(data, files);
+  const std::string text = preprocessed(data, sources);
   if (text.empty()) {
     identity.why_not = "Verilator's preprocessor does not take the RTL";
     return identity;
   }
   Sha256 hash;
   hash.add(text);
-  for (const fs::path& file : files) {
-    if (is_rtl(file)) continue;
+  for (const fs::path& file : sources.files) {
+    if (is_rtl(sources, file)) continue;
     hash.add(file.string());
     hash.add(read_file(data / file));
   }

@@ -168,7 +168,10 @@ j['shard']['count']=2**40|count is not what it should be
 j['same']=False|first_difference is not what it should be
 j['first_difference']={}|first_difference is not what it should be
 j['pictures']=[1]|pictures is not what it should be
-j['stalled']={}|input_starved is not what it should be
+j['stalled']={}|input_starved is missing (stalled/input_starved)
+del j['seed']|spoilt.json: no report of kage cosim: seed is missing
+del j['shard']['count']|spoilt.json: no report of kage cosim: count is missing (shard/count)
+j['config']['LATER']=1|spoilt.json: no report of kage cosim: LATER is no parameter of this kage (config/LATER)
 CASES
 for change in "j['seed']=2" "j['width']=65" "j['config']['LANES']=4" "j['scene']='x'" "j['options']['idle']=1"; do
   spoilt "$change"
@@ -178,6 +181,9 @@ spoilt "j['shard']['count']=4"
 trouble "spoilt.json: one of 4 shards, 2.json one of 3" "$kage" merge 2.json 3.json spoilt.json
 echo '[[[' >broken.json
 trouble "broken.json: not JSON" "$kage" merge broken.json
+# Keys of a later kage are passed over.
+spoilt "j['later']=j['stalled']['later']={'x': 1}; j['each'][0]['stalled_by_phase']['later']=1"
+expect 0 "$kage" merge spoilt.json 2.json 3.json
 echo '[1]' >list.json
 trouble "list.json: no report of kage cosim" "$kage" merge list.json
 done_testing

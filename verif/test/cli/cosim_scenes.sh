@@ -113,7 +113,7 @@ s[0].update(frames=0)|frames is not what it should be
 s.pop()|spoilt.json: its scenes are not those of 1.json
 s.append(1)|scenes is not what it should be
 j['scenes']=[]|scenes is not what it should be
-j['scenes'][0].clear()|is not what it should be
+j['scenes'][0].clear()|frames is missing (scenes/0/frames)
 s[0]['report']=1|report is not what it should be
 CASES
 [ ! -e none ] || fail "a refused merge leaves a folder"

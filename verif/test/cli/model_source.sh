@@ -17,6 +17,25 @@ patch -s --no-backup-if-mismatch -R -p1 -d data -i "$source/verif/cosim/model/fa
 expect 0 "$kage" cosim s.kage --no-report --out out
 [ "$(find cache -name '*.so' | wc -l)" = 1 ] || fail "the sources are as they were, and there are these models: $(find cache -name "*.so")"
 
+# What is there is found without Python, and its key is of what the model is made of (driver/sources.yaml), and of nothing else.
+mkdir tools && printf '#!/bin/sh\necho "python3 runs"\nexit 1\n' >tools/python3 && chmod +x tools/python3
+# there FILE: whether a model is there once a line more is in the file, which is taken away again.
+there() {
+  local rc=0
+  printf '\n' >>"data/$1"
+  PATH=$PWD/tools:$PATH "$kage" cosim s.kage --no-report --out out >said 2>&1 || rc=$?
+  cp "$source/$1" "data/$1"
+  [ $rc = 0 ] || grep -q 'the build failed: python3 runs' said || fail "$1 changes, and: $(cat said)"
+  return $rc
+}
+for file in rtl/defs/stages.yaml rtl/defs/configs.yaml verif/cosim/diverge/monitors/tree_core_monitor.sv verif/cosim/model/faults/tree_tie.patch; do
+  there $file || fail "another $file asks for another model"
+done
+for file in rtl/ram_1r1w.sv rtl/include/kage_illegal.svh rtl/include/generated/kage_widths.svh rtl/defs/kage.yaml \
+  verif/cosim/model/driver/flow.hpp verif/cosim/model/driver/steps.py verif/cosim/model/driver/sources.yaml; do
+  ! there $file || fail "another $file asks for no other model"
+done
+
 # Who stands in a tree with another rtl/ hears, once, that it is not the one in use; who does not hears nothing.
 mkdir -p other/rtl/include
 touch other/rtl/kage_top.sv

@@ -68,22 +68,44 @@ def good(name, document):
     return validators[name].is_valid(document)
 
 
+# Keys that are not always there, and objects whose keys are names of parameters, phases or scenes: *, where any name is one.
+SOMETIMES = {"coverage", "scenes", "configs", "faults", "left", "bytes"}
+NAMES = {"config", "stalled_by_phase"}
+tried = set()
+
+
+def objects(document, place=()):
+    """All objects within, by the keys and indices that lead there."""
+    if isinstance(document, dict):
+        yield place, document
+    for key, value in (
+        document.items() if isinstance(document, dict) else enumerate(document) if isinstance(document, list) else ()
+    ):
+        yield from objects(value, (*place, key))
+
+
 def spoilt(name, document, where):
-    """Without one of its keys, or with another one, it is not of its schema: else the schema would hold anything."""
-    entries = document if isinstance(document, list) else [document]
-    for i, entry in enumerate(entries):
+    """Without one of its keys, or with another one, at any depth, it is not of its schema: else the schema would hold anything.
+    What has been tried in the same place of the same schema is not tried again."""
+    for place, entry in objects(document):
+        if NAMES & set(place):
+            continue
+        path = tuple("*" if isinstance(step, int) else step for step in place)
         for key in [*entry, None]:
-            other = copy.deepcopy(entries)
+            if (name, path, key) in tried or key in SOMETIMES:
+                continue
+            tried.add((name, path, key))
+            other = copy.deepcopy(document)
+            at = other
+            for step in place:
+                at = at[step]
             if key is None:
-                other[i]["nosuch"] = 1
+                at["nosuch"] = 1
             else:
-                del other[i][key]
-            if key in ("coverage", "scenes", "configs", "faults", "left", "bytes"):
-                continue  # not always there
-            whole = other if isinstance(document, list) else other[0]
+                del at[key]
             check(
-                not good(name, whole),
-                f"{where}: {name} takes it {'with a strange key' if key is None else f'without {key}'}",
+                not good(name, other),
+                f"{where}: {name} takes it {'with a strange key' if key is None else f'without {key}'} in /{'/'.join(path)}",
             )
 
 
@@ -110,4 +132,5 @@ check(len(commands) >= 12, f"these are all commands: {commands}")
 for command in commands:
     text = subprocess.run([kage, "help", command], capture_output=True, text=True, check=True).stdout
     check(("--json" in text) == (command in wrote), f"kage {command}: --json is not tried here")
+check(any(len(path) > 3 for _, path, _ in tried), "nothing deep is spoilt")
 sys.exit(failures != 0)

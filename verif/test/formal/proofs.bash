@@ -12,7 +12,7 @@
 #   induction       clocks of the step; left out where the proof goes to a bound only
 #   defect_steps    clocks within which a defect must be found; steps if left out
 #   cover           clocks in which every cover statement must be reached
-# defect NAME PROOF FILE SED-EXPRESSION: changes FILE of rtl/; PROOF must refute it. Every property of a module, lemmas
+# defect NAME PROOF FILE SED-EXPRESSION: changes FILE of rtl/, a module or a header (include/...); PROOF must refute it. Every property of a module, lemmas
 #   aside, must be refuted by at least one.
 
 # ---- compare_tree ----------------------------------------------------------------------------------------------------
@@ -96,9 +96,9 @@ proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 C
 proof line_phase_samples module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1" steps=12 cover=12
 proof line_phase_counts module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=2 TRANSLUCENCY=0" steps=12 cover=12
 proof line_phase_plain module=line_phase rtl=line_phase set="DSF_BITS=0 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
-defect phase_op_in_volume line_phase line_phase.sv 's/assign phases = .*/assign phases = order_in(kind_i) | (kind_i == KindOp ? 4'"'"'b0010 : 4'"'"'b0000);/'
+defect phase_op_in_volume line_phase include/generated/kage_order.svh "s/KindOp: order_in = 4'b0001/KindOp: order_in = 4'b0011/"
 defect phase_end_of_no_volume line_phase line_phase.sv "s/assign with_marks = .*/assign with_marks = '0;/"
-defect phase_volume_left_open line_phase line_phase.sv 's/assign without_marks = .*/assign without_marks = order_without(kind_i) \& ~MarkVolume;/'
+defect phase_volume_left_open line_phase include/generated/kage_order.svh 's/KindResolve: order_without = MarkVolume | /KindResolve: order_without = /'
 defect phase_sample_left_open line_phase_samples line_phase.sv 's/assign without_marks = .*/assign without_marks = order_without(kind_i) \& ~MarkSample;/'
 defect phase_tp_unseen line_phase line_phase.sv 's/assign resolved_o = .*/assign resolved_o = phase_q[1];/'
 defect phase_bias_kept line_phase line_phase.sv "/kind_i == KindEv/s/bias_q <= '0;/;/"

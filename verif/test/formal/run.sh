@@ -44,16 +44,18 @@ defect() { # NAME PROOF FILE SED-EXPRESSION
 bad=0
 declare -A stated refuted # [MODULE:PROPERTY]
 
-translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, with the RTL's FILE taken from $work
-  local proof=$1 name=$2 changed=${3:-} rtl=() own=() word script
+translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, with the RTL's FILE, a module or a header, taken from $work
+  local proof=$1 name=$2 changed=${3:-} rtl=() own=() word script headers=rtl/include
   local top=${of[$proof.top]}
   for word in ${of[$proof.rtl]}; do
     if [ "$word.sv" = "$changed" ]; then rtl+=("$work/$word.sv"); else rtl+=("rtl/$word.sv"); fi
   done
-  [[ -z $changed || " ${rtl[*]} " == *" $work/$changed "* ]] || { echo "run.sh: $name: $proof reads no $changed" >&2; exit 2; }
+  # Headers include each other by where they lie: one that is changed has all others beside it.
+  if [[ $changed == include/* ]]; then headers=$work/include; fi
+  [[ -z $changed || $changed == include/* || " ${rtl[*]} " == *" $work/$changed "* ]] || { echo "run.sh: $name: $proof reads no $changed" >&2; exit 2; }
   for word in ${of[$proof.rules]} "$top"; do own+=("$here/$word.sv"); done
-  script="read_verilog -sv ${of[$proof.own_assertions]:+-formal} -Irtl/include ${rtl[*]}; "
-  script+="read_verilog -sv -formal -Irtl/include ${own[*]}; "
+  script="read_verilog -sv ${of[$proof.own_assertions]:+-formal} -I$headers ${rtl[*]}; "
+  script+="read_verilog -sv -formal -I$headers ${own[*]}; "
   for word in ${of[$proof.set]}; do script+="chparam -set ${word%%=*} ${word#*=} $top; "; done
   script+="hierarchy -check -top $top; rename -top $top; proc; flatten; "
   script+="memory_collect; memory_map; "
@@ -96,6 +98,7 @@ run_proof() { # NAME: base case or bound, induction, covers
 }
 run_defect() { # NAME: the proof must refute it from reset on; that it is not proved would not do
   local name=$1 proof=${of[$1.proof]} file=${of[$1.file]} start=$SECONDS failed found property
+  rm -rf "$work/include" && cp -r rtl/include "$work"
   sed "${of[$name.expression]}" "rtl/$file" >"$work/$file"
   if cmp -s "$work/$file" "rtl/$file"; then echo "run.sh: $name: changes nothing" >&2; exit 2; fi
   translate "$proof" "$name" "$file"

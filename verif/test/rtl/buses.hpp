@@ -6,7 +6,7 @@
 // rtl/include/generated/kage_buses.svh says, for tests that drive a module's ports.
 #pragma once
 
-#include "kage/derived.hpp"
+#include "contract/derived.hpp"
 
 namespace kage::rtl {
 

@@ -201,11 +201,11 @@ TEST_CASE("what is not of its form is named by its place") {
   for (const char* key : {"same", "each", "config", "first_difference", "notes"}) {
     Json other = good;
     other.erase(key);
-    CHECK(refused(other) == std::string(key) + " is not what it should be");
+    CHECK(refused(other) == std::string(key) + " is missing");
   }
   Json j = good;
   j["first_difference"]["divergence"].erase("text");
-  CHECK(refused(j) == "text is not what it should be (first_difference/divergence/text)");
+  CHECK(refused(j) == "text is missing (first_difference/divergence/text)");
   j = good;
   j["frames"] = -1;
   CHECK(refused(j) == "frames is not what it should be");
@@ -219,4 +219,37 @@ TEST_CASE("what is not of its form is named by its place") {
   j.erase("schema");
   CHECK(refused(j) == "it names no schema");
   CHECK(refused(Json::array()) == "it is no object");
+}
+
+// What docs/schema/README.md promises of a schema's number.
+TEST_CASE("a report of an earlier or a later kage is read as far as its keys go") {
+  report::RunRecord record;
+  record.scenes = {some_scene("courtyard")};
+  record.scenes[0].config.lanes = 2 * Config{}.lanes;
+  const Json good = to_json(record);
+  // An earlier one: a parameter that came since has its default.
+  Json j = good;
+  REQUIRE(j["config"].erase("LANES") == 1);
+  const report::RunRecord earlier = report::RunRecord::from_json(j);
+  CHECK(earlier.any().config.lanes == Config{}.lanes);
+  j["config"] = Json::object();
+  CHECK(report::RunRecord::from_json(j).any().config == Config{});
+  j = good;
+  j.erase("coverage");
+  CHECK_FALSE(report::RunRecord::from_json(j).any().coverage);
+
+  // A later one: keys and phases that are not known are passed over, wherever they are. A parameter decides the words.
+  for (const char* place : {"", "/first_difference", "/first_difference/divergence", "/each/0", "/verdicts", "/shard",
+                            "/options", "/kept", "/coverage/points/0", "/polyhedra/0", "/stalled"}) {
+    j = good;
+    j[Json::json_pointer(place)]["later"] = {{"x", 1}};
+    CAPTURE(place);
+    CHECK(to_json(report::RunRecord::from_json(j)) == good);
+  }
+  j = good;
+  j["each"][0]["stalled_by_phase"]["later"] = 5;
+  CHECK(to_json(report::RunRecord::from_json(j)) == good);
+  j = good;
+  j["config"]["LATER"] = 1;
+  CHECK(refused(j) == "LATER is no parameter of this kage (config/LATER)");
 }

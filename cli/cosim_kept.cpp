@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The frame of a random run that came out different, as a stream file of its own.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "cosim/model/rtl.hpp"
+#include "cosim_run.hpp"
+#include "kage/core.hpp"
+#include "signals.hpp"
+#include "stimulus/shrink.hpp"
+#include "stream/finish.hpp"
+#include "text.hpp"
+
+namespace kage::cli {
+namespace {
+
+/// How long a frame is made smaller.
+constexpr std::chrono::seconds kShrinkTime{60};
+
+ErrorCode error_of(const Config& config, const std::vector<std::uint32_t>& words) {
+  return GoldenCore(config).frame(words, [](int, std::span<const std::uint8_t>) {}).error;
+}
+
+}  // namespace
+
+/// Whether a frame comes out different on a new core, as kage cosim FILE runs it: nothing is put ahead.
+bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words) const {
+  const Config& config = source_->config();
+  const auto golden = cosim::make_golden(config);
+  cosim::RtlOptions as_file = o_.rtl.options;
+  as_file.prelude = {};
+  as_file.text = unheard;
+  const auto rtl = cosim::make_rtl(model_.library, config, as_file);
+  cosim::RunOptions options;
+  options.refusals = true;
+  options.two_threads = false;
+  const auto feed = [&](int, const WordSink& sink) {
+    sink(words);
+    return TokenCounts{};
+  };
+  return !cosim::run(1, feed, *golden, *rtl, options).same;
+}
+
+/// Writes the frame to a stream file, as small as it can be made and still comes out different on a new core.
+report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference) {
+  const int frame = difference.frame;
+  const Config& config = source_->config();
+  const std::vector<std::uint32_t> words = source_->words(frame);
+  const ErrorCode error = error_of(config, words);
+  // Another error is something else, which the frame need not have been kept for.
+  const auto differs = [&](const std::vector<std::uint32_t>& w) {
+    return error_of(config, w) == error && differs_alone(w);
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto more = [&] {
+    check_interrupt();
+    progress_.show("making the frame smaller");
+    return std::chrono::steady_clock::now() - begin < kShrinkTime;
+  };
+  std::vector<std::uint32_t> small = words;
+  const bool alone = differs(words);
+  if (alone && !o_.no_shrink) small = verif::shrink(config, words, differs, more);
+  progress_.clear();
+  const std::string path =
+      (std::filesystem::path(o_.out) / fmt::format("{}_{:04}.kage", source_->name(), frame)).string();
+  StreamFileWriter writer(path, config);
+  writer.begin_port_frame();
+  writer.words(small);
+  writer.end_frame();
+  kage::finish(writer, files);
+  const TokenCounts counts = count_tokens(config, small);
+  std::uint64_t tokens = 0;
+  for (const std::uint64_t n : counts.of_kind) tokens += n;
+  std::string again = "kage cosim " + quoted(path);
+  again += fmt::format(" --seed {}", o_.seed);
+  for (const char* name : kRtlOptions)
+    if (const CLI::Option* option = o_.command->get_option(name); option->count() != 0)
+      again += fmt::format(" {} {}", name, quoted(option->results().back()));
+  return {.file = path,
+          .alone = alone,
+          .lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)],
+          .tokens = tokens,
+          .width = FrameHeader::read(small).width,
+          .words = small.size(),
+          .words_before = words.size(),
+          .again = again};
+}
+
+}  // namespace kage::cli

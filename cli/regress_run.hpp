@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The runs of kage regress: one kage cosim after another, on several threads, until the time is over or one comes out
+// different.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ci.hpp"
+#include "cosim/report/run_record.hpp"
+#include "kage/config.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "regress_plan.hpp"
+#include "results.hpp"
+#include "rtl_run.hpp"
+
+namespace kage::cli {
+
+struct RegressCommand : Options {
+  std::vector<std::string> configs;
+  double minutes = 5;
+  int rounds = 0;  // 0: as many as the minutes hold
+  int jobs = 0;    // 0: default_jobs()
+  bool no_divergence = false;
+  bool list = false;  // the runs are told, and none is made
+  RtlRun rtl;
+  CiOptions ci;
+  const CLI::App* command = nullptr;
+};
+
+class Regress {
+ public:
+  explicit Regress(const RegressCommand& o);
+
+  /// A line for each run of the first rounds: its name, and the command that it stands for.
+  void list(int rounds) const;
+
+  /// Builds what models are missing; then the time begins.
+  void prepare();
+
+  /// All runs, on so many threads.
+  void run(int jobs);
+
+  /// The run that came out different, once more, with all that kage cosim finds out about it; its lines.
+  void look_into(TempFiles& files);
+
+  [[nodiscard]] bool interrupted() const { return interrupted_; }
+  [[nodiscard]] bool same() const { return first_ == kNone; }
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  [[nodiscard]] const std::string& folder() const { return folder_; }
+  [[nodiscard]] const report::SceneRecord& different() const { return done_.at(first_).record; }
+
+  /// What was run, and what came of it.
+  [[nodiscard]] report::RunRecord record() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int kNone = std::numeric_limits<int>::max();
+  struct Done {
+    PlannedRun plan;
+    report::SceneRecord record;
+  };
+
+  void repeat(TempFiles& files);
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  [[nodiscard]] bool time_is_over() const { return o_.rounds == 0 && seconds() >= 60 * o_.minutes; }
+  /// The next run, and its place; nothing once no more are wanted.
+  std::optional<std::pair<int, PlannedRun>> next();
+  void work();
+  void run_one(int index, PlannedRun plan);
+
+  const RegressCommand& o_;
+  std::vector<NamedConfig> configs_;
+  std::vector<std::string> more_;
+  Clock::time_point start_;
+  Progress progress_;
+  double build_seconds_ = 0;
+  double seconds_ = 0;
+  std::vector<std::string> notes_;
+  std::string folder_;  // of what is different
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<PlannedRun> round_;
+  std::size_t at_ = 0;  // in it
+  int rounds_ = 0;      // begun
+  int given_ = 0;       // runs
+  int ended_threads_ = 0;
+  std::map<int, Done> done_;
+  std::uint64_t frames_ = 0;
+  std::atomic<int> first_{kNone};  // the first run that came out different
+  bool stopped_ = false;
+  bool interrupted_ = false;
+  std::exception_ptr error_;
+};
+
+}  // namespace kage::cli

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A model: a verilated kage_top, with the driver around it.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Vkage.h"
+#include "flow.hpp"
+#include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
+#include "rtl_model.h"
+#include "verilated.h"
+#ifdef KAGE_WAVES
+#include "verilated_fst_c.h"
+
+/// The errno of what first could not be written of a waveform: 0 for nothing.
+inline int wave_error = 0;
+#endif
+
+inline thread_local kage_rtl* current = nullptr;  // the model that this thread lets work
+
+inline void put_words(IData& port, const std::uint32_t* words) { port = words[0]; }
+inline void put_words(QData& port, const std::uint32_t* words) { port = words[0] | static_cast<QData>(words[1]) << 32; }
+template <std::size_t N>
+void put_words(VlWide<N>& port, const std::uint32_t* words) {
+  for (std::size_t i = 0; i < N; ++i) port[i] = words[i];
+}
+
+// Clocks without any movement after which the core counts as idle: more than the longest work on one token.
+inline constexpr std::uint64_t kIdleClocks = 8ULL * kMaxWidth + 4096;
+
+struct kage_rtl {
+  struct Block {
+    std::vector<std::uint32_t> words;  // whole beats
+    std::vector<std::uint8_t> marks;   // of the words
+    bool last;
+  };
+
+  struct Size {
+    std::uint32_t width, height;
+  };
+
+  std::uint64_t initial;  // the seed of registers and memories
+  VerilatedContext context;
+  std::unique_ptr<Vkage> top;
+  Flow input, output;
+
+  std::deque<Block> queue;
+  std::size_t at = 0;                    // word of queue.front() that is offered next
+  std::uint8_t mark = 0;                 // of that word, or of the last one if there is none
+  std::vector<std::uint8_t> next_marks;  // of the words that are submitted next
+  bool offered = false;
+
+  std::deque<Size> expected;
+  std::uint32_t x = 0, y = 0;
+  std::vector<std::uint8_t> pixels;
+  std::uint64_t pixel_count = 0;
+  bool waiting = false;  // a pixel was there but not taken
+  std::uint32_t waiting_value = 0;
+
+  std::uint64_t quiet = 0;
+  std::uint64_t clocks = 0;
+  kage_rtl_stats stats{};
+
+  int mutant = 0;
+  std::string failure;  // the first assertion that failed
+  void (*text)(void* user, const char* piece) = nullptr;
+  void* text_user = nullptr;
+
+  bool recording = false;
+  std::vector<kage_rtl_event> events;
+  std::int64_t handshakes = 0;
+#ifdef KAGE_WAVES
+  std::unique_ptr<VerilatedFstC> fst;
+  std::string wave_path;
+  std::uint64_t wave_first = 1, wave_last = 0;
+#endif
+
+  explicit kage_rtl(std::uint64_t seed) : initial(seed) {
+#ifdef KAGE_WAVES
+    context.traceEverOn(true);
+#endif
+    enter();
+    context.threads(1);  // else each model starts a thread per processor, which none of its work goes to
+    context.fatalOnError(false);
+    top = std::make_unique<Vkage>(&context, "top");
+    idle_inputs();
+    top->clk_i = 0;
+    top->rst_ni = 0;
+    reset(2);
+  }
+  ~kage_rtl() {
+    enter();
+    close_wave();
+    top->final();
+    top.reset();
+  }
+
+  // Verilator books failed assertions, and a model's end, to the context of the thread, which is that of the model made
+  // last on it. So every call that lets time pass or ends a model begins with this.
+  void enter() {
+    Verilated::threadContextp(&context);
+    current = this;
+  }
+
+  void idle_inputs() {
+    top->s_axis_tvalid_i = 0;
+    top->s_axis_tlast_i = 0;
+    top->m_axis_tready_i = 0;
+    top->s_axil_awvalid_i = 0;
+    top->s_axil_awaddr_i = 0;
+    top->s_axil_wvalid_i = 0;
+    top->s_axil_wdata_i = 0;
+    top->s_axil_wstrb_i = 0;
+    top->s_axil_bready_i = 0;
+    top->s_axil_arvalid_i = 0;
+    top->s_axil_araddr_i = 0;
+    top->s_axil_rready_i = 0;
+  }
+
+  // A clock is two steps. settle(): inputs may have changed since the last edge, and outputs follow them, as a ready
+  // may that waits for its valid. What the port says then is what it says at the edge. tick(): the edge.
+  void settle() {
+    top->clk_i = 0;
+    top->eval();
+    if (clocks > 0) dump(clocks - 1, 2 * clocks - 1);
+  }
+  void tick() {
+    top->clk_i = 1;
+    top->eval();
+    dump(clocks, 2 * clocks);
+    context.timeInc(1);
+    ++clocks;
+  }
+
+#ifdef KAGE_WAVES
+  void dump(std::uint64_t clock, std::uint64_t time) {
+    if (clock < wave_first || clock > wave_last) return;
+    if (!fst) {
+      fst = std::make_unique<VerilatedFstC>();
+      top->trace(fst.get(), 99);
+      fst->open(wave_path.c_str());
+    }
+    fst->dump(time);
+    if (time == 2 * wave_last + 1) close_wave();
+  }
+  void close_wave() {
+    if (fst) fst->close();
+    fst.reset();
+    wave_last = 0;
+    wave_first = 1;
+  }
+#else
+  void dump(std::uint64_t, std::uint64_t) {}
+  void close_wave() {}
+#endif
+
+  void reset(std::uint32_t clocks) {
+    enter();
+    queue.clear();
+    expected.clear();
+    at = 0;
+    offered = false;
+    waiting = false;
+    x = y = 0;
+    quiet = 0;
+    idle_inputs();
+    top->rst_ni = 0;
+    for (std::uint32_t i = 0; i < (clocks > 0 ? clocks : 1); ++i) {
+      settle();
+      tick();
+    }
+    top->rst_ni = 1;
+  }
+
+  void stalls(std::uint32_t input_share, std::uint32_t output_share, std::uint64_t seed) {
+    input = Flow(input_share, seed * 2 + 1);
+    output = Flow(output_share, seed * 2 + 2);
+  }
+
+  // Whether one was expected.
+  bool take_pixel(std::uint32_t value) {
+    bool first = false;
+    bool last = false;
+    const bool due = !expected.empty();
+    if (!due) {
+      ++stats.extra_pixels;
+    } else {
+      first = x == 0 && y == 0;
+      last = x + 1 == expected.front().width;
+      if (first != static_cast<bool>(top->m_axis_tuser_o)) ++stats.user_errors;
+      if (last != static_cast<bool>(top->m_axis_tlast_o)) ++stats.last_errors;
+      if (last) {
+        x = 0;
+        if (++y == expected.front().height) {
+          y = 0;
+          expected.pop_front();
+        }
+      } else {
+        ++x;
+      }
+    }
+    for (int c = 0; c < kChannels; ++c) pixels.push_back(static_cast<std::uint8_t>(value >> (8 * c)));
+    ++pixel_count;
+    ++stats.pixels;
+    return due;
+  }
+
+  // One clock.
+  void clock() {
+    drive();
+    finish_clock();
+  }
+
+  // What the streams do in this clock; afterwards all ports have the values that the edge will see.
+  void drive() {
+    if (!offered && !queue.empty()) {
+      offered = input.next();
+      if (offered) {
+        const Block& b = queue.front();
+        put_words(top->s_axis_tdata_i, b.words.data() + at);
+        top->s_axis_tlast_i = b.last && at + kBeatWords == b.words.size() ? 1 : 0;
+      }
+    }
+    top->s_axis_tvalid_i = offered ? 1 : 0;
+    top->m_axis_tready_i = output.next() ? 1 : 0;
+    settle();
+  }
+
+  // The edge, and what it passed.
+  void finish_clock() {
+    const bool ready = top->m_axis_tready_i != 0;
+    const bool beat = offered && top->s_axis_tready_o;
+    const bool pixel = top->m_axis_tvalid_o;
+    const std::uint32_t value = static_cast<std::uint32_t>(top->m_axis_tdata_o);
+    const std::uint32_t all = value | static_cast<std::uint32_t>(top->m_axis_tuser_o) << 24 |
+                              static_cast<std::uint32_t>(top->m_axis_tlast_o) << 25;
+    if (waiting && (!pixel || all != waiting_value)) ++stats.unstable;
+    waiting = pixel && !ready;
+    waiting_value = all;
+    if (!queue.empty()) mark = queue.front().marks[at];
+    if (top->s_axis_tready_o && !offered && !queue.empty()) ++stats.starved[mark];
+    if (waiting) ++stats.blocked[mark];
+    // Pixels that no frame has room for are no progress: a core that never stops sending stands still too.
+    const bool due = pixel && ready && take_pixel(value);
+    ++stats.cycles;
+    quiet = beat || due ? 0 : quiet + (ready && (offered || queue.empty()) ? 1 : 0);
+
+    tick();
+
+    if (beat) {
+      offered = false;
+      ++stats.beats;
+      at += kBeatWords;
+      if (at >= queue.front().words.size()) {
+        if (queue.front().last) mark = KAGE_RTL_MARKS - 1;
+        queue.pop_front();
+        at = 0;
+      }
+    }
+  }
+
+  int run(std::uint64_t want, std::uint64_t max_clocks) {
+    enter();
+    quiet = 0;
+    for (std::uint64_t n = 0;; ++n) {
+      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (pixel_count >= want) return KAGE_RTL_PIXELS;
+      if (quiet >= kIdleClocks) return queue.empty() ? KAGE_RTL_IDLE : KAGE_RTL_STUCK;
+      if (n >= max_clocks) return KAGE_RTL_LIMIT;
+      clock();
+    }
+  }
+
+  int run_dry(std::uint64_t max_clocks) {
+    enter();
+    quiet = 0;
+    for (std::uint64_t n = 0;; ++n) {
+      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (queue.empty()) return KAGE_RTL_DRY;
+      if (quiet >= kIdleClocks) return KAGE_RTL_STUCK;
+      if (n >= max_clocks) return KAGE_RTL_LIMIT;
+      clock();
+    }
+  }
+
+  int read(std::uint32_t address, std::uint32_t* value) {
+    enter();
+    top->s_axil_arvalid_i = 1;
+    top->s_axil_araddr_i = static_cast<CData>(address);
+    top->s_axil_rready_i = 1;
+    for (int n = 0; n < 1000; ++n) {
+      drive();
+      const bool taken = top->s_axil_arvalid_i && top->s_axil_arready_o;
+      const bool answered = top->s_axil_rvalid_o;
+      *value = top->s_axil_rdata_o;
+      const int response = top->s_axil_rresp_o;
+      finish_clock();
+      if (answered) {
+        top->s_axil_rready_i = 0;
+        return response;
+      }
+      if (taken) top->s_axil_arvalid_i = 0;
+    }
+    return -1;
+  }
+
+  int write(std::uint32_t address, std::uint32_t value, unsigned strobes, int late) {
+    enter();
+    top->s_axil_awvalid_i = 1;
+    top->s_axil_awaddr_i = static_cast<CData>(address);
+    top->s_axil_wdata_i = value;
+    top->s_axil_wstrb_i = static_cast<CData>(strobes);
+    top->s_axil_bready_i = 1;
+    for (int n = 0; n < 1000; ++n) {
+      if (n == late) top->s_axil_wvalid_i = 1;
+      drive();
+      const bool aw = top->s_axil_awvalid_i && top->s_axil_awready_o;
+      const bool w = top->s_axil_wvalid_i && top->s_axil_wready_o;
+      const bool answered = top->s_axil_bvalid_o;
+      const int response = top->s_axil_bresp_o;
+      finish_clock();
+      if (answered) {
+        top->s_axil_bready_i = 0;
+        return response;
+      }
+      if (aw) top->s_axil_awvalid_i = 0;
+      if (aw) top->s_axil_awaddr_i = static_cast<CData>(~address);
+      if (w) top->s_axil_wvalid_i = 0;
+    }
+    return -1;
+  }
+};
