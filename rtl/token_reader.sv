@@ -8,8 +8,8 @@
 // Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks
 //   is passed on as soon as its first word is there. A cut token is passed on with token_cut_o and whatever words there
 //   are.
-// Capacity: the beats a token can touch and one more, at least. Latency: 2 clocks from the beat that completes a token, 3
-//   if that beat also brings its first word.
+// Capacity: the beats a token can touch and one more, at least. Latency: 2 clocks from the beat that completes a token,
+//   3 if that beat also brings its first word.
 // Throughput: a token a clock, or as many clocks as the port needs for its words. A frame's end costs 2 clocks.
 // Cost: the beats' registers, a multiplexer per word of the longest token over beats and words of a beat.
 `default_nettype none
@@ -55,7 +55,8 @@ module token_reader #(
   localparam int AddrBits = $clog2(Depth);
   localparam int OffBits = $clog2(BEAT_WORDS);
   localparam int BeatBits = 32 * BEAT_WORDS;
-  // Places in the stream, counted in beats or words, modulo 4 times what there is room for: so a difference of two has a sign.
+  // Places in the stream, counted in beats or words, modulo 4 times what there is room for: so a difference
+  // of two has a sign.
   localparam int BeatAtBits = AddrBits + 2;
   localparam int AtBits = BeatAtBits + OffBits;
 

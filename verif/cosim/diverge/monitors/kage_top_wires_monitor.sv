@@ -29,8 +29,13 @@ module kage_top_wires_monitor #(
     kage_top.u_control.loads_done_i, kage_top.u_control.line_ready_i, kage_top.u_control.table_free_i,
     kage_top.u_control.tree_frame_ready_i, kage_top.u_control.tree_seg_ready_i
   };
-  assign lines = {kage_top.line_valid, kage_top.line, kage_top.queue_ready} ==
-                 {kage_top.u_lines.in_valid_i, kage_top.u_lines.in_data_i, kage_top.u_lines.out_ready_i};
+  assign lines = {
+    kage_top.line_valid, kage_top.line, kage_top.told_ready, kage_top.told_valid, kage_top.told_line,
+    kage_top.queue_ready
+  } == {
+    kage_top.u_told.in_valid_i, kage_top.u_told.in_data_i, kage_top.u_told.out_ready_i, kage_top.u_lines.in_valid_i,
+    kage_top.u_lines.in_data_i, kage_top.u_lines.out_ready_i
+  };
   assign loads = {kage_top.cmd_valid, kage_top.cmd, kage_top.load_valid, kage_top.load, kage_top.pixel_ready} == {
     kage_top.u_loads.in_valid_i, kage_top.u_loads.in_i, kage_top.u_loads.load_valid_i, kage_top.u_loads.load_i,
     kage_top.u_loads.out_ready_i
