@@ -46,8 +46,8 @@ SceneFrames::SceneFrames(std::shared_ptr<const Scene> scene, const Config& confi
   if (options_.name.empty()) options_.name = scene_->name();
 }
 
-SceneFrames::SceneFrames(std::shared_ptr<const Scene> scene, const DrawOptions& options)
-    : SceneFrames(scene, chosen(*scene, options), options) {}  // a copy: chosen() reads it
+SceneFrames::SceneFrames(const std::shared_ptr<const Scene>& scene, const DrawOptions& options)
+    : SceneFrames(scene, chosen(*scene, options), options) {}
 
 SceneFrames::SceneFrames(Scene scene, const DrawOptions& options)
     : SceneFrames(std::make_shared<const Scene>(std::move(scene)), options) {}

@@ -79,7 +79,7 @@ class SceneFrames : public FrameSource {
   /// Drawn with the first named configuration that has all that the first frame needs. Throws Error if none has.
   /// @param scene what is drawn
   /// @param options how it is drawn
-  explicit SceneFrames(std::shared_ptr<const Scene> scene, const DrawOptions& options = {});
+  explicit SceneFrames(const std::shared_ptr<const Scene>& scene, const DrawOptions& options = {});
   /// The same for a scene that no one else needs.
   /// @param scene what is drawn
   /// @param options how it is drawn
