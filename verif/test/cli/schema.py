@@ -78,7 +78,7 @@ SOMETIMES_IN = {
     ("touches/*", "tree"),
     ("first_difference", "scene"),
 }
-NAMES = {"config", "stalled_by_phase", "about", "tokens", "lacks", "counting"}
+NAMES = {"config", "stalled_by_phase", "about", "tokens", "lacks"}
 tried = set()
 
 
