@@ -103,93 +103,97 @@ std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, 
   return cosim::watch_pixel(o.frame, o.frame, feed, source.config(), options, at.x, at.y);
 }
 
-int run(const ExplainCommand& o) {
-  if (!o.rtl) refuse_rtl(o.run, "the RTL is run with --rtl only");
-  check_json(o);
-  const Pixel at = parse_pixel(o.pixel);
-  Source source(o);
+/// What is told of a pixel.
+struct Explained {
+  Pixel at;
+  PixelHistory history;
+  std::size_t touching = 0;  ///< tokens, of which the history may have only those that changed something
+  std::map<std::uint32_t, TokenSource> sources;
+  std::vector<cosim::RtlTouch> rtl;  ///< with --rtl
+};
+
+Explained explained(const ExplainCommand& o, Source& source, const Pixel& at) {
   const Config& config = source.config();
-  if (o.frame >= source.frames())
-    throw Error(fmt::format("{}: --frame {}: there are frames 0 to {}", o.input, o.frame, source.frames() - 1));
+  Explained e{.at = at, .history = {}, .sources = {}, .rtl = {}};
   const std::vector<std::uint32_t> words = source.words(o.frame);
-  PixelHistory h;
   try {
-    h = explain_pixel(config, words, at.x, at.y);
-  } catch (const Error& e) {
-    throw Error(fmt::format("{}: {}", o.input, e.what()));
+    e.history = explain_pixel(config, words, at.x, at.y);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", o.input, error.what()));
   }
   const std::optional<Provenance> provenance = source.provenance(o.frame);
-  std::map<std::uint32_t, TokenSource> sources;
-  if (provenance) sources = provenance->of_history(config, words, h);
-  const std::vector<cosim::RtlTouch> rtl = o.rtl ? watch_rtl(o, source, at) : std::vector<cosim::RtlTouch>();
+  if (provenance) e.sources = provenance->of_history(config, words, e.history);
+  if (o.rtl) e.rtl = watch_rtl(o, source, at);
+  e.touching = e.history.touches.size();
+  if (!o.changes) return e;
+  // Where the RTL differs stays: it may have changed what was to be left.
+  std::set<std::uint32_t> differs;
+  for (const cosim::RtlTouch& t : e.rtl)
+    if (!t.same) differs.insert(t.token);
+  std::erase_if(e.history.touches, [&](const PixelTouch& t) { return !t.changed() && differs.count(t.token) == 0; });
+  return e;
+}
 
-  const std::size_t touching = h.touches.size();
-  if (o.changes) {
-    // Where the RTL differs stays: it may have changed what was to be left.
-    std::set<std::uint32_t> differs;
-    for (const cosim::RtlTouch& t : rtl)
-      if (!t.same) differs.insert(t.token);
-    std::erase_if(h.touches, [&](const PixelTouch& t) { return !t.changed() && differs.count(t.token) == 0; });
-  }
+Json to_json(const PixelTouch& t, const Explained& e, const Config& config) {
+  const auto from = e.sources.find(t.token);
+  Json j;
+  j["token"] = t.token;
+  j["kind"] = kKindNames[static_cast<std::size_t>(t.what.kind)];
+  j["text"] = t.text;
+  j["z"] = t.z ? Json(*t.z) : Json(nullptr);
+  j["effect"] = t.effect;
+  j["source"] = from != e.sources.end() ? to_json(from->second) : Json(nullptr);
+  j["before"] = to_json(t.before, config);
+  j["after"] = to_json(t.after, config);
+  j["bias"] = t.bias;
+  if (t.what.kind != Kind::TREE) return j;
+  j["units"] = Json::array();
+  for (const auto& u : e.history.units) j["units"].push_back(to_json(u));
+  j["tree"] = Json::array();
+  for (const auto& level : e.history.tree)
+    for (const TreeMatch& m : level)
+      j["tree"].push_back(
+          {{"level", m.level}, {"left", to_json(m.left)}, {"right", to_json(m.right)}, {"right_wins", m.right_wins}});
+  return j;
+}
 
+Json to_json(const Explained& e, const ExplainCommand& o, const Config& config) {
   Json touches = Json::array();
-  for (const PixelTouch& t : h.touches) {
-    Json j;
-    j["token"] = t.token;
-    j["kind"] = kKindNames[static_cast<std::size_t>(t.what.kind)];
-    j["text"] = t.text;
-    j["z"] = t.z ? Json(*t.z) : Json(nullptr);
-    j["effect"] = t.effect;
-    j["source"] = sources.count(t.token) != 0 ? to_json(sources[t.token]) : Json(nullptr);
-    j["before"] = to_json(t.before, config);
-    j["after"] = to_json(t.after, config);
-    j["bias"] = t.bias;
-    if (t.what.kind == Kind::TREE) {
-      j["units"] = Json::array();
-      for (const auto& u : h.units) j["units"].push_back(to_json(u));
-      j["tree"] = Json::array();
-      for (const auto& level : h.tree)
-        for (const TreeMatch& m : level)
-          j["tree"].push_back({{"level", m.level},
-                               {"left", to_json(m.left)},
-                               {"right", to_json(m.right)},
-                               {"right_wins", m.right_wins}});
-    }
-    touches.push_back(std::move(j));
-  }
+  for (const PixelTouch& t : e.history.touches) touches.push_back(to_json(t, e, config));
   Json j;
   j["frame"] = o.frame;
-  j["x"] = at.x;
-  j["y"] = at.y;
+  j["x"] = e.at.x;
+  j["y"] = e.at.y;
   j["config"] = cli::to_json(config);
-  j["tokens"] = touching;
+  j["tokens"] = e.touching;
   j["changes_only"] = o.changes;
   j["touches"] = std::move(touches);
-  j["color"] = std::vector<int>(h.color.begin(), h.color.begin() + config.channels);
-  j["color_text"] = h.color_text;
+  j["color"] = std::vector<int>(e.history.color.begin(), e.history.color.begin() + config.channels);
+  j["color_text"] = e.history.color_text;
   j["rtl"] = o.rtl ? Json::array() : Json(nullptr);
-  for (const cosim::RtlTouch& t : rtl)
+  for (const cosim::RtlTouch& t : e.rtl)
     j["rtl"].push_back({{"token", t.token},
                         {"stage", cosim::describe(t.stage)},
                         {"load", t.load},
                         {"cycle", t.cycle},
                         {"same", t.same},
                         {"text", t.text}});
-  const bool differs = std::any_of(rtl.begin(), rtl.end(), [](const cosim::RtlTouch& t) { return !t.same; });
-  const int rc = o.check && differs ? kDifferent : kSame;
-  write_json(o, {"kage.explain/1", j});
-  print_notes(source, o);
-  if (json_only(o)) return rc;
-  fmt::print("frame {}, pixel {},{}: {} it{}\n", o.frame, at.x, at.y,
-             touching == 1 ? "1 token touches" : fmt::format("{} tokens touch", touching),
+  return j;
+}
+
+void print(const Explained& e, const ExplainCommand& o, const Config& config) {
+  const PixelHistory& h = e.history;
+  fmt::print("frame {}, pixel {},{}: {} it{}\n", o.frame, e.at.x, e.at.y,
+             e.touching == 1 ? "1 token touches" : fmt::format("{} tokens touch", e.touching),
              o.changes ? fmt::format("; {} {} shown, where something changed{}", h.touches.size(),
                                      h.touches.size() == 1 ? "is" : "are", o.rtl ? " or the RTL differs" : "")
                        : "");
-  RtlLines rtl_lines(rtl, o.changes);
+  RtlLines rtl_lines(e.rtl, o.changes);
   for (const PixelTouch& t : h.touches) {
     rtl_lines.before(t.token);
     fmt::print("{:>8}  {}\n", t.token, t.text);
-    if (sources.count(t.token) != 0) fmt::print("            from {}\n", sources[t.token].text());
+    const auto from = e.sources.find(t.token);
+    if (from != e.sources.end()) fmt::print("            from {}\n", from->second.text());
     fmt::print("            {}\n", t.effect);
     if (t.what.kind == Kind::TREE)
       for (const std::string& line : describe_tree(config, h)) fmt::print("            {}\n", line);
@@ -198,7 +202,21 @@ int run(const ExplainCommand& o) {
   }
   fmt::print("            {}\n", h.color_text);
   rtl_lines.before(std::numeric_limits<std::uint32_t>::max());
-  return rc;
+}
+
+int run(const ExplainCommand& o) {
+  if (!o.rtl) refuse_rtl(o.run, "the RTL is run with --rtl only");
+  check_json(o);
+  const Pixel at = parse_pixel(o.pixel);
+  Source source(o);
+  if (o.frame >= source.frames())
+    throw Error(fmt::format("{}: --frame {}: there are frames 0 to {}", o.input, o.frame, source.frames() - 1));
+  const Explained e = explained(o, source, at);
+  const bool differs = std::any_of(e.rtl.begin(), e.rtl.end(), [](const cosim::RtlTouch& t) { return !t.same; });
+  write_json(o, {"kage.explain/1", to_json(e, o, source.config())});
+  print_notes(source, o);
+  if (!json_only(o)) print(e, o, source.config());
+  return o.check && differs ? kDifferent : kSame;
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ report::SceneRecord merged(const std::vector<Part>& parts) {
     const auto& d = s.first_difference;
     if (d && (!all.first_difference || d->frame < all.first_difference->frame)) all.first_difference = d;
     report::ShardRecord& own = all.shards.emplace_back();
-    static_cast<report::PartRecord&>(own) = s;
+    static_cast<report::PartRecord&>(own) = static_cast<const report::PartRecord&>(s);
     own.number = shard->number;
     own.file = shard->file;
   }

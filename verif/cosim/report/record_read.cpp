@@ -90,7 +90,7 @@ void take(Config& to, const Json& j, const std::string& place) {
     const auto found = j.find(name);
     if (found == j.end()) continue;
     ++known;
-    take(to.*(p.member), *found, place + "/" + name);
+    take(to.*(p.member), *found, fmt::format("{}/{}", place, name));
   }
   if (known == j.size()) return;
   for (const auto& [name, value] : j.items())

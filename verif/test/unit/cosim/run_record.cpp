@@ -111,7 +111,7 @@ report::SceneRecord some_joined() {
   s.frame_seconds = {0.5, std::nullopt, 0.25};
   s.coverage.reset();
   report::ShardRecord shard;
-  static_cast<report::PartRecord&>(shard) = s;
+  static_cast<report::PartRecord&>(shard) = static_cast<const report::PartRecord&>(s);
   shard.number = {1, 2};
   shard.file = "1.json";
   s.shards = {shard, shard};
