@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "shadow/kept.hpp"
+
 namespace kage::verif {
 namespace {
 
@@ -108,7 +110,7 @@ void add_volumes(const SceneFrame& f, const ShadowCaster& caster, StencilWay way
   for (const glm::dvec3& p : f.vertices) out.places.push_back(single(p));
   ShadowCache fresh;
   const std::vector<SpaceBox> boxes = component_boxes(f);
-  VolumeCaster volumes(f, boxes, 8, VolumeWay::fewest, fresh.data());
+  VolumeCaster volumes(f, boxes, 8, VolumeWay::fewest, ShadowCacheInside::of(fresh));
   volumes.make(0, caster, [&](const WorldVolume& volume, std::uint32_t) {
     const auto base = static_cast<std::uint32_t>(out.places.size());
     const double factor = caster.far_factor(volume.caps);
