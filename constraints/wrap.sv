@@ -50,8 +50,8 @@ module kage_wrap #(
   end
 
   kage_top #(
-      `include "generated/kage_pixel_param_map.svh"
       `include "generated/kage_impl_param_map.svh"
+      `include "generated/kage_pixel_param_map.svh"
   ) u_kage (
       .clk_i,
       .rst_ni          (rst_n),
