@@ -129,8 +129,10 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
                                const fs::path& log) {
   const fs::path copy = work / "source";
   const std::string cause = with_path(telling_line(said), copy, data);
-  const fs::path own = work / "build/build.log";  // what build.py said is less than its log has
-  const bool kept = keep_log(with_path(fs::exists(own) ? read_file(own) : said, copy, data), work / "log", log);
+  // What build.py said is less than its log has; but a log that found no room on the disk is empty.
+  const fs::path own = work / "build/build.log";
+  const std::string told = fs::exists(own) ? read_file(own) : "";
+  const bool kept = keep_log(with_path(told.empty() ? said : told, copy, data), work / "log", log);
   throw Error(
       fmt::format("RTL model: the build failed: {}{}", cause, kept ? fmt::format(" (log: {})", log.string()) : ""));
 }

@@ -36,5 +36,5 @@ PY
 
 defect "taken_q + 2'(exit_take_i) - 2'(line_left)" "taken_q + 2'(exit_take_i)"
 grep -q "pixel_banked's line waits for line_out" said || fail "not told who waits: $(cat said)"
-defect "issue_last = x_q == width_q - 1'b1;" "issue_last = width_q == '0;"
+defect "issue_last_q <= left_q == X_BITS'(2);" "issue_last_q <= left_q == '0 && issue_last_q;"
 done_testing
