@@ -146,7 +146,7 @@ defect out_pixel_lost line_out line_out.sv 's/if (!rst_ni) valid_q <= .*/if (!rs
 defect out_buffers_exchanged line_out line_out.sv "s/rd_addr_q   <= rd_second_q ? '0 : .*/rd_addr_q   <= '0;/"
 defect out_address_stuck line_out_groups line_out.sv 's/rd_addr_q <= rd_addr_q + 1.b1;/rd_addr_q <= rd_addr_q;/'
 defect out_lane_wrong line_out_groups line_out.sv 's/lane_at_q\[LaneBits+:LaneBits\] == LaneBits.(l)/lane_at_q[0+:LaneBits] == LaneBits'"'"'(l)/'
-defect out_last_early line_out line_out.sv "s/left_q == X_BITS'(2)/1'b1/"
+defect out_last_early line_out line_out.sv "s/line.width == X_BITS'(1)/1'b1/"
 defect out_user_each_line line_out line_out.sv 's/first_q <= line\.first;/first_q <= 1;/'
 defect out_frame_early line_out_frames line_out.sv 's/!line\.first || valid_q == .0;/1;/'
 defect out_before_it_came line_out line_out.sv 's/assign next_begun = .*/assign next_begun = 1;/'
