@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame: checks its header, asks token_check about its tokens, keeps the line's number, and turns tokens into
+// The frame: judges its header by token_facts, asks token_check about its tokens, keeps the line's number, and turns tokens into
 // commands for the pixels and lines for the way out. What is downstream never sees a malformed stream.
 //
 // Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o
@@ -25,7 +25,6 @@
 module frame_control #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    parameter int MAX_WIDTH   = 640,
     parameter int TOKEN_WORDS = 5
 ) (
     input wire logic clk_i,
@@ -35,6 +34,7 @@ module frame_control #(
     input  wire logic                      token_valid_i,
     output logic                           token_ready_o,
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
+    input  wire logic [     FactsBits-1:0] token_facts_i,
     input  wire logic                      token_header_i,
     input  wire logic                      token_lacking_i,
     input  wire logic                      token_cut_i,
@@ -116,21 +116,13 @@ module frame_control #(
   assign is_span = is_op || is_sp || is_nc || is_ev || is_es || is_tp;
 
   // ---- header ------------------------------------------------------------------------------------------------------
-  logic [15:0] head_width, head_height;
   logic [3:0] head_error;
-  assign head_width  = token_i[HeaderWidthLsb+:16];
-  assign head_height = token_i[HeaderHeightLsb+:16];
-  always_comb begin
-    if (token_cut_i) head_error = ErrLastEarly;
-    else if (token_i[HeaderVersionLsb+:32] != {16'(StreamMagic), 16'(StreamVersion)}) head_error = ErrHeader;
-    else if (head_width == '0 || head_width > 16'(MAX_WIDTH)) head_error = ErrSize;
-    else if (head_height == '0 || head_height[15]) head_error = ErrSize;
-    else if (token_i[HeaderParamHashLsb+:32] != ParamHash) head_error = ErrParams;
-    else head_error = ErrNone;
-  end
+  facts_t facts;
+  assign facts = token_facts_i;
+  assign head_error = token_cut_i ? ErrLastEarly : facts.head_error;
 
   // ---- body --------------------------------------------------------------------------------------------------------
-  logic accept, good, emit_eol, emit_paint;  // what happens in this clock, see below
+  logic accept, is_good, body_good, good, emit_eol, emit_paint;  // what happens in this clock, see below
   logic resolved, seg_goes, unit_behind;
   logic [ 3:0] body_error;
   logic [31:0] fault_token;
@@ -145,6 +137,7 @@ module frame_control #(
       .clk_i,
       .rst_ni,
       .token_i,
+      .bad_range_i   (facts.bad_range),
       .token_lacking_i,
       .token_cut_i,
       .token_at_last_i,
@@ -158,6 +151,7 @@ module frame_control #(
       .take_i        (good && !token_header_i),
       .eol_i         (emit_eol),
       .clear_bias_i  (emit_paint),
+      .good_o        (body_good),
       .code_o        (body_error),
       .fault_unit_o  (fault_unit),
       .fault_token_o (fault_token),
@@ -178,12 +172,13 @@ module frame_control #(
       (state_q == StBody && body_free && (line_ready_i || !is_eol) && (table_free_i || !is_table) && !must_paint);
   assign accept = token_valid_i && token_ready_o;
   assign error_code = token_header_i ? head_error : body_error;
-  assign bad = accept && error_code != ErrNone;
-  assign good = accept && error_code == ErrNone;
+  assign is_good = token_header_i ? !token_cut_i && facts.head_error == ErrNone : body_good;
+  assign bad = accept && !is_good;
+  assign good = accept && is_good;
   assign body_eol = good && !token_header_i && is_eol;
   assign blank_eol = state_q == StBlank && !lines_done_q && eol_free;
   assign emit_eol = body_eol || blank_eol;
-  assign emit_span = good && !token_header_i && is_span && token_i[OpXlLsb+:X_BITS] != token_i[OpXrLsb+:X_BITS];
+  assign emit_span = good && !token_header_i && is_span && !facts.empty;
   assign emit_tree = good && !token_header_i && is_tree;
   // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line
   // is blank, and to the latter it does no harm. Not if it is cut: then not even its kind may be there.

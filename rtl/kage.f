@@ -22,6 +22,7 @@ rtl/stream_fifo.sv
 rtl/table_check.sv
 rtl/token_check.sv
 rtl/token_command.sv
+rtl/token_facts.sv
 rtl/token_reader.sv
 rtl/tree_core.sv
 rtl/tree_line.sv

@@ -67,10 +67,12 @@ module kage_top #(
   // ---- words to tokens ---------------------------------------------------------------------------------------------
   logic token_valid, token_ready, token_header, token_lacking, token_cut, token_final, token_at_last;
   logic [FrontWords*32-1:0] token;
+  facts_t facts;
   logic drop, dropping, reader_busy, reader_moving;
 
   token_reader #(
       .BEAT_WORDS (BEAT_WORDS),
+      .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(FrontWords),
       `include "generated/kage_pixel_param_map.svh"
   ) u_reader (
@@ -83,6 +85,7 @@ module kage_top #(
       .token_valid_o  (token_valid),
       .token_ready_i  (token_ready),
       .token_o        (token),
+      .token_facts_o  (facts),
       .token_header_o (token_header),
       .token_lacking_o(token_lacking),
       .token_cut_o    (token_cut),
@@ -119,7 +122,6 @@ module kage_top #(
   behind_t behind;
 
   frame_control #(
-      .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(FrontWords),
       `include "generated/kage_pixel_param_map.svh"
   ) u_control (
@@ -128,6 +130,7 @@ module kage_top #(
       .token_valid_i     (token_valid),
       .token_ready_o     (token_ready),
       .token_i           (token),
+      .token_facts_i     (facts),
       .token_header_i    (token_header),
       .token_lacking_i   (token_lacking),
       .token_cut_i       (token_cut),

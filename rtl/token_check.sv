@@ -2,9 +2,9 @@
 // Whether a token of a frame's body is good: kind, order, range, line (docs/stream.md, "Errors"). frame_control asks
 // about the token it has and acts on the answer; nothing here waits. Headers are frame_control's own.
 //
-// Question: token_* as from token_reader; width_i, lines_left_i (the height less the EOLs accepted, with units only),
+// Question: token_* as from token_reader, bad_range_i as token_facts has it; width_i, lines_left_i (the height less the EOLs accepted, with units only),
 //   lines_done_i (that is 0) and index_i, its number in the frame.
-// Answer, combinational: code_o, ErrNone if it is good, and of a fault that a TREE raises the unit and the token that
+// Answer, combinational: good_o; code_o, ErrNone if it is good, and of a fault that a TREE raises the unit and the token that
 //   are to blame, else unit 0 and this token. seg_goes_o: it is good, and a SEG that its unit takes; a good SEG without
 //   it is swallowed.
 // Acts, each one clock: header_i, a header is taken, and start_i with it if it is good; take_i, the token is good and
@@ -26,6 +26,7 @@ module token_check #(
     input wire logic rst_ni,
 
     input wire logic [TOKEN_WORDS*32-1:0] token_i,
+    input wire logic                      bad_range_i,
     input wire logic                      token_lacking_i,
     input wire logic                      token_cut_i,
     input wire logic                      token_at_last_i,
@@ -41,6 +42,7 @@ module token_check #(
     input wire logic eol_i,
     input wire logic clear_bias_i,
 
+    output logic                good_o,
     output logic [CodeBits-1:0] code_o,
     output logic [         5:0] fault_unit_o,
     output logic [        31:0] fault_token_o,
@@ -55,29 +57,23 @@ module token_check #(
   `include "generated/kage_layout.svh"
   `include "generated/kage_order.svh"
 
-  localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
-
   logic unused_token;
   assign unused_token = ^token_i;  // longer than what is looked at
 
   // ---- order, range, line ------------------------------------------------------------------------------------------
   logic [3:0] kind;
-  logic is_shade, is_eol, is_end, is_es, is_span;
-  logic [X_BITS-1:0] xl, xr;
-  logic in_phase, in_order, in_range, in_line, good, light_lacking;
+  logic is_eol, is_end, is_span;
+  logic [X_BITS-1:0] xr;
+  logic in_phase, in_order, in_range, in_line, good;
   logic tree_order_error, tree_range_error, tree_error;  // those of FACE, SEG and TREE; see gen_tree below
   logic table_order_error, table_range_error;  // those of TABLE and classes, see gen_table
   logic shade_seen_q;
   logic [CodeBits-1:0] tree_code;
   assign kind = token_i[3:0];
-  assign is_shade = kind == KindShade;
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
-  assign is_es = COUNT_BITS > 0 && kind == KindEs;
   assign is_span = kind_has_range(kind);
-  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in all that have a range
-  assign xr = token_i[OpXrLsb+:X_BITS];
-  assign light_lacking = is_es && 32'(token_i[EsLightLsb+:LightBits]) >= 32'(LIGHTS);
+  assign xr = token_i[OpXrLsb+:X_BITS];  // the place is the same in all that have a range
   always_comb begin
     unique case (kind)
       KindShade: in_order = UNITS > 0 ? !shade_seen_q : index_i == 32'd1;
@@ -85,10 +81,8 @@ module token_check #(
       default:   in_order = in_phase;
     endcase
     if ((lines_done_i && !is_end) || tree_order_error) in_order = 1'b0;
-    in_range = !(is_span && (xl > xr || xr > width_i)) && !light_lacking;
-    if (is_shade && token_i[ShadeShadeLsb+:SHADE_FRAC+1] > ShadeMost) in_range = 1'b0;
-    if (tree_range_error || table_range_error) in_range = 1'b0;
-    in_line = !(is_eol && token_i[EolYLsb+:16] != 16'(line_i)) && !(is_end && !lines_done_i);
+    in_range = !bad_range_i && !(is_span && xr > width_i) && !tree_range_error && !table_range_error;
+    in_line  = !(is_eol && token_i[EolYLsb+:16] != 16'(line_i)) && !(is_end && !lines_done_i);
     if (token_cut_i) code_o = ErrLastEarly;
     else if (token_lacking_i) code_o = ErrKind;
     else if (!in_order) code_o = ErrOrder;
@@ -98,7 +92,10 @@ module token_check #(
     else if (is_end && !token_at_last_i) code_o = ErrLastLate;
     else code_o = ErrNone;
   end
-  assign good = code_o == ErrNone;
+  // The same without its order, which takes longer.
+  assign good = !token_cut_i && !token_lacking_i && in_order && in_range && in_line && !tree_error &&
+      !(is_end && !token_at_last_i);
+  assign good_o = good;
 
   line_phase #(
       `include "generated/kage_pixel_param_map.svh"
@@ -165,7 +162,7 @@ module token_check #(
 
     always_ff @(posedge clk_i) begin
       if (header_i) shade_seen_q <= 1'b0;
-      else if (take_i && is_shade) shade_seen_q <= 1'b1;
+      else if (take_i && kind == KindShade) shade_seen_q <= 1'b1;
     end
 
     segment_check #(

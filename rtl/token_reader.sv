@@ -17,8 +17,10 @@
 
 module token_reader #(
     `include "generated/kage_pixel_params.svh"
-    parameter int BEAT_WORDS  = 4,
-    parameter int TOKEN_WORDS = 5   // the longest of all tokens and the header
+    `include "generated/kage_widths.svh"
+    parameter int BEAT_WORDS = 4,
+    parameter int MAX_WIDTH = 640,
+    parameter int TOKEN_WORDS = 5  // the longest of all tokens and the header
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -33,6 +35,7 @@ module token_reader #(
     output logic                           token_valid_o,
     input  wire logic                      token_ready_i,
     output logic      [TOKEN_WORDS*32-1:0] token_o,
+    output logic      [     FactsBits-1:0] token_facts_o,    // what it says by itself
     output logic                           token_header_o,   // the frame's first
     output logic                           token_lacking_o,  // its kind is not in this configuration
     output logic                           token_cut_o,      // TLAST came before its last word
@@ -122,12 +125,24 @@ module token_reader #(
     assign front = window[0+:TOKEN_WORDS*32];
   end
 
+  logic [FactsBits-1:0] facts;
+  token_facts #(
+      .MAX_WIDTH  (MAX_WIDTH),
+      .TOKEN_WORDS(TOKEN_WORDS),
+      `include "generated/kage_pixel_param_map.svh"
+  ) u_facts (
+      .token_i(front),
+      .facts_o(facts)
+  );
+
   // ---- output register -------------------------------------------------------------------------------------------
   logic token_valid_q, token_header_q, token_lacking_q, token_cut_q, token_final_q, token_at_last_q;
   logic [TOKEN_WORDS*32-1:0] token_q;
+  logic [FactsBits-1:0] facts_q;
 
   assign token_valid_o = token_valid_q;
   assign token_o = token_q;
+  assign token_facts_o = facts_q;
   assign token_header_o = token_header_q;
   assign token_lacking_o = token_lacking_q;
   assign token_cut_o = token_cut_q;
@@ -141,6 +156,7 @@ module token_reader #(
   always_ff @(posedge clk_i) begin
     if (take) begin
       token_q <= front;
+      facts_q <= facts;
       token_header_q <= front_header_q;
       token_lacking_q <= front_lacking_q && !cut;
       token_cut_q <= cut;

@@ -3,6 +3,13 @@
 // Included inside a module that has the pixel parameters and kage_widths.svh: what the buses between
 // modules are made of. Ports are vectors of ...Bits; within a module a bus has its type.
 
+// What a token says by itself: from token_facts to frame_control.
+typedef struct packed {
+  logic [3:0] head_error;  // of a header, unless it is cut
+  logic bad_range;  // xl > xr, a light that the core lacks, a shade of more than 1
+  logic empty;  // xl = xr
+} facts_t;
+
 // What the pixels of a range do: from token_command to the pixels.
 typedef struct packed {
   logic [3:0] kind;  // of the token, or a command that is no token

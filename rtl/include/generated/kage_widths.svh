@@ -29,6 +29,7 @@ localparam int EntryBits = ORDER_BITS + ClassBits + DepthBits + RgbBits,  // {co
 localparam int KeyBits = Z_BITS + ORDER_BITS,  // what the compare tree compares: {Z, index}
 localparam int PointBits = KeyBits + RgbBits + ClassBits,  // a pixel in the compare tree: {Z, index, colour, class}
 // The buses of kage_buses.svh.
+localparam int FactsBits = 4 + 1 + 1,  // what a token says by itself
 localparam int CommandBits = 4 + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // what the pixels of a range do
 localparam int LineBits = 1 + 1 + 1 + 1 + X_BITS + RgbBits + SHADE_FRAC + 1,  // a line, in the order of the lines
 localparam int TableEntryBits = CLASS_BITS + LightBits + EntryShareBits,  // an entry of the light table

@@ -107,7 +107,7 @@ defect phase_line_leaks line_phase_counts line_phase.sv "s/if (start_i) begin/if
 
 # ---- token_reader ----------------------------------------------------------------------------------------------------
 reader_proof() { # NAME BEAT_WORDS STEPS SET...
-  proof "$1" module=token_reader rtl=token_reader rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=8 \
+  proof "$1" module=token_reader rtl="token_reader token_facts" rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=8 \
     set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=$2 MAX_WORDS=$(($2 * $3)) ${*:4}"
 }
 reader_proof token_reader_1 1 10

@@ -62,6 +62,7 @@ module token_reader_proof #(
       .token_valid_o  (token_valid),
       .token_ready_i,
       .token_o        (token),
+      .token_facts_o  (),
       .token_header_o (header),
       .token_lacking_o(lacking),
       .token_cut_o    (cut),

@@ -16,6 +16,22 @@ struct Place {
   int bits = 0;
 };
 
+/// What a token says by itself: from token_facts to frame_control.
+struct FactsBus {
+  Place head_error;  ///< of a header, unless it is cut
+  Place bad_range;  ///< xl > xr, a light that the core lacks, a shade of more than 1
+  Place empty;  ///< xl = xr
+
+  explicit constexpr FactsBus([[maybe_unused]] const Config& c) {
+    int at = 0;
+    empty = {at, 1};
+    at += empty.bits;
+    bad_range = {at, 1};
+    at += bad_range.bits;
+    head_error = {at, 4};
+  }
+};
+
 /// What the pixels of a range do: from token_command to the pixels.
 struct CommandBus {
   Place kind;  ///< of the token, or a command that is no token

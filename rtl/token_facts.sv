@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a token says by itself, whatever came before it: so that frame_control finds it in flip-flops beside the token, and
+// only what depends on the frame is left to be judged when the token is taken.
+//
+// Combinational. token_i: as token_reader has it at its front. facts_o: facts_t. What the token's kind does not have says
+//   nothing: head_error is for headers, bad_range and empty are for tokens of a body.
+// Cost: comparators of 32, 32, 16 and 16 bits with constants, two of X_BITS, one of SHADE_FRAC + 1 bits.
+`default_nettype none
+
+module token_facts #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    parameter int MAX_WIDTH   = 640,
+    parameter int TOKEN_WORDS = 5
+) (
+    input  wire logic [TOKEN_WORDS*32-1:0] token_i,
+    output logic      [     FactsBits-1:0] facts_o
+);
+  `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
+  `include "generated/kage_order.svh"
+
+  localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
+
+  facts_t facts;
+  assign facts_o = facts;
+
+  logic unused_token;
+  assign unused_token = ^token_i;  // longer than what is looked at
+
+  // ---- a header ----------------------------------------------------------------------------------------------------
+  logic [15:0] head_width, head_height;
+  assign head_width  = token_i[HeaderWidthLsb+:16];
+  assign head_height = token_i[HeaderHeightLsb+:16];
+  always_comb begin
+    if (token_i[HeaderVersionLsb+:32] != {16'(StreamMagic), 16'(StreamVersion)}) facts.head_error = ErrHeader;
+    else if (head_width == '0 || head_width > 16'(MAX_WIDTH)) facts.head_error = ErrSize;
+    else if (head_height == '0 || head_height[15]) facts.head_error = ErrSize;
+    else if (token_i[HeaderParamHashLsb+:32] != ParamHash) facts.head_error = ErrParams;
+    else facts.head_error = ErrNone;
+  end
+
+  // ---- a token of the body -----------------------------------------------------------------------------------------
+  logic [3:0] kind;
+  logic [X_BITS-1:0] xl, xr;
+  assign kind = token_i[3:0];
+  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in all that have a range
+  assign xr = token_i[OpXrLsb+:X_BITS];
+  assign facts.empty = xl == xr;
+  always_comb begin
+    facts.bad_range = kind_has_range(kind) && xl > xr;
+    if (COUNT_BITS > 0 && kind == KindEs && 32'(token_i[EsLightLsb+:LightBits]) >= 32'(LIGHTS)) facts.bad_range = 1'b1;
+    if (kind == KindShade && token_i[ShadeShadeLsb+:SHADE_FRAC+1] > ShadeMost) facts.bad_range = 1'b1;
+  end
+
+endmodule
+
+`default_nettype wire
