@@ -64,7 +64,7 @@ module token_check #(
   logic [3:0] kind;
   logic is_eol, is_end, is_span;
   logic [X_BITS-1:0] xr;
-  logic in_phase, in_order, in_range, in_line, good;
+  logic in_phase, in_order, in_range, in_line, last_late, good;
   logic tree_order_error, tree_range_error, tree_error;  // those of FACE, SEG and TREE; see gen_tree below
   logic table_order_error, table_range_error;  // those of TABLE and classes, see gen_table
   logic shade_seen_q;
@@ -74,6 +74,7 @@ module token_check #(
   assign is_end = kind == KindEnd;
   assign is_span = kind_has_range(kind);
   assign xr = token_i[OpXrLsb+:X_BITS];  // the place is the same in all that have a range
+  assign last_late = is_end && !token_at_last_i;
   always_comb begin
     unique case (kind)
       KindShade: in_order = UNITS > 0 ? !shade_seen_q : index_i == 32'd1;
@@ -89,12 +90,11 @@ module token_check #(
     else if (!in_range) code_o = ErrRange;
     else if (!in_line) code_o = ErrLine;
     else if (tree_error) code_o = tree_code;
-    else if (is_end && !token_at_last_i) code_o = ErrLastLate;
+    else if (last_late) code_o = ErrLastLate;
     else code_o = ErrNone;
   end
   // The same without its order, which takes longer.
-  assign good = !token_cut_i && !token_lacking_i && in_order && in_range && in_line && !tree_error &&
-      !(is_end && !token_at_last_i);
+  assign good   = !token_cut_i && !token_lacking_i && in_order && in_range && in_line && !tree_error && !last_late;
   assign good_o = good;
 
   line_phase #(

@@ -28,26 +28,23 @@ module token_facts #(
   logic unused_token;
   assign unused_token = ^token_i;  // longer than what is looked at
 
-  // ---- a header ----------------------------------------------------------------------------------------------------
   logic [15:0] head_width, head_height;
-  assign head_width  = token_i[HeaderWidthLsb+:16];
+  logic [3:0] kind;
+  logic [X_BITS-1:0] xl, xr;
+  assign head_width = token_i[HeaderWidthLsb+:16];
   assign head_height = token_i[HeaderHeightLsb+:16];
+  assign kind = token_i[3:0];
+  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in all that have a range
+  assign xr = token_i[OpXrLsb+:X_BITS];
   always_comb begin
+    // a header
     if (token_i[HeaderVersionLsb+:32] != {16'(StreamMagic), 16'(StreamVersion)}) facts.head_error = ErrHeader;
     else if (head_width == '0 || head_width > 16'(MAX_WIDTH)) facts.head_error = ErrSize;
     else if (head_height == '0 || head_height[15]) facts.head_error = ErrSize;
     else if (token_i[HeaderParamHashLsb+:32] != ParamHash) facts.head_error = ErrParams;
     else facts.head_error = ErrNone;
-  end
-
-  // ---- a token of the body -----------------------------------------------------------------------------------------
-  logic [3:0] kind;
-  logic [X_BITS-1:0] xl, xr;
-  assign kind = token_i[3:0];
-  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in all that have a range
-  assign xr = token_i[OpXrLsb+:X_BITS];
-  assign facts.empty = xl == xr;
-  always_comb begin
+    // a token of the body
+    facts.empty = xl == xr;
     facts.bad_range = kind_has_range(kind) && xl > xr;
     if (COUNT_BITS > 0 && kind == KindEs && 32'(token_i[EsLightLsb+:LightBits]) >= 32'(LIGHTS)) facts.bad_range = 1'b1;
     if (kind == KindShade && token_i[ShadeShadeLsb+:SHADE_FRAC+1] > ShadeMost) facts.bad_range = 1'b1;
