@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least that a banked core's loop can be, as a yardstick for its clock on a device: a block RAM read into a register, a
-// registered adder (the span's depth), a registered comparison of the full width, a select, and the write back. No control,
-// no forwarding, no checks: a core of BITS = Z_BITS + Z_FRAC that reaches 80 % of its clock is as fast as its arithmetic lets it be.
-// OUTPUT_REGISTER = 1 reads the RAM through two registers, for devices whose block RAM has one.
+// The least that a banked core's loop can be, as a yardstick for its clock on a device: a block RAM read into a
+// register, a registered adder (the span's depth), a registered comparison of the full width, a select, and the write
+// back. It has no control, no forwarding and no checks: a core of BITS = Z_BITS + Z_FRAC that reaches its clock is as
+// fast as its arithmetic lets it be.
 `default_nettype none
 
 module least_loop #(

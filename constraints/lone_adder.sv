@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A registered adder of BITS: the fastest that arithmetic of this width can be on a device, a yardstick beside least_loop.
+// A registered adder of BITS: the fastest that arithmetic of this width can be on a device, a yardstick beside
+// least_loop.
 `default_nettype none
 
 module lone_adder #(

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage_top with one serial pin in and one out: what is placed and routed when a device is measured without a board, so that
-// its pins neither limit the clock nor flatter it.
+// kage_top with one serial pin in and one out: what is placed and routed when a device is measured without a board, so
+// that its pins neither limit the clock nor flatter it.
 //
-// Every input of the core comes from a shift register that serial_i fills, every output goes into a register that shifts out
-// on serial_o whenever it is not loaded. So each path of the core begins and ends in a flip-flop, and none is known to be constant.
-// Cost: a flip-flop for each port bit, and a LUT for each output bit.
+// Every input of the core comes from a shift register that serial_i fills, every output goes into a register that
+// shifts out on serial_o whenever it is not loaded. So each path of the core begins and ends in a flip-flop, and no
+// input is known to be constant. Cost: a flip-flop for each port bit, and a LUT for each output bit.
 `default_nettype none
 
 module kage_wrap #(

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame: judges its header by token_facts, asks token_check about its tokens, keeps the line's number, and turns tokens into
-// commands for the pixels and lines for the way out. What is downstream never sees a malformed stream.
+// The frame: judges its header by what token_facts found, asks token_check about its tokens, keeps the line's number,
+// and turns tokens into commands for the pixels and lines for the way out. What is downstream never sees a malformed
+// stream.
 //
-// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on cmd_ready_i and line_ready_i. line_valid_o
+// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on line_ready_i, not on cmd_ready_i. line_valid_o
 //   waits for line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a
 //   command, so lines and EOL commands come in the same order.
 // Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans,

@@ -2,11 +2,11 @@
 // Whether a token of a frame's body is good: kind, order, range, line (docs/stream.md, "Errors"). frame_control asks
 // about the token it has and acts on the answer; nothing here waits. Headers are frame_control's own.
 //
-// Question: token_* as from token_reader, bad_range_i as token_facts has it; width_i, lines_left_i (the height less the EOLs accepted, with units only),
-//   lines_done_i (that is 0) and index_i, its number in the frame.
-// Answer, combinational: good_o; code_o, ErrNone if it is good, and of a fault that a TREE raises the unit and the token that
-//   are to blame, else unit 0 and this token. seg_goes_o: it is good, and a SEG that its unit takes; a good SEG without
-//   it is swallowed.
+// Question: token_* as from token_reader, bad_range_i as token_facts has it; width_i, lines_left_i (the height less the
+//   EOLs accepted, with units only), lines_done_i (that is 0) and index_i, its number in the frame.
+// Answer, combinational: good_o; code_o, ErrNone if it is good, and of a fault that a TREE raises the unit and the
+//   token that are to blame, else unit 0 and this token. seg_goes_o: it is good, and a SEG that its unit takes; a good
+//   SEG without it is swallowed.
 // Acts, each one clock: header_i, a header is taken, and start_i with it if it is good; take_i, the token is good and
 //   taken; eol_i, a line has ended; clear_bias_i.
 // State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token. behind_*_o: as segment_check
@@ -207,6 +207,17 @@ module token_check #(
     assign {seg_goes_o, fault_unit_o, behind_o, behind_unit_o, behind_ahead_o} = '0;
     assign fault_token_o = index_i;
   end
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always_ff @(posedge clk_i) begin
+    if (rst_ni) begin
+      // 1. What is taken as good has no code.
+      assert (!take_i || code_o == ErrNone);
+      assert (!seg_goes_o || code_o == ErrNone);
+    end
+  end
+`endif
 
 endmodule
 

@@ -15,6 +15,8 @@ import programs
 import timing
 from trouble import Trouble
 
+FIGURES = "figures.json"  # in the folder of a run
+
 
 class Progress:
     """A line a step, with its seconds, on standard error."""
@@ -63,7 +65,6 @@ def figures_of(top, device, what, options, tools, folder):
     places = timing.Places(modules, next(n for n in modules if timing.Places.plain(n) == "kage_wrap"), netlist)
     report = reports[median]
     return {
-        "schema": "kage.fpga/1",
         "device": device.name,
         "core": what.name,
         "parameters": what.parameters,
@@ -103,8 +104,13 @@ def tell(f):
         print(f"    {row['ns']:6.2f} ns  {row['register']}")
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise Trouble(f"{message}; see --help")
+
+
 def main():
-    parser = argparse.ArgumentParser(prog="tools/fpga", add_help=False, allow_abbrev=False)
+    parser = Parser(prog="tools/fpga", add_help=False, allow_abbrev=False)
     parser.add_argument("--top", type=pathlib.Path, required=True)
     parser.add_argument("--wheels", type=pathlib.Path, required=True)
     parser.add_argument("device")
@@ -120,30 +126,33 @@ def main():
     device = core.find_device(top, options.device)
     what = core.find_core(top, options.core)
     out = options.out or top / "build/fpga" / f"{device.name}-{what.name}"
+    if out.exists() and not (out / FIGURES).is_file():
+        raise Trouble(f"{out}: is there already, and holds no run of tools/fpga that could be replaced")
     work = out.with_name(f"{out.name}.part{os.getpid()}")
-    tools = programs.Programs(options.tools, options.wheels, top)
     try:
+        tools = programs.Programs(options.tools, options.wheels, top)
         work.mkdir(parents=True)
         shutil.copytree(top / "rtl", work / "rtl")
         shutil.copytree(top / "constraints", work / "constraints")
         figures = figures_of(top, device, what, options, tools, work)
-        (work / "figures.json").write_text(json.dumps(figures, indent=2) + "\n")
+        text = json.dumps(figures, indent=2) + "\n"
+        (work / FIGURES).write_text(text)
         for folder in ("rtl", "constraints"):
             shutil.rmtree(work / folder)
         if out.exists():
             shutil.rmtree(out)
         work.rename(out)
+        if options.json and options.json != "-":
+            pathlib.Path(options.json).write_text(text)
     except OSError as e:
         raise Trouble(f"{e.filename}: {e.strerror}") from e
     finally:
         shutil.rmtree(work, ignore_errors=True)
     if options.json == "-":
-        print(json.dumps(figures, indent=2))
-        return
-    tell(figures)
-    print(f"bitstream, netlist, logs: {out}")
-    if options.json:
-        pathlib.Path(options.json).write_text(json.dumps(figures, indent=2) + "\n")
+        print(text, end="")
+    else:
+        tell(figures)
+        print(f"bitstream, netlist, logs: {out}")
 
 
 try:

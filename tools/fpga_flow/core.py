@@ -13,7 +13,6 @@ class Device:
     name: str
     family: str  # ecp5 or ice40
     nextpnr: tuple  # its options for the device
-    synth: tuple  # options of synth_FAMILY
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,7 +41,7 @@ def find_device(top, name):
     if name not in devices:
         raise Trouble(f"{name}: no such device; there are {', '.join(devices)}")
     d = devices[name]
-    return Device(name, d["family"], tuple(d["nextpnr"]), tuple(d["synth"]))
+    return Device(name, d["family"], tuple(d["nextpnr"]))
 
 
 def find_core(top, words):
@@ -57,7 +56,10 @@ def find_core(top, words):
     if name in cores:
         values = dict(cores[name] or {})
     elif pathlib.Path(name).is_file():
-        values = dict(read_yaml(pathlib.Path(name)))
+        values = read_yaml(pathlib.Path(name))
+        if not isinstance(values, dict):
+            raise Trouble(f"{name}: not PARAMETER: value lines")
+        values = dict(values)
         name = pathlib.Path(name).stem
     else:
         raise Trouble(f"{name}: neither a configuration ({', '.join(cores)}) nor a file")
@@ -72,7 +74,12 @@ def find_core(top, words):
         if key not in known:
             raise Trouble(f"{name}: {key}: no such parameter (docs/stream.md#parameters)")
         p = known[key]
-        if not isinstance(value, int) or not p["min"] <= value <= p["max"] or value not in p.get("allowed", [value]):
+        if (
+            not isinstance(value, int)
+            or isinstance(value, bool)
+            or not p["min"] <= value <= p["max"]
+            or value not in p.get("allowed", [value])
+        ):
             legal = "/".join(map(str, p["allowed"])) if "allowed" in p else f"{p['min']} .. {p['max']}"
             raise Trouble(f"{name}: {key} is {value}; legal is {legal}")
     return Core(name, values, {k: values.get(k, p["default"]) for k, p in known.items()})

@@ -26,7 +26,7 @@ def synthesize(programs, device, design, folder):
         # Deferred, because a part that the top leaves out may be illegal with the defaults (tree_core of no units).
         f"read_verilog -defer -sv -Irtl/include {SOURCES}; hierarchy -top {design.top}{sets}; "
         f"design -save read; proc; write_json {design.name}-modules.json; design -load read; "
-        f"synth_{device.family} {' '.join(device.synth)} -top {design.top} -json {design.name}.json"
+        f"synth_{device.family} -top {design.top} -json {design.name}.json"
     )
     programs.run(programs.find("yosys"), ["-q", "-p", script], folder, f"{design.name}-yosys.log")
 

@@ -34,7 +34,9 @@ class Programs:
         self.environment = dict(os.environ)
         if which == "wheels":
             # The wheels hold WebAssembly, which is compiled once for this machine and kept.
-            self.environment["YOWASP_CACHE_DIR"] = str(wheels / "compiled")
+            compiled = wheels / "compiled"
+            compiled.mkdir(exist_ok=True)
+            self.environment["YOWASP_CACHE_DIR"] = str(compiled)
             self.environment["PYTHONPATH"] = str(wheels)
 
     def find(self, name):

@@ -123,7 +123,7 @@ module registers_proof #(
   if (MODEL > 0) begin : gen_model
     localparam logic [7:0] Past = RegStall + 8'd4;  // the first address without a register
 
-    // ---- what the core said a clock ago, which is what counts --------------------------------------------------------
+    // ---- what the core said a clock ago, which is what counts ------------------------------------------------------
     logic open, draining, waiting_input, waiting_output, progress, frame_end, error, behind;
     logic [3:0] error_code;
     logic [31:0] error_frame, error_token;

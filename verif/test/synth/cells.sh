@@ -39,7 +39,7 @@ cells() { # NAME PARAM=VALUE...: a row of the core
   part "$name" kage_top "$@" | if [ "$name" = base ]; then sed 's/`kage_top /`/'; else sed "s/\`kage_top $base /\`base, /; s/\`kage_top /\`/"; fi
 }
 
-base="LANES=2 MAX_WIDTH=64 X_BITS=7 Z_FRAC=7"
+base=$(python3 -c 'import yaml; print(*(f"{k}={v}" for k, v in yaml.safe_load(open("constraints/cores.yaml"))["base"].items()))')
 export -f cells part
 export work base
 # ---- the compare tree's parts alone ----
