@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "command.hpp"
 #include "file/extension.hpp"
+#include "info_clocks.hpp"
 #include "info_scene.hpp"
 #include "kage/error.hpp"
 #include "kage/explain.hpp"
@@ -26,7 +28,8 @@ namespace kage::cli {
 namespace {
 
 struct InfoCommand : Options {
-  int tokens = -1;  // the frame whose tokens are printed
+  int tokens = -1;      // the frame whose tokens are printed
+  bool clocks = false;  // whether those of its lines are counted
 };
 
 /// "gem, component 2: by segments in 7 frames, by spans in 1 frame: why"; frames in which it is not seen are in
@@ -128,6 +131,11 @@ int describe_stream(const InfoCommand& o) {
   j["polyhedra"] = to_json(ways);
   j["bytes"] = file.bytes();
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
+  std::optional<StreamClocks> clocks;
+  if (o.clocks) {
+    clocks = clocks_of(o.input, file, stream_config(o, file).config);
+    j["clocks"] = to_json(*clocks);
+  }
   write_json(o, {"kage.info-stream/1", j});
   if (!json_only(o)) {
     fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
@@ -140,6 +148,7 @@ int describe_stream(const InfoCommand& o) {
     fmt::print("\nconfiguration:");
     for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
     fmt::print("\n");
+    if (clocks) fmt::print("{}\n", to_text(*clocks));
     if (o.tokens >= 0) print_tokens(file, o.tokens);
   }
   return kSame;
@@ -148,9 +157,12 @@ int describe_stream(const InfoCommand& o) {
 int run(const InfoCommand& o) {
   check_json(o);
   refuse_random(o.input);
+  if (!o.config.empty() && !o.clocks)
+    throw Error("--config: kage info takes it with --clocks, of a stream, because clocks depend on the core");
   // A stream file that is damaged at its very beginning, or missing, is still no scene.
   if (is_stream_file(o.input) || lower_extension(o.input) == ".kage") return describe_stream(o);
   if (o.tokens >= 0) throw Error(fmt::format("{}: --tokens: only a stream file has tokens", o.input));
+  if (o.clocks) throw Error(fmt::format("{}: --clocks: only a stream file has tokens that take clocks", o.input));
   refuse_order_tree(o.input);
   return describe_scene(o);
 }
@@ -164,6 +176,7 @@ void add_info(CLI::App& app, Action& action) {
       "  kage info courtyard.kage\n"
       "  kage info courtyard.kage --json -\n"
       "  kage info courtyard.kage --tokens 0 | less\n"
+      "  kage info courtyard.kage --clocks --config four-lanes.yaml\n"
       "A token's index is the one by which errors name it; docs/stream.md says what tokens mean.");
   const auto o = std::make_shared<InfoCommand>();
   option_scene(*c, *o);
@@ -171,6 +184,9 @@ void add_info(CLI::App& app, Action& action) {
   c->add_option("--tokens", o->tokens, "of a stream: print frame N, from 0, token by token (not with --json -)")
       ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N");
+  c->add_flag("--clocks", o->clocks,
+              "of a stream: how many clocks a core takes for a line at most: mean, worst line, worst neighbours");
+  option_config(*c, *o);
   option_outside(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

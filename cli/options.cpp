@@ -72,7 +72,7 @@ static void option_frames(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
-static void option_config(CLI::App& command, Options& options) {
+void option_config(CLI::App& command, Options& options) {
   command
       .add_option("--config", options.config,
                   "the core's parameters: a name in rtl/defs/configs.yaml or a YAML file of PARAMETER: value lines, "

@@ -56,6 +56,9 @@ struct Options {
 /// As --order has it.
 std::string name_of(TranslucentWay way);
 
+/// --config: the core's parameters.
+void option_config(CLI::App& command, Options& options);
+
 /// What every command that makes frames takes: --size, --frames, --config, --degrade, --units-only, --order, --alpha,
 /// --cull, --max-fragments, --samples, --classes, --seed, --threads, --allow-outside.
 void options_of_frames(CLI::App& command, Options& options);

@@ -100,13 +100,17 @@ void Source::open_stream(const Options& options) {
   if (options.frames > frames_)
     throw Error(fmt::format("{}: --frames {}: the stream has {}", options.input, options.frames, frames_));
   if (options.frames > 0) frames_ = options.frames;
-  config_ = {"of the stream", stream_->config()};
-  if (options.config.empty()) return;
-  config_ = load_config(options.config);
+  config_ = stream_config(options, *stream_);
+}
+
+NamedConfig stream_config(const Options& options, const StreamFile& stream) {
+  if (options.config.empty()) return {"of the stream", stream.config()};
+  NamedConfig config = load_config(options.config);
   for (const ParamInfo& p : kParams)
-    if (p.affects_pixels && config_.config.*(p.member) != stream_->config().*(p.member))
-      throw Error(fmt::format("{}: {}: {} is {}, the stream's is {}", options.input, config_.name, p.name,
-                              config_.config.*(p.member), stream_->config().*(p.member)));
+    if (p.affects_pixels && config.config.*(p.member) != stream.config().*(p.member))
+      throw Error(fmt::format("{}: {}: {} is {}, the stream's is {}", options.input, config.name, p.name,
+                              config.config.*(p.member), stream.config().*(p.member)));
+  return config;
 }
 
 void Source::open_scene(const Options& options) {

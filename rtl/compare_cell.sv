@@ -50,7 +50,7 @@ module compare_cell #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. Both sides have lines of the same width.
       assert (!take || left_last_i == right_last_i);

@@ -233,7 +233,7 @@ module expansion_unit #(
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
   logic mid_line_q;  // a line has begun to leave and not ended
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (clear) mid_line_q <= 1'b0;
     else if (px_valid_o && px_ready_i) mid_line_q <= !px_last_o;
     if (rst_ni) begin

@@ -332,7 +332,7 @@ module frame_control #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. The header is the first token of a frame and no other.
       assert (!accept || token_header_i == (state_q == StHeader));

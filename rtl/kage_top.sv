@@ -359,7 +359,7 @@ module kage_top #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. A frame that does not move waits for one of the ports: for input until that is done, or for output.
       assert (!frame_here || progress || (in_frame && s_axis_tready_o && !s_axis_tvalid_i) || waiting_output);

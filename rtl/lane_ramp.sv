@@ -81,10 +81,13 @@ module lane_ramp #(
     end
     for (int k = 0; k < Levels; k++) begin
       slopes_d[(k+1)*BITS+:BITS] = slopes_q[k*BITS+:BITS];
-      for (int i = 0; i < (1 << k); i++) begin
-        node = tree_q[((1<<k)-1+i)*BITS+:BITS];
-        tree_d[((2<<k)-1+2*i)*BITS+:BITS] = node;
-        tree_d[((2<<k)+2*i)*BITS+:BITS] = node + (slopes_q[k*BITS+:BITS] << (Levels - 1 - k));
+      // Level k has 2^k places; Icarus Verilog wants a loop's bound to be the same for all k.
+      for (int i = 0; i < LANES / 2; i++) begin
+        if (i < (1 << k)) begin
+          node = tree_q[((1<<k)-1+i)*BITS+:BITS];
+          tree_d[((2<<k)-1+2*i)*BITS+:BITS] = node;
+          tree_d[((2<<k)+2*i)*BITS+:BITS] = node + (slopes_q[k*BITS+:BITS] << (Levels - 1 - k));
+        end
       end
     end
   end

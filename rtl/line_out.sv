@@ -303,7 +303,7 @@ module line_out #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. No line comes without a buffer.
       assert (!exit_take_i || exit_free_o);

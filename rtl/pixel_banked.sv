@@ -367,7 +367,7 @@ module pixel_banked #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. The walker stays within the RAM.
       assert (!walk_valid_q || (walk_group_q <= walk_end_q && 32'(walk_end_q) < Groups));

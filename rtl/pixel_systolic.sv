@@ -134,7 +134,7 @@ module pixel_systolic #(
     assign tree_count = CountBits'(class2_q);
 `ifndef SYNTHESIS
     // 1. A line that has begun to come has no bubble.
-    always_ff @(posedge clk_i) if (rst_ni) assert (!flows_q || tree_valid_i);
+    always @(posedge clk_i) if (rst_ni) assert (!flows_q || tree_valid_i);
 `endif
   end else begin : gen_no_tree
     logic unused_tree;

@@ -243,7 +243,7 @@ module segment_check #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. One token at a time, and none that was refused.
       assert ($onehot0({is_shade_i, is_face_i, is_seg_i, is_tree_i, is_eol_i, is_other_i}));

@@ -210,7 +210,7 @@ module token_check #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. What is taken as good has no code.
       assert (!take_i || code_o == ErrNone);

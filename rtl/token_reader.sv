@@ -216,7 +216,7 @@ module token_reader #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. Only a token that is accepted and not final can ask for the rest to be dropped.
       assert (!drop_i || (token_valid_q && token_ready_i && !token_final_q));

@@ -155,7 +155,7 @@ module tree_core #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. A frame starts when it may.
       assert (!frame_start_i || frame_ready_o);

@@ -10,7 +10,9 @@ import sys
 import time
 
 import core
+import figures as kept
 import flow
+import need
 import programs
 import timing
 from trouble import Trouble
@@ -49,6 +51,8 @@ def measure(tools, device, design, seeds, folder, progress, title):
 
 def figures_of(top, device, what, options, tools, folder):
     progress = Progress()
+    line_clocks = options.stream and need.clocks_of(options.kage, options.stream, what.parameters, folder)
+    needed = line_clocks and need.need_of(options.stream, line_clocks, options.fps, options.total_lines)
     bits = what.loop_bits
     yardsticks = {}
     for name in ("least_loop", "lone_adder"):
@@ -75,6 +79,7 @@ def figures_of(top, device, what, options, tools, folder):
         "lone_adder_mhz": yardsticks["lone_adder"],
         "loop_bits": bits,
         "share": flow.spread(clocks)["median"] / yardsticks["least_loop"]["median"],
+        **({"need": {**needed, "met": need.verdict(needed, flow.spread(clocks)["median"])}} if needed else {}),
         "worst_path": timing.worst_path(report, places),
         "worst_endpoints": timing.worst_endpoints(report, places, 10),
         "bitstream": bitstream,
@@ -94,6 +99,8 @@ def tell(f):
     print(
         f"{text}: {100 * f['share']:.0f} % of the least loop of {f['loop_bits']} bits, {loop:.1f} MHz; a lone adder reaches {adder:.1f}"
     )
+    if "need" in f:
+        print(need.tell(f["need"], clock))
     p = f["worst_path"]
     print(f"worst path {p['ns']:.2f} ns, logic {p['logic_ns']:.2f}, route {p['route_ns']:.2f}: {p['from']}")
     for module, cells in p["through"]:
@@ -119,12 +126,29 @@ def main():
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--json")
     parser.add_argument("--tools", choices=("wheels", "system"), default="wheels")
+    parser.add_argument("--kage", type=pathlib.Path)
+    parser.add_argument("--stream", type=pathlib.Path)
+    parser.add_argument("--fps", type=float)
+    parser.add_argument("--total-lines", type=int)
+    parser.add_argument("--gate", type=float)
+    parser.add_argument("--record", action="store_true")
     options = parser.parse_args()
     if not 1 <= options.seeds <= 100:
         raise Trouble(f"--seeds {options.seeds}: legal is 1 .. 100")
+    for name in ("fps", "total_lines"):
+        if getattr(options, name) is not None and not options.stream:
+            raise Trouble(f"--{name.replace('_', '-')}: takes --stream, whose frames it is about")
+    options.fps = 60 if options.fps is None else options.fps
+    if not 0 < options.fps <= 10000:
+        raise Trouble(f"--fps {options.fps:g}: legal is above 0, up to 10000")
+    if options.gate is not None and not 0 <= options.gate < 100:
+        raise Trouble(f"--gate {options.gate:g}: legal is 0 to 99 per cent")
+    if options.gate is not None and options.record:
+        raise Trouble("--gate compares with a row, --record replaces it: one at a time")
     top = options.top
     device = core.find_device(top, options.device)
     what = core.find_core(top, options.core)
+    row = None if options.gate is None else kept.row_for(top, device.name, what.name, options.seeds)
     out = options.out or top / "build/fpga" / f"{device.name}-{what.name}"
     if out.exists() and not (out / FIGURES).is_file():
         raise Trouble(f"{out}: is there already, and holds no run of tools/fpga that could be replaced")
@@ -153,10 +177,16 @@ def main():
     else:
         tell(figures)
         print(f"bitstream, netlist, logs: {out}")
+    if options.record:
+        kept.record(top, figures)
+    lost = [] if row is None else kept.lost(row, figures, options.gate)
+    for sentence in lost:
+        print(f"tools/fpga: {device.name} {what.name} lost more than {options.gate:g} %: {sentence}", file=sys.stderr)
+    return 1 if lost else 0
 
 
 try:
-    main()
+    sys.exit(main())
 except Trouble as trouble:
     print(f"tools/fpga: {trouble}", file=sys.stderr)
     sys.exit(2)

@@ -37,13 +37,31 @@ void PhaseCounter::token(const Token& t) {
     clocks = std::max(clocks, groups(t.span.xl, t.span.xr));
     sum.pixels += static_cast<std::uint64_t>(t.span.xr - t.span.xl);
   }
+  if (phase == Phase::translucent) blends_ = true;
   ++sum.tokens;
   sum.clocks += clocks;
   line_ += clocks;
   if (t.kind != Kind::EOL) return;
   const auto width = static_cast<std::uint64_t>(width_);
   if (line_ < width) sums_.video += width - line_;
+  // A line with TPs: docs/rtl.md, "Clocks", a line whose colours come back before its TPs.
+  constexpr std::uint64_t kColorsBack = 32;
+  const std::uint64_t least =
+      blends_ ? width + std::max(width, config_.arrangement == 0 ? width : 2 * groups(0, width_)) + kColorsBack : width;
+  lines_.push_back(std::max(line_, least));
   line_ = 0;
+  blends_ = false;
+}
+
+std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count) {
+  std::uint64_t window = 0;
+  std::uint64_t worst = 0;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    window += lines[i];
+    if (i >= count) window -= lines[i - count];
+    worst = std::max(worst, window);
+  }
+  return worst;
 }
 
 }  // namespace kage::cosim

@@ -72,10 +72,16 @@ class PhaseCounter {
     width_ = width;
     line_ = 0;
     sums_ = {};
+    lines_.clear();
+    blends_ = false;
   }
   void token(const Token& token);
 
   [[nodiscard]] const PhaseSums& sums() const { return sums_; }
+
+  /// The clocks of each line, top to bottom: those of its tokens, or of its pixels on their way out if these take
+  /// longer.
+  [[nodiscard]] const std::vector<std::uint64_t>& lines() const { return lines_; }
 
  private:
   Config config_;
@@ -83,6 +89,11 @@ class PhaseCounter {
   int width_ = 0;
   std::uint64_t line_ = 0;  // clocks of the line at hand
   PhaseSums sums_;
+  std::vector<std::uint64_t> lines_;
+  bool blends_ = false;  // the line at hand has a TP
 };
+
+/// The most clocks that `count` neighbouring lines of a frame take together. Of a frame with fewer lines: all of them.
+std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count);
 
 }  // namespace kage::cosim

@@ -72,6 +72,7 @@ def good(name, document):
 # configurations, or of a model's manifest, which is shown as it is.
 SOMETIMES = {"coverage", "scenes", "configs", "faults", "left", "bytes"}
 SOMETIMES_IN = {
+    ("", "clocks"),
     ("models/*", "damage"),
     ("verdicts", "removed"),
     ("touches/*", "units"),

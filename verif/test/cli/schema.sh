@@ -80,7 +80,7 @@ said 0 stream polyhedra --size 64x48 --frames 1 --config polyhedra --out p.kage
 "$kage" stream courtyard "${small[@]}" --out - --json json/stream.0.json >piped.kage 2>stderr || fail "a stream into a pipe"
 "$kage" stream glass --size 64x48 --frames 1 --config glass --out g.kage >/dev/null
 "$kage" stream inside "${small[@]}" --out b.kage >/dev/null
-said 0 info a.kage
+said 0 info a.kage --clocks
 said 0 info p.kage
 said 0 info courtyard
 said 0 info penumbra

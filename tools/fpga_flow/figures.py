@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""constraints/figures.json: what each device and core was measured to reach, a row each, and the gate against it."""
+
+import datetime
+import json
+
+from trouble import Trouble
+
+PLACE = "constraints/figures.json"
+
+
+def key_of(row):
+    return row["device"], row["core"]
+
+
+def rows_of(top):
+    path = top / PLACE
+    try:
+        rows = json.loads(path.read_text()) if path.exists() else []
+        return {key_of(row): row for row in rows}
+    except (ValueError, KeyError, TypeError) as e:
+        raise Trouble(f"{path}: no list of rows: {e}") from e
+
+
+def row_of(figures):
+    """What of a run's figures is kept."""
+    path = figures["worst_path"]
+    return {
+        "device": figures["device"],
+        "core": figures["core"],
+        "date": datetime.date.today().isoformat(),
+        "tools": figures["tools"],
+        "cells": {k: v["used"] for k, v in figures["cells"].items()},
+        "clocks_mhz": [round(c, 2) for c in figures["clock_mhz"]["all"]],
+        "clock_mhz": round(figures["clock_mhz"]["median"], 2),
+        "least_loop_mhz": round(figures["least_loop_mhz"]["median"], 2),
+        "lone_adder_mhz": round(figures["lone_adder_mhz"]["median"], 2),
+        "loop_bits": figures["loop_bits"],
+        "worst_path": [path["from"], *(f"{cells} of {module}" for module, cells in path["through"]), path["to"]],
+    }
+
+
+def record(top, figures):
+    """Puts the row of a run into the file, in place of the one that was there. Where `before_mhz` stood it stays."""
+    rows = rows_of(top)
+    row = row_of(figures)
+    old = rows.get(key_of(row), {})
+    if "before_mhz" in old:
+        row["before_mhz"] = old["before_mhz"]
+    rows[key_of(row)] = row
+    text = ",\n".join(json.dumps(rows[k], ensure_ascii=False) for k in sorted(rows))
+    (top / PLACE).write_text(f"[\n{text}\n]\n")
+
+
+def row_for(top, device, core, seeds):
+    """The row that a run by so many seeds can be held against."""
+    row = rows_of(top).get((device, core))
+    if not row:
+        raise Trouble(f"--gate: {PLACE} has no row of {device} {core}; --record makes one")
+    if seeds > len(row["clocks_mhz"]):
+        raise Trouble(f"--gate: the row of {device} {core} has {len(row['clocks_mhz'])} seeds, not {seeds}")
+    return row
+
+
+def lost(row, figures, tolerance):
+    """Sentences, one for each figure that is worse than the row's by more than `tolerance` per cent. The same seeds are compared."""
+    if figures["tools"] != row["tools"]:
+        raise Trouble(
+            f"--gate: the row was measured with {row['tools']}, this run with {figures['tools']}; measure it anew with --record"
+        )
+    now = figures["clock_mhz"]["all"]
+    then = sorted(row["clocks_mhz"][: len(now)])
+    then = (then[(len(then) - 1) // 2] + then[len(then) // 2]) / 2
+    said = []
+    if figures["clock_mhz"]["median"] < then * (1 - tolerance / 100):
+        said.append(f"clock {figures['clock_mhz']['median']:.1f} MHz, was {then:.1f}")
+    for cell, used in row["cells"].items():
+        if figures["cells"][cell]["used"] > used * (1 + tolerance / 100):
+            said.append(f"{cell.upper()} {figures['cells'][cell]['used']}, was {used}")
+    return said
