@@ -158,6 +158,18 @@ std::string compare_other(const DiffCommand& o, const FolderEntry& entry) {
   return reason.empty() ? "" : fmt::format("different: {}\n", reason);
 }
 
+/// The last lines: "different: 3 pictures compared, 1 differs".
+std::string verdict(const DiffCommand& o, const Totals& totals, const FolderPair& pair) {
+  const std::uint64_t different = totals.different + totals.different_files;
+  std::string text = fmt::format("{}: {} compared", different == 0 ? "same" : "different", compared(totals));
+  if (different != 0) text += fmt::format(", {} {}", different, different == 1 ? "differs" : "differ");
+  if (totals.only_a != 0) text += fmt::format(", {} only in {}", totals.only_a, o.a);
+  if (totals.only_b != 0) text += fmt::format(", {} only in {}", totals.only_b, o.b);
+  text += "\n" + left_out(pair.left_out);
+  if (!o.out.empty() && totals.viewed != 0) text += fmt::format("heat maps and blink pictures: {}\n", o.out);
+  return text;
+}
+
 }  // namespace
 
 int diff_two_folders(const DiffCommand& o) {
@@ -213,17 +225,76 @@ int diff_two_folders(const DiffCommand& o) {
   }
   progress.clear();
   junit.close();
-  const std::uint64_t different = totals.different + totals.different_files;
-  const bool same = different == 0;
-  lines += fmt::format("{}: {} compared", same ? "same" : "different", compared(totals));
-  if (!same) lines += fmt::format(", {} {}", different, different == 1 ? "differs" : "differ");
-  if (totals.only_a != 0) lines += fmt::format(", {} only in {}", totals.only_a, o.a);
-  if (totals.only_b != 0) lines += fmt::format(", {} only in {}", totals.only_b, o.b);
-  lines += "\n" + left_out(pair.left_out);
-  if (!o.out.empty() && totals.viewed != 0) lines += fmt::format("heat maps and blink pictures: {}\n", o.out);
+  lines += verdict(o, totals, pair);
   finish(o, {"kage.diff-folders/1", to_json(totals, pair)}, files, lines);
-  return same ? kSame : kDifferent;
+  return totals.different + totals.different_files == 0 ? kSame : kDifferent;
 }
+
+namespace {
+
+/// What a blessing does, or with --dry-run would do, to the files of a folder.
+struct Blessed {
+  std::uint64_t unchanged = 0;
+  Json changed = Json::array();
+  Json added = Json::array();
+  Json missing = Json::array();
+  Json removed = Json::array();
+  std::string lines;  ///< one for each file that is not the same
+
+  Blessed(const DiffCommand& o, const std::vector<BlessEntry>& plan) {
+    for (const BlessEntry& entry : plan) add(o, entry);
+  }
+
+  [[nodiscard]] bool same(const DiffCommand& o) const {
+    const bool nothing = changed.size() + added.size() + missing.size() + removed.size() == 0;
+    return nothing || (!o.dry_run && missing.empty());
+  }
+
+  [[nodiscard]] Json json(const DiffCommand& o) const {
+    Json j;
+    j["same"] = same(o);
+    j["dry_run"] = o.dry_run;
+    j["unchanged"] = unchanged;
+    j["changed"] = changed;
+    j["added"] = added;
+    j["missing"] = missing;
+    j["removed"] = removed;
+    return j;
+  }
+
+  /// The lines, and how many files of each sort there are.
+  [[nodiscard]] std::string text(const DiffCommand& o) const {
+    std::string all = lines;
+    all += fmt::format("{}{}: {} the same, {} changed, {} added, {} {}", o.b, o.dry_run ? " (nothing is done)" : "",
+                       unchanged, changed.size(), added.size(), o.prune ? removed.size() : missing.size(),
+                       o.prune ? "removed" : "missing");
+    if (o.prune && !missing.empty()) all += fmt::format(", {} missing", missing.size());
+    all += '\n';
+    if (!missing.empty())
+      all += o.prune ? "what is neither picture nor stream stays\n"
+                     : fmt::format("what is missing in {} stays; --prune removes it\n", o.a);
+    return all;
+  }
+
+ private:
+  void add(const DiffCommand& o, const BlessEntry& entry) {
+    using What = BlessEntry::What;
+    if (entry.what == What::same) {
+      ++unchanged;
+      return;
+    }
+    const bool goes = o.prune && entry.prunable();
+    Json& names = entry.what == What::changed ? changed : entry.what == What::added ? added : goes ? removed : missing;
+    names.push_back(entry.name);
+    const char* const word = entry.what == What::changed ? "changed"
+                             : entry.what == What::added ? "added"
+                             : goes                      ? "removed"
+                                                         : "missing";
+    lines += fmt::format("{}: {}{}{}\n", word, entry.name, entry.reason.empty() ? "" : ": ", entry.reason);
+  }
+};
+
+}  // namespace
 
 int bless_folder(const DiffCommand& o) {
   Progress progress;
@@ -241,53 +312,14 @@ int bless_folder(const DiffCommand& o) {
   check_mapped();
   quiet.reset();
   progress.clear();
-  using What = BlessEntry::What;
-  std::uint64_t unchanged = 0;
-  Json changed = Json::array();
-  Json added = Json::array();
-  Json missing = Json::array();
-  Json removed = Json::array();
-  std::string lines;
-  for (const BlessEntry& entry : plan) {
-    if (entry.what == What::same) {
-      ++unchanged;
-      continue;
-    }
-    const bool goes = o.prune && entry.prunable();
-    Json& names = entry.what == What::changed ? changed : entry.what == What::added ? added : goes ? removed : missing;
-    names.push_back(entry.name);
-    const char* const word = entry.what == What::changed ? "changed"
-                             : entry.what == What::added ? "added"
-                             : goes                      ? "removed"
-                                                         : "missing";
-    lines += fmt::format("{}: {}{}{}\n", word, entry.name, entry.reason.empty() ? "" : ": ", entry.reason);
-  }
-  const bool nothing = changed.size() + added.size() + missing.size() + removed.size() == 0;
-  const bool same = nothing || (!o.dry_run && missing.empty());
-
-  Json j;
-  j["same"] = same;
-  j["dry_run"] = o.dry_run;
-  j["unchanged"] = unchanged;
-  j["changed"] = changed;
-  j["added"] = added;
-  j["missing"] = missing;
-  j["removed"] = removed;
-  lines += fmt::format("{}{}: {} the same, {} changed, {} added, {} {}", o.b, o.dry_run ? " (nothing is done)" : "",
-                       unchanged, changed.size(), added.size(), o.prune ? removed.size() : missing.size(),
-                       o.prune ? "removed" : "missing");
-  if (o.prune && !missing.empty()) lines += fmt::format(", {} missing", missing.size());
-  lines += '\n';
-  if (!missing.empty())
-    lines += o.prune ? "what is neither picture nor stream stays\n"
-                     : fmt::format("what is missing in {} stays; --prune removes it\n", o.a);
+  const Blessed blessed(o, plan);
   TempFiles files;
-  const auto say = [&] { finish(o, {"kage.diff-bless/1", j}, files, lines); };
+  const auto say = [&] { finish(o, {"kage.diff-bless/1", blessed.json(o)}, files, blessed.text(o)); };
   if (o.dry_run)
     say();
   else
     bless(o.a, o.b, plan, o.prune, say);
-  return same ? kSame : kDifferent;
+  return blessed.same(o) ? kSame : kDifferent;
 }
 
 }  // namespace kage::cli

@@ -92,6 +92,27 @@ void print_tokens(const StreamFile& file, int frame) {
   check_mapped();
 }
 
+struct Counted {
+  TokenCounts tokens;
+  int unchecked = 0;  // frames
+};
+
+/// Checks all frames, and counts their tokens.
+Counted count_tokens(const InfoCommand& o, const StreamFile& file) {
+  Counted all;
+  Progress progress;
+  FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
+  for (int i = 0; i < file.frame_count(); ++i) {
+    check_interrupt();
+    frame_progress.next();
+    (void)file.frame(i, &all.tokens);
+    if (file.is_port_frame(i)) ++all.unchecked;
+  }
+  check_mapped();
+  progress.clear();
+  return all;
+}
+
 int describe_stream(const InfoCommand& o) {
   if (o.size_given) throw Error(fmt::format("{}: --size: a stream has its own size", o.input));
   guard_mapped(o.input);
@@ -99,19 +120,7 @@ int describe_stream(const InfoCommand& o) {
   if (o.tokens >= file.frame_count())
     throw Error(
         fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
-  TokenCounts counts;
-  int unchecked = 0;
-  Progress progress;
-  FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
-  for (int i = 0; i < file.frame_count(); ++i) {
-    check_interrupt();
-    frame_progress.next();
-    (void)file.frame(i, &counts);
-    if (file.is_port_frame(i)) ++unchecked;
-  }
-  check_mapped();
-  progress.clear();
-
+  const auto [counts, unchecked] = count_tokens(o, file);
   Json tokens = Json::object();
   for (std::size_t k = 0; k < counts.of_kind.size(); ++k)
     if (counts.of_kind[k] != 0) tokens[std::string(kKindNames[k])] = counts.of_kind[k];

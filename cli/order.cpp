@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "command.hpp"
+#include "cosim/report/html.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "order/baseline.hpp"
@@ -162,6 +163,19 @@ std::vector<double> spread(const std::vector<double>& wanted, double gap) {
   return at;
 }
 
+/// A curve of the plot: its seconds a step.
+struct PlotLine {
+  const char* name;
+  const char* color;
+  double (*seconds)(const order::MeasureRow&);
+};
+constexpr std::array<PlotLine, 4> kPlotLines{{
+    {"A, recursion", "#b33", [](const order::MeasureRow& r) { return r.baseline_a.order / r.steps; }},
+    {"B, preorder", "#c80", [](const order::MeasureRow& r) { return r.baseline_b.order / r.steps; }},
+    {"paper's list", "#38c", [](const order::MeasureRow& r) { return r.list.order / r.steps; }},
+    {"fast way", "#283", [](const order::MeasureRow& r) { return r.fast.order / r.steps; }},
+}};
+
 /// Time a step against the step angle, both logarithmic.
 std::string plot(const order::Measured& m, const OrderTree& tree, const std::string& name) {
   std::vector<const order::MeasureRow*> rows;
@@ -174,20 +188,8 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
   constexpr double kLabelGap = 15;  // letters are 13 high
   double low = 1e300;
   double high = -1e300;
-  using Pick = double (*)(const order::MeasureRow&);
-  struct Line {
-    const char* name;
-    const char* color;
-    Pick seconds;
-  };
-  const std::array<Line, 4> lines{{
-      {"A, recursion", "#b33", [](const order::MeasureRow& r) { return r.baseline_a.order / r.steps; }},
-      {"B, preorder", "#c80", [](const order::MeasureRow& r) { return r.baseline_b.order / r.steps; }},
-      {"paper's list", "#38c", [](const order::MeasureRow& r) { return r.list.order / r.steps; }},
-      {"fast way", "#283", [](const order::MeasureRow& r) { return r.fast.order / r.steps; }},
-  }};
   for (const auto* r : rows)
-    for (const Line& l : lines) {
+    for (const PlotLine& l : kPlotLines) {
       low = std::min(low, std::log10(l.seconds(*r)));
       high = std::max(high, std::log10(l.seconds(*r)));
     }
@@ -197,9 +199,7 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
   const double last = std::log10(rows.back()->degrees);
   const auto x = [&](double degrees) { return kLeft + kWidth * (std::log10(degrees) - first) / (last - first); };
   const auto y = [&](double log) { return kTop + kHeight * (high - log) / (high - low); };
-  std::string title;
-  for (const char c : std::filesystem::path(name).filename().string())
-    title += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  const std::string title = report::escaped(std::filesystem::path(name).filename().string());
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 720 410\" font-family=\"DejaVu Sans, Helvetica, Arial, "
       "sans-serif\" font-size=\"13\">\n  <title>Time of a step against its angle</title>\n"
@@ -215,10 +215,10 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
     svg += fmt::format("  <text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{:g}°</text>\n", x(r->degrees),
                        kTop + kHeight + 22, r->degrees);
   std::vector<double> ends;
-  for (const Line& l : lines) ends.push_back(y(std::log10(l.seconds(*rows.back()))) + 4);
+  for (const PlotLine& l : kPlotLines) ends.push_back(y(std::log10(l.seconds(*rows.back()))) + 4);
   const std::vector<double> labels = spread(ends, kLabelGap);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Line& l = lines[i];
+  for (std::size_t i = 0; i < kPlotLines.size(); ++i) {
+    const PlotLine& l = kPlotLines[i];
     std::string path;
     for (const auto* r : rows)
       path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : " L", x(r->degrees), y(std::log10(l.seconds(*r))));

@@ -86,76 +86,95 @@ void damage_light(Random& random, const Config& c, std::vector<std::uint32_t>& w
   }
 }
 
+namespace {
+
+using At = TokenPlaces::At;
+
+At any(Random& random, const std::vector<At>& of) {
+  return of[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(of.size()) - 1))];
+}
+
+constexpr int kSegmentDamages = 9;
+
+/// The SEG at `seg` becomes wrong in way `which` of kSegmentDamages.
+void damage_segment(Random& random, const Config& c, TokenPlaces& places, At seg, int which,
+                    std::vector<std::uint32_t>& words) {
+  const Layout& layout = places.layout();
+  const At length = places.length(Kind::SEG);
+  switch (which) {
+    case 0:
+      places.put(seg, layout.seg_dx, 0);
+      break;
+    case 1:
+      places.put(seg, layout.seg_sync, places.get(seg, layout.seg_sync) ^ 1U);
+      break;
+    case 2:
+      places.put(seg, layout.seg_face, static_cast<std::uint64_t>(random.in(0, (1 << c.face_bits) - 1)));
+      break;
+    case 3:  // too few pixels
+      words.erase(words.begin() + seg, words.begin() + seg + length);
+      break;
+    case 4:  // too many
+      places.copy(seg, length, seg);
+      break;
+    case 5:
+      places.put(seg, layout.seg_dx, places.get(seg, layout.seg_dx) + static_cast<std::uint64_t>(random.in(-2, 2)));
+      break;
+    case 6: {  // too many segments: as many as it has pixels
+      const std::uint64_t dx = places.get(seg, layout.seg_dx);
+      places.put(seg, layout.seg_dx, 1);
+      for (std::uint64_t i = 1; i < dx; ++i) places.copy(seg, length, seg + length);
+      for (std::uint64_t i = 1; i < dx; ++i) places.put(seg + static_cast<At>(i) * length, layout.seg_sync, 0);
+      break;
+    }
+    case 7:
+      places.put(seg, layout.seg_unit, static_cast<std::uint64_t>(random.in(0, (1 << layout.seg_unit.bits) - 1)));
+      break;
+    default:  // out of phase, or past the last line
+      places.copy(seg, length, any(random, places.all()));
+  }
+}
+
+}  // namespace
+
 void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& words) {
-  using At = TokenPlaces::At;
   for (int round = random.chance(0.7) ? 1 : random.in(2, 3); round > 0; --round) {
     TokenPlaces places(c, words);
     if (!places.whole()) return;
-    const Layout& layout = places.layout();
-    const auto put = [&places](At at, Field f, std::uint64_t value) { places.put(at, f, value); };
-    const auto get = [&places](At at, Field f) { return places.get(at, f); };
-    const auto copy = [&places](At from, At n, At to) { places.copy(from, n, to); };
-    const std::vector<At>& all = places.all();
-    const auto any = [&random](const std::vector<At>& of) {
-      return of[static_cast<std::size_t>(random.integer(0, static_cast<std::int64_t>(of.size()) - 1))];
-    };
     const auto& segs = places.of(Kind::SEG);
     const auto& trees = places.of(Kind::TREE);
     const auto& faces = places.of(Kind::FACE);
     if (segs.empty() || trees.empty()) return;
-    const At length = places.length(Kind::SEG);
-    const At seg = any(segs);
-    switch (random.in(0, 13)) {
-      case 0:
-        put(seg, layout.seg_dx, 0);
-        break;
-      case 1:
-        put(seg, layout.seg_sync, get(seg, layout.seg_sync) ^ 1U);
-        break;
-      case 2:
-        put(seg, layout.seg_face, static_cast<std::uint64_t>(random.in(0, (1 << c.face_bits) - 1)));
-        break;
-      case 3:  // too few pixels
-        words.erase(words.begin() + seg, words.begin() + seg + length);
-        break;
-      case 4:  // too many
-        copy(seg, length, seg);
-        break;
-      case 5:
-        put(seg, layout.seg_dx, get(seg, layout.seg_dx) + static_cast<std::uint64_t>(random.in(-2, 2)));
-        break;
-      case 6: {  // too many segments: as many as it has pixels
-        const std::uint64_t dx = get(seg, layout.seg_dx);
-        put(seg, layout.seg_dx, 1);
-        for (std::uint64_t i = 1; i < dx; ++i) copy(seg, length, seg + length);
-        for (std::uint64_t i = 1; i < dx; ++i) put(seg + static_cast<At>(i) * length, layout.seg_sync, 0);
-        break;
-      }
-      case 7:
-        put(seg, layout.seg_unit, static_cast<std::uint64_t>(random.in(0, (1 << layout.seg_unit.bits) - 1)));
-        break;
-      case 8:  // out of phase, or past the last line
-        copy(seg, length, any(all));
-        break;
-      case 9: {                                   // whole lines of a unit too early, or too many of them
+    const At seg = any(random, segs);
+    const int which = random.in(0, kSegmentDamages + 4);
+    if (which < kSegmentDamages) {
+      damage_segment(random, c, places, seg, which, words);
+      continue;
+    }
+    switch (which - kSegmentDamages) {
+      case 0: {                                   // whole lines of a unit too early, or too many of them
         if (trees.front() < segs.front()) break;  // by an earlier round's damage
         const std::vector<std::uint32_t> line(words.begin() + segs.front(), words.begin() + trees.front());
-        words.insert(words.begin() + any(random.chance(0.5) ? trees : segs), line.begin(), line.end());
+        words.insert(words.begin() + any(random, random.chance(0.5) ? trees : segs), line.begin(), line.end());
         break;
       }
-      case 10:
-        words.erase(words.begin() + any(trees));
+      case 1:
+        words.erase(words.begin() + any(random, trees));
         break;
-      case 11:
-        copy(any(trees), 1, any(random.chance(0.5) ? trees : all));
+      case 2: {
+        const At from = any(random, trees);
+        places.copy(from, 1, any(random, random.chance(0.5) ? trees : places.all()));
         break;
-      case 12:
+      }
+      case 3: {
         if (faces.empty()) break;
-        copy(any(faces), places.length(Kind::FACE), any(random.chance(0.7) ? faces : all));
+        const At from = any(random, faces);
+        places.copy(from, places.length(Kind::FACE), any(random, random.chance(0.7) ? faces : places.all()));
         break;
+      }
       default: {
         if (faces.empty()) break;
-        const At face = any(faces);
+        const At face = any(random, faces);
         words.erase(words.begin() + face, words.begin() + face + places.length(Kind::FACE));
       }
     }
