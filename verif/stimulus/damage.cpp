@@ -162,14 +162,14 @@ void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& wo
         words.erase(words.begin() + any(random, trees));
         break;
       case 2: {
-        const At from = any(random, trees);
-        places.copy(from, 1, any(random, random.chance(0.5) ? trees : places.all()));
+        const At to = any(random, random.chance(0.5) ? trees : places.all());
+        places.copy(any(random, trees), 1, to);
         break;
       }
       case 3: {
         if (faces.empty()) break;
-        const At from = any(random, faces);
-        places.copy(from, places.length(Kind::FACE), any(random, random.chance(0.7) ? faces : places.all()));
+        const At to = any(random, random.chance(0.7) ? faces : places.all());
+        places.copy(any(random, faces), places.length(Kind::FACE), to);
         break;
       }
       default: {
