@@ -110,7 +110,9 @@ ModelSources model_sources(const fs::path& data, const ModelOptions& options) {
   ModelSources sources{.files = {},
                        .modules = files_of(data, roles, "modules"),
                        .headers = files_of(data, roles, "headers"),
-                       .includes = patterns(roles, "includes")};
+                       .includes = patterns(roles, "includes"),
+                       .flags = {}};
+  for (const YAML::Node& flag : roles["flags"]) sources.flags.push_back(flag.as<std::string>());
   const auto add = [&](const std::vector<fs::path>& more) {
     sources.files.insert(sources.files.end(), more.begin(), more.end());
   };

@@ -34,6 +34,7 @@ struct ModelSources {
   std::vector<std::filesystem::path> modules;   ///< of these, what Verilator is given
   std::vector<std::filesystem::path> headers;   ///< of these, what the modules include
   std::vector<std::filesystem::path> includes;  ///< the folders that it looks for headers in
+  std::vector<std::string> flags;               ///< what Verilator's own options decide about reading them
 };
 
 /// Throws Error if folders are missing or there is no such fault.

@@ -42,10 +42,11 @@ std::string without_rests(const std::string& text) {
   return out;
 }
 
-/// The RTL as the parser reads it; empty if there is none.
+/// The RTL as the parser reads it, with the options that decide what a comment is; empty if there is none.
 std::string preprocessed(const fs::path& data, const ModelSources& sources) {
   const char* const own = std::getenv("VERILATOR");
   std::vector<std::string> command{own != nullptr && *own != '\0' ? own : "verilator", "-E", "-P"};
+  command.insert(command.end(), sources.flags.begin(), sources.flags.end());
   for (const fs::path& folder : sources.includes) command.push_back("-I" + (data / folder).string());
   for (const fs::path& file : sources.modules) command.push_back((data / file).string());
   Process process(command);

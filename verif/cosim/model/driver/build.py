@@ -35,7 +35,7 @@ from initial_state import name_initial_state
 from monitors import MONITORS, leave_out, unwatched
 from mutants import put_in
 from runtime import Runtime
-from sources import HERE, RTL, files, only, places
+from sources import HERE, PATTERNS, RTL, files, only, places
 from steps import Log, end_all, fail, run
 
 FROM_VERILATOR = HERE / "from_verilator.hpp"
@@ -128,7 +128,7 @@ class Build:
         width = self.values["MAX_WIDTH"]
         unroll = 8 if self.quick else width if self.values["ARRANGEMENT"] == 0 and 64 < width <= 128 else 64
         command = [self.verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", self.obj, "-O3"]
-        command += ["--x-initial", "unique", "--flatten", "--assert", "-Wall"]
+        command += ["--x-initial", "unique", "--flatten", "-Wall", *PATTERNS["flags"]]
         command += ["--unroll-count", str(unroll), "--unroll-stmts", "1000000"]
         command += [*(f"-I{folder}" for folder in places("includes", self.rtl)), "-CFLAGS", CFLAGS]
         command += [f"-G{n}={v}" for n, v in self.values.items()] + [f"-D{d}" for d in self.args.define]
