@@ -219,7 +219,7 @@ void add_cache(CLI::App& app, Action& action) {
   c->add_option("WHAT", o->what, "list, verify or prune; without it: folder, number and size")
       ->check(CLI::IsMember({"list", "verify", "prune"}))
       ->type_name("");
-  c->add_option("--older-than", o->older_than, "prune: what was last used longer ago, like 90m, 12h, 30d")
+  c->add_option("--older-than", o->older_than, "prune: remove what was not used for so long, like 90m, 12h, 30d")
       ->type_name("AGE");
   c->add_option("--max-size", o->max_size,
                 "prune: the least recently used models, then verdicts, until the others fit, like 500M, 2G")

@@ -37,7 +37,7 @@ void check_outputs(const DiffCommand& o) {
     if (path->empty() || (path == &o.json && json_only(o))) continue;
     for (const std::string* read : {&o.a, &o.b, &o.mask})
       if (!read->empty() && within(*path, *read))
-        throw Error(fmt::format("{}: is one of those compared, or lies in it: it is not written over", *path));
+        throw Error(fmt::format("{}: this output would overwrite an input", *path));
     for (const std::string& other : written)
       if (!is_device(*path) && resolved(*path) == resolved(other))
         throw Error(fmt::format("{}: is to be written twice", *path));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stream file is mapped, and what another program cuts off it reads as zeros from guard_mapped() on, which is
-// remembered (files/lost_pages.hpp): so that the run ends as with any bad file, with one line, exit 2, and no file
-// left.
+// A stream file is mapped. If another program shortens it, the lost pages read as zeros from guard_mapped() on, and are
+// counted. The run then ends as with any bad file: one line, exit 2, and no file left.
 #pragma once
 
 #include <string>

@@ -127,7 +127,7 @@ void add_regress(CLI::App& app, Action& action) {
       c->add_option("--minutes", o->minutes, "time to run, default 5; the runs that are under way then end early")
           ->check(real_number(0.01, 10000))
           ->type_name("M");
-  c->add_option("--rounds", o->rounds, "so many rounds in place of a time: what is run is the same on every machine")
+  c->add_option("--rounds", o->rounds, "run N rounds instead of a time, so that every machine runs the same")
       ->check(whole_number(1, 1000000))
       ->excludes(minutes)
       ->type_name("N");
@@ -143,8 +143,9 @@ void add_regress(CLI::App& app, Action& action) {
   option_json(*c, *o);
   option_junit(*c, o->ci.junit, "run");
   option_annotate(*c, o->ci.annotate);
-  c->add_option("--jobs", o->jobs,
-                "runs at a time; default one per processor, within half of the memory at 256 MiB a job")
+  c->add_option(
+       "--jobs", o->jobs,
+       "runs at a time; default one per processor, at most as many as half of the memory holds 256 MiB for each")
       ->check(whole_number(1, 4096))
       ->type_name("N");
   c->add_flag("--no-divergence", o->no_divergence, "after a difference do not look for the stage that differs first");

@@ -20,7 +20,8 @@ std::string command_line(const CLI::App& command, const std::vector<std::string>
 /// The command line that runs it again, every frame of it.
 std::string again_line(const CLI::App& command);
 
-/// The same options for another command, those that it has too, and of the inputs this one.
+/// The command line of `other` with those options of `command` that `other` has too, and with `input` as its only
+/// input.
 std::string command_line(const CLI::App& command, const CLI::App& other, const std::string& input);
 
 /// Of kage and the tools that make RTL models, a line each.

@@ -94,7 +94,7 @@ void refuse_twice(const std::vector<std::string>& paths) {
   std::set<std::filesystem::path> seen;
   for (const std::string& path : paths)
     if (!path.empty() && !seen.insert(resolved(path)).second)
-      throw Error(fmt::format("{}: is to be written twice", path));
+      throw Error(fmt::format("{}: two outputs have this name", path));
 }
 
 }  // namespace kage::cli

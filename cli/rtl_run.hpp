@@ -36,7 +36,7 @@ enum class ModelFor { kPixels, kMonitors, kWaveforms };
 /// run, if the current folder is of a tree with another rtl/ than the model's.
 cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor what = ModelFor::kPixels);
 
-/// What tells whether that model behaves as another run's did. Notes the same.
+/// The identity of that model's RTL, for kept verdicts. Prints the same note as model_of().
 cosim::RtlIdentity identity_of(const NamedConfig& config);
 
 /// Where the RTL is that models are built of.

@@ -34,7 +34,7 @@ void check_frames(const ShardFile& f, const report::SceneRecord& s, std::int64_t
   const int own = shard.frames(s.total_frames, before);
   check_range(f.file, "frames", s.frames, own == 0 ? 0 : 1, kMostFrames);
   const auto wrong = [&] {
-    throw Error(fmt::format("{}: shard {}/{} of {} frames cannot have the {} that it tells of", f.file, f.number.index,
+    throw Error(fmt::format("{}: shard {}/{} of {} frames cannot have the {} that it claims", f.file, f.number.index,
                             f.number.count, s.total_frames, s.frames));
   };
   if (s.frames > own) wrong();

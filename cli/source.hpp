@@ -39,8 +39,8 @@ class Source : public FrameSource {
   /// has what the scene needs. Throws Error if a configuration lacks what the scene needs and --degrade is not given.
   explicit Source(const Options& options);
 
-  /// Another source of the same frames, for a thread of its own: both read one scene or stream. It counts for itself
-  /// what is told of the frames it makes, but of none up to `last`.
+  /// Another source of the same frames, for a thread of its own: both read one scene or stream. It counts
+  /// notes for frames after `last` only.
   [[nodiscard]] std::unique_ptr<Source> share(int last) const;
 
   /// What a share has counted counts here too. Shares come in the order of their frames.
@@ -58,7 +58,7 @@ class Source : public FrameSource {
   /// made so far nothing is to be seen.
   [[nodiscard]] std::vector<std::string> notes() const;
 
-  /// One more of them.
+  /// Adds a note.
   void note(std::string text) { notes_.push_back(std::move(text)); }
 
   /// Whether the frames come from a stream file.

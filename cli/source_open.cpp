@@ -83,12 +83,12 @@ void Source::open_random(const Options& options, verif::Manner manner) {
 void Source::open_stream(const Options& options) {
   if (options.size_given) throw Error(fmt::format("{}: --size: a stream has its own size", options.input));
   if (options.units_only)
-    throw Error(fmt::format("{}: --units-only: in a stream it is settled what goes to units", options.input));
+    throw Error(fmt::format("{}: --units-only: the stream file already says what goes to units", options.input));
   if (options.order != TranslucentWay::exact)
     throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
   if (options.samples != Options{}.samples || options.classes != Options{}.classes)
-    throw Error(fmt::format("{}: --samples, --classes: in a stream they are settled", options.input));
-  if (options.cull) throw Error(fmt::format("{}: --cull: in a stream it is settled what is drawn", options.input));
+    throw Error(fmt::format("{}: --samples, --classes: only a scene takes them, and this is a stream", options.input));
+  if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));

@@ -7,8 +7,8 @@
 //   expanded only when it is complete, so it has no bubble from its first pixel to its last.
 // Faces: face_valid_i writes piece_i into the table of the frame that came in last; segments may name it from the next
 //   clock on. The table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs
-//   while they leave: whoever gives frame_start_i sees to it that no line is left of the frame before that one, and
-//   that no line is half filled.
+//   while they leave. frame_start_i may come only when no line is left of the frame before that one, and no line is
+//   half filled.
 // Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >>
 //   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. Face all ones is blank: Z and index all ones,
 //   colour and class 0. px_data_o = {Z, index, colour, class}.
@@ -237,8 +237,8 @@ module expansion_unit #(
     if (clear) mid_line_q <= 1'b0;
     else if (px_valid_o && px_ready_i) mid_line_q <= !px_last_o;
     if (rst_ni) begin
-      // 1. A segment has pixels and stays in its line, and the line in its half: behind the last place nothing comes.
-      // (What is in the last place may leave the line short: that line will not be completed.)
+      // 1. A segment has pixels and stays in its line, and the line in its half: no segment is written past the last
+      // place. If the segment there leaves the line short, the line is never completed.
       assert (!seg_take || (piece.dx != '0 && 16'(sum_q) + 16'(piece.dx) <= 16'(width_i)));
       assert (!seg_take || wr_at_q != '0 || sum_q == '0);
       // 2. No frame begins in the middle of a line.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame: judges its header by what token_facts found, asks token_check about its tokens, keeps the line's number,
-// and turns tokens into commands for the pixels and lines for the way out. What is downstream never sees a malformed
-// stream.
+// and turns tokens into commands for the pixels and lines for the way out. Modules behind frame_control see
+// sound frames only.
 //
 // Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on line_ready_i, not on cmd_ready_i. line_valid_o
 //   waits for line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a
@@ -181,8 +181,8 @@ module frame_control #(
   assign emit_eol = body_eol || blank_eol;
   assign emit_span = good && !token_header_i && is_span && !facts.empty;
   assign emit_tree = good && !token_header_i && is_tree;
-  // Before a line's first TP a RESOLVE goes over it, even if that TP is malformed or empty: after the former the line
-  // is blank, and to the latter it does no harm. Not if it is cut: then not even its kind may be there.
+  // A RESOLVE goes over the line before its first TP. A malformed TP makes the line blank anyway, and an empty TP
+  // changes nothing, so both may have it. A cut TP has none, because its kind may be missing.
   assign must_paint = is_tp && !token_cut_i && !painted_q;
   assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
       (line_ready_i || !by_loads);
@@ -217,7 +217,7 @@ module frame_control #(
   assign error.token = token_header_i ? 32'd0 : fault_token;
   assign error.unit = token_header_i ? 6'd0 : fault_unit;
 
-  // None while a frame ends or is dropped: what the units hold then is not waited for.
+  // behind_valid_o is low while a frame ends or is dropped, because nothing waits for the units then.
   behind_t behind;
   assign behind_valid_o = unit_behind && state_q == StBody;
   assign behind_o = behind;

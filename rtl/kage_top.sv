@@ -168,7 +168,7 @@ module kage_top #(
   );
 
   // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer. The
-  // buffer in front of the queue parts the verdict on an EOL from what writes into the queue.
+  // buffer in front of the queue cuts the timing path from an EOL's verdict to the queue's write enable.
   skid_buffer #(
       .BITS(LineBits)
   ) u_told (
@@ -361,7 +361,7 @@ module kage_top #(
 `ifndef SYNTHESIS
   always @(posedge clk_i) begin
     if (rst_ni) begin
-      // 1. A frame that does not move waits for one of the ports: for input until that is done, or for output.
+      // 1. A frame without progress waits for input that has not all come, or for the sink to take a pixel.
       assert (!frame_here || progress || (in_frame && s_axis_tready_o && !s_axis_tvalid_i) || waiting_output);
       // 2. The count of lines under way stays within its bits.
       assert (!(&lines_q) || !line_valid);

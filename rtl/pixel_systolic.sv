@@ -11,8 +11,8 @@
 //   of the one TREE is at. So it needs a line without bubbles, and no buffer. The next TREE waits until the line is
 //   through, at most its width.
 // Clocks of a processor: in the first the command's depth and colour at its pixel are clamped, in the second they are
-//   compared and the pixel's state changes. The chain moves on meanwhile, so what the second needs else of the command
-//   stands at the next processor.
+//   compared and the pixel's state changes. The command has moved on by the second clock, so a processor reads its kind
+//   and counts from the next one's register.
 // Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 3 clocks.
 // Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels
 //   leave.

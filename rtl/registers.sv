@@ -10,8 +10,8 @@
 //   response.
 // Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of
 //   its clearing wins.
-// What the core says goes into flip-flops here first, so that no path of the core ends in a counter: registers,
-//   interrupt and watchdog tell what was a clock ago.
+// What the core says is registered here first, so that counters add nothing to the core's paths. Registers, interrupt
+//   and watchdog are therefore one clock late.
 // Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts
 //   it anew, a write a clock later. Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
 `default_nettype none

@@ -93,7 +93,7 @@ module token_check #(
     else if (last_late) code_o = ErrLastLate;
     else code_o = ErrNone;
   end
-  // The same without its order, which takes longer.
+  // code_o == ErrNone, without the priority chain, which is slower.
   assign good   = !token_cut_i && !token_lacking_i && in_order && in_range && in_line && !tree_error && !last_late;
   assign good_o = good;
 

@@ -5,8 +5,8 @@
 //   clock; seg_valid_i and seg_ready_o are valid and ready of a segment, and seg_ready_o, which depends on the piece's
 //   unit, waits for that unit only. width_i is the frame's, and matters with segments only.
 // Out: line_* is valid/ready: Z, class and colour of the nearest face at each pixel, `last` at a line's last. Z all
-//   ones: none. A line is offered as soon as all units have it, before it is asked for, but for its last pixel: that
-//   waits for the claim.
+//   ones: none. All pixels of a line but the last are offered as soon as every unit has the line. The last pixel
+//   waits for claim_i.
 // Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All
 //   units have the line complete by then. drop_o, one clock, says that a line of which a part has been taken will not
 //   come; nothing taken then counts.
@@ -15,8 +15,8 @@
 //   not been claimed: lines claimed leave first, and frame_ready_o is low until the rest is gone. No face, segment or
 //   claim comes from flush_i until the next frame_start_i.
 // Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its
-//   work; or something has entered a unit or the tree so few clocks ago that what follows from it may not have shown
-//   yet.
+//   work. It also stays high for some clocks after something has entered a unit or the tree, because the effect may not
+//   be visible before.
 // Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of
 //   the tree.
 // Throughput: a pixel a clock, no bubble in a line.

@@ -25,6 +25,28 @@ struct Direction {
   double sine;
 };
 
+/// From the light's middle to the sample at `along`, 0 .. 1, and `turn` of a full turn's 2^64.
+glm::dvec3 offset(const Light& light, double along, std::uint64_t turn) {
+  switch (light.shape) {
+    case LightShape::point:
+      break;
+    case LightShape::rectangle:
+      return light.axis_u * (2 * along - 1) + light.axis_v * (2 * share(turn) - 1);
+    case LightShape::disc: {
+      const Direction d(turn);
+      const double radius = std::sqrt(along);
+      return light.axis_u * (radius * d.cosine) + light.axis_v * (radius * d.sine);
+    }
+    case LightShape::sphere: {
+      const Direction d(turn);
+      const double z = 1 - 2 * along;
+      const double radius = std::sqrt(1 - z * z);
+      return glm::dvec3(radius * d.cosine, radius * d.sine, z) * light.axis_u.x;
+    }
+  }
+  return {0, 0, 0};
+}
+
 }  // namespace
 
 std::vector<LightPoint> light_points(const Light& light, int samples, std::uint64_t seed) {
@@ -35,22 +57,8 @@ std::vector<LightPoint> light_points(const Light& light, int samples, std::uint6
   for (int i = 0; i < samples; ++i) {
     const double along = (i + 0.5) / samples;
     const std::uint64_t turn = start + kGoldenRatio * static_cast<std::uint64_t>(i);
-    glm::dvec3 off{0, 0, 0};
-    if (light.shape == LightShape::rectangle) {
-      off = light.axis_u * (2 * along - 1) + light.axis_v * (2 * share(turn) - 1);
-    } else {
-      const Direction d(turn);
-      if (light.shape == LightShape::disc) {
-        const double radius = std::sqrt(along);
-        off = light.axis_u * (radius * d.cosine) + light.axis_v * (radius * d.sine);
-      } else {
-        const double z = 1 - 2 * along;
-        const double radius = std::sqrt(1 - z * z);
-        off = glm::dvec3(radius * d.cosine, radius * d.sine, z) * light.axis_u.x;
-      }
-    }
     points.push_back(middle);
-    points.back().position += off;
+    points.back().position += offset(light, along, turn);
   }
   return points;
 }

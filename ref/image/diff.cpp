@@ -208,7 +208,7 @@ void check_options(const Picture& picture, const DiffOptions& o) {
       throw Error(fmt::format("thresholds abs and ulp are for floats, and channel {} is {}: take lsb", c.name,
                               name_of(c.sample)));
   }
-  if (o.abs && o.ulp) throw Error("thresholds abs and ulp are both given: one says what is the same");
+  if (o.abs && o.ulp) throw Error("give a threshold abs or ulp, not both");
   if (o.abs && !(*o.abs >= 0 && std::isfinite(*o.abs)))
     throw Error(fmt::format("threshold abs is {}, not a finite number of at least 0", *o.abs));
   if (o.max_percent && !(*o.max_percent >= 0 && *o.max_percent <= 100))

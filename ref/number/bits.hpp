@@ -17,12 +17,6 @@ constexpr std::int64_t sign_extend(std::uint64_t v, unsigned bits) {
   return static_cast<std::int64_t>(v << (64 - bits)) >> (64 - bits);
 }
 
-/// True if v is a two's complement number of `bits` (1 .. 63) bits.
-constexpr bool fits_signed(std::int64_t v, unsigned bits) {
-  const std::int64_t limit = std::int64_t{1} << (bits - 1);
-  return v >= -limit && v < limit;
-}
-
 /// What of a value, counted from the least that fits its field, lies above the field's bits: 0 if it fits. A field of
 /// no bits holds 0.
 constexpr std::uint64_t beyond(std::int64_t value, Field f) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From build nodes to flat arrays in preorder. The larger child comes first, so that the subtree sizes alone say what
-// the tree is; of equal ones the one with the larger shape, so that small subtrees come in few shapes (clusters.hpp).
+// the tree is; of equal ones the one with the larger shape, so that small subtrees come in few shapes (parts.hpp).
 #include <algorithm>
 
 #include "kage/error.hpp"

@@ -38,7 +38,7 @@ inline constexpr std::size_t kMostVerdicts = 20000;
 class VerdictStore {
  public:
   /// Makes the folder if it is missing. Throws Error if it cannot be made, or if somebody else could put verdicts there
-  /// (cosim/trust.hpp).
+  /// (cosim/model/trust.hpp).
   explicit VerdictStore(std::size_t most = kMostVerdicts);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

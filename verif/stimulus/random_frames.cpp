@@ -116,6 +116,26 @@ Words sound_frame(Random& random, const Config& c, std::uint32_t number) {
   return words;
 }
 
+Words tall_frame(Random& random, const Config& c, std::uint32_t number) {
+  constexpr int kMost = 32767;
+  FrameStyle style{
+      .most_opaque = 1, .most_volumes = 1, .most_in_volume = 2, .most_translucent = 1, .most_samples = 2, .port = true};
+  style.trees = 0.2;
+  // As many of each power of two, so that counters of lines meet each of their bits.
+  const int height = random.chance(0.3) ? kMost : std::min(kMost, (1 << random.in(7, 12)) + random.in(-1, 40));
+  Words words;
+  random_frame(random, c, random.in(1, std::min(c.max_width, 4)), height, words, number, style);
+  return words;
+}
+
+Words wide_frame(Random& random, const Config& c, std::uint32_t number) {
+  const int groups = random.in(1, std::max(1, c.max_width / c.lanes));
+  const int width = std::clamp(groups * c.lanes + random.in(-1, 1), 1, c.max_width);
+  Words words;
+  random_frame(random, c, width, random.in(1, 3), words, number, {.most_opaque = 12, .port = random.chance(0.8)});
+  return words;
+}
+
 Words damaged_frame(Random& random, const Config& c, std::uint32_t number) {
   for (;;) {
     const Words sound = sound_frame(random, c, number);
@@ -142,7 +162,10 @@ Words RandomFrames::words(int index) const {
   Random random(mixed(seed_, static_cast<std::uint64_t>(index)));
   const bool wrong = manner_ == Manner::damaged || (manner_ == Manner::mixed && random.chance(0.5));
   const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
-  return wrong ? damaged_frame(random, config_, number) : sound_frame(random, config_, number);
+  if (wrong) return damaged_frame(random, config_, number);
+  if (index % kSizes == kTall) return tall_frame(random, config_, number);
+  if (index % kSizes == kWide) return wide_frame(random, config_, number);
+  return sound_frame(random, config_, number);
 }
 
 std::function<Words(int)> RandomFrames::prelude() const {

@@ -19,6 +19,13 @@ namespace kage::verif {
 /// run; crowded or bare, with spans that meet at few pixels and depths, with accumulators that wrap.
 std::vector<std::uint32_t> sound_frame(Random& random, const Config& c, std::uint32_t number);
 
+/// A sound frame of 1 .. 4 pixels a line, and of 127 to 4136 lines, or of 32767, which is the most. It takes as long as
+/// hundreds of others.
+std::vector<std::uint32_t> tall_frame(Random& random, const Config& c, std::uint32_t number);
+
+/// A sound frame of any width up to MAX_WIDTH, at a border of a group of LANES pixels, or a pixel off it.
+std::vector<std::uint32_t> wide_frame(Random& random, const Config& c, std::uint32_t number);
+
 /// Something is wrong with it, or perhaps not: what the golden core says is right. Bits flipped anywhere, tokens lost,
 /// doubled or misplaced, fields just past what they may be, a header or an end that is not one. At least a word, and
 /// never so high that it takes long.
@@ -49,6 +56,12 @@ class RandomFrames {
  public:
   RandomFrames(const Config& config, Manner manner, std::uint64_t seed)
       : config_(config), manner_(manner), seed_(seed) {}
+
+  /// Of each kSizes frames one is tall and one is wide, unless it is to be damaged. A short run has none, so that it is
+  /// quick.
+  static constexpr int kSizes = 60;
+  static constexpr int kTall = 59;
+  static constexpr int kWide = 29;
 
   /// The words of frame `index`.
   [[nodiscard]] std::vector<std::uint32_t> words(int index) const;

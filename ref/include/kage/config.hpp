@@ -63,10 +63,10 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs);
 /// @return the first that lacks nothing
 NamedConfig choose_config(const Needs& needs);
 
-/// Says what a file for load_config() would have to hold, where a named configuration lacks only width, or some of its
-/// several lights or their samples.
+/// Suggests a configuration file where no named configuration suffices, but one would with greater width, more lights
+/// or more samples.
 /// @param needs what is asked
-/// @return the line of YAML of the first such configuration, with as much of them as asked; empty if there is none
+/// @return YAML of the first named configuration that suffices once width, lights and samples are raised; empty if none
 std::string widened_config(const Needs& needs);
 
 }  // namespace kage

@@ -34,7 +34,7 @@ struct FrameStatus {
 /// @return "ORDER at line 3, token 17: a token where its phase does not allow it", or "no error"
 std::string describe(const FrameStatus& status);
 
-/// What a core keeps of a pixel of the line at hand (docs/stream.md, "The pixel's state").
+/// What a core keeps of a pixel of the line at hand (docs/stream.md, "What a pixel does").
 struct PixelState {
   std::uint32_t z = 0;                    ///< 2^Z_BITS - 1: clear; then all below is 0 until a TP of the line has come
   std::array<std::uint8_t, 3> color{};    ///< one channel: the first
@@ -52,21 +52,21 @@ struct Token;
 class LineView {
  public:
   /// @return lines that have ended, 0 .. height; the height after the last
-  [[nodiscard]] int y() const;  ///< lines that have ended; the height after the last
+  [[nodiscard]] int y() const;
   /// @return pixels of a line
   [[nodiscard]] int width() const;
   /// @return what IF has added up since the last EV or ES, modulo 2^DSF_BITS
-  [[nodiscard]] std::uint32_t bias() const;  ///< modulo 2^DSF_BITS
+  [[nodiscard]] std::uint32_t bias() const;
   /// @return the header's colour: channel c in bits 8c .. 8c + 7
   [[nodiscard]] std::uint32_t background() const;
   /// @return whether a TP of the line has come: clear pixels then have the background's colour
-  [[nodiscard]] bool painted() const;  ///< a TP of the line has come: clear pixels have the background's colour
+  [[nodiscard]] bool painted() const;
   /// A pixel's state. Not checked.
   /// @param x 0 .. width() - 1
   /// @return what the core keeps of it
   [[nodiscard]] PixelState pixel(int x) const;
 
-  /// Those of a line that has failed ahead go to no unit.
+  /// A unit at fault drops its SEGs until the frame ends.
   /// @return whether the SEG that has just been accepted goes to its unit
   [[nodiscard]] bool segment_taken() const;
 
@@ -82,10 +82,10 @@ class LineView {
   /// @param x 0 .. width() - 1
   /// @return what the unit's segments say of it
   [[nodiscard]] UnitPixel unit_pixel(int unit, int x) const;
-  /// The same after the tree: of all units the nearest.
+  /// The pixel that the tree hands on: that of the nearest unit.
   /// @param x 0 .. width() - 1
   /// @return what the tree hands on
-  [[nodiscard]] UnitPixel tree_pixel(int x) const;  ///< after the tree
+  [[nodiscard]] UnitPixel tree_pixel(int x) const;
 
  private:
   friend class GoldenCore;  // which alone makes views
@@ -94,7 +94,7 @@ class LineView {
   const Parts* parts_;
 };
 
-/// Told what the golden core does, token by token. Costs nothing where there is none.
+/// Observer of the golden core, called for each token. A core without an observer runs at full speed.
 class CoreObserver {
  public:
   CoreObserver() = default;
@@ -107,7 +107,7 @@ class CoreObserver {
   /// Token `index` of the frame has been accepted and is about to do what it does.
   virtual void before(std::uint32_t /*index*/, const Token& /*token*/, std::span<const std::uint32_t> /*words*/,
                       const LineView& /*line*/) {}
-  /// It has done so. After an EOL the line is cleared.
+  /// The token has taken effect. After an EOL the line is cleared already.
   virtual void after(std::uint32_t /*index*/, const Token& /*token*/, const LineView& /*line*/) {}
   /// The frame has an error: the lines that have not ended are background. `words`: of the erroneous token, as many as
   /// there are.
@@ -140,7 +140,7 @@ class GoldenCore {
   /// @return how the frame ended
   FrameStatus finish(const LineSink& sink);
 
-  /// Has someone told what happens from now on.
+  /// Sets the observer, which is called for each event of the core from now on.
   /// @param observer must outlive its use; nullptr: no one
   void observe(CoreObserver* observer);
 

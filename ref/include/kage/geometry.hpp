@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// Geometry: a scene's frame as integers on the screen. Left of it all is floating point, right of it nothing is.
+/// Geometry: a scene's frame as integers on the screen. Scenes are floating point; from here on
+/// all numbers are integers.
 ///
 /// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left
 /// pixel, whose centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is
@@ -93,8 +94,8 @@ struct VolumeFace {
   std::int32_t w = 1;
 };
 
-/// A piece of the outline of a volume's section with the near plane: right of an edge that goes down w more, right of
-/// one that goes up w less.
+/// A piece of the outline of a volume's section with the near plane. An edge that goes down adds w to the sum of all
+/// pixels right of it; an edge that goes up subtracts w.
 struct NearEdge {
   ScreenVertex from;   ///< where it begins
   ScreenVertex to;     ///< where it ends
@@ -199,17 +200,17 @@ struct Look {
   bool far_ends = false;  ///< volumes carry their far ends as faces too, which changes no picture; for tests
   VolumeWay volumes = VolumeWay::fewest;  ///< how many volumes casters have
   bool leave_out = true;                  ///< shadows that can meet nothing seen, which changes no picture
-  /// The picture is made to fit the configuration, where it would be refused: a light whose samples COUNT_BITS does not
-  /// hold is its middle, and without FSF only the first volume of each light sample stays. It is the first in draw
-  /// order of those that meet something seen, so it may be another's in the next frame; FrameGeometry::left_out counts
+  /// Makes the picture fit the configuration where make_geometry() would throw Error. A light with too many samples for
+  /// COUNT_BITS becomes one sample at its middle. Without FSF one volume of each light sample stays: the first, in draw
+  /// order, that meets something seen, which may be another caster's in the next frame; FrameGeometry::left_out counts
   /// the others.
   bool fit = false;
   /// Faces are not drawn if the eye sees the side that their material does not show (Sides); they cast shadows all the
   /// same.
   bool cull = false;
   TranslucentWay translucent = TranslucentWay::exact;  ///< how translucent faces are put in order
-  int samples = 15;        ///< of a light that is no point, 1 .. kMaxSamples; 1 without COUNT_BITS
-  std::uint64_t seed = 1;  ///< of their pattern
+  int samples = 15;                                    ///< of an area light, 1 .. kMaxSamples; 1 without COUNT_BITS
+  std::uint64_t seed = 1;                              ///< of the samples' pattern
   /// Normals that a light table tells apart, 1 .. kMaxClasses; fewer if it has no room for those in use.
   int classes = 1024;
 };

@@ -27,13 +27,13 @@
 extern "C" {
 #endif
 
-/** Of this header: it grows when something here changes its meaning. */
+/** Version of this interface. It rises when a declaration changes its meaning or goes. */
 #define KAGE_GOLDEN_ABI 1
 
 /** A core. */
 typedef struct kage_golden kage_golden;
 
-/** What a word came to, and where in a frame a core is. */
+/** Result of giving a word, and the core's place in its frame. */
 enum {
   KAGE_GOLDEN_ERROR = -1, /**< the call could not be done */
   KAGE_GOLDEN_MORE = 0,   /**< the token is not whole yet */

@@ -48,10 +48,10 @@ struct OrderMesh {
 struct OrderBuildOptions {
   std::uint64_t seed = 1;  ///< of the choice among planes; any gives a right tree, and each its own
   int threads = 0;         ///< 0: one per processor. The tree does not depend on it
-  /// The least limit by default: 4 GB, since a build takes up to 2 kB for a fragment.
+  /// The default limit is never below this many fragments, which take up to 4 GB (2 kB each).
   static constexpr std::uint64_t kFragments = 2'000'000;
-  /// TooManyFragments past it. The default is kFragments, or four times the faces where those are more: few of them
-  /// will be cut then.
+  /// The build throws TooManyFragments above this many. Default: the larger of kFragments and four times the number of
+  /// faces.
   std::optional<std::uint64_t> max_fragments = {};
   /// Called now and then, several times a second, with the share of the work that is done, 0 .. 1, which never gets
   /// less; never from two threads at once. What it throws ends the build and reaches the caller. The share is an
@@ -228,7 +228,7 @@ struct OrderStep {
   };
   /// How the order came to be that of the eye.
   enum class Change : std::uint8_t {
-    none,      ///< it was already
+    none,      ///< the order of the last move still holds
     exchange,  ///< ranges of nodes changed places
     rebuild,   ///< all nodes were placed anew
   };

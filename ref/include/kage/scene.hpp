@@ -48,15 +48,15 @@ enum class LightShape : std::uint8_t {
   sphere,     ///< a ball round `position`
 };
 
-/// A light. Fall-off and cone are those of glTF's KHR_lights_punctual. What is not a point shines as from its middle;
-/// only its shadows are soft.
+/// A light. Fall-off and cone are those of glTF's KHR_lights_punctual. An area light shines as if from its
+/// middle; its area matters for shadows only.
 struct Light : LightPoint {
   glm::dvec3 color{1, 1, 1};  ///< >= 0, times intensity; a scene's lights are scaled by one factor (Scene::load)
   bool falls_off = false;     ///< not directional: with the square of the distance; `color` is that at distance 1
   double range = 0;           ///< falls_off: distance from which on it does not shine; 0: none
-  bool spot = false;          ///< not directional: it shines in a cone round `direction`,
-  double inner_cosine = 1;    ///< fully within this angle,
-  double outer_cosine = 0;    ///< not outside this one
+  bool spot = false;          ///< not directional: it shines within a cone round `direction`
+  double inner_cosine = 1;    ///< spot: cosine of the angle up to which it is full
+  double outer_cosine = 0;    ///< spot: cosine of the angle from which on it is 0
   LightShape shape = LightShape::point;  ///< what it extends over
   glm::dvec3 axis_u{0, 0, 0};            ///< disc, rectangle: half axes; sphere: its radius in x
   glm::dvec3 axis_v{0, 0, 0};            ///< disc, rectangle: the other one

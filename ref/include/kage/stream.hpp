@@ -260,10 +260,10 @@ struct StreamSection {
   std::string_view payload;  ///< valid as long as the file is open
 };
 
-/// A stream file, mapped: another program must not make it shorter while it is open. Where one does, what is gone
-/// raises SIGBUS on reading, in frame() or in the words it gave, and a program that wants to outlive that has to handle
-/// the signal (kage does, see cli/mapped.hpp). Opening checks magic, version, configuration and the list of sections;
-/// frame() checks the section's checksum and the frame's tokens.
+/// A stream file, mapped: another program must not make it shorter while it is open. If one does, reading the lost
+/// part, in frame() or in the words it gave, raises SIGBUS; a program that must survive this handles the signal.
+/// Opening checks magic, version, configuration and the list of sections; frame() checks the section's checksum and the
+/// frame's tokens.
 class StreamFile {
  public:
   /// Opens a file. Throws Error that names file and place where magic, version, configuration or the list of sections

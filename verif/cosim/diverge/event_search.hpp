@@ -21,8 +21,8 @@ namespace kage::cosim {
 /// Told of each event and what was expected in its place.
 using Watch = std::function<void(const ExpectedEvent&, const kage_rtl_event&)>;
 
-/// Give the golden core words by feed() and this what the RTL did with them by take(), in any rhythm; what one of both
-/// is ahead is kept. finish() when the frame has ended, then end().
+/// Call feed() with the frame's words and take() with the RTL's events, in any order: events of the side that is ahead
+/// are kept. Call finish() when the frame has ended, then end().
 class EventSearch : private CoreObserver {
  public:
   /// With `watch`, nothing stops at a difference. `unwatched`: as RtlCore has it. Where tokens are not watched, which
@@ -33,8 +33,8 @@ class EventSearch : private CoreObserver {
   void finish();
   void take(std::span<const kage_rtl_event> events);
 
-  /// Nothing more will come: what is still expected is missing. What waits for the pixels to take it (`blocked`, or may
-  /// be) would have come; it is they who differ.
+  /// Nothing more will come: what is still expected is missing. With `blocked`, events of units and tree that are missing
+  /// do not count: they wait for the pixels, which are to blame.
   void end(std::uint64_t clock, bool blocked);
 
   /// Events of the golden core that are kept until the RTL does its part and would be missing if it did not; but those

@@ -29,7 +29,7 @@ struct ModelOptions {
   BuildProgress progress = {};
 };
 
-/// The model of `config` from the cache (cosim/model_cache.hpp), built first if it is not there or damaged. Its
+/// The model of `config` from the cache (cosim/model/model_cache.hpp), built first if it is not there or damaged. Its
 /// key is the SHA-256 of all sources that it is made of, the parameters, the options, $CXX, and the versions of
 /// Verilator and compiler, so that a changed source is another model. Two programs that want the same one build it
 /// once. Throws Error that names the log when the build fails.

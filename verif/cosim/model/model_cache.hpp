@@ -31,7 +31,7 @@ struct CacheLimits {
 class ModelCache {
  public:
   /// Makes the folder if it is missing. Throws Error if it cannot be made, or if somebody else could put models there
-  /// (cosim/trust.hpp).
+  /// (cosim/model/trust.hpp).
   ModelCache();
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }

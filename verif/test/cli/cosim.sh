@@ -120,8 +120,8 @@ expect 0 flock held "$kage" cosim courtyard --size 64x48 --frames 1 --no-report 
 expect 0 "$kage" cosim courtyard --size 64x48 --frames 1 --out held
 
 # Two outputs are two files, by whatever name; a name makes no line of its own.
-trouble "is to be written twice" "$kage" cosim courtyard --size 64x48 --frames 1 --json x.json --junit ./x.json
-trouble "is to be written twice" "$kage" cosim courtyard --size 64x48 --frames 1 --out o --junit o/../o/report.html
+trouble "two outputs have this name" "$kage" cosim courtyard --size 64x48 --frames 1 --json x.json --junit ./x.json
+trouble "two outputs have this name" "$kage" cosim courtyard --size 64x48 --frames 1 --out o --junit o/../o/report.html
 expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --out plain.kage
 mv plain.kage $'two\n::error::lines.kage'
 expect 1 "$kage" cosim $'two\n::error::lines.kage' --fault wrong_compare --annotate github --out lines

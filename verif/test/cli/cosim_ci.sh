@@ -77,7 +77,7 @@ json late.json 'j["frames"]==2 and j["first_difference"]["frame"]==2 and j["firs
 junit late.xml '[len(k) for k in c]==[0]+[1]*5 and c[1].get("name")=="frame 2" and c[1][0].tag=="failure" and s.get("skipped")=="4"'
 [ -s late/inside_0002_difference.png ] || fail "no picture of frame 2's difference"
 python3 -c "import json; j=json.load(open('late.json')); j['first_difference']['frame']=4; json.dump(j, open('late4.json','w'))"
-trouble "cannot have the 2 that it tells of" "$kage" merge late4.json
+trouble "cannot have the 2 that it claims" "$kage" merge late4.json
 
 # GitHub: a line by which it finds the file, by itself in its actions, on standard error where standard output is JSON.
 annotation='^::error file=rtl/pixel_banked\.sv,title=kage cosim courtyard%3A frame 0 is different::frame 0, [^%]*%0Afirst divergence: '
@@ -133,7 +133,7 @@ for shard in 0/2 3/2 2 /2 1/ 1/2/3 a/b 1/-2 1/0 -1/2; do trouble "--shard" "$kag
 trouble "--shard 7/8: courtyard has only 5 frames" "$kage" cosim "${run[@]}" --out none --shard 7/8
 trouble "--annotate" "$kage" cosim "${run[@]}" --out none --annotate gitlab
 trouble "no such folder" "$kage" cosim "${run[@]}" --out none --junit nowhere/c.xml
-trouble "is to be written twice" "$kage" cosim "${run[@]}" --out none --junit c.json --json c.json
+trouble "two outputs have this name" "$kage" cosim "${run[@]}" --out none --junit c.json --json c.json
 [ ! -e none ] && [ ! -e c.json ] || fail "a refused run leaves something"
 trouble "shard 2/3 is missing" "$kage" merge 1.json 3.json --json none.json
 trouble "shard 1/3 is missing" "$kage" merge 2.json
@@ -158,8 +158,8 @@ done <<'CASES'
 j.clear()|spoilt.json: no report of kage cosim
 j['same']=1|same is not what it should be
 j['frames']=-2|frames is not what it should be
-j['frames']=1|cannot have the 1 that it tells of
-j['frames']=3|cannot have the 3 that it tells of
+j['frames']=1|cannot have the 1 that it claims
+j['frames']=3|cannot have the 3 that it claims
 j['frame_seconds']=[1]|cannot have
 j['frame_seconds']=['a','b']|frame_seconds is not what it should be
 j['total_frames']=10**9|total_frames is not what it should be

@@ -66,5 +66,5 @@ json degraded.json 'len(j["degraded"]) == 3'
 expect 0 "$kage" stream penumbra --size 64x48 --frames 1 --samples 3 --out p.kage
 expect 0 "$kage" info p.kage --json info.json
 json info.json 'j["tokens"]["ES"] > 50'
-trouble "p.kage: --samples, --classes: in a stream they are settled" "$kage" render p.kage --samples 5 --out x
+trouble "p.kage: --samples, --classes: only a scene takes them, and this is a stream" "$kage" render p.kage --samples 5 --out x
 done_testing

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is proved of line_out at its ports, to a bound of clocks, for any pixels and any stalls of both ways out
 // (verif/test/formal/run.sh):
-//   pixels       the video is the pixels of the lines without line_load_i, none lost, doubled or out of order, each
+//   pixels       the video is the pixels of the lines whose load is 0, none lost, doubled or out of order, each
 //                with the colour that the module's head gives: the background, its own, or its own times 1 - shade,
 //                rounded once;
 //   marks        TUSER is on a frame's first pixel only, TLAST on a line's last only;
-//   loads        with counters and translucency a line with line_load_i leaves by load_*: its places and its end,
+//   loads        with counters and translucency a line whose load is 1 leaves by load_*: its places and its end,
 //   load_pixels  and its colours; without them (no_loads) nothing does;
 //   *_early      a line leaves only after it has been announced and has begun to come in;
 //   lines        an announced line is taken only after it has begun to come in;
