@@ -3,6 +3,7 @@
 
 import argparse
 import concurrent.futures
+import hashlib
 import itertools
 import json
 import math
@@ -77,6 +78,13 @@ def plot(rows, minutes, path):
     )
     out.append("</svg>")
     pathlib.Path(path).write_text("\n".join(out) + "\n")
+
+
+def what_is_tried(options):
+    """A hash of the RTL, the mutants and the program: rows of others are not of the same table."""
+    files = [pathlib.Path(options.kage), options.source / "verif/mutants/mutants.yaml"]
+    files += sorted((options.source / "rtl").rglob("*.sv*"))
+    return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
 
 
 def write_whole(path, rows):
@@ -201,20 +209,24 @@ def main():
         return
     rows = []
     kept = {}
+    tried = what_is_tried(options)
     if options.resume:
         if not options.json:
             sys.exit("tools/regress-mutants: --resume needs --json FILE")
         if pathlib.Path(options.json).exists():
             kept = {row["name"]: row for row in json.loads(pathlib.Path(options.json).read_text())}
-        asked = (options.seed, options.minutes)
-        others = [n for n, row in kept.items() if (row.get("seed"), row.get("minutes")) != asked]
+        asked = (options.seed, options.minutes, tried)
+        others = [n for n, row in kept.items() if (row.get("seed"), row.get("minutes"), row.get("of")) != asked]
         if others:
-            sys.exit(f"tools/regress-mutants: {options.json}: {others[0]} was run with another --seed or --minutes")
+            sys.exit(
+                f"tools/regress-mutants: {options.json}: {others[0]} was run with another --seed or --minutes, or of other RTL, "
+                "mutants or kage"
+            )
     with tempfile.TemporaryDirectory() as out:
         for number, mutant in chosen:
             row = kept.get(mutant["name"])
             if not row:
-                row = {"name": mutant["name"], "seed": options.seed, "minutes": options.minutes}
+                row = {"name": mutant["name"], "seed": options.seed, "minutes": options.minutes, "of": tried}
                 row |= run(options.kage, number, options, out)
             rows.append(row)
             if options.json:
