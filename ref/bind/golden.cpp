@@ -176,7 +176,9 @@ unsigned int kage_golden_token_word(kage_golden* core, int i) {
 }
 
 long long kage_golden_token_field(kage_golden* core, int field) {
-  return core == nullptr || core->kind == KAGE_KIND_HEADER ? 0 : token_field(core->token, core->kind, field);
+  return core == nullptr || core->kind == KAGE_KIND_HEADER
+             ? 0
+             : token_field(core->config, core->layout, core->token, field);
 }
 
 const char* kage_golden_token_text(kage_golden* core) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden_fields.hpp"
 
+#include <string_view>
+
+#include "contract/fields.hpp"
+#include "golden_names.hpp"
 #include "kage/golden.h"
 
 bool has_pixel_field(const kage::Config& c, int field) {
@@ -10,49 +14,16 @@ bool has_pixel_field(const kage::Config& c, int field) {
   return field < KAGE_PIXEL_COLOR + c.channels;
 }
 
-long long token_field(const kage::Token& t, int kind, int field) {
-  const auto channel = [&](const auto& of, int first) { return of[static_cast<std::size_t>(field - first)]; };
-  if (field >= KAGE_TOKEN_COLOR && field < KAGE_TOKEN_DCOLOR)
-    return kind == KAGE_KIND_FACE ? channel(t.segment.color, KAGE_TOKEN_COLOR)
-                                  : channel(t.span.color, KAGE_TOKEN_COLOR);
-  if (field >= KAGE_TOKEN_DCOLOR && field < KAGE_TOKEN_ALPHA) return channel(t.span.dcolor, KAGE_TOKEN_DCOLOR);
-  if (field >= KAGE_TOKEN_SHARE && field < KAGE_TOKEN_Y) return channel(t.table.share, KAGE_TOKEN_SHARE);
-  switch (field) {
-    case KAGE_TOKEN_XL:
-      return t.span.xl;
-    case KAGE_TOKEN_XR:
-      return t.span.xr;
-    case KAGE_TOKEN_Z:
-      return kind == KAGE_KIND_SEG ? t.segment.z : t.span.z;
-    case KAGE_TOKEN_DZ:
-      return kind == KAGE_KIND_FACE ? t.segment.dz : t.span.dz;
-    case KAGE_TOKEN_W:
-      return t.span.w;
-    case KAGE_TOKEN_CLASS:
-      return kind == KAGE_KIND_FACE    ? t.segment.normal_class
-             : kind == KAGE_KIND_TABLE ? t.table.normal_class
-                                       : t.span.normal_class;
-    case KAGE_TOKEN_ALPHA:
-      return t.span.alpha;
-    case KAGE_TOKEN_SHADE:
-      return t.shade;
-    case KAGE_TOKEN_LIGHT:
-      return t.table.light;
-    case KAGE_TOKEN_Y:
-      return t.y;
-    case KAGE_TOKEN_UNIT:
-      return t.segment.unit;
-    case KAGE_TOKEN_FACE:
-      return t.segment.face;
-    case KAGE_TOKEN_INDEX:
-      return t.segment.index;
-    case KAGE_TOKEN_DX:
-      return t.segment.dx;
-    case KAGE_TOKEN_SYNC:
-      return t.segment.sync ? 1 : 0;
-    default:
-      return 0;
-  }
+long long token_field(const kage::Config& config, const kage::Layout& layout, const kage::Token& t, int field) {
+  if (field < 0 || field >= KAGE_TOKEN_FIELDS) return 0;
+  const GoldenField& wanted = kGoldenFields[static_cast<std::size_t>(field)];
+  long long value = 0;
+  kage::with_kind(t.kind, [&]<kage::Kind K>() {
+    kage::visit_fields<K>(config, layout, t, [&](std::string_view name, int channel, const auto& of, kage::Field) {
+      if (name == wanted.name && channel == wanted.channel) value = static_cast<long long>(of);
+    });
+  });
+  return value;
 }
 
 int pixel_field(const kage::Config& config, const kage::LineView& line, int x, int field) {

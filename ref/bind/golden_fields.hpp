@@ -11,5 +11,5 @@ bool has_pixel_field(const kage::Config& c, int field);
 /// A field that the configuration has, of a pixel of the line; or KAGE_PIXEL_ANY.
 int pixel_field(const kage::Config& config, const kage::LineView& line, int x, int field);
 
-/// A field of a token of a kind, KAGE_TOKEN_...; 0 if it is not known.
-long long token_field(const kage::Token& t, int kind, int field);
+/// A field of a token, KAGE_TOKEN_...; 0 if its kind has no such field in the configuration.
+long long token_field(const kage::Config& config, const kage::Layout& layout, const kage::Token& t, int field);

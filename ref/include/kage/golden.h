@@ -23,6 +23,8 @@
 #ifndef KAGE_GOLDEN_H
 #define KAGE_GOLDEN_H
 
+#include "kage/golden_numbers.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -57,49 +59,6 @@ enum {
 enum {
   KAGE_PIXEL_ABSENT = -1, /**< the configuration has no such field, the line no such pixel, or there is no line */
   KAGE_PIXEL_ANY = -2     /**< never seen, so any value is right: class and (before a TP) colour of a clear pixel */
-};
-
-/** Fields of a token, as in the table of tokens in docs/stream.md. */
-enum {
-  KAGE_TOKEN_XL = 0,     /**< its first pixel */
-  KAGE_TOKEN_XR = 1,     /**< one past its last */
-  KAGE_TOKEN_Z = 2,      /**< signed, Z_FRAC fraction bits */
-  KAGE_TOKEN_DZ = 3,     /**< likewise, per pixel; signed */
-  KAGE_TOKEN_W = 4,      /**< multiplicity; signed */
-  KAGE_TOKEN_CLASS = 5,  /**< 0 is unlit; without a table 1 is lit */
-  KAGE_TOKEN_COLOR = 6,  /**< up to 8: by channel */
-  KAGE_TOKEN_DCOLOR = 9, /**< up to 11: by channel, signed */
-  KAGE_TOKEN_ALPHA = 12, /**< 0 .. 255 */
-  KAGE_TOKEN_SHADE = 13, /**< in 2^-SHADE_FRAC */
-  KAGE_TOKEN_LIGHT = 14, /**< from 0 */
-  KAGE_TOKEN_SHARE = 15, /**< up to 17: by channel, in 2^-SHADE_FRAC */
-  KAGE_TOKEN_Y = 18,     /**< number of the line */
-  KAGE_TOKEN_UNIT = 19,  /**< from 0 */
-  KAGE_TOKEN_FACE = 20,  /**< number in its unit */
-  KAGE_TOKEN_INDEX = 21, /**< draw index of a polyhedron */
-  KAGE_TOKEN_DX = 22,    /**< pixels */
-  KAGE_TOKEN_SYNC = 23,  /**< 0 or 1 */
-  KAGE_TOKEN_FIELDS = 24 /**< how many there are */
-};
-
-/** Kinds of tokens, as kage_golden_token_kind() gives them. */
-enum {
-  KAGE_KIND_HEADER = 0,   /**< token 0 */
-  KAGE_KIND_SHADE = 1,    /**< the darkening of shadow */
-  KAGE_KIND_TABLE = 2,    /**< an entry of the light table */
-  KAGE_KIND_FACE = 3,     /**< an entry of a unit's face table */
-  KAGE_KIND_SEG = 4,      /**< segment of a polyhedron */
-  KAGE_KIND_TREE = 5,     /**< take the compare tree's line */
-  KAGE_KIND_OP = 6,       /**< opaque span */
-  KAGE_KIND_SP = 7,       /**< shadow span */
-  KAGE_KIND_NC = 8,       /**< near-cap span */
-  KAGE_KIND_IF = 9,       /**< the eye is inside the volume */
-  KAGE_KIND_EV = 10,      /**< end of a volume */
-  KAGE_KIND_ES = 11,      /**< end of a light sample */
-  KAGE_KIND_RESOLVE = 12, /**< darken what is in shadow */
-  KAGE_KIND_TP = 13,      /**< translucent span */
-  KAGE_KIND_EOL = 14,     /**< end of the line */
-  KAGE_KIND_END = 15      /**< end of the frame */
 };
 
 /** Fields of a frame's status. */

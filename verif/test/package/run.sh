@@ -16,7 +16,7 @@ KAGE_DATA_DIR="$temp/prefix/share/kage" "$temp/build/consumer"
 "$temp/build/order_consumer"
 # Each header can be included alone, and names no type that is not in one of them.
 headers=$(dirname "$(find "$temp/prefix" -path '*/kage/core.hpp')")
-for header in "$headers"/*; do
+for header in "$headers"/*.h "$headers"/*.hpp; do
   # shellcheck disable=SC2086
   "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} -fsyntax-only -x c++ -I"${headers%/kage}" - <<<"#include <kage/${header##*/}>" ||
     { echo "installed: ${header##*/} cannot be included alone" >&2; exit 1; }

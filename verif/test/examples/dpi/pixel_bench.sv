@@ -46,9 +46,7 @@ module pixel_bench;
   import "DPI-C" function string kage_golden_pixel_name(input int field);
 
   localparam int Token = 1, End = 2;
-  localparam int FieldXl = 0, FieldXr = 1, FieldZ = 2, FieldDz = 3, FieldW = 4;
-  localparam int FieldClass = 5, FieldColor = 6, FieldShade = 13;
-  localparam int KindHeader = 0, KindShade = 1, KindIf = 9, KindEv = 10, KindResolve = 12, KindEol = 14;
+  `include "kage/golden_numbers.svh"
   localparam int PixelFields = 7;  // z, three colours, class, dsf, fsf
 
   logic clk = 1'b0;
@@ -109,22 +107,22 @@ module pixel_bench;
   // The golden core's last token to the processors; they take it in one clock.
   task automatic drive;
     kind = 4'(kage_golden_token_kind(core));
-    xl = 11'(kage_golden_token_field(core, FieldXl));
-    xr = 11'(kage_golden_token_field(core, FieldXr));
-    z = (ZBits + ZFrac + 2)'(kage_golden_token_field(core, FieldZ));
-    dz = (ZBits + ZFrac + 2)'(kage_golden_token_field(core, FieldDz));
-    w = 1'(kage_golden_token_field(core, FieldW));
-    lit = 1'(kage_golden_token_field(core, FieldClass));
-    for (int c = 0; c < 3; c++) color[c*8+:8] = 8'(kage_golden_token_field(core, FieldColor + c));
-    if (int'(kind) == KindHeader) shade = '0;
-    if (int'(kind) == KindShade) shade = 9'(kage_golden_token_field(core, FieldShade));
-    if (int'(kind) == KindHeader) kind = 4'(KindEol);  // the header clears the line too
+    xl = 11'(kage_golden_token_field(core, KAGE_TOKEN_XL));
+    xr = 11'(kage_golden_token_field(core, KAGE_TOKEN_XR));
+    z = (ZBits + ZFrac + 2)'(kage_golden_token_field(core, KAGE_TOKEN_Z));
+    dz = (ZBits + ZFrac + 2)'(kage_golden_token_field(core, KAGE_TOKEN_DZ));
+    w = 1'(kage_golden_token_field(core, KAGE_TOKEN_W));
+    lit = 1'(kage_golden_token_field(core, KAGE_TOKEN_CLASS));
+    for (int c = 0; c < 3; c++) color[c*8+:8] = 8'(kage_golden_token_field(core, KAGE_TOKEN_COLOR + c));
+    if (int'(kind) == KAGE_KIND_HEADER) shade = '0;
+    if (int'(kind) == KAGE_KIND_SHADE) shade = 9'(kage_golden_token_field(core, KAGE_TOKEN_SHADE));
+    if (int'(kind) == KAGE_KIND_HEADER) kind = 4'(KAGE_KIND_EOL);  // the header clears the line too
     valid = 1'b1;
     #5 clk = 1'b1;
     #5 clk = 1'b0;
     valid = 1'b0;
-    if (int'(kind) == KindIf) bias = bias ^ w;
-    if (int'(kind) == KindEv || int'(kind) == KindResolve || int'(kind) == KindEol) bias = 1'b0;
+    if (int'(kind) == KAGE_KIND_IF) bias = bias ^ w;
+    if (int'(kind) == KAGE_KIND_EV || int'(kind) == KAGE_KIND_RESOLVE || int'(kind) == KAGE_KIND_EOL) bias = 1'b0;
   endtask
 
   task automatic check(input int frame);
