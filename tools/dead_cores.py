@@ -115,7 +115,16 @@ class Tree:
         """The program of that name, of this tree's RTL."""
         options = {"CMAKE_BUILD_TYPE": "Release", "KAGE_TESTS": "ON", "KAGE_UNITY": "ON"}
         if not self.build.exists():
-            command = ["cmake", "-S", self.copy, "-B", self.build, "-G", "Ninja", *(f"-D{k}={v}" for k, v in options.items())]
+            command = [
+                "cmake",
+                "-S",
+                self.copy,
+                "-B",
+                self.build,
+                "-G",
+                "Ninja",
+                *(f"-D{k}={v}" for k, v in options.items()),
+            ]
             subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         subprocess.run(["cmake", "--build", self.build, "--target", name], check=True, stdout=subprocess.DEVNULL)
         return str(next(path for path in self.build.rglob(name) if path.is_file() and os.access(path, os.X_OK)))

@@ -69,6 +69,7 @@ def figures_of(top, device, what, options, tools, folder):
     places = timing.Places(modules, next(n for n in modules if timing.Places.plain(n) == "kage_wrap"), netlist)
     report = reports[median]
     return {
+        "schema": "kage.fpga/1",  # docs/schema/fpga.json
         "device": device.name,
         "core": what.name,
         "parameters": what.parameters,

@@ -33,8 +33,8 @@ class EventSearch : private CoreObserver {
   void finish();
   void take(std::span<const kage_rtl_event> events);
 
-  /// Nothing more will come: what is still expected is missing. With `blocked`, events of units and tree that are missing
-  /// do not count: they wait for the pixels, which are to blame.
+  /// Nothing more will come: what is still expected is missing. With `blocked`, events of units and tree that are
+  /// missing do not count: they wait for the pixels, which are to blame.
   void end(std::uint64_t clock, bool blocked);
 
   /// Events of the golden core that are kept until the RTL does its part and would be missing if it did not; but those

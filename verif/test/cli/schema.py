@@ -134,7 +134,8 @@ for path in sorted(written.iterdir()):
         check(False, f"{path.name}: {name}: {'/'.join(map(str, best.absolute_path))}: {best.message[:300]}")
     spoilt(name, document, path.name)
 
-check(named == set(schemas), f"schemas that no command names: {set(schemas) - named}")
+OF_TOOLS = {"fpga"}  # tools/test-fpga holds it against what tools/fpga writes
+check(named == set(schemas) - OF_TOOLS, f"schemas that no command names: {set(schemas) - named - OF_TOOLS}")
 text = subprocess.run([kage, "--help"], capture_output=True, text=True, check=True).stdout
 commands = re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1].split("\n\n")[0], re.M)
 check(len(commands) >= 12, f"these are all commands: {commands}")
