@@ -83,6 +83,7 @@ module frame_control #(
 );
   `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
+  `include "generated/kage_order.svh"
 
   localparam logic [1:0] StHeader = 2'd0;
   localparam logic [1:0] StBody = 2'd1;  // tokens of an error-free frame
@@ -101,20 +102,15 @@ module frame_control #(
 
   // ---- decode ------------------------------------------------------------------------------------------------------
   logic [3:0] kind;
-  logic is_op, is_sp, is_nc, is_ev, is_eol, is_end, is_span, is_tree, is_tp, is_es, is_table;
+  logic is_eol, is_end, is_span, is_tree, is_tp, is_table;
 
   assign kind = token_i[3:0];
-  assign is_op = kind == KindOp;
-  assign is_sp = kind == KindSp;
-  assign is_nc = kind == KindNc;
-  assign is_ev = kind == KindEv;
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_tree = UNITS > 0 && kind == KindTree;
   assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
-  assign is_es = COUNT_BITS > 0 && kind == KindEs;
   assign is_table = CLASS_BITS > 1 && kind == KindTable;
-  assign is_span = is_op || is_sp || is_nc || is_ev || is_es || is_tp;
+  assign is_span = kind_has_range(kind);
 
   // ---- header ------------------------------------------------------------------------------------------------------
   logic [3:0] head_error;

@@ -45,8 +45,9 @@ TEST_CASE("A frame becomes commands and lines; bias goes with EV and is cleared 
   each_seed(20, [](Dice& dice) {
     const auto out = run<Vframe_control>(
         dice, {header(20, 2, 7), token(Kind::SHADE, 256), token(Kind::OP, 3, 9, 1), token(Kind::OP, 4, 4, 1),
-               token(Kind::SP, 0, 20, 1), token(Kind::IF, 1), token(Kind::EV, 1, 19), token(Kind::NC, 2, 3, 3),
-               token(Kind::EV, 0, 20), token(Kind::RESOLVE), kEol0, token(Kind::OP, 19, 20, 0), kEol1, kEnd});
+               token(Kind::SP, 0, 20, 1), token(Kind::IF, 1), token(Kind::EV, 1, 19),
+               token(Kind::NC, 2, 3, static_cast<std::uint64_t>(-1)), token(Kind::EV, 0, 20), token(Kind::RESOLVE),
+               kEol0, token(Kind::OP, 19, 20, 0), kEol1, kEnd});
     REQUIRE(out.errors.empty());
     REQUIRE(out.frames == 1);
     REQUIRE(out.drops == 0);

@@ -3,11 +3,14 @@
 // What the tests of frame_control share: tokens as token_reader gives them, and what they become under any stalls.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <vector>
 
 #include "bench.hpp"
 #include "contract/derived.hpp"
+#include "kage/stream.hpp"
 
 namespace kage::rtl {
 
@@ -27,68 +30,71 @@ struct Token {
   bool header = false, lacking = false, cut = false, final = false, at_last = false;
 };
 
-inline void set(Token& t, int lsb, int bits, std::uint64_t value) {
-  for (int i = 0; i < bits; ++i)
-    if ((value >> i & 1) != 0) t.words[static_cast<std::size_t>((lsb + i) / 32)] |= 1U << ((lsb + i) % 32);
+/// A token, or the header, by what `write` does to a TokenWriter of the configuration.
+template <class Write>
+Token written(const kage::Config& config, Write&& write) {
+  std::vector<std::uint32_t> words;
+  kage::TokenWriter writer(config, words);
+  write(writer);
+  Token t;
+  if (words.size() > t.words.size()) throw std::length_error("a token of too many words");
+  std::copy(words.begin(), words.end(), t.words.begin());
+  t.at_last = true;
+  return t;
 }
 
 inline Token header(std::uint32_t width, std::uint32_t height, std::uint32_t frame,
                     const kage::Config& config = kConfig) {
-  Token t;
+  Token t = written(config, [&](kage::TokenWriter& w) {
+    w.header({static_cast<int>(width), static_cast<int>(height), 0x0A0B0C, frame});
+  });
   t.header = true;
-  t.words = {kage::kStreamMagic << 16 | kage::kStreamVersion, width | height << 16, kage::param_hash(config), 0x0A0B0C,
-             frame};
+  t.at_last = false;
   return t;
 }
 
+/// SHADE, EOL, IF: `a` is what they hold. OP, SP, TP, NC, EV: pixels [a, b); c is OP's class, SP's and NC's w, TP's
+/// alpha; depth, slope and colour are some. Others: nothing.
 inline Token token(Kind kind, std::uint64_t a = 0, std::uint64_t b = 0, std::uint64_t c = 0) {
-  Token t;
-  set(t, 0, 4, static_cast<std::uint64_t>(kind));
-  switch (kind) {
-    case Kind::SHADE:
-      set(t, 4, 9, a);
-      break;
-    case Kind::EOL:
-      set(t, 4, 16, a);
-      break;
-    case Kind::IF:
-      set(t, 4, 2, a);
-      break;
-    case Kind::OP:  // lit, then z, dz, colour
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      set(t, 26, 1, c);
-      set(t, 27, 37, 0x123456789);
-      set(t, 64, 37, 0x0FEDCBA98);
-      set(t, 101, 24, 0x332211);
-      break;
-    case Kind::SP:  // w, then z, dz
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      set(t, 26, 2, c);
-      set(t, 28, 37, 0x11111111);
-      set(t, 65, 37, 0x22222222);
-      break;
-    case Kind::TP:  // alpha, then z, dz, colour
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      set(t, 26, 8, c);
-      set(t, 34, 37, 0x0F1234567);
-      set(t, 71, 37, 0x0A9876543);
-      set(t, 108, 24, 0x665544);
-      break;
-    case Kind::NC:
-      set(t, 26, 2, c);
-      [[fallthrough]];
-    case Kind::EV:
-      set(t, 4, 11, a);
-      set(t, 15, 11, b);
-      break;
-    default:
-      break;
-  }
+  const auto number = [](std::uint64_t v) { return static_cast<int>(v); };
+  kage::SpanToken s;
+  s.xl = number(a);
+  s.xr = number(b);
+  Token t = written(kind == Kind::TP ? kGlass : kConfig, [&](kage::TokenWriter& w) {
+    switch (kind) {
+      case Kind::SHADE:
+        return w.shade(static_cast<std::uint32_t>(a));
+      case Kind::EOL:
+        return w.eol(number(a));
+      case Kind::IF:
+        return w.inside(number(a));
+      case Kind::OP:
+        s.normal_class = number(c);
+        s.z = 0x123456789;
+        s.dz = 0x0FEDCBA98;
+        s.color = {0x11, 0x22, 0x33};
+        return w.op(s);
+      case Kind::SP:
+        s.w = number(c);
+        s.z = 0x11111111;
+        s.dz = 0x22222222;
+        return w.sp(s);
+      case Kind::TP:
+        s.alpha = number(c);
+        s.z = 0x0F1234567;
+        s.dz = 0x0A9876543;
+        s.color = {0x44, 0x55, 0x66};
+        return w.tp(s);
+      case Kind::NC:
+        return w.nc(number(a), number(b), number(c));
+      case Kind::EV:
+        return w.ev(number(a), number(b));
+      default:
+        break;
+    }
+  });
+  if (t.words[0] == 0) t.words[0] = static_cast<std::uint32_t>(kind);
   t.final = kind == Kind::END;
-  t.at_last = true;
   return t;
 }
 

@@ -10,6 +10,7 @@
 #include "Vcheck6.h"
 #include "Vcheck64.h"
 #include "bench.hpp"
+#include "kage/defs.hpp"
 
 using namespace kage::rtl;
 
@@ -23,7 +24,7 @@ struct Shape {
 };
 
 enum Kind { kShade, kFace, kSeg, kTree, kEol, kOther };
-enum Code { kNone = 0, kOrder = 5, kRange = 6, kSegment = 10, kLong = 11, kShort = 12 };
+using Code = kage::ErrorCode;
 
 struct Token {
   Kind kind;
@@ -31,7 +32,7 @@ struct Token {
 };
 
 struct Verdict {
-  Code code = kNone;
+  Code code = Code::NONE;
   int unit = 0;
   std::uint32_t token = 0;
   bool pass = false;  // a segment goes to its unit
@@ -59,33 +60,33 @@ class Rules {
     const Unit* unit = exists ? &units[static_cast<std::size_t>(t.unit)] : nullptr;
     switch (t.kind) {
       case kShade:
-        if (begun) v.code = kOrder;
+        if (begun) v.code = Code::ORDER;
         break;
       case kFace:
         if (begun)
-          v.code = kOrder;
+          v.code = Code::ORDER;
         else if (!exists || t.face != unit->faces || t.face == shape_.blank())
-          v.code = kRange;
+          v.code = Code::RANGE;
         break;
       case kSeg:
         if (begun && !due)
-          v.code = kOrder;
+          v.code = Code::ORDER;
         else if (exists && unit->lines == height)
-          v.code = kOrder;
+          v.code = Code::ORDER;
         else if (!exists)
-          v.code = kRange;
+          v.code = Code::RANGE;
         else
           v.pass = !unit->fault && !fault_of(t);
         break;
       case kTree:
         if (!due)
-          v.code = kOrder;
+          v.code = Code::ORDER;
         else
           judge_tree(v, index);
         break;
       case kEol:
       case kOther:
-        if (due) v.code = kOrder;
+        if (due) v.code = Code::ORDER;
     }
     return v;
   }
@@ -125,12 +126,12 @@ class Rules {
   /// What is wrong with a segment, and for which line.
   std::optional<std::pair<int, Code>> fault_of(const Token& t) const {
     const Unit& unit = units[static_cast<std::size_t>(t.unit)];
-    if (unit.lines > line + 1) return {{line + 1, kLong}};
-    if ((t.sync == 1) != (unit.segments == 0)) return {{unit.lines, kSegment}};
-    if (t.dx == 0) return {{unit.lines, kSegment}};
-    if (t.face != shape_.blank() && t.face >= unit.faces) return {{unit.lines, kSegment}};
-    if (unit.sum + t.dx > width) return {{unit.lines, kLong}};
-    if (unit.segments == shape_.most()) return {{unit.lines, kLong}};
+    if (unit.lines > line + 1) return {{line + 1, Code::UNIT_LONG}};
+    if ((t.sync == 1) != (unit.segments == 0)) return {{unit.lines, Code::SEGMENT}};
+    if (t.dx == 0) return {{unit.lines, Code::SEGMENT}};
+    if (t.face != shape_.blank() && t.face >= unit.faces) return {{unit.lines, Code::SEGMENT}};
+    if (unit.sum + t.dx > width) return {{unit.lines, Code::UNIT_LONG}};
+    if (unit.segments == shape_.most()) return {{unit.lines, Code::UNIT_LONG}};
     return std::nullopt;
   }
 
@@ -144,7 +145,7 @@ class Rules {
     }
     for (int u = 0; u < shape_.units; ++u) {
       if (units[static_cast<std::size_t>(u)].lines > line) continue;
-      v = {kShort, u, index, false};
+      v = {Code::UNIT_SHORT, u, index, false};
       return;
     }
   }
@@ -286,30 +287,30 @@ void check_test(const Shape& s, int frames) {
                         << rules.line);
           REQUIRE(top->tree_o == (rules.tree ? 1 : 0));
           REQUIRE(top->due_o == (rules.due ? 1 : 0));
-          Code code = kNone;
+          Code code = Code::NONE;
           if (top->order_error_o)
-            code = kOrder;
+            code = Code::ORDER;
           else if (top->range_error_o)
-            code = kRange;
+            code = Code::RANGE;
           else if (top->tree_error_o)
             code = static_cast<Code>(top->tree_code_o);
           REQUIRE(code == want.code);
-          if (code >= kSegment) {
+          if (code >= Code::SEGMENT) {
             REQUIRE(top->tree_unit_o == want.unit);
             REQUIRE(top->tree_token_o == want.token);
           }
-          if (t.kind == kSeg && code == kNone) REQUIRE(top->seg_pass_o == (want.pass ? 1 : 0));
+          if (t.kind == kSeg && code == Code::NONE) REQUIRE(top->seg_pass_o == (want.pass ? 1 : 0));
           if (dice.percent(stall)) top.edge();
         } while (dice.percent(stall));
         ++seen[want.code];
-        if (want.code >= kSegment) {
-          if (want.code != kShort && want.token + 1 < index) ++later;
+        if (want.code >= Code::SEGMENT) {
+          if (want.code != Code::UNIT_SHORT && want.token + 1 < index) ++later;
           std::set<int> at_fault;
           for (const auto& fault : rules.faults)
             if (fault.line == rules.line) at_fault.insert(fault.unit);
           if (at_fault.size() > 1) ++crowds;
         }
-        if (want.code != kNone) break;
+        if (want.code != Code::NONE) break;
         if (t.kind == kSeg && !want.pass) ++swallowed;
         rules.take(t, index);
         top->take_i = 1;
@@ -322,8 +323,8 @@ void check_test(const Shape& s, int frames) {
   });
   if (std::getenv("KAGE_SEED") != nullptr) return;
   // The frames were of all kinds.
-  for (const Code code : {kOrder, kRange, kSegment, kLong, kShort}) {
-    INFO("code " << code);
+  for (const Code code : {Code::ORDER, Code::RANGE, Code::SEGMENT, Code::UNIT_LONG, Code::UNIT_SHORT}) {
+    INFO("code " << kage::kErrorNames[static_cast<std::size_t>(code)]);
     REQUIRE(seen[code] > 0);
   }
   REQUIRE(sound > 20);

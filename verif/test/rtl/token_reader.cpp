@@ -9,16 +9,17 @@
 #include "Vtoken_reader4.h"
 #include "Vtoken_reader8.h"
 #include "bench.hpp"
-#include "kage/defs.hpp"
+#include "kage/stream.hpp"
 
 using namespace kage::rtl;
 
 namespace {
 
+using kage::Kind;
 // Words of each kind in the default configuration; 0: it lacks the kind.
-constexpr std::array<int, 16> kWords{0, 1, 0, 0, 0, 0, 4, 4, 1, 1, 1, 0, 1, 0, 1, 1};
-constexpr int kEnd = 15;
-constexpr int kTokenWords = 5;
+constexpr auto kWords = kage::Layout(kage::Config{}).words;
+constexpr int kTokenWords = 5;  // of the module's port: the header's
+static_assert(kTokenWords == kage::kHeaderWords);
 using Words = std::vector<std::uint32_t>;
 
 struct Expected {
@@ -28,18 +29,19 @@ struct Expected {
 };
 
 Words random_frame(Dice& dice, int beat) {
-  static constexpr int kKinds[] = {1, 6, 6, 6, 7, 7, 8, 9, 10, 12, 14};
+  static constexpr Kind kKinds[] = {Kind::SHADE, Kind::OP, Kind::OP, Kind::OP,      Kind::SP, Kind::SP,
+                                    Kind::NC,    Kind::IF, Kind::EV, Kind::RESOLVE, Kind::EOL};
   Words w;
   const auto noise = [&](int n) {
     while (n-- > 0) w.push_back(static_cast<std::uint32_t>(dice.bits(32)));
   };
-  noise(5);
+  noise(kTokenWords);
   for (int n = dice.below(20); n > 0; --n) {
-    const int kind = dice.percent(3) ? dice.below(16) : kKinds[dice.below(11)];
+    const int kind = dice.percent(3) ? dice.below(16) : static_cast<int>(kKinds[dice.below(11)]);
     w.push_back(static_cast<std::uint32_t>(dice.bits(28) << 4) | static_cast<std::uint32_t>(kind));
-    noise(std::max(kWords[static_cast<std::size_t>(kind)] - 1, 0));
+    noise(std::max(static_cast<int>(kWords[static_cast<std::size_t>(kind)]) - 1, 0));
   }
-  w.push_back(kEnd);
+  w.push_back(static_cast<std::uint32_t>(Kind::END));
   if (dice.percent(15)) noise(dice.between(1, 20));
   if (dice.percent(20)) w.resize(static_cast<std::size_t>(dice.between(1, static_cast<int>(w.size()))));
   while (w.size() % static_cast<std::size_t>(beat) != 0) noise(1);
@@ -52,10 +54,10 @@ std::vector<Expected> tokens_of(const Words& w, int beat) {
     const int left = static_cast<int>(w.size() - at);
     const bool header = at == 0;
     const int kind = left > 0 ? static_cast<int>(kage::kind_of(w[at])) : 0;
-    const int known = header ? 5 : kWords[static_cast<std::size_t>(kind)];
+    const int known = header ? kTokenWords : static_cast<int>(kWords[static_cast<std::size_t>(kind)]);
     const int need = std::max(known, 1);
     const bool cut = left < need;
-    const bool end = !cut && !header && kind == kEnd;
+    const bool end = !cut && !header && kind == static_cast<int>(Kind::END);
     const bool at_last = at / static_cast<std::size_t>(beat) == w.size() / static_cast<std::size_t>(beat) - 1;
     out.push_back({at, std::min(left, need), header, !cut && !header && known == 0, cut, cut || end, at_last});
     if (cut || end) return out;
