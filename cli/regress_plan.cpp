@@ -62,6 +62,7 @@ class Round {
     };
     option("--config", c.name);
     option("--seed", std::to_string(seed_ + static_cast<std::uint64_t>(round_)));
+    option("--jobs", "1");  // as the regression runs it: one core gets all frames, so a history of them shows
     if (stalls.idle != 0) option("--idle", std::to_string(stalls.idle));
     if (stalls.backpressure != 0) option("--backpressure", std::to_string(stalls.backpressure));
     arguments.insert(arguments.end(), more_.begin(), more_.end());

@@ -15,7 +15,7 @@ namespace kage::cli {
 struct PlannedRun {
   std::string name;                    ///< "damaged.glass.3": the source, the configuration, the round
   std::string config;                  ///< the configuration's name, or its file's without folders
-  std::vector<std::string> arguments;  ///< of kage cosim, without --out
+  std::vector<std::string> arguments;  ///< of kage cosim, --jobs 1 among them, without --out
 };
 
 /// The runs of round 0, 1, ...: for each configuration sound random frames, damaged ones, both, and one of the built-in

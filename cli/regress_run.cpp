@@ -22,16 +22,16 @@ struct ParsedRun {
   CosimCommand command;
   Action nothing;
 
-  explicit ParsedRun(PlannedRun p, const std::string& out = {}) : plan(std::move(p)) {
+  /// `more` follows on its line.
+  explicit ParsedRun(PlannedRun p, const std::vector<std::string>& more = {}) : plan(std::move(p)) {
     cosim_command(app, command);
     add_explain(app, nothing);  // the page tells its command lines
     std::vector<std::string> line = plan.arguments;
-    if (!out.empty()) line.insert(line.end(), {"--out", out});
+    line.insert(line.end(), more.begin(), more.end());
     line.insert(line.begin(), "cosim");
     std::reverse(line.begin(), line.end());  // as CLI11 takes it
     app.parse(line);
     command.input = command.inputs.front();
-    command.jobs = 1;
   }
 };
 
@@ -107,8 +107,11 @@ report::RunRecord Regress::record() const {
 
 void Regress::repeat(TempFiles& files) {
   Done& d = done_.at(first_);
-  const std::string folder = (std::filesystem::path(o_.out) / d.plan.name).string();
-  ParsedRun again(d.plan, folder);
+  const std::filesystem::path folder = std::filesystem::path(o_.out) / d.plan.name;
+  // Who repeats the run by its line gets a folder beside the evidence: a run removes what an earlier one left in its
+  // own.
+  ParsedRun again(d.plan, {"--out", (folder / "again").string()});
+  again.command.out = folder.string();
   again.command.no_divergence = o_.no_divergence;
   SceneRun scene(again.command, 0);
   scene.prepare(1);
@@ -121,7 +124,7 @@ void Regress::repeat(TempFiles& files) {
     return;
   }
   d.record = std::move(record);
-  folder_ = folder;
+  folder_ = folder.string();
 }
 
 std::optional<std::pair<int, PlannedRun>> Regress::next() {

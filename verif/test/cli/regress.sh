@@ -3,6 +3,27 @@
 # kage regress: the runs of a round, its verdict, what it tells of a difference, and what a signal leaves.
 . "$(dirname "$0")/common.bash"
 
+# counting_rtl FOLDER STATEMENT: a copy of the data whose core counts the frames that have begun to leave, up to 50, in
+# frames_q; `sound` is the pixels that it draws, and STATEMENT what it gives.
+counting_rtl() {
+  data_copy "$1"
+  python3 - "$1/rtl/kage_top.sv" "$2" <<'PY' || fail "the RTL is not what this test edits"
+import re, sys
+path, statement = sys.argv[1:]
+text, ports = re.subn(r"\.m_data_o( *)\(m_axis_tdata_o\)", r".m_data_o\1(sound)", open(path).read())
+logic = f"""  logic [8*CHANNELS-1:0] sound;
+  logic [7:0] frames_q;
+  always_ff @(posedge clk_i)
+    if (!rst_ni) frames_q <= '0;
+    else if (m_axis_tvalid_o && m_axis_tready_i && m_axis_tuser_o && frames_q != 8'd50) frames_q <= frames_q + 8'd1;
+  {statement}
+"""
+text, places = re.subn(r"(?m)^(  logic line_gone, )", lambda m: logic + m[1], text)
+assert ports == places == 1, (ports, places)
+open(path, "w").write(text)
+PY
+}
+
 echo '{MAX_WIDTH: 64, LANES: 4}' >small.yaml
 echo '{MAX_WIDTH: 64, LANES: 4, LIGHTS: 2, COUNT_BITS: 2, CLASS_BITS: 4}' >lights.yaml
 mkdir other
@@ -49,6 +70,24 @@ import json
 a, b = json.load(open("again.json")), json.load(open("1.json"))["scenes"][2]
 assert all(a[k] == b[k] for k in ("frames", "cycles", "pixels_compared", "spans", "config")), (a["cycles"], b["cycles"])
 PY
+
+# A core that is wrong behind 50 frames: two jobs would give none of them so many. The line that repeats the run says so,
+# and what it writes leaves the evidence alone.
+counting_rtl tired "assign m_axis_tdata_o = frames_q == 8'd50 ? ~sound : sound;"
+export KAGE_DATA_DIR=$PWD/tired
+expect 1 "$kage" regress --rounds 2 --config tiny --no-divergence --out tired-out --json tired.json --junit tired.xml
+grep -q '^random.tiny.1: different: ' "$temp/stdout" || fail "50 frames do not tire it: $(cat "$temp/stdout")"
+again=$(sed -n 's/^that run again: \(kage cosim .*\)/\1/p' "$temp/stdout")
+[[ "$again" == *" --out tired-out/random.tiny.1/again "* && "$again" == *" --jobs 1"* ]] || fail "that run again: $again"
+json tired.json "j['scenes'][-1]['again'] == '$again'"
+grep -qF "again: $again" tired.xml || fail "JUnit has another line: $(cat tired.xml)"
+before=$(find tired-out/random.tiny.1 -type f | sort)
+[ "$(wc -l <<<"$before")" -ge 5 ] || fail "no evidence: $before"
+expect 1 ${again/#kage /$kage }
+[ "$(find tired-out/random.tiny.1 -type f -not -path '*/again/*' | sort)" = "$before" ] || fail "the run by its line touches the evidence"
+expect 0 "$kage" regress --list --rounds 2 --config tiny
+[ "$(grep -c -- ' --jobs 1\b' "$temp/stdout")" = 8 ] || fail "--list leaves --jobs 1 out: $(cat "$temp/stdout")"
+unset KAGE_DATA_DIR
 
 # A defect that only shows where a frame comes while the one before it still leaves: random:mixed alone sends such.
 expect 0 "$kage" cosim random --config lights.yaml --frames 60 --fault early_table --no-report --out plain
