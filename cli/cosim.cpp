@@ -88,12 +88,12 @@ int run(const CosimCommand& o) {
   std::optional<ReportLock> lock;
   if (!o.no_report && !o.out.empty()) lock.emplace(o.out);
   check_json(o);
+  check_output(o.ci.junit);
   refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit,
                 o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   const Scenes scenes = open(o);
   compare(scenes, o.jobs > 0 ? o.jobs : default_jobs());
   TempFiles files;
-  JUnitWriter junit(files, o.ci.junit, "kage cosim");
   report::RunRecord record;
   record.several = scenes.size() > 1;
   for (const auto& scene : scenes) {
@@ -103,6 +103,7 @@ int run(const CosimCommand& o) {
   const auto who = [&](const report::SceneRecord& s) { return record.several ? s.scene + ": " : std::string(); };
   if (record.several && !o.no_report && !o.out.empty()) record.page = joined_page(o, record, *scenes.back(), files);
   try {
+    JUnitWriter junit(files, o.ci.junit, "kage cosim");
     for (const report::SceneRecord& s : record.scenes)
       if (s.frames != 0) junit_frames(junit, {&s});
     junit.close();
@@ -110,7 +111,7 @@ int run(const CosimCommand& o) {
   } catch (const Error&) {
     // No file of the run appears, but what it found is told.
     for (const report::SceneRecord& s : record.scenes)
-      if (s.frames != 0 && !json_only(o)) print_verdict(s, who(s));
+      if (s.frames != 0 && !json_only(o)) print_finding(s, who(s));
     throw;
   }
   for (std::size_t i = 0; i < scenes.size(); ++i) {

@@ -22,12 +22,15 @@ std::string pictures_of(const report::SceneRecord& scene, const std::string& fol
 
 void print_difference(const report::DifferenceRecord& d) {
   fmt::print("first difference: {}\n", d.text);
-  if (d.divergence) {
+  if (d.divergence)
     fmt::print("first divergence: {}\n", d.divergence->text);
-    if (d.waveform) fmt::print("waveform: {}; {}\n", *d.waveform, gtkwave_line(d.divergence->save_file.value_or("")));
-  } else if (d.no_divergence) {
+  else if (d.no_divergence)
     fmt::print("{}\n", *d.no_divergence);
-  }
+}
+
+void print_waveform(const report::DifferenceRecord& d) {
+  if (d.waveform && d.divergence)
+    fmt::print("waveform: {}; {}\n", *d.waveform, gtkwave_line(d.divergence->save_file.value_or("")));
 }
 
 /// The frame that was kept, and how to run it again.
@@ -71,6 +74,11 @@ void print_verdict(const report::SceneRecord& s, const std::string& who) {
              counted(s.cycles, "cycle"), s.golden_seconds, s.rtl_seconds, s.seed);
 }
 
+void print_finding(const report::SceneRecord& s, const std::string& who) {
+  print_verdict(s, who);
+  if (s.first_difference) print_difference(*s.first_difference);
+}
+
 void print_report(const report::SceneRecord& s, const std::string& who, const std::string& folder) {
   if (s.frames == 0) {
     fmt::print("{}no frame in this shard\n", who);
@@ -78,7 +86,10 @@ void print_report(const report::SceneRecord& s, const std::string& who, const st
   }
   print_verdict(s, who);
   if (s.coverage) print_coverage(*s.coverage);
-  if (s.first_difference) print_difference(*s.first_difference);
+  if (s.first_difference) {
+    print_difference(*s.first_difference);
+    print_waveform(*s.first_difference);
+  }
   if (s.kept) print_kept(*s.kept);
   if (!s.pictures.empty()) fmt::print("pictures: {}\n", pictures_of(s, folder));
   if (s.page) fmt::print("report: {}\n", *s.page);

@@ -22,6 +22,9 @@ class ReportLock {
 /// The first line of a scene: "same: 8 frames, 640x480, ...". `who` begins it.
 void print_verdict(const report::SceneRecord& scene, const std::string& who);
 
+/// That line, and what differs first, as text alone: what stands although no file of the run appears.
+void print_finding(const report::SceneRecord& scene, const std::string& who);
+
 /// All of it: verdict, coverage, first difference, the frame that was kept, pictures in `folder`, page.
 void print_report(const report::SceneRecord& scene, const std::string& who, const std::string& folder);
 

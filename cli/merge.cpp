@@ -126,6 +126,7 @@ int run(const MergeCommand& o) {
   std::optional<OutFolder> folder;
   if (!o.out.empty()) folder.emplace(o.out);
   check_json(o);
+  check_output(o.junit);
   for (const std::string& input : o.inputs)
     for (const std::string* output : {&o.json, &o.junit})
       if (!output->empty() && *output != "-" && resolved(*output) == resolved(input))

@@ -22,7 +22,8 @@ namespace kage::cli {
 namespace {
 
 /// A case for each run; classname kage.regress.CONFIGURATION.
-void write_junit(JUnitWriter& junit, const report::RunRecord& record) {
+void write_junit(TempFiles& files, const std::string& path, const report::RunRecord& record) {
+  JUnitWriter junit(files, path, "kage regress");
   for (const report::SceneRecord& r : record.scenes) {
     junit.group(r.config_name);
     const double seconds = r.golden_seconds + r.rtl_seconds;
@@ -66,6 +67,40 @@ void print_summary(const report::RunRecord& record) {
              counted(totals.cycles, "cycle"), r.seconds, r.seed);
 }
 
+/// The verdict, and what is known of the run that differs: without its files where those do not appear.
+void print_verdicts(const Regress& regress, const report::RunRecord& record, bool files_appear) {
+  print_summary(record);
+  print_configurations(record);
+  if (regress.same()) return;
+  const report::SceneRecord& d = regress.different();
+  if (files_appear)
+    print_report(d, d.scene + ": ", regress.folder());
+  else
+    print_finding(d, d.scene + ": ");
+  fmt::print("that run again: {}\n", d.again);
+}
+
+/// Page, JUnit and JSON. Throws Error if JUnit or JSON cannot be written: then no file of the regression appears, but
+/// what it found is told. The verdict stands without the page.
+void write_reports(const RegressCommand& o, Regress& regress, report::RunRecord& record, const std::string& page,
+                   TempFiles& files) {
+  try {
+    write_joined_page(files, page, record, !regress.interrupted());
+    record.page = page;
+  } catch (const Interrupted&) {
+    regress.interrupt();
+  } catch (const std::exception& e) {
+    regress.note(fmt::format("no report over all runs was written: {}", e.what()));
+  }
+  try {
+    write_junit(files, o.ci.junit, record);
+    write_json(o, record, files);
+  } catch (const Error&) {
+    if (!json_only(o)) print_verdicts(regress, record, false);
+    throw;
+  }
+}
+
 int run(const RegressCommand& o) {
   if (o.list) {
     Regress(o).list(std::max(1, o.rounds));
@@ -74,30 +109,21 @@ int run(const RegressCommand& o) {
   const OutFolder folder(o.out);
   const ReportLock lock(o.out);
   check_json(o);
+  check_output(o.ci.junit);
   const std::string page = (std::filesystem::path(o.out) / "report.html").string();
   refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit, page});
   Regress regress(o);
   regress.prepare();
   regress.run(o.jobs > 0 ? o.jobs : default_jobs());
   TempFiles files;
-  JUnitWriter junit(files, o.ci.junit, "kage regress");
   regress.look_into(files);
   report::RunRecord record = regress.record();
-  write_joined_page(files, page, record, !regress.interrupted());
-  record.page = page;
-  write_junit(junit, record);
-  write_json(o, record, files);
+  write_reports(o, regress, record, page, files);
   std::FILE* const to = json_only(o) ? stderr : stdout;
   for (const std::string& note : regress.notes()) fmt::print(to, "{}\n", note);
   if (!json_only(o)) {
-    print_summary(record);
-    print_configurations(record);
-    if (!regress.same()) {
-      const report::SceneRecord& d = regress.different();
-      print_report(d, d.scene + ": ", regress.folder());
-      fmt::print("that run again: {}\n", d.again);
-    }
-    fmt::print("report over all runs: {}\n", page);
+    print_verdicts(regress, record, true);
+    if (record.page) fmt::print("report over all runs: {}\n", *record.page);
   }
   if (!regress.same()) annotate_difference(o.ci.annotate, regress.different(), to);
   if (!regress.same()) return kDifferent;

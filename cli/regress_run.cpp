@@ -86,9 +86,15 @@ void Regress::look_into(TempFiles& files) {
   try {
     repeat(files);
   } catch (const Interrupted&) {
-    interrupted_ = true;
-    notes_.emplace_back("interrupted after the verdict");
+    interrupt();
+  } catch (const std::exception& e) {
+    note(fmt::format("{} was not repeated: {}", done_.at(first_).plan.name, e.what()));
   }
+}
+
+void Regress::interrupt() {
+  interrupted_ = true;
+  note("interrupted after the verdict");
 }
 
 report::RunRecord Regress::record() const {

@@ -56,6 +56,10 @@ class Regress {
   /// The run that came out different, once more, with all that kage cosim finds out about it; its lines.
   void look_into(TempFiles& files);
 
+  /// After run(): the verdict stands, but a signal ends what is said about it.
+  void interrupt();
+  void note(std::string text) { notes_.push_back(std::move(text)); }
+
   [[nodiscard]] bool interrupted() const { return interrupted_; }
   [[nodiscard]] bool same() const { return first_ == kNone; }
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }

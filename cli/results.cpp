@@ -29,10 +29,14 @@ Document::Document(std::string_view schema, const Json& value) {
 
 bool json_only(const Options& options) { return options.json == "-"; }
 
-void check_json(const Options& options) {
-  if (options.json.empty() || json_only(options)) return;
+void check_output(const std::string& path) {
+  if (path.empty()) return;
   TempFiles file;
-  const OutputFile probe(file, options.json);
+  const OutputFile probe(file, path);
+}
+
+void check_json(const Options& options) {
+  if (!json_only(options)) check_output(options.json);
 }
 
 void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text) {

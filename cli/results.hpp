@@ -32,7 +32,10 @@ class Document {
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);
 
-/// Throws Error if what --json names cannot be written: before the work, not after it.
+/// Throws Error if a file cannot be written: before the work, not after it. An empty path is none.
+void check_output(const std::string& path);
+
+/// The same of what --json names.
 void check_json(const Options& options);
 
 /// Ends a run: writes `document` where --json says, if it was given, gives all of `files` their names, and prints

@@ -48,6 +48,11 @@ for file in *.xml; do
   grep -q '<testsuite name="[^>]* timestamp=' "$file" && ! grep -q '<testsuite [^>]*  ' "$file" || fail "$file: blanks within its tag"
 done
 
+# A JUnit file that cannot be written is told before the run, and one that fails in the end does not hide the difference.
+trouble "no/x.xml" timeout 60 "$kage" cosim random --frames 1000000 --config tiny --no-report --out unwritten --junit no/x.xml
+expect 2 "$kage" cosim "${run[@]}" --fault wrong_compare --no-divergence --out unwritten --junit /dev/full
+grep -q '^different: ' stdout && grep -q '^first difference: frame 0, ' stdout || fail "the difference is lost: $(cat stdout)"
+
 # A fault: every shard ends with its first difference; the frames behind it are skipped, and the stage's file is named.
 for i in 1 2; do
   expect 1 "$kage" cosim "${run[@]}" --out broken --shard $i/2 --fault wrong_compare --json b$i.json --junit b$i.xml

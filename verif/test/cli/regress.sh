@@ -126,6 +126,28 @@ wait $pid || rc=$?
 grep -q '^same: interrupted after ' "$temp/stdout" || fail "a signal leaves no verdict of what was done: $(cat "$temp/stdout" "$temp/stderr")"
 python3 -c 'import json; j = json.load(open("signalled.json")); assert j["interrupted"] and j["runs"] > 0' || fail "JSON after a signal"
 
+# Where files cannot be written: what can be known at the start is said at the start, and a difference that was found is
+# told however little of it can be written.
+trouble "no/x.xml" timeout 60 "$kage" regress --minutes 60 --config tiny --out nowhere --junit no/x.xml
+for option in --junit --json; do
+  expect 2 "$kage" regress --rounds 1 --config tiny --fault dead_garbage --no-divergence --out full "$option" /dev/full
+  [ "$(wc -l <"$temp/stderr")" = 1 ] && grep -q '^kage: /dev/full: ' "$temp/stderr" || fail "$option /dev/full: $(cat "$temp/stderr")"
+  grep -q '^different: ' "$temp/stdout" && grep -q '^first difference: frame 0, ' "$temp/stdout" && grep -q '^that run again: ' "$temp/stdout" ||
+    fail "$option /dev/full: the difference is lost: $(cat "$temp/stdout")"
+  ! grep -q '^pictures: \|^report: \|^the frame: ' "$temp/stdout" || fail "files are told that did not appear: $(cat "$temp/stdout")"
+done
+mkdir -p paged/report.html
+expect 1 "$kage" regress --rounds 1 --config tiny --fault dead_garbage --no-divergence --out paged --json paged.json --junit paged.xml
+grep -q '^no report over all runs was written: ' "$temp/stdout" && grep -q '^first difference: ' "$temp/stdout" ||
+  fail "without the page: $(cat "$temp/stdout")"
+json paged.json 'j["report"] is None and not j["same"]'
+[ -s paged.xml ] || fail "without the page there is no JUnit"
+mkdir blocked
+touch blocked/random.tiny.0
+expect 1 "$kage" regress --rounds 1 --config tiny --fault dead_garbage --no-divergence --out blocked
+grep -q '^random.tiny.0 was not repeated: ' "$temp/stdout" && grep -q '^first difference: ' "$temp/stdout" ||
+  fail "without a folder for the evidence: $(cat "$temp/stdout")"
+
 # What it refuses, in one line.
 trouble "--config: two configurations are called small" "$kage" regress --config small.yaml --config other/small.yaml --rounds 1
 trouble "nosuch" "$kage" regress --config nosuch --rounds 1
