@@ -66,7 +66,7 @@ class Round {
     if (stalls.idle != 0) option("--idle", std::to_string(stalls.idle));
     if (stalls.backpressure != 0) option("--backpressure", std::to_string(stalls.backpressure));
     arguments.insert(arguments.end(), more_.begin(), more_.end());
-    runs.push_back({std::move(name), short_name(c), std::move(arguments)});
+    runs.push_back({std::move(name), short_name(c), round_, std::move(arguments)});
   }
 
   int round_;

@@ -13,8 +13,9 @@ namespace kage::cli {
 
 /// A run of the regression: what it is called, and the command line of kage cosim that it stands for.
 struct PlannedRun {
-  std::string name;                    ///< "damaged.glass.3": the source, the configuration, the round
-  std::string config;                  ///< the configuration's name, or its file's without folders
+  std::string name;    ///< "damaged.glass.3": the source, the configuration, the round
+  std::string config;  ///< the configuration's name, or its file's without folders
+  int round = 0;
   std::vector<std::string> arguments;  ///< of kage cosim, --jobs 1 among them, without --out
 };
 

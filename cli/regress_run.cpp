@@ -103,7 +103,7 @@ report::RunRecord Regress::record() const {
   for (const auto& [index, d] : done_) all.scenes.push_back(d.record);
   if (all.scenes.empty()) throw Interrupted{};  // nothing else keeps the first run from its end
   all.regress = {.again = command_line(*o_.command),
-                 .rounds = rounds_,
+                 .rounds = done_.rbegin()->second.plan.round + 1,  // of the runs that are told
                  .seed = o_.seed,
                  .seconds = seconds_,
                  .build_seconds = build_seconds_,

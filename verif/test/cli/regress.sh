@@ -106,6 +106,13 @@ assert j["first_difference"]["scene"] == last["scene"] and os.path.exists(last["
 assert len(list(xml.parse("broken.xml").iter("failure"))) == 1
 PY
 
+# What is told of a difference is told of the runs up to it: more jobs begin more runs, and rounds, behind it.
+for jobs in 1 16; do
+  expect 1 "$kage" regress --rounds 5 --config tiny --fault dead_garbage --no-divergence --jobs $jobs --out dead --json dead$jobs.json
+  grep -q '^different: 1 run of 1 round, ' "$temp/stdout" || fail "--jobs $jobs: $(cat "$temp/stdout")"
+  json dead$jobs.json 'j["rounds"] == 1 and j["runs"] == 1'
+done
+
 # Registers: a mutant that pixels do not show.
 number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index("reader_moving") + 1)' "$source/verif/mutants/mutants.yaml")
 expect 1 "$kage" regress --rounds 1 --config tiny --mutant "$number" --out mutant --no-divergence
