@@ -96,12 +96,11 @@ class Data {
     j["same"] = totals.same;
     j["command"] = record_.merged ? "kage merge" : regress ? "kage regress" : "kage cosim";
     j["name"] = names_;
-    j["headline"] =
-        fmt::format("{}{}, {} of {}{}{}, {} compared", regress && regress->interrupted ? "interrupted after " : "",
-                    regress ? counted(record_.scenes.size(), "run") : counted(scenes_.size(), "scene"),
-                    counted(totals.frames, "frame"), totals.total_frames,
-                    record_.merged ? " in " + counted(parts_.size(), "shard") : "", cosim::taken_text(totals.taken),
-                    counted(totals.pixels_compared, "pixel"));
+    j["headline"] = fmt::format("{}{}, {} of {}{}{}, {} compared", regress ? regress->ended() : "",
+                                regress ? counted(record_.scenes.size(), "run") : counted(scenes_.size(), "scene"),
+                                counted(totals.frames, "frame"), totals.total_frames,
+                                record_.merged ? " in " + counted(parts_.size(), "shard") : "",
+                                cosim::taken_text(totals.taken), counted(totals.pixels_compared, "pixel"));
     j["seed"] = regress ? regress->seed : record_.any().seed;
     j["scenes"] = std::move(scenes_);
     j["parts"] = Json::array();

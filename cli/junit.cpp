@@ -46,8 +46,8 @@ JUnitWriter::JUnitWriter(TempFiles& files, std::string path, const std::string& 
 }
 
 void JUnitWriter::write_totals() {
-  const std::string text = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\" time=\"{:.3f}\"",
-                                       tests_, failures_, skipped_, seconds_);
+  const std::string text = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"",
+                                       tests_, failures_, errors_, skipped_, seconds_);
   const std::string rest(kTotalsRoom - std::min(kTotalsRoom, text.size()), ' ');
   *out_ << "<testsuite name=\"" << suite_ << "\" " << text << where_and_when_ << ">" << rest << "\n";
 }
@@ -83,6 +83,13 @@ void JUnitWriter::fail(const std::string& name, double seconds, const std::strin
   open_case(name, seconds, file);
   *out_ << ">\n    <failure type=\"different\" message=\"" << escaped(message) << "\">" << escaped(details)
         << "</failure>\n  </testcase>\n";
+}
+
+void JUnitWriter::error(const std::string& name, const std::string& message) {
+  if (path_.empty()) return;
+  ++errors_;
+  open_case(name, 0);
+  *out_ << ">\n    <error type=\"trouble\" message=\"" << escaped(message) << "\"/>\n  </testcase>\n";
 }
 
 void JUnitWriter::skip(const std::string& name, const std::string& message) {

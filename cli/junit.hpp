@@ -30,6 +30,9 @@ class JUnitWriter {
   void fail(const std::string& name, double seconds, const std::string& message, const std::string& details = "",
             const std::string& file = "");
 
+  /// A case that came to no result; `message` is one line.
+  void error(const std::string& name, const std::string& message);
+
   /// A case that was not run.
   void skip(const std::string& name, const std::string& message);
 
@@ -48,6 +51,7 @@ class JUnitWriter {
   std::streamoff totals_at_ = 0;
   std::uint64_t tests_ = 0;
   std::uint64_t failures_ = 0;
+  std::uint64_t errors_ = 0;
   std::uint64_t skipped_ = 0;
   double seconds_ = 0;
 };

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "ci.hpp"
 #include "command.hpp"
 #include "cosim_print.hpp"
 #include "cosim_run.hpp"
 #include "joined.hpp"
+#include "kage/error.hpp"
 #include "options.hpp"
 #include "regress_run.hpp"
 #include "results.hpp"
@@ -22,7 +24,8 @@ namespace kage::cli {
 namespace {
 
 /// A case for each run; classname kage.regress.CONFIGURATION.
-void write_junit(TempFiles& files, const std::string& path, const report::RunRecord& record) {
+void write_junit(TempFiles& files, const std::string& path, const report::RunRecord& record,
+                 const std::optional<Regress::Trouble>& trouble) {
   JUnitWriter junit(files, path, "kage regress");
   for (const report::SceneRecord& r : record.scenes) {
     junit.group(r.config_name);
@@ -31,6 +34,10 @@ void write_junit(TempFiles& files, const std::string& path, const report::RunRec
       junit_difference(junit, r.scene, seconds, *r.first_difference, r.again);
     else
       junit.pass(r.scene, seconds);
+  }
+  if (trouble) {
+    junit.group(trouble->config);
+    junit.error(trouble->name, trouble->text);
   }
   junit.close();
 }
@@ -61,10 +68,9 @@ void print_configurations(const report::RunRecord& record) {
 void print_summary(const report::RunRecord& record) {
   const report::TotalsRecord totals = record.totals();
   const report::RegressRecord& r = *record.regress;
-  fmt::print("{}: {}{} of {}, {}, {} compared, {}, {:.0f} s, seed {}\n", totals.same ? "same" : "different",
-             r.interrupted ? "interrupted after " : "", counted(record.scenes.size(), "run"),
-             counted(r.rounds, "round"), counted(totals.frames, "frame"), counted(totals.pixels_compared, "pixel"),
-             counted(totals.cycles, "cycle"), r.seconds, r.seed);
+  fmt::print("{}: {}{} of {}, {}, {} compared, {}, {:.0f} s, seed {}\n", totals.same ? "same" : "different", r.ended(),
+             counted(record.scenes.size(), "run"), counted(r.rounds, "round"), counted(totals.frames, "frame"),
+             counted(totals.pixels_compared, "pixel"), counted(totals.cycles, "cycle"), r.seconds, r.seed);
 }
 
 /// The verdict, and what is known of the run that differs: without its files where those do not appear.
@@ -93,7 +99,7 @@ void write_reports(const RegressCommand& o, Regress& regress, report::RunRecord&
     regress.note(fmt::format("no report over all runs was written: {}", e.what()));
   }
   try {
-    write_junit(files, o.ci.junit, record);
+    write_junit(files, o.ci.junit, record, regress.trouble());
     write_json(o, record, files);
   } catch (const Error&) {
     if (!json_only(o)) print_verdicts(regress, record, false);
@@ -127,6 +133,7 @@ int run(const RegressCommand& o) {
   }
   if (!regress.same()) annotate_difference(o.ci.annotate, regress.different(), to);
   if (!regress.same()) return kDifferent;
+  if (regress.trouble()) throw Error(regress.trouble()->text);
   return regress.interrupted() ? interrupted_code() : kSame;
 }
 

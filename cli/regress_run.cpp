@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "cosim_run.hpp"
+#include "kage/error.hpp"
 #include "signals.hpp"
 #include "text.hpp"
 #include "workers.hpp"
@@ -76,9 +77,10 @@ void Regress::run(int jobs) {
     }
   }
   progress_.clear();
-  if (error_) std::rethrow_exception(error_);
-  // Of runs behind the first difference nothing is told: how many there are depends on the threads.
-  done_.erase(done_.upper_bound(first_), done_.end());
+  // Of runs behind the first difference or trouble nothing is told: how many there are depends on the threads.
+  done_.erase(done_.upper_bound(end_), done_.end());
+  if (trouble_ && trouble_->place < first_) first_ = kNone;
+  if (trouble_ && trouble_->place > first_) trouble_.reset();
 }
 
 void Regress::look_into(TempFiles& files) {
@@ -101,13 +103,15 @@ report::RunRecord Regress::record() const {
   report::RunRecord all;
   all.several = true;
   for (const auto& [index, d] : done_) all.scenes.push_back(d.record);
+  if (all.scenes.empty() && trouble_) throw Error(trouble_->text);
   if (all.scenes.empty()) throw Interrupted{};  // nothing else keeps the first run from its end
   all.regress = {.again = command_line(*o_.command),
                  .rounds = done_.rbegin()->second.plan.round + 1,  // of the runs that are told
                  .seed = o_.seed,
                  .seconds = seconds_,
                  .build_seconds = build_seconds_,
-                 .interrupted = interrupted_};
+                 .interrupted = interrupted_,
+                 .trouble = trouble_ ? std::optional(trouble_->text) : std::nullopt};
   return all;
 }
 
@@ -135,7 +139,7 @@ void Regress::repeat(TempFiles& files) {
 
 std::optional<std::pair<int, PlannedRun>> Regress::next() {
   const std::lock_guard lock(mutex_);
-  if (stopped_ || first_ != kNone || time_is_over()) return std::nullopt;
+  if (stopped_ || end_ != kNone || time_is_over()) return std::nullopt;
   if (at_ == round_.size()) {
     if (o_.rounds != 0 && rounds_ == o_.rounds) return std::nullopt;
     round_ = plan_round(configs_, rounds_++, o_.seed, more_);
@@ -146,14 +150,18 @@ std::optional<std::pair<int, PlannedRun>> Regress::next() {
 
 void Regress::work() {
   try {
-    while (auto job = next()) run_one(job->first, std::move(job->second));
+    while (auto job = next()) {
+      const auto& [place, plan] = *job;
+      try {
+        run_one(place, plan);
+      } catch (const std::exception& e) {
+        end_by({place, plan.name, plan.config,
+                fmt::format("{} (configuration {}): {}", plan.name, plan.config, e.what())});
+      }
+    }
   } catch (const Interrupted&) {
     const std::lock_guard lock(mutex_);
     interrupted_ = stopped_ = true;
-  } catch (...) {
-    const std::lock_guard lock(mutex_);
-    if (!error_) error_ = std::current_exception();
-    stopped_ = true;
   }
   const std::lock_guard lock(mutex_);
   seconds_ = seconds();
@@ -161,12 +169,20 @@ void Regress::work() {
   changed_.notify_all();
 }
 
+/// The runs before it go on: one of them may have trouble, or differ.
+void Regress::end_by(Trouble trouble) {
+  const std::lock_guard lock(mutex_);
+  if (trouble_ && trouble_->place < trouble.place) return;
+  end_ = std::min(end_.load(), trouble.place);
+  trouble_ = std::move(trouble);
+}
+
 void Regress::run_one(int index, PlannedRun plan) {
   ParsedRun run(std::move(plan));
   run.command.out.clear();
   run.command.no_report = run.command.no_divergence = run.command.silent = true;
   run.command.threads = 1;  // of this run; the others have the processors
-  run.command.enough = [this, index] { return time_is_over() || index > first_; };
+  run.command.enough = [this, index] { return time_is_over() || index > end_; };
   SceneRun scene(run.command, 0);
   scene.prepare(1);
   scene.run(0);
@@ -177,7 +193,10 @@ void Regress::run_one(int index, PlannedRun plan) {
   record.frame_seconds.clear();
   const std::lock_guard lock(mutex_);
   frames_ += static_cast<std::uint64_t>(record.frames);
-  if (!record.same && index < first_) first_ = index;
+  if (!record.same) {
+    first_ = std::min(first_, index);
+    end_ = std::min(end_.load(), index);
+  }
   done_.emplace(index, Done{std::move(run.plan), std::move(record)});
 }
 

@@ -8,7 +8,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
-#include <exception>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -50,8 +49,18 @@ class Regress {
   /// Builds what models are missing; then the time begins.
   void prepare();
 
-  /// All runs, on so many threads.
+  /// All runs, on so many threads. The first difference ends them, and so does the first trouble.
   void run(int jobs);
+
+  /// A run that came to no verdict.
+  struct Trouble {
+    int place;  ///< of the run
+    std::string name;
+    std::string config;
+    std::string text;  ///< with the names
+  };
+  /// What ended the runs, if it was trouble: then what else is told is of the runs before it.
+  [[nodiscard]] const std::optional<Trouble>& trouble() const { return trouble_; }
 
   /// The run that came out different, once more, with all that kage cosim finds out about it; its lines.
   void look_into(TempFiles& files);
@@ -66,7 +75,7 @@ class Regress {
   [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] const report::SceneRecord& different() const { return done_.at(first_).record; }
 
-  /// What was run, and what came of it.
+  /// What was run, and what came of it. Throws Error where trouble ended the very first run.
   [[nodiscard]] report::RunRecord record() const;
 
  private:
@@ -84,6 +93,7 @@ class Regress {
   std::optional<std::pair<int, PlannedRun>> next();
   void work();
   void run_one(int index, PlannedRun plan);
+  void end_by(Trouble trouble);
 
   const RegressCommand& o_;
   std::vector<NamedConfig> configs_;
@@ -104,10 +114,11 @@ class Regress {
   int ended_threads_ = 0;
   std::map<int, Done> done_;
   std::uint64_t frames_ = 0;
-  std::atomic<int> first_{kNone};  // the first run that came out different
+  int first_ = kNone;  // the first run that came out different
+  std::optional<Trouble> trouble_;
+  std::atomic<int> end_{kNone};  // the lower place of both: runs behind it are not wanted
   bool stopped_ = false;
   bool interrupted_ = false;
-  std::exception_ptr error_;
 };
 
 }  // namespace kage::cli

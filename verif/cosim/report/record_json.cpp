@@ -134,6 +134,7 @@ Json to_json(const RunRecord& record) {
     j["rounds"] = r->rounds;
     j["seconds"] = r->seconds;
     j["interrupted"] = r->interrupted;
+    j["trouble"] = written(r->trouble);
   }
   if (record.several || record.merged) j["report"] = written(record.page);
   return j;

@@ -209,6 +209,7 @@ RegressRecord regress_of(const Json& j) {
   take(r.seconds, at(j, "seconds"), "seconds");
   take(r.build_seconds, at(j, "build_seconds"), "build_seconds");
   take(r.interrupted, at(j, "interrupted"), "interrupted");
+  if (j.contains("trouble")) take(r.trouble, j["trouble"], "trouble");
   return r;
 }
 

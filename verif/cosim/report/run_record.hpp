@@ -202,6 +202,12 @@ struct RegressRecord {
   double seconds = 0;
   double build_seconds = 0;
   bool interrupted = false;
+  std::optional<std::string> trouble;  ///< a run that came to no verdict ended it: which, and why
+
+  /// What headlines say before the number of runs: "interrupted after ", or nothing where all went its way.
+  [[nodiscard]] const char* ended() const {
+    return trouble ? "ended by trouble after " : interrupted ? "interrupted after " : "";
+  }
 };
 
 /// Sums over scenes that have frames.

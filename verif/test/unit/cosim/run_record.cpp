@@ -165,8 +165,15 @@ TEST_CASE("a record is read as it was written") {
   regress.several = true;
   regress.scenes = {some_scene("random.glass.0")};
   regress.page = "out/report.html";
-  regress.regress = {
-      .again = "kage regress", .rounds = 1, .seed = 5, .seconds = 0.75, .build_seconds = 2, .interrupted = true};
+  regress.regress = {.again = "kage regress",
+                     .rounds = 1,
+                     .seed = 5,
+                     .seconds = 0.75,
+                     .build_seconds = 2,
+                     .interrupted = true,
+                     .trouble = std::nullopt};
+  holds(regress, "kage.regress/1");
+  regress.regress->trouble = "random.glass.1 (configuration glass): out of memory";
   holds(regress, "kage.regress/1");
 }
 
