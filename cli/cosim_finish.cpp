@@ -171,6 +171,7 @@ report::SceneRecord SceneRun::record_of(const cosim::Report& r) const {
   record.frame_step = steps_.step;
   if (o_.ci.shard.given) record.shard = {o_.ci.shard.index, o_.ci.shard.count};
   record.options = options_of(o_);
+  record.own_sizes = source.is_random() || source.is_stream();
   record.units = static_cast<std::uint64_t>(source.units());
   record.ways = source.ways();
   record.verdicts = verdicts_of(r);

@@ -44,19 +44,6 @@ void print_kept(const report::KeptRecord& kept) {
     fmt::print("alone, on a new core, it comes out the same: it takes the frames before it, or stalls of its place\n");
 }
 
-/// What the frames reached, and what none did.
-void print_coverage(const report::CoverageRecord& coverage) {
-  std::string group;
-  for (const report::CoveragePointRecord& p : coverage.points) {
-    if (p.group != group) fmt::print("{}:\n", group = p.group);
-    fmt::print("  {:<50} {}\n", p.name,
-               p.frames == 0
-                   ? std::string("not reached")
-                   : fmt::format("{} of {} ({:.1f} %)", p.frames, counted(coverage.frames, "frame"),
-                                 100.0 * static_cast<double>(p.frames) / static_cast<double>(coverage.frames)));
-  }
-}
-
 }  // namespace
 
 ReportLock::ReportLock(const std::string& folder) : lock_(folder, O_RDONLY | O_DIRECTORY) {
@@ -74,6 +61,18 @@ void print_verdict(const report::SceneRecord& s, const std::string& who) {
              counted(s.cycles, "cycle"), s.golden_seconds, s.rtl_seconds, s.seed);
 }
 
+void print_coverage(const report::CoverageRecord& coverage, const std::string& who) {
+  std::string group;
+  for (const report::CoveragePointRecord& p : coverage.points) {
+    if (p.group != group) fmt::print("{}{}:\n", who, group = p.group);
+    fmt::print("  {:<50} {}\n", p.name,
+               p.frames == 0
+                   ? std::string("not reached")
+                   : fmt::format("{} of {} ({:.1f} %)", p.frames, counted(coverage.frames, "frame"),
+                                 100.0 * static_cast<double>(p.frames) / static_cast<double>(coverage.frames)));
+  }
+}
+
 void print_finding(const report::SceneRecord& s, const std::string& who) {
   print_verdict(s, who);
   if (s.first_difference) print_difference(*s.first_difference);
@@ -85,7 +84,7 @@ void print_report(const report::SceneRecord& s, const std::string& who, const st
     return;
   }
   print_verdict(s, who);
-  if (s.coverage) print_coverage(*s.coverage);
+  if (s.coverage) print_coverage(*s.coverage, "");
   if (s.first_difference) {
     print_difference(*s.first_difference);
     print_waveform(*s.first_difference);

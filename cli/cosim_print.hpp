@@ -25,6 +25,9 @@ void print_verdict(const report::SceneRecord& scene, const std::string& who);
 /// That line, and what differs first, as text alone: what stands although no file of the run appears.
 void print_finding(const report::SceneRecord& scene, const std::string& who);
 
+/// What the frames reached, and what none did; `who` begins the line of each group.
+void print_coverage(const report::CoverageRecord& coverage, const std::string& who);
+
 /// All of it: verdict, coverage, first difference, the frame that was kept, pictures in `folder`, page.
 void print_report(const report::SceneRecord& scene, const std::string& who, const std::string& folder);
 

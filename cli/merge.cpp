@@ -11,6 +11,7 @@
 #include "ci.hpp"
 #include "command.hpp"
 #include "cosim/recall.hpp"
+#include "cosim_print.hpp"
 #include "joined.hpp"
 #include "junit.hpp"
 #include "kage/error.hpp"
@@ -65,6 +66,20 @@ void take_verdicts(report::VerdictsRecord& all, const report::VerdictsRecord& v)
   if (!all.trouble) all.trouble = v.trouble;
 }
 
+/// A point that one shard reaches and another does not is reached.
+void take_coverage(std::optional<report::CoverageRecord>& all, const report::CoverageRecord& c) {
+  if (!all) all.emplace();
+  all->frames += c.frames;
+  for (const report::CoveragePointRecord& p : c.points) {
+    const auto same = [&](const report::CoveragePointRecord& q) { return q.group == p.group && q.name == p.name; };
+    const auto found = std::find_if(all->points.begin(), all->points.end(), same);
+    if (found == all->points.end())
+      all->points.push_back(p);
+    else
+      found->frames += p.frames;
+  }
+}
+
 /// All shards' records of a scene as the record of one run. Polyhedra, which each shard tells of in its own frames,
 /// stay with it, in `shards`.
 report::SceneRecord merged(const std::vector<Part>& parts) {
@@ -73,8 +88,7 @@ report::SceneRecord merged(const std::vector<Part>& parts) {
   all.joined = true;
   all.scene = any.scene;
   all.total_frames = any.total_frames;
-  all.width = any.width;
-  all.height = any.height;
+  all.own_sizes = any.own_sizes;
   all.options = any.options;
   all.config_name = any.config_name;
   all.config = any.config;
@@ -83,6 +97,9 @@ report::SceneRecord merged(const std::vector<Part>& parts) {
   for (const auto& [shard, s] : parts) {
     all.same = all.same && s.same;
     all.frames += s.frames;
+    all.sizes_vary = all.sizes_vary || s.sizes_vary || s.width != any.width || s.height != any.height;
+    all.width = std::max(all.width, s.width);
+    all.height = std::max(all.height, s.height);
     all.pixels_compared += s.pixels_compared;
     all.spans += s.spans;
     all.span_pixels += s.span_pixels;
@@ -94,6 +111,7 @@ report::SceneRecord merged(const std::vector<Part>& parts) {
     take_seconds(all, s);
     all.each.insert(all.each.end(), s.each.begin(), s.each.end());
     take_verdicts(all.verdicts, s.verdicts);
+    if (s.coverage) take_coverage(all.coverage, *s.coverage);
     all.golden_seconds += s.golden_seconds;
     all.rtl_seconds += s.rtl_seconds;
     all.build_seconds += s.build_seconds;
@@ -163,9 +181,12 @@ int run(const MergeCommand& o) {
   fmt::print("{}: {}{} of {} in {}{}, {}{} compared, {}, seed {}\n", totals.same ? "same" : "different",
              all.several ? counted(count, "scene") + ", " : "", counted(totals.frames, "frame"), totals.total_frames,
              counted(shards.size(), "shard"), cosim::taken_text(totals.taken),
-             all.several ? "" : fmt::format("{}x{}, ", any.width, any.height), counted(totals.pixels_compared, "pixel"),
-             counted(totals.cycles, "cycle"), any.seed);
-  for (const report::SceneRecord& scene : all.scenes) print_shards(scene, all.several ? scene.scene + ", " : "");
+             all.several ? "" : fmt::format("{}{}x{}, ", any.sizes_vary ? "up to " : "", any.width, any.height),
+             counted(totals.pixels_compared, "pixel"), counted(totals.cycles, "cycle"), any.seed);
+  for (const report::SceneRecord& scene : all.scenes) {
+    if (scene.coverage) print_coverage(*scene.coverage, all.several ? scene.scene + ", " : "");
+    print_shards(scene, all.several ? scene.scene + ", " : "");
+  }
   if (all.page) fmt::print("report: {}\n", *all.page);
   return totals.same ? kSame : kDifferent;
 }

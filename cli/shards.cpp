@@ -103,8 +103,12 @@ void check_alike(const ShardFile& f, const std::vector<ShardFile>& before) {
     const auto other =
         std::find_if(before.begin(), before.end(), [&](const ShardFile& b) { return b.record.scenes[i].frames != 0; });
     if (s.frames == 0 || other == before.end()) continue;
-    same("width", *other, &R::width);
-    same("height", *other, &R::height);
+    // Width and height are those of the shard's largest frame: of frames of any size they say nothing.
+    same("own_sizes", *other, &R::own_sizes);
+    if (!s.own_sizes) {
+      same("width", *other, &R::width);
+      same("height", *other, &R::height);
+    }
     same("config", *other, &R::config);
     same("seed", *other, &R::seed);
     same("options", *other, &R::options);

@@ -174,6 +174,7 @@ void keys(V& v, Of<SceneRecord>) {
   v("width", &R::width);
   v("height", &R::height);
   if (!joined) v("sizes_vary", &R::sizes_vary);
+  v.if_there("own_sizes", &R::own_sizes);
   v("pixels_compared", &R::pixels_compared);
   v("spans", &R::spans);
   v("span_pixels", &R::span_pixels);

@@ -170,7 +170,8 @@ struct SceneRecord : PartRecord {
   std::uint64_t seed = 0;
   int width = 0;            ///< of the widest frame
   int height = 0;           ///< of the highest one
-  bool sizes_vary = false;  ///< not known of a joined one
+  bool sizes_vary = false;  ///< JSON of a joined one does not say
+  bool own_sizes = false;   ///< frames bring their sizes, as random ones do, and those of a stream file
   std::uint64_t pixels_compared = 0;
   std::uint64_t spans = 0;
   std::uint64_t span_pixels = 0;

@@ -41,6 +41,16 @@ expect 1 "$kage" cosim random:damaged --frames 200 --config small.yaml --fault l
 json l.json 'j["kept"]["words"] <= j["kept"]["words_before"]'
 expect 0 "$kage" info "$(python3 -c 'import json; print(json.load(open("l.json"))["kept"]["file"])')"
 
+# Shards, each with its own largest frame: joined they are the whole run, coverage too.
+expect 0 "$kage" cosim random --config tiny --frames 41 --coverage --no-report --out whole --json whole.json
+for i in 1 2 3; do
+  expect 0 "$kage" cosim random --config tiny --frames 41 --coverage --no-report --out whole --shard $i/3 --json part$i.json
+done
+json part1.json '[j["width"], j["height"]] != (lambda k: [k["width"], k["height"]])(json.load(open("part2.json")))'
+expect 0 "$kage" merge part2.json part3.json part1.json --json joined.json
+grep -q '^same: 41 frames of 41 in 3 shards, up to ' stdout && grep -q '^token:$' stdout || fail "joined: $(cat stdout)"
+json joined.json 'all(j[k] == json.load(open("whole.json"))[k] for k in ("width", "height", "pixels_compared", "spans", "coverage"))'
+
 for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" --cull "--alpha 0.5" --allow-outside; do
   # shellcheck disable=SC2086
   trouble "random: ${option%% *}: random frames " "$kage" cosim random $option

@@ -70,7 +70,7 @@ def good(name, document):
 
 # Keys that are not always there, some in one place only, and objects whose keys are names: of parameters, phases, kinds of tokens,
 # configurations, or of a model's manifest, which is shown as it is.
-SOMETIMES = {"coverage", "scenes", "configs", "faults", "left", "bytes"}
+SOMETIMES = {"own_sizes", "ahead", "takes", "in_place", "coverage", "scenes", "configs", "faults", "left", "bytes"}
 SOMETIMES_IN = {
     ("", "clocks"),
     ("models/*", "damage"),

@@ -71,6 +71,7 @@ report::SceneRecord some_scene(const std::string& name) {
   s.width = 64;
   s.height = 48;
   s.sizes_vary = true;
+  s.own_sizes = true;
   s.pixels_compared = 6144;
   s.spans = 77;
   s.span_pixels = 777;
