@@ -29,11 +29,21 @@ struct Piece {
   struct End {
     FrameEnd expected;
     TokenCounts counts;
-    std::unique_ptr<FramePicture> picture;  // complete, and without its name
+    std::unique_ptr<FramePicture> picture;  // without its name
+    Lines undrawn;                          // of the picture, which is complete without them or needs them all
+
+    /// To be called for a picture that is wanted.
+    void draw() {
+      if (!picture) return;
+      for (; !undrawn.empty(); undrawn.pop()) picture->line(undrawn.front());
+      picture->close();
+    }
   };
   std::optional<End> end;  // the frame ends here
 
-  [[nodiscard]] std::size_t bytes() const { return words.size() * sizeof words[0] + lines.bytes(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return words.size() * sizeof words[0] + lines.bytes() + (end ? end->undrawn.bytes() : 0);
+  }
 };
 
 /// A core in a frame that is compared.
@@ -123,7 +133,9 @@ class Comparer {
       if (report_.first_difference) report_.first_difference->other_state = true;
     }
     FrameResult result{frame, e.status, end.counts, a.cycles, a.stalls, a.phase_stalls, {}};
-    const bool shown = end.picture && end.picture->drawn() && (options_.all_pictures || report_.first_difference);
+    const bool wanted = options_.all_pictures || report_.first_difference;
+    if (wanted && !options_.all_pictures) end.draw();
+    const bool shown = wanted && end.picture && end.picture->drawn();
     if (shown) result.picture = end.picture->path().string();
     report_.add(result, e.seconds, a.seconds);
     if (shown) {
@@ -278,9 +290,14 @@ void lead(int frames, const Feed& feed, Core& expected, const RunOptions& option
     std::unique_ptr<FramePicture> picture;
     if (!options.out.empty() && !before)
       picture = std::make_unique<FramePicture>(options.out / fmt::format("{}_{:04}.png", options.name, i));
+    Lines undrawn;
     const LineSink line = [&](int, std::span<const std::uint8_t> pixels) {
       piece.lines.add(pixels);
-      if (picture) picture->line(pixels);
+      if (!picture) return;
+      if (options.all_pictures)
+        picture->line(pixels);
+      else
+        undrawn.add(pixels);  // a file for each of thousands of small frames takes far longer than their pixels
     };
     const TokenCounts counts = feed(i, [&](std::span<const std::uint32_t> words) {
       piece.words.assign(words.begin(), words.end());
@@ -289,8 +306,8 @@ void lead(int frames, const Feed& feed, Core& expected, const RunOptions& option
       hand_on(piece);
     });
     const FrameEnd end = expected.finish(line);
-    if (picture) picture->close();
-    piece.end = Piece::End{end, counts, std::move(picture)};
+    piece.end = Piece::End{end, counts, std::move(picture), std::move(undrawn)};
+    if (options.all_pictures) piece.end->draw();
     hand_on(piece);
   }
 }

@@ -51,9 +51,10 @@ struct RunOptions {
   FrameSteps steps;            ///< of the frames
   int before = 0;  ///< so many of the steps before the first are run as well and not compared: a frame finds in the
                    ///< core what those left there
-  bool refusals = false;                 ///< a frame that both cores refuse in its header counts as compared
-  bool all_pictures = true;              ///< false: those of the first difference alone
-  bool two_threads = true;               ///< the second core works beside the first
+  bool refusals = false;     ///< a frame that both cores refuse in its header counts as compared
+  bool all_pictures = true;  ///< false: those of the first difference alone, and no file is written for any other; the
+                             ///< lines of the frame at hand are in memory then
+  bool two_threads = true;   ///< the second core works beside the first
   Core* other_state = nullptr;           ///< the actual core with another initial state: it gets the first frame too
   std::function<void(int frame)> begin;  ///< called before each frame is fed; may throw, which ends the run
   std::function<void(const FrameResult&)> same;  ///< called behind each frame that was compared and is the same, in the
