@@ -64,7 +64,15 @@ void FrameComparison::actual(std::span<const std::uint8_t> line) {
   if (expected_.front().empty()) expected_.pop_front();
 }
 
-std::optional<Difference> FrameComparison::finish(const FrameEnd& e, const FrameEnd& a) const {
+std::optional<Difference> FrameComparison::finish(const FrameEnd& expected, const FrameEnd& actual) const {
+  std::optional<Difference> d = first_of(expected, actual);
+  if (!d) return d;
+  d->before = actual.before;
+  d->ahead = actual.ahead_wrong && d->field == "port";
+  return d;
+}
+
+std::optional<Difference> FrameComparison::first_of(const FrameEnd& e, const FrameEnd& a) const {
   const FrameStatus& es = e.status;
   const FrameStatus& as = a.status;
   const auto whole = [&](int line, const char* field, std::int64_t want, std::int64_t got) {

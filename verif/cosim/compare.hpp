@@ -23,9 +23,11 @@ struct Difference {
                       ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion" (of the RTL)
   std::int64_t expected = 0;
   std::int64_t actual = 0;
-  std::string remark;        ///< more in words, or empty
-  std::string assertion;     ///< the RTL's that ended the frame, "rtl/frame_control.sv:312", or empty
-  bool other_state = false;  ///< seen from RunOptions::other_state alone: the run's own core has the frame right
+  std::string remark;               ///< more in words, or empty
+  std::string assertion;            ///< the RTL's that ended the frame, "rtl/frame_control.sv:312", or empty
+  bool other_state = false;         ///< seen from RunOptions::other_state alone: the run's own core has the frame right
+  Before before = Before::nothing;  ///< this frame
+  bool ahead = false;               ///< this frame is right: the one right ahead of it has wrong pixels
 };
 
 /// Lines of one length, one after the other. Neighbours that are the same take room once, so the background that
@@ -65,13 +67,15 @@ class FrameComparison {
 
   /// Both frames have ended. Nothing where all agree. After assertion() what the actual one says of its frame is
   /// nothing.
-  std::optional<Difference> finish(const FrameEnd& expected, const FrameEnd& actual) const;
+  [[nodiscard]] std::optional<Difference> finish(const FrameEnd& expected, const FrameEnd& actual) const;
 
   /// After finish(): what the actual core drew, given what the expected one did; the same above the first difference,
   /// and black where pixels are missing.
   [[nodiscard]] Image actual_image(const Image& expected) const;
 
  private:
+  [[nodiscard]] std::optional<Difference> first_of(const FrameEnd& expected, const FrameEnd& actual) const;
+
   int frame_;
   int channels_;
   bool keep_;

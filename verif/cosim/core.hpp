@@ -19,14 +19,20 @@ namespace kage::cosim {
 /// For lines that nobody looks at.
 inline const LineSink kNowhere = [](int, std::span<const std::uint8_t>) {};
 
-/// Misconduct of a core that was given another frame right ahead of this one (RtlOptions::prelude).
-inline constexpr const char* kAheadWrong = "the frame right ahead of this one has wrong pixels";
+/// What RtlOptions::prelude let come right before a frame.
+enum class Before {
+  nothing,
+  reset,  ///< within another frame, or behind it
+  frame   ///< another one, that was still in the core
+};
 
 /// How a core ended a frame.
 struct FrameEnd {
   FrameStatus status;
-  std::string misconduct;      ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
-  double seconds = 0;          ///< wall time inside the core
+  std::string misconduct;  ///< what was wrong with how the pixels came: "TLAST wrong on 2 pixels"; empty if nothing
+  double seconds = 0;      ///< wall time inside the core
+  Before before = Before::nothing;
+  bool ahead_wrong = false;    ///< that other frame has wrong pixels: `misconduct` says so
   std::uint64_t cycles = 0;    ///< core clock edges; 0 for a core without clock
   Stalls stalls;               ///< clocks of them that were lost
   PhaseStalls phase_stalls{};  ///< which of those in which phase

@@ -283,7 +283,7 @@ std::string describe(const Divergence& d) {
 }
 
 std::string describe_none(const Difference& difference) {
-  if (difference.remark.find(kAheadWrong) != std::string::npos)
+  if (difference.before == Before::frame)
     return "no stage differs where the frame ahead has ended before: it takes both in the core at the same time";
   return difference.assertion.empty() ? "no stage differs: look at the registers and the video port"
                                       : "no stage differs: look at what the assertion guards";

@@ -153,6 +153,7 @@ class Rtl : public RtlCore {
 
   /// What RtlOptions::prelude says of the frame at hand.
   void prelude() {
+    before_ = Before::nothing;
     ahead_ = 0;
     earlier_.clear();
     earlier_wrong_ = 0;
@@ -175,6 +176,7 @@ class Rtl : public RtlCore {
 
   /// A reset within a frame, or behind it.
   void cut(std::uint64_t chance) {
+    before_ = Before::reset;
     table_->record(model_, 0);
     (void)submit_earlier();
     (void)checked(table_->run(model_, kForever, chance % 2048));
@@ -186,6 +188,7 @@ class Rtl : public RtlCore {
 
   /// A frame ahead of the one at hand, which does not wait for its end.
   void follow() {
+    before_ = Before::frame;
     if (recording_) table_->record(model_, 0);
     const std::vector<std::uint32_t> words = submit_earlier();
     (void)GoldenCore(config_).frame(words, [&](int, std::span<const std::uint8_t> line) {
@@ -261,7 +264,9 @@ class Rtl : public RtlCore {
 
     kage_rtl_stats stats{};
     table_->stats(model_, &stats);
-    if (trouble.empty() && (earlier_wrong_ != 0 || !earlier_.empty())) trouble = kAheadWrong;
+    end.before = before_;
+    end.ahead_wrong = trouble.empty() && (earlier_wrong_ != 0 || !earlier_.empty());
+    if (end.ahead_wrong) trouble = "the frame right ahead of this one has wrong pixels";
     end.misconduct = misconduct(stats, trouble);
     end.cycles = stats.cycles;
     static_assert(std::tuple_size_v<PhaseStalls> == KAGE_RTL_MARKS);
@@ -364,7 +369,8 @@ class Rtl : public RtlCore {
   std::vector<kage_rtl_event> events_;  // the last ones taken
   std::function<void()> often_;
 
-  // Of the frame ahead of the one at hand:
+  // Of what comes right before the frame at hand:
+  Before before_ = Before::nothing;
   std::uint32_t ahead_ = 0;            // 1: there is one whose end was not seen yet
   std::vector<std::uint8_t> earlier_;  // its pixels to come, as the golden core has them
   int earlier_wrong_ = 0;              // pieces of them that came otherwise

@@ -51,6 +51,12 @@ expect 0 "$kage" merge part2.json part3.json part1.json --json joined.json
 grep -q '^same: 41 frames of 41 in 3 shards, up to ' stdout && grep -q '^token:$' stdout || fail "joined: $(cat stdout)"
 json joined.json 'all(j[k] == json.load(open("whole.json"))[k] for k in ("width", "height", "pixels_compared", "spans", "coverage"))'
 
+# What takes two frames in the core at once is not located, and the output says so, whichever of them has wrong pixels.
+mixed=("$kage" cosim random:mixed --config small.yaml --fault lost_token --idle 30 --backpressure 30)
+expect 1 "${mixed[@]}" --seed 5 --out mixed --json behind.json
+json behind.json 'j["first_difference"]["frame"] == 0 and j["first_difference"]["line"] == 0'
+grep -q '^no stage differs where the frame ahead has ended before: ' stdout || fail "where to look: $(cat stdout)"
+
 for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" --cull "--alpha 0.5" --allow-outside; do
   # shellcheck disable=SC2086
   trouble "random: ${option%% *}: random frames " "$kage" cosim random $option
