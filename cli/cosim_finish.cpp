@@ -25,11 +25,12 @@ void remove_old_evidence(TempFiles& files, const std::string& folder, const std:
   namespace fs = std::filesystem;
   if (folder.empty()) return;
   std::vector<std::string> ends{"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"};
-  if (random) ends.insert(ends.end(), {".png", ".kage"});
+  if (random) ends.insert(ends.end(), {".png", ".kage", "_ahead.kage"});
   for (int i = 0; i < r.frames; ++i)
     for (const std::string& end : ends) {
       const int frame = steps.first + i * steps.step;
-      if (end == ".kage" && r.first_difference && r.first_difference->frame == frame) continue;  // it is written anew
+      const auto& d = r.first_difference;
+      if (d && d->frame == frame && end == kept_ending(*d)) continue;  // it is written anew
       const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, frame, end);
       std::error_code ec;
       const fs::file_type type = fs::symlink_status(path, ec).type();

@@ -44,11 +44,12 @@ bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words) const {
   return !cosim::run(1, feed, *golden, *rtl, options).same;
 }
 
-/// Writes the frame to a stream file, as small as it can be made and still comes out different on a new core.
+/// Writes the frame that is wrong to a stream file, as small as it can be made and still comes out different on a new
+/// core.
 report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Difference& difference) {
   const int frame = difference.frame;
   const Config& config = source_->config();
-  const std::vector<std::uint32_t> words = source_->words(frame);
+  const std::vector<std::uint32_t> words = difference.ahead ? o_.rtl.options.prelude(frame) : source_->words(frame);
   const ErrorCode error = error_of(config, words);
   // Another error is something else, which the frame need not have been kept for.
   const auto differs = [&](const std::vector<std::uint32_t>& w) {
@@ -65,7 +66,8 @@ report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Differenc
   if (alone && !o_.no_shrink) small = verif::shrink(config, words, differs, more);
   progress_.clear();
   const std::string path =
-      (std::filesystem::path(o_.out) / fmt::format("{}_{:04}.kage", source_->name(), frame)).string();
+      (std::filesystem::path(o_.out) / fmt::format("{}_{:04}{}", source_->name(), frame, kept_ending(difference)))
+          .string();
   StreamFileWriter writer(path, config);
   writer.begin_port_frame();
   writer.words(small);
@@ -80,6 +82,7 @@ report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Differenc
     if (const CLI::Option* option = o_.command->get_option(name); option->count() != 0)
       again += fmt::format(" {} {}", name, quoted(option->results().back()));
   return {.file = path,
+          .ahead = difference.ahead,
           .alone = alone,
           .lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)],
           .tokens = tokens,

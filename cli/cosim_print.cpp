@@ -35,8 +35,8 @@ void print_waveform(const report::DifferenceRecord& d) {
 
 /// The frame that was kept, and how to run it again.
 void print_kept(const report::KeptRecord& kept) {
-  fmt::print("the frame: {}: {}, {}, {} wide, {} of {}\n", kept.file, counted(kept.lines, "line"),
-             counted(kept.tokens, "token"), counted(kept.width, "pixel"), kept.words,
+  fmt::print("{}: {}: {}, {}, {} wide, {} of {}\n", kept.ahead ? "the frame right ahead of it" : "the frame", kept.file,
+             counted(kept.lines, "line"), counted(kept.tokens, "token"), counted(kept.width, "pixel"), kept.words,
              counted(kept.words_before, "word"));
   if (kept.alone)
     fmt::print("that frame again: {}\n", kept.again);

@@ -54,6 +54,9 @@ int default_jobs();
 /// --cache-verdicts and --no-cache-verdicts.
 void option_cache_verdicts(CLI::App& command, bool& cache);
 
+/// What ends the name of the file that a random frame is kept in: the one that differs, or that right ahead of it.
+inline const char* kept_ending(const cosim::Difference& d) { return d.ahead ? "_ahead.kage" : ".kage"; }
+
 /// A scene of the run. The steps come in this order; ranges run beside each other, in threads.
 class SceneRun {
  public:

@@ -133,18 +133,20 @@ class Comparer {
       if (report_.first_difference) report_.first_difference->other_state = true;
     }
     FrameResult result{frame, e.status, end.counts, a.cycles, a.stalls, a.phase_stalls, {}};
-    const bool wanted = options_.all_pictures || report_.first_difference;
+    // Of a frame that is right, because the one ahead of it is not, pictures would show nothing.
+    const bool differs = report_.first_difference && !report_.first_difference->ahead;
+    const bool wanted = options_.all_pictures || differs;
     if (wanted && !options_.all_pictures) end.draw();
     const bool shown = wanted && end.picture && end.picture->drawn();
     if (shown) result.picture = end.picture->path().string();
     report_.add(result, e.seconds, a.seconds);
     if (shown) {
-      if (report_.first_difference) expected_ = load_image(end.picture->temp());
+      if (differs) expected_ = load_image(end.picture->temp());
       end.picture->hand_over(files_);
     }
     if (report_.first_difference) {
       report_.same = false;
-      if (!options_.out.empty()) show_difference(frame);
+      if (differs && !options_.out.empty()) show_difference(frame);
       return false;
     }
     // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".

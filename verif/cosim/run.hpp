@@ -81,7 +81,7 @@ struct Report {
   double actual_seconds = 0;
   std::vector<double> frame_seconds;  ///< inside the cores, of each frame compared
   std::optional<Difference> first_difference;
-  std::vector<std::string> pictures;
+  std::vector<std::string> pictures;     ///< of a difference that is Difference::ahead none
   std::vector<int> taken;                ///< the frames whose verdict is that of an earlier run
   std::vector<FrameResult> each;         ///< the first kFrameResults frames, and the one that is different
   std::optional<DiffResult> difference;  ///< of its pictures, where there are any

@@ -104,6 +104,7 @@ template <class V>
 void keys(V& v, Of<KeptRecord>) {
   using R = KeptRecord;
   v("file", &R::file);
+  v.if_there("ahead", &R::ahead);
   v("alone", &R::alone);
   v("lines", &R::lines);
   v("tokens", &R::tokens);

@@ -101,6 +101,7 @@ struct DifferenceRecord {
 /// A frame that was kept as a stream file, as small as it could be made.
 struct KeptRecord {
   std::string file;
+  bool ahead = false;  ///< it is the frame that was put right ahead of the one in which that showed
   bool alone = false;  ///< it comes out different by itself
   std::uint64_t lines = 0;
   std::uint64_t tokens = 0;

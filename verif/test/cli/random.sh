@@ -57,6 +57,15 @@ expect 1 "${mixed[@]}" --seed 5 --out mixed --json behind.json
 json behind.json 'j["first_difference"]["frame"] == 0 and j["first_difference"]["line"] == 0'
 grep -q '^no stage differs where the frame ahead has ended before: ' stdout || fail "where to look: $(cat stdout)"
 
+# Where the pixels of the frame ahead are wrong, that one is kept, and no picture of the frame behind it, which is right.
+expect 1 "${mixed[@]}" --seed 1 --out mixed --json ahead.json
+json ahead.json 'j["first_difference"]["text"].endswith(": the frame right ahead of this one has wrong pixels") and j["pictures"] == []'
+json ahead.json 'j["kept"]["ahead"] and j["kept"]["alone"] and j["kept"]["file"].endswith("_ahead.kage")'
+grep -q "^the frame right ahead of it: mixed/random_mixed_[0-9]*_ahead.kage: " stdout || fail "what was kept: $(cat stdout)"
+[ -z "$(find mixed -name '*.png')" ] || fail "pictures that show nothing"
+again=$(sed -n 's/^that frame again: kage //p' stdout)
+expect 1 "$kage" $again --out again
+
 for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" --cull "--alpha 0.5" --allow-outside; do
   # shellcheck disable=SC2086
   trouble "random: ${option%% *}: random frames " "$kage" cosim random $option
