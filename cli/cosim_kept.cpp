@@ -26,22 +26,42 @@ ErrorCode error_of(const Config& config, const std::vector<std::uint32_t>& words
 
 }  // namespace
 
-/// Whether a frame comes out different on a new core, as kage cosim FILE runs it: nothing is put ahead.
-bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words) const {
+/// Whether a frame comes out different on a new core that has it as its number `number`, which decides the stalls: as
+/// kage cosim FILE runs it that is 0, and nothing is put ahead.
+bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words, int number, bool prelude) const {
   const Config& config = source_->config();
   const auto golden = cosim::make_golden(config);
-  cosim::RtlOptions as_file = o_.rtl.options;
-  as_file.prelude = {};
-  as_file.text = unheard;
-  const auto rtl = cosim::make_rtl(model_.library, config, as_file);
+  cosim::RtlOptions alone = o_.rtl.options;
+  if (!prelude) alone.prelude = {};
+  alone.text = unheard;
+  const auto rtl = cosim::make_rtl(model_.library, config, alone);
   cosim::RunOptions options;
+  options.steps = {number, 1};
   options.refusals = true;
   options.two_threads = false;
   const auto feed = [&](int, const WordSink& sink) {
     sink(words);
     return TokenCounts{};
   };
-  return !cosim::run(1, feed, *golden, *rtl, options).same;
+  return !cosim::run(number + 1, feed, *golden, *rtl, options).same;
+}
+
+/// What a frame takes to come out different that is the same as a file of its own, and how that is run again.
+void SceneRun::look_for_needs(report::KeptRecord& kept, const cosim::Difference& difference) const {
+  const int frame = difference.frame;
+  const std::vector<std::uint32_t> words = source_->words(frame);
+  kept.takes = "the frames before it";
+  if (!difference.ahead && differs_alone(words, frame, false))
+    kept.takes = "stalls of its place";
+  else if (differs_alone(words, frame, true))
+    kept.takes = difference.ahead ? "another frame right behind it, or stalls of its place"
+                                  : "a reset or another frame right before it";
+  else
+    return;
+  kept.in_place = true;
+  kept.again = command_line(*o_.command, {"--cache-verdicts", "--no-cache-verdicts", "--frame", "--shard", "--jobs",
+                                          "--out", "--json", "--junit", "--coverage"}) +
+               fmt::format(" --frame {}", frame);
 }
 
 /// Writes the frame that is wrong to a stream file, as small as it can be made and still comes out different on a new
@@ -53,7 +73,7 @@ report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Differenc
   const ErrorCode error = error_of(config, words);
   // Another error is something else, which the frame need not have been kept for.
   const auto differs = [&](const std::vector<std::uint32_t>& w) {
-    return error_of(config, w) == error && differs_alone(w);
+    return error_of(config, w) == error && differs_alone(w, 0, false);
   };
   const auto begin = std::chrono::steady_clock::now();
   const auto more = [&] {
@@ -81,15 +101,19 @@ report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Differenc
   for (const char* name : kRtlOptions)
     if (const CLI::Option* option = o_.command->get_option(name); option->count() != 0)
       again += fmt::format(" {} {}", name, quoted(option->results().back()));
-  return {.file = path,
-          .ahead = difference.ahead,
-          .alone = alone,
-          .lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)],
-          .tokens = tokens,
-          .width = FrameHeader::read(small).width,
-          .words = small.size(),
-          .words_before = words.size(),
-          .again = again};
+  report::KeptRecord kept{.file = path,
+                          .ahead = difference.ahead,
+                          .alone = alone,
+                          .takes = std::nullopt,
+                          .in_place = false,
+                          .lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)],
+                          .tokens = tokens,
+                          .width = FrameHeader::read(small).width,
+                          .words = small.size(),
+                          .words_before = words.size(),
+                          .again = again};
+  if (!alone) look_for_needs(kept, difference);
+  return kept;
 }
 
 }  // namespace kage::cli

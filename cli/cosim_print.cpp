@@ -38,10 +38,8 @@ void print_kept(const report::KeptRecord& kept) {
   fmt::print("{}: {}: {}, {}, {} wide, {} of {}\n", kept.ahead ? "the frame right ahead of it" : "the frame", kept.file,
              counted(kept.lines, "line"), counted(kept.tokens, "token"), counted(kept.width, "pixel"), kept.words,
              counted(kept.words_before, "word"));
-  if (kept.alone)
-    fmt::print("that frame again: {}\n", kept.again);
-  else
-    fmt::print("alone, on a new core, it comes out the same: it takes the frames before it, or stalls of its place\n");
+  if (kept.takes) fmt::print("alone, on a new core, it comes out the same: it takes {}\n", *kept.takes);
+  if (kept.alone || kept.in_place) fmt::print("that frame again: {}\n", kept.again);
 }
 
 }  // namespace

@@ -106,6 +106,8 @@ void keys(V& v, Of<KeptRecord>) {
   v("file", &R::file);
   v.if_there("ahead", &R::ahead);
   v("alone", &R::alone);
+  v.if_there("takes", &R::takes);
+  v.if_there("in_place", &R::in_place);
   v("lines", &R::lines);
   v("tokens", &R::tokens);
   v("width", &R::width);

@@ -101,8 +101,10 @@ struct DifferenceRecord {
 /// A frame that was kept as a stream file, as small as it could be made.
 struct KeptRecord {
   std::string file;
-  bool ahead = false;  ///< it is the frame that was put right ahead of the one in which that showed
-  bool alone = false;  ///< it comes out different by itself
+  bool ahead = false;                ///< it is the frame that was put right ahead of the one in which that showed
+  bool alone = false;                ///< it comes out different by itself
+  std::optional<std::string> takes;  ///< what it takes besides, if it does not
+  bool in_place = false;             ///< it does not, but --frame does it: `again` is that
   std::uint64_t lines = 0;
   std::uint64_t tokens = 0;
   int width = 0;

@@ -57,6 +57,14 @@ expect 1 "${mixed[@]}" --seed 5 --out mixed --json behind.json
 json behind.json 'j["first_difference"]["frame"] == 0 and j["first_difference"]["line"] == 0'
 grep -q '^no stage differs where the frame ahead has ended before: ' stdout || fail "where to look: $(cat stdout)"
 
+# It takes a frame right before it: --frame repeats it.
+json behind.json 'not j["kept"]["alone"] and j["kept"]["in_place"] and j["kept"]["takes"] == "a reset or another frame right before it"'
+grep -q '^alone, on a new core, it comes out the same: it takes a reset or another frame right before it$' stdout || fail "what it takes: $(cat stdout)"
+again=$(sed -n 's/^that frame again: kage \(.* --frame 0\)$/\1/p' stdout)
+[ -n "$again" ] || fail "no line that repeats it: $(cat stdout)"
+expect 1 "$kage" $again --no-divergence --out again
+grep -q '^first difference: frame 0, line 0, ' stdout || fail "another difference: $(cat stdout)"
+
 # Where the pixels of the frame ahead are wrong, that one is kept, and no picture of the frame behind it, which is right.
 expect 1 "${mixed[@]}" --seed 1 --out mixed --json ahead.json
 json ahead.json 'j["first_difference"]["text"].endswith(": the frame right ahead of this one has wrong pixels") and j["pictures"] == []'

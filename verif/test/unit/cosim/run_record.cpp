@@ -90,8 +90,16 @@ report::SceneRecord some_scene(const std::string& name) {
   s.build_seconds = 33.25;
   s.degraded = {"colours that vary"};
   s.pictures = {"out/a_0000.png"};
-  s.kept = report::KeptRecord{
-      .file = "out/f.kage", .alone = true, .lines = 1, .tokens = 3, .width = 2, .words = 9, .again = "x"};
+  s.kept = report::KeptRecord{.file = "out/f.kage",
+                              .ahead = true,
+                              .alone = true,
+                              .takes = "time",
+                              .in_place = true,
+                              .lines = 1,
+                              .tokens = 3,
+                              .width = 2,
+                              .words = 9,
+                              .again = "x"};
   s.notes = {"a note"};
   s.coverage = report::CoverageRecord{.frames = 2, .points = {{"token", "OP", 1}, {"token", "SP", 0}}};
   return s;
