@@ -150,6 +150,7 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
     look_into(files, r, search);
     if (r.first_difference && source.is_random() && !o_.out.empty() && r.first_difference->field != "register")
       record.kept = keep_frame(files, *r.first_difference);
+    check_interrupt();
   });
   record.first_difference = report::difference_record(r.first_difference, search.divergence, search.made);
   if (whole && report_) (void)after_verdict([&] { write_page(files, r, search, record); });

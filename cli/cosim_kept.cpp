@@ -77,7 +77,7 @@ report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Differenc
   };
   const auto begin = std::chrono::steady_clock::now();
   const auto more = [&] {
-    check_interrupt();
+    if (interrupted()) return false;  // what there is by then is written
     progress_.show("making the frame smaller");
     return std::chrono::steady_clock::now() - begin < kShrinkTime;
   };

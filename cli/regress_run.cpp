@@ -129,6 +129,7 @@ void Regress::repeat(TempFiles& files) {
   report::SceneRecord record = scene.finish(files);
   record.scene = d.plan.name;
   notes_ = scene.notes();
+  interrupted_ = interrupted_ || scene.interrupted();
   if (record.same) {
     notes_.push_back(fmt::format("{}: run again it comes out the same", d.plan.name));
     return;

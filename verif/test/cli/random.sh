@@ -74,6 +74,23 @@ grep -q "^the frame right ahead of it: mixed/random_mixed_[0-9]*_ahead.kage: " s
 again=$(sed -n 's/^that frame again: kage //p' stdout)
 expect 1 "$kage" $again --out again
 
+# A signal while the frame is made smaller: what there is by then is kept. A core that hangs, on long lines with
+# stalls, makes it last.
+echo '{MAX_WIDTH: 2047, LANES: 4, ARRANGEMENT: 1}' >wide.yaml
+silent=(--fault dead_silent --idle 95 --backpressure 95 --no-divergence)
+: >ended.err
+KAGE_PROGRESS=0.05 "$kage" cosim random --config wide.yaml "${silent[@]}" --no-report --out ended >ended.out 2>ended.err &
+pid=$!
+until grep -q "making the frame smaller" ended.err || ! kill -0 $pid 2>/dev/null; do sleep 0.02; done
+kill -INT $pid
+rc=0
+wait $pid || rc=$?
+[ $rc = 130 ] || fail "after a signal the code is $rc: $(cat ended.out)"
+grep -q '^random: interrupted after the verdict$\|^interrupted after the verdict$' ended.out || fail "not said to be interrupted: $(cat ended.out)"
+again=$(sed -n 's/^that frame again: kage \([^ ]* [^ ]*\) .*/\1/p' ended.out)
+[ -n "$again" ] || fail "the frame is lost: $(cat ended.out)"
+expect 1 "$kage" $again "${silent[@]}" --out again
+
 for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" --cull "--alpha 0.5" --allow-outside; do
   # shellcheck disable=SC2086
   trouble "random: ${option%% *}: random frames " "$kage" cosim random $option
