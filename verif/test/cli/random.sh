@@ -64,4 +64,14 @@ for seed in {1..25}; do
   expect 0 "$kage" cosim random:mixed --frames 3 --config small.yaml --seed "$seed" --no-report --out mixed
 done
 
+# The frames that the register check sends of its own fit into lines of any length, segments of any length and beats of
+# any width (unit/cosim/register_frames has all corners): what they tell of sound RTL there.
+for corner in 'MAX_WIDTH: 7, X_BITS: 4, LANES: 4' 'MAX_WIDTH: 1, X_BITS: 4, LANES: 4' \
+  'MAX_WIDTH: 1, X_BITS: 4, ARRANGEMENT: 0, UNITS: 2, FACE_BITS: 2, DX_BITS: 2, SEG_BITS: 2, BEAT_WORDS: 8' \
+  'MAX_WIDTH: 40, X_BITS: 6, LANES: 8, UNITS: 3, FACE_BITS: 2, DX_BITS: 2, SEG_BITS: 2' \
+  'MAX_WIDTH: 40, X_BITS: 6, LANES: 8, UNITS: 2, DX_BITS: 3'; do
+  echo "{$corner}" >corner.yaml
+  expect 0 "$kage" cosim random:mixed --frames 20 --config corner.yaml --no-report --out corner
+done
+
 done_testing
