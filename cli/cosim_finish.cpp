@@ -113,7 +113,7 @@ bool SceneRun::after_verdict(const std::function<void()>& say) {
 
 /// Looks for the stage that differs first, unless that is not wanted, and writes the waveform round it.
 void SceneRun::look_into(TempFiles& files, const cosim::Report& r, Search& search) {
-  if (!r.first_difference || o_.no_divergence) return;
+  if (!r.first_difference || r.first_difference->of_registers() || o_.no_divergence) return;
   try {
     search.divergence = find_divergence(r.first_difference->frame);
     search.made = true;
@@ -147,7 +147,7 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
   Search search;
   const bool whole = after_verdict([&] {
     look_into(files, r, search);
-    if (r.first_difference && source.is_random() && !o_.out.empty() && r.first_difference->field != "register")
+    if (r.first_difference && source.is_random() && !o_.out.empty() && !r.first_difference->of_registers())
       record.kept = keep_frame(files, *r.first_difference);
   });
   record.first_difference = report::difference_record(r.first_difference, search.divergence, search.made);

@@ -36,8 +36,8 @@ std::optional<cosim::Difference> register_difference(const std::filesystem::path
     if (!wrong) return std::nullopt;
     d.field = "register";
     d.remark = *wrong;
-  } catch (const cosim::AssertionError& e) {
-    d.field = "assertion";
+  } catch (const cosim::CoreFailure& e) {
+    d.field = e.field();
     d.assertion = e.where();
     d.remark = std::string(e.what()) + ", while registers were read and written";
   }

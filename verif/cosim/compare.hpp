@@ -20,12 +20,16 @@ struct Difference {
   int x = -1;         ///< -1: not at a pixel
   std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
                       ///< "register" (a remark says which);
-                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion" (of the RTL)
+                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion", "finish" (of
+                      ///< the RTL)
   std::int64_t expected = 0;
   std::int64_t actual = 0;
   std::string remark;        ///< more in words, or empty
   std::string assertion;     ///< the RTL's that ended the frame, "rtl/frame_control.sv:312", or empty
   bool other_state = false;  ///< seen from RunOptions::other_state alone: the run's own core has the frame right
+
+  /// Of a register: no stage within the core shows it, and a smaller frame says no more of it.
+  [[nodiscard]] bool of_registers() const { return field == "register"; }
 };
 
 /// Lines of one length, one after the other. Neighbours that are the same take room once, so the background that
@@ -60,11 +64,10 @@ class FrameComparison {
   /// The next line of the actual core.
   void actual(std::span<const std::uint8_t> line);
 
-  /// The actual core can go no further: AssertionError::where().
-  void assertion(const std::string& where) { assertion_ = where; }
+  /// The actual core can go no further.
+  void failed(const CoreFailure& failure) { failure_ = failure; }
 
-  /// Both frames have ended. Nothing where all agree. After assertion() what the actual one says of its frame is
-  /// nothing.
+  /// Both frames have ended. Nothing where all agree. After failed() what the actual one says of its frame is nothing.
   std::optional<Difference> finish(const FrameEnd& expected, const FrameEnd& actual) const;
 
   /// After finish(): what the actual core drew, given what the expected one did; the same above the first difference,
@@ -79,7 +82,7 @@ class FrameComparison {
   int lines_ = 0;                    // that came from the actual core
   std::uint64_t pixels_ = 0;         // in them
   std::optional<Difference> first_;  // of pixels
-  std::string assertion_;
+  std::optional<CoreFailure> failure_;
   struct Unlike {
     int line;
     int expected;

@@ -45,13 +45,13 @@ class Checker {
   std::uint32_t read(const char* name, std::uint32_t address, int response = kOkay) {
     std::uint32_t value = 0;
     same(fmt::format("response of {}", name).c_str(), static_cast<std::uint32_t>(response),
-         static_cast<std::uint32_t>(rtl_.read_register(address, value)));
+         static_cast<std::uint32_t>(rtl_.read_register(name, address, value)));
     return value;
   }
   void expect(const char* name, std::uint32_t address, std::uint32_t value) { same(name, value, read(name, address)); }
   void write(const char* name, std::uint32_t address, std::uint32_t value, int response = kOkay) {
     same(fmt::format("response of {}", name).c_str(), static_cast<std::uint32_t>(response),
-         static_cast<std::uint32_t>(rtl_.write_register(address, value)));
+         static_cast<std::uint32_t>(rtl_.write_register(name, address, value)));
   }
 
   void constants() {
@@ -74,7 +74,7 @@ class Checker {
     for (const unsigned strobes : {0b0101U, 0b1010U}) {
       write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
       same("response of WATCHDOG", kOkay,
-           static_cast<std::uint32_t>(rtl_.write_register_late(KAGE_REG_WATCHDOG, 0x12345678, strobes)));
+           static_cast<std::uint32_t>(rtl_.write_register_late("WATCHDOG", KAGE_REG_WATCHDOG, 0x12345678, strobes)));
       expect("WATCHDOG, by bytes", KAGE_REG_WATCHDOG, strobes == 5 ? 0x00340078 : 0x12005600);
     }
     write("WATCHDOG", KAGE_REG_WATCHDOG, 0);

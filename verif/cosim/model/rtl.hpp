@@ -38,11 +38,12 @@ struct RtlOptions {
 /// for them (ModelOptions).
 class RtlCore : public Core {
  public:
-  /// An AXI4-Lite access while the streams go on: its response (0 is OKAY), -1 if none comes.
-  virtual int read_register(std::uint32_t address, std::uint32_t& value) = 0;
-  virtual int write_register(std::uint32_t address, std::uint32_t value) = 0;
+  /// An AXI4-Lite access while the streams go on: its response (0 is OKAY). `name` is the register's, for
+  /// RegisterError, which is thrown where no response comes. CoreFailure as of Core.
+  virtual int read_register(const char* name, std::uint32_t address, std::uint32_t& value) = 0;
+  virtual int write_register(const char* name, std::uint32_t address, std::uint32_t value) = 0;
   /// Of the bytes in `strobes` alone, the data some clocks behind the address.
-  virtual int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) = 0;
+  virtual int write_register_late(const char* name, std::uint32_t address, std::uint32_t value, unsigned strobes) = 0;
   [[nodiscard]] virtual bool interrupt() const = 0;
 
   /// Whether it stood still in the frame at hand, with input waiting: it takes nothing more of it.

@@ -264,11 +264,14 @@ struct kage_rtl {
     }
   }
 
+  // An assertion has failed, or the RTL has ended the simulation.
+  bool ended() { return context.gotError() || context.gotFinish(); }
+
   int run(std::uint64_t want, std::uint64_t max_clocks) {
     enter();
     quiet = 0;
     for (std::uint64_t n = 0;; ++n) {
-      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (ended()) return KAGE_RTL_ASSERT;
       if (pixel_count >= want) return KAGE_RTL_PIXELS;
       if (quiet >= kIdleClocks) return queue.empty() ? KAGE_RTL_IDLE : KAGE_RTL_STUCK;
       if (n >= max_clocks) return KAGE_RTL_LIMIT;
@@ -280,7 +283,7 @@ struct kage_rtl {
     enter();
     quiet = 0;
     for (std::uint64_t n = 0;; ++n) {
-      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (ended()) return KAGE_RTL_ASSERT;
       if (queue.empty()) return KAGE_RTL_DRY;
       if (quiet >= kIdleClocks) return KAGE_RTL_STUCK;
       if (n >= max_clocks) return KAGE_RTL_LIMIT;
@@ -300,13 +303,14 @@ struct kage_rtl {
       *value = top->s_axil_rdata_o;
       const int response = top->s_axil_rresp_o;
       finish_clock();
+      if (ended()) return KAGE_RTL_ENDED;
       if (answered) {
         top->s_axil_rready_i = 0;
         return response;
       }
       if (taken) top->s_axil_arvalid_i = 0;
     }
-    return -1;
+    return KAGE_RTL_NO_ANSWER;
   }
 
   int write(std::uint32_t address, std::uint32_t value, unsigned strobes, int late) {
@@ -324,6 +328,7 @@ struct kage_rtl {
       const bool answered = top->s_axil_bvalid_o;
       const int response = top->s_axil_bresp_o;
       finish_clock();
+      if (ended()) return KAGE_RTL_ENDED;
       if (answered) {
         top->s_axil_bready_i = 0;
         return response;
@@ -332,6 +337,6 @@ struct kage_rtl {
       if (aw) top->s_axil_awaddr_i = static_cast<CData>(~address);
       if (w) top->s_axil_wvalid_i = 0;
     }
-    return -1;
+    return KAGE_RTL_NO_ANSWER;
   }
 };

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* Rises with every change of kage_rtl_table. A program refuses a model of another number: the table begins with it. */
-#define KAGE_RTL_ABI 11u
+#define KAGE_RTL_ABI 12u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -30,6 +30,12 @@ enum {
   KAGE_RTL_STUCK = 3,  /* input is waiting, output is ready, and nothing moves, likewise: a hang */
   KAGE_RTL_ASSERT = 4, /* an assertion in the RTL failed: see failure(); then only pixels() and destroy() */
   KAGE_RTL_DRY = 5     /* every queued beat is taken */
+};
+
+/* What an access of a register gives in place of a response. */
+enum {
+  KAGE_RTL_NO_ANSWER = -1, /* none came in 1000 clocks */
+  KAGE_RTL_ENDED = -2      /* an assertion failed, or $finish ended the simulation */
 };
 
 /* What passes between the modules of the core, and within some, as the monitors tell it. Which stages there are, and
@@ -129,8 +135,8 @@ typedef struct {
   const uint8_t* (*pixels)(kage_rtl*, uint64_t* count);
   void (*clear_pixels)(kage_rtl*);
 
-  /* AXI4-Lite accesses; the streams go on meanwhile. Return the response (0 is OKAY), -1 if none came in 1000 clocks.
-   */
+  /* AXI4-Lite accesses; the streams go on meanwhile. Return the response (0 is OKAY), KAGE_RTL_NO_ANSWER or
+   * KAGE_RTL_ENDED. */
   int (*reg_read)(kage_rtl*, uint32_t address, uint32_t* value);
   int (*reg_write)(kage_rtl*, uint32_t address, uint32_t value);
   /* The bytes that `strobes` has; the data come clocks after the address, whose port has something else by then. */
