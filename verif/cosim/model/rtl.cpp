@@ -93,14 +93,17 @@ class Rtl : public RtlCore {
   }
   int end_wave() override { return table_->end_wave(model_); }
 
-  int read_register(const char* name, std::uint32_t address, std::uint32_t& value) override {
-    return answered(name, address, table_->reg_read(model_, address, &value));
-  }
-  int write_register(const char* name, std::uint32_t address, std::uint32_t value) override {
-    return answered(name, address, table_->reg_write(model_, address, value));
-  }
-  int write_register_late(const char* name, std::uint32_t address, std::uint32_t value, unsigned strobes) override {
-    return answered(name, address, table_->reg_write_late(model_, address, value, strobes));
+  void access(RegisterAccess* write, RegisterAccess* read) override {
+    const auto of = [](const RegisterAccess* a) {
+      return a == nullptr ? kage_rtl_access{} : kage_rtl_access{a->address, a->data, a->strobes, 0};
+    };
+    kage_rtl_access w = of(write);
+    kage_rtl_access r = of(read);
+    table_->reg_access(model_, write == nullptr ? nullptr : &w, read == nullptr ? nullptr : &r);
+    if (write != nullptr) write->response = answered(write->name, write->address, w.answer);
+    if (read == nullptr) return;
+    read->response = answered(read->name, read->address, r.answer);
+    read->data = r.data;
   }
   [[nodiscard]] bool interrupt() const override { return table_->irq(model_) != 0; }
   void pass(std::uint64_t clocks) override { (void)checked(table_->run(model_, kForever, clocks)); }
@@ -131,8 +134,11 @@ class Rtl : public RtlCore {
   /// The response that an access of a register came to.
   [[nodiscard]] int answered(const char* name, std::uint32_t address, int answer) const {
     (void)checked(answer == KAGE_RTL_ENDED ? KAGE_RTL_ASSERT : KAGE_RTL_LIMIT);
-    const char* const kind = address <= KAGE_REG_STALL ? "register " : "";
-    if (answer < 0) throw RegisterError(fmt::format("{}{} ({:#04x}) does not answer", kind, name, address));
+    if (answer < 0)
+      throw RegisterError(fmt::format("{}{} ({:#04x}) {}", address <= KAGE_REG_STALL ? "register " : "", name, address,
+                                      answer == KAGE_RTL_UNASKED    ? "answers before it is asked"
+                                      : answer == KAGE_RTL_UNSTABLE ? "takes back an answer that waits"
+                                                                    : "does not answer"));
     return answer;
   }
 
@@ -283,7 +289,7 @@ class Rtl : public RtlCore {
 
   std::uint32_t read(const char* name, std::uint32_t address) {
     std::uint32_t value = 0;
-    const int response = read_register(name, address, value);
+    const int response = answered(name, address, table_->reg_read(model_, address, &value));
     if (response != 0)
       throw RegisterError(fmt::format("register {} ({:#04x}): expected response 0, got {}", name, address, response));
     return value;

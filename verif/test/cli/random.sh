@@ -74,4 +74,13 @@ for corner in 'MAX_WIDTH: 7, X_BITS: 4, LANES: 4' 'MAX_WIDTH: 1, X_BITS: 4, LANE
   expect 0 "$kage" cosim random:mixed --frames 20 --config corner.yaml --no-report --out corner
 done
 
+# Handshakes of AXI4-Lite that work with a master of one habit only.
+for mutant in registers_write_{data,strobes,answered} registers_read_answered; do
+  number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index(sys.argv[2]) + 1)' "$source/verif/mutants/mutants.yaml" $mutant)
+  for seed in 1 2 3; do
+    expect 1 "$kage" cosim random:mixed --frames 6 --config small.yaml --mutant "$number" --seed $seed --no-report --out handshakes
+    grep -q '^first difference: ' stdout || fail "$mutant: found otherwise: $(cat stdout)"
+  done
+done
+
 done_testing
