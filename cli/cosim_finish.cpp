@@ -139,7 +139,8 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
     none.total_frames = total_;
     return none;
   }
-  const cosim::Report r = join(files);
+  cosim::Report r = join(files);
+  check_registers(r);
   progress_.clear();
   remove_old_evidence(files, o_.out, source.name(), source.is_random(), steps_, r);
   if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;

@@ -117,7 +117,7 @@ Image FrameComparison::actual_image(const Image& expected) const {
 }
 
 std::string describe(const Difference& d) {
-  std::string text = fmt::format("frame {}", d.frame);
+  std::string text = d.frame == kBehindFrames ? "register check behind the frames" : fmt::format("frame {}", d.frame);
   if (d.line >= 0) text += fmt::format(", line {}", d.line);
   if (d.x >= 0) text += fmt::format(", x {}", d.x);
   if (d.field == "missing") {

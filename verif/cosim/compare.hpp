@@ -13,9 +13,12 @@
 
 namespace kage::cosim {
 
+/// Difference::frame of what the register check finds, which comes behind the frames and needs all of them the same.
+inline constexpr int kBehindFrames = -1;
+
 /// The first place where a core departs from the golden model.
 struct Difference {
-  int frame = 0;
+  int frame = 0;      ///< kBehindFrames: of the register check
   int line = -1;      ///< -1: of the frame as a whole
   int x = -1;         ///< -1: not at a pixel
   std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
@@ -28,8 +31,8 @@ struct Difference {
   std::string assertion;     ///< the RTL's that ended the frame, "rtl/frame_control.sv:312", or empty
   bool other_state = false;  ///< seen from RunOptions::other_state alone: the run's own core has the frame right
 
-  /// Of a register: no stage within the core shows it, and a smaller frame says no more of it.
-  [[nodiscard]] bool of_registers() const { return field == "register"; }
+  /// Of registers, or what failed while they were checked: no stage shows it in a frame, and no frame is to blame.
+  [[nodiscard]] bool of_registers() const { return frame == kBehindFrames || field == "register"; }
 };
 
 /// Lines of one length, one after the other. Neighbours that are the same take room once, so the background that
