@@ -46,21 +46,21 @@ class Checker {
     if (expected != actual) throw Wrong{fmt::format("{}: expected {:#x}, got {:#x}", name, expected, actual)};
   }
   std::uint32_t read(const char* name, std::uint32_t address, int response = kOkay) {
-    RegisterAccess r{name, address};
+    RegisterAccess r{name, {address, 0, 0, 0}};
     rtl_.access(nullptr, &r);
     responded(r, response);
-    return r.data;
+    return r.bus.data;
   }
   void expect(const char* name, std::uint32_t address, std::uint32_t value) { same(name, value, read(name, address)); }
   void write(const char* name, std::uint32_t address, std::uint32_t value, int response = kOkay,
              unsigned strobes = 0b1111) {
-    RegisterAccess w{name, address, value, strobes};
+    RegisterAccess w{name, {address, value, strobes, 0}};
     rtl_.access(&w, nullptr);
     responded(w, response);
   }
   static void responded(const RegisterAccess& access, int response) {
     same(fmt::format("response of {}", access.name).c_str(), static_cast<std::uint32_t>(response),
-         static_cast<std::uint32_t>(access.response));
+         static_cast<std::uint32_t>(access.bus.answer));
   }
 
   void constants() {
@@ -97,16 +97,16 @@ class Checker {
   void overlaps() {
     std::uint32_t before = 0;
     for (std::uint32_t i = 0; i < kOverlaps; ++i) {
-      RegisterAccess w{"WATCHDOG", KAGE_REG_WATCHDOG, 0x9E3779B9U * (i + 1)};
+      RegisterAccess w{"WATCHDOG", {KAGE_REG_WATCHDOG, 0x9E3779B9U * (i + 1), 0b1111, 0}};
       const bool other = i % 2 == 0;
-      RegisterAccess r{other ? "PARAM_HASH" : "WATCHDOG", other ? KAGE_REG_PARAM_HASH : KAGE_REG_WATCHDOG};
+      RegisterAccess r{other ? "PARAM_HASH" : "WATCHDOG", {other ? KAGE_REG_PARAM_HASH : KAGE_REG_WATCHDOG, 0, 0, 0}};
       rtl_.access(&w, &r);
       responded(w, kOkay);
       responded(r, kOkay);
       // The register itself is read before the write, or behind it.
-      if (other || r.data != before) same(r.name, other ? param_hash(config_) : w.data, r.data);
-      expect("WATCHDOG", KAGE_REG_WATCHDOG, w.data);
-      before = w.data;
+      if (other || r.bus.data != before) same(r.name, other ? param_hash(config_) : w.bus.data, r.bus.data);
+      expect("WATCHDOG", KAGE_REG_WATCHDOG, w.bus.data);
+      before = w.bus.data;
     }
     write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
   }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cosim/model/register_answer.hpp"
 #include "cosim/model/rtl_library.hpp"
 #include "cosim/model/video_lines.hpp"
 #include "kage/core.hpp"
@@ -94,16 +95,9 @@ class Rtl : public RtlCore {
   int end_wave() override { return table_->end_wave(model_); }
 
   void access(RegisterAccess* write, RegisterAccess* read) override {
-    const auto of = [](const RegisterAccess* a) {
-      return a == nullptr ? kage_rtl_access{} : kage_rtl_access{a->address, a->data, a->strobes, 0};
-    };
-    kage_rtl_access w = of(write);
-    kage_rtl_access r = of(read);
-    table_->reg_access(model_, write == nullptr ? nullptr : &w, read == nullptr ? nullptr : &r);
-    if (write != nullptr) write->response = answered(write->name, write->address, w.answer);
-    if (read == nullptr) return;
-    read->response = answered(read->name, read->address, r.answer);
-    read->data = r.data;
+    table_->reg_access(model_, write == nullptr ? nullptr : &write->bus, read == nullptr ? nullptr : &read->bus);
+    for (const RegisterAccess* a : {write, read})
+      if (a != nullptr) (void)answered(a->name, a->bus.address, a->bus.answer);
   }
   [[nodiscard]] bool interrupt() const override { return table_->irq(model_) != 0; }
   void pass(std::uint64_t clocks) override { (void)checked(table_->run(model_, kForever, clocks)); }
@@ -134,11 +128,7 @@ class Rtl : public RtlCore {
   /// The response that an access of a register came to.
   [[nodiscard]] int answered(const char* name, std::uint32_t address, int answer) const {
     (void)checked(answer == KAGE_RTL_ENDED ? KAGE_RTL_ASSERT : KAGE_RTL_LIMIT);
-    if (answer < 0)
-      throw RegisterError(fmt::format("{}{} ({:#04x}) {}", address <= KAGE_REG_STALL ? "register " : "", name, address,
-                                      answer == KAGE_RTL_UNASKED    ? "answers before it is asked"
-                                      : answer == KAGE_RTL_UNSTABLE ? "takes back an answer that waits"
-                                                                    : "does not answer"));
+    check_answer(name, address, answer);
     return answer;
   }
 

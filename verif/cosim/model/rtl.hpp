@@ -36,11 +36,8 @@ struct RtlOptions {
 
 /// An access of a register by AXI4-Lite.
 struct RegisterAccess {
-  const char* name;  ///< for RegisterError
-  std::uint32_t address;
-  std::uint32_t data = 0;     ///< what is written, or was read
-  unsigned strobes = 0b1111;  ///< of a write: the bytes
-  int response = 0;           ///< 0 is OKAY
+  const char* name;     ///< for RegisterError
+  kage_rtl_access bus;  ///< what goes there, and comes from there
 };
 
 /// The RTL, simulated. Events and handshakes need a model that was built with monitors, waveforms one that was built
