@@ -109,6 +109,6 @@ json merged.json 'not j["same"] and j["frames"] == 6 and j["first_difference"]["
 grep -q 'name="frame 5" time="[0-9.]*"/>' merged.xml && grep -q 'name="registers"' merged.xml || fail "JUnit of a joined shard"
 # Its frames must be all of the shard's.
 python3 -c 'import json; j = json.load(open("shard.json")); j["total_frames"] = 7; json.dump(j, open("less.json", "w"))'
-trouble "cannot have the 6 that it tells of" "$kage" merge less.json
+trouble "cannot have the 6 that it" "$kage" merge less.json
 
 done_testing
