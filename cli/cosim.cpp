@@ -118,6 +118,8 @@ int run(const CosimCommand& o) {
     const report::SceneRecord& s = record.scenes[i];
     for (const std::string& note : scenes[i]->notes()) fmt::print(json_only(o) ? stderr : stdout, "{}\n", note);
     if (!json_only(o)) print_report(s, who(s), scenes[i]->command().out);
+    // No frame is to blame, so it is the run that repeats it.
+    if (!json_only(o) && s.first_difference && !s.first_difference->frame) fmt::print("that run again: {}\n", s.again);
     if (s.frames != 0) annotate_difference(o.ci.annotate, s, json_only(o) ? stderr : stdout);
   }
   const report::TotalsRecord totals = record.totals();

@@ -114,7 +114,7 @@ bool SceneRun::after_verdict(const std::function<void()>& say) {
 
 /// Looks for the stage that differs first, unless that is not wanted, and writes the waveform round it.
 void SceneRun::look_into(TempFiles& files, const cosim::Report& r, Search& search) {
-  if (!r.first_difference || o_.no_divergence) return;
+  if (!r.first_difference || r.first_difference->of_registers() || o_.no_divergence) return;
   try {
     search.divergence = find_divergence(r.first_difference->frame);
     search.made = true;
@@ -140,7 +140,8 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
     none.total_frames = total_;
     return none;
   }
-  const cosim::Report r = join(files);
+  cosim::Report r = join(files);
+  check_registers(r);
   progress_.clear();
   remove_old_evidence(files, o_.out, source.name(), source.is_random(), steps_, r);
   if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;
@@ -148,7 +149,7 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
   Search search;
   const bool whole = after_verdict([&] {
     look_into(files, r, search);
-    if (r.first_difference && source.is_random() && !o_.out.empty() && r.first_difference->field != "register")
+    if (r.first_difference && source.is_random() && !o_.out.empty() && !r.first_difference->of_registers())
       record.kept = keep_frame(files, *r.first_difference);
     check_interrupt();
   });

@@ -19,7 +19,7 @@ constexpr int kBackpressure = 50;
 }  // namespace
 
 std::optional<cosim::Difference> register_difference(const std::filesystem::path& library, const Config& config,
-                                                     const cosim::RtlOptions& options, int frame) {
+                                                     const cosim::RtlOptions& options) {
   const std::uint64_t seed = mixed(options.seed);
   std::vector<cosim::KnownFrame> frames;
   for (int i = 0; i < kSound + kDamaged; ++i) {
@@ -30,16 +30,16 @@ std::optional<cosim::Difference> register_difference(const std::filesystem::path
   own.prelude = {};
   own.backpressure_percent = kBackpressure;
   cosim::Difference d;
-  d.frame = frame;
+  d.frame = cosim::kBehindFrames;
   try {
     const auto wrong = cosim::wrong_register(*cosim::make_rtl(library, config, own), config, frames);
     if (!wrong) return std::nullopt;
     d.field = "register";
     d.remark = *wrong;
-  } catch (const cosim::AssertionError& e) {
-    d.field = "assertion";
+  } catch (const cosim::CoreFailure& e) {
+    d.field = e.field();
     d.assertion = e.where();
-    d.remark = std::string(e.what()) + ", while registers were read and written";
+    d.remark = e.remark();
   }
   return d;
 }

@@ -11,9 +11,9 @@
 namespace kage::cli {
 
 /// What random:mixed asks of the registers, once its frames are the same: a new core gets some random frames, sound and
-/// damaged, and its registers are held against what they must say (cosim::wrong_register). A difference is told as one
-/// of frame `frame`, with the register in its remark.
+/// damaged, and its registers are held against what they must say (cosim::wrong_register). A difference is one of
+/// cosim::kBehindFrames, with the register in its remark.
 std::optional<cosim::Difference> register_difference(const std::filesystem::path& library, const Config& config,
-                                                     const cosim::RtlOptions& options, int frame);
+                                                     const cosim::RtlOptions& options);
 
 }  // namespace kage::cli

@@ -107,7 +107,7 @@ class SceneRun {
 
   [[nodiscard]] std::unique_ptr<Part> part_of(const cosim::FrameRange& range) const;
   void count_again(Part& part);
-  void check_registers(Part& part);
+  void check_registers(cosim::Report& report);
   cosim::RunOptions run_options(const cosim::FrameRange& range, TempFiles& files);
   cosim::Feed heard_feed(Part& part);
   cosim::Report simulate(Part& part, const cosim::FrameRange& range);

@@ -119,7 +119,9 @@ report::SceneRecord merged(const std::vector<Part>& parts) {
     unite(all.pictures, s.pictures);
     unite(all.notes, s.notes);
     const auto& d = s.first_difference;
-    if (d && (!all.first_difference || d->frame < all.first_difference->frame)) all.first_difference = d;
+    // That of the register check, which has no frame, comes behind those of all frames.
+    const auto place = [](const report::DifferenceRecord& of) { return of.frame.value_or(kMostFrames); };
+    if (d && (!all.first_difference || place(*d) < place(*all.first_difference))) all.first_difference = d;
     report::ShardRecord& own = all.shards.emplace_back();
     static_cast<report::PartRecord&>(own) = static_cast<const report::PartRecord&>(s);
     own.number = shard->number;

@@ -41,7 +41,9 @@ void check_frames(const ShardFile& f, const report::SceneRecord& s, std::int64_t
   if (own == 0) return;
   if (s.frame_step != steps.step || s.first_frame != steps.first || (s.same && s.frames < own) ||
       s.frame_seconds.size() != static_cast<std::size_t>(s.frames) ||
-      (s.first_difference && s.first_difference->frame != steps.first + (s.frames - 1) * steps.step))
+      (s.first_difference &&
+       (s.first_difference->frame ? *s.first_difference->frame != steps.first + (s.frames - 1) * steps.step
+                                  : s.frames < own)))
     wrong();
   for (const auto& seconds : s.frame_seconds)
     if (!seconds) refuse(f.file, "frame_seconds is not what it should be");

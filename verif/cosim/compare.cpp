@@ -78,10 +78,12 @@ std::optional<Difference> FrameComparison::first_of(const FrameEnd& e, const Fra
   const auto whole = [&](int line, const char* field, std::int64_t want, std::int64_t got) {
     return Difference{frame_, line, -1, field, want, got, a.misconduct, {}};
   };
-  if (!assertion_.empty()) {
-    Difference d = first_.value_or(whole(lines_ < es.height ? lines_ : -1, "assertion", 0, 1));
-    d.remark = "an assertion failed: " + assertion_;
-    d.assertion = assertion_;
+  if (failure_) {
+    // Registers are asked when all lines have come.
+    const bool in_line = lines_ < es.height && failure_->field() != "register";
+    Difference d = first_.value_or(whole(in_line ? lines_ : -1, failure_->field().c_str(), 0, 1));
+    d.remark = failure_->remark();
+    d.assertion = failure_->where();
     return d;
   }
   if (first_) return first_;
@@ -123,7 +125,7 @@ Image FrameComparison::actual_image(const Image& expected) const {
 }
 
 std::string describe(const Difference& d) {
-  std::string text = fmt::format("frame {}", d.frame);
+  std::string text = d.frame == kBehindFrames ? "register check behind the frames" : fmt::format("frame {}", d.frame);
   if (d.line >= 0) text += fmt::format(", line {}", d.line);
   if (d.x >= 0) text += fmt::format(", x {}", d.x);
   if (d.field == "missing") {
@@ -131,7 +133,7 @@ std::string describe(const Difference& d) {
   } else if (d.field == "error") {
     text += fmt::format(": expected {}, got {}", kErrorNames[static_cast<std::size_t>(d.expected) % kErrorNames.size()],
                         kErrorNames[static_cast<std::size_t>(d.actual) % kErrorNames.size()]);
-  } else if (d.field != "port" && d.field != "assertion" && d.field != "register") {
+  } else if (d.field != "port" && d.field != "assertion" && d.field != "finish" && d.field != "register") {
     text += fmt::format(", {}: expected {}, got {}", d.field, d.expected, d.actual);
   }
   if (!d.remark.empty()) text += ": " + d.remark;

@@ -13,14 +13,18 @@
 
 namespace kage::cosim {
 
+/// Difference::frame of what the register check finds, which comes behind the frames and needs all of them the same.
+inline constexpr int kBehindFrames = -1;
+
 /// The first place where a core departs from the golden model.
 struct Difference {
-  int frame = 0;
+  int frame = 0;      ///< kBehindFrames: of the register check
   int line = -1;      ///< -1: of the frame as a whole
   int x = -1;         ///< -1: not at a pixel
   std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
                       ///< "register" (a remark says which);
-                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion" (of the RTL)
+                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion", "finish" (of
+                      ///< the RTL)
   std::int64_t expected = 0;
   std::int64_t actual = 0;
   std::string remark;               ///< more in words, or empty
@@ -28,6 +32,9 @@ struct Difference {
   bool other_state = false;         ///< seen from RunOptions::other_state alone: the run's own core has the frame right
   Before before = Before::nothing;  ///< this frame
   bool ahead = false;               ///< this frame is right: the one right ahead of it has wrong pixels
+
+  /// Of registers, or what failed while they were checked: no stage shows it in a frame, and no frame is to blame.
+  [[nodiscard]] bool of_registers() const { return frame == kBehindFrames || field == "register"; }
 };
 
 /// Lines of one length, one after the other. Neighbours that are the same take room once, so the background that
@@ -62,11 +69,10 @@ class FrameComparison {
   /// The next line of the actual core.
   void actual(std::span<const std::uint8_t> line);
 
-  /// The actual core can go no further: AssertionError::where().
-  void assertion(const std::string& where) { assertion_ = where; }
+  /// The actual core can go no further.
+  void failed(const CoreFailure& failure) { failure_ = failure; }
 
-  /// Both frames have ended. Nothing where all agree. After assertion() what the actual one says of its frame is
-  /// nothing.
+  /// Both frames have ended. Nothing where all agree. After failed() what the actual one says of its frame is nothing.
   [[nodiscard]] std::optional<Difference> finish(const FrameEnd& expected, const FrameEnd& actual) const;
 
   /// After finish(): what the actual core drew, given what the expected one did; the same above the first difference,
@@ -83,7 +89,7 @@ class FrameComparison {
   int lines_ = 0;                    // that came from the actual core
   std::uint64_t pixels_ = 0;         // in them
   std::optional<Difference> first_;  // of pixels
-  std::string assertion_;
+  std::optional<CoreFailure> failure_;
   struct Unlike {
     int line;
     int expected;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "cosim/phases.hpp"
 #include "kage/core.hpp"
@@ -38,16 +39,43 @@ struct FrameEnd {
   PhaseStalls phase_stalls{};  ///< which of those in which phase
 };
 
-/// An assertion in the RTL failed, so that the core can go no further.
-class AssertionError : public Error {
+/// A core can go no further, by its own fault: it is different from one that can, whatever pixels it has sent.
+class CoreFailure : public Error {
+ public:
+  [[nodiscard]] const std::string& field() const { return field_; }    ///< Difference::field
+  [[nodiscard]] const std::string& remark() const { return remark_; }  ///< Difference::remark
+  [[nodiscard]] const std::string& where() const { return where_; }    ///< Difference::assertion
+
+ protected:
+  /// `more` is what a person is told besides.
+  CoreFailure(std::string field, const std::string& remark, std::string where = {}, const std::string& more = {})
+      : Error(remark + more), field_(std::move(field)), remark_(remark), where_(std::move(where)) {}
+
+ private:
+  std::string field_;
+  std::string remark_;
+  std::string where_;
+};
+
+/// An assertion in the RTL failed.
+class AssertionError : public CoreFailure {
  public:
   /// `where`: "rtl/frame_control.sv:312".
   explicit AssertionError(const std::string& where)
-      : Error("an assertion failed: " + where + " (its message is above)"), where_(where) {}
-  [[nodiscard]] const std::string& where() const { return where_; }
+      : CoreFailure("assertion", "an assertion failed: " + where, where, " (its message is above)") {}
+};
 
- private:
-  std::string where_;
+/// The RTL ended its simulation.
+class FinishError : public CoreFailure {
+ public:
+  FinishError() : CoreFailure("finish", "the RTL ends the simulation by $finish") {}
+};
+
+/// A register's access went wrong.
+class RegisterError : public CoreFailure {
+ public:
+  /// `what`: "register ERRORS (0x2c) does not answer".
+  explicit RegisterError(const std::string& what) : CoreFailure("register", what) {}
 };
 
 /// Words flow in and lines flow out: a core keeps a few lines at most, whatever the size of the frame.
@@ -65,8 +93,7 @@ class Core {
   virtual void begin(int /*number*/) {}
 
   /// The next words of the frame at hand, in pieces of any size. Lines that have come out go to `sink` before this
-  /// returns, from top to bottom. This and finish() may throw AssertionError; then nothing more may be asked of the
-  /// core.
+  /// returns, from top to bottom. This and finish() may throw CoreFailure; then nothing more may be asked of the core.
   virtual void feed(std::span<const std::uint32_t> words, const LineSink& sink) = 0;
 
   /// The frame's words have all been fed, TLAST with the beat of the last. The other lines go to `sink`; the last one

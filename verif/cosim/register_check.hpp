@@ -26,7 +26,7 @@ KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words);
 /// The first register that is not as it must be: "FRAMES: expected 3, got 2". `rtl` is new; it is given the frames, and
 /// some of its own. Constants, addresses without a register, bytes that are written
 /// alone, counters, the newest error, interrupts, the clocks that are lost, and the watchdog are looked at, with input
-/// that is dropped and units that wait among them. AssertionError as of Core.
+/// that is dropped and units that wait among them. CoreFailure as of Core.
 std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames);
 
 }  // namespace kage::cosim

@@ -54,7 +54,7 @@ class Compared {
   }
 
   /// Its part of a piece, before which the expected lines of it are there, and how it ends the frame where that is the
-  /// last. An assertion ends what can be compared: the expected core alone goes on to the frame's end.
+  /// last. A failure ends what can be compared: the expected core alone goes on to the frame's end.
   void take(Lines lines, const Piece& piece) {
     if (failed_) return;
     comparison_.expect(std::move(lines));
@@ -62,8 +62,8 @@ class Compared {
     try {
       core_.feed(piece.words, sink);
       if (piece.end) end_ = core_.finish(sink);
-    } catch (const AssertionError& e) {
-      comparison_.assertion(e.where());
+    } catch (const CoreFailure& e) {
+      comparison_.failed(e);
       failed_ = true;
     }
   }

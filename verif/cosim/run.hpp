@@ -67,7 +67,7 @@ inline constexpr std::size_t kFrameResults = 1000;
 
 struct Report {
   bool same = true;
-  bool broken = false;  ///< a frame of RunOptions::before ended in an assertion, so that no frame was compared
+  bool broken = false;  ///< a frame of RunOptions::before ended in a CoreFailure, so that no frame was compared
   int frames = 0;       ///< compared; a difference ends the run
   int width = 0;        ///< of the widest frame
   int height = 0;       ///< of the highest one

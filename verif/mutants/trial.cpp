@@ -34,6 +34,11 @@ std::string how(const Difference& d) {
 // The module by the place of an assertion: "rtl/frame_control.sv:312".
 std::string module_of(const std::string& where) { return std::filesystem::path(where).stem().string(); }
 
+TrialVerdict failed(const cosim::CoreFailure& e) {
+  if (e.field() == "register") return {"register", "registers", e.what()};
+  return {"assertion", module_of(e.where()), e.what()};
+}
+
 // Of the frames up to one; assertions would end that too early.
 std::optional<cosim::Divergence> diverges(int frame, const std::filesystem::path& library, const Inputs& inputs,
                                           const Sequence& sequence, const cosim::RtlOptions& rtl) {
@@ -60,8 +65,9 @@ std::optional<TrialVerdict> try_sequence(const std::filesystem::path& library, c
       if (!d) continue;
       // Where all stages agree, what is wrong is what the registers say of them.
       v = {how(*d), "registers", describe(*d)};
-    } catch (const cosim::AssertionError& e) {
-      v = {"assertion", module_of(e.where()), e.what()};
+    } catch (const cosim::CoreFailure& e) {
+      v = failed(e);
+      if (v.how == "register") return v;  // no stage says why
     }
     if (const auto d = diverges(i, library, inputs, sequence, options)) {
       v.module = d->module;
@@ -89,8 +95,8 @@ std::optional<TrialVerdict> try_mutant(const std::filesystem::path& library, con
   std::optional<std::string> wrong;
   try {
     wrong = wrong_register(*make_rtl(library, inputs.config, options), inputs.config, inputs.sequences.front().frames);
-  } catch (const cosim::AssertionError& e) {
-    return TrialVerdict{"assertion", module_of(e.where()), e.what()};
+  } catch (const cosim::CoreFailure& e) {
+    return failed(e);
   }
   if (!wrong && mutant != 0) return std::nullopt;
   // Again with monitors: registers may say truly what a module says wrong. Of the sound RTL they say nothing.

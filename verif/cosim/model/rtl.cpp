@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cosim/model/register_answer.hpp"
 #include "cosim/model/rtl_library.hpp"
 #include "cosim/model/video_lines.hpp"
 #include "kage/core.hpp"
@@ -93,14 +94,10 @@ class Rtl : public RtlCore {
   }
   int end_wave() override { return table_->end_wave(model_); }
 
-  int read_register(std::uint32_t address, std::uint32_t& value) override {
-    return table_->reg_read(model_, address, &value);
-  }
-  int write_register(std::uint32_t address, std::uint32_t value) override {
-    return table_->reg_write(model_, address, value);
-  }
-  int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) override {
-    return table_->reg_write_late(model_, address, value, strobes);
+  void access(RegisterAccess* write, RegisterAccess* read) override {
+    table_->reg_access(model_, write == nullptr ? nullptr : &write->bus, read == nullptr ? nullptr : &read->bus);
+    for (const RegisterAccess* a : {write, read})
+      if (a != nullptr) (void)answered(a->name, a->bus.address, a->bus.answer);
   }
   [[nodiscard]] bool interrupt() const override { return table_->irq(model_) != 0; }
   void pass(std::uint64_t clocks) override { (void)checked(table_->run(model_, kForever, clocks)); }
@@ -124,8 +121,15 @@ class Rtl : public RtlCore {
   [[nodiscard]] int checked(int why) const {
     const std::string failure = table_->failure(model_);
     if (!failure.empty()) throw AssertionError("rtl/" + failure);
-    if (why == KAGE_RTL_ASSERT) throw Error("the RTL ends the simulation by $finish");
+    if (why == KAGE_RTL_ASSERT) throw FinishError();
     return why;
+  }
+
+  /// The response that an access of a register came to.
+  [[nodiscard]] int answered(const char* name, std::uint32_t address, int answer) const {
+    (void)checked(answer == KAGE_RTL_ENDED ? KAGE_RTL_ASSERT : KAGE_RTL_LIMIT);
+    check_answer(name, address, answer);
+    return answer;
   }
 
   /// Called by the driver.
@@ -278,18 +282,18 @@ class Rtl : public RtlCore {
     }
   }
 
-  std::uint32_t read(std::uint32_t address) {
+  std::uint32_t read(const char* name, std::uint32_t address) {
     std::uint32_t value = 0;
-    const int answer = table_->reg_read(model_, address, &value);
-    (void)checked(KAGE_RTL_LIMIT);
-    if (answer != 0) throw Error(fmt::format("RTL model: register {:#04x} does not answer", address));
+    const int response = answered(name, address, table_->reg_read(model_, address, &value));
+    if (response != 0)
+      throw RegisterError(fmt::format("register {} ({:#04x}): expected response 0, got {}", name, address, response));
     return value;
   }
 
   /// The last pixel leaves before END is read: wait until the core has counted the frame.
   std::string wait_for_end() {
     for (int tries = 0; tries < 10000; ++tries)
-      if (read(KAGE_REG_FRAMES) == frames_ + 1 + ahead_) {
+      if (read("FRAMES", KAGE_REG_FRAMES) == frames_ + 1 + ahead_) {
         frames_ += 1 + std::exchange(ahead_, 0);
         return {};
       }
@@ -298,15 +302,15 @@ class Rtl : public RtlCore {
 
   FrameStatus status() {
     FrameStatus s;
-    const std::uint32_t errors = read(KAGE_REG_ERRORS);
+    const std::uint32_t errors = read("ERRORS", KAGE_REG_ERRORS);
     if (errors == errors_) return s;
     errors_ = errors;
-    const std::uint32_t error = read(KAGE_REG_ERROR);
+    const std::uint32_t error = read("ERROR", KAGE_REG_ERROR);
     s.error = static_cast<ErrorCode>(error & 15);
     s.line = error >> 16;
-    s.frame = read(KAGE_REG_ERROR_FRAME);
-    s.token = read(KAGE_REG_ERROR_TOKEN);
-    s.unit = read(KAGE_REG_ERROR_UNIT);
+    s.frame = read("ERROR_FRAME", KAGE_REG_ERROR_FRAME);
+    s.token = read("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN);
+    s.unit = read("ERROR_UNIT", KAGE_REG_ERROR_UNIT);
     return s;
   }
 

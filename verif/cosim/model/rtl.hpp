@@ -34,15 +34,20 @@ struct RtlOptions {
   std::function<std::vector<std::uint32_t>(int number)> prelude = {};
 };
 
+/// An access of a register by AXI4-Lite.
+struct RegisterAccess {
+  const char* name;     ///< for RegisterError
+  kage_rtl_access bus;  ///< what goes there, and comes from there
+};
+
 /// The RTL, simulated. Events and handshakes need a model that was built with monitors, waveforms one that was built
 /// for them (ModelOptions).
 class RtlCore : public Core {
  public:
-  /// An AXI4-Lite access while the streams go on: its response (0 is OKAY), -1 if none comes.
-  virtual int read_register(std::uint32_t address, std::uint32_t& value) = 0;
-  virtual int write_register(std::uint32_t address, std::uint32_t value) = 0;
-  /// Of the bytes in `strobes` alone, the data some clocks behind the address.
-  virtual int write_register_late(std::uint32_t address, std::uint32_t value, unsigned strobes) = 0;
+  /// A write, a read (the other is nullptr), or both at the same time, while the streams go on; by a master that takes
+  /// its time (kage_rtl_table::reg_access). Throws RegisterError where no response comes, or one that breaks
+  /// AXI4-Lite's rules; CoreFailure as of Core.
+  virtual void access(RegisterAccess* write, RegisterAccess* read) = 0;
   [[nodiscard]] virtual bool interrupt() const = 0;
 
   /// Whether it stood still in the frame at hand, with input waiting: it takes nothing more of it.

@@ -76,7 +76,7 @@ Json frames_of(const Page& page, Pictures& pictures) {
   std::vector<Json> frames(run.each.size());
   for (std::size_t k = run.each.size(); k-- > 0;) {
     const cosim::FrameResult& r = run.each[k];
-    const bool different = run.first_difference && k + 1 == run.each.size();
+    const bool different = run.first_difference && run.first_difference->frame == r.frame;
     const int number = r.frame;
     Json& j = frames[k];
     j = to_json(page.record.each[k]);
@@ -107,7 +107,8 @@ Json frames_of(const Page& page, Pictures& pictures) {
 void write_bands(std::ostream& out, const Page& page, std::size_t room) {
   std::set<std::pair<int, int>> there;
   // After a difference some of the frames behind it may have been made already.
-  const int last = page.run->first_difference ? page.run->first_difference->frame : std::numeric_limits<int>::max();
+  const auto& d = page.run->first_difference;
+  const int last = d && d->frame != cosim::kBehindFrames ? d->frame : std::numeric_limits<int>::max();
   for (const TokenStore* store : {page.wanted, page.tokens}) {
     if (store == nullptr) continue;
     for (const Band& b : store->bands()) {

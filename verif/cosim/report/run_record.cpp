@@ -84,7 +84,7 @@ std::optional<DifferenceRecord> difference_record(const std::optional<cosim::Dif
                                                   const std::optional<cosim::Divergence>& divergence, bool searched) {
   if (!difference) return std::nullopt;
   DifferenceRecord r;
-  r.frame = difference->frame;
+  r.frame = there(difference->frame);
   r.line = there(difference->line);
   r.x = there(difference->x);
   r.field = difference->field;

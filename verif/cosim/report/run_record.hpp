@@ -84,7 +84,7 @@ struct DivergenceRecord {
 
 /// The first difference of what came out: cosim::Difference as it is told, and what was found out about it.
 struct DifferenceRecord {
-  int frame = 0;
+  std::optional<int> frame;  ///< nothing: of the register check behind the frames
   std::optional<int> line;
   std::optional<int> x;
   std::string field;

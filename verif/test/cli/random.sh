@@ -114,4 +114,51 @@ for seed in {1..25}; do
   expect 0 "$kage" cosim random:mixed --frames 3 --config small.yaml --seed "$seed" --no-report --out mixed
 done
 
+# The frames that the register check sends of its own fit into lines of any length, segments of any length and beats of
+# any width (unit/cosim/register_frames has all corners): what they tell of sound RTL there.
+for corner in 'MAX_WIDTH: 7, X_BITS: 4, LANES: 4' 'MAX_WIDTH: 1, X_BITS: 4, LANES: 4' \
+  'MAX_WIDTH: 1, X_BITS: 4, ARRANGEMENT: 0, UNITS: 2, FACE_BITS: 2, DX_BITS: 2, SEG_BITS: 2, BEAT_WORDS: 8' \
+  'MAX_WIDTH: 40, X_BITS: 6, LANES: 8, UNITS: 3, FACE_BITS: 2, DX_BITS: 2, SEG_BITS: 2' \
+  'MAX_WIDTH: 40, X_BITS: 6, LANES: 8, UNITS: 2, DX_BITS: 3'; do
+  echo "{$corner}" >corner.yaml
+  expect 0 "$kage" cosim random:mixed --frames 20 --config corner.yaml --no-report --out corner
+done
+
+# Handshakes of AXI4-Lite that work with a master of one habit only.
+for mutant in registers_write_{data,strobes,answered} registers_read_answered; do
+  number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index(sys.argv[2]) + 1)' "$source/verif/mutants/mutants.yaml" $mutant)
+  for seed in 1 2 3; do
+    expect 1 "$kage" cosim random:mixed --frames 6 --config small.yaml --mutant "$number" --seed $seed --no-report --out handshakes
+    grep -q '^first difference: register check behind the frames: ' stdout || fail "$mutant: found otherwise: $(cat stdout)"
+  done
+done
+
+# A difference of the register check is of no frame: no stage is looked for, no frame is kept, and the run repeats it.
+number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index("registers_shape") + 1)' "$source/verif/mutants/mutants.yaml")
+check=(random:mixed --frames 6 --config small.yaml --mutant "$number")
+expect 1 "$kage" cosim "${check[@]}" --out check --json check.json --junit check.xml --annotate github
+cp stdout said
+grep -q '^different: 6 frames, ' said || fail "not all frames: $(cat said)"
+grep -q '^first difference: register check behind the frames: SHAPE: expected 0x[0-9a-f]*, got 0x' said || fail "not told: $(cat said)"
+grep -q '^::error title=kage cosim random_mixed%3A registers are different::register check' said || fail "no annotation: $(cat said)"
+again=$(sed -n 's/^that run again: kage //p' said)
+# shellcheck disable=SC2086
+[ -n "$again" ] && expect 1 "$kage" $again
+json check.json 'j["frames"] == 6 and all(f["same"] for f in j["each"]) and j["kept"] is None and j["pictures"] == []'
+json check.json '(d := j["first_difference"])["frame"] is None and d["field"] == "register" and not d["searched"] and d["divergence"] is None'
+python3 - <<'PY' || fail "JUnit of the register check"
+import xml.etree.ElementTree as xml
+cases = [(c.get("name"), c.find("failure") is not None) for c in xml.parse("check.xml").iter("testcase")]
+assert cases == [(f"frame {i}", False) for i in range(6)] + [("registers", True)], cases
+PY
+grep -q 'register check behind the frames: SHAPE' check/report.html || fail "the page does not tell it"
+[ -z "$(find check -name '*.kage')" ] || fail "a frame is kept that is not to blame"
+expect 1 "$kage" cosim "${check[@]}" --shard 1/1 --no-report --out shards --json shard.json
+expect 1 "$kage" merge shard.json --json merged.json --junit merged.xml
+json merged.json 'not j["same"] and j["frames"] == 6 and j["first_difference"]["frame"] is None'
+grep -q 'name="frame 5" time="[0-9.]*"/>' merged.xml && grep -q 'name="registers"' merged.xml || fail "JUnit of a joined shard"
+# Its frames must be all of the shard's.
+python3 -c 'import json; j = json.load(open("shard.json")); j["total_frames"] = 7; json.dump(j, open("less.json", "w"))'
+trouble "cannot have the 6 that it" "$kage" merge less.json
+
 done_testing

@@ -12,6 +12,7 @@
 #include "Vkage.h"
 #include "flow.hpp"
 #include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
+#include "register_bus.hpp"
 #include "rtl_model.h"
 #include "verilated.h"
 #ifdef KAGE_WAVES
@@ -48,6 +49,8 @@ struct kage_rtl {
   VerilatedContext context;
   std::unique_ptr<Vkage> top;
   Flow input, output;
+  Random noise;  // on lines of data and address while their valid is 0
+  RegisterBus bus;
 
   std::deque<Block> queue;
   std::size_t at = 0;                    // word of queue.front() that is offered next
@@ -80,7 +83,7 @@ struct kage_rtl {
   std::uint64_t wave_first = 1, wave_last = 0;
 #endif
 
-  explicit kage_rtl(std::uint64_t seed) : initial(seed) {
+  explicit kage_rtl(std::uint64_t seed) : initial(seed), noise(seed) {
 #ifdef KAGE_WAVES
     context.traceEverOn(true);
 #endif
@@ -108,18 +111,20 @@ struct kage_rtl {
   }
 
   void idle_inputs() {
-    top->s_axis_tvalid_i = 0;
-    top->s_axis_tlast_i = 0;
     top->m_axis_tready_i = 0;
-    top->s_axil_awvalid_i = 0;
-    top->s_axil_awaddr_i = 0;
-    top->s_axil_wvalid_i = 0;
-    top->s_axil_wdata_i = 0;
-    top->s_axil_wstrb_i = 0;
-    top->s_axil_bready_i = 0;
-    top->s_axil_arvalid_i = 0;
-    top->s_axil_araddr_i = 0;
-    top->s_axil_rready_i = 0;
+    bus.write.drop(KAGE_RTL_NO_ANSWER);
+    bus.read.drop(KAGE_RTL_NO_ANSWER);
+    bus.drive(*top, noise);
+    no_beat();
+  }
+
+  // No beat is offered.
+  void no_beat() {
+    std::uint32_t words[kBeatWords];
+    for (std::uint32_t& word : words) word = noise.next();
+    put_words(top->s_axis_tdata_i, words);
+    top->s_axis_tlast_i = noise.next() & 1;
+    top->s_axis_tvalid_i = 0;
   }
 
   // A clock is two steps. settle(): inputs may have changed since the last edge, and outputs follow them, as a ready
@@ -168,9 +173,9 @@ struct kage_rtl {
     waiting = false;
     x = y = 0;
     quiet = 0;
-    idle_inputs();
     top->rst_ni = 0;
     for (std::uint32_t i = 0; i < (clocks > 0 ? clocks : 1); ++i) {
+      idle_inputs();
       settle();
       tick();
     }
@@ -180,6 +185,7 @@ struct kage_rtl {
   void stalls(std::uint32_t input_share, std::uint32_t output_share, std::uint64_t seed) {
     input = Flow(input_share, seed * 2 + 1);
     output = Flow(output_share, seed * 2 + 2);
+    noise = Random(~seed);
   }
 
   // Whether one was expected.
@@ -226,7 +232,11 @@ struct kage_rtl {
         top->s_axis_tlast_i = b.last && at + kBeatWords == b.words.size() ? 1 : 0;
       }
     }
-    top->s_axis_tvalid_i = offered ? 1 : 0;
+    if (offered)
+      top->s_axis_tvalid_i = 1;
+    else
+      no_beat();
+    bus.drive(*top, noise);
     top->m_axis_tready_i = output.next() ? 1 : 0;
     settle();
   }
@@ -247,6 +257,7 @@ struct kage_rtl {
     if (waiting) ++stats.blocked[mark];
     // Pixels that no frame has room for are no progress: a core that never stops sending stands still too.
     const bool due = pixel && ready && take_pixel(value);
+    bus.look(*top);
     ++stats.cycles;
     quiet = beat || due ? 0 : quiet + (ready && (offered || queue.empty()) ? 1 : 0);
 
@@ -264,11 +275,14 @@ struct kage_rtl {
     }
   }
 
+  // An assertion has failed, or the RTL has ended the simulation.
+  bool ended() { return context.gotError() || context.gotFinish(); }
+
   int run(std::uint64_t want, std::uint64_t max_clocks) {
     enter();
     quiet = 0;
     for (std::uint64_t n = 0;; ++n) {
-      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (ended()) return KAGE_RTL_ASSERT;
       if (pixel_count >= want) return KAGE_RTL_PIXELS;
       if (quiet >= kIdleClocks) return queue.empty() ? KAGE_RTL_IDLE : KAGE_RTL_STUCK;
       if (n >= max_clocks) return KAGE_RTL_LIMIT;
@@ -280,7 +294,7 @@ struct kage_rtl {
     enter();
     quiet = 0;
     for (std::uint64_t n = 0;; ++n) {
-      if (context.gotError() || context.gotFinish()) return KAGE_RTL_ASSERT;
+      if (ended()) return KAGE_RTL_ASSERT;
       if (queue.empty()) return KAGE_RTL_DRY;
       if (quiet >= kIdleClocks) return KAGE_RTL_STUCK;
       if (n >= max_clocks) return KAGE_RTL_LIMIT;
@@ -288,50 +302,41 @@ struct kage_rtl {
     }
   }
 
-  int read(std::uint32_t address, std::uint32_t* value) {
+  // Until the accesses that have begun come to an end.
+  void wait_for_registers() {
     enter();
-    top->s_axil_arvalid_i = 1;
-    top->s_axil_araddr_i = static_cast<CData>(address);
-    top->s_axil_rready_i = 1;
-    for (int n = 0; n < 1000; ++n) {
-      drive();
-      const bool taken = top->s_axil_arvalid_i && top->s_axil_arready_o;
-      const bool answered = top->s_axil_rvalid_o;
-      *value = top->s_axil_rdata_o;
-      const int response = top->s_axil_rresp_o;
-      finish_clock();
-      if (answered) {
-        top->s_axil_rready_i = 0;
-        return response;
-      }
-      if (taken) top->s_axil_arvalid_i = 0;
+    for (int n = 0; n < 1000 && (bus.write.open() || bus.read.open()); ++n) {
+      clock();
+      if (ended()) break;
     }
-    return -1;
+    for (Access* access : {&bus.write, &bus.read})
+      if (access->open()) access->drop(ended() ? KAGE_RTL_ENDED : KAGE_RTL_NO_ANSWER);
   }
 
-  int write(std::uint32_t address, std::uint32_t value, unsigned strobes, int late) {
-    enter();
-    top->s_axil_awvalid_i = 1;
-    top->s_axil_awaddr_i = static_cast<CData>(address);
-    top->s_axil_wdata_i = value;
-    top->s_axil_wstrb_i = static_cast<CData>(strobes);
-    top->s_axil_bready_i = 1;
-    for (int n = 0; n < 1000; ++n) {
-      if (n == late) top->s_axil_wvalid_i = 1;
-      drive();
-      const bool aw = top->s_axil_awvalid_i && top->s_axil_awready_o;
-      const bool w = top->s_axil_wvalid_i && top->s_axil_wready_o;
-      const bool answered = top->s_axil_bvalid_o;
-      const int response = top->s_axil_bresp_o;
-      finish_clock();
-      if (answered) {
-        top->s_axil_bready_i = 0;
-        return response;
-      }
-      if (aw) top->s_axil_awvalid_i = 0;
-      if (aw) top->s_axil_awaddr_i = static_cast<CData>(~address);
-      if (w) top->s_axil_wvalid_i = 0;
+  int read(std::uint32_t address, std::uint32_t* value) {
+    bus.begin_read(address, {});
+    wait_for_registers();
+    *value = bus.read.value();
+    return bus.read.answer();
+  }
+
+  int write(std::uint32_t address, std::uint32_t value) {
+    bus.begin_write(address, value, 15, {});
+    wait_for_registers();
+    return bus.write.answer();
+  }
+
+  void access(kage_rtl_access* write, kage_rtl_access* read) {
+    if (write != nullptr) bus.begin_write(write->address, write->data, write->strobes, bus.patient(noise));
+    if (read != nullptr) {
+      AccessTiming timing = bus.patient(noise);
+      if (write == nullptr) timing.address = 0;
+      bus.begin_read(read->address, timing);
     }
-    return -1;
+    wait_for_registers();
+    if (write != nullptr) write->answer = bus.write.answer();
+    if (read == nullptr) return;
+    read->answer = bus.read.answer();
+    read->data = bus.read.value();
   }
 };

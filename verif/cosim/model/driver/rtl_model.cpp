@@ -66,10 +66,8 @@ const kage_rtl_table kTable = {
       m->pixel_count = 0;
     },
     [](kage_rtl* m, std::uint32_t address, std::uint32_t* value) { return m->read(address, value); },
-    [](kage_rtl* m, std::uint32_t address, std::uint32_t value) { return m->write(address, value, 15, 0); },
-    [](kage_rtl* m, std::uint32_t address, std::uint32_t value, unsigned strobes) {
-      return m->write(address, value, strobes, 5);
-    },
+    [](kage_rtl* m, std::uint32_t address, std::uint32_t value) { return m->write(address, value); },
+    [](kage_rtl* m, kage_rtl_access* write, kage_rtl_access* read) { m->access(write, read); },
     [](kage_rtl* m) -> int { return m->top->irq_o; },
     [](kage_rtl* m, kage_rtl_stats* out) { *out = m->stats; },
     [](kage_rtl* m) { m->stats = {}; },

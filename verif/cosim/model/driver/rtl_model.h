@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* Rises with every change of kage_rtl_table. A program refuses a model of another number: the table begins with it. */
-#define KAGE_RTL_ABI 11u
+#define KAGE_RTL_ABI 13u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -31,6 +31,22 @@ enum {
   KAGE_RTL_ASSERT = 4, /* an assertion in the RTL failed: see failure(); then only pixels() and destroy() */
   KAGE_RTL_DRY = 5     /* every queued beat is taken */
 };
+
+/* What an access of a register gives in place of a response. */
+enum {
+  KAGE_RTL_NO_ANSWER = -1, /* none came in 1000 clocks */
+  KAGE_RTL_ENDED = -2,     /* an assertion failed, or $finish ended the simulation */
+  KAGE_RTL_UNASKED = -3,   /* it came before address and data had been taken */
+  KAGE_RTL_UNSTABLE = -4   /* it changed or went away while it waited for its ready */
+};
+
+/* An access of a register that takes its time. */
+typedef struct {
+  uint32_t address;
+  uint32_t data;    /* what is written, or was read */
+  unsigned strobes; /* of a write: a bit a byte */
+  int answer;       /* the response, or what came in its place */
+} kage_rtl_access;
 
 /* What passes between the modules of the core, and within some, as the monitors tell it. Which stages there are, and
  * what the values of each are: rtl/defs/stages.yaml. */
@@ -100,8 +116,8 @@ typedef struct {
   void (*reset)(kage_rtl*, uint32_t clocks);
 
   /* The share of clocks, in 65536, in which the next beat is offered, and in which a pixel is taken: 65536 is always.
-   * An offered beat stays. Stops come alone, in bursts, and now and then last longer than any buffer; `seed` says when,
-   * from this call on. */
+   * An offered beat stays; while none is offered, data and TLAST are noise. Stops come alone, in bursts, and now and
+   * then last longer than any buffer; `seed` says when, from this call on. */
   void (*stalls)(kage_rtl*, uint32_t input_share, uint32_t output_share, uint64_t seed);
 
   /* Queue words as whole beats; zeros fill the last beat. `last` puts TLAST on it. A frame may come in several calls.
@@ -129,12 +145,14 @@ typedef struct {
   const uint8_t* (*pixels)(kage_rtl*, uint64_t* count);
   void (*clear_pixels)(kage_rtl*);
 
-  /* AXI4-Lite accesses; the streams go on meanwhile. Return the response (0 is OKAY), -1 if none came in 1000 clocks.
-   */
+  /* AXI4-Lite accesses; the streams go on meanwhile. Return the response (0 is OKAY), or a negative number as above.
+   * Address and data come in the first clock, and a response is taken in the clock in which it comes. */
   int (*reg_read)(kage_rtl*, uint32_t address, uint32_t* value);
   int (*reg_write)(kage_rtl*, uint32_t address, uint32_t value);
-  /* The bytes that `strobes` has; the data come clocks after the address, whose port has something else by then. */
-  int (*reg_write_late)(kage_rtl*, uint32_t address, uint32_t value, unsigned strobes);
+  /* A write, a read (the other is NULL), or both at the same time, by a master that takes its time: the address of a
+   * write comes before its data, with it, or behind it, that of a read some clocks behind a write's; responses wait for
+   * their ready. The seed of stalls() says how long. */
+  void (*reg_access)(kage_rtl*, kage_rtl_access* write, kage_rtl_access* read);
   int (*irq)(kage_rtl*);
 
   void (*stats)(kage_rtl*, kage_rtl_stats*);

@@ -10,10 +10,13 @@
   const link = (text, address) => address === null ? text : make("a", text, {href: address});
   const partOf = (row) => data.parts.find((p) => p.index === row.part);
 
+  // Of the register check, which has no frame, behind all frames.
+  const place = (run) => run.difference.frame ?? Number.MAX_VALUE;
+
   // All differences, as far as shards found them: the first frame of the first scene is what the verdict tells.
   function differences() {
     const all = data.parts.flatMap((part) => part.runs.filter((r) => r.difference).map((r) => ({part, ...r})));
-    return all.sort((a, b) => a.scene - b.scene || a.difference.frame - b.difference.frame);
+    return all.sort((a, b) => a.scene - b.scene || place(a) - place(b));
   }
 
   const several = data.scenes.length > 1;
@@ -26,7 +29,7 @@
       const {text, frame} = first.difference;
       terms.push(["First difference", ofScene(first.scene, text)]);
       terms.push(...Parts.divergenceTerms(first.difference, first.gtkwave));
-      if (first.page) terms.push(["Look at it", link(`frame ${frame} on the page of its run`, first.page)]);
+      if (first.page) terms.push(["Look at it", link(frame === null ? "the page of its run" : `frame ${frame} on the page of its run`, first.page)]);
     }
     if (more.length) terms.push(["Other runs", `${plural(more.length, "difference")} more, below`]);
     Parts.verdict(data.same, data.command, data.name, data.headline, terms);

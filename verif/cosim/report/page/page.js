@@ -328,7 +328,7 @@ const Report = (() => {
     });
     // A page over several runs links to frames: #frame=3.
     const linked = /^#frame=(\d+)$/.exec(location.hash);
-    const shown = linked ? Number(linked[1]) : first ? first.frame : frame.frame;
+    const shown = linked ? Number(linked[1]) : first?.frame ?? frame.frame;
     const pixel = first && first.x !== null && first.frame === shown ? {x: first.x, y: first.line} : null;
     frame = data.frames.find((f) => f.frame === shown) ?? frame;
     View.set(frame, {});  // the size is known before the pictures are
