@@ -81,10 +81,8 @@ module registers #(
     behind_q <= behind_i;
   end
 
-  localparam logic [31:0] Shape = {1'(ARRANGEMENT), 5'd0, 4'(BEAT_WORDS), 6'(LANES), 16'(MAX_WIDTH)};
   localparam logic [1:0] RespOkay = 2'b00;
   localparam logic [1:0] RespSlverr = 2'b10;
-  localparam logic [7:0] RegLast = RegStall;
 
   // ---- write channel -----------------------------------------------------------------------------------------------
   logic aw_held_q, w_held_q, write;
@@ -118,14 +116,15 @@ module registers #(
   end
 
   // ---- registers ---------------------------------------------------------------------------------------------------
-  logic [2:0] control_q, irq_q, irq_set;
+  reg_irq_t irq_set, irq_q;
+  reg_control_t control_q;
   logic [31:0] limit_q, last_idle_q, idle_q;  // last_idle_q is limit_q - 1, a clock late
   logic limited_q, limit_new_q, bitten_q;
   logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
   logic [15:0] error_line_q;
   logic [ 3:0] error_code_q;
   logic [ 5:0] error_unit_q;
-  logic [31:0] stall_q;
+  reg_stall_t stall_q;
   logic bite, unit_waited, write_control, write_irq, write_limit;
 
   assign write_control = write && aw_addr_q[7:2] == RegControl[7:2];
@@ -133,7 +132,11 @@ module registers #(
   assign write_limit = write && aw_addr_q[7:2] == RegWatchdog[7:2];
   assign bite = limited_q && open_q && !progress_q && !limit_new_q && !bitten_q && idle_q == last_idle_q;
   assign unit_waited = waiting_input_q && behind_valid_q;
-  assign irq_set = {bite, error_valid_q, frame_end_q};
+  always_comb begin
+    irq_set.frame_end = frame_end_q;
+    irq_set.error = error_valid_q;
+    irq_set.watchdog = bite;
+  end
   assign irq_o = (irq_q & control_q) != '0;
 
   always_ff @(posedge clk_i) begin
@@ -157,9 +160,9 @@ module registers #(
       starved_q <= '0;
       blocked_q <= '0;
     end else begin
-      if (write_control) control_q <= (control_q & ~w_mask[2:0]) | (w_data_q[2:0] & w_mask[2:0]);
+      if (write_control) control_q <= (control_q & ~w_mask[RegIrqBits-1:0]) | (w_data_q[RegIrqBits-1:0] & w_mask[RegIrqBits-1:0]);
       if (write_limit) limit_q <= (limit_q & ~w_mask) | (w_data_q & w_mask);
-      irq_q <= irq_set | (write_irq ? irq_q & ~(w_data_q[2:0] & w_mask[2:0]) : irq_q);
+      irq_q <= irq_set | (write_irq ? irq_q & ~(w_data_q[RegIrqBits-1:0] & w_mask[RegIrqBits-1:0]) : irq_q);
       limited_q <= limit_q != '0;
       limit_new_q <= write_limit;
       if (write_limit || limit_new_q || progress_q || !open_q) begin
@@ -178,9 +181,11 @@ module registers #(
         errors_q <= errors_q + 32'd1;
       end
       if (bite) begin
-        stall_q <= {
-          unit_waited, behind_q.line, 6'd0, waiting_output_q, waiting_input_q, 2'd0, unit_waited ? behind_q.unit : 6'd0
-        };
+        stall_q.behind <= unit_waited;
+        stall_q.line   <= behind_q.line;
+        stall_q.on_output <= waiting_output_q;
+        stall_q.on_input <= waiting_input_q;
+        stall_q.unit   <= unit_waited ? behind_q.unit : '0;
       end
       if (frame_end_q) frames_q <= frames_q + 32'd1;
       cycles_q <= cycles_q + 32'd1;
@@ -192,19 +197,41 @@ module registers #(
 
   // ---- read channel ------------------------------------------------------------------------------------------------
   logic [31:0] value;
+  reg_shape_t shape;
+  reg_status_t status;
+  reg_error_t error;
+  reg_tree_t tree;
+  always_comb begin
+    shape = '0;
+    shape.arrangement = 1'(ARRANGEMENT);
+    shape.beat_words = 4'(BEAT_WORDS);
+    shape.lanes = 6'(LANES);
+    shape.max_width = 16'(MAX_WIDTH);
+    status.open = open_q;
+    status.draining = draining_q;
+    status.waiting_input = waiting_input_q;
+    status.waiting_output = waiting_output_q;
+    error = '0;
+    error.code = error_code_q;
+    error.line = error_line_q;
+    tree = '0;
+    tree.behind = unit_waited;
+    tree.line = unit_waited ? behind_q.line : '0;
+    tree.unit = unit_waited ? behind_q.unit : '0;
+  end
   always_comb begin
     unique case ({
       araddr_i[7:2], 2'b00
     })
-      RegId: value = "KAGE";
+      RegId: value = IdValue;
       RegVersion: value = 32'(StreamVersion);
       RegParamHash: value = ParamHash;
-      RegShape: value = Shape;
+      RegShape: value = shape;
       RegControl: value = 32'(control_q);
       RegIrq: value = 32'(irq_q);
       RegWatchdog: value = limit_q;
-      RegStatus: value = {28'd0, waiting_output_q, waiting_input_q, draining_q, open_q};
-      RegError: value = {error_line_q, 12'd0, error_code_q};
+      RegStatus: value = 32'(status);
+      RegError: value = error;
       RegErrorFrame: value = error_frame_q;
       RegErrorToken: value = error_token_q;
       RegErrors: value = errors_q;
@@ -213,7 +240,7 @@ module registers #(
       RegStarved: value = starved_q;
       RegBlocked: value = blocked_q;
       RegErrorUnit: value = 32'(error_unit_q);
-      RegTree: value = unit_waited ? {1'b1, behind_q.line, 10'd0, behind_q.unit} : '0;
+      RegTree: value = tree;
       RegStall: value = stall_q;
       default: value = '0;
     endcase

@@ -65,17 +65,19 @@ class Checker {
 
   void constants() {
     const Config& c = config_;
-    expect("ID", KAGE_REG_ID, 0x4B414745);
+    expect("ID", KAGE_REG_ID, KAGE_ID_VALUE);
     expect("VERSION", KAGE_REG_VERSION, kStreamVersion);
     expect("PARAM_HASH", KAGE_REG_PARAM_HASH, param_hash(c));
     expect("SHAPE", KAGE_REG_SHAPE,
-           static_cast<std::uint32_t>(c.arrangement) << 31 | static_cast<std::uint32_t>(c.beat_words) << 22 |
-               static_cast<std::uint32_t>(c.lanes) << 16 | static_cast<std::uint32_t>(c.max_width));
+           KAGE_FIELD_IS(KAGE_SHAPE_ARRANGEMENT, static_cast<std::uint32_t>(c.arrangement)) |
+               KAGE_FIELD_IS(KAGE_SHAPE_BEAT_WORDS, static_cast<std::uint32_t>(c.beat_words)) |
+               KAGE_FIELD_IS(KAGE_SHAPE_LANES, static_cast<std::uint32_t>(c.lanes)) |
+               KAGE_FIELD_IS(KAGE_SHAPE_MAX_WIDTH, static_cast<std::uint32_t>(c.max_width)));
   }
 
   void addresses() {
-    read("an address without register", KAGE_REG_STALL + 4, kSlverr);
-    write("an address without register", KAGE_REG_STALL + 4, 1, kSlverr);
+    read("an address without register", KAGE_REG_LAST + 4, kSlverr);
+    write("an address without register", KAGE_REG_LAST + 4, 1, kSlverr);
     for (const std::uint32_t value : {0x12345678U, 0U}) {
       write("WATCHDOG", KAGE_REG_WATCHDOG, value);
       expect("WATCHDOG", KAGE_REG_WATCHDOG, value);
@@ -86,11 +88,12 @@ class Checker {
       expect("WATCHDOG, by bytes", KAGE_REG_WATCHDOG, strobes == 5 ? 0x00340078 : 0x12005600);
     }
     write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
-    write("CONTROL", KAGE_REG_CONTROL, 5);
-    expect("CONTROL", KAGE_REG_CONTROL, 5);
+    const std::uint32_t some = KAGE_CONTROL_FRAME_END_MASK | KAGE_CONTROL_WATCHDOG_MASK;
+    write("CONTROL", KAGE_REG_CONTROL, some);
+    expect("CONTROL", KAGE_REG_CONTROL, some);
     write("CONTROL", KAGE_REG_CONTROL, 0);
     write("ID", KAGE_REG_ID, 0);
-    expect("ID", KAGE_REG_ID, 0x4B414745);
+    expect("ID", KAGE_REG_ID, KAGE_ID_VALUE);
   }
 
   // Reads and writes do not know of each other.
@@ -122,7 +125,9 @@ class Checker {
       expect("FRAMES", KAGE_REG_FRAMES, count_);
       expect("ERRORS", KAGE_REG_ERRORS, errors_);
       if (f.end.status.error == ErrorCode::NONE) continue;
-      expect("ERROR", KAGE_REG_ERROR, f.end.status.line << 16 | static_cast<std::uint32_t>(f.end.status.error));
+      expect("ERROR", KAGE_REG_ERROR,
+             KAGE_FIELD_IS(KAGE_ERROR_LINE, f.end.status.line) |
+                 KAGE_FIELD_IS(KAGE_ERROR_CODE, static_cast<std::uint32_t>(f.end.status.error)));
       expect("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN, f.end.status.token);
     }
     expect("BLOCKED", KAGE_REG_BLOCKED, blocked_);
@@ -141,7 +146,8 @@ class Checker {
       rtl_.pass(kLong + 20 * pixels);
       const bool early = read("ERRORS", KAGE_REG_ERRORS) != errors_;
       if (early) {
-        expect("STATUS, while input is dropped", KAGE_REG_STATUS, 0b0111);
+        expect("STATUS, while input is dropped", KAGE_REG_STATUS,
+               KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK | KAGE_STATUS_WAITING_INPUT_MASK);
         expect("FRAMES, while input is dropped", KAGE_REG_FRAMES, count_);
       }
       (void)rtl_.finish(kNowhere);
@@ -156,7 +162,7 @@ class Checker {
     const FrameInParts f = unit_behind(config_);
     rtl_.feed(std::span(f.words).first(f.first + 1), kNowhere);  // the word behind the part stays with the driver
     rtl_.pass(kLong);
-    expect("TREE", KAGE_REG_TREE, 1U << 31 | 1U);
+    expect("TREE", KAGE_REG_TREE, KAGE_TREE_BEHIND_MASK | KAGE_FIELD_IS(KAGE_TREE_UNIT, 1U));
     rtl_.feed(std::span(f.words).subspan(f.first + 1), kNowhere);
     (void)rtl_.finish(kNowhere);
     ++count_;
@@ -167,14 +173,14 @@ class Checker {
   // Frames have ended, of them some with an error, or none where chance has made no such frame.
   void interrupt() {
     const std::uint32_t error = errors_ > 0 ? 1 : 0;
-    expect("IRQ", KAGE_REG_IRQ, error << 1 | 1);
+    expect("IRQ", KAGE_REG_IRQ, KAGE_FIELD_IS(KAGE_IRQ_ERROR, error) | KAGE_IRQ_FRAME_END_MASK);
     same("irq", 0, rtl_.interrupt() ? 1 : 0);
-    write("CONTROL", KAGE_REG_CONTROL, 2);
+    write("CONTROL", KAGE_REG_CONTROL, KAGE_CONTROL_ERROR_MASK);
     same("irq", error, rtl_.interrupt() ? 1 : 0);
-    write("IRQ", KAGE_REG_IRQ, 2);
-    expect("IRQ", KAGE_REG_IRQ, 1);
+    write("IRQ", KAGE_REG_IRQ, KAGE_IRQ_ERROR_MASK);
+    expect("IRQ", KAGE_REG_IRQ, KAGE_IRQ_FRAME_END_MASK);
     same("irq", 0, rtl_.interrupt() ? 1 : 0);
-    write("IRQ", KAGE_REG_IRQ, 7);
+    write("IRQ", KAGE_REG_IRQ, ~0U);
     expect("IRQ", KAGE_REG_IRQ, 0);
   }
 
@@ -193,9 +199,10 @@ class Checker {
     rtl_.feed(std::span(words).first(first), kNowhere);
     write("WATCHDOG", KAGE_REG_WATCHDOG, kWatchdog);
     rtl_.pass(4 * std::uint64_t{kWatchdog} + 400 * static_cast<std::uint64_t>(register_frame_width(config_)));
-    expect("STATUS", KAGE_REG_STATUS, 0b0101);
-    expect("IRQ", KAGE_REG_IRQ, 4);
-    same("STALL", 1U << 8, read("STALL", KAGE_REG_STALL) & 0x300U);
+    expect("STATUS", KAGE_REG_STATUS, KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK);
+    expect("IRQ", KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);
+    same("STALL", KAGE_STALL_ON_INPUT_MASK,
+         read("STALL", KAGE_REG_STALL) & (KAGE_STALL_ON_INPUT_MASK | KAGE_STALL_ON_OUTPUT_MASK));
     rtl_.feed(std::span(words).subspan(first), kNowhere);
     (void)rtl_.finish(kNowhere);
     const std::uint32_t starved = read("STARVED", KAGE_REG_STARVED);

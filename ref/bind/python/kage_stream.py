@@ -209,15 +209,15 @@ ERRORS = {
 
 # name: (byte address, access, meaning)
 REGISTERS = {
-    "ID": (0x00, "ro", "0x4B414745, \"KAGE\""),
+    "ID": (0x00, "ro", "the letters KAGE"),
     "VERSION": (0x04, "ro", "stream version"),
     "PARAM_HASH": (0x08, "ro", "hash that a frame's header must carry"),
-    "SHAPE": (0x0C, "ro", "bits 15-0 MAX_WIDTH, 21-16 LANES, 25-22 BEAT_WORDS, 31 ARRANGEMENT"),
-    "CONTROL": (0x10, "rw", "bit 0 interrupt on end of frame, bit 1 interrupt on error, bit 2 interrupt on watchdog"),
-    "IRQ": (0x14, "w1c", "bit 0 end of frame, bit 1 error, bit 2 watchdog; write 1 to clear"),
+    "SHAPE": (0x0C, "ro", "how the core is made"),
+    "CONTROL": (0x10, "rw", "which bits of IRQ interrupt"),
+    "IRQ": (0x14, "w1c", "what has happened; write 1 to clear"),
     "WATCHDOG": (0x18, "rw", "clocks without progress inside a frame after which the watchdog bites; 0 is off"),
-    "STATUS": (0x1C, "ro", "bit 0 a frame is open, bit 1 input is being drained after an error, bit 2 waiting for input, bit 3 waiting for output"),
-    "ERROR": (0x20, "ro", "bits 3-0 code of the newest error, bits 31-16 its line"),
+    "STATUS": (0x1C, "ro", "what the core is doing"),
+    "ERROR": (0x20, "ro", "the newest error"),
     "ERROR_FRAME": (0x24, "ro", "frame number in the header of the frame with the newest error"),
     "ERROR_TOKEN": (0x28, "ro", "index of the token in its frame; the header is 0"),
     "ERRORS": (0x2C, "ro", "frames with an error since reset"),
@@ -226,8 +226,8 @@ REGISTERS = {
     "STARVED": (0x38, "ro", "clocks inside a frame in which the core waited for input"),
     "BLOCKED": (0x3C, "ro", "clocks in which a pixel waited for the output's ready"),
     "ERROR_UNIT": (0x40, "ro", "unit of the newest error, if it is SEGMENT, UNIT_LONG or UNIT_SHORT"),
-    "TREE": (0x44, "ro", "bit 31 input is waited for while a unit has less of the frame than another; bits 5-0 the lowest unit that has least, bits 30-16 its line"),
-    "STALL": (0x48, "ro", "at the watchdog's last bite: bits 31-16 and 5-0 as TREE, without a unit the line at hand; bit 8 input, bit 9 output was waited for"),
+    "TREE": (0x44, "ro", "the unit that input is waited for; all 0 if BEHIND is"),
+    "STALL": (0x48, "ro", "at the watchdog's last bite"),
 }
 
 

@@ -7,15 +7,15 @@
 #ifndef KAGE_REGISTERS_H
 #define KAGE_REGISTERS_H
 
-#define KAGE_REG_ID 0x00u /**< ro: 0x4B414745, "KAGE" */
+#define KAGE_REG_ID 0x00u /**< ro: the letters KAGE */
 #define KAGE_REG_VERSION 0x04u /**< ro: stream version */
 #define KAGE_REG_PARAM_HASH 0x08u /**< ro: hash that a frame's header must carry */
-#define KAGE_REG_SHAPE 0x0Cu /**< ro: bits 15-0 MAX_WIDTH, 21-16 LANES, 25-22 BEAT_WORDS, 31 ARRANGEMENT */
-#define KAGE_REG_CONTROL 0x10u /**< rw: bit 0 interrupt on end of frame, bit 1 interrupt on error, bit 2 interrupt on watchdog */
-#define KAGE_REG_IRQ 0x14u /**< w1c: bit 0 end of frame, bit 1 error, bit 2 watchdog; write 1 to clear */
+#define KAGE_REG_SHAPE 0x0Cu /**< ro: how the core is made */
+#define KAGE_REG_CONTROL 0x10u /**< rw: which bits of IRQ interrupt */
+#define KAGE_REG_IRQ 0x14u /**< w1c: what has happened; write 1 to clear */
 #define KAGE_REG_WATCHDOG 0x18u /**< rw: clocks without progress inside a frame after which the watchdog bites; 0 is off */
-#define KAGE_REG_STATUS 0x1Cu /**< ro: bit 0 a frame is open, bit 1 input is being drained after an error, bit 2 waiting for input, bit 3 waiting for output */
-#define KAGE_REG_ERROR 0x20u /**< ro: bits 3-0 code of the newest error, bits 31-16 its line */
+#define KAGE_REG_STATUS 0x1Cu /**< ro: what the core is doing */
+#define KAGE_REG_ERROR 0x20u /**< ro: the newest error */
 #define KAGE_REG_ERROR_FRAME 0x24u /**< ro: frame number in the header of the frame with the newest error */
 #define KAGE_REG_ERROR_TOKEN 0x28u /**< ro: index of the token in its frame; the header is 0 */
 #define KAGE_REG_ERRORS 0x2Cu /**< ro: frames with an error since reset */
@@ -24,8 +24,64 @@
 #define KAGE_REG_STARVED 0x38u /**< ro: clocks inside a frame in which the core waited for input */
 #define KAGE_REG_BLOCKED 0x3Cu /**< ro: clocks in which a pixel waited for the output's ready */
 #define KAGE_REG_ERROR_UNIT 0x40u /**< ro: unit of the newest error, if it is SEGMENT, UNIT_LONG or UNIT_SHORT */
-#define KAGE_REG_TREE 0x44u /**< ro: bit 31 input is waited for while a unit has less of the frame than another; bits 5-0 the lowest unit that has least, bits 30-16 its line */
-#define KAGE_REG_STALL 0x48u /**< ro: at the watchdog's last bite: bits 31-16 and 5-0 as TREE, without a unit the line at hand; bit 8 input, bit 9 output was waited for */
+#define KAGE_REG_TREE 0x44u /**< ro: the unit that input is waited for; all 0 if BEHIND is */
+#define KAGE_REG_STALL 0x48u /**< ro: at the watchdog's last bite */
+#define KAGE_REG_LAST KAGE_REG_STALL /**< behind it there is none */
+#define KAGE_ID_VALUE 0x4B414745u /**< what ID always is */
+
+/** A field of a register's value: KAGE_FIELD(value, KAGE_ERROR_CODE). */
+#define KAGE_FIELD(value, field) (((value) & field##_MASK) >> field##_SHIFT)
+/** The field alone, as part of a register's value. */
+#define KAGE_FIELD_IS(field, number) (((number) << field##_SHIFT) & field##_MASK)
+
+#define KAGE_SHAPE_MAX_WIDTH_SHIFT 0u /**< SHAPE: the parameter */
+#define KAGE_SHAPE_MAX_WIDTH_MASK 0x0000FFFFu /**< its bits */
+#define KAGE_SHAPE_LANES_SHIFT 16u /**< SHAPE: the parameter */
+#define KAGE_SHAPE_LANES_MASK 0x003F0000u /**< its bits */
+#define KAGE_SHAPE_BEAT_WORDS_SHIFT 22u /**< SHAPE: the parameter */
+#define KAGE_SHAPE_BEAT_WORDS_MASK 0x03C00000u /**< its bits */
+#define KAGE_SHAPE_ARRANGEMENT_SHIFT 31u /**< SHAPE: the parameter */
+#define KAGE_SHAPE_ARRANGEMENT_MASK 0x80000000u /**< its bits */
+#define KAGE_CONTROL_FRAME_END_SHIFT 0u /**< CONTROL: a frame has ended */
+#define KAGE_CONTROL_FRAME_END_MASK 0x00000001u /**< its bits */
+#define KAGE_CONTROL_ERROR_SHIFT 1u /**< CONTROL: a frame has an error */
+#define KAGE_CONTROL_ERROR_MASK 0x00000002u /**< its bits */
+#define KAGE_CONTROL_WATCHDOG_SHIFT 2u /**< CONTROL: the watchdog has bitten */
+#define KAGE_CONTROL_WATCHDOG_MASK 0x00000004u /**< its bits */
+#define KAGE_IRQ_FRAME_END_SHIFT 0u /**< IRQ: a frame has ended */
+#define KAGE_IRQ_FRAME_END_MASK 0x00000001u /**< its bits */
+#define KAGE_IRQ_ERROR_SHIFT 1u /**< IRQ: a frame has an error */
+#define KAGE_IRQ_ERROR_MASK 0x00000002u /**< its bits */
+#define KAGE_IRQ_WATCHDOG_SHIFT 2u /**< IRQ: the watchdog has bitten */
+#define KAGE_IRQ_WATCHDOG_MASK 0x00000004u /**< its bits */
+#define KAGE_STATUS_OPEN_SHIFT 0u /**< STATUS: a frame is open */
+#define KAGE_STATUS_OPEN_MASK 0x00000001u /**< its bits */
+#define KAGE_STATUS_DRAINING_SHIFT 1u /**< STATUS: input is being drained after an error */
+#define KAGE_STATUS_DRAINING_MASK 0x00000002u /**< its bits */
+#define KAGE_STATUS_WAITING_INPUT_SHIFT 2u /**< STATUS: waiting for input */
+#define KAGE_STATUS_WAITING_INPUT_MASK 0x00000004u /**< its bits */
+#define KAGE_STATUS_WAITING_OUTPUT_SHIFT 3u /**< STATUS: waiting for output */
+#define KAGE_STATUS_WAITING_OUTPUT_MASK 0x00000008u /**< its bits */
+#define KAGE_ERROR_CODE_SHIFT 0u /**< ERROR: its code */
+#define KAGE_ERROR_CODE_MASK 0x0000000Fu /**< its bits */
+#define KAGE_ERROR_LINE_SHIFT 16u /**< ERROR: its line */
+#define KAGE_ERROR_LINE_MASK 0xFFFF0000u /**< its bits */
+#define KAGE_TREE_UNIT_SHIFT 0u /**< TREE: the lowest unit that has least of the frame */
+#define KAGE_TREE_UNIT_MASK 0x0000003Fu /**< its bits */
+#define KAGE_TREE_LINE_SHIFT 16u /**< TREE: its line */
+#define KAGE_TREE_LINE_MASK 0x7FFF0000u /**< its bits */
+#define KAGE_TREE_BEHIND_SHIFT 31u /**< TREE: input is waited for while a unit has less of the frame than another */
+#define KAGE_TREE_BEHIND_MASK 0x80000000u /**< its bits */
+#define KAGE_STALL_UNIT_SHIFT 0u /**< STALL: as in TREE */
+#define KAGE_STALL_UNIT_MASK 0x0000003Fu /**< its bits */
+#define KAGE_STALL_ON_INPUT_SHIFT 8u /**< STALL: input was waited for */
+#define KAGE_STALL_ON_INPUT_MASK 0x00000100u /**< its bits */
+#define KAGE_STALL_ON_OUTPUT_SHIFT 9u /**< STALL: output was waited for */
+#define KAGE_STALL_ON_OUTPUT_MASK 0x00000200u /**< its bits */
+#define KAGE_STALL_LINE_SHIFT 16u /**< STALL: as in TREE; without a unit the line at hand */
+#define KAGE_STALL_LINE_MASK 0x7FFF0000u /**< its bits */
+#define KAGE_STALL_BEHIND_SHIFT 31u /**< STALL: as in TREE */
+#define KAGE_STALL_BEHIND_MASK 0x80000000u /**< its bits */
 
 #define KAGE_ERR_NONE 0u /**< no error */
 #define KAGE_ERR_HEADER 1u /**< magic or version is not this core's */

@@ -306,8 +306,8 @@ class Rtl : public RtlCore {
     if (errors == errors_) return s;
     errors_ = errors;
     const std::uint32_t error = read("ERROR", KAGE_REG_ERROR);
-    s.error = static_cast<ErrorCode>(error & 15);
-    s.line = error >> 16;
+    s.error = static_cast<ErrorCode>(KAGE_FIELD(error, KAGE_ERROR_CODE));
+    s.line = KAGE_FIELD(error, KAGE_ERROR_LINE);
     s.frame = read("ERROR_FRAME", KAGE_REG_ERROR_FRAME);
     s.token = read("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN);
     s.unit = read("ERROR_UNIT", KAGE_REG_ERROR_UNIT);

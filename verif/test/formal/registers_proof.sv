@@ -121,7 +121,7 @@ module registers_proof #(
   end
 
   if (MODEL > 0) begin : gen_model
-    localparam logic [7:0] Past = RegStall + 8'd4;  // the first address without a register
+    localparam logic [7:0] Past = RegLast + 8'd4;  // the first address without a register
 
     // ---- what the core said a clock ago, which is what counts ------------------------------------------------------
     logic open, draining, waiting_input, waiting_output, progress, frame_end, error, behind;

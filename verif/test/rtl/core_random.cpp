@@ -74,8 +74,8 @@ struct Trial {
   bool standstill(kage_rtl* m, Random& random) {
     api.stalls(m, 65536, 65536, 1);
     api.reg_write(m, KAGE_REG_WATCHDOG, 300);
-    api.reg_write(m, KAGE_REG_CONTROL, 4);
-    api.reg_write(m, KAGE_REG_IRQ, 7);
+    api.reg_write(m, KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
+    api.reg_write(m, KAGE_REG_IRQ, ~0U);
     Words words = sound_frame(random, config, 5);
     announce(m, words);
     words.resize(words.size() - 1);  // no END, no TLAST
@@ -83,22 +83,26 @@ struct Trial {
     if (api.run(m, UINT64_MAX, 50'000'000) == KAGE_RTL_ASSERT)
       return fails("did not come to rest: standstill reason 4");
     if (config.beat_words == 1) {  // else the fill is an error, and the core waits for TLAST: the same standstill
-      if ((reg(m, KAGE_REG_STATUS) & 15U) != 5U) return fails("STATUS does not say that a frame waits for input");
-    } else if ((reg(m, KAGE_REG_STATUS) & 13U) != 5U) {
+      if (reg(m, KAGE_REG_STATUS) != (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK))
+        return fails("STATUS does not say that a frame waits for input");
+    } else if ((reg(m, KAGE_REG_STATUS) & ~KAGE_STATUS_DRAINING_MASK) !=
+               (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK)) {
       return fails("STATUS does not say that the core waits for input");
     }
-    if (api.irq(m) == 0 || (reg(m, KAGE_REG_IRQ) & 4U) == 0)
+    if (api.irq(m) == 0 || (reg(m, KAGE_REG_IRQ) & KAGE_IRQ_WATCHDOG_MASK) == 0)
       return fails("the watchdog does not bite when input stops");
     api.reset(m, 1);
     api.clear_pixels(m);
     api.stalls(m, 65536, 0, 1);
     api.reg_write(m, KAGE_REG_WATCHDOG, 300);
-    api.reg_write(m, KAGE_REG_CONTROL, 4);
+    api.reg_write(m, KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
     words = sound_frame(random, config, 6);
     announce(m, words);
     api.submit(m, words.data(), words.size(), 1);
     api.run(m, UINT64_MAX, 8ULL * static_cast<std::uint64_t>(config.max_width) + 20'000);
-    if ((reg(m, KAGE_REG_STATUS) & 9U) != 9U) return fails("STATUS does not say that the core waits for output");
+    constexpr std::uint32_t kWaits = KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK;
+    if ((reg(m, KAGE_REG_STATUS) & kWaits) != kWaits)
+      return fails("STATUS does not say that the core waits for output");
     if (api.irq(m) == 0) return fails("the watchdog does not bite when output stops");
     api.reset(m, 1);
     api.clear_pixels(m);
@@ -169,16 +173,18 @@ struct Trial {
         return fails("ERRORS is " + std::to_string(reg(m, KAGE_REG_ERRORS)) + ":" + story);
       if (newest.error != ErrorCode::NONE) {
         const std::uint32_t e = reg(m, KAGE_REG_ERROR);
-        if ((e & 15U) != static_cast<std::uint32_t>(newest.error) || e >> 16 != newest.line ||
-            reg(m, KAGE_REG_ERROR_FRAME) != newest.frame || reg(m, KAGE_REG_ERROR_TOKEN) != newest.token ||
-            reg(m, KAGE_REG_ERROR_UNIT) != newest.unit)
-          return fails("error " + std::to_string(e & 15U) + " line " + std::to_string(e >> 16) + " token " +
+        if (KAGE_FIELD(e, KAGE_ERROR_CODE) != static_cast<std::uint32_t>(newest.error) ||
+            KAGE_FIELD(e, KAGE_ERROR_LINE) != newest.line || reg(m, KAGE_REG_ERROR_FRAME) != newest.frame ||
+            reg(m, KAGE_REG_ERROR_TOKEN) != newest.token || reg(m, KAGE_REG_ERROR_UNIT) != newest.unit)
+          return fails("error " + std::to_string(KAGE_FIELD(e, KAGE_ERROR_CODE)) + " line " +
+                       std::to_string(KAGE_FIELD(e, KAGE_ERROR_LINE)) + " token " +
                        std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) + " unit " +
                        std::to_string(reg(m, KAGE_REG_ERROR_UNIT)) + ", not " +
                        std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) +
                        " token " + std::to_string(newest.token) + " unit " + std::to_string(newest.unit) + ":" + story);
       }
-      if ((reg(m, KAGE_REG_STATUS) & 3U) != 0) return fails("STATUS says that a frame is open:" + story);
+      if ((reg(m, KAGE_REG_STATUS) & (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK)) != 0)
+        return fails("STATUS says that a frame is open:" + story);
       stall();
     }
     kage_rtl_stats stats;

@@ -12,9 +12,6 @@ using namespace kage::rtl;
 
 namespace {
 
-constexpr std::uint32_t kTreeWaits = 1U << 31, kStallsForInput = 1U << 8, kStallsForOutput = 1U << 9;
-constexpr std::uint32_t kIrqError = 2, kIrqWatchdog = 4;
-
 kage::Config with_units(int units) {
   kage::Config c;
   c.units = units;
@@ -108,7 +105,7 @@ template <class Model>
 void errors_test(const kage::Config& c, Fault::Kind kind, kage::ErrorCode code) {
   each_seed(15, [&](Dice& dice) {
     Core<Model> core(dice, c);
-    core.write(KAGE_REG_CONTROL, kIrqError);
+    core.write(KAGE_REG_CONTROL, KAGE_IRQ_ERROR_MASK);
     core.in.most = dice.percent(50) ? dice.below(4) : 0;
     core.out.most = dice.percent(50) ? dice.below(4) : 0;
     const int width = dice.between(3, 15);  // no segment is longer than 15
@@ -130,7 +127,7 @@ void errors_test(const kage::Config& c, Fault::Kind kind, kage::ErrorCode code) 
     REQUIRE(core.read(KAGE_REG_ERROR_FRAME) == 5);
     REQUIRE(core.read(KAGE_REG_ERROR_TOKEN) == (kind == Fault::kShort ? bad.tree : bad.seg));
     REQUIRE(core.read(KAGE_REG_ERROR_UNIT) == static_cast<std::uint32_t>(fault.unit));
-    REQUIRE((core.read(KAGE_REG_IRQ) & kIrqError) != 0);
+    REQUIRE((core.read(KAGE_REG_IRQ) & KAGE_IRQ_ERROR_MASK) != 0);
     REQUIRE(core.bites == 1);  // the interrupt, once
     REQUIRE(core.read(KAGE_REG_TREE) == 0);
     REQUIRE((core.read(KAGE_REG_STATUS) & 3) == 0);
@@ -158,7 +155,7 @@ void waiting_test(const kage::Config& c) {
     CAPTURE(limit, there, missing, line);
     Core<Model> core(dice, c);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
-    core.write(KAGE_REG_CONTROL, kIrqWatchdog);
+    core.write(KAGE_REG_CONTROL, KAGE_IRQ_WATCHDOG_MASK);
     core.submit(f.words);
     const std::size_t all = core.beats_left();
     while (all - core.beats_left() < beats) core.clock();
@@ -169,11 +166,12 @@ void waiting_test(const kage::Config& c) {
     }
     for (int n = 0; n < 40; ++n) core.clock();
     const std::uint32_t waits =
-        kTreeWaits | static_cast<std::uint32_t>(line) << 16 | static_cast<std::uint32_t>(missing);
+        KAGE_TREE_BEHIND_MASK | static_cast<std::uint32_t>(line) << 16 | static_cast<std::uint32_t>(missing);
     REQUIRE(core.read(KAGE_REG_TREE) == waits);
-    REQUIRE(core.read(KAGE_REG_STALL) == (waits | kStallsForInput));
-    REQUIRE((core.read(KAGE_REG_STATUS) & (kWaitsForInput | kWaitsForOutput)) == kWaitsForInput);
-    core.write(KAGE_REG_IRQ, kIrqWatchdog);
+    REQUIRE(core.read(KAGE_REG_STALL) == (waits | KAGE_STALL_ON_INPUT_MASK));
+    REQUIRE((core.read(KAGE_REG_STATUS) & (KAGE_STATUS_WAITING_INPUT_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK)) ==
+            KAGE_STATUS_WAITING_INPUT_MASK);
+    core.write(KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);
     for (int n = 0; n < 10 * limit + 100; ++n) core.clock();
     REQUIRE(core.bites == 1);
     core.in.held = false;
@@ -202,7 +200,7 @@ void line_on_its_way_test(const kage::Config& c) {
     CAPTURE(limit);
     Core<Model> core(dice, c);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
-    core.write(KAGE_REG_CONTROL, kIrqWatchdog);
+    core.write(KAGE_REG_CONTROL, KAGE_IRQ_WATCHDOG_MASK);
     core.submit(f.words);
     const std::size_t all = core.beats_left();
     while (all - core.beats_left() < beats) core.clock();
@@ -211,7 +209,7 @@ void line_on_its_way_test(const kage::Config& c) {
       REQUIRE(n < 200 + limit);
       core.clock();
     }
-    core.write(KAGE_REG_IRQ, kIrqWatchdog);
+    core.write(KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);
     for (int n = 0; n < 200; ++n) core.clock();
     REQUIRE(core.bites == 1);
     core.in.held = false;
@@ -229,7 +227,7 @@ void full_units_test(const kage::Config& c) {
     Core<Model> core(dice, c);
     const int limit = dice.between(1, 50);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
-    core.write(KAGE_REG_CONTROL, kIrqWatchdog);
+    core.write(KAGE_REG_CONTROL, KAGE_IRQ_WATCHDOG_MASK);
     core.submit(tree_frame(dice, c, 15, 20, random_order(dice, c.units), 0).words);
     core.out.held = true;
     for (int n = 0; core.bites == 0; ++n) {
@@ -240,9 +238,11 @@ void full_units_test(const kage::Config& c) {
     const std::size_t left = core.beats_left();
     for (int n = 0; n < 200; ++n) core.clock();
     REQUIRE(core.beats_left() == left);
-    REQUIRE((core.read(KAGE_REG_STATUS) & (kWaitsForInput | kWaitsForOutput)) == kWaitsForOutput);
-    REQUIRE((core.read(KAGE_REG_TREE) & kTreeWaits) == 0);
-    REQUIRE((core.read(KAGE_REG_STALL) & (kTreeWaits | kStallsForInput | kStallsForOutput)) == kStallsForOutput);
+    REQUIRE((core.read(KAGE_REG_STATUS) & (KAGE_STATUS_WAITING_INPUT_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK)) ==
+            KAGE_STATUS_WAITING_OUTPUT_MASK);
+    REQUIRE((core.read(KAGE_REG_TREE) & KAGE_TREE_BEHIND_MASK) == 0);
+    REQUIRE((core.read(KAGE_REG_STALL) & (KAGE_TREE_BEHIND_MASK | KAGE_STALL_ON_INPUT_MASK |
+                                          KAGE_STALL_ON_OUTPUT_MASK)) == KAGE_STALL_ON_OUTPUT_MASK);
     REQUIRE(core.bites == 1);
     core.out.held = false;
     core.finish();

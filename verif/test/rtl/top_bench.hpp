@@ -14,8 +14,6 @@
 
 namespace kage::rtl {
 
-inline constexpr std::uint32_t kWaitsForInput = 4, kWaitsForOutput = 8;
-
 /// A port that rests after each transfer for no clocks up to `most`; or for ever, if held.
 struct Rest {
   int most = 0;
@@ -184,7 +182,7 @@ void healthy_test(const kage::Config& c) {
     Core<Model> core(dice, c);
     for (int n = 0; n < dice.below(2) * 2 * c.max_width; ++n) core.clock();  // the sweep after reset is over, or is not
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(most) + 1);
-    core.write(KAGE_REG_CONTROL, 4);
+    core.write(KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
     core.in.most = dice.percent(50) ? most : 0;
     core.out.most = dice.percent(50) ? most : 0;
     for (int n = 0; n < 12; ++n)
@@ -204,7 +202,7 @@ void standstill_test(const kage::Config& c) {
     CAPTURE(input, limit);
     Core<Model> core(dice, c);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
-    core.write(KAGE_REG_CONTROL, 4);
+    core.write(KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
     core.submit(frame(dice, c, c.max_width, 4));
     if (input) {
       const std::size_t rest = static_cast<std::size_t>(dice.between(1, static_cast<int>(core.beats_left()) - 1));
@@ -219,10 +217,11 @@ void standstill_test(const kage::Config& c) {
       if (input && n < limit) REQUIRE(core.bites == 0);
       core.clock();
     }
-    const std::uint32_t waits = core.read(KAGE_REG_STATUS) & (kWaitsForInput | kWaitsForOutput);
-    if (input) REQUIRE(waits == kWaitsForInput);
-    if (!input) REQUIRE((waits & kWaitsForOutput) != 0);
-    core.write(KAGE_REG_IRQ, 4);
+    const std::uint32_t waits =
+        core.read(KAGE_REG_STATUS) & (KAGE_STATUS_WAITING_INPUT_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK);
+    if (input) REQUIRE(waits == KAGE_STATUS_WAITING_INPUT_MASK);
+    if (!input) REQUIRE((waits & KAGE_STATUS_WAITING_OUTPUT_MASK) != 0);
+    core.write(KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);
     for (int n = 0; n < 10 * limit + 100; ++n) core.clock();
     REQUIRE(core.bites == 1);
     core.in.held = core.out.held = false;
