@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kage/error.hpp"
+#include "module/loader_lock.hpp"
 
 // All are set by CMake.
 #ifndef KAGE_MODULE_VERSION
@@ -65,6 +66,7 @@ const ModuleHead* open_module(const std::string& name, const std::string& what_f
   const fs::path path = find("lib" + name + ".so", what_for);
   check_room(path, what_for, room);
   // It may bind symbols of large libraries, so each only when it is called.
+  const std::lock_guard<std::mutex> lock(loader_lock());
   void* const handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
     const char* const cause = dlerror();

@@ -25,6 +25,7 @@
 #include "file/regular_file.hpp"
 #include "import.hpp"
 #include "kage/error.hpp"
+#include "module/loader_lock.hpp"
 #include "notes.hpp"
 #include "wire.hpp"
 
@@ -191,8 +192,7 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   const std::string no_memory = name + ": import needs more than " + std::to_string(limits.mib) + " MiB" +
                                 (limited_from_outside() ? ", or than ulimit -v leaves" : "");
   // One at a time, or another thread's child would inherit this pipe's writing end and keep it open.
-  static std::mutex forking;
-  std::unique_lock<std::mutex> lock(forking);
+  std::unique_lock<std::mutex> lock(loader_lock());
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw Error(name + ": no pipe to an import process: " + std::strerror(errno));
   const pid_t parent = getpid();
@@ -204,6 +204,7 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
     throw Error(name + ": no import process: " + std::strerror(error));
   }
   if (pid == 0) {
+    lock.unlock();  // the child's own copy of it
     close(pipe_ends[0]);
     child(pipe_ends[1], parent, name, limits, work);
   }

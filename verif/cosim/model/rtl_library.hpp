@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <string_view>
 
 #include "cosim/model/driver/rtl_model.h"
 #include "kage/defs.hpp"
 #include "kage/error.hpp"
+#include "module/loader_lock.hpp"
 
 namespace kage::cosim {
 
@@ -18,25 +20,33 @@ namespace kage::cosim {
 class RtlLibrary {
  public:
   /// Throws Error if it cannot be loaded, is of another version, or of another configuration.
-  RtlLibrary(const std::filesystem::path& path, const Config& config)
-      : handle_(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
-    if (handle_ == nullptr) throw Error(fmt::format("{}: cannot be loaded: {}", path.string(), dlerror()));
+  RtlLibrary(const std::filesystem::path& path, const Config& config) : handle_(opened(path)) {
     const auto function = reinterpret_cast<kage_rtl_api_function>(dlsym(handle_, KAGE_RTL_API_SYMBOL));
     table_ = function == nullptr ? nullptr : function();
     try {
       check(path, config);
     } catch (...) {
-      dlclose(handle_);
+      close();
       throw;
     }
   }
-  ~RtlLibrary() { dlclose(handle_); }
+  ~RtlLibrary() { close(); }
   RtlLibrary(const RtlLibrary&) = delete;
   RtlLibrary& operator=(const RtlLibrary&) = delete;
 
   [[nodiscard]] const kage_rtl_table* table() const { return table_; }
 
  private:
+  static void* opened(const std::filesystem::path& path) {
+    const std::lock_guard<std::mutex> lock(loader_lock());
+    void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (handle == nullptr) throw Error(fmt::format("{}: cannot be loaded: {}", path.string(), dlerror()));
+    return handle;
+  }
+  void close() {
+    const std::lock_guard<std::mutex> lock(loader_lock());
+    dlclose(handle_);
+  }
   void check(const std::filesystem::path& path, const Config& config) const {
     if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
       throw Error(fmt::format("{}: not an RTL model of this version", path.string()));
