@@ -90,6 +90,10 @@ struct kage_rtl {
     enter();
     context.threads(1);  // else each model starts a thread per processor, which none of its work goes to
     context.fatalOnError(false);
+    // Where memory runs out within Verilator's constructor, it erases scopes that are not there yet and crashes. So
+    // more than it takes is asked for first: a lack of memory is found here, as std::bad_alloc.
+    constexpr std::size_t kRoom = std::size_t{8} << 20;
+    ::operator delete(::operator new(kRoom));
     top = std::make_unique<Vkage>(&context, "top");
     idle_inputs();
     top->clk_i = 0;
