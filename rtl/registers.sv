@@ -87,11 +87,12 @@ module registers #(
   // ---- write channel -----------------------------------------------------------------------------------------------
   logic aw_held_q, w_held_q, write;
   logic [7:0] aw_addr_q;
-  logic [31:0] w_data_q, w_mask;
+  logic [31:0] w_data_q, w_mask, written;  // written: the bits that a write sets
   logic [3:0] w_strb_q;
   assign awready_o = rst_ni && !aw_held_q;
   assign wready_o = rst_ni && !w_held_q;
   assign write = aw_held_q && w_held_q && !bvalid_o;
+  assign written = w_data_q & w_mask;
   assign w_mask = {{8{w_strb_q[3]}}, {8{w_strb_q[2]}}, {8{w_strb_q[1]}}, {8{w_strb_q[0]}}};
 
   always_ff @(posedge clk_i) begin
@@ -122,8 +123,8 @@ module registers #(
   logic limited_q, limit_new_q, bitten_q;
   logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
   logic [15:0] error_line_q;
-  logic [ 3:0] error_code_q;
-  logic [ 5:0] error_unit_q;
+  logic [3:0] error_code_q;
+  logic [5:0] error_unit_q;
   reg_stall_t stall_q;
   logic bite, unit_waited, write_control, write_irq, write_limit;
 
@@ -160,9 +161,9 @@ module registers #(
       starved_q <= '0;
       blocked_q <= '0;
     end else begin
-      if (write_control) control_q <= (control_q & ~w_mask[RegIrqBits-1:0]) | (w_data_q[RegIrqBits-1:0] & w_mask[RegIrqBits-1:0]);
-      if (write_limit) limit_q <= (limit_q & ~w_mask) | (w_data_q & w_mask);
-      irq_q <= irq_set | (write_irq ? irq_q & ~(w_data_q[RegIrqBits-1:0] & w_mask[RegIrqBits-1:0]) : irq_q);
+      if (write_control) control_q <= (control_q & ~w_mask[RegIrqBits-1:0]) | written[RegIrqBits-1:0];
+      if (write_limit) limit_q <= (limit_q & ~w_mask) | written;
+      irq_q <= irq_set | (write_irq ? irq_q & ~written[RegIrqBits-1:0] : irq_q);
       limited_q <= limit_q != '0;
       limit_new_q <= write_limit;
       if (write_limit || limit_new_q || progress_q || !open_q) begin
@@ -182,10 +183,10 @@ module registers #(
       end
       if (bite) begin
         stall_q.behind <= unit_waited;
-        stall_q.line   <= behind_q.line;
+        stall_q.line <= behind_q.line;
         stall_q.on_output <= waiting_output_q;
         stall_q.on_input <= waiting_input_q;
-        stall_q.unit   <= unit_waited ? behind_q.unit : '0;
+        stall_q.unit <= unit_waited ? behind_q.unit : '0;
       end
       if (frame_end_q) frames_q <= frames_q + 32'd1;
       cycles_q <= cycles_q + 32'd1;
