@@ -40,7 +40,7 @@ void check_outputs(const DiffCommand& o) {
         throw Error(fmt::format("{}: this output would overwrite an input", *path));
     for (const std::string& other : written)
       if (!is_device(*path) && resolved(*path) == resolved(other))
-        throw Error(fmt::format("{}: is to be written twice", *path));
+        throw Error(fmt::format("{}: two outputs have this name", *path));
     written.push_back(*path);
   }
 }

@@ -10,8 +10,8 @@
 #include <optional>
 
 #include "command.hpp"
+#include "cosim/stream_clocks.hpp"
 #include "file/extension.hpp"
-#include "info_clocks.hpp"
 #include "info_scene.hpp"
 #include "kage/error.hpp"
 #include "kage/explain.hpp"
@@ -97,20 +97,48 @@ struct Counted {
   int unchecked = 0;  // frames
 };
 
-/// Checks all frames, and counts their tokens.
-Counted count_tokens(const InfoCommand& o, const StreamFile& file) {
+/// Checks all frames, and counts their tokens, and what `clocks` counts.
+Counted count_tokens(const InfoCommand& o, const StreamFile& file, std::optional<cosim::LineClockCounter>& clocks) {
   Counted all;
   Progress progress;
   FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
   for (int i = 0; i < file.frame_count(); ++i) {
     check_interrupt();
     frame_progress.next();
-    (void)file.frame(i, &all.tokens);
+    const auto words = file.frame(i, &all.tokens);
     if (file.is_port_frame(i)) ++all.unchecked;
+    if (!clocks || file.is_port_frame(i)) continue;
+    try {
+      clocks->add(i, words);
+    } catch (const Error& e) {
+      throw Error(fmt::format("{}: {}", o.input, e.what()));
+    }
   }
   check_mapped();
   progress.clear();
   return all;
+}
+
+std::string to_text(const Config& c, const cosim::LineClocks& clocks) {
+  if (clocks.frames == 0) return "clocks: no frame is sound, so none has clocks";
+  return fmt::format(
+      "clocks of a line at most (LANES {}, BEAT_WORDS {}): mean {:.0f}, worst {} (line {} of frame {}), worst {} "
+      "neighbours "
+      "{:.0f} each\nclocks of the worst frame: {}",
+      c.lanes, c.beat_words, clocks.mean(), clocks.worst.clocks, clocks.worst.line, clocks.worst.frame, clocks.window,
+      clocks.worst_window, clocks.worst_frame);
+}
+
+Json to_json(const Config& config, const cosim::LineClocks& clocks) {
+  Json j;
+  j["config"] = cli::to_json(config);
+  j["frames"] = clocks.frames;
+  j["height"] = clocks.height;
+  j["mean_line"] = clocks.mean();
+  j["worst_line"] = {{"clocks", clocks.worst.clocks}, {"frame", clocks.worst.frame}, {"line", clocks.worst.line}};
+  j["worst_window"] = {{"lines", clocks.window}, {"clocks_each", clocks.worst_window}};
+  j["worst_frame"] = clocks.worst_frame;
+  return j;
 }
 
 int describe_stream(const InfoCommand& o) {
@@ -120,7 +148,9 @@ int describe_stream(const InfoCommand& o) {
   if (o.tokens >= file.frame_count())
     throw Error(
         fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
-  const auto [counts, unchecked] = count_tokens(o, file);
+  std::optional<cosim::LineClockCounter> clocks;
+  if (o.clocks) clocks.emplace(stream_config(o, file).config);
+  const auto [counts, unchecked] = count_tokens(o, file, clocks);
   Json tokens = Json::object();
   for (std::size_t k = 0; k < counts.of_kind.size(); ++k)
     if (counts.of_kind[k] != 0) tokens[std::string(kKindNames[k])] = counts.of_kind[k];
@@ -140,11 +170,7 @@ int describe_stream(const InfoCommand& o) {
   j["polyhedra"] = to_json(ways);
   j["bytes"] = file.bytes();
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
-  std::optional<StreamClocks> clocks;
-  if (o.clocks) {
-    clocks = clocks_of(o.input, file, stream_config(o, file).config);
-    j["clocks"] = to_json(*clocks);
-  }
+  if (clocks) j["clocks"] = to_json(clocks->config(), clocks->sums());
   write_json(o, {"kage.info-stream/1", j});
   if (!json_only(o)) {
     fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
@@ -157,7 +183,7 @@ int describe_stream(const InfoCommand& o) {
     fmt::print("\nconfiguration:");
     for (const ParamInfo& p : kParams) fmt::print(" {} {}", p.name, file.config().*(p.member));
     fmt::print("\n");
-    if (clocks) fmt::print("{}\n", to_text(*clocks));
+    if (clocks) fmt::print("{}\n", to_text(clocks->config(), clocks->sums()));
     if (o.tokens >= 0) print_tokens(file, o.tokens);
   }
   return kSame;

@@ -3,6 +3,7 @@
 
 import datetime
 import json
+import statistics
 
 from trouble import Trouble
 
@@ -69,8 +70,7 @@ def lost(row, figures, tolerance):
             f"--gate: the row was measured with {row['tools']}, this run with {figures['tools']}; measure it anew with --record"
         )
     now = figures["clock_mhz"]["all"]
-    then = sorted(row["clocks_mhz"][: len(now)])
-    then = (then[(len(then) - 1) // 2] + then[len(then) // 2]) / 2
+    then = statistics.median(row["clocks_mhz"][: len(now)])
     said = []
     if figures["clock_mhz"]["median"] < then * (1 - tolerance / 100):
         said.append(f"clock {figures['clock_mhz']['median']:.1f} MHz, was {then:.1f}")

@@ -37,20 +37,24 @@ void PhaseCounter::token(const Token& t) {
     clocks = std::max(clocks, groups(t.span.xl, t.span.xr));
     sum.pixels += static_cast<std::uint64_t>(t.span.xr - t.span.xl);
   }
-  if (phase == Phase::translucent) blends_ = true;
+  const auto width = static_cast<std::uint64_t>(width_);
+  if (t.kind == Kind::RESOLVE) resolved_ = true;
+  if (t.kind == Kind::TP && !blends_) {
+    blends_ = true;
+    // docs/rtl.md, "Clocks": a line whose colours come back before its TPs.
+    constexpr std::uint64_t kColorsBack = 32;
+    waits_ = groups(0, width_);
+    if (config_.count_bits > 0 && resolved_)
+      waits_ += width + std::max(width, config_.arrangement == 0 ? width : 2 * groups(0, width_)) + kColorsBack;
+  }
   ++sum.tokens;
   sum.clocks += clocks;
   line_ += clocks;
   if (t.kind != Kind::EOL) return;
-  const auto width = static_cast<std::uint64_t>(width_);
   if (line_ < width) sums_.video += width - line_;
-  // A line with TPs: docs/rtl.md, "Clocks", a line whose colours come back before its TPs.
-  constexpr std::uint64_t kColorsBack = 32;
-  const std::uint64_t least =
-      blends_ ? width + std::max(width, config_.arrangement == 0 ? width : 2 * groups(0, width_)) + kColorsBack : width;
-  lines_.push_back(std::max(line_, least));
-  line_ = 0;
-  blends_ = false;
+  lines_.push_back(std::max(line_ + waits_, width));
+  line_ = waits_ = 0;
+  resolved_ = blends_ = false;
 }
 
 std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count) {

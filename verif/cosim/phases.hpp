@@ -73,14 +73,16 @@ class PhaseCounter {
     line_ = 0;
     sums_ = {};
     lines_.clear();
-    blends_ = false;
+    resolved_ = blends_ = false;
+    waits_ = 0;
   }
   void token(const Token& token);
 
   [[nodiscard]] const PhaseSums& sums() const { return sums_; }
 
-  /// The clocks of each line, top to bottom: those of its tokens, or of its pixels on their way out if these take
-  /// longer.
+  /// The clocks that each line takes at most, top to bottom: those of its tokens, or of its pixels on their way out if
+  /// these take longer. Those before a line's first TP count too: the pass that paints the line, and with counters the
+  /// way out and back of its colours.
   [[nodiscard]] const std::vector<std::uint64_t>& lines() const { return lines_; }
 
  private:
@@ -90,7 +92,10 @@ class PhaseCounter {
   std::uint64_t line_ = 0;  // clocks of the line at hand
   PhaseSums sums_;
   std::vector<std::uint64_t> lines_;
-  bool blends_ = false;  // the line at hand has a TP
+  // Of the line at hand:
+  bool resolved_ = false;    // it has had a RESOLVE
+  bool blends_ = false;      // it has had a TP
+  std::uint64_t waits_ = 0;  // clocks before its first TP
 };
 
 /// The most clocks that `count` neighbouring lines of a frame take together. Of a frame with fewer lines: all of them.

@@ -117,12 +117,11 @@ Words sound_frame(Random& random, const Config& c, std::uint32_t number) {
 }
 
 Words tall_frame(Random& random, const Config& c, std::uint32_t number) {
-  constexpr int kMost = 32767;
   FrameStyle style{
       .most_opaque = 1, .most_volumes = 1, .most_in_volume = 2, .most_translucent = 1, .most_samples = 2, .port = true};
   style.trees = 0.2;
-  // As many of each power of two, so that counters of lines meet each of their bits.
-  const int height = random.chance(0.3) ? kMost : std::min(kMost, (1 << random.in(7, 12)) + random.in(-1, 40));
+  // A little above a power of two, so that a counter of lines that lacks bits wraps within the frame.
+  const int height = random.chance(0.3) ? kMaxHeight : (1 << random.in(7, 12)) + random.in(-1, 40);
   Words words;
   random_frame(random, c, random.in(1, std::min(c.max_width, 4)), height, words, number, style);
   return words;

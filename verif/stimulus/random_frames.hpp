@@ -19,7 +19,7 @@ namespace kage::verif {
 /// run; crowded or bare, with spans that meet at few pixels and depths, with accumulators that wrap.
 std::vector<std::uint32_t> sound_frame(Random& random, const Config& c, std::uint32_t number);
 
-/// A sound frame of 1 .. 4 pixels a line, and of 127 to 4136 lines, or of 32767, which is the most. It takes as long as
+/// A sound frame of 1 .. 4 pixels a line, and of 127 to 4136 lines, or of kMaxHeight. It takes as long as
 /// hundreds of others.
 std::vector<std::uint32_t> tall_frame(Random& random, const Config& c, std::uint32_t number);
 

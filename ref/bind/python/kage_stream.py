@@ -209,15 +209,15 @@ ERRORS = {
 
 # name: (byte address, access, meaning)
 REGISTERS = {
-    "ID": (0x00, "ro", "the letters KAGE"),
+    "ID": (0x00, "ro", "0x4B414745, the letters KAGE"),
     "VERSION": (0x04, "ro", "stream version"),
     "PARAM_HASH": (0x08, "ro", "hash that a frame's header must carry"),
-    "SHAPE": (0x0C, "ro", "how the core is made"),
-    "CONTROL": (0x10, "rw", "which bits of IRQ interrupt"),
-    "IRQ": (0x14, "w1c", "what has happened; write 1 to clear"),
+    "SHAPE": (0x0C, "ro", "how the core is made: bits 15-0 MAX_WIDTH; bits 21-16 LANES; bits 25-22 BEAT_WORDS; bit 31 ARRANGEMENT"),
+    "CONTROL": (0x10, "rw", "which bits of IRQ interrupt: bit 0 FRAME_END: a frame has ended; bit 1 ERROR: a frame has an error; bit 2 WATCHDOG: the watchdog has bitten"),
+    "IRQ": (0x14, "w1c", "what has happened; write 1 to clear: bit 0 FRAME_END: a frame has ended; bit 1 ERROR: a frame has an error; bit 2 WATCHDOG: the watchdog has bitten"),
     "WATCHDOG": (0x18, "rw", "clocks without progress inside a frame after which the watchdog bites; 0 is off"),
-    "STATUS": (0x1C, "ro", "what the core is doing"),
-    "ERROR": (0x20, "ro", "the newest error"),
+    "STATUS": (0x1C, "ro", "what the core is doing: bit 0 OPEN: a frame is open; bit 1 DRAINING: input is being drained after an error; bit 2 WAITING_INPUT: waiting for input; bit 3 WAITING_OUTPUT: waiting for output"),
+    "ERROR": (0x20, "ro", "the newest error: bits 3-0 CODE: its code; bits 31-16 LINE: its line"),
     "ERROR_FRAME": (0x24, "ro", "frame number in the header of the frame with the newest error"),
     "ERROR_TOKEN": (0x28, "ro", "index of the token in its frame; the header is 0"),
     "ERRORS": (0x2C, "ro", "frames with an error since reset"),
@@ -226,8 +226,19 @@ REGISTERS = {
     "STARVED": (0x38, "ro", "clocks inside a frame in which the core waited for input"),
     "BLOCKED": (0x3C, "ro", "clocks in which a pixel waited for the output's ready"),
     "ERROR_UNIT": (0x40, "ro", "unit of the newest error, if it is SEGMENT, UNIT_LONG or UNIT_SHORT"),
-    "TREE": (0x44, "ro", "the unit that input is waited for; all 0 if BEHIND is"),
-    "STALL": (0x48, "ro", "at the watchdog's last bite"),
+    "TREE": (0x44, "ro", "the unit that input is waited for; all 0 if BEHIND is: bits 5-0 UNIT: the lowest unit that has least of the frame; bits 30-16 LINE: its line; bit 31 BEHIND: input is waited for while a unit has less of the frame than another"),
+    "STALL": (0x48, "ro", "at the watchdog's last bite: bits 5-0 UNIT: as in TREE; bit 8 ON_INPUT: input was waited for; bit 9 ON_OUTPUT: output was waited for; bits 30-16 LINE: as in TREE; without a unit the line at hand; bit 31 BEHIND: as in TREE"),
+}
+
+# Fields of a register: lowest bit, bits.
+REGISTER_FIELDS = {
+    "SHAPE": {"MAX_WIDTH": (0, 16), "LANES": (16, 6), "BEAT_WORDS": (22, 4), "ARRANGEMENT": (31, 1)},
+    "CONTROL": {"FRAME_END": (0, 1), "ERROR": (1, 1), "WATCHDOG": (2, 1)},
+    "IRQ": {"FRAME_END": (0, 1), "ERROR": (1, 1), "WATCHDOG": (2, 1)},
+    "STATUS": {"OPEN": (0, 1), "DRAINING": (1, 1), "WAITING_INPUT": (2, 1), "WAITING_OUTPUT": (3, 1)},
+    "ERROR": {"CODE": (0, 4), "LINE": (16, 16)},
+    "TREE": {"UNIT": (0, 6), "LINE": (16, 15), "BEHIND": (31, 1)},
+    "STALL": {"UNIT": (0, 6), "ON_INPUT": (8, 1), "ON_OUTPUT": (9, 1), "LINE": (16, 15), "BEHIND": (31, 1)},
 }
 
 

@@ -16,7 +16,7 @@ namespace kage::cosim {
 /// Throws RegisterError if `answer` (of kage_rtl_table) is no response; `name` is the register's.
 inline void check_answer(const char* name, std::uint32_t address, int answer) {
   if (answer >= 0) return;
-  const char* const kind = address <= KAGE_REG_STALL ? "register " : "";
+  const char* const kind = address <= KAGE_REG_LAST ? "register " : "";
   const char* const what = answer == KAGE_RTL_UNASKED    ? "answers before it is asked"
                            : answer == KAGE_RTL_UNSTABLE ? "takes back an answer that waits"
                                                          : "does not answer";

@@ -62,21 +62,26 @@ TEST_CASE("in the systolic arrangement a token takes a clock", "[phases]") {
   CHECK(counter.lines() == std::vector<std::uint64_t>{71});
 }
 
-TEST_CASE("before its TPs a line's colours come back", "[phases]") {
-  for (const int lanes : {1, 4}) {
-    PhaseCounter counter(config_of(1, lanes));
-    counter.start(64);
-    counter.token(span(Kind::TP, 5, 6));
-    counter.token(plain(Kind::EOL));
-    counter.token(plain(Kind::EOL));
-    const std::uint64_t groups = 64 / static_cast<std::uint64_t>(lanes);
-    CHECK(counter.lines() == std::vector<std::uint64_t>{64 + std::max<std::uint64_t>(64, 2 * groups) + 32, 64});
-  }
-  PhaseCounter systolic(config_of(0, 1));
-  systolic.start(64);
-  systolic.token(span(Kind::TP, 5, 6));
-  systolic.token(plain(Kind::EOL));
-  CHECK(systolic.lines() == std::vector<std::uint64_t>{2 * 64 + 32});
+TEST_CASE("before a line's first TP a pass paints the line, and with counters its colours come back", "[phases]") {
+  for (const bool counters : {false, true})
+    for (const bool resolved : {false, true})
+      for (const int lanes : {0, 1, 4}) {  // 0: systolic
+        Config c = config_of(lanes == 0 ? 0 : 1, std::max(1, lanes));
+        c.count_bits = counters ? 4 : 0;
+        const std::uint64_t groups = lanes == 0 ? 1 : 64 / static_cast<std::uint64_t>(lanes);
+        const std::uint64_t pass = lanes == 0 ? 64 : 2 * groups;  // of colours on their way back
+        PhaseCounter counter(c);
+        counter.start(64);
+        if (resolved) counter.token(plain(Kind::RESOLVE));
+        counter.token(span(Kind::TP, 5, 6));
+        counter.token(span(Kind::TP, 5, 6));
+        counter.token(plain(Kind::EOL));
+        counter.token(plain(Kind::EOL));
+        const std::uint64_t tokens = (resolved ? 1 : 0) + 2 + groups;
+        const std::uint64_t back = counters && resolved ? 64 + std::max<std::uint64_t>(64, pass) + 32 : 0;
+        CAPTURE(counters, resolved, lanes);
+        CHECK(counter.lines() == std::vector<std::uint64_t>{std::max<std::uint64_t>(64, tokens + groups + back), 64});
+      }
 }
 
 TEST_CASE("the worst neighbours are those with the greatest sum", "[phases]") {

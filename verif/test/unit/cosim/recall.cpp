@@ -14,6 +14,7 @@
 #include "kage/config.hpp"
 #include "kage/stream.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/wrong_core.hpp"
 
 using namespace kage;
 using namespace kage::cosim;
@@ -56,34 +57,16 @@ std::vector<std::uint32_t> words_of(int frame, int what) {
   return words;
 }
 
-/// The golden core; a line of frame `wrong` is another.
-class Wrong : public Core {
+/// A core with clocks, some of them lost, which may have a frame wrong.
+class Clocked : public verif::WrongCore {
  public:
-  explicit Wrong(int wrong) : golden_(make_golden(config())), wrong_(wrong) {}
-  [[nodiscard]] int channels() const override { return golden_->channels(); }
-  void begin(int number) override { number_ = number; }
-  void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
-    golden_->feed(words, changed(sink));
-  }
+  explicit Clocked(int wrong) : WrongCore(config(), wrong) {}
   FrameEnd finish(const LineSink& sink) override {
-    FrameEnd end = golden_->finish(changed(sink));
-    end.cycles = 1000 + static_cast<std::uint64_t>(number_);
+    FrameEnd end = WrongCore::finish(sink);
+    end.cycles = 1000 + static_cast<std::uint64_t>(number());
     end.phase_stalls[2] = {3, 4};
     return end;
   }
-
- private:
-  LineSink changed(const LineSink& sink) const {
-    return [this, sink](int y, std::span<const std::uint8_t> line) {
-      std::vector<std::uint8_t> copy(line.begin(), line.end());
-      if (number_ == wrong_) copy.front() ^= 1U;
-      sink(y, copy);
-    };
-  }
-
-  std::unique_ptr<Core> golden_;
-  int wrong_;
-  int number_ = -1;
 };
 
 /// Runs what has no verdict, as kage cosim does.
@@ -110,7 +93,7 @@ class Run {
       if (!s->taken) {
         const auto again = this->golden();
         VerdictKeeper keeper(*again, options_);
-        Wrong actual(wrong);
+        Clocked actual(wrong);
         RunOptions run_options;
         run_options.steps = s->range.steps;
         run_options.before = s->range.before;
@@ -132,8 +115,8 @@ class Run {
   Report report;
 
  private:
-  /// Wrong counts its frames by begin(), which nobody calls for an expected core: -1 is every frame's number.
-  [[nodiscard]] std::unique_ptr<Core> golden() const { return std::make_unique<Wrong>(golden_wrong ? -1 : -2); }
+  /// Nobody calls begin() of an expected core: -1 is every frame's number.
+  [[nodiscard]] std::unique_ptr<Core> golden() const { return std::make_unique<Clocked>(golden_wrong ? -1 : -2); }
 
   RecallOptions options_;
 };

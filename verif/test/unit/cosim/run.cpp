@@ -10,6 +10,7 @@
 #include "kage/image.hpp"
 #include "kage/stream.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/wrong_core.hpp"
 
 using namespace kage;
 using namespace kage::cosim;
@@ -34,31 +35,6 @@ TokenCounts frame_of(int frame, const WordSink& sink) {
   return {};
 }
 
-/// The golden core, but the first pixel of each line of frame `wrong` is another.
-class Wrong : public Core {
- public:
-  explicit Wrong(int wrong) : golden_(make_golden(config())), wrong_(wrong) {}
-  [[nodiscard]] int channels() const override { return golden_->channels(); }
-  void begin(int number) override { number_ = number; }
-  void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
-    golden_->feed(words, changed(sink));
-  }
-  FrameEnd finish(const LineSink& sink) override { return golden_->finish(changed(sink)); }
-
- private:
-  LineSink changed(const LineSink& sink) const {
-    return [this, sink](int y, std::span<const std::uint8_t> line) {
-      std::vector<std::uint8_t> copy(line.begin(), line.end());
-      if (number_ == wrong_) copy.front() ^= 1U;
-      sink(y, copy);
-    };
-  }
-
-  std::unique_ptr<Core> golden_;
-  int wrong_;
-  int number_ = 0;
-};
-
 /// A folder of this test's own.
 class Folder {
  public:
@@ -79,7 +55,7 @@ TEST_CASE("where only a difference has pictures, no other frame writes a file, n
   for (const bool two_threads : {false, true}) {
     const Folder folder;
     const auto golden = make_golden(config());
-    Wrong wrong(5);
+    verif::WrongCore wrong(config(), 5);
     RunOptions options;
     options.out = folder.path;
     options.all_pictures = false;
