@@ -228,7 +228,7 @@ trouble nowhere "$kage" diff a.png b.png --junit nowhere/j.xml
 trouble nowhere/r.json "$kage" diff a.png b.png --json nowhere/r.json --lsb 9
 for option in --out --blink --junit --json; do trouble a.png "$kage" diff a.png b.png $option ./a.png; done
 trouble mask.png "$kage" diff a.png b.png --mask mask.png --out mask.png
-trouble twice "$kage" diff a.png b.png --out x.png --blink ./x.png
+trouble "two outputs have this name" "$kage" diff a.png b.png --out x.png --blink ./x.png
 cmp a.png keep.png || fail "an input was written over"
 rm -f h.png j.xml
 trouble cut.png "$kage" diff a.png cut.png --out h.png --junit j.xml
