@@ -94,7 +94,7 @@ def write_whole(path, rows):
     part.replace(path)
 
 
-KINDS = ("random", "damaged", "mixed", "scene")  # in the order of a round of kage regress
+KINDS = ("random", "mixed", "damaged", "scene")  # in the order of a round of kage regress
 
 
 def kind(name):
