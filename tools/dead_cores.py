@@ -3,6 +3,7 @@
 
 import argparse
 import collections
+import concurrent.futures
 import ctypes
 import json
 import os
@@ -13,6 +14,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 MAY_USE_A_CORE = r"^(cli|rtl|examples|mutants)/|^unit/cosim/|^package/consumer$"
@@ -79,9 +81,9 @@ class Tree:
         self.copy = work / "tree"
         self.cache = work / "cache"
         self.models = work / "models"
-        self.mark = work / "mark"
         self.scratch = work / "scratch"
         self.build = work / "build"
+        self.building = threading.Lock()
         files = subprocess.run(["git", "-C", top, "ls-files", "-z"], check=True, capture_output=True).stdout.split(
             b"\0"
         )
@@ -106,9 +108,10 @@ class Tree:
     def model(self, library):
         """The same model, of this tree's core."""
         out = self.models / pathlib.Path(library).name
-        if not out.exists():
-            command = [self.copy / "verif/cosim/model/driver/build.py", out, *parameters(library), "--quick"]
-            subprocess.run(command, check=True, env={**os.environ, "XDG_CACHE_HOME": str(self.cache)})
+        with self.building:
+            if not out.exists():
+                command = [self.copy / "verif/cosim/model/driver/build.py", out, *parameters(library), "--quick"]
+                subprocess.run(command, check=True, env={**os.environ, "XDG_CACHE_HOME": str(self.cache)})
         return str(out)
 
     def program(self, name):
@@ -139,10 +142,13 @@ class Tree:
                 word = str(self.copy) + word[len(str(self.top)) :]
             command.append(word)
         if test["name"] in CORE_IN_THE_PROGRAM:
-            command[0] = self.program(pathlib.Path(command[0]).name)
-        self.mark.unlink(missing_ok=True)
+            with self.building:
+                command[0] = self.program(pathlib.Path(command[0]).name)
+        scratch = pathlib.Path(tempfile.mkdtemp(dir=self.scratch))
+        mark = scratch / "mark"
+        (scratch / "tmp").mkdir()
         environment = {**os.environ, "KAGE_DATA_DIR": str(self.copy), "XDG_CACHE_HOME": str(self.cache)}
-        environment |= {"KAGE_DEAD_CORES_MARK": str(self.mark), "TMPDIR": str(self.scratch)}
+        environment |= {"KAGE_DEAD_CORES_MARK": str(mark), "TMPDIR": str(scratch / "tmp")}
         properties = {p["name"]: p["value"] for p in test.get("properties", [])}
         environment.update(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
         start = time.monotonic()
@@ -168,9 +174,23 @@ class Tree:
             except ProcessLookupError:
                 pass
             process.wait()
-            shutil.rmtree(self.scratch, ignore_errors=True)
-            self.scratch.mkdir()
-        return verdict, self.mark.exists() or test["name"] in CORE_IN_THE_PROGRAM, time.monotonic() - start
+            marked = mark.exists()
+            shutil.rmtree(scratch, ignore_errors=True)
+        return verdict, marked or test["name"] in CORE_IN_THE_PROGRAM, time.monotonic() - start
+
+
+def all_tests(tree, core, chosen, jobs):
+    """A row for each of the chosen tests, so many at a time; each is printed when it has ended."""
+
+    def one(test):
+        verdict, uses_core, seconds = tree.run(test)
+        print(
+            f"{core:<14} {verdict:<14} {'core' if uses_core else '-':<5} {seconds:6.1f} s  {test['name']}", flush=True
+        )
+        return {"core": core, "test": test["name"], "verdict": verdict, "uses_core": uses_core, "seconds": seconds}
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        return list(pool.map(one, chosen))
 
 
 def run(options):
@@ -180,21 +200,7 @@ def run(options):
     for fault in ["", *faults]:
         with tempfile.TemporaryDirectory(prefix="kage-dead-") as work:
             tree = Tree(options.top, pathlib.Path(work), fault)
-            for test in chosen:
-                verdict, core, seconds = tree.run(test)
-                rows.append(
-                    {
-                        "core": fault or "sound",
-                        "test": test["name"],
-                        "verdict": verdict,
-                        "uses_core": core,
-                        "seconds": seconds,
-                    }
-                )
-                print(
-                    f"{fault or 'sound':<14} {verdict:<14} {'core' if core else '-':<5} {seconds:6.1f} s  {test['name']}",
-                    flush=True,
-                )
+            rows += all_tests(tree, fault or "sound", chosen, options.jobs)
         if not fault:  # the others have nothing to say
             uses = {row["test"] for row in rows if row["verdict"] == "passes" and row["uses_core"]}
             chosen = [t for t in chosen if t["name"] in uses]
@@ -242,6 +248,7 @@ def main():
     parser.add_argument("--fault", action="append", default=[])
     parser.add_argument("--tests", default=MAY_USE_A_CORE)
     parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     rows = run(options)
     if options.json:
