@@ -15,10 +15,12 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
@@ -45,6 +47,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::chrono::seconds kPatience{1};
 
 // What the child's first byte says; a message or a packed scene follows, then its end is the pipe's end.
 constexpr std::uint8_t kScene = 'S';
@@ -147,25 +151,97 @@ void answer(int fd, std::uint8_t kind, std::string_view text) {
   _exit(0);
 }
 
-enum class Ending { kClosed, kLate, kLarge };
+/// kStill: the child waits, and has for as long as `patience` says.
+enum class Ending { kClosed, kLate, kLarge, kStill };
 
-Ending receive(int fd, const ImportLimits& limits, const std::function<void()>& wait, Bytes& bytes) {
-  const Clock::time_point deadline = Clock::now() + std::chrono::seconds(limits.seconds);
+/// Processor time of another process; a child that has ended keeps it until it is waited for.
+std::chrono::nanoseconds processor_time(pid_t pid) {
+  clockid_t clock{};
+  timespec t{};
+  if (clock_getcpuclockid(pid, &clock) != 0 || clock_gettime(clock, &t) != 0) return {};
+  return std::chrono::seconds(t.tv_sec) + std::chrono::nanoseconds(t.tv_nsec);
+}
+
+struct Child {
+  pid_t pid;
+  int pipe;  ///< the reading end
+};
+
+Ending receive(const Child& child, const ImportLimits& limits, Clock::time_point deadline, Clock::duration patience,
+               const std::function<void()>& wait, Bytes& bytes) {
   const std::uint64_t most = static_cast<std::uint64_t>(limits.mib) << 20;
   Bytes chunk(std::size_t{1} << 16);
+  std::chrono::nanoseconds worked{};
+  Clock::time_point moved = Clock::now();
   for (;;) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
+    const Clock::time_point now = Clock::now();
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - now).count();
     if (left <= 0) return Ending::kLate;
-    pollfd p{fd, POLLIN, 0};
+    if (const auto w = processor_time(child.pid); w != worked) worked = w, moved = now;
+    if (now - moved > patience) return Ending::kStill;
+    pollfd p{child.pipe, POLLIN, 0};
     const int ready = poll(&p, 1, static_cast<int>(std::min<std::int64_t>(left, 100)));
     if (wait) wait();
     if (ready <= 0) continue;  // a signal, or a tenth of a second gone
-    const ssize_t n = read(fd, chunk.data(), chunk.size());
+    const ssize_t n = read(child.pipe, chunk.data(), chunk.size());
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return Ending::kClosed;
     if (bytes.size() + static_cast<std::size_t>(n) > most) return Ending::kLarge;
     bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + n);
+    moved = Clock::now();
   }
+}
+
+Child begin(const std::string& name, const ImportLimits& limits, const std::function<Bytes()>& work) {
+  // One at a time, or another thread's child would inherit this pipe's writing end and keep it open.
+  std::unique_lock<std::mutex> lock(loader_lock());
+  int pipe_ends[2];
+  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw Error(name + ": no pipe to an import process: " + std::strerror(errno));
+  const pid_t parent = getpid();
+  const pid_t pid = fork();
+  if (pid < 0) {
+    const int error = errno;
+    close(pipe_ends[0]);
+    close(pipe_ends[1]);
+    throw Error(name + ": no import process: " + std::strerror(error));
+  }
+  if (pid == 0) {
+    lock.unlock();  // the child's own copy of it
+    close(pipe_ends[0]);
+    child(pipe_ends[1], parent, name, limits, work);
+  }
+  close(pipe_ends[1]);
+  return {pid, pipe_ends[0]};
+}
+
+/// What became of a child. `status` is none where the program reaps all children itself.
+struct Outcome {
+  Ending ending = Ending::kLarge;
+  Bytes bytes;
+  std::optional<int> status;
+};
+
+Outcome run_once(const std::string& name, const ImportLimits& limits, const std::function<Bytes()>& work,
+                 const std::function<void()>& wait, Clock::time_point deadline, Clock::duration patience) {
+  const Child child = begin(name, limits, work);
+  Outcome o;
+  std::exception_ptr stopped;
+  try {
+    o.ending = receive(child, limits, deadline, patience, wait, o.bytes);
+  } catch (const std::bad_alloc&) {  // ours: the scene does not fit
+  } catch (...) {
+    stopped = std::current_exception();
+  }
+  close(child.pipe);
+  if (o.ending != Ending::kClosed) kill(child.pid, SIGKILL);
+  int status = 0;
+  pid_t ended = -1;
+  do ended = waitpid(child.pid, &status, 0);
+  while (ended < 0 && errno == EINTR);
+  if (ended == child.pid) o.status = status;
+  if (stopped) std::rethrow_exception(stopped);
+  if (wait) wait();  // the signal that ended the child may have been for both, as Ctrl-C at a terminal is
+  return o;
 }
 
 void check_file(const std::filesystem::path& path, const std::string& name) {
@@ -191,52 +267,21 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
   const std::string no_time = name + ": import took longer than " + std::to_string(limits.seconds) + " s";
   const std::string no_memory = name + ": import needs more than " + std::to_string(limits.mib) + " MiB" +
                                 (limited_from_outside() ? ", or than ulimit -v leaves" : "");
-  // One at a time, or another thread's child would inherit this pipe's writing end and keep it open.
-  std::unique_lock<std::mutex> lock(loader_lock());
-  int pipe_ends[2];
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0) throw Error(name + ": no pipe to an import process: " + std::strerror(errno));
-  const pid_t parent = getpid();
-  const pid_t pid = fork();
-  if (pid < 0) {
-    const int error = errno;
-    close(pipe_ends[0]);
-    close(pipe_ends[1]);
-    throw Error(name + ": no import process: " + std::strerror(error));
-  }
-  if (pid == 0) {
-    lock.unlock();  // the child's own copy of it
-    close(pipe_ends[0]);
-    child(pipe_ends[1], parent, name, limits, work);
-  }
-  close(pipe_ends[1]);
-  lock.unlock();
-  Bytes bytes;
-  Ending ending = Ending::kLarge;
-  std::exception_ptr stopped;
-  try {
-    ending = receive(pipe_ends[0], limits, wait, bytes);
-  } catch (const std::bad_alloc&) {  // ours: the scene does not fit
-  } catch (...) {
-    stopped = std::current_exception();
-  }
-  close(pipe_ends[0]);
-  if (ending != Ending::kClosed) kill(pid, SIGKILL);
-  int status = 0;
-  pid_t ended = -1;
-  do ended = waitpid(pid, &status, 0);
-  while (ended < 0 && errno == EINTR);
-
-  if (stopped) std::rethrow_exception(stopped);
-  if (wait) wait();  // the signal that ended the child may have been for both, as Ctrl-C at a terminal is
-  if (ending == Ending::kLate) throw Error(no_time);
-  if (ending == Ending::kLarge) throw Error(no_memory);
-  // Where the program reaps all children itself, the pipe alone tells.
-  const int signal = ended == pid && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  const Clock::time_point deadline = Clock::now() + std::chrono::seconds(limits.seconds);
+  // A child that waits may have inherited a lock that none of its threads will give back (child.hpp): another child is
+  // tried. One that waits for a slow disk looks the same, so each is given twice the patience of the one before.
+  Clock::duration patience = kPatience;
+  Outcome o = run_once(name, limits, work, wait, deadline, patience);
+  while (o.ending == Ending::kStill) o = run_once(name, limits, work, wait, deadline, patience *= 2);
+  if (o.ending == Ending::kLate) throw Error(no_time);
+  if (o.ending == Ending::kLarge) throw Error(no_memory);
+  const int signal = o.status && WIFSIGNALED(*o.status) ? WTERMSIG(*o.status) : 0;
   if (signal == SIGXCPU) throw Error(no_time);
   if (signal != 0) throw Error(name + ": killed by signal " + std::to_string(signal) + " while importing");
+  Bytes& bytes = o.bytes;
   if (bytes.size() < 2 || bytes.back() != kDone) {
     const std::string code =
-        ended == pid && WIFEXITED(status) ? " with code " + std::to_string(WEXITSTATUS(status)) : "";
+        o.status && WIFEXITED(*o.status) ? " with code " + std::to_string(WEXITSTATUS(*o.status)) : "";
     throw Error(name + ": the import process ended" + code + " and gave no scene");
   }
   const std::uint8_t kind = bytes.front();

@@ -4,7 +4,7 @@
 // all memory on some. The child is forked, not executed anew: a library has no program of its own that it could
 // execute. It does nothing but read the file and write the scene into a pipe, and leaves by _exit. glibc keeps malloc
 // and stdio usable after fork() in a program with threads; should another thread hold some other lock at that moment,
-// the child waits for ever and the time limit ends it.
+// the child would wait for ever. So a child that neither works nor writes for a second is ended, and another is forked.
 #pragma once
 
 #include <cstdint>

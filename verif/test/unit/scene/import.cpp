@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The import child and its limits, and files that are no scenes.
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -214,6 +215,18 @@ TEST_CASE("what a frame lacks is said with the file's path") {
       {"name": "eye", "camera": 0, "scale": [0, 0, 0]}],
       "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}])"));
   CHECK(refusal(file) == file + ": node 'eye': the camera has no direction");
+}
+
+TEST_CASE("a child that waits for ever is given up for another one") {
+  const TempDirectory dir;
+  const std::string been = dir.path() / "been";
+  const Bytes answer{1, 2, 3};
+  const auto waits_once = [&]() -> Bytes {
+    const int fd = open(been.c_str(), O_CREAT | O_EXCL | O_WRONLY, 0600);
+    while (fd >= 0) pause();
+    return answer;
+  };
+  CHECK(run_in_child("x", {}, waits_once) == answer);
 }
 
 TEST_CASE("several threads load at once") {
