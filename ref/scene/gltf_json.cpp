@@ -11,7 +11,10 @@ namespace {
 
 using Json = nlohmann::json;
 
+// Made when the program begins: a constant within a function is made by the first who asks, and then its end is entered
+// under a lock of the C library, which fork() may leave locked (child.hpp).
 const Json kNoObject = Json::object();
+const Json kNoArray = Json::array();
 
 /// Arrays below the top level that others refer to by number: an element that nobody has asked for draws nothing.
 bool is_indexed(std::string_view key) { return key == "samplers" || key == "lights"; }
@@ -120,9 +123,8 @@ std::vector<double> GltfJson::numbers(const Json& object, const char* key, std::
 }
 
 const Json& GltfJson::array(const Json& object, const char* key, const std::string& place) const {
-  static const Json kEmpty = Json::array();
   const Json* const v = find(object, key);
-  if (v == nullptr) return kEmpty;
+  if (v == nullptr) return kNoArray;
   if (!v->is_array()) fail(place, std::string("'") + key + "' is not an array");
   return *v;
 }
