@@ -98,10 +98,12 @@ class Tree:
                 raise Trouble(f"--fault {fault}: no {patch}")
             subprocess.run(["patch", "--quiet", "--fuzz=0", "--batch", "-p1", "-d", self.copy, "-i", patch], check=True)
         driver = self.copy / "verif/cosim/model/driver/model.hpp"
-        head, begin, tail = driver.read_text().partition("explicit kage_rtl(std::uint64_t seed) : initial(seed) {\n")
-        if not begin:
+        text = driver.read_text()
+        constructor = re.search(r"explicit kage_rtl\(std::uint64_t seed\)[^{;]*\{\n", text)
+        if not constructor:
             raise Trouble(f"{driver}: no constructor to put the mark in")
-        driver.write_text("#include <cstdlib>\n" + head + begin + MARK + tail)
+        begin = constructor.end()
+        driver.write_text("#include <cstdlib>\n" + text[:begin] + MARK + text[begin:])
         for folder in (self.models, self.cache, self.scratch):
             folder.mkdir()
 
