@@ -17,7 +17,7 @@
 #include "geometry/view.hpp"
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
-#include "test/support/on_ground.hpp"
+#include "stimulus/on_ground.hpp"
 
 namespace {
 

@@ -9,8 +9,8 @@
 
 #include "kage/light.hpp"
 #include "opinion/embree_scene.hpp"
+#include "stimulus/on_ground.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/on_ground.hpp"
 
 namespace kage::verif {
 namespace {
