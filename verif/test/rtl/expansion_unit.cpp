@@ -12,14 +12,13 @@ using namespace kage::rtl;
 
 namespace {
 
-constexpr TreeShape kShape{1, 6, 10, 3, 3, 1, 3, 4, 3, 4, false};
-constexpr TreeShape kClassic{1, 10, 15, 0, 1, 0, 7, 9, 4, 8, true};
+constexpr TreeShape kShape = tree_shape_of<Vunit>();
 
 template <class Top>
 Point point_of(Top& top, const TreeShape& s) {
-  const int paint = s.lit_bits + s.rgb_bits();
+  const int paint = s.lit_bits() + s.rgb_bits();
   return {get(top.px_data_o, paint + s.order_bits, s.z_bits), get(top.px_data_o, paint, s.order_bits),
-          get(top.px_data_o, s.lit_bits, s.rgb_bits()), s.lit_bits != 0 ? get(top.px_data_o, 0, 1) : 0,
+          get(top.px_data_o, s.lit_bits(), s.rgb_bits()), s.lit_bits() != 0 ? get(top.px_data_o, 0, 1) : 0,
           top.px_last_o != 0};
 }
 
@@ -34,7 +33,8 @@ void quiet(Top& top, int width) {
 }
 
 template <class Model>
-void random_test(const TreeShape& s) {
+void random_test() {
+  constexpr TreeShape s = tree_shape_of<Model>();
   each_seed(25, [&](Dice& dice) {
     Bench<Model> top(dice);
     const bool flushes = dice.percent(40);
@@ -116,7 +116,7 @@ void random_test(const TreeShape& s) {
       if (start) {
         older = expected.size();
         width = dice.percent(10) ? s.widest() : dice.percent(20) ? dice.between(1, 3) : dice.between(1, s.widest());
-        if (s.classic && dice.percent(70)) width = std::min(width, 40);
+        if (s.classic != 0 && dice.percent(70)) width = std::min(width, 40);
         faces.resize(static_cast<std::size_t>(dice.percent(20) ? s.blank() : dice.below(std::min(s.blank(), 9))));
         for (Face& face : faces) face = random_face(dice, s);
         defined = 0;
@@ -140,9 +140,9 @@ void random_test(const TreeShape& s) {
 
 }  // namespace
 
-TEST_CASE("expansion_unit makes the pixels of its segments", "[expansion_unit]") { random_test<Vunit>(kShape); }
+TEST_CASE("expansion_unit makes the pixels of its segments", "[expansion_unit]") { random_test<Vunit>(); }
 TEST_CASE("expansion_unit makes the pixels of the paper's segments", "[expansion_unit]") {
-  random_test<Vunit_classic>(kClassic);
+  random_test<Vunit_classic>();
 }
 
 TEST_CASE("expansion_unit buffers two lines of 2^SEG_BITS segments and no more", "[expansion_unit]") {

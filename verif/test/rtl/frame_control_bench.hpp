@@ -14,16 +14,9 @@
 
 namespace kage::rtl {
 
-inline constexpr kage::Config kConfig{};
-inline constexpr kage::Config kGlass = [] {
-  kage::Config c;
-  c.translucency = 1;
-  return c;
-}();
-inline constexpr int kMaxWidth = 64;
-/// The configuration of a model; a test says it of those that are not of kConfig.
-template <class Model>
-inline constexpr kage::Config kConfigOf = kConfig;
+inline constexpr kage::Config kConfig = config_of<Vframe_control>();
+inline constexpr kage::Config kGlass = config_of<Vframe_control_glass>();
+inline constexpr int kMaxWidth = kConfig.max_width;
 
 struct Token {
   std::array<std::uint32_t, 5> words{};
@@ -131,7 +124,7 @@ struct Outcome {
 template <class Model>
 Outcome run(Dice& dice, const std::vector<Token>& tokens, bool fields = true) {
   Bench<Model> top(dice);
-  constexpr kage::Config config = kConfigOf<Model>;
+  constexpr kage::Config config = config_of<Model>();
   const CommandBus command(config);
   const LineBus line(config);
   const TableEntryBus entry(config);

@@ -13,20 +13,7 @@ using kage::Kind;
 
 namespace {
 
-constexpr kage::Config kLights = [] {
-  kage::Config c = kGlass;
-  c.count_bits = 4;
-  c.lights = 3;
-  c.class_bits = 5;
-  return c;
-}();
-
-}  // namespace
-
-template <>
-inline constexpr kage::Config kage::rtl::kConfigOf<Vframe_control_lights> = kLights;
-
-namespace {
+constexpr kage::Config kLights = config_of<Vframe_control_lights>();
 
 /// A token of the lights configuration, as `write` writes it.
 template <class Write>

@@ -10,17 +10,18 @@
 #include "Vcheck6.h"
 #include "Vcheck64.h"
 #include "bench.hpp"
+#include "contract/derived.hpp"
 #include "kage/defs.hpp"
 
 using namespace kage::rtl;
 
 namespace {
 
-struct Shape {
-  int units, unit_bits, x_bits, face_bits, dx_bits, seg_bits;
+struct Shape : kage::Config {
   int blank() const { return (1 << face_bits) - 1; }
   int longest() const { return (1 << dx_bits) - 1; }
   int most() const { return 1 << seg_bits; }
+  int unit_bits() const { return kage::derived::unit_bits(*this); }
 };
 
 enum Kind { kShade, kFace, kSeg, kTree, kEol, kOther };
@@ -201,7 +202,7 @@ Token random_token(Dice& dice, const Shape& s, const Rules& rules, int wrong, in
       t.kind = static_cast<Kind>(dice.below(6));
       break;
     case 1:
-      t.unit = dice.below(1 << s.unit_bits);
+      t.unit = dice.below(1 << s.unit_bits());
       break;
     case 2:
       t.face = dice.below(s.blank() + 1);
@@ -216,7 +217,7 @@ Token random_token(Dice& dice, const Shape& s, const Rules& rules, int wrong, in
       t.dx = 1;
       break;
     case 7:
-      t = {kFace, dice.below(1 << s.unit_bits), dice.below(s.blank() + 1)};
+      t = {kFace, dice.below(1 << s.unit_bits()), dice.below(s.blank() + 1)};
       break;
     case 6:
       t = {kSeg, dice.below(s.units), s.blank(), dice.below(2), dice.below(s.longest() + 1)};
@@ -254,7 +255,8 @@ void silent(Top& top, Dice& dice) {
 }
 
 template <class Model>
-void check_test(const Shape& s, int frames) {
+void check_test(int frames) {
+  constexpr Shape s{config_of<Model>()};
   std::map<Code, int> seen;  // outcomes, over all seeds
   int sound = 0, later = 0, crowds = 0, swallowed = 0;
   each_seed(10, [&](Dice& dice) {
@@ -335,7 +337,7 @@ void check_test(const Shape& s, int frames) {
 
 }  // namespace
 
-TEST_CASE("segment_check, 1 unit", "[segment_check]") { check_test<Vcheck1>({1, 1, 4, 2, 3, 2}, 150); }
-TEST_CASE("segment_check, 3 units", "[segment_check]") { check_test<Vcheck3>({3, 2, 5, 3, 6, 3}, 150); }
-TEST_CASE("segment_check, 6 units", "[segment_check]") { check_test<Vcheck6>({6, 3, 4, 2, 2, 2}, 150); }
-TEST_CASE("segment_check, 64 units", "[segment_check]") { check_test<Vcheck64>({64, 6, 11, 7, 9, 7}, 120); }
+TEST_CASE("segment_check, 1 unit", "[segment_check]") { check_test<Vcheck1>(150); }
+TEST_CASE("segment_check, 3 units", "[segment_check]") { check_test<Vcheck3>(150); }
+TEST_CASE("segment_check, 6 units", "[segment_check]") { check_test<Vcheck6>(150); }
+TEST_CASE("segment_check, 64 units", "[segment_check]") { check_test<Vcheck64>(120); }

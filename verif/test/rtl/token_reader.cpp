@@ -66,7 +66,8 @@ std::vector<Expected> tokens_of(const Words& w, int beat) {
 }
 
 template <class Model>
-void reader_test(int beat) {
+void reader_test() {
+  constexpr int beat = parameter<Model>("BEAT_WORDS");
   each_seed(20, [&](Dice& dice) {
     Bench<Model> top(dice);
     Offer offer(stall_percent(dice));
@@ -130,7 +131,8 @@ void reader_test(int beat) {
 
 /// Without stalls a token takes as many clocks as its words need on the port, at least one.
 template <class Model>
-void speed_test(int beat) {
+void speed_test() {
+  constexpr int beat = parameter<Model>("BEAT_WORDS");
   each_seed(5, [&](Dice& dice) {
     for (const int kind : {6, 8}) {
       Bench<Model> top(dice);
@@ -163,13 +165,13 @@ void speed_test(int beat) {
 
 }  // namespace
 
-TEST_CASE("token_reader, beats of 1 word", "[token_reader]") { reader_test<Vtoken_reader1>(1); }
-TEST_CASE("token_reader, beats of 2 words", "[token_reader]") { reader_test<Vtoken_reader2>(2); }
-TEST_CASE("token_reader, beats of 4 words", "[token_reader]") { reader_test<Vtoken_reader4>(4); }
-TEST_CASE("token_reader, beats of 8 words", "[token_reader]") { reader_test<Vtoken_reader8>(8); }
+TEST_CASE("token_reader, beats of 1 word", "[token_reader]") { reader_test<Vtoken_reader1>(); }
+TEST_CASE("token_reader, beats of 2 words", "[token_reader]") { reader_test<Vtoken_reader2>(); }
+TEST_CASE("token_reader, beats of 4 words", "[token_reader]") { reader_test<Vtoken_reader4>(); }
+TEST_CASE("token_reader, beats of 8 words", "[token_reader]") { reader_test<Vtoken_reader8>(); }
 TEST_CASE("token_reader keeps up with its port", "[token_reader]") {
-  speed_test<Vtoken_reader1>(1);
-  speed_test<Vtoken_reader2>(2);
-  speed_test<Vtoken_reader4>(4);
-  speed_test<Vtoken_reader8>(8);
+  speed_test<Vtoken_reader1>();
+  speed_test<Vtoken_reader2>();
+  speed_test<Vtoken_reader4>();
+  speed_test<Vtoken_reader8>();
 }

@@ -19,9 +19,6 @@ using namespace kage::rtl;
 
 namespace {
 
-constexpr TreeShape small(int units) { return {units, 6, 10, 3, 3, 1, 3, 4, 3, 4, false}; }
-constexpr TreeShape kClassic{3, 8, 15, 0, 1, 0, 7, 9, 4, 8, true};
-
 struct Pixel {
   std::uint64_t z, color, lit;
   bool last;
@@ -30,14 +27,14 @@ struct Pixel {
 
 template <class Top>
 Pixel pixel_of(const Top& top, const TreeShape& s) {
-  const TreePixelBus pixel(s.config());
+  const TreePixelBus pixel(s);
   return {get(top.line_o, pixel.z), get(top.line_o, pixel.color), get(top.line_o, pixel.normal_class),
           get(top.line_o, pixel.last) != 0};
 }
 
 template <class Top>
 void put_unit(Top& top, const TreeShape& s, int unit) {
-  put(top.piece_i, PieceBus(s.config()).unit, static_cast<std::uint64_t>(unit));
+  put(top.piece_i, PieceBus(s).unit, static_cast<std::uint64_t>(unit));
 }
 
 using Lines = std::vector<std::vector<Point>>;  // of each unit
@@ -122,7 +119,8 @@ std::deque<Event> random_frame(Dice& dice, const TreeShape& s, int width) {
 }
 
 template <class Model>
-void random_test(const TreeShape& s, int seeds = 25) {
+void random_test(int seeds = 25) {
+  constexpr TreeShape s = tree_shape_of<Model>();
   each_seed(seeds, [&](Dice& dice) {
     Bench<Model> top(dice);
     const bool flushes = dice.percent(50);
@@ -206,8 +204,9 @@ void random_test(const TreeShape& s, int seeds = 25) {
 }
 
 template <class Model>
-void clocks_test(int units) {
-  const TreeShape s = small(units);
+void clocks_test() {
+  constexpr TreeShape s = tree_shape_of<Model>();
+  constexpr int units = s.units;
   int levels = 0;
   while (1 << levels < units) ++levels;
   each_seed(3, [&](Dice& dice) {
@@ -242,7 +241,9 @@ void clocks_test(int units) {
 }
 
 template <class Model>
-void two_lines_test(int units) {
+void two_lines_test() {
+  constexpr TreeShape s = tree_shape_of<Model>();
+  constexpr int units = s.units;
   each_seed(2, [&](Dice& dice) {
     Bench<Model> top(dice);
     const int width = 8;
@@ -250,8 +251,8 @@ void two_lines_test(int units) {
     for (int clock = 0; clock < 40 * units + 100; ++clock) {
       quiet(*top, width);
       top->seg_valid_i = given < 2 * width * units ? 1 : 0;
-      put_unit(*top, small(units), given / width % units);
-      put_segment(*top, small(units), {0, 1, small(units).blank()});
+      put_unit(*top, s, given / width % units);
+      put_segment(*top, s, {0, 1, s.blank()});
       top->claim_i = clock == 40 * units || clock == 40 * units + 1 ? 1 : 0;
       top->line_ready_i = clock >= 40 * units + 1 ? 1 : 0;
       top.settle();
@@ -269,32 +270,33 @@ void two_lines_test(int units) {
 
 }  // namespace
 
-TEST_CASE("tree_core of 1 unit", "[tree_core]") { random_test<Vcore1>(small(1)); }
-TEST_CASE("tree_core of 2 units", "[tree_core]") { random_test<Vcore2>(small(2)); }
-TEST_CASE("tree_core of 3 units, the paper's segments", "[tree_core]") { random_test<Vcore3>(kClassic); }
-TEST_CASE("tree_core of 5 units", "[tree_core]") { random_test<Vcore5>(small(5)); }
-TEST_CASE("tree_core of 8 units", "[tree_core]") { random_test<Vcore8>(small(8)); }
-TEST_CASE("tree_core of 64 units", "[tree_core]") { random_test<Vcore64>(small(64), 3); }
+TEST_CASE("tree_core of 1 unit", "[tree_core]") { random_test<Vcore1>(); }
+TEST_CASE("tree_core of 2 units", "[tree_core]") { random_test<Vcore2>(); }
+TEST_CASE("tree_core of 3 units, the paper's segments", "[tree_core]") { random_test<Vcore3>(); }
+TEST_CASE("tree_core of 5 units", "[tree_core]") { random_test<Vcore5>(); }
+TEST_CASE("tree_core of 8 units", "[tree_core]") { random_test<Vcore8>(); }
+TEST_CASE("tree_core of 64 units", "[tree_core]") { random_test<Vcore64>(3); }
 
 TEST_CASE("tree_core takes a line's width and its latency", "[tree_core]") {
-  clocks_test<Vcore1>(1);
-  clocks_test<Vcore2>(2);
-  clocks_test<Vcore4>(4);
-  clocks_test<Vcore5>(5);
-  clocks_test<Vcore8>(8);
-  clocks_test<Vcore16>(16);
-  clocks_test<Vcore32>(32);
-  clocks_test<Vcore64>(64);
+  clocks_test<Vcore1>();
+  clocks_test<Vcore2>();
+  clocks_test<Vcore4>();
+  clocks_test<Vcore5>();
+  clocks_test<Vcore8>();
+  clocks_test<Vcore16>();
+  clocks_test<Vcore32>();
+  clocks_test<Vcore64>();
 }
 
 TEST_CASE("tree_core sends buffered lines without a gap", "[tree_core]") {
-  two_lines_test<Vcore1>(1);
-  two_lines_test<Vcore5>(5);
-  two_lines_test<Vcore64>(64);
+  two_lines_test<Vcore1>();
+  two_lines_test<Vcore5>();
+  two_lines_test<Vcore64>();
 }
 
 TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next frame until then", "[tree_core]") {
   each_seed(10, [](Dice& dice) {
+    constexpr TreeShape kTwo = tree_shape_of<Vcore2>();
     Bench<Vcore2> top(dice);
     const int width = dice.between(1, 8);
     const int claims = dice.below(3);
@@ -302,8 +304,8 @@ TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next f
     const auto clock = [&](bool flush, bool claim, bool ready) {
       quiet(*top, width);
       top->seg_valid_i = !flush && given < 4 ? 1 : 0;
-      put_unit(*top, small(2), given % 2);
-      put_segment(*top, small(2), {0, width, small(2).blank()});
+      put_unit(*top, kTwo, given % 2);
+      put_segment(*top, kTwo, {0, width, kTwo.blank()});
       top->flush_i = flush ? 1 : 0;
       top->claim_i = claim ? 1 : 0;
       top->line_ready_i = ready ? 1 : 0;
