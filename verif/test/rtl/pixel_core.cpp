@@ -218,86 +218,111 @@ void set_command(Model& top, const Shape& s, const Command& c) {
   }
 }
 
+/// Random commands go in; the pixels of each line leave as the reference says.
+template <class Model>
+class Lines {
+ public:
+  explicit Lines(Dice& dice)
+      : dice_(dice),
+        top_(dice),
+        offer_(stall_percent(dice)),
+        free_percent_(100 - stall_percent(dice)),
+        width_(dice.between(1, kOf.max_width)) {}
+
+  void run() {
+    for (int clock = 0; lines_ < kMost || !widths_.empty(); ++clock) {
+      REQUIRE(clock < 200000);
+      if (!have_ && lines_ < kMost) next_command();
+      top_->cmd_valid_i = offer_(dice_, have_) ? 1 : 0;
+      set_command(*top_, kOf, command_);
+      top_->exit_free_i = dice_.percent(free_percent_) ? 1 : 0;
+      top_.settle();
+      const bool taken = top_->cmd_valid_i && top_->cmd_ready_o;
+      if (top_->exit_take_o) REQUIRE(top_->exit_free_i);
+      if (top_->exit_valid_o) look();
+      top_.edge();
+      if (taken) take();
+    }
+    REQUIRE(expected_.empty());
+  }
+
+ private:
+  static constexpr Shape kOf{config_of<Model>()};
+  static constexpr int kMost = 12;  // lines
+
+  void next_command() {
+    const bool loading = loads_ >= 0 && !painted_;
+    if (left_-- > 0 || loading) {
+      command_ = random_command(dice_, kOf, width_, home_);
+      if (kOf.translucency != 0 && (painted_ || loading || dice_.percent(10)))
+        command_ = translucent(dice_, kOf, command_, width_, painted_, loads_);
+    } else {
+      command_ = Command{};
+      command_.kind = Kind::EOL;
+      command_.xr = width_;
+      command_.count = kOf.fsf == 0 ? dice_.bits(std::max(kOf.dsf_bits, 1)) : 0;
+    }
+    have_ = true;
+  }
+
+  /// A group of pixels leaves.
+  void look() {
+    REQUIRE(!widths_.empty());
+    const int width = widths_.front();
+    const int bits = kOf.exit_bits();
+    for (int lane = 0; lane < kOf.exit_lanes() && x_ < width; ++lane, ++x_) {
+      CAPTURE(x_, lane, width);
+      const std::uint64_t got = get(top_->exit_data_o, lane * bits, bits);
+      const std::uint64_t want = expected_.front();
+      expected_.pop_front();
+      const std::uint64_t covered = want >> (8 * kOf.channels) & 1;
+      REQUIRE((got >> (8 * kOf.channels) & 1) == covered);
+      if (covered != 0 || colored_.front()) REQUIRE(got == want);  // else an uncovered pixel has any colour
+    }
+    REQUIRE(static_cast<bool>(top_->exit_last_o) == (x_ == width));
+    if (x_ < width) return;
+    x_ = 0;
+    widths_.pop_front();
+    colored_.pop_front();
+  }
+
+  /// The command was taken.
+  void take() {
+    offer_.taken();
+    have_ = false;
+    reference_.apply(command_, expected_);
+    if (command_.kind == kCommandOut) {
+      widths_.push_back(width_);
+      colored_.push_back(false);
+    }
+    if (command_.kind != Kind::EOL) return;
+    loads_ = -1;
+    widths_.push_back(width_);
+    colored_.push_back(painted_);
+    painted_ = false;
+    width_ = dice_.percent(30) ? kOf.max_width : dice_.between(1, kOf.max_width);
+    home_ = dice_.below(width_);
+    left_ = dice_.percent(30) ? 0 : dice_.below(40);
+    ++lines_;
+  }
+
+  Dice& dice_;
+  Bench<Model> top_;
+  Offer offer_;
+  int free_percent_;
+  Reference reference_{kOf};
+  std::deque<std::uint64_t> expected_;
+  std::deque<int> widths_;    // of lines that have not left
+  std::deque<bool> colored_;  // whether their uncovered pixels have a colour too
+  int width_, home_ = 0, left_ = 0, lines_ = 0, loads_ = -1;
+  int x_ = 0;  // of the line that leaves
+  Command command_{};
+  bool have_ = false, painted_ = false;
+};
+
 template <class Model>
 void pixel_test() {
-  constexpr Shape s{config_of<Model>()};
-  each_seed(15, [&](Dice& dice) {
-    Bench<Model> top(dice);
-    Offer offer(stall_percent(dice));
-    const int free_percent = 100 - stall_percent(dice);
-    const int lanes = s.exit_lanes();
-    const int exit_bits = s.exit_bits();
-    Reference reference(s);
-    std::deque<std::uint64_t> expected;
-    std::deque<int> widths;    // of lines that have not left
-    std::deque<bool> colored;  // whether their uncovered pixels have a colour too
-    int width = dice.between(1, s.max_width), home = 0, left = 0, lines = 0, x = 0, loads = -1;
-    Command c{};
-    bool have = false, painted = false;
-    for (int clock = 0; lines < 12 || !widths.empty(); ++clock) {
-      REQUIRE(clock < 200000);
-      if (!have && lines < 12) {
-        const bool loading = loads >= 0 && !painted;
-        if (left-- > 0 || loading) {
-          c = random_command(dice, s, width, home);
-          if (s.translucency != 0 && (painted || loading || dice.percent(10)))
-            c = translucent(dice, s, c, width, painted, loads);
-        } else {
-          c = Command{};
-          c.kind = Kind::EOL;
-          c.xr = width;
-          c.count = s.fsf == 0 ? dice.bits(std::max(s.dsf_bits, 1)) : 0;
-        }
-        have = true;
-      }
-      top->cmd_valid_i = offer(dice, have) ? 1 : 0;
-      set_command(*top, s, c);
-      top->exit_free_i = dice.percent(free_percent) ? 1 : 0;
-      top.settle();
-      const bool taken = top->cmd_valid_i && top->cmd_ready_o;
-      if (top->exit_take_o) REQUIRE(top->exit_free_i);
-      if (top->exit_valid_o) {
-        REQUIRE(!widths.empty());
-        const int w = widths.front();
-        for (int l = 0; l < lanes && x < w; ++l, ++x) {
-          CAPTURE(x, l, w);
-          const std::uint64_t got = get(top->exit_data_o, l * exit_bits, exit_bits);
-          const std::uint64_t want = expected.front();
-          expected.pop_front();
-          const std::uint64_t covered = want >> (8 * s.channels) & 1;
-          REQUIRE((got >> (8 * s.channels) & 1) == covered);
-          if (covered != 0 || colored.front()) REQUIRE(got == want);  // else an uncovered pixel has any colour
-        }
-        REQUIRE(static_cast<bool>(top->exit_last_o) == (x == w));
-        if (x == w) {
-          x = 0;
-          widths.pop_front();
-          colored.pop_front();
-        }
-      }
-      top.edge();
-      if (taken) {
-        offer.taken();
-        have = false;
-        reference.apply(c, expected);
-        if (c.kind == kCommandOut) {
-          widths.push_back(width);
-          colored.push_back(false);
-        }
-        if (c.kind == Kind::EOL) {
-          loads = -1;
-          widths.push_back(width);
-          colored.push_back(painted);
-          painted = false;
-          width = dice.percent(30) ? s.max_width : dice.between(1, s.max_width);
-          home = dice.below(width);
-          left = dice.percent(30) ? 0 : dice.below(40);
-          ++lines;
-        }
-      }
-    }
-    REQUIRE(expected.empty());
-  });
+  each_seed(15, [](Dice& dice) { Lines<Model>(dice).run(); });
 }
 
 /// Clocks from the first to the last of `n` equal commands, which come without a pause.

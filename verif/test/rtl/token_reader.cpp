@@ -65,6 +65,18 @@ std::vector<Expected> tokens_of(const Words& w, int beat) {
   }
 }
 
+/// The token that is offered is this one, of this frame.
+template <class Top>
+void hold_token(const Top& top, const Expected& e, const Words& frame) {
+  REQUIRE(static_cast<bool>(top.token_header_o) == e.header);
+  REQUIRE(static_cast<bool>(top.token_lacking_o) == e.lacking);
+  REQUIRE(static_cast<bool>(top.token_cut_o) == e.cut);
+  REQUIRE(static_cast<bool>(top.token_final_o) == e.final);
+  if (e.final && !e.cut) REQUIRE(static_cast<bool>(top.token_at_last_o) == e.at_last);
+  for (int i = 0; i < e.words && !e.cut; ++i)
+    REQUIRE(get(top.token_o, 32 * i, 32) == frame[e.at + static_cast<std::size_t>(i)]);
+}
+
 template <class Model>
 void reader_test() {
   constexpr int beat = parameter<Model>("BEAT_WORDS");
@@ -96,13 +108,7 @@ void reader_test() {
       waiting = top->token_valid_o && !top->token_ready_i;
       if (top->token_valid_o) {
         const Expected& e = expected[out_token];
-        REQUIRE(static_cast<bool>(top->token_header_o) == e.header);
-        REQUIRE(static_cast<bool>(top->token_lacking_o) == e.lacking);
-        REQUIRE(static_cast<bool>(top->token_cut_o) == e.cut);
-        REQUIRE(static_cast<bool>(top->token_final_o) == e.final);
-        if (e.final && !e.cut) REQUIRE(static_cast<bool>(top->token_at_last_o) == e.at_last);
-        for (int i = 0; i < e.words && !e.cut; ++i)
-          REQUIRE(get(top->token_o, 32 * i, 32) == all[out_frame][e.at + static_cast<std::size_t>(i)]);
+        hold_token(*top, e, all[out_frame]);
         if (taken && !e.final && (e.lacking || dice.percent(2))) {
           top->drop_i = 1;
           top.settle();
