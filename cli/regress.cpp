@@ -182,8 +182,7 @@ void add_regress(CLI::App& app, Action& action) {
       ->check(whole_number(1, 4096))
       ->type_name("N");
   c->add_flag("--no-divergence", o->no_divergence, "after a difference do not look for the stage that differs first");
-  option_fault(*c, o->rtl.fault);
-  c->add_option("--mutant", o->rtl.options.mutant)->check(whole_number(1, 100000))->type_name("N")->group("");
+  option_defect(*c, o->rtl);
   o->command = c;
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -51,6 +51,10 @@ void option_rtl(CLI::App& command, RtlRun& rtl) {
                   "percent of clocks at random in which no output is taken, default 0")
       ->check(whole_number(0, 95))
       ->type_name("P");
+  option_defect(command, rtl);
+}
+
+void option_defect(CLI::App& command, RtlRun& rtl) {
   option_fault(command, rtl.fault);
   command.add_option("--mutant", rtl.options.mutant)->check(whole_number(1, 100000))->type_name("N")->group("");
 }

@@ -23,8 +23,11 @@ struct RtlRun {
 /// The options of option_rtl().
 inline constexpr std::array kRtlOptions{"--fault", "--mutant", "--idle", "--backpressure"};
 
-/// --idle, --backpressure, --fault, and --mutant, which no help shows (docs/mutants.md).
+/// --idle, --backpressure, and those of option_defect().
 void option_rtl(CLI::App& command, RtlRun& rtl);
+
+/// RTL that is wrong on purpose: --fault, and --mutant, which no help shows (docs/mutants.md).
+void option_defect(CLI::App& command, RtlRun& rtl);
 
 /// Throws Error if one of these is given, of a command that runs no RTL this time.
 void refuse_rtl(const RtlRun& rtl, const std::string& why);

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "kage/order.hpp"
-#include "test/support/order_meshes.hpp"
+#include "stimulus/order_meshes.hpp"
 
 namespace {
 

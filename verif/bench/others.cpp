@@ -17,7 +17,7 @@
 #include "geometry/view.hpp"
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
-#include "test/support/on_ground.hpp"
+#include "stimulus/on_ground.hpp"
 
 namespace {
 
@@ -129,7 +129,7 @@ Renderer embree_renderer(const Setting& s, const EmbreeScene& scene, float offse
     const ShadowCaster caster = s.caster();
     Looks looks(s.frame, caster, shown);
     const unsigned shade = shown == Shown::shadow ? 256 : static_cast<unsigned>(to_fixed(256 * s.look.darkening, 0));
-    trace<N>(s.frame, scene, looks, {s.width, s.height, s.background(shown), shade, offset}, out);
+    Tracer<N>(s.frame, scene, looks, {s.width, s.height, s.background(shown), shade, offset}).run(out);
     parts.end("rays");
   };
   return r;
@@ -191,31 +191,22 @@ struct Outcome {
   std::string milliseconds;  ///< theirs, and how many times kage's that is
 };
 
-Outcome compare(const std::string& name, const SceneFrame& frame, int width, int height) {
-  Setting s;
-  s.frame = frame;
-  s.frame.lights.resize(1);
-  s.width = width;
-  s.height = height;
-
-  SpaceBox box;
-  for (const glm::dvec3& v : s.frame.vertices) box.add(v);
-  const auto offset = static_cast<float>(1e-5 * box.diagonal());
-
+/// Milliseconds for Embree's BVH, which no renderer's time holds.
+double build_ms(const SceneFrame& frame) {
   std::vector<double> builds;
   for (int i = 0; i < 5; ++i) {
     const double start = cpu_ms();
-    const EmbreeScene built(s.frame, EmbreeUse::speed);
+    const EmbreeScene built(frame, EmbreeUse::speed);
     builds.push_back(cpu_ms() - start);
   }
-  const double build = median(builds);
-  const EmbreeScene scene(s.frame, EmbreeUse::speed);
-  std::optional<StencilRenderer> gl;
-  try {
-    gl.emplace(width, height);
-  } catch (const std::runtime_error&) {  // main() has said so
-  }
+  return median(builds);
+}
 
+/// All ways to render, kage's two first; without stencils where there is no OpenGL.
+std::vector<Renderer> renderers(const Setting& s, const EmbreeScene& scene, std::optional<StencilRenderer>& gl) {
+  SpaceBox box;
+  for (const glm::dvec3& v : s.frame.vertices) box.add(v);
+  const auto offset = static_cast<float>(1e-5 * box.diagonal());
   std::vector<Renderer> all;
   all.push_back(kage_renderer(s, "kage, parity", 1));
   all.push_back(kage_renderer(s, "kage, 4 bits", 4));
@@ -226,6 +217,11 @@ Outcome compare(const std::string& name, const SceneFrame& frame, int width, int
     all.push_back(stencil_renderer(s, *gl, StencilWay::depth_fail));
     all.push_back(stencil_renderer(s, *gl, StencilWay::depth_pass));
   }
+  return all;
+}
+
+/// Runs all in turn, and says how many times the processor's time the wall clock's was.
+double run_all(std::vector<Renderer>& all) {
   // Shadows first, which warms up as well.
   for (Renderer& r : all) {
     Parts unused;
@@ -236,13 +232,11 @@ Outcome compare(const std::string& name, const SceneFrame& frame, int width, int
   const double cpu = cpu_ms();
   for (int i = 0; i < kRuns; ++i)
     for (Renderer& r : all) run_once(r);
-  const double busy = (wall_ms() - wall) / (cpu_ms() - cpu);
+  return (wall_ms() - wall) / (cpu_ms() - cpu);
+}
 
-  std::size_t dark = 0;
-  for (std::size_t i = 0; i < all[0].shadow.size(); i += 3) dark += all[0].shadow[i] == 0 ? 1 : 0;
-  fmt::print("{}, {}x{}: {} faces, {} pixels in shadow; wall clock {:.2f} of processor time\n", name, width, height,
-             s.frame.polygons.size(), dark, busy);
-  fmt::print("  {:<22}{:>8}{:>10}{:>10}{:>9}{:>9}  parts\n", "", "ms", "/ parity", "/ 4 bits", "colours", "shadows");
+/// Prints a row for each renderer.
+Outcome print_rows(const std::vector<Renderer>& all) {
   const double parity = median(all[0].sums);
   const double counting = median(all[1].sums);
   Outcome outcome;
@@ -259,6 +253,31 @@ Outcome compare(const std::string& name, const SceneFrame& frame, int width, int
     outcome.milliseconds += &r < &all[2] ? fmt::format(" {:.1f} |", sum)
                                          : fmt::format(" {:.1f}: {:.2f}, {:.2f} |", sum, sum / parity, sum / counting);
   }
+  return outcome;
+}
+
+Outcome compare(const std::string& name, const SceneFrame& frame, int width, int height) {
+  Setting s;
+  s.frame = frame;
+  s.frame.lights.resize(1);
+  s.width = width;
+  s.height = height;
+  const double build = build_ms(s.frame);
+  const EmbreeScene scene(s.frame, EmbreeUse::speed);
+  std::optional<StencilRenderer> gl;
+  try {
+    gl.emplace(width, height);
+  } catch (const std::runtime_error&) {  // main() has said so
+  }
+  std::vector<Renderer> all = renderers(s, scene, gl);
+  const double busy = run_all(all);
+
+  std::size_t dark = 0;
+  for (std::size_t i = 0; i < all[0].shadow.size(); i += 3) dark += all[0].shadow[i] == 0 ? 1 : 0;
+  fmt::print("{}, {}x{}: {} faces, {} pixels in shadow; wall clock {:.2f} of processor time\n", name, width, height,
+             s.frame.polygons.size(), dark, busy);
+  fmt::print("  {:<22}{:>8}{:>10}{:>10}{:>9}{:>9}  parts\n", "", "ms", "/ parity", "/ 4 bits", "colours", "shadows");
+  Outcome outcome = print_rows(all);
   fmt::print("  {:<22}{:>8.2f}   not in the above\n", "Embree's BVH", build);
   outcome.names += " Embree's BVH, apart |";
   outcome.milliseconds += fmt::format(" {:.1f} |", build);

@@ -11,7 +11,7 @@
 #include "frontend/tree_plan.hpp"
 #include "kage/geometry.hpp"
 #include "kage/stream.hpp"
-#include "test/support/shapes.hpp"
+#include "stimulus/shapes.hpp"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
 #include "scene/space.hpp"
-#include "test/support/shapes.hpp"
+#include "stimulus/shapes.hpp"
 
 namespace {
 

@@ -5,11 +5,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <span>
 #include <vector>
 
 #include "kage/order.hpp"
-#include "stimulus/random.hpp"
 
 namespace kage::verif {
 
@@ -31,17 +32,18 @@ class OrderOracle {
 
   static Point exact(const OrderPoint& p) { return {Number(p[0]), Number(p[1]), Number(p[2])}; }
 
-  /// A random point of a face, not on its outline.
-  Point point_of(Random& random, std::uint32_t face) const {
-    const auto corners = tree_.face(face).corners;
+  /// A point of a face, not on its outline: its corners' mean by the weights that `weight` gives one after another,
+  /// whole numbers above 0.
+  template <class Weight>
+  Point point_of(std::uint32_t face, Weight weight) const {
     Point sum{0, 0, 0};
-    Number weight = 0;
-    for (const std::uint32_t c : corners) {
-      const Number w = random.in(1, 1000);
-      weight += w;
+    Number weights = 0;
+    for (const std::uint32_t c : tree_.face(face).corners) {
+      const Number w = weight();
+      weights += w;
       for (std::size_t i = 0; i < 3; ++i) sum[i] += w * vertices_[c][i];
     }
-    for (Number& x : sum) x /= weight;
+    for (Number& x : sum) x /= weights;
     return sum;
   }
 

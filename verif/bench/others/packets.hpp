@@ -133,85 +133,118 @@ struct TraceView {
   float offset = 0;    ///< shadow rays begin so far from their surface
 };
 
-/// Fill `out` with the frame, whose first light is the one.
+/// Fills a picture with a frame, whose first light is the one, packet by packet.
 template <int N>
-void trace(const SceneFrame& f, const EmbreeScene& scene, Looks& looks, const TraceView& v, Picture& out) {
+class Tracer {
+ public:
+  Tracer(const SceneFrame& f, const EmbreeScene& scene, Looks& looks, const TraceView& v)
+      : camera_(f.camera), light_(f.lights[0]), scene_(scene), looks_(looks), v_(v) {}
+
+  void run(Picture& out) {
+    out.resize(static_cast<std::size_t>(v_.width) * static_cast<std::size_t>(v_.height) * 3);
+    for (int y = 0; y < v_.height; y += kDown)
+      for (int x = 0; x < v_.width; x += kAcross) {
+        Block b;
+        b.x = x;
+        b.y = y;
+        primary(b);
+        P::nearest(b.valid, scene_.handle(), b.hit);
+        if (secondary(b)) P::blocked(b.shadow, scene_.handle(), b.ray);
+        paint(b, out);
+      }
+  }
+
+ private:
   using P = Packet<N>;
-  constexpr int kAcross = P::kAcross;
-  constexpr int kDown = N / kAcross;
-  const Camera& camera = f.camera;
-  const Light& light = f.lights[0];
-  const double unit = 2 * camera.half_height / v.height;
-  const glm::vec3 step_x(camera.right * unit);
-  const glm::vec3 step_y(-camera.up * unit);
-  const glm::vec3 corner(camera.right * ((0.5 - v.width / 2.0) * unit) +
-                         camera.up * ((v.height / 2.0 - 0.5) * unit));  // of the upper left pixel's centre
-  const glm::vec3 eye(camera.eye);
-  const glm::vec3 forward(camera.forward);
-  const glm::vec3 sun(-light.direction);
-  const glm::vec3 lamp(light.position);
-  out.resize(static_cast<std::size_t>(v.width) * static_cast<std::size_t>(v.height) * 3);
-  for (int y0 = 0; y0 < v.height; y0 += kDown)
-    for (int x0 = 0; x0 < v.width; x0 += kAcross) {
-      alignas(64) typename P::Valid valid{};
-      alignas(64) typename P::RayHit hit;
-      for (std::size_t i = 0; i < N; ++i) {
-        const int x = x0 + static_cast<int>(i) % kAcross;
-        const int y = y0 + static_cast<int>(i) / kAcross;
-        valid[i] = x < v.width && y < v.height ? -1 : 0;
-        const glm::vec3 across = corner + step_x * static_cast<float>(x) + step_y * static_cast<float>(y);
-        const glm::vec3 origin = camera.perspective ? eye : eye + across;
-        const glm::vec3 direction = camera.perspective ? forward + across : forward;
-        hit.ray.org_x[i] = origin.x;
-        hit.ray.org_y[i] = origin.y;
-        hit.ray.org_z[i] = origin.z;
-        hit.ray.dir_x[i] = direction.x;
-        hit.ray.dir_y[i] = direction.y;
-        hit.ray.dir_z[i] = direction.z;
-        hit.ray.tnear[i] = static_cast<float>(camera.near);
-        hit.ray.tfar[i] = INFINITY;
-        hit.ray.time[i] = 0;
-        hit.ray.mask[i] = ~0U;
-        hit.ray.flags[i] = 0;
-        hit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-      }
-      P::nearest(valid, scene.handle(), hit);
-      alignas(64) typename P::Valid shadow{};
-      alignas(64) typename P::Ray ray;
-      std::array<FaceLook, N> seen;
-      bool any = false;
-      for (std::size_t i = 0; i < N; ++i) {
-        seen[i].color = v.background;
-        if (valid[i] != 0 && hit.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
-          seen[i] = looks[scene.polygon(hit.hit.primID[i])];
-        shadow[i] = seen[i].lit ? -1 : 0;
-        any |= seen[i].lit;
-        const float t = seen[i].lit ? hit.ray.tfar[i] : 0;
-        ray.org_x[i] = hit.ray.org_x[i] + t * hit.ray.dir_x[i];
-        ray.org_y[i] = hit.ray.org_y[i] + t * hit.ray.dir_y[i];
-        ray.org_z[i] = hit.ray.org_z[i] + t * hit.ray.dir_z[i];
-        ray.dir_x[i] = light.directional ? sun.x : lamp.x - ray.org_x[i];
-        ray.dir_y[i] = light.directional ? sun.y : lamp.y - ray.org_y[i];
-        ray.dir_z[i] = light.directional ? sun.z : lamp.z - ray.org_z[i];
-        ray.tnear[i] = light.directional
-                           ? v.offset
-                           : v.offset / std::sqrt(ray.dir_x[i] * ray.dir_x[i] + ray.dir_y[i] * ray.dir_y[i] +
-                                                  ray.dir_z[i] * ray.dir_z[i]);
-        ray.tfar[i] = light.directional ? INFINITY : 1;
-        ray.time[i] = 0;
-        ray.mask[i] = ~0U;
-        ray.flags[i] = 0;
-      }
-      if (any) P::blocked(shadow, scene.handle(), ray);
-      for (std::size_t i = 0; i < N; ++i) {
-        if (valid[i] == 0) continue;
-        const auto x = static_cast<std::size_t>(x0) + i % kAcross;
-        const auto y = static_cast<std::size_t>(y0) + i / kAcross;
-        std::uint8_t* pixel = &out[3 * (y * static_cast<std::size_t>(v.width) + x)];
-        const unsigned keep = shadow[i] != 0 && ray.tfar[i] < 0 ? 256 - v.shade : 256;
-        for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>((seen[i].color[c] * keep + 128) >> 8U);
-      }
+  static constexpr int kAcross = P::kAcross;
+  static constexpr int kDown = N / kAcross;
+
+  /// The pixels of a packet, and their rays.
+  struct Block {
+    alignas(64) typename P::Valid valid{};
+    alignas(64) typename P::RayHit hit;
+    alignas(64) typename P::Valid shadow{};
+    alignas(64) typename P::Ray ray;  // to the light
+    std::array<FaceLook, N> seen;
+    int x, y;  // of the first
+  };
+
+  /// Rays from the eye.
+  void primary(Block& b) const {
+    for (std::size_t i = 0; i < N; ++i) {
+      const int x = b.x + static_cast<int>(i) % kAcross;
+      const int y = b.y + static_cast<int>(i) / kAcross;
+      b.valid[i] = x < v_.width && y < v_.height ? -1 : 0;
+      const glm::vec3 across = corner_ + step_x_ * static_cast<float>(x) + step_y_ * static_cast<float>(y);
+      const glm::vec3 origin = camera_.perspective ? eye_ : eye_ + across;
+      const glm::vec3 direction = camera_.perspective ? forward_ + across : forward_;
+      b.hit.ray.org_x[i] = origin.x;
+      b.hit.ray.org_y[i] = origin.y;
+      b.hit.ray.org_z[i] = origin.z;
+      b.hit.ray.dir_x[i] = direction.x;
+      b.hit.ray.dir_y[i] = direction.y;
+      b.hit.ray.dir_z[i] = direction.z;
+      b.hit.ray.tnear[i] = static_cast<float>(camera_.near);
+      b.hit.ray.tfar[i] = INFINITY;
+      b.hit.ray.time[i] = 0;
+      b.hit.ray.mask[i] = ~0U;
+      b.hit.ray.flags[i] = 0;
+      b.hit.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-}
+  }
+
+  /// What the rays have met, and rays from there to the light; whether there are any.
+  bool secondary(Block& b) const {
+    bool any = false;
+    for (std::size_t i = 0; i < N; ++i) {
+      b.seen[i].color = v_.background;
+      if (b.valid[i] != 0 && b.hit.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID)
+        b.seen[i] = looks_[scene_.polygon(b.hit.hit.primID[i])];
+      b.shadow[i] = b.seen[i].lit ? -1 : 0;
+      any |= b.seen[i].lit;
+      const float t = b.seen[i].lit ? b.hit.ray.tfar[i] : 0;
+      auto& ray = b.ray;
+      ray.org_x[i] = b.hit.ray.org_x[i] + t * b.hit.ray.dir_x[i];
+      ray.org_y[i] = b.hit.ray.org_y[i] + t * b.hit.ray.dir_y[i];
+      ray.org_z[i] = b.hit.ray.org_z[i] + t * b.hit.ray.dir_z[i];
+      ray.dir_x[i] = light_.directional ? sun_.x : lamp_.x - ray.org_x[i];
+      ray.dir_y[i] = light_.directional ? sun_.y : lamp_.y - ray.org_y[i];
+      ray.dir_z[i] = light_.directional ? sun_.z : lamp_.z - ray.org_z[i];
+      const float squared = ray.dir_x[i] * ray.dir_x[i] + ray.dir_y[i] * ray.dir_y[i] + ray.dir_z[i] * ray.dir_z[i];
+      ray.tnear[i] = light_.directional ? v_.offset : v_.offset / std::sqrt(squared);
+      ray.tfar[i] = light_.directional ? INFINITY : 1;
+      ray.time[i] = 0;
+      ray.mask[i] = ~0U;
+      ray.flags[i] = 0;
+    }
+    return any;
+  }
+
+  void paint(const Block& b, Picture& out) const {
+    for (std::size_t i = 0; i < N; ++i) {
+      if (b.valid[i] == 0) continue;
+      const auto x = static_cast<std::size_t>(b.x) + i % kAcross;
+      const auto y = static_cast<std::size_t>(b.y) + i / kAcross;
+      std::uint8_t* pixel = &out[3 * (y * static_cast<std::size_t>(v_.width) + x)];
+      const unsigned keep = b.shadow[i] != 0 && b.ray.tfar[i] < 0 ? 256 - v_.shade : 256;
+      for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>((b.seen[i].color[c] * keep + 128) >> 8U);
+    }
+  }
+
+  const Camera& camera_;
+  const Light& light_;
+  const EmbreeScene& scene_;
+  Looks& looks_;
+  const TraceView v_;
+  const double unit_ = 2 * camera_.half_height / v_.height;
+  const glm::vec3 step_x_{camera_.right * unit_};
+  const glm::vec3 step_y_{-camera_.up * unit_};
+  const glm::vec3 corner_{camera_.right * ((0.5 - v_.width / 2.0) * unit_) +
+                          camera_.up * ((v_.height / 2.0 - 0.5) * unit_)};  // of the upper left pixel's centre
+  const glm::vec3 eye_{camera_.eye};
+  const glm::vec3 forward_{camera_.forward};
+  const glm::vec3 sun_{-light_.direction};
+  const glm::vec3 lamp_{light_.position};
+};
 
 }  // namespace kage::verif

@@ -7,8 +7,8 @@
 
 #include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {

@@ -4,9 +4,9 @@
 
 #include "kage/error.hpp"
 #include "opinion/ray_truth.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

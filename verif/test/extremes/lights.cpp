@@ -6,8 +6,8 @@
 
 #include "kage/light.hpp"
 #include "opinion/light_truth.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "opinion/order_oracle.hpp"
 #include "scene/order_mesh.hpp"
+#include "stimulus/order_meshes.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/order_meshes.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {
@@ -54,6 +54,11 @@ struct RayCount {
   int wrong = 0;
 };
 
+/// A random point of a face, not on its outline.
+OrderOracle::Point point_on(const OrderOracle& oracle, Random& random, std::uint32_t face) {
+  return oracle.point_of(face, [&random] { return random.in(1, 1000); });
+}
+
 /// Rays from some eyes through random points of random faces.
 RayCount follow_rays(const OrderTree& tree, Random& random, int eyes, int rays) {
   RayCount count;
@@ -76,7 +81,7 @@ RayCount follow_rays(const OrderTree& tree, Random& random, int eyes, int rays) 
     }
     for (int r = 0; r < rays; ++r) {
       const auto face = static_cast<std::uint32_t>(random.in(0, static_cast<int>(tree.face_count()) - 1));
-      const OrderOracle::Point target = oracle.point_of(random, face);
+      const OrderOracle::Point target = point_on(oracle, random, face);
       if (eye.perspective && target == OrderOracle::exact(eye.at)) continue;
       const int wrong = oracle.wrong_pairs(eye, target, order, &count.pairs);
       if (wrong == -1)
@@ -105,7 +110,7 @@ TEST_CASE("family 14: fragments partition their face, in rational numbers") {
       REQUIRE(a.face == a.fragments);
       CHECK(a.vertex_error < 1e-9);
       for (int i = 0; i < 20; ++i) {
-        const int count = oracle.fragments_at(oracle.point_of(random, face), face);
+        const int count = oracle.fragments_at(point_on(oracle, random, face), face);
         REQUIRE((count == 1 || count == -1));
       }
     }
@@ -271,7 +276,7 @@ TEST_CASE("the oracle says no to a wrong order") {
     const auto order = way->update(eye);
     const std::vector<std::uint32_t> reversed(order.rbegin(), order.rend());
     int pairs = 0;
-    if (oracle.wrong_pairs(eye, oracle.point_of(random, static_cast<std::uint32_t>(i) % tree.face_count()), reversed,
+    if (oracle.wrong_pairs(eye, point_on(oracle, random, static_cast<std::uint32_t>(i) % tree.face_count()), reversed,
                            &pairs) > 0)
       ++found;
   }

@@ -4,8 +4,8 @@
 
 #include "opinion/judge.hpp"
 #include "opinion/ray_truth.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "opinion/ray_truth.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

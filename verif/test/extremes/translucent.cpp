@@ -6,8 +6,8 @@
 #include "opinion/face_pixels.hpp"
 #include "opinion/layer_truth.hpp"
 #include "opinion/simple_core.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -2,8 +2,8 @@
 // Translucent faces from frame to frame, in smooth colour, in one plane, and at every scale.
 #include "kage/error.hpp"
 #include "opinion/face_pixels.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "buses.hpp"
+#include "given.hpp"
 #include "test/support/catch.hpp"
 #include "verilated.h"
 

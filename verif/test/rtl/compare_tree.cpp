@@ -19,7 +19,8 @@ using namespace kage::rtl;
 
 namespace {
 
-constexpr int kKeyBits = 6, kDataBits = 16;
+// All models have the same.
+constexpr int kKeyBits = parameter<Vcell>("KEY_BITS"), kDataBits = parameter<Vcell>("DATA_BITS");
 
 int levels(int units) {
   int n = 0;
@@ -56,7 +57,8 @@ Word least(const std::vector<Word>& pixels) {
 }
 
 template <class Model>
-void random_test(int units) {
+void random_test() {
+  constexpr int units = parameter<Model>("UNITS");
   const auto n = static_cast<std::size_t>(units);
   each_seed(15, [&](Dice& dice) {
     Bench<Model> top(dice);
@@ -110,7 +112,8 @@ void random_test(int units) {
 }
 
 template <class Model>
-void speed_test(int units) {
+void speed_test() {
+  constexpr int units = parameter<Model>("UNITS");
   each_seed(2, [&](Dice& dice) {
     Bench<Model> top(dice);
     const int width = 12;
@@ -139,17 +142,17 @@ void speed_test(int units) {
 
 }  // namespace
 
-#define TREE_TEST(model, units)                                                                               \
-  TEST_CASE("compare_tree of " #units " units under stalls", "[compare_tree]") { random_test<model>(units); } \
-  TEST_CASE("compare_tree of " #units " units, latency and speed", "[compare_tree]") { speed_test<model>(units); }
-TREE_TEST(Vtree1, 1)
-TREE_TEST(Vtree2, 2)
-TREE_TEST(Vtree3, 3)
-TREE_TEST(Vtree4, 4)
-TREE_TEST(Vtree5, 5)
-TREE_TEST(Vtree8, 8)
-TREE_TEST(Vtree9, 9)
-TREE_TEST(Vtree17, 17)
+#define TREE_TEST(units)                                                                                        \
+  TEST_CASE("compare_tree of " #units " units under stalls", "[compare_tree]") { random_test<Vtree##units>(); } \
+  TEST_CASE("compare_tree of " #units " units, latency and speed", "[compare_tree]") { speed_test<Vtree##units>(); }
+TREE_TEST(1)
+TREE_TEST(2)
+TREE_TEST(3)
+TREE_TEST(4)
+TREE_TEST(5)
+TREE_TEST(8)
+TREE_TEST(9)
+TREE_TEST(17)
 
 TEST_CASE("compare_cell takes both sides in one clock or none", "[compare_tree]") {
   each_seed(10, [](Dice& dice) {

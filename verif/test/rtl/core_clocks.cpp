@@ -5,8 +5,6 @@
 // fast.
 //
 // usage: core_clocks MODEL.so...
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <span>
@@ -14,13 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "cosim/model/driver/rtl_model.h"
+#include "core_model.hpp"
 #include "kage/core.hpp"
 #include "kage/stream.hpp"
 
 namespace {
 
 using namespace kage;
+using Words = std::vector<std::uint32_t>;
 
 struct Wrong : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -41,68 +40,77 @@ struct Light {
   int translucent = 0;
 };
 
-/// Clocks for a frame of lines of this width with `tokens` spans [xl, xr) each, from the first beat to the last pixel.
-std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int height, int tokens, int xl, int xr,
-                     int frames = 1, const Units& units = {}, const Light& light = {}) {
-  std::vector<std::uint32_t> words;
-  TokenWriter out(c, words);
-  out.header({width, height, 0, 1});
-  SpanToken s;
-  s.xl = xl;
-  s.xr = xr;
-  s.z = std::int64_t{1} << (c.z_bits + c.z_frac - 1);  // the middle, whatever the width
-  for (int i = 0; i < light.entries; ++i) out.table({i / c.lights + 1, i % c.lights, {}});
-  SegmentToken face;
-  for (face.unit = 0; face.unit < c.units; ++face.unit)
-    for (face.face = 0; face.face < units.faces; ++face.face) out.face(face);
-  SegmentToken seg;
-  seg.face = (1 << c.face_bits) - 1;
-  const auto segments = [&] {
-    for (seg.unit = 0; seg.unit < c.units; ++seg.unit) {
-      for (int i = 0; i < units.segments; ++i) {
+/// Frames, all equal: lines of this width with `tokens` spans [xl, xr) each.
+struct Work {
+  int width = 1;
+  int height = 1;
+  int tokens = 0;
+  int xl = 0, xr = 1;
+  int frames = 1;
+  Units units{};
+  Light light{};
+};
+
+/// A frame is written by tokens of all the sorts that the core has.
+class FrameWriter {
+ public:
+  FrameWriter(const Config& c, const Work& w) : c_(c), w_(w), out_(c, words_) {
+    span_.z = std::int64_t{1} << (c.z_bits + c.z_frac - 1);  // the middle, whatever the width
+  }
+
+  Words write() {
+    out_.header({w_.width, w_.height, 0, 1});
+    for (int i = 0; i < w_.light.entries; ++i) out_.table({i / c_.lights + 1, i % c_.lights, {}});
+    SegmentToken face;
+    for (face.unit = 0; face.unit < c_.units; ++face.unit)
+      for (face.face = 0; face.face < w_.units.faces; ++face.face) out_.face(face);
+    segments();
+    for (int y = 0; y < w_.height; ++y) line(y);
+    out_.end();
+    return words_;
+  }
+
+ private:
+  /// Of a line, unit by unit; nothing of a frame without a tree.
+  void segments() {
+    SegmentToken seg;
+    seg.face = (1 << c_.face_bits) - 1;
+    for (seg.unit = 0; seg.unit < c_.units; ++seg.unit) {
+      for (int i = 0; i < w_.units.segments; ++i) {
         seg.sync = i == 0;
-        seg.dx = width * (i + 1) / units.segments - width * i / units.segments;
-        out.seg(seg);
+        seg.dx = w_.width * (i + 1) / w_.units.segments - w_.width * i / w_.units.segments;
+        out_.seg(seg);
       }
     }
-  };
-  if (units.segments > 0) segments();
-  for (int y = 0; y < height; ++y) {
-    if (units.segments > 0 && y + 1 < height) segments();  // a line ahead, as a front end writes them
-    if (units.segments > 0) out.tree();
-    for (int i = 0; i < tokens; ++i) out.op(s);
-    for (int i = 0; i < light.samples; ++i) {
-      out.nc(0, 1, 1);
-      if (c.fsf != 0) out.ev(0, 1);
-      out.es(0, light.es_xr, 0);
+  }
+
+  void line(int y) {
+    if (y + 1 < w_.height) segments();  // a line ahead, as a front end writes them
+    if (w_.units.segments > 0) out_.tree();
+    span_.xl = w_.xl;
+    span_.xr = w_.xr;
+    for (int i = 0; i < w_.tokens; ++i) out_.op(span_);
+    for (int i = 0; i < w_.light.samples; ++i) {
+      out_.nc(0, 1, 1);
+      if (c_.fsf != 0) out_.ev(0, 1);
+      out_.es(0, w_.light.es_xr, 0);
     }
-    if (light.samples > 0) out.resolve();
-    SpanToken glass = s;
-    glass.xl = 0;
-    glass.xr = 1;
-    for (int i = 0; i < light.translucent; ++i) out.tp(glass);
-    out.eol(y);
+    if (w_.light.samples > 0) out_.resolve();
+    span_.xl = 0;
+    span_.xr = 1;
+    for (int i = 0; i < w_.light.translucent; ++i) out_.tp(span_);
+    out_.eol(y);
   }
-  out.end();
-  kage_rtl* m = api.create(1);
-  api.run(m, UINT64_MAX, 4 * static_cast<std::uint64_t>(c.max_width));  // past the sweep after reset
-  api.clear_stats(m);
-  for (int i = 0; i < frames; ++i) {
-    api.submit(m, words.data(), words.size(), 1);
-    api.expect(m, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
-  }
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) * static_cast<std::uint64_t>(frames);
-  const int why = api.run(m, pixels, 100'000'000);
-  kage_rtl_stats stats;
-  api.stats(m, &stats);
-  std::uint64_t count = 0;
-  const std::uint8_t* const drawn = api.pixels(m, &count);
-  const std::vector<std::uint8_t> actual(drawn, drawn + count * static_cast<std::uint64_t>(c.channels));
-  api.destroy(m);
-  if (why != KAGE_RTL_PIXELS)
-    throw Wrong("the core sends " + std::to_string(count) + " pixels of " + std::to_string(pixels) + " and no more");
-  // The same frame again and again, so each has the golden core's pixels.
+
+  const Config& c_;
+  const Work& w_;
+  Words words_;
+  TokenWriter out_;
+  SpanToken span_;
+};
+
+/// Throws Wrong unless the pixels are the golden core's of this frame, again and again.
+void hold_pixels(const Config& c, const Words& words, int frames, const std::vector<std::uint8_t>& actual) {
   std::vector<std::uint8_t> expected;
   GoldenCore golden(c);
   const LineSink line = [&](int, std::span<const std::uint8_t> p) {
@@ -110,121 +118,164 @@ std::uint64_t clocks(const kage_rtl_table& api, const Config& c, int width, int 
   };
   for (int i = 0; i < frames; ++i) golden.frame(words, line);
   if (actual != expected) throw Wrong("the core sends other pixels than the golden core");
-  return stats.cycles;
+}
+
+/// Clocks for the frames, from the first beat to the last pixel.
+double clocks(const rtl::CoreModel& model, const Work& w) {
+  const kage_rtl_table& api = model.api;
+  const Words words = FrameWriter(model.config, w).write();
+  kage_rtl* m = api.create(1);
+  api.run(m, UINT64_MAX, 4 * static_cast<std::uint64_t>(model.config.max_width));  // past the sweep after reset
+  api.clear_stats(m);
+  for (int i = 0; i < w.frames; ++i) {
+    api.submit(m, words.data(), words.size(), 1);
+    api.expect(m, static_cast<std::uint32_t>(w.width), static_cast<std::uint32_t>(w.height));
+  }
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(w.width) * static_cast<std::uint64_t>(w.height) * static_cast<std::uint64_t>(w.frames);
+  const int why = api.run(m, pixels, 100'000'000);
+  kage_rtl_stats stats;
+  api.stats(m, &stats);
+  std::uint64_t count = 0;
+  const std::uint8_t* const drawn = api.pixels(m, &count);
+  const std::vector<std::uint8_t> actual(drawn, drawn + count * static_cast<std::uint64_t>(model.config.channels));
+  api.destroy(m);
+  if (why != KAGE_RTL_PIXELS)
+    throw Wrong("the core sends " + std::to_string(count) + " pixels of " + std::to_string(pixels) + " and no more");
+  hold_pixels(model.config, words, w.frames, actual);
+  return static_cast<double>(stats.cycles);
 }
 
 /// Prints the clocks of a model, and whether they are as promised.
-bool measure(const kage_rtl_table& api) {
-  bool good = true;
-  Config c;
-  for (std::uint32_t p = 0; p < api.param_count; ++p)
-    for (const ParamInfo& info : kParams)
-      if (info.name == api.param_names[p]) c.*info.member = api.param_values[p];
-  const Layout layout(c);
-  const int op_words = layout.words[static_cast<std::size_t>(Kind::OP)];
-  const bool banked = c.arrangement == 1;
-  const int lanes = banked ? c.lanes : 1;
-  const int width = std::min(c.max_width, 256);
+class Measurement {
+ public:
+  explicit Measurement(const rtl::CoreModel& model) : model_(model) {}
 
-  // A token more in a line: the difference of two runs, per token.
-  struct Range {
-    int xl, xr;
-  };
-  for (const Range r : {Range{0, 1}, Range{std::max(0, lanes - 1), std::min(width, lanes + 1)}, Range{0, width}}) {
-    const int few = 100, many = 1100;
-    const auto extra =
-        static_cast<double>(clocks(api, c, width, 1, many, r.xl, r.xr) - clocks(api, c, width, 1, few, r.xl, r.xr)) /
-        (many - few);
-    const int groups = banked ? (r.xr - 1) / lanes - r.xl / lanes + 1 : 1;
-    const double promised = std::max({1.0, static_cast<double>(groups), static_cast<double>(op_words) / c.beat_words});
-    std::printf("  OP [%d, %d): %.3f clocks, promised %.3f\n", r.xl, r.xr, extra, promised);
-    good = good && extra <= promised * 1.001;
+  bool run() {
+    spans();
+    lines();
+    frames();
+    if (c_.count_bits > 0) samples();
+    if (c_.count_bits > 0 && c_.translucency > 0) loads();
+    if (c_.units > 0) units();
+    return good_;
   }
-  // Changing lines: tokens enough that the video port does not limit; clocks of a line less clocks of its tokens.
-  const int tokens = 3 * width;
-  const double per_token = std::max(1.0, static_cast<double>(op_words) / c.beat_words);
-  const auto line =
-      static_cast<double>(clocks(api, c, width, 21, tokens, 0, 1) - clocks(api, c, width, 1, tokens, 0, 1)) / 20;
-  std::printf("  changing lines, %d pixels wide: %.1f clocks\n", width, line - tokens * per_token);
-  good = good && line - tokens * per_token <= (banked ? (width + lanes - 1) / lanes : 0) + 2;
-  // Empty lines: the video port is the limit.
-  const auto empty = static_cast<double>(clocks(api, c, width, 21, 0, 0, 1) - clocks(api, c, width, 1, 0, 0, 1)) / 20;
-  std::printf("  empty lines, %d pixels wide: %.1f clocks\n", width, empty);
-  good = good && empty <= width + 1;
-  const auto frame = static_cast<double>(clocks(api, c, 1, 1, 0, 0, 1, 21) - clocks(api, c, 1, 1, 0, 0, 1, 1)) / 20;
-  // A header by words, or the way out, which a counter makes longer by 2 clocks and a table by 5.
-  const int light_stages = c.count_bits == 0 ? 0 : c.class_bits > 1 ? 5 : 2;
-  const int least = std::max(c.beat_words == 1 ? 10 : 7, 7 + light_stages);
-  std::printf("  a frame of one pixel: %.1f clocks, promised %d\n", frame, least);
-  good = good && frame <= least;
-  const auto words_of = [&](Kind k) { return static_cast<double>(layout.words[static_cast<std::size_t>(k)]); };
-  const auto report = [&](const char* what, double extra, double promised) {
-    std::printf("  %s: %.3f clocks, promised %.3f\n", what, extra, promised);
-    good = good && extra <= promised * 1.001;
-  };
-  if (c.count_bits > 0) {
-    const auto of = [&](int height, const Light& light) {
-      return static_cast<double>(clocks(api, c, width, height, 0, 0, 1, 1, {}, light));
+
+ private:
+  [[nodiscard]] double of(const Work& w) const { return clocks(model_, w); }
+  [[nodiscard]] int groups(int xl, int xr) const { return banked_ ? (xr - 1) / lanes_ - xl / lanes_ + 1 : 1; }
+  /// What a token of this kind takes that touches so many groups.
+  [[nodiscard]] double of_token(Kind k, int groups) const {
+    const int words = layout_.words[static_cast<std::size_t>(k)];
+    return std::max({1.0, static_cast<double>(groups), static_cast<double>(words) / c_.beat_words});
+  }
+  void report(const std::string& what, double extra, double promised) {
+    std::printf("  %s: %.3f clocks, promised %.3f\n", what.c_str(), extra, promised);
+    good_ = good_ && extra <= promised * 1.001;
+  }
+
+  /// A token more in a line: the difference of two runs, per token.
+  void spans() {
+    struct Range {
+      int xl, xr;
     };
-    const auto of_token = [&](Kind k, int groups) {
-      return std::max({1.0, static_cast<double>(banked ? groups : 1), words_of(k) / c.beat_words});
-    };
-    const int groups = (width + lanes - 1) / lanes;
-    const double volume = of_token(Kind::NC, 1) + (c.fsf != 0 ? of_token(Kind::EV, 1) : 0);
-    report("a sample, ES of a pixel", (of(1, {0, 1100, 1, 0}) - of(1, {0, 100, 1, 0})) / 1000,
-           volume + of_token(Kind::ES, 1));
-    report("a sample, ES of the line", (of(1, {0, 1100, width, 0}) - of(1, {0, 100, width, 0})) / 1000,
-           volume + of_token(Kind::ES, groups));
-    const int entries = ((1 << c.class_bits) - 1) * c.lights;
-    if (c.class_bits > 1)
-      report("TABLE", (of(1, {entries, 0, 1, 0}) - of(1, {1, 0, 1, 0})) / (entries - 1), of_token(Kind::TABLE, 1));
-    if (c.translucency > 0) {
-      // The way out sends the line twice, to the video and back to the pixels; loads also wait for two passes, that
-      // of the line before and their own.
-      const int passes = banked ? 2 * groups : 2;
-      report("a line that comes back as loads", (of(21, {0, 1, 1, 1}) - of(1, {0, 1, 1, 1})) / 20,
-             width + std::max(width, passes) + 32);
-      report("a line with TP but without RESOLVE", (of(21, {0, 0, 1, 1}) - of(1, {0, 0, 1, 1})) / 20,
-             std::max(width, passes) + 1);
+    for (const Range r :
+         {Range{0, 1}, Range{std::max(0, lanes_ - 1), std::min(width_, lanes_ + 1)}, Range{0, width_}}) {
+      const int few = 100, many = 1100;
+      const double extra = of({width_, 1, many, r.xl, r.xr}) - of({width_, 1, few, r.xl, r.xr});
+      report("OP [" + std::to_string(r.xl) + ", " + std::to_string(r.xr) + ")", extra / (many - few),
+             of_token(Kind::OP, groups(r.xl, r.xr)));
     }
   }
-  if (c.units == 0) return good;
 
-  // Faces, segments, TREE: between tokens enough that neither the video port nor the tree's pixel a clock limits.
-  const auto lines = [&](const Units& u) {
-    return static_cast<double>(clocks(api, c, width, 21, tokens, 0, 1, 1, u) -
-                               clocks(api, c, width, 1, tokens, 0, 1, 1, u)) /
-           20;
-  };
-  const int faces = (1 << c.face_bits) - 1;
-  const auto with_faces = clocks(api, c, width, 1, 0, 0, 1, 1, {faces, 0});
-  report("FACE", static_cast<double>(with_faces - clocks(api, c, width, 1, 0, 0, 1)) / (faces * c.units),
-         std::max(1.0, words_of(Kind::FACE) / c.beat_words));
-  const int longest = (1 << c.dx_bits) - 1;
-  const int few = (width + longest - 1) / longest, many = std::min(1 << c.seg_bits, width);
-  const double one_seg = std::max(1.0, words_of(Kind::SEG) / c.beat_words);
-  const double with_few = lines({0, few});
-  report("SEG", (lines({0, many}) - with_few) / ((many - few) * c.units), one_seg);
-  const int groups = banked ? (width + lanes - 1) / lanes : 1;
-  report("TREE", with_few - line - few * c.units * one_seg, groups);
-  return good;
-}
+  void lines() {
+    // Changing lines: tokens enough that the video port does not limit; clocks of a line less clocks of its tokens.
+    line_ = busy_line({});
+    const double change = line_ - tokens_ * of_token(Kind::OP, 1);
+    std::printf("  changing lines, %d pixels wide: %.1f clocks\n", width_, change);
+    good_ = good_ && change <= (banked_ ? (width_ + lanes_ - 1) / lanes_ : 0) + 2;
+    // Empty lines: the video port is the limit.
+    const double empty = (of({width_, 21}) - of({width_, 1})) / 20;
+    std::printf("  empty lines, %d pixels wide: %.1f clocks\n", width_, empty);
+    good_ = good_ && empty <= width_ + 1;
+  }
+
+  void frames() {
+    const double frame = (of({.frames = 21}) - of({.frames = 1})) / 20;
+    // A header by words, or the way out, which a counter makes longer by 2 clocks and a table by 5.
+    const int light_stages = c_.count_bits == 0 ? 0 : c_.class_bits > 1 ? 5 : 2;
+    const int least = std::max(c_.beat_words == 1 ? 10 : 7, 7 + light_stages);
+    std::printf("  a frame of one pixel: %.1f clocks, promised %d\n", frame, least);
+    good_ = good_ && frame <= least;
+  }
+
+  [[nodiscard]] double lit(int height, const Light& light) const {
+    return of({.width = width_, .height = height, .light = light});
+  }
+
+  void samples() {
+    const double volume = of_token(Kind::NC, 1) + (c_.fsf != 0 ? of_token(Kind::EV, 1) : 0);
+    report("a sample, ES of a pixel", (lit(1, {0, 1100, 1, 0}) - lit(1, {0, 100, 1, 0})) / 1000,
+           volume + of_token(Kind::ES, 1));
+    report("a sample, ES of the line", (lit(1, {0, 1100, width_, 0}) - lit(1, {0, 100, width_, 0})) / 1000,
+           volume + of_token(Kind::ES, groups(0, width_)));
+    const int entries = ((1 << c_.class_bits) - 1) * c_.lights;
+    if (c_.class_bits > 1)
+      report("TABLE", (lit(1, {entries, 0, 1, 0}) - lit(1, {1, 0, 1, 0})) / (entries - 1), of_token(Kind::TABLE, 1));
+  }
+
+  /// The way out sends the line twice, to the video and back to the pixels; loads also wait for two passes, that of the
+  /// line before and their own.
+  void loads() {
+    const int passes = 2 * groups(0, width_);
+    report("a line that comes back as loads", (lit(21, {0, 1, 1, 1}) - lit(1, {0, 1, 1, 1})) / 20,
+           width_ + std::max(width_, passes) + 32);
+    report("a line with TP but without RESOLVE", (lit(21, {0, 0, 1, 1}) - lit(1, {0, 0, 1, 1})) / 20,
+           std::max(width_, passes) + 1);
+  }
+
+  /// Clocks of a line with tokens enough that neither the video port nor the tree's pixel a clock limits.
+  [[nodiscard]] double busy_line(const Units& u) const {
+    Work w{width_, 21, tokens_};
+    w.units = u;
+    const double many = of(w);
+    w.height = 1;
+    return (many - of(w)) / 20;
+  }
+
+  /// Faces, segments, TREE.
+  void units() {
+    const int faces = (1 << c_.face_bits) - 1;
+    const double with_faces = of({.width = width_, .units = {faces, 0}});
+    report("FACE", (with_faces - of({width_, 1})) / (faces * c_.units), of_token(Kind::FACE, 1));
+    const int longest = (1 << c_.dx_bits) - 1;
+    const int few = (width_ + longest - 1) / longest, many = std::min(1 << c_.seg_bits, width_);
+    const double one_seg = of_token(Kind::SEG, 1);
+    const double with_few = busy_line({0, few});
+    report("SEG", (busy_line({0, many}) - with_few) / ((many - few) * c_.units), one_seg);
+    report("TREE", with_few - line_ - few * c_.units * one_seg, groups(0, width_));
+  }
+
+  const rtl::CoreModel& model_;
+  const Config& c_ = model_.config;
+  Layout layout_{c_};
+  bool banked_ = c_.arrangement == 1;
+  int lanes_ = banked_ ? c_.lanes : 1;
+  int width_ = std::min(c_.max_width, 256);
+  int tokens_ = 3 * width_;
+  double line_ = 0;  // of tokens_ spans
+  bool good_ = true;
+};
 
 }  // namespace
 
 int main(int argc, char** argv) {
   bool good = argc > 1;
   for (int i = 1; i < argc; ++i) {
-    void* library = dlopen(argv[i], RTLD_NOW | RTLD_LOCAL);
-    const auto function =
-        library == nullptr ? nullptr : reinterpret_cast<kage_rtl_api_function>(dlsym(library, KAGE_RTL_API_SYMBOL));
-    if (function == nullptr) {
-      std::fprintf(stderr, "core_clocks: %s: no RTL model\n", argv[i]);
-      return 2;
-    }
+    const rtl::CoreModel model = rtl::load_core("core_clocks", argv[i]);
     std::printf("%s\n", argv[i]);
     try {
-      good = measure(*function()) && good;
+      good = Measurement(model).run() && good;
     } catch (const Wrong& e) {
       std::printf("  FAILED: %s\n", e.what());
       good = false;

@@ -4,12 +4,10 @@
 // pixels are those that a formula says, not a model.
 //
 // usage: core_light MODEL.so... ; KAGE_SEED repeats a run. Exit 0: right; 1: a wrong pixel, with the seed; 2: trouble.
-#include <dlfcn.h>
-
 #include <cstdio>
 #include <string>
 
-#include "cosim/model/driver/rtl_model.h"
+#include "core_model.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/light_frames.hpp"
 
@@ -75,18 +73,9 @@ bool family_29(const kage_rtl_table& api, const Config& c, std::uint64_t seed) {
 int main(int argc, char** argv) {
   bool good = argc > 1;
   for (int i = 1; i < argc; ++i) {
-    void* library = dlopen(argv[i], RTLD_NOW | RTLD_LOCAL);
-    void* symbol = library != nullptr ? dlsym(library, KAGE_RTL_API_SYMBOL) : nullptr;
-    if (symbol == nullptr) {
-      std::fprintf(stderr, "core_light: %s\n", dlerror());
-      return 2;
-    }
-    const kage_rtl_table& api = *reinterpret_cast<kage_rtl_api_function>(symbol)();
-    Config c;
-    for (const ParamInfo& p : kParams)
-      for (std::uint32_t k = 0; k < api.param_count; ++k)
-        if (p.name == api.param_names[k]) c.*(p.member) = api.param_values[k];
-    for (std::uint64_t seed = test_seed(); good && seed < test_seed() + 8; ++seed) good = family_29(api, c, seed);
+    const rtl::CoreModel model = rtl::load_core("core_light", argv[i]);
+    for (std::uint64_t seed = test_seed(); good && seed < test_seed() + 8; ++seed)
+      good = family_29(model.api, model.config, seed);
     std::printf("%s: %s\n", argv[i], good ? "right" : "wrong");
   }
   return good ? 0 : 1;

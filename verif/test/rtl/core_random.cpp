@@ -6,8 +6,6 @@
 //
 // usage: core_random MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length. Exit 0: the same; 1: a
 // difference, with the seed that repeats it; 2: trouble.
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "cosim/model/driver/rtl_model.h"
+#include "core_model.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "kage/registers.h"
@@ -109,83 +107,38 @@ struct Trial {
     return true;
   }
 
+  void stall(kage_rtl* m, Random& random) const {
+    static constexpr std::uint32_t chances[] = {65536, 65536, 60000, 32768, 9000, 2500};
+    const std::uint32_t input = chances[random.in(0, 5)];
+    const std::uint32_t output = chances[random.in(0, 5)];
+    api.stalls(m, input, output, static_cast<std::uint64_t>(random.integer(0, INT64_MAX - 1)));
+  }
+
+  /// A reset somewhere within a frame.
+  void reset(kage_rtl* m, Random& random) const {
+    const Words words = sound_frame(random, config, 99);
+    announce(m, words);
+    api.submit(m, words.data(), words.size(), 1);
+    api.run(m, UINT64_MAX, static_cast<std::uint64_t>(random.in(0, 1999)));
+    api.reset(m, static_cast<std::uint32_t>(random.in(1, 3)));
+    api.clear_pixels(m);
+  }
+
   bool frames(kage_rtl* m, Random& random) {
     GoldenCore golden(config);
-    const auto stall = [&] {
-      static constexpr std::uint32_t chances[] = {65536, 65536, 60000, 32768, 9000, 2500};
-      const std::uint32_t input = chances[random.in(0, 5)];
-      const std::uint32_t output = chances[random.in(0, 5)];
-      api.stalls(m, input, output, static_cast<std::uint64_t>(random.integer(0, INT64_MAX - 1)));
-    };
     if (random.chance(0.2) && !standstill(m, random)) return false;
-    stall();
+    stall(m, random);
     if (reg(m, KAGE_REG_PARAM_HASH) != param_hash(config)) return fails("PARAM_HASH differs");
-    std::uint32_t errors = 0;
-    std::uint32_t ended = 0;
-    for (int group = 0; group < 4; ++group) {
-      if (random.chance(0.3)) {  // reset somewhere within a frame
-        const Words words = sound_frame(random, config, 99);
-        announce(m, words);
-        api.submit(m, words.data(), words.size(), 1);
-        api.run(m, UINT64_MAX, static_cast<std::uint64_t>(random.in(0, 1999)));
-        api.reset(m, static_cast<std::uint32_t>(random.in(1, 3)));
-        api.clear_pixels(m);
-        errors = ended = 0;
+    Counts counts;
+    for (int number = 0; number < 4; ++number) {
+      if (random.chance(0.3)) {
+        reset(m, random);
+        counts = {};
       }
-      std::vector<std::uint8_t> expected;
-      FrameStatus newest;
-      const int count = random.in(1, 3);
-      std::string story;
-      for (int i = 0; i < count; ++i) {
-        const bool is_sound = random.chance(0.5);
-        const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
-        Words words = is_sound ? sound_frame(random, config, number) : damaged_frame(random, config, number);
-        fill(words, config, is_sound, random);
-        const FrameStatus s = golden.frame(words, [&](int, std::span<const std::uint8_t> line) {
-          expected.insert(expected.end(), line.begin(), line.end());
-        });
-        if (is_sound && s.error != ErrorCode::NONE) return fails("the golden core refuses a sound frame");
-        story += std::string(" ") + std::string(kErrorNames[static_cast<std::size_t>(s.error)]);
-        ++ended;
-        if (s.error != ErrorCode::NONE) {
-          ++errors;
-          newest = s;
-        }
-        api.submit(m, words.data(), words.size(), 1);
-        api.expect(m, static_cast<std::uint32_t>(s.width), static_cast<std::uint32_t>(s.height));
-      }
-      const int why = api.run(m, UINT64_MAX, 50'000'000);
-      story += " reason " + std::to_string(why);
-      if (why != KAGE_RTL_IDLE) return fails("did not come to rest:" + story);
-      std::uint64_t got = 0;
-      const std::uint8_t* pixels = api.pixels(m, &got);
-      const std::uint64_t channels = static_cast<std::uint64_t>(config.channels);
-      for (std::uint64_t i = 0; i < std::min<std::uint64_t>(got * channels, expected.size()); ++i)
-        if (pixels[i] != expected[i])
-          return fails("pixel " + std::to_string(i / channels) + " channel " + std::to_string(i % channels) + " is " +
-                       std::to_string(pixels[i]) + ", not " + std::to_string(expected[i]) + ":" + story);
-      if (got * channels != expected.size())
-        return fails(std::to_string(got) + " pixels, not " + std::to_string(expected.size() / channels) + ":" + story);
-      api.clear_pixels(m);
-      if (reg(m, KAGE_REG_FRAMES) != ended)
-        return fails("FRAMES is " + std::to_string(reg(m, KAGE_REG_FRAMES)) + ":" + story);
-      if (reg(m, KAGE_REG_ERRORS) != errors)
-        return fails("ERRORS is " + std::to_string(reg(m, KAGE_REG_ERRORS)) + ":" + story);
-      if (newest.error != ErrorCode::NONE) {
-        const std::uint32_t e = reg(m, KAGE_REG_ERROR);
-        if (KAGE_FIELD(e, KAGE_ERROR_CODE) != static_cast<std::uint32_t>(newest.error) ||
-            KAGE_FIELD(e, KAGE_ERROR_LINE) != newest.line || reg(m, KAGE_REG_ERROR_FRAME) != newest.frame ||
-            reg(m, KAGE_REG_ERROR_TOKEN) != newest.token || reg(m, KAGE_REG_ERROR_UNIT) != newest.unit)
-          return fails("error " + std::to_string(KAGE_FIELD(e, KAGE_ERROR_CODE)) + " line " +
-                       std::to_string(KAGE_FIELD(e, KAGE_ERROR_LINE)) + " token " +
-                       std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) + " unit " +
-                       std::to_string(reg(m, KAGE_REG_ERROR_UNIT)) + ", not " +
-                       std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) +
-                       " token " + std::to_string(newest.token) + " unit " + std::to_string(newest.unit) + ":" + story);
-      }
-      if ((reg(m, KAGE_REG_STATUS) & (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK)) != 0)
-        return fails("STATUS says that a frame is open:" + story);
-      stall();
+      Group group;
+      if (!submit(m, random, golden, group, counts) || !same_pixels(m, group) || !same_registers(m, group, counts))
+        return false;
+      stall(m, random);
     }
     kage_rtl_stats stats;
     api.stats(m, &stats);
@@ -193,15 +146,83 @@ struct Trial {
     if (stats.extra_pixels != 0) return fails(std::to_string(stats.extra_pixels) + " pixels past the frames' sizes");
     return true;
   }
-};
 
-Config config_of(const kage_rtl_table& api) {
-  Config c;
-  for (std::uint32_t i = 0; i < api.param_count; ++i)
-    for (const ParamInfo& p : kParams)
-      if (p.name == api.param_names[i]) c.*p.member = api.param_values[i];
-  return c;
-}
+  /// Since the last reset.
+  struct Counts {
+    std::uint32_t ended = 0, errors = 0;
+  };
+
+  /// Frames one right after another, and what the golden core makes of them.
+  struct Group {
+    std::vector<std::uint8_t> expected;
+    FrameStatus newest;  // of those with an error
+    std::string story;
+  };
+
+  /// Frames, sound and damaged, go in and come to rest.
+  bool submit(kage_rtl* m, Random& random, GoldenCore& golden, Group& group, Counts& counts) {
+    for (int left = random.in(1, 3); left > 0; --left) {
+      const bool is_sound = random.chance(0.5);
+      const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
+      Words words = is_sound ? sound_frame(random, config, number) : damaged_frame(random, config, number);
+      fill(words, config, is_sound, random);
+      const FrameStatus s = golden.frame(words, [&](int, std::span<const std::uint8_t> line) {
+        group.expected.insert(group.expected.end(), line.begin(), line.end());
+      });
+      if (is_sound && s.error != ErrorCode::NONE) return fails("the golden core refuses a sound frame");
+      group.story += std::string(" ") + std::string(kErrorNames[static_cast<std::size_t>(s.error)]);
+      ++counts.ended;
+      if (s.error != ErrorCode::NONE) {
+        ++counts.errors;
+        group.newest = s;
+      }
+      api.submit(m, words.data(), words.size(), 1);
+      api.expect(m, static_cast<std::uint32_t>(s.width), static_cast<std::uint32_t>(s.height));
+    }
+    const int why = api.run(m, UINT64_MAX, 50'000'000);
+    group.story += " reason " + std::to_string(why);
+    return why == KAGE_RTL_IDLE || fails("did not come to rest:" + group.story);
+  }
+
+  bool same_pixels(kage_rtl* m, const Group& group) {
+    std::uint64_t got = 0;
+    const std::uint8_t* pixels = api.pixels(m, &got);
+    const std::vector<std::uint8_t>& expected = group.expected;
+    const std::uint64_t channels = static_cast<std::uint64_t>(config.channels);
+    for (std::uint64_t i = 0; i < std::min<std::uint64_t>(got * channels, expected.size()); ++i)
+      if (pixels[i] != expected[i])
+        return fails("pixel " + std::to_string(i / channels) + " channel " + std::to_string(i % channels) + " is " +
+                     std::to_string(pixels[i]) + ", not " + std::to_string(expected[i]) + ":" + group.story);
+    if (got * channels != expected.size())
+      return fails(std::to_string(got) + " pixels, not " + std::to_string(expected.size() / channels) + ":" +
+                   group.story);
+    api.clear_pixels(m);
+    return true;
+  }
+
+  bool same_registers(kage_rtl* m, const Group& group, const Counts& counts) {
+    if (reg(m, KAGE_REG_FRAMES) != counts.ended)
+      return fails("FRAMES is " + std::to_string(reg(m, KAGE_REG_FRAMES)) + ":" + group.story);
+    if (reg(m, KAGE_REG_ERRORS) != counts.errors)
+      return fails("ERRORS is " + std::to_string(reg(m, KAGE_REG_ERRORS)) + ":" + group.story);
+    const FrameStatus& newest = group.newest;
+    if (newest.error != ErrorCode::NONE) {
+      const std::uint32_t e = reg(m, KAGE_REG_ERROR);
+      if (KAGE_FIELD(e, KAGE_ERROR_CODE) != static_cast<std::uint32_t>(newest.error) ||
+          KAGE_FIELD(e, KAGE_ERROR_LINE) != newest.line || reg(m, KAGE_REG_ERROR_FRAME) != newest.frame ||
+          reg(m, KAGE_REG_ERROR_TOKEN) != newest.token || reg(m, KAGE_REG_ERROR_UNIT) != newest.unit)
+        return fails(
+            "error " + std::to_string(KAGE_FIELD(e, KAGE_ERROR_CODE)) + " line " +
+            std::to_string(KAGE_FIELD(e, KAGE_ERROR_LINE)) + " token " + std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) +
+            " unit " + std::to_string(reg(m, KAGE_REG_ERROR_UNIT)) + ", not " +
+            std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) + " token " +
+            std::to_string(newest.token) + " unit " + std::to_string(newest.unit) + ":" + group.story);
+    }
+    if ((reg(m, KAGE_REG_STATUS) & (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK)) != 0)
+      return fails("STATUS says that a frame is open:" + group.story);
+    return true;
+  }
+};
 
 }  // namespace
 
@@ -211,20 +232,10 @@ int main(int argc, char** argv) {
   const int rounds = length != nullptr ? std::atoi(length) : 60;
   std::random_device device;
   for (int i = 1; i < argc; ++i) {
-    void* library = dlopen(argv[i], RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) {
-      std::fprintf(stderr, "core_random: %s\n", dlerror());
-      return 2;
-    }
-    const auto function = reinterpret_cast<kage_rtl_api_function>(dlsym(library, KAGE_RTL_API_SYMBOL));
-    if (function == nullptr || function()->abi != KAGE_RTL_ABI) {
-      std::fprintf(stderr, "core_random: %s: no RTL model of this interface\n", argv[i]);
-      return 2;
-    }
-    const kage_rtl_table& api = *function();
+    const rtl::CoreModel model = rtl::load_core("core_random", argv[i]);
     const std::uint64_t base = fixed != nullptr ? std::strtoull(fixed, nullptr, 0) : device();
     for (int round = 0; round < (fixed != nullptr && length == nullptr ? 1 : rounds); ++round) {
-      Trial trial{api, config_of(api), base + static_cast<std::uint64_t>(round), {}};
+      Trial trial{model.api, model.config, base + static_cast<std::uint64_t>(round), {}};
       if (!trial.run()) {
         std::printf("%s: %s\nrepeat with KAGE_SEED=%llu\n", argv[i], trial.text.c_str(),
                     static_cast<unsigned long long>(trial.seed));

@@ -5,13 +5,11 @@
 //
 // usage: core_same MODEL.so MODEL.so... ; KAGE_SEED repeats a run. Exit 0: the same; 1: a difference, with the seed; 2:
 // trouble.
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <vector>
 
-#include "cosim/model/driver/rtl_model.h"
+#include "core_model.hpp"
 #include "kage/config.hpp"
 #include "stimulus/frames.hpp"
 #include "stimulus/random.hpp"
@@ -19,61 +17,43 @@
 namespace {
 
 using namespace kage;
+using rtl::CoreModel;
+using rtl::load_core;
 
-struct Loaded {
-  const char* name;
-  const kage_rtl_table* api;
-  Config config;
-};
-
-Loaded load(const char* path) {
-  void* library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-  void* symbol = library != nullptr ? dlsym(library, KAGE_RTL_API_SYMBOL) : nullptr;
-  if (symbol == nullptr) {
-    std::fprintf(stderr, "core_same: %s\n", dlerror());
-    std::exit(2);
-  }
-  Loaded l{path, reinterpret_cast<kage_rtl_api_function>(symbol)(), {}};
-  for (const ParamInfo& p : kParams)
-    for (std::uint32_t i = 0; i < l.api->param_count; ++i)
-      if (p.name == l.api->param_names[i]) l.config.*(p.member) = l.api->param_values[i];
-  return l;
-}
-
-std::vector<std::uint8_t> pixels_of(const Loaded& l, const std::vector<std::uint32_t>& words, std::uint64_t seed) {
-  kage_rtl* m = l.api->create(seed);
+std::vector<std::uint8_t> pixels_of(const CoreModel& l, const std::vector<std::uint32_t>& words, std::uint64_t seed) {
+  kage_rtl* m = l.api.create(seed);
   verif::Random random(seed);
-  l.api->stalls(m, static_cast<std::uint32_t>(random.in(8000, 65536)),
-                static_cast<std::uint32_t>(random.in(8000, 65536)), seed);
+  l.api.stalls(m, static_cast<std::uint32_t>(random.in(8000, 65536)),
+               static_cast<std::uint32_t>(random.in(8000, 65536)), seed);
   const FrameHeader h = FrameHeader::read(words);
-  l.api->expect(m, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
-  l.api->submit(m, words.data(), words.size(), 1);
-  if (l.api->run(m, UINT64_MAX, 50'000'000) != KAGE_RTL_IDLE) {
-    std::printf("%s did not come to rest, seed %llu\n", l.name, static_cast<unsigned long long>(seed));
+  l.api.expect(m, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
+  l.api.submit(m, words.data(), words.size(), 1);
+  if (l.api.run(m, UINT64_MAX, 50'000'000) != KAGE_RTL_IDLE) {
+    std::printf("%s did not come to rest, seed %llu\n", l.path, static_cast<unsigned long long>(seed));
     std::exit(1);
   }
   std::uint64_t count = 0;
-  const std::uint8_t* data = l.api->pixels(m, &count);
+  const std::uint8_t* data = l.api.pixels(m, &count);
   std::vector<std::uint8_t> pixels(data, data + count * static_cast<std::uint64_t>(l.config.channels));
-  l.api->destroy(m);
+  l.api.destroy(m);
   return pixels;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<Loaded> models;
-  for (int i = 1; i < argc; ++i) models.push_back(load(argv[i]));
+  std::vector<CoreModel> models;
+  for (int i = 1; i < argc; ++i) models.push_back(load_core("core_same", argv[i]));
   if (models.size() < 2) {
     std::fprintf(stderr, "usage: core_same MODEL.so MODEL.so...\n");
     return 2;
   }
   int width = models[0].config.max_width;
-  for (const Loaded& l : models) {
+  for (const CoreModel& l : models) {
     width = std::min(width, l.config.max_width);
     if (param_hash(l.config) != param_hash(models[0].config)) {
-      std::fprintf(stderr, "core_same: %s: parameters that affect pixels differ from those of %s\n", l.name,
-                   models[0].name);
+      std::fprintf(stderr, "core_same: %s: parameters that affect pixels differ from those of %s\n", l.path,
+                   models[0].path);
       return 2;
     }
   }
@@ -85,7 +65,7 @@ int main(int argc, char** argv) {
     const auto first = pixels_of(models[0], words, seed);
     for (std::size_t i = 1; i < models.size(); ++i) {
       if (pixels_of(models[i], words, seed + i) != first) {
-        std::printf("%s and %s differ, KAGE_SEED=%llu\n", models[0].name, models[i].name,
+        std::printf("%s and %s differ, KAGE_SEED=%llu\n", models[0].path, models[i].path,
                     static_cast<unsigned long long>(seed));
         return 1;
       }

@@ -11,9 +11,6 @@ using namespace kage::rtl;
 using kage::ErrorCode;
 using kage::Kind;
 
-template <>
-inline constexpr kage::Config kage::rtl::kConfigOf<Vframe_control_glass> = kGlass;
-
 namespace {
 
 /// A frame of 2 lines with this as line 0; what the error is, and that the rest is blank.

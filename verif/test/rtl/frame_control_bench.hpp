@@ -14,16 +14,9 @@
 
 namespace kage::rtl {
 
-inline constexpr kage::Config kConfig{};
-inline constexpr kage::Config kGlass = [] {
-  kage::Config c;
-  c.translucency = 1;
-  return c;
-}();
-inline constexpr int kMaxWidth = 64;
-/// The configuration of a model; a test says it of those that are not of kConfig.
-template <class Model>
-inline constexpr kage::Config kConfigOf = kConfig;
+inline constexpr kage::Config kConfig = config_of<Vframe_control>();
+inline constexpr kage::Config kGlass = config_of<Vframe_control_glass>();
+inline constexpr int kMaxWidth = kConfig.max_width;
 
 struct Token {
   std::array<std::uint32_t, 5> words{};
@@ -127,104 +120,146 @@ struct Outcome {
   int frames = 0, drops = 0;
 };
 
-/// `fields`: spans have the fields that token() gives them.
+/// Tokens go in under stalls at random; what becomes of them is noted.
+template <class Model>
+class Run {
+ public:
+  /// `fields`: spans have the fields that token() gives them.
+  Run(Dice& dice, const std::vector<Token>& tokens, bool fields)
+      : dice_(dice),
+        tokens_(tokens),
+        fields_(fields),
+        top_(dice),
+        offer_(stall_percent(dice)),
+        cmd_stall_(stall_percent(dice)),
+        line_stall_(stall_percent(dice)),
+        table_stall_(stall_percent(dice)) {}
+
+  Outcome outcome() {
+    for (int clock = 0; quiet_ < 200; ++clock) {
+      REQUIRE(clock < 100000);
+      drive();
+      if (loading_ > 0) hold_while_loading();
+      if (top_->table_valid_o) note_entry();
+      if (top_->cmd_valid_o && top_->cmd_ready_i) note_command();
+      if (top_->line_valid_o) note_line();
+      if (top_->error_valid_o) note_error();
+      if (top_->frame_end_o) ++out_.frames;
+      edge();
+    }
+    REQUIRE(at_ == tokens_.size());
+    REQUIRE(!top_->open_o);
+    return out_;
+  }
+
+ private:
+  static constexpr kage::Config kOf = config_of<Model>();
+  static constexpr CommandBus kCommand{kOf};
+  static constexpr LineBus kLine{kOf};
+  static constexpr TableEntryBus kEntry{kOf};
+  static constexpr ErrorBus kError{kOf};
+
+  void drive() {
+    const bool offered = dropping_ == 0 && offer_(dice_, at_ < tokens_.size());
+    top_->token_valid_i = offered ? 1 : 0;
+    if (offered) {
+      const Token& t = tokens_[at_];
+      for (int i = 0; i < 5; ++i) put(top_->token_i, 32 * i, 32, t.words[static_cast<std::size_t>(i)]);
+      top_->token_header_i = t.header ? 1 : 0;
+      top_->token_lacking_i = t.lacking ? 1 : 0;
+      top_->token_cut_i = t.cut ? 1 : 0;
+      top_->token_final_i = t.final ? 1 : 0;
+      top_->token_at_last_i = t.at_last ? 1 : 0;
+    }
+    top_->dropping_i = dropping_ > 0 ? 1 : 0;
+    top_->cmd_ready_i = dice_.percent(cmd_stall_) ? 0 : 1;
+    top_->line_ready_i = dice_.percent(line_stall_) ? 0 : 1;
+    top_->table_free_i = dice_.percent(table_stall_) ? 0 : 1;
+    top_->loads_done_i = loading_ == 1 ? 1 : 0;
+    top_.settle();
+  }
+
+  void hold_while_loading() {
+    REQUIRE_FALSE(top_->cmd_valid_o);
+    REQUIRE_FALSE(top_->line_valid_o);
+    REQUIRE_FALSE((top_->token_valid_i && top_->token_ready_o));
+    --loading_;
+  }
+
+  void note_entry() {
+    REQUIRE(top_->table_free_i);
+    out_.table.push_back({static_cast<unsigned>(get(top_->table_o, kEntry.normal_class)),
+                          static_cast<unsigned>(get(top_->table_o, kEntry.light)), get(top_->table_o, kEntry.share)});
+  }
+
+  void note_command() {
+    const auto field = [&](const Place& p) { return static_cast<unsigned>(get(top_->cmd_o, p)); };
+    const auto kind = static_cast<Kind>(field(kCommand.kind));
+    if (kind == kage::derived::kCommandOut) loading_ = dice_.between(1, 20);
+    // TP has no count.
+    out_.commands.push_back(
+        {kind, field(kCommand.xl), field(kCommand.xr), kind == Kind::TP ? 0U : field(kCommand.count)});
+    out_.shares.push_back(field(kCommand.share));
+    const auto ramp = [&](std::uint64_t z, std::uint64_t dz) {
+      REQUIRE(get(top_->cmd_o, kCommand.z) == z);
+      REQUIRE(get(top_->cmd_o, kCommand.dz) == dz);
+    };
+    if (kind == Kind::SP) ramp(0x11111111, 0x22222222);
+    if (kind == Kind::OP && fields_) ramp(0x123456789, 0x0FEDCBA98);
+    if (kind == Kind::TP && fields_) ramp(0x0F1234567, 0x0A9876543);
+    if (kind == Kind::OP && fields_) REQUIRE(field(kCommand.color) == 0x332211);
+    if (kind == Kind::TP && fields_) REQUIRE(field(kCommand.color) == 0x665544);
+    if (kind == Kind::RESOLVE) REQUIRE(field(kCommand.color) == 0x0A0B0C);
+  }
+
+  void note_line() {
+    REQUIRE(top_->line_ready_i);
+    const auto field = [&](const Place& p) { return static_cast<unsigned>(get(top_->line_o, p)); };
+    out_.lines.push_back({field(kLine.first) != 0, field(kLine.blank) != 0, field(kLine.width), field(kLine.background),
+                          field(kLine.shade)});
+    out_.painted.push_back(field(kLine.painted) != 0);
+    out_.loads.push_back(field(kLine.load) != 0);
+  }
+
+  void note_error() {
+    const auto field = [&](const Place& p) { return static_cast<std::uint32_t>(get(top_->error_o, p)); };
+    out_.errors.push_back({field(kError.code), field(kError.frame), field(kError.line), field(kError.token)});
+  }
+
+  /// After a drop the tokens up to the next header do not come.
+  void edge() {
+    if (dropping_ > 0) --dropping_;
+    const bool taken = top_->token_valid_i && top_->token_ready_o;
+    if (top_->drop_o) {
+      REQUIRE(taken);
+      REQUIRE(!tokens_[at_].final);
+      ++out_.drops;
+      dropping_ = dice_.between(1, 9);
+    }
+    quiet_ = taken || top_->cmd_valid_o || top_->line_valid_o ? 0 : quiet_ + 1;
+    top_.edge();
+    if (!taken) return;
+    offer_.taken();
+    ++at_;
+    while (dropping_ > 0 && at_ < tokens_.size() && !tokens_[at_].header) ++at_;
+  }
+
+  Dice& dice_;
+  const std::vector<Token>& tokens_;
+  bool fields_;
+  Bench<Model> top_;
+  Offer offer_;
+  int cmd_stall_, line_stall_, table_stall_;
+  Outcome out_;
+  int dropping_ = 0;
+  int loading_ = 0;  // clocks until the loads of a line have come back
+  int quiet_ = 0;    // clocks in which nothing moved
+  std::size_t at_ = 0;
+};
+
 template <class Model>
 Outcome run(Dice& dice, const std::vector<Token>& tokens, bool fields = true) {
-  Bench<Model> top(dice);
-  constexpr kage::Config config = kConfigOf<Model>;
-  const CommandBus command(config);
-  const LineBus line(config);
-  const TableEntryBus entry(config);
-  const ErrorBus error(config);
-  Offer offer(stall_percent(dice));
-  const int cmd_stall = stall_percent(dice);
-  const int line_stall = stall_percent(dice);
-  Outcome out;
-  int dropping = 0;
-  int loading = 0;  // clocks until the loads of a line have come back
-  const int table_stall = stall_percent(dice);
-  std::size_t at = 0;
-  for (int clock = 0, quiet = 0; quiet < 200; ++clock) {
-    REQUIRE(clock < 100000);
-    const bool offered = dropping == 0 && offer(dice, at < tokens.size());
-    top->token_valid_i = offered ? 1 : 0;
-    if (offered) {
-      const Token& t = tokens[at];
-      for (int i = 0; i < 5; ++i) put(top->token_i, 32 * i, 32, t.words[static_cast<std::size_t>(i)]);
-      top->token_header_i = t.header ? 1 : 0;
-      top->token_lacking_i = t.lacking ? 1 : 0;
-      top->token_cut_i = t.cut ? 1 : 0;
-      top->token_final_i = t.final ? 1 : 0;
-      top->token_at_last_i = t.at_last ? 1 : 0;
-    }
-    top->dropping_i = dropping > 0 ? 1 : 0;
-    top->cmd_ready_i = dice.percent(cmd_stall) ? 0 : 1;
-    top->line_ready_i = dice.percent(line_stall) ? 0 : 1;
-    top->table_free_i = dice.percent(table_stall) ? 0 : 1;
-    top->loads_done_i = loading == 1 ? 1 : 0;
-    top.settle();
-    if (loading > 0) {
-      REQUIRE_FALSE(top->cmd_valid_o);
-      REQUIRE_FALSE(top->line_valid_o);
-      REQUIRE_FALSE((top->token_valid_i && top->token_ready_o));
-      --loading;
-    }
-    if (top->table_valid_o) {
-      REQUIRE(top->table_free_i);
-      out.table.push_back({static_cast<unsigned>(get(top->table_o, entry.normal_class)),
-                           static_cast<unsigned>(get(top->table_o, entry.light)), get(top->table_o, entry.share)});
-    }
-    if (top->cmd_valid_o && top->cmd_ready_i) {
-      const auto field = [&](const Place& p) { return static_cast<unsigned>(get(top->cmd_o, p)); };
-      const auto kind = static_cast<Kind>(field(command.kind));
-      if (kind == kage::derived::kCommandOut) loading = dice.between(1, 20);
-      // TP has no count.
-      out.commands.push_back(
-          {kind, field(command.xl), field(command.xr), kind == Kind::TP ? 0U : field(command.count)});
-      out.shares.push_back(field(command.share));
-      const auto ramp = [&](std::uint64_t z, std::uint64_t dz) {
-        REQUIRE(get(top->cmd_o, command.z) == z);
-        REQUIRE(get(top->cmd_o, command.dz) == dz);
-      };
-      if (kind == Kind::SP) ramp(0x11111111, 0x22222222);
-      if (kind == Kind::OP && fields) ramp(0x123456789, 0x0FEDCBA98);
-      if (kind == Kind::TP && fields) ramp(0x0F1234567, 0x0A9876543);
-      if (kind == Kind::OP && fields) REQUIRE(field(command.color) == 0x332211);
-      if (kind == Kind::TP && fields) REQUIRE(field(command.color) == 0x665544);
-      if (kind == Kind::RESOLVE) REQUIRE(field(command.color) == 0x0A0B0C);
-    }
-    if (top->line_valid_o) {
-      REQUIRE(top->line_ready_i);
-      const auto field = [&](const Place& p) { return static_cast<unsigned>(get(top->line_o, p)); };
-      out.lines.push_back({field(line.first) != 0, field(line.blank) != 0, field(line.width), field(line.background),
-                           field(line.shade)});
-      out.painted.push_back(field(line.painted) != 0);
-      out.loads.push_back(field(line.load) != 0);
-    }
-    if (top->error_valid_o) {
-      const auto field = [&](const Place& p) { return static_cast<std::uint32_t>(get(top->error_o, p)); };
-      out.errors.push_back({field(error.code), field(error.frame), field(error.line), field(error.token)});
-    }
-    if (top->frame_end_o) ++out.frames;
-    if (dropping > 0) --dropping;
-    const bool taken = offered && top->token_ready_o;
-    if (top->drop_o) {
-      REQUIRE(taken);
-      REQUIRE(!tokens[at].final);
-      ++out.drops;
-      dropping = dice.between(1, 9);
-    }
-    quiet = taken || top->cmd_valid_o || top->line_valid_o ? 0 : quiet + 1;
-    top.edge();
-    if (!taken) continue;
-    offer.taken();
-    const bool dropped = dropping > 0;
-    ++at;
-    while (dropped && at < tokens.size() && !tokens[at].header) ++at;
-  }
-  REQUIRE(at == tokens.size());
-  REQUIRE(!top->open_o);
-  return out;
+  return Run<Model>(dice, tokens, fields).outcome();
 }
 
 inline std::vector<Token> operator+(std::vector<Token> a, const std::vector<Token>& b) {

@@ -13,20 +13,7 @@ using kage::Kind;
 
 namespace {
 
-constexpr kage::Config kLights = [] {
-  kage::Config c = kGlass;
-  c.count_bits = 4;
-  c.lights = 3;
-  c.class_bits = 5;
-  return c;
-}();
-
-}  // namespace
-
-template <>
-inline constexpr kage::Config kage::rtl::kConfigOf<Vframe_control_lights> = kLights;
-
-namespace {
+constexpr kage::Config kLights = config_of<Vframe_control_lights>();
 
 /// A token of the lights configuration, as `write` writes it.
 template <class Write>
@@ -74,36 +61,18 @@ TEST_CASE("ES has its light; after RESOLVE a line's first TP waits until its col
           "[frame_control_lights]") {
   each_seed(20, [](Dice& dice) {
     const Token nc = token(Kind::NC, 0, 20, 1), ev = token(Kind::EV, 0, 20), resolve = token(Kind::RESOLVE);
+    const auto sample = [&](int xl, int xr, int light) {
+      return std::vector<Token>{nc, ev, sample_end(xl, xr, light)};
+    };
+    const std::vector<Token> table{header(20, 3, 7, kLights), lights_entry(1, 0, 5), lights_entry(1, 1, 256),
+                                   lights_entry(1, 2, 7), lights_entry(2, 0, 1)};
+    const std::vector<Token> surfaces{lights_op(0, 20, 1), lights_op(1, 2, 0)};
+    const std::vector<Token> glass{resolve, kLightsTp, kLightsTp, kEol0};
+    const std::vector<Token> second{lights_op(0, 1, 0), kLightsTp, kEol1};
+    const std::vector<Token> end{resolve, token(Kind::EOL, 2), kEnd};
     const auto out = run<Vframe_control_lights>(dice,
-                                                {header(20, 3, 7, kLights),
-                                                 lights_entry(1, 0, 5),
-                                                 lights_entry(1, 1, 256),
-                                                 lights_entry(1, 2, 7),
-                                                 lights_entry(2, 0, 1),
-                                                 lights_op(0, 20, 1),
-                                                 lights_op(1, 2, 0),
-                                                 nc,
-                                                 ev,
-                                                 sample_end(1, 19, 2),
-                                                 nc,
-                                                 ev,
-                                                 sample_end(5, 5, 0),
-                                                 nc,
-                                                 ev,
-                                                 sample_end(0, 20, 1),
-                                                 resolve,
-                                                 kLightsTp,
-                                                 kLightsTp,
-                                                 kEol0,
-                                                 lights_op(0, 1, 0),
-                                                 kLightsTp,
-                                                 kEol1,
-                                                 nc,
-                                                 ev,
-                                                 sample_end(2, 3, 0),
-                                                 resolve,
-                                                 token(Kind::EOL, 2),
-                                                 kEnd},
+                                                table + surfaces + sample(1, 19, 2) + sample(5, 5, 0) +
+                                                    sample(0, 20, 1) + glass + second + sample(2, 3, 0) + end,
                                                 false);
     REQUIRE(out.errors.empty());
     const auto three = [](std::uint64_t share) { return share | share << 9 | share << 18; };

@@ -7,35 +7,17 @@
 
 using namespace kage::rtl;
 
-namespace {
-
-kage::Config banked() {
-  kage::Config c;
-  c.max_width = 40;
-  return c;
-}
-
-kage::Config systolic() {
-  kage::Config c;
-  c.max_width = 24;
-  c.arrangement = 0;
-  c.beat_words = 1;
-  return c;
-}
-
-}  // namespace
-
 TEST_CASE("In reset nothing is ready or valid, and a beat offered through it is not lost", "[kage_top]") {
-  reset_test<Vkage_banked>(banked());
-  reset_test<Vkage_systolic>(systolic());
+  reset_test<Vkage_banked>();
+  reset_test<Vkage_systolic>();
 }
 
 TEST_CASE("A watchdog longer than any rest of the ports never bites a healthy frame", "[kage_top]") {
-  healthy_test<Vkage_banked>(banked());
-  healthy_test<Vkage_systolic>(systolic());
+  healthy_test<Vkage_banked>();
+  healthy_test<Vkage_systolic>();
 }
 
 TEST_CASE("The watchdog names an input that stops and an output that stops, once each", "[kage_top]") {
-  standstill_test<Vkage_banked>(banked());
-  standstill_test<Vkage_systolic>(systolic());
+  standstill_test<Vkage_banked>();
+  standstill_test<Vkage_systolic>();
 }

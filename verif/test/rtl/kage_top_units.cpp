@@ -12,29 +12,6 @@ using namespace kage::rtl;
 
 namespace {
 
-kage::Config with_units(int units) {
-  kage::Config c;
-  c.units = units;
-  c.max_width = 24;
-  c.x_bits = 6;
-  c.z_bits = 10;
-  c.z_frac = 3;
-  c.face_bits = 3;
-  c.dx_bits = 4;
-  c.seg_bits = 3;
-  c.order_bits = 4;
-  return c;
-}
-
-kage::Config five() { return with_units(5); }
-
-kage::Config three_systolic() {
-  kage::Config c = with_units(3);
-  c.arrangement = 0;
-  c.beat_words = 1;
-  return c;
-}
-
 /// A unit's line that is not as it should be.
 struct Fault {
   enum Kind { kNone, kShort, kLong, kEmptySegment } kind = kNone;
@@ -102,9 +79,10 @@ std::vector<int> random_order(Dice& dice, int units) {
 }
 
 template <class Model>
-void errors_test(const kage::Config& c, Fault::Kind kind, kage::ErrorCode code) {
+void errors_test(Fault::Kind kind, kage::ErrorCode code) {
+  static constexpr kage::Config c = config_of<Model>();
   each_seed(15, [&](Dice& dice) {
-    Core<Model> core(dice, c);
+    Core<Model> core(dice);
     core.write(KAGE_REG_CONTROL, KAGE_IRQ_ERROR_MASK);
     core.in.most = dice.percent(50) ? dice.below(4) : 0;
     core.out.most = dice.percent(50) ? dice.below(4) : 0;
@@ -137,7 +115,8 @@ void errors_test(const kage::Config& c, Fault::Kind kind, kage::ErrorCode code) 
 /// Segments of some units are there, those of others are not: the lowest of these is named, the watchdog bites once,
 /// and nothing is lost when the rest comes.
 template <class Model>
-void waiting_test(const kage::Config& c) {
+void waiting_test() {
+  static constexpr kage::Config c = config_of<Model>();
   each_seed(20, [&](Dice& dice) {
     const int limit = dice.between(1, 50);
     const auto order = random_order(dice, c.units);
@@ -153,7 +132,7 @@ void waiting_test(const kage::Config& c) {
     REQUIRE(there < c.units);
     const int missing = *std::min_element(order.begin() + there, order.end());
     CAPTURE(limit, there, missing, line);
-    Core<Model> core(dice, c);
+    Core<Model> core(dice);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
     core.write(KAGE_REG_CONTROL, KAGE_IRQ_WATCHDOG_MASK);
     core.submit(f.words);
@@ -186,7 +165,8 @@ void waiting_test(const kage::Config& c) {
 /// Input stops where all units have a line, which comes through units and tree before its TREE: it is on its way for
 /// some clocks in which no port shows it. A limit of fewer bites once all the same.
 template <class Model>
-void line_on_its_way_test(const kage::Config& c) {
+void line_on_its_way_test() {
+  static constexpr kage::Config c = config_of<Model>();
   each_seed(40, [&](Dice& dice) {
     const int limit = dice.between(1, 12);
     const auto beat = static_cast<std::size_t>(c.beat_words);
@@ -198,7 +178,7 @@ void line_on_its_way_test(const kage::Config& c) {
     }
     const std::size_t beats = ends.back() / beat;
     CAPTURE(limit);
-    Core<Model> core(dice, c);
+    Core<Model> core(dice);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
     core.write(KAGE_REG_CONTROL, KAGE_IRQ_WATCHDOG_MASK);
     core.submit(f.words);
@@ -222,9 +202,10 @@ void line_on_its_way_test(const kage::Config& c) {
 /// Output stands still until units are full and let the stream wait: it is the output that is named, and the tree waits
 /// for nobody.
 template <class Model>
-void full_units_test(const kage::Config& c) {
+void full_units_test() {
+  static constexpr kage::Config c = config_of<Model>();
   each_seed(10, [&](Dice& dice) {
-    Core<Model> core(dice, c);
+    Core<Model> core(dice);
     const int limit = dice.between(1, 50);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
     core.write(KAGE_REG_CONTROL, KAGE_IRQ_WATCHDOG_MASK);
@@ -254,38 +235,38 @@ void full_units_test(const kage::Config& c) {
 
 TEST_CASE("With units: reset, a watchdog that never bites a healthy frame, and one that names a standstill",
           "[kage_top_units]") {
-  reset_test<Vkage_units5>(five());
-  reset_test<Vkage_units3>(three_systolic());
-  healthy_test<Vkage_units5>(five());
-  healthy_test<Vkage_units3>(three_systolic());
-  standstill_test<Vkage_units5>(five());
-  standstill_test<Vkage_units3>(three_systolic());
+  reset_test<Vkage_units5>();
+  reset_test<Vkage_units3>();
+  healthy_test<Vkage_units5>();
+  healthy_test<Vkage_units3>();
+  standstill_test<Vkage_units5>();
+  standstill_test<Vkage_units3>();
 }
 
 TEST_CASE("A line on its way through units and tree is no standstill, however low the watchdog's limit",
           "[kage_top_units]") {
-  line_on_its_way_test<Vkage_units5>(five());
-  line_on_its_way_test<Vkage_units3>(three_systolic());
+  line_on_its_way_test<Vkage_units5>();
+  line_on_its_way_test<Vkage_units3>();
 }
 
 TEST_CASE("A unit that is short is named with its line and the TREE", "[kage_top_units]") {
-  errors_test<Vkage_units5>(five(), Fault::kShort, kage::ErrorCode::UNIT_SHORT);
-  errors_test<Vkage_units3>(three_systolic(), Fault::kShort, kage::ErrorCode::UNIT_SHORT);
+  errors_test<Vkage_units5>(Fault::kShort, kage::ErrorCode::UNIT_SHORT);
+  errors_test<Vkage_units3>(Fault::kShort, kage::ErrorCode::UNIT_SHORT);
 }
 
 TEST_CASE("A unit with too many pixels, or an empty segment, is named with its line and the SEG", "[kage_top_units]") {
-  errors_test<Vkage_units5>(five(), Fault::kLong, kage::ErrorCode::UNIT_LONG);
-  errors_test<Vkage_units3>(three_systolic(), Fault::kLong, kage::ErrorCode::UNIT_LONG);
-  errors_test<Vkage_units5>(five(), Fault::kEmptySegment, kage::ErrorCode::SEGMENT);
-  errors_test<Vkage_units3>(three_systolic(), Fault::kEmptySegment, kage::ErrorCode::SEGMENT);
+  errors_test<Vkage_units5>(Fault::kLong, kage::ErrorCode::UNIT_LONG);
+  errors_test<Vkage_units3>(Fault::kLong, kage::ErrorCode::UNIT_LONG);
+  errors_test<Vkage_units5>(Fault::kEmptySegment, kage::ErrorCode::SEGMENT);
+  errors_test<Vkage_units3>(Fault::kEmptySegment, kage::ErrorCode::SEGMENT);
 }
 
 TEST_CASE("TREE names the lowest unit that is waited for, and the watchdog bites", "[kage_top_units]") {
-  waiting_test<Vkage_units5>(five());
-  waiting_test<Vkage_units3>(three_systolic());
+  waiting_test<Vkage_units5>();
+  waiting_test<Vkage_units3>();
 }
 
 TEST_CASE("Full units let the stream wait for the output, which is named", "[kage_top_units]") {
-  full_units_test<Vkage_units5>(five());
-  full_units_test<Vkage_units3>(three_systolic());
+  full_units_test<Vkage_units5>();
+  full_units_test<Vkage_units3>();
 }

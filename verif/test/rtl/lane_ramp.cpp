@@ -2,6 +2,7 @@
 // lane_ramp against its formula, clamp((start + (x - xl) * slope) >> FRAC, LO, HI), for groups one after the other and
 // with pauses.
 #include <algorithm>
+#include <array>
 #include <deque>
 
 #include "Vlane_ramp1.h"
@@ -24,83 +25,107 @@ struct Span {
 
 std::int64_t wrap(std::uint64_t v, int bits) { return static_cast<std::int64_t>(v << (64 - bits)) >> (64 - bits); }
 
+/// Groups of spans through the set-up, whose stages move as the parent moves them, and through the walker.
 template <class Model>
-void ramp_test(const Shape& s) {
-  int levels = 0;
-  while (1 << levels < s.lanes) ++levels;
-  each_seed(20, [&](Dice& dice) {
-    Bench<Model> top(dice);
-    // Groups the walker held, newest first; -1: none.
-    struct Held {
-      bool valid;
-      Span span;
-      int group;
-    };
-    std::deque<Held> history;
-    std::deque<Span> staged(4);  // [k]: span in set-up stage k, [3] in the walker
-    int stage_valid[3] = {0, 0, 0};
-    Held walker{false, {}, 0};
-    const int pause = stall_percent(dice) / 2;
+class Ramp {
+ public:
+  explicit Ramp(Dice& dice) : dice_(dice), top_(dice), pause_(stall_percent(dice) / 2) {}
+
+  void run() {
     for (int clock = 0; clock < 400; ++clock) {
-      // Elastic set-up as the parent does it.
-      const bool step = walker.valid && dice.percent(40);
-      const bool load = stage_valid[2] != 0 && !step && !dice.percent(pause);
-      const bool en2 = stage_valid[2] == 0 || load;
-      const bool en1 = stage_valid[1] == 0 || en2;
-      const bool en0 = stage_valid[0] == 0 || en1;
-      const bool offer = dice.percent(80);
-      Span fresh{dice.bits(s.bits), dice.bits(dice.between(1, s.bits)), dice.below(s.lanes)};
-      if (dice.percent(50))
-        fresh.slope = static_cast<std::uint64_t>(-static_cast<std::int64_t>(fresh.slope)) & ((1ULL << s.bits) - 1);
-      if (dice.percent(50)) fresh.start >>= 3;
-      top->set_en_i = static_cast<CData>(en0 | en1 << 1 | en2 << 2);
-      top->load_i = load ? 1 : 0;
-      top->step_i = step ? 1 : 0;
-      put(top->start_i, fresh.start);
-      put(top->slope_i, fresh.slope);
-      top->offset_i = static_cast<CData>(fresh.offset);
-
-      if (load)
-        walker = {true, staged[2], 0};
-      else if (step)
-        ++walker.group;
-      if (en2) {
-        staged[2] = staged[1];
-        stage_valid[2] = stage_valid[1];
-      }
-      if (en1) {
-        staged[1] = staged[0];
-        stage_valid[1] = stage_valid[0];
-      }
-      if (en0) {
-        staged[0] = fresh;
-        stage_valid[0] = offer ? 1 : 0;
-      }
-      top.edge();
-      history.push_front(walker);
-
-      const auto age = static_cast<std::size_t>(levels) + 2;
-      if (history.size() <= age || !history[age].valid) continue;
-      const Held& h = history[age];
-      for (int lane = 0; lane < s.lanes; ++lane) {
-        const int dx = h.group * s.lanes + lane - h.span.offset;
-        const std::int64_t sum =
-            wrap(h.span.start + static_cast<std::uint64_t>(static_cast<std::int64_t>(dx)) * h.span.slope, s.bits);
-        const std::int64_t expected = std::clamp<std::int64_t>(sum >> s.frac, s.lo, s.hi);
-        REQUIRE(get(top->value_o, lane * s.out_bits, s.out_bits) == static_cast<std::uint64_t>(expected));
-      }
+      const Span fresh = drive();
+      move(fresh);
+      top_.edge();
+      history_.push_front(walker_);
+      look();
     }
-  });
+  }
+
+ private:
+  static constexpr Shape kOf{parameter<Model>("LANES"), parameter<Model>("BITS"), parameter<Model>("FRAC"),
+                             parameter<Model>("LO"),    parameter<Model>("HI"),   parameter<Model>("OUT_BITS")};
+
+  /// A group that the walker held.
+  struct Held {
+    bool valid;
+    Span span;
+    int group;
+  };
+
+  Span random_span() {
+    Span s{dice_.bits(kOf.bits), dice_.bits(dice_.between(1, kOf.bits)), dice_.below(kOf.lanes)};
+    if (dice_.percent(50))
+      s.slope = static_cast<std::uint64_t>(-static_cast<std::int64_t>(s.slope)) & ((1ULL << kOf.bits) - 1);
+    if (dice_.percent(50)) s.start >>= 3;
+    return s;
+  }
+
+  Span drive() {
+    step_ = walker_.valid && dice_.percent(40);
+    load_ = full_[2] && !step_ && !dice_.percent(pause_);
+    enabled_[2] = !full_[2] || load_;
+    enabled_[1] = !full_[1] || enabled_[2];
+    enabled_[0] = !full_[0] || enabled_[1];
+    offer_ = dice_.percent(80);
+    const Span fresh = random_span();
+    top_->set_en_i = static_cast<CData>(enabled_[0] | enabled_[1] << 1 | enabled_[2] << 2);
+    top_->load_i = load_ ? 1 : 0;
+    top_->step_i = step_ ? 1 : 0;
+    put(top_->start_i, fresh.start);
+    put(top_->slope_i, fresh.slope);
+    top_->offset_i = static_cast<CData>(fresh.offset);
+    return fresh;
+  }
+
+  /// What the stages and the walker hold after this clock.
+  void move(const Span& fresh) {
+    if (load_)
+      walker_ = {true, staged_[2], 0};
+    else if (step_)
+      ++walker_.group;
+    for (std::size_t k = 2; k > 0; --k) {
+      if (!enabled_[k]) continue;
+      staged_[k] = staged_[k - 1];
+      full_[k] = full_[k - 1];
+    }
+    if (enabled_[0]) {
+      staged_[0] = fresh;
+      full_[0] = offer_;
+    }
+  }
+
+  void look() {
+    int levels = 0;
+    while (1 << levels < kOf.lanes) ++levels;
+    const auto age = static_cast<std::size_t>(levels) + 2;
+    if (history_.size() <= age || !history_[age].valid) return;
+    const Held& h = history_[age];
+    for (int lane = 0; lane < kOf.lanes; ++lane) {
+      const std::int64_t dx = h.group * kOf.lanes + lane - h.span.offset;
+      const std::int64_t sum = wrap(h.span.start + static_cast<std::uint64_t>(dx) * h.span.slope, kOf.bits);
+      const std::int64_t expected = std::clamp<std::int64_t>(sum >> kOf.frac, kOf.lo, kOf.hi);
+      REQUIRE(get(top_->value_o, lane * kOf.out_bits, kOf.out_bits) == static_cast<std::uint64_t>(expected));
+    }
+  }
+
+  Dice& dice_;
+  Bench<Model> top_;
+  int pause_;
+  std::deque<Held> history_;       // newest first
+  std::array<Span, 3> staged_{};   // in each stage of the set-up
+  std::array<bool, 3> full_{};     // whether it has one
+  std::array<bool, 3> enabled_{};  // whether it takes the one before it, this clock
+  Held walker_{false, {}, 0};
+  bool step_ = false, load_ = false, offer_ = false;  // this clock
+};
+
+template <class Model>
+void ramp_test() {
+  each_seed(20, [](Dice& dice) { Ramp<Model>(dice).run(); });
 }
 
 }  // namespace
 
-TEST_CASE("lane_ramp with one lane: depth of 24.11 bits", "[lane_ramp]") {
-  ramp_test<Vlane_ramp1>({1, 37, 11, 1, (1 << 24) - 2, 24});
-}
-TEST_CASE("lane_ramp with four lanes: colour of 8.8 bits", "[lane_ramp]") {
-  ramp_test<Vlane_ramp4>({4, 18, 8, 0, 255, 8});
-}
-TEST_CASE("lane_ramp with 32 lanes: depth of 12 bits, no fraction", "[lane_ramp]") {
-  ramp_test<Vlane_ramp32>({32, 14, 0, 1, (1 << 12) - 2, 12});
-}
+TEST_CASE("lane_ramp with one lane: depth of 24.11 bits", "[lane_ramp]") { ramp_test<Vlane_ramp1>(); }
+TEST_CASE("lane_ramp with four lanes: colour of 8.8 bits", "[lane_ramp]") { ramp_test<Vlane_ramp4>(); }
+TEST_CASE("lane_ramp with 32 lanes: depth of 12 bits, no fraction", "[lane_ramp]") { ramp_test<Vlane_ramp32>(); }

@@ -15,36 +15,37 @@ using namespace kage::rtl;
 
 namespace {
 
-struct Shape {
-  int lanes, max_width, shade_frac;
-  bool translucent;
-  int count_bits = 0, lights = 1, class_bits = 1;
-
-  [[nodiscard]] kage::Config config() const {
-    kage::Config c;
-    c.x_bits = 5;
-    c.shade_frac = shade_frac;
-    c.translucency = translucent ? 1 : 0;
-    c.count_bits = count_bits;
-    c.lights = lights;
-    c.class_bits = class_bits;
-    return c;
-  }
-  [[nodiscard]] int pixel_bits() const {
+struct Shape : kage::Config {
+  [[nodiscard]] constexpr int pixel_bits() const {
     return count_bits == 0 ? 26 : 25 + (class_bits > 1 ? class_bits : 0) + lights * count_bits;
   }
+  [[nodiscard]] constexpr bool has_table() const { return class_bits > 1; }
+  [[nodiscard]] constexpr bool has_loads() const { return translucency != 0 && count_bits > 0; }
+};
+
+/// What the lines of a frame have in common.
+struct Frame {
+  int width = 1;
+  std::uint32_t background = 0, shade = 0;
 };
 
 struct Line {
   bool first, blank, load, painted;
-  int width;
-  std::uint32_t background, shade;
+  Frame frame;
   std::vector<std::uint64_t> pixels;  // {dark, covered, colour} or {counts, class, covered, colour}
 };
 
 struct Out {
   std::uint32_t color;
   bool user, last;
+  bool operator==(const Out&) const = default;
+};
+
+struct Load {
+  std::uint32_t color;
+  int x;
+  bool last;
+  bool operator==(const Load&) const = default;
 };
 
 using Table = std::vector<std::array<std::array<std::uint32_t, 3>, 8>>;  // share by class, light, channel
@@ -59,19 +60,31 @@ std::uint32_t factor(const Shape& s, std::uint64_t pixel, const Table& table, st
     return static_cast<std::uint32_t>(kept);
   }
   pixel >>= 25;
-  const std::size_t normal_class = s.class_bits > 1 ? pixel & ((1U << s.class_bits) - 1) : 1;
-  if (s.class_bits > 1) pixel >>= s.class_bits;
+  const std::size_t normal_class = s.has_table() ? pixel & ((1U << s.class_bits) - 1) : 1;
+  if (s.has_table()) pixel >>= s.class_bits;
   for (std::size_t light = 0; light < static_cast<std::size_t>(s.lights); ++light, pixel >>= s.count_bits) {
-    const std::int64_t share = s.class_bits > 1 ? table[normal_class][light][channel] : shade;
+    const std::int64_t share = s.has_table() ? table[normal_class][light][channel] : shade;
     kept -= share * static_cast<std::int64_t>(pixel & ((1U << s.count_bits) - 1));
   }
   return static_cast<std::uint32_t>(std::max<std::int64_t>(kept, 0));
 }
 
+/// What a pixel of a line leaves as.
+std::uint32_t color_of(const Shape& s, const Line& l, std::uint64_t pixel, const Table& table) {
+  const bool drawn = (pixel >> 24 & 1) != 0 || (s.translucency != 0 && l.painted);
+  if (l.blank || !drawn) return l.frame.background;
+  std::uint32_t color = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::uint64_t kept = (pixel >> 8 * c & 255) * factor(s, pixel, table, l.frame.shade, c);
+    color |= static_cast<std::uint32_t>((kept + (1U << (s.shade_frac - 1))) >> s.shade_frac) << 8 * c;
+  }
+  return color;
+}
+
 /// Write a whole table, an entry a clock.
 template <class Model>
 void load_table(Bench<Model>& top, Dice& dice, const Shape& s, Table& table) {
-  const TableEntryBus entry(s.config());
+  const TableEntryBus entry(s);
   table.resize(std::size_t{1} << s.class_bits);
   top->line_valid_i = top->exit_take_i = top->exit_valid_i = 0;
   top->table_valid_i = 1;
@@ -90,148 +103,173 @@ void load_table(Bench<Model>& top, Dice& dice, const Shape& s, Table& table) {
   top->table_valid_i = 0;
 }
 
+/// Lines of random frames go in as the frame's control announces them and the pixels fill them; all that comes out is
+/// as expected.
 template <class Model>
-void line_test(const Shape& s) {
-  each_seed(15, [&](Dice& dice) {
-    Bench<Model> top(dice);
-    const LineBus line(s.config());
-    const LoadBus load(s.config());
-    const int in_stall = stall_percent(dice);
-    const int out_stall = stall_percent(dice);
-    std::deque<Line> announced, to_fill;
-    std::deque<Out> expected, loads;
-    std::deque<std::size_t> load_places;
-    Table table;
-    const bool has_loads = s.translucent && s.count_bits > 0;
-    std::uint32_t background = 0, shade = 0;
-    int made = 0, width = 1, left = 0, taken_lines = 0, filled = 0;
-    bool waited = false;
-    Out before{};
-    for (int clock = 0; made < 14 || !expected.empty() || !loads.empty(); ++clock) {
+class Lines {
+ public:
+  explicit Lines(Dice& dice)
+      : dice_(dice), top_(dice), in_stall_(stall_percent(dice)), out_stall_(stall_percent(dice)) {}
+
+  void run() {
+    for (int clock = 0; made_ < kMost || !expected_.empty() || !loads_.empty(); ++clock) {
       REQUIRE(clock < 100000);
       // A new table waits for all lines of the frame before.
-      const bool empty = announced.empty() && to_fill.empty() && expected.empty() && loads.empty();
-      if (s.class_bits > 1 && left == 0 && made < 14 && empty) load_table(top, dice, s, table);
-      if (made < 14 && announced.size() < 3 && (s.class_bits == 1 || left > 0 || empty)) {
-        Line l{};
-        l.first = left == 0;
-        if (l.first) {
-          width = dice.percent(30) ? s.max_width : dice.between(1, s.max_width);
-          left = dice.between(1, 4);
-          background = static_cast<std::uint32_t>(dice.bits(24));
-          shade = dice.percent(30) ? 1U << s.shade_frac : static_cast<std::uint32_t>(dice.bits(s.shade_frac));
-        }
-        --left;
-        l.blank = dice.percent(20);
-        l.load = has_loads && dice.percent(30);
-        l.painted = !l.load && dice.percent(30);
-        l.width = width;
-        l.background = background;
-        l.shade = shade;
-        for (int x = 0; x < width; ++x) {
-          std::uint64_t p = dice.bits(s.pixel_bits());
-          const int class_at = 25;  // counts are 0 where the class is
-          if (s.class_bits > 1 && (p >> class_at & ((1U << s.class_bits) - 1)) == 0) p &= (1U << class_at) - 1;
-          l.pixels.push_back(p);
-          std::uint32_t color = 0;
-          for (std::size_t c = 0; c < 3; ++c)
-            color |=
-                static_cast<std::uint32_t>(
-                    ((p >> 8 * c & 255) * factor(s, p, table, shade, c) + (1U << (s.shade_frac - 1))) >> s.shade_frac)
-                << 8 * c;
-          if (l.blank || ((p >> 24 & 1) == 0 && !(s.translucent && l.painted))) color = background;
-          if (l.load) load_places.push_back(static_cast<std::size_t>(x));
-          (l.load ? loads : expected).push_back({color, l.first && x == 0, x == width - 1});
-        }
-        announced.push_back(l);
-        to_fill.push_back(l);
-        ++made;
-      }
-      top->line_valid_i = announced.empty() ? 0 : 1;
-      if (!announced.empty()) {
-        const Line& l = announced.front();
-        put(top->line_i, line.first, l.first ? 1 : 0);
-        put(top->line_i, line.blank, l.blank ? 1 : 0);
-        put(top->line_i, line.painted, l.painted ? 1 : 0);
-        put(top->line_i, line.load, l.load ? 1 : 0);
-        put(top->line_i, line.width, static_cast<std::uint64_t>(l.width));
-        put(top->line_i, line.background, l.background);
-        put(top->line_i, line.shade, l.shade);
-      }
-      top->exit_take_i = 0;
-      top->exit_valid_i = 0;
-      top.settle();
-      // One line at a time takes a buffer and then comes in, group by group, as from the pixels.
-      if (taken_lines == 0 && !to_fill.empty() && top->exit_free_o && !dice.percent(in_stall)) {
-        top->exit_take_i = 1;
-      }
-      if (taken_lines == 1) {
-        const Line& l = to_fill.front();
-        top->exit_valid_i = 1;
-        for (int lane = 0; lane < s.lanes; ++lane) {
-          const int x = filled + lane;
-          put(top->exit_data_i, s.pixel_bits() * lane, s.pixel_bits(),
-              x < l.width ? l.pixels[static_cast<std::size_t>(x)] : dice.bits(s.pixel_bits()));
-        }
-        top->exit_last_i = filled + s.lanes >= l.width ? 1 : 0;
-      }
-      top->m_ready_i = dice.percent(out_stall) ? 0 : 1;
-      top->load_ready_i = dice.percent(out_stall) ? 0 : 1;
-      top.settle();
-      if (waited) {
-        REQUIRE(top->m_valid_o);
-        REQUIRE((top->m_data_o == before.color && top->m_user_o == before.user && top->m_last_o == before.last));
-      }
-      waited = top->m_valid_o && !top->m_ready_i;
-      before = {top->m_data_o, static_cast<bool>(top->m_user_o), static_cast<bool>(top->m_last_o)};
-      if (top->m_valid_o && top->m_ready_i) {
-        REQUIRE(!expected.empty());
-        REQUIRE(top->m_data_o == expected.front().color);
-        REQUIRE(static_cast<bool>(top->m_user_o) == expected.front().user);
-        REQUIRE(static_cast<bool>(top->m_last_o) == expected.front().last);
-        expected.pop_front();
-      }
-      if (top->load_valid_o) REQUIRE(!loads.empty());
-      if (top->load_valid_o && top->load_ready_i) {
-        REQUIRE(get(top->load_o, load.color) == loads.front().color);
-        REQUIRE(get(top->load_o, load.x) == load_places.front());
-        REQUIRE((get(top->load_o, load.last) != 0) == loads.front().last);
-        loads.pop_front();
-        load_places.pop_front();
-      }
-      const bool line_taken = top->line_valid_i && top->line_ready_o;
-      const bool take = top->exit_take_i;
-      const bool fill = top->exit_valid_i;
-      const bool complete = fill && top->exit_last_i;
-      top.edge();
-      if (line_taken) announced.pop_front();
-      if (take) {
-        taken_lines = 1;
-        filled = 0;
-      } else if (complete) {
-        taken_lines = 0;
-        to_fill.pop_front();
-      } else if (fill) {
-        filled += s.lanes;
-      }
+      const bool none = announced_.empty() && to_fill_.empty() && expected_.empty() && loads_.empty();
+      const bool may_begin = left_ > 0 || none || !kShape.has_table();
+      if (kShape.has_table() && left_ == 0 && made_ < kMost && none) load_table(top_, dice_, kShape, table_);
+      if (made_ < kMost && announced_.size() < 3 && may_begin) make();
+      announce();
+      fill();
+      top_->m_ready_i = dice_.percent(out_stall_) ? 0 : 1;
+      top_->load_ready_i = dice_.percent(out_stall_) ? 0 : 1;
+      top_.settle();
+      look();
+      edge();
     }
-  });
+  }
+
+ private:
+  static constexpr Shape kShape{config_of<Model>()};
+  static constexpr LineBus kLine{kShape};
+  static constexpr LoadBus kLoad{kShape};
+  static constexpr int kMost = 14;  // lines
+
+  /// One more line, of the frame at hand or of a new one: how it goes in, and what is expected of it.
+  void make() {
+    Line l{};
+    l.first = left_ == 0;
+    if (l.first) {
+      frame_.width = dice_.percent(30) ? kShape.max_width : dice_.between(1, kShape.max_width);
+      left_ = dice_.between(1, 4);
+      frame_.background = static_cast<std::uint32_t>(dice_.bits(24));
+      frame_.shade = dice_.percent(30) ? 1U << kShape.shade_frac  //
+                                       : static_cast<std::uint32_t>(dice_.bits(kShape.shade_frac));
+    }
+    --left_;
+    l.blank = dice_.percent(20);
+    l.load = kShape.has_loads() && dice_.percent(30);
+    l.painted = !l.load && dice_.percent(30);
+    l.frame = frame_;
+    for (int x = 0; x < l.frame.width; ++x) {
+      l.pixels.push_back(random_pixel());
+      const std::uint32_t color = color_of(kShape, l, l.pixels.back(), table_);
+      const bool last = x == l.frame.width - 1;
+      if (l.load)
+        loads_.push_back({color, x, last});
+      else
+        expected_.push_back({color, l.first && x == 0, last});
+    }
+    announced_.push_back(l);
+    to_fill_.push_back(l);
+    ++made_;
+  }
+
+  std::uint64_t random_pixel() {
+    const std::uint64_t pixel = dice_.bits(kShape.pixel_bits());
+    const int class_at = 25;  // counts are 0 where the class is
+    const bool no_class = kShape.has_table() && (pixel >> class_at & ((1U << kShape.class_bits) - 1)) == 0;
+    return no_class ? pixel & ((1U << class_at) - 1) : pixel;
+  }
+
+  void announce() {
+    top_->line_valid_i = announced_.empty() ? 0 : 1;
+    if (announced_.empty()) return;
+    const Line& l = announced_.front();
+    put(top_->line_i, kLine.first, l.first ? 1 : 0);
+    put(top_->line_i, kLine.blank, l.blank ? 1 : 0);
+    put(top_->line_i, kLine.painted, l.painted ? 1 : 0);
+    put(top_->line_i, kLine.load, l.load ? 1 : 0);
+    put(top_->line_i, kLine.width, static_cast<std::uint64_t>(l.frame.width));
+    put(top_->line_i, kLine.background, l.frame.background);
+    put(top_->line_i, kLine.shade, l.frame.shade);
+  }
+
+  /// One line at a time takes a buffer and then comes in, group by group, as from the pixels.
+  void fill() {
+    top_->exit_take_i = 0;
+    top_->exit_valid_i = 0;
+    top_.settle();
+    if (!filling_ && !to_fill_.empty() && top_->exit_free_o && !dice_.percent(in_stall_)) top_->exit_take_i = 1;
+    if (!filling_) return;
+    const Line& l = to_fill_.front();
+    top_->exit_valid_i = 1;
+    for (int lane = 0; lane < kShape.lanes; ++lane) {
+      const int x = filled_ + lane;
+      put(top_->exit_data_i, kShape.pixel_bits() * lane, kShape.pixel_bits(),
+          x < l.frame.width ? l.pixels[static_cast<std::size_t>(x)] : dice_.bits(kShape.pixel_bits()));
+    }
+    top_->exit_last_i = filled_ + kShape.lanes >= l.frame.width ? 1 : 0;
+  }
+
+  /// What is offered stays until it is taken, and is what was expected.
+  void look() {
+    const Out now{top_->m_data_o, top_->m_user_o != 0, top_->m_last_o != 0};
+    if (waited_) {
+      REQUIRE(top_->m_valid_o);
+      REQUIRE(now == before_);
+    }
+    waited_ = top_->m_valid_o && !top_->m_ready_i;
+    before_ = now;
+    if (top_->m_valid_o && top_->m_ready_i) {
+      REQUIRE(!expected_.empty());
+      REQUIRE(now.color == expected_.front().color);
+      REQUIRE(now == expected_.front());
+      expected_.pop_front();
+    }
+    if (top_->load_valid_o) REQUIRE(!loads_.empty());
+    if (top_->load_valid_o && top_->load_ready_i) {
+      const Load load{static_cast<std::uint32_t>(get(top_->load_o, kLoad.color)),
+                      static_cast<int>(get(top_->load_o, kLoad.x)), get(top_->load_o, kLoad.last) != 0};
+      REQUIRE(load == loads_.front());
+      loads_.pop_front();
+    }
+  }
+
+  void edge() {
+    const bool line_taken = top_->line_valid_i && top_->line_ready_o;
+    const bool take = top_->exit_take_i;
+    const bool complete = top_->exit_valid_i && top_->exit_last_i;
+    const bool group = top_->exit_valid_i && !complete;
+    top_.edge();
+    if (line_taken) announced_.pop_front();
+    if (take) filling_ = true, filled_ = 0;
+    if (complete) filling_ = false, to_fill_.pop_front();
+    if (group) filled_ += kShape.lanes;
+  }
+
+  Dice& dice_;
+  Bench<Model> top_;
+  int in_stall_, out_stall_;
+  Table table_;
+  Frame frame_;
+  int left_ = 0, made_ = 0;               // lines of the frame at hand that are not made; lines made
+  std::deque<Line> announced_, to_fill_;  // lines that have not been taken, that are not full
+  bool filling_ = false;                  // the first of to_fill_ has its buffer
+  int filled_ = 0;                        // pixels of it
+  std::deque<Out> expected_;
+  std::deque<Load> loads_;
+  bool waited_ = false;  // what is offered was not taken
+  Out before_{};
+};
+
+template <class Model>
+void line_test() {
+  each_seed(15, [](Dice& dice) { Lines<Model>(dice).run(); });
 }
 
 }  // namespace
 
-TEST_CASE("line_out, groups of four", "[line_out]") { line_test<Vline_out4>({4, 21, 8, true}); }
-TEST_CASE("line_out, single pixels", "[line_out]") { line_test<Vline_out1>({1, 21, 3, false}); }
+TEST_CASE("line_out, groups of four", "[line_out]") { line_test<Vline_out4>(); }
+TEST_CASE("line_out, single pixels", "[line_out]") { line_test<Vline_out1>(); }
 
-TEST_CASE("line_out, one counter, no table", "[line_out]") { line_test<Vline_out_soft1>({1, 21, 8, false, 4}); }
-TEST_CASE("line_out, counters of three lights, table, loads", "[line_out]") {
-  line_test<Vline_out_lights4>({4, 21, 6, true, 3, 3, 4});
-}
+TEST_CASE("line_out, one counter, no table", "[line_out]") { line_test<Vline_out_soft1>(); }
+TEST_CASE("line_out, counters of three lights, table, loads", "[line_out]") { line_test<Vline_out_lights4>(); }
 
 TEST_CASE("line_out sends the lines of a frame without a gap", "[line_out]") {
   each_seed(2, [](Dice& dice) {
     Bench<Vline_out4> top(dice);
-    const LineBus line(Shape{4, 21, 8, true}.config());
+    constexpr LineBus line(config_of<Vline_out4>());
     const int width = 16, lines = 10;
     int announced = 0, groups = 0, taken = 0, pixels = 0, first = 0, last = 0;
     top->m_ready_i = 1;

@@ -24,29 +24,8 @@ namespace {
 using kage::derived::kCommandLoad;
 using kage::derived::kCommandOut;
 
-struct Shape {
-  int lanes;  // of the exit; 0: systolic
-  int width, x_bits, z_bits, z_frac, channels, smooth, color_frac, dsf_bits, fsf;
-  int shade_frac;  // 0: no translucency
-  int count_bits = 0, lights = 1, class_bits = 1;
-
-  [[nodiscard]] kage::Config config() const {
-    kage::Config c;
-    c.x_bits = x_bits;
-    c.z_bits = z_bits;
-    c.z_frac = z_frac;
-    c.channels = channels;
-    c.smooth = smooth;
-    c.color_frac = color_frac;
-    c.dsf_bits = dsf_bits;
-    c.fsf = fsf;
-    c.translucency = shade_frac > 0 ? 1 : 0;
-    if (shade_frac > 0) c.shade_frac = shade_frac;
-    c.count_bits = count_bits;
-    c.lights = lights;
-    c.class_bits = class_bits;
-    return c;
-  }
+struct Shape : kage::Config {
+  [[nodiscard]] int exit_lanes() const { return arrangement == 0 ? 1 : lanes; }
   [[nodiscard]] int light_at() const { return fsf != 0 ? 0 : dsf_bits; }  // of ES's light in the count
   [[nodiscard]] int exit_bits() const {
     if (dsf_bits == 0) return 8 * channels + 1;
@@ -74,7 +53,7 @@ std::int64_t wrap(std::uint64_t v, int bits) { return static_cast<std::int64_t>(
 /// The pixels, and the pixels that leave as {dark, covered, colour}, with counters {counts, class, covered, colour}.
 class Reference {
  public:
-  explicit Reference(const Shape& s) : s_(s), line_(static_cast<std::size_t>(s.width)) { clear(); }
+  explicit Reference(const Shape& s) : s_(s), line_(static_cast<std::size_t>(s.max_width)) { clear(); }
 
   void apply(const Command& c, std::deque<std::uint64_t>& out) {
     const unsigned mask = (1U << s_.dsf_bits) - 1;
@@ -224,7 +203,7 @@ Command translucent(Dice& dice, const Shape& s, Command c, int width, bool& pain
 
 template <class Model>
 void set_command(Model& top, const Shape& s, const Command& c) {
-  const CommandBus bus(s.config());
+  const CommandBus bus(s);
   const int ramp = s.smooth != 0 ? 10 + s.color_frac : 8;
   put(top.cmd_i, bus.kind, static_cast<std::uint64_t>(c.kind));
   put(top.cmd_i, bus.xl, static_cast<std::uint64_t>(c.xl));
@@ -239,97 +218,123 @@ void set_command(Model& top, const Shape& s, const Command& c) {
   }
 }
 
+/// Random commands go in; the pixels of each line leave as the reference says.
 template <class Model>
-void pixel_test(const Shape& s) {
-  each_seed(15, [&](Dice& dice) {
-    Bench<Model> top(dice);
-    Offer offer(stall_percent(dice));
-    const int free_percent = 100 - stall_percent(dice);
-    const int lanes = std::max(s.lanes, 1);
-    const int exit_bits = s.exit_bits();
-    Reference reference(s);
-    std::deque<std::uint64_t> expected;
-    std::deque<int> widths;    // of lines that have not left
-    std::deque<bool> colored;  // whether their uncovered pixels have a colour too
-    int width = dice.between(1, s.width), home = 0, left = 0, lines = 0, x = 0, loads = -1;
-    Command c{};
-    bool have = false, painted = false;
-    for (int clock = 0; lines < 12 || !widths.empty(); ++clock) {
+class Lines {
+ public:
+  explicit Lines(Dice& dice)
+      : dice_(dice),
+        top_(dice),
+        offer_(stall_percent(dice)),
+        free_percent_(100 - stall_percent(dice)),
+        width_(dice.between(1, kOf.max_width)) {}
+
+  void run() {
+    for (int clock = 0; lines_ < kMost || !widths_.empty(); ++clock) {
       REQUIRE(clock < 200000);
-      if (!have && lines < 12) {
-        const bool loading = loads >= 0 && !painted;
-        if (left-- > 0 || loading) {
-          c = random_command(dice, s, width, home);
-          if (s.shade_frac > 0 && (painted || loading || dice.percent(10)))
-            c = translucent(dice, s, c, width, painted, loads);
-        } else {
-          c = Command{};
-          c.kind = Kind::EOL;
-          c.xr = width;
-          c.count = s.fsf == 0 ? dice.bits(std::max(s.dsf_bits, 1)) : 0;
-        }
-        have = true;
-      }
-      top->cmd_valid_i = offer(dice, have) ? 1 : 0;
-      set_command(*top, s, c);
-      top->exit_free_i = dice.percent(free_percent) ? 1 : 0;
-      top.settle();
-      const bool taken = top->cmd_valid_i && top->cmd_ready_o;
-      if (top->exit_take_o) REQUIRE(top->exit_free_i);
-      if (top->exit_valid_o) {
-        REQUIRE(!widths.empty());
-        const int w = widths.front();
-        for (int l = 0; l < lanes && x < w; ++l, ++x) {
-          CAPTURE(x, l, w);
-          const std::uint64_t got = get(top->exit_data_o, l * exit_bits, exit_bits);
-          const std::uint64_t want = expected.front();
-          expected.pop_front();
-          const std::uint64_t covered = want >> (8 * s.channels) & 1;
-          REQUIRE((got >> (8 * s.channels) & 1) == covered);
-          if (covered != 0 || colored.front()) REQUIRE(got == want);  // else an uncovered pixel has any colour
-        }
-        REQUIRE(static_cast<bool>(top->exit_last_o) == (x == w));
-        if (x == w) {
-          x = 0;
-          widths.pop_front();
-          colored.pop_front();
-        }
-      }
-      top.edge();
-      if (taken) {
-        offer.taken();
-        have = false;
-        reference.apply(c, expected);
-        if (c.kind == kCommandOut) {
-          widths.push_back(width);
-          colored.push_back(false);
-        }
-        if (c.kind == Kind::EOL) {
-          loads = -1;
-          widths.push_back(width);
-          colored.push_back(painted);
-          painted = false;
-          width = dice.percent(30) ? s.width : dice.between(1, s.width);
-          home = dice.below(width);
-          left = dice.percent(30) ? 0 : dice.below(40);
-          ++lines;
-        }
-      }
+      if (!have_ && lines_ < kMost) next_command();
+      top_->cmd_valid_i = offer_(dice_, have_) ? 1 : 0;
+      set_command(*top_, kOf, command_);
+      top_->exit_free_i = dice_.percent(free_percent_) ? 1 : 0;
+      top_.settle();
+      const bool taken = top_->cmd_valid_i && top_->cmd_ready_o;
+      if (top_->exit_take_o) REQUIRE(top_->exit_free_i);
+      if (top_->exit_valid_o) look();
+      top_.edge();
+      if (taken) take();
     }
-    REQUIRE(expected.empty());
-  });
+    REQUIRE(expected_.empty());
+  }
+
+ private:
+  static constexpr Shape kOf{config_of<Model>()};
+  static constexpr int kMost = 12;  // lines
+
+  void next_command() {
+    const bool loading = loads_ >= 0 && !painted_;
+    if (left_-- > 0 || loading) {
+      command_ = random_command(dice_, kOf, width_, home_);
+      if (kOf.translucency != 0 && (painted_ || loading || dice_.percent(10)))
+        command_ = translucent(dice_, kOf, command_, width_, painted_, loads_);
+    } else {
+      command_ = Command{};
+      command_.kind = Kind::EOL;
+      command_.xr = width_;
+      command_.count = kOf.fsf == 0 ? dice_.bits(std::max(kOf.dsf_bits, 1)) : 0;
+    }
+    have_ = true;
+  }
+
+  /// A group of pixels leaves.
+  void look() {
+    REQUIRE(!widths_.empty());
+    const int width = widths_.front();
+    const int bits = kOf.exit_bits();
+    for (int lane = 0; lane < kOf.exit_lanes() && x_ < width; ++lane, ++x_) {
+      CAPTURE(x_, lane, width);
+      const std::uint64_t got = get(top_->exit_data_o, lane * bits, bits);
+      const std::uint64_t want = expected_.front();
+      expected_.pop_front();
+      const std::uint64_t covered = want >> (8 * kOf.channels) & 1;
+      REQUIRE((got >> (8 * kOf.channels) & 1) == covered);
+      if (covered != 0 || colored_.front()) REQUIRE(got == want);  // else an uncovered pixel has any colour
+    }
+    REQUIRE(static_cast<bool>(top_->exit_last_o) == (x_ == width));
+    if (x_ < width) return;
+    x_ = 0;
+    widths_.pop_front();
+    colored_.pop_front();
+  }
+
+  /// The command was taken.
+  void take() {
+    offer_.taken();
+    have_ = false;
+    reference_.apply(command_, expected_);
+    if (command_.kind == kCommandOut) {
+      widths_.push_back(width_);
+      colored_.push_back(false);
+    }
+    if (command_.kind != Kind::EOL) return;
+    loads_ = -1;
+    widths_.push_back(width_);
+    colored_.push_back(painted_);
+    painted_ = false;
+    width_ = dice_.percent(30) ? kOf.max_width : dice_.between(1, kOf.max_width);
+    home_ = dice_.below(width_);
+    left_ = dice_.percent(30) ? 0 : dice_.below(40);
+    ++lines_;
+  }
+
+  Dice& dice_;
+  Bench<Model> top_;
+  Offer offer_;
+  int free_percent_;
+  Reference reference_{kOf};
+  std::deque<std::uint64_t> expected_;
+  std::deque<int> widths_;    // of lines that have not left
+  std::deque<bool> colored_;  // whether their uncovered pixels have a colour too
+  int width_, home_ = 0, left_ = 0, lines_ = 0, loads_ = -1;
+  int x_ = 0;  // of the line that leaves
+  Command command_{};
+  bool have_ = false, painted_ = false;
+};
+
+template <class Model>
+void pixel_test() {
+  each_seed(15, [](Dice& dice) { Lines<Model>(dice).run(); });
 }
 
 /// Clocks from the first to the last of `n` equal commands, which come without a pause.
 template <class Model>
-int clocks_of(Dice& dice, const Shape& s, int xl, int xr, int n) {
+int clocks_of(Dice& dice, int xl, int xr, int n) {
   Bench<Model> top(dice);
   top->exit_free_i = 1;
   Command c{};
   c.kind = Kind::OP;
   c.xl = xl;
   c.xr = xr;
-  set_command(*top, s, c);
+  set_command(*top, Shape{config_of<Model>()}, c);
   top->cmd_valid_i = 1;
   int first = 0, taken = 0, clock = 0;
   for (; taken < n + 64; ++clock) {  // the first 64 fill the stages before the walker, and outlast the sweep
@@ -340,40 +345,25 @@ int clocks_of(Dice& dice, const Shape& s, int xl, int xr, int n) {
   return clock - 1 - first;
 }
 
-constexpr Shape kBanked1{1, 21, 5, 10, 3, 3, 1, 6, 2, 1, 0};
-constexpr Shape kBanked4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 0};
-constexpr Shape kSystolic{0, 21, 5, 10, 3, 3, 1, 6, 3, 0, 0};
-constexpr Shape kGlass4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 8};
-constexpr Shape kGlassSystolic{0, 21, 5, 10, 3, 3, 1, 6, 3, 0, 12};
-constexpr Shape kGlassLights4{4, 37, 6, 12, 4, 3, 0, 0, 1, 1, 8, 2, 3, 5};
-constexpr Shape kLightsSystolic{0, 21, 5, 10, 3, 1, 1, 6, 3, 0, 12, 1, 8, 2};
-constexpr Shape kSoftSystolic{0, 21, 5, 10, 3, 3, 0, 0, 2, 1, 0, 4};
-
 }  // namespace
 
-TEST_CASE("Banked, one lane, smooth, counting", "[pixel_core]") { pixel_test<Vpixel_banked1>(kBanked1); }
-TEST_CASE("Banked, four lanes, flat, parity", "[pixel_core]") { pixel_test<Vpixel_banked4>(kBanked4); }
-TEST_CASE("Systolic, smooth, counting, no FSF", "[pixel_core]") { pixel_test<Vpixel_systolic>(kSystolic); }
+TEST_CASE("Banked, one lane, smooth, counting", "[pixel_core]") { pixel_test<Vpixel_banked1>(); }
+TEST_CASE("Banked, four lanes, flat, parity", "[pixel_core]") { pixel_test<Vpixel_banked4>(); }
+TEST_CASE("Systolic, smooth, counting, no FSF", "[pixel_core]") { pixel_test<Vpixel_systolic>(); }
 
-TEST_CASE("Banked, four lanes, translucent", "[pixel_core]") { pixel_test<Vpixel_glass4>(kGlass4); }
-TEST_CASE("Systolic, smooth, translucent, no FSF", "[pixel_core]") {
-  pixel_test<Vpixel_glass_systolic>(kGlassSystolic);
-}
+TEST_CASE("Banked, four lanes, translucent", "[pixel_core]") { pixel_test<Vpixel_glass4>(); }
+TEST_CASE("Systolic, smooth, translucent, no FSF", "[pixel_core]") { pixel_test<Vpixel_glass_systolic>(); }
 
-TEST_CASE("Banked, four lanes, counters of three lights, loads", "[pixel_core]") {
-  pixel_test<Vpixel_glass_lights4>(kGlassLights4);
-}
-TEST_CASE("Systolic, no FSF, counters of eight lights, loads", "[pixel_core]") {
-  pixel_test<Vpixel_lights_systolic>(kLightsSystolic);
-}
-TEST_CASE("Systolic, one counter, no table", "[pixel_core]") { pixel_test<Vpixel_soft_systolic>(kSoftSystolic); }
+TEST_CASE("Banked, four lanes, counters of three lights, loads", "[pixel_core]") { pixel_test<Vpixel_glass_lights4>(); }
+TEST_CASE("Systolic, no FSF, counters of eight lights, loads", "[pixel_core]") { pixel_test<Vpixel_lights_systolic>(); }
+TEST_CASE("Systolic, one counter, no table", "[pixel_core]") { pixel_test<Vpixel_soft_systolic>(); }
 
 TEST_CASE("Clocks per command: groups touched, or one", "[pixel_core]") {
   each_seed(1, [](Dice& dice) {
-    CHECK(clocks_of<Vpixel_banked4>(dice, kBanked4, 4, 8, 40) == 40);  // one group, again and again: no hazard stalls
-    CHECK(clocks_of<Vpixel_banked4>(dice, kBanked4, 7, 9, 40) == 2 * 40);    // two pixels in two groups
-    CHECK(clocks_of<Vpixel_banked4>(dice, kBanked4, 0, 37, 20) == 10 * 20);  // the line
-    CHECK(clocks_of<Vpixel_banked1>(dice, kBanked1, 3, 9, 20) == 6 * 20);
-    CHECK(clocks_of<Vpixel_systolic>(dice, kSystolic, 0, 21, 40) == 40);  // whatever the length
+    CHECK(clocks_of<Vpixel_banked4>(dice, 4, 8, 40) == 40);        // one group, again and again: no hazard stalls
+    CHECK(clocks_of<Vpixel_banked4>(dice, 7, 9, 40) == 2 * 40);    // two pixels in two groups
+    CHECK(clocks_of<Vpixel_banked4>(dice, 0, 37, 20) == 10 * 20);  // the line
+    CHECK(clocks_of<Vpixel_banked1>(dice, 3, 9, 20) == 6 * 20);
+    CHECK(clocks_of<Vpixel_systolic>(dice, 0, 21, 40) == 40);  // whatever the length
   });
 }

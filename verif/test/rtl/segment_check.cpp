@@ -10,17 +10,18 @@
 #include "Vcheck6.h"
 #include "Vcheck64.h"
 #include "bench.hpp"
+#include "contract/derived.hpp"
 #include "kage/defs.hpp"
 
 using namespace kage::rtl;
 
 namespace {
 
-struct Shape {
-  int units, unit_bits, x_bits, face_bits, dx_bits, seg_bits;
+struct Shape : kage::Config {
   int blank() const { return (1 << face_bits) - 1; }
   int longest() const { return (1 << dx_bits) - 1; }
   int most() const { return 1 << seg_bits; }
+  int unit_bits() const { return kage::derived::unit_bits(*this); }
 };
 
 enum Kind { kShade, kFace, kSeg, kTree, kEol, kOther };
@@ -153,8 +154,8 @@ class Rules {
   Shape shape_;
 };
 
-/// A token that fits, mostly; `wrong` percent of them have something changed.
-Token random_token(Dice& dice, const Shape& s, const Rules& rules, int wrong, int eager) {
+/// A token that fits.
+Token fitting_token(Dice& dice, const Shape& s, const Rules& rules, int eager) {
   Token t{kOther};
   const auto pick = [&](auto fits) -> int {
     std::vector<int> found;
@@ -195,13 +196,17 @@ Token random_token(Dice& dice, const Shape& s, const Rules& rules, int wrong, in
   } else {
     t.kind = dice.percent(70) ? kEol : kOther;
   }
-  if (!dice.percent(wrong)) return t;
+  return t;
+}
+
+/// Something of a token is changed.
+void spoil(Dice& dice, const Shape& s, Token& t) {
   switch (dice.below(9)) {
     case 0:
       t.kind = static_cast<Kind>(dice.below(6));
       break;
     case 1:
-      t.unit = dice.below(1 << s.unit_bits);
+      t.unit = dice.below(1 << s.unit_bits());
       break;
     case 2:
       t.face = dice.below(s.blank() + 1);
@@ -216,7 +221,7 @@ Token random_token(Dice& dice, const Shape& s, const Rules& rules, int wrong, in
       t.dx = 1;
       break;
     case 7:
-      t = {kFace, dice.below(1 << s.unit_bits), dice.below(s.blank() + 1)};
+      t = {kFace, dice.below(1 << s.unit_bits()), dice.below(s.blank() + 1)};
       break;
     case 6:
       t = {kSeg, dice.below(s.units), s.blank(), dice.below(2), dice.below(s.longest() + 1)};
@@ -224,6 +229,12 @@ Token random_token(Dice& dice, const Shape& s, const Rules& rules, int wrong, in
     default:
       t.kind = kTree;
   }
+}
+
+/// A token that fits, mostly; `wrong` percent of them have something changed.
+Token random_token(Dice& dice, const Shape& s, const Rules& rules, int wrong, int eager) {
+  Token t = fitting_token(dice, s, rules, eager);
+  if (dice.percent(wrong)) spoil(dice, s, t);
   return t;
 }
 
@@ -253,89 +264,122 @@ void silent(Top& top, Dice& dice) {
   top.token_i = static_cast<IData>(dice.bits(32));
 }
 
-template <class Model>
-void check_test(const Shape& s, int frames) {
-  std::map<Code, int> seen;  // outcomes, over all seeds
+/// What came, over all seeds.
+struct Seen {
+  std::map<Code, int> codes;
   int sound = 0, later = 0, crowds = 0, swallowed = 0;
-  each_seed(10, [&](Dice& dice) {
-    Bench<Model> top(dice);
-    silent(*top, dice);
-    const int stall = stall_percent(dice);
-    for (int frame = 0; frame < frames; ++frame) {
-      const int widest = std::min((1 << s.x_bits) - 1, s.most() * s.longest());
-      Rules rules(s, dice.percent(20) ? widest : dice.between(1, widest), dice.between(1, 6));
-      static constexpr int kWrong[] = {0, 1, 5, 20};
-      const int wrong = kWrong[dice.below(4)];
-      const int eager = dice.below(80);
-      silent(*top, dice);
-      top->frame_start_i = 1;
-      top.settle();
-      top.edge();
-      silent(*top, dice);
-      for (std::uint32_t index = 1; rules.line < rules.height; ++index) {
-        const Token t = random_token(dice, s, rules, wrong, eager);
-        const Verdict want = rules.judge(t, index);
-        do {  // the answer stands as long as the token waits
-          if (dice.percent(stall)) {
-            silent(*top, dice);
-            top.settle();
-            top.edge();
-          }
-          ask(*top, t, rules, index);
-          top.settle();
-          INFO("frame " << frame << " token " << index << " kind " << t.kind << " unit " << t.unit << " line "
-                        << rules.line);
-          REQUIRE(top->tree_o == (rules.tree ? 1 : 0));
-          REQUIRE(top->due_o == (rules.due ? 1 : 0));
-          Code code = Code::NONE;
-          if (top->order_error_o)
-            code = Code::ORDER;
-          else if (top->range_error_o)
-            code = Code::RANGE;
-          else if (top->tree_error_o)
-            code = static_cast<Code>(top->tree_code_o);
-          REQUIRE(code == want.code);
-          if (code >= Code::SEGMENT) {
-            REQUIRE(top->tree_unit_o == want.unit);
-            REQUIRE(top->tree_token_o == want.token);
-          }
-          if (t.kind == kSeg && code == Code::NONE) REQUIRE(top->seg_pass_o == (want.pass ? 1 : 0));
-          if (dice.percent(stall)) top.edge();
-        } while (dice.percent(stall));
-        ++seen[want.code];
-        if (want.code >= Code::SEGMENT) {
-          if (want.code != Code::UNIT_SHORT && want.token + 1 < index) ++later;
-          std::set<int> at_fault;
-          for (const auto& fault : rules.faults)
-            if (fault.line == rules.line) at_fault.insert(fault.unit);
-          if (at_fault.size() > 1) ++crowds;
+
+  void note(const Verdict& want, const Rules& rules, std::uint32_t index) {
+    ++codes[want.code];
+    if (want.code < Code::SEGMENT) return;
+    if (want.code != Code::UNIT_SHORT && want.token + 1 < index) ++later;
+    std::set<int> at_fault;
+    for (const auto& fault : rules.faults)
+      if (fault.line == rules.line) at_fault.insert(fault.unit);
+    if (at_fault.size() > 1) ++crowds;
+  }
+};
+
+/// Frames of random tokens, each held against the rules until one is wrong.
+template <class Model>
+class Frames {
+ public:
+  Frames(Dice& dice, Seen& seen) : dice_(dice), seen_(seen), top_(dice) {
+    silent(*top_, dice_);
+    stall_ = stall_percent(dice_);
+  }
+
+  void frame(int number) {
+    const int widest = std::min((1 << kOf.x_bits) - 1, kOf.most() * kOf.longest());
+    Rules rules(kOf, dice_.percent(20) ? widest : dice_.between(1, widest), dice_.between(1, 6));
+    static constexpr int kWrong[] = {0, 1, 5, 20};
+    const int wrong = kWrong[dice_.below(4)];
+    const int eager = dice_.below(80);
+    silent(*top_, dice_);
+    top_->frame_start_i = 1;
+    clock();
+    for (std::uint32_t index = 1; rules.line < rules.height; ++index) {
+      const Token t = random_token(dice_, kOf, rules, wrong, eager);
+      const Verdict want = rules.judge(t, index);
+      INFO("frame " << number << " token " << index << " kind " << t.kind << " unit " << t.unit << " line "
+                    << rules.line);
+      do {  // the answer stands as long as the token waits
+        if (dice_.percent(stall_)) {
+          silent(*top_, dice_);
+          top_.settle();
+          top_.edge();
         }
-        if (want.code != Code::NONE) break;
-        if (t.kind == kSeg && !want.pass) ++swallowed;
-        rules.take(t, index);
-        top->take_i = 1;
-        top.settle();
-        top.edge();
-        silent(*top, dice);
-      }
-      if (rules.line == rules.height && rules.tree) ++sound;
+        ask(*top_, t, rules, index);
+        top_.settle();
+        look(t, rules, want);
+        if (dice_.percent(stall_)) top_.edge();
+      } while (dice_.percent(stall_));
+      seen_.note(want, rules, index);
+      if (want.code != Code::NONE) break;
+      if (t.kind == kSeg && !want.pass) ++seen_.swallowed;
+      rules.take(t, index);
+      top_->take_i = 1;
+      clock();
     }
+    if (rules.line == rules.height && rules.tree) ++seen_.sound;
+  }
+
+ private:
+  static constexpr Shape kOf{config_of<Model>()};
+
+  /// What was set is taken; then nothing is.
+  void clock() {
+    top_.settle();
+    top_.edge();
+    silent(*top_, dice_);
+  }
+
+  void look(const Token& t, const Rules& rules, const Verdict& want) {
+    REQUIRE(top_->tree_o == (rules.tree ? 1 : 0));
+    REQUIRE(top_->due_o == (rules.due ? 1 : 0));
+    Code code = Code::NONE;
+    if (top_->order_error_o)
+      code = Code::ORDER;
+    else if (top_->range_error_o)
+      code = Code::RANGE;
+    else if (top_->tree_error_o)
+      code = static_cast<Code>(top_->tree_code_o);
+    REQUIRE(code == want.code);
+    if (code >= Code::SEGMENT) {
+      REQUIRE(top_->tree_unit_o == want.unit);
+      REQUIRE(top_->tree_token_o == want.token);
+    }
+    if (t.kind == kSeg && code == Code::NONE) REQUIRE(top_->seg_pass_o == (want.pass ? 1 : 0));
+  }
+
+  Dice& dice_;
+  Seen& seen_;
+  Bench<Model> top_;
+  int stall_ = 0;
+};
+
+template <class Model>
+void check_test(int frames) {
+  Seen seen;
+  each_seed(10, [&](Dice& dice) {
+    Frames<Model> run(dice, seen);
+    for (int frame = 0; frame < frames; ++frame) run.frame(frame);
   });
   if (std::getenv("KAGE_SEED") != nullptr) return;
   // The frames were of all kinds.
   for (const Code code : {Code::ORDER, Code::RANGE, Code::SEGMENT, Code::UNIT_LONG, Code::UNIT_SHORT}) {
     INFO("code " << kage::kErrorNames[static_cast<std::size_t>(code)]);
-    REQUIRE(seen[code] > 0);
+    REQUIRE(seen.codes[code] > 0);
   }
-  REQUIRE(sound > 20);
-  REQUIRE(later > 10);
-  REQUIRE(swallowed > 20);
-  if (s.units > 1) REQUIRE(crowds > 3);
+  REQUIRE(seen.sound > 20);
+  REQUIRE(seen.later > 10);
+  REQUIRE(seen.swallowed > 20);
+  if (config_of<Model>().units > 1) REQUIRE(seen.crowds > 3);
 }
 
 }  // namespace
 
-TEST_CASE("segment_check, 1 unit", "[segment_check]") { check_test<Vcheck1>({1, 1, 4, 2, 3, 2}, 150); }
-TEST_CASE("segment_check, 3 units", "[segment_check]") { check_test<Vcheck3>({3, 2, 5, 3, 6, 3}, 150); }
-TEST_CASE("segment_check, 6 units", "[segment_check]") { check_test<Vcheck6>({6, 3, 4, 2, 2, 2}, 150); }
-TEST_CASE("segment_check, 64 units", "[segment_check]") { check_test<Vcheck64>({64, 6, 11, 7, 9, 7}, 120); }
+TEST_CASE("segment_check, 1 unit", "[segment_check]") { check_test<Vcheck1>(150); }
+TEST_CASE("segment_check, 3 units", "[segment_check]") { check_test<Vcheck3>(150); }
+TEST_CASE("segment_check, 6 units", "[segment_check]") { check_test<Vcheck6>(150); }
+TEST_CASE("segment_check, 64 units", "[segment_check]") { check_test<Vcheck64>(120); }

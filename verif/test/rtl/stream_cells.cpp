@@ -70,20 +70,23 @@ void full_speed_test() {
 
 TEST_CASE("skid_buffer keeps order and holds two", "[stream_cells]") { stream_test<Vskid>(2); }
 TEST_CASE("skid_buffer passes a word a clock", "[stream_cells]") { full_speed_test<Vskid>(); }
-TEST_CASE("stream_fifo keeps order and holds four", "[stream_cells]") { stream_test<Vstream_fifo>(4); }
+TEST_CASE("stream_fifo keeps order and holds four", "[stream_cells]") {
+  stream_test<Vstream_fifo>(parameter<Vstream_fifo>("DEPTH"));
+}
 TEST_CASE("stream_fifo passes a word a clock", "[stream_cells]") { full_speed_test<Vstream_fifo>(); }
 
 TEST_CASE("ram_1r1w reads what was written, and holds it", "[stream_cells]") {
   each_seed(10, [](Dice& dice) {
     Bench<Vram> top(dice);
-    std::vector<int> words(20, -1);
+    constexpr int kWords = parameter<Vram>("WORDS");
+    std::vector<int> words(kWords, -1);
     int held = -1;
     for (int clock = 0; clock < 600; ++clock) {
-      const int write = dice.below(20);
-      const int read = dice.below(20);
+      const int write = dice.below(kWords);
+      const int read = dice.below(kWords);
       top->wr_en_i = dice.percent(50) ? 1 : 0;
       top->wr_addr_i = static_cast<CData>(write);
-      top->wr_data_i = static_cast<SData>(dice.bits(12));
+      top->wr_data_i = static_cast<SData>(dice.bits(parameter<Vram>("BITS")));
       top->rd_en_i = dice.percent(50) ? 1 : 0;
       top->rd_addr_i = static_cast<CData>(read);
       if (top->rd_en_i) held = top->wr_en_i && write == read ? -1 : words[static_cast<std::size_t>(read)];

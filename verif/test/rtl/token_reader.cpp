@@ -65,8 +65,21 @@ std::vector<Expected> tokens_of(const Words& w, int beat) {
   }
 }
 
+/// The token that is offered is this one, of this frame.
+template <class Top>
+void hold_token(const Top& top, const Expected& e, const Words& frame) {
+  REQUIRE(static_cast<bool>(top.token_header_o) == e.header);
+  REQUIRE(static_cast<bool>(top.token_lacking_o) == e.lacking);
+  REQUIRE(static_cast<bool>(top.token_cut_o) == e.cut);
+  REQUIRE(static_cast<bool>(top.token_final_o) == e.final);
+  if (e.final && !e.cut) REQUIRE(static_cast<bool>(top.token_at_last_o) == e.at_last);
+  for (int i = 0; i < e.words && !e.cut; ++i)
+    REQUIRE(get(top.token_o, 32 * i, 32) == frame[e.at + static_cast<std::size_t>(i)]);
+}
+
 template <class Model>
-void reader_test(int beat) {
+void reader_test() {
+  constexpr int beat = parameter<Model>("BEAT_WORDS");
   each_seed(20, [&](Dice& dice) {
     Bench<Model> top(dice);
     Offer offer(stall_percent(dice));
@@ -95,13 +108,7 @@ void reader_test(int beat) {
       waiting = top->token_valid_o && !top->token_ready_i;
       if (top->token_valid_o) {
         const Expected& e = expected[out_token];
-        REQUIRE(static_cast<bool>(top->token_header_o) == e.header);
-        REQUIRE(static_cast<bool>(top->token_lacking_o) == e.lacking);
-        REQUIRE(static_cast<bool>(top->token_cut_o) == e.cut);
-        REQUIRE(static_cast<bool>(top->token_final_o) == e.final);
-        if (e.final && !e.cut) REQUIRE(static_cast<bool>(top->token_at_last_o) == e.at_last);
-        for (int i = 0; i < e.words && !e.cut; ++i)
-          REQUIRE(get(top->token_o, 32 * i, 32) == all[out_frame][e.at + static_cast<std::size_t>(i)]);
+        hold_token(*top, e, all[out_frame]);
         if (taken && !e.final && (e.lacking || dice.percent(2))) {
           top->drop_i = 1;
           top.settle();
@@ -130,7 +137,8 @@ void reader_test(int beat) {
 
 /// Without stalls a token takes as many clocks as its words need on the port, at least one.
 template <class Model>
-void speed_test(int beat) {
+void speed_test() {
+  constexpr int beat = parameter<Model>("BEAT_WORDS");
   each_seed(5, [&](Dice& dice) {
     for (const int kind : {6, 8}) {
       Bench<Model> top(dice);
@@ -163,13 +171,13 @@ void speed_test(int beat) {
 
 }  // namespace
 
-TEST_CASE("token_reader, beats of 1 word", "[token_reader]") { reader_test<Vtoken_reader1>(1); }
-TEST_CASE("token_reader, beats of 2 words", "[token_reader]") { reader_test<Vtoken_reader2>(2); }
-TEST_CASE("token_reader, beats of 4 words", "[token_reader]") { reader_test<Vtoken_reader4>(4); }
-TEST_CASE("token_reader, beats of 8 words", "[token_reader]") { reader_test<Vtoken_reader8>(8); }
+TEST_CASE("token_reader, beats of 1 word", "[token_reader]") { reader_test<Vtoken_reader1>(); }
+TEST_CASE("token_reader, beats of 2 words", "[token_reader]") { reader_test<Vtoken_reader2>(); }
+TEST_CASE("token_reader, beats of 4 words", "[token_reader]") { reader_test<Vtoken_reader4>(); }
+TEST_CASE("token_reader, beats of 8 words", "[token_reader]") { reader_test<Vtoken_reader8>(); }
 TEST_CASE("token_reader keeps up with its port", "[token_reader]") {
-  speed_test<Vtoken_reader1>(1);
-  speed_test<Vtoken_reader2>(2);
-  speed_test<Vtoken_reader4>(4);
-  speed_test<Vtoken_reader8>(8);
+  speed_test<Vtoken_reader1>();
+  speed_test<Vtoken_reader2>();
+  speed_test<Vtoken_reader4>();
+  speed_test<Vtoken_reader8>();
 }

@@ -32,11 +32,11 @@ struct Rest {
 template <class Model>
 class Core {
  public:
-  Core(Dice& dice, const kage::Config& config) : dice_(dice), config_(config), top(dice) { idle(); }
+  explicit Core(Dice& dice) : dice_(dice), top(dice) { idle(); }
 
   /// A frame's words go in after those before it; what the golden core makes of them is expected.
   kage::FrameStatus submit(std::vector<std::uint32_t> words) {
-    kage::GoldenCore golden(config_);
+    kage::GoldenCore golden(kConfig);
     const kage::FrameStatus status = golden.frame(words, [&](int, std::span<const std::uint8_t> line) {
       expected.insert(expected.end(), line.begin(), line.end());
     });
@@ -62,7 +62,7 @@ class Core {
     top.settle();
     const bool taken = offered_ && top->s_axis_tready_o;
     if (top->m_axis_tvalid_o && ready)
-      for (int ch = 0; ch < config_.channels; ++ch)
+      for (int ch = 0; ch < kConfig.channels; ++ch)
         pixels.push_back(static_cast<std::uint8_t>(top->m_axis_tdata_o >> (8 * ch)));
     bites += top->irq_o && !bitten_ ? 1 : 0;
     bitten_ = top->irq_o;
@@ -116,10 +116,10 @@ class Core {
   }
 
  private:
-  [[nodiscard]] std::size_t beat() const { return static_cast<std::size_t>(config_.beat_words); }
+  [[nodiscard]] std::size_t beat() const { return static_cast<std::size_t>(kConfig.beat_words); }
 
+  static constexpr kage::Config kConfig = config_of<Model>();
   Dice& dice_;
-  kage::Config config_;
   std::vector<std::uint32_t> words_;
   std::vector<bool> last_;  // a beat's TLAST
   std::size_t beats_ = 0;   // taken
@@ -140,9 +140,10 @@ inline std::vector<std::uint32_t> frame(Dice& dice, const kage::Config& c, int w
 }
 
 template <class Model>
-void reset_test(const kage::Config& c) {
+void reset_test() {
+  static constexpr kage::Config c = config_of<Model>();
   each_seed(10, [&](Dice& dice) {
-    Core<Model> core(dice, c);
+    Core<Model> core(dice);
     Model& top = *core.top;
     // Somewhere in a frame, with all ports active: from the first clock of reset on nothing is ready.
     core.submit(frame(dice, c, c.max_width, 3));
@@ -161,7 +162,7 @@ void reset_test(const kage::Config& c) {
       REQUIRE(!top.s_axil_bvalid_o);
     }
     // What is offered through reset is taken after it.
-    Core<Model> fresh(dice, c);
+    Core<Model> fresh(dice);
     fresh.submit(frame(dice, c, dice.between(1, c.max_width), 2));
     fresh.top->rst_ni = 0;
     for (int n = 0; n < 3; ++n) fresh.clock();
@@ -174,12 +175,13 @@ void reset_test(const kage::Config& c) {
 
 /// Ports that rest for at most S clocks never make a limit of S + 1 bite, whatever the core is doing.
 template <class Model>
-void healthy_test(const kage::Config& c) {
+void healthy_test() {
+  static constexpr kage::Config c = config_of<Model>();
   each_seed(20, [&](Dice& dice) {
     static constexpr int kRests[] = {0, 0, 1, 2, 7, 40};
     const int most = kRests[dice.below(6)];
     CAPTURE(most);
-    Core<Model> core(dice, c);
+    Core<Model> core(dice);
     for (int n = 0; n < dice.below(2) * 2 * c.max_width; ++n) core.clock();  // the sweep after reset is over, or is not
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(most) + 1);
     core.write(KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
@@ -195,12 +197,13 @@ void healthy_test(const kage::Config& c) {
 
 /// A port that stops makes it bite, once, and nothing is lost when the port goes on.
 template <class Model>
-void standstill_test(const kage::Config& c) {
+void standstill_test() {
+  static constexpr kage::Config c = config_of<Model>();
   each_seed(10, [&](Dice& dice) {
     const bool input = dice.percent(50);
     const int limit = dice.between(1, 50);
     CAPTURE(input, limit);
-    Core<Model> core(dice, c);
+    Core<Model> core(dice);
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(limit));
     core.write(KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
     core.submit(frame(dice, c, c.max_width, 4));

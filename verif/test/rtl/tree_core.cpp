@@ -19,9 +19,6 @@ using namespace kage::rtl;
 
 namespace {
 
-constexpr TreeShape small(int units) { return {units, 6, 10, 3, 3, 1, 3, 4, 3, 4, false}; }
-constexpr TreeShape kClassic{3, 8, 15, 0, 1, 0, 7, 9, 4, 8, true};
-
 struct Pixel {
   std::uint64_t z, color, lit;
   bool last;
@@ -30,14 +27,14 @@ struct Pixel {
 
 template <class Top>
 Pixel pixel_of(const Top& top, const TreeShape& s) {
-  const TreePixelBus pixel(s.config());
+  const TreePixelBus pixel(s);
   return {get(top.line_o, pixel.z), get(top.line_o, pixel.color), get(top.line_o, pixel.normal_class),
           get(top.line_o, pixel.last) != 0};
 }
 
 template <class Top>
 void put_unit(Top& top, const TreeShape& s, int unit) {
-  put(top.piece_i, PieceBus(s.config()).unit, static_cast<std::uint64_t>(unit));
+  put(top.piece_i, PieceBus(s).unit, static_cast<std::uint64_t>(unit));
 }
 
 using Lines = std::vector<std::vector<Point>>;  // of each unit
@@ -121,93 +118,133 @@ std::deque<Event> random_frame(Dice& dice, const TreeShape& s, int width) {
   return events;
 }
 
+/// Frames in close succession, flushed now and then: what was claimed comes out.
 template <class Model>
-void random_test(const TreeShape& s, int seeds = 25) {
-  each_seed(seeds, [&](Dice& dice) {
-    Bench<Model> top(dice);
-    const bool flushes = dice.percent(50);
-    const int out_stall = stall_percent(dice);
-    Offer offer(stall_percent(dice));
-    std::deque<Event> events;
-    std::deque<Pixel> expected;  // of lines claimed
-    std::optional<Pixel> waiting;
-    int width = 1, frames = 0, claimed = 0, left = 0;
-    bool open = false;           // a frame has begun and has not been flushed
-    std::vector<int> last_line;  // claims up to the end of each frame
-    while (frames < 14 || !events.empty() || !expected.empty()) {
-      REQUIRE(top.clocks < 400000);
-      quiet(*top, width);
-      const bool flush = flushes && open && dice.below(150) == 0;
-      top->flush_i = flush ? 1 : 0;
-      if (open && events.empty() && !flush) open = false;
-      const bool want_start = !open && !flush && frames < 14 && dice.percent(60);
-      top.settle();
-      // A frame may begin as soon as all lines of the frame before the last one have left.
-      const bool start = want_start && top->frame_ready_o;
-      top->frame_start_i = start ? 1 : 0;
-      const Event* event = nullptr;
-      if (!flush && open && offer(dice, !events.empty())) {
-        event = &events.front();
-        if (event->kind == Event::kFace) {
-          top->face_valid_i = 1;
-          put_unit(*top, s, event->unit);
-          put_face(*top, s, event->number, event->face);
-        } else if (event->kind == Event::kSegment) {
-          top->seg_valid_i = 1;
-          put_unit(*top, s, event->unit);
-          put_segment(*top, s, event->segment);
-        } else {
-          top->claim_i = 1;
-        }
-      }
+class Frames {
+ public:
+  explicit Frames(Dice& dice)
+      : dice_(dice),
+        top_(dice),
+        flushes_(dice.percent(50)),
+        out_stall_(stall_percent(dice)),
+        offer_(stall_percent(dice)) {}
+
+  void run() {
+    while (frames_ < kFrames || !events_.empty() || !expected_.empty()) {
+      REQUIRE(top_.clocks < 400000);
+      quiet(*top_, width_);
+      begin();
+      if (!flush_ && open_ && offer_(dice_, !events_.empty()))
+        bring(events_.front());
+      else
+        event_ = nullptr;
       // The reader takes what has been claimed in an earlier clock.
-      top->line_ready_i = !expected.empty() && !dice.percent(out_stall) ? 1 : 0;
-      top.settle();
-
-      const bool out = top->line_valid_o && top->line_ready_i;
-      if (top->line_valid_o && !expected.empty()) REQUIRE(pixel_of(*top, s) == expected.front());
-      if (waiting) {
-        REQUIRE(top->line_valid_o);
-        REQUIRE(pixel_of(*top, s) == *waiting);
-      }
-      const bool hold = top->line_valid_o && !out && !expected.empty();
-      waiting = hold ? std::optional(pixel_of(*top, s)) : std::nullopt;
-      const bool done = event != nullptr && (event->kind != Event::kSegment || top->seg_ready_o);
-      top.edge();
-
-      if (out) {
-        if (expected.front().last) ++left;
-        expected.pop_front();
-      }
-      if (done) {
-        if (event->kind == Event::kClaim) {
-          expected.insert(expected.end(), event->line.begin(), event->line.end());
-          ++claimed;
-        }
-        events.pop_front();
-        offer.taken();
-      }
-      if (flush) {
-        events.clear();
-        offer.taken();
-        open = false;
-      }
-      if (start) {
-        if (!last_line.empty()) REQUIRE(left >= last_line.back());  // of the frame before the last one none is left
-        last_line.push_back(claimed);
-        width = dice.percent(15) ? s.widest() : dice.percent(40) ? dice.between(1, 3) : dice.between(1, s.widest());
-        if (s.widest() > 100 && dice.percent(80)) width = std::min(width, 30);
-        events = random_frame(dice, s, width);
-        open = true;
-        ++frames;
-      }
+      top_->line_ready_i = !expected_.empty() && !dice_.percent(out_stall_) ? 1 : 0;
+      top_.settle();
+      look();
+      edge();
     }
-  });
+  }
+
+ private:
+  static constexpr TreeShape kOf = tree_shape_of<Model>();
+  static constexpr int kFrames = 14;
+
+  /// A flush, or the begin of a frame, which may be as soon as all lines of the frame before the last one have left.
+  void begin() {
+    flush_ = flushes_ && open_ && dice_.below(150) == 0;
+    top_->flush_i = flush_ ? 1 : 0;
+    if (open_ && events_.empty() && !flush_) open_ = false;
+    const bool wanted = !open_ && !flush_ && frames_ < kFrames && dice_.percent(60);
+    top_.settle();
+    start_ = wanted && top_->frame_ready_o;
+    top_->frame_start_i = start_ ? 1 : 0;
+  }
+
+  void bring(const Event& event) {
+    event_ = &event;
+    if (event.kind == Event::kFace) {
+      top_->face_valid_i = 1;
+      put_unit(*top_, kOf, event.unit);
+      put_face(*top_, kOf, event.number, event.face);
+    } else if (event.kind == Event::kSegment) {
+      top_->seg_valid_i = 1;
+      put_unit(*top_, kOf, event.unit);
+      put_segment(*top_, kOf, event.segment);
+    } else {
+      top_->claim_i = 1;
+    }
+  }
+
+  void look() {
+    if (top_->line_valid_o && !expected_.empty()) REQUIRE(pixel_of(*top_, kOf) == expected_.front());
+    if (waiting_) {
+      REQUIRE(top_->line_valid_o);
+      REQUIRE(pixel_of(*top_, kOf) == *waiting_);
+    }
+  }
+
+  void edge() {
+    const bool out = top_->line_valid_o && top_->line_ready_i;
+    const bool hold = top_->line_valid_o && !out && !expected_.empty();
+    waiting_ = hold ? std::optional(pixel_of(*top_, kOf)) : std::nullopt;
+    const bool done = event_ != nullptr && (event_->kind != Event::kSegment || top_->seg_ready_o);
+    top_.edge();
+    if (out) {
+      if (expected_.front().last) ++left_;
+      expected_.pop_front();
+    }
+    if (done) {
+      if (event_->kind == Event::kClaim) {
+        expected_.insert(expected_.end(), event_->line.begin(), event_->line.end());
+        ++claimed_;
+      }
+      events_.pop_front();
+      offer_.taken();
+    }
+    if (flush_) {
+      events_.clear();
+      offer_.taken();
+      open_ = false;
+    }
+    if (start_) begin_frame();
+  }
+
+  void begin_frame() {
+    if (!last_line_.empty()) REQUIRE(left_ >= last_line_.back());  // of the frame before the last one none is left
+    last_line_.push_back(claimed_);
+    const int widest = kOf.widest();
+    width_ = dice_.percent(15) ? widest : dice_.percent(40) ? dice_.between(1, 3) : dice_.between(1, widest);
+    if (widest > 100 && dice_.percent(80)) width_ = std::min(width_, 30);
+    events_ = random_frame(dice_, kOf, width_);
+    open_ = true;
+    ++frames_;
+  }
+
+  Dice& dice_;
+  Bench<Model> top_;
+  bool flushes_;
+  int out_stall_;
+  Offer offer_;
+  std::deque<Event> events_;
+  std::deque<Pixel> expected_;  // of lines claimed
+  std::optional<Pixel> waiting_;
+  int width_ = 1, frames_ = 0, claimed_ = 0, left_ = 0;
+  bool open_ = false;                   // a frame has begun and has not been flushed
+  std::vector<int> last_line_;          // claims up to the end of each frame
+  bool flush_ = false, start_ = false;  // this clock
+  const Event* event_ = nullptr;        // of this clock
+};
+
+template <class Model>
+void random_test(int seeds = 25) {
+  each_seed(seeds, [](Dice& dice) { Frames<Model>(dice).run(); });
 }
 
 template <class Model>
-void clocks_test(int units) {
-  const TreeShape s = small(units);
+void clocks_test() {
+  constexpr TreeShape s = tree_shape_of<Model>();
+  constexpr int units = s.units;
   int levels = 0;
   while (1 << levels < units) ++levels;
   each_seed(3, [&](Dice& dice) {
@@ -242,7 +279,9 @@ void clocks_test(int units) {
 }
 
 template <class Model>
-void two_lines_test(int units) {
+void two_lines_test() {
+  constexpr TreeShape s = tree_shape_of<Model>();
+  constexpr int units = s.units;
   each_seed(2, [&](Dice& dice) {
     Bench<Model> top(dice);
     const int width = 8;
@@ -250,8 +289,8 @@ void two_lines_test(int units) {
     for (int clock = 0; clock < 40 * units + 100; ++clock) {
       quiet(*top, width);
       top->seg_valid_i = given < 2 * width * units ? 1 : 0;
-      put_unit(*top, small(units), given / width % units);
-      put_segment(*top, small(units), {0, 1, small(units).blank()});
+      put_unit(*top, s, given / width % units);
+      put_segment(*top, s, {0, 1, s.blank()});
       top->claim_i = clock == 40 * units || clock == 40 * units + 1 ? 1 : 0;
       top->line_ready_i = clock >= 40 * units + 1 ? 1 : 0;
       top.settle();
@@ -269,32 +308,33 @@ void two_lines_test(int units) {
 
 }  // namespace
 
-TEST_CASE("tree_core of 1 unit", "[tree_core]") { random_test<Vcore1>(small(1)); }
-TEST_CASE("tree_core of 2 units", "[tree_core]") { random_test<Vcore2>(small(2)); }
-TEST_CASE("tree_core of 3 units, the paper's segments", "[tree_core]") { random_test<Vcore3>(kClassic); }
-TEST_CASE("tree_core of 5 units", "[tree_core]") { random_test<Vcore5>(small(5)); }
-TEST_CASE("tree_core of 8 units", "[tree_core]") { random_test<Vcore8>(small(8)); }
-TEST_CASE("tree_core of 64 units", "[tree_core]") { random_test<Vcore64>(small(64), 3); }
+TEST_CASE("tree_core of 1 unit", "[tree_core]") { random_test<Vcore1>(); }
+TEST_CASE("tree_core of 2 units", "[tree_core]") { random_test<Vcore2>(); }
+TEST_CASE("tree_core of 3 units, the paper's segments", "[tree_core]") { random_test<Vcore3>(); }
+TEST_CASE("tree_core of 5 units", "[tree_core]") { random_test<Vcore5>(); }
+TEST_CASE("tree_core of 8 units", "[tree_core]") { random_test<Vcore8>(); }
+TEST_CASE("tree_core of 64 units", "[tree_core]") { random_test<Vcore64>(3); }
 
 TEST_CASE("tree_core takes a line's width and its latency", "[tree_core]") {
-  clocks_test<Vcore1>(1);
-  clocks_test<Vcore2>(2);
-  clocks_test<Vcore4>(4);
-  clocks_test<Vcore5>(5);
-  clocks_test<Vcore8>(8);
-  clocks_test<Vcore16>(16);
-  clocks_test<Vcore32>(32);
-  clocks_test<Vcore64>(64);
+  clocks_test<Vcore1>();
+  clocks_test<Vcore2>();
+  clocks_test<Vcore4>();
+  clocks_test<Vcore5>();
+  clocks_test<Vcore8>();
+  clocks_test<Vcore16>();
+  clocks_test<Vcore32>();
+  clocks_test<Vcore64>();
 }
 
 TEST_CASE("tree_core sends buffered lines without a gap", "[tree_core]") {
-  two_lines_test<Vcore1>(1);
-  two_lines_test<Vcore5>(5);
-  two_lines_test<Vcore64>(64);
+  two_lines_test<Vcore1>();
+  two_lines_test<Vcore5>();
+  two_lines_test<Vcore64>();
 }
 
 TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next frame until then", "[tree_core]") {
   each_seed(10, [](Dice& dice) {
+    constexpr TreeShape kTwo = tree_shape_of<Vcore2>();
     Bench<Vcore2> top(dice);
     const int width = dice.between(1, 8);
     const int claims = dice.below(3);
@@ -302,8 +342,8 @@ TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next f
     const auto clock = [&](bool flush, bool claim, bool ready) {
       quiet(*top, width);
       top->seg_valid_i = !flush && given < 4 ? 1 : 0;
-      put_unit(*top, small(2), given % 2);
-      put_segment(*top, small(2), {0, width, small(2).blank()});
+      put_unit(*top, kTwo, given % 2);
+      put_segment(*top, kTwo, {0, width, kTwo.blank()});
       top->flush_i = flush ? 1 : 0;
       top->claim_i = claim ? 1 : 0;
       top->line_ready_i = ready ? 1 : 0;

@@ -12,25 +12,8 @@
 
 namespace kage::rtl {
 
-struct TreeShape {
-  int units, x_bits, z_bits, z_frac, channels, lit_bits, face_bits, dx_bits, seg_bits, order_bits;
-  bool classic;
-
-  kage::Config config() const {
-    kage::Config c;
-    c.x_bits = x_bits;
-    c.z_bits = z_bits;
-    c.z_frac = z_frac;
-    c.channels = channels;
-    c.dsf_bits = c.fsf = lit_bits;
-    c.units = units;
-    c.face_bits = face_bits;
-    c.dx_bits = dx_bits;
-    c.seg_bits = seg_bits;
-    c.order_bits = order_bits;
-    c.classic = classic ? 1 : 0;
-    return c;
-  }
+struct TreeShape : kage::Config {
+  int lit_bits() const { return dsf_bits > 0 ? 1 : 0; }
   int depth_bits() const { return z_bits + z_frac + 2; }
   int rgb_bits() const { return 8 * channels; }
   int blank() const { return (1 << face_bits) - 1; }
@@ -38,6 +21,11 @@ struct TreeShape {
   int most_segments() const { return 1 << seg_bits; }
   int widest() const { return std::min((1 << x_bits) - 1, most_segments() * longest()); }
 };
+
+template <class Model>
+constexpr TreeShape tree_shape_of() {
+  return TreeShape{config_of<Model>()};
+}
 
 struct Face {
   std::uint64_t index, lit, dz, color;
@@ -58,7 +46,7 @@ inline Face random_face(Dice& dice, const TreeShape& s) {
   const std::uint64_t mask = (1ULL << s.depth_bits()) - 1;
   // Slopes of both kinds: any, and small enough that depth stays in range for a while.
   const std::uint64_t dz = dice.percent(50) ? dice.bits(s.depth_bits()) : (dice.bits(s.z_frac + 2) - 2) & mask;
-  return {dice.bits(s.order_bits), s.lit_bits != 0 ? dice.bits(1) : 0, dz, dice.bits(s.rgb_bits())};
+  return {dice.bits(s.order_bits), s.lit_bits() != 0 ? dice.bits(1) : 0, dz, dice.bits(s.rgb_bits())};
 }
 
 /// A line's segments: they sum to `width`, by the buffer's measure and no longer than `dx` can say.
@@ -75,7 +63,7 @@ inline std::vector<Segment> random_line(Dice& dice, const TreeShape& s, int widt
     if (manner == 0 && dice.percent(90)) dx = low;
     if (manner == 1) dx = high;
     const int face = faces == 0 || dice.percent(25) ? s.blank() : dice.below(faces);
-    line.push_back({dice.bits(s.classic ? 15 : s.depth_bits()), dx, face});
+    line.push_back({dice.bits(s.classic != 0 ? 15 : s.depth_bits()), dx, face});
     width -= dx;
   }
   return line;
@@ -105,7 +93,7 @@ inline std::vector<Point> expand(const TreeShape& s, const std::vector<Face>& fa
 /// Both modules take a face, and a segment, by piece_i.
 template <class Top>
 void put_face(Top& top, const TreeShape& s, int number, const Face& face) {
-  const PieceBus piece(s.config());
+  const PieceBus piece(s);
   put(top.piece_i, piece.face, static_cast<std::uint64_t>(number));
   int at = piece.entry.lsb;
   const auto field = [&](int bits, std::uint64_t value) {
@@ -113,14 +101,14 @@ void put_face(Top& top, const TreeShape& s, int number, const Face& face) {
     at += bits;
   };
   field(s.order_bits, face.index);
-  field(s.lit_bits, face.lit);
+  field(s.lit_bits(), face.lit);
   field(s.depth_bits(), face.dz);
   field(s.rgb_bits(), face.color);
 }
 
 template <class Top>
 void put_segment(Top& top, const TreeShape& s, const Segment& segment) {
-  const PieceBus piece(s.config());
+  const PieceBus piece(s);
   put(top.piece_i, piece.z, segment.z);
   put(top.piece_i, piece.dx, static_cast<std::uint64_t>(segment.dx));
   put(top.piece_i, piece.face, static_cast<std::uint64_t>(segment.face));

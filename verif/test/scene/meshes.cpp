@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real meshes from Debian packages, held against the oracle: open, non-manifold, of many parts. tools/deps installs
-// them; one that is missing is a failure, unless KAGE_WITHOUT_MESHES is set (docs/building.md).
+// Real meshes from Debian packages, held against the oracle: open, non-manifold, of many parts.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -11,19 +10,10 @@
 #include "kage/error.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/installed.hpp"
 
 namespace kage::verif {
 namespace {
-
-bool present(const std::filesystem::path& path) {
-  if (std::filesystem::exists(path)) return true;
-  CAPTURE(path);
-  if (std::getenv("KAGE_WITHOUT_MESHES") == nullptr)
-    FAIL_CHECK("not installed: tools/deps test");
-  else
-    WARN("not installed, not tested: " << path.string());
-  return false;
-}
 
 Config wide() {
   Config config;
@@ -35,7 +25,7 @@ Config wide() {
 
 TEST_CASE("real meshes: coverage, surfaces and shadows are the oracle's") {
   for (const char* file : {"horse.3ds", "bunny.obj", "cat.3ds", "asteroid-high.3ds", "asteroid-low.3ds"}) {
-    const std::string path = std::string("/usr/share/glmark2/models/") + file;
+    const std::string path = glmark2(file);
     if (!present(path)) continue;
     const Scene scene = Scene::load(path);
     for (const auto& [frame, bits] : {std::pair{0, 1}, {3, 1}, {0, 2}, {3, 2}, {3, 3}, {0, 8}}) {
@@ -55,7 +45,7 @@ TEST_CASE("real meshes: coverage, surfaces and shadows are the oracle's") {
 }
 
 TEST_CASE("the meshes of CGAL's demo below 50000 faces: coverage, surfaces and shadows are the oracle's") {
-  const std::string archive = "/usr/share/doc/libcgal-demo/data.tar.gz";
+  const std::string archive = kCgalMeshes;
   if (!present(archive)) return;
   const auto dir = std::filesystem::temp_directory_path() / ("kage-meshes-" + std::to_string(::getpid()));
   std::filesystem::create_directories(dir);

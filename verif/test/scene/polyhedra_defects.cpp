@@ -3,8 +3,8 @@
 // judge what the front end makes wrong of right outlines, and what lies below the errors that both excuse by the law
 // that segments and spans give the same bits.
 #include "opinion/ray_truth.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {

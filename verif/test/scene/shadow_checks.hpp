@@ -6,8 +6,8 @@
 #include <span>
 
 #include "opinion/judge.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 

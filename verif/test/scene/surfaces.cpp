@@ -6,8 +6,8 @@
 #include "geometry/shade.hpp"
 #include "kage/config.hpp"
 #include "opinion/ray_truth.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 
 #include "kage/light.hpp"
 #include "opinion/embree_scene.hpp"
+#include "stimulus/on_ground.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/on_ground.hpp"
+#include "test/support/installed.hpp"
 
 namespace kage::verif {
 namespace {
@@ -60,11 +59,8 @@ TEST_CASE("built-in scenes and real meshes: Embree says what the picture says, b
     report(name, sum, name == "depths" ? 6 : 2);
   }
   for (const char* file : {"horse.3ds", "cat.3ds", "bunny.obj"}) {
-    const std::string path = std::string("/usr/share/glmark2/models/") + file;
-    if (!std::filesystem::exists(path)) {
-      if (std::getenv("KAGE_WITHOUT_MESHES") == nullptr) FAIL_CHECK(path << ": not installed: tools/deps test");
-      continue;
-    }
+    const std::string path = glmark2(file);
+    if (!present(path)) continue;
     const SceneFrame mesh = Scene::load(path).frame(1, 8);
     for (const double degrees : {12.0, 55.0})
       report(fmt::format("{}, sun at {} degrees", file, degrees), compare(on_ground(mesh, degrees)));

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "frontend/tree_plan.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/screen.hpp"
-#include "test/support/shapes.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {

@@ -7,8 +7,8 @@
 
 #include "geometry/translucent.hpp"
 #include "stimulus/random.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -3,8 +3,8 @@
 #include "geometry/remarks.hpp"
 
 #include "kage/config.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "geometry/light_table.hpp"
 #include "scene/space.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -6,8 +6,8 @@
 #include "kage/error.hpp"
 #include "kage/order.hpp"
 #include "order/data.hpp"
+#include "stimulus/order_meshes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/order_meshes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "kage/error.hpp"
 #include "kage/order.hpp"
+#include "stimulus/order_meshes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/order_meshes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "order/exact.hpp"
 #include "order/filter.hpp"
+#include "stimulus/order_meshes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/order_meshes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "kage/error.hpp"
 #include "kage/order.hpp"
+#include "stimulus/order_meshes.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/guarded_new.hpp"
-#include "test/support/order_meshes.hpp"
 #include "test/support/order_shapes.hpp"
 #include "test/support/simd.hpp"
 

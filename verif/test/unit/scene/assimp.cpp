@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats that Assimp reads, the same file by both readers, and real meshes where Debian's packages carry them.
+// Formats that Assimp reads, and the same file by both readers.
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <set>
 
 #include "files.hpp"
@@ -12,6 +10,7 @@
 #include "scene/polygon.hpp"
 #include "scene/transform.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/installed.hpp"
 
 using namespace kage;
 using test::TempDirectory;
@@ -100,17 +99,6 @@ std::multiset<std::array<float, 3>> corner_set(const scene::RawScene& s) {
       }
   }
   return out;
-}
-
-/// A file that tools/deps installs. Missing is a failure, unless KAGE_WITHOUT_MESHES is set (docs/building.md).
-bool present(const std::string& path) {
-  if (std::filesystem::exists(path)) return true;
-  CAPTURE(path);
-  if (std::getenv("KAGE_WITHOUT_MESHES") == nullptr)
-    FAIL_CHECK("not installed: tools/deps test");
-  else
-    WARN("not installed, not tested: " << path);
-  return false;
 }
 
 }  // namespace
@@ -310,7 +298,7 @@ TEST_CASE("camera, light and animation of another format") {
 
 TEST_CASE("both readers see the same triangles in a glTF file") {
   const std::string root = "/usr/share/assimp/models/glTF2/";
-  if (!present(root)) return;
+  if (!verif::present(root)) return;
   for (const char* file : {"BoxTextured-glTF/BoxTextured.gltf", "BoxTextured-glTF-Binary/BoxTextured.glb",
                            "BoxTextured-glTF-Embedded/BoxTextured.gltf",
                            "2CylinderEngine-glTF-Binary/2CylinderEngine.glb", "ClearCoat-glTF/ClearCoatTest.gltf",
@@ -326,84 +314,5 @@ TEST_CASE("both readers see the same triangles in a glTF file") {
     std::size_t unlike = 0;
     for (const auto& p : ours) unlike += theirs.count(p) == 0 ? 1 : 0;
     CHECK(unlike * 50 <= ours.size());  // those that a thousandth's rounding parts
-  }
-}
-
-TEST_CASE("real meshes") {
-  struct Expected {
-    const char* file;
-    std::size_t triangles;
-  };
-  const std::string root = "/usr/share/glmark2/models/";
-  if (!present(root)) return;
-  for (const Expected& e : {Expected{"horse.3ds", 7172},
-                            {"bunny.obj", 69666},
-                            {"cat.3ds", 14348},
-                            {"asteroid-low.3ds", 480},
-                            {"asteroid-high.3ds", 48000},
-                            {"cube.3ds", 12}}) {
-    const std::string path = root + e.file;
-    if (!present(path)) continue;
-    const Scene s = Scene::load(path);
-    const SceneFrame f = s.frame(3, 8);
-    std::size_t closed = 0;
-    std::size_t convex = 0;
-    std::size_t counted = 0;
-    for (const Component& c : f.components) {
-      REQUIRE(c.first == counted);
-      counted += c.count;
-      closed += c.closed ? 1 : 0;
-      convex += c.convex ? 1 : 0;
-      REQUIRE(c.reason.empty() == c.convex);
-    }
-    std::printf("%s: %zu triangles, %zu vertices, %zu components, %zu closed, %zu convex\n", e.file, f.triangles.size(),
-                f.vertices.size(), f.components.size(), closed, convex);
-    CHECK(counted == f.triangles.size());
-    CHECK(f.triangles.size() == e.triangles);
-    double worst = 0;
-    for (const ShadingVertex& v : f.shading) worst = std::max(worst, std::abs(kage::length(v.normal) - 1));
-    CHECK(worst < 1e-12);
-  }
-}
-
-TEST_CASE("topology of meshes from CGAL's demo") {
-  struct Expected {
-    const char* file;
-    std::size_t triangles;
-    std::size_t vertices;
-    std::size_t components;
-    std::size_t closed;
-    std::size_t convex;
-  };
-  const std::string archive = "/usr/share/doc/libcgal-demo/data.tar.gz";
-  if (!present(archive)) return;
-  const TempDirectory dir;
-  REQUIRE(std::system(("tar xzf " + archive + " -C " + dir.path().string()).c_str()) == 0);
-  for (const Expected& e : {Expected{"tetrahedron", 4, 4, 1, 1, 1},
-                            {"cube_quad", 12, 8, 1, 1, 1},
-                            {"icosahedron", 20, 12, 1, 1, 1},
-                            {"cube-meshed", 1728, 866, 1, 1, 1},
-                            {"geosphere", 320, 162, 1, 1, 1},
-                            {"larger_sphere", 1620, 812, 1, 1, 1},
-                            {"open_cube", 10, 8, 1, 0, 0},
-                            {"star", 24, 14, 1, 1, 0},
-                            {"eight", 634, 315, 1, 1, 0},
-                            {"elephant", 5558, 2775, 1, 1, 0},
-                            {"elephant-with-holes", 4463, 2733, 1, 0, 0},
-                            {"knot2", 11520, 5760, 2, 2, 0}}) {
-    INFO(e.file);
-    const SceneFrame f =
-        Scene::load((dir.path() / "data/meshes" / (std::string(e.file) + ".off")).string()).frame(0, 1);
-    std::size_t closed = 0;
-    std::size_t convex = 0;
-    for (const Component& c : f.components) {
-      closed += c.closed ? 1 : 0;
-      convex += c.convex ? 1 : 0;
-    }
-    CHECK(f.triangles.size() == e.triangles);
-    CHECK(f.vertices.size() == e.vertices);
-    CHECK(f.components.size() == e.components);
-    CHECK(closed == e.closed);
-    CHECK(convex == e.convex);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The import child and its limits, and files that are no scenes.
 #include <fcntl.h>
+#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -119,9 +120,8 @@ TEST_CASE("a packed scene survives, and damage to it is noticed") {
 TEST_CASE("files that are none") {
   const TempDirectory dir;
   const std::string missing = (dir.path() / "missing.obj").string();
-  const std::string none =
-      ": no such file, and no built-in scene of that name (there are courtyard, knot, inside, edges, polyhedra, "
-      "fifteen, glass, penumbra, three-lights, canopy, cutaway, depths)";
+  const std::string none = fmt::format(": no such file, and no built-in scene of that name (there are {})",
+                                       fmt::join(builtin_scenes(), ", "));
   CHECK(refusal(missing) == missing + none);
   CHECK(refusal("courtyrad") == "courtyrad" + none);
   CHECK(refusal(dir.path().string()) == dir.path().string() + ": is a directory");

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "opinion/light_oracle.hpp"
+#include "casters.hpp"
 #include "shadow/light_space.hpp"
 #include "test/support/catch.hpp"
 

@@ -4,8 +4,8 @@
 
 #include "kage/error.hpp"
 #include "kage/frontend.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

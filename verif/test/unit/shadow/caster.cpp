@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Casters of many points of a light, made together, are those of each point alone.
 #include "shadow/shadow_caster.hpp"
+#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "opinion/light_oracle.hpp"
+#include "casters.hpp"
 #include "shadow/light_corners.hpp"
 #include "test/support/catch.hpp"
 

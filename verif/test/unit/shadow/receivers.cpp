@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shadows that are left out are those that nothing seen could show.
+#include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/shapes.hpp"
 
 namespace kage::verif {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scene/space.hpp"
-#include "test/support/shapes.hpp"
+#include "stimulus/shapes.hpp"
 
 namespace kage::verif {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scenes for tests, made of simple solids whose topology is known.
+// Scenes made of simple solids whose topology is known, for tests and benchmarks.
 #pragma once
 
 #include <array>

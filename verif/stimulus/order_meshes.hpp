@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygons for tests of the visibility order: crossing, coplanar, nearly coplanar, on lattices.
+// Polygons for tests and benchmarks of the visibility order: crossing, coplanar, nearly coplanar, on lattices.
 #pragma once
 
 #include <cmath>

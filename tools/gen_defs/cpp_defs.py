@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: Apache-2.0
+"""ref/include/kage/defs.hpp: the contract in numbers, for all of C++."""
+
+from cpp_header import frame_header
+from cpp_layout import layout
+from expressions import cpp_expr, quoted
+from files import NOTE
+
+
+def defs_hpp(defs):
+    sections = [
+        opening(),
+        numbers(defs.d),
+        frame_header(defs),
+        config(defs),
+        param_info(defs),
+        rule_info(defs),
+        param_hash(),
+        kinds(defs.d["tokens"]),
+        errors(defs.d["errors"]),
+        layout(defs),
+        ["}  // namespace kage", ""],
+    ]
+    return "\n".join(line for section in sections for line in section)
+
+
+def opening():
+    return [
+        f"// {NOTE}",
+        "// SPDX-License-Identifier: Apache-2.0",
+        "// clang-format off",
+        "",
+        "/// @file",
+        "/// The contract in numbers: parameters and the rules between them, header, kinds of tokens, places of their fields,",
+        "/// errors (docs/stream.md).",
+        "#pragma once",
+        "",
+        "#include <array>",
+        "#include <cstddef>",
+        "#include <cstdint>",
+        "#include <span>",
+        "#include <string_view>",
+        "",
+        "namespace kage {",
+        "",
+    ]
+
+
+def numbers(d):
+    return [
+        f"inline constexpr std::uint32_t kStreamVersion = {d['version']};  ///< of the stream",
+        f"inline constexpr std::uint32_t kStreamMagic = {d['magic']:#x};  ///< in a header's first word",
+        f"inline constexpr int kMaxHeight = {d['max_height']};  ///< lines of a frame",
+        f"inline constexpr std::uint32_t kHeaderWords = {len(d['header'])};  ///< words of a header",
+        "",
+    ]
+
+
+def config(defs):
+    return [
+        "/// A configuration of the core. Members keep the lower-case names of the parameters in the definition file.",
+        "struct Config {",
+        *(f"  int {p['name'].lower()} = {p['default']};  ///< {p['doc']}" for p in defs.pixel + defs.impl),
+        "",
+        "  bool operator==(const Config&) const = default;",
+        "};",
+        "",
+    ]
+
+
+def param_info(defs):
+    params = defs.pixel + defs.impl
+    o = [
+        "/// A parameter's name, member, legal range and whether it changes pixels.",
+        "struct ParamInfo {",
+        "  std::string_view name;  ///< as in the definition file",
+        "  int Config::*member;  ///< where its value is",
+        "  int default_value;  ///< of Config{}",
+        "  int min;  ///< the least legal value",
+        "  int max;  ///< the greatest",
+        "  bool affects_pixels;  ///< else it is of how the hardware is made",
+        "  std::uint64_t allowed;  ///< bit v set: value v is legal; 0: every value from min to max is",
+        "  std::string_view doc;  ///< what it means",
+        "};",
+        "",
+        "/// All parameters, in the order of the definition file.",
+        f"inline constexpr std::array<ParamInfo, {len(params)}> kParams{{{{",
+    ]
+    for i, p in enumerate(params):
+        allowed = sum(1 << v for v in p.get("allowed", []))
+        o.append(
+            f'    {{"{p["name"]}", &Config::{p["name"].lower()}, {p["default"]}, {p["min"]}, {p["max"]}, '
+            f"{'true' if i < len(defs.pixel) else 'false'}, {allowed:#x}, {quoted(p['doc'])}}},"
+        )
+    return [*o, "}};", ""]
+
+
+def rule_info(defs):
+    rules = defs.d["rules"]
+    o = [
+        "/// A rule that binds parameters together. `text` says it, and why; `legal` is it as an expression of parameters.",
+        "struct RuleInfo {",
+        "  std::string_view text;  ///< for messages",
+        "  std::string_view legal;  ///< for messages",
+        "  bool (*holds)(const Config&);  ///< whether it does",
+        "  void (*repair)(Config&);  ///< makes it hold; rule after rule, all of them",
+        "};",
+        "",
+        "/// All rules, in the order of the definition file.",
+        f"inline constexpr std::array<RuleInfo, {len(rules)}> kRules{{{{",
+    ]
+    for r in rules:
+        repair = " ".join(f"c.{name.lower()} = {cpp_expr(value, defs.names)};" for name, value in r["repair"].items())
+        legal = cpp_expr(r["legal"], defs.names)
+        o.append(f'    {{"{r["doc"]}", "{r["legal"]}",')
+        o.append(f"     [](const Config& c) {{ return {legal}; }}, [](Config& c) {{ {repair} }}}},")
+    return [*o, "}};", ""]
+
+
+def param_hash():
+    return [
+        "/// Hash of the parameters that affect pixels: FNV-1a over their values in the order of the definition file.",
+        "/// @param c any configuration",
+        "/// @return what a frame's header must carry",
+        "constexpr std::uint32_t param_hash(const Config& c) {",
+        "  std::uint32_t h = 2166136261u;",
+        "  for (const ParamInfo& p : kParams)",
+        "    if (p.affects_pixels) h = (h ^ static_cast<std::uint32_t>(c.*p.member)) * 16777619u;",
+        "  return h;",
+        "}",
+        "",
+    ]
+
+
+def kinds(tokens):
+    names = ", ".join(f'"{t["name"]}"' for t in sorted(tokens, key=lambda t: t["kind"]))
+    return [
+        "/// Kinds of tokens, by the names of docs/stream.md.",
+        "enum class Kind : std::uint8_t {",
+        *(f"  {t['name']} = {t['kind']},  ///< {t['doc']}" for t in tokens),
+        "};",
+        "",
+        "/// The kind of a token.",
+        "/// @param word the token's first",
+        "/// @return its kind; 0 is none",
+        "constexpr Kind kind_of(std::uint32_t word) { return static_cast<Kind>(word & 15u); }",
+        "",
+        "/// The names of the kinds, by their numbers.",
+        "inline constexpr std::array<std::string_view, 16> kKindNames{",
+        f'    "-", {names}}};',
+        "",
+    ]
+
+
+def errors(errors):
+    names = ", ".join(f'"{e["name"]}"' for e in errors)
+    return [
+        "/// Errors of a core, the same in golden model and RTL, by the names of docs/stream.md.",
+        "enum class ErrorCode : std::uint8_t {",
+        *(f"  {e['name']} = {e['code']},  ///< {e['doc']}" for e in errors),
+        "};",
+        "",
+        "/// The names of the errors, by their codes.",
+        f"inline constexpr std::array<std::string_view, {len(errors)}> kErrorNames{{",
+        f"    {names}}};",
+        "",
+        "/// What the errors mean, by their codes.",
+        f"inline constexpr std::array<std::string_view, {len(errors)}> kErrorTexts{{",
+        *(f'    "{e["doc"]}",' for e in errors),
+        "};",
+        "",
+    ]

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""ref/contract/derived.hpp: numbers that follow from the parameters."""
+
+from expressions import camel, cpp_expr, linked
+from files import NOTE
+
+
+def derived(defs):
+    o = [
+        f"// {NOTE}",
+        "// SPDX-License-Identifier: Apache-2.0",
+        "// clang-format off",
+        "//",
+        "// Numbers that follow from the parameters; in SystemVerilog: rtl/include/generated/kage_widths.svh.",
+        "#pragma once",
+        "",
+        '#include "kage/defs.hpp"',
+        "",
+        "namespace kage::derived {",
+        "",
+    ]
+    for n in defs.d["derived"]:
+        value = cpp_expr(linked(n["value"], r"\1(c)"), defs.names)
+        o += [f"/// {n['doc']}", f"constexpr int {n['name']}(const Config& c) {{ return {value}; }}"]
+    o += ["", "/// Commands that are no token, by kinds of tokens that never become commands."]
+    o += [
+        f"inline constexpr Kind kCommand{camel(c['name'])} = static_cast<Kind>({c['kind']});  ///< {c['doc']}"
+        for c in defs.d["commands"]
+    ]
+    o += ["", "}  // namespace kage::derived", ""]
+    return "\n".join(o)

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: Apache-2.0
+"""rtl/defs/kage.yaml, read, checked and completed: what all that is generated of it has in common."""
+
+import re
+
+import yaml
+from expressions import camel
+from files import SOURCE
+
+
+class Defs:
+    """The definition: `d` as the file has it, completed, and what templates and generators ask of it."""
+
+    def __init__(self, path):
+        self.d = yaml.safe_load(path.read_text())
+        self.pixel = self.d["pixel_params"]
+        self.impl = self.d["impl_params"]
+        self.names = {p["name"] for p in self.pixel + self.impl}
+        self.derived = {n["name"]: n for n in self.d["derived"]}
+        for token in self.d["tokens"]:
+            for field in token["fields"]:
+                field["named_bits"] = field["bits"]
+                field["bits"] = self.expanded(field["bits"])
+                field["cpp"] = self.cpp_member(token, field)
+                for absent in ("repeat", "left_out", "signed"):
+                    field.setdefault(absent, False)
+            for absent in ("span", "touches", "clocks", "text"):
+                token.setdefault(absent, "")
+            for absent in ("with", "without", "sets", "clears", "to"):
+                token["order"].setdefault(absent, [])
+        for phase in self.d["order_phases"]:
+            for absent in ("also", "needs", "line"):
+                phase.setdefault(absent, "")
+        for mark in self.d["order_marks"]:
+            mark.setdefault("line", "")
+        self.header_fields = []
+        for at, word in enumerate(self.d["header"]):
+            lsb = 0
+            for field in word["fields"]:
+                self.header_fields.append({**field, "word": at, "lsb": lsb})
+                lsb += field["bits"]
+            assert lsb == 32, f"header word {word['name']} has {lsb} bits"
+        kinds = [t["kind"] for t in self.d["tokens"]]
+        assert sorted(kinds) == list(range(1, 16)), "kinds must be 1 .. 15, each once"
+
+    def golden_numbers(self):
+        """Fields of tokens by the numbers of the C interface, and how many there are. All that tokens have must be there."""
+        fields, count = [], 0
+        for f in self.d["golden_fields"]:
+            fields.append({"times": 1} | f | {"number": count})
+            count += fields[-1]["times"]
+        known = {f["name"] for f in fields} | {"pad"}
+        for t in self.d["tokens"]:
+            for f in t["fields"]:
+                if f["name"] not in known:
+                    raise SystemExit(f"{SOURCE}: golden_fields: lacks {f['name']} of {t['name']}")
+        return fields, count
+
+    @staticmethod
+    def cpp_member(token, field):
+        """Where C++ keeps the field in a Token; None for what it keeps nowhere."""
+        if field.get("member", "") is None:
+            return None
+        owner = field.get("of", token.get("of"))
+        return (f"{owner}." if owner else "") + field.get("member", field["name"])
+
+    def stands_in(self, token, phase):
+        """Whether the token may stand in that phase, marks permitting."""
+        return phase["name"] in token["order"]["in"] or phase["also"] in token["order"]["in"]
+
+    def order_bits(self, token):
+        """The phases in which it may stand as binary digits, the first phase last."""
+        return "".join("01"[self.stands_in(token, p)] for p in reversed(self.d["order_phases"]))
+
+    def sv_order(self, what):
+        """[(value, [KindX, ...]), ...]: for which kinds line_phase's function of this name has which value but its default."""
+        phases = [p for p in self.d["order_phases"] if p["line"]]
+        marks = {m["name"] for m in self.d["order_marks"] if m["line"]}
+
+        def value(t):
+            order, names = t["order"], [p["name"] for p in phases]
+            # What leaves the line's phases ends the line, and line_phase begins anew.
+            stays = not order["to"] or order["to"] in names
+            if what == "kind_is_state":
+                return "1'b1" if order["in"] == ["state"] else None
+            if what == "kind_has_range":
+                return needs(t) if any(f["name"] == "xr" for f in t["fields"]) else None
+            of_line = [n for n in names if n in order["in"]] if "behind" not in order["in"] else []
+            if not of_line:
+                return None
+            if what == "order_in":
+                return f"{len(phases)}'b" + "".join("01"[n in of_line] for n in reversed(names))
+            if what == "order_to":
+                if not stays or not order["to"] or of_line == [order["to"]]:
+                    return None
+                to = "Phase" + camel(order["to"])
+                return to if t["needs"] == "1" else f"{t['needs']} ? {to} : phase"
+            key = what.removeprefix("order_")
+            if key in ("sets", "clears") and not stays:
+                return None
+            return " | ".join("Mark" + camel(m) for m in order[key] if m in marks) or None
+
+        def needs(t):
+            return "1'b1" if t["needs"] == "1" else t["needs"]
+
+        groups = {}
+        for t in self.d["tokens"]:
+            if value(t):
+                groups.setdefault(value(t), []).append("Kind" + camel(t["name"]))
+        return list(groups.items())
+
+    def field_widths(self):
+        """The derived numbers that fields of tokens have for their bits."""
+        bits = " ".join(str(f["named_bits"]) for t in self.d["tokens"] for f in t["fields"])
+        return [n for n in self.d["derived"] if f"<{n['name']}>" in bits]
+
+    @staticmethod
+    def text_pieces(token):
+        """What is told of a token: {form, names, cpp}, one after the other. Form text is text; the others are those of `text`."""
+        pieces, plain = [], token["name"] + (" " if token["text"] else "")
+        members = {f["name"]: "t." + str(f["cpp"]) for f in token["fields"]}
+
+        def flush():
+            if plain:
+                pieces.append({"form": "text", "names": [], "literal": plain, "cpp": f'"{plain}"'})
+
+        for literal, names, form in re.findall(r"([^{}]*)(?:\{([\w,]+)(?::(\w+))?\})?", token["text"]):
+            plain += literal
+            if not names:
+                continue
+            flush()
+            plain, names = "", names.split(",")
+            arguments = [f'"{names[0]}"'] * (form == "flag") + [members[name] for name in names]
+            pieces.append({"form": form or "plain", "names": names, "literal": "", "cpp": ", ".join(arguments)})
+        flush()
+        return pieces
+
+    def expanded(self, expr):
+        """An expression with its <name>s replaced by what they stand for; alone, a name needs no parentheses."""
+        alone = re.fullmatch(r"<(\w+)>", str(expr))
+        if alone:
+            return self.expanded(self.derived[alone.group(1)]["value"])
+        return re.sub(r"<(\w+)>", lambda m: f"({self.expanded(self.derived[m.group(1)]['value'])})", str(expr))
+
+    def sv_name(self, name):
+        """How SystemVerilog calls a derived number."""
+        return self.derived[name].get("sv", camel(name))
+
+    def sv_expr(self, expr):
+        """An expression as SystemVerilog has it: <name>s become the localparams of kage_widths.svh."""
+        return re.sub(r"<(\w+)>", lambda m: self.sv_name(m.group(1)), str(expr))
+
+    def sv_bits(self, field):
+        """The width of a bus's field."""
+        return self.sv_expr(field["bits"])
+
+    @staticmethod
+    def register_text(r):
+        """What a register means, with its fields: a table's cell, or a comment."""
+        text = f"0x{r['value']:08X}, {r['doc']}" if "value" in r else r["doc"]
+        fields = []
+        for f in r.get("fields", []):
+            last = f["lsb"] + f["bits"] - 1
+            place = f"bit {last}" if f["bits"] == 1 else f"bits {last}-{f['lsb']}"
+            fields.append(f"{place} {f['name']}" + (f": {f['doc']}" if f["doc"] != "the parameter" else ""))
+        return text + (": " if fields else "") + "; ".join(fields)

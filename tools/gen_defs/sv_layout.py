@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""kage_layout.svh: kinds, errors, and the place of every field of header and tokens."""
+
+from expressions import camel
+from files import NOTE
+
+
+def layout(defs):
+    sections = [
+        opening(),
+        header(defs),
+        *numbers(defs.d),
+        places(defs.d["tokens"]),
+        token_words(defs.d["tokens"]),
+        param_hash(defs.pixel),
+        words_function(defs.d["tokens"]),
+        ["/* verilator lint_on UNUSEDPARAM */", "// verilog_lint: waive-stop line-length", ""],
+    ]
+    return "\n".join(line for section in sections for line in section)
+
+
+def opening():
+    return [
+        f"// {NOTE}",
+        "// SPDX-License-Identifier: Apache-2.0",
+        "// Included inside a module that has the pixel parameters: kinds, errors, and the place of every field.",
+        "// verilog_lint: waive-start line-length",
+        "/* verilator lint_off UNUSEDPARAM */",
+    ]
+
+
+def header(defs):
+    return [
+        f"localparam int StreamVersion = {defs.d['version']};",
+        f"localparam int StreamMagic = 'h{defs.d['magic']:x};",
+        f"localparam int HeaderWords = {len(defs.d['header'])};",
+        "",
+        *(f"localparam int Header{camel(f['name'])}Lsb = {32 * f['word'] + f['lsb']};" for f in defs.header_fields),
+        "",
+    ]
+
+
+def numbers(d):
+    kinds = (f"localparam logic [3:0] Kind{camel(t['name'])} = 4'd{t['kind']};" for t in d["tokens"])
+    errors = (f"localparam logic [3:0] Err{camel(e['name'])} = 4'd{e['code']};" for e in d["errors"])
+    return [*kinds, ""], [*errors, ""]
+
+
+def places(tokens):
+    """Field after field, and how long each token is with them."""
+    o = []
+    for t in tokens:
+        token = camel(t["name"])
+        at = "4"
+        for f in t["fields"]:
+            field = token + camel(f["name"])
+            o.append(f"localparam int {field}Lsb = {at};")
+            o.append(f"localparam int {field}Bits = {f['bits']};")
+            at = f"{field}Lsb + {field}Bits" + (f" * {f['repeat']}" if f["repeat"] else "")
+        o.append(f"localparam int {token}Bits = {at};")
+        o.append(f"localparam int {token}Words = ({t['needs']}) != 0 ? ({token}Bits + 31) / 32 : 0;")
+    return [*o, ""]
+
+
+def token_words(tokens):
+    o, most = [], "1"
+    for i, t in enumerate(tokens):
+        words = f"{camel(t['name'])}Words"
+        o.append(f"localparam int TokenMax{i} = {words} > {most} ? {words} : {most};")
+        most = f"TokenMax{i}"
+    return [*o, f"localparam int TokenWords = {most};  // words of the longest token", ""]
+
+
+def param_hash(params):
+    o = ["localparam logic [31:0] ParamHash0 = 32'd2166136261;"]
+    for i, p in enumerate(params):
+        o.append(f"localparam logic [31:0] ParamHash{i + 1} = (ParamHash{i} ^ 32'({p['name']})) * 32'd16777619;")
+    return [*o, f"localparam logic [31:0] ParamHash = ParamHash{len(params)};  // what a header must carry", ""]
+
+
+def words_function(tokens):
+    return [
+        "// Words of a token of this kind; 0: the configuration lacks it.",
+        "function automatic logic [4:0] token_words(input logic [3:0] kind);",
+        "  unique case (kind)",
+        *(f"    Kind{camel(t['name'])}: token_words = 5'({camel(t['name'])}Words);" for t in tokens),
+        "    default: token_words = 5'd0;",
+        "  endcase",
+        "endfunction",
+    ]

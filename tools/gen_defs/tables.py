@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tables of the docs: what stands between <!-- defs:NAME --> and <!-- /defs -->."""
+
+import json
+import re
+
+from expressions import camel, plain
+from files import FIGURES, TOP
+
+
+def filled(defs, text):
+    """A page of docs with its tables as the definitions have them."""
+
+    def table(m):
+        begin, name, end = m.groups()
+        if name not in TABLES:
+            raise SystemExit(f"gen-defs: no table {name}")
+        return begin + TABLES[name](defs) + end
+
+    return re.sub(r"(<!-- defs:(\w+) -->\n).*?(<!-- /defs -->)", table, text, flags=re.S)
+
+
+def md(head, rows):
+    def line(cells):
+        return "| " + " | ".join(str(c).replace("|", "\\|") for c in cells) + " |\n"
+
+    return line(head) + line(["---"] * len(head)) + "".join(line(r) for r in rows)
+
+
+def params(defs):
+    rows = [
+        (
+            f"`{p['name']}`",
+            p["default"],
+            "/".join(map(str, p["allowed"])) if "allowed" in p else f"{p['min']} .. {p['max']}",
+            "yes" if p in defs.pixel else "no",
+            p["doc"],
+        )
+        for p in defs.pixel + defs.impl
+    ]
+    return md(("parameter", "default", "range", "affects pixels", "meaning"), rows)
+
+
+def rules(defs):
+    return md(("rule", "holds where"), [(r["doc"], f"`{r['legal']}`") for r in defs.d["rules"]])
+
+
+def header(defs):
+    rows = [(i, f"`{h['name']}`", h["doc"]) for i, h in enumerate(defs.d["header"])]
+    return md(("word", "name", "meaning"), rows)
+
+
+def tokens(defs):
+    def field(f):
+        times = f" x {f['repeat']}" if f["repeat"] else ""
+        signed = ", signed" if f["signed"] is True else f", signed if {f['signed']}" if f["signed"] else ""
+        return f"`{f['name']}`{times} ({plain(f['named_bits'])}{signed})"
+
+    rows = []
+    for t in defs.d["tokens"]:
+        needs = {"1": "always", "0": "reserved for a later version"}.get(t["needs"], t["needs"])
+        rows.append((t["kind"], f"`{t['name']}`", needs, ", ".join(map(field, t["fields"])) or "-", t["doc"]))
+    return md(("kind", "token", "present if", "fields (bits)", "meaning"), rows)
+
+
+def widths(defs):
+    rows = [(f"`{n['name']}`", plain(n["value"]), n["doc"]) for n in defs.field_widths()]
+    return md(("width", "bits", "of"), rows)
+
+
+def order_phases(defs):
+    rows = [
+        (p["name"], p["doc"], f"without `{p['needs']}`: {p['else']}" if p["needs"] else "")
+        for p in defs.d["order_phases"]
+    ]
+    return md(("phase", "of a frame", "else"), rows)
+
+
+def order_marks(defs):
+    rows = [(f"`{m['name']}`", m["doc"], m["needs"]) for m in defs.d["order_marks"]]
+    return md(("mark", "says", "of cores with"), rows)
+
+
+def order(defs):
+    def marks(names):
+        return ", ".join(f"`{n}`" for n in names)
+
+    def phases(t):
+        names = [p["name"] for p in defs.d["order_phases"]]
+        if all(name in t["order"]["in"] for name in names):
+            return "everywhere"
+        return ", ".join(p["name"] for p in defs.d["order_phases"] if defs.stands_in(t, p))
+
+    rows = [
+        (
+            f"`{t['name']}`",
+            phases(t),
+            marks(t["order"]["with"]),
+            marks(t["order"]["without"]),
+            t["order"]["to"] or "",
+            marks(t["order"]["sets"]),
+            marks(t["order"]["clears"]),
+        )
+        for t in defs.d["tokens"]
+    ]
+    return md(("token", "may stand in", "with", "without", "leads to", "sets", "clears"), rows)
+
+
+def buses(defs):
+    rows = [
+        (
+            f"`{camel(b['name'])}Bits`, `{b['name']}_t`",
+            b["doc"],
+            b["from"],
+            b["to"],
+            ", ".join(f"`{f['name']}` ({plain(f['bits'])})" for f in b["fields"]),
+        )
+        for b in defs.d["buses"]
+    ]
+    return md(("bus", "is", "from", "to", "fields (bits)"), rows)
+
+
+def errors(defs):
+    return md(("code", "name", "cause"), [(e["code"], f"`{e['name']}`", e["doc"]) for e in defs.d["errors"]])
+
+
+def registers(defs):
+    rows = [(f"0x{r['addr']:02X}", f"`{r['name']}`", r["access"], defs.register_text(r)) for r in defs.d["registers"]]
+    return md(("address", "name", "access", "meaning"), rows)
+
+
+def figures(_):
+    """What tools/fpga --record measured."""
+
+    def clock(r):
+        median, all_seeds = f"{r['clock_mhz']:.1f}", r["clocks_mhz"]
+        return median if len(all_seeds) == 1 else f"{median} ({min(all_seeds):.1f} .. {max(all_seeds):.1f})"
+
+    def path(r):
+        first, *hops, last = r["worst_path"]
+        modules = [hop.split(" of ")[1] for hop in hops]
+        middle = [m for i, m in enumerate(modules) if m != "kage_wrap" and m not in modules[:i]]
+        return f"`{first}`, through {', '.join(middle)}, `{last}`" if middle else f"`{first}`, `{last}`"
+
+    head = ("device", "core", "before", "clock, MHz", "seeds", "least loop (bits)", "share", "LUT", "flip-flops")
+    rows = [
+        (
+            r["device"],
+            f"`{r['core']}`",
+            f"{r['before_mhz']:.1f}" if "before_mhz" in r else "",
+            clock(r),
+            len(r["clocks_mhz"]),
+            f"{r['least_loop_mhz']:.1f} ({r['loop_bits']})",
+            f"{100 * r['clock_mhz'] / r['least_loop_mhz']:.0f} %",
+            *(r["cells"].get(cell, "") for cell in ("lut", "ff", "ram", "dsp")),
+            path(r),
+        )
+        for r in json.loads((TOP / FIGURES).read_text())
+    ]
+    return md((*head, "RAM", "DSP", "worst path"), rows)
+
+
+TABLES = {
+    table.__name__: table
+    for table in (
+        params,
+        rules,
+        header,
+        tokens,
+        widths,
+        order_phases,
+        order_marks,
+        order,
+        buses,
+        errors,
+        registers,
+        figures,
+    )
+}
