@@ -89,8 +89,13 @@ int run(const CosimCommand& o) {
   if (!o.no_report && !o.out.empty()) lock.emplace(o.out);
   check_json(o);
   check_output(o.ci.junit);
-  refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit,
-                o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
+  const std::vector<std::string> outputs{
+      o.json == "-" ? "" : o.json, o.ci.junit,
+      o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()};
+  std::vector<std::string> inputs = o.inputs;
+  inputs.push_back(o.config);
+  refuse_inputs(outputs, inputs);
+  refuse_twice(outputs);
   const Scenes scenes = open(o);
   compare(scenes, o.jobs > 0 ? o.jobs : default_jobs());
   TempFiles files;

@@ -141,6 +141,7 @@ class SceneRun {
   void write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame);
   void write_page(TempFiles& files, const cosim::Report& r, const Search& search, report::SceneRecord& record);
   [[nodiscard]] bool differs_alone(const std::vector<std::uint32_t>& words, int number, bool prelude) const;
+  [[nodiscard]] std::string again_folder() const;
   void look_for_needs(report::KeptRecord& kept, const cosim::Difference& difference) const;
   report::KeptRecord keep_frame(TempFiles& files, const cosim::Difference& difference);
   [[nodiscard]] report::SceneRecord record_of(const cosim::Report& r) const;

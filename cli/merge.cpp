@@ -147,12 +147,10 @@ int run(const MergeCommand& o) {
   if (!o.out.empty()) folder.emplace(o.out);
   check_json(o);
   check_output(o.junit);
-  for (const std::string& input : o.inputs)
-    for (const std::string* output : {&o.json, &o.junit})
-      if (!output->empty() && *output != "-" && resolved(*output) == resolved(input))
-        throw Error(fmt::format("{}: is one of those joined: it is not written over", input));
-  refuse_twice({o.json == "-" ? "" : o.json, o.junit,
-                o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
+  const std::vector<std::string> outputs{o.json == "-" ? "" : o.json, o.junit,
+                                         o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()};
+  refuse_inputs(outputs, o.inputs);
+  refuse_twice(outputs);
   TempFiles files;
   const std::vector<ShardFile> shards = read_shards(o.inputs);
   const std::size_t count = shards.front().record.scenes.size();

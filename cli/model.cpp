@@ -21,6 +21,7 @@ struct ModelCommand : Options {
 };
 
 int run(const ModelCommand& o) {
+  refuse_inputs({o.json}, o.configs);
   check_json(o);
   std::vector<NamedConfig> list;
   if (o.configs.empty()) list = named_configs();

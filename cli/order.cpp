@@ -231,6 +231,7 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
 
 int run(const OrderCommand& o) {
   check_json(o);
+  refuse_inputs({o.save, o.plot}, {o.input});
   refuse_random(o.input);
   TempFiles files;
   std::optional<OutputFile> saved;

@@ -117,7 +117,9 @@ int run(const RegressCommand& o) {
   check_json(o);
   check_output(o.ci.junit);
   const std::string page = (std::filesystem::path(o.out) / "report.html").string();
-  refuse_twice({o.json == "-" ? "" : o.json, o.ci.junit, page});
+  const std::vector<std::string> outputs{o.json == "-" ? "" : o.json, o.ci.junit, page};
+  refuse_inputs(outputs, o.configs);
+  refuse_twice(outputs);
   Regress regress(o);
   regress.prepare();
   regress.run(o.jobs > 0 ? o.jobs : default_jobs());
@@ -147,7 +149,7 @@ void add_regress(CLI::App& app, Action& action) {
       "  kage regress --config glass --config mine.yaml --minutes 1\n"
       "  kage regress --rounds 2 --json -\n"
       "  kage regress --list --config glass\n"
-      "Each run is a kage cosim: sound, damaged and mixed random frames and the built-in scenes, in every\n"
+      "Each run is a kage cosim: sound, mixed and damaged random frames and the built-in scenes, in every\n"
       "configuration, with ports that stop and ports that do not (docs/regress.md). The first\n"
       "difference ends the regression: its run is repeated with pictures, waveform, page and the stage that differs\n"
       "first, in DIR/RUN, and the line of kage cosim that repeats it is printed.\n"
@@ -164,7 +166,9 @@ void add_regress(CLI::App& app, Action& action) {
       ->check(whole_number(1, 1000000))
       ->excludes(minutes)
       ->type_name("N");
-  c->add_flag("--list", o->list, "run nothing, but print the runs of the first round, or of --rounds N, as commands");
+  auto* const list = c->add_flag("--list", o->list,
+                                 "run nothing, but print the runs of the first round, or of --rounds N, as commands")
+                         ->excludes(minutes);
   c->add_option("--config", o->configs,
                 "a configuration, by name or file; may be given several times. Default: all named ones")
       ->allow_extra_args(false)
@@ -181,6 +185,7 @@ void add_regress(CLI::App& app, Action& action) {
        "runs at a time; default one per processor, at most as many as half of the memory holds 256 MiB for each")
       ->check(whole_number(1, 4096))
       ->type_name("N");
+  for (const char* result : {"--json", "--junit", "--annotate", "--jobs"}) list->excludes(c->get_option(result));
   c->add_flag("--no-divergence", o->no_divergence, "after a difference do not look for the stage that differs first");
   option_defect(*c, o->rtl);
   o->command = c;

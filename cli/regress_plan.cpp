@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -27,15 +28,23 @@ constexpr std::array kStalls{StallPattern{0, 0}, StallPattern{30, 30}, StallPatt
 constexpr int kFirstFrames = 20;
 constexpr int kFrames = 60;
 
-/// Sources by the order of their runs, as indices of verif::kRandomSources: random, random:mixed, random:damaged. Of all
-/// orders this one finds a mutant in the least time on average: tools/regress-mutants --each prints that time for each.
+/// Sources by the order of their runs, as indices of verif::kRandomSources: random, random:mixed, random:damaged. Of
+/// all orders this one finds a mutant in the least time on average: tools/regress-mutants --each prints that time for
+/// each.
 constexpr std::array<std::size_t, 3> kSourcesInOrder{0, 2, 1};
 static_assert(kSourcesInOrder.size() == verif::kRandomSources.size());
 
 /// Width of a scene's frames where the configuration has it. Small, but pixel centres are where `depths` wants them.
 constexpr int kSceneWidth = 160;
 
-std::string short_name(const NamedConfig& c) { return std::filesystem::path(c.name).stem().string(); }
+/// A configuration in a run's name, which is a folder's too, and stands in lines of text: a file without its folders
+/// and ending, and with what could be read as anything but a name replaced.
+std::string short_name(const NamedConfig& c) {
+  std::string name = std::filesystem::path(c.name).stem().string();
+  for (char& letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) == 0 && letter != '-' && letter != '_') letter = '_';
+  return name;
+}
 
 class Round {
  public:
@@ -71,7 +80,7 @@ class Round {
     if (stalls.idle != 0) option("--idle", std::to_string(stalls.idle));
     if (stalls.backpressure != 0) option("--backpressure", std::to_string(stalls.backpressure));
     arguments.insert(arguments.end(), more_.begin(), more_.end());
-    runs.push_back({std::move(name), short_name(c), round_, std::move(arguments)});
+    runs.push_back({std::move(name), c.name, round_, std::move(arguments)});
   }
 
   int round_;

@@ -14,15 +14,15 @@ namespace kage::cli {
 /// A run of the regression: what it is called, and the command line of kage cosim that it stands for.
 struct PlannedRun {
   std::string name;    ///< "damaged.glass.3": the source, the configuration, the round
-  std::string config;  ///< the configuration's name, or its file's without folders
+  std::string config;  ///< the configuration, by its name or file as it was given
   int round = 0;
   std::vector<std::string> arguments;  ///< of kage cosim, --jobs 1 among them, without --out
 };
 
-/// The runs of round 0, 1, ...: for each configuration sound random frames, damaged ones, both, and one of the built-in
-/// scenes, so that each scene has met each configuration after as many rounds as there are scenes. Ports stop in other
-/// patterns from round to round, and random frames are others. Every run has the options of `more` besides. Throws
-/// Error if two configurations have one name.
+/// The runs of round 0, 1, ...: for each configuration sound random frames, sound and damaged ones mixed, damaged ones,
+/// and one of the built-in scenes, so that each scene has met each configuration after as many rounds as there are
+/// scenes. Ports stop in other patterns from round to round, and random frames are others. Every run has the options of
+/// `more` besides. Throws Error if two configurations have one name.
 std::vector<PlannedRun> plan_round(const std::vector<NamedConfig>& configs, int round, std::uint64_t seed,
                                    const std::vector<std::string>& more);
 

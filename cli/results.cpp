@@ -36,7 +36,9 @@ void check_output(const std::string& path) {
 }
 
 void check_json(const Options& options) {
-  if (!json_only(options)) check_output(options.json);
+  if (json_only(options)) return;
+  refuse_inputs({options.json}, {options.input, options.config});
+  check_output(options.json);
 }
 
 void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text) {
@@ -99,6 +101,16 @@ void refuse_twice(const std::vector<std::string>& paths) {
   for (const std::string& path : paths)
     if (!path.empty() && !seen.insert(resolved(path)).second)
       throw Error(fmt::format("{}: two outputs have this name", path));
+}
+
+void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  std::error_code ec;
+  std::set<std::filesystem::path> read;
+  for (const std::string& input : inputs)
+    if (std::filesystem::is_regular_file(input, ec)) read.insert(resolved(input));
+  for (const std::string& output : outputs)
+    if (!output.empty() && read.count(resolved(output)) != 0)
+      throw Error(fmt::format("{}: this output would overwrite an input", output));
 }
 
 }  // namespace kage::cli

@@ -35,7 +35,7 @@ bool json_only(const Options& options);
 /// Throws Error if a file cannot be written: before the work, not after it. An empty path is none.
 void check_output(const std::string& path);
 
-/// The same of what --json names.
+/// The same of what --json names, which must not be the scene or the configuration that is read either.
 void check_json(const Options& options);
 
 /// Ends a run: writes `document` where --json says, if it was given, gives all of `files` their names, and prints
@@ -66,5 +66,9 @@ std::filesystem::path resolved(const std::string& path);
 
 /// Throws Error if two of the files that are to be written, by whatever name, are one. Empty paths are none.
 void refuse_twice(const std::vector<std::string>& paths);
+
+/// Throws Error if a file that is to be written, by whatever name, is one of those that are read. Empty paths and names
+/// of no file (a built-in scene, a named configuration) are none.
+void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 }  // namespace kage::cli

@@ -82,8 +82,9 @@ def plot(rows, minutes, path):
 
 def what_is_tried(options):
     """A hash of the RTL, the mutants and the program: rows of others are not of the same table."""
-    files = [pathlib.Path(options.kage), options.source / "verif/mutants/mutants.yaml"]
-    files += sorted((options.source / "rtl").rglob("*.sv*"))
+    files = [pathlib.Path(options.kage)]
+    for folder in ("rtl", "verif/mutants", "verif/cosim/model/driver"):
+        files += sorted(f for f in (options.source / folder).rglob("*") if f.is_file() and "__pycache__" not in f.parts)
     return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
 
 
@@ -192,6 +193,10 @@ def main():
         for n, m in enumerate(mutants, 1)
         if "equivalent" not in m and (not options.names or m["name"] in options.names)
     ]
+    if not chosen:
+        sys.exit("tools/regress-mutants: these mutants are the same as the sound RTL: there is nothing to find")
+    if options.sample is not None and options.sample < 1:
+        sys.exit(f"tools/regress-mutants: --sample {options.sample}: it is 1 or more")
     if options.sample and options.sample < len(chosen):
         chosen = sorted(random.Random(options.seed).sample(chosen, options.sample), key=lambda c: c[0])
     if options.each and options.resume:

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <system_error>
 
 #include "file/plain_io.hpp"
@@ -78,6 +79,11 @@ TempFile::~TempFile() {
   std::error_code ec;
   if (placed_) undo();
   if (!temp_.empty()) fs::remove(temp_, ec);
+}
+
+fs::path TempFile::target() const {
+  std::error_code ec;
+  return fs::weakly_canonical(whole_name(target_), ec);
 }
 
 void TempFile::place() {
@@ -160,6 +166,10 @@ fs::path TempFiles::now(const fs::path& target) const {
 }
 
 void TempFiles::place() {
+  std::set<fs::path> names;
+  for (const auto& file : files_)
+    if (!file->temp().empty() && !file->is_device() && !names.insert(file->target()).second)
+      throw Error(fmt::format("{}: two outputs have this name", file->given().string()));
   try {
     for (const bool devices : {false, true})
       for (const auto& file : files_)

@@ -29,6 +29,10 @@ class TempFile {
   TempFile& operator=(const TempFile&) = delete;
 
   [[nodiscard]] const std::filesystem::path& temp() const { return temp_; }
+  /// The name that messages call it by.
+  [[nodiscard]] const std::filesystem::path& given() const { return given_; }
+  /// The file that it comes to be, from the root: what a link leads to.
+  [[nodiscard]] std::filesystem::path target() const;
   /// The name that was asked for, from the root.
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
   /// Whether the target is a device or a pipe. What it got cannot be undone.
@@ -90,7 +94,8 @@ class TempFiles {
   /// Where the file lies that is to be `target`: its unfinished name, or `target` itself if it is none of these.
   [[nodiscard]] std::filesystem::path now(const std::filesystem::path& target) const;
 
-  /// All get their names, or none: if one cannot, all are as they were, and Error is thrown. Devices and pipes come
+  /// All get their names, or none: if one cannot, or two are to have one name, all are as they were, and Error is
+  /// thrown. Devices and pipes come
   /// last, as they keep what they got. Until settle() follows, the end of this object puts back what was there: so that
   /// what can still fail comes in between.
   void place();

@@ -48,7 +48,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::chrono::seconds kPatience{1};
+/// How long a child may wait, by how many children were tried.
+constexpr Clock::duration kPatience[] = {std::chrono::seconds(1), std::chrono::seconds(2), std::chrono::seconds(4),
+                                         Clock::duration::max()};
 
 // What the child's first byte says; a message or a packed scene follows, then its end is the pipe's end.
 constexpr std::uint8_t kScene = 'S';
@@ -269,10 +271,13 @@ Bytes run_in_child(const std::string& name, const ImportLimits& limits, const st
                                 (limited_from_outside() ? ", or than ulimit -v leaves" : "");
   const Clock::time_point deadline = Clock::now() + std::chrono::seconds(limits.seconds);
   // A child that waits may have inherited a lock that none of its threads will give back (child.hpp): another child is
-  // tried. One that waits for a slow disk looks the same, so each is given twice the patience of the one before.
-  Clock::duration patience = kPatience;
-  Outcome o = run_once(name, limits, work, wait, deadline, patience);
-  while (o.ending == Ending::kStill) o = run_once(name, limits, work, wait, deadline, patience *= 2);
+  // tried. One that waits for a slow disk looks the same, so each is given more patience, and the last has all the
+  // time.
+  Outcome o;
+  for (const Clock::duration patience : kPatience) {
+    o = run_once(name, limits, work, wait, deadline, patience);
+    if (o.ending != Ending::kStill) break;
+  }
   if (o.ending == Ending::kLate) throw Error(no_time);
   if (o.ending == Ending::kLarge) throw Error(no_memory);
   const int signal = o.status && WIFSIGNALED(*o.status) ? WTERMSIG(*o.status) : 0;

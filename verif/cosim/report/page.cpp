@@ -159,9 +159,13 @@ Json told_of(const Page& page) {
 
 std::string headline(const Page& page) {
   const cosim::Report& r = *page.run;
-  return fmt::format("{}: {} {}{}, {}x{}, {} pixels compared{}", r.same ? "same" : "different", r.frames,
-                     r.frames == 1 ? "frame" : "frames", cosim::taken_text(r.taken.size()), r.width, r.height,
-                     r.pixels_compared, page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
+  const auto count = [](std::uint64_t n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  return fmt::format("{}: {}{}, {}x{}, {} compared{}", r.same ? "same" : "different",
+                     count(static_cast<std::uint64_t>(r.frames), "frame"), cosim::taken_text(r.taken.size()), r.width,
+                     r.height, count(r.pixels_compared, "pixel"),
+                     page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
 }
 
 /// The run's record, without what is listed by frame, and what this page has besides.

@@ -148,10 +148,10 @@ trouble "whole.json: the report of all frames" "$kage" merge whole.json
 trouble "all.json: the report of all frames" "$kage" merge all.json
 trouble "nowhere.json: cannot be read" "$kage" merge nowhere.json
 trouble "1.xml: not JSON" "$kage" merge 1.xml
-trouble "1.json: is one of those joined" "$kage" merge 1.json 2.json 3.json --json 1.json
+trouble "1.json: this output would overwrite an input" "$kage" merge 1.json 2.json 3.json --json 1.json
 ln -s 2.json link.json
 for o in "--json ./1.json" "--json $PWD/1.json" "--junit link.json"; do
-  trouble ".json: is one of those joined" "$kage" merge 1.json 2.json 3.json $o
+  trouble ".json: this output would overwrite an input" "$kage" merge 1.json 2.json 3.json $o
 done
 trouble "REPORT is missing" "$kage" merge
 # spoilt EXPRESSION: 1.json with its content as j changed.

@@ -15,7 +15,7 @@ for patch in "$source"/verif/cosim/model/faults/*.patch; do
   # Defects of the tree need ties, or a line ahead of time, which this scene has not: ctest rtl/fault_NAME finds those.
   if grep -qE '^(\+\+\+ .*(compare|tree|expansion)|The tree)' "$patch"; then continue; fi
   # No scene has more samples than a counter holds, and a table comes early only where the way out is slow: ctest rtl/fault_NAME.
-  # Every scene says its shade: ctest unit/cosim/faults. Only random:mixed reads registers: ctest cli/random.
+  # Every scene says its shade: ctest unit/cosim/faults. Registers are read at the end of frames: ctest cli/register_answers.
   case $name in count_wraps | early_table | unreset_shade | silent_registers) continue ;; esac
   frames=courtyard.kage
   case $name in blend_* | resolve_*) frames=glass.kage ;; sample_* | *_light) frames=lights.kage ;; esac

@@ -26,7 +26,7 @@ expect 1 "$kage" cosim random --frames 60 --config small.yaml --fault wrong_comp
 json b.json 'j["first_difference"]["divergence"]["module"] == "pixel_banked"'
 json b.json 'j["kept"]["alone"] and j["kept"]["lines"] == 1 and j["kept"]["tokens"] <= 4 and j["kept"]["width"] == 1'
 file=$(python3 -c 'import json; print(json.load(open("b.json"))["kept"]["file"])')
-grep -qF "that frame again: kage cosim $file --seed 1 --fault wrong_compare" stdout || fail "not told how to run it again: $(cat stdout)"
+grep -qF "that frame again: kage cosim $file --seed 1 --fault wrong_compare --out ${file%/*}/again" stdout || fail "not told how to run it again: $(cat stdout)"
 expect 1 "$kage" cosim "$file" --fault wrong_compare --out kept
 expect 0 "$kage" cosim "$file" --out kept
 expect 0 "$kage" info "$file"
@@ -62,7 +62,7 @@ json behind.json 'not j["kept"]["alone"] and j["kept"]["in_place"] and j["kept"]
 grep -q '^alone, on a new core, it comes out the same: it takes a reset or another frame right before it$' stdout || fail "what it takes: $(cat stdout)"
 again=$(sed -n 's/^that frame again: kage \(.* --frame 0\)$/\1/p' stdout)
 [ -n "$again" ] || fail "no line that repeats it: $(cat stdout)"
-expect 1 "$kage" $again --no-divergence --out again
+expect 1 "$kage" $again --no-divergence
 grep -q '^first difference: frame 0, line 0, ' stdout || fail "another difference: $(cat stdout)"
 
 # Where the pixels of the frame ahead are wrong, that one is kept, and no picture of the frame behind it, which is right.
@@ -72,7 +72,7 @@ json ahead.json 'j["kept"]["ahead"] and j["kept"]["alone"] and j["kept"]["file"]
 grep -q "^the frame right ahead of it: mixed/random_mixed_[0-9]*_ahead.kage: " stdout || fail "what was kept: $(cat stdout)"
 [ -z "$(find mixed -name '*.png')" ] || fail "pictures that show nothing"
 again=$(sed -n 's/^that frame again: kage //p' stdout)
-expect 1 "$kage" $again --out again
+expect 1 "$kage" $again
 
 # A signal while the frame is made smaller: what there is by then is kept. A core that hangs, on long lines with
 # stalls, makes it last.
