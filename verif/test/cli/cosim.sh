@@ -121,6 +121,12 @@ expect 0 "$kage" cosim courtyard --size 64x48 --frames 1 --out held
 
 # Two outputs are two files, by whatever name; a name makes no line of its own.
 trouble "two outputs have this name" "$kage" cosim courtyard --size 64x48 --frames 1 --json x.json --junit ./x.json
+expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --out read.kage
+cp read.kage kept.kage
+for option in --json --junit; do trouble "read.kage: this output would overwrite an input" "$kage" cosim read.kage $option ./read.kage; done
+trouble "read.kage: this output would overwrite an input" "$kage" stream read.kage --out ./read.kage
+trouble "read.kage: this output would overwrite an input" "$kage" info read.kage --json read.kage
+cmp read.kage kept.kage || fail "an input was written over"
 trouble "two outputs have this name" "$kage" cosim courtyard --size 64x48 --frames 1 --out o --junit o/../o/report.html
 expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --out plain.kage
 mv plain.kage $'two\n::error::lines.kage'

@@ -125,6 +125,26 @@ assert j["first_difference"]["scene"] == last["scene"] and os.path.exists(last["
 assert len(list(xml.parse("broken.xml").iter("failure"))) == 1
 PY
 
+# The line that runs the frame again leaves what the regression found as it is.
+expect 1 "$kage" regress --rounds 1 --config tiny --fault wrong_compare --no-divergence --out evidence
+again=$(sed -n 's/^that frame again: \(kage cosim .*\)/\1/p' "$temp/stdout")
+[ -n "$again" ] || fail "no line that runs the frame again: $(cat "$temp/stdout")"
+sums() { find evidence -type f -not -path '*/again/*' -exec sha256sum {} + | sort; }
+before=$(sums)
+expect 1 ${again/#kage /$kage } --no-divergence
+[ "$(sums)" = "$before" ] || fail "the frame by its line touches the evidence: $again"
+
+# What is read is not written over, and nothing takes the name of a file that the run writes.
+for option in --json --junit; do
+  trouble "small.yaml: this output would overwrite an input" "$kage" regress --rounds 1 --config small.yaml --config tiny $option ./small.yaml
+done
+mkdir -p taken/random.tiny.0
+expect 2 "$kage" regress --rounds 1 --config tiny --fault wrong_compare --no-divergence --out taken --json taken/random.tiny.0/random_0000.kage
+grep -q 'taken/random.tiny.0/random_0000.kage: two outputs have this name$' "$temp/stderr" || fail "a report in place of the frame: $(cat "$temp/stderr")"
+for option in "--json -" "--junit x.xml" "--jobs 2" "--minutes 1"; do
+  trouble "--list" "$kage" regress --list $option
+done
+
 # What is told of a difference is told of the runs up to it: more jobs begin more runs, and rounds, behind it.
 for jobs in 1 16; do
   expect 1 "$kage" regress --rounds 5 --config tiny --fault dead_garbage --no-divergence --jobs $jobs --out dead --json dead$jobs.json
