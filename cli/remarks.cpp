@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "contract/derived.hpp"
 #include "geometry/remarks.hpp"
 
 namespace kage::cli {
@@ -31,8 +32,7 @@ void FrameRemarks::add(const Scene& scene, const SceneFrame& frame) {
   coarse_why_ = fmt::format(
       "the nearest surface lies {:.3g} from the eye, the camera's znear is {:.3g}; of {} steps of depth that leaves "
       "{:.3g} for this surface and all behind it; a znear from {:.3g} to {:.3g} would do",
-      r.nearest, frame.camera.near, (std::int64_t{1} << config_.z_bits) - 3, r.steps, rounded_up(r.near_needed),
-      r.nearest);
+      r.nearest, frame.camera.near, derived::most_depth(config_) - 1, r.steps, rounded_up(r.near_needed), r.nearest);
 }
 
 void FrameRemarks::absorb(const FrameRemarks& later) {

@@ -10,8 +10,8 @@
 //   while they leave. frame_start_i may come only when no line is left of the frame before that one, and no line is
 //   half filled.
 // Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >>
-//   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. Face all ones is blank: Z and index all ones,
-//   colour and class 0. px_data_o = {Z, index, colour, class}.
+//   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. Of the blank face Z and index are all ones,
+//   colour and class 0. px_data_o is a point (kage_widths.svh).
 // flush_i drops all lines, in one clock; the table stays.
 // width_i matters with segments only, and holds still while a line comes in.
 // Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that
@@ -49,7 +49,13 @@ module expansion_unit #(
   assign piece = piece_i;
   assign unused_unit = ^piece.unit;  // the parent's choice
 
-  localparam int WordBits = ZStored + DX_BITS + FACE_BITS;
+  // A segment as the RAM has it.
+  typedef struct packed {
+    logic [ZStored-1:0]   z;
+    logic [DX_BITS-1:0]   dx;
+    logic [FACE_BITS-1:0] face;
+  } segment_t;
+  localparam int SegmentBits = ZStored + DX_BITS + FACE_BITS;
 
   // ---- filling -----------------------------------------------------------------------------------------------------
   logic clear, seg_take, line_complete, line_read;
@@ -104,7 +110,8 @@ module expansion_unit #(
   logic [2:0] valid_q, last_q;
   logic move0, move1, move2;
   logic [1:0] face_bank_q;
-  logic [WordBits-1:0] word, word_q;
+  segment_t segment_in, segment_q;
+  logic [SegmentBits-1:0] segment_out;
   logic [EntryBits-1:0] entry;
   logic [ZStored-1:0] z3_q;
   logic [DX_BITS-1:0] dx3_q;
@@ -138,28 +145,32 @@ module expansion_unit #(
       face_bank_q[0] <= bank_q[rd_half_q];
     end
     if (move1) begin
-      word_q <= word;
+      segment_q <= segment_out;
       last_q[1] <= last_q[0];
       face_bank_q[1] <= face_bank_q[0];
     end
     if (move2) begin
-      {z3_q, dx3_q} <= word_q[WordBits-1:FACE_BITS];
-      blank3_q <= &word_q[FACE_BITS-1:0];
+      z3_q <= segment_q.z;
+      dx3_q <= segment_q.dx;
+      blank3_q <= segment_q.face == BlankFace;
       last_q[2] <= last_q[1];
     end
   end
 
+  assign segment_in.z = piece.z[ZStored-1:0];
+  assign segment_in.dx = piece.dx;
+  assign segment_in.face = piece.face;
   ram_1r1w #(
-      .BITS (WordBits),
+      .BITS (SegmentBits),
       .WORDS(2 << SEG_BITS)
   ) u_segments (
       .clk_i,
       .wr_en_i  (seg_take),
       .wr_addr_i({wr_half_q, wr_at_q}),
-      .wr_data_i({piece.z[ZStored-1:0], piece.dx, piece.face}),
+      .wr_data_i(segment_in),
       .rd_en_i  (read),
       .rd_addr_i({rd_half_q, rd_at_q}),
-      .rd_data_o(word)
+      .rd_data_o(segment_out)
   );
 
   ram_1r1w #(
@@ -171,22 +182,21 @@ module expansion_unit #(
       .wr_addr_i({wr_bank_q, piece.face}),
       .wr_data_i(piece.entry),
       .rd_en_i  (move2),
-      .rd_addr_i({face_bank_q[1], word_q[FACE_BITS-1:0]}),
+      .rd_addr_i({face_bank_q[1], segment_q.face}),
       .rd_data_o(entry)
   );
 
   // ---- Z generator: the registers Z, X and DEF, and what the segment's pixels share --------------------------------
-  localparam int PaintBits = RgbBits + ClassBits;
   logic busy_q, step, x_end, end_seg_q, blank_q;
   logic [DepthBits-1:0] z_q, def_q;
   logic [DX_BITS-1:0] x_q;  // pixels left
-  logic [ORDER_BITS-1:0] index_q;
-  logic [PaintBits-1:0] paint, paint_q;
+  logic [PointBits-1:0] face, face_q;  // the point of the face, its depth 0
 
-  if (DSF_BITS > 0) begin : gen_class
-    assign paint = {entry[EntryBits-1-:RgbBits], entry[ORDER_BITS+:CLASS_BITS]};
-  end else begin : gen_no_class
-    assign paint = entry[EntryBits-1-:RgbBits];
+  always_comb begin
+    face = '0;
+    face[PointIndexAt+:ORDER_BITS] = entry[EntryIndexAt+:ORDER_BITS];
+    face[PointColorAt+:RgbBits] = entry[EntryColorAt+:RgbBits];
+    if (DSF_BITS > 0) face[PointClassAt+:CLASS_BITS] = entry[EntryClassAt+:CLASS_BITS];
   end
 
   assign step  = busy_q && (!px_valid_o || px_ready_i);
@@ -200,9 +210,8 @@ module expansion_unit #(
     if (load) begin
       z_q <= DepthBits'(z3_q);
       x_q <= dx3_q;
-      def_q <= entry[ORDER_BITS+ClassBits+:DepthBits];
-      index_q <= entry[ORDER_BITS-1:0];
-      paint_q <= paint;
+      def_q <= entry[EntryDzAt+:DepthBits];
+      face_q <= face;
       blank_q <= blank3_q;
       end_seg_q <= last_q[2];
     end else if (step) begin
@@ -214,18 +223,24 @@ module expansion_unit #(
   // ---- clamp and the pixel's register ------------------------------------------------------------------------------
   logic [Z_BITS+1:0] whole;
   logic [Z_BITS-1:0] depth;
+  logic [PointBits-1:0] point, blank;
   assign whole = z_q[DepthBits-1:Z_FRAC];
   always_comb begin
     if (whole[Z_BITS+1] || whole == '0) depth = Z_BITS'(1);
-    else if (whole[Z_BITS] || &whole[Z_BITS-1:0]) depth = {{(Z_BITS - 1) {1'b1}}, 1'b0};
+    else if (whole[Z_BITS] || &whole[Z_BITS-1:0]) depth = MostDepth;
     else depth = whole[Z_BITS-1:0];
+    point = face_q;
+    point[PointZAt+:Z_BITS] = depth;
+    blank = '0;
+    blank[PointZAt+:Z_BITS] = ClearDepth;
+    blank[PointIndexAt+:ORDER_BITS] = '1;
   end
 
   always_ff @(posedge clk_i) begin
     if (clear) px_valid_o <= 1'b0;
     else if (!px_valid_o || px_ready_i) px_valid_o <= busy_q;
     if (step) begin
-      px_data_o <= blank_q ? {{KeyBits{1'b1}}, {PaintBits{1'b0}}} : {depth, index_q, paint_q};
+      px_data_o <= blank_q ? blank : point;
       px_last_o <= x_end && end_seg_q;
     end
   end

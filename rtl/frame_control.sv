@@ -98,7 +98,7 @@ module frame_control #(
   logic lines_done_q;  // left_q is 0
   logic [31:0] frame_q, index_q;
   logic [RgbBits-1:0] background_q;
-  logic [SHADE_FRAC:0] shade_q;
+  logic [FactorBits-1:0] shade_q;
 
   // ---- decode ------------------------------------------------------------------------------------------------------
   logic [3:0] kind;
@@ -109,7 +109,7 @@ module frame_control #(
   assign is_end = kind == KindEnd;
   assign is_tree = UNITS > 0 && kind == KindTree;
   assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
-  assign is_table = CLASS_BITS > 1 && kind == KindTable;
+  assign is_table = HasTable && kind == KindTable;
   assign is_span = kind_has_range(kind);
 
   // ---- header ------------------------------------------------------------------------------------------------------
@@ -183,7 +183,7 @@ module frame_control #(
   assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
       (line_ready_i || !by_loads);
   // With counters only the way out can darken; a line without RESOLVE has nothing to darken.
-  assign by_loads = TRANSLUCENCY > 0 && COUNT_BITS > 0 && resolved;
+  assign by_loads = HasLoads && resolved;
   assign emit_out = emit_paint && by_loads;
   assign drop_o = bad && !token_final_i;
 
@@ -254,11 +254,11 @@ module frame_control #(
         if (by_loads) loading_q <= 1'b1;
         else painted_q <= 1'b1;
       end
-      if (TRANSLUCENCY > 0 && COUNT_BITS > 0 && loads_done_i) begin
+      if (HasLoads && loads_done_i) begin
         loading_q <= 1'b0;
         painted_q <= 1'b1;
       end
-      if (DSF_BITS > 0 && good && kind == KindShade) shade_q <= token_i[ShadeShadeLsb+:SHADE_FRAC+1];
+      if (DSF_BITS > 0 && good && kind == KindShade) shade_q <= token_i[ShadeShadeLsb+:FactorBits];
     end
   end
 

@@ -2,10 +2,10 @@
 // RESOLVE for counters: what a pixel keeps of its colour, from its counts and class. One pixel a clock, where pixels
 // leave one by one, so table and products exist once, not LANES times.
 //
-// Pixels: pixel_i is {counts, class, covered, colour}, the class with a table only, the counts 0 where the class is.
-//   LightStages clocks of go_i later pixel_o is its {covered, colour}, and factor_o each channel's factor in
-//   2^-SHADE_FRAC, channel 0 lowest: max(0, 2^SHADE_FRAC - sum over lights of count x share), where without a table
-//   share is shade_i, which holds still while pixels are within.
+// Pixels: pixel_i is a word of ExitBits (kage_widths.svh), its counts 0 where the class is. LightStages clocks of go_i
+//   later pixel_o is its {covered, colour}, and factor_o each channel's factor in 2^-SHADE_FRAC, channel 0 lowest:
+//   max(0, 2^SHADE_FRAC - sum over lights of count x share), where without a table share is shade_i, which holds still
+//   while pixels are within.
 // Table (CLASS_BITS > 1): table_valid_i writes the entry of a class and a light. No pixel within may be of a frame
 //   before: frame_control waits for the way out to be empty. What has not been written is never looked up with a count
 //   other than 0. No share is more than 1.
@@ -19,17 +19,17 @@
 module light_resolve #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam int FactorBits = SHADE_FRAC + 1
+    localparam int Passed = RgbBits + 1
 ) (
     input wire logic clk_i,
 
     input wire logic                      table_valid_i,
     input wire logic [TableEntryBits-1:0] table_i,
-    input wire logic [      SHADE_FRAC:0] shade_i,
+    input wire logic [    FactorBits-1:0] shade_i,
 
     input  wire logic                           go_i,
     input  wire logic [           ExitBits-1:0] pixel_i,
-    output logic      [              RgbBits:0] pixel_o,
+    output logic      [             Passed-1:0] pixel_o,
     output logic      [CHANNELS*FactorBits-1:0] factor_o
 );
   `include "generated/kage_buses.svh"
@@ -38,15 +38,14 @@ module light_resolve #(
   localparam int Stages = LightStages > 0 ? LightStages : 1;
   localparam int CountOne = COUNT_BITS > 0 ? COUNT_BITS : 1;
   localparam int Counts = LIGHTS * CountOne;
-  localparam int Shares = CLASS_BITS > 1 ? CHANNELS : 1;  // of a light: without a table all channels have one
+  localparam int Shares = HasTable ? CHANNELS : 1;  // of a light: without a table all channels have one
   localparam int ProductBits = CountOne + SHADE_FRAC;  // no share is more than 1, nor a count 2^CountOne
   localparam int SumBits = ProductBits + $clog2(LIGHTS);
-  localparam int Passed = RgbBits + 1;
 
   // ---- the colour goes along ---------------------------------------------------------------------------------------
   logic [Stages*Passed-1:0] passed_q;
   always_ff @(posedge clk_i) begin
-    if (go_i) passed_q <= (Stages * Passed)'({passed_q, pixel_i[Passed-1:0]});
+    if (go_i) passed_q <= (Stages * Passed)'({passed_q, pixel_i[ExitCoveredAt:ExitColorAt]});
   end
   assign pixel_o = passed_q[(Stages-1)*Passed+:Passed];
 
@@ -55,7 +54,7 @@ module light_resolve #(
   logic [Counts-1:0] counts;
   table_entry_t entry;
   assign entry = table_i;
-  if (CLASS_BITS > 1) begin : gen_table
+  if (HasTable) begin : gen_table
     logic [LIGHTS*EntryShareBits-1:0] entries, entries_q;
     logic [2*Counts-1:0] counts_q;
     logic unused_shade;
@@ -77,7 +76,7 @@ module light_resolve #(
     always_ff @(posedge clk_i) begin
       if (go_i) begin
         entries_q <= entries;
-        counts_q  <= {counts_q[Counts-1:0], pixel_i[ExitCountAt+:Counts]};
+        counts_q  <= {counts_q[Counts-1:0], pixel_i[ExitCountsAt+:Counts]};
       end
     end
     assign shares = entries_q;
@@ -86,7 +85,7 @@ module light_resolve #(
     logic unused_table;
     assign unused_table = ^{table_valid_i, entry};
     assign shares = shade_i;
-    assign counts = pixel_i[ExitCountAt+:Counts];
+    assign counts = pixel_i[ExitCountsAt+:Counts];
   end
 
   // ---- products ----------------------------------------------------------------------------------------------------
@@ -105,7 +104,7 @@ module light_resolve #(
 
   // ---- sums over the lights ----------------------------------------------------------------------------------------
   logic [Shares*SumBits-1:0] lost;
-  if (CLASS_BITS > 1) begin : gen_sums
+  if (HasTable) begin : gen_sums
     logic [Shares*SumBits-1:0] sums, sums_q;
     always_comb begin
       sums = '0;
@@ -123,7 +122,7 @@ module light_resolve #(
   end
 
   // ---- factors -----------------------------------------------------------------------------------------------------
-  localparam logic [SumBits-1:0] One = SumBits'(1) << SHADE_FRAC;
+  localparam logic [SumBits-1:0] One = SumBits'(WholeShare);
   logic [Shares*FactorBits-1:0] factors_q;
   always_ff @(posedge clk_i) begin
     if (go_i) begin

@@ -102,14 +102,13 @@ module line_out #(
 
   // ---- emptying: one pixel a clock goes into the pipeline ----------------------------------------------------------
   localparam int Depth = 5 + LightStages;  // RAM, register, lane, factor, product, colour
-  localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   logic go;  // the pipeline moves
   logic start, sending_q, issue, issue_first_q, issue_last_q;  // the pixel that is issued is the line's first, its last
   logic [  X_BITS-1:0] left_q;  // pixels of the line that have not been issued
   logic [LaneBits-1:0] lane_q;
   logic first_q, blank_q, load_q, painted_q;
   logic [RgbBits-1:0] background_q;
-  logic [SHADE_FRAC:0] keep_q;  // 1 - shade; with counters shade
+  logic [FactorBits-1:0] keep_q;  // 1 - shade; with counters shade
   logic [Depth-1:0] valid_q;
 
   // A line leaves as soon as it has begun to come in: its groups come without stops, so a pixel a clock cannot overtake
@@ -138,7 +137,7 @@ module line_out #(
       painted_q <= TRANSLUCENCY > 0 && line.painted;
       if (line.first) background_q <= line.background;
       load_q <= HasLoads && line.load;
-      if (line.first) keep_q <= COUNT_BITS > 0 ? line.shade : {1'b1, {SHADE_FRAC{1'b0}}} - line.shade;
+      if (line.first) keep_q <= COUNT_BITS > 0 ? line.shade : WholeShare - line.shade;
     end else if (go && issue) begin
       left_q <= left_q - 1'b1;
       issue_first_q <= 1'b0;
@@ -211,7 +210,7 @@ module line_out #(
   // ---- counts and class to factors ---------------------------------------------------------------------------------
   logic [RgbBits:0] colored;  // {covered, colour}
   logic is_dark;
-  logic [CHANNELS*(SHADE_FRAC+1)-1:0] factor;
+  logic [CHANNELS*FactorBits-1:0] factor;
   if (COUNT_BITS > 0) begin : gen_light
     light_resolve #(
         `include "generated/kage_pixel_param_map.svh"
@@ -229,8 +228,8 @@ module line_out #(
   end else begin : gen_dark
     logic unused_table;
     assign unused_table = ^{table_valid_i, table_i};
-    assign colored = pixel_q[RgbBits:0];
-    assign is_dark = DSF_BITS > 0 && pixel_q[ExitBits-1];
+    assign colored = pixel_q[ExitCoveredAt:ExitColorAt];
+    assign is_dark = DSF_BITS > 0 && pixel_q[ExitDarkAt];
     assign factor = {CHANNELS{keep_q}};
   end
 
@@ -244,8 +243,8 @@ module line_out #(
         dark_q <= is_dark;
         for (int c = 0; c < CHANNELS; c++) begin
           product_q[c*(SHADE_FRAC+9)+:SHADE_FRAC+9] <=
-              (SHADE_FRAC + 9)'(colored[c*8+:8]) * (SHADE_FRAC + 9)'(factor[c*(SHADE_FRAC+1)+:SHADE_FRAC+1]) +
-              (SHADE_FRAC + 9)'(1 << (SHADE_FRAC - 1));
+              (SHADE_FRAC + 9)'(colored[c*8+:8]) * (SHADE_FRAC + 9)'(factor[c*FactorBits+:FactorBits]) +
+              (SHADE_FRAC + 9)'(HalfShare);
         end
       end
     end

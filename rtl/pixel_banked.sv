@@ -35,7 +35,6 @@ module pixel_banked #(
   localparam int Levels = $clog2(LANES);
   localparam int OffBits = LANES > 1 ? Levels : 1;
   localparam int WordBits = LANES * PixelBits;
-  localparam bit HasOut = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   localparam int Last = Levels + 2;  // the stage at which a group's next state is computed; the walker is stage 0
 
   command_t cmd;
@@ -97,7 +96,7 @@ module pixel_banked #(
   logic walk_eol, next_leaves;  // a pass in which the line's pixels leave, of EOL or CmdOut, is next
 
   assign walk_eol = walk_kind_q == KindEol;
-  assign next_leaves = next_kind == KindEol || (HasOut && next_kind == CmdOut);
+  assign next_leaves = next_kind == KindEol || (HasLoads && next_kind == CmdOut);
   assign step = walk_valid_q && !walk_at_end_q;
   assign take3 = set_valid_q[2] && !step && (!next_leaves || exit_free_i) &&
       (UNITS == 0 || next_kind != KindTree || tree_here);
@@ -151,7 +150,7 @@ module pixel_banked #(
       .BITS(DepthBits),
       .FRAC(Z_FRAC),
       .LO(1),
-      .HI((1 << Z_BITS) - 2),
+      .HI(32'(MostDepth)),
       .OUT_BITS(Z_BITS)
   ) u_depth (
       .clk_i,
@@ -201,7 +200,7 @@ module pixel_banked #(
   logic [Last-1:0] valid_q;
   logic [InfoBits-1:0] info_walk;
   logic leaves;
-  assign leaves = (walk_eol && !walk_sweep_q) || (HasOut && walk_kind_q == CmdOut);
+  assign leaves = (walk_eol && !walk_sweep_q) || (HasLoads && walk_kind_q == CmdOut);
   assign info_walk = {walk_kind_q, walk_count_q, walk_share_q, walk_lanes, walk_group_q, walk_at_end_q, leaves};
   assign valid = {valid_q, walk_valid_q};
 

@@ -11,7 +11,7 @@
 module pixel_loads #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0
+    localparam logic [SlopeBits-1:0] Flat = '0
 ) (
     input  wire logic                   in_valid_i,
     output logic                        in_ready_o,
@@ -51,7 +51,7 @@ module pixel_loads #(
         out.xl = load.x;
         out.xr = load.x + 1'b1;
         out.color = color;
-        out.dcolor = '0;
+        out.dcolor = Flat;
       end
     end
   end else begin : gen_none

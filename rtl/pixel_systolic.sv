@@ -34,7 +34,6 @@ module pixel_systolic #(
   `include "generated/kage_buses.svh"
   `include "kage_pixel_next.svh"
 
-  localparam bit HasOut = TRANSLUCENCY > 0 && COUNT_BITS > 0;
   localparam int N = MAX_WIDTH;
   localparam int Segment = 16;  // pixels whose exits are joined in one clock
   localparam int Segments = (N + Segment - 1) / Segment;
@@ -46,7 +45,7 @@ module pixel_systolic #(
   logic is_leaving, enter, tree_here, tree_moving;  // a TREE may enter; its line moves
   logic [X_BITS-1:0] leaving_q;  // pixels of the leaving line that its EOL has not reached
   logic sweep_q;  // that EOL is the one of reset
-  assign is_leaving = cmd.kind == KindEol || (HasOut && cmd.kind == CmdOut);
+  assign is_leaving = cmd.kind == KindEol || (HasLoads && cmd.kind == CmdOut);
   assign cmd_ready_o = (!is_leaving || (exit_free_i && leaving_q == '0)) &&
       (UNITS == 0 || cmd.kind != KindTree || tree_here);
   assign enter = cmd_valid_i && cmd_ready_o;
@@ -85,7 +84,7 @@ module pixel_systolic #(
   function automatic logic [Z_BITS-1:0] clamp_z(input logic signed [Z_BITS+1:0] whole);
     begin
       if (whole < (Z_BITS + 2)'(1)) clamp_z = Z_BITS'(1);
-      else if (whole > (Z_BITS + 2)'((1 << Z_BITS) - 2)) clamp_z = {{(Z_BITS - 1) {1'b1}}, 1'b0};
+      else if (whole > $signed((Z_BITS + 2)'(MostDepth))) clamp_z = MostDepth;
       else clamp_z = whole[Z_BITS-1:0];
     end
   endfunction
@@ -185,7 +184,7 @@ module pixel_systolic #(
         pixel_d[i*PixelBits+:PixelBits] =
             pixel_next(pixel, kind, depth, color, count, share_q[(i+1)*ShareBits+:ShareBits]);
         // Of the EOLs and CmdOuts in the chain only one is among its line's pixels: the OR of all exits is that one's.
-        if (kind == KindEol || (HasOut && kind == CmdOut)) begin
+        if (kind == KindEol || (HasLoads && kind == CmdOut)) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count[DsfBits-1:0]);
           joined_d[(i/Segment)*ExitBits+:ExitBits] = leaving;
         end

@@ -111,7 +111,7 @@ module segment_check #(
     if (is_tree_i) order_error_o = !due_q;
     if (is_eol_i || is_other_i) order_error_o = due_q;
     range_error_o = (is_face_i || is_seg_i) && lacking;
-    if (is_face_i && (face_i != faces || &face_i)) range_error_o = 1'b1;
+    if (is_face_i && (face_i != faces || face_i == BlankFace)) range_error_o = 1'b1;
   end
 
   // ---- a segment ---------------------------------------------------------------------------------------------------
@@ -126,7 +126,7 @@ module segment_check #(
   assign seg_fault  = is_seg_i && !fault && seg_code != ErrNone;
   always_comb begin
     if (too_early) seg_code = ErrUnitLong;
-    else if (sync_i != begins || dx_i == '0 || (!(&face_i) && face_i >= faces)) seg_code = ErrSegment;
+    else if (sync_i != begins || dx_i == '0 || (face_i != BlankFace && face_i >= faces)) seg_code = ErrSegment;
     else if (sum_next > SumBits'(width_i) || (!begins && count == '0)) seg_code = ErrUnitLong;
     else seg_code = ErrNone;
   end

@@ -17,7 +17,7 @@
 module table_check #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam int FactorBits = SHADE_FRAC + 1
+    localparam int NextBits = CLASS_BITS + 1  // past the last class nothing is next
 ) (
     input wire logic clk_i,
 
@@ -35,8 +35,8 @@ module table_check #(
     output logic lacking_o
 );
 
-  // The next entry. One bit more than a class has: past the last one nothing is next.
-  logic [CLASS_BITS:0] class_q;
+  // The next entry.
+  logic [NextBits-1:0] class_q;
   logic [LightBits-1:0] light_q;
   logic state_q;  // the frame's state may still grow
 
@@ -45,14 +45,14 @@ module table_check #(
   always_comb begin
     range_error_o = {1'b0, class_i} != class_q || light_i != light_q;
     for (int c = 0; c < CHANNELS; c++) begin
-      if (share_i[c*FactorBits+:FactorBits] > {1'b1, {SHADE_FRAC{1'b0}}}) range_error_o = 1'b1;
+      if (share_i[c*FactorBits+:FactorBits] > WholeShare) range_error_o = 1'b1;
     end
   end
 
   always_ff @(posedge clk_i) begin
     if (frame_start_i) begin
       state_q <= 1'b1;
-      class_q <= (CLASS_BITS + 1)'(1);
+      class_q <= NextBits'(1);
       light_q <= '0;
     end else begin
       if (take_other_i) state_q <= 1'b0;

@@ -112,7 +112,7 @@ module token_check #(
   );
 
   // ---- light table -------------------------------------------------------------------------------------------------
-  if (CLASS_BITS > 1) begin : gen_table
+  if (HasTable) begin : gen_table
     logic is_op, is_table, lacking, class_used, entry_error;
     logic [CLASS_BITS-1:0] span_class;
     assign is_op = kind == KindOp;

@@ -20,9 +20,7 @@ module token_facts #(
   `include "generated/kage_buses.svh"
   `include "generated/kage_order.svh"
 
-  localparam logic [SHADE_FRAC:0] ShadeMost = {1'b1, {SHADE_FRAC{1'b0}}};
-
-  facts_t facts;
+facts_t facts;
   assign facts_o = facts;
 
   logic unused_token;
@@ -47,7 +45,7 @@ module token_facts #(
     facts.empty = xl == xr;
     facts.bad_range = kind_has_range(kind) && xl > xr;
     if (COUNT_BITS > 0 && kind == KindEs && 32'(token_i[EsLightLsb+:LightBits]) >= 32'(LIGHTS)) facts.bad_range = 1'b1;
-    if (kind == KindShade && token_i[ShadeShadeLsb+:SHADE_FRAC+1] > ShadeMost) facts.bad_range = 1'b1;
+    if (kind == KindShade && token_i[ShadeShadeLsb+:FactorBits] > WholeShare) facts.bad_range = 1'b1;
   end
 
 endmodule

@@ -147,10 +147,10 @@ module tree_core #(
   );
 
   logic unused_index;
-  assign unused_index = ^point[PointBits-Z_BITS-1-:ORDER_BITS];
-  assign line.z = point[PointBits-1-:Z_BITS];
-  assign line.color = point[ClassBits+:RgbBits];
-  assign line.normal_class = DSF_BITS > 0 ? point[CLASS_BITS-1:0] : '0;
+  assign unused_index = ^point[PointIndexAt+:ORDER_BITS];
+  assign line.z = point[PointZAt+:Z_BITS];
+  assign line.color = point[PointColorAt+:RgbBits];
+  assign line.normal_class = DSF_BITS > 0 ? point[PointClassAt+:CLASS_BITS] : '0;
   assign line.last = last;
 
   // ---- assertions --------------------------------------------------------------------------------------------------

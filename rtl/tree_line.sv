@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree's line in front of pixel_banked: a second line buffer of {class, colour, Z}, which a TREE reads group by
-// group along with the state of the pixels.
+// The tree's line in front of pixel_banked: a second line buffer, of what a pixel's state begins with: depth, colour
+// and class. A TREE reads it group by group along with the state of the pixels.
 //
 // In: tree_* is valid/ready. A pixel comes in a clock, whether or not a TREE is near, until the line is in whole, with
 //   `last` at its last pixel; the next line comes in right behind the pass that reads this one. drop_i forgets a part
@@ -46,7 +46,7 @@ module tree_line #(
 
   localparam int Levels = $clog2(LANES);
   localparam int OffBits = LANES > 1 ? Levels : 1;
-  localparam int PaintBits = Z_BITS + RgbBits + ClassBits;
+  localparam int PaintBits = Z_BITS + RgbBits + ClassBits;  // of PixelBits
 
   tree_pixel_t tree;
   assign tree = tree_i;
@@ -58,12 +58,13 @@ module tree_line #(
   logic [AddrBits-1:0] in_group_q, in_addr_q;
   logic [PaintBits-1:0] in_pixel;
   logic [LANES*PaintBits-1:0] in_word_q, tree_word, tree_q;
-  if (DSF_BITS > 0) begin : gen_class
-    assign in_pixel = {tree.normal_class, tree.color, tree.z};
-  end else begin : gen_no_class
-    logic unused_class;
-    assign unused_class = ^tree.normal_class;
-    assign in_pixel = {tree.color, tree.z};
+  logic unused_class;
+  assign unused_class = ^tree.normal_class;  // without shadows
+  always_comb begin
+    in_pixel = '0;
+    in_pixel[PixelZAt+:Z_BITS] = tree.z;
+    in_pixel[PixelColorAt+:RgbBits] = tree.color;
+    if (DSF_BITS > 0) in_pixel[PixelClassAt+:CLASS_BITS] = tree.normal_class;
   end
   assign tree_ready_o = !full_q;
   assign in_take = tree_valid_i && tree_ready_o && !drop_i;
@@ -115,9 +116,9 @@ module tree_line #(
   always_comb begin
     class_o = '0;
     for (int l = 0; l < LANES; l++) begin
-      z_o[l*Z_BITS+:Z_BITS] = tree_q[l*PaintBits+:Z_BITS];
-      color_o[l*RgbBits+:RgbBits] = tree_q[l*PaintBits+Z_BITS+:RgbBits];
-      if (DSF_BITS > 0) class_o[l*CLASS_BITS+:CLASS_BITS] = tree_q[(l+1)*PaintBits-1-:CLASS_BITS];
+      z_o[l*Z_BITS+:Z_BITS] = tree_q[l*PaintBits+PixelZAt+:Z_BITS];
+      color_o[l*RgbBits+:RgbBits] = tree_q[l*PaintBits+PixelColorAt+:RgbBits];
+      if (DSF_BITS > 0) class_o[l*CLASS_BITS+:CLASS_BITS] = tree_q[l*PaintBits+PixelClassAt+:CLASS_BITS];
     end
   end
 

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "contract/derived.hpp"
 #include "contract/fields.hpp"
 #include "golden_names.hpp"
 #include "kage/golden.h"
@@ -28,7 +29,7 @@ long long token_field(const kage::Config& config, const kage::Layout& layout, co
 
 int pixel_field(const kage::Config& config, const kage::LineView& line, int x, int field) {
   const kage::PixelState p = line.pixel(x);
-  const bool clear = p.z == (1U << config.z_bits) - 1;
+  const bool clear = p.z == kage::derived::clear_depth(config);
   if (field >= KAGE_PIXEL_COUNT) return static_cast<int>(p.counts[static_cast<std::size_t>(field - KAGE_PIXEL_COUNT)]);
   switch (field) {
     case KAGE_PIXEL_Z:

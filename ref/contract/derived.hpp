@@ -5,10 +5,38 @@
 // Numbers that follow from the parameters; in SystemVerilog: rtl/include/generated/kage_widths.svh.
 #pragma once
 
+#include <cstdint>
+
 #include "kage/defs.hpp"
 
 namespace kage::derived {
 
+/// a light's share is looked up in a table, by class
+constexpr bool has_table(const Config& c) { return c.class_bits > 1; }
+/// colours come back: a line with samples leaves to be darkened before its first TP
+constexpr bool has_loads(const Config& c) { return c.translucency > 0 && c.count_bits > 0; }
+/// a pixel's depth where nothing has been drawn
+constexpr std::uint32_t clear_depth(const Config& c) { return static_cast<std::uint32_t>((1 << c.z_bits) - 1); }
+/// the greatest depth that is drawn; the least is 1
+constexpr std::uint32_t most_depth(const Config& c) { return static_cast<std::uint32_t>((1 << c.z_bits) - 2); }
+/// the face of a segment that shows nothing
+constexpr int blank_face(const Config& c) { return (1 << c.face_bits) - 1; }
+/// pixels of the longest segment
+constexpr int most_dx(const Config& c) { return (1 << c.dx_bits) - 1; }
+/// segments of a line that a unit buffers
+constexpr int most_segments(const Config& c) { return 1 << c.seg_bits; }
+/// the greatest class, and how many classes with light there are
+constexpr int most_class(const Config& c) { return (1 << c.class_bits) - 1; }
+/// the greatest DSF, and its bits
+constexpr std::uint32_t most_dsf(const Config& c) { return static_cast<std::uint32_t>((1 << c.dsf_bits) - 1); }
+/// a full counter of samples
+constexpr std::uint32_t most_count(const Config& c) { return static_cast<std::uint32_t>((1 << c.count_bits) - 1); }
+/// a share of colour, and what it leaves
+constexpr int factor_bits(const Config& c) { return c.shade_frac + 1; }
+/// all of a colour
+constexpr std::uint32_t whole_share(const Config& c) { return static_cast<std::uint32_t>(1 << c.shade_frac); }
+/// a half of it, which rounds a product with a share
+constexpr std::uint32_t half_share(const Config& c) { return static_cast<std::uint32_t>(1 << (c.shade_frac - 1)); }
 /// depth accumulator
 constexpr int depth_bits(const Config& c) { return c.z_bits + c.z_frac + 2; }
 /// one channel of a span's colour
@@ -37,24 +65,26 @@ constexpr int share_bits(const Config& c) { return c.translucency == 0 ? 1 : (c.
 constexpr int rgb_bits(const Config& c) { return 8 * c.channels; }
 /// a pixel's counters
 constexpr int tally_bits(const Config& c) { return c.lights * c.count_bits; }
-/// the class in a pixel that leaves
-constexpr int exit_class_at(const Config& c) { return c.class_bits > 1 ? rgb_bits(c) + 1 : 0; }
-/// the counts in it
-constexpr int exit_count_at(const Config& c) { return c.count_bits == 0 ? 0 : rgb_bits(c) + 1 + (c.class_bits > 1 ? c.class_bits : 0); }
-/// a pixel that leaves
-constexpr int exit_bits(const Config& c) { return c.dsf_bits == 0 ? rgb_bits(c) + 1 : (c.count_bits == 0 ? rgb_bits(c) + 2 : exit_count_at(c) + tally_bits(c)); }
+/// the class of a pixel that leaves
+constexpr int exit_class_bits(const Config& c) { return has_table(c) ? c.class_bits : 0; }
+/// whether a pixel that leaves is in shadow, where no counts say it
+constexpr int dark_bits(const Config& c) { return c.count_bits == 0 && c.dsf_bits > 0 ? 1 : 0; }
 /// an entry of the light table
-constexpr int entry_share_bits(const Config& c) { return c.channels * (c.shade_frac + 1); }
+constexpr int entry_share_bits(const Config& c) { return c.channels * factor_bits(c); }
 /// clocks of light_resolve
-constexpr int light_stages(const Config& c) { return c.count_bits == 0 ? 0 : (c.class_bits > 1 ? 5 : 2); }
+constexpr int light_stages(const Config& c) { return c.count_bits == 0 ? 0 : (has_table(c) ? 5 : 2); }
 /// an expansion unit's number
 constexpr int unit_bits(const Config& c) { return c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))); }
-/// {colour, dz, class, index}, as FACE has them
-constexpr int entry_bits(const Config& c) { return c.order_bits + class_field_bits(c) + depth_bits(c) + rgb_bits(c); }
 /// what the compare tree compares: {Z, index}
 constexpr int key_bits(const Config& c) { return c.z_bits + c.order_bits; }
-/// a pixel in the compare tree: {Z, index, colour, class}
-constexpr int point_bits(const Config& c) { return key_bits(c) + rgb_bits(c) + class_field_bits(c); }
+/// a pixel's state
+constexpr int pixel_bits(const Config& c) { return c.z_bits + rgb_bits(c) + class_field_bits(c) + c.dsf_bits + c.fsf + tally_bits(c); }
+/// a pixel that leaves
+constexpr int exit_bits(const Config& c) { return rgb_bits(c) + 1 + exit_class_bits(c) + tally_bits(c) + dark_bits(c); }
+/// a face in its unit's table, as FACE has it from index on
+constexpr int entry_bits(const Config& c) { return c.order_bits + class_field_bits(c) + depth_bits(c) + rgb_bits(c); }
+/// a pixel in the compare tree, with its key highest
+constexpr int point_bits(const Config& c) { return class_field_bits(c) + rgb_bits(c) + c.order_bits + c.z_bits; }
 
 /// Commands that are no token, by kinds of tokens that never become commands.
 inline constexpr Kind kCommandLoad = static_cast<Kind>(1);  ///< a line's pixel comes back

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "contract/derived.hpp"
 #include "contract/kinds.hpp"
 #include "contract/order.hpp"
 #include "contract/segment_rules.hpp"
@@ -61,10 +62,10 @@ class TokenRules {
   [[nodiscard]] bool in_range(const Token& t) const {
     switch (t.kind) {
       case Kind::SHADE:
-        return t.shade <= (1U << config_->shade_frac);
+        return t.shade <= derived::whole_share(*config_);
       case Kind::TABLE:
         return t.table.normal_class == next_class_ && t.table.light == next_light_ &&
-               std::ranges::all_of(t.table.share, [this](auto s) { return s <= (1U << config_->shade_frac); });
+               std::ranges::all_of(t.table.share, [this](auto s) { return s <= derived::whole_share(*config_); });
       case Kind::FACE:
         return has_class(t.segment.normal_class);
       case Kind::OP:
@@ -80,7 +81,7 @@ class TokenRules {
 
   /// Whether the frame's table has this class whole; without a table there is nothing to have.
   [[nodiscard]] bool has_class(int normal_class) const {
-    return config_->class_bits == 1 || normal_class < next_class_;
+    return !derived::has_table(*config_) || normal_class < next_class_;
   }
 
   ErrorCode accept_segment(const Token& t, std::uint32_t token) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "contract/derived.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {
@@ -60,7 +61,8 @@ class SegmentRules {
     if (u.lines > line + 1) return at_fault(ErrorCode::UNIT_LONG, line + 1);
     if (t.sync != (u.sum == 0) || t.dx == 0 || (t.face != blank() && t.face >= u.faces))
       return at_fault(ErrorCode::SEGMENT, u.lines);
-    if (u.sum + t.dx > width_ || u.segments == 1 << config_->seg_bits) return at_fault(ErrorCode::UNIT_LONG, u.lines);
+    if (u.sum + t.dx > width_ || u.segments == derived::most_segments(*config_))
+      return at_fault(ErrorCode::UNIT_LONG, u.lines);
     u.sum += t.dx;
     ++u.segments;
     if (u.sum == width_) {
@@ -97,7 +99,7 @@ class SegmentRules {
     std::uint32_t fault_token = 0;
   };
 
-  [[nodiscard]] int blank() const { return (1 << config_->face_bits) - 1; }
+  [[nodiscard]] int blank() const { return derived::blank_face(*config_); }
 
   const Config* config_ = nullptr;
   int width_ = 0;

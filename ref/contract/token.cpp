@@ -6,6 +6,7 @@
 #include <concepts>
 #include <iterator>
 
+#include "contract/derived.hpp"
 #include "contract/fields.hpp"
 #include "contract/token_text.hpp"
 #include "kage/error.hpp"
@@ -39,7 +40,7 @@ class TokenText {
   void as_depth(std::int64_t value) { add("{}", static_cast<double>(value) * z_unit_); }
   void as_share(const auto& value) {
     as_plain(value);
-    add("/{}", 1U << config_.shade_frac);
+    add("/{}", derived::whole_share(config_));
   }
   void as_ramp(const std::array<std::int32_t, 3>& color, const std::array<std::int32_t, 3>& slope) {
     each_channel([&](std::size_t c) {
@@ -50,13 +51,13 @@ class TokenText {
   /// Nothing in a core without shadows.
   void as_class(int normal_class) {
     if (config_.dsf_bits == 0) return;
-    if (config_.class_bits == 1)
+    if (!derived::has_table(config_))
       text(normal_class != 0 ? " lit" : " unlit");
     else
       add(" class {}", normal_class);
   }
   void as_face(int face, std::int64_t z) {
-    if (face == (1 << config_.face_bits) - 1) return text(" blank");
+    if (face == derived::blank_face(config_)) return text(" blank");
     add(" face {} z ", face);
     as_depth(z);
   }

@@ -29,13 +29,13 @@ void ExpansionUnit::add_segment(const SegmentToken& s, int width) {
 
 void ExpansionUnit::expand(TreeLine& out) {
   const int shift = 64 - derived::depth_bits(config_);
-  const std::int64_t z_max = (std::int64_t{1} << config_.z_bits) - 2;
-  const std::uint64_t clear = ((std::uint64_t{1} << config_.z_bits) - 1) << TreeLine::kIndexBits | 0xFFFFU;
+  const std::int64_t z_max = derived::most_depth(config_);
+  const std::uint64_t clear = std::uint64_t{derived::clear_depth(config_)} << TreeLine::kIndexBits | 0xFFFFU;
   std::size_t x = 0;
   auto& line = lines_[static_cast<std::size_t>(oldest_)];
   for (const Segment& s : line) {
     const auto n = static_cast<std::size_t>(s.dx);
-    if (s.face == (1 << config_.face_bits) - 1) {
+    if (s.face == derived::blank_face(config_)) {
       std::fill_n(out.key.begin() + static_cast<std::ptrdiff_t>(x), n, clear);
       std::fill_n(out.attr.begin() + static_cast<std::ptrdiff_t>(x), n, std::uint64_t{0});
     } else {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "contract/derived.hpp"
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/error.hpp"
@@ -18,7 +19,7 @@ namespace {
 class History : public CoreObserver {
  public:
   History(const Config& config, int x, int y, PixelHistory& history)
-      : config_(config), clear_((1U << config.z_bits) - 1U), x_(x), y_(y), history_(&history) {}
+      : config_(config), clear_(derived::clear_depth(config)), x_(x), y_(y), history_(&history) {}
 
   void before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> /*words*/,
               const LineView& line) override {
@@ -119,7 +120,7 @@ class History : public CoreObserver {
   }
 
   [[nodiscard]] std::uint32_t sum(const PixelState& s) const {
-    return (s.dsf + touch_.bias_before) & ((1U << config_.dsf_bits) - 1U);
+    return (s.dsf + touch_.bias_before) & derived::most_dsf(config_);
   }
 
   [[nodiscard]] std::string resolve() const {
@@ -131,8 +132,8 @@ class History : public CoreObserver {
     if (config_.count_bits == 0) {
       const bool shadow = config_.fsf != 0 ? from.fsf != 0 : sum(from) != 0;
       if (!shadow) return "not in shadow";
-      return fmt::format("in shadow: {}, {} of {} kept", change, (1U << config_.shade_frac) - shade_,
-                         1U << config_.shade_frac);
+      const std::uint32_t whole = derived::whole_share(config_);
+      return fmt::format("in shadow: {}, {} of {} kept", change, whole - shade_, whole);
     }
     std::string counts;
     for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l)
@@ -212,16 +213,16 @@ PixelHistory explain_pixel(const Config& config, std::span<const std::uint32_t> 
 
 std::string describe(const Config& config, const PixelState& s) {
   std::string text;
-  if (s.z == (1U << config.z_bits) - 1U)
+  if (s.z == derived::clear_depth(config))
     text = s.color == std::array<std::uint8_t, 3>{} ? "clear"
                                                     : fmt::format("clear, colour {}", color_text(config, s.color));
   else
     text = fmt::format("Z {}, colour {}", s.z, color_text(config, s.color));
   if (config.dsf_bits == 0) return text;
-  if (s.z != (1U << config.z_bits) - 1U)
-    text += config.class_bits > 1 ? fmt::format(", class {}", s.normal_class)
-            : s.normal_class != 0 ? ", lit"
-                                  : ", unlit";
+  if (s.z != derived::clear_depth(config))
+    text += derived::has_table(config) ? fmt::format(", class {}", s.normal_class)
+            : s.normal_class != 0      ? ", lit"
+                                       : ", unlit";
   text += fmt::format(", DSF {}", s.dsf);
   if (config.fsf != 0) text += fmt::format(", FSF {}", s.fsf);
   if (config.count_bits > 0)
@@ -231,7 +232,7 @@ std::string describe(const Config& config, const PixelState& s) {
 }
 
 std::vector<std::string> describe_tree(const Config& config, const PixelHistory& h) {
-  const std::uint32_t clear = (1U << config.z_bits) - 1U;
+  const std::uint32_t clear = derived::clear_depth(config);
   const auto text = [&](const LineView::UnitPixel& p) {
     return p.z == clear ? "nothing" : fmt::format("Z {} of index {}", p.z, p.index);
   };

@@ -10,21 +10,25 @@ namespace {
 
 constexpr std::uint32_t kLit = 1U << 24;
 
+/// As a line's depths have it.
+std::int32_t clear_depth(const Config& c) { return static_cast<std::int32_t>(derived::clear_depth(c)); }
+
 DepthRamp depth_ramp(const Config& c, const SpanToken& s) {
   const int spare = 64 - derived::depth_bits(c);
   return {static_cast<std::int64_t>(static_cast<std::uint64_t>(s.z) << spare),
-          static_cast<std::int64_t>(static_cast<std::uint64_t>(s.dz) << spare), 30 - c.z_bits, (1 << c.z_bits) - 2};
+          static_cast<std::int64_t>(static_cast<std::uint64_t>(s.dz) << spare), 30 - c.z_bits,
+          static_cast<std::int32_t>(derived::most_depth(c))};
 }
 
 }  // namespace
 
-PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_((1U << config.dsf_bits) - 1U) {
+PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_(derived::most_dsf(config)) {
   const auto n = static_cast<std::size_t>(config.max_width) + kKernelSlack;
   zb_.resize(n);
   attr_.resize(n);
   dsf_.resize(n);
   fsf_.resize(n);
-  if (config.class_bits > 1) class_.resize(n);
+  if (derived::has_table(config)) class_.resize(n);
   if (config.count_bits > 0) counts_.assign(static_cast<std::size_t>(config.lights), std::vector<std::uint32_t>(n));
 }
 
@@ -36,7 +40,7 @@ void PixelLine::start(int width, std::uint32_t background) {
   bias_ = 0;
   shadow_touched_ = false;
   painted_ = false;
-  std::fill(zb_.begin(), zb_.end(), (1 << config_.z_bits) - 1);
+  std::fill(zb_.begin(), zb_.end(), clear_depth(config_));
   std::fill(dsf_.begin(), dsf_.end(), 0U);
   std::fill(fsf_.begin(), fsf_.end(), 0U);
   clear_counts();
@@ -106,7 +110,7 @@ void PixelLine::ev(int xl, int xr) {
 
 void PixelLine::es(int xl, int xr, int light) {
   std::uint32_t* counts = counts_[static_cast<std::size_t>(light)].data() + xl;
-  const std::uint32_t most = (1U << config_.count_bits) - 1U;
+  const std::uint32_t most = derived::most_count(config_);
   if (config_.fsf != 0)
     span_es(xr - xl, fsf_.data() + xl, counts, 0, 1, most);
   else
@@ -122,9 +126,9 @@ void PixelLine::clear_counts() {
 
 // What a pixel keeps of a channel, in 2^-SHADE_FRAC.
 std::uint32_t PixelLine::factor(std::size_t x, std::size_t channel) const {
-  const std::uint32_t one = 1U << config_.shade_frac;
+  const std::uint32_t one = derived::whole_share(config_);
   std::uint32_t lost = 0;
-  if (config_.class_bits == 1) {
+  if (!derived::has_table(config_)) {
     if ((attr_[x] & kLit) != 0) lost = counts_[0][x] * shade_;
   } else if (class_[x] != 0) {
     const std::size_t first = (class_[x] - 1) * counts_.size();
@@ -143,9 +147,9 @@ void PixelLine::resolve() {
 }
 
 void PixelLine::resolve_flags() {
-  const std::uint32_t keep = (1U << config_.shade_frac) - shade_;
-  const std::uint32_t half = 1U << (config_.shade_frac - 1);
-  const std::int32_t clear = (1 << config_.z_bits) - 1;
+  const std::uint32_t keep = derived::whole_share(config_) - shade_;
+  const std::uint32_t half = derived::half_share(config_);
+  const std::int32_t clear = clear_depth(config_);
   for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
     const bool shadowed = config_.fsf != 0 ? fsf_[x] != 0 : ((dsf_[x] + bias_) & dsf_mask_) != 0;
     const std::uint32_t a = attr_[x];
@@ -158,8 +162,8 @@ void PixelLine::resolve_flags() {
 
 void PixelLine::resolve_counts() {
   if (!any_count_) return;
-  const std::uint32_t half = 1U << (config_.shade_frac - 1);
-  const std::int32_t clear = (1 << config_.z_bits) - 1;
+  const std::uint32_t half = derived::half_share(config_);
+  const std::int32_t clear = clear_depth(config_);
   for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
     std::uint32_t any = 0;
     for (const auto& counts : counts_) any |= counts[x];
@@ -174,7 +178,7 @@ void PixelLine::resolve_counts() {
 
 void PixelLine::tp(const SpanToken& s) {
   if (!painted_) {
-    const std::int32_t clear = (1 << config_.z_bits) - 1;
+    const std::int32_t clear = clear_depth(config_);
     for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x)
       attr_[x] = zb_[x] == clear ? background_ : attr_[x];
     painted_ = true;
@@ -187,7 +191,7 @@ PixelState PixelLine::state(int x) const {
   const auto i = static_cast<std::size_t>(x);
   PixelState s;
   s.z = static_cast<std::uint32_t>(zb_[i]);
-  const bool clear = zb_[i] == (1 << config_.z_bits) - 1;
+  const bool clear = zb_[i] == clear_depth(config_);
   // What a clear pixel's colour and class were on lines before is never seen.
   if (!clear || painted_)
     for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
@@ -200,7 +204,7 @@ PixelState PixelLine::state(int x) const {
 }
 
 void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
-  const std::int32_t clear = (1 << config_.z_bits) - 1;
+  const std::int32_t clear = clear_depth(config_);
   const auto width = static_cast<std::size_t>(width_);
   if (blank) std::fill_n(attr_.begin(), width, background_);
   // Painted pixels have the background's colour already where they need it; no depth is below 0.

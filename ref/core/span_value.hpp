@@ -24,7 +24,7 @@ inline std::uint32_t span_depth(const Config& c, const SpanToken& s, int x) {
   const std::int64_t sum =
       wrapped(static_cast<std::uint64_t>(s.z) + static_cast<std::uint64_t>(s.dz) * static_cast<std::uint64_t>(x - s.xl),
               derived::depth_bits(c));
-  const std::int64_t most = (std::int64_t{1} << c.z_bits) - 2;
+  const std::int64_t most = derived::most_depth(c);
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(sum >> c.z_frac, 1, most));
 }
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "contract/derived.hpp"
 #include "frontend/cut.hpp"
 #include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
@@ -53,7 +54,7 @@ class Band {
         writer_(*frame.config, words_),
         depth_(SpanSetup::depth(*frame.config)),
         color_(frame.config->color_frac, 10 + frame.config->color_frac),
-        most_weight_((1 << frame.config->dsf_bits) - 1) {}
+        most_weight_(static_cast<int>(derived::most_dsf(*frame.config))) {}
 
   /// What the next band touches, to be filled in before make().
   BandWork& work() { return work_; }

@@ -8,6 +8,7 @@
 #include <deque>
 
 #include "arena/arena.hpp"
+#include "contract/derived.hpp"
 #include "frontend/band.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
@@ -109,7 +110,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
   writer.header({g.width, g.height, g.background, number});
-  if (config.class_bits > 1)
+  if (derived::has_table(config))
     write_table(g, config, writer);
   else if (config.dsf_bits > 0 && !g.volumes.empty())
     writer.shade(g.shade);

@@ -10,9 +10,9 @@ namespace kage {
 PolyhedronScanner::PolyhedronScanner(const FrameGeometry& geometry, const Config& config)
     : g_(&geometry),
       setup_(SpanSetup::depth(config)),
-      z_bits_(config.z_bits),
+      most_depth_(derived::most_depth(config)),
       z_frac_(config.z_frac),
-      max_dx_((1 << config.dx_bits) - 1) {
+      max_dx_(derived::most_dx(config)) {
   const int bits = derived::depth_bits(config);
   least_z_ = config.classic != 0 ? 0 : -(std::int64_t{1} << (bits - 1));
   most_z_ = config.classic != 0 ? 32767 : (std::int64_t{1} << (bits - 1)) - 1;
@@ -108,7 +108,7 @@ void PolyhedronScanner::fill(int y) {
 
 std::int64_t PolyhedronScanner::depth(const Part& p, int x) const {
   const std::int64_t z = (p.ramp.start + (x - p.xl) * p.ramp.step) >> z_frac_;
-  return std::clamp(z, std::int64_t{1}, (std::int64_t{1} << z_bits_) - 2);
+  return std::clamp(z, std::int64_t{1}, most_depth_);
 }
 
 // Of overlapping parts, which only the snap can make, each pixel goes to the least (Z, polygon), as spans would have

@@ -93,7 +93,7 @@ class PolyhedronScanner {
 
   const FrameGeometry* g_;
   SpanSetup setup_;
-  int z_bits_;
+  std::int64_t most_depth_;
   int z_frac_;
   int max_dx_;
   std::int64_t least_z_;  // of a segment's start

@@ -14,7 +14,7 @@ namespace kage {
 
 /// The class of a polygon's spans: of its normal, or, without table, whether it is lit.
 inline int span_class(const ScreenPolygon& p, const Config& config) {
-  if (config.class_bits > 1) return static_cast<int>(p.normal_class);
+  if (derived::has_table(config)) return static_cast<int>(p.normal_class);
   return p.lit ? 1 : 0;
 }
 

@@ -20,7 +20,7 @@ TreePlan::TreePlan(const FrameGeometry& g, const Config& config)
       unit_of_(g.polyhedra.size(), PolyhedraReport::kSpans),
       members_(static_cast<std::size_t>(config.units)) {
   if (config.units == 0) return;
-  const int max_dx = (1 << config.dx_bits) - 1;
+  const int max_dx = derived::most_dx(config);
   PolyhedronScanner scanner(g, config);
   std::vector<UnitNeed> needs;
   const auto most = std::min(g.polyhedra.size(), std::size_t{1} << config.order_bits);
@@ -50,7 +50,7 @@ TreePlan::TreePlan(const FrameGeometry& g, const Config& config)
     if (need.end > 0) need.faces = static_cast<int>(g.polyhedra[i].polygon_count);
     needs.push_back(need);
   }
-  const UnitRoom room{config.units, blank(), 1 << config.seg_bits, max_dx, g.width};
+  const UnitRoom room{config.units, blank(), derived::most_segments(config), max_dx, g.width};
   const std::vector<int> units = assign_units(needs, room);
   if (units.size() < needs.size())
     stop_ = PolyhedraReport::Stop::no_unit;
@@ -106,7 +106,7 @@ void TreePlan::segments(int y0, int y1, std::span<const std::uint32_t> edges,
     std::int64_t step;
   };
   const SpanSetup setup = SpanSetup::depth(*config_);
-  const int max_dx = (1 << config_->dx_bits) - 1;
+  const int max_dx = derived::most_dx(*config_);
   PolyhedronScanner scanner(*g_, *config_);
   std::vector<std::vector<FaceRun>> runs;
   lines.resize(static_cast<std::size_t>(y1 - y0));

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "contract/derived.hpp"
 #include "frontend/polyhedron.hpp"
 #include "frontend/scan.hpp"
 #include "kage/frontend.hpp"
@@ -43,7 +44,7 @@ class TreePlan {
     int first_face;  // in its unit's table
   };
 
-  [[nodiscard]] int blank() const { return (1 << config_->face_bits) - 1; }
+  [[nodiscard]] int blank() const { return derived::blank_face(*config_); }
 
   const FrameGeometry* g_;
   const Config* config_;

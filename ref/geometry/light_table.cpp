@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "contract/derived.hpp"
 #include "geometry/view.hpp"
 
 namespace kage {
@@ -10,7 +11,7 @@ namespace kage {
 LightTable::LightTable(const Config& config, const Look& look, std::span<const Light> lights, const Lighting& lighting,
                        std::span<const int> samples)
     : config_(&config), lighting_(&lighting), samples_(samples) {
-  if (config.class_bits < 2) return;
+  if (!derived::has_table(config)) return;
   normals_.emplace(look.classes);
   positional_ = std::any_of(lights.begin(), lights.end(), [](const Light& l) { return !l.directional; });
 }
@@ -64,7 +65,7 @@ std::vector<glm::dvec3> LightTable::shares(const Class& c) const {
 
 void LightTable::finish(FrameGeometry& out) {
   if (!normals_) return;
-  const std::size_t most = (std::size_t{1} << config_->class_bits) - 1;
+  const auto most = static_cast<std::size_t>(derived::most_class(*config_));
   std::vector<std::uint32_t> number(classes_.size() + 1);
   for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<std::uint32_t>(i);
   for (int count = normals_->count(); classes_.size() > most;) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "contract/derived.hpp"
 #include "geometry/view.hpp"
 #include "scene/space.hpp"
 
@@ -22,7 +23,7 @@ class Remarker {
   Remarker(const SceneFrame& frame, const Config& config, int width, int height)
       : frame_(frame),
         view_(frame.camera, width, height, config.z_bits, furthest(frame)),
-        range_(static_cast<double>((std::int64_t{1} << config.z_bits) - 3)),
+        range_(static_cast<double>(derived::most_depth(config) - 1)),
         height_(height),
         slope_y_(frame.camera.half_height),
         slope_x_(frame.camera.half_height * width / height) {

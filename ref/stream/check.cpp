@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "contract/derived.hpp"
 #include "contract/rules.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
@@ -83,7 +84,7 @@ struct FrameChecker::Data {
     BitUnpacker in(body);
     for (const Field before : {Field{0, 4, false}, layout.seg_unit}) static_cast<void>(in.take(before));
     if (in.take(layout.seg_pad) != 0) fail("the segment's pad is not zero");
-    if (s.face == (1 << config.face_bits) - 1) return;
+    if (s.face == derived::blank_face(config)) return;
     const std::int64_t dz = faces[static_cast<std::size_t>(s.unit)][static_cast<std::size_t>(s.face)];
     if (!span_fits(s.z, dz, s.dx, layout.op_z.bits)) fail("the segment's depth overflows");
   }

@@ -3,17 +3,11 @@
 //
 // What a token does to one pixel: the only place in the RTL that says so. Both arrangements loop over these functions.
 //
-// A pixel's state is one word, ZB lowest, then colour, then class, DSF, FSF and counters as far as the configuration
-// has them.
+// A pixel's state is one word, PixelBits of kage_widths.svh. No struct of it: a field that the configuration lacks has
+// no bits, and yosys 0.23 takes no struct in a function.
 /* verilator lint_off UNUSEDPARAM */
-localparam int PixelBits = Z_BITS + RgbBits + ClassBits + DSF_BITS + FSF + TallyBits;
-// Places of the optional fields; 0, and never read, when they are absent.
-localparam int PixelClassAt = DSF_BITS > 0 ? Z_BITS + RgbBits : 0;
-localparam int PixelDsfAt = DSF_BITS > 0 ? PixelClassAt + ClassBits : 0;
-localparam int PixelFsfAt = FSF > 0 ? PixelDsfAt + DSF_BITS : 0;
-localparam int PixelCountAt = COUNT_BITS > 0 ? PixelDsfAt + DSF_BITS + FSF : 0;
 localparam int TallyOne = COUNT_BITS > 0 ? COUNT_BITS : 1;  // one counter
-localparam logic [PixelBits-1:0] PixelClear = {{(PixelBits - Z_BITS) {1'b0}}, {Z_BITS{1'b1}}};
+localparam logic [PixelBits-1:0] PixelClear = PixelBits'(ClearDepth);
 /* verilator lint_on UNUSEDPARAM */
 
 // All sums are taken modulo 2^BlendBits and come out right.
@@ -34,7 +28,7 @@ function automatic logic [RgbBits-1:0] pixel_blend(input logic [RgbBits-1:0] und
       mixed = {under[c*8+:8], 8'd128} - 16'(under[c*8+:8]) + 16'(product);
       mixed = mixed + (mixed >> 8);
       if (resolve) begin
-        product = (BlendBits'(under[c*8+:8]) << SHADE_FRAC) + BlendBits'(1 << (SHADE_FRAC - 1)) - product;
+        product = (BlendBits'(under[c*8+:8]) << SHADE_FRAC) + BlendBits'(HalfShare) - product;
         pixel_blend[c*8+:8] = 8'(product >> SHADE_FRAC);
       end else begin
         pixel_blend[c*8+:8] = mixed[15:8];
@@ -62,22 +56,22 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
   logic [DsfBits-1:0] sum;
   logic [  RgbBits-1:0] blended;
   begin
-    in_front = z < pixel[Z_BITS-1:0];
-    clear = pixel[Z_BITS-1:0] == {Z_BITS{1'b1}};
+    in_front = z < pixel[PixelZAt+:Z_BITS];
+    clear = pixel[PixelZAt+:Z_BITS] == ClearDepth;
     sum = pixel[PixelDsfAt+:DsfBits] + count[DsfBits-1:0];
     shadow = DSF_BITS > 0 && pixel_shadow(pixel, count[DsfBits-1:0]);
     dark = COUNT_BITS == 0 && shadow && pixel[PixelClassAt];
     blended = '0;
     if (TRANSLUCENCY > 0) begin
-      blended = pixel_blend(pixel[Z_BITS+:RgbBits], color, share, COUNT_BITS == 0 && kind == KindResolve);
+      blended = pixel_blend(pixel[PixelColorAt+:RgbBits], color, share, COUNT_BITS == 0 && kind == KindResolve);
     end
     pixel_next = pixel;
     // TREE does what OP does.
     unique case (UNITS > 0 && kind == KindTree ? KindOp : kind)
       KindOp:
       if (in_front) begin
-        pixel_next[Z_BITS-1:0] = z;
-        pixel_next[Z_BITS+:RgbBits] = color;
+        pixel_next[PixelZAt+:Z_BITS] = z;
+        pixel_next[PixelColorAt+:RgbBits] = color;
         if (DSF_BITS > 0) pixel_next[PixelClassAt+:CLASS_BITS] = count[CLASS_BITS-1:0];
       end
       KindSp:  if (DSF_BITS > 0 && in_front) pixel_next[PixelDsfAt+:DsfBits] = sum;
@@ -91,23 +85,23 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
       if (COUNT_BITS > 0) begin
         for (int l = 0; l < LIGHTS; l++) begin
           if (shadow && (LIGHTS == 1 || count[(LIGHTS>1?LightAt : 0)+:(LIGHTS>1?LightBits : 1)] == LightBits'(l)) &&
-              !(&pixel[PixelCountAt+l*TallyOne+:TallyOne])) begin
-            pixel_next[PixelCountAt+l*TallyOne+:TallyOne] = pixel[PixelCountAt+l*TallyOne+:TallyOne] + 1'b1;
+              !(&pixel[PixelCountsAt+l*TallyOne+:TallyOne])) begin
+            pixel_next[PixelCountsAt+l*TallyOne+:TallyOne] = pixel[PixelCountsAt+l*TallyOne+:TallyOne] + 1'b1;
           end
         end
         if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
         else pixel_next[PixelDsfAt+:DsfBits] = '0;
       end
       CmdOut:  // with counters nothing asks for DSF and FSF until EOL clears them
-      if (TRANSLUCENCY > 0 && COUNT_BITS > 0) begin
-        for (int l = 0; l < LIGHTS; l++) pixel_next[PixelCountAt+l*TallyOne+:TallyOne] = '0;
+      if (HasLoads) begin
+        for (int l = 0; l < LIGHTS; l++) pixel_next[PixelCountsAt+l*TallyOne+:TallyOne] = '0;
       end
-      CmdLoad: if (TRANSLUCENCY > 0 && COUNT_BITS > 0) pixel_next[Z_BITS+:RgbBits] = color;
-      KindTp:  if (TRANSLUCENCY > 0 && in_front) pixel_next[Z_BITS+:RgbBits] = blended;
+      CmdLoad: if (HasLoads) pixel_next[PixelColorAt+:RgbBits] = color;
+      KindTp:  if (TRANSLUCENCY > 0 && in_front) pixel_next[PixelColorAt+:RgbBits] = blended;
       KindResolve:
       if (TRANSLUCENCY > 0) begin
-        if (clear) pixel_next[Z_BITS+:RgbBits] = color;
-        else if (dark) pixel_next[Z_BITS+:RgbBits] = blended;
+        if (clear) pixel_next[PixelColorAt+:RgbBits] = color;
+        else if (dark) pixel_next[PixelColorAt+:RgbBits] = blended;
         if (DSF_BITS > 0) pixel_next[PixelDsfAt+:DsfBits] = '0;
         if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
       end
@@ -117,22 +111,22 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
   end
 endfunction
 
-// What leaves a pixel at the end of its line: {dark, covered, colour}, without dark in a core without shadows; with
-// counters {counts, class, covered, colour}, counts of 0 where the class is. `bias` is the line's.
+// What leaves a pixel at the end of its line, a word of ExitBits; its counts are 0 where the class is. `bias` is the
+// line's.
 function automatic logic [ExitBits-1:0] pixel_exit(input logic [PixelBits-1:0] pixel, input logic [DsfBits-1:0] bias);
   begin
     pixel_exit = '0;
-    pixel_exit[RgbBits-1:0] = pixel[Z_BITS+:RgbBits];
-    pixel_exit[RgbBits] = pixel[Z_BITS-1:0] != {Z_BITS{1'b1}};
+    pixel_exit[ExitColorAt+:RgbBits] = pixel[PixelColorAt+:RgbBits];
+    pixel_exit[ExitCoveredAt] = pixel[PixelZAt+:Z_BITS] != ClearDepth;
     if (COUNT_BITS > 0) begin
-      if (CLASS_BITS > 1) pixel_exit[ExitClassAt+:CLASS_BITS] = pixel[PixelClassAt+:CLASS_BITS];
+      if (HasTable) pixel_exit[ExitClassAt+:CLASS_BITS] = pixel[PixelClassAt+:CLASS_BITS];
       for (int l = 0; l < LIGHTS; l++) begin
         if (pixel[PixelClassAt+:CLASS_BITS] != '0) begin
-          pixel_exit[ExitCountAt+l*TallyOne+:TallyOne] = pixel[PixelCountAt+l*TallyOne+:TallyOne];
+          pixel_exit[ExitCountsAt+l*TallyOne+:TallyOne] = pixel[PixelCountsAt+l*TallyOne+:TallyOne];
         end
       end
     end else if (DSF_BITS > 0) begin
-      pixel_exit[ExitBits-1] = pixel[PixelClassAt] && pixel_shadow(pixel, bias);
+      pixel_exit[ExitDarkAt] = pixel[PixelClassAt] && pixel_shadow(pixel, bias);
     end
   end
 endfunction

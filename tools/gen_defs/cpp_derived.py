@@ -14,6 +14,8 @@ def derived(defs):
         "// Numbers that follow from the parameters; in SystemVerilog: rtl/include/generated/kage_widths.svh.",
         "#pragma once",
         "",
+        "#include <cstdint>",
+        "",
         '#include "kage/defs.hpp"',
         "",
         "namespace kage::derived {",
@@ -21,7 +23,10 @@ def derived(defs):
     ]
     for n in defs.d["derived"]:
         value = cpp_expr(linked(n["value"], r"\1(c)"), defs.names)
-        o += [f"/// {n['doc']}", f"constexpr int {n['name']}(const Config& c) {{ return {value}; }}"]
+        kind = {"flag": "bool", "unsigned": "std::uint32_t"}.get(n["is"], "int")
+        if n["is"] == "unsigned":
+            value = f"static_cast<std::uint32_t>({value})"
+        o += [f"/// {n['doc']}", f"constexpr {kind} {n['name']}(const Config& c) {{ return {value}; }}"]
     o += ["", "/// Commands that are no token, by kinds of tokens that never become commands."]
     o += [
         f"inline constexpr Kind kCommand{camel(c['name'])} = static_cast<Kind>({c['kind']});  ///< {c['doc']}"

@@ -16,7 +16,15 @@ class Defs:
         self.pixel = self.d["pixel_params"]
         self.impl = self.d["impl_params"]
         self.names = {p["name"] for p in self.pixel + self.impl}
+        for word in self.d["words"]:
+            bits = " + ".join(str(f["bits"]) for f in word["fields"])
+            self.d["derived"].append({"name": f"{word['name']}_bits", "value": bits, "doc": word["doc"]})
+            for field in word["fields"]:
+                field.setdefault("lacks", False)
+                field["member"] = "normal_class" if field["name"] == "class" else field["name"]  # as C++ calls it
         self.derived = {n["name"]: n for n in self.d["derived"]}
+        for number in self.d["derived"]:
+            number.setdefault("is", "")
         for token in self.d["tokens"]:
             for field in token["fields"]:
                 field["named_bits"] = field["bits"]
@@ -33,6 +41,12 @@ class Defs:
                 phase.setdefault(absent, "")
         for mark in self.d["order_marks"]:
             mark.setdefault("line", "")
+        face, entry = (
+            [f["name"] for one in self.d[of] if one["name"] == name for f in one["fields"]]
+            for of, name in (("tokens", "FACE"), ("words", "entry"))
+        )
+        if face[face.index("index") :] != entry:
+            raise SystemExit(f"{SOURCE}: words: entry: is not FACE from index on")
         self.header_fields = []
         for at, word in enumerate(self.d["header"]):
             lsb = 0

@@ -5,6 +5,28 @@ from expressions import camel
 from files import NOTE
 
 
+def number(defs, n):
+    """A derived number as a localparam."""
+    kind, value = "int", defs.sv_expr(n["value"])
+    if n["is"] == "flag":
+        kind = "bit"
+    elif "bits" in n:
+        bits = defs.sv_expr(n["bits"])
+        kind, value = f"logic [{bits}-1:0]", f"{bits}'({value})"
+    return f"localparam {kind} {defs.sv_name(n['name'])} = {value},  // {n['doc']}"
+
+
+def places(defs, word):
+    """Where the fields of a word are."""
+    before, o = [], []
+    for f in word["fields"]:
+        at = " + ".join(before) or "0"
+        place = f"{defs.sv_bits(f)} > 0 ? {at} : 0" if f["lacks"] and before else at
+        o.append(f"localparam int {camel(word['name'])}{camel(f['name'])}At = {place},  // {f['doc']}")
+        before.append(defs.sv_bits(f))
+    return o
+
+
 def widths(defs):
     o = [
         f"// {NOTE}",
@@ -15,8 +37,10 @@ def widths(defs):
         "// verilog_lint: waive-start line-length",
         "/* verilator lint_off UNUSEDPARAM */",
     ]
-    for n in defs.d["derived"]:
-        o.append(f"localparam int {defs.sv_name(n['name'])} = {defs.sv_expr(n['value'])},  // {n['doc']}")
+    o += [number(defs, n) for n in defs.d["derived"]]
+    o += ["// Words whose fields a configuration may lack: where they are; 0, and not to be read, if they are not."]
+    for w in defs.d["words"]:
+        o += places(defs, w)
     o += ["// The buses of kage_buses.svh."]
     for b in defs.d["buses"]:
         bits = " + ".join(defs.sv_bits(f) for f in b["fields"])

@@ -120,6 +120,18 @@ def buses(defs):
     return md(("bus", "is", "from", "to", "fields (bits)"), rows)
 
 
+def words(defs):
+    rows = [
+        (
+            f"`{camel(w['name'])}Bits`",
+            w["doc"],
+            ", ".join(f"`{camel(w['name'])}{camel(f['name'])}At` ({plain(f['bits'])})" for f in w["fields"]),
+        )
+        for w in defs.d["words"]
+    ]
+    return md(("word", "is", "places (bits)"), rows)
+
+
 def errors(defs):
     return md(("code", "name", "cause"), [(e["code"], f"`{e['name']}`", e["doc"]) for e in defs.d["errors"]])
 
@@ -172,6 +184,7 @@ TABLES = {
         order_marks,
         order,
         buses,
+        words,
         errors,
         registers,
         figures,

@@ -14,6 +14,7 @@
 
 #include "bench/others/packets.hpp"
 #include "bench/others/stencil.hpp"
+#include "contract/derived.hpp"
 #include "geometry/view.hpp"
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
@@ -103,7 +104,7 @@ Renderer kage_renderer(const Setting& s, const std::string& name, int dsf_bits) 
     FrameGeometry g = make_geometry(s.frame, config, s.width, s.height, {.look = s.look});
     parts.end("geometry");
     if (shown == Shown::shadow) {
-      g.shade = 1U << config.shade_frac;
+      g.shade = derived::whole_share(config);
       g.background = 0x808080;
       for (std::uint32_t i = 0; i < g.drawn; ++i) g.polygons[i].color = {255, 255, 255};
     }

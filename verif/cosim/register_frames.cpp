@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "contract/derived.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 
@@ -17,10 +18,10 @@ constexpr int kMostFaces = 3;  // that every unit's table holds
 void blank(TokenWriter& w, const Config& c, int unit, int pixels, bool line_begins) {
   SegmentToken s;
   s.unit = unit;
-  s.face = (1 << c.face_bits) - 1;
+  s.face = derived::blank_face(c);
   s.sync = line_begins;
   for (; pixels > 0; pixels -= s.dx) {
-    s.dx = std::min(pixels, (1 << c.dx_bits) - 1);
+    s.dx = std::min(pixels, derived::most_dx(c));
     w.seg(s);
     s.sync = false;
   }

@@ -42,7 +42,7 @@ Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
   const Layout layout(c);
   const auto has = [&](Kind k) { return layout.words[static_cast<std::size_t>(k)] != 0; };
   const bool shadows = c.dsf_bits > 0;
-  const bool table = c.class_bits > 1;
+  const bool table = derived::has_table(c);
   for (std::size_t k = 0; k < kind_.size(); ++k)
     kind_[k] = add(layout.words[k] != 0, "token", std::string(kKindNames[k]));
   one_wide_ = add(true, "frame", "one pixel wide");
@@ -84,9 +84,9 @@ Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
   index_tie_ = add(c.units > 1, "tree", "two units as deep, of other draw indices");
   blank_ = add(c.units > 0, "tree", "a blank segment");
   dx_one_ = add(c.units > 0, "tree", "a segment of one pixel");
-  dx_most_ = add(c.units > 0 && (1 << c.dx_bits) - 1 <= c.max_width, "tree", "a segment of the greatest length");
-  unit_full_ =
-      add(c.units > 0 && (1 << c.seg_bits) <= c.max_width, "tree", "a line of as many segments as a unit holds");
+  dx_most_ = add(c.units > 0 && derived::most_dx(c) <= c.max_width, "tree", "a segment of the greatest length");
+  unit_full_ = add(c.units > 0 && derived::most_segments(c) <= c.max_width, "tree",
+                   "a line of as many segments as a unit holds");
   last_face_ = add(c.units > 0, "tree", "a face of the last number but the blank one");
   for (std::size_t e = 1; e < error_.size(); ++e) {
     const auto code = static_cast<ErrorCode>(e);
@@ -127,7 +127,7 @@ void Coverage::hit_span(const Span& points, const SpanToken& s, int width) {
 }
 
 Coverage::Range Coverage::depth_range() const {
-  return {derived::depth_bits(config_), config_.z_frac, 1, (std::int64_t{1} << config_.z_bits) - 2};
+  return {derived::depth_bits(config_), config_.z_frac, 1, derived::most_depth(config_)};
 }
 
 Coverage::Range Coverage::color_range() const { return {derived::ramp_bits(config_), config_.color_frac, 0, 255}; }
@@ -160,14 +160,14 @@ void Coverage::frame_state() {
   hit(shade_none_, !shade_);
   hit(table_none_, table_.empty());
   hit(table_cut_, table_.size() % static_cast<std::size_t>(config_.lights) != 0);
-  hit(table_whole_, config_.class_bits > 1 && table_.size() == ((std::size_t{1} << config_.class_bits) - 1) *
-                                                                   static_cast<std::size_t>(config_.lights));
+  hit(table_whole_, derived::has_table(config_) &&
+                        table_.size() == static_cast<std::size_t>(derived::most_class(config_) * config_.lights));
 }
 
 void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const std::uint32_t> /*words*/,
                       const LineView& line) {
   hit(kind_[static_cast<std::size_t>(t.kind)]);
-  const std::uint32_t all = 1U << config_.shade_frac;
+  const std::uint32_t all = derived::whole_share(config_);
   switch (t.kind) {
     case Kind::SHADE:
       shade_ = true;
@@ -178,7 +178,7 @@ void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const s
       hit(share_most_, std::find(t.table.share.begin(), t.table.share.end(), all) != t.table.share.end());
       return;
     case Kind::FACE:
-      hit(last_face_, t.segment.face == (1 << config_.face_bits) - 2);
+      hit(last_face_, t.segment.face == derived::blank_face(config_) - 1);
       faces_[static_cast<std::size_t>(t.segment.unit)].push_back(t.segment.dz);
       return;
     default:
@@ -228,8 +228,8 @@ void Coverage::opaque(const SpanToken& s, const LineView& line) {
   if (s.xl == s.xr) return;
   ramps(s, true);
   hit(unlit_, s.normal_class == 0);
-  hit(last_class_, s.normal_class == (1 << config_.class_bits) - 1);
-  const std::uint32_t clear = (1U << config_.z_bits) - 1U;
+  hit(last_class_, s.normal_class == derived::most_class(config_));
+  const std::uint32_t clear = derived::clear_depth(config_);
   const std::uint32_t met = line.pixel(s.xl).z;
   const std::uint32_t z = span_depth(config_, s, s.xl);
   hit(tie_, met != clear && z == met);
@@ -242,7 +242,7 @@ void Coverage::volume(const Token& t, const LineView& line) {
     hit(t.span.w == 1 ? weight_plus_ : t.span.w == -1 ? weight_minus_ : weight_other_);
   if (t.kind != Kind::EV) return;
   hit(bias_at_ev_, line.bias() != 0);
-  const std::uint32_t all = (1U << config_.dsf_bits) - 1;
+  const std::uint32_t all = derived::most_dsf(config_);
   for (int x = t.span.xl; x < t.span.xr; ++x) hit(inside_at_ev_, ((line.pixel(x).dsf + line.bias()) & all) != 0);
 }
 
@@ -250,7 +250,7 @@ void Coverage::volume(const Token& t, const LineView& line) {
 bool Coverage::in_shadow(const PixelState& p, std::uint32_t bias) const {
   if (config_.count_bits > 0) return p.counts != decltype(p.counts){};
   if (config_.fsf != 0) return p.fsf != 0;
-  return ((p.dsf + bias) & ((1U << config_.dsf_bits) - 1)) != 0;
+  return ((p.dsf + bias) & derived::most_dsf(config_)) != 0;
 }
 
 // The share that all shadowed samples together take of a channel of a pixel, in 2^-SHADE_FRAC.
@@ -265,13 +265,13 @@ std::uint64_t Coverage::lost(const PixelState& p, std::size_t channel) const {
 }
 
 void Coverage::resolve(const LineView& line) {
-  const std::uint32_t full = (1U << config_.count_bits) - 1;
+  const std::uint32_t full = derived::most_count(config_);
   for (int x = 0; x < line.width(); ++x) {
     const PixelState p = line.pixel(x);
     hit(dark_, in_shadow(p, line.bias()));
     for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) hit(counter_full_, p.counts[l] == full);
-    for (std::size_t c = 0; config_.class_bits > 1 && c < static_cast<std::size_t>(config_.channels); ++c)
-      hit(black_, lost(p, c) > 1U << config_.shade_frac);
+    for (std::size_t c = 0; derived::has_table(config_) && c < static_cast<std::size_t>(config_.channels); ++c)
+      hit(black_, lost(p, c) > derived::whole_share(config_));
   }
 }
 
@@ -279,24 +279,24 @@ void Coverage::translucent(const SpanToken& s, const LineView& line) {
   if (s.xl == s.xr) return;
   ramps(s, true);
   hit(s.alpha == 0 ? alpha_none_ : s.alpha == 255 ? alpha_all_ : alpha_some_);
-  const std::uint32_t clear = (1U << config_.z_bits) - 1U;
+  const std::uint32_t clear = derived::clear_depth(config_);
   const std::uint32_t met = line.pixel(s.xl).z;
   hit(met == clear ? over_clear_ : span_depth(config_, s, s.xl) < met ? over_surface_ : hidden_);
 }
 
 void Coverage::segment(const SegmentToken& s) {
-  hit(blank_, s.face == (1 << config_.face_bits) - 1);
+  hit(blank_, s.face == derived::blank_face(config_));
   hit(dx_one_, s.dx == 1);
-  hit(dx_most_, s.dx == (1 << config_.dx_bits) - 1);
+  hit(dx_most_, s.dx == derived::most_dx(config_));
   const auto unit = static_cast<std::size_t>(s.unit);
   const auto face = static_cast<std::size_t>(s.face);
   if (face < faces_[unit].size()) hit_ramp(face_depth_, s.z, faces_[unit][face], s.dx, depth_range());
   segments_[unit] = s.sync ? 1 : segments_[unit] + 1;
-  hit(unit_full_, segments_[unit] == 1 << config_.seg_bits);
+  hit(unit_full_, segments_[unit] == derived::most_segments(config_));
 }
 
 void Coverage::tree(const LineView& line) {
-  const std::uint32_t clear = (1U << config_.z_bits) - 1U;
+  const std::uint32_t clear = derived::clear_depth(config_);
   for (int x = 0; x < line.width(); ++x)
     for (int a = 0; a + 1 < config_.units; ++a) {
       const auto left = line.unit_pixel(a, x);

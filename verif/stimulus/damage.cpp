@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "contract/derived.hpp"
+
 namespace kage::verif {
 
 void damage(Random& random, std::vector<std::uint32_t>& words) {
@@ -109,7 +111,7 @@ void damage_segment(Random& random, const Config& c, TokenPlaces& places, At seg
       places.put(seg, layout.seg_sync, places.get(seg, layout.seg_sync) ^ 1U);
       break;
     case 2:
-      places.put(seg, layout.seg_face, static_cast<std::uint64_t>(random.in(0, (1 << c.face_bits) - 1)));
+      places.put(seg, layout.seg_face, static_cast<std::uint64_t>(random.in(0, derived::blank_face(c))));
       break;
     case 3:  // too few pixels
       words.erase(words.begin() + seg, words.begin() + seg + length);

@@ -34,7 +34,7 @@ void random_ramp(Random& random, int bits, int count, std::int64_t& start, std::
 /// A class that a table of so many has, or, without table, lit or not.
 int random_class(Random& random, const Config& c, int classes) {
   if (c.dsf_bits == 0 || random.chance(0.2)) return 0;
-  return c.class_bits == 1 ? 1 : random.in(0, classes);
+  return !derived::has_table(c) ? 1 : random.in(0, classes);
 }
 
 /// `home` is the pixel round which the spans of a crowded line meet.
@@ -90,14 +90,15 @@ SpanToken random_translucent(Random& random, const Config& c, int width, const F
 }
 
 int random_weight(Random& random, const Config& c) {
-  return random.chance(0.8) ? (random.chance(0.5) ? 1 : -1) : random.in(-(1 << c.dsf_bits), (1 << c.dsf_bits) - 1);
+  const auto most = static_cast<int>(derived::most_dsf(c));
+  return random.chance(0.8) ? (random.chance(0.5) ? 1 : -1) : random.in(-most - 1, most);
 }
 
 /// The faces and segments of a frame with a tree, in one of the orders that the contract allows.
 class RandomTree {
  public:
   /// The widest line that any unit can hold.
-  static int widest(const Config& c) { return ((1 << c.dx_bits) - 1) << c.seg_bits; }
+  static int widest(const Config& c) { return derived::most_dx(c) * derived::most_segments(c); }
 
   RandomTree(Random& random, const Config& c, int width, int height, bool port, int classes)
       : random_(&random),
@@ -107,7 +108,7 @@ class RandomTree {
         waiting_(static_cast<std::size_t>(c.units)),
         faces_(waiting_.size()) {
     for (std::size_t u = 0; u < waiting_.size(); ++u) {
-      const int blank = (1 << c.face_bits) - 1;
+      const int blank = derived::blank_face(c);
       const int count = random.chance(0.02)  ? blank
                         : random.chance(0.1) ? std::min(blank, 20)
                                              : random.in(0, std::min(blank, 4));
@@ -126,7 +127,7 @@ class RandomTree {
     const double eager = random_->in(0, 2) / 2.0;  // entries as late as they may be, all first, or some
     std::size_t entry = 0;
     const auto lacks = [&](const SegmentToken& f) {
-      return static_cast<int>(entry) < (config_.class_bits > 1 ? f.normal_class * config_.lights : 0);
+      return static_cast<int>(entry) < (derived::has_table(config_) ? f.normal_class * config_.lights : 0);
     };
     for (const std::size_t u : units) {
       const SegmentToken& f = faces_[u][next[u]++];
@@ -180,10 +181,10 @@ class RandomTree {
   }
 
   void line(std::size_t unit, int y, bool port) {
-    const int blank = (1 << config_.face_bits) - 1;
-    const int longest = (1 << config_.dx_bits) - 1;
+    const int blank = derived::blank_face(config_);
+    const int longest = derived::most_dx(config_);
     const int manner = random_->in(0, 5);
-    int segments = 1 << config_.seg_bits;
+    int segments = derived::most_segments(config_);
     SegmentToken t;
     t.unit = static_cast<int>(unit);
     t.face = blank;
@@ -228,13 +229,13 @@ class RandomTree {
 
 /// The entries of a table of so many classes, at a port often with some of another's.
 std::vector<TableToken> random_table(Random& random, const Config& c, int classes, bool port) {
-  if (c.class_bits == 1) return {};
-  const int most = 1 << c.shade_frac;
+  if (!derived::has_table(c)) return {};
+  const auto most = static_cast<int>(derived::whole_share(c));
   // Shares that black out at once, and such that take many samples.
   const int usual = random.chance(0.5) ? most : std::max(1, most >> c.count_bits);
   std::vector<TableToken> entries;
   const int begun =
-      port && classes < (1 << c.class_bits) - 1 ? random.in(0, c.lights - 1) : 0;  // of a class never whole
+      port && classes < derived::most_class(c) ? random.in(0, c.lights - 1) : 0;  // of a class never whole
   for (int k = 1; k <= classes + 1; ++k)
     for (int light = 0; light < (k <= classes ? c.lights : begun); ++light) {
       TableToken t{k, light, {}};
@@ -302,7 +303,7 @@ std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int 
   w.header({width, height, static_cast<std::uint32_t>(random.in(0, 0xFFFFFF)), number});
   const bool has_tree = c.units > 0 && width <= RandomTree::widest(c) && random.chance(style.trees);
   // The table may be empty, or, at a port, end within a class.
-  const int most_classes = c.class_bits == 1 ? 0 : (1 << c.class_bits) - 1;
+  const int most_classes = derived::has_table(c) ? derived::most_class(c) : 0;
   const int classes = random.chance(0.02) ? most_classes : random.in(0, std::min(most_classes, 9));
   RandomTree tree(random, c, width, has_tree ? height : 0, style.port, classes);
   const std::vector<TableToken> table = random_table(random, c, classes, style.port);
@@ -312,7 +313,7 @@ std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int 
   const bool faces_first = random.chance(0.5);
   if (has_faces && faces_first) tree.write_faces(w, count[static_cast<std::size_t>(Kind::FACE)], table);
   if (c.dsf_bits > 0 && most_classes == 0 && random.chance(0.8)) {
-    const int all = 1 << c.shade_frac;
+    const auto all = static_cast<int>(derived::whole_share(c));
     w.shade(static_cast<std::uint32_t>(random.chance(0.1) ? 0 : random.chance(0.1) ? all : random.in(0, all)));
     add(Kind::SHADE);
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "contract/derived.hpp"
 #include "kage/error.hpp"
 #include "number/mixed.hpp"
 #include "stimulus/damage.hpp"
@@ -45,7 +46,7 @@ void near_miss(Random& random, const Config& c, Words& words) {
     if (of.empty()) return std::nullopt;
     return of[static_cast<std::size_t>(random.in(0, static_cast<int>(of.size()) - 1))];
   };
-  if (c.class_bits > 1 && random.chance(0.6)) {
+  if (derived::has_table(c) && random.chance(0.6)) {
     const auto at = any(Kind::OP);
     std::uint64_t most = 0;
     for (const auto table : places.of(Kind::TABLE)) most = std::max(most, places.get(table, layout.table_class));

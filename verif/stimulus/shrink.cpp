@@ -114,7 +114,7 @@ class SegmentCutter {
     const std::int64_t sum =
         wrapped(static_cast<std::uint64_t>(z) + pixels * static_cast<std::uint64_t>(dz), derived::depth_bits(config_));
     // A classic segment cannot begin past what its field holds: at its first pixel the same is drawn at the border.
-    const std::int64_t most = (std::int64_t{1} << config_.z_bits) - 1;
+    const std::int64_t most = (std::int64_t{1} << layout_.seg_z.bits) - 1;
     return config_.classic != 0 ? std::clamp<std::int64_t>(sum, 0, most) : sum;
   }
 

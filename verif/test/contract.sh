@@ -39,6 +39,19 @@ code='ref verif/cosim verif/stimulus verif/mutants cli' # all but tests and the 
   refuse 'where a token may stand: ref/contract/order.hpp' '(volume|sample)_(open|done)|has_tree_|enum class \w*Phase \{ *state' 'return phase_ == Phase::volume && volume_open_;' $code
   refuse "a token's text is to_string()'s, by ref/contract/token_text.hpp" '\[\{\}, \{\}\)' 'return s + fmt::format(" [{}, {}) w {:+}", p.xl, p.xr, p.w);' $code
 }
+# Numbers that follow from the parameters have names: `derived` of rtl/defs/kage.yaml.
+of_config='<< [a-z_.>()*-]*(\.|->)' # shifted by a parameter of a configuration
+named="rtl verif/bench $code"
+# shellcheck disable=SC2086
+{
+  refuse 'a clear depth, the greatest one: ClearDepth, MostDepth, derived::clear_depth(), most_depth()' "${of_config}z_bits\) - [1-9]|1 << Z_BITS\) - [1-9]|\{\(?Z_BITS( - 1\))? *\{1'b1\}\}" 'const bool clear = p.z == (1U << config.z_bits) - 1;' $named
+  refuse 'a blank face, the most of a segment, a class, DSF or a counter: derived::' "${of_config}(face|dx|class|dsf|count)_bits\) - [1-9]|$of_config(config_?->|c\.)?seg_bits" 'if (s.face == (1 << config_->face_bits) - 1)' $named
+  refuse 'a whole share, a half: WholeShare, HalfShare, derived::whole_share(), half_share()' "1[UL]*\}? ${of_config}shade_frac|\{SHADE_FRAC *\{1'b0\}\}|(1 <<|2 \*\*) \(?SHADE_FRAC" 'const std::uint32_t half = 1U << (config_.shade_frac - 1);' $named
+  refuse 'the bits of a share: FactorBits' '^[^/]*(SHADE_FRAC ?\+ ?1\b|\[ *SHADE_FRAC:0\])' 'logic [CHANNELS*(SHADE_FRAC+1)-1:0] factor;' rtl verif/cosim
+  refuse 'a core with a light table: HasTable, derived::has_table()' '^[^/]*([^.]CLASS_BITS|class_bits) (>|==|<) [0-9]' 'if (config_.class_bits == 1) {' $named
+  refuse 'a core in which colours come back: HasLoads, derived::has_loads()' '(TRANSLUCENCY|COUNT_BITS) > 0 && (COUNT_BITS|TRANSLUCENCY) > 0|(translucency|count_bits) (>|!=) 0 && [a-z_.>-]*(count_bits|translucency) (>|!=) 0' 'localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0;' $named
+  refuse 'the fields of a word have places: PixelColorAt, ExitDarkAt, EntryDzAt, PointZAt' 'pixel[a-z_]*\[Z_BITS|ExitBits-1\]|(Entry|Point|Paint)Bits-1-:|ORDER_BITS\+(:|ClassBits)|\[ClassBits\+:' 'line.z = point[PointBits-1-:Z_BITS];' rtl verif/cosim
+}
 refuse 'phases and marks of a line: kage_order.svh' 'Phase(Opaque|Volume|Resolved|Translucent) *=[^=]|(volume|sample)_open' "localparam logic [1:0] PhaseVolume = 2'd1;" rtl
 refuse 'which kinds have a range: kind_has_range() of kage_order.svh' 'Kind(Op|Sp|Nc|Ev|Es|Tp) \|\|.*Kind(Sp|Nc|Ev|Es|Tp)\b' 'kind == KindSp || kind == KindNc || kind == KindEv' rtl
 refuse 'the page takes tokens apart by stream.js' '& 15|\blsb\b|data\.layout' 'const kind = data.layout[words[at] & 15];' verif/cosim/report/page

@@ -61,6 +61,19 @@ RULES = [
 
 # Numbers that follow from the parameters.
 DERIVED = {
+    "has_table": lambda c: c.CLASS_BITS > 1,  # a light's share is looked up in a table, by class
+    "has_loads": lambda c: c.TRANSLUCENCY > 0 and c.COUNT_BITS > 0,  # colours come back: a line with samples leaves to be darkened before its first TP
+    "clear_depth": lambda c: (1 << c.Z_BITS) - 1,  # a pixel's depth where nothing has been drawn
+    "most_depth": lambda c: (1 << c.Z_BITS) - 2,  # the greatest depth that is drawn; the least is 1
+    "blank_face": lambda c: (1 << c.FACE_BITS) - 1,  # the face of a segment that shows nothing
+    "most_dx": lambda c: (1 << c.DX_BITS) - 1,  # pixels of the longest segment
+    "most_segments": lambda c: 1 << c.SEG_BITS,  # segments of a line that a unit buffers
+    "most_class": lambda c: (1 << c.CLASS_BITS) - 1,  # the greatest class, and how many classes with light there are
+    "most_dsf": lambda c: (1 << c.DSF_BITS) - 1,  # the greatest DSF, and its bits
+    "most_count": lambda c: (1 << c.COUNT_BITS) - 1,  # a full counter of samples
+    "factor_bits": lambda c: c.SHADE_FRAC + 1,  # a share of colour, and what it leaves
+    "whole_share": lambda c: 1 << c.SHADE_FRAC,  # all of a colour
+    "half_share": lambda c: 1 << (c.SHADE_FRAC - 1),  # a half of it, which rounds a product with a share
     "depth_bits": lambda c: c.Z_BITS + c.Z_FRAC + 2,  # depth accumulator
     "ramp_bits": lambda c: 10 + c.COLOR_FRAC if c.SMOOTH > 0 else 8,  # one channel of a span's colour
     "color_bits": lambda c: c.CHANNELS * DERIVED["ramp_bits"](c),  # a span's colour
@@ -75,15 +88,16 @@ DERIVED = {
     "share_bits": lambda c: 1 if c.TRANSLUCENCY == 0 else (c.SHADE_FRAC + 1 if c.COUNT_BITS == 0 and c.SHADE_FRAC > 7 else 8),  # TP's alpha, or RESOLVE's shade
     "rgb_bits": lambda c: 8 * c.CHANNELS,  # one pixel's colour
     "tally_bits": lambda c: c.LIGHTS * c.COUNT_BITS,  # a pixel's counters
-    "exit_class_at": lambda c: DERIVED["rgb_bits"](c) + 1 if c.CLASS_BITS > 1 else 0,  # the class in a pixel that leaves
-    "exit_count_at": lambda c: 0 if c.COUNT_BITS == 0 else DERIVED["rgb_bits"](c) + 1 + (c.CLASS_BITS if c.CLASS_BITS > 1 else 0),  # the counts in it
-    "exit_bits": lambda c: DERIVED["rgb_bits"](c) + 1 if c.DSF_BITS == 0 else (DERIVED["rgb_bits"](c) + 2 if c.COUNT_BITS == 0 else DERIVED["exit_count_at"](c) + DERIVED["tally_bits"](c)),  # a pixel that leaves
-    "entry_share_bits": lambda c: c.CHANNELS * (c.SHADE_FRAC + 1),  # an entry of the light table
-    "light_stages": lambda c: 0 if c.COUNT_BITS == 0 else (5 if c.CLASS_BITS > 1 else 2),  # clocks of light_resolve
+    "exit_class_bits": lambda c: c.CLASS_BITS if DERIVED["has_table"](c) else 0,  # the class of a pixel that leaves
+    "dark_bits": lambda c: 1 if c.COUNT_BITS == 0 and c.DSF_BITS > 0 else 0,  # whether a pixel that leaves is in shadow, where no counts say it
+    "entry_share_bits": lambda c: c.CHANNELS * DERIVED["factor_bits"](c),  # an entry of the light table
+    "light_stages": lambda c: 0 if c.COUNT_BITS == 0 else (5 if DERIVED["has_table"](c) else 2),  # clocks of light_resolve
     "unit_bits": lambda c: 6 if c.UNITS > 32 else (5 if c.UNITS > 16 else (4 if c.UNITS > 8 else (3 if c.UNITS > 4 else (2 if c.UNITS > 2 else 1)))),  # an expansion unit's number
-    "entry_bits": lambda c: c.ORDER_BITS + DERIVED["class_field_bits"](c) + DERIVED["depth_bits"](c) + DERIVED["rgb_bits"](c),  # {colour, dz, class, index}, as FACE has them
     "key_bits": lambda c: c.Z_BITS + c.ORDER_BITS,  # what the compare tree compares: {Z, index}
-    "point_bits": lambda c: DERIVED["key_bits"](c) + DERIVED["rgb_bits"](c) + DERIVED["class_field_bits"](c),  # a pixel in the compare tree: {Z, index, colour, class}
+    "pixel_bits": lambda c: c.Z_BITS + DERIVED["rgb_bits"](c) + DERIVED["class_field_bits"](c) + c.DSF_BITS + c.FSF + DERIVED["tally_bits"](c),  # a pixel's state
+    "exit_bits": lambda c: DERIVED["rgb_bits"](c) + 1 + DERIVED["exit_class_bits"](c) + DERIVED["tally_bits"](c) + DERIVED["dark_bits"](c),  # a pixel that leaves
+    "entry_bits": lambda c: c.ORDER_BITS + DERIVED["class_field_bits"](c) + DERIVED["depth_bits"](c) + DERIVED["rgb_bits"](c),  # a face in its unit's table, as FACE has it from index on
+    "point_bits": lambda c: DERIVED["class_field_bits"](c) + DERIVED["rgb_bits"](c) + c.ORDER_BITS + c.Z_BITS,  # a pixel in the compare tree, with its key highest
 }
 
 # Words of a frame's header: [(field, bits), ...] from the lowest bit up.

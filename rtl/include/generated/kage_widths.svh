@@ -5,6 +5,19 @@
 // without bits.
 // verilog_lint: waive-start line-length
 /* verilator lint_off UNUSEDPARAM */
+localparam bit HasTable = CLASS_BITS > 1,  // a light's share is looked up in a table, by class
+localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0,  // colours come back: a line with samples leaves to be darkened before its first TP
+localparam logic [Z_BITS-1:0] ClearDepth = Z_BITS'((1 << Z_BITS) - 1),  // a pixel's depth where nothing has been drawn
+localparam logic [Z_BITS-1:0] MostDepth = Z_BITS'((1 << Z_BITS) - 2),  // the greatest depth that is drawn; the least is 1
+localparam logic [FACE_BITS-1:0] BlankFace = FACE_BITS'((1 << FACE_BITS) - 1),  // the face of a segment that shows nothing
+localparam int MostDx = (1 << DX_BITS) - 1,  // pixels of the longest segment
+localparam int MostSegments = 1 << SEG_BITS,  // segments of a line that a unit buffers
+localparam int MostClass = (1 << CLASS_BITS) - 1,  // the greatest class, and how many classes with light there are
+localparam int MostDsf = (1 << DSF_BITS) - 1,  // the greatest DSF, and its bits
+localparam int MostCount = (1 << COUNT_BITS) - 1,  // a full counter of samples
+localparam int FactorBits = SHADE_FRAC + 1,  // a share of colour, and what it leaves
+localparam logic [FactorBits-1:0] WholeShare = FactorBits'(1 << SHADE_FRAC),  // all of a colour
+localparam logic [FactorBits-1:0] HalfShare = FactorBits'(1 << (SHADE_FRAC - 1)),  // a half of it, which rounds a product with a share
 localparam int DepthBits = Z_BITS + Z_FRAC + 2,  // depth accumulator
 localparam int RampBits = SMOOTH > 0 ? 10 + COLOR_FRAC : 8,  // one channel of a span's colour
 localparam int ColorBits = CHANNELS * RampBits,  // a span's colour
@@ -19,15 +32,36 @@ localparam int CountBits = PlainCountBits > SampleEndBits ? PlainCountBits : Sam
 localparam int ShareBits = TRANSLUCENCY == 0 ? 1 : (COUNT_BITS == 0 && SHADE_FRAC > 7 ? SHADE_FRAC + 1 : 8),  // TP's alpha, or RESOLVE's shade
 localparam int RgbBits = 8 * CHANNELS,  // one pixel's colour
 localparam int TallyBits = LIGHTS * COUNT_BITS,  // a pixel's counters
-localparam int ExitClassAt = CLASS_BITS > 1 ? RgbBits + 1 : 0,  // the class in a pixel that leaves
-localparam int ExitCountAt = COUNT_BITS == 0 ? 0 : RgbBits + 1 + (CLASS_BITS > 1 ? CLASS_BITS : 0),  // the counts in it
-localparam int ExitBits = DSF_BITS == 0 ? RgbBits + 1 : (COUNT_BITS == 0 ? RgbBits + 2 : ExitCountAt + TallyBits),  // a pixel that leaves
-localparam int EntryShareBits = CHANNELS * (SHADE_FRAC + 1),  // an entry of the light table
-localparam int LightStages = COUNT_BITS == 0 ? 0 : (CLASS_BITS > 1 ? 5 : 2),  // clocks of light_resolve
+localparam int ExitClassBits = HasTable ? CLASS_BITS : 0,  // the class of a pixel that leaves
+localparam int DarkBits = COUNT_BITS == 0 && DSF_BITS > 0 ? 1 : 0,  // whether a pixel that leaves is in shadow, where no counts say it
+localparam int EntryShareBits = CHANNELS * FactorBits,  // an entry of the light table
+localparam int LightStages = COUNT_BITS == 0 ? 0 : (HasTable ? 5 : 2),  // clocks of light_resolve
 localparam int UnitBits = UNITS > 32 ? 6 : (UNITS > 16 ? 5 : (UNITS > 8 ? 4 : (UNITS > 4 ? 3 : (UNITS > 2 ? 2 : 1)))),  // an expansion unit's number
-localparam int EntryBits = ORDER_BITS + ClassBits + DepthBits + RgbBits,  // {colour, dz, class, index}, as FACE has them
 localparam int KeyBits = Z_BITS + ORDER_BITS,  // what the compare tree compares: {Z, index}
-localparam int PointBits = KeyBits + RgbBits + ClassBits,  // a pixel in the compare tree: {Z, index, colour, class}
+localparam int PixelBits = Z_BITS + RgbBits + ClassBits + DSF_BITS + FSF + TallyBits,  // a pixel's state
+localparam int ExitBits = RgbBits + 1 + ExitClassBits + TallyBits + DarkBits,  // a pixel that leaves
+localparam int EntryBits = ORDER_BITS + ClassBits + DepthBits + RgbBits,  // a face in its unit's table, as FACE has it from index on
+localparam int PointBits = ClassBits + RgbBits + ORDER_BITS + Z_BITS,  // a pixel in the compare tree, with its key highest
+// Words whose fields a configuration may lack: where they are; 0, and not to be read, if they are not.
+localparam int PixelZAt = 0,  // its depth
+localparam int PixelColorAt = Z_BITS,  // its colour
+localparam int PixelClassAt = ClassBits > 0 ? Z_BITS + RgbBits : 0,  // its class
+localparam int PixelDsfAt = DSF_BITS > 0 ? Z_BITS + RgbBits + ClassBits : 0,  // the shadow counter
+localparam int PixelFsfAt = FSF > 0 ? Z_BITS + RgbBits + ClassBits + DSF_BITS : 0,  // the flag
+localparam int PixelCountsAt = TallyBits > 0 ? Z_BITS + RgbBits + ClassBits + DSF_BITS + FSF : 0,  // its samples in shadow, light 0 lowest
+localparam int ExitColorAt = 0,  // its colour
+localparam int ExitCoveredAt = RgbBits,  // it has been drawn
+localparam int ExitClassAt = ExitClassBits > 0 ? RgbBits + 1 : 0,  // for the table
+localparam int ExitCountsAt = TallyBits > 0 ? RgbBits + 1 + ExitClassBits : 0,  // 0 where the class is
+localparam int ExitDarkAt = DarkBits > 0 ? RgbBits + 1 + ExitClassBits + TallyBits : 0,  // it is lit and in shadow
+localparam int EntryIndexAt = 0,  // the polyhedron's
+localparam int EntryClassAt = ClassBits > 0 ? ORDER_BITS : 0,  // its class
+localparam int EntryDzAt = ORDER_BITS + ClassBits,  // a pixel
+localparam int EntryColorAt = ORDER_BITS + ClassBits + DepthBits,  // its colour
+localparam int PointClassAt = 0,  // its class
+localparam int PointColorAt = ClassBits,  // its colour
+localparam int PointIndexAt = ClassBits + RgbBits,  // the polyhedron's
+localparam int PointZAt = ClassBits + RgbBits + ORDER_BITS,  // its depth
 // The buses of kage_buses.svh.
 localparam int FactsBits = 4 + 1 + 1,  // what a token says by itself
 localparam int CommandBits = 4 + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // what the pixels of a range do

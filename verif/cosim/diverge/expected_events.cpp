@@ -196,7 +196,7 @@ void ExpectedEvents::face_event(const SegmentToken& f) {
 void ExpectedEvents::segment_event(const SegmentToken& s) {
   ExpectedEvent e = event(Stage::segment, of_control);
   e.unit = s.unit;
-  if (s.face != (1 << config_.face_bits) - 1)
+  if (s.face != derived::blank_face(config_))
     e.expect(at::segment::z, low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_));
   e.expect(at::segment::dx, static_cast<std::uint64_t>(s.dx));
   e.expect(at::segment::face, static_cast<std::uint64_t>(s.face));
@@ -255,7 +255,7 @@ void ExpectedEvents::came(int x, std::optional<std::uint64_t> z, std::optional<s
 // What the units and the tree have for a line's pixels, each in turn, and what becomes of the pixels.
 void ExpectedEvents::tree_events(const LineView& line) {
   command(number(Kind::TREE), 0, width_, of_command);
-  const std::uint64_t clear = (std::uint64_t{1} << config_.z_bits) - 1;
+  const std::uint64_t clear = derived::clear_depth(config_);
   for (int x = 0; x < width_; ++x) {
     for (int u = 0; u < config_.units; ++u) {
       const auto p = line.unit_pixel(u, x);

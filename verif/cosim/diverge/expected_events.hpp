@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "contract/derived.hpp"
 #include "cosim/diverge/stages.hpp"
 #include "kage/core.hpp"
 #include "kage/stream.hpp"
@@ -136,7 +137,7 @@ class ExpectedEvents : public CoreObserver {
   [[nodiscard]] Leaving leaving(const PixelState& s, bool resolved) const;
   [[nodiscard]] std::vector<Leaving> all_leaving(const LineView& line) const;
 
-  [[nodiscard]] bool clear(const PixelState& s) const { return s.z == (1U << config_.z_bits) - 1U; }
+  [[nodiscard]] bool clear(const PixelState& s) const { return s.z == derived::clear_depth(config_); }
   [[nodiscard]] std::uint64_t packed(const std::array<std::uint8_t, 3>& color) const;
 
   Config config_;

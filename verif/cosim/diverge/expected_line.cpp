@@ -57,7 +57,7 @@ void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
       if (l.covered || painted_) e.expect(at::exit::color, l.color);
       e.expect(at::exit::covered, l.covered ? 1 : 0);
       e.expect(at::exit::dark, l.dark ? 1 : 0);
-      e.expect(at::exit::normal_class, config_.class_bits > 1 ? l.normal_class : 0);
+      e.expect(at::exit::normal_class, derived::has_table(config_) ? l.normal_class : 0);
       e.expect(at::exit::counts, l.counts);
     }
     put(e);
@@ -77,7 +77,7 @@ void ExpectedEvents::state(std::uint64_t bias, bool matters) {
 // What is left of a pixel once its line is painted.
 PixelState ExpectedEvents::painted(const PixelState& before) const {
   PixelState s = before;
-  const std::uint64_t one = std::uint64_t{1} << config_.shade_frac;
+  const std::uint64_t one = derived::whole_share(config_);
   // A TP that is refused may come among volumes, and what is painted is darkened.
   const bool dark = leaving(s, resolved_).dark;
   for (unsigned c = 0; c < 3; ++c) {

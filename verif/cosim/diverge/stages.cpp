@@ -46,7 +46,7 @@ std::string value_text(const Config& config, Stage stage, int index, std::uint64
       if (config.channels == 1) return fmt::format("{}", value & 255);
       return fmt::format("{},{},{}", value & 255, value >> 8 & 255, value >> 16 & 255);
     case ValueText::depth:
-      if (value == (std::uint64_t{1} << config.z_bits) - 1) return "clear";
+      if (value == derived::clear_depth(config)) return "clear";
       break;
     case ValueText::number:
       break;

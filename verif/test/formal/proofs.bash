@@ -155,7 +155,7 @@ defect out_standstill line_out_frames line_out.sv 's/assign start = .*/assign st
 defect out_moves_unseen line_out line_out.sv 's/assign moving_o = .*/assign moving_o = start || (go \&\& sending_q);/'
 defect out_video_falls line_out skid_buffer.sv 's/assign out_free = .*/assign out_free = 1;/'
 defect out_reset_lets_through line_out_resets skid_buffer.sv "s/out_valid_q   <= 1'b0;/out_valid_q <= out_valid_q;/"
-defect out_rounds_down line_out_colors line_out.sv "s/(SHADE_FRAC + 9)'(1 << (SHADE_FRAC - 1));/'0;/"
+defect out_rounds_down line_out_colors line_out.sv "s/(SHADE_FRAC + 9)'(HalfShare);/'0;/"
 defect out_blank_shown line_out_colors line_out.sv 's/ && !blank_at_q\[LightStages+2\]//'
 defect out_load_to_video line_out_loads line_out.sv 's/valid_q\[Depth-1\] && !load_at_q\[Depth-1\]/valid_q[Depth-1]/'
 defect out_load_places line_out_loads line_out.sv 's/load\.last ? .0 : load_x_q + 1.b1/load_x_q + 1'"'"'b1/'

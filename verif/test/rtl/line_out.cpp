@@ -16,11 +16,9 @@ using namespace kage::rtl;
 namespace {
 
 struct Shape : kage::Config {
-  [[nodiscard]] constexpr int pixel_bits() const {
-    return count_bits == 0 ? 26 : 25 + (class_bits > 1 ? class_bits : 0) + lights * count_bits;
-  }
-  [[nodiscard]] constexpr bool has_table() const { return class_bits > 1; }
-  [[nodiscard]] constexpr bool has_loads() const { return translucency != 0 && count_bits > 0; }
+  [[nodiscard]] constexpr int pixel_bits() const { return kage::derived::exit_bits(*this); }
+  [[nodiscard]] constexpr bool has_table() const { return kage::derived::has_table(*this); }
+  [[nodiscard]] constexpr bool has_loads() const { return kage::derived::has_loads(*this); }
 };
 
 /// What the lines of a frame have in common.
@@ -32,7 +30,7 @@ struct Frame {
 struct Line {
   bool first, blank, load, painted;
   Frame frame;
-  std::vector<std::uint64_t> pixels;  // {dark, covered, colour} or {counts, class, covered, colour}
+  std::vector<std::uint64_t> pixels;  // ExitWord
 };
 
 struct Out {
@@ -55,23 +53,23 @@ std::uint32_t factor(const Shape& s, std::uint64_t pixel, const Table& table, st
                      std::size_t channel) {
   const std::int64_t one = std::int64_t{1} << s.shade_frac;
   std::int64_t kept = one;
+  const ExitWord exit(s);
   if (s.count_bits == 0) {
-    if ((pixel >> 25 & 1) != 0) kept -= shade;
+    if (get(pixel, exit.dark) != 0) kept -= shade;
     return static_cast<std::uint32_t>(kept);
   }
-  pixel >>= 25;
-  const std::size_t normal_class = s.has_table() ? pixel & ((1U << s.class_bits) - 1) : 1;
-  if (s.has_table()) pixel >>= s.class_bits;
-  for (std::size_t light = 0; light < static_cast<std::size_t>(s.lights); ++light, pixel >>= s.count_bits) {
+  const std::size_t normal_class = s.has_table() ? get(pixel, exit.normal_class) : 1;
+  std::uint64_t counts = get(pixel, exit.counts);
+  for (std::size_t light = 0; light < static_cast<std::size_t>(s.lights); ++light, counts >>= s.count_bits) {
     const std::int64_t share = s.has_table() ? table[normal_class][light][channel] : shade;
-    kept -= share * static_cast<std::int64_t>(pixel & ((1U << s.count_bits) - 1));
+    kept -= share * static_cast<std::int64_t>(counts & ((1U << s.count_bits) - 1));
   }
   return static_cast<std::uint32_t>(std::max<std::int64_t>(kept, 0));
 }
 
 /// What a pixel of a line leaves as.
 std::uint32_t color_of(const Shape& s, const Line& l, std::uint64_t pixel, const Table& table) {
-  const bool drawn = (pixel >> 24 & 1) != 0 || (s.translucency != 0 && l.painted);
+  const bool drawn = get(pixel, ExitWord(s).covered) != 0 || (s.translucency != 0 && l.painted);
   if (l.blank || !drawn) return l.frame.background;
   std::uint32_t color = 0;
   for (std::size_t c = 0; c < 3; ++c) {
@@ -132,6 +130,7 @@ class Lines {
  private:
   static constexpr Shape kShape{config_of<Model>()};
   static constexpr LineBus kLine{kShape};
+  static constexpr ExitWord kExit{kShape};
   static constexpr LoadBus kLoad{kShape};
   static constexpr int kMost = 14;  // lines
 
@@ -166,10 +165,9 @@ class Lines {
   }
 
   std::uint64_t random_pixel() {
-    const std::uint64_t pixel = dice_.bits(kShape.pixel_bits());
-    const int class_at = 25;  // counts are 0 where the class is
-    const bool no_class = kShape.has_table() && (pixel >> class_at & ((1U << kShape.class_bits) - 1)) == 0;
-    return no_class ? pixel & ((1U << class_at) - 1) : pixel;
+    std::uint64_t pixel = dice_.bits(kShape.pixel_bits());
+    if (kShape.has_table() && get(pixel, kExit.normal_class) == 0) put(pixel, kExit.counts, 0);
+    return pixel;
   }
 
   void announce() {

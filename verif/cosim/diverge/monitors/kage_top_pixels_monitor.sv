@@ -37,10 +37,9 @@ module kage_top_pixels_monitor #(
 
   localparam int CountersBits = COUNT_BITS > 0 ? TallyBits : 1;
   function automatic void trace_leaving(input logic last, input logic [ExitBits-1:0] pixel);
-    trace_exit(32'(last), 64'(pixel[RgbBits-1:0]), 64'(pixel[RgbBits]),
-               DSF_BITS > 0 && COUNT_BITS == 0 ? 64'(pixel[ExitBits-1]) : 64'd0,
-               COUNT_BITS > 0 && CLASS_BITS > 1 ? 64'(pixel[ExitClassAt+:CLASS_BITS]) : 64'd0,
-               COUNT_BITS > 0 ? 64'(pixel[ExitCountAt+:CountersBits]) : 64'd0);
+    trace_exit(32'(last), 64'(pixel[ExitColorAt+:RgbBits]), 64'(pixel[ExitCoveredAt]),
+               DarkBits > 0 ? 64'(pixel[ExitDarkAt]) : 64'd0, HasTable ? 64'(pixel[ExitClassAt+:CLASS_BITS]) : 64'd0,
+               COUNT_BITS > 0 ? 64'(pixel[ExitCountsAt+:CountersBits]) : 64'd0);
   endfunction
 
   always_ff @(posedge clk_i) begin

@@ -37,7 +37,7 @@ module kage_top_tokens_monitor #(
 
   // A channel of a table's share, as far as there are so many.
   function automatic logic [63:0] share(input logic [EntryShareBits-1:0] shares, input int channel);
-    share = channel < CHANNELS ? 64'(shares[(channel<CHANNELS?channel : 0)*(SHADE_FRAC+1)+:SHADE_FRAC+1]) : '0;
+    share = channel < CHANNELS ? 64'(shares[(channel<CHANNELS?channel : 0)*FactorBits+:FactorBits]) : '0;
   endfunction
 
   always_ff @(posedge clk_i) begin

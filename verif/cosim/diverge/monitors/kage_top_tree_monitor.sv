@@ -36,9 +36,9 @@ module kage_top_tree_monitor #(
     if (rst_ni) begin
       if (tree_claim) trace_claim(0);
       if (tree_face_valid) begin
-        trace_face(32'(piece.unit), 64'(piece.face), 64'(piece.entry[ORDER_BITS-1:0]),
-                   ClassBits > 0 ? 64'(piece.entry[ORDER_BITS+:CLASS_BITS]) : 64'd0,
-                   64'(piece.entry[ORDER_BITS+ClassBits+:DepthBits]), 64'(piece.entry[EntryBits-1-:RgbBits]));
+        trace_face(32'(piece.unit), 64'(piece.face), 64'(piece.entry[EntryIndexAt+:ORDER_BITS]),
+                   DSF_BITS > 0 ? 64'(piece.entry[EntryClassAt+:CLASS_BITS]) : 64'd0,
+                   64'(piece.entry[EntryDzAt+:DepthBits]), 64'(piece.entry[EntryColorAt+:RgbBits]));
       end
       if (tree_seg_valid && tree_seg_ready) begin
         trace_segment(32'(piece.unit), 64'(piece.z), 64'(piece.dx), 64'(piece.face));

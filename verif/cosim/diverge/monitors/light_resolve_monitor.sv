@@ -6,14 +6,13 @@
 module light_resolve_monitor #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam int FactorBits = SHADE_FRAC + 1,
     localparam int Depth = 5 + LightStages
 ) (
     input wire logic                           clk_i,
     input wire logic                           rst_ni,
     input wire logic                           table_valid_i,
     input wire logic [     TableEntryBits-1:0] table_i,
-    input wire logic [           SHADE_FRAC:0] keep_q,
+    input wire logic [         FactorBits-1:0] keep_q,
     input wire logic                           go,
     input wire logic [              Depth-1:0] valid_q,
     input wire logic [           ExitBits-1:0] pixel_q,
@@ -46,16 +45,16 @@ module light_resolve_monitor #(
       for (int c = 0; c < CHANNELS; c++) begin
         lost = 0;
         for (int l = 0; l < LIGHTS; l++) begin
-          if (CLASS_BITS > 1 && pixel_q[ExitCountAt+l*COUNT_BITS+:COUNT_BITS] != '0 &&
+          if (HasTable && pixel_q[ExitCountsAt+l*COUNT_BITS+:COUNT_BITS] != '0 &&
               !written[32'(pixel_class)*LIGHTS+l]) begin
             known = 1'b0;
           end
-          share = CLASS_BITS > 1 ? 32'(shares[32'(pixel_class)*LIGHTS+l][c*FactorBits+:FactorBits]) : 32'(keep_q);
-          lost  = lost + 32'(pixel_q[ExitCountAt+l*COUNT_BITS+:COUNT_BITS]) * share;
+          share = HasTable ? 32'(shares[32'(pixel_class)*LIGHTS+l][c*FactorBits+:FactorBits]) : 32'(keep_q);
+          lost  = lost + 32'(pixel_q[ExitCountsAt+l*COUNT_BITS+:COUNT_BITS]) * share;
         end
-        result[c*FactorBits+:FactorBits] = lost > 2 ** SHADE_FRAC ? '0 : FactorBits'(2 ** SHADE_FRAC - lost);
+        result[c*FactorBits+:FactorBits] = lost > 32'(WholeShare) ? '0 : FactorBits'(32'(WholeShare) - lost);
       end
-      result[ResultBits-1-:RgbBits+1] = pixel_q[RgbBits:0];
+      result[ResultBits-1-:RgbBits+1] = pixel_q[ExitCoveredAt:ExitColorAt];
     end
 
     always_ff @(posedge clk_i) begin

@@ -6,22 +6,17 @@ module pixel_banked_monitor #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
     parameter int LANES = 4,
-    parameter int ADDR_BITS = 8,
-    parameter int PIXEL_BITS = 32,
-    parameter int CLASS_AT = 0,
-    parameter int DSF_AT = 0,
-    parameter int FSF_AT = 0,
-    parameter int COUNT_AT = 0
+    parameter int ADDR_BITS = 8
 ) (
-    input wire logic                        clk_i,
-    input wire logic                        rst_ni,
-    input wire logic                        group_valid,
-    input wire logic [                 3:0] now_kind,
-    input wire logic [           LANES-1:0] now_lanes,
-    input wire logic [       ADDR_BITS-1:0] now_addr,
-    input wire logic [    LANES*Z_BITS-1:0] now_z,
-    input wire logic [   LANES*RgbBits-1:0] now_color,
-    input wire logic [LANES*PIXEL_BITS-1:0] next
+    input wire logic                       clk_i,
+    input wire logic                       rst_ni,
+    input wire logic                       group_valid,
+    input wire logic [                3:0] now_kind,
+    input wire logic [          LANES-1:0] now_lanes,
+    input wire logic [      ADDR_BITS-1:0] now_addr,
+    input wire logic [   LANES*Z_BITS-1:0] now_z,
+    input wire logic [  LANES*RgbBits-1:0] now_color,
+    input wire logic [LANES*PixelBits-1:0] next
 );
   `include "kage_trace.svh"
   `include "generated/kage_layout.svh"
@@ -32,7 +27,7 @@ module pixel_banked_monitor #(
       for (int l = 0; l < LANES; l++) begin
         if (now_lanes[l]) begin
           trace_pixel_state(32'(now_addr) * LANES + l, now_kind, 64'(now_z[l*Z_BITS+:Z_BITS]),
-                            64'(now_color[l*RgbBits+:RgbBits]), next[l*PIXEL_BITS+:PIXEL_BITS]);
+                            64'(now_color[l*RgbBits+:RgbBits]), next[l*PixelBits+:PixelBits]);
         end
       end
     end
@@ -43,11 +38,6 @@ endmodule
 bind pixel_banked pixel_banked_monitor #(
     .LANES(LANES),
     .ADDR_BITS(AddrBits),
-    .PIXEL_BITS(PixelBits),
-    .CLASS_AT(PixelClassAt),
-    .DSF_AT(PixelDsfAt),
-    .FSF_AT(PixelFsfAt),
-    .COUNT_AT(PixelCountAt),
     `include "generated/kage_pixel_param_map.svh"
 ) u_monitor (
     .group_valid(valid[Last]),

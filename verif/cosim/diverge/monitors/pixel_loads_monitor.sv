@@ -6,7 +6,7 @@
 module pixel_loads_monitor #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0
+    localparam logic [SlopeBits-1:0] Flat = '0
 ) (
     input wire logic                   clk_i,
     input wire logic                   rst_ni,
@@ -38,7 +38,7 @@ module pixel_loads_monitor #(
       for (int c = 0; c < CHANNELS; c++) begin
         command.color[c*RampBits+:RampBits] = RampBits'(back.color[c*8+:8]) << COLOR_FRAC;
       end
-      command.dcolor = '0;
+      command.dcolor = Flat;
     end
   end
 

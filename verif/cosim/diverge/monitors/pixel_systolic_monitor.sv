@@ -6,18 +6,13 @@
 module pixel_systolic_monitor #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    parameter int PIXELS = 64,
-    parameter int PIXEL_BITS = 32,
-    parameter int CLASS_AT = 0,
-    parameter int DSF_AT = 0,
-    parameter int FSF_AT = 0,
-    parameter int COUNT_AT = 0
+    parameter int PIXELS = 64
 ) (
-    input wire logic                         clk_i,
-    input wire logic                         rst_ni,
-    input wire logic [           PIXELS-1:0] hit_q,
-    input wire logic [     (PIXELS+1)*4-1:0] kind_q,
-    input wire logic [PIXELS*PIXEL_BITS-1:0] pixel_d
+    input wire logic                        clk_i,
+    input wire logic                        rst_ni,
+    input wire logic [          PIXELS-1:0] hit_q,
+    input wire logic [    (PIXELS+1)*4-1:0] kind_q,
+    input wire logic [PIXELS*PixelBits-1:0] pixel_d
 );
   `include "kage_trace.svh"
   `include "generated/kage_layout.svh"
@@ -27,7 +22,7 @@ module pixel_systolic_monitor #(
     if (rst_ni) begin
       for (int i = 0; i < PIXELS; i++) begin
         if (hit_q[i] && kind_q[(i+1)*4+:4] != KindEol && kind_q[(i+1)*4+:4] != CmdOut) begin
-          trace_pixel_state(i, kind_q[(i+1)*4+:4], '1, '1, pixel_d[i*PIXEL_BITS+:PIXEL_BITS]);
+          trace_pixel_state(i, kind_q[(i+1)*4+:4], '1, '1, pixel_d[i*PixelBits+:PixelBits]);
         end
       end
     end
@@ -37,11 +32,6 @@ endmodule
 
 bind pixel_systolic pixel_systolic_monitor #(
     .PIXELS(N),
-    .PIXEL_BITS(PixelBits),
-    .CLASS_AT(PixelClassAt),
-    .DSF_AT(PixelDsfAt),
-    .FSF_AT(PixelFsfAt),
-    .COUNT_AT(PixelCountAt),
     `include "generated/kage_pixel_param_map.svh"
 ) u_monitor (.*);
 

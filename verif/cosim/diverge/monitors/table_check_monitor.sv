@@ -4,23 +4,21 @@
 `default_nettype none
 
 module table_check_monitor #(
-    parameter int SHADE_FRAC = 8,
-    parameter int CHANNELS = 3,
-    parameter int LIGHTS = 1,
-    parameter int CLASS_BITS = 2,
-    parameter int LIGHT_BITS = 1
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    localparam int First = 1  // class of the first entry
 ) (
-    input wire logic                                 clk_i,
-    input wire logic                                 frame_start_i,
-    input wire logic                                 take_table_i,
-    input wire logic                                 take_other_i,
-    input wire logic [               CLASS_BITS-1:0] class_i,
-    input wire logic [               LIGHT_BITS-1:0] light_i,
-    input wire logic [CHANNELS*(SHADE_FRAC + 1)-1:0] share_i,
-    input wire logic [               CLASS_BITS-1:0] span_class_i,
-    input wire logic                                 order_error_o,
-    input wire logic                                 range_error_o,
-    input wire logic                                 lacking_o
+    input wire logic                      clk_i,
+    input wire logic                      frame_start_i,
+    input wire logic                      take_table_i,
+    input wire logic                      take_other_i,
+    input wire logic [    CLASS_BITS-1:0] class_i,
+    input wire logic [     LightBits-1:0] light_i,
+    input wire logic [EntryShareBits-1:0] share_i,
+    input wire logic [    CLASS_BITS-1:0] span_class_i,
+    input wire logic                      order_error_o,
+    input wire logic                      range_error_o,
+    input wire logic                      lacking_o
 );
   `include "kage_trace.svh"
 
@@ -28,9 +26,9 @@ module table_check_monitor #(
   int entries_q;  // that have come; the next is of class 1 + entries / LIGHTS
   logic closed_q, range;
   always_comb begin
-    range = 32'(class_i) != 1 + entries_q / LIGHTS || 32'(light_i) != entries_q % LIGHTS;
+    range = 32'(class_i) != First + entries_q / LIGHTS || 32'(light_i) != entries_q % LIGHTS;
     for (int c = 0; c < CHANNELS; c++) begin
-      if (32'(share_i[c*(SHADE_FRAC+1)+:SHADE_FRAC+1]) > 2 ** SHADE_FRAC) range = 1'b1;
+      if (share_i[c*FactorBits+:FactorBits] > WholeShare) range = 1'b1;
     end
   end
 
@@ -52,11 +50,7 @@ module table_check_monitor #(
 endmodule
 
 bind table_check table_check_monitor #(
-    .SHADE_FRAC(SHADE_FRAC),
-    .CHANNELS(CHANNELS),
-    .LIGHTS(LIGHTS),
-    .CLASS_BITS(CLASS_BITS),
-    .LIGHT_BITS(LightBits)
+    `include "generated/kage_pixel_param_map.svh"
 ) u_monitor (.*);
 
 `default_nettype wire

@@ -4,27 +4,22 @@
 `default_nettype none
 
 module tree_core_monitor #(
-    parameter int Z_BITS = 24,
-    parameter int CHANNELS = 3,
-    parameter int UNITS = 1,
-    parameter int ORDER_BITS = 8,
-    parameter int POINT_BITS = 64,
-    parameter int CLASS_BITS = 0  // of a pixel: 0 without shadows
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    localparam int AllBits = UNITS * PointBits
 ) (
-    input wire logic                        clk_i,
-    input wire logic                        rst_ni,
-    input wire logic                        flush,
-    input wire logic [           UNITS-1:0] px_valid,
-    input wire logic [           UNITS-1:0] px_ready,
-    input wire logic [UNITS*POINT_BITS-1:0] px_data
+    input wire logic               clk_i,
+    input wire logic               rst_ni,
+    input wire logic               flush,
+    input wire logic [  UNITS-1:0] px_valid,
+    input wire logic [  UNITS-1:0] px_ready,
+    input wire logic [AllBits-1:0] px_data
 );
   `include "kage_trace.svh"
-  localparam int RgbBits = 8 * CHANNELS;
-  localparam int ClassWidth = CLASS_BITS > 0 ? CLASS_BITS : 1;
 
-  function automatic void trace_point(input int u, input logic [POINT_BITS-1:0] point);
-    trace_unit(u, 64'(point[POINT_BITS-1-:Z_BITS]), 64'(point[POINT_BITS-Z_BITS-1-:ORDER_BITS]),
-               64'(point[CLASS_BITS+:RgbBits]), CLASS_BITS > 0 ? 64'(point[ClassWidth-1:0]) : 64'd0);
+  function automatic void trace_point(input int u, input logic [PointBits-1:0] point);
+    trace_unit(u, 64'(point[PointZAt+:Z_BITS]), 64'(point[PointIndexAt+:ORDER_BITS]), 64'(point[PointColorAt+:RgbBits]),
+               DSF_BITS > 0 ? 64'(point[PointClassAt+:CLASS_BITS]) : 64'd0);
   endfunction
 
   for (genvar u = 0; u < UNITS; u++) begin : gen_unit
@@ -42,7 +37,7 @@ module tree_core_monitor #(
   always_ff @(posedge clk_i) begin
     if (rst_ni && !flush) begin
       for (int u = 0; u < UNITS; u++) begin
-        if (px_valid[u] && px_ready[u]) trace_point(u, px_data[u*POINT_BITS+:POINT_BITS]);
+        if (px_valid[u] && px_ready[u]) trace_point(u, px_data[u*PointBits+:PointBits]);
       end
     end
   end
@@ -50,12 +45,7 @@ module tree_core_monitor #(
 endmodule
 
 bind tree_core tree_core_monitor #(
-    .Z_BITS(Z_BITS),
-    .CHANNELS(CHANNELS),
-    .UNITS(UNITS),
-    .ORDER_BITS(ORDER_BITS),
-    .POINT_BITS(PointBits),
-    .CLASS_BITS(ClassBits)
+    `include "generated/kage_pixel_param_map.svh"
 ) u_monitor (.*);
 
 `default_nettype wire
