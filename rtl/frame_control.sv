@@ -18,8 +18,9 @@
 //   commands clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
 // Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its
 //   unit by tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose
-//   unit is at fault goes nowhere. tree_claim_o, one clock, says that a TREE became a command; tree_flush_o, one clock,
-//   that there will be no more of this frame. Without units these outputs are 0 and the inputs do not matter.
+//   unit is at fault goes nowhere. tree_call_o says, for one clock each, that a header or a FACE was taken, that a TREE
+//   became a command, and after an error that there will be no more of this frame. Without units these outputs are 0
+//   and the inputs do not matter.
 // Latency: 1 clock from token to command. Throughput: a token a clock.
 `default_nettype none
 
@@ -36,11 +37,7 @@ module frame_control #(
     output logic                           token_ready_o,
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
     input  wire logic [     FactsBits-1:0] token_facts_i,
-    input  wire logic                      token_header_i,
-    input  wire logic                      token_lacking_i,
-    input  wire logic                      token_cut_i,
-    input  wire logic                      token_final_i,
-    input  wire logic                      token_at_last_i,
+    input  wire logic [     FlagsBits-1:0] token_flags_i,
     output logic                           drop_o,
     input  wire logic                      dropping_i,
 
@@ -61,14 +58,11 @@ module frame_control #(
     output logic      [TableEntryBits-1:0] table_o,
 
     // to the units and the tree; the width is line_o's
-    output logic                      tree_frame_start_o,
-    input  wire logic                 tree_frame_ready_i,
-    output logic                      tree_flush_o,
-    output logic                      tree_claim_o,
-    output logic                      tree_face_valid_o,
-    output logic                      tree_seg_valid_o,
-    input  wire logic                 tree_seg_ready_i,
-    output logic      [PieceBits-1:0] tree_piece_o,        // of FACE and SEG
+    output logic      [TreeCallBits-1:0] tree_call_o,
+    input  wire logic                    tree_frame_ready_i,
+    output logic                         tree_seg_valid_o,
+    input  wire logic                    tree_seg_ready_i,
+    output logic      [   PieceBits-1:0] tree_piece_o,        // of FACE and SEG
 
     // to the registers
     output logic open_o,  // a frame's header has been taken and the frame has not ended
@@ -104,6 +98,8 @@ module frame_control #(
   logic [3:0] kind;
   logic is_eol, is_end, is_span, is_tree, is_tp, is_table;
 
+  flags_t flags;
+  assign flags = token_flags_i;
   assign kind = token_i[3:0];
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
@@ -116,7 +112,7 @@ module frame_control #(
   logic [3:0] head_error;
   facts_t facts;
   assign facts = token_facts_i;
-  assign head_error = token_cut_i ? ErrLastEarly : facts.head_error;
+  assign head_error = flags.cut ? ErrLastEarly : facts.head_error;
 
   // ---- body --------------------------------------------------------------------------------------------------------
   logic accept, is_good, body_good, good, emit_eol, emit_paint;  // what happens in this clock, see below
@@ -134,30 +130,30 @@ module frame_control #(
       .clk_i,
       .rst_ni,
       .token_i,
-      .bad_range_i   (facts.bad_range),
-      .token_lacking_i,
-      .token_cut_i,
-      .token_at_last_i,
-      .width_i       (width_q),
-      .line_i        (line_q),
-      .lines_left_i  (left_q),
-      .lines_done_i  (lines_done_q),
-      .index_i       (index_q),
-      .header_i      (accept && token_header_i),
-      .start_i       (good && token_header_i),
-      .take_i        (good && !token_header_i),
-      .eol_i         (emit_eol),
-      .clear_bias_i  (emit_paint),
-      .good_o        (body_good),
-      .code_o        (body_error),
-      .fault_unit_o  (fault_unit),
-      .fault_token_o (fault_token),
-      .seg_goes_o    (seg_goes),
-      .bias_o        (bias),
-      .resolved_o    (resolved),
-      .behind_o      (unit_behind),
-      .behind_unit_o (unit_of_behind),
-      .behind_ahead_o(ahead_of_behind)
+      .bad_range_i    (facts.bad_range),
+      .token_lacking_i(flags.lacking),
+      .token_cut_i    (flags.cut),
+      .token_at_last_i(flags.at_last),
+      .width_i        (width_q),
+      .line_i         (line_q),
+      .lines_left_i   (left_q),
+      .lines_done_i   (lines_done_q),
+      .index_i        (index_q),
+      .header_i       (accept && flags.header),
+      .start_i        (good && flags.header),
+      .take_i         (good && !flags.header),
+      .eol_i          (emit_eol),
+      .clear_bias_i   (emit_paint),
+      .good_o         (body_good),
+      .code_o         (body_error),
+      .fault_unit_o   (fault_unit),
+      .fault_token_o  (fault_token),
+      .seg_goes_o     (seg_goes),
+      .bias_o         (bias),
+      .resolved_o     (resolved),
+      .behind_o       (unit_behind),
+      .behind_unit_o  (unit_of_behind),
+      .behind_ahead_o (ahead_of_behind)
   );
 
   // ---- what happens in this clock ----------------------------------------------------------------------------------
@@ -168,24 +164,24 @@ module frame_control #(
   assign token_ready_o = (state_q == StHeader && frame_free) ||
       (state_q == StBody && body_free && (line_ready_i || !is_eol) && (table_free_i || !is_table) && !must_paint);
   assign accept = token_valid_i && token_ready_o;
-  assign error_code = token_header_i ? head_error : body_error;
-  assign is_good = token_header_i ? !token_cut_i && facts.head_error == ErrNone : body_good;
+  assign error_code = flags.header ? head_error : body_error;
+  assign is_good = flags.header ? !flags.cut && facts.head_error == ErrNone : body_good;
   assign bad = accept && !is_good;
   assign good = accept && is_good;
-  assign body_eol = good && !token_header_i && is_eol;
+  assign body_eol = good && !flags.header && is_eol;
   assign blank_eol = state_q == StBlank && !lines_done_q && eol_free;
   assign emit_eol = body_eol || blank_eol;
-  assign emit_span = good && !token_header_i && is_span && !facts.empty;
-  assign emit_tree = good && !token_header_i && is_tree;
+  assign emit_span = good && !flags.header && is_span && !facts.empty;
+  assign emit_tree = good && !flags.header && is_tree;
   // A RESOLVE goes over the line before its first TP. A malformed TP makes the line blank anyway, and an empty TP
   // changes nothing, so both may have it. A cut TP has none, because its kind may be missing.
-  assign must_paint = is_tp && !token_cut_i && !painted_q;
+  assign must_paint = is_tp && !flags.cut && !painted_q;
   assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
       (line_ready_i || !by_loads);
   // With counters only the way out can darken; a line without RESOLVE has nothing to darken.
   assign by_loads = HasLoads && resolved;
   assign emit_out = emit_paint && by_loads;
-  assign drop_o = bad && !token_final_i;
+  assign drop_o = bad && !flags.ends;
 
   assign line_valid_o = emit_eol || emit_out;
   line_t line;
@@ -202,16 +198,16 @@ module frame_control #(
   assign hungry_o = state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done_q);
   assign painting_o = emit_paint;
   assign draining_o = state_q == StBlank && dropping_i;
-  assign frame_end_o = (good && !token_header_i && is_end) || (state_q == StBlank && lines_done_q && !dropping_i);
+  assign frame_end_o = (good && !flags.header && is_end) || (state_q == StBlank && lines_done_q && !dropping_i);
 
   error_t error;
   assign error_valid_o = bad;
   assign error_o = error;
   assign error.code = error_code;
-  assign error.frame = token_header_i ? (token_cut_i ? 32'd0 : token_i[HeaderFrameLsb+:32]) : frame_q;
-  assign error.line = token_header_i ? 16'd0 : 16'(line_q);
-  assign error.token = token_header_i ? 32'd0 : fault_token;
-  assign error.unit = token_header_i ? 6'd0 : fault_unit;
+  assign error.frame = flags.header ? (flags.cut ? 32'd0 : token_i[HeaderFrameLsb+:32]) : frame_q;
+  assign error.line = flags.header ? 16'd0 : 16'(line_q);
+  assign error.token = flags.header ? 32'd0 : fault_token;
+  assign error.unit = flags.header ? 6'd0 : fault_unit;
 
   // behind_valid_o is low while a frame ends or is dropped, because nothing waits for the units then.
   behind_t behind;
@@ -224,14 +220,14 @@ module frame_control #(
     if (!rst_ni) begin
       state_q <= StHeader;
     end else begin
-      if (good && token_header_i) state_q <= StBody;
+      if (good && flags.header) state_q <= StBody;
       if (bad) state_q <= StBlank;
       if (frame_end_o) state_q <= StHeader;
     end
   end
 
   always_ff @(posedge clk_i) begin
-    if (accept && token_header_i) begin
+    if (accept && flags.header) begin
       width_q <= token_i[HeaderWidthLsb+:X_BITS];
       left_q <= bad ? '0 : token_i[HeaderHeightLsb+:15];  // no lines after an error in the header
       lines_done_q <= bad;
@@ -293,11 +289,13 @@ module frame_control #(
   assign entry.normal_class = token_i[TableClassLsb+:CLASS_BITS];
   assign entry.light = token_i[TableLightLsb+:LightBits];
   assign entry.share = token_i[TableShareLsb+:EntryShareBits];
-  assign table_valid_o = good && !token_header_i && is_table;
+  assign table_valid_o = good && !flags.header && is_table;
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
   piece_t piece;  // yosys 0.23 finds no fields of a struct that a generate block declares
+  tree_call_t call;
   assign tree_piece_o = piece;
+  assign tree_call_o  = call;
   if (UNITS > 0) begin : gen_tree
     logic is_face, is_seg;
     assign is_face = kind == KindFace;
@@ -308,10 +306,10 @@ module frame_control #(
     assign piece.z = DepthBits'(token_i[SegZLsb+:SegZBits]);
     assign piece.dx = token_i[SegDxLsb+:DX_BITS];
 
-    assign tree_frame_start_o = good && token_header_i;
-    assign tree_flush_o = bad && !token_header_i;
-    assign tree_claim_o = emit_tree;
-    assign tree_face_valid_o = good && !token_header_i && is_face;
+    assign call.start = good && flags.header;
+    assign call.flush = bad && !flags.header;
+    assign call.claim = emit_tree;
+    assign call.face = good && !flags.header && is_face;
     assign tree_seg_valid_o = token_valid_i && state_q == StBody && seg_goes;
 
     assign frame_free = tree_frame_ready_i;
@@ -320,8 +318,7 @@ module frame_control #(
   end else begin : gen_no_tree
     logic unused_tree;
     assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i ^ seg_goes;
-    assign {tree_frame_start_o, tree_flush_o, tree_claim_o, tree_face_valid_o, tree_seg_valid_o} = '0;
-    assign piece = '0;
+    assign {tree_seg_valid_o, call, piece} = '0;
     assign frame_free = 1'b1;
     assign body_free = cmd_free;
   end
@@ -331,14 +328,14 @@ module frame_control #(
   always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. The header is the first token of a frame and no other.
-      assert (!accept || token_header_i == (state_q == StHeader));
+      assert (!accept || flags.header == (state_q == StHeader));
       // 2. A command has pixels.
       assert (!cmd_valid_o || cmd.xl < cmd.xr);
       // 3. No line ends when all have ended.
       assert (!emit_eol || !lines_done_q);
       assert (state_q == StHeader || lines_done_q == (left_q == '0));
       // 4. The bias is cleared in no clock in which a token is taken: the proof of line_phase assumes it.
-      assert (!(good && !token_header_i) || !emit_paint);
+      assert (!(good && !flags.header) || !emit_paint);
     end
   end
 `endif

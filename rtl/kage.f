@@ -10,6 +10,7 @@ rtl/lane_ramp.sv
 rtl/light_resolve.sv
 rtl/line_out.sv
 rtl/line_phase.sv
+rtl/line_queue.sv
 rtl/pixel_banked.sv
 rtl/pixel_core.sv
 rtl/pixel_loads.sv

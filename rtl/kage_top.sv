@@ -65,9 +65,11 @@ module kage_top #(
   localparam int ExitLanes = ARRANGEMENT == 1 ? LANES : 1;
 
   // ---- words to tokens ---------------------------------------------------------------------------------------------
-  logic token_valid, token_ready, token_header, token_lacking, token_cut, token_final, token_at_last;
+  // `.*` connects clock, reset, and the ports of kage_top that the comment behind it names.
+  logic token_valid, token_ready;
   logic [FrontWords*32-1:0] token;
   facts_t facts;
+  flags_t flags;
   logic drop, dropping, reader_busy, reader_moving;
 
   token_reader #(
@@ -76,33 +78,24 @@ module kage_top #(
       .TOKEN_WORDS(FrontWords),
       `include "generated/kage_pixel_param_map.svh"
   ) u_reader (
-      .clk_i,
-      .rst_ni,
-      .s_valid_i      (s_axis_tvalid_i),
-      .s_ready_o      (s_axis_tready_o),
-      .s_data_i       (s_axis_tdata_i),
-      .s_last_i       (s_axis_tlast_i),
-      .token_valid_o  (token_valid),
-      .token_ready_i  (token_ready),
-      .token_o        (token),
-      .token_facts_o  (facts),
-      .token_header_o (token_header),
-      .token_lacking_o(token_lacking),
-      .token_cut_o    (token_cut),
-      .token_final_o  (token_final),
-      .token_at_last_o(token_at_last),
-      .drop_i         (drop),
-      .dropping_o     (dropping),
-      .busy_o         (reader_busy),
-      .moving_o       (reader_moving)
+      .token_valid_o(token_valid),
+      .token_ready_i(token_ready),
+      .token_o      (token),
+      .token_facts_o(facts),
+      .token_flags_o(flags),
+      .drop_i       (drop),
+      .dropping_o   (dropping),
+      .busy_o       (reader_busy),
+      .moving_o     (reader_moving),
+      .*  // s_axis_*
   );
 
   // ---- tokens to commands and lines --------------------------------------------------------------------------------
   logic cmd_valid, cmd_ready;
   command_t cmd;
 
-  logic line_valid, line_ready, told_valid, told_ready, queue_valid, queue_ready;
-  line_t line, told_line, queue_line;
+  logic line_valid, line_ready, queue_valid, queue_ready, lines_moving;
+  line_t line, queue_line;
 
   logic table_free, table_valid, load_valid, load_ready, loads_done;
   table_entry_t table_entry;
@@ -114,7 +107,8 @@ module kage_top #(
   localparam int LinesBits = COUNT_BITS > 0 ? 5 : 4;
   logic [LinesBits-1:0] lines_q;
 
-  logic tree_frame_start, tree_frame_ready, tree_flush, tree_claim, tree_face_valid, tree_seg_valid, tree_seg_ready;
+  logic tree_frame_ready, tree_seg_valid, tree_seg_ready;
+  tree_call_t tree_call;
   piece_t tree_piece;
 
   logic frame_open, hungry, draining, painting, frame_end, error_valid, behind_valid;
@@ -131,11 +125,7 @@ module kage_top #(
       .token_ready_o     (token_ready),
       .token_i           (token),
       .token_facts_i     (facts),
-      .token_header_i    (token_header),
-      .token_lacking_i   (token_lacking),
-      .token_cut_i       (token_cut),
-      .token_final_i     (token_final),
-      .token_at_last_i   (token_at_last),
+      .token_flags_i     (flags),
       .drop_o            (drop),
       .dropping_i        (dropping),
       .cmd_valid_o       (cmd_valid),
@@ -148,11 +138,8 @@ module kage_top #(
       .table_free_i      (table_free),
       .table_valid_o     (table_valid),
       .table_o           (table_entry),
-      .tree_frame_start_o(tree_frame_start),
+      .tree_call_o       (tree_call),
       .tree_frame_ready_i(tree_frame_ready),
-      .tree_flush_o      (tree_flush),
-      .tree_claim_o      (tree_claim),
-      .tree_face_valid_o (tree_face_valid),
       .tree_seg_valid_o  (tree_seg_valid),
       .tree_seg_ready_i  (tree_seg_ready),
       .tree_piece_o      (tree_piece),
@@ -167,32 +154,18 @@ module kage_top #(
       .behind_o          (behind)
   );
 
-  // Lines under way between control and way out: two in the buffers, one in its pass, one waiting for a buffer. The
-  // buffer in front of the queue cuts the timing path from an EOL's verdict to the queue's write enable.
-  skid_buffer #(
+  line_queue #(
       .BITS(LineBits)
-  ) u_told (
+  ) u_lines (
       .clk_i,
       .rst_ni,
       .in_valid_i (line_valid),
       .in_ready_o (line_ready),
       .in_data_i  (line),
-      .out_valid_o(told_valid),
-      .out_ready_i(told_ready),
-      .out_data_o (told_line)
-  );
-  stream_fifo #(
-      .BITS (LineBits),
-      .DEPTH(2)
-  ) u_lines (
-      .clk_i,
-      .rst_ni,
-      .in_valid_i (told_valid),
-      .in_ready_o (told_ready),
-      .in_data_i  (told_line),
       .out_valid_o(queue_valid),
       .out_ready_i(queue_ready),
-      .out_data_o (queue_line)
+      .out_data_o (queue_line),
+      .moving_o   (lines_moving)
   );
 
   // ---- faces and segments to the tree's lines ----------------------------------------------------------------------
@@ -204,12 +177,9 @@ module kage_top #(
     ) u_tree (
         .clk_i,
         .rst_ni,
-        .frame_start_i(tree_frame_start),
+        .call_i       (tree_call),
         .frame_ready_o(tree_frame_ready),
-        .flush_i      (tree_flush),
-        .claim_i      (tree_claim),
         .width_i      (line.width),
-        .face_valid_i (tree_face_valid),
         .seg_valid_i  (tree_seg_valid),
         .seg_ready_o  (tree_seg_ready),
         .piece_i      (tree_piece),
@@ -221,8 +191,7 @@ module kage_top #(
     );
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = ^{tree_frame_start, tree_flush, tree_claim, tree_face_valid, tree_seg_valid,
-                           tree_piece, tree_ready};
+    assign unused_tree = ^{tree_call, tree_seg_valid, tree_piece, tree_ready};
     assign {tree_frame_ready, tree_seg_ready, tree_valid, tree_pixel, tree_drop} = '0;
     assign tree_moving = 1'b0;
   end
@@ -276,8 +245,6 @@ module kage_top #(
       .MAX_WIDTH(MAX_WIDTH),
       `include "generated/kage_pixel_param_map.svh"
   ) u_out (
-      .clk_i,
-      .rst_ni,
       .exit_free_o  (exit_free),
       .exit_take_i  (exit_take),
       .exit_valid_i (exit_valid),
@@ -291,12 +258,8 @@ module kage_top #(
       .load_valid_o (load_valid),
       .load_ready_i (load_ready),
       .load_o       (load),
-      .m_valid_o    (m_axis_tvalid_o),
-      .m_ready_i    (m_axis_tready_i),
-      .m_data_o     (m_axis_tdata_o),
-      .m_user_o     (m_axis_tuser_o),
-      .m_last_o     (m_axis_tlast_o),
-      .moving_o     (out_moving)
+      .moving_o     (out_moving),
+      .*  // m_axis_*
   );
 
   // ---- status ------------------------------------------------------------------------------------------------------
@@ -318,33 +281,13 @@ module kage_top #(
   logic ports_move, control_moves;
   assign ports_move = (s_axis_tvalid_i && s_axis_tready_o) || (m_axis_tvalid_o && m_axis_tready_i);
   assign control_moves = (token_valid && token_ready) || told_q || painting || frame_end || line_valid;
-  assign progress = ports_move || reader_moving || control_moves || (told_valid && told_ready) ||
+  assign progress = ports_move || reader_moving || control_moves || lines_moving ||
       (pixel_valid && pixel_ready) || pixels_moving || out_moving || tree_moving;
 
   registers #(
       `include "generated/kage_impl_param_map.svh"
       `include "generated/kage_pixel_param_map.svh"
   ) u_registers (
-      .clk_i,
-      .rst_ni,
-      .awvalid_i       (s_axil_awvalid_i),
-      .awready_o       (s_axil_awready_o),
-      .awaddr_i        (s_axil_awaddr_i),
-      .wvalid_i        (s_axil_wvalid_i),
-      .wready_o        (s_axil_wready_o),
-      .wdata_i         (s_axil_wdata_i),
-      .wstrb_i         (s_axil_wstrb_i),
-      .bvalid_o        (s_axil_bvalid_o),
-      .bready_i        (s_axil_bready_i),
-      .bresp_o         (s_axil_bresp_o),
-      .arvalid_i       (s_axil_arvalid_i),
-      .arready_o       (s_axil_arready_o),
-      .araddr_i        (s_axil_araddr_i),
-      .rvalid_o        (s_axil_rvalid_o),
-      .rready_i        (s_axil_rready_i),
-      .rdata_o         (s_axil_rdata_o),
-      .rresp_o         (s_axil_rresp_o),
-      .irq_o,
       .open_i          (frame_here),
       .draining_i      (draining),
       .waiting_input_i (waiting_input),
@@ -354,7 +297,8 @@ module kage_top #(
       .error_valid_i   (error_valid),
       .error_i         (error),
       .behind_valid_i  (behind_valid),
-      .behind_i        (behind)
+      .behind_i        (behind),
+      .*  // s_axil_*, irq_o
   );
 
   // ---- assertions --------------------------------------------------------------------------------------------------

@@ -4,12 +4,12 @@
 //
 // Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by
 //   exit_valid_i (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's
-//   width and colours, in the order of the lines. m_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a line's
-//   last.
+//   width and colours, in the order of the lines. m_axis_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a
+//   line's last.
 // Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour,
 //   times 1 - shade if it is dark, rounded once: (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC. With
 //   counters every pixel has a factor of its own: light_resolve, which table_* loads.
-// Loads (counters and translucency): a line with `load` leaves by load_*, valid/ready, not by m_*: each pixel's
+// Loads (counters and translucency): a line with `load` leaves by load_*, valid/ready, not by m_axis_*: each pixel's
 //   place and colour.
 // Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so
 //   the one multiplier per channel here does the work of LANES of them in the pass that empties the line.
@@ -49,11 +49,11 @@ module line_out #(
     output logic      [LoadBits-1:0] load_o,
 
     // video
-    output logic                    m_valid_o,
-    input  wire logic               m_ready_i,
-    output logic      [RgbBits-1:0] m_data_o,
-    output logic                    m_user_o,
-    output logic                    m_last_o,
+    output logic                    m_axis_tvalid_o,
+    input  wire logic               m_axis_tready_i,
+    output logic      [RgbBits-1:0] m_axis_tdata_o,
+    output logic                    m_axis_tuser_o,
+    output logic                    m_axis_tlast_o,
 
     output logic moving_o  // pixels are on their way through here
 );
@@ -295,9 +295,9 @@ module line_out #(
       .in_valid_i (valid_q[Depth-1] && !load_at_q[Depth-1]),
       .in_ready_o (video_go),
       .in_data_i  ({last_q[Depth-1], user_q[Depth-1], color_q}),
-      .out_valid_o(m_valid_o),
-      .out_ready_i(m_ready_i),
-      .out_data_o ({m_last_o, m_user_o, m_data_o})
+      .out_valid_o(m_axis_tvalid_o),
+      .out_ready_i(m_axis_tready_i),
+      .out_data_o ({m_axis_tlast_o, m_axis_tuser_o, m_axis_tdata_o})
   );
 
   // ---- assertions --------------------------------------------------------------------------------------------------

@@ -25,23 +25,23 @@ module registers #(
     input wire logic rst_ni,
 
     // AXI4-Lite
-    input  wire logic        awvalid_i,
-    output logic             awready_o,
-    input  wire logic [ 7:0] awaddr_i,
-    input  wire logic        wvalid_i,
-    output logic             wready_o,
-    input  wire logic [31:0] wdata_i,
-    input  wire logic [ 3:0] wstrb_i,
-    output logic             bvalid_o,
-    input  wire logic        bready_i,
-    output logic      [ 1:0] bresp_o,
-    input  wire logic        arvalid_i,
-    output logic             arready_o,
-    input  wire logic [ 7:0] araddr_i,
-    output logic             rvalid_o,
-    input  wire logic        rready_i,
-    output logic      [31:0] rdata_o,
-    output logic      [ 1:0] rresp_o,
+    input  wire logic        s_axil_awvalid_i,
+    output logic             s_axil_awready_o,
+    input  wire logic [ 7:0] s_axil_awaddr_i,
+    input  wire logic        s_axil_wvalid_i,
+    output logic             s_axil_wready_o,
+    input  wire logic [31:0] s_axil_wdata_i,
+    input  wire logic [ 3:0] s_axil_wstrb_i,
+    output logic             s_axil_bvalid_o,
+    input  wire logic        s_axil_bready_i,
+    output logic      [ 1:0] s_axil_bresp_o,
+    input  wire logic        s_axil_arvalid_i,
+    output logic             s_axil_arready_o,
+    input  wire logic [ 7:0] s_axil_araddr_i,
+    output logic             s_axil_rvalid_o,
+    input  wire logic        s_axil_rready_i,
+    output logic      [31:0] s_axil_rdata_o,
+    output logic      [ 1:0] s_axil_rresp_o,
 
     output logic irq_o,
 
@@ -89,31 +89,31 @@ module registers #(
   logic [7:0] aw_addr_q;
   logic [31:0] w_data_q, w_mask, written;  // written: the bits that a write sets
   logic [3:0] w_strb_q;
-  assign awready_o = rst_ni && !aw_held_q;
-  assign wready_o = rst_ni && !w_held_q;
-  assign write = aw_held_q && w_held_q && !bvalid_o;
+  assign s_axil_awready_o = rst_ni && !aw_held_q;
+  assign s_axil_wready_o = rst_ni && !w_held_q;
+  assign write = aw_held_q && w_held_q && !s_axil_bvalid_o;
   assign written = w_data_q & w_mask;
   assign w_mask = {{8{w_strb_q[3]}}, {8{w_strb_q[2]}}, {8{w_strb_q[1]}}, {8{w_strb_q[0]}}};
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       aw_held_q <= 1'b0;
-      w_held_q  <= 1'b0;
-      bvalid_o  <= 1'b0;
+      w_held_q <= 1'b0;
+      s_axil_bvalid_o <= 1'b0;
     end else begin
-      if (awvalid_i && awready_o) aw_held_q <= 1'b1;
-      if (wvalid_i && wready_o) w_held_q <= 1'b1;
-      if (bvalid_o && bready_i) bvalid_o <= 1'b0;
+      if (s_axil_awvalid_i && s_axil_awready_o) aw_held_q <= 1'b1;
+      if (s_axil_wvalid_i && s_axil_wready_o) w_held_q <= 1'b1;
+      if (s_axil_bvalid_o && s_axil_bready_i) s_axil_bvalid_o <= 1'b0;
       if (write) begin
         aw_held_q <= 1'b0;
-        w_held_q  <= 1'b0;
-        bvalid_o  <= 1'b1;
+        w_held_q <= 1'b0;
+        s_axil_bvalid_o <= 1'b1;
       end
     end
-    if (awready_o) aw_addr_q <= awaddr_i;
-    if (wready_o) w_data_q <= wdata_i;
-    if (wready_o) w_strb_q <= wstrb_i;
-    if (write) bresp_o <= aw_addr_q > RegLast + 8'd3 ? RespSlverr : RespOkay;
+    if (s_axil_awready_o) aw_addr_q <= s_axil_awaddr_i;
+    if (s_axil_wready_o) w_data_q <= s_axil_wdata_i;
+    if (s_axil_wready_o) w_strb_q <= s_axil_wstrb_i;
+    if (write) s_axil_bresp_o <= aw_addr_q > RegLast + 8'd3 ? RespSlverr : RespOkay;
   end
 
   // ---- registers ---------------------------------------------------------------------------------------------------
@@ -222,7 +222,7 @@ module registers #(
   end
   always_comb begin
     unique case ({
-      araddr_i[7:2], 2'b00
+      s_axil_araddr_i[7:2], 2'b00
     })
       RegId: value = IdValue;
       RegVersion: value = 32'(StreamVersion);
@@ -247,16 +247,16 @@ module registers #(
     endcase
   end
 
-  assign arready_o = rst_ni && !rvalid_o;
+  assign s_axil_arready_o = rst_ni && !s_axil_rvalid_o;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      rvalid_o <= 1'b0;
+      s_axil_rvalid_o <= 1'b0;
     end else begin
-      if (rvalid_o && rready_i) rvalid_o <= 1'b0;
-      if (arvalid_i && arready_o) rvalid_o <= 1'b1;
+      if (s_axil_rvalid_o && s_axil_rready_i) s_axil_rvalid_o <= 1'b0;
+      if (s_axil_arvalid_i && s_axil_arready_o) s_axil_rvalid_o <= 1'b1;
     end
-    if (arready_o) rdata_o <= value;
-    if (arready_o) rresp_o <= araddr_i > RegLast + 8'd3 ? RespSlverr : RespOkay;
+    if (s_axil_arready_o) s_axil_rdata_o <= value;
+    if (s_axil_arready_o) s_axil_rresp_o <= s_axil_araddr_i > RegLast + 8'd3 ? RespSlverr : RespOkay;
   end
 
 endmodule

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Beats to tokens: cuts the words of the input port into the frame's header and its tokens, one whole token at a time.
 //
-// Handshake: s_* is AXI4-Stream; s_ready_o depends on registers and on rst_ni, which keeps it low: no beat is taken and
-//   lost in reset. token_* is valid/ready, the token and its flags stable while it waits. drop_i may be high only with
-//   token_ready_i, and only for a token without token_final_o: the rest of the frame is then dropped up to and with
-//   TLAST. The reader drops the rest by itself after a final token (END, or one that TLAST cut).
+// Handshake: s_axis_* is AXI4-Stream; s_axis_tready_o depends on registers and on rst_ni, which keeps it low: no beat
+//   is taken and lost in reset. token_* is valid/ready, the token and its flags stable while it waits. drop_i may be
+//   high only with token_ready_i, and only for a token without the flag `ends`: the rest of the frame is then dropped
+//   up to and with TLAST. The reader drops the rest by itself after a token that ends it (END, or one that TLAST cut).
 // Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks
-//   is passed on as soon as its first word is there. A cut token is passed on with token_cut_o and whatever words there
-//   are.
+//   is passed on as soon as its first word is there. A cut token is passed on with the flag `cut` and whatever words
+//   there are.
 // Capacity: the beats a token can touch and one more, at least. Latency: 2 clocks from the beat that completes a token,
 //   3 if that beat also brings its first word.
 // Throughput: a token a clock, or as many clocks as the port needs for its words. A frame's end costs 2 clocks.
@@ -26,21 +26,17 @@ module token_reader #(
     input wire logic rst_ni,
 
     // input port
-    input  wire logic                     s_valid_i,
-    output logic                          s_ready_o,
-    input  wire logic [BEAT_WORDS*32-1:0] s_data_i,
-    input  wire logic                     s_last_i,
+    input  wire logic                     s_axis_tvalid_i,
+    output logic                          s_axis_tready_o,
+    input  wire logic [BEAT_WORDS*32-1:0] s_axis_tdata_i,
+    input  wire logic                     s_axis_tlast_i,
 
     // to frame_control
     output logic                           token_valid_o,
     input  wire logic                      token_ready_i,
     output logic      [TOKEN_WORDS*32-1:0] token_o,
-    output logic      [     FactsBits-1:0] token_facts_o,    // what it says by itself
-    output logic                           token_header_o,   // the frame's first
-    output logic                           token_lacking_o,  // its kind is not in this configuration
-    output logic                           token_cut_o,      // TLAST came before its last word
-    output logic                           token_final_o,    // nothing of the frame follows: END, or cut
-    output logic                           token_at_last_o,  // its first word is in TLAST's beat
+    output logic      [     FactsBits-1:0] token_facts_o,  // what it says by itself
+    output logic      [     FlagsBits-1:0] token_flags_o,  // what its frame says of it
     input  wire logic                      drop_i,
 
     output logic dropping_o,  // words are being dropped up to TLAST
@@ -48,6 +44,7 @@ module token_reader #(
     output logic moving_o     // something changes in here, though no beat comes and no token is taken
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
 
   if (TOKEN_WORDS < TokenWords || TOKEN_WORDS < HeaderWords) begin : gen_bad_token_words
     `KAGE_ILLEGAL("TOKEN_WORDS must hold every token and the header")
@@ -75,8 +72,8 @@ module token_reader #(
   logic push;
   assign front_beat = BeatAtBits'(front_at_q >> OffBits);
   assign beats_held = end_beat_q - front_beat;
-  assign s_ready_o = rst_ni && beats_held != BeatAtBits'(Depth) && !last_q;
-  assign push = s_valid_i && s_ready_o;
+  assign s_axis_tready_o = rst_ni && beats_held != BeatAtBits'(Depth) && !last_q;
+  assign push = s_axis_tvalid_i && s_axis_tready_o;
   assign next_end_beat = end_beat_q + BeatAtBits'(push);
 
   // ---- looking ahead: where the token behind the front begins, of what kind it is, and where it ends ---------------
@@ -136,18 +133,15 @@ module token_reader #(
   );
 
   // ---- output register -------------------------------------------------------------------------------------------
-  logic token_valid_q, token_header_q, token_lacking_q, token_cut_q, token_final_q, token_at_last_q;
+  logic token_valid_q;
+  flags_t flags_q;
   logic [TOKEN_WORDS*32-1:0] token_q;
   logic [FactsBits-1:0] facts_q;
 
   assign token_valid_o = token_valid_q;
   assign token_o = token_q;
   assign token_facts_o = facts_q;
-  assign token_header_o = token_header_q;
-  assign token_lacking_o = token_lacking_q;
-  assign token_cut_o = token_cut_q;
-  assign token_final_o = token_final_q;
-  assign token_at_last_o = token_at_last_q;
+  assign token_flags_o = flags_q;
   assign out_free = !token_valid_q || token_ready_i;
   assign dropping_o = dropping_q;
   assign busy_o = !header_q || token_valid_q || words_ahead != '0;
@@ -157,11 +151,11 @@ module token_reader #(
     if (take) begin
       token_q <= front;
       facts_q <= facts;
-      token_header_q <= front_header_q;
-      token_lacking_q <= front_lacking_q && !cut;
-      token_cut_q <= cut;
-      token_final_q <= cut || front_is_end_q;
-      token_at_last_q <= last_q && beats_held == BeatAtBits'(1);
+      flags_q.header <= front_header_q;
+      flags_q.lacking <= front_lacking_q && !cut;
+      flags_q.cut <= cut;
+      flags_q.ends <= cut || front_is_end_q;
+      flags_q.at_last <= last_q && beats_held == BeatAtBits'(1);
     end
     if (!rst_ni) token_valid_q <= 1'b0;
     else if (out_free) token_valid_q <= take && !drop_i;
@@ -170,8 +164,8 @@ module token_reader #(
   // ---- state -------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
     if (push) begin
-      mem[AddrBits'(end_beat_q)] <= s_data_i;
-      for (int w = 0; w < BEAT_WORDS; w++) kinds[AddrBits'(end_beat_q)][4*w+:4] <= s_data_i[32*w+:4];
+      mem[AddrBits'(end_beat_q)] <= s_axis_tdata_i;
+      for (int w = 0; w < BEAT_WORDS; w++) kinds[AddrBits'(end_beat_q)][4*w+:4] <= s_axis_tdata_i[32*w+:4];
     end
     if (look) begin
       front_header_q  <= header_q;
@@ -196,13 +190,13 @@ module token_reader #(
         next_at_q <= AtBits'(next_end_beat) << OffBits;
         front_at_q <= AtBits'(next_end_beat) << OffBits;
         front_valid_q <= 1'b0;
-        if (last_q || (push && s_last_i)) begin
+        if (last_q || (push && s_axis_tlast_i)) begin
           last_q <= 1'b0;
           header_q <= 1'b1;
           dropping_q <= 1'b0;
         end
       end else begin
-        if (push) last_q <= s_last_i;
+        if (push) last_q <= s_axis_tlast_i;
         if (look) begin
           next_at_q  <= next_end_at;
           front_at_q <= next_at_q;
@@ -219,7 +213,7 @@ module token_reader #(
   always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. Only a token that is accepted and not final can ask for the rest to be dropped.
-      assert (!drop_i || (token_valid_q && token_ready_i && !token_final_q));
+      assert (!drop_i || (token_valid_q && token_ready_i && !flags_q.ends));
       // 2. What is held fits. (Behind a cut token the front may lie past what came.)
       assert (dropping_q || beats_held <= BeatAtBits'(Depth));
       // 3. What is dropped is of a frame whose header has been taken: busy_o need not ask for dropping_q.

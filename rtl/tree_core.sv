@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The expansion units and their compare tree: one opaque layer, a line at a time, of faces and segments. [Ohno 1985]
 //
-// In: piece_i is of a FACE or of a SEG, sound ones only: segment_check sees to it. face_valid_i takes a face's entry a
-//   clock; seg_valid_i and seg_ready_o are valid and ready of a segment, and seg_ready_o, which depends on the piece's
-//   unit, waits for that unit only. width_i is the frame's, and matters with segments only.
+// In: piece_i is of a FACE or of a SEG, sound ones only: segment_check sees to it. `face` of call_i takes a face's
+//   entry a clock; seg_valid_i and seg_ready_o are valid and ready of a segment, and seg_ready_o, which depends on the
+//   piece's unit, waits for that unit only. width_i is the frame's, and matters with segments only.
 // Out: line_* is valid/ready: Z, class and colour of the nearest face at each pixel, `last` at a line's last. Z all
 //   ones: none. All pixels of a line but the last are offered as soon as every unit has the line. The last pixel
-//   waits for claim_i.
-// Lines asked for: claim_i, one clock, says that a TREE was good: whoever reads line_* will take one line more. All
+//   waits for a claim.
+// Lines asked for: `claim`, one clock, says that a TREE was good: whoever reads line_* will take one line more. All
 //   units have the line complete by then. drop_o, one clock, says that a line of which a part has been taken will not
 //   come; nothing taken then counts.
-// Frames: frame_start_i exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be
-//   leaving then, none of the one before that. After a frame with an error flush_i, one clock or more, drops what has
+// Frames: `start` exchanges the tables; it may come while frame_ready_o. Lines of the frame before may still be
+//   leaving then, none of the one before that. After a frame with an error `flush`, one clock or more, drops what has
 //   not been claimed: lines claimed leave first, and frame_ready_o is low until the rest is gone. No face, segment or
-//   claim comes from flush_i until the next frame_start_i.
+//   claim comes from a flush until the next start.
 // Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its
 //   work. It also stays high for some clocks after something has entered a unit or the tree, because the effect may not
 //   be visible before.
@@ -31,13 +31,10 @@ module tree_core #(
     input wire logic clk_i,
     input wire logic rst_ni,
 
-    input  wire logic              frame_start_i,
-    output logic                   frame_ready_o,
-    input  wire logic              flush_i,
-    input  wire logic              claim_i,
-    input  wire logic [X_BITS-1:0] width_i,
+    input  wire logic [TreeCallBits-1:0] call_i,
+    output logic                         frame_ready_o,
+    input  wire logic [      X_BITS-1:0] width_i,
 
-    input  wire logic                 face_valid_i,
     input  wire logic                 seg_valid_i,
     output logic                      seg_ready_o,
     input  wire logic [PieceBits-1:0] piece_i,
@@ -56,7 +53,9 @@ module tree_core #(
   localparam int Way = 6 + $clog2(UNITS);  // the latency
   logic [Way-1:0] way_q;
 
+  tree_call_t call;
   tree_pixel_t line;
+  assign call   = call_i;
   assign line_o = line;
 
   // ---- lines claimed, flush ----------------------------------------------------------------------------------------
@@ -64,7 +63,7 @@ module tree_core #(
   logic [ClaimBits-1:0] old_q;  // those of them that belong to earlier frames
   logic flushing_q, flush, line_left, point_valid, point_ready, held;
   assign line_left = line_valid_o && line_ready_i && line.last;
-  assign claimed = claimed_q + ClaimBits'(claim_i) - ClaimBits'(line_left);
+  assign claimed = claimed_q + ClaimBits'(call.claim) - ClaimBits'(line_left);
   assign flush = flushing_q && claimed_q == '0;
   assign frame_ready_o = !flushing_q && old_q == '0;
   assign drop_o = flush;
@@ -80,9 +79,9 @@ module tree_core #(
       flushing_q <= 1'b0;
     end else begin
       claimed_q <= claimed;
-      if (frame_start_i) old_q <= claimed;
+      if (call.start) old_q <= claimed;
       else if (line_left && old_q != '0) old_q <= old_q - 1'b1;
-      if (flush_i) flushing_q <= 1'b1;
+      if (call.flush) flushing_q <= 1'b1;
       else if (flush) flushing_q <= 1'b0;
     end
   end
@@ -107,17 +106,17 @@ module tree_core #(
     ) u_unit (
         .clk_i,
         .rst_ni,
-        .frame_start_i,
-        .flush_i     (flush),
+        .frame_start_i(call.start),
+        .flush_i      (flush),
         .width_i,
-        .face_valid_i(face_valid_i && piece.unit == UnitBits'(u)),
-        .seg_valid_i (seg_valid_i && piece.unit == UnitBits'(u)),
-        .seg_ready_o (seg_ready[u]),
+        .face_valid_i (call.face && piece.unit == UnitBits'(u)),
+        .seg_valid_i  (seg_valid_i && piece.unit == UnitBits'(u)),
+        .seg_ready_o  (seg_ready[u]),
         .piece_i,
-        .px_valid_o  (px_valid[u]),
-        .px_ready_i  (px_ready[u]),
-        .px_data_o   (px_data[u*PointBits+:PointBits]),
-        .px_last_o   (px_last[u])
+        .px_valid_o   (px_valid[u]),
+        .px_ready_i   (px_ready[u]),
+        .px_data_o    (px_data[u*PointBits+:PointBits]),
+        .px_last_o    (px_last[u])
     );
   end
 
@@ -158,12 +157,12 @@ module tree_core #(
   always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. A frame starts when it may.
-      assert (!frame_start_i || frame_ready_o);
+      assert (!call.start || frame_ready_o);
       // 2. No line leaves that was not claimed, and no more are claimed than fit.
       assert (!line_left || claimed_q != '0);
       assert (claimed_q <= ClaimBits'(16));
-      // 3. Nothing is given between flush_i and the next frame.
-      assert (!flushing_q || !(face_valid_i || seg_valid_i || claim_i));
+      // 3. Nothing is given between a flush and the next frame.
+      assert (!flushing_q || !(call.face || seg_valid_i || call.claim));
     end
   end
 `endif

@@ -10,6 +10,15 @@ typedef struct packed {
   logic empty;  // xl = xr
 } facts_t;
 
+// What its frame says of a token: from token_reader to frame_control.
+typedef struct packed {
+  logic header;  // the frame's first
+  logic lacking;  // its kind is not in this configuration
+  logic cut;  // TLAST came before its last word
+  logic ends;  // nothing of the frame follows: END, or cut
+  logic at_last;  // its first word is in TLAST's beat
+} flags_t;
+
 // What the pixels of a range do: from token_command to the pixels.
 typedef struct packed {
   logic [3:0] kind;  // of the token, or a command that is no token
@@ -47,6 +56,14 @@ typedef struct packed {
   logic [RgbBits-1:0] color;  // its colour
   logic last;  // of its line
 } load_t;
+
+// What happens to the tree in a clock: from frame_control to tree_core.
+typedef struct packed {
+  logic start;  // a frame begins
+  logic flush;  // there will be no more of this frame
+  logic claim;  // a TREE became a command
+  logic face;  // the piece is a FACE that is taken
+} tree_call_t;
 
 // A FACE or a SEG: from frame_control to expansion_unit.
 typedef struct packed {

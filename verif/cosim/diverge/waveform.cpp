@@ -39,7 +39,7 @@ std::string save_file(const std::filesystem::path& wave, const Config& config, s
   const int x = config.x_bits;
   const int depth = derived::depth_bits(config);
   group("clock", {{"clk_i"}, {"rst_ni"}});
-  group("token_reader to frame_control", {{"token_valid"}, {"token_ready"}, {"token_header"}});
+  group("token_reader to frame_control", {{"token_valid"}, {"token_ready"}, {"flags.header"}});
   group("frame_control to pixels", {{"cmd_valid"},
                                     {"cmd_ready"},
                                     {"cmd.kind", 4, true},

@@ -22,7 +22,7 @@ PY
 }
 
 # No read is ever answered.
-defect 'if (arvalid_i && arready_o) rvalid_o <= 1' 'if (arvalid_i && arready_o) rvalid_o <= 0 & 1'
+defect 'if (s_axil_arvalid_i && s_axil_arready_o) s_axil_rvalid_o <= 1' 'if (s_axil_arvalid_i && s_axil_arready_o) s_axil_rvalid_o <= 0 & 1'
 expect 1 "$kage" cosim "${mixed[@]}" --out out --json r.json --junit r.xml --annotate github
 grep -q '^first difference: frame 0: register FRAMES (0x30) does not answer$' stdout || fail "not told: $(cat stdout)"
 grep -q '^::error title=.*::frame 0: register FRAMES (0x30) does not answer$' stdout || fail "no annotation: $(cat stdout)"
@@ -41,7 +41,7 @@ grep -q ' does not answer' stdout || fail "not told: $(cat stdout)"
 json w.json 'not j["same"] and j["first_difference"]["field"] == "register"'
 
 # $finish while a register is read, in a frame, and while one is written.
-for condition in 'rvalid_o && rready_i && frames_q == 2' 'write && aw_addr_q == RegWatchdog'; do
+for condition in 's_axil_rvalid_o && s_axil_rready_i && frames_q == 2' 'write && aw_addr_q == RegWatchdog'; do
   defect '  // ---- read channel -' "  always_ff @(posedge clk_i) if ($condition) \$finish;
   // ---- read channel -"
   expect 1 "$kage" cosim "${mixed[@]}" --no-report --no-shrink --out out --json f.json

@@ -68,17 +68,17 @@ defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/count_q <= '0;/;/"
 proof registers_axi module=registers rtl=registers rules="lite_rules stream_rules" set="MODEL=0" steps=8 induction=2 cover=8
 proof registers rtl=registers rules="lite_rules stream_rules" set="MODEL=1" steps=9 cover=9
 proof registers_watchdog module=registers rtl=registers rules="lite_rules stream_rules" set="MODEL=2" steps=15 cover=13
-defect axil_b_falls registers_axi registers.sv 's/if (bvalid_o && bready_i) bvalid_o/if (bvalid_o) bvalid_o/'
-defect axil_b_twice registers_axi registers.sv 's/^        aw_held_q <= 1.b0;/        aw_held_q <= awvalid_i;/'
-defect axil_b_never registers_axi registers.sv 's/assign write = .*/assign write = aw_held_q \&\& w_held_q \&\& !bvalid_o \&\& bready_i;/'
-defect axil_bresp_moves registers_axi registers.sv 's/if (write) bresp_o/if (aw_held_q) bresp_o/'
-defect axil_r_falls registers_axi registers.sv 's/if (rvalid_o && rready_i) rvalid_o/if (rvalid_o) rvalid_o/'
-defect axil_rdata_move registers_axi registers.sv 's/if (arready_o) rdata_o/if (arvalid_i) rdata_o/'
-defect axil_r_twice registers_axi registers.sv 's/assign arready_o = .*/assign arready_o = rst_ni;/'
-defect axil_read_lost registers_axi registers.sv 's/assign arready_o = .*/assign arready_o = !rvalid_o;/'
-defect axil_r_unasked registers_axi registers.sv 's/if (arvalid_i \&\& arready_o) rvalid_o/if (arready_o) rvalid_o/'
-defect axil_r_in_reset registers_axi registers.sv "s/^      rvalid_o <= 1'b0;/      ;/"
-defect axil_b_in_reset registers_axi registers.sv "s/^      bvalid_o  <= 1'b0;/      ;/"
+defect axil_b_falls registers_axi registers.sv 's/if (s_axil_bvalid_o && s_axil_bready_i) s_axil_bvalid_o/if (s_axil_bvalid_o) s_axil_bvalid_o/'
+defect axil_b_twice registers_axi registers.sv 's/^        aw_held_q *<= 1.b0;/        aw_held_q <= s_axil_awvalid_i;/'
+defect axil_b_never registers_axi registers.sv 's/assign write = .*/assign write = aw_held_q \&\& w_held_q \&\& !s_axil_bvalid_o \&\& s_axil_bready_i;/'
+defect axil_bresp_moves registers_axi registers.sv 's/if (write) s_axil_bresp_o/if (aw_held_q) s_axil_bresp_o/'
+defect axil_r_falls registers_axi registers.sv 's/if (s_axil_rvalid_o && s_axil_rready_i) s_axil_rvalid_o/if (s_axil_rvalid_o) s_axil_rvalid_o/'
+defect axil_rdata_move registers_axi registers.sv 's/if (s_axil_arready_o) s_axil_rdata_o/if (s_axil_arvalid_i) s_axil_rdata_o/'
+defect axil_r_twice registers_axi registers.sv 's/assign s_axil_arready_o = .*/assign s_axil_arready_o = rst_ni;/'
+defect axil_read_lost registers_axi registers.sv 's/assign s_axil_arready_o = .*/assign s_axil_arready_o = !s_axil_rvalid_o;/'
+defect axil_r_unasked registers_axi registers.sv 's/if (s_axil_arvalid_i \&\& s_axil_arready_o) s_axil_rvalid_o/if (s_axil_arready_o) s_axil_rvalid_o/'
+defect axil_r_in_reset registers_axi registers.sv "s/^      s_axil_rvalid_o *<= 1'b0;/      ;/"
+defect axil_b_in_reset registers_axi registers.sv "s/^      s_axil_bvalid_o *<= 1'b0;/      ;/"
 defect watchdog_late registers_watchdog registers.sv "s/idle_q == last_idle_q/idle_q == limit_q/"
 defect watchdog_early registers_watchdog registers.sv "s/last_idle_q <= limit_q - 32'd1/last_idle_q <= limit_q - 32'd2/"
 defect watchdog_again registers_watchdog registers.sv 's/\&\& !bitten_q \&\& idle_q ==/\&\& idle_q ==/; s/if (bite) bitten_q/if (bite) idle_q/'
@@ -87,7 +87,7 @@ defect watchdog_out_of_frame registers_watchdog registers.sv 's/limited_q \&\& o
 defect event_lost registers_watchdog registers.sv 's/irq_q <= irq_set | (write_irq ? \(.*\) : irq_q);/irq_q <= write_irq ? \1 : irq_set | irq_q;/'
 defect strobe_ignored registers registers.sv 's/write_limit) limit_q <= .*/write_limit) limit_q <= w_data_q;/'
 defect register_wrong registers registers.sv 's/RegErrorToken: value = error_token_q/RegErrorToken: value = error_frame_q/'
-defect read_past_okay registers registers.sv 's/araddr_i > RegLast/araddr_i > RegBlocked/'
+defect read_past_okay registers registers.sv 's/s_axil_araddr_i > RegLast/s_axil_araddr_i > RegBlocked/'
 defect write_past_okay registers registers.sv "s/aw_addr_q > RegLast + 8'd3/aw_addr_q > RegLast + 8'd4/"
 
 # ---- line_phase ------------------------------------------------------------------------------------------------------
@@ -120,13 +120,13 @@ defect reader_word_skipped token_reader_2 token_reader.sv "s/5'(HeaderWords) :/5
 defect reader_token_doubled token_reader_2 token_reader.sv 's/next_at_q  <= next_end_at/if (token_ready_i) next_at_q <= next_end_at/'
 defect reader_cut_unseen token_reader_4 token_reader.sv 's/(next_there || last_q)/next_there/'
 defect reader_rest_kept token_reader_4 token_reader.sv 's/dropping_q <= drop_i ||/dropping_q <=/'
-defect reader_at_last_wrong token_reader_2 token_reader.sv 's/token_at_last_q <= .*/token_at_last_q <= last_q;/'
+defect reader_at_last_wrong token_reader_2 token_reader.sv 's/flags_q.at_last <= .*/flags_q.at_last <= last_q;/'
 defect reader_token_moves token_reader_2 token_reader.sv 's/^    if (take) begin/    if (whole) begin/'
 defect reader_token_falls token_reader_2 token_reader.sv 's/else if (out_free) token_valid_q <= take/else token_valid_q <= take/'
-defect reader_beat_lost_in_reset token_reader_resets token_reader.sv 's/assign s_ready_o = rst_ni &&/assign s_ready_o =/'
+defect reader_beat_lost_in_reset token_reader_resets token_reader.sv 's/assign s_axis_tready_o = rst_ni &&/assign s_axis_tready_o =/'
 defect reader_token_in_reset token_reader_resets token_reader.sv 's/if (!rst_ni) token_valid_q <= .*/if (0) ;/'
-defect reader_ready_falls token_reader_2 token_reader.sv 's/assign s_ready_o = rst_ni/assign s_ready_o = rst_ni \&\& !(token_valid_q \&\& beats_held[0])/'
-defect reader_standstill token_reader_2 token_reader.sv 's/if (last_q || (push && s_last_i)) begin/if (push \&\& s_last_i) begin/'
+defect reader_ready_falls token_reader_2 token_reader.sv 's/assign s_axis_tready_o = rst_ni/assign s_axis_tready_o = rst_ni \&\& !(token_valid_q \&\& beats_held[0])/'
+defect reader_standstill token_reader_2 token_reader.sv 's/if (last_q || (push && s_axis_tlast_i)) begin/if (push \&\& s_axis_tlast_i) begin/'
 defect reader_idle_unseen token_reader_2 token_reader.sv "s/assign busy_o = .*/assign busy_o = !header_q || words_ahead != '0;/"
 defect reader_moves_unseen token_reader_2 token_reader.sv 's/assign moving_o = .*/assign moving_o = take || look;/'
 defect reader_look_unseen token_reader_2 token_reader.sv 's/assign moving_o = take || look/assign moving_o = take/'
@@ -163,15 +163,16 @@ defect out_load_moves line_out_loads line_out.sv 's/assign go = load_valid_o ? l
 defect out_load_falls line_out_loads line_out.sv 's/assign load_valid_o = .*/assign load_valid_o = valid_q[Depth-1] \&\& load_at_q[Depth-1] \&\& !line_valid_i;/'
 defect out_load_in_reset line_out_loads line_out.sv 's/if (!rst_ni) valid_q <= .0;/if (0) ;/'
 defect out_load_early line_out_loads line_out.sv 's/if (!rst_ni) valid_q <= .0;/if (!rst_ni) valid_q <= 1;/'
-defect out_loads_without line_out line_out.sv 's/assign {load_valid_o, load}.*/assign load_valid_o = m_valid_o; assign load = 0;/'
+defect out_loads_without line_out line_out.sv 's/assign {load_valid_o, load}.*/assign load_valid_o = m_axis_tvalid_o; assign load = 0;/'
 
 # ---- kage_top --------------------------------------------------------------------------------------------------------
 # Its defects drive a port's outputs from other ports; those within the modules are above.
 proof kage_top rtl="$(cd rtl && echo *.sv | sed 's/\.sv//g')" rules="stream_rules lite_rules" steps=5 induction=2 cover=6
-defect top_video_crossed kage_top kage_top.sv 's/(m_axis_t[a-z]*_o)/()/; s/^endmodule/\
+defect top_video_crossed kage_top kage_top.sv 's/\.\*  \/\/ m_axis_\*/.m_axis_tvalid_o(), .m_axis_tdata_o(), .m_axis_tuser_o(), .m_axis_tlast_o(), .*/; s/^endmodule/\
   assign {m_axis_tvalid_o, m_axis_tdata_o, m_axis_tuser_o, m_axis_tlast_o} = {s_axis_tvalid_i, s_axis_tdata_i[9:0]}; endmodule/'
-defect top_frames_ready_in_reset kage_top kage_top.sv 's/(s_axis_tready_o)/()/; s/^endmodule/assign s_axis_tready_o = 1; endmodule/'
-defect top_registers_crossed kage_top kage_top.sv 's/(s_axil_[a-z]*_o)/()/; s/^endmodule/\
+defect top_frames_ready_in_reset kage_top kage_top.sv 's/\.\*  \/\/ s_axis_\*/.s_axis_tready_o(), .*/; s/^endmodule/assign s_axis_tready_o = 1; endmodule/'
+defect top_registers_crossed kage_top kage_top.sv 's/\.\*  \/\/ s_axil_.*/.s_axil_awready_o(), .s_axil_wready_o(), .s_axil_bvalid_o(), .s_axil_bresp_o(), \
+  .s_axil_arready_o(), .s_axil_rvalid_o(), .s_axil_rdata_o(), .s_axil_rresp_o(), .*/; s/^endmodule/\
   assign {s_axil_awready_o, s_axil_wready_o, s_axil_arready_o} = s_axil_wdata_i[2:0];\
   assign {s_axil_bvalid_o, s_axil_rvalid_o, s_axil_bresp_o, s_axil_rresp_o} = s_axil_wdata_i[8:3];\
   assign s_axil_rdata_o = s_axil_wdata_i; endmodule/'

@@ -7,7 +7,7 @@
 //   words        the words of a token are the next ones of the frame: none lost, doubled or out of order. After a final
 //                token, or one that is dropped, the next is the header of the next frame;
 //   kind_first   so is the kind of its first word;
-//   first_in_last  token_at_last_o says whether the token's first word is in TLAST's beat;
+//   first_in_last  the flag at_last says whether the token's first word is in TLAST's beat;
 //   prompt       a token is offered in the third clock after the beat that completes it, or right behind the token
 //                before it;
 //   on_its_way   until then moving_o is high: a complete token never waits in here;
@@ -55,19 +55,15 @@ module token_reader_proof #(
   ) dut (
       .clk_i,
       .rst_ni,
-      .s_valid_i,
-      .s_ready_o      (s_ready),
-      .s_data_i,
-      .s_last_i,
+      .s_axis_tvalid_i(s_valid_i),
+      .s_axis_tready_o(s_ready),
+      .s_axis_tdata_i (s_data_i),
+      .s_axis_tlast_i (s_last_i),
       .token_valid_o  (token_valid),
       .token_ready_i,
       .token_o        (token),
       .token_facts_o  (),
-      .token_header_o (header),
-      .token_lacking_o(lacking),
-      .token_cut_o    (cut),
-      .token_final_o  (final_one),
-      .token_at_last_o(at_last),
+      .token_flags_o  ({header, lacking, cut, final_one, at_last}),  // as flags_t of kage_buses.svh has it
       .drop_i,
       .dropping_o     (dropping),
       .busy_o         (busy),

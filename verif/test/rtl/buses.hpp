@@ -32,6 +32,28 @@ struct FactsBus {
   }
 };
 
+/// What its frame says of a token: from token_reader to frame_control.
+struct FlagsBus {
+  Place header;  ///< the frame's first
+  Place lacking;  ///< its kind is not in this configuration
+  Place cut;  ///< TLAST came before its last word
+  Place ends;  ///< nothing of the frame follows: END, or cut
+  Place at_last;  ///< its first word is in TLAST's beat
+
+  explicit constexpr FlagsBus([[maybe_unused]] const Config& c) {
+    int at = 0;
+    at_last = {at, 1};
+    at += at_last.bits;
+    ends = {at, 1};
+    at += ends.bits;
+    cut = {at, 1};
+    at += cut.bits;
+    lacking = {at, 1};
+    at += lacking.bits;
+    header = {at, 1};
+  }
+};
+
 /// What the pixels of a range do: from token_command to the pixels.
 struct CommandBus {
   Place kind;  ///< of the token, or a command that is no token
@@ -123,6 +145,25 @@ struct LoadBus {
     color = {at, derived::rgb_bits(c)};
     at += color.bits;
     x = {at, c.x_bits};
+  }
+};
+
+/// What happens to the tree in a clock: from frame_control to tree_core.
+struct TreeCallBus {
+  Place start;  ///< a frame begins
+  Place flush;  ///< there will be no more of this frame
+  Place claim;  ///< a TREE became a command
+  Place face;  ///< the piece is a FACE that is taken
+
+  explicit constexpr TreeCallBus([[maybe_unused]] const Config& c) {
+    int at = 0;
+    face = {at, 1};
+    at += face.bits;
+    claim = {at, 1};
+    at += claim.bits;
+    flush = {at, 1};
+    at += flush.bits;
+    start = {at, 1};
   }
 };
 

@@ -154,6 +154,7 @@ class Run {
 
  private:
   static constexpr kage::Config kOf = config_of<Model>();
+  static constexpr FlagsBus kFlags{kOf};
   static constexpr CommandBus kCommand{kOf};
   static constexpr LineBus kLine{kOf};
   static constexpr TableEntryBus kEntry{kOf};
@@ -165,11 +166,11 @@ class Run {
     if (offered) {
       const Token& t = tokens_[at_];
       for (int i = 0; i < 5; ++i) put(top_->token_i, 32 * i, 32, t.words[static_cast<std::size_t>(i)]);
-      top_->token_header_i = t.header ? 1 : 0;
-      top_->token_lacking_i = t.lacking ? 1 : 0;
-      top_->token_cut_i = t.cut ? 1 : 0;
-      top_->token_final_i = t.final ? 1 : 0;
-      top_->token_at_last_i = t.at_last ? 1 : 0;
+      put(top_->token_flags_i, kFlags.header, t.header ? 1 : 0);
+      put(top_->token_flags_i, kFlags.lacking, t.lacking ? 1 : 0);
+      put(top_->token_flags_i, kFlags.cut, t.cut ? 1 : 0);
+      put(top_->token_flags_i, kFlags.ends, t.final ? 1 : 0);
+      put(top_->token_flags_i, kFlags.at_last, t.at_last ? 1 : 0);
     }
     top_->dropping_i = dropping_ > 0 ? 1 : 0;
     top_->cmd_ready_i = dice_.percent(cmd_stall_) ? 0 : 1;

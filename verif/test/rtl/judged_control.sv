@@ -15,11 +15,7 @@ module judged_control #(
     input  wire logic                      token_valid_i,
     output logic                           token_ready_o,
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
-    input  wire logic                      token_header_i,
-    input  wire logic                      token_lacking_i,
-    input  wire logic                      token_cut_i,
-    input  wire logic                      token_final_i,
-    input  wire logic                      token_at_last_i,
+    input  wire logic [     FlagsBits-1:0] token_flags_i,
     output logic                           drop_o,
     input  wire logic                      dropping_i,
 
@@ -40,14 +36,11 @@ module judged_control #(
     output logic      [TableEntryBits-1:0] table_o,
 
     // to the units and the tree; the width is line_o's
-    output logic                      tree_frame_start_o,
-    input  wire logic                 tree_frame_ready_i,
-    output logic                      tree_flush_o,
-    output logic                      tree_claim_o,
-    output logic                      tree_face_valid_o,
-    output logic                      tree_seg_valid_o,
-    input  wire logic                 tree_seg_ready_i,
-    output logic      [PieceBits-1:0] tree_piece_o,        // of FACE and SEG
+    output logic      [TreeCallBits-1:0] tree_call_o,
+    input  wire logic                    tree_frame_ready_i,
+    output logic                         tree_seg_valid_o,
+    input  wire logic                    tree_seg_ready_i,
+    output logic      [   PieceBits-1:0] tree_piece_o,        // of FACE and SEG
 
     // to the registers
     output logic open_o,  // a frame's header has been taken and the frame has not ended

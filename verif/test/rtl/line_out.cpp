@@ -119,7 +119,7 @@ class Lines {
       if (made_ < kMost && announced_.size() < 3 && may_begin) make();
       announce();
       fill();
-      top_->m_ready_i = dice_.percent(out_stall_) ? 0 : 1;
+      top_->m_axis_tready_i = dice_.percent(out_stall_) ? 0 : 1;
       top_->load_ready_i = dice_.percent(out_stall_) ? 0 : 1;
       top_.settle();
       look();
@@ -202,14 +202,14 @@ class Lines {
 
   /// What is offered stays until it is taken, and is what was expected.
   void look() {
-    const Out now{top_->m_data_o, top_->m_user_o != 0, top_->m_last_o != 0};
+    const Out now{top_->m_axis_tdata_o, top_->m_axis_tuser_o != 0, top_->m_axis_tlast_o != 0};
     if (waited_) {
-      REQUIRE(top_->m_valid_o);
+      REQUIRE(top_->m_axis_tvalid_o);
       REQUIRE(now == before_);
     }
-    waited_ = top_->m_valid_o && !top_->m_ready_i;
+    waited_ = top_->m_axis_tvalid_o && !top_->m_axis_tready_i;
     before_ = now;
-    if (top_->m_valid_o && top_->m_ready_i) {
+    if (top_->m_axis_tvalid_o && top_->m_axis_tready_i) {
       REQUIRE(!expected_.empty());
       REQUIRE(now.color == expected_.front().color);
       REQUIRE(now == expected_.front());
@@ -270,7 +270,7 @@ TEST_CASE("line_out sends the lines of a frame without a gap", "[line_out]") {
     constexpr LineBus line(config_of<Vline_out4>());
     const int width = 16, lines = 10;
     int announced = 0, groups = 0, taken = 0, pixels = 0, first = 0, last = 0;
-    top->m_ready_i = 1;
+    top->m_axis_tready_i = 1;
     for (int clock = 0; pixels < width * lines; ++clock) {
       top->line_valid_i = announced < lines ? 1 : 0;
       put(top->line_i, line.first, announced == 0 ? 1 : 0);
@@ -289,7 +289,7 @@ TEST_CASE("line_out sends the lines of a frame without a gap", "[line_out]") {
       }
       top.settle();
       if (top->line_ready_o) ++announced;
-      if (top->m_valid_o) {
+      if (top->m_axis_tvalid_o) {
         if (pixels == 0) first = clock;
         last = clock;
         ++pixels;

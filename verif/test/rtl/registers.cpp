@@ -17,7 +17,8 @@ constexpr BehindBus kBehind(kage::Config{});
 class Axil {
  public:
   explicit Axil(Dice& dice) : dice_(dice), top(dice) {
-    top->awvalid_i = top->wvalid_i = top->bready_i = top->arvalid_i = top->rready_i = 0;
+    top->s_axil_awvalid_i = top->s_axil_wvalid_i = top->s_axil_bready_i = top->s_axil_arvalid_i = top->s_axil_rready_i =
+        0;
     quiet();
     stall_ = stall_percent(dice);
   }
@@ -39,24 +40,24 @@ class Axil {
   std::uint32_t read(std::uint32_t address, std::uint32_t response = kOkay) {
     bool asked = false;
     for (int n = 0; n < 1000; ++n) {
-      if (!asked && !top->arvalid_i && !dice_.percent(stall_)) {
-        top->arvalid_i = 1;
-        top->araddr_i = static_cast<CData>(address);
+      if (!asked && !top->s_axil_arvalid_i && !dice_.percent(stall_)) {
+        top->s_axil_arvalid_i = 1;
+        top->s_axil_araddr_i = static_cast<CData>(address);
       }
-      top->rready_i = dice_.percent(stall_) ? 0 : 1;
+      top->s_axil_rready_i = dice_.percent(stall_) ? 0 : 1;
       top.settle();
-      const bool ar = top->arvalid_i && top->arready_o;
-      const bool done = top->rvalid_o && top->rready_i;
-      const std::uint32_t value = top->rdata_o;
-      const std::uint32_t resp = top->rresp_o;
+      const bool ar = top->s_axil_arvalid_i && top->s_axil_arready_o;
+      const bool done = top->s_axil_rvalid_o && top->s_axil_rready_i;
+      const std::uint32_t value = top->s_axil_rdata_o;
+      const std::uint32_t resp = top->s_axil_rresp_o;
       top.edge();
       if (ar) {
         asked = true;
-        top->arvalid_i = 0;
+        top->s_axil_arvalid_i = 0;
       }
       if (done) {
         REQUIRE(resp == response);
-        top->rready_i = 0;
+        top->s_axil_rready_i = 0;
         return value;
       }
     }
@@ -67,34 +68,34 @@ class Axil {
   void write(std::uint32_t address, std::uint32_t value, std::uint32_t response = kOkay, unsigned strobe = 15) {
     bool aw_done = false, w_done = false;
     for (int n = 0; n < 1000; ++n) {  // address and data in either order
-      if (!aw_done && !top->awvalid_i && !dice_.percent(stall_)) {
-        top->awvalid_i = 1;
-        top->awaddr_i = static_cast<CData>(address);
+      if (!aw_done && !top->s_axil_awvalid_i && !dice_.percent(stall_)) {
+        top->s_axil_awvalid_i = 1;
+        top->s_axil_awaddr_i = static_cast<CData>(address);
       }
-      if (!w_done && !top->wvalid_i && !dice_.percent(stall_)) {
-        top->wvalid_i = 1;
-        top->wdata_i = value;
-        top->wstrb_i = static_cast<CData>(strobe);
+      if (!w_done && !top->s_axil_wvalid_i && !dice_.percent(stall_)) {
+        top->s_axil_wvalid_i = 1;
+        top->s_axil_wdata_i = value;
+        top->s_axil_wstrb_i = static_cast<CData>(strobe);
       }
-      top->bready_i = dice_.percent(stall_) ? 0 : 1;
+      top->s_axil_bready_i = dice_.percent(stall_) ? 0 : 1;
       top.settle();
-      const bool aw = top->awvalid_i && top->awready_o;
-      const bool w = top->wvalid_i && top->wready_o;
-      const bool done = top->bvalid_o && top->bready_i;
-      const std::uint32_t resp = top->bresp_o;
+      const bool aw = top->s_axil_awvalid_i && top->s_axil_awready_o;
+      const bool w = top->s_axil_wvalid_i && top->s_axil_wready_o;
+      const bool done = top->s_axil_bvalid_o && top->s_axil_bready_i;
+      const std::uint32_t resp = top->s_axil_bresp_o;
       top.edge();
       if (aw) {
         aw_done = true;
-        top->awvalid_i = 0;
+        top->s_axil_awvalid_i = 0;
       }
       if (w) {
         w_done = true;
-        top->wvalid_i = 0;
+        top->s_axil_wvalid_i = 0;
       }
       if (done) {
         REQUIRE((aw_done && w_done));
         REQUIRE(resp == response);
-        top->bready_i = 0;
+        top->s_axil_bready_i = 0;
         return;
       }
     }

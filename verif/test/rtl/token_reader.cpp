@@ -20,6 +20,7 @@ using kage::Kind;
 constexpr auto kWords = kage::Layout(kage::Config{}).words;
 constexpr int kTokenWords = 5;  // of the module's port: the header's
 static_assert(kTokenWords == kage::kHeaderWords);
+constexpr FlagsBus kFlags(kage::Config{});
 using Words = std::vector<std::uint32_t>;
 
 struct Expected {
@@ -68,11 +69,12 @@ std::vector<Expected> tokens_of(const Words& w, int beat) {
 /// The token that is offered is this one, of this frame.
 template <class Top>
 void hold_token(const Top& top, const Expected& e, const Words& frame) {
-  REQUIRE(static_cast<bool>(top.token_header_o) == e.header);
-  REQUIRE(static_cast<bool>(top.token_lacking_o) == e.lacking);
-  REQUIRE(static_cast<bool>(top.token_cut_o) == e.cut);
-  REQUIRE(static_cast<bool>(top.token_final_o) == e.final);
-  if (e.final && !e.cut) REQUIRE(static_cast<bool>(top.token_at_last_o) == e.at_last);
+  const auto flag = [&](const Place& place) { return get(top.token_flags_o, place) != 0; };
+  REQUIRE(flag(kFlags.header) == e.header);
+  REQUIRE(flag(kFlags.lacking) == e.lacking);
+  REQUIRE(flag(kFlags.cut) == e.cut);
+  REQUIRE(flag(kFlags.ends) == e.final);
+  if (e.final && !e.cut) REQUIRE(flag(kFlags.at_last) == e.at_last);
   for (int i = 0; i < e.words && !e.cut; ++i)
     REQUIRE(get(top.token_o, 32 * i, 32) == frame[e.at + static_cast<std::size_t>(i)]);
 }
@@ -94,11 +96,11 @@ void reader_test() {
     for (int clock = 0; out_frame < all.size(); ++clock) {
       REQUIRE(clock < 100000);
       const bool offered = offer(dice, in_frame < all.size());
-      top->s_valid_i = offered ? 1 : 0;
+      top->s_axis_tvalid_i = offered ? 1 : 0;
       if (offered) {
         for (int i = 0; i < beat; ++i)
-          put(top->s_data_i, 32 * i, 32, all[in_frame][in_at + static_cast<std::size_t>(i)]);
-        top->s_last_i = in_at + static_cast<std::size_t>(beat) == all[in_frame].size() ? 1 : 0;
+          put(top->s_axis_tdata_i, 32 * i, 32, all[in_frame][in_at + static_cast<std::size_t>(i)]);
+        top->s_axis_tlast_i = in_at + static_cast<std::size_t>(beat) == all[in_frame].size() ? 1 : 0;
       }
       top->token_ready_i = dice.percent(out_stall) ? 0 : 1;
       top->drop_i = 0;
@@ -115,7 +117,7 @@ void reader_test() {
         }
       }
       const bool dropped = top->drop_i;
-      const bool beat_taken = offered && top->s_ready_o;
+      const bool beat_taken = offered && top->s_axis_tready_o;
       top.edge();
       if (beat_taken) {
         offer.taken();
@@ -146,20 +148,20 @@ void speed_test() {
       const int tokens = 64;
       top->token_ready_i = 1;
       top->drop_i = 0;
-      top->s_valid_i = 1;
-      top->s_last_i = 0;
+      top->s_axis_tvalid_i = 1;
+      top->s_axis_tlast_i = 0;
       int given = 0, got = -1, first = 0, clock = 0;  // the header is not counted
       for (; got < tokens; ++clock) {
         for (int i = 0; i < beat; ++i) {
           const int at = given + i - kTokenWords;
-          put(top->s_data_i, 32 * i, 32, at >= 0 && at % words == 0 ? static_cast<std::uint64_t>(kind) : 0x600DU);
+          put(top->s_axis_tdata_i, 32 * i, 32, at >= 0 && at % words == 0 ? static_cast<std::uint64_t>(kind) : 0x600DU);
         }
         top.settle();
         if (top->token_valid_o) {
           if (got == 0) first = clock;
           ++got;
         }
-        if (top->s_ready_o) given += beat;
+        if (top->s_axis_tready_o) given += beat;
         top.edge();
       }
       const int per_token = std::max(beat, words) / beat;

@@ -19,6 +19,8 @@ using namespace kage::rtl;
 
 namespace {
 
+constexpr TreeCallBus kCall(kage::Config{});
+
 struct Pixel {
   std::uint64_t z, color, lit;
   bool last;
@@ -52,11 +54,11 @@ std::vector<Pixel> merge(const Lines& units) {
 
 template <class Top>
 void quiet(Top& top, int width) {
-  top.frame_start_i = 0;
-  top.flush_i = 0;
-  top.claim_i = 0;
+  put(top.call_i, kCall.start, 0);
+  put(top.call_i, kCall.flush, 0);
+  put(top.call_i, kCall.claim, 0);
   top.width_i = static_cast<CData>(width);
-  top.face_valid_i = 0;
+  put(top.call_i, kCall.face, 0);
   top.seg_valid_i = 0;
   top.line_ready_i = 0;
 }
@@ -153,18 +155,18 @@ class Frames {
   /// A flush, or the begin of a frame, which may be as soon as all lines of the frame before the last one have left.
   void begin() {
     flush_ = flushes_ && open_ && dice_.below(150) == 0;
-    top_->flush_i = flush_ ? 1 : 0;
+    put(top_->call_i, kCall.flush, flush_ ? 1 : 0);
     if (open_ && events_.empty() && !flush_) open_ = false;
     const bool wanted = !open_ && !flush_ && frames_ < kFrames && dice_.percent(60);
     top_.settle();
     start_ = wanted && top_->frame_ready_o;
-    top_->frame_start_i = start_ ? 1 : 0;
+    put(top_->call_i, kCall.start, start_ ? 1 : 0);
   }
 
   void bring(const Event& event) {
     event_ = &event;
     if (event.kind == Event::kFace) {
-      top_->face_valid_i = 1;
+      put(top_->call_i, kCall.face, 1);
       put_unit(*top_, kOf, event.unit);
       put_face(*top_, kOf, event.number, event.face);
     } else if (event.kind == Event::kSegment) {
@@ -172,7 +174,7 @@ class Frames {
       put_unit(*top_, kOf, event.unit);
       put_segment(*top_, kOf, event.segment);
     } else {
-      top_->claim_i = 1;
+      put(top_->call_i, kCall.claim, 1);
     }
   }
 
@@ -260,7 +262,7 @@ void clocks_test() {
       top->seg_valid_i = given < width * units ? 1 : 0;
       put_unit(*top, s, given / width);
       put_segment(*top, s, {0, 1, s.blank()});
-      top->claim_i = top.clocks == complete + 1 && complete != 0 ? 1 : 0;
+      put(top->call_i, kCall.claim, top.clocks == complete + 1 && complete != 0 ? 1 : 0);
       top.settle();
       if (top->line_valid_o) {
         if (taken == 0) first = top.clocks;
@@ -291,7 +293,7 @@ void two_lines_test() {
       top->seg_valid_i = given < 2 * width * units ? 1 : 0;
       put_unit(*top, s, given / width % units);
       put_segment(*top, s, {0, 1, s.blank()});
-      top->claim_i = clock == 40 * units || clock == 40 * units + 1 ? 1 : 0;
+      put(top->call_i, kCall.claim, clock == 40 * units || clock == 40 * units + 1 ? 1 : 0);
       top->line_ready_i = clock >= 40 * units + 1 ? 1 : 0;
       top.settle();
       if (top->line_ready_i && taken < 2 * width) {
@@ -332,7 +334,7 @@ TEST_CASE("tree_core sends buffered lines without a gap", "[tree_core]") {
   two_lines_test<Vcore64>();
 }
 
-TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next frame until then", "[tree_core]") {
+TEST_CASE("tree_core drops by a flush what was not claimed, and holds the next frame until then", "[tree_core]") {
   each_seed(10, [](Dice& dice) {
     constexpr TreeShape kTwo = tree_shape_of<Vcore2>();
     Bench<Vcore2> top(dice);
@@ -344,8 +346,8 @@ TEST_CASE("tree_core drops by flush_i what was not claimed, and holds the next f
       top->seg_valid_i = !flush && given < 4 ? 1 : 0;
       put_unit(*top, kTwo, given % 2);
       put_segment(*top, kTwo, {0, width, kTwo.blank()});
-      top->flush_i = flush ? 1 : 0;
-      top->claim_i = claim ? 1 : 0;
+      put(top->call_i, kCall.flush, flush ? 1 : 0);
+      put(top->call_i, kCall.claim, claim ? 1 : 0);
       top->line_ready_i = ready ? 1 : 0;
       top.settle();
       if (top->seg_valid_i && top->seg_ready_o) ++given;

@@ -11,7 +11,7 @@ module frame_control_monitor #(
     input wire logic                                     clk_i,
     input wire logic                                     rst_ni,
     input wire logic                                     good,
-    input wire logic                                     token_header_i,
+    input wire logic                                     header,
     input wire logic                                     uses_state,
     input wire logic                                     emit_paint,
     input wire logic                                     resolved,
@@ -20,7 +20,7 @@ module frame_control_monitor #(
   `include "kage_trace.svh"
 
   always_ff @(posedge clk_i) begin
-    if (rst_ni && (emit_paint || (good && !token_header_i && uses_state))) begin
+    if (rst_ni && (emit_paint || (good && !header && uses_state))) begin
       trace_state(0, 64'(bias), 64'(resolved));
     end
   end
@@ -40,8 +40,8 @@ module frame_control_monitor #(
       if (loading_q) begin
         trace_module(PartFrameControl, '0, 512'(frame_control.line_valid_o || frame_control.accept));
       end
-      trace_module(PartFrameControl, 512'(UNITS > 0 && frame_control.error_valid_o && !token_header_i),
-                   512'(frame_control.tree_flush_o));
+      trace_module(PartFrameControl, 512'(UNITS > 0 && frame_control.error_valid_o && !header),
+                   512'(frame_control.call.flush));
       if (frame_control.frame_end_o) begin
         trace_module(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));
       end
@@ -54,6 +54,7 @@ bind frame_control frame_control_monitor #(
     .DSF_BITS(DSF_BITS),
     .UNITS(UNITS)
 ) u_monitor (
+    .header(flags.header),
     .uses_state(kind == KindEv || kind == KindEs || kind == KindEol),
     .*
 );

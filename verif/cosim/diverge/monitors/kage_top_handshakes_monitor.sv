@@ -14,7 +14,7 @@ module kage_top_handshakes_monitor #(
     input wire logic rst_ni,
     input wire logic token_valid,
     input wire logic token_ready,
-    input wire logic token_header,
+    input wire logic header,
     input wire logic cmd_valid,
     input wire logic cmd_ready,
     input wire logic pixel_valid,
@@ -58,7 +58,7 @@ module kage_top_handshakes_monitor #(
     now[HandshakeVideoReady] = m_axis_tready_i;
     now[HandshakeVideoValid] = m_axis_tvalid_o;
     now[HandshakeFrameReady] = UNITS == 0 || tree_frame_ready;
-    now[HandshakeFrameValid] = token_valid && token_header;
+    now[HandshakeFrameValid] = token_valid && header;
     now[HandshakeExitReady] = exit_free;
     now[HandshakeExitValid] = pixel_valid && !pixel_ready;
     now[HandshakeReturnLineValid] = loading && !load_valid && !queue_valid;  // never ready
@@ -73,6 +73,7 @@ bind kage_top kage_top_handshakes_monitor #(
     `include "generated/kage_impl_param_map.svh"
     `include "generated/kage_pixel_param_map.svh"
 ) u_handshakes_monitor (
+    .header (flags.header),
     .loading(u_control.loading_q),
     .*
 );

@@ -15,11 +15,7 @@ module kage_top_tokens_monitor #(
     input wire logic                      token_valid,
     input wire logic                      token_ready,
     input wire logic [FRONT_WORDS*32-1:0] token,
-    input wire logic                      token_header,
-    input wire logic                      token_lacking,
-    input wire logic                      token_cut,
-    input wire logic                      token_final,
-    input wire logic                      token_at_last,
+    input wire logic [     FlagsBits-1:0] flags,
     input wire logic                      table_valid,
     input wire logic [TableEntryBits-1:0] table_entry,
     input wire logic                      frame_end,
@@ -32,8 +28,10 @@ module kage_top_tokens_monitor #(
   // The buses by their fields.
   table_entry_t entry;
   error_t found;
+  flags_t told;
   assign entry = table_entry;
   assign found = error;
+  assign told  = flags;
 
   // A channel of a table's share, as far as there are so many.
   function automatic logic [63:0] share(input logic [EntryShareBits-1:0] shares, input int channel);
@@ -43,7 +41,7 @@ module kage_top_tokens_monitor #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       if (token_valid && token_ready) begin
-        trace_token(0, 704'(token), 64'(token_at_last), 64'({token_header, token_lacking, token_cut, token_final}));
+        trace_token(0, 704'(token), 64'(told.at_last), 64'({told.header, told.lacking, told.cut, told.ends}));
       end
       if (table_valid) begin
         trace_table(0, 64'(entry.normal_class), 64'(entry.light), {

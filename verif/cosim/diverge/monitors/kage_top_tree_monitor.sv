@@ -12,8 +12,7 @@ module kage_top_tree_monitor #(
 ) (
     input wire logic                     clk_i,
     input wire logic                     rst_ni,
-    input wire logic                     tree_claim,
-    input wire logic                     tree_face_valid,
+    input wire logic [ TreeCallBits-1:0] tree_call,
     input wire logic                     tree_seg_valid,
     input wire logic                     tree_seg_ready,
     input wire logic [    PieceBits-1:0] tree_piece,
@@ -24,18 +23,20 @@ module kage_top_tree_monitor #(
   `include "kage_trace.svh"
   `include "generated/kage_buses.svh"
 
-  // The buses by their fields; events need no end of line.
+  // The buses by their fields; events need no end of line, and not all calls.
+  tree_call_t call;
   piece_t piece;
   tree_pixel_t pixel;
-  logic unused_last;
+  logic unused_fields;
   assign piece = tree_piece;
   assign pixel = tree_pixel;
-  assign unused_last = pixel.last;
+  assign call = tree_call;
+  assign unused_fields = ^{pixel.last, call.start, call.flush};
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      if (tree_claim) trace_claim(0);
-      if (tree_face_valid) begin
+      if (call.claim) trace_claim(0);
+      if (call.face) begin
         trace_face(32'(piece.unit), 64'(piece.face), 64'(piece.entry[EntryIndexAt+:ORDER_BITS]),
                    DSF_BITS > 0 ? 64'(piece.entry[EntryClassAt+:CLASS_BITS]) : 64'd0,
                    64'(piece.entry[EntryDzAt+:DepthBits]), 64'(piece.entry[EntryColorAt+:RgbBits]));

@@ -15,28 +15,20 @@ module kage_top_wires_monitor #(
   assign reader = {
     kage_top.s_axis_tvalid_i, kage_top.s_axis_tdata_i, kage_top.s_axis_tlast_i, kage_top.token_ready, kage_top.drop
   } == {
-    kage_top.u_reader.s_valid_i, kage_top.u_reader.s_data_i, kage_top.u_reader.s_last_i,
+    kage_top.u_reader.s_axis_tvalid_i, kage_top.u_reader.s_axis_tdata_i, kage_top.u_reader.s_axis_tlast_i,
     kage_top.u_reader.token_ready_i, kage_top.u_reader.drop_i
   };
   assign control = {
-    kage_top.token_valid, kage_top.token, kage_top.facts, kage_top.token_header,
-    kage_top.token_lacking, kage_top.token_cut,
-    kage_top.token_final, kage_top.token_at_last, kage_top.dropping, kage_top.cmd_ready, kage_top.loads_done,
-    kage_top.line_ready, kage_top.table_free, kage_top.tree_frame_ready, kage_top.tree_seg_ready
+    kage_top.token_valid, kage_top.token, kage_top.facts, kage_top.flags, kage_top.dropping, kage_top.cmd_ready,
+    kage_top.loads_done, kage_top.line_ready, kage_top.table_free, kage_top.tree_frame_ready, kage_top.tree_seg_ready
   } == {
     kage_top.u_control.token_valid_i, kage_top.u_control.token_i, kage_top.u_control.token_facts_i,
-    kage_top.u_control.token_header_i,
-    kage_top.u_control.token_lacking_i, kage_top.u_control.token_cut_i, kage_top.u_control.token_final_i,
-    kage_top.u_control.token_at_last_i, kage_top.u_control.dropping_i, kage_top.u_control.cmd_ready_i,
+    kage_top.u_control.token_flags_i, kage_top.u_control.dropping_i, kage_top.u_control.cmd_ready_i,
     kage_top.u_control.loads_done_i, kage_top.u_control.line_ready_i, kage_top.u_control.table_free_i,
     kage_top.u_control.tree_frame_ready_i, kage_top.u_control.tree_seg_ready_i
   };
-  assign lines = {
-    kage_top.line_valid, kage_top.line, kage_top.told_ready, kage_top.told_valid, kage_top.told_line,
-    kage_top.queue_ready
-  } == {
-    kage_top.u_told.in_valid_i, kage_top.u_told.in_data_i, kage_top.u_told.out_ready_i, kage_top.u_lines.in_valid_i,
-    kage_top.u_lines.in_data_i, kage_top.u_lines.out_ready_i
+  assign lines = {kage_top.line_valid, kage_top.line, kage_top.queue_ready} == {
+    kage_top.u_lines.in_valid_i, kage_top.u_lines.in_data_i, kage_top.u_lines.out_ready_i
   };
   assign loads = {kage_top.cmd_valid, kage_top.cmd, kage_top.load_valid, kage_top.load, kage_top.pixel_ready} == {
     kage_top.u_loads.in_valid_i, kage_top.u_loads.in_i, kage_top.u_loads.load_valid_i, kage_top.u_loads.load_i,
@@ -55,7 +47,7 @@ module kage_top_wires_monitor #(
   } == {
     kage_top.u_out.exit_take_i, kage_top.u_out.exit_valid_i, kage_top.u_out.exit_last_i,
     kage_top.u_out.exit_data_i, kage_top.u_out.line_valid_i, kage_top.u_out.line_i, kage_top.u_out.table_valid_i,
-    kage_top.u_out.table_i, kage_top.u_out.load_ready_i, kage_top.u_out.m_ready_i
+    kage_top.u_out.table_i, kage_top.u_out.load_ready_i, kage_top.u_out.m_axis_tready_i
   };
   // STATUS and the counters
   assign given = {
@@ -69,13 +61,10 @@ module kage_top_wires_monitor #(
   };
   if (UNITS > 0) begin : gen_tree
     assign tree = {
-      kage_top.tree_frame_start, kage_top.tree_flush, kage_top.tree_claim, kage_top.line.width,
-      kage_top.tree_face_valid, kage_top.tree_seg_valid, kage_top.tree_piece, kage_top.tree_ready
+      kage_top.tree_call, kage_top.line.width, kage_top.tree_seg_valid, kage_top.tree_piece, kage_top.tree_ready
     } == {
-      kage_top.gen_tree.u_tree.frame_start_i, kage_top.gen_tree.u_tree.flush_i, kage_top.gen_tree.u_tree.claim_i,
-      kage_top.gen_tree.u_tree.width_i, kage_top.gen_tree.u_tree.face_valid_i,
-      kage_top.gen_tree.u_tree.seg_valid_i, kage_top.gen_tree.u_tree.piece_i,
-      kage_top.gen_tree.u_tree.line_ready_i
+      kage_top.gen_tree.u_tree.call_i, kage_top.gen_tree.u_tree.width_i, kage_top.gen_tree.u_tree.seg_valid_i,
+      kage_top.gen_tree.u_tree.piece_i, kage_top.gen_tree.u_tree.line_ready_i
     };
   end else begin : gen_no_tree
     assign tree = 1'b1;
