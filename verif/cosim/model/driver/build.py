@@ -27,7 +27,6 @@ import pathlib
 import shlex
 import shutil
 import signal
-import subprocess
 import tempfile
 
 import yaml
