@@ -24,8 +24,8 @@ BELOW = {
     "order": ["file", "arena", "simd"],
     "scene": ["file", "module"],
     "shadow": ["scene", "order", "number"],
-    "geometry": ["shadow"],
-    "frontend": ["geometry", "contract", "arena"],
+    "geometry": ["shadow", "contract"],
+    "frontend": ["geometry", "arena"],
     "image": ["file", "module"],
     "pipeline": ["frontend", "stream", "core", "image"],
 }
