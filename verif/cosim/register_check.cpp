@@ -14,8 +14,11 @@ namespace {
 
 constexpr int kOkay = 0;
 constexpr int kSlverr = 2;
-constexpr std::uint32_t kWatchdog = 50;  // clocks
-constexpr std::uint64_t kLong = 20000;   // more than the spans of any frame here take
+constexpr std::uint32_t kWatchdog = 50;       // clocks
+constexpr std::uint64_t kLong = 20000;        // more than any frame here takes to its standstill
+constexpr std::uint32_t kLastAddress = 0xFC;  // that the port has
+constexpr std::uint32_t kWaitingForInput = KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK;
+constexpr std::uint32_t kInterrupts = KAGE_IRQ_FRAME_END_MASK | KAGE_IRQ_ERROR_MASK | KAGE_IRQ_WATCHDOG_MASK;
 
 constexpr std::uint32_t kOverlaps = 12;
 
@@ -31,18 +34,19 @@ class Checker {
 
   void all() {
     constants();
-    addresses();
+    writable();
     overlaps();
     frames();
     dropped();
     if (config_.units > 1) behind();
-    interrupt();
-    cycles();
-    watchdog();
+    output_stops();
+    counts("CYCLES", KAGE_REG_CYCLES, true);
+    input_stops();
+    untouched();
   }
 
  private:
-  static void same(const char* name, std::uint32_t expected, std::uint32_t actual) {
+  static void same(const std::string& name, std::uint32_t expected, std::uint32_t actual) {
     if (expected != actual) throw Wrong{fmt::format("{}: expected {:#x}, got {:#x}", name, expected, actual)};
   }
   std::uint32_t read(const char* name, std::uint32_t address, int response = kOkay) {
@@ -59,7 +63,7 @@ class Checker {
     responded(w, response);
   }
   static void responded(const RegisterAccess& access, int response) {
-    same(fmt::format("response of {}", access.name).c_str(), static_cast<std::uint32_t>(response),
+    same(fmt::format("response of {}", access.name), static_cast<std::uint32_t>(response),
          static_cast<std::uint32_t>(access.bus.answer));
   }
 
@@ -75,9 +79,8 @@ class Checker {
                KAGE_FIELD_IS(KAGE_SHAPE_MAX_WIDTH, static_cast<std::uint32_t>(c.max_width)));
   }
 
-  void addresses() {
-    read("an address without register", KAGE_REG_LAST + 4, kSlverr);
-    write("an address without register", KAGE_REG_LAST + 4, 1, kSlverr);
+  // CONTROL is written by interrupts().
+  void writable() {
     for (const std::uint32_t value : {0x12345678U, 0U}) {
       write("WATCHDOG", KAGE_REG_WATCHDOG, value);
       expect("WATCHDOG", KAGE_REG_WATCHDOG, value);
@@ -88,12 +91,7 @@ class Checker {
       expect("WATCHDOG, by bytes", KAGE_REG_WATCHDOG, strobes == 5 ? 0x00340078 : 0x12005600);
     }
     write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
-    const std::uint32_t some = KAGE_CONTROL_FRAME_END_MASK | KAGE_CONTROL_WATCHDOG_MASK;
-    write("CONTROL", KAGE_REG_CONTROL, some);
-    expect("CONTROL", KAGE_REG_CONTROL, some);
-    write("CONTROL", KAGE_REG_CONTROL, 0);
-    write("ID", KAGE_REG_ID, 0);
-    expect("ID", KAGE_REG_ID, KAGE_ID_VALUE);
+    interrupts(0);
   }
 
   // Reads and writes do not know of each other.
@@ -114,99 +112,189 @@ class Checker {
     write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
   }
 
+  // ---- what frames leave behind ---------------------------------------------------------------------------
+
   void frames() {
     for (const KnownFrame& f : frames_) {
       if (f.end.status.width == 0) continue;  // its header is refused: the driver resets the core
+      const bool wrong = f.end.status.error != ErrorCode::NONE;
       rtl_.feed(f.words, kNowhere);
-      const FrameEnd end = rtl_.finish(kNowhere);
-      ++count_;
-      blocked_ += static_cast<std::uint32_t>(end.stalls.blocked);
-      if (f.end.status.error != ErrorCode::NONE) ++errors_;
-      expect("FRAMES", KAGE_REG_FRAMES, count_);
-      expect("ERRORS", KAGE_REG_ERRORS, errors_);
-      if (f.end.status.error == ErrorCode::NONE) continue;
-      expect("ERROR", KAGE_REG_ERROR,
-             KAGE_FIELD_IS(KAGE_ERROR_LINE, f.end.status.line) |
-                 KAGE_FIELD_IS(KAGE_ERROR_CODE, static_cast<std::uint32_t>(f.end.status.error)));
-      expect("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN, f.end.status.token);
+      if (wrong) ++errors_;
+      ended();
+      if (wrong) newest_error(f.end.status);
+      const std::uint32_t happened = KAGE_IRQ_FRAME_END_MASK | (wrong ? KAGE_IRQ_ERROR_MASK : 0);
+      expect("IRQ", KAGE_REG_IRQ, happened);
+      write("IRQ", KAGE_REG_IRQ, happened);
     }
+  }
+
+  // The frame at hand ends. Clocks in which a pixel waits are seen at the port, so the driver counts them as BLOCKED
+  // does; STARVED also asks whether the core has work left, which the port does not show: counts() looks at it.
+  void ended() {
+    const FrameEnd end = rtl_.finish(kNowhere);
+    ++count_;
+    blocked_ += static_cast<std::uint32_t>(end.stalls.blocked);
+    expect("FRAMES", KAGE_REG_FRAMES, count_);
+    expect("ERRORS", KAGE_REG_ERRORS, errors_);
     expect("BLOCKED", KAGE_REG_BLOCKED, blocked_);
     expect("STATUS", KAGE_REG_STATUS, 0);
     expect("TREE", KAGE_REG_TREE, 0);
   }
 
+  void newest_error(const FrameStatus& status) {
+    expect("ERROR", KAGE_REG_ERROR,
+           KAGE_FIELD_IS(KAGE_ERROR_LINE, status.line) |
+               KAGE_FIELD_IS(KAGE_ERROR_CODE, static_cast<std::uint32_t>(status.error)));
+    expect("ERROR_FRAME", KAGE_REG_ERROR_FRAME, status.frame);
+    expect("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN, status.token);
+    const bool has_unit = status.error == ErrorCode::SEGMENT || status.error == ErrorCode::UNIT_LONG ||
+                          status.error == ErrorCode::UNIT_SHORT;
+    if (has_unit) expect("ERROR_UNIT", KAGE_REG_ERROR_UNIT, status.unit);
+  }
+
+  // ---- standstills ----------------------------------------------------------------------------------------
+
+  // All of the first part is taken, and the core waits for the second.
+  void first_part(const FrameInParts& f) {
+    rtl_.feed(std::span(f.words).first(f.first + 1), kNowhere);  // the word behind the part stays with the driver
+    rtl_.pass(kLong);
+  }
+  void second_part(const FrameInParts& f) {
+    rtl_.feed(std::span(f.words).subspan(f.first + 1), kNowhere);
+    ended();
+  }
+
   // A frame with an error lasts until its input has come.
   void dropped() {
-    for (const KnownFrame& f : frames_) {
-      if (f.end.status.width == 0 || f.end.status.error == ErrorCode::NONE) continue;
-      rtl_.feed(f.words, kNowhere);  // but for the last beat
-      // Its lines must be out: a blank pixel takes a clock, or several where the output's ready stops.
-      const auto pixels =
-          static_cast<std::uint64_t>(f.end.status.width) * static_cast<std::uint64_t>(f.end.status.height);
-      rtl_.pass(kLong + 20 * pixels);
-      const bool early = read("ERRORS", KAGE_REG_ERRORS) != errors_;
-      if (early) {
-        expect("STATUS, while input is dropped", KAGE_REG_STATUS,
-               KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK | KAGE_STATUS_WAITING_INPUT_MASK);
-        expect("FRAMES, while input is dropped", KAGE_REG_FRAMES, count_);
-      }
-      (void)rtl_.finish(kNowhere);
-      ++count_;
-      ++errors_;
-      expect("FRAMES", KAGE_REG_FRAMES, count_);
-      if (early) return;
-    }
+    const FrameInParts f = early_error(config_);
+    first_part(f);
+    ++errors_;
+    expect("ERRORS, while input is dropped", KAGE_REG_ERRORS, errors_);
+    newest_error(known_frame(config_, f.words).end.status);
+    expect("STATUS, while input is dropped", KAGE_REG_STATUS, kWaitingForInput | KAGE_STATUS_DRAINING_MASK);
+    expect("FRAMES, while input is dropped", KAGE_REG_FRAMES, count_);
+    interrupts(KAGE_IRQ_ERROR_MASK);
+    second_part(f);
+    interrupts(KAGE_IRQ_FRAME_END_MASK);
   }
 
   void behind() {
     const FrameInParts f = unit_behind(config_);
-    rtl_.feed(std::span(f.words).first(f.first + 1), kNowhere);  // the word behind the part stays with the driver
+    first_part(f);
+    const std::uint32_t tree = KAGE_TREE_BEHIND_MASK | KAGE_FIELD_IS(KAGE_TREE_UNIT, 1U);
+    expect("TREE", KAGE_REG_TREE, tree);
+    expect("STATUS, with a unit behind", KAGE_REG_STATUS, kWaitingForInput);
+    bites(KAGE_STALL_ON_INPUT_MASK | KAGE_STALL_BEHIND_MASK | KAGE_FIELD_IS(KAGE_STALL_UNIT, 1U), 0);
+    second_part(f);
+    interrupts(KAGE_IRQ_FRAME_END_MASK);
+  }
+
+  // A frame whose pixels do not leave, though its input is done.
+  void output_stops() {
+    rtl_.feed(one_line(config_), kNowhere);
+    rtl_.hold_output(true);
+    rtl_.end_input();
     rtl_.pass(kLong);
-    expect("TREE", KAGE_REG_TREE, KAGE_TREE_BEHIND_MASK | KAGE_FIELD_IS(KAGE_TREE_UNIT, 1U));
-    rtl_.feed(std::span(f.words).subspan(f.first + 1), kNowhere);
-    (void)rtl_.finish(kNowhere);
-    ++count_;
-    expect("FRAMES", KAGE_REG_FRAMES, count_);
-    expect("ERRORS", KAGE_REG_ERRORS, errors_);
+    expect("STATUS, while output stands still", KAGE_REG_STATUS,
+           KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK);
+    expect("FRAMES, while output stands still", KAGE_REG_FRAMES, count_ + 1);
+    counts("BLOCKED", KAGE_REG_BLOCKED, true);
+    counts("STARVED", KAGE_REG_STARVED, false);
+    bites(KAGE_STALL_ON_OUTPUT_MASK | KAGE_FIELD_IS(KAGE_STALL_LINE, 1U), KAGE_IRQ_FRAME_END_MASK);
+    rtl_.hold_output(false);
+    ended();
   }
 
-  // Frames have ended, of them some with an error, or none where chance has made no such frame.
-  void interrupt() {
-    const std::uint32_t error = errors_ > 0 ? 1 : 0;
-    expect("IRQ", KAGE_REG_IRQ, KAGE_FIELD_IS(KAGE_IRQ_ERROR, error) | KAGE_IRQ_FRAME_END_MASK);
-    same("irq", 0, rtl_.interrupt() ? 1 : 0);
-    write("CONTROL", KAGE_REG_CONTROL, KAGE_CONTROL_ERROR_MASK);
-    same("irq", error, rtl_.interrupt() ? 1 : 0);
-    write("IRQ", KAGE_REG_IRQ, KAGE_IRQ_ERROR_MASK);
-    expect("IRQ", KAGE_REG_IRQ, KAGE_IRQ_FRAME_END_MASK);
-    same("irq", 0, rtl_.interrupt() ? 1 : 0);
-    write("IRQ", KAGE_REG_IRQ, ~0U);
-    expect("IRQ", KAGE_REG_IRQ, 0);
+  // A frame whose end does not come, behind one with an error: everything has happened then that interrupts.
+  void input_stops() {
+    const FrameInParts wrong = early_error(config_);
+    rtl_.feed(wrong.words, kNowhere);
+    ++errors_;
+    ended();
+    const FrameInParts f = eight_lines(config_);
+    first_part(f);
+    expect("STATUS, while input stands still", KAGE_REG_STATUS, kWaitingForInput);
+    counts("STARVED", KAGE_REG_STARVED, true);
+    counts("BLOCKED", KAGE_REG_BLOCKED, false);
+    const std::uint32_t stall =
+        KAGE_STALL_ON_INPUT_MASK | KAGE_FIELD_IS(KAGE_STALL_LINE, static_cast<std::uint32_t>(f.lines));
+    bites(stall, KAGE_IRQ_FRAME_END_MASK | KAGE_IRQ_ERROR_MASK);
+    second_part(f);
+    expect("STALL", KAGE_REG_STALL, stall);
   }
 
-  void cycles() {
+  // ---- what every standstill is asked ---------------------------------------------------------------------
+
+  // By one in each clock, or not at all. Of a counter that follows what goes on this is exact while the core stands
+  // still: then all clocks are alike.
+  void counts(const char* name, std::uint32_t address, bool each_clock) {
     const std::uint64_t before = rtl_.clock();
-    const std::uint32_t first = read("CYCLES", KAGE_REG_CYCLES);
+    const std::uint32_t first = read(name, address);
     rtl_.pass(100);
     const std::uint64_t clocks = rtl_.clock() - before;
-    same("CYCLES", static_cast<std::uint32_t>(clocks), read("CYCLES", KAGE_REG_CYCLES) - first);
+    same(name, each_clock ? static_cast<std::uint32_t>(clocks) : 0, read(name, address) - first);
   }
 
-  // A frame whose end does not come.
-  void watchdog() {
-    const std::vector<std::uint32_t> words = eight_lines(config_);
-    const std::size_t first = words.size() - static_cast<std::size_t>(config_.beat_words);
-    rtl_.feed(std::span(words).first(first), kNowhere);
+  // The watchdog bites when its time is up, and once. `happened` is in IRQ already.
+  void bites(std::uint32_t stall, std::uint32_t happened) {
+    expect("IRQ", KAGE_REG_IRQ, happened);
     write("WATCHDOG", KAGE_REG_WATCHDOG, kWatchdog);
-    rtl_.pass(4 * std::uint64_t{kWatchdog} + 400 * static_cast<std::uint64_t>(register_frame_width(config_)));
-    expect("STATUS", KAGE_REG_STATUS, KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK);
-    expect("IRQ", KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);
-    same("STALL", KAGE_STALL_ON_INPUT_MASK,
-         read("STALL", KAGE_REG_STALL) & (KAGE_STALL_ON_INPUT_MASK | KAGE_STALL_ON_OUTPUT_MASK));
-    rtl_.feed(std::span(words).subspan(first), kNowhere);
-    (void)rtl_.finish(kNowhere);
-    const std::uint32_t starved = read("STARVED", KAGE_REG_STARVED);
-    if (starved < kWatchdog) throw Wrong{fmt::format("STARVED: expected at least {}, got {}", kWatchdog, starved)};
+    rtl_.pass(kWatchdog / 2);
+    expect("IRQ, before the watchdog bites", KAGE_REG_IRQ, happened);
+    rtl_.pass(2 * kWatchdog);
+    expect("STALL", KAGE_REG_STALL, stall);
+    interrupts(happened | KAGE_IRQ_WATCHDOG_MASK);
+    rtl_.pass(2 * kWatchdog);
+    expect("IRQ, behind the watchdog's bite", KAGE_REG_IRQ, 0);
+    write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
+  }
+
+  // The pin is high while something has happened that is enabled. What has is cleared, a bit at a time; no enable is
+  // left.
+  void interrupts(std::uint32_t happened) {
+    while (true) {
+      expect("IRQ", KAGE_REG_IRQ, happened);
+      for (std::uint32_t enabled = 0; enabled <= kInterrupts; ++enabled) {
+        write("CONTROL", KAGE_REG_CONTROL, enabled);
+        expect("CONTROL", KAGE_REG_CONTROL, enabled);
+        same(fmt::format("irq, IRQ {:#x} with CONTROL {:#x}", happened, enabled), (happened & enabled) != 0 ? 1 : 0,
+             rtl_.interrupt() ? 1 : 0);
+      }
+      write("CONTROL", KAGE_REG_CONTROL, 0);
+      if (happened == 0) return;
+      const std::uint32_t lowest = happened & (~happened + 1);
+      write("IRQ", KAGE_REG_IRQ, lowest);
+      happened &= ~lowest;
+    }
+  }
+
+  // ---- what no write changes ------------------------------------------------------------------------------
+
+  // Registers that are only read ignore writes, and addresses behind the last register refuse all accesses. No frame is
+  // open, so nothing but CYCLES changes by itself.
+  void untouched() {
+    write("CONTROL", KAGE_REG_CONTROL, kInterrupts);
+    write("WATCHDOG", KAGE_REG_WATCHDOG, 0x12345678);
+    std::vector<std::uint32_t> before;
+    std::uint64_t cycles_read = 0;
+    for (std::uint32_t a = 0; a <= KAGE_REG_LAST; a += 4) {
+      if (a == KAGE_REG_CYCLES) cycles_read = rtl_.clock();
+      before.push_back(read("a register", a));
+    }
+    for (std::uint32_t a = 0; a <= kLastAddress; a += 4) {
+      const std::string name = fmt::format("address {:#04x}", a);
+      if (a > KAGE_REG_LAST) {
+        (void)read(name.c_str(), a, kSlverr);
+        write(name.c_str(), a, ~0U, kSlverr);
+      } else if (a != KAGE_REG_CONTROL && a != KAGE_REG_IRQ && a != KAGE_REG_WATCHDOG) {
+        write(name.c_str(), a, ~before[a / 4]);
+      }
+    }
+    for (std::uint32_t a = 0; a <= KAGE_REG_LAST; a += 4) {
+      const std::string name = fmt::format("address {:#04x}, behind writes that change nothing", a);
+      const auto passed = static_cast<std::uint32_t>(rtl_.clock() - cycles_read);
+      expect(name.c_str(), a, before[a / 4] + (a == KAGE_REG_CYCLES ? passed : 0));
+    }
   }
 
   RtlCore& rtl_;
@@ -219,15 +307,10 @@ class Checker {
 
 }  // namespace
 
-KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words) {
+KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words, const LineSink& sink) {
   KnownFrame f;
   f.words = std::move(words);
-  const auto golden = make_golden(config);
-  const LineSink sink = [&f](int, std::span<const std::uint8_t> line) {
-    f.lines.emplace_back(line.begin(), line.end());
-  };
-  golden->feed(f.words, sink);
-  f.end = golden->finish(sink);
+  f.end = make_golden(config)->frame(f.words, sink);
   return f;
 }
 

@@ -13,20 +13,20 @@
 
 namespace kage::cosim {
 
-/// A frame, and what the golden core makes of it.
+/// A frame, and how the golden core ends it.
 struct KnownFrame {
   std::vector<std::uint32_t> words;
-  std::vector<std::vector<std::uint8_t>> lines;
   FrameEnd end;
 };
 
-/// Asks the golden core.
-KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words);
+/// Asks the golden core, whose lines go to `sink`.
+KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words, const LineSink& sink = kNowhere);
 
 /// The first register that is not as it must be: "FRAMES: expected 3, got 2". `rtl` is new; it is given the frames, and
-/// some of its own. Constants, addresses without a register, bytes that are written
-/// alone, counters, the newest error, interrupts, the clocks that are lost, and the watchdog are looked at, with input
-/// that is dropped and units that wait among them. CoreFailure as of Core.
+/// some of its own, so that input is dropped, units wait, and either port stands still. Looked at are constants, bytes
+/// that are written alone, counters, lost clocks, the newest error, every interrupt with every enable, what the
+/// watchdog says of a standstill, writes to read-only registers, and all addresses behind the last register.
+/// CoreFailure as of Core.
 std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames);
 
 }  // namespace kage::cosim

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kWidth = 8;
 constexpr int kHeight = 8;
-constexpr int kMostFaces = 3;  // that every unit's table holds
+constexpr std::uint32_t kErrorNumber = 0x600DF00D;  // of the frame with an error
+constexpr int kMostFaces = 3;                       // that every unit's table holds
 
 /// Blank pixels, in segments as long as DX_BITS allows.
 void blank(TokenWriter& w, const Config& c, int unit, int pixels, bool line_begins) {
@@ -25,6 +26,12 @@ void blank(TokenWriter& w, const Config& c, int unit, int pixels, bool line_begi
     w.seg(s);
     s.sync = false;
   }
+}
+
+/// The words of all beats but the last.
+std::size_t but_last_beat(const Config& c, std::size_t words) {
+  const auto beat = static_cast<std::size_t>(c.beat_words);
+  return (words - 1) / beat * beat;
 }
 
 /// With so many faces, which move what comes behind them within its beat.
@@ -57,19 +64,47 @@ FrameInParts unit_behind(const Config& c, int faces, bool& whole) {
 
 int register_frame_width(const Config& config) { return std::min(kWidth, config.max_width); }
 
-std::vector<std::uint32_t> eight_lines(const Config& config) {
+std::vector<std::uint32_t> one_line(const Config& config) {
   std::vector<std::uint32_t> words;
   TokenWriter w(config, words);
+  w.header({register_frame_width(config), 1, 0, 0});
+  w.eol(0);
+  w.end();
+  return words;
+}
+
+FrameInParts eight_lines(const Config& config) {
+  FrameInParts f;
+  TokenWriter w(config, f.words);
   const int width = register_frame_width(config);
   w.header({width, kHeight, 0, 0});
+  std::vector<std::size_t> ends;
   for (int y = 0; y < kHeight; ++y) {
     SpanToken s;
     s.xr = width;
     w.op(s);
     w.eol(y);
+    ends.push_back(f.words.size());
   }
   w.end();
-  return words;
+  f.first = but_last_beat(config, f.words.size());
+  f.lines = static_cast<int>(std::ranges::count_if(ends, [&](std::size_t end) { return end <= f.first; }));
+  return f;
+}
+
+FrameInParts early_error(const Config& config) {
+  FrameInParts f;
+  TokenWriter w(config, f.words);
+  w.header({register_frame_width(config), kHeight, 0, kErrorNumber});
+  w.eol(0);
+  w.eol(0);
+  const auto beat = static_cast<std::size_t>(config.beat_words);
+  const std::size_t enough = f.words.size() + 5 * beat;
+  while (f.words.size() < enough) w.eol(1);
+  w.end();
+  f.first = but_last_beat(config, f.words.size());
+  f.lines = 1;
+  return f;
 }
 
 FrameInParts unit_behind(const Config& config) {

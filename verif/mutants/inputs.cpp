@@ -48,10 +48,14 @@ void make_frames(Inputs& inputs, std::uint64_t seed) {
     s.rtl.seed = seed;
     s.rtl.idle_percent = idle;
     s.rtl.backpressure_percent = backpressure;
-    for (int i = 0; i < kValid + kDamaged; ++i)
+    for (int i = 0; i < kValid + kDamaged; ++i) {
+      auto& lines = s.lines.emplace_back();
       s.frames.push_back(cosim::known_frame(
-          inputs.config, i < kValid ? sound_frame(random, inputs.config, static_cast<std::uint32_t>(i))
-                                    : damaged_frame(random, inputs.config, static_cast<std::uint32_t>(i))));
+          inputs.config,
+          i < kValid ? sound_frame(random, inputs.config, static_cast<std::uint32_t>(i))
+                     : damaged_frame(random, inputs.config, static_cast<std::uint32_t>(i)),
+          [&](int, std::span<const std::uint8_t> line) { lines.emplace_back(line.begin(), line.end()); }));
+    }
     inputs.sequences.push_back(std::move(s));
   }
 }

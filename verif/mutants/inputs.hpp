@@ -17,6 +17,7 @@ namespace kage::verif {
 struct Sequence {
   cosim::RtlOptions rtl;  ///< stalls and seed
   std::vector<cosim::KnownFrame> frames;
+  std::vector<std::vector<std::vector<std::uint8_t>>> lines;  ///< of each frame, as the golden core has them
 };
 
 struct Inputs {

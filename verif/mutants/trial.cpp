@@ -12,9 +12,10 @@ namespace {
 
 using cosim::Difference;
 
-std::optional<Difference> compare(cosim::RtlCore& rtl, const cosim::KnownFrame& f, int number, int channels) {
+std::optional<Difference> compare(cosim::RtlCore& rtl, const Sequence& sequence, int number, int channels) {
+  const cosim::KnownFrame& f = sequence.frames[static_cast<std::size_t>(number)];
   cosim::FrameComparison comparison(number, channels, false);
-  for (const auto& line : f.lines) {
+  for (const auto& line : sequence.lines[static_cast<std::size_t>(number)]) {
     cosim::Lines lines;
     lines.add(line);
     comparison.expect(std::move(lines));
@@ -61,7 +62,7 @@ std::optional<TrialVerdict> try_sequence(const std::filesystem::path& library, c
   for (int i = 0; i < static_cast<int>(sequence.frames.size()); ++i) {
     TrialVerdict v;
     try {
-      const auto d = compare(*rtl, sequence.frames[static_cast<std::size_t>(i)], i, inputs.config.channels);
+      const auto d = compare(*rtl, sequence, i, inputs.config.channels);
       if (!d) continue;
       // Where all stages agree, what is wrong is what the registers say of them.
       v = {how(*d), "registers", describe(*d)};

@@ -47,10 +47,14 @@ class Rtl : public RtlCore {
   [[nodiscard]] int channels() const override { return config_.channels; }
 
   void begin(int number) override {
-    const auto share = [](int stopped) { return kAlways - kAlways * static_cast<std::uint32_t>(stopped) / 100; };
-    table_->stalls(model_, share(options_.idle_percent), share(options_.backpressure_percent),
-                   mixed(options_.seed, static_cast<std::uint64_t>(number)));
     number_ = number;
+    hold_output(false);
+  }
+
+  void hold_output(bool on) override {
+    const auto share = [](int stopped) { return kAlways - kAlways * static_cast<std::uint32_t>(stopped) / 100; };
+    table_->stalls(model_, share(options_.idle_percent), on ? 0 : share(options_.backpressure_percent),
+                   mixed(options_.seed, static_cast<std::uint64_t>(number_)));
   }
 
   void feed(std::span<const std::uint32_t> words, const LineSink& sink) override {
@@ -69,6 +73,20 @@ class Rtl : public RtlCore {
     const LineSink outside = watch.outside(sink);
     const int why = in_slices([&] { return table_->run_dry(model_, slice()); }, outside);
     stuck_ = checked(why) == KAGE_RTL_STUCK;
+  }
+
+  void end_input() override {
+    open();
+    if (std::exchange(ended_, true)) return;
+    // A frame may end within its header: cores read the rest of its last beat as zeros, and the header may be whole
+    // then.
+    if (!announced_) {
+      const auto beat = static_cast<std::size_t>(config_.beat_words);
+      held_.resize((held_.size() + beat - 1) / beat * beat, 0);
+      marks_.resize(held_.size(), 0);
+      announce();
+    }
+    if (!stuck_) submit(held_.size(), true);
   }
 
   [[nodiscard]] bool stuck() const override { return open_ && stuck_; }
@@ -106,7 +124,7 @@ class Rtl : public RtlCore {
     FrameEnd end;
     {
       Stopwatch watch(seconds_);
-      open();
+      end_input();
       finish(end, watch.outside(sink));
     }
     end.seconds = std::exchange(seconds_, 0);
@@ -144,7 +162,7 @@ class Rtl : public RtlCore {
     open_ = true;
     if (broken_) table_->reset(model_, 2);
     if (broken_) errors_ = frames_ = 0;
-    broken_ = stuck_ = announced_ = false;
+    broken_ = stuck_ = announced_ = ended_ = false;
     width_ = height_ = 0;
     lines_.start();
     held_.clear();
@@ -228,21 +246,11 @@ class Rtl : public RtlCore {
   }
 
   void finish(FrameEnd& end, const LineSink& sink) {
-    // A frame may end within its header: cores read the rest of its last beat as zeros, and the header may be whole
-    // then.
-    if (!announced_) {
-      const auto beat = static_cast<std::size_t>(config_.beat_words);
-      held_.resize((held_.size() + beat - 1) / beat * beat, 0);
-      marks_.resize(held_.size(), 0);
-      announce();
-    }
     const bool any = width_ != 0 && height_ != 0;
     int why = KAGE_RTL_STUCK;
-    if (!stuck_) {
-      submit(held_.size(), true);
+    if (!stuck_)
       why = in_slices([&] { return table_->run(model_, any ? earlier_pixels() + lines_.left() : kForever, slice()); },
                       sink);
-    }
     (void)checked(why);
     std::string trouble;
     if (why == KAGE_RTL_STUCK)
@@ -382,6 +390,7 @@ class Rtl : public RtlCore {
   // Of the frame at hand:
   bool open_ = false;
   bool announced_ = false;
+  bool ended_ = false;  // its last beat is queued
   bool stuck_ = false;
   std::uint32_t width_ = 0;
   std::uint32_t height_ = 0;

@@ -53,6 +53,14 @@ class RtlCore : public Core {
   /// Whether it stood still in the frame at hand, with input waiting: it takes nothing more of it.
   [[nodiscard]] virtual bool stuck() const = 0;
 
+  /// The words of the frame at hand have all been fed: its last beat may come from now on. Nothing is waited for;
+  /// finish() must follow.
+  virtual void end_input() = 0;
+
+  /// Output is taken in no clock from now on, or as the stalls have it again. Nothing but pass() and access() lets time
+  /// pass meanwhile: feed() and finish() might wait for ever.
+  virtual void hold_output(bool on) = 0;
+
   /// Let so many clocks pass at most; fewer if nothing moves any more.
   virtual void pass(std::uint64_t clocks) = 0;
 

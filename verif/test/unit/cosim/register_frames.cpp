@@ -42,11 +42,12 @@ std::vector<SmallConfig> corners() {
   return all;
 }
 
-/// What units have been given after so many words of a frame.
+/// What has come with so many words of a frame: pixels of units, and lines.
 class Given : public CoreObserver {
  public:
   Given(const Config& config, std::size_t words) : pixels(static_cast<std::size_t>(config.units)), left_(words) {}
   std::vector<int> pixels;
+  int lines = 0;
 
  private:
   void header(std::span<const std::uint32_t> words, const LineView&) override { left_ -= words.size(); }
@@ -54,6 +55,7 @@ class Given : public CoreObserver {
     if (words.size() > left_) left_ = 0;
     if (left_ == 0) return;
     left_ -= words.size();
+    if (token.kind == Kind::EOL) ++lines;
     if (token.kind == Kind::SEG) pixels[static_cast<std::size_t>(token.segment.unit)] += token.segment.dx;
   }
   std::size_t left_;
@@ -69,12 +71,31 @@ void check_sound(const Config& c, std::span<const std::uint32_t> words, int heig
   CHECK(status.height == height);
 }
 
+/// It shows long before the last beat.
+void check_error(const Config& c, const FrameInParts& f) {
+  const FrameStatus status = GoldenCore(c).frame(f.words, [](int, std::span<const std::uint8_t>) {});
+  CHECK(status.error == ErrorCode::LINE);
+  CHECK(status.frame != 0);
+  CHECK(status.line == 1);
+  CHECK(status.token == 2);
+  const auto beat = static_cast<std::size_t>(c.beat_words);
+  CHECK(f.first % beat == 0);
+  CHECK(f.first < f.words.size());
+  CHECK(f.first >= kHeaderWords + 2 + 3 * beat);
+}
+
 void check(const Config& c) {
   CHECK(register_frame_width(c) <= c.max_width);
   const auto beat = static_cast<std::size_t>(c.beat_words);
-  const std::vector<std::uint32_t> lines = eight_lines(c);
-  check_sound(c, lines, 8);
-  CHECK(lines.size() - beat > kHeaderWords + beat);
+  check_sound(c, one_line(c), 1);
+  const FrameInParts lines = eight_lines(c);
+  Given begun(c, lines.first);
+  check_sound(c, lines.words, 8, &begun);
+  CHECK(lines.first % beat == 0);
+  CHECK(lines.first < lines.words.size());
+  CHECK(lines.first >= kHeaderWords + beat);
+  CHECK(lines.lines == begun.lines);
+  check_error(c, early_error(c));
   if (c.units < 2) return;
   const FrameInParts f = unit_behind(c);
   Given given(c, f.first);
