@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cosim/model/misconduct.hpp"
 #include "cosim/model/register_answer.hpp"
 #include "cosim/model/rtl_library.hpp"
 #include "cosim/model/video_lines.hpp"
@@ -354,18 +355,6 @@ class Rtl : public RtlCore {
     earlier_.erase(earlier_.begin(), earlier_.begin() + static_cast<std::ptrdiff_t>(earlier));
     lines_.take(pixels + earlier, count - earlier / channels, sink);
     table_->clear_pixels(model_);
-  }
-
-  static std::string misconduct(const kage_rtl_stats& stats, const std::string& trouble) {
-    std::string text = trouble;
-    const auto add = [&](std::uint64_t n, const char* what) {
-      if (n != 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
-    };
-    add(stats.user_errors, "pixels with a wrong TUSER");
-    add(stats.last_errors, "pixels with a wrong TLAST");
-    add(stats.extra_pixels, "pixels too many");
-    add(stats.unstable, "clocks in which a waiting pixel changed");
-    return text;
   }
 
   Config config_;

@@ -124,11 +124,12 @@ for corner in 'MAX_WIDTH: 7, X_BITS: 4, LANES: 4' 'MAX_WIDTH: 1, X_BITS: 4, LANE
   expect 0 "$kage" cosim random:mixed --frames 20 --config corner.yaml --no-report --out corner
 done
 
-# Handshakes of AXI4-Lite that work with a master of one habit only.
-for mutant in registers_write_{data,strobes,answered} registers_read_answered; do
-  number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index(sys.argv[2]) + 1)' "$source/verif/mutants/mutants.yaml" $mutant)
+# Handshakes of AXI4-Lite that work with a master of one habit only, and what registers say of a core that stands still.
+for mutant in registers_write_{data,strobes,answered,behind} registers_read_answered registers_waiting_output \
+  registers_irq_{error_alone,watchdog_kept} registers_stall_{unit,line,behind,output} registers_starved_thrice top_open; do
+  number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index(sys.argv[2]) + 1)' "$source/verif/mutants/mutants.yaml" "$mutant")
   for seed in 1 2 3; do
-    expect 1 "$kage" cosim random:mixed --frames 6 --config small.yaml --mutant "$number" --seed $seed --no-report --out handshakes
+    expect 1 "$kage" cosim random:mixed --frames 6 --config small.yaml --mutant "$number" --seed $seed --no-report --out registers
     grep -q '^first difference: register check behind the frames: ' stdout || fail "$mutant: found otherwise: $(cat stdout)"
   done
 done
