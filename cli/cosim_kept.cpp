@@ -46,7 +46,7 @@ bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words, int number
   return !cosim::run(number + 1, feed, *golden, *rtl, options).same;
 }
 
-/// Where the lines that repeat the run or a frame of it write to, so that what this run found stays.
+/// Where the line that runs a frame again writes to, so that what this run found stays.
 std::string SceneRun::again_folder() const { return (std::filesystem::path(o_.out) / "again").string(); }
 
 /// What a frame takes to come out different that is the same as a file of its own, and how that is run again.

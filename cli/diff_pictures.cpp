@@ -38,11 +38,9 @@ void check_outputs(const DiffCommand& o) {
     for (const std::string* read : {&o.a, &o.b, &o.mask})
       if (!read->empty() && within(*path, *read))
         throw Error(fmt::format("{}: this output would overwrite an input", *path));
-    for (const std::string& other : written)
-      if (!is_device(*path) && resolved(*path) == resolved(other))
-        throw Error(fmt::format("{}: two outputs have this name", *path));
     written.push_back(*path);
   }
+  refuse_twice(written);
 }
 
 DiffResult compare_files(const fs::path& a, const fs::path& b, const DiffOptions& limits, DiffViews* views) {

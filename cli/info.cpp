@@ -123,8 +123,7 @@ std::string to_text(const Config& c, const cosim::LineClocks& clocks) {
   if (clocks.frames == 0) return "clocks: no frame is sound, so none has clocks";
   return fmt::format(
       "clocks of a line at most (LANES {}, BEAT_WORDS {}): mean {:.0f}, worst {} (line {} of frame {}), worst {} "
-      "neighbours "
-      "{:.0f} each\nclocks of the worst frame: {}",
+      "neighbours {:.0f} each\nclocks of the worst frame: {}",
       c.lanes, c.beat_words, clocks.mean(), clocks.worst.clocks, clocks.worst.line, clocks.worst.frame, clocks.window,
       clocks.worst_window, clocks.worst_frame);
 }

@@ -99,7 +99,7 @@ std::filesystem::path resolved(const std::string& path) {
 void refuse_twice(const std::vector<std::string>& paths) {
   std::set<std::filesystem::path> seen;
   for (const std::string& path : paths)
-    if (!path.empty() && !seen.insert(resolved(path)).second)
+    if (!path.empty() && !is_device(path) && !seen.insert(resolved(path)).second)
       throw Error(fmt::format("{}: two outputs have this name", path));
 }
 
