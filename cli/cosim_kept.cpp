@@ -46,9 +46,6 @@ bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words, int number
   return !cosim::run(number + 1, feed, *golden, *rtl, options).same;
 }
 
-/// Where the line that runs a frame again writes to, so that what this run found stays.
-std::string SceneRun::again_folder() const { return (std::filesystem::path(o_.out) / "again").string(); }
-
 /// What a frame takes to come out different that is the same as a file of its own, and how that is run again.
 void SceneRun::look_for_needs(report::KeptRecord& kept, const cosim::Difference& difference) const {
   const int frame = difference.frame;
@@ -64,7 +61,7 @@ void SceneRun::look_for_needs(report::KeptRecord& kept, const cosim::Difference&
   kept.in_place = true;
   kept.again = command_line(*o_.command, {"--cache-verdicts", "--no-cache-verdicts", "--frame", "--shard", "--jobs",
                                           "--out", "--json", "--junit", "--coverage"}) +
-               fmt::format(" --out {} --frame {}", quoted(again_folder()), frame);
+               fmt::format(" --out {} --frame {}", quoted(again_folder(o_.out)), frame);
 }
 
 /// Writes the frame that is wrong to a stream file, as small as it can be made and still comes out different on a new
@@ -104,7 +101,7 @@ report::KeptRecord SceneRun::keep_frame(TempFiles& files, const cosim::Differenc
   for (const char* name : kRtlOptions)
     if (const CLI::Option* option = o_.command->get_option(name); option->count() != 0)
       again += fmt::format(" {} {}", name, quoted(option->results().back()));
-  again += " --out " + quoted(again_folder());
+  again += " --out " + quoted(again_folder(o_.out));
   report::KeptRecord kept{.file = path,
                           .ahead = difference.ahead,
                           .alone = alone,

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -28,6 +29,10 @@
 #include "stimulus/coverage.hpp"
 
 namespace kage::cli {
+
+/// Where the line that repeats a run writes to: a folder beside the evidence in `out`, because a run removes what an
+/// earlier one left in its own.
+inline std::string again_folder(const std::filesystem::path& out) { return (out / "again").string(); }
 
 struct CosimCommand : Options {
   std::vector<std::string> inputs;  // of which `input` is the one at hand
@@ -141,7 +146,6 @@ class SceneRun {
   void write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame);
   void write_page(TempFiles& files, const cosim::Report& r, const Search& search, report::SceneRecord& record);
   [[nodiscard]] bool differs_alone(const std::vector<std::uint32_t>& words, int number, bool prelude) const;
-  [[nodiscard]] std::string again_folder() const;
   void look_for_needs(report::KeptRecord& kept, const cosim::Difference& difference) const;
   report::KeptRecord keep_frame(TempFiles& files, const cosim::Difference& difference);
   [[nodiscard]] report::SceneRecord record_of(const cosim::Report& r) const;

@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "diff.hpp"
 #include "file/quiet_stderr.hpp"
+#include "file/real_path.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
@@ -22,12 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether `path` is `in` or, that being a folder, lies in it.
-bool within(const std::string& path, const std::string& in) {
-  const fs::path whole = resolved(path);
-  const fs::path part = resolved(in);
-  return !part.empty() && std::mismatch(part.begin(), part.end(), whole.begin(), whole.end()).first == part.end();
-}
+/// Whether `path` is `in` or, that being a folder, lies in it, by whatever name.
+bool within(const std::string& path, const std::string& in) { return lies_in(real_path(path), real_path(in)); }
 
 }  // namespace
 

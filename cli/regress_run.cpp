@@ -118,9 +118,7 @@ report::RunRecord Regress::record() const {
 void Regress::repeat(TempFiles& files) {
   Done& d = done_.at(first_);
   const std::filesystem::path folder = std::filesystem::path(o_.out) / d.plan.name;
-  // Who repeats the run by its line gets a folder beside the evidence: a run removes what an earlier one left in its
-  // own.
-  ParsedRun again(d.plan, {"--out", (folder / "again").string()});
+  ParsedRun again(d.plan, {"--out", again_folder(folder)});
   again.command.out = folder.string();
   again.command.no_divergence = o_.no_divergence;
   SceneRun scene(again.command, 0);

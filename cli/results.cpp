@@ -9,6 +9,7 @@
 #include <cstring>
 #include <set>
 
+#include "file/real_path.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cli {
@@ -90,16 +91,10 @@ void OutFolder::remove() {
   made_.clear();
 }
 
-std::filesystem::path resolved(const std::string& path) {
-  namespace fs = std::filesystem;
-  std::error_code ec;
-  return fs::weakly_canonical(fs::absolute(path, ec), ec);
-}
-
 void refuse_twice(const std::vector<std::string>& paths) {
   std::set<std::filesystem::path> seen;
   for (const std::string& path : paths)
-    if (!path.empty() && !is_device(path) && !seen.insert(resolved(path)).second)
+    if (!path.empty() && !is_device(path) && !seen.insert(real_path(path)).second)
       throw Error(fmt::format("{}: two outputs have this name", path));
 }
 
@@ -107,9 +102,9 @@ void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<st
   std::error_code ec;
   std::set<std::filesystem::path> read;
   for (const std::string& input : inputs)
-    if (std::filesystem::is_regular_file(input, ec)) read.insert(resolved(input));
+    if (std::filesystem::is_regular_file(input, ec)) read.insert(real_path(input));
   for (const std::string& output : outputs)
-    if (!output.empty() && read.count(resolved(output)) != 0)
+    if (!output.empty() && read.count(real_path(output)) != 0)
       throw Error(fmt::format("{}: this output would overwrite an input", output));
 }
 

@@ -61,9 +61,6 @@ class OutFolder {
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
-/// The same for all names of a file, links too; empty if there can be no such file.
-std::filesystem::path resolved(const std::string& path);
-
 /// Throws Error if two of the files that are to be written, by whatever name, are one. Empty paths are none, and a
 /// device or a pipe may be named more than once, because what it gets replaces nothing.
 void refuse_twice(const std::vector<std::string>& paths);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "file/real_path.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "options.hpp"
@@ -33,7 +34,7 @@ void tell_other_rtl() {
   if (told || here.empty()) return;
   told = true;
   const std::string used = rtl_directory();
-  if (resolved((here / "kage_top.sv").string()) == resolved(used + "/kage_top.sv")) return;
+  if (real_path(here / "kage_top.sv") == real_path(used + "/kage_top.sv")) return;
   say(fmt::format("kage: note: the RTL is that of {}, not of {} (KAGE_DATA_DIR={} takes the latter)\n", used,
                   here.string(), quoted(here.parent_path().string())));
 }
@@ -56,7 +57,13 @@ void option_rtl(CLI::App& command, RtlRun& rtl) {
 
 void option_defect(CLI::App& command, RtlRun& rtl) {
   option_fault(command, rtl.fault);
-  command.add_option("--mutant", rtl.options.mutant)->check(whole_number(1, 100000))->type_name("N")->group("");
+  // Help leaves out an option without a group, and so does CLI11's message when a check of it fails: hence the name.
+  const auto take = [&rtl](const std::string& text) {
+    if (const std::string wrong = whole_number(1, 100000)(text); !wrong.empty())
+      throw CLI::ValidationError("--mutant", wrong);
+    rtl.options.mutant = static_cast<int>(std::stoul(text));
+  };
+  command.add_option_function<std::string>("--mutant", take)->type_name("N")->group("");
 }
 
 void refuse_rtl(const RtlRun& rtl, const std::string& why) {

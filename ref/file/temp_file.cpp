@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "file/plain_io.hpp"
+#include "file/real_path.hpp"
 #include "kage/error.hpp"
 
 namespace kage {
@@ -81,10 +82,7 @@ TempFile::~TempFile() {
   if (!temp_.empty()) fs::remove(temp_, ec);
 }
 
-fs::path TempFile::target() const {
-  std::error_code ec;
-  return fs::weakly_canonical(whole_name(target_), ec);
-}
+fs::path TempFile::target() const { return real_path(target_); }
 
 void TempFile::place() {
   if (way_ == Way::remove) {

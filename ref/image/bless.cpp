@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "file/real_path.hpp"
 #include "file/temp_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
@@ -41,10 +42,6 @@ class MadeFolders {
   std::vector<fs::path> made_;  // the innermost first
 };
 
-bool lies_in(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
 /// Refuses what would make --bless write to NEW, or to what is not in REFERENCE: folders that hold each other, and
 /// links.
 void check_apart(const fs::path& fresh, const fs::path& reference, const std::vector<FolderEntry>& entries) {
@@ -59,7 +56,7 @@ void check_apart(const fs::path& fresh, const fs::path& reference, const std::ve
     const bool touched = entry.in_a || entry.sort != Sort::other;
     if (touched && fs::is_symlink(target, ec))
       throw Error(fmt::format("{}: is a link, and what it leads to is not written over", target.string()));
-    if (entry.in_a && lies_in(fs::weakly_canonical(fresh / entry.name, ec), to))
+    if (entry.in_a && lies_in(real_path(fresh / entry.name), to))
       throw Error(fmt::format("{}: leads into {}", (fresh / entry.name).string(), reference.string()));
   }
 }

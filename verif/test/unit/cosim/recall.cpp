@@ -14,6 +14,7 @@
 #include "kage/config.hpp"
 #include "kage/stream.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/temp_directory.hpp"
 #include "test/support/wrong_core.hpp"
 
 using namespace kage;
@@ -28,18 +29,10 @@ constexpr int kFrames = 8;
 /// A cache of this test's own.
 class Cache {
  public:
-  Cache() {
-    std::string name = (fs::temp_directory_path() / "kage-recall-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-    setenv("XDG_CACHE_HOME", name.c_str(), 1);
-  }
-  ~Cache() { fs::remove_all(path_); }
-  Cache(const Cache&) = delete;
-  Cache& operator=(const Cache&) = delete;
+  Cache() { setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
 
  private:
-  fs::path path_;
+  test::TempDirectory folder_;
 };
 
 const Config& config() {

@@ -2,7 +2,6 @@
 // Which files a run writes, and when. No RTL is run: a second golden core is the actual one, which may be made wrong.
 #include "cosim/run.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
@@ -10,6 +9,7 @@
 #include "kage/image.hpp"
 #include "kage/stream.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/temp_directory.hpp"
 #include "test/support/wrong_core.hpp"
 
 using namespace kage;
@@ -35,36 +35,22 @@ TokenCounts frame_of(int frame, const WordSink& sink) {
   return {};
 }
 
-/// A folder of this test's own.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "kage-run-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path path;
-};
-
 }  // namespace
 
 TEST_CASE("where only a difference has pictures, no other frame writes a file, not even one for a while") {
   for (const bool two_threads : {false, true}) {
-    const Folder folder;
+    const test::TempDirectory folder;
     const auto golden = make_golden(config());
     verif::WrongCore wrong(config(), 5);
     RunOptions options;
-    options.out = folder.path;
+    options.out = folder.path();
     options.all_pictures = false;
     options.two_threads = two_threads;
     int same = 0;
     bool any = false;
     options.same = [&](const FrameResult&) {
       ++same;
-      any = any || !fs::is_empty(folder.path);
+      any = any || !fs::is_empty(folder.path());
     };
     const Report report = run(8, frame_of, *golden, wrong, options);
     CHECK(same == 5);
@@ -72,11 +58,11 @@ TEST_CASE("where only a difference has pictures, no other frame writes a file, n
     REQUIRE(report.first_difference);
     CHECK(report.first_difference->frame == 5);
     REQUIRE(report.pictures.size() == 4);
-    const Image expected = load_image(folder.path / "frame_0005_expected.png");
+    const Image expected = load_image(folder.path() / "frame_0005_expected.png");
     CHECK(expected.width == 4);
     CHECK(expected.height == 3);
-    CHECK(load_image(folder.path / "frame_0005.png").data == expected.data);
-    Image actual = load_image(folder.path / "frame_0005_actual.png");
+    CHECK(load_image(folder.path() / "frame_0005.png").data == expected.data);
+    Image actual = load_image(folder.path() / "frame_0005_actual.png");
     CHECK(actual.data != expected.data);
     for (int y = 0; y < 3; ++y) actual.data[actual.index(0, y)] ^= 1U;
     CHECK(actual.data == expected.data);
@@ -84,12 +70,12 @@ TEST_CASE("where only a difference has pictures, no other frame writes a file, n
 }
 
 TEST_CASE("every frame has its picture where all are wanted") {
-  const Folder folder;
+  const test::TempDirectory folder;
   const auto golden = make_golden(config());
   const auto actual = make_golden(config());
   RunOptions options;
-  options.out = folder.path;
+  options.out = folder.path();
   CHECK(run(3, frame_of, *golden, *actual, options).same);
   for (const char* name : {"frame_0000.png", "frame_0001.png", "frame_0002.png"})
-    CHECK(load_image(folder.path / name).height == 3);
+    CHECK(load_image(folder.path() / name).height == 3);
 }
