@@ -2,12 +2,18 @@
 // kage: a span-stream rendering core. Frames of tokens in, video out; docs/stream.md is the contract, docs/rtl.md the
 // guide.
 //
-//   s_axis -> token_reader -> frame_control -> pixel_core -> line_out -> m_axis
-//                                    \---- lines ----^          registers on s_axil
-//                     frame_control -> tree_core -> pixel_core      (UNITS > 0)
+//   s_axis -> token_reader -> frame_control -> pixel_loads -> pixel_core -> line_out -> m_axis
+//   frame_control -> tree_core -> pixel_core       faces and segments, and lines of the tree        (UNITS > 0)
+//   frame_control -> line_queue -> line_out        what a line is, in order
+//   frame_control -> line_out                      the light table                                  (CLASS_BITS > 1)
+//   line_out -> pixel_loads                        colours that come back, darkened       (counters and TRANSLUCENCY)
+//   all of these -> registers on s_axil            status, errors, end of frame, what moves
 //
 // Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of
 //   s_axis and s_axil, which rst_ni keeps low.
+// Latency: the sum of the modules' (docs/rtl.md), and the clocks that a line's spans take.
+// Throughput: a token, a group of LANES pixels, a pixel out a clock each; the slowest of the three decides.
+// Cost: docs/rtl.md has the cells of configurations, docs/timing.md their clocks on devices.
 // Reset: at any time, for one clock or more; the input's next beat must then be the first of a frame. Nothing is taken
 //   and lost in reset: no input is ready. The valids are low from the second clock of it on.
 `default_nettype none

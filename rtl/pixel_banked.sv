@@ -9,7 +9,8 @@
 // Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut
 //   takes one per group of the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first:
 //   what the RAM held never matters.
-// Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1.
+// Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1. Throughput: a group
+//   a clock.
 // Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the
 //   newest in front of the comparison, the two older ones in front of the register behind the RAM. The hazards of the
 //   tree's line are tree_line's.

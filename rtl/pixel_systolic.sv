@@ -14,8 +14,8 @@
 //   compared and the pixel's state changes. The command has moved on by the second clock, so a processor reads its kind
 //   and counts from the next one's register.
 // Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 3 clocks.
-// Clocks: a command takes one; two EOLs are at least the line's width apart, the time in which the first one's pixels
-//   leave.
+// Throughput: a command takes one clock; two EOLs are at least the line's width apart, the time in which the first
+//   one's pixels leave.
 // Reset: an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted;
 //   commands follow right behind it, the first line's EOL waits until it is through.
 // Cost: MAX_WIDTH times a command, a depth adder, a comparison and a pixel's state. The loops below are over vectors in

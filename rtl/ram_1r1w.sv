@@ -4,6 +4,8 @@
 // Latency: 1 clock from rd_en_i to rd_data_o, which holds until the next read. Reading the word that is written in the
 // same clock gives old, new or mixed bits: users see to it that such data are not used. Contents are unknown after
 // power-up and kept by reset.
+// Throughput: a read and a write a clock.
+// Cost: block RAM of its size; a RAM of few words becomes flip-flops or LUT RAM, as the tool decides.
 `default_nettype none
 
 module ram_1r1w #(

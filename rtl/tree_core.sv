@@ -20,6 +20,7 @@
 // Latency: 6 clocks from the segment that completes a line in the last unit to its first pixel, and ceil(log2 UNITS) of
 //   the tree.
 // Throughput: a pixel a clock, no bubble in a line.
+// Cost: UNITS times expansion_unit, and a compare_tree.
 // Needs UNITS > 0: a core without units leaves it out.
 `default_nettype none
 
