@@ -52,6 +52,20 @@ class Table(ctypes.Structure):
     ]
 
 
+def sources_of(top):
+    """The tree's files that git knows; in an unpacked archive, which git does not know, all but those of builds."""
+    if (top / ".git").exists():
+        command = ["git", "-C", top, "ls-files", "-z"]
+        names = subprocess.run(command, check=True, capture_output=True).stdout.split(b"\0")
+        names = [os.fsdecode(name) for name in names if name]
+    else:
+        made = {"build", "out"}  # as .gitignore has it
+        names = [
+            f.relative_to(top) for entry in top.iterdir() if entry.name not in made for f in [entry, *entry.rglob("*")]
+        ]
+    return [name for name in names if (top / name).is_file()]
+
+
 def parameters(library):
     """PARAM=VALUE of a model; read by a process of its own, which keeps no library open."""
     text = (
@@ -84,14 +98,9 @@ class Tree:
         self.scratch = work / "scratch"
         self.build = work / "build"
         self.building = threading.Lock()
-        files = subprocess.run(["git", "-C", top, "ls-files", "-z"], check=True, capture_output=True).stdout.split(
-            b"\0"
-        )
-        for name in filter(None, map(os.fsdecode, files)):
-            source = top / name
-            if source.is_file():
-                (self.copy / name).parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(source, self.copy / name)
+        for name in sources_of(top):
+            (self.copy / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(top / name, self.copy / name)
         if fault:
             patch = top / "verif/cosim/model/faults" / f"{fault}.patch"
             if not patch.exists():
