@@ -14,7 +14,7 @@
 namespace kage::report {
 namespace {
 
-/// No run counts so far, and sums over all shards that there can be do not wrap.
+/// More than any run reaches, and few enough that the sum over the most shards there can be stays within 64 bits.
 constexpr std::uint64_t kMostCount = (std::uint64_t{1} << 43) - 1;
 
 /// Names the key, and its place where that is within another.

@@ -11,7 +11,7 @@ usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [
   --monitors     with the monitors of verif/cosim/diverge/monitors, which tell what passes between modules
   --waves        able to write waveforms
   --mutants      with every mutant of verif/mutants/mutants.yaml behind a select; one whose text the RTL has not exactly once stops the build
-  --quick        for a model that runs little, as those of --monitors, --waves and --mutants do: loops over lanes and processors stay
+  --quick        for a model that runs little, as those of --fault, --monitors, --waves and --mutants do: loops over lanes and processors stay
                  loops, and the compiler takes less care. A systolic core of 64 processors takes 4 s to build in place of 10
   --jobs N       compilers at a time (default 2)
   --keep DIR     build in DIR and leave it there (default: a temporary directory, removed)
@@ -101,7 +101,7 @@ class Build:
         self.obj = work / "obj"
         self.verilator = os.environ.get("VERILATOR") or "verilator"
         self.cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
-        self.quick = args.quick or args.monitors or args.waves or args.mutants
+        self.quick = args.quick or bool(args.fault) or args.monitors or args.waves or args.mutants
         # The log outlives a failure.
         beside = pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"
         self.log = Log(work / "build.log" if args.keep else beside)
