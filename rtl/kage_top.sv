@@ -41,23 +41,7 @@ module kage_top #(
     output logic                    m_axis_tlast_o,
 
     // registers
-    input  wire logic        s_axil_awvalid_i,
-    output logic             s_axil_awready_o,
-    input  wire logic [ 7:0] s_axil_awaddr_i,
-    input  wire logic        s_axil_wvalid_i,
-    output logic             s_axil_wready_o,
-    input  wire logic [31:0] s_axil_wdata_i,
-    input  wire logic [ 3:0] s_axil_wstrb_i,
-    output logic             s_axil_bvalid_o,
-    input  wire logic        s_axil_bready_i,
-    output logic      [ 1:0] s_axil_bresp_o,
-    input  wire logic        s_axil_arvalid_i,
-    output logic             s_axil_arready_o,
-    input  wire logic [ 7:0] s_axil_araddr_i,
-    output logic             s_axil_rvalid_o,
-    input  wire logic        s_axil_rready_i,
-    output logic      [31:0] s_axil_rdata_o,
-    output logic      [ 1:0] s_axil_rresp_o,
+    `include "kage_axil_ports.svh"
 
     output logic irq_o
 );
