@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels of a line behind one interface, in the arrangement that the configuration names; contract and cost are
-// those of pixel_banked or pixel_systolic. A group that leaves has ExitLanes pixels: LANES if banked, 1 if systolic.
+// The pixels of a line behind one interface, in the arrangement that the configuration names; handshake, latency,
+// throughput and cost are those of pixel_banked or pixel_systolic. A group that leaves has ExitLanes pixels: LANES if
+// banked, 1 if systolic.
 // Ports are those of kage_pixel_ports.svh in all three, so they are connected by name.
 `default_nettype none
 
