@@ -75,7 +75,7 @@ module token_command #(
       KindOp:  count = CountBits'(token_i[OpClassLsb+:CLASS_BITS]);
       KindEv:  count = CountBits'(bias_i);
       KindEs:  count = LIGHTS > 1 ? CountBits'(token_i[EsLightLsb+:LightBits]) << LightAt : '0;
-      default: count = CountBits'(token_i[SpWLsb+:DsfBits]);  // at the same place in NC
+      default: count = CountBits'(token_i[WeightLsb+:DsfBits]);
     endcase
     if (kind == KindEs && FSF == 0) count[DsfBits-1:0] = bias_i;
     if (make_eol_i || make_paint_i) count = CountBits'(bias_i);
@@ -85,8 +85,8 @@ module token_command #(
   command_t cmd;
   always_comb begin
     cmd.kind = make_eol_i ? KindEol : make_paint_i ? KindResolve : make_out_i ? CmdOut : kind;
-    cmd.xl = whole ? '0 : token_i[OpXlLsb+:X_BITS];  // at the same place in all tokens with a range
-    cmd.xr = whole ? width_i : token_i[OpXrLsb+:X_BITS];
+    cmd.xl = whole ? '0 : token_i[RangeXlLsb+:X_BITS];
+    cmd.xr = whole ? width_i : token_i[RangeXrLsb+:X_BITS];
     cmd.z = token_i[OpZLsb+:DepthBits];
     cmd.dz = token_i[OpDzLsb+:DepthBits];
     cmd.color = token_i[OpColorLsb+:ColorBits];

@@ -34,8 +34,8 @@ facts_t facts;
   assign head_width = token_i[HeaderWidthLsb+:16];
   assign head_height = token_i[HeaderHeightLsb+:16];
   assign kind = token_i[3:0];
-  assign xl = token_i[OpXlLsb+:X_BITS];  // the place is the same in all that have a range
-  assign xr = token_i[OpXrLsb+:X_BITS];
+  assign xl = token_i[RangeXlLsb+:X_BITS];
+  assign xr = token_i[RangeXrLsb+:X_BITS];
   always_comb begin
     // a header
     if (token_i[HeaderVersionLsb+:32] != {16'(StreamMagic), 16'(StreamVersion)}) facts.head_error = ErrHeader;

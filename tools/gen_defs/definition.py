@@ -3,6 +3,7 @@
 
 import re
 
+import checks
 import yaml
 from expressions import camel
 from files import SOURCE
@@ -41,12 +42,6 @@ class Defs:
                 phase.setdefault(absent, "")
         for mark in self.d["order_marks"]:
             mark.setdefault("line", "")
-        face, entry = (
-            [f["name"] for one in self.d[of] if one["name"] == name for f in one["fields"]]
-            for of, name in (("tokens", "FACE"), ("words", "entry"))
-        )
-        if face[face.index("index") :] != entry:
-            raise SystemExit(f"{SOURCE}: words: entry: is not FACE from index on")
         self.header_fields = []
         for at, word in enumerate(self.d["header"]):
             lsb = 0
@@ -56,6 +51,12 @@ class Defs:
             assert lsb == 32, f"header word {word['name']} has {lsb} bits"
         kinds = [t["kind"] for t in self.d["tokens"]]
         assert sorted(kinds) == list(range(1, 16)), "kinds must be 1 .. 15, each once"
+        checks.same_entry(self.d)
+        # Places that tokens with a range share: the name, a token that has it there, and how that one calls it.
+        self.shared_places = [
+            (shared, checks.same_place(self.d, name, "xr"), name)
+            for shared, name in (("range_xl", "xl"), ("range_xr", "xr"), ("weight", "w"))
+        ]
 
     def golden_numbers(self):
         """Fields of tokens by the numbers of the C interface, and how many there are. All that tokens have must be there."""

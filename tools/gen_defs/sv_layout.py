@@ -11,6 +11,7 @@ def layout(defs):
         header(defs),
         *numbers(defs.d),
         places(defs.d["tokens"]),
+        shared_places(defs),
         token_words(defs.d["tokens"]),
         param_hash(defs.pixel),
         words_function(defs.d["tokens"]),
@@ -60,6 +61,15 @@ def places(tokens):
         o.append(f"localparam int {token}Bits = {at};")
         o.append(f"localparam int {token}Words = ({t['needs']}) != 0 ? ({token}Bits + 31) / 32 : 0;")
     return [*o, ""]
+
+
+def shared_places(defs):
+    """Places that tokens with a range have in common."""
+    return [
+        "// In all tokens with a range that have it.",
+        *(f"localparam int {camel(s)}Lsb = {camel(token)}{camel(field)}Lsb;" for s, token, field in defs.shared_places),
+        "",
+    ]
 
 
 def token_words(tokens):

@@ -166,6 +166,11 @@ localparam int EolWords = (1) != 0 ? (EolBits + 31) / 32 : 0;
 localparam int EndBits = 4;
 localparam int EndWords = (1) != 0 ? (EndBits + 31) / 32 : 0;
 
+// In all tokens with a range that have it.
+localparam int RangeXlLsb = OpXlLsb;
+localparam int RangeXrLsb = OpXrLsb;
+localparam int WeightLsb = SpWLsb;
+
 localparam int TokenMax0 = ShadeWords > 1 ? ShadeWords : 1;
 localparam int TokenMax1 = TableWords > TokenMax0 ? TableWords : TokenMax0;
 localparam int TokenMax2 = FaceWords > TokenMax1 ? FaceWords : TokenMax1;

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the RTL takes for granted of rtl/defs/kage.yaml: a definition in which it does not hold is refused."""
+
+from files import SOURCE
+
+
+def refuse(what):
+    raise SystemExit(f"{SOURCE}: {what}")
+
+
+def same_entry(d):
+    """A unit's table takes FACE's fields from index on in one piece."""
+    face, entry = (
+        [f["name"] for one in d[of] if one["name"] == name for f in one["fields"]]
+        for of, name in (("tokens", "FACE"), ("words", "entry"))
+    )
+    if face[face.index("index") :] != entry:
+        refuse("words: entry: is not FACE from index on")
+
+
+def same_place(d, name, beside):
+    """All tokens with a field `beside` have the field `name`, where they have it, at one place and of one width. The name of
+    the first of these tokens."""
+    first = None
+    for token in d["tokens"]:
+        names = [f["name"] for f in token["fields"]]
+        if name not in names or beside not in names:
+            continue
+        place = [(str(f["bits"]), f["repeat"]) for f in token["fields"][: names.index(name) + 1]]
+        first = first or (token["name"], place)
+        if place != first[1]:
+            refuse(f"tokens: {token['name']}: {name} is elsewhere, or of another width, than in {first[0]}")
+    return first[0]

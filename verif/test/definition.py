@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""definition.py SOURCE: what tools/gen-defs demands of rtl/defs/kage.yaml beyond YAML is refused where it does not hold."""
+
+import pathlib
+import sys
+import tempfile
+
+top = pathlib.Path(sys.argv[1])
+sys.path.insert(0, str(top / "tools/gen_defs"))
+from definition import Defs  # noqa: E402
+
+TEXT = (top / "rtl/defs/kage.yaml").read_text()
+XL, XR, W = "{name: xl, bits: X_BITS}", "{name: xr, bits: X_BITS}", '{name: w, bits: "DSF_BITS + 1", signed: true}'
+# What is planted: behind which text, what stands there, what stands there then; and what is said of it.
+PLANTED = [
+    ("name: EV,", f"{XL}, {XR}", f"{XR}, {XL}", "tokens: EV: xl is elsewhere"),
+    ("name: TP,", XR, "{name: xr, bits: 16}", "tokens: TP: xr is elsewhere"),
+    ("name: ES,", XL, "{name: pad, member: null, bits: 1}, " + XL, "tokens: ES: xl is elsewhere"),
+    (
+        "name: NC,",
+        f"{XL}, {XR}, {W}",
+        f"{XL}, {XR}, {{name: pad, member: null, bits: 2}}, {W}",
+        "tokens: NC: w is elsewhere",
+    ),
+    (
+        "name: FACE,",
+        "{name: dz, bits",
+        "{name: pad, member: null, bits: 1}, {name: dz, bits",
+        "words: entry: is not FACE from index on",
+    ),
+    ("golden_fields:", "  - {name: alpha,", "  - {name: beta,", "golden_fields: lacks alpha of TP"),
+]
+
+
+def said_of(text):
+    """What is said of a definition; nothing of one that is taken."""
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+        file.write(text)
+        file.flush()
+        try:
+            Defs(pathlib.Path(file.name)).golden_numbers()
+        except SystemExit as e:
+            return str(e)
+    return ""
+
+
+failures = [f"as it is: {said_of(TEXT)}"] if said_of(TEXT) else []
+for behind, old, new, expected in PLANTED:
+    before, mark, rest = TEXT.partition(behind)
+    assert old in rest, f"{behind} {old}"
+    said = said_of(before + mark + rest.replace(old, new, 1))
+    if expected not in said:
+        failures.append(f"{behind} {new}: said is {said!r}, not {expected!r}")
+print("\n".join(failures), end="\n" if failures else "")
+sys.exit(bool(failures))
