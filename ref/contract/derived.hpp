@@ -39,11 +39,17 @@ constexpr std::uint32_t whole_share(const Config& c) { return static_cast<std::u
 constexpr std::uint32_t half_share(const Config& c) { return static_cast<std::uint32_t>(1 << (c.shade_frac - 1)); }
 /// depth accumulator
 constexpr int depth_bits(const Config& c) { return c.z_bits + c.z_frac + 2; }
+/// a segment's depth; the paper's is unsigned
+constexpr int segment_depth_bits(const Config& c) { return c.classic > 0 ? 15 : depth_bits(c); }
+/// one channel of a colour that changes along its span, and of its slope
+constexpr int smooth_bits(const Config& c) { return 10 + c.color_frac; }
 /// one channel of a span's colour
-constexpr int ramp_bits(const Config& c) { return c.smooth > 0 ? 10 + c.color_frac : 8; }
+constexpr int ramp_bits(const Config& c) { return c.smooth > 0 ? smooth_bits(c) : 8; }
+/// one channel of a span's colour slope
+constexpr int slope_field_bits(const Config& c) { return c.smooth > 0 ? smooth_bits(c) : 0; }
 /// a span's colour
 constexpr int color_bits(const Config& c) { return c.channels * ramp_bits(c); }
-/// a span's colour slope
+/// a span's colour slope, on a bus
 constexpr int slope_bits(const Config& c) { return c.smooth > 0 ? color_bits(c) : 1; }
 /// shadow counter, bias
 constexpr int dsf_bus_bits(const Config& c) { return c.dsf_bits > 0 ? c.dsf_bits : 1; }
@@ -60,7 +66,7 @@ constexpr int plain_count_bits(const Config& c) { return dsf_bus_bits(c) > c.cla
 /// a command's count: w, bias, class, or of ES {light, bias}
 constexpr int command_count_bits(const Config& c) { return plain_count_bits(c) > sample_end_bits(c) ? plain_count_bits(c) : sample_end_bits(c); }
 /// TP's alpha, or RESOLVE's shade
-constexpr int share_bits(const Config& c) { return c.translucency == 0 ? 1 : (c.count_bits == 0 && c.shade_frac > 7 ? c.shade_frac + 1 : 8); }
+constexpr int share_bits(const Config& c) { return c.translucency == 0 ? 1 : (c.count_bits == 0 && c.shade_frac > 7 ? factor_bits(c) : 8); }
 /// one pixel's colour
 constexpr int rgb_bits(const Config& c) { return 8 * c.channels; }
 /// a pixel's counters

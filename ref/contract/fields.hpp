@@ -116,7 +116,15 @@ constexpr void visit_fields([[maybe_unused]] const Config& config, [[maybe_unuse
   }
 }
 
-/// The same without values: calls f(name, channel, Field) for the fields of a token of this kind.
+/// Calls f(Field) for each field that a token of kind K has and that holds nothing: it is zero.
+template <Kind K, class F>
+constexpr void visit_pads([[maybe_unused]] const Layout& layout, [[maybe_unused]] F f) {
+  if constexpr (K == Kind::SEG) {
+    f(layout.seg_pad);
+  }
+}
+
+/// The same as visit_fields() without values: calls f(name, channel, Field) for the fields of a token of this kind.
 template <class F>
 void each_field(const Config& config, const Layout& layout, Kind kind, F f) {
   const Token token;

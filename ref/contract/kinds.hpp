@@ -14,32 +14,37 @@ namespace kage {
 struct KindInfo {
   bool state = false;        ///< part of the frame's state: it stands there and nowhere else
   bool span = false;         ///< counts as a span
+  bool draws = false;        ///< a line has its colour of it
   bool volume = false;       ///< of a shadow volume: what it is made of, or its end
+  bool ends = false;         ///< ends a shadow volume, or a light sample
   bool range = false;        ///< the pixels xl <= x < xr
   bool whole_line = false;   ///< what it does is of the whole line
   bool line_clocks = false;  ///< takes a line's clocks, not those of its own pixels
   bool depth = false;        ///< depth along its range
   bool color = false;        ///< colour along its range
+  bool weight = false;       ///< what it adds to the shadow counter
+  bool unit = false;         ///< of one expansion unit
+  bool tree = false;         ///< of expansion units or their tree: a core without has no such token
 };
 
 /// By kind; what is no kind has nothing.
 inline constexpr std::array<KindInfo, 16> kKindInfo{{
     {},
-    {true, false, false, false, false, false, false, false},  // SHADE
-    {true, false, false, false, false, false, false, false},  // TABLE
-    {true, false, false, false, false, false, false, false},  // FACE
-    {false, false, false, false, false, false, false, false},  // SEG
-    {false, false, false, false, true, true, false, false},  // TREE
-    {false, true, false, true, false, false, true, true},  // OP
-    {false, true, true, true, false, false, true, false},  // SP
-    {false, true, true, true, false, false, false, false},  // NC
-    {false, false, true, false, true, false, false, false},  // IF
-    {false, false, true, true, false, false, false, false},  // EV
-    {false, false, false, true, false, false, false, false},  // ES
-    {false, false, false, false, true, false, false, false},  // RESOLVE
-    {false, true, false, true, false, false, true, true},  // TP
-    {false, false, false, false, true, true, false, false},  // EOL
-    {false, false, false, false, false, false, false, false},  // END
+    {true, false, false, false, false, false, false, false, false, false, false, false, false},  // SHADE
+    {true, false, false, false, false, false, false, false, false, false, false, false, false},  // TABLE
+    {true, false, false, false, false, false, false, false, false, false, false, true, true},  // FACE
+    {false, false, false, false, false, false, false, false, false, false, false, true, true},  // SEG
+    {false, false, true, false, false, false, true, true, false, false, false, false, true},  // TREE
+    {false, true, true, false, false, true, false, false, true, true, false, false, false},  // OP
+    {false, true, false, true, false, true, false, false, true, false, true, false, false},  // SP
+    {false, true, false, true, false, true, false, false, false, false, true, false, false},  // NC
+    {false, false, false, true, false, false, true, false, false, false, true, false, false},  // IF
+    {false, false, false, true, true, true, false, false, false, false, false, false, false},  // EV
+    {false, false, false, false, true, true, false, false, false, false, false, false, false},  // ES
+    {false, false, false, false, false, false, true, false, false, false, false, false, false},  // RESOLVE
+    {false, true, true, false, false, true, false, false, true, true, false, false, false},  // TP
+    {false, false, false, false, false, false, true, true, false, false, false, false, false},  // EOL
+    {false, false, false, false, false, false, false, false, false, false, false, false, false},  // END
 }};
 constexpr const KindInfo& info_of(Kind kind) { return kKindInfo[static_cast<std::size_t>(kind)]; }
 

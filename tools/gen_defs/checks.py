@@ -31,3 +31,12 @@ def same_place(d, name, beside):
         if place != first[1]:
             refuse(f"tokens: {token['name']}: {name} is elsewhere, or of another width, than in {first[0]}")
     return first[0]
+
+
+def holds_parameter(register, field, params):
+    """A register's field that is a parameter has room for all of its values."""
+    most = [p["max"] for p in params if p["name"] == field["name"]]
+    if not most or most[0] >> field["bits"]:
+        refuse(
+            f"registers: {register['name']}: {field['name']}: no parameter, or one that {field['bits']} bits do not hold"
+        )

@@ -36,7 +36,7 @@ def clock_phases(defs):
         "    " + ", ".join(f'"{kinds(p)}"' for p in phases) + "};",
         "",
         "/// By kind; what is no kind counts as state.",
-        "inline constexpr std::array<Phase, 16> kPhaseOfKind{",
+        f"inline constexpr std::array<Phase, {2 ** defs.d['kind_bits']}> kPhaseOfKind{{",
         "    Phase::state, " + ", ".join(f"Phase::{t['counts_as']}" for t in tokens) + "};",
         "constexpr Phase phase_of(Kind kind) { return kPhaseOfKind[static_cast<std::size_t>(kind)]; }",
         "",

@@ -2,7 +2,7 @@
 """ref/include/kage/defs.hpp: the contract in numbers, for all of C++."""
 
 from cpp_header import frame_header
-from cpp_layout import layout
+from cpp_layout import field, layout
 from expressions import cpp_expr, quoted
 from files import NOTE
 
@@ -10,13 +10,15 @@ from files import NOTE
 def defs_hpp(defs):
     sections = [
         opening(),
-        numbers(defs.d),
+        numbers(defs),
+        field(),
         frame_header(defs),
         config(defs),
+        greatest(defs),
         param_info(defs),
         rule_info(defs),
-        param_hash(),
-        kinds(defs.d["tokens"]),
+        param_hash(defs.d["hash"]),
+        kinds(defs.d),
         errors(defs.d["errors"]),
         layout(defs),
         ["}  // namespace kage", ""],
@@ -46,12 +48,15 @@ def opening():
     ]
 
 
-def numbers(d):
+def numbers(defs):
+    d = defs.d
     return [
         f"inline constexpr std::uint32_t kStreamVersion = {d['version']};  ///< of the stream",
         f"inline constexpr std::uint32_t kStreamMagic = {d['magic']:#x};  ///< in a header's first word",
         f"inline constexpr int kMaxHeight = {d['max_height']};  ///< lines of a frame",
         f"inline constexpr std::uint32_t kHeaderWords = {len(d['header'])};  ///< words of a header",
+        f"inline constexpr unsigned kKindBits = {d['kind_bits']};  ///< of a token's kind",
+        f"inline constexpr std::size_t kMostTokenWords = {defs.most_token_words()};  ///< words of the longest token of any configuration",
         "",
     ]
 
@@ -63,6 +68,17 @@ def config(defs):
         *(f"  int {p['name'].lower()} = {p['default']};  ///< {p['doc']}" for p in defs.pixel + defs.impl),
         "",
         "  bool operator==(const Config&) const = default;",
+        "};",
+        "",
+    ]
+
+
+def greatest(defs):
+    params = defs.pixel + defs.impl
+    return [
+        "/// Every parameter at its greatest legal value. Together they may break rules: this bounds arrays and limits.",
+        "inline constexpr Config kGreatest{",
+        *(f"    .{p['name'].lower()} = {p['max']}," for p in params),
         "};",
         "",
     ]
@@ -117,22 +133,23 @@ def rule_info(defs):
     return [*o, "}};", ""]
 
 
-def param_hash():
+def param_hash(fnv):
     return [
         "/// Hash of the parameters that affect pixels: FNV-1a over their values in the order of the definition file.",
         "/// @param c any configuration",
         "/// @return what a frame's header must carry",
         "constexpr std::uint32_t param_hash(const Config& c) {",
-        "  std::uint32_t h = 2166136261u;",
+        f"  std::uint32_t h = {fnv['basis']}u;",
         "  for (const ParamInfo& p : kParams)",
-        "    if (p.affects_pixels) h = (h ^ static_cast<std::uint32_t>(c.*p.member)) * 16777619u;",
+        f"    if (p.affects_pixels) h = (h ^ static_cast<std::uint32_t>(c.*p.member)) * {fnv['prime']}u;",
         "  return h;",
         "}",
         "",
     ]
 
 
-def kinds(tokens):
+def kinds(d):
+    tokens = d["tokens"]
     names = ", ".join(f'"{t["name"]}"' for t in sorted(tokens, key=lambda t: t["kind"]))
     return [
         "/// Kinds of tokens, by the names of docs/stream.md.",
@@ -143,10 +160,10 @@ def kinds(tokens):
         "/// The kind of a token.",
         "/// @param word the token's first",
         "/// @return its kind; 0 is none",
-        "constexpr Kind kind_of(std::uint32_t word) { return static_cast<Kind>(word & 15u); }",
+        "constexpr Kind kind_of(std::uint32_t word) { return static_cast<Kind>(word & ((1u << kKindBits) - 1u)); }",
         "",
         "/// The names of the kinds, by their numbers.",
-        "inline constexpr std::array<std::string_view, 16> kKindNames{",
+        f"inline constexpr std::array<std::string_view, {2 ** d['kind_bits']}> kKindNames{{",
         f'    "-", {names}}};',
         "",
     ]
@@ -168,5 +185,12 @@ def errors(errors):
         f"inline constexpr std::array<std::string_view, {len(errors)}> kErrorTexts{{",
         *(f'    "{e["doc"]}",' for e in errors),
         "};",
+        "",
+        "/// Whether an error is an expansion unit's, which FrameStatus and the register ERROR_UNIT name.",
+        "/// @param error any",
+        "/// @return whether it is one of " + ", ".join(e["name"] for e in errors if e["of_unit"]),
+        "constexpr bool is_of_unit(ErrorCode error) {",
+        "  return " + " || ".join(f"error == ErrorCode::{e['name']}" for e in errors if e["of_unit"]) + ";",
+        "}",
         "",
     ]

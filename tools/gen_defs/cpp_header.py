@@ -1,13 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """FrameHeader of ref/include/kage/defs.hpp."""
 
+from expressions import camel
+
 
 def frame_header(defs):
     """FrameHeader: what a writer chooses comes first, then what every core demands."""
     demanded = {"version": "kStreamVersion", "magic": "kStreamMagic"}
-    o = ["/// A frame's header. Fields of 16 bits hold 0 .. 65535.", "struct FrameHeader {"]
+
+    def is_int(f):
+        return f["bits"] < 32 and "same" not in f
+
+    o = ["/// A frame's header. What is narrower than 32 bits holds no negative number.", "struct FrameHeader {"]
+    o += [
+        f"  static constexpr Field k{camel(f['name'])}{{{32 * f['word'] + f['lsb']}, {f['bits']}, false}};  ///< where {f['name']} is"
+        for f in defs.header_fields
+    ]
+    o.append("")
     for f in sorted(defs.header_fields, key=lambda f: "same" in f):
-        kind = "int" if f["bits"] == 16 and "same" not in f else "std::uint32_t"
+        kind = "int" if is_int(f) else "std::uint32_t"
         o.append(f"  {kind} {f['name']} = {demanded.get(f.get('same'), 0)};  ///< {f['doc']}")
     o += [
         "",
@@ -20,11 +31,9 @@ def frame_header(defs):
     for f in defs.header_fields:
         there = f"words.size() > {f['word']}" if f["word"] > 0 else "!words.empty()"
         word = f"({there} ? words[{f['word']}] : 0)"
-        value = word if f["bits"] == 32 else f"{word} >> {f['lsb']} & 0xFFFF" if f["lsb"] else f"{word} & 0xFFFF"
-        o.append(
-            f"    h.{f['name']} = "
-            + (f"static_cast<int>({value});" if f["bits"] == 16 and "same" not in f else f"{value};")
-        )
+        shifted = f"{word} >> {f['lsb']}" if f["lsb"] else word
+        value = word if f["bits"] == 32 else f"{shifted} & 0x{(1 << f['bits']) - 1:X}"
+        o.append(f"    h.{f['name']} = " + (f"static_cast<int>({value});" if is_int(f) else f"{value};"))
     o += [
         "    return h;",
         "  }",

@@ -5,12 +5,12 @@ from expressions import cpp_expr
 
 
 def layout(defs):
-    return [*field(), *members(defs.d["tokens"]), *constructor(defs)]
+    return [*kind_field(), *members(defs.d), *constructor(defs)]
 
 
 def field():
     return [
-        "/// Place of a field in its token: `bits` from bit `lsb` of the token's words, the first word lowest.",
+        "/// Place of a field in its token or header: `bits` from bit `lsb` of its words, the first word lowest.",
         "struct Field {",
         "  std::uint16_t lsb = 0;  ///< its lowest bit",
         "  std::uint8_t bits = 0;  ///< 0: the configuration lacks the field",
@@ -20,16 +20,25 @@ def field():
     ]
 
 
-def members(tokens):
+def kind_field():
+    return [
+        "/// The kind, which comes before a token's fields.",
+        "inline constexpr Field kKindField{0, kKindBits, false};",
+        "",
+    ]
+
+
+def members(d):
+    numbers = 2 ** d["kind_bits"]
     o = ["/// Places of all fields for one configuration. An absent field has no bits.", "struct Layout {"]
-    for t in tokens:
+    for t in d["tokens"]:
         for f in t["fields"]:
             n = f["name"] + ("[3]" if f["repeat"] else "")
             o.append(f"  Field {t['name'].lower()}_{n};  ///< {t['name']}'s {f['name']}")
     return [
         *o,
-        "  std::array<std::uint8_t, 16> words{};   ///< words of a token of each kind; 0: the configuration lacks the kind",
-        "  std::array<std::uint16_t, 16> bits{};   ///< bits in use of a token of each kind",
+        f"  std::array<std::uint8_t, {numbers}> words{{}};   ///< words of a token of each kind; 0: the configuration lacks the kind",
+        f"  std::array<std::uint16_t, {numbers}> bits{{}};   ///< bits in use of a token of each kind",
         "",
         "  /// How long a token is.",
         "  /// @param word the token's first",
@@ -54,7 +63,7 @@ def constructor(defs):
         "    };",
     ]
     for t in defs.d["tokens"]:
-        o.append(f"    at = 4;  // {t['name']}")
+        o.append(f"    at = kKindBits;  // {t['name']}")
         o += [put(defs, t, f) for f in t["fields"]]
         there = cpp_expr(t["needs"], defs.names)
         o.append(f"    bits[{t['kind']}] = static_cast<std::uint16_t>(at);")

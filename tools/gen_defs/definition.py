@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """rtl/defs/kage.yaml, read, checked and completed: what all that is generated of it has in common."""
 
+import itertools
 import re
+import types
 
 import checks
 import yaml
-from expressions import camel
+from expressions import camel, py_expr
 from files import SOURCE
 
 
@@ -44,13 +46,21 @@ class Defs:
             mark.setdefault("line", "")
         self.header_fields = []
         for at, word in enumerate(self.d["header"]):
+            word["doc"] = word["doc"].format(**self.d["hash"])
             lsb = 0
             for field in word["fields"]:
                 self.header_fields.append({**field, "word": at, "lsb": lsb})
                 lsb += field["bits"]
             assert lsb == 32, f"header word {word['name']} has {lsb} bits"
         kinds = [t["kind"] for t in self.d["tokens"]]
-        assert sorted(kinds) == list(range(1, 16)), "kinds must be 1 .. 15, each once"
+        assert sorted(kinds) == list(range(1, 2 ** self.d["kind_bits"])), "kinds must be each there once, but for 0"
+        for error in self.d["errors"]:
+            error.setdefault("of_unit", False)
+        for register in self.d["registers"]:
+            for field in register.get("fields", []):
+                if field.setdefault("parameter", False):
+                    checks.holds_parameter(register, field, self.pixel + self.impl)
+                    field["doc"] = "the parameter"
         checks.same_entry(self.d)
         # Places that tokens with a range share: the name, a token that has it there, and how that one calls it.
         self.shared_places = [
@@ -125,9 +135,39 @@ class Defs:
         return list(groups.items())
 
     def field_widths(self):
-        """The derived numbers that fields of tokens have for their bits."""
+        """The derived numbers that fields of tokens have for their bits, and those that these are made of."""
         bits = " ".join(str(f["named_bits"]) for t in self.d["tokens"] for f in t["fields"])
-        return [n for n in self.d["derived"] if f"<{n['name']}>" in bits]
+        found = []
+        for n in reversed(self.d["derived"]):  # what a number is made of stands before it
+            if f"<{n['name']}>" in bits:
+                found.insert(0, n)
+                bits += n["value"]
+        return found
+
+    def most_bits(self, field):
+        """Bits of a token's field, its channels together, in no configuration more: the most over all values of the
+        parameters that it follows from."""
+
+        def most(expr):
+            params = [p for p in self.pixel + self.impl if re.search(rf"\b{p['name']}\b", str(expr))]
+            values = (p.get("allowed", range(p["min"], p["max"] + 1)) for p in params)
+            code = compile(py_expr(expr), SOURCE, "eval")
+            names = [p["name"] for p in params]
+            return max(
+                eval(code, {"c": types.SimpleNamespace(**dict(zip(names, chosen)))})
+                for chosen in itertools.product(*values)
+            )
+
+        return most(field["bits"]) * (most(field["repeat"]) if field["repeat"] else 1)
+
+    def most_token_words(self):
+        """Words of the longest token of any configuration, or more."""
+        bits = (self.d["kind_bits"] + sum(map(self.most_bits, t["fields"])) for t in self.d["tokens"])
+        return (max(bits) + 31) // 32
+
+    def most_field_bits(self):
+        """Bits of the widest field of a token, one channel, in any configuration."""
+        return max(self.most_bits(f | {"repeat": False}) for t in self.d["tokens"] for f in t["fields"])
 
     @staticmethod
     def text_pieces(token):
@@ -177,5 +217,5 @@ class Defs:
         for f in r.get("fields", []):
             last = f["lsb"] + f["bits"] - 1
             place = f"bit {last}" if f["bits"] == 1 else f"bits {last}-{f['lsb']}"
-            fields.append(f"{place} {f['name']}" + (f": {f['doc']}" if f["doc"] != "the parameter" else ""))
+            fields.append(f"{place} {f['name']}" + ("" if f["parameter"] else f": {f['doc']}"))
         return text + (": " if fields else "") + "; ".join(fields)

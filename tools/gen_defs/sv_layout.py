@@ -10,11 +10,11 @@ def layout(defs):
         opening(),
         header(defs),
         *numbers(defs.d),
-        places(defs.d["tokens"]),
+        places(defs.d),
         shared_places(defs),
         token_words(defs.d["tokens"]),
-        param_hash(defs.pixel),
-        words_function(defs.d["tokens"]),
+        param_hash(defs),
+        words_function(defs),
         ["/* verilator lint_on UNUSEDPARAM */", "// verilog_lint: waive-stop line-length", ""],
     ]
     return "\n".join(line for section in sections for line in section)
@@ -42,17 +42,18 @@ def header(defs):
 
 
 def numbers(d):
-    kinds = (f"localparam logic [3:0] Kind{camel(t['name'])} = 4'd{t['kind']};" for t in d["tokens"])
+    bits = d["kind_bits"]
+    kinds = (f"localparam logic [{bits - 1}:0] Kind{camel(t['name'])} = {bits}'d{t['kind']};" for t in d["tokens"])
     errors = (f"localparam logic [3:0] Err{camel(e['name'])} = 4'd{e['code']};" for e in d["errors"])
     return [*kinds, ""], [*errors, ""]
 
 
-def places(tokens):
+def places(d):
     """Field after field, and how long each token is with them."""
     o = []
-    for t in tokens:
+    for t in d["tokens"]:
         token = camel(t["name"])
-        at = "4"
+        at = str(d["kind_bits"])
         for f in t["fields"]:
             field = token + camel(f["name"])
             o.append(f"localparam int {field}Lsb = {at};")
@@ -81,17 +82,20 @@ def token_words(tokens):
     return [*o, f"localparam int TokenWords = {most};  // words of the longest token", ""]
 
 
-def param_hash(params):
-    o = ["localparam logic [31:0] ParamHash0 = 32'd2166136261;"]
+def param_hash(defs):
+    params, fnv = defs.pixel, defs.d["hash"]
+    o = [f"localparam logic [31:0] ParamHash0 = 32'd{fnv['basis']};"]
     for i, p in enumerate(params):
-        o.append(f"localparam logic [31:0] ParamHash{i + 1} = (ParamHash{i} ^ 32'({p['name']})) * 32'd16777619;")
+        o.append(f"localparam logic [31:0] ParamHash{i + 1} = (ParamHash{i} ^ 32'({p['name']})) * 32'd{fnv['prime']};")
     return [*o, f"localparam logic [31:0] ParamHash = ParamHash{len(params)};  // what a header must carry", ""]
 
 
-def words_function(tokens):
+def words_function(defs):
+    tokens = defs.d["tokens"]
+    assert defs.most_token_words() < 32, "token_words() has 5 bits"
     return [
         "// Words of a token of this kind; 0: the configuration lacks it.",
-        "function automatic logic [4:0] token_words(input logic [3:0] kind);",
+        f"function automatic logic [4:0] token_words(input logic [{defs.d['kind_bits'] - 1}:0] kind);",
         "  unique case (kind)",
         *(f"    Kind{camel(t['name'])}: token_words = 5'({camel(t['name'])}Words);" for t in tokens),
         "    default: token_words = 5'd0;",

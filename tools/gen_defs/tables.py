@@ -58,7 +58,7 @@ def tokens(defs):
 
     rows = []
     for t in defs.d["tokens"]:
-        needs = {"1": "always", "0": "reserved for a later version"}.get(t["needs"], t["needs"])
+        needs = "always" if t["needs"] == "1" else t["needs"]
         rows.append((t["kind"], f"`{t['name']}`", needs, ", ".join(map(field, t["fields"])) or "-", t["doc"]))
     return md(("kind", "token", "present if", "fields (bits)", "meaning"), rows)
 

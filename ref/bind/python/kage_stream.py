@@ -19,6 +19,7 @@ import zlib
 VERSION = 1
 MAGIC = 0x4B47
 MAX_HEIGHT = 32767
+KIND_BITS = 4
 
 # fmt: off
 # name: (default, least, most, values or None for all between, whether it affects pixels, meaning)
@@ -75,9 +76,12 @@ DERIVED = {
     "whole_share": lambda c: 1 << c.SHADE_FRAC,  # all of a colour
     "half_share": lambda c: 1 << (c.SHADE_FRAC - 1),  # a half of it, which rounds a product with a share
     "depth_bits": lambda c: c.Z_BITS + c.Z_FRAC + 2,  # depth accumulator
-    "ramp_bits": lambda c: 10 + c.COLOR_FRAC if c.SMOOTH > 0 else 8,  # one channel of a span's colour
+    "segment_depth_bits": lambda c: 15 if c.CLASSIC > 0 else DERIVED["depth_bits"](c),  # a segment's depth; the paper's is unsigned
+    "smooth_bits": lambda c: 10 + c.COLOR_FRAC,  # one channel of a colour that changes along its span, and of its slope
+    "ramp_bits": lambda c: DERIVED["smooth_bits"](c) if c.SMOOTH > 0 else 8,  # one channel of a span's colour
+    "slope_field_bits": lambda c: DERIVED["smooth_bits"](c) if c.SMOOTH > 0 else 0,  # one channel of a span's colour slope
     "color_bits": lambda c: c.CHANNELS * DERIVED["ramp_bits"](c),  # a span's colour
-    "slope_bits": lambda c: DERIVED["color_bits"](c) if c.SMOOTH > 0 else 1,  # a span's colour slope
+    "slope_bits": lambda c: DERIVED["color_bits"](c) if c.SMOOTH > 0 else 1,  # a span's colour slope, on a bus
     "dsf_bus_bits": lambda c: c.DSF_BITS if c.DSF_BITS > 0 else 1,  # shadow counter, bias
     "class_field_bits": lambda c: c.CLASS_BITS if c.DSF_BITS > 0 else 0,  # the class of a pixel, a face, and the tree's pixel
     "light_bits": lambda c: 3 if c.LIGHTS > 4 else (2 if c.LIGHTS > 2 else 1),  # a light's number
@@ -85,7 +89,7 @@ DERIVED = {
     "sample_end_bits": lambda c: DERIVED["light_at"](c) + DERIVED["light_bits"](c) if c.LIGHTS > 1 else 1,  # ES in its command's count
     "plain_count_bits": lambda c: DERIVED["dsf_bus_bits"](c) if DERIVED["dsf_bus_bits"](c) > c.CLASS_BITS else c.CLASS_BITS,  # w, bias or class in a command's count
     "command_count_bits": lambda c: DERIVED["plain_count_bits"](c) if DERIVED["plain_count_bits"](c) > DERIVED["sample_end_bits"](c) else DERIVED["sample_end_bits"](c),  # a command's count: w, bias, class, or of ES {light, bias}
-    "share_bits": lambda c: 1 if c.TRANSLUCENCY == 0 else (c.SHADE_FRAC + 1 if c.COUNT_BITS == 0 and c.SHADE_FRAC > 7 else 8),  # TP's alpha, or RESOLVE's shade
+    "share_bits": lambda c: 1 if c.TRANSLUCENCY == 0 else (DERIVED["factor_bits"](c) if c.COUNT_BITS == 0 and c.SHADE_FRAC > 7 else 8),  # TP's alpha, or RESOLVE's shade
     "rgb_bits": lambda c: 8 * c.CHANNELS,  # one pixel's colour
     "tally_bits": lambda c: c.LIGHTS * c.COUNT_BITS,  # a pixel's counters
     "exit_class_bits": lambda c: c.CLASS_BITS if DERIVED["has_table"](c) else 0,  # the class of a pixel that leaves
@@ -112,12 +116,12 @@ HEADER = [
 # name: (kind, whether a configuration has it, its fields in a configuration: [(name, bits, signed, channels or 0), ...])
 TOKENS = {
     "SHADE": (1, lambda c: 0 if c.CLASS_BITS > 1 else c.DSF_BITS > 0, lambda c: [
-        ("shade", c.SHADE_FRAC + 1, False, 0),
+        ("shade", DERIVED["factor_bits"](c), False, 0),
     ]),
     "TABLE": (2, lambda c: c.CLASS_BITS > 1, lambda c: [
         ("class", c.CLASS_BITS, False, 0),
         ("light", DERIVED["light_bits"](c), False, 0),
-        ("share", c.SHADE_FRAC + 1, False, c.CHANNELS),
+        ("share", DERIVED["factor_bits"](c), False, c.CHANNELS),
     ]),
     "FACE": (3, lambda c: c.UNITS > 0, lambda c: [
         ("unit", DERIVED["unit_bits"](c), False, 0),
@@ -130,7 +134,7 @@ TOKENS = {
     "SEG": (4, lambda c: c.UNITS > 0, lambda c: [
         ("unit", DERIVED["unit_bits"](c), False, 0),
         ("pad", 28 - DERIVED["unit_bits"](c) if c.CLASSIC > 0 else 0, False, 0),
-        ("z", 15 if c.CLASSIC > 0 else DERIVED["depth_bits"](c), c.CLASSIC == 0, 0),
+        ("z", DERIVED["segment_depth_bits"](c), c.CLASSIC == 0, 0),
         ("sync", 1, False, 0),
         ("dx", c.DX_BITS, False, 0),
         ("face", c.FACE_BITS, False, 0),
@@ -143,7 +147,7 @@ TOKENS = {
         ("z", DERIVED["depth_bits"](c), True, 0),
         ("dz", DERIVED["depth_bits"](c), True, 0),
         ("color", DERIVED["ramp_bits"](c), c.SMOOTH, c.CHANNELS),
-        ("dcolor", 10 + c.COLOR_FRAC if c.SMOOTH > 0 else 0, True, c.CHANNELS),
+        ("dcolor", DERIVED["slope_field_bits"](c), True, c.CHANNELS),
     ]),
     "SP": (7, lambda c: c.DSF_BITS > 0, lambda c: [
         ("xl", c.X_BITS, False, 0),
@@ -177,7 +181,7 @@ TOKENS = {
         ("z", DERIVED["depth_bits"](c), True, 0),
         ("dz", DERIVED["depth_bits"](c), True, 0),
         ("color", DERIVED["ramp_bits"](c), c.SMOOTH, c.CHANNELS),
-        ("dcolor", 10 + c.COLOR_FRAC if c.SMOOTH > 0 else 0, True, c.CHANNELS),
+        ("dcolor", DERIVED["slope_field_bits"](c), True, c.CHANNELS),
     ]),
     "EOL": (14, lambda c: 1, lambda c: [
         ("y", 16, False, 0),
@@ -326,7 +330,7 @@ class Codec:
         self.layout = {}  # kind's name: [(field, channel or -1, lsb, bits, signed), ...], and the words
         self.names = {}
         for name, (kind, present, fields) in TOKENS.items():
-            places, lsb = [], 4
+            places, lsb = [], KIND_BITS
             for field, bits, signed, channels in fields(config):
                 for i in range(max(channels, 1)):
                     if bits > 0:
@@ -362,7 +366,7 @@ class Codec:
         """The token whose words begin there, and how many they are."""
         if at >= len(words):
             raise ValueError("the words end where a token should begin")
-        kind = words[at] & 15
+        kind = words[at] % 2**KIND_BITS
         if kind not in self.names:
             raise ValueError(f"kind {kind}, which is no token here")
         name = self.names[kind]
@@ -379,7 +383,7 @@ class Codec:
                 token[field] = value
             else:
                 token.setdefault(field, []).append(value)
-        used = max((lsb + bits for _, _, lsb, bits, _ in places), default=4)
+        used = max((lsb + bits for _, _, lsb, bits, _ in places), default=KIND_BITS)
         if whole >> used:
             raise ValueError(f"{name}: bits behind its last field are set")
         return token, count

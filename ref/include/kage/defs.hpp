@@ -19,9 +19,26 @@ inline constexpr std::uint32_t kStreamVersion = 1;  ///< of the stream
 inline constexpr std::uint32_t kStreamMagic = 0x4b47;  ///< in a header's first word
 inline constexpr int kMaxHeight = 32767;  ///< lines of a frame
 inline constexpr std::uint32_t kHeaderWords = 5;  ///< words of a header
+inline constexpr unsigned kKindBits = 4;  ///< of a token's kind
+inline constexpr std::size_t kMostTokenWords = 10;  ///< words of the longest token of any configuration
 
-/// A frame's header. Fields of 16 bits hold 0 .. 65535.
+/// Place of a field in its token or header: `bits` from bit `lsb` of its words, the first word lowest.
+struct Field {
+  std::uint16_t lsb = 0;  ///< its lowest bit
+  std::uint8_t bits = 0;  ///< 0: the configuration lacks the field
+  bool is_signed = false;  ///< two's complement
+};
+
+/// A frame's header. What is narrower than 32 bits holds no negative number.
 struct FrameHeader {
+  static constexpr Field kVersion{0, 16, false};  ///< where version is
+  static constexpr Field kMagic{16, 16, false};  ///< where magic is
+  static constexpr Field kWidth{32, 16, false};  ///< where width is
+  static constexpr Field kHeight{48, 16, false};  ///< where height is
+  static constexpr Field kParamHash{64, 32, false};  ///< where param_hash is
+  static constexpr Field kBackground{96, 32, false};  ///< where background is
+  static constexpr Field kFrame{128, 32, false};  ///< where frame is
+
   int width = 0;  ///< pixels of a line
   int height = 0;  ///< lines
   std::uint32_t background = 0;  ///< channel c in bits 8c .. 8c + 7
@@ -89,6 +106,33 @@ struct Config {
   int beat_words = 4;  ///< 32-bit words in a beat of the input port
 
   bool operator==(const Config&) const = default;
+};
+
+/// Every parameter at its greatest legal value. Together they may break rules: this bounds arrays and limits.
+inline constexpr Config kGreatest{
+    .x_bits = 15,
+    .z_bits = 28,
+    .z_frac = 16,
+    .channels = 3,
+    .smooth = 1,
+    .color_frac = 16,
+    .dsf_bits = 8,
+    .fsf = 1,
+    .shade_frac = 16,
+    .count_bits = 8,
+    .lights = 8,
+    .class_bits = 11,
+    .translucency = 1,
+    .units = 64,
+    .face_bits = 12,
+    .dx_bits = 15,
+    .seg_bits = 12,
+    .order_bits = 16,
+    .classic = 1,
+    .arrangement = 1,
+    .lanes = 32,
+    .max_width = 32767,
+    .beat_words = 8,
 };
 
 /// A parameter's name, member, legal range and whether it changes pixels.
@@ -188,7 +232,7 @@ enum class Kind : std::uint8_t {
 /// The kind of a token.
 /// @param word the token's first
 /// @return its kind; 0 is none
-constexpr Kind kind_of(std::uint32_t word) { return static_cast<Kind>(word & 15u); }
+constexpr Kind kind_of(std::uint32_t word) { return static_cast<Kind>(word & ((1u << kKindBits) - 1u)); }
 
 /// The names of the kinds, by their numbers.
 inline constexpr std::array<std::string_view, 16> kKindNames{
@@ -232,12 +276,15 @@ inline constexpr std::array<std::string_view, 13> kErrorTexts{
     "a unit with fewer pixels than the line",
 };
 
-/// Place of a field in its token: `bits` from bit `lsb` of the token's words, the first word lowest.
-struct Field {
-  std::uint16_t lsb = 0;  ///< its lowest bit
-  std::uint8_t bits = 0;  ///< 0: the configuration lacks the field
-  bool is_signed = false;  ///< two's complement
-};
+/// Whether an error is an expansion unit's, which FrameStatus and the register ERROR_UNIT name.
+/// @param error any
+/// @return whether it is one of SEGMENT, UNIT_LONG, UNIT_SHORT
+constexpr bool is_of_unit(ErrorCode error) {
+  return error == ErrorCode::SEGMENT || error == ErrorCode::UNIT_LONG || error == ErrorCode::UNIT_SHORT;
+}
+
+/// The kind, which comes before a token's fields.
+inline constexpr Field kKindField{0, kKindBits, false};
 
 /// Places of all fields for one configuration. An absent field has no bits.
 struct Layout {
@@ -304,17 +351,17 @@ struct Layout {
       f = Field{static_cast<std::uint16_t>(at), static_cast<std::uint8_t>(n), is_signed};
       at += static_cast<unsigned>(n);
     };
-    at = 4;  // SHADE
+    at = kKindBits;  // SHADE
     put(shade_shade, c.shade_frac + 1, false);
     bits[1] = static_cast<std::uint16_t>(at);
     words[1] = static_cast<std::uint8_t>((c.class_bits > 1 ? 0 : c.dsf_bits > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // TABLE
+    at = kKindBits;  // TABLE
     put(table_class, c.class_bits, false);
     put(table_light, c.lights > 4 ? 3 : (c.lights > 2 ? 2 : 1), false);
     for (int i = 0; i < c.channels; ++i) put(table_share[i], c.shade_frac + 1, false);
     bits[2] = static_cast<std::uint16_t>(at);
     words[2] = static_cast<std::uint8_t>((c.class_bits > 1) ? (at + 31) / 32 : 0);
-    at = 4;  // FACE
+    at = kKindBits;  // FACE
     put(face_unit, c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))), false);
     put(face_face, c.face_bits, false);
     put(face_index, c.order_bits, false);
@@ -323,7 +370,7 @@ struct Layout {
     for (int i = 0; i < c.channels; ++i) put(face_color[i], 8, false);
     bits[3] = static_cast<std::uint16_t>(at);
     words[3] = static_cast<std::uint8_t>((c.units > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // SEG
+    at = kKindBits;  // SEG
     put(seg_unit, c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))), false);
     put(seg_pad, c.classic > 0 ? 28 - (c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1))))) : 0, false);
     put(seg_z, c.classic > 0 ? 15 : (c.z_bits + c.z_frac + 2), (c.classic == 0) != 0);
@@ -332,20 +379,20 @@ struct Layout {
     put(seg_face, c.face_bits, false);
     bits[4] = static_cast<std::uint16_t>(at);
     words[4] = static_cast<std::uint8_t>((c.units > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // TREE
+    at = kKindBits;  // TREE
     bits[5] = static_cast<std::uint16_t>(at);
     words[5] = static_cast<std::uint8_t>((c.units > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // OP
+    at = kKindBits;  // OP
     put(op_xl, c.x_bits, false);
     put(op_xr, c.x_bits, false);
     put(op_class, c.dsf_bits > 0 ? c.class_bits : 0, false);
     put(op_z, c.z_bits + c.z_frac + 2, true);
     put(op_dz, c.z_bits + c.z_frac + 2, true);
-    for (int i = 0; i < c.channels; ++i) put(op_color[i], c.smooth > 0 ? 10 + c.color_frac : 8, (c.smooth) != 0);
-    for (int i = 0; i < c.channels; ++i) put(op_dcolor[i], c.smooth > 0 ? 10 + c.color_frac : 0, true);
+    for (int i = 0; i < c.channels; ++i) put(op_color[i], c.smooth > 0 ? (10 + c.color_frac) : 8, (c.smooth) != 0);
+    for (int i = 0; i < c.channels; ++i) put(op_dcolor[i], c.smooth > 0 ? (10 + c.color_frac) : 0, true);
     bits[6] = static_cast<std::uint16_t>(at);
     words[6] = static_cast<std::uint8_t>((1) ? (at + 31) / 32 : 0);
-    at = 4;  // SP
+    at = kKindBits;  // SP
     put(sp_xl, c.x_bits, false);
     put(sp_xr, c.x_bits, false);
     put(sp_w, c.dsf_bits + 1, true);
@@ -353,45 +400,45 @@ struct Layout {
     put(sp_dz, c.z_bits + c.z_frac + 2, true);
     bits[7] = static_cast<std::uint16_t>(at);
     words[7] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // NC
+    at = kKindBits;  // NC
     put(nc_xl, c.x_bits, false);
     put(nc_xr, c.x_bits, false);
     put(nc_w, c.dsf_bits + 1, true);
     bits[8] = static_cast<std::uint16_t>(at);
     words[8] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // IF
+    at = kKindBits;  // IF
     put(if_w, c.dsf_bits + 1, true);
     bits[9] = static_cast<std::uint16_t>(at);
     words[9] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // EV
+    at = kKindBits;  // EV
     put(ev_xl, c.x_bits, false);
     put(ev_xr, c.x_bits, false);
     bits[10] = static_cast<std::uint16_t>(at);
     words[10] = static_cast<std::uint8_t>((c.fsf > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // ES
+    at = kKindBits;  // ES
     put(es_xl, c.x_bits, false);
     put(es_xr, c.x_bits, false);
     put(es_light, c.lights > 4 ? 3 : (c.lights > 2 ? 2 : 1), false);
     bits[11] = static_cast<std::uint16_t>(at);
     words[11] = static_cast<std::uint8_t>((c.count_bits > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // RESOLVE
+    at = kKindBits;  // RESOLVE
     bits[12] = static_cast<std::uint16_t>(at);
     words[12] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // TP
+    at = kKindBits;  // TP
     put(tp_xl, c.x_bits, false);
     put(tp_xr, c.x_bits, false);
     put(tp_alpha, 8, false);
     put(tp_z, c.z_bits + c.z_frac + 2, true);
     put(tp_dz, c.z_bits + c.z_frac + 2, true);
-    for (int i = 0; i < c.channels; ++i) put(tp_color[i], c.smooth > 0 ? 10 + c.color_frac : 8, (c.smooth) != 0);
-    for (int i = 0; i < c.channels; ++i) put(tp_dcolor[i], c.smooth > 0 ? 10 + c.color_frac : 0, true);
+    for (int i = 0; i < c.channels; ++i) put(tp_color[i], c.smooth > 0 ? (10 + c.color_frac) : 8, (c.smooth) != 0);
+    for (int i = 0; i < c.channels; ++i) put(tp_dcolor[i], c.smooth > 0 ? (10 + c.color_frac) : 0, true);
     bits[13] = static_cast<std::uint16_t>(at);
     words[13] = static_cast<std::uint8_t>((c.translucency > 0) ? (at + 31) / 32 : 0);
-    at = 4;  // EOL
+    at = kKindBits;  // EOL
     put(eol_y, 16, false);
     bits[14] = static_cast<std::uint16_t>(at);
     words[14] = static_cast<std::uint8_t>((1) ? (at + 31) / 32 : 0);
-    at = 4;  // END
+    at = kKindBits;  // END
     bits[15] = static_cast<std::uint16_t>(at);
     words[15] = static_cast<std::uint8_t>((1) ? (at + 31) / 32 : 0);
   }

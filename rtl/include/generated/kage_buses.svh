@@ -40,7 +40,7 @@ typedef struct packed {
   logic painted;  // every pixel has its colour: uncovered ones the background's
   logic [X_BITS-1:0] width;  // pixels
   logic [RgbBits-1:0] background;  // the frame's
-  logic [SHADE_FRAC:0] shade;  // the frame's
+  logic [FactorBits-1:0] shade;  // the frame's
 } line_t;
 
 // An entry of the light table: from frame_control to light_resolve.

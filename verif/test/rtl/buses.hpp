@@ -100,7 +100,7 @@ struct LineBus {
 
   explicit constexpr LineBus([[maybe_unused]] const Config& c) {
     int at = 0;
-    shade = {at, c.shade_frac + 1};
+    shade = {at, derived::factor_bits(c)};
     at += shade.bits;
     background = {at, derived::rgb_bits(c)};
     at += background.bits;

@@ -7,23 +7,29 @@
 const Stream = (() => {
   // Widths that several fields have.
   const derived = {
+    factor_bits: (c) => c.SHADE_FRAC + 1,  // a share of colour, and what it leaves
     depth_bits: (c) => c.Z_BITS + c.Z_FRAC + 2,  // depth accumulator
-    ramp_bits: (c) => c.SMOOTH > 0 ? 10 + c.COLOR_FRAC : 8,  // one channel of a span's colour
+    segment_depth_bits: (c) => c.CLASSIC > 0 ? 15 : derived.depth_bits(c),  // a segment's depth; the paper's is unsigned
+    smooth_bits: (c) => 10 + c.COLOR_FRAC,  // one channel of a colour that changes along its span, and of its slope
+    ramp_bits: (c) => c.SMOOTH > 0 ? derived.smooth_bits(c) : 8,  // one channel of a span's colour
+    slope_field_bits: (c) => c.SMOOTH > 0 ? derived.smooth_bits(c) : 0,  // one channel of a span's colour slope
     class_field_bits: (c) => c.DSF_BITS > 0 ? c.CLASS_BITS : 0,  // the class of a pixel, a face, and the tree's pixel
     light_bits: (c) => c.LIGHTS > 4 ? 3 : (c.LIGHTS > 2 ? 2 : 1),  // a light's number
     unit_bits: (c) => c.UNITS > 32 ? 6 : (c.UNITS > 16 ? 5 : (c.UNITS > 8 ? 4 : (c.UNITS > 4 ? 3 : (c.UNITS > 2 ? 2 : 1)))),  // an expansion unit's number
   };
 
+  const kindBits = 4;
+
   // By kind: the name, whether the configuration has it, and its fields: [name, bits, signed, channels or 0].
   const kinds = [
     {name: "-", present: () => false, fields: () => []},
     {name: "SHADE", present: (c) => c.CLASS_BITS > 1 ? 0 : c.DSF_BITS > 0, fields: (c) => [
-      ["shade", c.SHADE_FRAC + 1, false, 0],
+      ["shade", derived.factor_bits(c), false, 0],
     ]},
     {name: "TABLE", present: (c) => c.CLASS_BITS > 1, fields: (c) => [
       ["class", c.CLASS_BITS, false, 0],
       ["light", derived.light_bits(c), false, 0],
-      ["share", c.SHADE_FRAC + 1, false, c.CHANNELS],
+      ["share", derived.factor_bits(c), false, c.CHANNELS],
     ]},
     {name: "FACE", present: (c) => c.UNITS > 0, fields: (c) => [
       ["unit", derived.unit_bits(c), false, 0],
@@ -36,7 +42,7 @@ const Stream = (() => {
     {name: "SEG", present: (c) => c.UNITS > 0, fields: (c) => [
       ["unit", derived.unit_bits(c), false, 0],
       ["pad", c.CLASSIC > 0 ? 28 - derived.unit_bits(c) : 0, false, 0],
-      ["z", c.CLASSIC > 0 ? 15 : derived.depth_bits(c), c.CLASSIC == 0, 0],
+      ["z", derived.segment_depth_bits(c), c.CLASSIC == 0, 0],
       ["sync", 1, false, 0],
       ["dx", c.DX_BITS, false, 0],
       ["face", c.FACE_BITS, false, 0],
@@ -49,7 +55,7 @@ const Stream = (() => {
       ["z", derived.depth_bits(c), true, 0],
       ["dz", derived.depth_bits(c), true, 0],
       ["color", derived.ramp_bits(c), c.SMOOTH, c.CHANNELS],
-      ["dcolor", c.SMOOTH > 0 ? 10 + c.COLOR_FRAC : 0, true, c.CHANNELS],
+      ["dcolor", derived.slope_field_bits(c), true, c.CHANNELS],
     ]},
     {name: "SP", present: (c) => c.DSF_BITS > 0, fields: (c) => [
       ["xl", c.X_BITS, false, 0],
@@ -83,7 +89,7 @@ const Stream = (() => {
       ["z", derived.depth_bits(c), true, 0],
       ["dz", derived.depth_bits(c), true, 0],
       ["color", derived.ramp_bits(c), c.SMOOTH, c.CHANNELS],
-      ["dcolor", c.SMOOTH > 0 ? 10 + c.COLOR_FRAC : 0, true, c.CHANNELS],
+      ["dcolor", derived.slope_field_bits(c), true, c.CHANNELS],
     ]},
     {name: "EOL", present: (c) => true, fields: (c) => [
       ["y", 16, false, 0],
@@ -94,7 +100,7 @@ const Stream = (() => {
   // Where the fields of each kind are: [name, channel or -1, lsb, bits, signed]. One that the configuration lacks is left out.
   function layout(c) {
     return kinds.map(({name, present, fields}) => {
-      let lsb = 4;
+      let lsb = kindBits;
       const places = [];
       for (const [field, bits, signed, channels] of fields(c)) {
         for (let i = 0; i < Math.max(channels, 1); ++i) {
@@ -106,7 +112,7 @@ const Stream = (() => {
     });
   }
 
-  // Fields are 63 bits at most by the format and 42 in every legal configuration, so a Number holds them.
+  // Fields are 46 bits at most in every configuration, so a Number holds them.
   function field(words, at, lsb, bits, signed) {
     let value = 0;
     for (let done = 0; done < bits;) {
@@ -133,7 +139,7 @@ const Stream = (() => {
 
     // The token whose words begin there: its fields by name, an array for several channels; `words`, their number.
     function decode(words, at) {
-      const kind = places[words[at] & 15];
+      const kind = places[words[at] % 2 ** kindBits];
       const token = {kind: kind.name, words: kind.words};
       for (const [name, channel, lsb, bits, signed] of kind.fields) {
         const value = field(words, at, lsb, bits, signed);
