@@ -17,6 +17,7 @@
 #include "kage/explain.hpp"
 #include "kage/stream.hpp"
 #include "mapped.hpp"
+#include "number/packed_color.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "results.hpp"
@@ -46,19 +47,13 @@ std::string describe_way(const report::WayRecord& w) {
   return text;
 }
 
-/// A header's background, red lowest.
-std::array<std::uint8_t, 3> unpacked(std::uint32_t color) {
-  return {static_cast<std::uint8_t>(color), static_cast<std::uint8_t>(color >> 8),
-          static_cast<std::uint8_t>(color >> 16)};
-}
-
 /// A frame's header in words, which an unchecked frame may have cut or of another core.
 std::string header_text(const Config& config, std::span<const std::uint32_t> words) {
   if (words.size() < kHeaderWords)
     return fmt::format("header of {} words, cut after {}: {}", kHeaderWords, words.size(), words_text(words));
   const FrameHeader h = FrameHeader::read(words);
   std::string text = fmt::format("header: {}x{}, background {}, frame number {}", h.width, h.height,
-                                 color_text(config, unpacked(h.background)), h.frame);
+                                 color_text(config, unpacked_color(h.background)), h.frame);
   std::array<std::uint32_t, 1> ours{};
   FrameHeader{}.write(ours);
   if (!h.known()) text += fmt::format(", magic_version {:#010x} and not {:#010x}", words[0], ours[0]);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "contract/derived.hpp"
+#include "number/packed_color.hpp"
 
 namespace kage {
 
@@ -14,8 +15,7 @@ void ExpansionUnit::start() {
 }
 
 void ExpansionUnit::add_face(const SegmentToken& f) {
-  std::uint64_t attr = static_cast<std::uint64_t>(f.normal_class) << 24;
-  for (unsigned c = 0; c < 3; ++c) attr |= static_cast<std::uint32_t>(f.color[c]) << (8 * c);
+  const std::uint64_t attr = static_cast<std::uint64_t>(f.normal_class) << kPackedBits | packed_color(f.color);
   faces_.push_back({f.dz, static_cast<std::uint32_t>(f.index), attr});
 }
 
@@ -30,7 +30,8 @@ void ExpansionUnit::add_segment(const SegmentToken& s, int width) {
 void ExpansionUnit::expand(TreeLine& out) {
   const int shift = 64 - derived::depth_bits(config_);
   const std::int64_t z_max = derived::most_depth(config_);
-  const std::uint64_t clear = std::uint64_t{derived::clear_depth(config_)} << TreeLine::kIndexBits | 0xFFFFU;
+  const std::uint64_t clear =
+      std::uint64_t{derived::clear_depth(config_)} << TreeLine::kIndexBits | TreeLine::kMostIndex;
   std::size_t x = 0;
   auto& line = lines_[static_cast<std::size_t>(oldest_)];
   for (const Segment& s : line) {

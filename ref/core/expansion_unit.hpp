@@ -16,13 +16,14 @@ namespace kage {
 /// A line of pixels on its way through the tree. A pixel's key is its depth above its draw index: the least key wins.
 struct TreeLine {
   std::vector<std::uint64_t> key;
-  std::vector<std::uint64_t> attr;  ///< colour in bits 0-23, class above
+  std::vector<std::uint64_t> attr;  ///< a packed colour, its class above
 
   void resize(std::size_t width) {
     key.resize(width);
     attr.resize(width);
   }
-  static constexpr int kIndexBits = 16;
+  static constexpr int kIndexBits = kGreatest.order_bits;
+  static constexpr std::uint32_t kMostIndex = (1U << kIndexBits) - 1;
 };
 
 class ExpansionUnit {

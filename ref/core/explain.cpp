@@ -7,6 +7,7 @@
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/error.hpp"
+#include "number/packed_color.hpp"
 
 namespace kage {
 
@@ -144,10 +145,7 @@ class History : public CoreObserver {
                           : fmt::format("in shadow: {}, class {}; {}", counts, from.normal_class, change);
   }
 
-  [[nodiscard]] std::array<std::uint8_t, 3> background() const {
-    return {static_cast<std::uint8_t>(background_), static_cast<std::uint8_t>(background_ >> 8),
-            static_cast<std::uint8_t>(background_ >> 16)};
-  }
+  [[nodiscard]] std::array<std::uint8_t, 3> background() const { return unpacked_color(background_); }
 
   void leave() {
     const bool drawn = touch_.before.z != clear_ || painted_;

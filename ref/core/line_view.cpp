@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an observer of the golden core sees of the line at hand.
 #include "core/line_parts.hpp"
+#include "number/packed_color.hpp"
 
 namespace kage {
 
@@ -19,9 +20,9 @@ LineView::UnitPixel unit_pixel_of(const TreeLine& line, int x) {
   const std::uint64_t attr = line.attr[static_cast<std::size_t>(x)];
   LineView::UnitPixel p;
   p.z = static_cast<std::uint32_t>(key >> TreeLine::kIndexBits);
-  p.index = static_cast<std::uint32_t>(key & ((1U << TreeLine::kIndexBits) - 1));
-  for (unsigned c = 0; c < 3; ++c) p.color[c] = static_cast<std::uint8_t>(attr >> 8 * c);
-  p.normal_class = static_cast<std::uint32_t>(attr >> 24);
+  p.index = static_cast<std::uint32_t>(key & TreeLine::kMostIndex);
+  p.color = unpacked_color(attr);
+  p.normal_class = static_cast<std::uint32_t>(attr >> kPackedBits);
   return p;
 }
 

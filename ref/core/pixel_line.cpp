@@ -4,11 +4,14 @@
 #include <algorithm>
 
 #include "contract/derived.hpp"
+#include "number/packed_color.hpp"
 
 namespace kage {
 namespace {
 
-constexpr std::uint32_t kLit = 1U << 24;
+constexpr std::uint32_t kLit = 1U << kPackedBits;
+
+static_assert(std::tuple_size_v<decltype(PixelState::counts)> == kGreatest.lights);
 
 /// As a line's depths have it.
 std::int32_t clear_depth(const Config& c) { return static_cast<std::int32_t>(derived::clear_depth(c)); }
@@ -58,7 +61,7 @@ void PixelLine::tree(const TreeLine& line) {
     const auto z = static_cast<std::int32_t>(line.key[x] >> TreeLine::kIndexBits);
     const bool front = z < zb_[x];
     attr_[x] = front ? static_cast<std::uint32_t>(line.attr[x]) : attr_[x];
-    if (front && !class_.empty()) class_[x] = static_cast<std::uint32_t>(line.attr[x] >> 24);
+    if (front && !class_.empty()) class_[x] = static_cast<std::uint32_t>(line.attr[x] >> kPackedBits);
     zb_[x] = front ? z : zb_[x];
   }
 }
@@ -68,9 +71,7 @@ void PixelLine::op(const SpanToken& s) {
   const std::uint32_t lit = s.normal_class != 0 ? kLit : 0;
   const ClassSpan classes{class_.empty() ? nullptr : class_.data() + s.xl, static_cast<std::uint32_t>(s.normal_class)};
   if (config_.smooth == 0) {
-    std::uint32_t color = static_cast<std::uint32_t>(s.color[0]);
-    if (config_.channels > 1)
-      color |= static_cast<std::uint32_t>(s.color[1]) << 8 | static_cast<std::uint32_t>(s.color[2]) << 16;
+    const std::uint32_t color = packed_color(s.color, config_.channels);
     span_op_flat(ramp, s.xr - s.xl, zb_.data() + s.xl, attr_.data() + s.xl, color | lit, classes);
     return;
   }
@@ -155,7 +156,8 @@ void PixelLine::resolve_flags() {
     const std::uint32_t a = attr_[x];
     if (!shadowed || (a & kLit) == 0 || zb_[x] == clear) continue;
     std::uint32_t darkened = 0;
-    for (unsigned at = 0; at < 24; at += 8) darkened |= (((a >> at & 255U) * keep + half) >> config_.shade_frac) << at;
+    for (unsigned at = 0; at < kPackedBits; at += 8)
+      darkened |= (((a >> at & 255U) * keep + half) >> config_.shade_frac) << at;
     attr_[x] = darkened | kLit;
   }
 }
@@ -193,9 +195,7 @@ PixelState PixelLine::state(int x) const {
   s.z = static_cast<std::uint32_t>(zb_[i]);
   const bool clear = zb_[i] == clear_depth(config_);
   // What a clear pixel's colour and class were on lines before is never seen.
-  if (!clear || painted_)
-    for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
-      s.color[c] = static_cast<std::uint8_t>(attr_[i] >> 8 * c);
+  if (!clear || painted_) s.color = unpacked_color(attr_[i], config_.channels);
   if (!clear) s.normal_class = class_.empty() ? (attr_[i] & kLit) / kLit : class_[i];
   s.dsf = dsf_[i] & dsf_mask_;
   s.fsf = fsf_[i];

@@ -16,6 +16,7 @@
 #include "geometry/translucent.hpp"
 #include "geometry/volume_maker.hpp"
 #include "kage/error.hpp"
+#include "number/packed_color.hpp"
 #include "shadow/kept.hpp"
 #include "shadow/receivers.hpp"
 #include "shadow/volumes.hpp"
@@ -35,8 +36,7 @@ FrameGeometry empty_geometry(const Task& task, int width, int height, const Samp
   out.width = width;
   out.height = height;
   const auto& background = task.look.background;
-  for (unsigned c = 0; c < 3; ++c) out.background |= static_cast<std::uint32_t>(background[c]) << (8 * c);
-  if (task.config.channels == 1) out.background = background[1];
+  out.background = task.config.channels == 1 ? background[1] : packed_color(background);
   out.sample_light = lights.light_of;
   if (lights.casting() > 0)
     out.shade =

@@ -7,6 +7,7 @@
 #include "contract/derived.hpp"
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
+#include "number/packed_color.hpp"
 
 namespace kage::cosim {
 
@@ -97,9 +98,7 @@ void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView
 }
 
 std::uint64_t ExpectedEvents::packed(const std::array<std::uint8_t, 3>& color) const {
-  std::uint64_t all = 0;
-  for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c) all |= std::uint64_t{color[c]} << 8 * c;
-  return all;
+  return packed_color(color, config_.channels);
 }
 
 void ExpectedEvents::command(int kind, int xl, int xr, int step) {
@@ -186,18 +185,14 @@ void ExpectedEvents::face_event(const SegmentToken& f) {
   e.expect(at::face::index, static_cast<std::uint64_t>(f.index));
   e.expect(at::face::normal_class, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0);
   e.expect(at::face::dz, low(f.dz, depth_bits_));
-  std::uint64_t color = 0;
-  for (unsigned c = 0; c < static_cast<unsigned>(config_.channels); ++c)
-    color |= static_cast<std::uint64_t>(f.color[c]) << 8 * c;
-  e.expect(at::face::color, color);
+  e.expect(at::face::color, packed_color(f.color, config_.channels));
   put(e);
 }
 
 void ExpectedEvents::segment_event(const SegmentToken& s) {
   ExpectedEvent e = event(Stage::segment, of_control);
   e.unit = s.unit;
-  if (s.face != derived::blank_face(config_))
-    e.expect(at::segment::z, low(s.z, config_.classic != 0 ? config_.z_bits : depth_bits_));
+  if (s.face != derived::blank_face(config_)) e.expect(at::segment::z, low(s.z, derived::segment_depth_bits(config_)));
   e.expect(at::segment::dx, static_cast<std::uint64_t>(s.dx));
   e.expect(at::segment::face, static_cast<std::uint64_t>(s.face));
   put(e);
@@ -240,7 +235,7 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
       end_line(&line);
       break;
     default:
-      if (t.kind == Kind::EV || t.kind == Kind::ES) state(line.bias(), t.kind == Kind::EV || config_.fsf == 0);
+      if (info_of(t.kind).ends) state(line.bias(), t.kind == Kind::EV || config_.fsf == 0);
       if (info_of(t.kind).range) span_command(t, line);
   }
 }

@@ -3,6 +3,7 @@
 // The events of a line as a whole: it is painted, and it leaves.
 #include "contract/derived.hpp"
 #include "cosim/diverge/expected_events.hpp"
+#include "number/packed_color.hpp"
 
 namespace kage::cosim {
 
@@ -80,9 +81,10 @@ PixelState ExpectedEvents::painted(const PixelState& before) const {
   const std::uint64_t one = derived::whole_share(config_);
   // A TP that is refused may come among volumes, and what is painted is darkened.
   const bool dark = leaving(s, resolved_).dark;
+  const auto background = unpacked_color(background_);
   for (unsigned c = 0; c < 3; ++c) {
     if (clear(s))
-      s.color[c] = static_cast<std::uint8_t>(background_ >> 8 * c);
+      s.color[c] = background[c];
     else if (dark)
       s.color[c] = static_cast<std::uint8_t>((s.color[c] * (one - shade_) + one / 2) >> config_.shade_frac);
   }
@@ -123,8 +125,9 @@ void ExpectedEvents::paint(const LineView& line) {
   ExpectedEvent& e = newest(Stage::command, 0);
   if (config_.dsf_bits > 0) e.expect(at::command::count, bias_);
   if (config_.count_bits == 0 && config_.dsf_bits > 0) e.expect(at::command::share, shade_);
+  const auto background = unpacked_color(background_);
   for (int c = 0; c < config_.channels; ++c)
-    e.expect(at::command::color + c, (background_ >> 8 * c & 255U) << config_.color_frac);
+    e.expect(at::command::color + c, std::uint64_t{background[static_cast<std::size_t>(c)]} << config_.color_frac);
   painted_ = true;
   for (int x = 0; x < width_; ++x) touch(number(Kind::RESOLVE), x, painted(line.pixel(x)), of_pixel);
 }
@@ -148,16 +151,15 @@ void ExpectedEvents::end_line(const LineView* line) {
 }
 
 void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
-  const auto channels = static_cast<std::size_t>(config_.channels);
+  const std::ptrdiff_t channels = config_.channels;
   for (int x = 0; x < width_; ++x) {
     ExpectedEvent e = event(Stage::out, of_out);
     e.line = y;
     e.token = eol_token_[static_cast<std::size_t>(y)];
     e.x = x;
-    std::uint64_t color = 0;
-    for (std::size_t c = 0; c < channels; ++c)
-      color |= std::uint64_t{pixels[static_cast<std::size_t>(x) * channels + c]} << 8 * c;
-    e.expect(at::out::color, color);
+    std::array<std::uint8_t, 3> color{};
+    std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(x) * channels, channels, color.begin());
+    e.expect(at::out::color, packed(color));
     e.expect(at::out::tuser, x == 0 && y == 0 ? 1 : 0);
     e.expect(at::out::tlast, x + 1 == width_ ? 1 : 0);
     put(e);

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <span>
+
 #include "contract/derived.hpp"
 #include "kage/defs.hpp"
+#include "number/packed_color.hpp"
 
 namespace kage::cosim {
 namespace {
@@ -42,9 +45,10 @@ std::string value_text(const Config& config, Stage stage, int index, std::uint64
       const auto fixed = static_cast<std::int64_t>(value << spare) >> spare;
       return fmt::format("{}", static_cast<double>(fixed) / static_cast<double>(std::int64_t{1} << config.z_frac));
     }
-    case ValueText::color:
-      if (config.channels == 1) return fmt::format("{}", value & 255);
-      return fmt::format("{},{},{}", value & 255, value >> 8 & 255, value >> 16 & 255);
+    case ValueText::color: {
+      const auto color = unpacked_color(value);
+      return fmt::format("{}", fmt::join(std::span(color).first(static_cast<std::size_t>(config.channels)), ","));
+    }
     case ValueText::depth:
       if (value == derived::clear_depth(config)) return "clear";
       break;
