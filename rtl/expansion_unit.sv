@@ -23,7 +23,7 @@
 module expansion_unit #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam int ZStored = CLASSIC > 0 ? 15 : DepthBits  // the paper's depth is unsigned
+    localparam int SegmentBits = SegmentDepthBits + DX_BITS + FACE_BITS
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -51,11 +51,10 @@ module expansion_unit #(
 
   // A segment as the RAM has it.
   typedef struct packed {
-    logic [ZStored-1:0]   z;
-    logic [DX_BITS-1:0]   dx;
+    logic [SegmentDepthBits-1:0] z;
+    logic [DX_BITS-1:0] dx;
     logic [FACE_BITS-1:0] face;
   } segment_t;
-  localparam int SegmentBits = ZStored + DX_BITS + FACE_BITS;
 
   // ---- filling -----------------------------------------------------------------------------------------------------
   logic clear, seg_take, line_complete, line_read;
@@ -113,7 +112,7 @@ module expansion_unit #(
   segment_t segment_in, segment_q;
   logic [SegmentBits-1:0] segment_out;
   logic [EntryBits-1:0] entry;
-  logic [ZStored-1:0] z3_q;
+  logic [SegmentDepthBits-1:0] z3_q;
   logic [DX_BITS-1:0] dx3_q;
   logic blank3_q;
 
@@ -157,7 +156,7 @@ module expansion_unit #(
     end
   end
 
-  assign segment_in.z = piece.z[ZStored-1:0];
+  assign segment_in.z = piece.z[SegmentDepthBits-1:0];
   assign segment_in.dx = piece.dx;
   assign segment_in.face = piece.face;
   ram_1r1w #(
@@ -261,7 +260,7 @@ module expansion_unit #(
       // 3. A line has no bubble.
       assert (!mid_line_q || px_valid_o);
       // 4. The paper's depth is unsigned.
-      assert (!seg_take || DepthBits'(piece.z[ZStored-1:0]) == piece.z);
+      assert (!seg_take || DepthBits'(piece.z[SegmentDepthBits-1:0]) == piece.z);
     end
   end
 `endif

@@ -13,9 +13,9 @@ PolyhedronScanner::PolyhedronScanner(const FrameGeometry& geometry, const Config
       most_depth_(derived::most_depth(config)),
       z_frac_(config.z_frac),
       max_dx_(derived::most_dx(config)) {
-  const int bits = derived::depth_bits(config);
-  least_z_ = config.classic != 0 ? 0 : -(std::int64_t{1} << (bits - 1));
-  most_z_ = config.classic != 0 ? 32767 : (std::int64_t{1} << (bits - 1)) - 1;
+  const Field z = Layout(config).seg_z;
+  least_z_ = z.is_signed ? -(std::int64_t{1} << (z.bits - 1)) : 0;
+  most_z_ = least_z_ + (std::int64_t{1} << z.bits) - 1;
 }
 
 void PolyhedronScanner::begin(const Polyhedron& p, int y0, int y1) {

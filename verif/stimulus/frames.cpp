@@ -171,11 +171,15 @@ class RandomTree {
     return t;
   }
 
+  [[nodiscard]] std::int64_t most_classic_depth() const {
+    return (std::int64_t{1} << derived::segment_depth_bits(config_)) - 1;
+  }
+
   std::int64_t depth(bool port) {
     const std::int64_t one = std::int64_t{1} << config_.z_frac;
     const std::int64_t middle = (std::int64_t{1} << (config_.z_bits - 1)) * one;
     if (random_->chance(0.4)) return middle + random_->in(-2, 2) * one;
-    if (config_.classic != 0) return random_->integer(0, 32767);
+    if (config_.classic != 0) return random_->integer(0, most_classic_depth());
     if (port && random_->chance(0.3)) return random_field(*random_, depth_bits());
     return random_->integer(0, 2 * middle - 1);
   }
@@ -210,7 +214,7 @@ class RandomTree {
                                       static_cast<std::uint64_t>(faces[static_cast<std::size_t>(before.face)].dz);
         const int spare = 64 - depth_bits();
         t.z = static_cast<std::int64_t>(sum << spare) >> spare;
-        if (config_.classic != 0) t.z &= 32767;
+        if (config_.classic != 0) t.z &= most_classic_depth();
       } else {
         t.face = random_->in(0, static_cast<int>(faces.size()) - 1);
         t.z = depth(port);
