@@ -8,6 +8,8 @@
 #include "golden_names.hpp"
 #include "kage/golden.h"
 
+static_assert(KAGE_PIXEL_FIELDS - KAGE_PIXEL_COUNT == kage::kGreatest.lights);
+
 bool has_pixel_field(const kage::Config& c, int field) {
   if (field >= KAGE_PIXEL_COUNT) return c.count_bits > 0 && field - KAGE_PIXEL_COUNT < c.lights;
   if (field == KAGE_PIXEL_FSF) return c.fsf > 0;

@@ -92,9 +92,12 @@ TokenWriter::TokenWriter(const Config& config, std::vector<std::uint32_t>& out)
     : config_(config), layout_(config), out_(&out) {}
 
 void TokenWriter::header(const FrameHeader& h) {
-  for (const auto& [name, value] : {std::pair{"width", h.width}, {"height", h.height}})
-    if (value < 0 || value > 0xFFFF)
-      throw Error(fmt::format("header: {} is {}, which 16 bits do not hold", name, value));
+  const auto check = [](const char* name, int value, Field f) {
+    if (beyond(value, f) != 0)
+      throw Error(fmt::format("header: {} is {}, which {} bits do not hold", name, value, f.bits));
+  };
+  check("width", h.width, FrameHeader::kWidth);
+  check("height", h.height, FrameHeader::kHeight);
   FrameHeader whole = h;
   whole.param_hash = param_hash(config_);
   std::array<std::uint32_t, kHeaderWords> words{};
@@ -106,9 +109,9 @@ void TokenWriter::header(const FrameHeader& h) {
 /// end.
 template <Kind K, class T>
 void TokenWriter::pack(const T& t) {
-  std::array<std::uint32_t, 16> words;  // more than the longest token; only those written are read
+  std::array<std::uint32_t, kMostTokenWords> words;  // only those written are read
   BitPacker p(words.data());
-  p.put(code(K), Field{0, 4, false});
+  p.put(code(K), kKindField);
   visit_fields<K>(config_, layout_, t, [&p](const char*, int, const auto& value, Field f) { p.put(value, f); });
   const std::uint32_t* end = p.close();
   if (!p.whole()) [[unlikely]]
@@ -175,7 +178,7 @@ void TokenWriter::end() { pack<Kind::END>(0); }
 void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& t) {
   t.kind = kind_of(words[0]);
   BitUnpacker in(words);
-  static_cast<void>(in.take(Field{0, 4, false}));
+  static_cast<void>(in.take(kKindField));
   with_kind(t.kind, [&]<Kind K>() {
     visit_fields<K>(config, layout, t, [&in](const char*, int, auto& value, Field f) {
       value = static_cast<std::remove_reference_t<decltype(value)>>(in.take(f));

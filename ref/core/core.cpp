@@ -173,7 +173,7 @@ struct GoldenCore::Data {
 
   FrameStatus finish(const LineSink& sink) {
     const auto beat = static_cast<std::uint64_t>(config.beat_words);
-    constexpr std::array<std::uint32_t, 8> kFill{};
+    constexpr std::array<std::uint32_t, kGreatest.beat_words> kFill{};
     feed(std::span(kFill).first((beat - came % beat) % beat), sink);
     if (at == At::header || at == At::lines) {
       const std::uint32_t* first = at == At::lines ? cutter.peek() : nullptr;

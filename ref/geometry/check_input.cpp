@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "contract/derived.hpp"
 #include "kage/error.hpp"
 #include "kage/light.hpp"
 #include "scene/space.hpp"
@@ -50,6 +51,8 @@ void check_finite(const SceneFrame& frame) {
     throw Error(fmt::format("{} lights: there must be 1 .. {}", frame.lights.size(), kMaxLights));
   for (std::size_t i = 0; i < frame.lights.size(); ++i) check_light(frame.lights[i], i, box);
 }
+
+static_assert(kMaxSamples == derived::most_count(kGreatest) && kMaxClasses == derived::most_class(kGreatest));
 
 void check_look(const Look& look) {
   if (look.samples < 1 || look.samples > kMaxSamples)

@@ -3,6 +3,7 @@
 // Bit fields in 32-bit words, and integers of stated widths.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -105,5 +106,29 @@ class BitUnpacker {
   std::uint64_t acc_ = 0;
   unsigned have_ = 0;
 };
+
+/// A field by its place, without sign.
+constexpr std::uint64_t bits_at(std::span<const std::uint32_t> words, Field f) {
+  std::uint64_t value = 0;
+  for (unsigned done = 0; done < f.bits;) {
+    const unsigned at = (f.lsb + done) % 32;
+    const unsigned taken = std::min(32 - at, f.bits - done);
+    value |= (words[(f.lsb + done) / 32] >> at & ((std::uint64_t{1} << taken) - 1)) << done;
+    done += taken;
+  }
+  return value;
+}
+
+/// Puts a value's low bits in a field's place; what is beside it stays.
+constexpr void put_at(std::span<std::uint32_t> words, Field f, std::uint64_t value) {
+  for (unsigned done = 0; done < f.bits;) {
+    const unsigned at = (f.lsb + done) % 32;
+    const unsigned taken = std::min(32 - at, f.bits - done);
+    const std::uint64_t mask = ((std::uint64_t{1} << taken) - 1) << at;
+    std::uint32_t& word = words[(f.lsb + done) / 32];
+    word = static_cast<std::uint32_t>((word & ~mask) | (value >> done << at & mask));
+    done += taken;
+  }
+}
 
 }  // namespace kage

@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "contract/derived.hpp"
+#include "contract/fields.hpp"
 #include "contract/rules.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
+#include "number/packed_color.hpp"
 #include "stream/count.hpp"
 #include "stream/cutter.hpp"
 
@@ -71,7 +73,7 @@ struct FrameChecker::Data {
     if (header.width < 1 || header.height < 1 || header.width > config.max_width || header.height > kMaxHeight)
       fail(ErrorCode::SIZE);
     if (header.param_hash != param_hash(config)) fail(ErrorCode::PARAMS);
-    if (header.background >> 24 != 0) fail("background has bits past its channels");
+    if (header.background >> kPackedBits != 0) fail("background has bits past its channels");
     header_seen = true;
     rules.start(config, header.width, header.height);
     faces.assign(static_cast<std::size_t>(config.units), {});
@@ -79,11 +81,15 @@ struct FrameChecker::Data {
     token = 1;
   }
 
-  void check_segment(const SegmentToken& s, std::span<const std::uint32_t> body) const {
-    if (!rules.outcome().taken) fail(rules.outcome().fault);
-    BitUnpacker in(body);
-    for (const Field before : {Field{0, 4, false}, layout.seg_unit}) static_cast<void>(in.take(before));
-    if (in.take(layout.seg_pad) != 0) fail("the segment's pad is not zero");
+  void check_pads(Kind kind, std::span<const std::uint32_t> body) const {
+    with_kind(kind, [&]<Kind K>() {
+      visit_pads<K>(layout, [&](Field pad) {
+        if (bits_at(body, pad) != 0) fail(fmt::format("{}'s pad is not zero", kKindNames[static_cast<std::size_t>(K)]));
+      });
+    });
+  }
+
+  void check_segment(const SegmentToken& s) const {
     if (s.face == derived::blank_face(config)) return;
     const std::int64_t dz = faces[static_cast<std::size_t>(s.unit)][static_cast<std::size_t>(s.face)];
     if (!span_fits(s.z, dz, s.dx, layout.op_z.bits)) fail("the segment's depth overflows");
@@ -92,17 +98,19 @@ struct FrameChecker::Data {
   void check_token(std::span<const std::uint32_t> body) {
     const Token t = decode(config, layout, body);
     if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) fail(e);
+    const KindInfo& info = info_of(t.kind);
     if (!padding_is_zero(body, layout.bits[static_cast<std::size_t>(t.kind)]))
       fail("bits past the last field are not zero");
-    if (t.kind != Kind::TABLE && t.kind != Kind::FACE && rules.class_cut()) fail("the light table ends within a class");
+    if (!info.state && rules.class_cut()) fail("the light table ends within a class");
     if (t.kind == Kind::FACE) {
       auto& of_unit = faces[static_cast<std::size_t>(t.segment.unit)];
       if (of_unit.empty()) ++counts.units;
       of_unit.push_back(t.segment.dz);
     }
-    if (t.kind == Kind::SEG) check_segment(t.segment, body);
+    if (t.kind == Kind::SEG && !rules.outcome().taken) fail(rules.outcome().fault);
+    check_pads(t.kind, body);
+    if (t.kind == Kind::SEG) check_segment(t.segment);
     count_token(counts, t);
-    const KindInfo& info = info_of(t.kind);
     const SpanToken& s = t.span;
     const int count = s.xr - s.xl;
     if (info.depth && !span_fits(s.z, s.dz, count, layout.op_z.bits)) fail("the span's depth overflows");

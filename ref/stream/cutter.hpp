@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <span>
 
+#include "kage/defs.hpp"
+
 namespace kage {
 
 /// A run of words within one piece is handed out in place; one that lies across pieces is put together here, so memory
@@ -54,7 +56,7 @@ class WordCutter {
 
  private:
   std::span<const std::uint32_t> rest_;
-  std::array<std::uint32_t, 16> held_{};  // more than the longest token
+  std::array<std::uint32_t, std::max<std::size_t>(kMostTokenWords, kHeaderWords)> held_{};
   std::size_t held_count_ = 0;
 };
 

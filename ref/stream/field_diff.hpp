@@ -26,8 +26,7 @@ inline std::optional<FieldDiff> first_field_diff(const Config& config, const Lay
                                                  std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
   BitUnpacker of_a(a);
   BitUnpacker of_b(b);
-  const Field kind{0, 4, false};
-  std::optional<FieldDiff> found = FieldDiff{"kind", of_a.take(kind), of_b.take(kind)};
+  std::optional<FieldDiff> found = FieldDiff{"kind", of_a.take(kKindField), of_b.take(kKindField)};
   if (found->a != found->b) return found;
   const auto of = static_cast<Kind>(found->a);
   found.reset();

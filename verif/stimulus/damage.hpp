@@ -5,9 +5,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kage/stream.hpp"
+#include "number/bits.hpp"
 #include "stimulus/random.hpp"
 
 namespace kage::verif {
@@ -35,21 +37,8 @@ class TokenPlaces {
   [[nodiscard]] const std::vector<At>& of(Kind k) const { return places_[static_cast<std::size_t>(k)]; }
   [[nodiscard]] At length(Kind k) const { return layout_.words[static_cast<std::size_t>(k)]; }
 
-  void put(At at, Field f, std::uint64_t value) {
-    for (unsigned i = 0; i < f.bits; ++i) {
-      std::uint32_t& word = (*words_)[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
-      const unsigned bit = (f.lsb + i) % 32;
-      word = (word & ~(1U << bit)) | static_cast<std::uint32_t>(value >> i & 1U) << bit;
-    }
-  }
-  [[nodiscard]] std::uint64_t get(At at, Field f) const {
-    std::uint64_t value = 0;
-    for (unsigned i = 0; i < f.bits; ++i) {
-      const std::uint32_t word = (*words_)[static_cast<std::size_t>(at) + (f.lsb + i) / 32];
-      value |= std::uint64_t{word >> ((f.lsb + i) % 32) & 1U} << i;
-    }
-    return value;
-  }
+  void put(At at, Field f, std::uint64_t value) { put_at(std::span(*words_).subspan(place(at)), f, value); }
+  [[nodiscard]] std::uint64_t get(At at, Field f) const { return bits_at(std::span(*words_).subspan(place(at)), f); }
   /// A token's copy in front of another; places are those of before.
   void copy(At from, At n, At to) {
     const std::vector<std::uint32_t> token(words_->begin() + from, words_->begin() + from + n);
@@ -58,6 +47,8 @@ class TokenPlaces {
   void erase(At at, At n) { words_->erase(words_->begin() + at, words_->begin() + at + n); }
 
  private:
+  static std::size_t place(At at) { return static_cast<std::size_t>(at); }
+
   Layout layout_;
   std::vector<std::uint32_t>* words_;
   std::array<std::vector<At>, 16> places_;
