@@ -100,15 +100,15 @@ void errors_test(Fault::Kind kind, kage::ErrorCode code) {
     core.finish();
     REQUIRE(core.read(KAGE_REG_FRAMES) == 3);
     REQUIRE(core.read(KAGE_REG_ERRORS) == 1);
-    REQUIRE(core.read(KAGE_REG_ERROR) ==
-            (static_cast<std::uint32_t>(code) | static_cast<std::uint32_t>(fault.line) << 16));
+    REQUIRE(core.read(KAGE_REG_ERROR) == (KAGE_FIELD_IS(KAGE_ERROR_CODE, static_cast<std::uint32_t>(code)) |
+                                          KAGE_FIELD_IS(KAGE_ERROR_LINE, static_cast<std::uint32_t>(fault.line))));
     REQUIRE(core.read(KAGE_REG_ERROR_FRAME) == 5);
     REQUIRE(core.read(KAGE_REG_ERROR_TOKEN) == (kind == Fault::kShort ? bad.tree : bad.seg));
     REQUIRE(core.read(KAGE_REG_ERROR_UNIT) == static_cast<std::uint32_t>(fault.unit));
     REQUIRE((core.read(KAGE_REG_IRQ) & KAGE_IRQ_ERROR_MASK) != 0);
     REQUIRE(core.bites == 1);  // the interrupt, once
     REQUIRE(core.read(KAGE_REG_TREE) == 0);
-    REQUIRE((core.read(KAGE_REG_STATUS) & 3) == 0);
+    REQUIRE((core.read(KAGE_REG_STATUS) & (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK)) == 0);
   });
 }
 
@@ -144,10 +144,12 @@ void waiting_test() {
       core.clock();
     }
     for (int n = 0; n < 40; ++n) core.clock();
-    const std::uint32_t waits =
-        KAGE_TREE_BEHIND_MASK | static_cast<std::uint32_t>(line) << 16 | static_cast<std::uint32_t>(missing);
-    REQUIRE(core.read(KAGE_REG_TREE) == waits);
-    REQUIRE(core.read(KAGE_REG_STALL) == (waits | KAGE_STALL_ON_INPUT_MASK));
+    const auto at_line = static_cast<std::uint32_t>(line);
+    const auto of_unit = static_cast<std::uint32_t>(missing);
+    REQUIRE(core.read(KAGE_REG_TREE) ==
+            (KAGE_TREE_BEHIND_MASK | KAGE_FIELD_IS(KAGE_TREE_LINE, at_line) | KAGE_FIELD_IS(KAGE_TREE_UNIT, of_unit)));
+    REQUIRE(core.read(KAGE_REG_STALL) == (KAGE_STALL_BEHIND_MASK | KAGE_FIELD_IS(KAGE_STALL_LINE, at_line) |
+                                          KAGE_STALL_ON_INPUT_MASK | KAGE_FIELD_IS(KAGE_STALL_UNIT, of_unit)));
     REQUIRE((core.read(KAGE_REG_STATUS) & (KAGE_STATUS_WAITING_INPUT_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK)) ==
             KAGE_STATUS_WAITING_INPUT_MASK);
     core.write(KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);

@@ -11,6 +11,7 @@ using namespace kage::rtl;
 namespace {
 
 constexpr std::uint32_t kOkay = 0, kSlverr = 2;
+constexpr std::uint32_t kEvents = KAGE_IRQ_FRAME_END_MASK | KAGE_IRQ_ERROR_MASK | KAGE_IRQ_WATCHDOG_MASK;
 constexpr ErrorBus kError(kage::Config{});
 constexpr BehindBus kBehind(kage::Config{});
 
@@ -118,7 +119,9 @@ TEST_CASE("Constants and values after reset", "[registers]") {
     CHECK(a.read(KAGE_REG_ID) == 0x4B414745);
     CHECK(a.read(KAGE_REG_VERSION) == kage::kStreamVersion);
     CHECK(a.read(KAGE_REG_PARAM_HASH) == kage::param_hash(kage::Config{}));
-    CHECK(a.read(KAGE_REG_SHAPE) == (640U | 4U << 16 | 4U << 22 | 1U << 31));
+    CHECK(a.read(KAGE_REG_SHAPE) ==
+          (KAGE_FIELD_IS(KAGE_SHAPE_MAX_WIDTH, 640U) | KAGE_FIELD_IS(KAGE_SHAPE_LANES, 4U) |
+           KAGE_FIELD_IS(KAGE_SHAPE_BEAT_WORDS, 4U) | KAGE_FIELD_IS(KAGE_SHAPE_ARRANGEMENT, 1U)));
     for (const std::uint32_t r :
          {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR, KAGE_REG_ERROR_FRAME,
           KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES, KAGE_REG_STARVED, KAGE_REG_BLOCKED,
@@ -134,13 +137,13 @@ TEST_CASE("Writes: byte strobes, read-only registers, addresses without a regist
     a.write(KAGE_REG_WATCHDOG, 0xAABBCCDD, kOkay, 0b0101);
     CHECK(a.read(KAGE_REG_WATCHDOG) == 0x11BB33DD);
     a.write(KAGE_REG_CONTROL, 0xFFFFFFFF);
-    CHECK(a.read(KAGE_REG_CONTROL) == 7);
+    CHECK(a.read(KAGE_REG_CONTROL) == kEvents);
     a.write(KAGE_REG_ID, 5);
     CHECK(a.read(KAGE_REG_ID) == 0x4B414745);
-    a.write(KAGE_REG_TREE, 1);
-    a.write(0x4C, 1, kSlverr);
+    a.write(KAGE_REG_TREE, 0xFFFFFFFF);
+    a.write(KAGE_REG_LAST + 4, 1, kSlverr);
     a.write(0xFC, 1, kSlverr);
-    a.read(0x4C, kSlverr);
+    a.read(KAGE_REG_LAST + 4, kSlverr);
   });
 }
 
@@ -158,20 +161,20 @@ TEST_CASE("Errors, frames and the interrupt", "[registers]") {
     a.top->frame_end_i = 1;
     a.clock();
     a.quiet();
-    CHECK(a.read(KAGE_REG_ERROR) == (0x70010000U | 6U));
+    CHECK(a.read(KAGE_REG_ERROR) == (KAGE_FIELD_IS(KAGE_ERROR_LINE, 0x7001U) | KAGE_FIELD_IS(KAGE_ERROR_CODE, 6U)));
     CHECK(a.read(KAGE_REG_ERROR_FRAME) == 77);
     CHECK(a.read(KAGE_REG_ERROR_TOKEN) == 123456);
     CHECK(a.read(KAGE_REG_ERROR_UNIT) == 61);
     CHECK(a.read(KAGE_REG_ERRORS) == 1);
     CHECK(a.read(KAGE_REG_FRAMES) == 1);
-    CHECK(a.read(KAGE_REG_IRQ) == 3);
+    CHECK(a.read(KAGE_REG_IRQ) == (KAGE_IRQ_FRAME_END_MASK | KAGE_IRQ_ERROR_MASK));
     CHECK(!a.top->irq_o);
-    a.write(KAGE_REG_CONTROL, 2);
+    a.write(KAGE_REG_CONTROL, KAGE_IRQ_ERROR_MASK);
     CHECK(a.top->irq_o);
-    a.write(KAGE_REG_IRQ, 1);
-    CHECK(a.read(KAGE_REG_IRQ) == 2);
+    a.write(KAGE_REG_IRQ, KAGE_IRQ_FRAME_END_MASK);
+    CHECK(a.read(KAGE_REG_IRQ) == KAGE_IRQ_ERROR_MASK);
     CHECK(a.top->irq_o);
-    a.write(KAGE_REG_IRQ, 2);
+    a.write(KAGE_REG_IRQ, KAGE_IRQ_ERROR_MASK);
     CHECK(a.read(KAGE_REG_IRQ) == 0);
     CHECK(!a.top->irq_o);
   });
@@ -194,11 +197,12 @@ TEST_CASE("Counters and status", "[registers]") {
     CHECK(a.read(KAGE_REG_CYCLES) >= before + 10);
     a.top->open_i = a.top->waiting_output_i = 1;
     a.clock();  // what the core says is seen a clock later
-    CHECK(a.read(KAGE_REG_STATUS) == 0b1001);
+    CHECK(a.read(KAGE_REG_STATUS) == (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK));
     a.top->open_i = a.top->draining_i = a.top->waiting_input_i = 1;
     a.top->waiting_output_i = 0;
     a.clock();
-    CHECK(a.read(KAGE_REG_STATUS) == 0b0111);
+    CHECK(a.read(KAGE_REG_STATUS) ==
+          (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK | KAGE_STATUS_WAITING_INPUT_MASK));
     a.quiet();
     a.top->behind_valid_i = 1;
     a.behind(37, 12345);
@@ -207,7 +211,8 @@ TEST_CASE("Counters and status", "[registers]") {
     CHECK(a.read(KAGE_REG_TREE) == 0);  // the stream is not waited for
     a.top->waiting_input_i = 1;
     a.clock();
-    CHECK(a.read(KAGE_REG_TREE) == (1U << 31 | 12345U << 16 | 37U));
+    CHECK(a.read(KAGE_REG_TREE) ==
+          (KAGE_TREE_BEHIND_MASK | KAGE_FIELD_IS(KAGE_TREE_LINE, 12345U) | KAGE_FIELD_IS(KAGE_TREE_UNIT, 37U)));
   });
 }
 
@@ -215,7 +220,7 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
   each_seed(5, [](Dice& dice) {
     Axil a(dice);
     a.write(KAGE_REG_WATCHDOG, 20);
-    a.write(KAGE_REG_CONTROL, 4);
+    a.write(KAGE_REG_CONTROL, KAGE_IRQ_WATCHDOG_MASK);
     for (int i = 0; i < 100; ++i) a.clock();  // no frame is open
     CHECK(!a.top->irq_o);
     CHECK(a.read(KAGE_REG_STALL) == 0);
@@ -240,9 +245,10 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.behind(6, 77);
     a.top->behind_valid_i = a.top->waiting_input_i = 0;
     a.clock();
-    CHECK(a.read(KAGE_REG_STALL) == (1U << 31 | 77U << 16 | 1U << 8 | 5U));
+    CHECK(a.read(KAGE_REG_STALL) == (KAGE_STALL_BEHIND_MASK | KAGE_FIELD_IS(KAGE_STALL_LINE, 77U) |
+                                     KAGE_STALL_ON_INPUT_MASK | KAGE_FIELD_IS(KAGE_STALL_UNIT, 5U)));
     CHECK(a.read(KAGE_REG_TREE) == 0);
-    a.write(KAGE_REG_IRQ, 4);
+    a.write(KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);
     for (int i = 0; i < 100; ++i) a.clock();
     CHECK(!a.top->irq_o);  // one bite for one standstill
     a.top->progress_i = 1;
@@ -251,9 +257,9 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     a.top->waiting_output_i = 1;
     for (int i = 0; i < 21; ++i) a.clock();
     CHECK(a.top->irq_o);
-    CHECK(a.read(KAGE_REG_STALL) == (77U << 16 | 1U << 9));
+    CHECK(a.read(KAGE_REG_STALL) == (KAGE_FIELD_IS(KAGE_STALL_LINE, 77U) | KAGE_STALL_ON_OUTPUT_MASK));
     a.write(KAGE_REG_WATCHDOG, 0);
-    a.write(KAGE_REG_IRQ, 4);
+    a.write(KAGE_REG_IRQ, KAGE_IRQ_WATCHDOG_MASK);
     for (int i = 0; i < 100; ++i) a.clock();
     CHECK(!a.top->irq_o);  // off
   });
