@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "contract/kinds.hpp"
 #include "kage/error.hpp"
 #include "mapped.hpp"
 #include "options.hpp"
@@ -81,9 +82,11 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   if (again_) return counts;
   ++made_;
   units_ = std::max(units_, counts.units);
-  const auto none = [&](Kind kind) { return counts.of_kind[static_cast<std::size_t>(kind)] == 0; };
+  bool drawn = false;
+  for (std::size_t kind = 0; kind < kKindInfo.size(); ++kind)
+    drawn = drawn || (kKindInfo[kind].draws && counts.of_kind[kind] > 0);
   // What a core may refuse for its header or its order says nothing of faces.
-  if (!is_unchecked(index) && none(Kind::OP) && none(Kind::TREE) && none(Kind::TP)) ++blank_;
+  if (!is_unchecked(index) && !drawn) ++blank_;
   return counts;
 }
 

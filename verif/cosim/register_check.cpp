@@ -147,9 +147,7 @@ class Checker {
                KAGE_FIELD_IS(KAGE_ERROR_CODE, static_cast<std::uint32_t>(status.error)));
     expect("ERROR_FRAME", KAGE_REG_ERROR_FRAME, status.frame);
     expect("ERROR_TOKEN", KAGE_REG_ERROR_TOKEN, status.token);
-    const bool has_unit = status.error == ErrorCode::SEGMENT || status.error == ErrorCode::UNIT_LONG ||
-                          status.error == ErrorCode::UNIT_SHORT;
-    if (has_unit) expect("ERROR_UNIT", KAGE_REG_ERROR_UNIT, status.unit);
+    if (is_of_unit(status.error)) expect("ERROR_UNIT", KAGE_REG_ERROR_UNIT, status.unit);
   }
 
   // ---- standstills ----------------------------------------------------------------------------------------

@@ -90,8 +90,7 @@ Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
   last_face_ = add(c.units > 0, "tree", "a face of the last number but the blank one");
   for (std::size_t e = 1; e < error_.size(); ++e) {
     const auto code = static_cast<ErrorCode>(e);
-    const bool of_tree = code == ErrorCode::SEGMENT || code == ErrorCode::UNIT_LONG || code == ErrorCode::UNIT_SHORT;
-    error_[e] = add(!of_tree || c.units > 0, "error", std::string(kErrorNames[e]));
+    error_[e] = add(!is_of_unit(code) || c.units > 0, "error", std::string(kErrorNames[e]));
   }
   seen_.resize(points_.size());
   golden_.observe(this);
@@ -184,7 +183,6 @@ void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const s
     default:
       frame_state();
   }
-  if (t.kind != Kind::EOL && t.kind != Kind::END) has_spans_ = true;
   hit_span(span_[static_cast<std::size_t>(t.kind)], t.span, line.width());
   switch (t.kind) {
     case Kind::SEG:
@@ -201,11 +199,11 @@ void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const s
       break;
     case Kind::EOL:
       hit(bare_line_, !has_spans_);
-      has_spans_ = false;
       break;
     default:
       if (info_of(t.kind).volume) volume(t, line);
   }
+  has_spans_ = t.kind != Kind::EOL;
 }
 
 void Coverage::after(std::uint32_t /*index*/, const Token& t, const LineView& line) {
@@ -237,9 +235,9 @@ void Coverage::opaque(const SpanToken& s, const LineView& line) {
 }
 
 void Coverage::volume(const Token& t, const LineView& line) {
-  if (t.kind == Kind::SP) ramps(t.span, false);
-  if (t.kind == Kind::SP || t.kind == Kind::NC || t.kind == Kind::IF)
-    hit(t.span.w == 1 ? weight_plus_ : t.span.w == -1 ? weight_minus_ : weight_other_);
+  const KindInfo& info = info_of(t.kind);
+  if (info.depth) ramps(t.span, false);
+  if (info.weight) hit(t.span.w == 1 ? weight_plus_ : t.span.w == -1 ? weight_minus_ : weight_other_);
   if (t.kind != Kind::EV) return;
   hit(bias_at_ev_, line.bias() != 0);
   const std::uint32_t all = derived::most_dsf(config_);

@@ -276,7 +276,7 @@ class Shrinker {
     SegmentCutter cutter(config_, layout_, p.header, step, left);
     std::vector<Words> tokens;
     for (Words& t : p.tokens) {
-      const bool of_unit = is(t, Kind::FACE) || is(t, Kind::SEG);
+      const bool of_unit = info_of(kind_of(t[0])).unit;
       if (std::optional<Words> cut = of_unit ? cutter.cut(t) : std::move(t)) tokens.push_back(std::move(*cut));
     }
     p.tokens = std::move(tokens);

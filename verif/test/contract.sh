@@ -36,6 +36,10 @@ code='ref verif/cosim verif/stimulus verif/mutants cli' # all but tests and the 
   refuse_whole 'what is of the frame state: info_of(kind).state' 'Kind::(SHADE|TABLE|FACE)\b[^;{}]*\|\|[^;{}]*Kind::(TABLE|FACE)\b' $'while (is(Kind::SHADE) ||\n  is(Kind::TABLE) || is(Kind::FACE))' $code
   refuse_whole 'which kinds are spans, have depth, colour or a range: info_of(kind)' 'Kind::OP\s*\|\|[^;{}]*Kind::(SP|NC|TP)\b' $'if (t.kind == Kind::OP ||\n  t.kind == Kind::SP || t.kind == Kind::TP) {' $code
   refuse_whole 'kinds that something holds for: info_of(kind)' '(case (kage::)?Kind::\w+:\s*(//[^\n]*\s*)?){3}' $'    case Kind::OP:\n    case Kind::SP:  // with depth\n    case Kind::TP:\n' $code
+  refuse_whole 'kinds that something holds for, joined: info_of(kind)' 'Kind::[A-Z]+\b[^;{}]*(\|\||&&)[^;{}]*Kind::[A-Z]+\b' $'if (t.kind != Kind::EOL && // none\n    t.kind != Kind::END) has_spans_ = true;' $code
+  refuse_whole 'errors that are a unit'"'"'s: is_of_unit()' 'ErrorCode::(SEGMENT|UNIT_LONG|UNIT_SHORT)\b[^;{}]*(\|\||&&)[^;{}]*ErrorCode::(SEGMENT|UNIT_LONG|UNIT_SHORT)\b' $'return e == ErrorCode::SEGMENT ||\n  e == ErrorCode::UNIT_LONG;' $code
+  refuse 'the place of a kind: kKindField' '\{ *0, *4, *false *\}' 'p.put(code(K), Field{0, 4, false});' $code
+  refuse 'a colour in one number: packed_color(), unpacked_color()' '(color|background)[a-z_]*\)* *(>>|<<) *\(?(8|16|24)\b' 'return {static_cast<std::uint8_t>(color), static_cast<std::uint8_t>(color >> 8)};' $code
   refuse 'where a token may stand: ref/contract/order.hpp' '(volume|sample)_(open|done)|has_tree_|enum class \w*Phase \{ *state' 'return phase_ == Phase::volume && volume_open_;' $code
   refuse "a token's text is to_string()'s, by ref/contract/token_text.hpp" '\[\{\}, \{\}\)' 'return s + fmt::format(" [{}, {}) w {:+}", p.xl, p.xr, p.w);' $code
 }
@@ -56,4 +60,7 @@ refuse 'phases and marks of a line: kage_order.svh' 'Phase(Opaque|Volume|Resolve
 refuse 'which kinds have a range: kind_has_range() of kage_order.svh' 'Kind(Op|Sp|Nc|Ev|Es|Tp) \|\|.*Kind(Sp|Nc|Ev|Es|Tp)\b' 'kind == KindSp || kind == KindNc || kind == KindEv' rtl
 refuse 'the page takes tokens apart by stream.js' '& 15|\blsb\b|data\.layout' 'const kind = data.layout[words[at] & 15];' verif/cosim/report/page
 refuse "a token's text in the page is Stream's" '\[\$\{[a-z]*\.?xl\}|^ *return `(OP|SP|NC|IF|EV|ES|TP) ' 'return `NC ${range} w ${signed(t.w)}`;' verif/cosim/report/page
+in_register='KAGE_REG_(SHAPE|CONTROL|IRQ|STATUS|ERROR|TREE|STALL)\b'
+refuse_whole 'fields of registers: KAGE_FIELD(), KAGE_FIELD_IS(), KAGE_..._MASK' "${in_register}[^;{}]*(<<|>>|[^&]&) *\(?[0-9]" $'CHECK(a.read(KAGE_REG_TREE) ==\n  (1U << 31 | 12345U << 16 | 37U));' verif cli
+refuse_whole 'bits of registers: KAGE_..._MASK' "${in_register}(\)*\s*==|,)\s*\(?(0b[01]|[1-9])" 'CHECK(a.read(KAGE_REG_STATUS) == 0b1001);' verif cli
 exit $failures

@@ -5,18 +5,17 @@
 
 #include <string_view>
 
+#include "contract/kinds.hpp"
+#include "kage/registers.h"
+
 namespace kage::cosim {
 namespace {
 
 std::string pixels(const Config& config) { return config.arrangement == 1 ? "pixel_banked" : "pixel_systolic"; }
 
-bool is_of_segments(ErrorCode e) {
-  return e == ErrorCode::SEGMENT || e == ErrorCode::UNIT_LONG || e == ErrorCode::UNIT_SHORT;
-}
-
 // An error that is not the expected one, or not where it should be. Which rule has failed says who keeps it.
 std::string blame_error(const Clue& clue) {
-  const auto code = [](std::uint64_t value) { return static_cast<ErrorCode>(value & 15U); };
+  const auto code = [](std::uint64_t value) { return static_cast<ErrorCode>(KAGE_FIELD(value, KAGE_ERROR_CODE)); };
   const ErrorCode expected = clue.expected ? code(clue.expected->value[at::error::code]) : ErrorCode::NONE;
   const ErrorCode actual = clue.actual ? code(clue.actual->value[at::error::code]) : ErrorCode::NONE;
   const auto any = [&](auto is) { return is(expected) || is(actual); };
@@ -24,21 +23,22 @@ std::string blame_error(const Clue& clue) {
   if (clue.again || (clue.actual && clue.value == at::error::code && clue.actual->value[at::error::line] != clue.lines))
     return "frame_control";
   if (clue.value > at::error::code)
-    return is_of_segments(expected) && clue.value >= at::error::token ? "segment_check" : "frame_control";
+    return is_of_unit(expected) && clue.value >= at::error::token ? "segment_check" : "frame_control";
   if (either(ErrorCode::HEADER) || either(ErrorCode::SIZE) || either(ErrorCode::PARAMS)) return "frame_control";
   if (either(ErrorCode::LAST_LATE) &&
       (expected == ErrorCode::NONE || expected == ErrorCode::LAST_LATE))  // the flag that it comes of is token_reader's
     return clue.at_last == (expected == ErrorCode::LAST_LATE) ? "token_reader" : "token_check";
-  if (any(is_of_segments)) return "segment_check";
+  if (any(is_of_unit)) return "segment_check";
   if (!clue.kind) return "token_check";
   const bool table = *clue.kind == Kind::TABLE;
-  const bool segment = *clue.kind == Kind::SEG || *clue.kind == Kind::FACE || *clue.kind == Kind::TREE;
+  const KindInfo& info = info_of(*clue.kind);
   if (either(ErrorCode::LINE) && *clue.kind == Kind::TREE)
     return "segment_check";  // no other rule asks TREE for a line
-  if (either(ErrorCode::ORDER) && (clue.lines_done || *clue.kind == Kind::SHADE || *clue.kind == Kind::END))
-    return "token_check";
-  if (either(ErrorCode::ORDER)) return table ? "table_check" : segment ? "segment_check" : "line_phase";
-  if (either(ErrorCode::RANGE)) return table ? "table_check" : segment ? "segment_check" : "token_check";
+  if (either(ErrorCode::ORDER) && clue.lines_done) return "token_check";
+  const bool of_line = !info.state && *clue.kind != Kind::END;  // line_phase judges these, and no others
+  if (either(ErrorCode::ORDER))
+    return table ? "table_check" : info.tree ? "segment_check" : of_line ? "line_phase" : "token_check";
+  if (either(ErrorCode::RANGE)) return table ? "table_check" : info.tree ? "segment_check" : "token_check";
   return "token_check";
 }
 
