@@ -211,9 +211,10 @@ int kage_golden_pixel(kage_golden* core, int x, int field) {
 }
 
 const char* kage_golden_pixel_name(int field) {
-  static constexpr std::array<const char*, KAGE_PIXEL_FIELDS> kNames{
-      "z",        "color[0]", "color[1]", "color[2]", "class",    "dsf",      "fsf",     "count[0]",
-      "count[1]", "count[2]", "count[3]", "count[4]", "count[5]", "count[6]", "count[7]"};
+  static constexpr std::array kNames{"z",        "color[0]", "color[1]", "color[2]", "class",
+                                     "dsf",      "fsf",      "count[0]", "count[1]", "count[2]",
+                                     "count[3]", "count[4]", "count[5]", "count[6]", "count[7]"};
+  static_assert(kNames.size() == KAGE_PIXEL_FIELDS);
   return field >= 0 && field < KAGE_PIXEL_FIELDS ? kNames[static_cast<std::size_t>(field)] : "";
 }
 

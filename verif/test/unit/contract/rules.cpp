@@ -74,6 +74,38 @@ TEST_CASE("the table comes in order, and no class is used before it is whole") {
   CHECK_THAT(said([&](W& t) { entries(t, 6), t.table({3, 0, {}}); }), ContainsSubstring("(RANGE)"));
 }
 
+TEST_CASE("a pad is zero in every bit") {
+  Config c;
+  c.units = 2;
+  c.z_bits = 15;
+  c.z_frac = 0;
+  c.classic = 1;
+  std::vector<std::uint32_t> words;
+  W t(c, words);
+  t.header({8, 1, 0, 0});
+  std::size_t seg = 0;
+  for (int unit = 0; unit < c.units; ++unit) {
+    SegmentToken s;
+    s.unit = unit;
+    s.face = (1 << c.face_bits) - 1;
+    s.dx = 8;
+    s.sync = true;
+    seg = words.size();
+    t.seg(s);
+  }
+  t.tree();
+  t.eol(0);
+  t.end();
+  REQUIRE(cause(c, words).empty());
+  const Field pad = Layout(c).seg_pad;
+  REQUIRE(pad.bits > 0);
+  for (unsigned bit = pad.lsb; bit < pad.lsb + pad.bits; ++bit) {
+    std::vector<std::uint32_t> bad = words;
+    bad[seg + bit / 32] |= 1U << bit % 32;
+    CHECK_THAT(cause(c, bad), ContainsSubstring("token 2") && ContainsSubstring("SEG's pad is not zero"));
+  }
+}
+
 TEST_CASE("a sample is ended once, and RESOLVE waits for that") {
   Config c;
   c.count_bits = 2;

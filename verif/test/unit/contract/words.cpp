@@ -152,14 +152,69 @@ TEST_CASE("a value that its field does not hold is refused, never cut, and nothi
       });
     refused(l.eol_y, [&](int v) { w.eol(v); });
     refused(l.shade_shade, [&](int v) { w.shade(static_cast<std::uint32_t>(v)); });
-    refused(Field{0, 16, false}, [&](int v) { w.header({v, 1, 0, 0}); });
-    refused(Field{0, 16, false}, [&](int v) { w.header({1, v, 0, 0}); });
+    refused(FrameHeader::kWidth, [&](int v) { w.header({v, 1, 0, 0}); });
+    refused(FrameHeader::kHeight, [&](int v) { w.header({1, v, 0, 0}); });
   }
   std::vector<std::uint32_t> words;
   TokenWriter w(Config{}, words);
   SpanToken s;
   s.z = std::int64_t{1} << 36;
   CHECK_THROWS_WITH(w.op(s), "OP: z is 68719476736, which signed 37 bits do not hold");
+}
+
+TEST_CASE("a field has its place: what is put there is what the walk over all fields finds, and nothing else changes") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  const auto noise = [&random] { return static_cast<std::uint32_t>(random.integer(0, UINT32_MAX)); };
+  for (int round = 0; round < 1000; ++round) {
+    std::array<Field, 8> fields{};
+    unsigned lsb = 0;
+    for (Field& f : fields) {
+      f = Field{static_cast<std::uint16_t>(lsb), static_cast<std::uint8_t>(random.in(0, 63)), false};
+      lsb += f.bits;
+    }
+    std::vector<std::uint32_t> words(lsb / 32 + 1);
+    for (std::uint32_t& word : words) word = noise();
+    const auto at = static_cast<std::size_t>(random.in(0, 7));
+    const auto value = std::uint64_t{noise()} << 32 | noise();
+    std::vector<std::uint32_t> changed = words;
+    put_at(changed, fields[at], value);
+    CHECK(changed.back() >> lsb % 32 == words.back() >> lsb % 32);
+    BitUnpacker before(words);
+    BitUnpacker after(changed);
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      const auto was = static_cast<std::uint64_t>(before.take(fields[i]));
+      const auto is = static_cast<std::uint64_t>(after.take(fields[i]));
+      CHECK(is == (i == at ? value & ((std::uint64_t{1} << fields[i].bits) - 1) : was));
+      CHECK(is == bits_at(changed, fields[i]));
+    }
+  }
+}
+
+TEST_CASE("no token of any configuration is longer than the longest") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  const auto longest = [](const Config& c) {
+    const Layout l(c);
+    return std::size_t{*std::max_element(l.words.begin(), l.words.end())};
+  };
+  CHECK(longest(kGreatest) == kMostTokenWords);
+  for (int round = 0; round < 3000; ++round) CHECK(longest(random_config(random)) <= kMostTokenWords);
+}
+
+TEST_CASE("a header's fields are where it says") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  std::array<std::uint32_t, kHeaderWords> words{};
+  for (std::uint32_t& word : words) word = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
+  const FrameHeader h = FrameHeader::read(words);
+  CHECK(static_cast<std::uint64_t>(h.width) == bits_at(words, FrameHeader::kWidth));
+  CHECK(static_cast<std::uint64_t>(h.height) == bits_at(words, FrameHeader::kHeight));
+  CHECK(h.background == bits_at(words, FrameHeader::kBackground));
+  CHECK(h.frame == bits_at(words, FrameHeader::kFrame));
+  CHECK(h.magic == bits_at(words, FrameHeader::kMagic));
+  CHECK(h.version == bits_at(words, FrameHeader::kVersion));
+  CHECK(h.param_hash == bits_at(words, FrameHeader::kParamHash));
 }
 
 TEST_CASE("counters need DSF, a table counters, several lights both") {
