@@ -27,19 +27,15 @@
 `default_nettype none
 
 module line_out_proof #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int LANES = 2,
     parameter int MAX_WIDTH = 3,
-    parameter int DSF_BITS = 0,
-    parameter int COUNT_BITS = 0,
-    parameter int TRANSLUCENCY = 0,
     parameter int FOLLOWED = 1,  // bits of a colour that are looked at
     parameter int RESETS = 0,  // 1: a reset may come whenever it pleases
     parameter int STALLS = 1,  // 0: the ways out are ready at all times
     parameter int LINES = 2,
-    parameter int MOST_WAIT = 9,  // clocks of `prompt`
-    localparam int Frac = 2,
-    localparam int XBits = 3,
-    localparam int ExitBits = 9 + DSF_BITS
+    parameter int MOST_WAIT = 9  // clocks of `prompt`
 ) (
     input wire logic                      clk_i,
     input wire logic                      rst_ni,
@@ -50,21 +46,23 @@ module line_out_proof #(
     input wire logic                      load_ready_i,
     input wire logic                      m_ready_i
 );
+  `include "generated/kage_buses.svh"
+
   // ---- the script --------------------------------------------------------------------------------------------------
   (* anyconst *) logic [LINES-1:0] first, blank, load, painted;
   (* anyconst *) logic [LINES*2-1:0] width;  // less 1
   (* anyconst *) logic [LINES*8-1:0] background;
-  (* anyconst *) logic [LINES*(Frac+1)-1:0] shade;
+  (* anyconst *) logic [LINES*FactorBits-1:0] shade;
   always_comb begin
     assume (first[0]);
     for (int l = 0; l < LINES; l++) begin
       assume (32'(width[2*l+:2]) < MAX_WIDTH);
-      assume (shade[(Frac+1)*l+:Frac+1] <= (Frac + 1)'(1 << Frac));
+      assume (shade[FactorBits*l+:FactorBits] <= FactorBits'(1 << SHADE_FRAC));
       if (l > 0) begin
         if (!first[l]) begin
           assume (width[2*l+:2] == width[2*l-2+:2]);
           assume (background[8*l+:8] == background[8*l-8+:8]);
-          assume (shade[(Frac+1)*l+:Frac+1] == shade[(Frac+1)*(l-1)+:Frac+1]);
+          assume (shade[FactorBits*l+:FactorBits] == shade[FactorBits*(l-1)+:FactorBits]);
         end
       end
     end
@@ -74,9 +72,14 @@ module line_out_proof #(
   logic [2:0]
       taken_q, begun_q, in_q, told_q, left_q;  // lines: buffer taken, begun, wholly in, announced, left by either way
   logic [1:0] group_q;  // of the line that comes in
-  logic exit_free, exit_valid, exit_last, line_ready, load_valid, load_last, m_valid, m_user, m_last, moving;
-  logic [XBits-1:0] load_x;
-  logic [7:0] load_color, m_data;
+  logic exit_free, exit_valid, exit_last, line_ready, load_valid, m_valid, m_user, m_last, moving;
+  load_t back;
+  logic [X_BITS-1:0] back_x;
+  logic [7:0] back_color, m_data;
+  logic back_last;
+  assign back_x = back.x;
+  assign back_color = back.color;
+  assign back_last = back.last;
   logic started_q = 1'b0;
   logic filling_q;
   logic [1:0] in_width, told_width;
@@ -145,27 +148,20 @@ module line_out_proof #(
     end
   end
 
-  // What is announced, as line_t of kage_buses.svh has it.
-  logic [Frac+XBits+12:0] line;
-  assign line = {
-    first[told_q[1:0]],
-    blank[told_q[1:0]],
-    load[told_q[1:0]],
-    painted[told_q[1:0]],
-    XBits'(told_width) + 1'b1,
-    background[8*told_q[1:0]+:8],
-    shade[(Frac+1)*told_q[1:0]+:Frac+1]
-  };
+  line_t announced;
+  always_comb begin
+    announced.first = first[told_q[1:0]];
+    announced.blank = blank[told_q[1:0]];
+    announced.load = load[told_q[1:0]];
+    announced.painted = painted[told_q[1:0]];
+    announced.width = X_BITS'(told_width) + 1'b1;
+    announced.background = background[8*told_q[1:0]+:8];
+    announced.shade = shade[FactorBits*told_q[1:0]+:FactorBits];
+  end
   line_out #(
-      .X_BITS(XBits),
-      .CHANNELS(1),
-      .DSF_BITS(DSF_BITS),
-      .FSF(DSF_BITS),
-      .SHADE_FRAC(Frac),
-      .COUNT_BITS(COUNT_BITS),
-      .TRANSLUCENCY(TRANSLUCENCY),
       .LANES(LANES),
-      .MAX_WIDTH(MAX_WIDTH)
+      .MAX_WIDTH(MAX_WIDTH),
+      `include "generated/kage_pixel_param_map.svh"
   ) dut (
       .clk_i,
       .rst_ni,
@@ -176,12 +172,12 @@ module line_out_proof #(
       .exit_data_i,
       .line_valid_i,
       .line_ready_o   (line_ready),
-      .line_i         (line),
+      .line_i         (announced),
       .table_valid_i  (1'b0),
       .table_i        ('0),
       .load_valid_o   (load_valid),
       .load_ready_i,
-      .load_o         ({load_x, load_color, load_last}),
+      .load_o         (back),
       .m_axis_tvalid_o(m_valid),
       .m_axis_tready_i(m_ready_i),
       .m_axis_tdata_o (m_data),
@@ -200,17 +196,20 @@ module line_out_proof #(
   );
 
   // ---- the colour that must leave ----------------------------------------------------------------------------------
-  localparam logic [Frac:0] One = 1 << Frac;
+  localparam int ProductBits = 8 + FactorBits;
+  localparam int DarkAt = COUNT_BITS > 0 ? ExitCountsAt : ExitDarkAt;
+  localparam logic [FactorBits-1:0] One = 1 << SHADE_FRAC;
   function automatic logic [7:0] color(input logic [1:0] line, input logic [1:0] x);
     logic [ExitBits-1:0] pixel;
-    logic [Frac:0] keep;
-    logic [Frac+8:0] product;
+    logic [FactorBits-1:0] keep;
+    logic [ProductBits-1:0] product;
     pixel = pixels_q >> (ExitBits * {line, x});
     keep  = One;
-    if (DSF_BITS > 0 && pixel[ExitBits-1]) keep = One - shade[(Frac+1)*line+:Frac+1];  // a count of 1 is what a flag is
-    product = (Frac + 9)'(pixel[7:0]) * (Frac + 9)'(keep) + (Frac + 9)'(1 << (Frac - 1));
-    color   = product >> Frac;
-    if (blank[line] || !(pixel[8] || (TRANSLUCENCY > 0 && painted[line]))) color = background[8*line+:8];
+    if (DSF_BITS > 0 && pixel[DarkAt])
+      keep = One - shade[FactorBits*line+:FactorBits];  // a count of 1 is what a flag is
+    product = ProductBits'(pixel[ExitColorAt+:8]) * ProductBits'(keep) + ProductBits'(1 << (SHADE_FRAC - 1));
+    color   = product >> SHADE_FRAC;
+    if (blank[line] || !(pixel[ExitCoveredAt] || (TRANSLUCENCY > 0 && painted[line]))) color = background[8*line+:8];
   endfunction
   logic [7:0] video_color, loads_color;
   assign video_color = color(video_line[1:0], video_x_q);
@@ -239,19 +238,19 @@ module line_out_proof #(
   end
   if (COUNT_BITS > 0 && TRANSLUCENCY > 0) begin : gen_loads
     stream_rules #(
-        .BITS(FOLLOWED + 4)
+        .BITS(FOLLOWED + X_BITS + 1)
     ) load_out (
         .clk_i,
         .rst_ni,
         .valid_i(load_valid),
         .ready_i(load_ready_i),
-        .data_i ({load_color[FOLLOWED-1:0], load_x, load_last})
+        .data_i ({back_color[FOLLOWED-1:0], back_x, back_last})
     );
     always_comb begin
       if (started_q && rst_ni && load_valid) begin
         load_early : assert (load_line < told_q && load_line < begun_q);
-        loads : assert (load_x == XBits'(load_x_q) && load_last == (load_x_q == load_width));
-        load_pixels : assert (load_color[FOLLOWED-1:0] == loads_color[FOLLOWED-1:0]);
+        loads : assert (back_x == X_BITS'(load_x_q) && back_last == (load_x_q == load_width));
+        load_pixels : assert (back_color[FOLLOWED-1:0] == loads_color[FOLLOWED-1:0]);
       end
     end
   end else begin : gen_no_loads
@@ -269,7 +268,7 @@ module line_out_proof #(
       if (STALLS == 0) two_frames : cover (left_q == 3'd1 && first[1] && video_end);
       if (DSF_BITS > 0 && FOLLOWED == 8 && COUNT_BITS == 0) begin
         dark_pixel : cover (m_valid && m_data == 8'd4 && pixels_q[9:0] == 10'h305 && !blank[0]);
-        half_rounds : cover (m_valid && m_data == 8'd2 && pixels_q[9:0] == 10'h303 && shade[Frac:0] == 3'd2);
+        half_rounds : cover (m_valid && m_data == 8'd2 && pixels_q[9:0] == 10'h303 && shade[FactorBits-1:0] == 3'd2);
       end
       if (COUNT_BITS > 0) begin
         line_loaded : cover (load_end && load_width == 2'd1);

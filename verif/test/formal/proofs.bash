@@ -134,12 +134,13 @@ defect reader_look_unseen token_reader_2 token_reader.sv 's/assign moving_o = ta
 # ---- line_out --------------------------------------------------------------------------------------------------------
 out_proof() { # NAME STEPS DEFECT_STEPS SET...
   proof "$1" module=line_out rtl="line_out skid_buffer ram_1r1w light_resolve" rules=stream_rules own_assertions=yes \
-    set="${*:4}" steps="$2" cover="$2" defect_steps="$3"
+    set="X_BITS=3 CHANNELS=1 SHADE_FRAC=2 ${*:4}" steps="$2" cover="$2" defect_steps="$3"
 }
-out_proof line_out 13 12 MAX_WIDTH=2 LANES=1
-out_proof line_out_groups 14 13 MAX_WIDTH=3 LANES=2
-out_proof line_out_frames 19 18 MAX_WIDTH=1 LANES=1 STALLS=0
-out_proof line_out_resets 12 12 MAX_WIDTH=1 LANES=1 RESETS=1
+no_shadow=(DSF_BITS=0 FSF=0)
+out_proof line_out 13 12 "${no_shadow[@]}" MAX_WIDTH=2 LANES=1
+out_proof line_out_groups 14 13 "${no_shadow[@]}" MAX_WIDTH=3 LANES=2
+out_proof line_out_frames 19 18 "${no_shadow[@]}" MAX_WIDTH=1 LANES=1 STALLS=0
+out_proof line_out_resets 12 12 "${no_shadow[@]}" MAX_WIDTH=1 LANES=1 RESETS=1
 out_proof line_out_colors 13 12 MAX_WIDTH=1 LANES=1 LINES=1 DSF_BITS=1 FOLLOWED=8
 out_proof line_out_loads 14 14 MAX_WIDTH=2 LANES=1 DSF_BITS=1 COUNT_BITS=1 TRANSLUCENCY=1 MOST_WAIT=11
 defect out_pixel_lost line_out line_out.sv 's/if (!rst_ni) valid_q <= .*/if (!rst_ni || (start \&\& sending_q)) valid_q <= 0;/'

@@ -5,8 +5,8 @@
 //   To a bound (MODEL 1), against a model of docs/stream.md, and further (MODEL 2) with a plain master, which writes
 //   whole words, reads nothing, and resets at the start only:
 //     interrupt       irq_o is high while a bit of IRQ is set whose bit in CONTROL is, and only then.
-//     bites           once as many clocks as WATCHDOG says have passed in a frame without progress, bit 2 of IRQ is set
-//                     until it is cleared.
+//     bites           once as many clocks as WATCHDOG says have passed in a frame without progress, IRQ's WATCHDOG is
+//                     set until it is cleared.
 //     never_before    it is set at no other moment: not sooner, not twice for one standstill, and not with a limit of
 //                     0.
 //     value_read      a read gives what the register held in the clock of its address: what was written, counted, or
@@ -21,6 +21,8 @@
 `default_nettype none
 
 module registers_proof #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int MODEL = 1
 ) (
     input wire logic        clk_i,
@@ -51,6 +53,19 @@ module registers_proof #(
     input wire logic [14:0] behind_line_i
 );
   `include "generated/kage_registers.svh"
+  `include "generated/kage_buses.svh"
+
+  error_t  error_in;
+  behind_t behind_in;
+  always_comb begin
+    error_in.code  = error_code_i;
+    error_in.frame = error_frame_i;
+    error_in.line  = error_line_i;
+    error_in.token = error_token_i;
+    error_in.unit  = error_unit_i;
+    behind_in.unit = behind_unit_i;
+    behind_in.line = behind_line_i;
+  end
 
   logic awready, wready, bvalid, arready, rvalid, irq;
   logic [1:0] bresp, rresp;
@@ -82,11 +97,10 @@ module registers_proof #(
       .waiting_output_i,
       .progress_i,
       .frame_end_i,
-      // as error_t and behind_t of kage_buses.svh have it
       .error_valid_i   (error_i),
-      .error_i         ({error_code_i, error_frame_i, error_line_i, error_token_i, error_unit_i}),
+      .error_i         (error_in),
       .behind_valid_i  (behind_i),
-      .behind_i        ({behind_unit_i, behind_line_i})
+      .behind_i        (behind_in)
   );
   if (MODEL < 2) begin : gen_axi
     lite_rules axi (
@@ -120,6 +134,16 @@ module registers_proof #(
     end
   end
 
+  // The model's registers with fields. Here, because yosys 0.23 finds no field of a struct in a generate block.
+  reg_control_t control_q;
+  reg_irq_t irq_q, happens, cleared;
+  reg_status_t status;
+  reg_error_t  newest_q;
+  reg_tree_t   tree;
+  reg_stall_t stall_q, read_stall;
+  logic only_watchdog, only_error;  // may interrupt
+  assign only_watchdog = control_q.watchdog && !control_q.error && !control_q.frame_end;
+  assign only_error = control_q.error && !control_q.watchdog && !control_q.frame_end;
   if (MODEL > 0) begin : gen_model
     localparam logic [7:0] Past = RegLast + 8'd4;  // the first address without a register
 
@@ -172,38 +196,52 @@ module registers_proof #(
     assign bite = open && !progress && !anew_q && limit_q != '0 && 32'(still_q) + 32'd1 == limit_q;
 
     // ---- all others ------------------------------------------------------------------------------------------------
-    logic [31:0] control_q, errors_q, frames_q, cycles_q, starved_q, blocked_q, error_frame_q, error_token_q, stall_q;
-    logic [31:0] cleared, tree;
-    logic [19:0] error_q;
-    logic [ 5:0] unit_q;
-    logic [ 2:0] irq_q;
-    assign cleared = write && at_q[7:2] == RegIrq[7:2] ? new_q & mask_q : '0;
-    assign tree = waiting_input && behind ? {1'b1, behind_line, 10'd0, behind_unit} : '0;
+    logic [31:0] errors_q, frames_q, cycles_q, starved_q, blocked_q, error_frame_q, error_token_q;
+    logic [5:0] unit_q;
+    assign cleared = write && at_q[7:2] == RegIrq[7:2] ? RegIrqBits'(new_q & mask_q) : '0;
+    always_comb begin
+      happens.frame_end = frame_end;
+      happens.error = error;
+      happens.watchdog = bite;
+      status.open = open;
+      status.draining = draining;
+      status.waiting_input = waiting_input;
+      status.waiting_output = waiting_output;
+      tree = '0;
+      if (waiting_input && behind) begin
+        tree.behind = 1'b1;
+        tree.line   = behind_line;
+        tree.unit   = behind_unit;
+      end
+    end
     always_ff @(posedge clk_i) begin
-      control_q <= after(control_q, RegControl) & 32'd7;
+      control_q <= RegControlBits'(after(32'(control_q), RegControl));
       limit_q   <= after(limit_q, RegWatchdog);
       still_q   <= open && !progress && !anew && !anew_q ? still_q + 5'd1 : '0;
       anew_q    <= rst_ni && anew;
-      irq_q     <= (irq_q & ~cleared[2:0]) | {bite, error, frame_end};
+      irq_q     <= (irq_q & ~cleared) | happens;
       cycles_q  <= cycles_q + 32'd1;
       if (frame_end) frames_q <= frames_q + 32'd1;
       if (error) errors_q <= errors_q + 32'd1;
       if (waiting_input) starved_q <= starved_q + 32'd1;
       if (waiting_output) blocked_q <= blocked_q + 32'd1;
       if (error) begin
-        error_q <= {error_line, error_code};
+        newest_q.line <= error_line;
+        newest_q.code <= error_code;
         error_frame_q <= error_frame;
         error_token_q <= error_token;
         unit_q <= error_unit;
       end
       if (bite) begin
-        stall_q <= tree;
-        stall_q[30:16] <= behind_line;
-        stall_q[9:8] <= {waiting_output, waiting_input};
+        stall_q.behind <= tree.behind;
+        stall_q.line <= behind_line;
+        stall_q.on_output <= waiting_output;
+        stall_q.on_input <= waiting_input;
+        stall_q.unit <= tree.unit;
       end
       if (!rst_ni) begin
         {control_q, limit_q, still_q, irq_q, cycles_q, frames_q, errors_q, starved_q, blocked_q} <= '0;
-        {error_q, error_frame_q, error_token_q, unit_q, stall_q} <= '0;
+        {newest_q, error_frame_q, error_token_q, unit_q, stall_q} <= '0;
       end
     end
 
@@ -220,11 +258,11 @@ module registers_proof #(
         RegId: value = 32'h4b414745;
         RegVersion: value = 32'd1;
         RegParamHash, RegShape: known = 1'b0;
-        RegControl: value = control_q;
+        RegControl: value = 32'(control_q);
         RegIrq: value = 32'(irq_q);
         RegWatchdog: value = limit_q;
-        RegStatus: value = {28'd0, waiting_output, waiting_input, draining, open};
-        RegError: value = {error_q[19:4], 12'd0, error_q[3:0]};
+        RegStatus: value = 32'(status);
+        RegError: value = newest_q;
         RegErrorFrame: value = error_frame_q;
         RegErrorToken: value = error_token_q;
         RegErrors: value = errors_q;
@@ -248,18 +286,20 @@ module registers_proof #(
       if (write) answer_bad_q <= at_q >= Past;
     end
 
+    assign read_stall = value_q;
+
     // A bite, whatever has been cleared since, and clocks of the standstill that went on behind it.
     logic bitten_q, cleared_q, again_q;
     always_ff @(posedge clk_i) begin
       bitten_q  <= rst_ni && (bitten_q || bite);
-      cleared_q <= rst_ni && (cleared_q || (irq_q[2] && cleared[2]));
+      cleared_q <= rst_ni && (cleared_q || (irq_q.watchdog && cleared.watchdog));
       again_q   <= rst_ni && (again_q || (bite && cleared_q));
     end
     always_comb begin
       if (rst_ni && started_q) begin
-        interrupt : assert (irq == ((irq_q & control_q[2:0]) != '0));
-        if (control_q[2] && irq_q[2]) bites : assert (irq);
-        if (control_q == 32'd4 && !irq_q[2]) never_before : assert (!irq);
+        interrupt : assert (irq == ((irq_q & control_q) != '0));
+        if (control_q.watchdog && irq_q.watchdog) bites : assert (irq);
+        if (only_watchdog && !irq_q.watchdog) never_before : assert (!irq);
         if (rvalid && known_q) value_read : assert (rdata == value_q);
         if (rvalid) read_answer : assert (rresp == (asked_q >= Past ? 2'b10 : 2'b00));
         if (bvalid) write_answer : assert (bresp == (answer_bad_q ? 2'b10 : 2'b00));
@@ -269,12 +309,13 @@ module registers_proof #(
     // ---- what the rules are about happens within the bound ---------------------------------------------------------
     always_comb begin
       if (rst_ni && started_q) begin
-        bite_at_once : cover (irq && control_q == 32'd4 && limit_q == 32'd1);
-        bite_in_three : cover (irq && control_q == 32'd4 && limit_q == 32'd3);
-        other_irq : cover (irq && control_q == 32'd2);
-        no_second_bite : cover (cleared_q && still_q == 5'd3 && limit_q == 32'd1 && !irq_q[2]);
-        second_bite : cover (again_q && irq_q[2]);
-        if (MODEL == 1) bite_read : cover (rvalid && asked_q == RegStall && value_q[9:8] == 2'b11 && bitten_q);
+        bite_at_once : cover (irq && only_watchdog && limit_q == 32'd1);
+        bite_in_three : cover (irq && only_watchdog && limit_q == 32'd3);
+        other_irq : cover (irq && only_error);
+        no_second_bite : cover (cleared_q && still_q == 5'd3 && limit_q == 32'd1 && !irq_q.watchdog);
+        second_bite : cover (again_q && irq_q.watchdog);
+        if (MODEL == 1)
+          bite_read : cover (rvalid && asked_q == RegStall && read_stall.on_output && read_stall.on_input && bitten_q);
         if (MODEL == 1)
           partly_written : cover (limit_q[15:0] == 16'h0100 && limit_q[31:16] == '0 && mask_q == 32'h0000ff00);
         if (MODEL == 1) past_read : cover (rvalid && rresp == 2'b10);

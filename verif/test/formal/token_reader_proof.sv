@@ -2,7 +2,7 @@
 // What is proved of token_reader at its ports, to a bound of clocks, for any words, any stalls of both sides, drops
 // wherever they are allowed, and, to a lesser bound, a reset at any time (verif/test/formal/run.sh):
 //   whole        a token is offered only when all its words have come, or TLAST has cut it;
-//   flags        header, lacking, cut and final are right: by the kind of its first word, by where the frame's TLAST
+//   flags_right  header, lacking, cut and ends are right: by the kind of its first word, by where the frame's TLAST
 //                lies;
 //   words        the words of a token are the next ones of the frame: none lost, doubled or out of order. After a final
 //                token, or one that is dropped, the next is the header of the next frame;
@@ -29,6 +29,7 @@
 
 module token_reader_proof #(
     `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
     parameter int BEAT_WORDS = 2,
     parameter int BIT = 31,  // of each word, that is followed
     parameter int RESETS = 0,  // 1: a reset comes whenever it pleases, 0: at the start
@@ -45,8 +46,10 @@ module token_reader_proof #(
     input wire logic                     drop_i
 );
   `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
 
-  logic s_ready, token_valid, header, lacking, cut, final_one, at_last, dropping, busy, moving;
+  logic s_ready, token_valid, dropping, busy, moving;
+  flags_t flags;
   logic [TokenWordsMost*32-1:0] token;
   token_reader #(
       .BEAT_WORDS (BEAT_WORDS),
@@ -63,20 +66,20 @@ module token_reader_proof #(
       .token_ready_i,
       .token_o        (token),
       .token_facts_o  (),
-      .token_flags_o  ({header, lacking, cut, final_one, at_last}),  // as flags_t of kage_buses.svh has it
+      .token_flags_o  (flags),
       .drop_i,
       .dropping_o     (dropping),
       .busy_o         (busy),
       .moving_o       (moving)
   );
   stream_rules #(
-      .BITS(TokenWordsMost + 9)
+      .BITS(TokenWordsMost + 4 + FlagsBits)
   ) out (
       .clk_i,
       .rst_ni,
       .valid_i(token_valid),
       .ready_i(token_ready_i),
-      .data_i ({token_bits, token[3:0], header, lacking, cut, final_one, at_last})
+      .data_i ({token_bits, token[3:0], flags})
   );
 
   // ---- surroundings: reset; drops as the contract allows them ------------------------------------------------------
@@ -88,7 +91,7 @@ module token_reader_proof #(
   always_comb begin
     if (!started_q) assume (!rst_ni);
     if (started_q && RESETS == 0) assume (rst_ni);
-    if (drop_i) assume (pop && !final_one);
+    if (drop_i) assume (pop && !flags.ends);
   end
 
   // ---- all words since reset, and how far the tokens have gone -----------------------------------------------------
@@ -114,7 +117,7 @@ module token_reader_proof #(
   assign is_cut = has_end_q && !is_whole && !skip_q;
   assign is_end = !header_q && is_whole && kind == KindEnd;
   assign was_complete = !skip_q && (available_before >= need || has_end_before2_q);
-  assign frame_done = pop && (final_one || drop_i);
+  assign frame_done = pop && (flags.ends || drop_i);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -197,13 +200,13 @@ module token_reader_proof #(
     if (started_q && rst_ni) begin
       if (token_valid) begin
         whole : assert (is_whole || is_cut);
-        flags :
-        assert (header == header_q && cut == is_cut && final_one == (is_cut || is_end) &&
-                        lacking == (!header_q && is_whole && kind_words == '0));
+        flags_right :
+        assert (flags.header == header_q && flags.cut == is_cut && flags.ends == (is_cut || is_end) &&
+                        flags.lacking == (!header_q && is_whole && kind_words == '0));
         words : assert ((token_bits & words_there) == (expected_bits & words_there));
         if (available != '0) kind_first : assert (token[3:0] == kind);
         if (available != '0) begin
-          first_in_last : assert (at_last == (has_end_q && end_q - out_q <= AtBits'(BEAT_WORDS)));
+          first_in_last : assert (flags.at_last == (has_end_q && end_q - out_q <= AtBits'(BEAT_WORDS)));
         end
       end
       if (was_complete) prompt : assert (token_valid);
@@ -231,7 +234,7 @@ module token_reader_proof #(
   end else begin : gen_no_resets
     always_comb begin
       if (started_q && rst_ni) begin
-        token_lacking : cover (pop && lacking);
+        token_lacking : cover (pop && flags.lacking);
         cut_within : cover (pop && is_cut && !header_q && (available != '0 || BEAT_WORDS == 1));
         behind_drop : cover (dropped_q && push && s_last_i);
         behind_cut : cover (cut_q && pop && header_q);
@@ -240,7 +243,7 @@ module token_reader_proof #(
     if (BEAT_WORDS > 1) begin : gen_wide
       always_comb begin
         if (started_q && rst_ni) begin
-          across_beats : cover (pop && !header_q && is_whole && need > AtBits'(1) && !at_last && has_end_q);
+          across_beats : cover (pop && !header_q && is_whole && need > AtBits'(1) && !flags.at_last && has_end_q);
           cut_at_once : cover (pop && is_cut && !header_q && available == '0);
           input_held : cover (s_valid_i && !s_ready && !has_end_q && held_q == '0);
           two_tokens : cover (pop && !header_q && is_whole && out_q > AtBits'(HeaderWords));
