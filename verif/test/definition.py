@@ -28,6 +28,7 @@ PLANTED = [
         "{name: pad, member: null, bits: 1}, {name: dz, bits",
         "words: entry: is not FACE from index on",
     ),
+    ("name: SHAPE", "bits: 6, parameter", "bits: 5, parameter", "registers: SHAPE: LANES: no parameter"),
     ("golden_fields:", "  - {name: alpha,", "  - {name: beta,", "golden_fields: lacks alpha of TP"),
 ]
 
