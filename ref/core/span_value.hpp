@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "contract/derived.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "geometry/order_mesh.hpp"
 #include "order/baseline.hpp"
 #include "order/measure.hpp"
-#include "scene/order_mesh.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ using namespace kage;
 /// How a build grows: the first faces of a mesh, which lie together.
 void grow(const std::filesystem::path& path) {
   const Scene scene = Scene::load(path.string());
-  const OrderMesh whole = scene::order_mesh(scene.frame(0, 1));
+  const OrderMesh whole = order_mesh(scene.frame(0, 1));
   fmt::print("\n{:<22} {:>7} {:>8} {:>6} {:>7} {:>15}\n", "first faces of", "nodes", "per face", "depth", "build s",
              "us a face");
   for (std::size_t n = 5000;; n *= 2) {
@@ -53,7 +53,7 @@ int run(const std::filesystem::path& cgal) {
         std::filesystem::path("/usr/share/glmark2/models/bunny.obj"),
         std::filesystem::path("/usr/share/glmark2/models/horse.3ds")}) {
     const Scene scene = Scene::load(path.string());
-    const OrderMesh mesh = scene::order_mesh(scene.frame(0, 1));
+    const OrderMesh mesh = order_mesh(scene.frame(0, 1));
     const auto start = std::chrono::steady_clock::now();
     const OrderTree tree = OrderTree::build(mesh);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

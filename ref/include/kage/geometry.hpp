@@ -18,6 +18,7 @@
 #include "kage/config.hpp"
 #include "kage/order.hpp"
 #include "kage/scene.hpp"
+#include "kage/shadow.hpp"
 
 namespace kage {
 
@@ -186,12 +187,6 @@ enum class TranslucentWay : std::uint8_t {
   submission,  ///< whole, as the file has them
 };
 
-/// How many volumes casters have.
-enum class VolumeWay : std::uint8_t {
-  fewest,    ///< as few as DSF_BITS allows
-  per_face,  ///< one for each face of what is not convex, which changes no picture but in near ties; for tests
-};
-
 /// What the picture's maker decides.
 struct Look {
   std::array<std::uint8_t, 3> background{38, 44, 56};  ///< as displayed: red, green, blue
@@ -229,22 +224,6 @@ class TranslucentOrder {
 
  private:
   friend struct TranslucentOrderInside;  // how the library itself comes to what is kept
-  struct Data;
-  std::unique_ptr<Data> data_;
-};
-
-/// Keeps what a scene's shadow volumes are made of from frame to frame, so that it is not found again for a light and
-/// casters that have not moved. It changes no frame. Not for several threads at once.
-class ShadowCache {
- public:
-  /// Nothing is kept yet.
-  ShadowCache();
-  ~ShadowCache();
-  ShadowCache(ShadowCache&&) noexcept;
-  ShadowCache& operator=(ShadowCache&&) noexcept;
-
- private:
-  friend struct ShadowCacheInside;  // how the library itself comes to what is kept
   struct Data;
   std::unique_ptr<Data> data_;
 };
