@@ -23,11 +23,11 @@ BELOW = {
     "core": ["stream", "simd"],
     "bind": ["core"],
     "order": ["file", "arena", "simd"],
-    "scene": ["file", "module"],
+    "scene": ["file", "module", "number"],
     "shadow": ["scene", "order", "number"],
     "geometry": ["shadow", "contract"],
     "frontend": ["geometry", "arena"],
-    "image": ["file", "module"],
+    "image": ["file", "module", "number"],
     "pipeline": ["frontend", "stream", "core", "image"],
 }
 MODEL = [*BELOW, "kage"]

@@ -5,6 +5,7 @@
 
 #include "contract/derived.hpp"
 #include "kage/defs.hpp"
+#include "number/bits.hpp"
 
 namespace kage::cosim {
 namespace {
@@ -37,11 +38,9 @@ std::string value_text(const Config& config, Stage stage, int index, std::uint64
       return fmt::format("{:04b}", value);
     case ValueText::words:
       return fmt::format("{:#018x}", value);
-    case ValueText::ramp: {
-      const int spare = 64 - derived::depth_bits(config);
-      const auto fixed = static_cast<std::int64_t>(value << spare) >> spare;
-      return fmt::format("{}", static_cast<double>(fixed) / static_cast<double>(std::int64_t{1} << config.z_frac));
-    }
+    case ValueText::ramp:
+      return fmt::format("{}", static_cast<double>(sign_extend(value, derived::depth_bits(config))) /
+                                   static_cast<double>(std::int64_t{1} << config.z_frac));
     case ValueText::color:
       if (config.channels == 1) return fmt::format("{}", value & 255);
       return fmt::format("{},{},{}", value & 255, value >> 8 & 255, value >> 16 & 255);
