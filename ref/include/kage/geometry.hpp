@@ -37,8 +37,8 @@ struct ScreenVertex {
   bool operator==(const ScreenVertex&) const = default;
 };
 
-/// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. In the
-/// terms of the design: A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| <=
+/// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. The
+/// anchor (x0, y0) keeps c within 64 bits, which the value at pixel (0, 0), c - a x0 - b y0, may leave. |a|, |b| <=
 /// 2^60.
 struct ScreenPlane {
   std::int64_t a = 0;   ///< slope in x, per pixel, in 2^-24

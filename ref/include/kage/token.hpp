@@ -14,16 +14,20 @@
 
 namespace kage {
 
-/// A span with depth: OP, SP and TP. Colour is used by OP and TP only.
+/// A span with depth: OP, SP and TP. Colour is used by OP and TP only. Ranges are those of the fields; check_frame()
+/// refuses depths and colours that leave theirs before the span's last pixel.
 struct SpanToken {
-  int xl = 0;                            ///< its first pixel
-  int xr = 0;                            ///< half open, xl <= xr <= width
-  std::int64_t z = 0;                    ///< at xl, Z_FRAC fraction bits, half an LSB included
-  std::int64_t dz = 0;                   ///< per pixel
-  int w = 0;                             ///< SP: signed multiplicity
-  int normal_class = 0;                  ///< OP: 0 is unlit; without a table 1 is lit, with one the table's class
-  std::array<std::int32_t, 3> color{};   ///< at xl, COLOR_FRAC fraction bits with SMOOTH, else 0 .. 255
-  std::array<std::int32_t, 3> dcolor{};  ///< SMOOTH: per pixel
+  int xl = 0;  ///< its first pixel
+  int xr = 0;  ///< half open, xl <= xr <= width
+  /// At xl, in 2^-Z_FRAC, half an LSB included: -2^(Z_BITS + Z_FRAC + 1) .. 2^(Z_BITS + Z_FRAC + 1) - 1.
+  std::int64_t z = 0;
+  std::int64_t dz = 0;   ///< per pixel, in the unit and the range of `z`
+  int w = 0;             ///< SP: signed multiplicity, -2^DSF_BITS .. 2^DSF_BITS - 1
+  int normal_class = 0;  ///< OP: 0 is unlit; without a table 1 is lit, with one the table's class
+  /// By channel, at xl: with SMOOTH in 2^-COLOR_FRAC, half an LSB included, -2^(COLOR_FRAC + 9) .. 2^(COLOR_FRAC + 9) -
+  /// 1; else 0 .. 255.
+  std::array<std::int32_t, 3> color{};
+  std::array<std::int32_t, 3> dcolor{};  ///< SMOOTH: per pixel, in the unit and the range of `color`
   int alpha = 0;                         ///< TP: 0 (not to be seen) .. 255 (opaque)
 };
 
@@ -62,8 +66,8 @@ class TokenWriter {
   /// @param out must outlive the writer, or its use
   void write_to(std::vector<std::uint32_t>& out) { out_ = &out; }
 
-  /// The frame's first words.
-  /// @param header its fields; fills in nothing
+  /// The frame's first words. Throws Error if width or height is not 0 .. 65535.
+  /// @param header its fields, but for param_hash: that of the writer's configuration is written
   void header(const FrameHeader& header);
   /// SHADE.
   /// @param shade share of its colour that a pixel in shadow loses, 0 .. 2^SHADE_FRAC
@@ -91,7 +95,7 @@ class TokenWriter {
   void nc(int xl, int xr, int w);
   /// IF.
   /// @param w signed multiplicity
-  void inside(int w);  ///< IF
+  void inside(int w);
   /// EV.
   /// @param xl its first pixel
   /// @param xr one past its last
