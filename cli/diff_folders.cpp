@@ -13,6 +13,7 @@
 #include "image/blink.hpp"
 #include "image/save.hpp"
 #include "junit.hpp"
+#include "kage/bless.hpp"
 #include "kage/error.hpp"
 #include "mapped.hpp"
 #include "progress.hpp"

@@ -15,6 +15,7 @@
 
 #include "command.hpp"
 #include "cosim/report/html.hpp"
+#include "geometry/order_mesh.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "order/baseline.hpp"
@@ -22,7 +23,6 @@
 #include "order_build.hpp"
 #include "progress.hpp"
 #include "results.hpp"
-#include "scene/order_mesh.hpp"
 #include "signals.hpp"
 #include "source.hpp"
 #include "text.hpp"
@@ -41,7 +41,7 @@ OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) 
   if (is_order_file(o.input)) return OrderTree::load(o.input);
   progress.show("reading");
   const Scene scene = Scene::load(o.input, {1, o.allow_outside, check_interrupt});
-  const OrderMesh mesh = scene::order_mesh(scene.frame(0, scene.frame_count()));
+  const OrderMesh mesh = order_mesh(scene.frame(0, scene.frame_count()));
   OrderBuildOptions options = order_build(o, progress, o.input + ": visibility order");
   options.seed = o.seed;
   const auto start = std::chrono::steady_clock::now();

@@ -3,9 +3,10 @@
 // Phrases and quoting for lines that a person reads.
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <string>
+
+#include "number/counted.hpp"
 
 namespace kage::cli {
 
@@ -14,12 +15,6 @@ std::string quoted(const std::string& text);
 
 /// The command line that shows a waveform by its save file.
 std::string gtkwave_line(const std::string& save_file);
-
-/// "1 frame", "2 frames".
-template <std::integral Count>
-std::string counted(Count count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 /// ", 3 segments" for a line that tells spans; nothing where there are none, as in a core without units.
 inline std::string and_segments(std::uint64_t segments) {

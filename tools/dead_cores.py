@@ -198,7 +198,8 @@ def all_tests(tree, core, chosen, jobs):
         print(
             f"{core:<14} {verdict:<14} {'core' if uses_core else '-':<5} {seconds:6.1f} s  {test['name']}", flush=True
         )
-        return {"core": core, "test": test["name"], "verdict": verdict, "uses_core": uses_core, "seconds": seconds}
+        row = {"schema": "kage.dead-cores/1", "core": core, "test": test["name"]}  # docs/schema/dead-cores.json
+        return row | {"verdict": verdict, "uses_core": uses_core, "seconds": seconds}
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(one, chosen))

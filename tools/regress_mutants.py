@@ -18,6 +18,8 @@ import time
 
 import yaml
 
+SCHEMA = "kage.regress-mutants/1"  # of a row: docs/schema
+
 
 def run(kage, number, options, out):
     """What kage regress says of a mutant."""
@@ -134,7 +136,7 @@ def try_each(kage, number, mutant, options):
             run["named"] = divergence.get("module", "")
             run["right"] = run["named"] == expected_module(mutant, report["config"])
         runs.append(run)
-    return {"name": mutant["name"], "runs": runs}
+    return {"schema": "kage.regress-mutants-each/1", "name": mutant["name"], "runs": runs}
 
 
 def seconds_to_find(row, order):
@@ -171,19 +173,8 @@ def tell_each(rows):
     )
 
 
-def main():
-    parser = argparse.ArgumentParser(prog="tools/regress-mutants")
-    parser.add_argument("kage")
-    parser.add_argument("source", type=pathlib.Path)
-    parser.add_argument("--minutes", type=float, default=5)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--plot")
-    parser.add_argument("--json")
-    parser.add_argument("--resume", action="store_true")
-    parser.add_argument("--each", action="store_true")
-    parser.add_argument("--sample", type=int)
-    parser.add_argument("names", nargs="*")
-    options = parser.parse_intermixed_args()
+def chosen_mutants(options):
+    """(number, mutant) of those that are to be found: all, the named ones, or a sample."""
     mutants = yaml.safe_load((options.source / "verif/mutants/mutants.yaml").read_text())
     unknown = set(options.names) - {m["name"] for m in mutants}
     if unknown:
@@ -199,39 +190,52 @@ def main():
         sys.exit(f"tools/regress-mutants: --sample {options.sample}: it is 1 or more")
     if options.sample and options.sample < len(chosen):
         chosen = sorted(random.Random(options.seed).sample(chosen, options.sample), key=lambda c: c[0])
-    if options.each and options.resume:
-        sys.exit("tools/regress-mutants: --each begins anew: leave out --resume")
-    if options.each:
-        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            rows = []
-            for row in pool.map(lambda c: try_each(options.kage, *c, options), chosen):
-                rows.append(row)
-                found = [r for r in row["runs"] if r["found"]]
-                print(f"{row['name']:<28} found by {len(found)} of {len(row['runs'])} runs", flush=True)
-        tell_each(rows)
-        if options.json:
-            pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
-        return
-    rows = []
-    kept = {}
+    return chosen
+
+
+def each(options, chosen):
+    """--each."""
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        rows = []
+        for row in pool.map(lambda c: try_each(options.kage, *c, options), chosen):
+            rows.append(row)
+            found = [r for r in row["runs"] if r["found"]]
+            print(f"{row['name']:<28} found by {len(found)} of {len(row['runs'])} runs", flush=True)
+    tell_each(rows)
+    if options.json:
+        pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
+
+
+def kept_rows(options, tried):
+    """The rows that --resume goes on from, by mutant."""
+    if not options.json:
+        sys.exit("tools/regress-mutants: --resume needs --json FILE")
+    if not pathlib.Path(options.json).exists():
+        return {}
+    rows = json.loads(pathlib.Path(options.json).read_text())
+    if not isinstance(rows, list) or not all(isinstance(row, dict) and row.get("schema") == SCHEMA for row in rows):
+        sys.exit(f"tools/regress-mutants: {options.json}: not rows of {SCHEMA}, which alone --resume goes on from")
+    asked = (options.seed, options.minutes, tried)
+    others = [row["name"] for row in rows if (row["seed"], row["minutes"], row["of"]) != asked]
+    if others:
+        sys.exit(
+            f"tools/regress-mutants: {options.json}: {others[0]} was run with another --seed or --minutes, or of other RTL, "
+            "mutants or kage"
+        )
+    return {row["name"]: row for row in rows}
+
+
+def regress_all(options, chosen):
+    """A row for each mutant; those that are kept are not run again."""
     tried = what_is_tried(options)
-    if options.resume:
-        if not options.json:
-            sys.exit("tools/regress-mutants: --resume needs --json FILE")
-        if pathlib.Path(options.json).exists():
-            kept = {row["name"]: row for row in json.loads(pathlib.Path(options.json).read_text())}
-        asked = (options.seed, options.minutes, tried)
-        others = [n for n, row in kept.items() if (row.get("seed"), row.get("minutes"), row.get("of")) != asked]
-        if others:
-            sys.exit(
-                f"tools/regress-mutants: {options.json}: {others[0]} was run with another --seed or --minutes, or of other RTL, "
-                "mutants or kage"
-            )
+    kept = kept_rows(options, tried) if options.resume else {}
+    rows = []
     with tempfile.TemporaryDirectory() as out:
         for number, mutant in chosen:
             row = kept.get(mutant["name"])
             if not row:
-                row = {"name": mutant["name"], "seed": options.seed, "minutes": options.minutes, "of": tried}
+                row = {"schema": SCHEMA, "name": mutant["name"]}
+                row |= {"seed": options.seed, "minutes": options.minutes, "of": tried}
                 row |= run(options.kage, number, options, out)
             rows.append(row)
             if options.json:
@@ -239,12 +243,38 @@ def main():
                 write_whole(options.json, rows + unmet)
             verdict = f"{row['seconds']:7.1f} s  {row['run']}" if row["found"] else "  not found"
             print(f"{row['name']:<28} {verdict}", flush=True)
+    return rows
+
+
+def tell(rows, options):
     found = [r["seconds"] for r in rows if r["found"]]
     print(f"\n{len(rows)} mutants, {len(found)} found ({len(found) / len(rows):.1%}), seed {options.seed}")
     for seconds in (1, 5, 10, 30, 60, 120, 300):
         if seconds <= 60 * options.minutes:
             so_far = sum(s <= seconds for s in found)
             print(f"  after {seconds:>3} s: {so_far} ({so_far / len(rows):.1%})")
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="tools/regress-mutants")
+    parser.add_argument("kage")
+    parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("--minutes", type=float, default=5)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--plot")
+    parser.add_argument("--json")
+    parser.add_argument("--resume", action="store_true")
+    parser.add_argument("--each", action="store_true")
+    parser.add_argument("--sample", type=int)
+    parser.add_argument("names", nargs="*")
+    options = parser.parse_intermixed_args()
+    chosen = chosen_mutants(options)
+    if options.each and options.resume:
+        sys.exit("tools/regress-mutants: --each begins anew: leave out --resume")
+    if options.each:
+        return each(options, chosen)
+    rows = regress_all(options, chosen)
+    tell(rows, options)
     if options.plot:
         plot(rows, options.minutes, options.plot)
 

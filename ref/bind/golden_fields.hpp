@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kage/core.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 /// Whether the configuration has a field of a pixel, KAGE_PIXEL_...
 bool has_pixel_field(const kage::Config& c, int field);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/line_parts.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 #include "stream/cutter.hpp"
 
 namespace kage {

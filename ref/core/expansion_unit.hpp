@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

@@ -7,6 +7,7 @@
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/error.hpp"
+#include "number/counted.hpp"
 #include "number/packed_color.hpp"
 
 namespace kage {
@@ -139,8 +140,7 @@ class History : public CoreObserver {
     std::string counts;
     for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l)
       if (from.counts[l] != 0)
-        counts += fmt::format("{}light {} lost {} sample{}", counts.empty() ? "" : ", ", l, from.counts[l],
-                              from.counts[l] == 1 ? "" : "s");
+        counts += fmt::format("{}light {} lost {}", counts.empty() ? "" : ", ", l, counted(from.counts[l], "sample"));
     return counts.empty() ? "not in shadow"
                           : fmt::format("in shadow: {}, class {}; {}", counts, from.normal_class, change);
   }

@@ -11,7 +11,7 @@
 #include "core/expansion_unit.hpp"
 #include "core/span_kernels.hpp"
 #include "kage/core.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

@@ -9,21 +9,16 @@
 #include <cstdint>
 
 #include "contract/derived.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
+#include "number/bits.hpp"
 
 namespace kage {
 
-/// The number that the low `bits` of a sum are in two's complement.
-inline std::int64_t wrapped(std::uint64_t sum, int bits) {
-  const int spare = 64 - bits;
-  return static_cast<std::int64_t>(sum << spare) >> spare;
-}
-
 /// Depth at pixel x: 1 .. 2^Z_BITS - 2.
 inline std::uint32_t span_depth(const Config& c, const SpanToken& s, int x) {
-  const std::int64_t sum =
-      wrapped(static_cast<std::uint64_t>(s.z) + static_cast<std::uint64_t>(s.dz) * static_cast<std::uint64_t>(x - s.xl),
-              derived::depth_bits(c));
+  const std::int64_t sum = sign_extend(
+      static_cast<std::uint64_t>(s.z) + static_cast<std::uint64_t>(s.dz) * static_cast<std::uint64_t>(x - s.xl),
+      derived::depth_bits(c));
   const std::int64_t most = derived::most_depth(c);
   return static_cast<std::uint32_t>(std::clamp<std::int64_t>(sum >> c.z_frac, 1, most));
 }
@@ -37,8 +32,8 @@ inline std::array<std::uint8_t, 3> span_color(const Config& c, const SpanToken& 
       continue;
     }
     const std::int64_t sum =
-        wrapped(static_cast<std::uint64_t>(std::int64_t{s.color[i]} + std::int64_t{s.dcolor[i]} * (x - s.xl)),
-                derived::ramp_bits(c));
+        sign_extend(static_cast<std::uint64_t>(std::int64_t{s.color[i]} + std::int64_t{s.dcolor[i]} * (x - s.xl)),
+                    derived::ramp_bits(c));
     color[i] = static_cast<std::uint8_t>(std::clamp<std::int64_t>(sum >> c.color_frac, 0, 255));
   }
   return color;

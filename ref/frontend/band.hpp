@@ -16,7 +16,7 @@
 #include "frontend/sweep.hpp"
 #include "frontend/tree_plan.hpp"
 #include "kage/frontend.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

@@ -11,7 +11,7 @@
 #include "contract/derived.hpp"
 #include "frontend/band.hpp"
 #include "kage/error.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 namespace {

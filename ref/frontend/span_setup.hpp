@@ -7,7 +7,7 @@
 
 #include "contract/derived.hpp"
 #include "kage/geometry.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 #include "number/int128.hpp"
 
 namespace kage {

@@ -11,7 +11,7 @@
 #include "frontend/polyhedron.hpp"
 #include "frontend/scan.hpp"
 #include "kage/frontend.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <optional>
 
+#include "geometry/order_mesh.hpp"
 #include "order/exact.hpp"
 #include "order/filter.hpp"
-#include "scene/order_mesh.hpp"
 
 namespace kage {
 
@@ -158,7 +158,7 @@ std::vector<std::uint32_t> FragmentMaker::whole(TranslucentWay way) const {
 }
 
 std::span<const std::uint32_t> FragmentMaker::nodes() {
-  OrderMesh mesh = scene::order_mesh(*frame_, faces_);
+  OrderMesh mesh = order_mesh(*frame_, faces_);
   if (!kept_->tree || !same(mesh, kept_->mesh)) {
     kept_->order.reset();
     kept_->tree.reset();

@@ -14,6 +14,7 @@
 #include "image/sample.hpp"
 #include "image/views.hpp"
 #include "kage/error.hpp"
+#include "number/counted.hpp"
 
 namespace kage {
 namespace {
@@ -177,7 +178,7 @@ class Comparison {
                 static_cast<double>(n) * 100 <= *options_.max_percent * static_cast<double>(r.compared_pixels));
     r.same = within && r.nan_pixels == 0;
     if (r.nan_pixels != 0)
-      r.reason = fmt::format("{} pixel{} with a NaN", r.nan_pixels, r.nan_pixels == 1 ? "" : "s");
+      r.reason = counted(r.nan_pixels, "pixel") + " with a NaN";
     else if (!within)
       r.reason = fmt::format("{} of {} pixels {}", n, r.compared_pixels, n == 1 ? "differs" : "differ");
   }

@@ -14,7 +14,7 @@
 namespace kage {
 
 /// The low `bits` (1 .. 64) of `v` as a two's complement number.
-constexpr std::int64_t sign_extend(std::uint64_t v, unsigned bits) {
+constexpr std::int64_t sign_extend(std::uint64_t v, int bits) {
   return static_cast<std::int64_t>(v << (64 - bits)) >> (64 - bits);
 }
 

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "image/save.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

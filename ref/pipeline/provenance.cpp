@@ -69,13 +69,12 @@ std::map<std::uint32_t, TokenSource> Provenance::of_tokens(const Config& config,
                                                            const std::set<std::uint32_t>& wanted) const {
   std::map<std::uint32_t, TokenSource> all;
   const Layout layout(config);
-  words = words.subspan(kHeaderWords);
+  TokenWalk walk(layout, words);
   std::size_t opaque = 0;
   std::size_t shadow = 0;
   std::size_t translucent = 0;
-  for (std::uint32_t token = 1; !words.empty(); ++token) {
-    const auto kind = kind_of(words[0]);
-    words = words.subspan(layout.words_of(words[0]));
+  for (std::uint32_t token = 1; !walk.peek().empty(); ++token) {
+    const auto kind = kind_of(walk.next()[0]);
     const bool is_wanted = wanted.count(token) != 0;
     switch (kind) {
       case Kind::OP:

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "notes.hpp"
+#include "number/counted.hpp"
 
 namespace kage::scene {
 

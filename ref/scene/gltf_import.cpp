@@ -16,6 +16,7 @@
 #include "gltf_notes.hpp"
 #include "import.hpp"
 #include "notes.hpp"
+#include "number/counted.hpp"
 
 namespace kage::scene {
 namespace {

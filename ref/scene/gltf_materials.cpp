@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "notes.hpp"
+#include "number/counted.hpp"
 
 namespace kage::scene {
 namespace {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "notes.hpp"
+#include "number/counted.hpp"
 
 namespace kage::scene {
 namespace {

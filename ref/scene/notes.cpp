@@ -28,8 +28,4 @@ std::string cause_of(std::string_view message) {
   return line;
 }
 
-std::string counted(std::size_t count, std::string_view singular, std::string_view plural) {
-  return std::to_string(count) + " " + std::string(count == 1 ? singular : plural);
-}
-
 }  // namespace kage::scene

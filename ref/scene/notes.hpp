@@ -13,7 +13,4 @@ std::string one_line(std::string_view text, std::size_t limit = 200);
 /// Another library's message as part of one of ours: one line, without the full stop at its end.
 std::string cause_of(std::string_view message);
 
-/// "1 texture is" / "2 textures are".
-std::string counted(std::size_t count, std::string_view singular, std::string_view plural);
-
 }  // namespace kage::scene

@@ -13,6 +13,7 @@
 #include "kage/paths.hpp"
 #include "mesh.hpp"
 #include "notes.hpp"
+#include "number/counted.hpp"
 #include "view.hpp"
 
 namespace kage {
@@ -110,7 +111,7 @@ void Scene::Data::build_meshes(const std::function<void()>& wait) {
     normals += m.bad_normals;
   }
   const auto note = [this](std::size_t count, const char* one, const char* many, const char* rest) {
-    if (count > 0) notes.push_back(scene::counted(count, one, many) + rest);
+    if (count > 0) notes.push_back(counted(count, one, many) + rest);
   };
   note(dropped, "triangle repeats", "triangles repeat", " a vertex: left out");
   note(turned, "triangle is", "triangles are", " turned to agree with the neighbours");
@@ -144,7 +145,7 @@ void Scene::Data::place_objects() {
   if (objects.empty()) throw Error("no faces: every triangle repeats a vertex");
   if (flat == objects.size()) throw Error("no faces: no triangle has an area");
   if (flat > 0)
-    notes.push_back(scene::counted(flat, "object is", "objects are") + " not seen: none of its triangles has an area");
+    notes.push_back(counted(flat, "object is", "objects are") + " not seen: none of its triangles has an area");
 }
 
 void Scene::Data::describe() {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "kage/geometry.hpp"
+#include "kage/shadow.hpp"
 #include "shadow/shadow_caster.hpp"
 
 namespace kage {

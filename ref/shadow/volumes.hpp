@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "kage/geometry.hpp"
+#include "kage/shadow.hpp"
 #include "shadow/kept.hpp"
 #include "shadow/light_space.hpp"
 #include "shadow/shadow_caster.hpp"

@@ -7,6 +7,7 @@
 
 #include "contract/kinds.hpp"
 #include "kage/stream_diff.hpp"
+#include "number/counted.hpp"
 #include "stream/field_diff.hpp"
 
 namespace kage {
@@ -152,9 +153,8 @@ class FrameComparer {
     constexpr std::size_t kTold = 8;
     if (token.empty()) return "nothing";
     if (is_token(token)) return to_string(config_, decode(config_, layout_, token));
-    return fmt::format("{} word{} that {} no token: {}{}", token.size(), token.size() == 1 ? "" : "s",
-                       token.size() == 1 ? "is" : "are", words_text(token.first(std::min(token.size(), kTold))),
-                       token.size() > kTold ? " ..." : "");
+    return fmt::format("{} no token: {}{}", counted(token.size(), "word that is", "words that are"),
+                       words_text(token.first(std::min(token.size(), kTold))), token.size() > kTold ? " ..." : "");
   }
 
   /// The first field in which two unequal tokens differ.
@@ -224,8 +224,7 @@ std::string reason_of(const StreamDiff& d) {
   }
   const int common = std::min(d.frames_a, d.frames_b);
   const int lone = std::abs(d.frames_a - d.frames_b);
-  if (lone != 0)
-    parts.push_back(fmt::format("A has {} frame{} and B {}", d.frames_a, d.frames_a == 1 ? "" : "s", d.frames_b));
+  if (lone != 0) parts.push_back(fmt::format("A has {} and B {}", counted(d.frames_a, "frame"), d.frames_b));
   // Of those that both have: that the others differ is said.
   if (const auto unlike = d.different_frames - static_cast<std::uint64_t>(lone); unlike != 0)
     parts.push_back(fmt::format("{} of {} frames {}{}", unlike, common, lone != 0 ? "that both have " : "",

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "kage/stream.hpp"
+#include "number/counted.hpp"
 #include "stream/count.hpp"
 
 namespace kage {
@@ -29,7 +30,7 @@ std::span<const std::uint32_t> TokenWalk::next() {
 
 std::string TokenWalk::rest_text() const {
   if (rest_.empty()) return "";
-  if (ended_) return fmt::format("{} word{} behind END", rest_.size(), rest_.size() == 1 ? "" : "s");
+  if (ended_) return counted(rest_.size(), "word") + " behind END";
   const auto kind = static_cast<std::size_t>(kind_of(rest_[0]));
   const std::size_t length = layout_->words_of(rest_[0]);
   if (length == 0) return fmt::format("kind {}, which is no token here", kind);

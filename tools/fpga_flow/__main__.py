@@ -117,7 +117,8 @@ class Parser(argparse.ArgumentParser):
         raise Trouble(f"{message}; see --help")
 
 
-def main():
+def options_of_line():
+    """The command line's options; Trouble if they are not legal."""
     parser = Parser(prog="tools/fpga", add_help=False, allow_abbrev=False)
     parser.add_argument("--top", type=pathlib.Path, required=True)
     parser.add_argument("--wheels", type=pathlib.Path, required=True)
@@ -146,13 +147,11 @@ def main():
         raise Trouble(f"--gate {options.gate:g}: legal is 0 to 99 per cent")
     if options.gate is not None and options.record:
         raise Trouble("--gate compares with a row, --record replaces it: one at a time")
-    top = options.top
-    device = core.find_device(top, options.device)
-    what = core.find_core(top, options.core)
-    row = None if options.gate is None else kept.row_for(top, device.name, what.name, options.seeds)
-    out = options.out or top / "build/fpga" / f"{device.name}-{what.name}"
-    if out.exists() and not (out / FIGURES).is_file():
-        raise Trouble(f"{out}: is there already, and holds no run of tools/fpga that could be replaced")
+    return options
+
+
+def run_into(out, top, device, what, options):
+    """Measures, and leaves the run in the folder `out` once all is done; gives its figures, and their text."""
     work = out.with_name(f"{out.name}.part{os.getpid()}")
     try:
         tools = programs.Programs(options.tools, options.wheels, top)
@@ -173,6 +172,19 @@ def main():
         raise Trouble(f"{e.filename}: {e.strerror}") from e
     finally:
         shutil.rmtree(work, ignore_errors=True)
+    return figures, text
+
+
+def main():
+    options = options_of_line()
+    top = options.top
+    device = core.find_device(top, options.device)
+    what = core.find_core(top, options.core)
+    row = None if options.gate is None else kept.row_for(top, device.name, what.name, options.seeds)
+    out = options.out or top / "build/fpga" / f"{device.name}-{what.name}"
+    if out.exists() and not (out / FIGURES).is_file():
+        raise Trouble(f"{out}: is there already, and holds no run of tools/fpga that could be replaced")
+    figures, text = run_into(out, top, device, what, options)
     if options.json == "-":
         print(text, end="")
     else:

@@ -5,42 +5,23 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 #include <filesystem>
 #include <string>
 #include <thread>
 
 #include "bench/program.hpp"
+#include "bench/timer.hpp"
 #include "cosim/core.hpp"
 #include "cosim/model/model.hpp"
 #include "cosim/model/rtl.hpp"
 #include "cosim/run.hpp"
 #include "kage/config.hpp"
-#include "kage/frontend.hpp"
-#include "kage/geometry.hpp"
-#include "kage/scene.hpp"
-#include "kage/stream.hpp"
+#include "kage/pipeline.hpp"
 
 namespace {
 
 using namespace kage;
-
-double seconds_since(std::chrono::steady_clock::time_point t) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
-}
-
-/// Least time of a few runs of `work`.
-template <class Work>
-double least(int runs, Work work) {
-  double best = 1e300;
-  for (int i = 0; i < runs; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    best = std::min(best, seconds_since(start));
-  }
-  return best;
-}
 
 /// Processor time of this process.
 double processor_seconds() {
@@ -51,11 +32,11 @@ double processor_seconds() {
 
 /// What the comparison adds to running both cores, and the monitors to the RTL. Runs take turns, so that all suffer
 /// alike from what else the machine does.
-void compare_cost(const Scene& scene, const Config& config, const std::filesystem::path& library) {
+void compare_cost(const std::shared_ptr<const Scene>& scene, const Config& config,
+                  const std::filesystem::path& library) {
+  SceneFrames source(scene, config, {.width = 640, .height = 480, .threads = 1});
   std::vector<std::vector<std::uint32_t>> frames;
-  for (int i = 0; i < scene.frame_count(); ++i)
-    make_frame(make_geometry(scene.frame(i, scene.frame_count()), config, 640, 480), config,
-               static_cast<std::uint32_t>(i), frames.emplace_back(), {.threads = 1});
+  for (int i = 0; i < source.frames(); ++i) frames.push_back(source.words(i));
   const auto golden = cosim::make_golden(config);
   const auto rtl = cosim::make_rtl(library, config);
   const auto monitored = cosim::make_rtl(cosim::find_model(config, {.monitors = true}).library, config);
@@ -82,7 +63,7 @@ void compare_cost(const Scene& scene, const Config& config, const std::filesyste
         (void)rtl->frame(words, sink);
       }
     });
-    time(compared, [&] { (void)cosim::run(scene.frame_count(), feed, *golden, *rtl, options); });
+    time(compared, [&] { (void)cosim::run(source.frames(), feed, *golden, *rtl, options); });
     if (run % 3 == 0)
       time(watched, [&] {
         for (const auto& words : frames) (void)monitored->frame(words, sink);
@@ -122,7 +103,7 @@ void jobs_cost() {
                least.mib);
   }
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
-  const double beside = least(3, [&] {
+  const double beside = bench::least_seconds(3, [&] {
     std::vector<std::thread> programs;
     for (int i = 0; i < processors; ++i) programs.emplace_back([&, i] { program(1, std::to_string(i)); });
     for (std::thread& t : programs) t.join();
@@ -140,11 +121,12 @@ int main() {
   constexpr double kPixels = double{kWidth} * kHeight;
   const Config config = load_config("default").config;
   const auto model = cosim::find_model(config);
-  const auto start = std::chrono::steady_clock::now();
-  const Scene scene = Scene::load("courtyard");
+  const bench::Timer timer;
+  const auto scene = std::make_shared<const Scene>(Scene::load("courtyard"));
+  const int frames = scene->frame_count();
   fmt::print("courtyard, {}x{}, {} frames, configuration default ({} lanes), one thread; least of 5 runs, RTL of 3\n",
-             kWidth, kHeight, scene.frame_count(), config.lanes);
-  fmt::print("scene loaded and model opened in {:.3f} s\n", seconds_since(start));
+             kWidth, kHeight, frames, config.lanes);
+  fmt::print("scene loaded and model opened in {:.3f} s\n", timer.seconds());
   fmt::print("{:>5} {:>8} {:>11} {:>12} {:>12} {:>14} {:>12} {:>11} {:>10} {:>12} {:>9}\n", "frame", "spans",
              "span pixels", "geometry ms", "front end ms", "golden ns/pixel", "golden ms", "RTL clocks", "RTL ms",
              "clocks/pixel", "RTL/golden");
@@ -154,21 +136,21 @@ int main() {
   double rtl_sum = 0;
   const auto golden = cosim::make_golden(config);
   const auto rtl = cosim::make_rtl(model.library, config);
-  for (int i = 0; i < scene.frame_count(); ++i) {
+  for (int i = 0; i < frames; ++i) {
     FrameGeometry g;
-    const SceneFrame frame = scene.frame(i, scene.frame_count());
-    const double geometry = least(5, [&] { g = make_geometry(frame, config, kWidth, kHeight); });
+    const SceneFrame frame = scene->frame(i, frames);
+    const double geometry = bench::least_seconds(5, [&] { g = make_geometry(frame, config, kWidth, kHeight); });
     std::vector<std::uint32_t> words;
-    const double front = least(5, [&] {
+    const double front = bench::least_seconds(5, [&] {
       words.clear();
       make_frame(g, config, static_cast<std::uint32_t>(i), words, {.threads = 1});
     });
     const TokenCounts counts = check_frame(config, words, "bench", 0);
     std::uint64_t sum = 0;  // somebody reads the pixels
     const LineSink sink = [&sum](int, std::span<const std::uint8_t> pixels) { sum += pixels.back(); };
-    const double golden_time = least(5, [&] { (void)golden->frame(words, sink); });
+    const double golden_time = bench::least_seconds(5, [&] { (void)golden->frame(words, sink); });
     std::uint64_t cycles = 0;
-    const double rtl_time = least(3, [&] { cycles = rtl->frame(words, sink).cycles; });
+    const double rtl_time = bench::least_seconds(3, [&] { cycles = rtl->frame(words, sink).cycles; });
     fmt::print("{:>5} {:>8} {:>11} {:>12.2f} {:>12.2f} {:>15.2f} {:>12.2f} {:>11} {:>10.1f} {:>12.3f} {:>9.1f}\n", i,
                counts.spans, counts.span_pixels, geometry * 1e3, front * 1e3, golden_time * 1e9 / kPixels,
                golden_time * 1e3, cycles, rtl_time * 1e3, static_cast<double>(cycles) / kPixels,
@@ -179,7 +161,7 @@ int main() {
     rtl_sum += rtl_time;
   }
   compare_cost(scene, config, model.library);
-  const double n = scene.frame_count();
+  const double n = frames;
   fmt::print(
       "golden: {:.2f} ns per pixel of the frame; RTL / golden: {:.1f}; co-simulation on one thread, pictures not "
       "counted: {:.2f} frames/s\n",

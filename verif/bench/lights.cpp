@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "bench/timer.hpp"
 #include "geometry/shade.hpp"
 #include "geometry/view.hpp"
 #include "kage/light.hpp"
@@ -20,12 +20,9 @@ namespace {
 
 using namespace kage;
 using namespace kage::verif;
-using Clock = std::chrono::steady_clock;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct Errors {
   double sum = 0;
@@ -151,20 +148,20 @@ void sample_costs(const Scene& scene) {
     Config c = config_for_lights(f, 255);
     Look look;
     look.samples = samples;
-    auto start = Clock::now();
+    bench::Timer timer;
     const FrameGeometry g = make_geometry(f, c, 640, 480, {.look = look});
-    const double geometry = since(start);
+    const double geometry = timer.seconds();
     std::vector<std::uint32_t> words;
-    start = Clock::now();
+    timer = {};
     make_frame(g, c, 0, words, {.threads = 1});
-    const double front_end = since(start);
+    const double front_end = timer.seconds();
     const TokenCounts counts = check_frame(c, words, "frame", 0);
     GoldenCore core(c);
     double best = 1e9;
     for (int r = 0; r < 5; ++r) {
-      start = Clock::now();
+      timer = {};
       (void)core.frame(words, [](int, std::span<const std::uint8_t>) {});
-      best = std::min(best, since(start));
+      best = std::min(best, timer.seconds());
     }
     const double pixels = 640.0 * 480;
     fmt::print(

@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 
+#include "bench/timer.hpp"
+#include "geometry/order_mesh.hpp"
 #include "order/baseline.hpp"
 #include "order/measure.hpp"
-#include "scene/order_mesh.hpp"
 
 namespace {
 
@@ -20,15 +20,15 @@ using namespace kage;
 /// How a build grows: the first faces of a mesh, which lie together.
 void grow(const std::filesystem::path& path) {
   const Scene scene = Scene::load(path.string());
-  const OrderMesh whole = scene::order_mesh(scene.frame(0, 1));
+  const OrderMesh whole = order_mesh(scene.frame(0, 1));
   fmt::print("\n{:<22} {:>7} {:>8} {:>6} {:>7} {:>15}\n", "first faces of", "nodes", "per face", "depth", "build s",
              "us a face");
   for (std::size_t n = 5000;; n *= 2) {
     OrderMesh part = whole;
     part.polygons.resize(std::min(n, whole.polygons.size()));
-    const auto start = std::chrono::steady_clock::now();
+    const bench::Timer timer;
     const OrderTree tree = OrderTree::build(part);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = timer.seconds();
     const auto faces = static_cast<double>(part.polygons.size());
     fmt::print("{:<22} {:>7} {:>8.2f} {:>6} {:>7.2f} {:>15.1f}\n", fmt::format("{} {}", path.stem().string(), faces),
                tree.stats().nodes, static_cast<double>(tree.stats().nodes) / faces, tree.stats().depth, seconds,
@@ -53,10 +53,10 @@ int run(const std::filesystem::path& cgal) {
         std::filesystem::path("/usr/share/glmark2/models/bunny.obj"),
         std::filesystem::path("/usr/share/glmark2/models/horse.3ds")}) {
     const Scene scene = Scene::load(path.string());
-    const OrderMesh mesh = scene::order_mesh(scene.frame(0, 1));
-    const auto start = std::chrono::steady_clock::now();
+    const OrderMesh mesh = order_mesh(scene.frame(0, 1));
+    const bench::Timer timer;
     const OrderTree tree = OrderTree::build(mesh);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = timer.seconds();
     rows.push_back({path.filename().string(), order::measure(tree, {})});
     const order::Measured& m = rows.back().measured;
     const OrderBuildStats& s = tree.stats();

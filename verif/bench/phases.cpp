@@ -9,8 +9,7 @@
 #include "cosim/model/model.hpp"
 #include "cosim/model/rtl.hpp"
 #include "kage/config.hpp"
-#include "kage/frontend.hpp"
-#include "kage/stream.hpp"
+#include "kage/pipeline.hpp"
 
 namespace {
 
@@ -22,11 +21,8 @@ cosim::PhaseSums sums_of(const Config& c, std::span<const std::uint32_t> words) 
   const Layout layout(c);
   cosim::PhaseCounter counter(c);
   counter.start(FrameHeader::read(words).width);
-  for (std::size_t at = kHeaderWords; at < words.size();) {
-    const Token t = decode(c, layout, words.subspan(at));
-    counter.token(t);
-    at += layout.words[static_cast<std::size_t>(t.kind)];
-  }
+  TokenWalk walk(layout, words);
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) counter.token(decode(c, layout, token));
   return counter.sums();
 }
 
@@ -36,23 +32,18 @@ int main() {
   fmt::print("{:<13} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9}\n", "scene", "config",
              "state", "opaque", "volumes", "EV", "ES", "TP", "line out", "video", "sum", "RTL clocks", "SP+NC/px");
   for (const std::string& name : builtin_scenes()) {
-    const Scene scene = Scene::load(name);
-    const SceneFrame f = scene.frame(0, scene.frame_count());
-    const std::string config = name == "penumbra"       ? "soft"
-                               : name == "three-lights" ? "lights"
-                               : name == "glass"        ? "glass"
-                               : name == "knot"         ? "full"
-                                                        : "default";
-    const Config c = load_config(config).config;
-    std::vector<std::uint32_t> words;
-    make_frame(make_geometry(f, c, 640, 480), c, 0, words, {.threads = 1});
+    const auto scene = std::make_shared<const Scene>(Scene::load(name));
+    const NamedConfig config = choose_config(needs_of(*scene, scene->frame(0, scene->frame_count()), 640, 480));
+    const Config& c = config.config;
+    const auto words = SceneFrames(scene, c, {.width = 640, .height = 480, .threads = 1}).words(0);
     const cosim::PhaseSums s = sums_of(c, words);
     const auto clocks = [&](Phase phase) { return s.of[static_cast<std::size_t>(phase)].clocks; };
     const auto rtl = cosim::make_rtl(cosim::find_model(c).library, c);
     const std::uint64_t cycles = rtl->frame(words, [](int, std::span<const std::uint8_t>) {}).cycles;
-    fmt::print("{:<13} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9.2f}\n", name, config,
-               clocks(Phase::state), clocks(Phase::opaque), clocks(Phase::volumes), clocks(Phase::volume_ends),
-               clocks(Phase::samples), clocks(Phase::translucent), clocks(Phase::line_out), s.video, s.clocks(), cycles,
+    fmt::print("{:<13} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9.2f}\n", name,
+               config.name, clocks(Phase::state), clocks(Phase::opaque), clocks(Phase::volumes),
+               clocks(Phase::volume_ends), clocks(Phase::samples), clocks(Phase::translucent), clocks(Phase::line_out),
+               s.video, s.clocks(), cycles,
                static_cast<double>(s.of[static_cast<std::size_t>(Phase::volumes)].pixels) / (640.0 * 480));
   }
   return 0;

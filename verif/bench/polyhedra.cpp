@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "bench/timer.hpp"
 #include "frontend/sweep.hpp"
 #include "frontend/tree_plan.hpp"
 #include "kage/geometry.hpp"
@@ -63,17 +63,6 @@ Solid ball(unsigned n, unsigned rings) {
   return s;
 }
 
-template <class Work>
-double least_seconds(Work work) {
-  double best = 1e300;
-  for (int i = 0; i < 20; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return best;
-}
-
 }  // namespace
 
 int main() {
@@ -100,11 +89,11 @@ int main() {
       fmt::print("{} {}: not one polyhedron of so many faces but {}\n", what, faces, f.polygons.size());
       return false;
     }
-    const double plan_seconds = least_seconds([&] { (void)TreePlan(g, config); });
+    const double plan_seconds = bench::least_seconds(20, [&] { (void)TreePlan(g, config); });
     const TreePlan plan(g, config);
     std::vector<std::vector<std::uint32_t>> lines;
     std::size_t words = 0;
-    const double seconds = least_seconds([&] {
+    const double seconds = bench::least_seconds(20, [&] {
       words = 0;
       Sweep edges(kHeight / kBandLines, kHeight, plan.edge_lines());
       for (int y = 0; y < kHeight; y += kBandLines) {

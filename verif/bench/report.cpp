@@ -5,47 +5,27 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
-
+#include "bench/timer.hpp"
 #include "cosim/core.hpp"
 #include "cosim/report/page.hpp"
 #include "kage/config.hpp"
-#include "kage/frontend.hpp"
-#include "kage/scene.hpp"
-
-namespace {
-
-using namespace kage;
-
-class Clock {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
+#include "kage/pipeline.hpp"
 
 int main() {
+  using namespace kage;
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / fmt::format("kage-bench-report-{}", static_cast<long>(getpid()));
   fs::create_directory(folder);
   fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10} {:>10} {:>12} {:>14}\n", "scene", "config", "frames", "words",
              "packing s", "writing s", "page bytes", "lines told %");
   for (const std::string& name : builtin_scenes()) {
-    const Scene scene = Scene::load(name);
-    const NamedConfig config = load_config(name == "penumbra"       ? "soft"
-                                           : name == "three-lights" ? "lights"
-                                           : name == "glass"        ? "glass"
-                                           : name == "polyhedra"    ? "polyhedra"
-                                           : name == "knot"         ? "full"
-                                                                    : "default");
+    const auto scene = std::make_shared<const Scene>(Scene::load(name));
+    const int frames = std::min(8, scene->frame_count());
+    // No scene needs segments; the page is to show some.
+    const NamedConfig config =
+        name == "polyhedra" ? load_config(name) : choose_config(needs_of(*scene, scene->frame(0, frames), 640, 480));
     const Config& c = config.config;
-    const int frames = std::min(8, scene.frame_count());
+    SceneFrames source(scene, c, {.width = 640, .height = 480, .frames = frames, .threads = 1});
     report::TokenStore tokens(c, report::kPageBytes);
     double packing = 0;
     std::uint64_t count = 0;
@@ -57,14 +37,13 @@ int main() {
         frames,
         [&](int i, const WordSink& sink) {
           std::vector<std::uint32_t> words;
-          make_frame(make_geometry(scene.frame(i, frames), c, 640, 480), c, static_cast<std::uint32_t>(i), words,
-                     {.threads = 1});
-          const TokenCounts counts = check_frame(c, words, name, 0);
-          Clock clock;
+          const TokenCounts counts = source.frame(
+              i, [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); });
+          const bench::Timer timer;
           tokens.begin(i);
           tokens.words(words);
           tokens.end();
-          packing += clock.lap();
+          packing += timer.seconds();
           count += words.size();
           sink(words);
           return counts;
@@ -77,11 +56,11 @@ int main() {
     page.record.config = c;
     page.run = &run;
     page.tokens = &tokens;
-    Clock clock;
+    const bench::Timer timer;
     TempFiles files;
     report::write_page(files, folder / "report.html", page);
     files.commit();
-    const double writing = clock.lap();
+    const double writing = timer.seconds();
     int told = 0;
     for (const report::Band& b : tokens.bands()) told += b.line < 0 ? 0 : report::kBandLines;
     fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10.3f} {:>10.3f} {:>12} {:>14.1f}\n", name, config.name, frames, count,

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "bench/timer.hpp"
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
@@ -17,11 +17,8 @@
 namespace {
 
 using namespace kage;
-using Clock = std::chrono::steady_clock;
 
 constexpr int kFrames = 4;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A square under the scene, twice as wide.
 void add_floor(SceneFrame& f) {
@@ -47,10 +44,12 @@ struct Sum {
   double core = 0;
 };
 
-void count_tokens(const Config& config, std::span<const std::uint32_t> words, Sum& sum) {
+/// Unlike count_tokens(), spans of shadows alone, and the pixels of volume ends.
+void count_shadow_tokens(const Config& config, std::span<const std::uint32_t> words, Sum& sum) {
   const Layout layout(config);
-  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words_of(words[at])) {
-    const Token t = decode(config, layout, words.subspan(at));
+  TokenWalk walk(layout, words);
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) {
+    const Token t = decode(config, layout, token);
     const auto pixels = static_cast<std::uint64_t>(t.span.xr - t.span.xl);
     if (t.kind == Kind::SP || t.kind == Kind::NC) {
       ++sum.spans;
@@ -74,26 +73,26 @@ void measure(const Scene& scene, const glm::dvec3& sun, const char* called, int 
     f.lights[0] = {};
     f.lights[0].direction = sun;
     add_floor(f);
-    auto start = Clock::now();
+    bench::Timer timer;
     const FrameGeometry g = make_geometry(f, config, 640, 480, {.look = look});
-    sum.geometry += since(start);
+    sum.geometry += timer.seconds();
     // The next frame's, with casters and light where they are.
     ShadowCache kept;
     (void)make_geometry(f, config, 640, 480, {.look = look, .shadows = &kept});
-    start = Clock::now();
+    timer = {};
     (void)make_geometry(f, config, 640, 480, {.look = look, .shadows = &kept});
-    sum.again += since(start);
+    sum.again += timer.seconds();
     sum.volumes += g.volumes.size();
     for (const VolumeFace& face : g.volume_faces) sum.sides += g.polygons[face.polygon].source == ~0U ? 1 : 0;
     std::vector<std::uint32_t> words;
-    start = Clock::now();
+    timer = {};
     make_frame(g, config, 0, words, {.threads = 1});
-    sum.front_end += since(start);
-    count_tokens(config, words, sum);
+    sum.front_end += timer.seconds();
+    count_shadow_tokens(config, words, sum);
     GoldenCore core(config);
-    start = Clock::now();
+    timer = {};
     (void)core.frame(words, [](int, std::span<const std::uint8_t>) {});
-    sum.core += since(start);
+    sum.core += timer.seconds();
   }
   fmt::print("  {:<16}{:>8}{:>8}{:>9}{:>11}{:>8}{:>10}{:>10.1f}{:>7.1f}{:>11.1f}{:>9.1f}\n", called,
              sum.volumes / kFrames, sum.sides / kFrames, sum.spans / kFrames, sum.pixels / kFrames, sum.ends / kFrames,

@@ -3,9 +3,9 @@
 // own frames. Wrong are pixels unlike those of the exact order.
 #include <fmt/format.h>
 
-#include <chrono>
 #include <filesystem>
 
+#include "bench/timer.hpp"
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
@@ -13,9 +13,6 @@
 namespace {
 
 using namespace kage;
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct Run {
   std::uint64_t faces = 0;
@@ -38,28 +35,28 @@ Run run(const Scene& scene, TranslucentWay way) {
   const int frames = scene.frame_count();
   for (int i = 0; i < frames; ++i) {
     const SceneFrame f = scene.frame(i, frames);
-    auto start = Clock::now();
+    bench::Timer timer;
     FrameGeometry g = make_geometry(f, config, 640, 480, {.look = look, .order = &order});
     if (i == 0) {  // with the tree; once more without
-      r.tree = since(start);
-      start = Clock::now();
+      r.tree = timer.seconds();
+      timer = {};
       g = make_geometry(f, config, 640, 480, {.look = look, .order = &order});
-      r.tree -= since(start);
+      r.tree -= timer.seconds();
     }
-    r.geometry += since(start);
+    r.geometry += timer.seconds();
     r.fragments += g.fragments.size();
     for (const Component& c : f.components) r.faces += c.translucent ? c.polygon_count : 0;
     std::vector<std::uint32_t> words;
-    start = Clock::now();
+    timer = {};
     make_frame(g, config, static_cast<std::uint32_t>(i), words, {.threads = 1});
-    r.front_end += since(start);
+    r.front_end += timer.seconds();
     r.spans += check_frame(config, words, "frame", 0).of_kind[static_cast<std::size_t>(Kind::TP)];
     GoldenCore core(config);
-    start = Clock::now();
+    timer = {};
     std::vector<std::uint8_t> picture;
     (void)core.frame(words,
                      [&](int, std::span<const std::uint8_t> p) { picture.insert(picture.end(), p.begin(), p.end()); });
-    r.core += since(start);
+    r.core += timer.seconds();
     r.pictures.push_back(std::move(picture));
   }
   return r;

@@ -31,8 +31,9 @@ inline FacePixels pixels_of_faces(FrameGeometry g, const Config& config) {
   const Layout layout(config);
   FacePixels pixels;
   int y = 0;
-  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words_of(words[at])) {
-    const Token t = decode(config, layout, std::span(words).subspan(at));
+  TokenWalk walk(layout, words);
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) {
+    const Token t = decode(config, layout, token);
     if (t.kind == Kind::EOL) ++y;
     if (t.kind != Kind::TP) continue;
     for (int x = t.span.xl; x < t.span.xr; ++x) {

@@ -11,7 +11,7 @@
 #include "contract/derived.hpp"
 #include "contract/fields.hpp"
 #include "contract/kinds.hpp"
-#include "core/span_value.hpp"
+#include "number/bits.hpp"
 #include "stimulus/damage.hpp"
 
 namespace kage::verif {
@@ -111,8 +111,8 @@ class SegmentCutter {
   };
 
   [[nodiscard]] std::int64_t depth_after(std::int64_t z, std::int64_t dz, std::uint64_t pixels) const {
-    const std::int64_t sum =
-        wrapped(static_cast<std::uint64_t>(z) + pixels * static_cast<std::uint64_t>(dz), derived::depth_bits(config_));
+    const std::int64_t sum = sign_extend(static_cast<std::uint64_t>(z) + pixels * static_cast<std::uint64_t>(dz),
+                                         derived::depth_bits(config_));
     // A classic segment cannot begin past what its field holds: at its first pixel the same is drawn at the border.
     const std::int64_t most = (std::int64_t{1} << layout_.seg_z.bits) - 1;
     return config_.classic != 0 ? std::clamp<std::int64_t>(sum, 0, most) : sum;

@@ -11,6 +11,7 @@
 #include "image/module/table.hpp"
 #include "image/png_chunks.hpp"
 #include "kage/error.hpp"
+#include "number/counted.hpp"
 
 namespace kage::picture_module {
 namespace {
@@ -144,8 +145,7 @@ void choose_part(OIIO::ImageInput& input, const std::filesystem::path& path, int
   const int count = count_parts(input);
   if (part < 0 && count > 1)
     fail(path, fmt::format("holds {} pictures: choose one by its number, 0 to {}", count, count - 1));
-  if (part >= count)
-    fail(path, fmt::format("holds {} picture{}, and there is no number {}", count, count == 1 ? "" : "s", part));
+  if (part >= count) fail(path, fmt::format("holds {}, and there is no number {}", counted(count, "picture"), part));
   if (part > 0 && !input.seek_subimage(part, 0)) fail(path, input.geterror());
 }
 

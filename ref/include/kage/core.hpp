@@ -103,16 +103,28 @@ class CoreObserver {
   CoreObserver& operator=(const CoreObserver&) = delete;
 
   /// The header, token 0, has been accepted.
-  virtual void header(std::span<const std::uint32_t> /*words*/, const LineView& /*line*/) {}
-  /// Token `index` of the frame has been accepted and is about to do what it does.
-  virtual void before(std::uint32_t /*index*/, const Token& /*token*/, std::span<const std::uint32_t> /*words*/,
-                      const LineView& /*line*/) {}
-  /// The token has taken effect. After an EOL the line is cleared already.
-  virtual void after(std::uint32_t /*index*/, const Token& /*token*/, const LineView& /*line*/) {}
-  /// The frame has an error: the lines that have not ended are background. `words`: of the erroneous token, as many as
-  /// there are.
-  virtual void failed(const FrameStatus& /*status*/, std::span<const std::uint32_t> /*words*/,
-                      const LineView& /*line*/) {}
+  /// @param words the header's
+  /// @param line before the first token
+  virtual void header([[maybe_unused]] std::span<const std::uint32_t> words, [[maybe_unused]] const LineView& line) {}
+  /// A token of the frame has been accepted and is about to do what it does.
+  /// @param index of the token in the frame, from 1
+  /// @param token what it says
+  /// @param words the token's
+  /// @param line as the token finds it
+  virtual void before([[maybe_unused]] std::uint32_t index, [[maybe_unused]] const Token& token,
+                      [[maybe_unused]] std::span<const std::uint32_t> words, [[maybe_unused]] const LineView& line) {}
+  /// The token has taken effect; not called for END. After an EOL the line is cleared already.
+  /// @param index of the token in the frame, from 1
+  /// @param token what it says
+  /// @param line as the token leaves it
+  virtual void after([[maybe_unused]] std::uint32_t index, [[maybe_unused]] const Token& token,
+                     [[maybe_unused]] const LineView& line) {}
+  /// The frame has an error: the lines that have not ended are background.
+  /// @param status the error, and where it is
+  /// @param words of the token at which the error shows, as many as there are; none in the header and behind END
+  /// @param line as the last accepted token left it; of no frame if the error is in the header
+  virtual void failed([[maybe_unused]] const FrameStatus& status, [[maybe_unused]] std::span<const std::uint32_t> words,
+                      [[maybe_unused]] const LineView& line) {}
 };
 
 /// Takes the lines of a frame from top to bottom: the number `y` of each, and its `pixels`, width x CHANNELS bytes.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "kage/core.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

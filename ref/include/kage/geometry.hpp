@@ -18,6 +18,7 @@
 #include "kage/config.hpp"
 #include "kage/order.hpp"
 #include "kage/scene.hpp"
+#include "kage/shadow.hpp"
 
 namespace kage {
 
@@ -36,8 +37,8 @@ struct ScreenVertex {
   bool operator==(const ScreenVertex&) const = default;
 };
 
-/// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. In the
-/// terms of the design: A = a, B = b, D = 2^24, C = c - a x0 - b y0; the anchor keeps c within 64 bits. |a|, |b| <=
+/// A plane over the screen: its value at the centre of pixel (x, y) is (c + a (x - x0) + b (y - y0)) / 2^24. The
+/// anchor (x0, y0) keeps c within 64 bits, which the value at pixel (0, 0), c - a x0 - b y0, may leave. |a|, |b| <=
 /// 2^60.
 struct ScreenPlane {
   std::int64_t a = 0;   ///< slope in x, per pixel, in 2^-24
@@ -186,12 +187,6 @@ enum class TranslucentWay : std::uint8_t {
   submission,  ///< whole, as the file has them
 };
 
-/// How many volumes casters have.
-enum class VolumeWay : std::uint8_t {
-  fewest,    ///< as few as DSF_BITS allows
-  per_face,  ///< one for each face of what is not convex, which changes no picture but in near ties; for tests
-};
-
 /// What the picture's maker decides.
 struct Look {
   std::array<std::uint8_t, 3> background{38, 44, 56};  ///< as displayed: red, green, blue
@@ -229,22 +224,6 @@ class TranslucentOrder {
 
  private:
   friend struct TranslucentOrderInside;  // how the library itself comes to what is kept
-  struct Data;
-  std::unique_ptr<Data> data_;
-};
-
-/// Keeps what a scene's shadow volumes are made of from frame to frame, so that it is not found again for a light and
-/// casters that have not moved. It changes no frame. Not for several threads at once.
-class ShadowCache {
- public:
-  /// Nothing is kept yet.
-  ShadowCache();
-  ~ShadowCache();
-  ShadowCache(ShadowCache&&) noexcept;
-  ShadowCache& operator=(ShadowCache&&) noexcept;
-
- private:
-  friend struct ShadowCacheInside;  // how the library itself comes to what is kept
   struct Data;
   std::unique_ptr<Data> data_;
 };

@@ -30,7 +30,7 @@ struct TokenSource {
 
   /// Puts the source in words.
   /// @return "the side of the shadow of gem, face 3, light 0 sample 2"
-  [[nodiscard]] std::string text() const;  ///< "the side of the shadow of gem, face 3, light 0 sample 2"
+  [[nodiscard]] std::string text() const;
 };
 
 /// A frame's geometry with the names behind it.

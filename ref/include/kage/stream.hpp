@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// The frame stream: tokens to words, words to tokens, stream files. The contract is docs/stream.md.
+/// The frame stream: checking and walking a frame's words, and stream files; token.hpp has the tokens. The contract is
+/// docs/stream.md.
 #pragma once
 
 #include <array>
@@ -15,143 +16,9 @@
 #include <vector>
 
 #include "kage/defs.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
-
-/// A span with depth: OP, SP and TP. Colour is used by OP and TP only.
-struct SpanToken {
-  int xl = 0;                            ///< its first pixel
-  int xr = 0;                            ///< half open, xl <= xr <= width
-  std::int64_t z = 0;                    ///< at xl, Z_FRAC fraction bits, half an LSB included
-  std::int64_t dz = 0;                   ///< per pixel
-  int w = 0;                             ///< SP: signed multiplicity
-  int normal_class = 0;                  ///< OP: 0 is unlit; without a table 1 is lit, with one the table's class
-  std::array<std::int32_t, 3> color{};   ///< at xl, COLOR_FRAC fraction bits with SMOOTH, else 0 .. 255
-  std::array<std::int32_t, 3> dcolor{};  ///< SMOOTH: per pixel
-  int alpha = 0;                         ///< TP: 0 (not to be seen) .. 255 (opaque)
-};
-
-/// FACE and SEG: an entry of a unit's face table, and a run of pixels of one face (docs/stream.md, "Units and the
-/// tree").
-struct SegmentToken {
-  int unit = 0;                         ///< 0 .. UNITS - 1
-  int face = 0;                         ///< SEG: 2^FACE_BITS - 1 is blank
-  std::int64_t z = 0;                   ///< SEG: at the first pixel, as a span's; not for blank ones
-  int dx = 0;                           ///< SEG: pixels, at least 1
-  bool sync = false;                    ///< SEG: first of its unit's line
-  int index = 0;                        ///< FACE: draw index of the polyhedron
-  int normal_class = 0;                 ///< FACE: as OP's
-  std::int64_t dz = 0;                  ///< FACE: depth per pixel
-  std::array<std::int32_t, 3> color{};  ///< FACE: 0 .. 255
-};
-
-/// TABLE: what a pixel of a class loses for each shadowed sample of a light.
-struct TableToken {
-  int normal_class = 0;                  ///< 1 .. 2^CLASS_BITS - 1
-  int light = 0;                         ///< 0 .. LIGHTS - 1
-  std::array<std::uint32_t, 3> share{};  ///< of each channel, in 2^-SHADE_FRAC, at most 2^SHADE_FRAC
-};
-
-/// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and to what the
-/// fields mean (check_frame() judges both). A value that its field cannot hold is never cut: Error names token, field
-/// and value, and the words are as they were. The class is left out where the configuration has no shadows.
-class TokenWriter {
- public:
-  /// Writes behind what is there.
-  /// @param config a legal configuration
-  /// @param out must outlive the writer, or its use
-  TokenWriter(const Config& config, std::vector<std::uint32_t>& out);
-
-  /// Goes on writing elsewhere.
-  /// @param out must outlive the writer, or its use
-  void write_to(std::vector<std::uint32_t>& out) { out_ = &out; }
-
-  /// The frame's first words.
-  /// @param header its fields; fills in nothing
-  void header(const FrameHeader& header);
-  /// SHADE.
-  /// @param shade share of its colour that a pixel in shadow loses, 0 .. 2^SHADE_FRAC
-  void shade(std::uint32_t shade);
-  /// TABLE.
-  /// @param entry what it says
-  void table(const TableToken& entry);
-  /// FACE.
-  /// @param face what it says
-  void face(const SegmentToken& face);
-  /// SEG.
-  /// @param segment what it says
-  void seg(const SegmentToken& segment);
-  void tree();  ///< TREE
-  /// OP.
-  /// @param span what it says
-  void op(const SpanToken& span);
-  /// SP.
-  /// @param span what it says
-  void sp(const SpanToken& span);
-  /// NC.
-  /// @param xl its first pixel
-  /// @param xr one past its last
-  /// @param w signed multiplicity
-  void nc(int xl, int xr, int w);
-  /// IF.
-  /// @param w signed multiplicity
-  void inside(int w);  ///< IF
-  /// EV.
-  /// @param xl its first pixel
-  /// @param xr one past its last
-  void ev(int xl, int xr);
-  /// ES.
-  /// @param xl its first pixel
-  /// @param xr one past its last
-  /// @param light 0 .. LIGHTS - 1
-  void es(int xl, int xr, int light);
-  void resolve();  ///< RESOLVE
-  /// TP.
-  /// @param span what it says
-  void tp(const SpanToken& span);
-  /// EOL.
-  /// @param y number of the line, from 0
-  void eol(int y);
-  void end();  ///< END
-
- private:
-  template <Kind K, class T>
-  void pack(const T& token);
-
-  Config config_;
-  Layout layout_;
-  std::vector<std::uint32_t>* out_;
-};
-
-/// Any token, decoded. `span.xl`, `span.xr` and `span.w` are also those of NC, IF, EV and ES.
-struct Token {
-  Kind kind{};              ///< which token it is
-  SpanToken span;           ///< OP, SP, NC, IF, EV, ES and TP
-  SegmentToken segment;     ///< FACE and SEG
-  TableToken table;         ///< TABLE; its light is also that of ES
-  std::uint32_t shade = 0;  ///< SHADE: 0 .. 2^SHADE_FRAC
-  int y = 0;                ///< EOL
-};
-
-/// Decodes a token.
-/// @param config that of the words
-/// @param layout of the same configuration
-/// @param words hold the token whole, from `words[0]` on
-/// @return the token
-Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words);
-
-/// The same for one token after the other: fields that its kind does not have in this configuration stay as they are.
-/// @param config that of the words
-/// @param layout of the same configuration
-/// @param words hold the token whole, from `words[0]` on
-/// @param token gets what they say
-void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& token);
-
-/// Says in one line what the token is.
-/// @param config that of the token
-/// @param token of any kind
-/// @return "OP [12, 40) z 123.5 dz -0.25 color 10,20,30 lit"
-std::string to_string(const Config& config, const Token& token);
 
 /// Count of each kind of token, and words.
 struct TokenCounts {

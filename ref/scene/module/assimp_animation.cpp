@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "number/counted.hpp"
 #include "scene/module/assimp_values.hpp"
 #include "scene/notes.hpp"
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "kage/error.hpp"
+#include "number/counted.hpp"
 #include "scene/import.hpp"
 #include "scene/module/assimp_animation.hpp"
 #include "scene/module/assimp_files.hpp"

@@ -7,6 +7,7 @@
 
 #include "contract/derived.hpp"
 #include "kage/defs.hpp"
+#include "number/bits.hpp"
 #include "number/packed_color.hpp"
 
 namespace kage::cosim {
@@ -40,11 +41,9 @@ std::string value_text(const Config& config, Stage stage, int index, std::uint64
       return fmt::format("{:04b}", value);
     case ValueText::words:
       return fmt::format("{:#018x}", value);
-    case ValueText::ramp: {
-      const int spare = 64 - derived::depth_bits(config);
-      const auto fixed = static_cast<std::int64_t>(value << spare) >> spare;
-      return fmt::format("{}", static_cast<double>(fixed) / static_cast<double>(std::int64_t{1} << config.z_frac));
-    }
+    case ValueText::ramp:
+      return fmt::format("{}", static_cast<double>(sign_extend(value, derived::depth_bits(config))) /
+                                   static_cast<double>(std::int64_t{1} << config.z_frac));
     case ValueText::color: {
       const auto color = unpacked_color(value);
       return fmt::format("{}", fmt::join(std::span(color).first(static_cast<std::size_t>(config.channels)), ","));

@@ -10,6 +10,7 @@
 #include "cosim/report/html.hpp"
 #include "file/read_file.hpp"
 #include "kage/error.hpp"
+#include "number/counted.hpp"
 
 namespace kage::report {
 namespace {
@@ -159,12 +160,8 @@ Json told_of(const Page& page) {
 
 std::string headline(const Page& page) {
   const cosim::Report& r = *page.run;
-  const auto count = [](std::uint64_t n, const char* what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-  };
-  return fmt::format("{}: {}{}, {}x{}, {} compared{}", r.same ? "same" : "different",
-                     count(static_cast<std::uint64_t>(r.frames), "frame"), cosim::taken_text(r.taken.size()), r.width,
-                     r.height, count(r.pixels_compared, "pixel"),
+  return fmt::format("{}: {}{}, {}x{}, {} compared{}", r.same ? "same" : "different", counted(r.frames, "frame"),
+                     cosim::taken_text(r.taken.size()), r.width, r.height, counted(r.pixels_compared, "pixel"),
                      page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
 }
 

@@ -30,6 +30,7 @@ json "$last" 'j["verdicts"]["verdicts"]==2 and j["verdicts"]["damaged"]==0'
 said 0 cosim polyhedra --size 64x48 --frames 2 --config polyhedra --idle 20 --no-report --out same
 json "$last" 'j["polyhedra"] and any(f["stalled_by_phase"] for f in j["each"])'
 said 1 cosim courtyard "${small[@]}" --fault wrong_compare --out different
+cp "$last" found.json
 json "$last" 'j["first_difference"]["divergence"] and j["first_difference"]["waveform"]'
 said 1 cosim courtyard "${small[@]}" --fault wrong_compare --no-divergence --no-report --out different
 said 1 cosim courtyard "${small[@]}" --fault dead_hang --no-report --no-divergence --out hang
@@ -70,6 +71,7 @@ expect 2 "$kage" cosim nowhere.obj --json trouble.json
 # The regression: the same, different, and ended by a signal.
 said 0 regress --rounds 1 --config tiny --out regress
 said 1 regress --rounds 1 --config default --fault wrong_compare --no-divergence --out regress
+cp "$last" regressed.json
 KAGE_PROGRESS=0.2 "$kage" regress --minutes 60 --config tiny --out regress --json json/regress.0.json >/dev/null 2>progress &
 pid=$!
 until grep -q "^[1-9][0-9]* run" progress || ! kill -0 $pid; do sleep 0.1; done
@@ -128,5 +130,28 @@ json "$last" 'j["models"]'
 mkdir empty
 XDG_CACHE_HOME=$PWD/empty said 0 cache prune --max-size 1M
 
-python3 "$source/verif/test/cli/schema.py" "$kage" "$source/docs/schema" json || fail "JSON and schemas"
+# A tool that gives mutants to kage: to one that answers as kage did above.
+cat >answers <<'SH'
+#!/bin/sh
+case "$*" in
+  *--list*) printf '%s: kage cosim courtyard\n' random.default.0 mixed.default.0 courtyard.default; exit 0 ;;
+  regress*) cat regressed.json ;;
+  cosim*) cat found.json ;;
+esac
+exit 1
+SH
+chmod +x answers
+mutants=(python3 "$source/tools/regress_mutants.py" ./answers "$source")
+expect 0 "${mutants[@]}" --json json/mutants.1.json next_tie
+cp json/mutants.1.json rows.json
+expect 0 "${mutants[@]}" --json rows.json --resume next_tie cell_tie
+json rows.json 'len(j)==2 and all(r["found"] for r in j)'
+expect 0 "${mutants[@]}" --each --json json/mutants.2.json next_tie
+json json/mutants.2.json '[("named" in r) for r in j[0]["runs"]]==[True]*3'
+expect 1 "${mutants[@]}" --json json/mutants.2.json --resume next_tie  # rows of --each
+python3 -c 'import json; r = json.load(open("rows.json")); [x.pop("schema") for x in r]; json.dump(r, open("old.json", "w"))'
+expect 1 "${mutants[@]}" --json old.json --resume next_tie
+[ "$(cat stderr)" = "tools/regress-mutants: old.json: not rows of kage.regress-mutants/1, which alone --resume goes on from" ] || fail "$(cat stderr)"
+
+python3 "$source/verif/test/cli/schema.py" "$source/docs/schema" json "$kage" || fail "JSON and schemas"
 done_testing

@@ -183,8 +183,9 @@ TEST_CASE("family 24: where the eye is in several shadows, IF has their number")
   make_frame(make_geometry(f, config, kWidth, kHeight, {.look = look}), config, 0, words, {.threads = 1});
   const Layout layout(config);
   int inside = 0;
-  for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words_of(words[at])) {
-    const Token t = decode(config, layout, std::span(words).subspan(at));
+  TokenWalk walk(layout, words);
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) {
+    const Token t = decode(config, layout, token);
     if (t.kind != Kind::IF) continue;
     CHECK(std::abs(t.span.w) == 3);
     ++inside;

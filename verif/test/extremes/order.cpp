@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "geometry/order_mesh.hpp"
 #include "opinion/order_oracle.hpp"
-#include "scene/order_mesh.hpp"
 #include "stimulus/order_meshes.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
@@ -225,7 +225,7 @@ TEST_CASE("family 37: faces next to nothing wide cut others where their planes a
   for (unsigned i = 0; i < 2; ++i)
     add_glass(f, raw_sphere_solid(4 + i), {0, 0, 0}, glm::dvec3(0.3 + 0.25 * i), Turn{}, {1, 1, 1}, 100);
   add_glass(f, box_solid(), {0.9, 0, 0.2}, glm::dvec3(0.5), Turn{}, {1, 1, 1}, 100);
-  const OrderTree tree = OrderTree::build(scene::order_mesh(f));
+  const OrderTree tree = OrderTree::build(order_mesh(f));
   CHECK(tree.stats().flat == 0);
   int slivers = 0;
   for (std::uint32_t face = 0; face < tree.face_count(); ++face) {

@@ -69,11 +69,10 @@ inline Picture picture(const FrameGeometry& g, const Config& config) {
 template <class What>
 void each_token(const std::vector<std::uint32_t>& words, const Config& config, Kind kind, What what) {
   const Layout layout(config);
-  for (std::size_t at = kHeaderWords; at < words.size();) {
-    const auto k = kind_of(words[at]);
-    if (k == kind) what(decode(config, layout, std::span(words).subspan(at)), at);
-    at += static_cast<std::size_t>(layout.words[static_cast<std::size_t>(k)]);
-  }
+  TokenWalk walk(layout, words);
+  for (auto token = walk.next(); !token.empty(); token = walk.next())
+    if (kind_of(token[0]) == kind)
+      what(decode(config, layout, token), static_cast<std::size_t>(token.data() - words.data()));
 }
 
 /// The segments of each unit's lines: [unit][line], of a frame that has a tree.

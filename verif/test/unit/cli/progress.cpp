@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a progress line says.
-#include "progress.hpp"
+#include "cli/progress.hpp"
 
 #include "test/support/catch.hpp"
 

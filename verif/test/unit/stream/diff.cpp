@@ -116,7 +116,9 @@ TEST_CASE("random streams: the same as themselves, symmetric, and one changed bi
     const auto at_frame = static_cast<std::size_t>(random.in(0, static_cast<int>(frames.size()) - 1));
     Words words = frames[at_frame];
     std::vector<std::size_t> starts;
-    for (std::size_t at = kHeaderWords; at < words.size(); at += layout.words_of(words[at])) starts.push_back(at);
+    TokenWalk walk(layout, words);
+    for (auto token = walk.next(); !token.empty(); token = walk.next())
+      starts.push_back(static_cast<std::size_t>(token.data() - words.data()));
     const auto number = static_cast<std::size_t>(random.in(0, static_cast<int>(starts.size()) - 1));
     const auto kind = kind_of(words[starts[number]]);
     const int bits = layout.bits[static_cast<std::size_t>(kind)];

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kage/bless.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "file/real_path.hpp"
 #include "file/temp_file.hpp"
-#include "kage/diff.hpp"
 #include "kage/error.hpp"
 #include "kage/stream_diff.hpp"
 

@@ -8,7 +8,7 @@
 #include "kage/order.hpp"
 #include "kage/scene.hpp"
 
-namespace kage::scene {
+namespace kage {
 
 /// Polygons of a frame for an OrderTree, numbered as in `polygons`, with the vertices that they have.
 inline OrderMesh order_mesh(const SceneFrame& frame, std::span<const std::uint32_t> polygons) {
@@ -37,4 +37,4 @@ inline OrderMesh order_mesh(const SceneFrame& frame) {
   return order_mesh(frame, all);
 }
 
-}  // namespace kage::scene
+}  // namespace kage

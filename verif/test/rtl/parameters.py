@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Elaboration refuses every parameter out of its range and all that breaks a rule, by name, and takes the ends of the
+ranges. Ranges and rules are those of rtl/defs/kage.yaml. A run of Verilator tells all that is wrong, so one run tries
+many parameters.
+
+usage: parameters.py SOURCE_DIR
+"""
+
+import itertools
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import yaml
+
+# For each rule, parameters that break it and no other.
+BREAKS = {
+    "fsf_alone": ["DSF_BITS=0"],
+    "count_alone": ["COUNT_BITS=1 DSF_BITS=0 FSF=0"],
+    "class_alone": ["CLASS_BITS=2"],
+    "lights_alone": ["LIGHTS=2", "LIGHTS=2 COUNT_BITS=1"],
+    "color_frac_alone": ["COLOR_FRAC=4"],
+    "classic_segment": ["CLASSIC=1 UNITS=2", "CLASSIC=1 UNITS=2 Z_BITS=15 Z_FRAC=0 DX_BITS=8"],
+    "width_for_x": ["MAX_WIDTH=2048", "X_BITS=4 MAX_WIDTH=16"],
+}
+# Legal ones, at ends of ranges: nothing in the whole core is wrong.
+LEGAL = (
+    "X_BITS=4 MAX_WIDTH=15 Z_BITS=4 Z_FRAC=0 CHANNELS=1 DSF_BITS=0 FSF=0 SHADE_FRAC=1 LANES=32 BEAT_WORDS=8",
+    "X_BITS=15 MAX_WIDTH=32767 Z_BITS=28 Z_FRAC=16 SMOOTH=1 COLOR_FRAC=16 DSF_BITS=8 SHADE_FRAC=16 LANES=1 BEAT_WORDS=1",
+    "X_BITS=11 MAX_WIDTH=2047",
+    "MAX_WIDTH=1",
+    "MAX_WIDTH=1 ARRANGEMENT=0",
+    "UNITS=64 LANES=32 SMOOTH=1 FACE_BITS=12 DX_BITS=15 SEG_BITS=12 ORDER_BITS=16",
+    "UNITS=1 MAX_WIDTH=1 ARRANGEMENT=0 DSF_BITS=0 FSF=0 CHANNELS=1 FACE_BITS=2 DX_BITS=2 SEG_BITS=2 ORDER_BITS=1",
+    "COUNT_BITS=8 LIGHTS=8 CLASS_BITS=11 SHADE_FRAC=16 TRANSLUCENCY=1 UNITS=3 SMOOTH=1 COLOR_FRAC=16 LANES=32",
+    "COUNT_BITS=8 LIGHTS=8 CLASS_BITS=11 SHADE_FRAC=1 FSF=0 DSF_BITS=8 CHANNELS=1 ARRANGEMENT=0 MAX_WIDTH=9",
+    "COUNT_BITS=1 CLASS_BITS=2 UNITS=1 LANES=1 BEAT_WORDS=1 SHADE_FRAC=16",
+    "COUNT_BITS=1 X_BITS=4 MAX_WIDTH=15 Z_BITS=4 Z_FRAC=0 CHANNELS=1 FSF=0 TRANSLUCENCY=1",
+    "UNITS=5 CLASSIC=1 Z_BITS=15 Z_FRAC=0",
+)
+
+
+# A module of the core's parameters and checks alone: with nonsense for a width, Verilator gives up on the whole core before
+# it comes to the checks.
+CHECKS = """
+`include "kage_illegal.svh"
+module kage_top #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_impl_params.svh"
+);
+  `include "generated/kage_checks.svh"
+endmodule
+"""
+
+
+class Elaborator:
+    """Verilator, with what it is to read."""
+
+    def __init__(self, source, rules, files):
+        self.command = ["verilator", "--lint-only", "-Wall", f"-I{source}/rtl/include", "--top-module", "kage_top"]
+        self.files = files
+        self.rules = {rule["doc"]: rule["name"] for rule in rules}
+
+    def fault(self, values, ranges, rules):
+        """A line if Verilator refuses others than these parameters by their range, or breaks of others than these rules
+        (None: whichever), or refuses without a reason; None if all is right. values: PARAM=VALUE, by blanks."""
+        options = [f"-G{value}" for value in values.split()]
+        run = subprocess.run([*self.command, *options, *self.files], capture_output=True, text=True, check=False)
+        said = run.stdout + run.stderr
+        reasons = set(re.findall(r"USERFATAL: \S+ (.*)", said))
+        out = {found[1] for reason in reasons if (found := re.match(r"(\w+) must be (one of|-?\d)", reason))}
+        broken = {name for doc, name in self.rules.items() if doc in reasons}
+        if out == ranges and rules in (None, broken) and (run.returncode != 0) == bool(out or broken):
+            return None
+        return (
+            f"{values}: out of range: {sorted(out)}, breaks {sorted(broken)}, exit code {run.returncode}\n{said[:400]}"
+        )
+
+
+def text(values):
+    return " ".join(f"{name}={value}" for name, value in values.items())
+
+
+def out_of_range(params):
+    """Values below, above, and in each gap of what is allowed, of as many parameters at a time as there are."""
+    yield {p["name"]: p["min"] - 1 for p in params}
+    yield {p["name"]: p["max"] + 1 for p in params}
+    allowed = {p["name"]: p["allowed"] for p in params if "allowed" in p}
+    gaps = {name: [a + 1 for a, b in itertools.pairwise(list_) if a + 1 < b] for name, list_ in allowed.items()}
+    for i in range(max(map(len, gaps.values()))):
+        yield {name: values[i] for name, values in gaps.items() if i < len(values)}
+
+
+def faults(source, folder):
+    defs = yaml.safe_load((source / "rtl/defs/kage.yaml").read_text())
+    params, rules = defs["pixel_params"] + defs["impl_params"], defs["rules"]
+    only = folder / "kage_top.sv"
+    only.write_text(CHECKS)
+    checks = Elaborator(source, rules, [str(only)])
+    core = Elaborator(source, rules, [str(f) for f in sorted((source / "rtl").glob("*.sv"))])
+    for values in out_of_range(params):
+        yield checks.fault(text(values), set(values), None)
+    for end in ("min", "max"):  # together they break rules, but no range
+        yield checks.fault(text({p["name"]: p[end] for p in params}), set(), None)
+    above = {p["name"]: p["max"] + 1 for p in params}
+    yield core.fault(text(above), above.keys(), None)
+    if odd := BREAKS.keys() ^ {rule["name"] for rule in rules}:
+        yield f"rules without a case, or cases without a rule: {sorted(odd)}"
+    for name, cases in BREAKS.items():
+        for values in cases:
+            yield core.fault(values, set(), {name})
+    for values in LEGAL:
+        yield core.fault(values, set(), set())
+
+
+def main(source):
+    with tempfile.TemporaryDirectory() as folder:
+        bad = [fault for fault in faults(source, pathlib.Path(folder)) if fault]
+    print("\n".join(bad) or "refused by name what is out of its range or breaks a rule")
+    return 1 if bad else 0
+
+
+sys.exit(main(pathlib.Path(sys.argv[1])))
