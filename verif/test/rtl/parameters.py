@@ -7,7 +7,9 @@ many parameters.
 usage: parameters.py SOURCE_DIR
 """
 
+import concurrent.futures
 import itertools
+import os
 import pathlib
 import re
 import subprocess
@@ -94,26 +96,32 @@ def out_of_range(params):
         yield {name: values[i] for name, values in gaps.items() if i < len(values)}
 
 
-def faults(source, folder):
-    defs = yaml.safe_load((source / "rtl/defs/kage.yaml").read_text())
-    params, rules = defs["pixel_params"] + defs["impl_params"], defs["rules"]
+def trials(source, folder, params, rules):
+    """(Elaborator, and what its fault() takes) of all that is tried."""
     only = folder / "kage_top.sv"
     only.write_text(CHECKS)
     checks = Elaborator(source, rules, [str(only)])
     core = Elaborator(source, rules, [str(f) for f in sorted((source / "rtl").glob("*.sv"))])
     for values in out_of_range(params):
-        yield checks.fault(text(values), set(values), None)
+        yield checks, text(values), set(values), None
     for end in ("min", "max"):  # together they break rules, but no range
-        yield checks.fault(text({p["name"]: p[end] for p in params}), set(), None)
+        yield checks, text({p["name"]: p[end] for p in params}), set(), None
     above = {p["name"]: p["max"] + 1 for p in params}
-    yield core.fault(text(above), above.keys(), None)
-    if odd := BREAKS.keys() ^ {rule["name"] for rule in rules}:
-        yield f"rules without a case, or cases without a rule: {sorted(odd)}"
+    yield core, text(above), above.keys(), None
     for name, cases in BREAKS.items():
         for values in cases:
-            yield core.fault(values, set(), {name})
+            yield core, values, set(), {name}
     for values in LEGAL:
-        yield core.fault(values, set(), set())
+        yield core, values, set(), set()
+
+
+def faults(source, folder):
+    defs = yaml.safe_load((source / "rtl/defs/kage.yaml").read_text())
+    params, rules = defs["pixel_params"] + defs["impl_params"], defs["rules"]
+    if odd := BREAKS.keys() ^ {rule["name"] for rule in rules}:
+        yield f"rules without a case, or cases without a rule: {sorted(odd)}"
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        yield from pool.map(lambda trial: trial[0].fault(*trial[1:]), trials(source, folder, params, rules))
 
 
 def main(source):
