@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

@@ -10,7 +10,7 @@
 #include "contract/kinds.hpp"
 #include "contract/order.hpp"
 #include "contract/segment_rules.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

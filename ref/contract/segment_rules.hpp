@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "contract/derived.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

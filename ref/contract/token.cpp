@@ -10,7 +10,7 @@
 #include "contract/fields.hpp"
 #include "contract/token_text.hpp"
 #include "kage/error.hpp"
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 #include "number/bits.hpp"
 
 namespace kage {

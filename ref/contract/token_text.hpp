@@ -3,7 +3,7 @@
 // clang-format off
 #pragma once
 
-#include "kage/stream.hpp"
+#include "kage/token.hpp"
 
 namespace kage {
 

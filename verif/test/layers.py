@@ -50,12 +50,6 @@ PUBLIC = {
 OWNERS = {name: folder for folder, names in PUBLIC.items() for name in names}
 GROUND = {"defs.hpp", "error.hpp", "registers.h"}  # they have no functions elsewhere and stand below all folders
 
-# Headers that stand too high: kage/token.hpp is all that each of these files needs of the stream.
-EXCUSED = {
-    (f"ref/contract/{name}", "kage/stream.hpp")
-    for name in ("fields.hpp", "rules.hpp", "segment_rules.hpp", "token.cpp", "token_text.hpp")
-}
-
 # Beside the golden model: all that may be included, in full. The longest path counts.
 ABOVE = {
     "verif/stimulus": ["stimulus", *MODEL],
@@ -143,9 +137,9 @@ def faults(source):
                 yield f"layers.py lets {path} include {name}"
     public = {place(path)[1] for path in files} - {None}
     yield from (f"layers.py: {name}: is of no folder, or is no header" for name in public ^ (OWNERS.keys() | GROUND))
-    high = {(path, name) for path, p in files.items() for name in refused(path, p.read_text(), files)}
-    yield from (f"{path}: includes {name}, which its layer may not" for path, name in sorted(high - EXCUSED))
-    yield from (f"layers.py: {path} needs no excuse for {name} any more" for path, name in sorted(EXCUSED - high))
+    for path, p in files.items():
+        for name in refused(path, p.read_text(), files):
+            yield f"{path}: includes {name}, which its layer may not"
     if len(files) < 300:
         yield f"layers.py: found {len(files)} files only"
 
