@@ -29,13 +29,7 @@ std::string allowed_values(const ParamInfo& p) {
 std::string values_of(const Config& config, const RuleInfo& rule) {
   std::string text;
   for (const ParamInfo& p : kParams) {
-    const std::size_t at = rule.legal.find(p.name);
-    if (at == std::string_view::npos) continue;
-    const std::size_t end = at + p.name.size();
-    const auto in_name = [&](std::size_t i) {
-      return rule.legal[i] == '_' || (rule.legal[i] >= 'A' && rule.legal[i] <= 'Z');
-    };
-    if ((at > 0 && in_name(at - 1)) || (end < rule.legal.size() && in_name(end))) continue;  // part of another's name
+    if (!names(rule.legal, p.name)) continue;
     text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", p.name, config.*(p.member));
   }
   return text + ")";
@@ -75,6 +69,16 @@ YAML::Node read_yaml(const std::string& path) {
 }
 
 }  // namespace
+
+bool names(std::string_view expression, std::string_view parameter) {
+  const auto in_name = [&](std::size_t i) {
+    return i < expression.size() && (expression[i] == '_' || (expression[i] >= 'A' && expression[i] <= 'Z'));
+  };
+  for (std::size_t at = expression.find(parameter); at != std::string_view::npos;
+       at = expression.find(parameter, at + 1))
+    if ((at == 0 || !in_name(at - 1)) && !in_name(at + parameter.size())) return true;
+  return false;
+}
 
 Config config_from_text(const std::string& text, const std::string& where) {
   try {
