@@ -190,29 +190,65 @@ class Tree:
         return verdict, marked or test["name"] in CORE_IN_THE_PROGRAM, time.monotonic() - start
 
 
-def all_tests(tree, core, chosen, jobs):
-    """A row for each of the chosen tests, so many at a time; each is printed when it has ended."""
+def all_tests(tree, core, chosen, jobs, record):
+    """A row for each of the chosen tests, so many at a time; each is printed and recorded when it has ended."""
 
     def one(test):
+        if row := record.row(core, test["name"]):
+            return row
         verdict, uses_core, seconds = tree.run(test)
         print(
             f"{core:<14} {verdict:<14} {'core' if uses_core else '-':<5} {seconds:6.1f} s  {test['name']}", flush=True
         )
         row = {"schema": "kage.dead-cores/1", "core": core, "test": test["name"]}  # docs/schema/dead-cores.json
-        return row | {"verdict": verdict, "uses_core": uses_core, "seconds": seconds}
+        return record.add(row | {"verdict": verdict, "uses_core": uses_core, "seconds": seconds})
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(one, chosen))
 
 
+class Record:
+    """The rows so far: of an earlier run that ended too soon, and of this one. --json has them after each test."""
+
+    def __init__(self, path, resume):
+        self.path = path
+        self.lock = threading.Lock()
+        self.rows = []
+        if resume:
+            if path is None:
+                raise Trouble("--resume: there is no --json FILE to go on from")
+            if path.exists():
+                try:
+                    self.rows = json.loads(path.read_text())
+                except ValueError as e:
+                    raise Trouble(f"{path}: {e}") from None
+            if not isinstance(self.rows, list) or not all(
+                isinstance(row, dict) and row.get("schema") == "kage.dead-cores/1" for row in self.rows
+            ):
+                raise Trouble(f"{path}: no rows of tools/dead-cores --json")
+
+    def row(self, core, test):
+        return next((row for row in self.rows if (row["core"], row["test"]) == (core, test)), None)
+
+    def add(self, row):
+        with self.lock:
+            self.rows.append(row)
+            if self.path:
+                partial = self.path.with_name(f".{self.path.name}.{os.getpid()}")
+                partial.write_text(json.dumps(self.rows, indent=1) + "\n")
+                partial.replace(self.path)
+        return row
+
+
 def run(options):
+    record = Record(options.json, options.resume)
     faults = options.fault or sorted(p.stem for p in (options.top / "verif/cosim/model/faults").glob("dead_*.patch"))
     chosen = tests(options.build, options.tests)
     rows = []
     for fault in ["", *faults]:
         with tempfile.TemporaryDirectory(prefix="kage-dead-") as work:
             tree = Tree(options.top, pathlib.Path(work), fault)
-            rows += all_tests(tree, fault or "sound", chosen, options.jobs)
+            rows += all_tests(tree, fault or "sound", chosen, options.jobs, record)
         if not fault:  # the others have nothing to say
             uses = {row["test"] for row in rows if row["verdict"] == "passes" and row["uses_core"]}
             chosen = [t for t in chosen if t["name"] in uses]
@@ -260,12 +296,10 @@ def main():
     parser.add_argument("--fault", action="append", default=[])
     parser.add_argument("--tests", default=MAY_USE_A_CORE)
     parser.add_argument("--json", type=pathlib.Path)
+    parser.add_argument("--resume", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
-    rows = run(options)
-    if options.json:
-        options.json.write_text(json.dumps(rows, indent=1) + "\n")
-    return tell(rows)
+    return tell(run(options))
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tokens to words and back.
+#include "kage/token.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -10,7 +12,6 @@
 #include "contract/fields.hpp"
 #include "contract/token_text.hpp"
 #include "kage/error.hpp"
-#include "kage/token.hpp"
 #include "number/bits.hpp"
 
 namespace kage {
