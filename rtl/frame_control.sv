@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame: judges its header by what token_facts found, asks token_check about its tokens, keeps the line's number,
-// and turns tokens into commands for the pixels and lines for the way out. Modules behind frame_control see
-// sound frames only.
+// The frame: has its tokens judged by token_stage, keeps the line's number, and turns tokens into commands for the
+// pixels and lines for the way out. Modules behind frame_control see sound frames only.
 //
-// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on line_ready_i, not on cmd_ready_i. line_valid_o
-//   waits for line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a
-//   command, so lines and EOL commands come in the same order.
+// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on line_ready_i and on what units and table say,
+//   not on cmd_ready_i. line_valid_o waits for line_ready_i, which must not depend on it: a line is passed on in the
+//   clock in which its EOL becomes a command, so lines and EOL commands come in the same order.
 // Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans,
 //   SHADE, IF and RESOLVE take their clock here and go no further: the command's count brings the line's bias with EV,
 //   ES and EOL. A line's first TP is preceded by the command RESOLVE, which has no token: over the whole line, with the
 //   background as its colour. It costs a clock. With counters, if there was a RESOLVE to do, it is preceded by the
-//   command CmdOut instead: the line's pixels leave, by a line that says `load`, and come back as loads. Nothing is
-//   taken or given until loads_done_i, one clock, says that they have.
-// Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they are taken, and wait for
+//   command CmdOut instead: the line's pixels leave, by a line that says `load`, and come back as loads. The TP waits
+//   in token_stage and nothing is given until loads_done_i, one clock, says that they have.
+// Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they leave token_stage, and wait for
 //   table_free_i: that nothing of the frame before is left there.
 // Errors: the first one of a frame is reported by error_* for one clock. From then on the frame's lines are blank: EOL
-//   commands clear the state and the line says that its pixels are background. Tokens are dropped by drop_o.
-// Units (UNITS > 0): FACE and SEG go to the tree in the clock they are taken and need no command; a SEG waits for its
-//   unit by tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A SEG whose
-//   unit is at fault goes nowhere. tree_call_o says, for one clock each, that a header or a FACE was taken, that a TREE
-//   became a command, and after an error that there will be no more of this frame. Without units these outputs are 0
-//   and the inputs do not matter.
-// Latency: 1 clock from token to command. Throughput: a token a clock.
-// Cost: token_check, token_command, and the flip-flops of a header and of two counters of 15 bits.
+//   commands clear the state and the line says that its pixels are background. Tokens are dropped by token_stage and
+//   drop_o. A token at fault waits for nothing but, if it is a header, for tree_frame_ready_i.
+// Units (UNITS > 0): FACE and SEG go to the tree in the clock they leave token_stage and need no command; a SEG waits
+//   for its unit by tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A
+//   SEG whose unit is at fault goes nowhere. tree_call_o says, for one clock each, that a header or a FACE left
+//   token_stage, that a TREE became a command, and after an error that there will be no more of this frame. Without
+//   units these outputs are 0 and the inputs do not matter.
+// Latency: 2 clocks from token to command. Throughput: a token a clock.
+// Cost: token_stage, token_command, and the flip-flops of a header and of two counters of 15 bits.
 `default_nettype none
 
 module frame_control #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
+    parameter int MAX_WIDTH   = 640,
     parameter int TOKEN_WORDS = 5
 ) (
     input wire logic clk_i,
@@ -37,7 +38,6 @@ module frame_control #(
     input  wire logic                      token_valid_i,
     output logic                           token_ready_o,
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
-    input  wire logic [     FactsBits-1:0] token_facts_i,
     input  wire logic [     FlagsBits-1:0] token_flags_i,
     output logic                           drop_o,
     input  wire logic                      dropping_i,
@@ -69,7 +69,7 @@ module frame_control #(
     output logic open_o,  // a frame's header has been taken and the frame has not ended
     output logic hungry_o,  // waits for a token or for TLAST
     output logic draining_o,  // input is being dropped after an error
-    output logic painting_o,  // one clock: a TP waits while the RESOLVE or CmdOut before it becomes a command
+    output logic moving_o,  // a token comes in or is done with, a command is made, or what units lack is to be told
     output logic frame_end_o,  // one clock
     output logic error_valid_o,  // one clock, with the next
     output logic [ErrorBits-1:0] error_o,
@@ -91,17 +91,44 @@ module frame_control #(
   logic [X_BITS-1:0] width_q;
   logic [14:0] line_q, left_q;  // lines that have ended, and those that have not
   logic lines_done_q;  // left_q is 0
-  logic [31:0] frame_q, index_q;
+  logic [31:0] frame_q;
   logic [RgbBits-1:0] background_q;
   logic [FactorBits-1:0] shade_q;
 
-  // ---- decode ------------------------------------------------------------------------------------------------------
+  // ---- the token at hand -------------------------------------------------------------------------------------------
+  logic held_valid, held_ready, rest_comes, unit_behind;
+  logic [TOKEN_WORDS*32-1:0] token;
+  verdict_t verdict;
+  behind_t behind_units;
+  logic [5:0] fault_unit;
+  logic [31:0] fault_token;
+
+  token_stage #(
+      .MAX_WIDTH  (MAX_WIDTH),
+      .TOKEN_WORDS(TOKEN_WORDS),
+      `include "generated/kage_pixel_param_map.svh"
+  ) u_stage (
+      .clk_i,
+      .rst_ni,
+      .token_valid_i,
+      .token_ready_o,
+      .token_i,
+      .token_flags_i,
+      .drop_o,
+      .held_valid_o (held_valid),
+      .held_ready_i (held_ready),
+      .held_o       (token),
+      .verdict_o    (verdict),
+      .fault_unit_o (fault_unit),
+      .fault_token_o(fault_token),
+      .dropping_o   (rest_comes),
+      .unit_behind_o(unit_behind),
+      .behind_o     (behind_units)
+  );
+
   logic [3:0] kind;
   logic is_eol, is_end, is_span, is_tree, is_tp, is_table;
-
-  flags_t flags;
-  assign flags = token_flags_i;
-  assign kind = token_i[3:0];
+  assign kind = token[3:0];
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_tree = UNITS > 0 && kind == KindTree;
@@ -109,80 +136,30 @@ module frame_control #(
   assign is_table = HasTable && kind == KindTable;
   assign is_span = kind_has_range(kind);
 
-  // ---- header ------------------------------------------------------------------------------------------------------
-  logic [3:0] head_error;
-  facts_t facts;
-  assign facts = token_facts_i;
-  assign head_error = flags.cut ? ErrLastEarly : facts.head_error;
-
-  // ---- body --------------------------------------------------------------------------------------------------------
-  logic accept, is_good, body_good, good, emit_eol, emit_paint;  // what happens in this clock, see below
-  logic resolved, seg_goes, unit_behind;
-  logic [ 3:0] body_error;
-  logic [31:0] fault_token;
-  logic [5:0] fault_unit, unit_of_behind;
-  logic [1:0] ahead_of_behind;
-  logic [DsfBits-1:0] bias;
-
-  token_check #(
-      .TOKEN_WORDS(TOKEN_WORDS),
-      `include "generated/kage_pixel_param_map.svh"
-  ) u_check (
-      .clk_i,
-      .rst_ni,
-      .token_i,
-      .bad_range_i    (facts.bad_range),
-      .token_lacking_i(flags.lacking),
-      .token_cut_i    (flags.cut),
-      .token_at_last_i(flags.at_last),
-      .width_i        (width_q),
-      .line_i         (line_q),
-      .lines_left_i   (left_q),
-      .lines_done_i   (lines_done_q),
-      .index_i        (index_q),
-      .header_i       (accept && flags.header),
-      .start_i        (good && flags.header),
-      .take_i         (good && !flags.header),
-      .eol_i          (emit_eol),
-      .clear_bias_i   (emit_paint),
-      .good_o         (body_good),
-      .code_o         (body_error),
-      .fault_unit_o   (fault_unit),
-      .fault_token_o  (fault_token),
-      .seg_goes_o     (seg_goes),
-      .bias_o         (bias),
-      .resolved_o     (resolved),
-      .behind_o       (unit_behind),
-      .behind_unit_o  (unit_of_behind),
-      .behind_ahead_o (ahead_of_behind)
-  );
-
   // ---- what happens in this clock ----------------------------------------------------------------------------------
-  logic cmd_free, eol_free, bad, body_eol, blank_eol, emit_span, emit_tree, emit_out, body_free, frame_free, must_paint;
-  logic by_loads;
-  logic [3:0] error_code;
+  logic accept, good, bad, body_good, emit_eol, emit_paint, resolved;
+  logic cmd_free, eol_free, body_eol, blank_eol, emit_span, emit_tree, emit_out, body_free, frame_free, must_paint;
+  logic by_loads, dropping;
   assign eol_free = cmd_free && line_ready_i;
-  assign token_ready_o = (state_q == StHeader && frame_free) ||
-      (state_q == StBody && body_free && (line_ready_i || !is_eol) && (table_free_i || !is_table) && !must_paint);
-  assign accept = token_valid_i && token_ready_o;
-  assign error_code = flags.header ? head_error : body_error;
-  assign is_good = flags.header ? !flags.cut && facts.head_error == ErrNone : body_good;
-  assign bad = accept && !is_good;
-  assign good = accept && is_good;
-  assign body_eol = good && !flags.header && is_eol;
+  assign body_good = verdict.good && !verdict.header;
+  assign held_ready = verdict.header ? state_q == StHeader && frame_free :
+      !verdict.good || (body_free && (line_ready_i || !is_eol) && (table_free_i || !is_table) && !must_paint);
+  assign accept = held_valid && held_ready;
+  assign good = accept && verdict.good;
+  assign bad = accept && !verdict.good;
+  assign resolved = verdict.resolved;
+  assign body_eol = good && !verdict.header && is_eol;
   assign blank_eol = state_q == StBlank && !lines_done_q && eol_free;
   assign emit_eol = body_eol || blank_eol;
-  assign emit_span = good && !flags.header && is_span && !facts.empty;
-  assign emit_tree = good && !flags.header && is_tree;
-  // A RESOLVE goes over the line before its first TP. A malformed TP makes the line blank anyway, and an empty TP
-  // changes nothing, so both may have it. A cut TP has none, because its kind may be missing.
-  assign must_paint = is_tp && !flags.cut && !painted_q;
-  assign emit_paint = must_paint && token_valid_i && state_q == StBody && cmd_free && !loading_q &&
-      (line_ready_i || !by_loads);
+  assign emit_span = good && !verdict.header && is_span && !verdict.empty;
+  assign emit_tree = good && !verdict.header && is_tree;
+  // A RESOLVE goes over the line before its first TP. An empty TP changes nothing, so it may have it.
+  assign must_paint = is_tp && !painted_q;
+  assign emit_paint = must_paint && held_valid && body_good && cmd_free && !loading_q && (line_ready_i || !by_loads);
   // With counters only the way out can darken; a line without RESOLVE has nothing to darken.
   assign by_loads = HasLoads && resolved;
   assign emit_out = emit_paint && by_loads;
-  assign drop_o = bad && !flags.ends;
+  assign dropping = dropping_i || rest_comes;
 
   assign line_valid_o = emit_eol || emit_out;
   line_t line;
@@ -195,52 +172,54 @@ module frame_control #(
   assign line.background = background_q;
   assign line.shade = shade_q;
 
-  assign open_o = state_q != StHeader;
-  assign hungry_o = state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done_q);
-  assign painting_o = emit_paint;
-  assign draining_o = state_q == StBlank && dropping_i;
-  assign frame_end_o = (good && !flags.header && is_end) || (state_q == StBlank && lines_done_q && !dropping_i);
+  assign open_o = state_q != StHeader || held_valid;
+  assign hungry_o = !held_valid &&
+      (state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done_q));
+  assign draining_o = state_q == StBlank && dropping;
+  assign frame_end_o = (good && !verdict.header && is_end) || (state_q == StBlank && lines_done_q && !dropping);
+
+  logic told_q;  // a token has come in in the clock before: which unit is waited for is known a clock after it
+  assign moving_o = (token_valid_i && token_ready_o) || told_q || accept || line_valid_o || emit_paint || frame_end_o;
+  always_ff @(posedge clk_i) told_q <= rst_ni && UNITS > 0 && token_valid_i && token_ready_o;
 
   error_t error;
   assign error_valid_o = bad;
   assign error_o = error;
-  assign error.code = error_code;
-  assign error.frame = flags.header ? (flags.cut ? 32'd0 : token_i[HeaderFrameLsb+:32]) : frame_q;
-  assign error.line = flags.header ? 16'd0 : 16'(line_q);
-  assign error.token = flags.header ? 32'd0 : fault_token;
-  assign error.unit = flags.header ? 6'd0 : fault_unit;
+  assign error.code = verdict.code;
+  assign error.frame = verdict.header ? (verdict.cut ? 32'd0 : token[HeaderFrameLsb+:32]) : frame_q;
+  assign error.line = verdict.header ? 16'd0 : 16'(line_q);
+  assign error.token = fault_token;
+  assign error.unit = fault_unit;
 
   // behind_valid_o is low while a frame ends or is dropped, because nothing waits for the units then.
   behind_t behind;
   assign behind_valid_o = unit_behind && state_q == StBody;
   assign behind_o = behind;
-  assign behind.unit = unit_of_behind;
-  assign behind.line = behind_valid_o ? line_q + 15'(ahead_of_behind) : line_q;
+  assign behind.unit = behind_units.unit;
+  assign behind.line = behind_valid_o ? behind_units.line : line_q;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       state_q <= StHeader;
     end else begin
-      if (good && flags.header) state_q <= StBody;
+      if (good && verdict.header) state_q <= StBody;
       if (bad) state_q <= StBlank;
       if (frame_end_o) state_q <= StHeader;
     end
   end
 
   always_ff @(posedge clk_i) begin
-    if (accept && flags.header) begin
-      width_q <= token_i[HeaderWidthLsb+:X_BITS];
-      left_q <= bad ? '0 : token_i[HeaderHeightLsb+:15];  // no lines after an error in the header
+    if (accept && verdict.header) begin
+      width_q <= token[HeaderWidthLsb+:X_BITS];
+      left_q <= bad ? '0 : token[HeaderHeightLsb+:15];  // no lines after an error in the header
       lines_done_q <= bad;
-      background_q <= token_i[HeaderBackgroundLsb+:RgbBits];
-      frame_q <= token_i[HeaderFrameLsb+:32];
+      background_q <= token[HeaderBackgroundLsb+:RgbBits];
+      frame_q <= token[HeaderFrameLsb+:32];
       line_q <= '0;
-      index_q <= 32'd1;
       painted_q <= 1'b0;
       loading_q <= 1'b0;
       shade_q <= '0;
     end else begin
-      if (good) index_q <= index_q + 32'd1;
       if (emit_eol) begin
         line_q <= line_q + 15'd1;
         left_q <= left_q - 15'd1;
@@ -255,7 +234,7 @@ module frame_control #(
         loading_q <= 1'b0;
         painted_q <= 1'b1;
       end
-      if (DSF_BITS > 0 && good && kind == KindShade) shade_q <= token_i[ShadeShadeLsb+:FactorBits];
+      if (DSF_BITS > 0 && good && kind == KindShade) shade_q <= token[ShadeShadeLsb+:FactorBits];
     end
   end
 
@@ -268,10 +247,10 @@ module frame_control #(
   ) u_command (
       .clk_i,
       .rst_ni,
-      .token_i,
+      .token_i     (token),
       .width_i     (width_q),
       .share_i     (TRANSLUCENCY > 0 && COUNT_BITS == 0 ? ShareBits'(shade_q) : '0),
-      .bias_i      (bias),
+      .bias_i      (verdict.bias),
       .background_i(background_q),
       .free_o      (cmd_free),
       .make_span_i (emit_span),
@@ -287,10 +266,10 @@ module frame_control #(
   // ---- light table -------------------------------------------------------------------------------------------------
   table_entry_t entry;
   assign table_o = entry;
-  assign entry.normal_class = token_i[TableClassLsb+:CLASS_BITS];
-  assign entry.light = token_i[TableLightLsb+:LightBits];
-  assign entry.share = token_i[TableShareLsb+:EntryShareBits];
-  assign table_valid_o = good && !flags.header && is_table;
+  assign entry.normal_class = token[TableClassLsb+:CLASS_BITS];
+  assign entry.light = token[TableLightLsb+:LightBits];
+  assign entry.share = token[TableShareLsb+:EntryShareBits];
+  assign table_valid_o = good && !verdict.header && is_table;
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
   piece_t piece;  // yosys 0.23 finds no fields of a struct that a generate block declares
@@ -301,24 +280,24 @@ module frame_control #(
     logic is_face, is_seg;
     assign is_face = kind == KindFace;
     assign is_seg = kind == KindSeg;
-    assign piece.unit = is_face ? token_i[FaceUnitLsb+:UnitBits] : token_i[SegUnitLsb+:UnitBits];
-    assign piece.face = is_face ? token_i[FaceFaceLsb+:FACE_BITS] : token_i[SegFaceLsb+:FACE_BITS];
-    assign piece.entry = token_i[FaceIndexLsb+:EntryBits];
-    assign piece.z = DepthBits'(token_i[SegZLsb+:SegZBits]);
-    assign piece.dx = token_i[SegDxLsb+:DX_BITS];
+    assign piece.unit = is_face ? token[FaceUnitLsb+:UnitBits] : token[SegUnitLsb+:UnitBits];
+    assign piece.face = is_face ? token[FaceFaceLsb+:FACE_BITS] : token[SegFaceLsb+:FACE_BITS];
+    assign piece.entry = token[FaceIndexLsb+:EntryBits];
+    assign piece.z = DepthBits'(token[SegZLsb+:SegZBits]);
+    assign piece.dx = token[SegDxLsb+:DX_BITS];
 
-    assign call.start = good && flags.header;
-    assign call.flush = bad && !flags.header;
+    assign call.start = good && verdict.header;
+    assign call.flush = bad && !verdict.header;
     assign call.claim = emit_tree;
-    assign call.face = good && !flags.header && is_face;
-    assign tree_seg_valid_o = token_valid_i && state_q == StBody && seg_goes;
+    assign call.face = good && !verdict.header && is_face;
+    assign tree_seg_valid_o = held_valid && verdict.seg_goes;
 
     assign frame_free = tree_frame_ready_i;
     // FACE and SEG pass a command that waits: the units fill while the pixels work.
-    assign body_free = is_seg ? !seg_goes || tree_seg_ready_i : is_face || cmd_free;
+    assign body_free = is_seg ? !verdict.seg_goes || tree_seg_ready_i : is_face || cmd_free;
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i ^ seg_goes;
+    assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i ^ verdict.seg_goes;
     assign {tree_seg_valid_o, call, piece} = '0;
     assign frame_free = 1'b1;
     assign body_free = cmd_free;
@@ -329,14 +308,13 @@ module frame_control #(
   always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. The header is the first token of a frame and no other.
-      assert (!accept || flags.header == (state_q == StHeader));
+      assert (!accept || verdict.header == (state_q == StHeader));
+      assert (!held_valid || verdict.header || state_q == StBody);
       // 2. A command has pixels.
       assert (!cmd_valid_o || cmd.xl < cmd.xr);
       // 3. No line ends when all have ended.
       assert (!emit_eol || !lines_done_q);
       assert (state_q == StHeader || lines_done_q == (left_q == '0));
-      // 4. The bias is cleared in no clock in which a token is taken: the proof of line_phase assumes it.
-      assert (!(good && !flags.header) || !emit_paint);
     end
   end
 `endif

@@ -25,6 +25,7 @@ rtl/token_check.sv
 rtl/token_command.sv
 rtl/token_facts.sv
 rtl/token_reader.sv
+rtl/token_stage.sv
 rtl/tree_core.sv
 rtl/tree_line.sv
 rtl/kage_axi.v

@@ -58,20 +58,17 @@ module kage_top #(
   // `.*` connects clock, reset, and the ports of kage_top that the comment behind it names.
   logic token_valid, token_ready;
   logic [FrontWords*32-1:0] token;
-  facts_t facts;
   flags_t flags;
   logic drop, dropping, reader_busy, reader_moving;
 
   token_reader #(
       .BEAT_WORDS (BEAT_WORDS),
-      .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(FrontWords),
       `include "generated/kage_pixel_param_map.svh"
   ) u_reader (
       .token_valid_o(token_valid),
       .token_ready_i(token_ready),
       .token_o      (token),
-      .token_facts_o(facts),
       .token_flags_o(flags),
       .drop_i       (drop),
       .dropping_o   (dropping),
@@ -101,11 +98,12 @@ module kage_top #(
   tree_call_t tree_call;
   piece_t tree_piece;
 
-  logic frame_open, hungry, draining, painting, frame_end, error_valid, behind_valid;
+  logic frame_open, hungry, draining, control_moving, frame_end, error_valid, behind_valid;
   error_t  error;
   behind_t behind;
 
   frame_control #(
+      .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(FrontWords),
       `include "generated/kage_pixel_param_map.svh"
   ) u_control (
@@ -114,7 +112,6 @@ module kage_top #(
       .token_valid_i     (token_valid),
       .token_ready_o     (token_ready),
       .token_i           (token),
-      .token_facts_i     (facts),
       .token_flags_i     (flags),
       .drop_o            (drop),
       .dropping_i        (dropping),
@@ -136,7 +133,7 @@ module kage_top #(
       .open_o            (frame_open),
       .hungry_o          (hungry),
       .draining_o        (draining),
-      .painting_o        (painting),
+      .moving_o          (control_moving),
       .frame_end_o       (frame_end),
       .error_valid_o     (error_valid),
       .error_o           (error),
@@ -256,9 +253,7 @@ module kage_top #(
   logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
   assign table_free = lines_q == '0;
   assign line_gone  = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
-  logic told_q;  // a token has been taken in the clock before: which unit is waited for is known a clock after it
   always_ff @(posedge clk_i) begin
-    told_q <= rst_ni && UNITS > 0 && token_valid && token_ready;
     if (!rst_ni) lines_q <= '0;
     else lines_q <= lines_q + LinesBits'(line_valid) - LinesBits'(line_gone) - LinesBits'(loads_done);
   end
@@ -268,10 +263,9 @@ module kage_top #(
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
   // only if one of them does.
-  logic ports_move, control_moves;
+  logic ports_move;
   assign ports_move = (s_axis_tvalid_i && s_axis_tready_o) || (m_axis_tvalid_o && m_axis_tready_i);
-  assign control_moves = (token_valid && token_ready) || told_q || painting || frame_end || line_valid;
-  assign progress = ports_move || reader_moving || control_moves || lines_moving ||
+  assign progress = ports_move || reader_moving || control_moving || lines_moving ||
       (pixel_valid && pixel_ready) || pixels_moving || out_moving || tree_moving;
 
   registers #(

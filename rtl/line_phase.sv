@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The phases of a line (docs/stream.md, "Order in a line") and its bias: whether a token may stand where it does.
-// token_check asks about the token that frame_control has; nothing here waits.
+// token_check asks about the token that comes in; nothing here waits.
 //
 // Question: kind_i. in_order_o, combinational. Tokens that belong to no line (kage_order.svh) always get 1.
-// Acts: start_i, one clock, when a line begins, and then take_i does not count; take_i, one clock, when the token was
-//   good and has been taken, with IF's w_i; clear_bias_i.
-// State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token.
+// Acts: start_i, one clock, when a line begins, and then take_i does not count; take_i, one clock, when the token has
+//   been taken, with IF's w_i. After one that was out of order nothing but start_i counts.
+// State: bias_o, as the token finds it: EV and ES clear it, and the line's first TP, which the line is painted for with
+//   the bias that it finds. resolved_o: a RESOLVE was the line's last token.
 // Latency: answer 0, state 1 clock. Throughput: a token a clock.
 // Cost: DSF_BITS + 3 flip-flops; with counters one more.
 `default_nettype none
@@ -19,7 +20,6 @@ module line_phase #(
 
     input  wire logic                start_i,
     input  wire logic                take_i,
-    input  wire logic                clear_bias_i,
     input  wire logic [KindBits-1:0] kind_i,
     input  wire logic [ DsfBits-1:0] w_i,
     output logic                     in_order_o,
@@ -48,15 +48,13 @@ module line_phase #(
       phase_q <= PhaseOpaque;
       marks_q <= '0;
       bias_q  <= '0;
-    end else begin
-      if (clear_bias_i) bias_q <= '0;
-      if (take_i) begin
-        phase_q <= order_to(kind_i, phase_q);
-        marks_q <= (marks_q & ~order_clears(kind_i)) | order_sets(kind_i);
-        if (DSF_BITS > 0 && kind_i == KindIf) bias_q <= bias_q + w_i;
-        if (FSF > 0 && kind_i == KindEv) bias_q <= '0;
-        if (COUNT_BITS > 0 && kind_i == KindEs) bias_q <= '0;
-      end
+    end else if (take_i) begin
+      phase_q <= order_to(kind_i, phase_q);
+      marks_q <= (marks_q & ~order_clears(kind_i)) | order_sets(kind_i);
+      if (DSF_BITS > 0 && kind_i == KindIf) bias_q <= bias_q + w_i;
+      if (FSF > 0 && kind_i == KindEv) bias_q <= '0;
+      if (COUNT_BITS > 0 && kind_i == KindEs) bias_q <= '0;
+      if (TRANSLUCENCY > 0 && kind_i == KindTp) bias_q <= '0;
     end
   end
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules for FACE, SEG and TREE (docs/stream.md, "Units and the tree"): what each unit has been given, which tokens
-// may come, and which fault a TREE raises. token_check asks about the token that frame_control has; nothing here waits.
+// may come, and which fault a TREE raises. token_check asks about the token that comes in; nothing here waits.
 //
 // Question: is_*_i, at most one, says what the token is, *_i brings its fields; all hold still while the token waits.
-//   lines_left_i is the height less the number of EOLs accepted. Every answer is combinational, and valid for the kinds
+//   lines_left_i is the height less the number of EOLs taken. Every answer is combinational, and valid for the kinds
 //   it names.
-// Acts: frame_start_i, one clock, at a good header. take_i, one clock, when the token was good and has been taken; a
-//   token that is refused by any check must not be taken, and then nothing but the next frame_start_i counts.
+// Acts: frame_start_i, one clock, at a header. take_i, one clock, when the token has been taken; after one that was
+//   refused by any check nothing but the next frame_start_i counts.
 // Answers, in the order of the checks:
 //   order_error_o   FACE, SEG, TREE, SHADE, TABLE, EOL, or any other token but END (is_other_i), where its phase does
 //                   not allow it: as far as the tree is concerned. token_check judges lines and the number of SHADEs,
@@ -20,7 +20,7 @@
 // Two faults are kept, the first SEG at fault for this line and for the next: no SEG can be at fault for a later one,
 //   and none is left from an earlier one, because that line's TREE has raised it.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
-// Cost: per unit FACE_BITS + X_BITS + SEG_BITS + 4 flip-flops and the multiplexers to them; comparators once.
+// Cost: per unit FACE_BITS + X_BITS + SEG_BITS + 5 flip-flops and the multiplexers to them; comparators once.
 // Needs UNITS > 0: a core without units leaves it out.
 `default_nettype none
 
@@ -68,7 +68,7 @@ module segment_check #(
 );
   `include "generated/kage_layout.svh"
 
-  localparam int SumBits = (X_BITS > DX_BITS ? X_BITS : DX_BITS) + 1;
+  localparam int RestBits = X_BITS > DX_BITS ? X_BITS : DX_BITS;
 
   // ---- the frame: has it a tree? -----------------------------------------------------------------------------------
   logic state_q;  // only SHADE, TABLE and FACE since the header: a SEG begins the tree, any other token rules it out
@@ -79,7 +79,8 @@ module segment_check #(
   // ---- the units ---------------------------------------------------------------------------------------------------
   // Flat: unit u has bits u * width and up.
   logic [UNITS*FACE_BITS-1:0] faces_q;  // defined
-  logic [UNITS*X_BITS-1:0] sum_q;  // pixels of the line being given
+  logic [UNITS-1:0] begun_q;  // a line has been given in part
+  logic [UNITS*X_BITS-1:0] rest_q;  // pixels that it lacks, of a line that has begun
   logic [UNITS*SEG_BITS-1:0] count_q;  // its segments, modulo 2^SEG_BITS: 0 with pixels is all of them
   logic [UNITS*2-1:0] ahead_q;  // lines complete, less the number of this line
   logic [UNITS-1:0] fault_q;
@@ -87,14 +88,16 @@ module segment_check #(
   logic lacking;
   logic [UnitBits-1:0] unit;
   logic [FACE_BITS-1:0] faces;
-  logic [X_BITS-1:0] sum;
+  logic begun;
+  logic [X_BITS-1:0] rest;
   logic [SEG_BITS-1:0] count;
   logic [1:0] ahead;
   logic fault;
   assign lacking = 32'(unit_i) >= 32'(UNITS);
   assign unit = lacking ? '0 : unit_i;
   assign faces = faces_q[unit*FACE_BITS+:FACE_BITS];
-  assign sum = sum_q[unit*X_BITS+:X_BITS];
+  assign begun = begun_q[unit];
+  assign rest = begun ? rest_q[unit*X_BITS+:X_BITS] : width_i;
   assign count = count_q[unit*SEG_BITS+:SEG_BITS];
   assign ahead = ahead_q[unit*2+:2];
   assign fault = fault_q[unit];
@@ -115,19 +118,19 @@ module segment_check #(
   end
 
   // ---- a segment ---------------------------------------------------------------------------------------------------
-  logic [SumBits-1:0] sum_next;
-  logic begins, completes, too_early, seg_fault;
+  logic [X_BITS-1:0] rest_next;
+  logic completes, too_long, too_early, seg_fault;
   logic [3:0] seg_code;
-  assign sum_next   = SumBits'(sum) + SumBits'(dx_i);
-  assign begins     = sum == '0;
-  assign completes  = sum_next == SumBits'(width_i);
+  assign rest_next  = rest - X_BITS'(dx_i);
+  assign completes  = RestBits'(rest) == RestBits'(dx_i);
+  assign too_long   = RestBits'(rest) < RestBits'(dx_i);
   assign too_early  = ahead == 2'd2;
   assign seg_pass_o = is_seg_i && !fault && seg_code == ErrNone;
   assign seg_fault  = is_seg_i && !fault && seg_code != ErrNone;
   always_comb begin
     if (too_early) seg_code = ErrUnitLong;
-    else if (sync_i != begins || dx_i == '0 || (face_i != BlankFace && face_i >= faces)) seg_code = ErrSegment;
-    else if (sum_next > SumBits'(width_i) || (!begins && count == '0)) seg_code = ErrUnitLong;
+    else if (sync_i == begun || dx_i == '0 || (face_i != BlankFace && face_i >= faces)) seg_code = ErrSegment;
+    else if (too_long || (begun && count == '0)) seg_code = ErrUnitLong;
     else seg_code = ErrNone;
   end
 
@@ -148,16 +151,20 @@ module segment_check #(
     end
     if (frame_start_i) begin
       faces_q <= '0;
-      sum_q   <= '0;
+      begun_q <= '0;
       count_q <= '0;
       ahead_q <= '0;
       fault_q <= '0;
     end else if (take_i) begin
       if (is_face_i) faces_q[unit*FACE_BITS+:FACE_BITS] <= faces + 1'b1;
       if (seg_fault) fault_q[unit] <= 1'b1;
-      if (seg_pass_o) begin
-        sum_q[unit*X_BITS+:X_BITS] <= completes ? '0 : sum_next[X_BITS-1:0];
+      // Of a unit at fault nobody asks for these two any more.
+      if (is_seg_i) begin
+        rest_q[unit*X_BITS+:X_BITS] <= rest_next;
         count_q[unit*SEG_BITS+:SEG_BITS] <= completes ? '0 : count + 1'b1;
+      end
+      if (seg_pass_o) begin
+        begun_q[unit] <= !completes;
         if (completes) ahead_q[unit*2+:2] <= ahead + 2'd1;
       end
       if (is_eol_i && tree_q) begin
@@ -193,7 +200,7 @@ module segment_check #(
     end
     least = ahead_at[2+:2];
     least_unit = unit_at[UnitBits+:UnitBits];
-    uneven = sum_q != '0;
+    uneven = begun_q != '0;
     for (int u = 0; u < UNITS; u++) if (ahead_q[u*2+:2] != ahead_q[1:0]) uneven = 1'b1;
   end
   always_ff @(posedge clk_i) begin
@@ -245,13 +252,12 @@ module segment_check #(
 `ifndef SYNTHESIS
   always @(posedge clk_i) begin
     if (rst_ni) begin
-      // 1. One token at a time, and none that was refused.
+      // 1. One token at a time.
       assert ($onehot0({is_shade_i, is_face_i, is_seg_i, is_tree_i, is_eol_i, is_other_i}));
-      assert (!take_i || !(order_error_o || range_error_o || tree_error_o));
       // 2. A line that ends under a tree has had its TREE, so every unit had it complete and no fault of it is left.
-      assert (!take_i || !is_eol_i || !tree_q || !(short_any || kept_q[0]));
+      assert (!take_i || !is_eol_i || order_error_o || !tree_q || !(short_any || kept_q[0]));
       // 3. A faulty segment is of this line or the next.
-      assert (!take_i || !seg_fault || lines_left_i > 15'(later));
+      assert (!take_i || !seg_fault || order_error_o || range_error_o || lines_left_i > 15'(later));
     end
   end
 `endif

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a token of a frame's body is good: kind, order, range, line (docs/stream.md, "Errors"). frame_control asks
-// about the token it has and acts on the answer; nothing here waits. Headers are frame_control's own.
+// Whether a token of a frame's body is good: kind, order, range, line (docs/stream.md, "Errors"). token_stage asks
+// about the token that comes in; nothing here waits. Headers are token_stage's own.
 //
-// Question: token_* as from token_reader, bad_range_i as token_facts has it; width_i, lines_left_i (the height less the
-//   EOLs accepted, with units only), lines_done_i (that is 0) and index_i, its number in the frame.
-// Answer, combinational: good_o; code_o, ErrNone if it is good, and of a fault that a TREE raises the unit and the
-//   token that are to blame, else unit 0 and this token. seg_goes_o: it is good, and a SEG that its unit takes; a good
-//   SEG without it is swallowed.
-// Acts, each one clock: header_i, a header is taken, and start_i with it if it is good; take_i, the token is good and
-//   taken; eol_i, a line has ended; clear_bias_i.
+// Question: token_* as from token_reader, bad_range_i as token_facts has it; width_i, line_i and lines_left_i (how many
+//   EOLs have come, and the height less that), lines_done_i (that is 0), first_i (only the header has come) and
+//   index_i, its number in the frame.
+// Answer, combinational, not of a header: good_o; code_o, ErrNone if it is good; raised_o: a TREE raises the fault of a
+//   unit, and fault_*_o are the unit and the token that are to blame. seg_goes_o: it is good, and a SEG that its unit
+//   takes; a good SEG without it is swallowed.
+// Acts: take_i, one clock, the token comes in. After one that is not good nothing but a header counts.
 // State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token. behind_*_o: as segment_check
 //   has it, of units; without units 0.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
@@ -27,6 +27,7 @@ module token_check #(
 
     input wire logic [TOKEN_WORDS*32-1:0] token_i,
     input wire logic                      bad_range_i,
+    input wire logic                      token_header_i,
     input wire logic                      token_lacking_i,
     input wire logic                      token_cut_i,
     input wire logic                      token_at_last_i,
@@ -34,16 +35,14 @@ module token_check #(
     input wire logic [              14:0] line_i,
     input wire logic [              14:0] lines_left_i,
     input wire logic                      lines_done_i,
+    input wire logic                      first_i,
     input wire logic [              31:0] index_i,
 
-    input wire logic header_i,
-    input wire logic start_i,
     input wire logic take_i,
-    input wire logic eol_i,
-    input wire logic clear_bias_i,
 
     output logic                good_o,
     output logic [CodeBits-1:0] code_o,
+    output logic                raised_o,
     output logic [         5:0] fault_unit_o,
     output logic [        31:0] fault_token_o,
     output logic                seg_goes_o,
@@ -60,6 +59,10 @@ module token_check #(
   logic unused_token;
   assign unused_token = ^token_i;  // longer than what is looked at
 
+  logic start, take;  // a header comes in, a token of the body does
+  assign start = take_i && token_header_i;
+  assign take  = take_i && !token_header_i;
+
   // ---- order, range, line ------------------------------------------------------------------------------------------
   logic [3:0] kind;
   logic is_eol, is_end, is_span;
@@ -73,11 +76,11 @@ module token_check #(
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_span = kind_has_range(kind);
-  assign xr = token_i[OpXrLsb+:X_BITS];  // the place is the same in all that have a range
+  assign xr = token_i[RangeXrLsb+:X_BITS];
   assign last_late = is_end && !token_at_last_i;
   always_comb begin
     unique case (kind)
-      KindShade: in_order = UNITS > 0 ? !shade_seen_q : index_i == 32'd1;
+      KindShade: in_order = UNITS > 0 ? !shade_seen_q : first_i;
       KindTable: in_order = !table_order_error;
       default:   in_order = in_phase;
     endcase
@@ -101,9 +104,8 @@ module token_check #(
       `include "generated/kage_pixel_param_map.svh"
   ) u_phase (
       .clk_i,
-      .start_i   (header_i || eol_i),
-      .take_i,
-      .clear_bias_i,
+      .start_i   (start || (take && is_eol)),
+      .take_i    (take),
       .kind_i    (kind),
       .w_i       (token_i[IfWLsb+:DsfBits]),
       .in_order_o(in_phase),
@@ -128,9 +130,9 @@ module token_check #(
         `include "generated/kage_pixel_param_map.svh"
     ) u_table (
         .clk_i,
-        .frame_start_i(start_i),
-        .take_table_i (take_i && is_table),
-        .take_other_i (take_i && !kind_is_state(kind)),
+        .frame_start_i(start),
+        .take_table_i (take && is_table),
+        .take_other_i (take && !kind_is_state(kind)),
         .class_i      (token_i[TableClassLsb+:CLASS_BITS]),
         .light_i      (token_i[TableLightLsb+:LightBits]),
         .share_i      (token_i[TableShareLsb+:EntryShareBits]),
@@ -146,23 +148,19 @@ module token_check #(
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
   if (UNITS > 0) begin : gen_tree
-    logic is_face, is_seg, is_tree, seg_pass, is_fault;
+    logic is_face, is_seg, is_tree, seg_pass;
     logic [UnitBits-1:0] tree_unit, unit_of_behind;
-    logic [31:0] tree_token;
     assign is_face = kind == KindFace;
     assign is_seg = kind == KindSeg;
     assign is_tree = kind == KindTree;
     assign seg_goes_o = seg_pass && good;
-
-    // What a TREE raises has its own place.
-    assign is_fault = tree_error && code_o == tree_code;
-    assign fault_token_o = is_fault ? tree_token : index_i;
-    assign fault_unit_o = is_fault ? 6'(tree_unit) : '0;
+    assign raised_o = tree_error && code_o == tree_code;
+    assign fault_unit_o = 6'(tree_unit);
     assign behind_unit_o = 6'(unit_of_behind);
 
     always_ff @(posedge clk_i) begin
-      if (header_i) shade_seen_q <= 1'b0;
-      else if (take_i && kind == KindShade) shade_seen_q <= 1'b1;
+      if (start) shade_seen_q <= 1'b0;
+      else if (take && kind == KindShade) shade_seen_q <= 1'b1;
     end
 
     segment_check #(
@@ -170,8 +168,8 @@ module token_check #(
     ) u_check (
         .clk_i,
         .rst_ni,
-        .frame_start_i(start_i),
-        .take_i,
+        .frame_start_i(start),
+        .take_i       (take),
         .is_shade_i   (kind_is_state(kind) && !is_face),
         .is_face_i    (is_face),
         .is_seg_i     (is_seg),
@@ -191,7 +189,7 @@ module token_check #(
         .tree_error_o (tree_error),
         .tree_code_o  (tree_code),
         .tree_unit_o  (tree_unit),
-        .tree_token_o (tree_token),
+        .tree_token_o (fault_token_o),
         // verilator lint_off PINCONNECTEMPTY
         .tree_o       (),
         .due_o        (),
@@ -202,18 +200,17 @@ module token_check #(
     );
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = (^lines_left_i) ^ rst_ni ^ good ^ start_i;
+    assign unused_tree = (^lines_left_i) ^ (^index_i) ^ rst_ni;
     assign {tree_order_error, tree_range_error, tree_error, tree_code, shade_seen_q} = '0;
-    assign {seg_goes_o, fault_unit_o, behind_o, behind_unit_o, behind_ahead_o} = '0;
-    assign fault_token_o = index_i;
+    assign {seg_goes_o, raised_o, fault_unit_o, fault_token_o, behind_o, behind_unit_o, behind_ahead_o} = '0;
   end
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
   always @(posedge clk_i) begin
     if (rst_ni) begin
-      // 1. What is taken as good has no code.
-      assert (!take_i || code_o == ErrNone);
+      // 1. What is good has no code, and what is not has one.
+      assert (!take || good == (code_o == ErrNone));
       assert (!seg_goes_o || code_o == ErrNone);
     end
   end

@@ -18,9 +18,8 @@
 module token_reader #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    parameter int BEAT_WORDS = 4,
-    parameter int MAX_WIDTH = 640,
-    parameter int TOKEN_WORDS = 5  // the longest of all tokens and the header
+    parameter int BEAT_WORDS  = 4,
+    parameter int TOKEN_WORDS = 5   // the longest of all tokens and the header
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -35,7 +34,6 @@ module token_reader #(
     output logic                           token_valid_o,
     input  wire logic                      token_ready_i,
     output logic      [TOKEN_WORDS*32-1:0] token_o,
-    output logic      [     FactsBits-1:0] token_facts_o,  // what it says by itself
     output logic      [     FlagsBits-1:0] token_flags_o,  // what its frame says of it
     input  wire logic                      drop_i,
 
@@ -122,25 +120,13 @@ module token_reader #(
     assign front = window[0+:TOKEN_WORDS*32];
   end
 
-  logic [FactsBits-1:0] facts;
-  token_facts #(
-      .MAX_WIDTH  (MAX_WIDTH),
-      .TOKEN_WORDS(TOKEN_WORDS),
-      `include "generated/kage_pixel_param_map.svh"
-  ) u_facts (
-      .token_i(front),
-      .facts_o(facts)
-  );
-
   // ---- output register -------------------------------------------------------------------------------------------
   logic token_valid_q;
   flags_t flags_q;
   logic [TOKEN_WORDS*32-1:0] token_q;
-  logic [FactsBits-1:0] facts_q;
 
   assign token_valid_o = token_valid_q;
   assign token_o = token_q;
-  assign token_facts_o = facts_q;
   assign token_flags_o = flags_q;
   assign out_free = !token_valid_q || token_ready_i;
   assign dropping_o = dropping_q;
@@ -150,7 +136,6 @@ module token_reader #(
   always_ff @(posedge clk_i) begin
     if (take) begin
       token_q <= front;
-      facts_q <= facts;
       flags_q.header <= front_header_q;
       flags_q.lacking <= front_lacking_q && !cut;
       flags_q.cut <= cut;

@@ -3,14 +3,14 @@
 // Included inside a module that has the pixel parameters and kage_widths.svh: what the buses between
 // modules are made of. Ports are vectors of ...Bits; within a module a bus has its type.
 
-// What a token says by itself: from token_facts to frame_control.
+// What a token says by itself: from token_facts to token_stage.
 typedef struct packed {
   logic [3:0] head_error;  // of a header, unless it is cut
   logic bad_range;  // xl > xr, a light that the core lacks, a shade of more than 1
   logic empty;  // xl = xr
 } facts_t;
 
-// What its frame says of a token: from token_reader to frame_control.
+// What its frame says of a token: from token_reader to token_stage.
 typedef struct packed {
   logic header;  // the frame's first
   logic lacking;  // its kind is not in this configuration
@@ -18,6 +18,18 @@ typedef struct packed {
   logic ends;  // nothing of the frame follows: END, or cut
   logic at_last;  // its first word is in TLAST's beat
 } flags_t;
+
+// What a token is and finds, judged before it is acted on: from token_stage to frame_control.
+typedef struct packed {
+  logic header;  // as in its flags
+  logic cut;  // as in its flags
+  logic empty;  // as in its facts
+  logic good;  // there is nothing against it
+  logic [3:0] code;  // of its error, if it is not good
+  logic seg_goes;  // a good SEG that its unit takes
+  logic resolved;  // the token before it in its line is a RESOLVE
+  logic [DsfBits-1:0] bias;  // as the token finds it
+} verdict_t;
 
 // What the pixels of a range do: from token_command to the pixels.
 typedef struct packed {

@@ -68,6 +68,7 @@ localparam int PointZAt = ClassBits + RgbBits + ORDER_BITS,  // its depth
 // The buses of kage_buses.svh.
 localparam int FactsBits = 4 + 1 + 1,  // what a token says by itself
 localparam int FlagsBits = 1 + 1 + 1 + 1 + 1,  // what its frame says of a token
+localparam int VerdictBits = 1 + 1 + 1 + 1 + 4 + 1 + 1 + DsfBits,  // what a token is and finds, judged before it is acted on
 localparam int CommandBits = 4 + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // what the pixels of a range do
 localparam int LineBits = 1 + 1 + 1 + 1 + X_BITS + RgbBits + FactorBits,  // a line, in the order of the lines
 localparam int TableEntryBits = CLASS_BITS + LightBits + EntryShareBits,  // an entry of the light table

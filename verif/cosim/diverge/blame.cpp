@@ -20,11 +20,12 @@ std::string blame_error(const Clue& clue) {
   const ErrorCode actual = clue.actual ? code(clue.actual->value[at::error::code]) : ErrorCode::NONE;
   const auto any = [&](auto is) { return is(expected) || is(actual); };
   const auto either = [&](ErrorCode e) { return expected == e || actual == e; };
-  if (clue.again || (clue.actual && clue.value == at::error::code && clue.actual->value[at::error::line] != clue.lines))
+  if (clue.again) return "token_stage";  // which lets no token in behind the first error
+  if (clue.actual && clue.value == at::error::code && clue.actual->value[at::error::line] != clue.lines)
     return "frame_control";
-  if (clue.value > at::error::code)
-    return is_of_unit(expected) && clue.value >= at::error::token ? "segment_check" : "frame_control";
-  if (either(ErrorCode::HEADER) || either(ErrorCode::SIZE) || either(ErrorCode::PARAMS)) return "frame_control";
+  if (clue.value >= at::error::token) return is_of_unit(expected) ? "segment_check" : "token_stage";
+  if (clue.value > at::error::code) return "frame_control";
+  if (either(ErrorCode::HEADER) || either(ErrorCode::SIZE) || either(ErrorCode::PARAMS)) return "token_stage";
   if (either(ErrorCode::LAST_LATE) &&
       (expected == ErrorCode::NONE || expected == ErrorCode::LAST_LATE))  // the flag that it comes of is token_reader's
     return clue.at_last == (expected == ErrorCode::LAST_LATE) ? "token_reader" : "token_check";

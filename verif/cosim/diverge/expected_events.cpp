@@ -163,8 +163,7 @@ void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
     e.expect(at::pixel::dsf, after.dsf);
     e.expect(at::pixel::fsf, after.fsf);
   }
-  // A pixel without surface has a colour from the line's RESOLVE on. Before, it may have that of a frame before: one
-  // that ended with a TP behind its last line, for which frame_control paints though no EOL clears any more.
+  // A pixel without surface has a colour from the line's RESOLVE on; before, nobody asks for it.
   if (clear(after) && !painted_) e.ignore(at::pixel::color);
   put(e);
 }
@@ -297,7 +296,7 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
   }
 }
 
-void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) {
+void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& /*line*/) {
   failed_ = true;
   if (status.width == 0) {  // nothing of the frame before is left
     token_ = 0;
@@ -316,13 +315,6 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
   put(e);
   if (status.width == 0) return;
   token_ = failed_at_;
-  // Before a line's first TP it is painted, even if that TP is malformed, or comes behind the last line; not if it is
-  // cut.
-  if (config_.translucency != 0 && status.error != ErrorCode::LAST_EARLY && !words.empty() && !painted_ &&
-      kind_of(words[0]) == Kind::TP) {
-    if (!resolved_) bias_ = line.bias();
-    paint(line);
-  }
   // The line at hand and all others leave as background.
   while (y_ < height_) end_line(nullptr);
 }

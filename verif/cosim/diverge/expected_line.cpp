@@ -75,18 +75,12 @@ void ExpectedEvents::state(std::uint64_t bias, bool matters) {
   put(e);
 }
 
-// What is left of a pixel once its line is painted.
+// What is left of a pixel once its line is painted. Its RESOLVE, if there was one, has darkened it.
 PixelState ExpectedEvents::painted(const PixelState& before) const {
   PixelState s = before;
-  const std::uint64_t one = derived::whole_share(config_);
-  // A TP that is refused may come among volumes, and what is painted is darkened.
-  const bool dark = leaving(s, resolved_).dark;
-  const auto background = unpacked_color(background_);
-  for (unsigned c = 0; c < 3; ++c) {
-    if (clear(s))
-      s.color[c] = background[c];
-    else if (dark)
-      s.color[c] = static_cast<std::uint8_t>((s.color[c] * (one - shade_) + one / 2) >> config_.shade_frac);
+  if (clear(s)) {
+    const auto background = unpacked_color(background_);
+    for (unsigned c = 0; c < 3; ++c) s.color[c] = background[c];
   }
   s.dsf = s.fsf = 0;  // as a RESOLVE leaves them
   return s;

@@ -17,7 +17,7 @@ static_assert(KAGE_RTL_EVENT_VALUES == 13);
 
 /// In the order in which a token passes them.
 enum class Stage : std::uint8_t {
-  token,  ///< frame_control takes a token: two words a value, the first in the lower half
+  token,  ///< frame_control has a token at hand: two words a value, the first in the lower half
   table,
   face,  ///< a face to unit `unit`
   segment,  ///< a segment to unit `unit`

@@ -4,11 +4,11 @@
 //   order          a token is in order where docs/stream.md ("Order in a line") lets it stand, and nowhere else, for
 //                  each kind;
 //   resolved_last  resolved_o says that a RESOLVE was the line's last token;
-//   bias_sum       bias_o is the sum of the IFs since the line began, or since the last EV, ES or clearing, modulo
+//   bias_sum       bias_o is the sum of the IFs since the line began, or since the last EV, ES or TP, modulo
 //                  2^DSF_BITS.
 //
 // How: the proof keeps which kinds the line has had, and decides by that; the module keeps a phase. Only tokens that
-// the proof lets stand are taken, of kinds that the configuration has: frame_control takes no others.
+// the proof lets stand are taken, of kinds that the configuration has: behind others nobody asks.
 //
 // Why small widths say it for all: a count is only added to, modulo its width. DSF_BITS is 2 here, 1 and 0 besides.
 // proofs.bash has five sets of parameters: with and without FSF, counters and translucency.
@@ -24,7 +24,6 @@ module line_phase_proof #(
     input wire logic               clk_i,
     input wire logic               start_i,
     input wire logic               take_i,
-    input wire logic               clear_bias_i,
     input wire logic [        3:0] kind_i,
     input wire logic [DsfBits-1:0] w_i
 );
@@ -43,7 +42,6 @@ module line_phase_proof #(
       .clk_i,
       .start_i,
       .take_i,
-      .clear_bias_i,
       .kind_i,
       .w_i,
       .in_order_o(in_order),
@@ -73,12 +71,11 @@ module line_phase_proof #(
       {shadow_q, shadow_since_ev_q, shadow_since_es_q, resolve_q, tp_q} <= '0;
       sum_q <= '0;
     end else begin
-      if (clear_bias_i) sum_q <= '0;
       if (take_i) begin
         if (is_shadow) {shadow_q, shadow_since_ev_q, shadow_since_es_q} <= '1;
         if (kind_i == Ev) shadow_since_ev_q <= 1'b0;
         if (kind_i == Es) shadow_since_es_q <= 1'b0;
-        if (kind_i == Ev || kind_i == Es) sum_q <= '0;
+        if (kind_i == Ev || kind_i == Es || kind_i == Tp) sum_q <= '0;
         if (kind_i == If) sum_q <= sum_q + w_i;
         if (kind_i == Resolve) resolve_q <= 1'b1;
         if (kind_i == Tp) tp_q <= 1'b1;
@@ -102,7 +99,6 @@ module line_phase_proof #(
   always_comb begin
     assume (start_i || started_q);
     if (take_i) assume (has && may);
-    if (take_i) assume (!clear_bias_i);  // assertion 4 of frame_control
   end
 
   // ---- the answer --------------------------------------------------------------------------------------------------

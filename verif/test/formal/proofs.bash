@@ -92,7 +92,7 @@ defect write_past_okay registers registers.sv "s/aw_addr_q > RegLast + 8'd3/aw_a
 
 # ---- line_phase ------------------------------------------------------------------------------------------------------
 proof line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
-proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 COUNT_BITS=0 TRANSLUCENCY=0" steps=12 cover=12
+proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
 proof line_phase_samples module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1" steps=12 cover=12
 proof line_phase_counts module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=2 TRANSLUCENCY=0" steps=12 cover=12
 proof line_phase_plain module=line_phase rtl=line_phase set="DSF_BITS=0 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
@@ -102,12 +102,12 @@ defect phase_volume_left_open line_phase include/generated/kage_order.svh 's/Kin
 defect phase_sample_left_open line_phase_samples line_phase.sv 's/assign without_marks = .*/assign without_marks = order_without(kind_i) \& ~MarkSample;/'
 defect phase_tp_unseen line_phase line_phase.sv 's/assign resolved_o = .*/assign resolved_o = phase_q[1];/'
 defect phase_bias_kept line_phase line_phase.sv "/kind_i == KindEv/s/bias_q <= '0;/;/"
-defect phase_bias_not_cleared line_phase line_phase.sv 's/if (clear_bias_i) bias_q/if (clear_bias_i \&\& resolved_o) bias_q/'
+defect phase_bias_not_cleared line_phase_parity line_phase.sv 's/kind_i == KindTp) bias_q/kind_i == KindTp \&\& !resolved_o) bias_q/'
 defect phase_line_leaks line_phase_counts line_phase.sv "s/if (start_i) begin/if (start_i \&\& marks_q == '0) begin/"
 
 # ---- token_reader ----------------------------------------------------------------------------------------------------
 reader_proof() { # NAME BEAT_WORDS STEPS SET...
-  proof "$1" module=token_reader rtl="token_reader token_facts" rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=8 \
+  proof "$1" module=token_reader rtl=token_reader rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=8 \
     set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=$2 MAX_WORDS=$(($2 * $3)) ${*:4}"
 }
 reader_proof token_reader_1 1 10

@@ -65,7 +65,6 @@ module token_reader_proof #(
       .token_valid_o  (token_valid),
       .token_ready_i,
       .token_o        (token),
-      .token_facts_o  (),
       .token_flags_o  (flags),
       .drop_i,
       .dropping_o     (dropping),

@@ -16,7 +16,7 @@ struct Place {
   int bits = 0;
 };
 
-/// What a token says by itself: from token_facts to frame_control.
+/// What a token says by itself: from token_facts to token_stage.
 struct FactsBus {
   Place head_error;  ///< of a header, unless it is cut
   Place bad_range;  ///< xl > xr, a light that the core lacks, a shade of more than 1
@@ -32,7 +32,7 @@ struct FactsBus {
   }
 };
 
-/// What its frame says of a token: from token_reader to frame_control.
+/// What its frame says of a token: from token_reader to token_stage.
 struct FlagsBus {
   Place header;  ///< the frame's first
   Place lacking;  ///< its kind is not in this configuration
@@ -50,6 +50,37 @@ struct FlagsBus {
     at += cut.bits;
     lacking = {at, 1};
     at += lacking.bits;
+    header = {at, 1};
+  }
+};
+
+/// What a token is and finds, judged before it is acted on: from token_stage to frame_control.
+struct VerdictBus {
+  Place header;  ///< as in its flags
+  Place cut;  ///< as in its flags
+  Place empty;  ///< as in its facts
+  Place good;  ///< there is nothing against it
+  Place code;  ///< of its error, if it is not good
+  Place seg_goes;  ///< a good SEG that its unit takes
+  Place resolved;  ///< the token before it in its line is a RESOLVE
+  Place bias;  ///< as the token finds it
+
+  explicit constexpr VerdictBus([[maybe_unused]] const Config& c) {
+    int at = 0;
+    bias = {at, derived::dsf_bus_bits(c)};
+    at += bias.bits;
+    resolved = {at, 1};
+    at += resolved.bits;
+    seg_goes = {at, 1};
+    at += seg_goes.bits;
+    code = {at, 4};
+    at += code.bits;
+    good = {at, 1};
+    at += good.bits;
+    empty = {at, 1};
+    at += empty.bits;
+    cut = {at, 1};
+    at += cut.bits;
     header = {at, 1};
   }
 };

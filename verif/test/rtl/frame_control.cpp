@@ -13,15 +13,20 @@ using kage::Kind;
 
 namespace {
 
-/// A frame of 2 lines with this as line 0; what the error is, and that the rest is blank.
-void expect_error(std::vector<Token> body, ErrorCode code, unsigned line, unsigned index, unsigned height = 2) {
-  each_seed(6, [&](Dice& dice) {
-    CAPTURE(static_cast<int>(code), line, index);
+/// A frame of 2 lines that begins with `body`, whose last token is at fault, and goes on with `rest`; what the error
+/// is, that the rest is blank, and that the next frame is none the worse.
+void expect_rest(const std::vector<Token>& body, const std::vector<Token>& rest, ErrorCode code, unsigned line,
+                 unsigned index) {
+  constexpr unsigned height = 2;
+  each_seed(3, [&](Dice& dice) {
+    CAPTURE(static_cast<int>(code), line, index, rest.size());
     const std::vector<Token> next = {header(1, 1, 8), token(Kind::EOL, 0), token(Kind::END)};
-    const auto out = run<Vframe_control>(dice, std::vector<Token>{header(20, height, 7)} + body + next);
+    const auto out = run<Vframe_control>(dice, std::vector<Token>{header(20, height, 7)} + body + rest + next);
     REQUIRE(out.errors.size() == 1);
     REQUIRE(out.errors[0] == std::array<std::uint32_t, 4>{static_cast<std::uint32_t>(code), 7, line, index});
     REQUIRE(out.frames == 2);
+    // The reader drops nothing more behind a token that ends the frame, be it the one at fault or the one behind it.
+    REQUIRE(out.drops == (body.back().final || rest.front().final ? 0 : 1));
     REQUIRE(out.lines.size() == height + 1);
     for (unsigned y = 0; y < height; ++y) {
       REQUIRE(out.lines[y].blank == (y >= line));
@@ -35,6 +40,41 @@ void expect_error(std::vector<Token> body, ErrorCode code, unsigned line, unsign
 const Token kEol0 = token(Kind::EOL, 0);
 const Token kEol1 = token(Kind::EOL, 1);
 const Token kEnd = token(Kind::END);
+
+Token cut_token(Kind kind) {
+  Token t = token(kind, 0, 20);
+  t.cut = t.final = true;
+  return t;
+}
+
+Token late_end() {
+  Token t = kEnd;
+  t.at_last = false;
+  return t;
+}
+
+/// As expect_rest, whatever comes right behind the token at fault, while it is still in token_stage: a good and a bad
+/// EOL, END, and cut token, each alone and with more behind it, as far as there can be more.
+void expect_error(const std::vector<Token>& body, ErrorCode code, unsigned line, unsigned index) {
+  if (body.back().final) {
+    expect_rest(body, {}, code, line, index);
+    return;
+  }
+  const Token op = token(Kind::OP, 0, 1), good_eol = token(Kind::EOL, line), bad_eol = token(Kind::EOL, line + 1);
+  const std::vector<std::vector<Token>> rests = {{kEnd},
+                                                 {late_end()},
+                                                 {cut_token(Kind::OP)},
+                                                 {cut_token(Kind::END)},
+                                                 {cut_token(Kind::EOL)},
+                                                 {op},
+                                                 {good_eol, op},
+                                                 {bad_eol, op},
+                                                 {good_eol, kEnd},
+                                                 {bad_eol, kEnd},
+                                                 {op, kEnd},
+                                                 {op, cut_token(Kind::SP)}};
+  for (const std::vector<Token>& rest : rests) expect_rest(body, rest, code, line, index);
+}
 
 }  // namespace
 
@@ -98,7 +138,8 @@ TEST_CASE("TP comes after RESOLVE, and nothing but TP and EOL after it", "[frame
   const auto expect_order = [](std::vector<Token> body, std::uint32_t index, std::uint32_t line = 0) {
     each_seed(4, [&](Dice& dice) {
       CAPTURE(index);
-      const auto out = run<Vframe_control_glass>(dice, std::vector<Token>{header(20, 1, 7, kGlass)} + body);
+      const std::vector<Token> start{header(20, 1, 7, kGlass)};
+      const auto out = run<Vframe_control_glass>(dice, start + body + std::vector<Token>{kEnd});
       REQUIRE(out.errors.size() == 1);
       REQUIRE(out.errors[0] ==
               std::array<std::uint32_t, 4>{static_cast<std::uint32_t>(ErrorCode::ORDER), 7, line, index});
@@ -131,11 +172,7 @@ TEST_CASE("SHADE holds for its frame only", "[frame_control]") {
 TEST_CASE("Errors of kind, order, range and line, each at its place", "[frame_control]") {
   Token lacking = token(static_cast<Kind>(2));
   lacking.lacking = true;
-  Token cut = token(Kind::OP, 0, 20);
-  cut.cut = cut.final = true;
-  Token early_end = kEnd;
-  Token late_end = kEnd;
-  late_end.at_last = false;
+  const Token cut = cut_token(Kind::OP);
   expect_error({lacking}, ErrorCode::KIND, 0, 1);
   expect_error({kEol0, lacking}, ErrorCode::KIND, 1, 2);
   expect_error({cut}, ErrorCode::LAST_EARLY, 0, 1);
@@ -158,16 +195,14 @@ TEST_CASE("Errors of kind, order, range and line, each at its place", "[frame_co
   expect_error({token(Kind::NC, 0, 1), token(Kind::EV, 5, 4)}, ErrorCode::RANGE, 0, 2);
   expect_error({kEol1}, ErrorCode::LINE, 0, 1);
   expect_error({token(Kind::EOL, 0x8000)}, ErrorCode::LINE, 0, 1);
-  expect_error({early_end}, ErrorCode::LINE, 0, 1);
-  expect_error({kEol0, token(Kind::SP, 0, 1), early_end}, ErrorCode::LINE, 1, 3);
-  expect_error({kEol0, kEol1, late_end}, ErrorCode::LAST_LATE, 2, 3);
+  expect_error({kEnd}, ErrorCode::LINE, 0, 1);
+  expect_error({kEol0, token(Kind::SP, 0, 1), kEnd}, ErrorCode::LINE, 1, 3);
+  expect_error({kEol0, kEol1, late_end()}, ErrorCode::LAST_LATE, 2, 3);
 }
 
 TEST_CASE("The earlier check wins: kind, order, range", "[frame_control]") {
   expect_error({token(Kind::SP, 0, 1), token(Kind::OP, 9, 99)}, ErrorCode::ORDER, 0, 2);
-  Token cut = token(Kind::EV, 0, 1);
-  cut.cut = cut.final = true;
-  expect_error({cut}, ErrorCode::LAST_EARLY, 0, 1);  // not whole: its order is not checked
+  expect_error({cut_token(Kind::EV)}, ErrorCode::LAST_EARLY, 0, 1);  // not whole: its order is not checked
 }
 
 TEST_CASE("A bad header gives no pixels and is named", "[frame_control]") {
@@ -187,7 +222,9 @@ TEST_CASE("A bad header gives no pixels and is named", "[frame_control]") {
         Case{header(1, 32768, 5), ErrorCode::SIZE, 5}, Case{params, ErrorCode::PARAMS, 5},
         Case{cut, ErrorCode::LAST_EARLY, 0}}) {
     each_seed(4, [&](Dice& dice) {
-      const auto out = run<Vframe_control>(dice, {c.header, header(kMaxWidth, 1, 6), kEol0, kEnd});
+      const std::vector<Token> rest = c.header.final ? std::vector<Token>{} : std::vector<Token>{kEol0, kEnd};
+      const std::vector<Token> next = {header(kMaxWidth, 1, 6), kEol0, kEnd};
+      const auto out = run<Vframe_control>(dice, std::vector<Token>{c.header} + rest + next);
       REQUIRE(out.errors ==
               std::vector<std::array<std::uint32_t, 4>>{{static_cast<std::uint32_t>(c.code), c.frame, 0, 0}});
       REQUIRE(out.lines.size() == 1);

@@ -108,7 +108,8 @@ TEST_CASE("TABLE in order, whole classes only; ES once a sample, RESOLVE after i
   const auto expect = [](const std::vector<Token>& body, ErrorCode code, std::uint32_t index) {
     each_seed(4, [&](Dice& dice) {
       CAPTURE(static_cast<int>(code), index);
-      const auto out = run<Vframe_control_lights>(dice, std::vector<Token>{header(20, 1, 7, kLights)} + body, false);
+      const std::vector<Token> start{header(20, 1, 7, kLights)};
+      const auto out = run<Vframe_control_lights>(dice, start + body + std::vector<Token>{kEnd}, false);
       REQUIRE(out.errors.size() == 1);
       REQUIRE(out.errors[0] == std::array<std::uint32_t, 4>{static_cast<std::uint32_t>(code), 7, 0, index});
       REQUIRE(out.lines.back().blank);

@@ -54,7 +54,8 @@ bind frame_control frame_control_monitor #(
     .DSF_BITS(DSF_BITS),
     .UNITS(UNITS)
 ) u_monitor (
-    .header(flags.header),
+    .header(verdict.header),
+    .bias(verdict.bias),
     .uses_state(kind == KindEv || kind == KindEs || kind == KindEol),
     .*
 );

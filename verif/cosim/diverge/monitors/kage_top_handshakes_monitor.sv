@@ -14,7 +14,9 @@ module kage_top_handshakes_monitor #(
     input wire logic rst_ni,
     input wire logic token_valid,
     input wire logic token_ready,
-    input wire logic header,
+    input wire logic held_valid,        // a token waits in token_stage
+    input wire logic held_ready,
+    input wire logic header,            // it is one
     input wire logic cmd_valid,
     input wire logic cmd_ready,
     input wire logic pixel_valid,
@@ -41,8 +43,8 @@ module kage_top_handshakes_monitor #(
   logic [HandshakeBits-1:0] now;
   always_comb begin
     now = '0;
-    now[HandshakeTokenReady] = token_ready;
-    now[HandshakeTokenValid] = token_valid;
+    now[HandshakeTokenReady] = held_valid ? held_ready : token_ready;
+    now[HandshakeTokenValid] = held_valid || token_valid;
     now[HandshakeSegmentReady] = tree_seg_ready;
     now[HandshakeSegmentValid] = tree_seg_valid;
     now[HandshakeTreeReady] = tree_ready;
@@ -58,7 +60,7 @@ module kage_top_handshakes_monitor #(
     now[HandshakeVideoReady] = m_axis_tready_i;
     now[HandshakeVideoValid] = m_axis_tvalid_o;
     now[HandshakeFrameReady] = UNITS == 0 || tree_frame_ready;
-    now[HandshakeFrameValid] = token_valid && header;
+    now[HandshakeFrameValid] = held_valid && header;
     now[HandshakeExitReady] = exit_free;
     now[HandshakeExitValid] = pixel_valid && !pixel_ready;
     now[HandshakeReturnLineValid] = loading && !load_valid && !queue_valid;  // never ready
@@ -73,8 +75,10 @@ bind kage_top kage_top_handshakes_monitor #(
     `include "generated/kage_impl_param_map.svh"
     `include "generated/kage_pixel_param_map.svh"
 ) u_handshakes_monitor (
-    .header (flags.header),
-    .loading(u_control.loading_q),
+    .held_valid(u_control.held_valid),
+    .held_ready(u_control.held_ready),
+    .header    (u_control.verdict.header),
+    .loading   (u_control.loading_q),
     .*
 );
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tokens that frame_control takes, entries of the light table, errors and ends of frames, as events
+// The tokens that frame_control has at hand, entries of the light table, errors and ends of frames, as events
 // (rtl/defs/stages.yaml). Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
@@ -12,8 +12,7 @@ module kage_top_tokens_monitor #(
 ) (
     input wire logic                      clk_i,
     input wire logic                      rst_ni,
-    input wire logic                      token_valid,
-    input wire logic                      token_ready,
+    input wire logic                      take,         // into token_stage, which holds one
     input wire logic [FRONT_WORDS*32-1:0] token,
     input wire logic [     FlagsBits-1:0] flags,
     input wire logic                      table_valid,
@@ -28,10 +27,21 @@ module kage_top_tokens_monitor #(
   // The buses by their fields.
   table_entry_t entry;
   error_t found;
-  flags_t told;
   assign entry = table_entry;
   assign found = error;
-  assign told  = flags;
+
+  // The token that token_stage holds, as token_reader gave it. It is told of in the first clock in which it may be
+  // acted on: ahead of what it does, and behind what the token before it did.
+  logic new_q;
+  logic [FRONT_WORDS*32-1:0] held_q;
+  flags_t told_q;
+  always_ff @(posedge clk_i) begin
+    new_q <= rst_ni && take;
+    if (take) begin
+      held_q <= token;
+      told_q <= flags;
+    end
+  end
 
   // A channel of a table's share, as far as there are so many.
   function automatic logic [63:0] share(input logic [EntryShareBits-1:0] shares, input int channel);
@@ -40,8 +50,9 @@ module kage_top_tokens_monitor #(
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      if (token_valid && token_ready) begin
-        trace_token(0, 704'(token), 64'(told.at_last), 64'({told.header, told.lacking, told.cut, told.ends}));
+      if (new_q) begin
+        trace_token(0, 704'(held_q), 64'(told_q.at_last), 64'({told_q.header, told_q.lacking, told_q.cut, told_q.ends
+                    }));
       end
       if (table_valid) begin
         trace_table(0, 64'(entry.normal_class), 64'(entry.light), {
@@ -59,6 +70,9 @@ endmodule
 bind kage_top kage_top_tokens_monitor #(
     .FRONT_WORDS(FrontWords),
     `include "generated/kage_pixel_param_map.svh"
-) u_tokens_monitor (.*);
+) u_tokens_monitor (
+    .take(u_control.u_stage.take),
+    .*
+);
 
 `default_nettype wire

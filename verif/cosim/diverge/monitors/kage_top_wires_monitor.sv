@@ -19,10 +19,10 @@ module kage_top_wires_monitor #(
     kage_top.u_reader.token_ready_i, kage_top.u_reader.drop_i
   };
   assign control = {
-    kage_top.token_valid, kage_top.token, kage_top.facts, kage_top.flags, kage_top.dropping, kage_top.cmd_ready,
+    kage_top.token_valid, kage_top.token, kage_top.flags, kage_top.dropping, kage_top.cmd_ready,
     kage_top.loads_done, kage_top.line_ready, kage_top.table_free, kage_top.tree_frame_ready, kage_top.tree_seg_ready
   } == {
-    kage_top.u_control.token_valid_i, kage_top.u_control.token_i, kage_top.u_control.token_facts_i,
+    kage_top.u_control.token_valid_i, kage_top.u_control.token_i,
     kage_top.u_control.token_flags_i, kage_top.u_control.dropping_i, kage_top.u_control.cmd_ready_i,
     kage_top.u_control.loads_done_i, kage_top.u_control.line_ready_i, kage_top.u_control.table_free_i,
     kage_top.u_control.tree_frame_ready_i, kage_top.u_control.tree_seg_ready_i

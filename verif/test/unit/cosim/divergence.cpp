@@ -229,9 +229,8 @@ TEST_CASE("what goes to another unit, or is another's last, is told so") {
   CHECK(told(Stage::pixel, 3, 4) == "same");  // by its queue
 }
 
-// A TP behind the last line is refused, but paints first: the next frame finds the background of this one in its
-// pixels. Nobody looks at it until they are painted again.
-TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
+// A TP behind the last line is refused, and paints nothing: the next frame finds its pixels as the last EOL left them.
+TEST_CASE("a TP behind the last line paints nothing, and that is no divergence") {
   for (const auto& [name, c] : configurations()) {
     if (c.translucency == 0) continue;
     CAPTURE(name);
@@ -268,8 +267,8 @@ TEST_CASE("what a frame leaves in pixels without surface is no divergence") {
   }
 }
 
-// It is refused, but paints first, and what is painted is resolved: darkened where a volume was counted.
-TEST_CASE("a TP among volumes paints what it finds in shadow, and that is no divergence") {
+// It is refused, and paints nothing, though volumes have been counted.
+TEST_CASE("a TP among volumes paints nothing, and that is no divergence") {
   int tried = 0;
   for (const auto& [name, c] : configurations()) {
     if (c.translucency == 0 || c.dsf_bits == 0 || c.class_bits > 1) continue;

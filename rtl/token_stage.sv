@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stage in front of frame_control: a token is judged by token_facts and token_check in the clock in which it comes
+// in, and stands in a register with its verdict until frame_control is done with it. So what a token may do is known
+// from flip-flops.
+//
+// Handshake: token_* is valid/ready, token_ready_o depends on registers and on held_ready_i, not on token_valid_i.
+//   held_* is valid/ready, token and verdict stable while it waits; held_ready_i may depend on them.
+// State: width, lines, index, phases, the table's and the units' state advance with each token that comes in, good or
+//   not. So after a token at fault they are wrong, and nobody asks: no token comes in behind it but a header, which
+//   sets all of them anew.
+// Errors: a token at fault lets none in behind it. If it does not end its frame, another token of the frame follows:
+//   that one is taken and forgotten, and drop_o, in this clock, has the reader drop what is behind it, unless it ends
+//   the frame itself. dropping_o: that token has yet to come.
+// Fault: fault_unit_o and fault_token_o are of the token held, while it is at fault: whom a TREE blames; otherwise unit
+//   0 and the token's own index.
+// Units: unit_behind_o, 1 clock late: a unit has been given more than another by the tokens that came in; behind_o
+//   names the unit that has least, and its line.
+// Latency: 1 clock. Throughput: a token a clock.
+// Cost: a register of a token and its verdict; counters of 15, 15 and 32 bits, with units 39 flip-flops; token_facts
+//   and token_check.
+`default_nettype none
+
+module token_stage #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    parameter int MAX_WIDTH   = 640,
+    parameter int TOKEN_WORDS = 5
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    // from token_reader
+    input  wire logic                      token_valid_i,
+    output logic                           token_ready_o,
+    input  wire logic [TOKEN_WORDS*32-1:0] token_i,
+    input  wire logic [     FlagsBits-1:0] token_flags_i,
+    output logic                           drop_o,
+
+    // to frame_control
+    output logic                           held_valid_o,
+    input  wire logic                      held_ready_i,
+    output logic      [TOKEN_WORDS*32-1:0] held_o,
+    output logic      [   VerdictBits-1:0] verdict_o,
+    output logic      [               5:0] fault_unit_o,
+    output logic      [              31:0] fault_token_o,
+    output logic                           dropping_o,
+    output logic                           unit_behind_o,
+    output logic      [    BehindBits-1:0] behind_o
+);
+  `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
+
+flags_t flags;
+  assign flags = token_flags_i;
+
+  // ---- the register ------------------------------------------------------------------------------------------------
+  logic valid_q, ends_q, drop_q, free, take;
+  logic [TOKEN_WORDS*32-1:0] token_q;
+  verdict_t verdict, verdict_q;
+  assign free = !valid_q || (verdict_q.good && held_ready_i);
+  assign take = token_valid_i && free && !drop_q;
+  assign token_ready_o = free;
+  assign drop_o = drop_q && token_valid_i && !flags.ends;
+  assign dropping_o = drop_q;
+  assign held_valid_o = valid_q;
+  assign held_o = token_q;
+  assign verdict_o = verdict_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni) begin
+      valid_q <= 1'b0;
+      drop_q  <= 1'b0;
+    end else begin
+      if (free) valid_q <= take;
+      else if (held_ready_i) valid_q <= 1'b0;
+      if (valid_q && !verdict_q.good && held_ready_i) drop_q <= !ends_q;
+      else if (token_valid_i) drop_q <= 1'b0;
+    end
+    if (free) begin
+      token_q <= token_i;
+      verdict_q <= verdict;
+      ends_q <= flags.ends;
+    end
+  end
+
+  // ---- the frame, as the token finds it that comes in --------------------------------------------------------------
+  logic [X_BITS-1:0] width_q;
+  logic [14:0] line_q, left_q;  // lines that have ended, and those that have not
+  logic lines_done_q;  // left_q is 0
+  logic first_q;  // the header was the last token
+  logic [31:0] index_q, index;  // the token held, and the one that comes in
+  assign index = index_q + 32'd1;
+
+  always_ff @(posedge clk_i) begin
+    if (take) begin
+      first_q <= flags.header;
+      if (flags.header) begin
+        width_q <= token_i[HeaderWidthLsb+:X_BITS];
+        line_q <= '0;
+        left_q <= token_i[HeaderHeightLsb+:15];
+        lines_done_q <= 1'b0;
+        index_q <= '0;
+      end else begin
+        index_q <= index;
+        if (token_i[3:0] == KindEol) begin
+          line_q <= line_q + 15'd1;
+          left_q <= left_q - 15'd1;
+          lines_done_q <= left_q == 15'd1;
+        end
+      end
+    end
+  end
+
+  // ---- the verdict -------------------------------------------------------------------------------------------------
+  facts_t facts;
+  token_facts #(
+      .MAX_WIDTH  (MAX_WIDTH),
+      .TOKEN_WORDS(TOKEN_WORDS),
+      `include "generated/kage_pixel_param_map.svh"
+  ) u_facts (
+      .token_i,
+      .facts_o(facts)
+  );
+
+  logic body_good, seg_goes, resolved, raised;
+  logic [3:0] body_code, head_code;
+  logic [DsfBits-1:0] bias;
+  logic [5:0] unit_to_blame, unit_of_behind;
+  logic [31:0] token_to_blame;
+  logic [ 1:0] ahead_of_behind;
+
+  token_check #(
+      .TOKEN_WORDS(TOKEN_WORDS),
+      `include "generated/kage_pixel_param_map.svh"
+  ) u_check (
+      .clk_i,
+      .rst_ni,
+      .token_i,
+      .bad_range_i    (facts.bad_range),
+      .token_header_i (flags.header),
+      .token_lacking_i(flags.lacking),
+      .token_cut_i    (flags.cut),
+      .token_at_last_i(flags.at_last),
+      .width_i        (width_q),
+      .line_i         (line_q),
+      .lines_left_i   (left_q),
+      .lines_done_i   (lines_done_q),
+      .first_i        (first_q),
+      .index_i        (index),
+      .take_i         (take),
+      .good_o         (body_good),
+      .code_o         (body_code),
+      .raised_o       (raised),
+      .fault_unit_o   (unit_to_blame),
+      .fault_token_o  (token_to_blame),
+      .seg_goes_o     (seg_goes),
+      .bias_o         (bias),
+      .resolved_o     (resolved),
+      .behind_o       (unit_behind_o),
+      .behind_unit_o  (unit_of_behind),
+      .behind_ahead_o (ahead_of_behind)
+  );
+
+  assign head_code = flags.cut ? ErrLastEarly : facts.head_error;
+  always_comb begin
+    verdict.header = flags.header;
+    verdict.cut = flags.cut;
+    verdict.empty = facts.empty;
+    verdict.good = flags.header ? !flags.cut && facts.head_error == ErrNone : body_good;
+    verdict.code = flags.header ? head_code : body_code;
+    verdict.seg_goes = !flags.header && seg_goes;
+    verdict.resolved = resolved;
+    verdict.bias = bias;
+  end
+
+  // ---- whom to blame -----------------------------------------------------------------------------------------------
+  logic raised_q;
+  logic [5:0] fault_unit_q;
+  logic [31:0] fault_token_q;
+  assign fault_unit_o  = raised_q ? fault_unit_q : '0;
+  assign fault_token_o = raised_q ? fault_token_q : index_q;
+  always_ff @(posedge clk_i) begin
+    if (free) begin
+      raised_q <= !flags.header && raised;
+      fault_unit_q <= unit_to_blame;
+      fault_token_q <= token_to_blame;
+    end
+  end
+
+  behind_t behind;
+  assign behind_o = behind;
+  assign behind.unit = unit_of_behind;
+  assign behind.line = line_q + 15'(ahead_of_behind);
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  logic wrong_q;  // the newest token that came in is at fault
+  always @(posedge clk_i) begin
+    if (!rst_ni) wrong_q <= 1'b0;
+    else if (take) wrong_q <= !verdict.good;
+    if (rst_ni) begin
+      // 1. Behind a token at fault no token is judged but a header.
+      assert (!take || !wrong_q || flags.header);
+      // 2. A token to be dropped is of the frame of the one at fault.
+      assert (!drop_q || !token_valid_i || !flags.header);
+      assert (!drop_q || !valid_q);
+      // 3. Of lines that are left.
+      assert (!take || flags.header || wrong_q || lines_done_q == (left_q == '0));
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire
