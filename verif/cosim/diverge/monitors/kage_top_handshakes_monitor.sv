@@ -35,7 +35,8 @@ module kage_top_handshakes_monitor #(
     input wire logic m_axis_tready_i,
     input wire logic queue_valid,
     input wire logic loading,           // frame_control waits for a line to come back
-    input wire logic dropping
+    input wire logic dropping,
+    input wire logic rest_comes         // the token behind one at fault is waited for, to be dropped
 );
   `include "kage_trace.svh"
 
@@ -64,7 +65,7 @@ module kage_top_handshakes_monitor #(
     now[HandshakeExitReady] = exit_free;
     now[HandshakeExitValid] = pixel_valid && !pixel_ready;
     now[HandshakeReturnLineValid] = loading && !load_valid && !queue_valid;  // never ready
-    now[HandshakeDropping] = dropping;
+    now[HandshakeDropping] = dropping || rest_comes;
   end
 
   always_ff @(posedge clk_i) if (rst_ni) kage_trace(StageHandshake, 0, TraceBits'(now));
@@ -79,6 +80,7 @@ bind kage_top kage_top_handshakes_monitor #(
     .held_ready(u_control.held_ready),
     .header    (u_control.verdict.header),
     .loading   (u_control.loading_q),
+    .rest_comes(u_control.rest_comes),
     .*
 );
 
