@@ -17,6 +17,9 @@ import tempfile
 import threading
 import time
 
+import kept_rows
+
+SCHEMA = "kage.dead-cores/1"  # of a row: docs/schema
 MAY_USE_A_CORE = r"^(cli|rtl|examples|mutants)/|^unit/cosim/|^package/consumer$"
 # Their program has the core in it: it is built of the copied tree.
 CORE_IN_THE_PROGRAM = {"rtl/kage_top", "rtl/kage_top_units"}
@@ -58,13 +61,13 @@ def sources_of(top):
     if (top / ".git").exists():
         command = ["git", "-C", top, "ls-files", "-z"]
         names = subprocess.run(command, check=True, capture_output=True).stdout.split(b"\0")
-        names = [os.fsdecode(name) for name in names if name]
+        names = [pathlib.Path(os.fsdecode(name)) for name in names if name]
     else:
         made = {"build", "out"}  # as .gitignore has it
         names = [
             f.relative_to(top) for entry in top.iterdir() if entry.name not in made for f in [entry, *entry.rglob("*")]
         ]
-    return [name for name in names if (top / name).is_file()]
+    return sorted(name for name in names if (top / name).is_file())
 
 
 def parameters(library):
@@ -201,8 +204,8 @@ def all_tests(tree, core, chosen, jobs, record):
         print(
             f"{core:<14} {verdict:<14} {'core' if uses_core else '-':<5} {seconds:6.1f} s  {test['name']}", flush=True
         )
-        row = {"schema": "kage.dead-cores/1", "core": core, "test": test["name"]}  # docs/schema/dead-cores.json
-        return record.add(row | {"verdict": verdict, "uses_core": uses_core, "seconds": seconds})
+        row = {"core": core, "test": test["name"], "verdict": verdict, "uses_core": uses_core, "seconds": seconds}
+        return record.add(row)
 
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         return list(pool.map(one, chosen))
@@ -211,38 +214,30 @@ def all_tests(tree, core, chosen, jobs, record):
 class Record:
     """The rows so far: of an earlier run that ended too soon, and of this one. --json has them after each test."""
 
-    def __init__(self, path, resume):
-        self.path = path
+    def __init__(self, options):
+        self.path = options.json
         self.lock = threading.Lock()
+        self.of = kept_rows.hash_of(options.top / name for name in sources_of(options.top) if "docs" not in name.parts)
         self.rows = []
-        if resume:
-            if path is None:
-                raise Trouble("--resume: there is no --json FILE to go on from")
-            if path.exists():
-                try:
-                    self.rows = json.loads(path.read_text())
-                except ValueError as e:
-                    raise Trouble(f"{path}: {e}") from None
-            if not isinstance(self.rows, list) or not all(
-                isinstance(row, dict) and row.get("schema") == "kage.dead-cores/1" for row in self.rows
-            ):
-                raise Trouble(f"{path}: no rows of tools/dead-cores --json")
+        if options.resume:
+            if self.path is None:
+                raise Trouble("--resume needs --json FILE")
+            self.rows = kept_rows.load(self.path, SCHEMA, {"of": self.of})
 
     def row(self, core, test):
         return next((row for row in self.rows if (row["core"], row["test"]) == (core, test)), None)
 
     def add(self, row):
+        row = {"schema": SCHEMA, "of": self.of} | row
         with self.lock:
             self.rows.append(row)
             if self.path:
-                partial = self.path.with_name(f".{self.path.name}.{os.getpid()}")
-                partial.write_text(json.dumps(self.rows, indent=1) + "\n")
-                partial.replace(self.path)
+                kept_rows.write(self.path, self.rows)
         return row
 
 
 def run(options):
-    record = Record(options.json, options.resume)
+    record = Record(options)
     faults = options.fault or sorted(p.stem for p in (options.top / "verif/cosim/model/faults").glob("dead_*.patch"))
     chosen = tests(options.build, options.tests)
     rows = []
@@ -306,7 +301,7 @@ def main():
 if __name__ == "__main__":
     try:
         sys.exit(main())
-    except Trouble as e:
+    except (Trouble, kept_rows.NotThese) as e:
         print(f"tools/dead-cores: {e}", file=sys.stderr)
     except subprocess.CalledProcessError as e:
         print(f"tools/dead-cores: {' '.join(map(str, e.cmd))}: exit code {e.returncode}", file=sys.stderr)

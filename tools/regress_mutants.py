@@ -3,7 +3,6 @@
 
 import argparse
 import concurrent.futures
-import hashlib
 import itertools
 import json
 import math
@@ -16,6 +15,7 @@ import sys
 import tempfile
 import time
 
+import kept_rows
 import yaml
 
 SCHEMA = "kage.regress-mutants/1"  # of a row: docs/schema
@@ -87,14 +87,7 @@ def what_is_tried(options):
     files = [pathlib.Path(options.kage)]
     for folder in ("rtl", "verif/mutants", "verif/cosim/model/driver"):
         files += sorted(f for f in (options.source / folder).rglob("*") if f.is_file() and "__pycache__" not in f.parts)
-    return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
-
-
-def write_whole(path, rows):
-    """The file is there whole or as it was before."""
-    part = pathlib.Path(f"{path}.part")
-    part.write_text(json.dumps(rows, indent=1) + "\n")
-    part.replace(path)
+    return kept_rows.hash_of(files)
 
 
 KINDS = ("random", "mixed", "damaged", "scene")  # in the order of a round of kage regress
@@ -206,29 +199,21 @@ def each(options, chosen):
         pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
 
 
-def kept_rows(options, tried):
+def earlier(options, tried):
     """The rows that --resume goes on from, by mutant."""
     if not options.json:
         sys.exit("tools/regress-mutants: --resume needs --json FILE")
-    if not pathlib.Path(options.json).exists():
-        return {}
-    rows = json.loads(pathlib.Path(options.json).read_text())
-    if not isinstance(rows, list) or not all(isinstance(row, dict) and row.get("schema") == SCHEMA for row in rows):
-        sys.exit(f"tools/regress-mutants: {options.json}: not rows of {SCHEMA}, which alone --resume goes on from")
-    asked = (options.seed, options.minutes, tried)
-    others = [row["name"] for row in rows if (row["seed"], row["minutes"], row["of"]) != asked]
-    if others:
-        sys.exit(
-            f"tools/regress-mutants: {options.json}: {others[0]} was run with another --seed or --minutes, or of other RTL, "
-            "mutants or kage"
-        )
-    return {row["name"]: row for row in rows}
+    asked = {"seed": options.seed, "minutes": options.minutes, "of": tried}
+    try:
+        return {row["name"]: row for row in kept_rows.load(options.json, SCHEMA, asked)}
+    except kept_rows.NotThese as e:
+        sys.exit(f"tools/regress-mutants: {e}")
 
 
 def regress_all(options, chosen):
     """A row for each mutant; those that are kept are not run again."""
     tried = what_is_tried(options)
-    kept = kept_rows(options, tried) if options.resume else {}
+    kept = earlier(options, tried) if options.resume else {}
     rows = []
     with tempfile.TemporaryDirectory() as out:
         for number, mutant in chosen:
@@ -240,7 +225,7 @@ def regress_all(options, chosen):
             rows.append(row)
             if options.json:
                 unmet = [r for n, r in kept.items() if n not in {row["name"] for row in rows}]
-                write_whole(options.json, rows + unmet)
+                kept_rows.write(options.json, rows + unmet)
             verdict = f"{row['seconds']:7.1f} s  {row['run']}" if row["found"] else "  not found"
             print(f"{row['name']:<28} {verdict}", flush=True)
     return rows
