@@ -89,7 +89,7 @@ module frame_control #(
   logic painted_q;  // the line's colours are ready for TPs
   logic loading_q;  // they are on their way out and back
   logic [X_BITS-1:0] width_q;
-  logic [14:0] line_q, left_q;  // lines that have ended, and those that have not
+  logic [LineNumberBits-1:0] line_q, left_q;  // lines that have ended, and those that have not
   logic lines_done_q;  // left_q is 0
   logic [31:0] frame_q;
   logic [RgbBits-1:0] background_q;
@@ -100,7 +100,7 @@ module frame_control #(
   logic [TOKEN_WORDS*32-1:0] token;
   verdict_t verdict;
   behind_t behind_units;
-  logic [5:0] fault_unit;
+  logic [UnitNumberBits-1:0] fault_unit;
   logic [31:0] fault_token;
 
   token_stage #(
@@ -126,9 +126,9 @@ module frame_control #(
       .behind_o     (behind_units)
   );
 
-  logic [3:0] kind;
+  logic [KindBits-1:0] kind;
   logic is_eol, is_end, is_span, is_tree, is_tp, is_table;
-  assign kind = token[3:0];
+  assign kind = token[KindBits-1:0];
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_tree = UNITS > 0 && kind == KindTree;
@@ -211,7 +211,7 @@ module frame_control #(
   always_ff @(posedge clk_i) begin
     if (accept && verdict.header) begin
       width_q <= token[HeaderWidthLsb+:X_BITS];
-      left_q <= bad ? '0 : token[HeaderHeightLsb+:15];  // no lines after an error in the header
+      left_q <= bad ? '0 : token[HeaderHeightLsb+:LineNumberBits];  // no lines after an error in the header
       lines_done_q <= bad;
       background_q <= token[HeaderBackgroundLsb+:RgbBits];
       frame_q <= token[HeaderFrameLsb+:32];
@@ -221,9 +221,9 @@ module frame_control #(
       shade_q <= '0;
     end else begin
       if (emit_eol) begin
-        line_q <= line_q + 15'd1;
-        left_q <= left_q - 15'd1;
-        lines_done_q <= left_q == 15'd1;
+        line_q <= line_q + 1'b1;
+        left_q <= left_q - 1'b1;
+        lines_done_q <= left_q == LineNumberBits'(1);
         painted_q <= 1'b0;
       end
       if (emit_paint) begin

@@ -14,17 +14,17 @@
 module line_phase #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam int KindBits = 4
+    localparam int BiasBits = DsfBits  // the bias counts as DSF does
 ) (
     input wire logic clk_i,
 
     input  wire logic                start_i,
     input  wire logic                take_i,
     input  wire logic [KindBits-1:0] kind_i,
-    input  wire logic [ DsfBits-1:0] w_i,
+    input  wire logic [BiasBits-1:0] w_i,
     output logic                     in_order_o,
     output logic                     resolved_o,
-    output logic      [ DsfBits-1:0] bias_o
+    output logic      [BiasBits-1:0] bias_o
 );
   `include "generated/kage_layout.svh"
 
@@ -32,7 +32,7 @@ module line_phase #(
 
   logic [PhaseBits-1:0] phase_q;
   logic [Marks-1:0] marks_q;
-  logic [DsfBits-1:0] bias_q;
+  logic [BiasBits-1:0] bias_q;
 
   logic [Phases-1:0] phases;  // in which the token may stand
   logic [Marks-1:0] with_marks, without_marks;

@@ -79,19 +79,19 @@ module pixel_banked #(
   end
 
   // ---- walker, stage 0 ---------------------------------------------------------------------------------------------
-  logic [3:0] next_kind;
+  logic [ KindBits-1:0] next_kind;
   logic [CountBits-1:0] next_count;
   logic [ShareBits-1:0] next_share;
-  logic [FlatBits-1:0] next_flat;
+  logic [ FlatBits-1:0] next_flat;
   logic [AddrBits-1:0] next_group, next_end;
   logic [OffBits-1:0] next_lane_first, next_lane_last;
   assign {next_kind, next_count, next_share, next_flat, next_group, next_end, next_lane_first, next_lane_last} = set3_q;
 
   logic walk_valid_q, walk_first_q, walk_sweep_q, walk_at_end_q, step;
-  logic [3:0] walk_kind_q;
+  logic [ KindBits-1:0] walk_kind_q;
   logic [CountBits-1:0] walk_count_q;
   logic [ShareBits-1:0] walk_share_q;
-  logic [FlatBits-1:0] walk_flat_q;
+  logic [ FlatBits-1:0] walk_flat_q;
   logic [AddrBits-1:0] walk_group_q, walk_end_q;
   logic [OffBits-1:0] walk_lane_first_q, walk_lane_last_q;
   logic walk_eol, next_leaves;  // a pass in which the line's pixels leave, of EOL or CmdOut, is next
@@ -230,7 +230,7 @@ module pixel_banked #(
   assign addr_before = info_q[(Last-2)*InfoBits+AddrAt+:AddrBits];
   assign addr_now = info_q[(Last-1)*InfoBits+AddrAt+:AddrBits];
 
-  logic [3:0] now_kind;
+  logic [KindBits-1:0] now_kind;
   logic [CountBits-1:0] now_count;
   logic [ShareBits-1:0] now_share;
   logic [LANES-1:0] now_lanes;

@@ -69,7 +69,7 @@ module pixel_systolic #(
   // of the command that was at it a clock ago whether the pixel is in its range, depth and colour clamped; and the
   // pixel's state. What goes along unchanged has a place more, for the last processor's second clock.
   logic [N-1:0] valid_q, hit, hit_q;
-  logic [(N+1)*4-1:0] kind_q;
+  logic [(N+1)*KindBits-1:0] kind_q;
   logic [N*X_BITS-1:0] xl_q, xr_q;
   logic [(N+1)*CountBits-1:0] count_q;
   logic [N*DepthBits-1:0] z_q, dz_q, z_d;
@@ -163,7 +163,7 @@ module pixel_systolic #(
   end
 
   // The same in its second clock.
-  logic [3:0] kind;
+  logic [KindBits-1:0] kind;
   logic [CountBits-1:0] count;
   logic [Z_BITS-1:0] depth;
   logic [RgbBits-1:0] color;
@@ -175,7 +175,7 @@ module pixel_systolic #(
     {kind, count, depth, color, pixel, leaving} = '0;
     for (int i = 0; i < N; i++) begin
       if (hit_q[i]) begin
-        kind  = kind_q[(i+1)*4+:4];
+        kind  = kind_q[(i+1)*KindBits+:KindBits];
         count = count_q[(i+1)*CountBits+:CountBits];
         depth = depth_q[i*Z_BITS+:Z_BITS];
         color = shown_q[i*RgbBits+:RgbBits];
@@ -218,7 +218,7 @@ module pixel_systolic #(
     else valid_q <= N'({valid_q, enter});
     if (!rst_ni) hit_q <= '0;
     else hit_q <= hit;
-    kind_q  <= ((N + 1) * 4)'({kind_q, rst_ni ? cmd.kind : KindEol});
+    kind_q  <= ((N + 1) * KindBits)'({kind_q, rst_ni ? cmd.kind : KindEol});
     xl_q    <= (N * X_BITS)'({xl_q, rst_ni ? cmd.xl : X_BITS'(0)});
     xr_q    <= (N * X_BITS)'({xr_q, rst_ni ? cmd.xr : X_BITS'(N)});
     count_q <= ((N + 1) * CountBits)'({count_q, cmd.count});

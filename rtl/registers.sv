@@ -109,8 +109,8 @@ module registers #(
   logic limited_q, limit_new_q, bitten_q;
   logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
   logic [15:0] error_line_q;
-  logic [3:0] error_code_q;
-  logic [5:0] error_unit_q;
+  logic [CodeBits-1:0] error_code_q;
+  logic [UnitNumberBits-1:0] error_unit_q;
   reg_stall_t stall_q;
   logic bite, unit_waited, write_control, write_irq, write_limit;
 

@@ -27,7 +27,7 @@
 module segment_check #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam int CodeBits = 4
+    localparam int RestBits = X_BITS > DX_BITS ? X_BITS : DX_BITS
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -35,15 +35,15 @@ module segment_check #(
     input wire logic frame_start_i,
     input wire logic take_i,
 
-    input wire logic              is_shade_i,    // SHADE or TABLE: other frame state
-    input wire logic              is_face_i,
-    input wire logic              is_seg_i,
-    input wire logic              is_tree_i,
-    input wire logic              is_eol_i,
-    input wire logic              is_other_i,
-    input wire logic [X_BITS-1:0] width_i,
-    input wire logic [      14:0] lines_left_i,
-    input wire logic [      31:0] token_i,       // index of the token in its frame
+    input wire logic                      is_shade_i,    // SHADE or TABLE: other frame state
+    input wire logic                      is_face_i,
+    input wire logic                      is_seg_i,
+    input wire logic                      is_tree_i,
+    input wire logic                      is_eol_i,
+    input wire logic                      is_other_i,
+    input wire logic [        X_BITS-1:0] width_i,
+    input wire logic [LineNumberBits-1:0] lines_left_i,
+    input wire logic [              31:0] token_i,       // index of the token in its frame
 
     input wire logic [ UnitBits-1:0] unit_i,  // of FACE or SEG
     input wire logic [FACE_BITS-1:0] face_i,  // of FACE or SEG
@@ -67,8 +67,6 @@ module segment_check #(
     output logic [         1:0] behind_ahead_o
 );
   `include "generated/kage_layout.svh"
-
-  localparam int RestBits = X_BITS > DX_BITS ? X_BITS : DX_BITS;
 
   // ---- the frame: has it a tree? -----------------------------------------------------------------------------------
   logic state_q;  // only SHADE, TABLE and FACE since the header: a SEG begins the tree, any other token rules it out
@@ -105,7 +103,7 @@ module segment_check #(
   // ---- order and range ---------------------------------------------------------------------------------------------
   logic all_lines;  // the unit has all lines of the frame
   logic [3:0] left_is;  // lines left: 0, 1, 2, 3; compared while the unit is chosen
-  always_comb for (int n = 0; n < 4; n++) left_is[n] = lines_left_i == 15'(n);
+  always_comb for (int n = 0; n < 4; n++) left_is[n] = lines_left_i == LineNumberBits'(n);
   assign all_lines = left_is[ahead];
   always_comb begin
     order_error_o = 1'b0;
@@ -120,7 +118,7 @@ module segment_check #(
   // ---- a segment ---------------------------------------------------------------------------------------------------
   logic [X_BITS-1:0] rest_next;
   logic completes, too_long, too_early, seg_fault;
-  logic [3:0] seg_code;
+  logic [CodeBits-1:0] seg_code;
   assign rest_next  = rest - X_BITS'(dx_i);
   assign completes  = RestBits'(rest) == RestBits'(dx_i);
   assign too_long   = RestBits'(rest) < RestBits'(dx_i);
@@ -257,7 +255,7 @@ module segment_check #(
       // 2. A line that ends under a tree has had its TREE, so every unit had it complete and no fault of it is left.
       assert (!take_i || !is_eol_i || order_error_o || !tree_q || !(short_any || kept_q[0]));
       // 3. A faulty segment is of this line or the next.
-      assert (!take_i || !seg_fault || order_error_o || range_error_o || lines_left_i > 15'(later));
+      assert (!take_i || !seg_fault || order_error_o || range_error_o || lines_left_i > LineNumberBits'(later));
     end
   end
 `endif

@@ -19,8 +19,7 @@
 module token_check #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    parameter int TOKEN_WORDS = 5,
-    localparam int CodeBits = 4
+    parameter int TOKEN_WORDS = 5
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -32,26 +31,26 @@ module token_check #(
     input wire logic                      token_cut_i,
     input wire logic                      token_at_last_i,
     input wire logic [        X_BITS-1:0] width_i,
-    input wire logic [              14:0] line_i,
-    input wire logic [              14:0] lines_left_i,
+    input wire logic [LineNumberBits-1:0] line_i,
+    input wire logic [LineNumberBits-1:0] lines_left_i,
     input wire logic                      lines_done_i,
     input wire logic                      first_i,
     input wire logic [              31:0] index_i,
 
     input wire logic take_i,
 
-    output logic                good_o,
-    output logic [CodeBits-1:0] code_o,
-    output logic                raised_o,
-    output logic [         5:0] fault_unit_o,
-    output logic [        31:0] fault_token_o,
-    output logic                seg_goes_o,
+    output logic                      good_o,
+    output logic [      CodeBits-1:0] code_o,
+    output logic                      raised_o,
+    output logic [UnitNumberBits-1:0] fault_unit_o,
+    output logic [              31:0] fault_token_o,
+    output logic                      seg_goes_o,
 
-    output logic [DsfBits-1:0] bias_o,
-    output logic               resolved_o,
-    output logic               behind_o,
-    output logic [        5:0] behind_unit_o,
-    output logic [        1:0] behind_ahead_o
+    output logic [       DsfBits-1:0] bias_o,
+    output logic                      resolved_o,
+    output logic                      behind_o,
+    output logic [UnitNumberBits-1:0] behind_unit_o,
+    output logic [               1:0] behind_ahead_o
 );
   `include "generated/kage_layout.svh"
   `include "generated/kage_order.svh"
@@ -64,7 +63,7 @@ module token_check #(
   assign take  = take_i && !token_header_i;
 
   // ---- order, range, line ------------------------------------------------------------------------------------------
-  logic [3:0] kind;
+  logic [KindBits-1:0] kind;
   logic is_eol, is_end, is_span;
   logic [X_BITS-1:0] xr;
   logic in_phase, in_order, in_range, in_line, last_late, good;
@@ -72,7 +71,7 @@ module token_check #(
   logic table_order_error, table_range_error;  // those of TABLE and classes, see gen_table
   logic shade_seen_q;
   logic [CodeBits-1:0] tree_code;
-  assign kind = token_i[3:0];
+  assign kind = token_i[KindBits-1:0];
   assign is_eol = kind == KindEol;
   assign is_end = kind == KindEnd;
   assign is_span = kind_has_range(kind);
@@ -86,7 +85,7 @@ module token_check #(
     endcase
     if ((lines_done_i && !is_end) || tree_order_error) in_order = 1'b0;
     in_range = !bad_range_i && !(is_span && xr > width_i) && !tree_range_error && !table_range_error;
-    in_line  = !(is_eol && token_i[EolYLsb+:16] != 16'(line_i)) && !(is_end && !lines_done_i);
+    in_line  = !(is_eol && token_i[EolYLsb+:EolYBits] != EolYBits'(line_i)) && !(is_end && !lines_done_i);
     if (token_cut_i) code_o = ErrLastEarly;
     else if (token_lacking_i) code_o = ErrKind;
     else if (!in_order) code_o = ErrOrder;
@@ -155,8 +154,8 @@ module token_check #(
     assign is_tree = kind == KindTree;
     assign seg_goes_o = seg_pass && good;
     assign raised_o = tree_error && code_o == tree_code;
-    assign fault_unit_o = 6'(tree_unit);
-    assign behind_unit_o = 6'(unit_of_behind);
+    assign fault_unit_o = UnitNumberBits'(tree_unit);
+    assign behind_unit_o = UnitNumberBits'(unit_of_behind);
 
     always_ff @(posedge clk_i) begin
       if (start) shade_seen_q <= 1'b0;

@@ -39,10 +39,10 @@ module token_command #(
   `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
 
-  logic [3:0] kind;
+  logic [KindBits-1:0] kind;
   logic is_tp, whole, unused_token;
   assign unused_token = ^token_i;  // a header, and other tokens, may be longer
-  assign kind = token_i[3:0];
+  assign kind = token_i[KindBits-1:0];
   assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
   assign whole = make_eol_i || make_tree_i || make_paint_i || make_out_i;
 

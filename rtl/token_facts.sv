@@ -27,19 +27,20 @@ facts_t facts;
   logic unused_token;
   assign unused_token = ^token_i;  // longer than what is looked at
 
-  logic [15:0] head_width, head_height;
-  logic [3:0] kind;
+  logic [HeaderWidthBits-1:0] head_width;
+  logic [HeaderHeightBits-1:0] head_height;
+  logic [KindBits-1:0] kind;
   logic [X_BITS-1:0] xl, xr;
-  assign head_width = token_i[HeaderWidthLsb+:16];
-  assign head_height = token_i[HeaderHeightLsb+:16];
-  assign kind = token_i[3:0];
+  assign head_width = token_i[HeaderWidthLsb+:HeaderWidthBits];
+  assign head_height = token_i[HeaderHeightLsb+:HeaderHeightBits];
+  assign kind = token_i[KindBits-1:0];
   assign xl = token_i[RangeXlLsb+:X_BITS];
   assign xr = token_i[RangeXrLsb+:X_BITS];
   always_comb begin
     // a header
     if (token_i[HeaderVersionLsb+:32] != {16'(StreamMagic), 16'(StreamVersion)}) facts.head_error = ErrHeader;
-    else if (head_width == '0 || head_width > 16'(MAX_WIDTH)) facts.head_error = ErrSize;
-    else if (head_height == '0 || head_height[15]) facts.head_error = ErrSize;
+    else if (head_width == '0 || head_width > HeaderWidthBits'(MAX_WIDTH)) facts.head_error = ErrSize;
+    else if (head_height == '0 || head_height > HeaderHeightBits'(MaxHeight)) facts.head_error = ErrSize;
     else if (token_i[HeaderParamHashLsb+:32] != ParamHash) facts.head_error = ErrParams;
     else facts.head_error = ErrNone;
     // a token of the body

@@ -60,7 +60,7 @@ module token_reader #(
 
   // ---- beats that came ---------------------------------------------------------------------------------------------
   logic [BeatBits-1:0] mem[Depth];
-  logic [4*BEAT_WORDS-1:0] kinds[Depth];  // each word's lowest bits, for a second address
+  logic [KindBits*BEAT_WORDS-1:0] kinds[Depth];  // each word's lowest bits, for a second address
   logic [BeatAtBits-1:0] end_beat_q;  // behind the newest
   logic last_q;  // the newest had TLAST
   logic dropping_q, flushed_q;
@@ -79,14 +79,14 @@ module token_reader #(
   logic [AtBits-1:0] next_at_q, next_end_at, words_ahead;
   logic header_q;  // the next one is the frame's header
   logic next_there, look;
-  logic [4*BEAT_WORDS-1:0] next_kinds;
-  logic [3:0] next_kind;
+  logic [KindBits*BEAT_WORDS-1:0] next_kinds;
+  logic [KindBits-1:0] next_kind;
   logic [4:0] next_words;
   assign words_ahead = (AtBits'(end_beat_q) << OffBits) - next_at_q;
   assign next_there  = !words_ahead[AtBits-1] && words_ahead != '0;
   assign next_kinds  = kinds[AddrBits'(next_at_q>>OffBits)];
   if (BEAT_WORDS > 1) begin : gen_next_kind
-    assign next_kind = next_kinds[4*next_at_q[OffBits-1:0]+:4];
+    assign next_kind = next_kinds[KindBits*next_at_q[OffBits-1:0]+:KindBits];
   end else begin : gen_next_kind
     assign next_kind = next_kinds;
   end
@@ -150,7 +150,8 @@ module token_reader #(
   always_ff @(posedge clk_i) begin
     if (push) begin
       mem[AddrBits'(end_beat_q)] <= s_axis_tdata_i;
-      for (int w = 0; w < BEAT_WORDS; w++) kinds[AddrBits'(end_beat_q)][4*w+:4] <= s_axis_tdata_i[32*w+:4];
+      for (int w = 0; w < BEAT_WORDS; w++)
+      kinds[AddrBits'(end_beat_q)][KindBits*w+:KindBits] <= s_axis_tdata_i[32*w+:KindBits];
     end
     if (look) begin
       front_header_q  <= header_q;

@@ -41,7 +41,7 @@ module token_stage #(
     input  wire logic                      held_ready_i,
     output logic      [TOKEN_WORDS*32-1:0] held_o,
     output logic      [   VerdictBits-1:0] verdict_o,
-    output logic      [               5:0] fault_unit_o,
+    output logic      [UnitNumberBits-1:0] fault_unit_o,
     output logic      [              31:0] fault_token_o,
     output logic                           dropping_o,
     output logic                           unit_behind_o,
@@ -85,7 +85,7 @@ flags_t flags;
 
   // ---- the frame, as the token finds it that comes in --------------------------------------------------------------
   logic [X_BITS-1:0] width_q;
-  logic [14:0] line_q, left_q;  // lines that have ended, and those that have not
+  logic [LineNumberBits-1:0] line_q, left_q;  // lines that have ended, and those that have not
   logic lines_done_q;  // left_q is 0
   logic first_q;  // the header was the last token
   logic [31:0] index_q, index;  // the token held, and the one that comes in
@@ -97,15 +97,15 @@ flags_t flags;
       if (flags.header) begin
         width_q <= token_i[HeaderWidthLsb+:X_BITS];
         line_q <= '0;
-        left_q <= token_i[HeaderHeightLsb+:15];
+        left_q <= token_i[HeaderHeightLsb+:LineNumberBits];
         lines_done_q <= 1'b0;
         index_q <= '0;
       end else begin
         index_q <= index;
-        if (token_i[3:0] == KindEol) begin
-          line_q <= line_q + 15'd1;
-          left_q <= left_q - 15'd1;
-          lines_done_q <= left_q == 15'd1;
+        if (token_i[KindBits-1:0] == KindEol) begin
+          line_q <= line_q + 1'b1;
+          left_q <= left_q - 1'b1;
+          lines_done_q <= left_q == LineNumberBits'(1);
         end
       end
     end
@@ -123,9 +123,9 @@ flags_t flags;
   );
 
   logic body_good, seg_goes, resolved, raised;
-  logic [3:0] body_code, head_code;
+  logic [CodeBits-1:0] body_code, head_code;
   logic [DsfBits-1:0] bias;
-  logic [5:0] unit_to_blame, unit_of_behind;
+  logic [UnitNumberBits-1:0] unit_to_blame, unit_of_behind;
   logic [31:0] token_to_blame;
   logic [ 1:0] ahead_of_behind;
 
@@ -175,7 +175,7 @@ flags_t flags;
 
   // ---- whom to blame -----------------------------------------------------------------------------------------------
   logic raised_q;
-  logic [5:0] fault_unit_q;
+  logic [UnitNumberBits-1:0] fault_unit_q;
   logic [31:0] fault_token_q;
   assign fault_unit_o  = raised_q ? fault_unit_q : '0;
   assign fault_token_o = raised_q ? fault_token_q : index_q;
@@ -190,7 +190,7 @@ flags_t flags;
   behind_t behind;
   assign behind_o = behind;
   assign behind.unit = unit_of_behind;
-  assign behind.line = line_q + 15'(ahead_of_behind);
+  assign behind.line = line_q + LineNumberBits'(ahead_of_behind);
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS

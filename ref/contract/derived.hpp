@@ -11,6 +11,16 @@
 
 namespace kage::derived {
 
+/// lines of a frame
+constexpr int max_height(const Config&) { return 32767; }
+/// of a token's kind, the lowest bits of its first word
+constexpr int kind_bits(const Config&) { return 4; }
+/// of an error's code
+constexpr int code_bits(const Config&) { return 4; }
+/// of a line's number, and of how many lines are left
+constexpr int line_number_bits(const Config&) { return 15; }
+/// of a unit's number in a register, in any configuration
+constexpr int unit_number_bits(const Config&) { return 6; }
 /// a light's share is looked up in a table, by class
 constexpr bool has_table(const Config& c) { return c.class_bits > 1; }
 /// colours come back: a line with samples leaves to be darkened before its first TP

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Stream files. The format is docs/stream.md, Files; in short, all numbers little-endian:
+// Stream files. The format is docs/stream-files.md; in short, all numbers little-endian:
 //
 //   8 bytes   "KAGESTRM"
 //   sections, each: 4 bytes tag, u32 CRC-32 of the payload, u64 payload bytes, payload, zeros up to a multiple of 8

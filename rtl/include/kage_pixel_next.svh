@@ -48,7 +48,7 @@ endfunction
 // {light, bias} for ES; `share` is TP's alpha and RESOLVE's shade. RESOLVE reaches the pixels only where TPs follow;
 // otherwise line_out darkens. With counters RESOLVE darkens nothing: where there is something to darken CmdOut sends
 // the line to line_out and CmdLoad brings its colours back. EOL clears.
-function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [3:0] kind,
+function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [KindBits-1:0] kind,
                                                     input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
                                                     input logic [CountBits-1:0] count,
                                                     input logic [ShareBits-1:0] share);

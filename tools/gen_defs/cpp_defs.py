@@ -3,7 +3,7 @@
 
 from cpp_header import frame_header
 from cpp_layout import field, layout
-from expressions import cpp_expr, quoted
+from expressions import camel, cpp_expr, quoted
 from files import NOTE
 
 
@@ -53,9 +53,8 @@ def numbers(defs):
     return [
         f"inline constexpr std::uint32_t kStreamVersion = {d['version']};  ///< of the stream",
         f"inline constexpr std::uint32_t kStreamMagic = {d['magic']:#x};  ///< in a header's first word",
-        f"inline constexpr int kMaxHeight = {d['max_height']};  ///< lines of a frame",
         f"inline constexpr std::uint32_t kHeaderWords = {len(d['header'])};  ///< words of a header",
-        f"inline constexpr unsigned kKindBits = {d['kind_bits']};  ///< of a token's kind",
+        *(f"inline constexpr int k{camel(c['name'])} = {c['value']};  ///< {c['doc']}" for c in d["constants"]),
         f"inline constexpr std::size_t kMostTokenWords = {defs.most_token_words()};  ///< words of the longest token of any configuration",
         "",
     ]

@@ -19,6 +19,10 @@ class Defs:
         self.pixel = self.d["pixel_params"]
         self.impl = self.d["impl_params"]
         self.names = {p["name"] for p in self.pixel + self.impl}
+        # One definition of what is the same in every configuration and of what is not: <name> stands for either.
+        constants = {c["name"]: c["value"] for c in self.d["constants"]}
+        self.d |= constants
+        self.d["derived"][:0] = ({**c, "value": str(c["value"])} for c in self.d["constants"])
         for word in self.d["words"]:
             bits = " + ".join(str(f["bits"]) for f in word["fields"])
             self.d["derived"].append({"name": f"{word['name']}_bits", "value": bits, "doc": word["doc"]})
@@ -58,6 +62,8 @@ class Defs:
             error.setdefault("of_unit", False)
         for register in self.d["registers"]:
             for field in register.get("fields", []):
+                if isinstance(field["bits"], str):
+                    field["bits"] = constants[field["bits"].strip("<>")]
                 if field.setdefault("parameter", False):
                     checks.holds_parameter(register, field, self.pixel + self.impl)
                     field["doc"] = "the parameter"

@@ -37,14 +37,17 @@ def header(defs):
         f"localparam int HeaderWords = {len(defs.d['header'])};",
         "",
         *(f"localparam int Header{camel(f['name'])}Lsb = {32 * f['word'] + f['lsb']};" for f in defs.header_fields),
+        *(f"localparam int Header{camel(f['name'])}Bits = {f['bits']};" for f in defs.header_fields),
         "",
     ]
 
 
 def numbers(d):
-    bits = d["kind_bits"]
-    kinds = (f"localparam logic [{bits - 1}:0] Kind{camel(t['name'])} = {bits}'d{t['kind']};" for t in d["tokens"])
-    errors = (f"localparam logic [3:0] Err{camel(e['name'])} = 4'd{e['code']};" for e in d["errors"])
+    def numbered(prefix, bits, entries, number):
+        return (f"localparam logic [{bits - 1}:0] {prefix}{camel(e['name'])} = {bits}'d{e[number]};" for e in entries)
+
+    kinds = numbered("Kind", d["kind_bits"], d["tokens"], "kind")
+    errors = numbered("Err", d["code_bits"], d["errors"], "code")
     return [*kinds, ""], [*errors, ""]
 
 

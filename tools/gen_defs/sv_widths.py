@@ -46,6 +46,9 @@ def widths(defs):
         bits = " + ".join(defs.sv_bits(f) for f in b["fields"])
         o.append(f"localparam int {camel(b['name'])}Bits = {bits},  // {b['doc']}")
     o += ["// Commands without token, by kinds that never become commands."]
-    o += [f"localparam logic [3:0] Cmd{camel(c['name'])} = 4'd{c['kind']},  // {c['doc']}" for c in defs.d["commands"]]
+    o += [
+        f"localparam logic [KindBits-1:0] Cmd{camel(c['name'])} = KindBits'({c['kind']}),  // {c['doc']}"
+        for c in defs.d["commands"]
+    ]
     o += ["/* verilator lint_on UNUSEDPARAM */", "// verilog_lint: waive-stop line-length", ""]
     return "\n".join(o)

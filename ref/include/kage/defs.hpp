@@ -17,9 +17,12 @@ namespace kage {
 
 inline constexpr std::uint32_t kStreamVersion = 1;  ///< of the stream
 inline constexpr std::uint32_t kStreamMagic = 0x4b47;  ///< in a header's first word
-inline constexpr int kMaxHeight = 32767;  ///< lines of a frame
 inline constexpr std::uint32_t kHeaderWords = 5;  ///< words of a header
-inline constexpr unsigned kKindBits = 4;  ///< of a token's kind
+inline constexpr int kMaxHeight = 32767;  ///< lines of a frame
+inline constexpr int kKindBits = 4;  ///< of a token's kind, the lowest bits of its first word
+inline constexpr int kCodeBits = 4;  ///< of an error's code
+inline constexpr int kLineNumberBits = 15;  ///< of a line's number, and of how many lines are left
+inline constexpr int kUnitNumberBits = 6;  ///< of a unit's number in a register, in any configuration
 inline constexpr std::size_t kMostTokenWords = 10;  ///< words of the longest token of any configuration
 
 /// Place of a field in its token or header: `bits` from bit `lsb` of its words, the first word lowest.

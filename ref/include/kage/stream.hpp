@@ -105,7 +105,7 @@ class StreamFileWriter {
   /// @param words the whole frame
   void frame(std::span<const std::uint32_t> words);
 
-  /// Says where the frames come from (docs/stream.md, Files): once, after the last frame. Cores ignore it.
+  /// Says where the frames come from (docs/stream-files.md): once, after the last frame. Cores ignore it.
   /// @param json text
   void origin(const std::string& json);
 

@@ -5,7 +5,7 @@
 
 // What a token says by itself: from token_facts to token_stage.
 typedef struct packed {
-  logic [3:0] head_error;  // of a header, unless it is cut
+  logic [CodeBits-1:0] head_error;  // of a header, unless it is cut
   logic bad_range;  // xl > xr, a light that the core lacks, a shade of more than 1
   logic empty;  // xl = xr
 } facts_t;
@@ -25,7 +25,7 @@ typedef struct packed {
   logic cut;  // as in its flags
   logic empty;  // as in its facts
   logic good;  // there is nothing against it
-  logic [3:0] code;  // of its error, if it is not good
+  logic [CodeBits-1:0] code;  // of its error, if it is not good
   logic seg_goes;  // a good SEG that its unit takes
   logic resolved;  // the token before it in its line is a RESOLVE
   logic [DsfBits-1:0] bias;  // as the token finds it
@@ -33,7 +33,7 @@ typedef struct packed {
 
 // What the pixels of a range do: from token_command to the pixels.
 typedef struct packed {
-  logic [3:0] kind;  // of the token, or a command that is no token
+  logic [KindBits-1:0] kind;  // of the token, or a command that is no token
   logic [X_BITS-1:0] xl;  // first pixel
   logic [X_BITS-1:0] xr;  // past the last pixel
   logic [CountBits-1:0] count;  // as pixel_next has it
@@ -96,15 +96,15 @@ typedef struct packed {
 
 // A frame's first error: from frame_control to registers.
 typedef struct packed {
-  logic [3:0] code;  // as in ERROR
+  logic [CodeBits-1:0] code;  // as in ERROR
   logic [31:0] frame;  // the header's number
   logic [15:0] line;  // the line
   logic [31:0] token;  // its index in the frame
-  logic [5:0] unit;  // to blame, if a TREE raised it
+  logic [UnitNumberBits-1:0] unit;  // to blame, if a TREE raised it
 } error_t;
 
 // The unit that is behind: from frame_control to registers.
 typedef struct packed {
-  logic [5:0] unit;  // the lowest of those with least
-  logic [14:0] line;  // its first that is not whole; without such a unit the line at hand
+  logic [UnitNumberBits-1:0] unit;  // the lowest of those with least
+  logic [LineNumberBits-1:0] line;  // its first that is not whole; without such a unit the line at hand
 } behind_t;

@@ -14,6 +14,13 @@ localparam int HeaderHeightLsb = 48;
 localparam int HeaderParamHashLsb = 64;
 localparam int HeaderBackgroundLsb = 96;
 localparam int HeaderFrameLsb = 128;
+localparam int HeaderVersionBits = 16;
+localparam int HeaderMagicBits = 16;
+localparam int HeaderWidthBits = 16;
+localparam int HeaderHeightBits = 16;
+localparam int HeaderParamHashBits = 32;
+localparam int HeaderBackgroundBits = 32;
+localparam int HeaderFrameBits = 32;
 
 localparam logic [3:0] KindShade = 4'd1;
 localparam logic [3:0] KindTable = 4'd2;

@@ -5,6 +5,11 @@
 // without bits.
 // verilog_lint: waive-start line-length
 /* verilator lint_off UNUSEDPARAM */
+localparam int MaxHeight = 32767,  // lines of a frame
+localparam int KindBits = 4,  // of a token's kind, the lowest bits of its first word
+localparam int CodeBits = 4,  // of an error's code
+localparam int LineNumberBits = 15,  // of a line's number, and of how many lines are left
+localparam int UnitNumberBits = 6,  // of a unit's number in a register, in any configuration
 localparam bit HasTable = CLASS_BITS > 1,  // a light's share is looked up in a table, by class
 localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0,  // colours come back: a line with samples leaves to be darkened before its first TP
 localparam logic [Z_BITS-1:0] ClearDepth = Z_BITS'((1 << Z_BITS) - 1),  // a pixel's depth where nothing has been drawn
@@ -66,20 +71,20 @@ localparam int PointColorAt = ClassBits,  // its colour
 localparam int PointIndexAt = ClassBits + RgbBits,  // the polyhedron's
 localparam int PointZAt = ClassBits + RgbBits + ORDER_BITS,  // its depth
 // The buses of kage_buses.svh.
-localparam int FactsBits = 4 + 1 + 1,  // what a token says by itself
+localparam int FactsBits = CodeBits + 1 + 1,  // what a token says by itself
 localparam int FlagsBits = 1 + 1 + 1 + 1 + 1,  // what its frame says of a token
-localparam int VerdictBits = 1 + 1 + 1 + 1 + 4 + 1 + 1 + DsfBits,  // what a token is and finds, judged before it is acted on
-localparam int CommandBits = 4 + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // what the pixels of a range do
+localparam int VerdictBits = 1 + 1 + 1 + 1 + CodeBits + 1 + 1 + DsfBits,  // what a token is and finds, judged before it is acted on
+localparam int CommandBits = KindBits + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // what the pixels of a range do
 localparam int LineBits = 1 + 1 + 1 + 1 + X_BITS + RgbBits + FactorBits,  // a line, in the order of the lines
 localparam int TableEntryBits = CLASS_BITS + LightBits + EntryShareBits,  // an entry of the light table
 localparam int LoadBits = X_BITS + RgbBits + 1,  // a pixel's colour that comes back
 localparam int TreeCallBits = 1 + 1 + 1 + 1,  // what happens to the tree in a clock
 localparam int PieceBits = UnitBits + FACE_BITS + EntryBits + DepthBits + DX_BITS,  // a FACE or a SEG
 localparam int TreePixelBits = Z_BITS + CLASS_BITS + RgbBits + 1,  // the nearest face at a pixel of the tree's line
-localparam int ErrorBits = 4 + 32 + 16 + 32 + 6,  // a frame's first error
-localparam int BehindBits = 6 + 15,  // the unit that is behind
+localparam int ErrorBits = CodeBits + 32 + 16 + 32 + UnitNumberBits,  // a frame's first error
+localparam int BehindBits = UnitNumberBits + LineNumberBits,  // the unit that is behind
 // Commands without token, by kinds that never become commands.
-localparam logic [3:0] CmdLoad = 4'd1,  // a line's pixel comes back
-localparam logic [3:0] CmdOut = 4'd2,  // a line's pixels leave but stay
+localparam logic [KindBits-1:0] CmdLoad = KindBits'(1),  // a line's pixel comes back
+localparam logic [KindBits-1:0] CmdOut = KindBits'(2),  // a line's pixels leave but stay
 /* verilator lint_on UNUSEDPARAM */
 // verilog_lint: waive-stop line-length

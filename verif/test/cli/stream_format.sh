@@ -1,35 +1,35 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# docs/stream.md: the commands of its first example print the line it reads aloud. Files: its command makes the bytes it
-# shows, and its Python reads them, and refuses a changed file.
+# docs/stream.md: the commands of its first example print the line it reads aloud. docs/stream-files.md: its command makes the
+# bytes it shows, and its Python reads them, and refuses a changed file.
 . "$(dirname "$0")/common.bash"
 
-# block LANGUAGE N HEADING: the Nth code block of that language from that heading on.
+# block PAGE LANGUAGE HEADING: the page's first code block of that language from that heading on.
 block() {
-  awk -v lang="\`\`\`$1" -v n="$2" -v from="$3" '$0 == from { on = 1 } on && inside && /^```$/ { inside = 0; next }
-    on && !inside && /^```/ { inside = 1; take = ($0 == lang && ++seen == n); next } inside && take' "$source/docs/stream.md"
+  awk -v lang="\`\`\`$2" -v from="$3" '$0 == from { on = 1 } on && inside && /^```$/ { inside = 0; next }
+    on && !inside && /^```/ { inside = 1; take = ($0 == lang && !seen++); next } inside && take' "$source/docs/$1.md"
 }
 
-block sh 1 "## One line, read aloud" >commands
+block stream sh "## One line, read aloud" >commands
 mkdir bin && ln -s "$kage" bin/kage
 expect 0 env PATH="$temp/bin:$PATH" sh -e commands
 sed -n '/EOL 0$/,$p' stdout >made
-block "" 1 "## One line, read aloud" >shown
+block stream "" "## One line, read aloud" >shown
 [ "$(wc -l <shown)" = 13 ] || fail "no line in docs/stream.md"
 diff shown made || fail "docs/stream.md shows another line than its commands print"
 
-block sh 1 "### By hand" >commands
+block stream-files sh "## By hand" >commands
 [ "$(wc -l <commands)" = 2 ] || fail "not two commands: $(cat commands)"
 expect 0 env PATH="$temp/bin:$PATH" sh -e commands
 sed -n '/^000000/,$p' stdout >made
-block "" 1 "### By hand" >shown
-[ "$(wc -l <shown)" -gt 10 ] || fail "no dump in docs/stream.md"
-diff shown made || fail "docs/stream.md shows other bytes than its command makes"
+block stream-files "" "## By hand" >shown
+[ "$(wc -l <shown)" -gt 10 ] || fail "no dump in docs/stream-files.md"
+diff shown made || fail "docs/stream-files.md shows other bytes than its command makes"
 
-block python 1 "### By hand" >read.py
+block stream-files python "## By hand" >read.py
 expect 0 python3 read.py pixel.kage
 [ "$(cat stdout)" = "frame 0: 1x1, 10 words" ] || fail "the reader prints $(cat stdout)"
-grep -qF "$(cat stdout)" "$source/docs/stream.md" || fail "docs/stream.md says that the reader prints something else"
+grep -qF "$(cat stdout)" "$source/docs/stream-files.md" || fail "docs/stream-files.md says that the reader prints something else"
 expect 0 "$kage" stream courtyard --size 96x64 --frames 3 --out c.kage
 expect 0 python3 read.py c.kage
 [ "$(grep -c ': 96x64, ' stdout)" = 3 ] || fail "the reader finds other frames: $(cat stdout)"

@@ -28,7 +28,7 @@ struct FactsBus {
     at += empty.bits;
     bad_range = {at, 1};
     at += bad_range.bits;
-    head_error = {at, 4};
+    head_error = {at, derived::code_bits(c)};
   }
 };
 
@@ -73,7 +73,7 @@ struct VerdictBus {
     at += resolved.bits;
     seg_goes = {at, 1};
     at += seg_goes.bits;
-    code = {at, 4};
+    code = {at, derived::code_bits(c)};
     at += code.bits;
     good = {at, 1};
     at += good.bits;
@@ -115,7 +115,7 @@ struct CommandBus {
     at += xr.bits;
     xl = {at, c.x_bits};
     at += xl.bits;
-    kind = {at, 4};
+    kind = {at, derived::kind_bits(c)};
   }
 };
 
@@ -249,7 +249,7 @@ struct ErrorBus {
 
   explicit constexpr ErrorBus([[maybe_unused]] const Config& c) {
     int at = 0;
-    unit = {at, 6};
+    unit = {at, derived::unit_number_bits(c)};
     at += unit.bits;
     token = {at, 32};
     at += token.bits;
@@ -257,7 +257,7 @@ struct ErrorBus {
     at += line.bits;
     frame = {at, 32};
     at += frame.bits;
-    code = {at, 4};
+    code = {at, derived::code_bits(c)};
   }
 };
 
@@ -268,9 +268,9 @@ struct BehindBus {
 
   explicit constexpr BehindBus([[maybe_unused]] const Config& c) {
     int at = 0;
-    line = {at, 15};
+    line = {at, derived::line_number_bits(c)};
     at += line.bits;
-    unit = {at, 6};
+    unit = {at, derived::unit_number_bits(c)};
   }
 };
 

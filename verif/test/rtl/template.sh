@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The design in docs/rtl.md, "In your own design", compiles as it stands there: Verilator without a warning, and yosys where there is one.
+# The design in docs/integration.md compiles as it stands there: Verilator without a warning, and yosys where there is one.
 #
 # usage: template.sh SOURCE_DIR
 set -euo pipefail
 cd "$1"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-awk '/^```systemverilog$/{on=1; next} /^```$/{on=0} on' docs/rtl.md >"$work/my_design.sv"
-[ "$(grep -c '^module my_design' "$work/my_design.sv")" = 1 ] || { echo "template.sh: no design in docs/rtl.md" >&2; exit 1; }
+awk '/^```systemverilog$/{on=1; next} /^```$/{on=0} on' docs/integration.md >"$work/my_design.sv"
+[ "$(grep -c '^module my_design' "$work/my_design.sv")" = 1 ] || { echo "template.sh: no design in docs/integration.md" >&2; exit 1; }
 
 lint() { verilator --lint-only -Wall -Irtl/include --top-module my_design "$1" rtl/*.sv; }
 lint "$work/my_design.sv"
