@@ -24,6 +24,7 @@ MAY_USE_A_CORE = r"^(cli|rtl|examples|mutants)/|^unit/cosim/|^package/consumer$"
 # Their program has the core in it: it is built of the copied tree.
 CORE_IN_THE_PROGRAM = {"rtl/kage_top", "rtl/kage_top_units"}
 LONGEST = 1800  # seconds a test may take
+LINES = 20  # of what a test said that fails with the sound core
 
 # Tests that a core which is wrong in every way leaves as they are, and why.
 EXEMPT = {
@@ -101,6 +102,7 @@ class Tree:
         self.models = work / "models"
         self.scratch = work / "scratch"
         self.build = work / "build"
+        self.sound = not fault
         self.building = threading.Lock()
         for name in sources_of(top):
             (self.copy / name).parent.mkdir(parents=True, exist_ok=True)
@@ -166,14 +168,16 @@ class Tree:
         environment |= {"DEAD_CORES_MARK": str(mark), "TMPDIR": str(scratch / "tmp")}
         properties = {p["name"]: p["value"] for p in test.get("properties", [])}
         environment.update(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
+        verdict = ""
         start = time.monotonic()
+        said = (scratch / "said").open("w+", errors="replace")
         process = subprocess.Popen(
             command,
             cwd=properties.get("WORKING_DIRECTORY"),
             env=environment,
             start_new_session=True,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
+            stdout=said,
+            stderr=subprocess.STDOUT,
             stdin=subprocess.DEVNULL,
         )
         try:
@@ -190,6 +194,10 @@ class Tree:
                 pass
             process.wait()
             marked = mark.exists()
+            with said:
+                if self.sound and verdict in ("fails", "takes too long"):
+                    said.seek(0)
+                    print("".join(collections.deque(said, LINES)), end="", flush=True)
             shutil.rmtree(scratch, ignore_errors=True)
         return verdict, marked or test["name"] in CORE_IN_THE_PROGRAM, time.monotonic() - start
 

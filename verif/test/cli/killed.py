@@ -21,6 +21,7 @@ KAGE, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 1
 HERE = pathlib.Path.cwd()
 MARK = f"KAGE_TEST_MARK=killed-{os.getpid()}"  # in the environment of all that a run starts
+ENOUGH = 3  # runs that are killed in time, to say anything
 wrong = []
 
 
@@ -40,10 +41,10 @@ def start(*arguments, **environment):
     )
 
 
-def run(*arguments, codes=(0,), **environment):
+def run(*arguments, **environment):
     run_ = start(*arguments, **environment)
     said = run_.communicate(timeout=300)[1].decode()
-    if run_.returncode not in codes:
+    if run_.returncode != 0:
         fail(f"{arguments}: exit {run_.returncode}: {said}")
 
 
@@ -87,14 +88,17 @@ def git(folder, *arguments):
     ).stdout
 
 
-def killed(what, times, arguments, out, allowed, codes=(0,)):
-    """Kills a run at random moments, which writes into `out`. Each file there has one of the `allowed` contents of its name."""
+def killed(what, times, arguments, out, allowed, prepare=lambda: None):
+    """Kills a run at random moments, which writes into `out`, and before which there is something to `prepare`. Each file there
+    has one of the `allowed` contents of its name. At least so many times, and until ENOUGH runs have been killed in time."""
+    prepare()
     run_ = start(*arguments)
     begin = time.monotonic()
     run_.communicate(timeout=300)
     whole = time.monotonic() - begin
-    early = left = 0
-    for i in range(times):
+    early = left = i = 0
+    while i < times or (early < ENOUGH and i < 10 * times):
+        prepare()
         run_ = start(*arguments)
         if i % 2:  # once it writes
             while not hidden(out) and run_.poll() is None:
@@ -102,6 +106,7 @@ def killed(what, times, arguments, out, allowed, codes=(0,)):
             time.sleep(random.uniform(0, min(whole / 4, 0.05)))
         else:
             time.sleep(random.uniform(0, whole))
+        i += 1
         run_.kill()
         run_.communicate()
         early += run_.returncode == -signal.SIGKILL
@@ -120,10 +125,10 @@ def killed(what, times, arguments, out, allowed, codes=(0,)):
                 if ".kage-" in git(out, "ls-files"):
                     fail(f"{what}: git adds what was left: {git(out, 'ls-files')}")
                 shutil.rmtree(out / ".git")
-    run(*arguments, codes=codes)
+    run(*arguments)
     if hidden(out):
         fail(f"{what}: the next run does not remove {hidden(out)}")
-    print(f"{what}: {early} of {times} killed in time, {left} left a hidden folder")
+    print(f"{what}: {early} of {i} killed in time, {left} left a hidden folder")
     return early, left
 
 
@@ -162,23 +167,18 @@ def cosims():
 
 
 def blessings():
-    run("render", "courtyard", "--size", "64x48", "--frames", 40, "--out", "fresh")
-    run("render", "courtyard", "--size", "32x24", "--frames", 40, "--out", "reference")
-    shutil.copytree("reference", "stale")
+    run("render", "courtyard", "--size", "64x48", "--frames", 200, "--out", "fresh")
+    run("render", "courtyard", "--size", "32x24", "--frames", 200, "--out", "stale")
     out = HERE / "reference"
-    early = left = 0
-    for _ in range(3):  # what is to be blessed has to be new
-        for name, content in files(HERE / "stale").items():
+    stale, fresh = files(HERE / "stale"), files(HERE / "fresh")
+
+    def anew():
+        """All of it is to be blessed again; what a killed run has left stays."""
+        out.mkdir(exist_ok=True)
+        for name, content in stale.items():
             (out / name).write_bytes(content)
-        e, n = killed(
-            "bless",
-            5,
-            ("diff", "--bless", "fresh", out),
-            out,
-            any_content([files(HERE / "stale"), files(HERE / "fresh")]),
-        )
-        early, left = early + e, left + n
-    return early, left
+
+    return killed("bless", 12, ("diff", "--bless", "fresh", out), out, any_content([stale, fresh]), anew)
 
 
 def builds():
@@ -278,6 +278,6 @@ counts = [step() for step in (renders, cosims, blessings, builds)]
 foreign()
 imports()
 signals()
-if any(early < 3 for early, _ in counts) or sum(left for _, left in counts) < 5:
+if any(early < ENOUGH for early, _ in counts) or sum(left for _, left in counts) < 5:
     fail("too few runs were killed in time to say anything")
 sys.exit(bool(wrong))
