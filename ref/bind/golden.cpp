@@ -15,6 +15,7 @@
 #include "contract/config_text.hpp"
 #include "golden_core.hpp"
 #include "golden_fields.hpp"
+#include "golden_names.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -211,11 +212,7 @@ int kage_golden_pixel(kage_golden* core, int x, int field) {
 }
 
 const char* kage_golden_pixel_name(int field) {
-  static constexpr std::array kNames{"z",        "color[0]", "color[1]", "color[2]", "class",
-                                     "dsf",      "fsf",      "count[0]", "count[1]", "count[2]",
-                                     "count[3]", "count[4]", "count[5]", "count[6]", "count[7]"};
-  static_assert(kNames.size() == KAGE_PIXEL_FIELDS);
-  return field >= 0 && field < KAGE_PIXEL_FIELDS ? kNames[static_cast<std::size_t>(field)] : "";
+  return field >= 0 && field < KAGE_PIXEL_FIELDS ? kPixelFields[static_cast<std::size_t>(field)] : "";
 }
 
 int kage_golden_out_line(kage_golden* core) { return core == nullptr ? -1 : core->out_line; }

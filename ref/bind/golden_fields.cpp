@@ -8,15 +8,6 @@
 #include "golden_names.hpp"
 #include "kage/golden.h"
 
-static_assert(KAGE_PIXEL_FIELDS - KAGE_PIXEL_COUNT == kage::kGreatest.lights);
-
-bool has_pixel_field(const kage::Config& c, int field) {
-  if (field >= KAGE_PIXEL_COUNT) return c.count_bits > 0 && field - KAGE_PIXEL_COUNT < c.lights;
-  if (field == KAGE_PIXEL_FSF) return c.fsf > 0;
-  if (field >= KAGE_PIXEL_CLASS) return c.dsf_bits > 0;
-  return field < KAGE_PIXEL_COLOR + c.channels;
-}
-
 long long token_field(const kage::Config& config, const kage::Layout& layout, const kage::Token& t, int field) {
   if (field < 0 || field >= KAGE_TOKEN_FIELDS) return 0;
   const GoldenField& wanted = kGoldenFields[static_cast<std::size_t>(field)];

@@ -5,9 +5,6 @@
 #include "kage/core.hpp"
 #include "kage/token.hpp"
 
-/// Whether the configuration has a field of a pixel, KAGE_PIXEL_...
-bool has_pixel_field(const kage::Config& c, int field);
-
 /// A field that the configuration has, of a pixel of the line; or KAGE_PIXEL_ANY.
 int pixel_field(const kage::Config& config, const kage::LineView& line, int x, int field);
 

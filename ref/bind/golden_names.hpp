@@ -6,6 +6,7 @@
 #include <array>
 #include <string_view>
 
+#include "kage/defs.hpp"
 #include "kage/golden.h"
 
 /// A field of a token as visit_fields() names it: its channel is -1 where it is not repeated.
@@ -41,3 +42,33 @@ inline constexpr std::array<GoldenField, KAGE_TOKEN_FIELDS> kGoldenFields{{
     {"dx", -1},
     {"sync", -1},
 }};
+
+/// By KAGE_PIXEL_...
+inline constexpr std::array<const char*, KAGE_PIXEL_FIELDS> kPixelFields{{
+    "z",
+    "color[0]",
+    "color[1]",
+    "color[2]",
+    "class",
+    "dsf",
+    "fsf",
+    "count[0]",
+    "count[1]",
+    "count[2]",
+    "count[3]",
+    "count[4]",
+    "count[5]",
+    "count[6]",
+    "count[7]",
+}};
+
+/// Whether the configuration has that field of a pixel, KAGE_PIXEL_...
+constexpr bool has_pixel_field(const kage::Config& c, int field) {
+  if (field < 1) return true;
+  if (field < 4) return field - 1 < c.channels;
+  if (field < 5) return c.dsf_bits > 0;
+  if (field < 6) return c.dsf_bits > 0;
+  if (field < 7) return c.fsf > 0;
+  if (field < 15) return c.count_bits > 0 && field - 7 < c.lights;
+  return false;
+}

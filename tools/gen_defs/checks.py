@@ -8,6 +8,18 @@ def refuse(what):
     raise SystemExit(f"{SOURCE}: {what}")
 
 
+def constants_hold(d, params):
+    """What the widths that no parameter changes are for fits into them."""
+    most = {
+        "line_number_bits": (d["max_height"], "lines of a frame"),
+        "unit_number_bits": (max(p["max"] for p in params if p["name"] == "UNITS") - 1, "UNITS"),
+        "code_bits": (max(e["code"] for e in d["errors"]), "errors"),
+    }
+    for name, (value, what) in most.items():
+        if value >> d[name]:
+            refuse(f"constants: {name}: {what} do not fit")
+
+
 def same_entry(d):
     """A unit's table takes FACE's fields from index on in one piece."""
     face, entry = (

@@ -67,6 +67,7 @@ class Defs:
                 if field.setdefault("parameter", False):
                     checks.holds_parameter(register, field, self.pixel + self.impl)
                     field["doc"] = "the parameter"
+        checks.constants_hold(self.d, self.pixel + self.impl)
         checks.same_entry(self.d)
         # Places that tokens with a range share: the name, a token that has it there, and how that one calls it.
         self.shared_places = [
@@ -74,17 +75,35 @@ class Defs:
             for shared, name in (("range_xl", "xl"), ("range_xr", "xr"), ("weight", "w"))
         ]
 
+    @staticmethod
+    def numbered(entries):
+        """Fields by the numbers of the C interface, `times` of them each, and how many there are."""
+        fields, count = [], 0
+        for f in entries:
+            fields.append({"times": 1, "of": "1"} | f | {"number": count})
+            count += fields[-1]["times"]
+        return fields, count
+
     def golden_numbers(self):
         """Fields of tokens by the numbers of the C interface, and how many there are. All that tokens have must be there."""
-        fields, count = [], 0
-        for f in self.d["golden_fields"]:
-            fields.append({"times": 1} | f | {"number": count})
-            count += fields[-1]["times"]
+        fields, count = self.numbered(self.d["golden_fields"])
         known = {f["name"] for f in fields} | {"pad"}
         for t in self.d["tokens"]:
             for f in t["fields"]:
                 if f["name"] not in known:
                     raise SystemExit(f"{SOURCE}: golden_fields: lacks {f['name']} of {t['name']}")
+        return fields, count
+
+    def golden_pixel(self):
+        """Fields of a pixel's state likewise: those of the word, and of repeated ones as many as any configuration has."""
+        fields, count = self.numbered(self.d["golden_pixel"])
+        of_word = [f["name"] for word in self.d["words"] if word["name"] == "pixel" for f in word["fields"]]
+        names = [f["name"] + ("s" if f["of"] == "LIGHTS" else "") for f in fields]
+        most = {p["name"]: p["max"] for p in self.pixel + self.impl}
+        if names != of_word or any(f["times"] != most.get(f["of"], 1) for f in fields):
+            raise SystemExit(
+                f"{SOURCE}: golden_pixel: has other fields than words: pixel, or not as many as there can be"
+            )
         return fields, count
 
     @staticmethod

@@ -20,5 +20,6 @@ def render(defs, name, **more):
     ENVIRONMENT.filters["cpp"] = lambda expr: cpp_expr(expr, defs.names)
     ENVIRONMENT.filters["cpp_derived"] = lambda expr: linked(cpp_expr(expr, defs.names), r"derived::\1(c)")
     numbers, count = defs.golden_numbers()
-    more |= {"golden_numbers": numbers, "golden_count": count}
+    pixel, pixel_count = defs.golden_pixel()
+    more |= {"golden_numbers": numbers, "golden_count": count, "pixel_numbers": pixel, "pixel_count": pixel_count}
     return ENVIRONMENT.get_template(name + ".j2").render(note=NOTE, defs=defs, **defs.d, **more)

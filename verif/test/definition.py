@@ -30,6 +30,16 @@ PLANTED = [
     ),
     ("name: SHAPE", "bits: 6, parameter", "bits: 5, parameter", "registers: SHAPE: LANES: no parameter"),
     ("golden_fields:", "  - {name: alpha,", "  - {name: beta,", "golden_fields: lacks alpha of TP"),
+    ("golden_pixel:", "  - {name: fsf,", "  - {name: flag,", "golden_pixel: has other fields"),
+    ("golden_pixel:", "times: 8", "times: 7", "golden_pixel: has other fields"),
+    ("constants:", "value: 15,", "value: 14,", "constants: line_number_bits: lines of a frame do not fit"),
+    ("constants:", "value: 6,", "value: 5,", "constants: unit_number_bits: UNITS do not fit"),
+    (
+        "constants:",
+        "{name: code_bits,        value: 4,",
+        "{name: code_bits, value: 3,",
+        "constants: code_bits: errors do not fit",
+    ),
 ]
 
 
@@ -39,7 +49,8 @@ def said_of(text):
         file.write(text)
         file.flush()
         try:
-            Defs(pathlib.Path(file.name)).golden_numbers()
+            defs = Defs(pathlib.Path(file.name))
+            defs.golden_numbers(), defs.golden_pixel()
         except SystemExit as e:
             return str(e)
     return ""

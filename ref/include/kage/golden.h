@@ -44,17 +44,6 @@ enum {
   KAGE_GOLDEN_FAILED = 3  /**< the frame has an error: words are ignored until kage_golden_finish() */
 };
 
-/** Fields of a pixel's state. */
-enum {
-  KAGE_PIXEL_Z = 0,      /**< all ones: clear */
-  KAGE_PIXEL_COLOR = 1,  /**< and 2, 3: by channel, 0 .. 255 */
-  KAGE_PIXEL_CLASS = 4,  /**< 0 is unlit; without a table 1 is lit */
-  KAGE_PIXEL_DSF = 5,    /**< 0 .. 2^DSF_BITS - 1 */
-  KAGE_PIXEL_FSF = 6,    /**< 0 or 1 */
-  KAGE_PIXEL_COUNT = 7,  /**< up to 14: by light */
-  KAGE_PIXEL_FIELDS = 15 /**< how many there are */
-};
-
 /** What kage_golden_pixel() gives instead of a value. */
 enum {
   KAGE_PIXEL_ABSENT = -1, /**< the configuration has no such field, the line no such pixel, or there is no line */

@@ -3,7 +3,7 @@
 /* clang-format off */
 
 /** @file
- * Kinds and fields of tokens by number, for kage/golden.h. */
+ * Kinds and fields of tokens, and fields of a pixel's state, by number, for kage/golden.h. */
 #ifndef KAGE_GOLDEN_NUMBERS_H
 #define KAGE_GOLDEN_NUMBERS_H
 
@@ -28,6 +28,17 @@ enum {
   KAGE_TOKEN_DX = 22, /**< pixels */
   KAGE_TOKEN_SYNC = 23, /**< 0 or 1 */
   KAGE_TOKEN_FIELDS = 24 /**< how many there are */
+};
+
+/** Fields of a pixel's state. */
+enum {
+  KAGE_PIXEL_Z = 0, /**< all ones: clear */
+  KAGE_PIXEL_COLOR = 1, /**< up to 3: by channel, 0 .. 255 */
+  KAGE_PIXEL_CLASS = 4, /**< 0 is unlit; without a table 1 is lit */
+  KAGE_PIXEL_DSF = 5, /**< 0 .. 2^DSF_BITS - 1 */
+  KAGE_PIXEL_FSF = 6, /**< 0 or 1 */
+  KAGE_PIXEL_COUNT = 7, /**< up to 14: by light */
+  KAGE_PIXEL_FIELDS = 15 /**< how many there are */
 };
 
 /** Kinds of tokens, as kage_golden_token_kind() gives them. */
