@@ -18,13 +18,14 @@ Coverage::Point Coverage::add(bool there, const std::string& group, const std::s
 
 Coverage::Span Coverage::add_span(bool there, const std::string& kind) {
   const bool groups = there && config_.arrangement == 1 && config_.lanes > 1;
+  const bool several = groups && config_.max_width > config_.lanes;  // groups in a line
   Span s{};
   s.none = add(there, "span", kind + " of no pixel");
   s.one = add(there, "span", kind + " of one pixel");
   s.whole = add(there, "span", kind + " over the whole line");
-  s.at_border = add(groups, "span", kind + " begins at a group's border");
-  s.in_group = add(groups, "span", kind + " begins within a group");
-  s.ends_at_border = add(groups, "span", kind + " ends at a group's border");
+  s.at_border = add(several, "span", kind + " begins at a group's border");
+  s.in_group = add(groups && config_.max_width > 1, "span", kind + " begins within a group");
+  s.ends_at_border = add(several, "span", kind + " ends at a group's border");
   return s;
 }
 
@@ -32,8 +33,9 @@ Coverage::Ramp Coverage::add_ramp(bool there, const std::string& group, const st
   Ramp r{};
   r.under = add(there, group, what + " below the least: clamped");
   r.over = add(there, group, what + " past the greatest: clamped");
-  r.wraps = add(there, group, what + " leaves its accumulator: wraps");
-  r.level = add(there, group, what + " without slope");
+  const bool slopes = there && config_.max_width > 1;  // a slope shows from the second pixel on
+  r.wraps = add(slopes, group, what + " leaves its accumulator: wraps");
+  r.level = add(slopes, group, what + " without slope");
   return r;
 }
 

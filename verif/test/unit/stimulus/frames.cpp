@@ -255,7 +255,13 @@ TEST_CASE("a frame that is cut within a token is not whole, so nothing is change
 }
 
 TEST_CASE("random frames reach all that a configuration has") {
-  for (const auto& [name, c] : configurations()) {
+  auto configs = configurations();
+  // A line of one pixel has no slopes, one of one group has no borders: what cannot be is no point.
+  configs.push_back(small_config("one pixel", [](Config& c) { c.max_width = 1; }));
+  configs.push_back(
+      small_config("one pixel, many lanes", [](Config& c) { c.max_width = 1, c.lanes = 4, c.smooth = 1; }));
+  configs.push_back(small_config("one group", [](Config& c) { c.max_width = 4, c.lanes = 4, c.units = 2; }));
+  for (const auto& [name, c] : configs) {
     Coverage coverage(c);
     const RandomFrames frames(c, Manner::mixed, test_seed());
     for (int i = 0; i < 4000; ++i) {
