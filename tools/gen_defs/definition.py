@@ -7,7 +7,7 @@ import types
 
 import checks
 import yaml
-from expressions import camel, py_expr
+from expressions import camel, plain, py_expr
 from files import SOURCE
 
 
@@ -221,6 +221,10 @@ class Defs:
         if alone:
             return self.expanded(self.derived[alone.group(1)]["value"])
         return re.sub(r"<(\w+)>", lambda m: f"({self.expanded(self.derived[m.group(1)]['value'])})", str(expr))
+
+    def told(self, expr):
+        """An expression for a reader: what is the same in every configuration by its value, the rest by its name."""
+        return plain(re.sub(r"<(\w+)>", lambda m: str(self.d.get(m.group(1), m.group(0))), str(expr)))
 
     def sv_name(self, name):
         """How SystemVerilog calls a derived number."""

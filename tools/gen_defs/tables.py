@@ -113,7 +113,7 @@ def buses(defs):
             b["doc"],
             b["from"],
             b["to"],
-            ", ".join(f"`{f['name']}` ({plain(f['bits'])})" for f in b["fields"]),
+            ", ".join(f"`{f['name']}` ({defs.told(f['bits'])})" for f in b["fields"]),
         )
         for b in defs.d["buses"]
     ]
