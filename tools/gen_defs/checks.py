@@ -14,7 +14,10 @@ def constants_hold(d, params):
         "line_number_bits": (d["max_height"], "lines of a frame"),
         "unit_number_bits": (max(p["max"] for p in params if p["name"] == "UNITS") - 1, "UNITS"),
         "code_bits": (max(e["code"] for e in d["errors"]), "errors"),
+        "kind_bits": (len(d["tokens"]), "kinds"),
     }
+    if sorted(t["kind"] for t in d["tokens"]) != list(range(1, len(d["tokens"]) + 1)):
+        refuse("tokens: kinds are not numbered from 1 without a gap")
     for name, (value, what) in most.items():
         if value >> d[name]:
             refuse(f"constants: {name}: {what} do not fit")

@@ -55,7 +55,7 @@ def registers_h(defs):
         "/* clang-format off */",
         "",
         "/** @file",
-        " * The core's registers, by byte addresses, and the codes of its errors: for drivers in C (docs/rtl.md). */",
+        " * The core's registers, by byte addresses, and the codes of its errors: for drivers in C (docs/stream.md, docs/integration.md). */",
         "#ifndef KAGE_REGISTERS_H",
         "#define KAGE_REGISTERS_H",
         "",

@@ -36,6 +36,13 @@ PLANTED = [
     ("constants:", "value: 6,", "value: 5,", "constants: unit_number_bits: UNITS do not fit"),
     (
         "constants:",
+        "{name: kind_bits,        value: 4,",
+        "{name: kind_bits, value: 3,",
+        "constants: kind_bits: kinds do not fit",
+    ),
+    ("name: TREE,", "kind: 5,", "kind: 4,", "tokens: kinds are not numbered"),
+    (
+        "constants:",
         "{name: code_bits,        value: 4,",
         "{name: code_bits, value: 3,",
         "constants: code_bits: errors do not fit",

@@ -3,7 +3,7 @@
 /* clang-format off */
 
 /** @file
- * The core's registers, by byte addresses, and the codes of its errors: for drivers in C (docs/rtl.md). */
+ * The core's registers, by byte addresses, and the codes of its errors: for drivers in C (docs/stream.md, docs/integration.md). */
 #ifndef KAGE_REGISTERS_H
 #define KAGE_REGISTERS_H
 
