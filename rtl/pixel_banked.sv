@@ -44,7 +44,7 @@ module pixel_banked #(
   // ---- set-up stages -----------------------------------------------------------------------------------------------
   // What goes along unchanged: {kind, count, share, colour, first group, last group, first lane, last lane}.
   localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
-  localparam int SetBits = 4 + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
+  localparam int SetBits = KindBits + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
   logic [SetBits-1:0] set_d, set1_q, set2_q, set3_q;
   logic [2:0] set_valid_q, set_en;
   logic [  X_BITS-1:0] x_last;
@@ -195,7 +195,7 @@ module pixel_banked #(
 
   // ---- what goes along with a group, stage 1 .. Last ---------------------------------------------------------------
   // {kind, count, share, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
-  localparam int InfoBits = 4 + CountBits + ShareBits + LANES + AddrBits + 2;
+  localparam int InfoBits = KindBits + CountBits + ShareBits + LANES + AddrBits + 2;
   logic [Last*InfoBits-1:0] info_q;
   logic [Last:0] valid;  // bit k: stage k holds a group
   logic [Last-1:0] valid_q;
