@@ -99,11 +99,11 @@ cosim::Report SceneRun::recall(Part& part) {
 
 cosim::Report SceneRun::simulate_and_keep(Part& part, const cosim::FrameRange& range, TempFiles& files) {
   (void)model();
-  const auto golden = cosim::make_golden(source_->config());
   // Report and coverage have heard of these frames already.
   Source& source = source_of(part);
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   const auto run = [&](const cosim::FrameRange& frames) {
+    const auto golden = cosim::make_golden(source_->config());  // a run that broke off leaves it within a frame
     cosim::VerdictKeeper keeper(*golden, *recall_);
     cosim::RunOptions options = run_options(frames, files);
     options.begin = [&, begin = options.begin](int frame) {
@@ -120,7 +120,7 @@ cosim::Report SceneRun::simulate_and_keep(Part& part, const cosim::FrameRange& r
   // As in join(): what fails on a new core, and not in its place, is run from the first frame.
   cosim::FrameRange whole = range;
   whole.before = frames_before(range);
-  return run(whole);
+  return settled(run(whole));
 }
 
 /// The model of the scene, built when the first of its frames needs it.

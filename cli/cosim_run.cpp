@@ -76,6 +76,11 @@ void SceneRun::run(int range) {
     if (part.begun > part.report.frames) count_again(part);
     if (!part.report.same) state_.ends_at(part.report.first_difference->frame);
   } catch (const std::system_error& e) {
+    if (e.code() != std::errc::resource_unavailable_try_again) {  // not a thread's: a file's
+      part.error = std::current_exception();
+      state_.ends_at(part.range.steps.first);
+      return;
+    }
     const std::string why =
         fmt::format("the system gives no room for another job ({}): fewer --jobs", e.code().message());
     part.error = std::make_exception_ptr(Error(why));
@@ -202,6 +207,12 @@ cosim::Report SceneRun::run_rtl(Part& part, const cosim::FrameRange& range, cons
   return report;
 }
 
+cosim::Report SceneRun::settled(cosim::Report report) {
+  if (report.broken)
+    throw Error("a frame fails only behind all frames before it, so no range of frames shows it: run it with --jobs 1");
+  return report;
+}
+
 /// What one thread would have found, and its files.
 cosim::Report SceneRun::join(TempFiles& files) {
   std::vector<cosim::Report> reports;
@@ -220,7 +231,7 @@ cosim::Report SceneRun::join(TempFiles& files) {
       part = part_of(part->range);
       cosim::FrameRange range = part->range;
       range.before = frames_before(range);
-      part->report = simulate(*part, range);
+      part->report = settled(simulate(*part, range));
       if (part->begun > part->report.frames) count_again(*part);
     }
     fmt::print(stderr, "{}", part->rtl_text);

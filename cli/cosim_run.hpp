@@ -116,6 +116,9 @@ class SceneRun {
   cosim::RunOptions run_options(const cosim::FrameRange& range, TempFiles& files);
   cosim::Feed heard_feed(Part& part);
   cosim::Report simulate(Part& part, const cosim::FrameRange& range);
+  /// The report of frames that ran behind all those before them: nothing is left to try. Throws Error if a frame before
+  /// them failed.
+  static cosim::Report settled(cosim::Report report);
   cosim::Report run_rtl(Part& part, const cosim::FrameRange& range, const cosim::Feed& feed, cosim::Core& golden,
                         cosim::RunOptions& options);
   void take_rtl_text(Part& part, std::string_view text) const;

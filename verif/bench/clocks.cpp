@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/counted_core.hpp"
+#include "contract/derived.hpp"
 #include "kage/config.hpp"
 #include "kage/stream.hpp"
 
@@ -24,13 +25,23 @@ constexpr int kLines = 8;
 
 enum class What { op, sp, nc, none };
 
-/// A frame of kLines lines, `count` tokens of [xl, xr) in each.
+/// A frame of kLines lines, `count` tokens of [xl, xr) in each. Each sort of token shows in the picture, so that a core
+/// which leaves its work out sends wrong pixels: with parity an odd number of shadow spans, on a wall.
 std::vector<std::uint32_t> frame(const Config& c, What what, int xl, int xr, int count, int lines = kLines) {
   std::vector<std::uint32_t> words;
   TokenWriter w(c, words);
-  w.header({kWidth, lines, 0, 0});
+  w.header({kWidth, lines, 0xC0A080, 0});
+  const bool shadow = what == What::sp || what == What::nc;
+  if (shadow) w.shade(derived::half_share(c));
   for (int y = 0; y < lines; ++y) {
     SpanToken s;
+    s.color = {200, 150, 100};
+    s.normal_class = 1;
+    if (shadow) {
+      s.xr = kWidth;
+      s.z = std::int64_t{1} << (c.z_bits + c.z_frac - 1);
+      w.op(s);
+    }
     s.xl = xl;
     s.xr = xr;
     s.z = 1000;
@@ -40,8 +51,8 @@ std::vector<std::uint32_t> frame(const Config& c, What what, int xl, int xr, int
       if (what == What::sp) w.sp(s);
       if (what == What::nc) w.nc(xl, xr, 1);
     }
-    if (what == What::sp || what == What::nc) {
-      w.ev(0, 0);
+    if (shadow) {
+      w.ev(0, kWidth);
       w.resolve();
     }
     w.eol(y);
@@ -78,7 +89,7 @@ int main(int argc, char** argv) {
           // 200 tokens a line more, kLines times: what a line costs besides cancels, once tokens and not pixels out
           // decide.
           const double per_token =
-              (clocks(frame(c, what, xl, xr, 400)) - clocks(frame(c, what, xl, xr, 200))) / (200.0 * kLines);
+              (clocks(frame(c, what, xl, xr, 401)) - clocks(frame(c, what, xl, xr, 201))) / (200.0 * kLines);
           const int words = layout.words[static_cast<std::size_t>(kind)];
           const int groups = lanes == 0 || xl == xr ? 1 : (xr - 1) / lanes - xl / lanes + 1;
           const double by_design = std::max({1.0, static_cast<double>(groups), static_cast<double>(words) / beat});
@@ -95,7 +106,8 @@ int main(int argc, char** argv) {
       // changing lines.
       const double busy =
           (clocks(frame(c, What::op, 0, 1, 400, 108)) - clocks(frame(c, What::op, 0, 1, 400, 8))) / 100.0;
-      const double busy_tokens = 400 * std::max(1.0, static_cast<double>(layout.words[6]) / beat);
+      const double busy_tokens =
+          400 * std::max(1.0, static_cast<double>(layout.words[static_cast<std::size_t>(Kind::OP)]) / beat);
       fmt::print(
           "{:<10} {:>5} {:>5} an empty line of {} pixels: {:.2f} clocks; changing lines adds {:.2f} clocks to a line "
           "of 400 tokens\n",

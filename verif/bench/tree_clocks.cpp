@@ -27,9 +27,12 @@ constexpr int kSystolicFrame = 27;
 std::vector<std::uint32_t> frame(const Config& c, int width, int lines, int segments) {
   std::vector<std::uint32_t> words;
   TokenWriter w(c, words);
-  w.header({width, lines, 0, 0});
+  w.header({width, lines, 0xC0A080, 0});
   SegmentToken t;
-  for (t.unit = 0; t.unit < c.units; ++t.unit) w.face(t);
+  for (t.unit = 0; t.unit < c.units; ++t.unit) {
+    t.color = {255 - t.unit, 100 + t.unit, 50};  // so that what a core draws shows
+    w.face(t);
+  }
   const auto line = [&] {
     for (t.unit = 0; t.unit < c.units; ++t.unit)
       for (int i = 0; i < segments; ++i) {

@@ -26,6 +26,7 @@ Report join(std::vector<Report> ranges) {
   for (std::size_t i = 1; i < ranges.size() && all.same; ++i) {
     Report& r = ranges[i];
     all.same = r.same;
+    all.broken = all.broken || r.broken;
     all.frames += r.frames;
     all.width = std::max(all.width, r.width);
     all.height = std::max(all.height, r.height);

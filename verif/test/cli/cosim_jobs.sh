@@ -65,6 +65,48 @@ runs 0 "$kage" cosim random:mixed --frames 7 --config small.yaml
 runs 1 "$kage" cosim random:mixed --frames 7 --config small.yaml --mutant "$mutant"
 json out20/r.json 'j["frames"] == 7 and j["first_difference"]["frame"] is None'
 
+# rtl_with FOLDER STATEMENT: a copy of the data whose kage_top has the statement. `sent` and `sending` are its pixels and their
+# valid, frames_q the frames that it has begun to send since its reset, u_control.frame_q the number of the frame it is at.
+rtl_with() {
+  data_copy "$1"
+  python3 - "$1/rtl/kage_top.sv" "$2" <<'PY' || fail "the RTL is not what this test edits"
+import re, sys
+path, statement = sys.argv[1:]
+text, ports = re.subn(r"\.\*  // m_axis_\*", ".m_axis_tdata_o(sent), .m_axis_tvalid_o(sending), .*", open(path).read())
+logic = f"""  logic [8*CHANNELS-1:0] sent;
+  logic sending;
+  logic [7:0] frames_q;
+  always_ff @(posedge clk_i)
+    if (!rst_ni) frames_q <= '0;
+    else if (m_axis_tvalid_o && m_axis_tready_i && m_axis_tuser_o) frames_q <= frames_q + 8'd1;
+  {statement}
+"""
+text, places = re.subn(r"(?m)^(  logic line_gone, )", lambda m: logic + m[1], text)
+assert ports == places == 1, (ports, places)
+open(path, "w").write(text)
+PY
+  export KAGE_DATA_DIR=$PWD/$1
+}
+# A difference in frame 4 only, which is in the second of three ranges: it is told with what one job knows, and nothing of
+# frames behind it.
+rtl_with later "assign m_axis_tvalid_o = sending;
+  assign m_axis_tdata_o = u_control.frame_q == 32'd4 ? ~sent : sent;"
+runs 1 "$kage" cosim courtyard --frames 7 "${common[@]}" --no-divergence
+json out20/r.json 'j["first_difference"]["frame"] == 4 and j["frames"] == 5'
+# A core that hangs in its first frame unless that has number 0: only frames run ahead of a range show it, and in their place
+# they are the same.
+rtl_with ahead "assign m_axis_tvalid_o = sending && !(frames_q == 8'd0 && u_control.frame_q != 32'd0);
+  assign m_axis_tdata_o = sent;"
+runs 0 "$kage" cosim courtyard --frames 7 "${common[@]}" --no-divergence
+# It is wrong in frame 6, and hangs in its fifth frame, so in frame 4 of one job alone. Two jobs see frame 6, run all frames
+# before it, and can then not say that frames 0 to 3 are the same.
+rtl_with behind "assign m_axis_tvalid_o = sending && !(frames_q == 8'd4 && u_control.frame_q == 32'd4);
+  assign m_axis_tdata_o = u_control.frame_q == 32'd6 ? ~sent : sent;"
+expect 1 "$kage" cosim courtyard --frames 7 "${common[@]}" --no-divergence --jobs 1 --out out --json b.json
+json b.json 'j["first_difference"]["frame"] == 4'
+trouble "--jobs 1" "$kage" cosim courtyard --frames 7 "${common[@]}" --no-divergence --jobs 3
+unset KAGE_DATA_DIR
+
 # Several scenes: their ranges are run beside each other, and told in order.
 rm -rf out
 expect 0 "$kage" cosim courtyard edges --frames 3 --jobs 4 "${common[@]}" --out out --json s.json

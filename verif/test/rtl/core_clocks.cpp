@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "contract/derived.hpp"
 #include "core_model.hpp"
 #include "kage/core.hpp"
 #include "kage/stream.hpp"
@@ -51,19 +52,28 @@ struct Work {
   Light light{};
 };
 
-/// A frame is written by tokens of all the sorts that the core has.
+/// A frame is written by tokens of all the sorts that the core has. Each of them shows in the picture, so that a core
+/// which leaves its work out sends wrong pixels.
 class FrameWriter {
  public:
   FrameWriter(const Config& c, const Work& w) : c_(c), w_(w), out_(c, words_) {
     span_.z = std::int64_t{1} << (c.z_bits + c.z_frac - 1);  // the middle, whatever the width
+    const int frac = c.color_frac;
+    span_.color = {200 << frac, 150 << frac, 100 << frac};
+    // Lit where there is a table for it, or where it takes none.
+    span_.normal_class = !derived::has_table(c) || w.light.entries >= c.lights ? 1 : 0;
+    span_.alpha = 128;
   }
 
   Words write() {
-    out_.header({w_.width, w_.height, 0, 1});
-    for (int i = 0; i < w_.light.entries; ++i) out_.table({i / c_.lights + 1, i % c_.lights, {}});
+    out_.header({w_.width, w_.height, 0xC0A080U & ((1U << 8 * c_.channels) - 1), 1});
+    const std::uint32_t share = derived::whole_share(c_) / 4;
+    if (w_.light.samples > 0 && !derived::has_table(c_)) out_.shade(share);
+    for (int i = 0; i < w_.light.entries; ++i) out_.table({i / c_.lights + 1, i % c_.lights, {share, share, share}});
     SegmentToken face;
+    face.color = {30, 90, 150};
     for (face.unit = 0; face.unit < c_.units; ++face.unit)
-      for (face.face = 0; face.face < w_.units.faces; ++face.face) out_.face(face);
+      for (face.face = 0; face.face < faces(); ++face.face) out_.face(face);
     segments();
     for (int y = 0; y < w_.height; ++y) line(y);
     out_.end();
@@ -71,10 +81,13 @@ class FrameWriter {
   }
 
  private:
+  /// Faces of each unit: a segment has one.
+  [[nodiscard]] int faces() const { return std::max(w_.units.faces, w_.units.segments > 0 ? 1 : 0); }
+
   /// Of a line, unit by unit; nothing of a frame without a tree.
   void segments() {
     SegmentToken seg;
-    seg.face = (1 << c_.face_bits) - 1;
+    seg.z = std::int64_t{1} << (c_.z_bits + c_.z_frac - 2);
     for (seg.unit = 0; seg.unit < c_.units; ++seg.unit) {
       for (int i = 0; i < w_.units.segments; ++i) {
         seg.sync = i == 0;
@@ -90,6 +103,7 @@ class FrameWriter {
     span_.xl = w_.xl;
     span_.xr = w_.xr;
     for (int i = 0; i < w_.tokens; ++i) out_.op(span_);
+    if (w_.light.samples + w_.light.translucent > 0) wall();
     for (int i = 0; i < w_.light.samples; ++i) {
       out_.nc(0, 1, 1);
       if (c_.fsf != 0) out_.ev(0, 1);
@@ -100,6 +114,15 @@ class FrameWriter {
     span_.xr = 1;
     for (int i = 0; i < w_.light.translucent; ++i) out_.tp(span_);
     out_.eol(y);
+  }
+
+  /// What samples and TPs are seen on: an OP of a pixel.
+  void wall() {
+    SpanToken s = span_;
+    s.xl = 0;
+    s.xr = 1;
+    s.z += std::int64_t{1} << (c_.z_bits + c_.z_frac - 2);
+    out_.op(s);
   }
 
   const Config& c_;
@@ -203,8 +226,7 @@ class Measurement {
   void frames() {
     const double frame = (of({.frames = 21}) - of({.frames = 1})) / 20;
     // A header by words, or the way out, which a counter makes longer by 2 clocks and a table by 5.
-    const int light_stages = c_.count_bits == 0 ? 0 : c_.class_bits > 1 ? 5 : 2;
-    const int least = std::max(c_.beat_words == 1 ? 10 : 7, 7 + light_stages);
+    const int least = std::max(c_.beat_words == 1 ? 10 : 7, 7 + derived::light_stages(c_));
     std::printf("  a frame of one pixel: %.1f clocks, promised %d\n", frame, least);
     good_ = good_ && frame <= least;
   }
@@ -215,12 +237,12 @@ class Measurement {
 
   void samples() {
     const double volume = of_token(Kind::NC, 1) + (c_.fsf != 0 ? of_token(Kind::EV, 1) : 0);
-    report("a sample, ES of a pixel", (lit(1, {0, 1100, 1, 0}) - lit(1, {0, 100, 1, 0})) / 1000,
+    report("a sample, ES of a pixel", (lit(1, {table_, 1100, 1, 0}) - lit(1, {table_, 100, 1, 0})) / 1000,
            volume + of_token(Kind::ES, 1));
-    report("a sample, ES of the line", (lit(1, {0, 1100, width_, 0}) - lit(1, {0, 100, width_, 0})) / 1000,
+    report("a sample, ES of the line", (lit(1, {table_, 1100, width_, 0}) - lit(1, {table_, 100, width_, 0})) / 1000,
            volume + of_token(Kind::ES, groups(0, width_)));
-    const int entries = ((1 << c_.class_bits) - 1) * c_.lights;
-    if (c_.class_bits > 1)
+    const int entries = derived::most_class(c_) * c_.lights;
+    if (derived::has_table(c_))
       report("TABLE", (lit(1, {entries, 0, 1, 0}) - lit(1, {1, 0, 1, 0})) / (entries - 1), of_token(Kind::TABLE, 1));
   }
 
@@ -228,10 +250,10 @@ class Measurement {
   /// line before and their own.
   void loads() {
     const int passes = 2 * groups(0, width_);
-    report("a line that comes back as loads", (lit(21, {0, 1, 1, 1}) - lit(1, {0, 1, 1, 1})) / 20,
-           width_ + std::max(width_, passes) + 32);
-    report("a line with TP but without RESOLVE", (lit(21, {0, 0, 1, 1}) - lit(1, {0, 0, 1, 1})) / 20,
-           std::max(width_, passes) + 1);
+    report("a line that comes back as loads", (lit(21, {table_, 1, 1, 1}) - lit(1, {table_, 1, 1, 1})) / 20,
+           width_ + std::max(width_, passes) + 32 + of_token(Kind::OP, 1));
+    report("a line with TP but without RESOLVE", (lit(21, {table_, 0, 1, 1}) - lit(1, {table_, 0, 1, 1})) / 20,
+           std::max(width_, passes) + 1 + of_token(Kind::OP, 1));
   }
 
   /// Clocks of a line with tokens enough that neither the video port nor the tree's pixel a clock limits.
@@ -245,11 +267,11 @@ class Measurement {
 
   /// Faces, segments, TREE.
   void units() {
-    const int faces = (1 << c_.face_bits) - 1;
+    const int faces = derived::blank_face(c_);
     const double with_faces = of({.width = width_, .units = {faces, 0}});
     report("FACE", (with_faces - of({width_, 1})) / (faces * c_.units), of_token(Kind::FACE, 1));
-    const int longest = (1 << c_.dx_bits) - 1;
-    const int few = (width_ + longest - 1) / longest, many = std::min(1 << c_.seg_bits, width_);
+    const int longest = derived::most_dx(c_);
+    const int few = (width_ + longest - 1) / longest, many = std::min(derived::most_segments(c_), width_);
     const double one_seg = of_token(Kind::SEG, 1);
     const double with_few = busy_line({0, few});
     report("SEG", (busy_line({0, many}) - with_few) / ((many - few) * c_.units), one_seg);
@@ -263,7 +285,8 @@ class Measurement {
   int lanes_ = banked_ ? c_.lanes : 1;
   int width_ = std::min(c_.max_width, 256);
   int tokens_ = 3 * width_;
-  double line_ = 0;  // of tokens_ spans
+  int table_ = derived::has_table(c_) ? c_.lights : 0;  // entries for one class
+  double line_ = 0;                                     // of tokens_ spans
   bool good_ = true;
 };
 
