@@ -283,6 +283,12 @@ def tell(rows):
     late = [row for row in dead if row["verdict"] == "takes too long"]
     if late:
         print(f"do not end with a dead core: {named(late)}")
+    # A test that fails before it makes a core says nothing of the core.
+    early = [
+        row for row in dead if row["verdict"] == "left out" or (row["verdict"] == "fails" and not row["uses_core"])
+    ]
+    if early:
+        print(f"fail or leave out before they make a dead core: {named(early)}")
     passed = [row for row in dead if row["verdict"] == "passes"]
     if passed:
         print("PASS with a dead core: " + ", ".join(f"{row['test']} ({row['core']})" for row in passed))
@@ -290,7 +296,7 @@ def tell(rows):
         raise Trouble(f"these do not pass with the sound core: {named(broken)}")
     if not dead:
         raise Trouble("none of these tests makes a core")
-    return 1 if passed or late else 0
+    return 1 if passed or late or early else 0
 
 
 def main():

@@ -24,10 +24,15 @@ std::vector<Mutant> load_mutants(const std::filesystem::path& file) {
       m.module = text("module");
       if (m.module.empty()) m.module = std::filesystem::path(m.file).stem().string();
       m.equivalent = text("equivalent");
-      m.known = text("known");
+      m.lives = text("lives");
+      m.named = text("named");
       if (node["configs"]) m.configs = node["configs"].as<std::vector<std::string>>();
       if (m.name.empty() || m.file.empty() || m.kind.empty() || m.breaks.empty())
         throw Error(fmt::format("{}: mutant {} lacks name, file, class or breaks", file.string(), m.number));
+      if (static_cast<int>(!m.equivalent.empty()) + static_cast<int>(!m.lives.empty()) +
+              static_cast<int>(!m.named.empty()) >
+          1)
+        throw Error(fmt::format("{}: mutant {}: more than one of equivalent, lives and named", file.string(), m.name));
       if (std::any_of(all.begin(), all.end(), [&m](const Mutant& o) { return o.name == m.name; }))
         throw Error(fmt::format("{}: two mutants {}", file.string(), m.name));
       all.push_back(std::move(m));

@@ -21,7 +21,8 @@ struct Mutant {
   std::string module;                ///< that must be named; "pixels": that of the arrangement
   std::vector<std::string> configs;  ///< that can tell; empty: any
   std::string equivalent;            ///< why nothing can; empty: something must
-  std::string known;                 ///< why it lives, or is named otherwise: it counts as such, but fails no run
+  std::string lives;                 ///< why these inputs cannot: it must live, and counts as living
+  std::string named;                 ///< why another module may be named: it must be killed, and counts as named wrong
 
   /// The module to be named in a configuration.
   [[nodiscard]] std::string module_in(const Config& config) const {

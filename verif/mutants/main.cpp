@@ -41,7 +41,10 @@ struct Result {
   std::uint64_t set = 0;  ///< of frames, that found it out
 
   [[nodiscard]] bool right() const { return verdict && verdict->module == expected; }
-  [[nodiscard]] bool fine() const { return mutant.equivalent.empty() ? right() || !mutant.known.empty() : !verdict; }
+  [[nodiscard]] bool fine() const {
+    if (!mutant.equivalent.empty() || !mutant.lives.empty()) return !verdict;
+    return mutant.named.empty() ? right() : verdict.has_value();
+  }
 };
 
 /// A mutant that lives is given other frames, so many times at most: some need what a set of frames has by chance only.
@@ -82,7 +85,7 @@ class Trials {
 Result run(const Mutant& m, Trials& trials) {
   Result r{m, "", "", std::nullopt};
   // Where it is known that these frames do not reach it, or that none can, one set is enough.
-  const std::uint64_t sets = m.equivalent.empty() && m.known.empty() ? kSets : 1;
+  const std::uint64_t sets = m.equivalent.empty() && m.lives.empty() ? kSets : 1;
   for (std::uint64_t set = 0; set < sets && !r.verdict; ++set)
     for (std::size_t i = 0; i < trials.all().size() && !r.verdict; ++i) {
       const Inputs& inputs = trials.all()[i];

@@ -10,6 +10,9 @@ export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
 # A large frame: what the golden core expects of it takes gigabytes.
 scene=(penumbra --size 1024x1500 --frames 1 --samples 16 --config small.yaml)
 
+# Without a defect it ends: what is told below is of the defects.
+expect 0 timeout 300 "$kage" cosim penumbra --size 64x48 --frames 1 --samples 4 --config small.yaml --out sound
+
 # defect TEXT WITH: a change of line_out, which the divergence must name.
 defect() {
   rm -rf data/rtl

@@ -8,7 +8,8 @@ echo '{MAX_WIDTH: 64, LANES: 2, BEAT_WORDS: 1}' >small.yaml
 expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --config small.yaml --out s.kage
 export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
 
-"$kage" model small.yaml >built 2>&1 &
+# What make and compilers would take from the environment is no part of the name, so the model must not have it.
+CXXFLAGS=--no-such-flag OPT=--no-such-flag LDFLAGS=--no-such-flag MAKEFLAGS=n "$kage" model small.yaml >built 2>&1 &
 until compgen -G 'cache/kage/models/*.lock' >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.05; done
 [ -z "$(find cache -name '*.so')" ] || fail "the model was there before its sources could change"
 patch -s --no-backup-if-mismatch -p1 -d data -i "$source/verif/cosim/model/faults/wrong_compare.patch" || fail "no defect to put in"

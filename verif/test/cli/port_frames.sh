@@ -106,6 +106,8 @@ for name in one short cut kind; do
   expect 0 "$kage" cosim $name.kage --out out
   grep -q "nothing is to be seen" stdout && fail "$name.kage: a note of faces: $(cat stdout)"
 done
+# The same of a sound frame of several lines: what is said above is of its frames, not of the core.
+expect 0 "$kage" cosim edges --size 16x12 --frames 1 --config small.yaml --degrade --out out
 port bare 'sound = True; f = f[:5] + [14, 15]'
 expect 0 "$kage" cosim bare.kage --out out
 grep -q "nothing is to be seen" stdout || fail "bare.kage: no note of faces: $(cat stdout)"

@@ -45,6 +45,8 @@ DEFS = only("parameters")
 CFLAGS = (
     f"-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP -DVL_PRINTF=kage_printf -include {FROM_VERILATOR.name}"
 )
+# What make and compilers would take from the environment beside $CXX. It is no part of a model's key, so no model has it.
+UNASKED = "CXXFLAGS CPPFLAGS CFLAGS LDFLAGS LDLIBS OPT OPT_FAST OPT_SLOW OPT_GLOBAL USER_CPPFLAGS USER_LDFLAGS USER_LDLIBS MAKEFLAGS MFLAGS"
 PARTS = ("monitors", "waves", "mutants")  # options that a model is built with
 
 
@@ -64,6 +66,8 @@ def parameters(arguments):
 
 def main():
     signal.signal(signal.SIGTERM, end_all)
+    for name in UNASKED.split():
+        os.environ.pop(name, None)
     parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0], add_help=True)
     parser.add_argument("out", nargs="?")
     parser.add_argument("params", nargs="*")
