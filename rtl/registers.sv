@@ -108,7 +108,7 @@ module registers #(
   logic [31:0] limit_q, last_idle_q, idle_q;  // last_idle_q is limit_q - 1, a clock late
   logic limited_q, limit_new_q, bitten_q;
   logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
-  logic [15:0] error_line_q;
+  logic [RegErrorLineBits-1:0] error_line_q;
   logic [CodeBits-1:0] error_code_q;
   logic [UnitNumberBits-1:0] error_unit_q;
   reg_stall_t stall_q;
@@ -191,9 +191,9 @@ module registers #(
   always_comb begin
     shape = '0;
     shape.arrangement = 1'(ARRANGEMENT);
-    shape.beat_words = 4'(BEAT_WORDS);
-    shape.lanes = 6'(LANES);
-    shape.max_width = 16'(MAX_WIDTH);
+    shape.beat_words = RegShapeBeatWordsBits'(BEAT_WORDS);
+    shape.lanes = RegShapeLanesBits'(LANES);
+    shape.max_width = RegShapeMaxWidthBits'(MAX_WIDTH);
     status.open = open_q;
     status.draining = draining_q;
     status.waiting_input = waiting_input_q;

@@ -27,10 +27,14 @@ facts_t facts;
   logic unused_token;
   assign unused_token = ^token_i;  // longer than what is looked at
 
+  logic [HeaderVersionBits-1:0] head_version;
+  logic [HeaderMagicBits-1:0] head_magic;
   logic [HeaderWidthBits-1:0] head_width;
   logic [HeaderHeightBits-1:0] head_height;
   logic [KindBits-1:0] kind;
   logic [X_BITS-1:0] xl, xr;
+  assign head_version = token_i[HeaderVersionLsb+:HeaderVersionBits];
+  assign head_magic = token_i[HeaderMagicLsb+:HeaderMagicBits];
   assign head_width = token_i[HeaderWidthLsb+:HeaderWidthBits];
   assign head_height = token_i[HeaderHeightLsb+:HeaderHeightBits];
   assign kind = token_i[KindBits-1:0];
@@ -38,7 +42,8 @@ facts_t facts;
   assign xr = token_i[RangeXrLsb+:X_BITS];
   always_comb begin
     // a header
-    if (token_i[HeaderVersionLsb+:32] != {16'(StreamMagic), 16'(StreamVersion)}) facts.head_error = ErrHeader;
+    if (head_version != HeaderVersionBits'(StreamVersion) || head_magic != HeaderMagicBits'(StreamMagic))
+      facts.head_error = ErrHeader;
     else if (head_width == '0 || head_width > HeaderWidthBits'(MAX_WIDTH)) facts.head_error = ErrSize;
     else if (head_height == '0 || head_height > HeaderHeightBits'(MaxHeight)) facts.head_error = ErrSize;
     else if (token_i[HeaderParamHashLsb+:32] != ParamHash) facts.head_error = ErrParams;

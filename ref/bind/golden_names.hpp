@@ -66,9 +66,9 @@ inline constexpr std::array<const char*, KAGE_PIXEL_FIELDS> kPixelFields{{
 constexpr bool has_pixel_field(const kage::Config& c, int field) {
   if (field < 1) return true;
   if (field < 4) return field - 1 < c.channels;
-  if (field < 5) return c.dsf_bits > 0;
-  if (field < 6) return c.dsf_bits > 0;
-  if (field < 7) return c.fsf > 0;
-  if (field < 15) return c.count_bits > 0 && field - 7 < c.lights;
+  if (field < 5) return (c.dsf_bits > 0 ? c.class_bits : 0) > 0;
+  if (field < 6) return (c.dsf_bits) > 0;
+  if (field < 7) return (c.fsf) > 0;
+  if (field < 15) return (c.lights * c.count_bits) > 0 && field - 7 < c.lights;
   return false;
 }

@@ -6,21 +6,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "kage/defs.hpp"
 
 namespace kage::derived {
 
-/// lines of a frame
-constexpr int max_height(const Config&) { return 32767; }
-/// of a token's kind, the lowest bits of its first word
-constexpr int kind_bits(const Config&) { return 4; }
-/// of an error's code
-constexpr int code_bits(const Config&) { return 4; }
-/// of a line's number, and of how many lines are left
-constexpr int line_number_bits(const Config&) { return 15; }
-/// of a unit's number in a register, in any configuration
-constexpr int unit_number_bits(const Config&) { return 6; }
 /// a light's share is looked up in a table, by class
 constexpr bool has_table(const Config& c) { return c.class_bits > 1; }
 /// colours come back: a line with samples leaves to be darkened before its first TP
@@ -105,5 +96,12 @@ constexpr int point_bits(const Config& c) { return class_field_bits(c) + rgb_bit
 /// Commands that are no token, by kinds of tokens that never become commands.
 inline constexpr Kind kCommandLoad = static_cast<Kind>(1);  ///< a line's pixel comes back
 inline constexpr Kind kCommandOut = static_cast<Kind>(2);  ///< a line's pixels leave but stay
+
+/// The name of a command that is no token; empty of one that is.
+constexpr std::string_view command_name(Kind k) {
+  if (k == kCommandLoad) return "LOAD";
+  if (k == kCommandOut) return "OUT";
+  return {};
+}
 
 }  // namespace kage::derived

@@ -33,6 +33,14 @@ def same_entry(d):
         refuse("words: entry: is not FACE from index on")
 
 
+def same_pixel(d, fields, most):
+    """The C interface has the fields of a pixel's state, and of repeated ones as many numbers as any configuration."""
+    of_word = [f["name"] for word in d["words"] if word["name"] == "pixel" for f in word["fields"]]
+    names = [f["name"] + ("s" if f["of"] == "LIGHTS" else "") for f in fields]
+    if names != of_word or any(f["times"] != most.get(f["of"], 1) for f in fields):
+        refuse("golden_pixel: has other fields than words: pixel, or not as many as there can be")
+
+
 def same_place(d, name, beside):
     """All tokens with a field `beside` have the field `name`, where they have it, at one place and of one width. The name of
     the first of these tokens."""

@@ -54,6 +54,8 @@ def numbers(defs):
         f"inline constexpr std::uint32_t kStreamVersion = {d['version']};  ///< of the stream",
         f"inline constexpr std::uint32_t kStreamMagic = {d['magic']:#x};  ///< in a header's first word",
         f"inline constexpr std::uint32_t kHeaderWords = {len(d['header'])};  ///< words of a header",
+        "/// Words of a header by name, in their order.",
+        f"inline constexpr std::array<std::string_view, {len(d['header'])}> kHeaderWordNames{{{{{', '.join(quoted(h['name']) for h in d['header'])}}}}};",
         *(f"inline constexpr int k{camel(c['name'])} = {c['value']};  ///< {c['doc']}" for c in d["constants"]),
         f"inline constexpr std::size_t kMostTokenWords = {defs.most_token_words()};  ///< words of the longest token of any configuration",
         "",

@@ -15,6 +15,7 @@ def derived(defs):
         "#pragma once",
         "",
         "#include <cstdint>",
+        "#include <string_view>",
         "",
         '#include "kage/defs.hpp"',
         "",
@@ -32,6 +33,14 @@ def derived(defs):
     o += [
         f"inline constexpr Kind kCommand{camel(c['name'])} = static_cast<Kind>({c['kind']});  ///< {c['doc']}"
         for c in defs.d["commands"]
+    ]
+    o += [
+        "",
+        "/// The name of a command that is no token; empty of one that is.",
+        "constexpr std::string_view command_name(Kind k) {",
+        *(f'  if (k == kCommand{camel(c["name"])}) return "{c["name"]}";' for c in defs.d["commands"]),
+        "  return {};",
+        "}",
     ]
     o += ["", "}  // namespace kage::derived", ""]
     return "\n".join(o)

@@ -7,7 +7,7 @@ import types
 
 import checks
 import yaml
-from expressions import camel, plain, py_expr
+from expressions import camel, cpp_expr, plain, py_expr
 from files import SOURCE
 
 
@@ -22,7 +22,7 @@ class Defs:
         # One definition of what is the same in every configuration and of what is not: <name> stands for either.
         constants = {c["name"]: c["value"] for c in self.d["constants"]}
         self.d |= constants
-        self.d["derived"][:0] = ({**c, "value": str(c["value"])} for c in self.d["constants"])
+        self.constants = constants
         for word in self.d["words"]:
             bits = " + ".join(str(f["bits"]) for f in word["fields"])
             self.d["derived"].append({"name": f"{word['name']}_bits", "value": bits, "doc": word["doc"]})
@@ -30,6 +30,7 @@ class Defs:
                 field.setdefault("lacks", False)
                 field["member"] = "normal_class" if field["name"] == "class" else field["name"]  # as C++ calls it
         self.derived = {n["name"]: n for n in self.d["derived"]}
+        self.derived |= {c["name"]: {**c, "value": str(c["value"])} for c in self.d["constants"]}
         for number in self.d["derived"]:
             number.setdefault("is", "")
         for token in self.d["tokens"]:
@@ -50,7 +51,7 @@ class Defs:
             mark.setdefault("line", "")
         self.header_fields = []
         for at, word in enumerate(self.d["header"]):
-            word["doc"] = word["doc"].format(**self.d["hash"])
+            word["doc"] = word["doc"].format(**self.d["hash"], **constants)
             lsb = 0
             for field in word["fields"]:
                 self.header_fields.append({**field, "word": at, "lsb": lsb})
@@ -58,7 +59,11 @@ class Defs:
             assert lsb == 32, f"header word {word['name']} has {lsb} bits"
         for error in self.d["errors"]:
             error.setdefault("of_unit", False)
+        unit_errors = [e["name"] for e in self.d["errors"] if e["of_unit"]]
         for register in self.d["registers"]:
+            register["doc"] = register["doc"].format(
+                unit_errors=f"{', '.join(unit_errors[:-1])} or {unit_errors[-1]}", **constants
+            )
             for field in register.get("fields", []):
                 if isinstance(field["bits"], str):
                     field["bits"] = constants[field["bits"].strip("<>")]
@@ -93,15 +98,12 @@ class Defs:
         return fields, count
 
     def golden_pixel(self):
-        """Fields of a pixel's state likewise: those of the word, and of repeated ones as many as any configuration has."""
+        """Fields of a pixel's state likewise; `has`: where a configuration has the field, in which the word has bits for it."""
         fields, count = self.numbered(self.d["golden_pixel"])
-        of_word = [f["name"] for word in self.d["words"] if word["name"] == "pixel" for f in word["fields"]]
-        names = [f["name"] + ("s" if f["of"] == "LIGHTS" else "") for f in fields]
-        most = {p["name"]: p["max"] for p in self.pixel + self.impl}
-        if names != of_word or any(f["times"] != most.get(f["of"], 1) for f in fields):
-            raise SystemExit(
-                f"{SOURCE}: golden_pixel: has other fields than words: pixel, or not as many as there can be"
-            )
+        checks.same_pixel(self.d, fields, {p["name"]: p["max"] for p in self.pixel + self.impl})
+        word = next(word for word in self.d["words"] if word["name"] == "pixel")
+        for f, of_word in zip(fields, word["fields"]):
+            f["has"] = f"({self.expanded(of_word['bits'])}) > 0" if of_word["lacks"] else ""
         return fields, count
 
     @staticmethod
@@ -220,9 +222,17 @@ class Defs:
             return self.expanded(self.derived[alone.group(1)]["value"])
         return re.sub(r"<(\w+)>", lambda m: f"({self.expanded(self.derived[m.group(1)]['value'])})", str(expr))
 
+    def cpp_derived(self, expr):
+        """An expression as C++ with derived.hpp has it."""
+
+        def name(m):
+            return f"k{camel(m.group(1))}" if m.group(1) in self.constants else f"derived::{m.group(1)}(c)"
+
+        return re.sub(r"<(\w+)>", name, cpp_expr(expr, self.names))
+
     def told(self, expr):
         """An expression for a reader: what is the same in every configuration by its value, the rest by its name."""
-        return plain(re.sub(r"<(\w+)>", lambda m: str(self.d.get(m.group(1), m.group(0))), str(expr)))
+        return plain(re.sub(r"<(\w+)>", lambda m: str(self.constants.get(m.group(1), m.group(0))), str(expr)))
 
     def sv_name(self, name):
         """How SystemVerilog calls a derived number."""

@@ -37,6 +37,11 @@ def registers_svh(defs):
             o.append(
                 f"localparam int Reg{camel(r['name'])}Bits = {sum(n for _, n in struct(r))};  // up to its highest field"
             )
+            o += [
+                f"localparam int Reg{camel(r['name'])}{camel(f['name'])}Bits = {f['bits']};"
+                for f in r["fields"]
+                if f["bits"] > 1
+            ]
     o.append("/* verilator lint_on UNUSEDPARAM */")
     for r in defs.d["registers"]:
         if "fields" not in r:

@@ -37,6 +37,7 @@ def widths(defs):
         "// verilog_lint: waive-start line-length",
         "/* verilator lint_off UNUSEDPARAM */",
     ]
+    o += [f"localparam int {camel(c['name'])} = {c['value']},  // {c['doc']}" for c in defs.d["constants"]]
     o += [number(defs, n) for n in defs.d["derived"]]
     o += ["// Words whose fields a configuration may lack: where they are; 0, and not to be read, if they are not."]
     for w in defs.d["words"]:

@@ -14,7 +14,7 @@ namespace {
 
 std::vector<std::uint32_t> words_of(const std::uint64_t* values) {
   std::vector<std::uint32_t> words;
-  for (std::size_t i = 0; i + 1 < KAGE_RTL_EVENT_VALUES; ++i)
+  for (std::size_t i = at::token::words; i < at::token::at_last; ++i)
     for (const int half : {0, 32}) words.push_back(static_cast<std::uint32_t>(values[i] >> half));
   return words;
 }
@@ -24,12 +24,11 @@ std::optional<MismatchText> describe_words(const Config& config, const Mismatch&
   const auto expected = words_of(m.expected.value.data());
   const auto actual = words_of(m.actual->value);
   if (m.expected.token == 0) {
-    constexpr std::array<const char*, kHeaderWords> kNames{"magic and version", "height and width", "param_hash",
-                                                           "background", "frame"};
     const auto at = static_cast<std::size_t>(
         std::mismatch(expected.begin(), expected.begin() + kHeaderWords, actual.begin()).first - expected.begin());
     if (at == kHeaderWords) return std::nullopt;
-    return MismatchText{kNames[at], fmt::format("{:#010x}", expected[at]), fmt::format("{:#010x}", actual[at])};
+    return MismatchText{std::string(kHeaderWordNames[at]), fmt::format("{:#010x}", expected[at]),
+                        fmt::format("{:#010x}", actual[at])};
   }
   const auto field = first_field_diff(config, Layout(config), expected, actual);
   if (!field) return std::nullopt;
@@ -64,7 +63,7 @@ MismatchText describe(const Config& config, const Mismatch& m) {
   if (m.value == kUnitValue)
     return {e.stage == Stage::exit ? "last of the line" : "unit", fmt::format("{}", e.unit),
             fmt::format("{}", m.actual->unit)};
-  if (e.stage == Stage::token && m.value + 1 < KAGE_RTL_EVENT_VALUES)
+  if (e.stage == Stage::token && m.value < at::token::at_last)
     if (auto text = describe_words(config, m)) return *text;
   return {std::string(value_name(e.stage, m.value)),
           value_text(config, e.stage, m.value, e.value[static_cast<std::size_t>(m.value)]),

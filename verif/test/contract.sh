@@ -58,7 +58,7 @@ named="rtl verif/bench $code"
 }
 refuse 'phases and marks of a line: kage_order.svh' 'Phase(Opaque|Volume|Resolved|Translucent) *=[^=]|(volume|sample)_open' "localparam logic [1:0] PhaseVolume = 2'd1;" rtl
 refuse 'which kinds have a range: kind_has_range() of kage_order.svh' 'Kind(Op|Sp|Nc|Ev|Es|Tp) \|\|.*Kind(Sp|Nc|Ev|Es|Tp)\b' 'kind == KindSp || kind == KindNc || kind == KindEv' rtl
-refuse 'bits of kinds and errors, of lines and units: KindBits, CodeBits, LineNumberBits, UnitNumberBits' '\[ *3:0\] *([a-z]+_)*(kinds?|code)(_[a-z]+)?\b|token(_[a-z]+)?\[3:0\]|\[ *14:0\]|\b15'"'"'|\[ *5:0\] *[a-z_]*unit|localparam [^=]*((Kind|Code)Bits *=|Bits = 4 \+)' 'logic [3:0] walk_kind_q;' rtl
+refuse 'bits of kinds and errors, of lines and units: KindBits, CodeBits, LineNumberBits, UnitNumberBits' '\[ *3:0\] *([a-z]+_)*(kinds?|code)(_[a-z]+)?\b|token(_[a-z]+)?\[3:0\]|\[ *14:0\]|\b15'"'"'|\[ *5:0\] *[a-z_]*unit|localparam [^=]*((Kind|Code)Bits *=|Bits = 4 \+)|kind[a-z_]*\[[^]]*\+: *4\b|\* *4 *- *1:0\] *kind' 'logic [3:0] walk_kind_q;' rtl verif/cosim/diverge
 refuse 'the page takes tokens apart by stream.js' '& 15|\blsb\b|data\.layout' 'const kind = data.layout[words[at] & 15];' verif/cosim/report/page
 refuse "a token's text in the page is Stream's" '\[\$\{[a-z]*\.?xl\}|^ *return `(OP|SP|NC|IF|EV|ES|TP) ' 'return `NC ${range} w ${signed(t.w)}`;' verif/cosim/report/page
 in_register='KAGE_REG_(SHAPE|CONTROL|IRQ|STATUS|ERROR|TREE|STALL)\b'

@@ -62,11 +62,6 @@ RULES = [
 
 # Numbers that follow from the parameters.
 DERIVED = {
-    "max_height": lambda c: 32767,  # lines of a frame
-    "kind_bits": lambda c: 4,  # of a token's kind, the lowest bits of its first word
-    "code_bits": lambda c: 4,  # of an error's code
-    "line_number_bits": lambda c: 15,  # of a line's number, and of how many lines are left
-    "unit_number_bits": lambda c: 6,  # of a unit's number in a register, in any configuration
     "has_table": lambda c: c.CLASS_BITS > 1,  # a light's share is looked up in a table, by class
     "has_loads": lambda c: c.TRANSLUCENCY > 0 and c.COUNT_BITS > 0,  # colours come back: a line with samples leaves to be darkened before its first TP
     "clear_depth": lambda c: (1 << c.Z_BITS) - 1,  # a pixel's depth where nothing has been drawn

@@ -18,6 +18,8 @@ namespace kage {
 inline constexpr std::uint32_t kStreamVersion = 1;  ///< of the stream
 inline constexpr std::uint32_t kStreamMagic = 0x4b47;  ///< in a header's first word
 inline constexpr std::uint32_t kHeaderWords = 5;  ///< words of a header
+/// Words of a header by name, in their order.
+inline constexpr std::array<std::string_view, 5> kHeaderWordNames{{"magic_version", "size", "param_hash", "background", "frame"}};
 inline constexpr int kMaxHeight = 32767;  ///< lines of a frame
 inline constexpr int kKindBits = 4;  ///< of a token's kind, the lowest bits of its first word
 inline constexpr int kCodeBits = 4;  ///< of an error's code

@@ -24,12 +24,21 @@ localparam logic [7:0] RegStall = 8'h48;  // ro
 localparam logic [7:0] RegLast = RegStall;
 localparam logic [31:0] IdValue = 32'h4b414745;
 localparam int RegShapeBits = 32;  // up to its highest field
+localparam int RegShapeMaxWidthBits = 16;
+localparam int RegShapeLanesBits = 6;
+localparam int RegShapeBeatWordsBits = 4;
 localparam int RegControlBits = 3;  // up to its highest field
 localparam int RegIrqBits = 3;  // up to its highest field
 localparam int RegStatusBits = 4;  // up to its highest field
 localparam int RegErrorBits = 32;  // up to its highest field
+localparam int RegErrorCodeBits = 4;
+localparam int RegErrorLineBits = 16;
 localparam int RegTreeBits = 32;  // up to its highest field
+localparam int RegTreeUnitBits = 6;
+localparam int RegTreeLineBits = 15;
 localparam int RegStallBits = 32;  // up to its highest field
+localparam int RegStallUnitBits = 6;
+localparam int RegStallLineBits = 15;
 /* verilator lint_on UNUSEDPARAM */
 
 typedef struct packed {

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "contract/kinds.hpp"
-#include "kage/registers.h"
 
 namespace kage::cosim {
 namespace {
@@ -15,7 +14,7 @@ std::string pixels(const Config& config) { return config.arrangement == 1 ? "pix
 
 // An error that is not the expected one, or not where it should be. Which rule has failed says who keeps it.
 std::string blame_error(const Clue& clue) {
-  const auto code = [](std::uint64_t value) { return static_cast<ErrorCode>(KAGE_FIELD(value, KAGE_ERROR_CODE)); };
+  const auto code = [](std::uint64_t value) { return static_cast<ErrorCode>(value); };
   const ErrorCode expected = clue.expected ? code(clue.expected->value[at::error::code]) : ErrorCode::NONE;
   const ErrorCode actual = clue.actual ? code(clue.actual->value[at::error::code]) : ErrorCode::NONE;
   const auto any = [&](auto is) { return is(expected) || is(actual); };

@@ -18,10 +18,9 @@ const ValueInfo& info(Stage stage, int index) {
 }
 
 std::string kind_text(std::uint64_t kind) {
-  const auto is = [kind](Kind command) { return kind == static_cast<std::uint64_t>(command); };
-  if (is(derived::kCommandLoad)) return "LOAD";
-  if (is(derived::kCommandOut)) return "OUT";
-  return std::string(kKindNames[kind % kKindNames.size()]);
+  const std::uint64_t number = kind % kKindNames.size();
+  const std::string_view command = derived::command_name(static_cast<Kind>(number));
+  return std::string(command.empty() ? kKindNames[number] : command);
 }
 
 }  // namespace

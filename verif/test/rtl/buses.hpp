@@ -28,7 +28,7 @@ struct FactsBus {
     at += empty.bits;
     bad_range = {at, 1};
     at += bad_range.bits;
-    head_error = {at, derived::code_bits(c)};
+    head_error = {at, kCodeBits};
   }
 };
 
@@ -73,7 +73,7 @@ struct VerdictBus {
     at += resolved.bits;
     seg_goes = {at, 1};
     at += seg_goes.bits;
-    code = {at, derived::code_bits(c)};
+    code = {at, kCodeBits};
     at += code.bits;
     good = {at, 1};
     at += good.bits;
@@ -115,7 +115,7 @@ struct CommandBus {
     at += xr.bits;
     xl = {at, c.x_bits};
     at += xl.bits;
-    kind = {at, derived::kind_bits(c)};
+    kind = {at, kKindBits};
   }
 };
 
@@ -249,7 +249,7 @@ struct ErrorBus {
 
   explicit constexpr ErrorBus([[maybe_unused]] const Config& c) {
     int at = 0;
-    unit = {at, derived::unit_number_bits(c)};
+    unit = {at, kUnitNumberBits};
     at += unit.bits;
     token = {at, 32};
     at += token.bits;
@@ -257,7 +257,7 @@ struct ErrorBus {
     at += line.bits;
     frame = {at, 32};
     at += frame.bits;
-    code = {at, derived::code_bits(c)};
+    code = {at, kCodeBits};
   }
 };
 
@@ -268,9 +268,9 @@ struct BehindBus {
 
   explicit constexpr BehindBus([[maybe_unused]] const Config& c) {
     int at = 0;
-    line = {at, derived::line_number_bits(c)};
+    line = {at, kLineNumberBits};
     at += line.bits;
-    unit = {at, derived::unit_number_bits(c)};
+    unit = {at, kUnitNumberBits};
   }
 };
 

@@ -3,7 +3,7 @@
 // and `color` are what came to it; all ones where the monitor cannot see them.
 localparam int TraceTallyBits = COUNT_BITS > 0 ? TallyBits : 1;
 
-function automatic void trace_pixel_state(input int x, input logic [3:0] kind, input logic [63:0] z,
+function automatic void trace_pixel_state(input int x, input logic [KindBits-1:0] kind, input logic [63:0] z,
                                           input logic [63:0] color, input logic [PixelBits-1:0] pixel);
   trace_pixel(x, 64'(kind), z, color, 64'(pixel[PixelZAt+:Z_BITS]), 64'(pixel[PixelColorAt+:RgbBits]),
               DSF_BITS > 0 ? 64'(pixel[PixelClassAt+:CLASS_BITS]) : 64'd0,

@@ -11,7 +11,7 @@ module pixel_banked_monitor #(
     input wire logic                       clk_i,
     input wire logic                       rst_ni,
     input wire logic                       group_valid,
-    input wire logic [                3:0] now_kind,
+    input wire logic [       KindBits-1:0] now_kind,
     input wire logic [          LANES-1:0] now_lanes,
     input wire logic [      ADDR_BITS-1:0] now_addr,
     input wire logic [   LANES*Z_BITS-1:0] now_z,
