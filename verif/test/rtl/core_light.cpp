@@ -16,22 +16,27 @@ namespace {
 using namespace kage;
 using namespace kage::verif;
 
-/// Whether the model's line is what light_pixel() says; prints the first pixel that is not.
+/// Frames of one core, each of one line: the second finds what the first has left.
+constexpr int kFrames = 2;
+
+/// Whether the model's lines are what light_pixel() says; prints the first pixel that is not.
 bool right(const kage_rtl_table& api, const Config& c, std::uint64_t seed, int width,
            const std::vector<LightSample>& samples, const std::vector<std::uint32_t>& shares) {
   const auto words = light_frame(c, width, samples, shares);
   kage_rtl* m = api.create(seed);
   api.stalls(m, seed % 2 == 0 ? 65536 : 30000, seed % 3 == 0 ? 30000 : 65536, seed);
-  api.expect(m, static_cast<std::uint32_t>(width), 1);
-  api.submit(m, words.data(), words.size(), 1);
+  for (int i = 0; i < kFrames; ++i) {
+    api.expect(m, static_cast<std::uint32_t>(width), 1);
+    api.submit(m, words.data(), words.size(), 1);
+  }
   const int why = api.run(m, UINT64_MAX, 50'000'000);
   std::uint64_t count = 0;
   const std::uint8_t* pixels = api.pixels(m, &count);
   std::string wrong;
-  if (why != KAGE_RTL_IDLE || count != static_cast<std::uint64_t>(width))
+  if (why != KAGE_RTL_IDLE || count != static_cast<std::uint64_t>(kFrames * width))
     wrong = "did not come to rest, or lost pixels";
-  for (int i = 0; wrong.empty() && i < width * c.channels; ++i) {
-    const int expected = light_pixel(c, i / c.channels, samples, shares);
+  for (int i = 0; wrong.empty() && i < kFrames * width * c.channels; ++i) {
+    const int expected = light_pixel(c, i / c.channels % width, samples, shares);
     if (pixels[i] != expected)
       wrong = "pixel " + std::to_string(i / c.channels) + " channel " + std::to_string(i % c.channels) + " is " +
               std::to_string(pixels[i]) + ", not " + std::to_string(expected);
