@@ -98,7 +98,7 @@ def of_docs(defs):
 
 def main(check):
     defs = Defs(TOP / SOURCE)
-    out = of_definition(defs) | of_stages(Stages(TOP / STAGES)) | of_docs(defs)
+    out = of_definition(defs) | of_stages(Stages(TOP / STAGES, defs)) | of_docs(defs)
     stale = [p for p, text in out.items() if not (TOP / p).exists() or (TOP / p).read_text() != text]
     for p in stale:
         print(("differs: " if check else "wrote ") + p)

@@ -3,20 +3,27 @@
 
 import yaml
 from expressions import camel
-from files import STAGES_NOTE
+from files import STAGES, STAGES_NOTE
 
 
 class Stages:
     """What monitors tell (rtl/defs/stages.yaml)."""
 
-    def __init__(self, path):
+    def __init__(self, path, defs):
         self.d = yaml.safe_load(path.read_text())
+        buses = {bus["name"]: {f["name"] for f in bus["fields"]} for bus in defs.d["buses"]}
         for stage in self.d["stages"]:
             at = 0
             for value in stage["values"]:
                 value["at"] = at
                 at += value.get("count", 1)
-            assert at <= self.d["values"], f"stage {stage['name']} has {at} values"
+            if at > self.d["values"]:
+                raise SystemExit(f"{STAGES}: stage {stage['name']}: {at} values, and an event holds {self.d['values']}")
+            watched = {v["name"] for v in stage["values"]} | set(stage.get("unwatched", ()))
+            for field in sorted(buses[stage["bus"]] - watched if "bus" in stage else ()):
+                raise SystemExit(
+                    f"{STAGES}: stage {stage['name']}: field {field} of bus {stage['bus']} is no value of it"
+                )
 
     def numbered(self):
         """Stages with their numbers, the handshakes last."""

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""definition.py SOURCE: what tools/gen-defs demands of rtl/defs/kage.yaml beyond YAML is refused where it does not hold."""
+"""definition.py SOURCE: what tools/gen-defs demands of rtl/defs/kage.yaml and rtl/defs/stages.yaml beyond YAML is refused
+where it does not hold."""
 
 import pathlib
 import sys
@@ -8,6 +9,7 @@ import tempfile
 top = pathlib.Path(sys.argv[1])
 sys.path.insert(0, str(top / "tools/gen_defs"))
 from definition import Defs  # noqa: E402
+from stages import Stages  # noqa: E402
 
 TEXT = (top / "rtl/defs/kage.yaml").read_text()
 XL, XR, W = "{name: xl, bits: X_BITS}", "{name: xr, bits: X_BITS}", '{name: w, bits: "DSF_BITS + 1", signed: true}'
@@ -63,6 +65,18 @@ def said_of(text):
     return ""
 
 
+def said_of_stages(text):
+    """Likewise of rtl/defs/stages.yaml."""
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+        file.write(text)
+        file.flush()
+        try:
+            Stages(pathlib.Path(file.name), Defs(top / "rtl/defs/kage.yaml"))
+        except SystemExit as e:
+            return str(e)
+    return ""
+
+
 failures = [f"as it is: {said_of(TEXT)}"] if said_of(TEXT) else []
 for behind, old, new, expected in PLANTED:
     before, mark, rest = TEXT.partition(behind)
@@ -70,5 +84,17 @@ for behind, old, new, expected in PLANTED:
     said = said_of(before + mark + rest.replace(old, new, 1))
     if expected not in said:
         failures.append(f"{behind} {new}: said is {said!r}, not {expected!r}")
+stages = (top / "rtl/defs/stages.yaml").read_text()
+if said := said_of_stages(stages):
+    failures.append(f"stages as they are: {said}")
+for old, new, expected in (
+    ("{name: blank}, ", "", "stage line: field blank of bus line is no value"),
+    ("unwatched: [last], text: color", "text: color", "stage load: field last of bus load is no value"),
+    ("{name: dcolor, count: 3}", "{name: dcolor, count: 4}", "stage command: 14 values"),
+):
+    assert old in stages, old
+    said = said_of_stages(stages.replace(old, new, 1))
+    if expected not in said:
+        failures.append(f"stages: {new}: said is {said!r}, not {expected!r}")
 print("\n".join(failures), end="\n" if failures else "")
 sys.exit(bool(failures))
