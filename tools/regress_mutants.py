@@ -110,7 +110,7 @@ def cosim(kage, line, *more):
 
 
 def expected_module(mutant, config):
-    """The module that is to be named (verif/mutants/list.cpp)."""
+    """The module that is to be named (verif/mutants/list.hpp)."""
     module = mutant.get("module", pathlib.Path(mutant["file"]).stem)
     return ("pixel_banked" if config["ARRANGEMENT"] else "pixel_systolic") if module == "pixels" else module
 
@@ -192,11 +192,11 @@ def each(options, chosen):
         rows = []
         for row in pool.map(lambda c: try_each(options.kage, *c, options), chosen):
             rows.append(row)
+            if options.json:
+                kept_rows.write(options.json, rows)
             found = [r for r in row["runs"] if r["found"]]
             print(f"{row['name']:<28} found by {len(found)} of {len(row['runs'])} runs", flush=True)
     tell_each(rows)
-    if options.json:
-        pathlib.Path(options.json).write_text(json.dumps(rows, indent=1) + "\n")
 
 
 def earlier(options, tried):
