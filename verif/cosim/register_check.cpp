@@ -247,10 +247,10 @@ class Checker {
     write("WATCHDOG", KAGE_REG_WATCHDOG, kWatchdog);
     rtl_.pass(kWatchdog / 2);
     expect("IRQ, before the watchdog bites", KAGE_REG_IRQ, happened);
-    rtl_.pass(2 * kWatchdog);
+    rtl_.pass(std::uint64_t{2} * kWatchdog);
     expect("STALL", KAGE_REG_STALL, stall);
     interrupts(happened | KAGE_IRQ_WATCHDOG_MASK);
-    rtl_.pass(2 * kWatchdog);
+    rtl_.pass(std::uint64_t{2} * kWatchdog);
     expect("IRQ, behind the watchdog's bite", KAGE_REG_IRQ, 0);
     write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
   }

@@ -161,8 +161,9 @@ void Coverage::frame_state() {
   hit(shade_none_, !shade_);
   hit(table_none_, table_.empty());
   hit(table_cut_, table_.size() % static_cast<std::size_t>(config_.lights) != 0);
-  hit(table_whole_, derived::has_table(config_) &&
-                        table_.size() == static_cast<std::size_t>(derived::most_class(config_) * config_.lights));
+  hit(table_whole_,
+      derived::has_table(config_) && table_.size() == static_cast<std::size_t>(derived::most_class(config_)) *
+                                                          static_cast<std::size_t>(config_.lights));
 }
 
 void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const std::uint32_t> /*words*/,

@@ -33,7 +33,7 @@ bool right(const kage_rtl_table& api, const Config& c, std::uint64_t seed, int w
   std::uint64_t count = 0;
   const std::uint8_t* pixels = api.pixels(m, &count);
   std::string wrong;
-  if (why != KAGE_RTL_IDLE || count != static_cast<std::uint64_t>(kFrames * width))
+  if (why != KAGE_RTL_IDLE || count != static_cast<std::uint64_t>(kFrames) * static_cast<std::uint64_t>(width))
     wrong = "did not come to rest, or lost pixels";
   for (int i = 0; wrong.empty() && i < kFrames * width * c.channels; ++i) {
     const int expected = light_pixel(c, i / c.channels % width, samples, shares);

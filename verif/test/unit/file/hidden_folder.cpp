@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "file/hidden_folder.hpp"
 
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
