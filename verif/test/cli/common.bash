@@ -56,6 +56,30 @@ data_copy() {
   done
 }
 
+# rtl_with FOLDER STATEMENT: from now on the data are a copy whose kage_top has the statement, which gives what leaves the core:
+# `sent` and `sending` are its pixels and their valid, frames_q the frames that it has begun to send since its reset (255: or
+# more), u_control.frame_q the number of the frame it is at.
+rtl_with() {
+  data_copy "$1"
+  python3 - "$1/rtl/kage_top.sv" "$2" <<'PY' || fail "the RTL is not what this test edits"
+import re, sys
+path, statement = sys.argv[1:]
+text, ports = re.subn(r"\.\*  // m_axis_\*", ".m_axis_tdata_o(sent), .m_axis_tvalid_o(sending), .*", open(path).read())
+logic = f"""  logic [8*CHANNELS-1:0] sent;
+  logic sending;
+  logic [7:0] frames_q;
+  always_ff @(posedge clk_i)
+    if (!rst_ni) frames_q <= '0;
+    else if (m_axis_tvalid_o && m_axis_tready_i && m_axis_tuser_o && frames_q != '1) frames_q <= frames_q + 8'd1;
+  {statement}
+"""
+text, places = re.subn(r"(?m)^(  logic line_gone, )", lambda m: logic + m[1], text)
+assert ports == places == 1, (ports, places)
+open(path, "w").write(text)
+PY
+  export KAGE_DATA_DIR=$PWD/$1
+}
+
 done_testing() {
   [ $failures = 0 ] && echo "all passed"
   exit $((failures != 0))

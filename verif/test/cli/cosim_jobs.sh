@@ -65,28 +65,6 @@ runs 0 "$kage" cosim random:mixed --frames 7 --config small.yaml
 runs 1 "$kage" cosim random:mixed --frames 7 --config small.yaml --mutant "$mutant"
 json out20/r.json 'j["frames"] == 7 and j["first_difference"]["frame"] is None'
 
-# rtl_with FOLDER STATEMENT: a copy of the data whose kage_top has the statement. `sent` and `sending` are its pixels and their
-# valid, frames_q the frames that it has begun to send since its reset, u_control.frame_q the number of the frame it is at.
-rtl_with() {
-  data_copy "$1"
-  python3 - "$1/rtl/kage_top.sv" "$2" <<'PY' || fail "the RTL is not what this test edits"
-import re, sys
-path, statement = sys.argv[1:]
-text, ports = re.subn(r"\.\*  // m_axis_\*", ".m_axis_tdata_o(sent), .m_axis_tvalid_o(sending), .*", open(path).read())
-logic = f"""  logic [8*CHANNELS-1:0] sent;
-  logic sending;
-  logic [7:0] frames_q;
-  always_ff @(posedge clk_i)
-    if (!rst_ni) frames_q <= '0;
-    else if (m_axis_tvalid_o && m_axis_tready_i && m_axis_tuser_o) frames_q <= frames_q + 8'd1;
-  {statement}
-"""
-text, places = re.subn(r"(?m)^(  logic line_gone, )", lambda m: logic + m[1], text)
-assert ports == places == 1, (ports, places)
-open(path, "w").write(text)
-PY
-  export KAGE_DATA_DIR=$PWD/$1
-}
 # A difference in frame 4 only, which is in the second of three ranges: it is told with what one job knows, and nothing of
 # frames behind it.
 rtl_with later "assign m_axis_tvalid_o = sending;
