@@ -2,13 +2,16 @@
 // The compare tree: of UNITS streams of pixels the one with the least key at each pixel. [Ohno 1985]
 //
 // Shape: ceil(log2 UNITS) levels. A level pairs its neighbours in compare cells; one that is left over at the end
-//   passes through a register, so that all pixels of a line are in the same level at the same time.
+//   passes through a register, so that all pixels of a line are in the same level at the same time. Behind every second
+//   level but the last, skid buffers cut the path of `ready`.
 // Result: the pixel with the least key, the upper KEY_BITS of its data; on equal keys that of the lowest unit.
 // Handshake: valid/ready on all sides. A pixel of each unit is taken in the same clock or later, level by level: a
-//   unit's ready depends on its neighbours' valids and, level by level, on out_ready_i. All units' lines have the same
-//   width.
-// Latency: ceil(log2 UNITS) clocks (0 with one unit: wires). Throughput: a pixel a clock. rst_ni low empties the tree.
-// Cost: UNITS - 1 compare cells and a register for each pixel that passes.
+//   unit's ready depends on its neighbours' valids and, through two levels at most, on the ready behind them. All
+//   units' lines have the same width.
+// Latency: levels + floor((levels - 1) / 2) clocks (0 with one unit: wires). Throughput: a pixel a clock. rst_ni low
+//   empties the tree.
+// Cost: UNITS - 1 compare cells, a register for each pixel that passes, and with more than four units a skid_buffer for
+//   each node of levels 2 and 4.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -77,6 +80,8 @@ module compare_tree #(
       for (genvar i = 0; i < nodes(k + 1); i++) begin : gen_node
         localparam int Left = first(k) + 2 * i;
         localparam int Out = first(k + 1) + i;
+        logic own_valid, own_ready, own_last;  // in front of its buffer, if it has one
+        logic [DATA_BITS-1:0] own_data;
         if (2 * i + 1 < nodes(k)) begin : gen_cell
           compare_cell #(
               .KEY_BITS (KEY_BITS),
@@ -92,18 +97,18 @@ module compare_tree #(
               .right_ready_o(ready[Left+1]),
               .right_data_i (data[(Left+1)*DATA_BITS+:DATA_BITS]),
               .right_last_i (last[Left+1]),
-              .out_valid_o  (valid[Out]),
-              .out_ready_i  (ready[Out]),
-              .out_data_o   (data[Out*DATA_BITS+:DATA_BITS]),
-              .out_last_o   (last[Out])
+              .out_valid_o  (own_valid),
+              .out_ready_i  (own_ready),
+              .out_data_o   (own_data),
+              .out_last_o   (own_last)
           );
         end else begin : gen_pass
           logic valid_q, last_q;
           logic [DATA_BITS-1:0] data_q;
-          assign ready[Left] = !valid_q || ready[Out];
-          assign valid[Out] = valid_q;
-          assign data[Out*DATA_BITS+:DATA_BITS] = data_q;
-          assign last[Out] = last_q;
+          assign ready[Left] = !valid_q || own_ready;
+          assign own_valid = valid_q;
+          assign own_data = data_q;
+          assign own_last = last_q;
           always_ff @(posedge clk_i) begin
             if (!rst_ni) valid_q <= 1'b0;
             else if (ready[Left]) valid_q <= valid[Left];
@@ -112,6 +117,25 @@ module compare_tree #(
               last_q <= last[Left];
             end
           end
+        end
+        if (k % 2 == 1 && k + 1 < Levels) begin : gen_buffer
+          skid_buffer #(
+              .BITS(DATA_BITS + 1)
+          ) u_buffer (
+              .clk_i,
+              .rst_ni,
+              .in_valid_i (own_valid),
+              .in_ready_o (own_ready),
+              .in_data_i  ({own_last, own_data}),
+              .out_valid_o(valid[Out]),
+              .out_ready_i(ready[Out]),
+              .out_data_o ({last[Out], data[Out*DATA_BITS+:DATA_BITS]})
+          );
+        end else begin : gen_direct
+          assign own_ready = ready[Out];
+          assign valid[Out] = own_valid;
+          assign last[Out] = own_last;
+          assign data[Out*DATA_BITS+:DATA_BITS] = own_data;
         end
       end
     end

@@ -2,7 +2,7 @@
 // An expansion unit: makes pixels of the segments of convex polyhedra that do not overlap on the screen. [Ohno 1985]
 //
 // Segments: seg_* is valid/ready, with the segment in piece_i. A line's segments come in order, of 1 .. 2^DX_BITS - 1
-//   pixels each, at most 2^SEG_BITS of them; the line is complete when they sum to width_i. Two lines are buffered, a
+//   pixels each, at most 2^SEG_BITS of them; one that `completes` is its line's last. Two lines are buffered, a
 //   half of the RAM each: seg_ready_o falls while both halves hold a line that has not been read out whole. A line is
 //   expanded only when it is complete, so it has no bubble from its first pixel to its last.
 // Faces: face_valid_i writes piece_i into the table of the frame that came in last; segments may name it from the next
@@ -13,11 +13,10 @@
 //   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. Of the blank face Z and index are all ones,
 //   colour and class 0. px_data_o is a point (kage_widths.svh).
 // flush_i drops all lines, in one clock; the table stays.
-// width_i matters with segments only, and holds still while a line comes in.
 // Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that
 //   are buffered without a gap.
 // Cost: RAMs of 2^(SEG_BITS + 1) segments and 2^(FACE_BITS + 1) entries, an adder of DepthBits, about 4 registers of a
-//   segment's width.
+//   segment's width, a skid_buffer of a pixel.
 `default_nettype none
 
 module expansion_unit #(
@@ -28,9 +27,8 @@ module expansion_unit #(
     input wire logic clk_i,
     input wire logic rst_ni,
 
-    input wire logic              frame_start_i,
-    input wire logic              flush_i,
-    input wire logic [X_BITS-1:0] width_i,
+    input wire logic frame_start_i,
+    input wire logic flush_i,
 
     input  wire logic                 face_valid_i,
     input  wire logic                 seg_valid_i,
@@ -63,28 +61,23 @@ module expansion_unit #(
   logic [1:0] bank_q;  // of the table, for the line in the half
   logic [SEG_BITS-1:0] wr_at_q, rd_at_q;
   logic [2*SEG_BITS-1:0] end_q;  // place of the last segment in each half
-  logic [X_BITS-1:0] sum_q, sum;
 
   assign clear = !rst_ni || flush_i;
   assign seg_ready_o = !full_q[wr_half_q];
   assign seg_take = seg_valid_i && seg_ready_o;
-  assign sum = sum_q + X_BITS'(piece.dx);
-  assign line_complete = seg_take && sum == width_i;
+  assign line_complete = seg_take && piece.completes;
 
   always_ff @(posedge clk_i) begin
     if (clear) begin
       wr_half_q <= 1'b0;
       wr_at_q   <= '0;
-      sum_q     <= '0;
       full_q    <= '0;
     end else begin
       if (line_complete) begin
         wr_half_q <= !wr_half_q;
-        wr_at_q <= '0;
-        sum_q <= '0;
+        wr_at_q   <= '0;
       end else if (seg_take) begin
         wr_at_q <= wr_at_q + 1'b1;
-        sum_q   <= sum;
       end
       for (int h = 0; h < 2; h++) begin
         if (line_complete && wr_half_q == 1'(h)) full_q[h] <= 1'b1;
@@ -186,7 +179,7 @@ module expansion_unit #(
   );
 
   // ---- Z generator: the registers Z, X and DEF, and what the segment's pixels share --------------------------------
-  logic busy_q, step, x_end, end_seg_q, blank_q;
+  logic busy_q, step, px_free, x_end_q, end_seg_q, blank_q;  // x_end_q: x_q is 1
   logic [DepthBits-1:0] z_q, def_q;
   logic [DX_BITS-1:0] x_q;  // pixels left
   logic [PointBits-1:0] face, face_q;  // the point of the face, its depth 0
@@ -198,17 +191,17 @@ module expansion_unit #(
     if (DSF_BITS > 0) face[PointClassAt+:CLASS_BITS] = entry[EntryClassAt+:CLASS_BITS];
   end
 
-  assign step  = busy_q && (!px_valid_o || px_ready_i);
-  assign x_end = x_q == DX_BITS'(1);
-  assign load  = valid_q[2] && (!busy_q || (step && x_end));
+  assign step = busy_q && px_free;
+  assign load = valid_q[2] && (!busy_q || (step && x_end_q));
 
   always_ff @(posedge clk_i) begin
     if (clear) busy_q <= 1'b0;
     else if (load) busy_q <= 1'b1;
-    else if (step && x_end) busy_q <= 1'b0;
+    else if (step && x_end_q) busy_q <= 1'b0;
     if (load) begin
       z_q <= DepthBits'(z3_q);
       x_q <= dx3_q;
+      x_end_q <= dx3_q == DX_BITS'(1);
       def_q <= entry[EntryDzAt+:DepthBits];
       face_q <= face;
       blank_q <= blank3_q;
@@ -216,10 +209,11 @@ module expansion_unit #(
     end else if (step) begin
       z_q <= z_q + def_q;
       x_q <= x_q - 1'b1;
+      x_end_q <= x_q == DX_BITS'(2);
     end
   end
 
-  // ---- clamp and the pixel's register ------------------------------------------------------------------------------
+  // ---- clamp and the pixel's buffer --------------------------------------------------------------------------------
   logic [Z_BITS+1:0] whole;
   logic [Z_BITS-1:0] depth;
   logic [PointBits-1:0] point, blank;
@@ -235,28 +229,35 @@ module expansion_unit #(
     blank[PointIndexAt+:ORDER_BITS] = '1;
   end
 
-  always_ff @(posedge clk_i) begin
-    if (clear) px_valid_o <= 1'b0;
-    else if (!px_valid_o || px_ready_i) px_valid_o <= busy_q;
-    if (step) begin
-      px_data_o <= blank_q ? blank : point;
-      px_last_o <= x_end && end_seg_q;
-    end
-  end
+  // The buffer's ready is a flip-flop, so that reading segments does not wait for the tree's cells in the same clock.
+  skid_buffer #(
+      .BITS(PointBits + 1)
+  ) u_pixel (
+      .clk_i,
+      .rst_ni     (!clear),
+      .in_valid_i (busy_q),
+      .in_ready_o (px_free),
+      .in_data_i  ({x_end_q && end_seg_q, blank_q ? blank : point}),
+      .out_valid_o(px_valid_o),
+      .out_ready_i(px_ready_i),
+      .out_data_o ({px_last_o, px_data_o})
+  );
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
   logic mid_line_q;  // a line has begun to leave and not ended
+  logic full_half_q;  // the last place of the half that fills has been written, and the line is not complete
   always @(posedge clk_i) begin
+    if (clear || line_complete) full_half_q <= 1'b0;
+    else if (seg_take && wr_at_q == '1) full_half_q <= 1'b1;
     if (clear) mid_line_q <= 1'b0;
     else if (px_valid_o && px_ready_i) mid_line_q <= !px_last_o;
     if (rst_ni) begin
-      // 1. A segment has pixels and stays in its line, and the line in its half: no segment is written past the last
-      // place. If the segment there leaves the line short, the line is never completed.
-      assert (!seg_take || (piece.dx != '0 && 16'(sum_q) + 16'(piece.dx) <= 16'(width_i)));
-      assert (!seg_take || wr_at_q != '0 || sum_q == '0);
+      // 1. A segment has pixels, and the line stays in its half: no segment is written past the last place. If the
+      // segment there leaves the line short, the line is never completed.
+      assert (!seg_take || (piece.dx != '0 && !full_half_q));
       // 2. No frame begins in the middle of a line.
-      assert (!frame_start_i || flush_i || sum_q == '0);
+      assert (!frame_start_i || flush_i || (wr_at_q == '0 && !full_half_q));
       // 3. A line has no bubble.
       assert (!mid_line_q || px_valid_o);
       // 4. The paper's depth is unsigned.

@@ -78,7 +78,6 @@ module frame_control #(
 );
   `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
-  `include "generated/kage_order.svh"
 
   localparam logic [1:0] StHeader = 2'd0;
   localparam logic [1:0] StBody = 2'd1;  // tokens of an error-free frame
@@ -127,46 +126,39 @@ module frame_control #(
   );
 
   logic [KindBits-1:0] kind;
-  logic is_eol, is_end, is_span, is_tree, is_tp, is_table;
   assign kind = token[KindBits-1:0];
-  assign is_eol = kind == KindEol;
-  assign is_end = kind == KindEnd;
-  assign is_tree = UNITS > 0 && kind == KindTree;
-  assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
-  assign is_table = HasTable && kind == KindTable;
-  assign is_span = kind_has_range(kind);
 
   // ---- what happens in this clock ----------------------------------------------------------------------------------
-  logic accept, good, bad, body_good, emit_eol, emit_paint, resolved;
-  logic cmd_free, eol_free, body_eol, blank_eol, emit_span, emit_tree, emit_out, body_free, frame_free, must_paint;
-  logic by_loads, dropping;
+  // Each says by itself what it waits for, because a chain through held_ready would be the core's slowest path.
+  logic accept, bad, sound, take_header, emit_eol, emit_paint, emit_span, emit_tree, emit_entry, resolved;
+  logic cmd_free, eol_free, body_eol, blank_eol, body_free, frame_free, must_paint, blank_due_q, by_loads, dropping;
   assign eol_free = cmd_free && line_ready_i;
-  assign body_good = verdict.good && !verdict.header;
-  assign held_ready = verdict.header ? state_q == StHeader && frame_free :
-      !verdict.good || (body_free && (line_ready_i || !is_eol) && (table_free_i || !is_table) && !must_paint);
+  assign sound = held_valid && verdict.good;
+  assign take_header = held_valid && verdict.header && state_q == StHeader && frame_free;
+  assign held_ready = verdict.header ? state_q == StHeader && frame_free : !verdict.good ||
+      (body_free && (line_ready_i || !verdict.eol) && (table_free_i || !verdict.entry) && !must_paint);
   assign accept = held_valid && held_ready;
-  assign good = accept && verdict.good;
-  assign bad = accept && !verdict.good;
+  assign bad = held_valid && !verdict.good && (!verdict.header || take_header);
   assign resolved = verdict.resolved;
-  assign body_eol = good && !verdict.header && is_eol;
-  assign blank_eol = state_q == StBlank && !lines_done_q && eol_free;
-  assign emit_eol = body_eol || blank_eol;
-  assign emit_span = good && !verdict.header && is_span && !verdict.empty;
-  assign emit_tree = good && !verdict.header && is_tree;
+  assign body_eol = sound && verdict.eol && eol_free;
+  assign blank_eol = blank_due_q && eol_free;
+  assign emit_eol = (blank_due_q || (sound && verdict.eol)) && eol_free;
+  assign emit_span = sound && verdict.span && !must_paint && cmd_free;
+  assign emit_tree = sound && verdict.tree && cmd_free;
+  assign emit_entry = sound && verdict.entry && table_free_i && cmd_free;
   // A RESOLVE goes over the line before its first TP. An empty TP changes nothing, so it may have it.
-  assign must_paint = is_tp && !painted_q;
-  assign emit_paint = must_paint && held_valid && body_good && cmd_free && !loading_q && (line_ready_i || !by_loads);
+  assign must_paint = verdict.tp && !painted_q;
+  assign emit_paint = must_paint && sound && cmd_free && !loading_q && (line_ready_i || !by_loads);
   // With counters only the way out can darken; a line without RESOLVE has nothing to darken.
   assign by_loads = HasLoads && resolved;
-  assign emit_out = emit_paint && by_loads;
   assign dropping = dropping_i || rest_comes;
 
-  assign line_valid_o = emit_eol || emit_out;
+  assign line_valid_o = emit_eol || (emit_paint && by_loads);
   line_t line;
   assign line_o = line;
   assign line.first = line_q == '0;
-  assign line.blank = blank_eol;
-  assign line.load = emit_out;
+  assign line.blank = state_q == StBlank;
+  assign line.load = state_q == StBody && must_paint;
   assign line.painted = painted_q;
   assign line.width = width_q;
   assign line.background = background_q;
@@ -176,7 +168,7 @@ module frame_control #(
   assign hungry_o = !held_valid &&
       (state_q == StHeader || (state_q == StBody && cmd_free) || (state_q == StBlank && lines_done_q));
   assign draining_o = state_q == StBlank && dropping;
-  assign frame_end_o = (good && !verdict.header && is_end) || (state_q == StBlank && lines_done_q && !dropping);
+  assign frame_end_o = (sound && verdict.end_token && cmd_free) || (state_q == StBlank && lines_done_q && !dropping);
 
   logic told_q;  // a token has come in in the clock before: which unit is waited for is known a clock after it
   assign moving_o = (token_valid_i && token_ready_o) || told_q || accept || line_valid_o || emit_paint || frame_end_o;
@@ -202,17 +194,24 @@ module frame_control #(
     if (!rst_ni) begin
       state_q <= StHeader;
     end else begin
-      if (good && verdict.header) state_q <= StBody;
+      if (take_header) state_q <= StBody;
       if (bad) state_q <= StBlank;
       if (frame_end_o) state_q <= StHeader;
     end
   end
 
+  // A blank line is due: the state is StBlank, and lines are left.
   always_ff @(posedge clk_i) begin
-    if (accept && verdict.header) begin
+    if (!rst_ni) blank_due_q <= 1'b0;
+    else if (bad) blank_due_q <= !verdict.header && !lines_done_q;
+    else if (blank_eol && left_q == LineNumberBits'(1)) blank_due_q <= 1'b0;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (take_header) begin
       width_q <= token[HeaderWidthLsb+:X_BITS];
-      left_q <= bad ? '0 : token[HeaderHeightLsb+:LineNumberBits];  // no lines after an error in the header
-      lines_done_q <= bad;
+      left_q <= !verdict.good ? '0 : token[HeaderHeightLsb+:LineNumberBits];  // no lines after an error in the header
+      lines_done_q <= !verdict.good;
       background_q <= token[HeaderBackgroundLsb+:RgbBits];
       frame_q <= token[HeaderFrameLsb+:32];
       line_q <= '0;
@@ -234,7 +233,8 @@ module frame_control #(
         loading_q <= 1'b0;
         painted_q <= 1'b1;
       end
-      if (DSF_BITS > 0 && good && kind == KindShade) shade_q <= token[ShadeShadeLsb+:FactorBits];
+      // No line of the frame has been given, and none of the one before is due: so it may be early.
+      if (DSF_BITS > 0 && sound && !verdict.header && kind == KindShade) shade_q <= token[ShadeShadeLsb+:FactorBits];
     end
   end
 
@@ -253,11 +253,11 @@ module frame_control #(
       .bias_i      (verdict.bias),
       .background_i(background_q),
       .free_o      (cmd_free),
-      .make_span_i (emit_span),
-      .make_tree_i (emit_tree),
-      .make_eol_i  (emit_eol),
-      .make_paint_i(emit_paint && !emit_out),
-      .make_out_i  (emit_out),
+      .make_i      (emit_eol || emit_paint || emit_tree || emit_span),
+      .eol_i       (state_q == StBlank || verdict.eol),
+      .paint_i     (must_paint && !by_loads),
+      .out_i       (must_paint && by_loads),
+      .tree_i      (verdict.tree),
       .cmd_valid_o,
       .cmd_ready_i,
       .cmd_o       (cmd)
@@ -269,7 +269,7 @@ module frame_control #(
   assign entry.normal_class = token[TableClassLsb+:CLASS_BITS];
   assign entry.light = token[TableLightLsb+:LightBits];
   assign entry.share = token[TableShareLsb+:EntryShareBits];
-  assign table_valid_o = good && !verdict.header && is_table;
+  assign table_valid_o = emit_entry;
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
   piece_t piece;  // yosys 0.23 finds no fields of a struct that a generate block declares
@@ -277,27 +277,26 @@ module frame_control #(
   assign tree_piece_o = piece;
   assign tree_call_o  = call;
   if (UNITS > 0) begin : gen_tree
-    logic is_face, is_seg;
-    assign is_face = kind == KindFace;
-    assign is_seg = kind == KindSeg;
-    assign piece.unit = is_face ? token[FaceUnitLsb+:UnitBits] : token[SegUnitLsb+:UnitBits];
-    assign piece.face = is_face ? token[FaceFaceLsb+:FACE_BITS] : token[SegFaceLsb+:FACE_BITS];
+    assign piece.unit = verdict.face ? token[FaceUnitLsb+:UnitBits] : token[SegUnitLsb+:UnitBits];
+    assign piece.face = verdict.face ? token[FaceFaceLsb+:FACE_BITS] : token[SegFaceLsb+:FACE_BITS];
     assign piece.entry = token[FaceIndexLsb+:EntryBits];
     assign piece.z = DepthBits'(token[SegZLsb+:SegZBits]);
     assign piece.dx = token[SegDxLsb+:DX_BITS];
+    assign piece.completes = verdict.completes;
 
-    assign call.start = good && verdict.header;
+    assign call.start = take_header && verdict.good;
     assign call.flush = bad && !verdict.header;
     assign call.claim = emit_tree;
-    assign call.face = good && !verdict.header && is_face;
+    assign call.face = sound && verdict.face;
     assign tree_seg_valid_o = held_valid && verdict.seg_goes;
 
     assign frame_free = tree_frame_ready_i;
     // FACE and SEG pass a command that waits: the units fill while the pixels work.
-    assign body_free = is_seg ? !verdict.seg_goes || tree_seg_ready_i : is_face || cmd_free;
+    assign body_free = verdict.seg ? !verdict.seg_goes || tree_seg_ready_i : verdict.face || cmd_free;
   end else begin : gen_no_tree
     logic unused_tree;
-    assign unused_tree = tree_frame_ready_i ^ tree_seg_ready_i ^ verdict.seg_goes;
+    assign unused_tree = ^{tree_frame_ready_i, tree_seg_ready_i, verdict.seg, verdict.seg_goes, verdict.completes,
+                           verdict.face};
     assign {tree_seg_valid_o, call, piece} = '0;
     assign frame_free = 1'b1;
     assign body_free = cmd_free;
@@ -315,6 +314,10 @@ module frame_control #(
       // 3. No line ends when all have ended.
       assert (!emit_eol || !lines_done_q);
       assert (state_q == StHeader || lines_done_q == (left_q == '0));
+      assert (blank_due_q == (state_q == StBlank && !lines_done_q));
+      // 4. What a token does is done in the clock in which it is taken, but for what a TP waits for.
+      assert (accept || !(take_header || bad || body_eol || emit_span || emit_tree || emit_entry || call.face));
+      assert (!accept || take_header || bad || sound);
     end
   end
 `endif

@@ -166,7 +166,6 @@ module kage_top #(
         .rst_ni,
         .call_i       (tree_call),
         .frame_ready_o(tree_frame_ready),
-        .width_i      (line.width),
         .seg_valid_i  (tree_seg_valid),
         .seg_ready_o  (tree_seg_ready),
         .piece_i      (tree_piece),
@@ -250,7 +249,7 @@ module kage_top #(
   );
 
   // ---- status ------------------------------------------------------------------------------------------------------
-  logic line_gone, in_frame, frame_here, waiting_input, waiting_output, progress;
+  logic line_gone, in_frame, frame_here, waiting_input, waiting_output;
   assign table_free = lines_q == '0;
   assign line_gone  = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
   always_ff @(posedge clk_i) begin
@@ -263,12 +262,22 @@ module kage_top #(
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
   // only if one of them does.
-  logic ports_move;
-  assign ports_move = (s_axis_tvalid_i && s_axis_tready_o) || (m_axis_tvalid_o && m_axis_tready_i);
-  assign progress = ports_move || reader_moving || control_moving || lines_moving ||
-      (pixel_valid && pixel_ready) || pixels_moving || out_moving || tree_moving;
+  localparam int Parts = 9;
+  logic [Parts-1:0] progress;
+  assign progress = {
+    s_axis_tvalid_i && s_axis_tready_o,
+    m_axis_tvalid_o && m_axis_tready_i,
+    reader_moving,
+    control_moving,
+    lines_moving,
+    pixel_valid && pixel_ready,
+    pixels_moving,
+    out_moving,
+    tree_moving
+  };
 
   registers #(
+      .PARTS(Parts),
       `include "generated/kage_impl_param_map.svh"
       `include "generated/kage_pixel_param_map.svh"
   ) u_registers (
@@ -290,7 +299,7 @@ module kage_top #(
   always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. A frame without progress waits for input that has not all come, or for the sink to take a pixel.
-      assert (!frame_here || progress || (in_frame && s_axis_tready_o && !s_axis_tvalid_i) || waiting_output);
+      assert (!frame_here || progress != '0 || (in_frame && s_axis_tready_o && !s_axis_tvalid_i) || waiting_output);
       // 2. The count of lines under way stays within its bits.
       assert (!(&lines_q) || !line_valid);
     end

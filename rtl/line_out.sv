@@ -68,17 +68,22 @@ module line_out #(
 
   // ---- buffers in use ----------------------------------------------------------------------------------------------
   logic [1:0] taken_q, begun_q;  // buffers not free; those whose line has begun to come in
+  logic [1:0] taken;
+  logic full_q;  // taken_q is 2
   logic filling_q, line_begins, line_complete, line_left;
-  assign exit_free_o   = taken_q != 2'd2;
-  assign line_begins   = exit_valid_i && !filling_q;
+  assign taken = taken_q + 2'(exit_take_i) - 2'(line_left);
+  assign exit_free_o = !full_q;
+  assign line_begins = exit_valid_i && !filling_q;
   assign line_complete = exit_valid_i && exit_last_i;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       taken_q   <= '0;
+      full_q    <= 1'b0;
       begun_q   <= '0;
       filling_q <= 1'b0;
     end else begin
-      taken_q <= taken_q + 2'(exit_take_i) - 2'(line_left);
+      taken_q <= taken;
+      full_q  <= taken == 2'd2;
       begun_q <= begun_q + 2'(line_begins) - 2'(line_left);
       if (exit_valid_i) filling_q <= !exit_last_i;
     end
@@ -243,13 +248,15 @@ module line_out #(
         dark_q <= is_dark;
         for (int c = 0; c < CHANNELS; c++) begin
           product_q[c*(SHADE_FRAC+9)+:SHADE_FRAC+9] <=
-              (SHADE_FRAC + 9)'(colored[c*8+:8]) * (SHADE_FRAC + 9)'(factor[c*FactorBits+:FactorBits]) +
-              (SHADE_FRAC + 9)'(HalfShare);
+              (SHADE_FRAC + 9)'(colored[c*8+:8]) * (SHADE_FRAC + 9)'(factor[c*FactorBits+:FactorBits]);
         end
       end
     end
+    // Rounded a clock behind the product, because product and sum in one clock would be the core's slowest path.
     always_comb begin
-      for (int c = 0; c < CHANNELS; c++) dimmed[c*8+:8] = product_q[c*(SHADE_FRAC+9)+SHADE_FRAC+:8];
+      for (int c = 0; c < CHANNELS; c++) begin
+        dimmed[c*8+:8] = 8'((product_q[c*(SHADE_FRAC+9)+:SHADE_FRAC+9] + (SHADE_FRAC + 9)'(HalfShare)) >> SHADE_FRAC);
+      end
     end
   end else begin : gen_no_resolve
     logic unused_keep;

@@ -2,10 +2,10 @@
 // The lines between frame_control and line_out, in their order. Under way are one in its pass through the pixels, one
 // that waits for a buffer of line_out, and two in those buffers.
 //
-// Handshake: in_* and out_* are valid/ready. The buffer in front of the queue cuts the timing path from an EOL's
-//   verdict to the queue's write enable.
+// Handshake: in_* and out_* are valid/ready. The queue's free place is written in each clock, so an EOL's verdict does not
+//   reach a write enable; the buffer behind it gives line_out a line from flip-flops.
 // Capacity: four lines. Latency: 2 clocks. Throughput: a line a clock.
-// Cost: a skid_buffer and a stream_fifo of two, LineBits wide.
+// Cost: a stream_fifo of two and a skid_buffer, LineBits wide.
 `default_nettype none
 
 module line_queue #(
@@ -22,15 +22,16 @@ module line_queue #(
     input  wire logic            out_ready_i,
     output logic      [BITS-1:0] out_data_o,
 
-    output logic moving_o  // a line goes from the buffer to the queue
+    output logic moving_o  // a line goes from the queue to the buffer
 );
 
   logic told_valid, told_ready;
   logic [BITS-1:0] told;
   assign moving_o = told_valid && told_ready;
-  skid_buffer #(
-      .BITS(BITS)
-  ) u_told (
+  stream_fifo #(
+      .BITS (BITS),
+      .DEPTH(2)
+  ) u_lines (
       .clk_i,
       .rst_ni,
       .in_valid_i,
@@ -40,10 +41,9 @@ module line_queue #(
       .out_ready_i(told_ready),
       .out_data_o (told)
   );
-  stream_fifo #(
-      .BITS (BITS),
-      .DEPTH(2)
-  ) u_lines (
+  skid_buffer #(
+      .BITS(BITS)
+  ) u_next (
       .clk_i,
       .rst_ni,
       .in_valid_i(told_valid),

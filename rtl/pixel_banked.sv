@@ -11,8 +11,8 @@
 //   what the RAM held never matters.
 // Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1. Throughput: a group
 //   a clock.
-// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded: the
-//   newest in front of the comparison, the two older ones in front of the register behind the RAM. The hazards of the
+// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded in
+//   front of the comparison: the newest as it is, the two older ones by a register beside the RAM's. The hazards of the
 //   tree's line are tree_line's.
 // Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units
 //   tree_line.
@@ -42,9 +42,9 @@ module pixel_banked #(
   assign cmd = cmd_i;
 
   // ---- set-up stages -----------------------------------------------------------------------------------------------
-  // What goes along unchanged: {kind, count, share, colour, first group, last group, first lane, last lane}.
+  // What goes along unchanged: {leaves, tree, kind, count, weight, colour, first group, last group, first lane, last lane}.
   localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
-  localparam int SetBits = KindBits + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
+  localparam int SetBits = 2 + KindBits + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
   logic [SetBits-1:0] set_d, set1_q, set2_q, set3_q;
   logic [2:0] set_valid_q, set_en;
   logic [  X_BITS-1:0] x_last;
@@ -59,7 +59,22 @@ module pixel_banked #(
   assign group_last = AddrBits'(x_last >> Levels);
   assign lane_first = LANES > 1 ? OffBits'(cmd.xl) : '0;
   assign lane_last = LANES > 1 ? OffBits'(x_last) : '0;
-  assign set_d = {cmd.kind, cmd.count, cmd.share, flat, group_first, group_last, lane_first, lane_last};
+  // A pass in which the line's pixels leave, of EOL or CmdOut; a TREE.
+  logic cmd_leaves, cmd_tree;
+  assign cmd_leaves = cmd.kind == KindEol || (HasLoads && cmd.kind == CmdOut);
+  assign cmd_tree = UNITS > 0 && cmd.kind == KindTree;
+  assign set_d = {
+    cmd_leaves,
+    cmd_tree,
+    cmd.kind,
+    cmd.count,
+    pixel_weight(cmd.kind, cmd.share),
+    flat,
+    group_first,
+    group_last,
+    lane_first,
+    lane_last
+  };
   assign set_en[2] = !set_valid_q[2] || take3;
   assign set_en[1] = set_valid_q[2:1] != 2'b11 || take3;
   assign set_en[0] = set_valid_q != 3'b111 || take3;
@@ -81,33 +96,43 @@ module pixel_banked #(
   // ---- walker, stage 0 ---------------------------------------------------------------------------------------------
   logic [ KindBits-1:0] next_kind;
   logic [CountBits-1:0] next_count;
-  logic [ShareBits-1:0] next_share;
+  logic [ShareBits-1:0] next_weight;
   logic [ FlatBits-1:0] next_flat;
   logic [AddrBits-1:0] next_group, next_end;
   logic [OffBits-1:0] next_lane_first, next_lane_last;
-  assign {next_kind, next_count, next_share, next_flat, next_group, next_end, next_lane_first, next_lane_last} = set3_q;
+  logic next_leaves, next_tree;
+  assign {
+    next_leaves,
+    next_tree,
+    next_kind,
+    next_count,
+    next_weight,
+    next_flat,
+    next_group,
+    next_end,
+    next_lane_first,
+    next_lane_last
+  } = set3_q;
 
-  logic walk_valid_q, walk_first_q, walk_sweep_q, walk_at_end_q, step;
+  logic walk_valid_q, walk_first_q, walk_at_end_q, walk_leaves_q, step;
   logic [ KindBits-1:0] walk_kind_q;
   logic [CountBits-1:0] walk_count_q;
-  logic [ShareBits-1:0] walk_share_q;
+  logic [ShareBits-1:0] walk_weight_q;
   logic [ FlatBits-1:0] walk_flat_q;
   logic [AddrBits-1:0] walk_group_q, walk_end_q;
   logic [OffBits-1:0] walk_lane_first_q, walk_lane_last_q;
-  logic walk_eol, next_leaves;  // a pass in which the line's pixels leave, of EOL or CmdOut, is next
+  logic walk_eol;
 
   assign walk_eol = walk_kind_q == KindEol;
-  assign next_leaves = next_kind == KindEol || (HasLoads && next_kind == CmdOut);
   assign step = walk_valid_q && !walk_at_end_q;
-  assign take3 = set_valid_q[2] && !step && (!next_leaves || exit_free_i) &&
-      (UNITS == 0 || next_kind != KindTree || tree_here);
+  assign take3 = set_valid_q[2] && !step && (!next_leaves || exit_free_i) && (UNITS == 0 || !next_tree || tree_here);
   assign exit_take_o = take3 && next_leaves;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       // The sweep: an EOL over all groups whose pixels go nowhere.
       walk_valid_q <= 1'b1;
-      walk_sweep_q <= 1'b1;
+      walk_leaves_q <= 1'b0;
       walk_kind_q <= KindEol;
       walk_group_q <= '0;
       walk_end_q <= AddrBits'(Groups - 1);
@@ -120,10 +145,10 @@ module pixel_banked #(
       walk_valid_q <= take3;
       if (take3) begin
         walk_first_q <= 1'b1;
-        walk_sweep_q <= 1'b0;
+        walk_leaves_q <= next_leaves;
         walk_kind_q <= next_kind;
         walk_count_q <= next_count;
-        walk_share_q <= next_share;
+        walk_weight_q <= next_weight;
         walk_flat_q <= next_flat;
         walk_group_q <= next_group;
         walk_end_q <= next_end;
@@ -194,15 +219,13 @@ module pixel_banked #(
   end
 
   // ---- what goes along with a group, stage 1 .. Last ---------------------------------------------------------------
-  // {kind, count, share, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
+  // {kind, count, weight, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
   localparam int InfoBits = KindBits + CountBits + ShareBits + LANES + AddrBits + 2;
   logic [Last*InfoBits-1:0] info_q;
   logic [Last:0] valid;  // bit k: stage k holds a group
   logic [Last-1:0] valid_q;
   logic [InfoBits-1:0] info_walk;
-  logic leaves;
-  assign leaves = (walk_eol && !walk_sweep_q) || (HasLoads && walk_kind_q == CmdOut);
-  assign info_walk = {walk_kind_q, walk_count_q, walk_share_q, walk_lanes, walk_group_q, walk_at_end_q, leaves};
+  assign info_walk = {walk_kind_q, walk_count_q, walk_weight_q, walk_lanes, walk_group_q, walk_at_end_q, walk_leaves_q};
   assign valid = {valid_q, walk_valid_q};
 
   always_ff @(posedge clk_i) begin
@@ -232,13 +255,13 @@ module pixel_banked #(
 
   logic [KindBits-1:0] now_kind;
   logic [CountBits-1:0] now_count;
-  logic [ShareBits-1:0] now_share;
+  logic [ShareBits-1:0] now_weight;
   logic [LANES-1:0] now_lanes;
   logic [AddrBits-1:0] now_addr;
   logic now_at_end, now_leaves;
   logic [InfoBits-1:0] info_now;
   assign info_now = info_q[(Last-1)*InfoBits+:InfoBits];
-  assign {now_kind, now_count, now_share, now_lanes, now_addr, now_at_end, now_leaves} = info_now;
+  assign {now_kind, now_count, now_weight, now_lanes, now_addr, now_at_end, now_leaves} = info_now;
 
   // ---- the tree's line ---------------------------------------------------------------------------------------------
   // Depth, colour and count of each lane: the span's, or what the tree has there.
@@ -262,7 +285,7 @@ module pixel_banked #(
         .tree_i,
         .drop_i    (tree_drop_i),
         .here_o    (tree_here),
-        .pass_i    (take3 && next_kind == KindTree),
+        .pass_i    (take3 && next_tree),
         .rd_en_i   (valid[Last-2]),
         .rd_group_i(addr_read),
         .z_o       (tree_z),
@@ -294,10 +317,14 @@ module pixel_banked #(
   end
 
   // ---- read, next state, write -------------------------------------------------------------------------------------
-  logic [WordBits-1:0] ram_data, word_q, word, next, done_q, done2_q;
+  logic [WordBits-1:0] ram_data, stored_q, recent_q, word, next, done_q, done2_q;
   logic [AddrBits-1:0] done_addr_q;
   logic done_valid_q;
-  logic same1_q, same2_q, same3_q;  // the group computed 1, 2, 3 clocks before is the same
+  // The group computed 1, 2, 3 clocks before is the same; of 1 and 2 those lanes that it changed, which also keeps the
+  // number of bits low that a flip-flop selects. recent_q is 2 or 3 clocks old, for the lanes of use_recent_q. What the
+  // RAM gives goes into stored_q as it is, because nothing else fits in the clock of a block RAM's output.
+  logic [LANES-1:0] same1_q, same2_q, use_recent_q;
+  logic same3_q;
 
   ram_1r1w #(
       .BITS (WordBits),
@@ -314,17 +341,24 @@ module pixel_banked #(
 
   always_ff @(posedge clk_i) begin
     // For the group that moves from stage Last - 2 to Last - 1; see the contract's hazards.
-    same2_q <= valid[Last] && addr_read == addr_now;
+    same2_q <= valid[Last] && addr_read == addr_now ? now_lanes : '0;
     same3_q <= done_valid_q && addr_read == done_addr_q;
     // For the group that moves from stage Last - 1 to Last.
-    same1_q <= valid[Last] && addr_before == addr_now;
-    if (same2_q) word_q <= done_q;
-    else if (same3_q) word_q <= done2_q;
-    else word_q <= ram_data;
+    same1_q <= valid[Last] && addr_before == addr_now ? now_lanes : '0;
+    use_recent_q <= same2_q | {LANES{same3_q}};
+    stored_q <= ram_data;
+    recent_q <= done2_q;
+    for (int l = 0; l < LANES; l++) begin
+      if (same2_q[l]) recent_q[l*PixelBits+:PixelBits] <= done_q[l*PixelBits+:PixelBits];
+    end
   end
-  assign word = same1_q ? done_q : word_q;
 
   always_comb begin
+    word = stored_q;
+    for (int l = 0; l < LANES; l++) begin
+      if (same1_q[l]) word[l*PixelBits+:PixelBits] = done_q[l*PixelBits+:PixelBits];
+      else if (use_recent_q[l]) word[l*PixelBits+:PixelBits] = recent_q[l*PixelBits+:PixelBits];
+    end
     next = word;
     for (int l = 0; l < LANES; l++) begin
       if (now_lanes[l]) begin
@@ -334,7 +368,7 @@ module pixel_banked #(
           now_z[l*Z_BITS+:Z_BITS],
           now_color[l*RgbBits+:RgbBits],
           now_counts[l*CountBits+:CountBits],
-          now_share
+          now_weight
         );
       end
     end

@@ -76,7 +76,7 @@ module pixel_systolic #(
   logic [N*Z_BITS-1:0] depth_d, depth_q;
   logic [N*ColorBits-1:0] color_q, color_d;
   logic [N*RgbBits-1:0] shown_d, shown_q;
-  logic [(N+1)*ShareBits-1:0] share_q;
+  logic [(N+1)*ShareBits-1:0] weight_q;
   logic [N*PixelBits-1:0] pixel_q, pixel_d;
   logic [Segments*ExitBits-1:0] joined_d, joined_q;
 
@@ -182,7 +182,7 @@ module pixel_systolic #(
         if (UNITS > 0 && kind == KindTree) {depth, color, count} = {tree_z, tree_color, tree_count};
         pixel = pixel_q[i*PixelBits+:PixelBits];
         pixel_d[i*PixelBits+:PixelBits] =
-            pixel_next(pixel, kind, depth, color, count, share_q[(i+1)*ShareBits+:ShareBits]);
+            pixel_next(pixel, kind, depth, color, count, weight_q[(i+1)*ShareBits+:ShareBits]);
         // Of the EOLs and CmdOuts in the chain only one is among its line's pixels: the OR of all exits is that one's.
         if (kind == KindEol || (HasLoads && kind == CmdOut)) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count[DsfBits-1:0]);
@@ -218,17 +218,17 @@ module pixel_systolic #(
     else valid_q <= N'({valid_q, enter});
     if (!rst_ni) hit_q <= '0;
     else hit_q <= hit;
-    kind_q  <= ((N + 1) * KindBits)'({kind_q, rst_ni ? cmd.kind : KindEol});
-    xl_q    <= (N * X_BITS)'({xl_q, rst_ni ? cmd.xl : X_BITS'(0)});
-    xr_q    <= (N * X_BITS)'({xr_q, rst_ni ? cmd.xr : X_BITS'(N)});
-    count_q <= ((N + 1) * CountBits)'({count_q, cmd.count});
-    z_q     <= (N * DepthBits)'({z_d, cmd.z});
-    dz_q    <= (N * DepthBits)'({dz_q, cmd.dz});
-    color_q <= (N * ColorBits)'({color_d, cmd.color});
-    share_q <= ((N + 1) * ShareBits)'({share_q, cmd.share});
-    depth_q <= depth_d;
-    shown_q <= shown_d;
-    pixel_q <= pixel_d;
+    kind_q   <= ((N + 1) * KindBits)'({kind_q, rst_ni ? cmd.kind : KindEol});
+    xl_q     <= (N * X_BITS)'({xl_q, rst_ni ? cmd.xl : X_BITS'(0)});
+    xr_q     <= (N * X_BITS)'({xr_q, rst_ni ? cmd.xr : X_BITS'(N)});
+    count_q  <= ((N + 1) * CountBits)'({count_q, cmd.count});
+    z_q      <= (N * DepthBits)'({z_d, cmd.z});
+    dz_q     <= (N * DepthBits)'({dz_q, cmd.dz});
+    color_q  <= (N * ColorBits)'({color_d, cmd.color});
+    weight_q <= ((N + 1) * ShareBits)'({weight_q, pixel_weight(cmd.kind, cmd.share)});
+    depth_q  <= depth_d;
+    shown_q  <= shown_d;
+    pixel_q  <= pixel_d;
   end
 
   // ---- exit --------------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@
 // What the core says is registered here first, so that counters add nothing to the core's paths. Registers, interrupt
 //   and watchdog are therefore one clock late.
 // Cost: the registers, most of them of 32 bits; an adder for each counter, and a second set of flip-flops for what the
-//   core says.
+//   core says: PARTS bits of progress_i, joined behind them, so that the parts' paths end where they are.
 // Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts
 //   it anew, a write a clock later. Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
 `default_nettype none
@@ -22,6 +22,7 @@
 module registers #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
+    parameter int PARTS = 1,
     `include "generated/kage_impl_params.svh"
 ) (
     input wire logic clk_i,
@@ -36,7 +37,7 @@ module registers #(
     input wire logic                  draining_i,
     input wire logic                  waiting_input_i,
     input wire logic                  waiting_output_i,
-    input wire logic                  progress_i,        // something moves between the ports
+    input wire logic [     PARTS-1:0] progress_i,        // which parts of the core something moves in
     input wire logic                  frame_end_i,
     input wire logic                  error_valid_i,
     input wire logic [ ErrorBits-1:0] error_i,
@@ -48,8 +49,10 @@ module registers #(
   `include "generated/kage_buses.svh"
 
   // ---- what the core says ------------------------------------------------------------------------------------------
-  logic open_q, draining_q, waiting_input_q, waiting_output_q, progress_q, frame_end_q, error_valid_q, behind_valid_q;
-  error_t  error_q;
+  logic open_q, draining_q, waiting_input_q, waiting_output_q, frame_end_q, error_valid_q, behind_valid_q;
+  logic progress;
+  logic [PARTS-1:0] progress_q;
+  error_t error_q;
   behind_t behind_q;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -66,6 +69,7 @@ module registers #(
     error_q  <= error_i;
     behind_q <= behind_i;
   end
+  assign progress = progress_q != '0;
 
   localparam logic [1:0] RespOkay = 2'b00;
   localparam logic [1:0] RespSlverr = 2'b10;
@@ -105,8 +109,10 @@ module registers #(
   // ---- registers ---------------------------------------------------------------------------------------------------
   reg_irq_t irq_set, irq_q;
   reg_control_t control_q;
-  logic [31:0] limit_q, last_idle_q, idle_q;  // last_idle_q is limit_q - 1, a clock late
-  logic limited_q, limit_new_q, bitten_q;
+  // idle_q counts clocks without progress. Comparing 32 bits takes a clock of its own: before_last_q is limit_q - 2, a
+  // clock late; at_limit_q says that idle_q was that a clock ago, so it is limit_q - 1 unless it began anew (fresh_q).
+  logic [31:0] limit_q, before_last_q, idle_q;
+  logic limited_q, limit_new_q, limit_one_q, at_limit_q, fresh_q, bitten_q, anew;
   logic [31:0] error_frame_q, error_token_q, errors_q, frames_q, cycles_q, starved_q, blocked_q;
   logic [RegErrorLineBits-1:0] error_line_q;
   logic [CodeBits-1:0] error_code_q;
@@ -117,7 +123,9 @@ module registers #(
   assign write_control = write && aw_addr_q[7:2] == RegControl[7:2];
   assign write_irq = write && aw_addr_q[7:2] == RegIrq[7:2];
   assign write_limit = write && aw_addr_q[7:2] == RegWatchdog[7:2];
-  assign bite = limited_q && open_q && !progress_q && !limit_new_q && !bitten_q && idle_q == last_idle_q;
+  assign bite = limited_q && open_q && !progress && !limit_new_q && !bitten_q &&
+      (limit_one_q || (at_limit_q && !fresh_q));
+  assign anew = write_limit || limit_new_q || progress || !open_q;
   assign unit_waited = waiting_input_q && behind_valid_q;
   always_comb begin
     irq_set.frame_end = frame_end_q;
@@ -152,7 +160,7 @@ module registers #(
       irq_q <= irq_set | (write_irq ? irq_q & ~written[RegIrqBits-1:0] : irq_q);
       limited_q <= limit_q != '0;
       limit_new_q <= write_limit;
-      if (write_limit || limit_new_q || progress_q || !open_q) begin
+      if (anew) begin
         idle_q   <= '0;
         bitten_q <= 1'b0;
       end else begin
@@ -179,7 +187,10 @@ module registers #(
       if (waiting_input_q) starved_q <= starved_q + 32'd1;
       if (waiting_output_q) blocked_q <= blocked_q + 32'd1;
     end
-    last_idle_q <= limit_q - 32'd1;
+    before_last_q <= limit_q - 32'd2;
+    limit_one_q <= limit_q == 32'd1;
+    at_limit_q <= idle_q == before_last_q;
+    fresh_q <= anew || !rst_ni;
   end
 
   // ---- read channel ------------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@
 //                   line_phase volumes
 //   range_error_o   FACE or SEG of a unit that the core lacks, FACE out of turn
 //   seg_pass_o      SEG: it goes to its unit; otherwise it is swallowed: its unit is or becomes at fault
+//   completes_o     SEG: it ends its unit's line, if it goes there
 //   tree_error_o    TREE: a unit is at fault for this line; tree_code_o, tree_unit_o and tree_token_o say how
 // State: tree_o, the frame has a tree; due_o, the line's TREE has not been taken yet, so only SEG and TREE may come.
 //   behind_o, some unit has been given more than another: behind_unit_o is the lowest of those that have fewest lines
@@ -53,6 +54,7 @@ module segment_check #(
     output logic order_error_o,
     output logic range_error_o,
     output logic seg_pass_o,
+    output logic completes_o,
 
     output logic                tree_error_o,
     output logic [CodeBits-1:0] tree_code_o,
@@ -119,12 +121,13 @@ module segment_check #(
   logic [X_BITS-1:0] rest_next;
   logic completes, too_long, too_early, seg_fault;
   logic [CodeBits-1:0] seg_code;
-  assign rest_next  = rest - X_BITS'(dx_i);
-  assign completes  = RestBits'(rest) == RestBits'(dx_i);
-  assign too_long   = RestBits'(rest) < RestBits'(dx_i);
-  assign too_early  = ahead == 2'd2;
+  assign rest_next = rest - X_BITS'(dx_i);
+  assign completes = RestBits'(rest) == RestBits'(dx_i);
+  assign completes_o = completes;
+  assign too_long = RestBits'(rest) < RestBits'(dx_i);
+  assign too_early = ahead == 2'd2;
   assign seg_pass_o = is_seg_i && !fault && seg_code == ErrNone;
-  assign seg_fault  = is_seg_i && !fault && seg_code != ErrNone;
+  assign seg_fault = is_seg_i && !fault && seg_code != ErrNone;
   always_comb begin
     if (too_early) seg_code = ErrUnitLong;
     else if (sync_i == begun || dx_i == '0 || (face_i != BlankFace && face_i >= faces)) seg_code = ErrSegment;
@@ -215,6 +218,20 @@ module segment_check #(
   logic later;  // the segment is of the next line, not of this one
   assign later = ahead != 2'd0;
 
+  // A segment at fault is kept a clock after it was taken, since finding its fault takes a clock. A TREE may be there by
+  // then, a line's end may not.
+  logic new_q, new_later_q;
+  logic [CodeBits-1:0] new_code_q;
+  logic [UnitBits-1:0] new_unit_q;
+  logic [31:0] new_token_q;
+  always_ff @(posedge clk_i) begin
+    new_q <= rst_ni && take_i && !frame_start_i && seg_fault;
+    new_later_q <= later;
+    new_code_q <= seg_code;
+    new_unit_q <= unit;
+    new_token_q <= token_i;
+  end
+
   always_ff @(posedge clk_i) begin
     if (frame_start_i) begin
       kept_q <= '0;
@@ -223,13 +240,13 @@ module segment_check #(
       kept_code_q[0+:CodeBits] <= kept_code_q[CodeBits+:CodeBits];
       kept_unit_q[0+:UnitBits] <= kept_unit_q[UnitBits+:UnitBits];
       kept_token_q[31:0] <= kept_token_q[63:32];
-    end else if (take_i && seg_fault) begin
+    end else if (new_q) begin
       for (int i = 0; i < 2; i++) begin
-        if (later == 1'(i) && !kept_q[i]) begin
+        if (new_later_q == 1'(i) && !kept_q[i]) begin
           kept_q[i] <= 1'b1;
-          kept_code_q[i*CodeBits+:CodeBits] <= seg_code;
-          kept_unit_q[i*UnitBits+:UnitBits] <= unit;
-          kept_token_q[i*32+:32] <= token_i;
+          kept_code_q[i*CodeBits+:CodeBits] <= new_code_q;
+          kept_unit_q[i*UnitBits+:UnitBits] <= new_unit_q;
+          kept_token_q[i*32+:32] <= new_token_q;
         end
       end
     end
@@ -237,13 +254,15 @@ module segment_check #(
 
   // ---- at TREE -----------------------------------------------------------------------------------------------------
   logic short_any;  // the unit with least has not this line
+  logic new_fault;  // the token before is a segment of this line, at fault
+  assign new_fault = new_q && !new_later_q;
   always_comb begin
     short_any = 1'b0;
     for (int u = 0; u < UNITS; u++) if (ahead_q[u*2+:2] == 2'd0) short_any = 1'b1;
-    tree_error_o = is_tree_i && (kept_q[0] || short_any);
-    tree_code_o  = kept_q[0] ? kept_code_q[0+:CodeBits] : ErrUnitShort;
-    tree_unit_o  = kept_q[0] ? kept_unit_q[0+:UnitBits] : least_unit;
-    tree_token_o = kept_q[0] ? kept_token_q[31:0] : token_i;
+    tree_error_o = is_tree_i && (kept_q[0] || new_fault || short_any);
+    tree_code_o  = kept_q[0] ? kept_code_q[0+:CodeBits] : new_fault ? new_code_q : ErrUnitShort;
+    tree_unit_o  = kept_q[0] ? kept_unit_q[0+:UnitBits] : new_fault ? new_unit_q : least_unit;
+    tree_token_o = kept_q[0] ? kept_token_q[31:0] : new_fault ? new_token_q : token_i;
   end
 
   // ---- assertions --------------------------------------------------------------------------------------------------
@@ -253,7 +272,7 @@ module segment_check #(
       // 1. One token at a time.
       assert ($onehot0({is_shade_i, is_face_i, is_seg_i, is_tree_i, is_eol_i, is_other_i}));
       // 2. A line that ends under a tree has had its TREE, so every unit had it complete and no fault of it is left.
-      assert (!take_i || !is_eol_i || order_error_o || !tree_q || !(short_any || kept_q[0]));
+      assert (!take_i || !is_eol_i || order_error_o || !tree_q || !(short_any || kept_q[0] || new_q));
       // 3. A faulty segment is of this line or the next.
       assert (!take_i || !seg_fault || order_error_o || range_error_o || lines_left_i > LineNumberBits'(later));
     end

@@ -7,7 +7,7 @@
 //   index_i, its number in the frame.
 // Answer, combinational, not of a header: good_o; code_o, ErrNone if it is good; raised_o: a TREE raises the fault of a
 //   unit, and fault_*_o are the unit and the token that are to blame. seg_goes_o: it is good, and a SEG that its unit
-//   takes; a good SEG without it is swallowed.
+//   takes; a good SEG without it is swallowed. completes_o: it ends its unit's line.
 // Acts: take_i, one clock, the token comes in. After one that is not good nothing but a header counts.
 // State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token. behind_*_o: as segment_check
 //   has it, of units; without units 0.
@@ -45,6 +45,7 @@ module token_check #(
     output logic [UnitNumberBits-1:0] fault_unit_o,
     output logic [              31:0] fault_token_o,
     output logic                      seg_goes_o,
+    output logic                      completes_o,
 
     output logic [       DsfBits-1:0] bias_o,
     output logic                      resolved_o,
@@ -147,12 +148,13 @@ module token_check #(
 
   // ---- units and tree ----------------------------------------------------------------------------------------------
   if (UNITS > 0) begin : gen_tree
-    logic is_face, is_seg, is_tree, seg_pass;
+    logic is_face, is_seg, is_tree, seg_pass, completes;
     logic [UnitBits-1:0] tree_unit, unit_of_behind;
     assign is_face = kind == KindFace;
     assign is_seg = kind == KindSeg;
     assign is_tree = kind == KindTree;
     assign seg_goes_o = seg_pass && good;
+    assign completes_o = completes;
     assign raised_o = tree_error && code_o == tree_code;
     assign fault_unit_o = UnitNumberBits'(tree_unit);
     assign behind_unit_o = UnitNumberBits'(unit_of_behind);
@@ -185,6 +187,7 @@ module token_check #(
         .order_error_o(tree_order_error),
         .range_error_o(tree_range_error),
         .seg_pass_o   (seg_pass),
+        .completes_o  (completes),
         .tree_error_o (tree_error),
         .tree_code_o  (tree_code),
         .tree_unit_o  (tree_unit),
@@ -201,7 +204,8 @@ module token_check #(
     logic unused_tree;
     assign unused_tree = (^lines_left_i) ^ (^index_i) ^ rst_ni;
     assign {tree_order_error, tree_range_error, tree_error, tree_code, shade_seen_q} = '0;
-    assign {seg_goes_o, raised_o, fault_unit_o, fault_token_o, behind_o, behind_unit_o, behind_ahead_o} = '0;
+    assign {seg_goes_o, completes_o, raised_o, fault_unit_o, fault_token_o} = '0;
+    assign {behind_o, behind_unit_o, behind_ahead_o} = '0;
   end
 
   // ---- assertions --------------------------------------------------------------------------------------------------

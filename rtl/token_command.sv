@@ -2,13 +2,14 @@
 // The command that frame_control gives the pixels, made of the token at hand, and the buffer that holds it until they
 // take it.
 //
-// Handshake: free_o says that a command may be made, and depends on registers only: in a clock in which it is high, at
-//   most one of make_*_i may be, and that command is in cmd_* from the next clock on, which is valid/ready. Token,
-//   width, share, bias and background are those of that clock.
-// Commands: make_span_i, of the token, which has a range; make_tree_i, make_eol_i, make_paint_i and make_out_i, over
-//   the whole line: TREE, EOL, RESOLVE with the background as its colour, and CmdOut.
+// Handshake: free_o says that a command may be made, and depends on registers only: in a clock in which it is high,
+//   make_i may be, and the command is in cmd_* from the next clock on, which is valid/ready. Token, width, share, bias
+//   and background are those of that clock.
+// Commands: of the token, which has a range; or, by the first of eol_i, paint_i, out_i and tree_i that is high, over the
+//   whole line: EOL, RESOLVE with the background as its colour, CmdOut, TREE. These say what it would be, whether or not
+//   it is made, so that the many bits of a command do not wait for make_i.
 // Latency: 1 clock. Throughput: a command a clock.
-// Cost: a skid_buffer of a command, the choice among the places of fields.
+// Cost: a stream_fifo of two commands, the choice among the places of fields.
 `default_nettype none
 
 module token_command #(
@@ -26,11 +27,11 @@ module token_command #(
     input wire logic [       RgbBits-1:0] background_i,
 
     output logic      free_o,
-    input  wire logic make_span_i,
-    input  wire logic make_tree_i,
-    input  wire logic make_eol_i,
-    input  wire logic make_paint_i,
-    input  wire logic make_out_i,
+    input  wire logic make_i,
+    input  wire logic eol_i,
+    input  wire logic paint_i,
+    input  wire logic out_i,
+    input  wire logic tree_i,
 
     output logic                        cmd_valid_o,
     input  wire logic                   cmd_ready_i,
@@ -44,7 +45,7 @@ module token_command #(
   assign unused_token = ^token_i;  // a header, and other tokens, may be longer
   assign kind = token_i[KindBits-1:0];
   assign is_tp = TRANSLUCENCY > 0 && kind == KindTp;
-  assign whole = make_eol_i || make_tree_i || make_paint_i || make_out_i;
+  assign whole = eol_i || paint_i || out_i || tree_i;
 
   // The background's colour as a span has it.
   logic [ColorBits-1:0] background;
@@ -78,20 +79,20 @@ module token_command #(
       default: count = CountBits'(token_i[WeightLsb+:DsfBits]);
     endcase
     if (kind == KindEs && FSF == 0) count[DsfBits-1:0] = bias_i;
-    if (make_eol_i || make_paint_i) count = CountBits'(bias_i);
+    if (eol_i || paint_i) count = CountBits'(bias_i);
     if (DSF_BITS == 0) count = '0;
   end
 
   command_t cmd;
   always_comb begin
-    cmd.kind = make_eol_i ? KindEol : make_paint_i ? KindResolve : make_out_i ? CmdOut : kind;
+    cmd.kind = eol_i ? KindEol : paint_i ? KindResolve : out_i ? CmdOut : kind;
     cmd.xl = whole ? '0 : token_i[RangeXlLsb+:X_BITS];
     cmd.xr = whole ? width_i : token_i[RangeXrLsb+:X_BITS];
     cmd.z = token_i[OpZLsb+:DepthBits];
     cmd.dz = token_i[OpDzLsb+:DepthBits];
     cmd.color = token_i[OpColorLsb+:ColorBits];
     cmd.dcolor = SMOOTH > 0 ? token_i[OpDcolorLsb+:SlopeBits] : '0;
-    cmd.share = is_tp && !make_paint_i ? tp_share : share_i;
+    cmd.share = is_tp && !paint_i ? tp_share : share_i;
     cmd.count = count;
     if (DSF_BITS > 0 && kind == KindSp) begin
       cmd.z  = token_i[SpZLsb+:DepthBits];
@@ -103,19 +104,21 @@ module token_command #(
       cmd.color = tp_color;
       cmd.dcolor = tp_dcolor;
     end
-    if (make_paint_i) begin
+    if (paint_i) begin
       cmd.color  = background;
       cmd.dcolor = '0;
     end
   end
 
-  // So free_o, and with it what takes tokens, does not depend on what the pixels take in this clock.
-  skid_buffer #(
-      .BITS(CommandBits)
+  // So free_o, and with it what takes tokens, does not depend on what the pixels take in this clock; and what they take
+  // moves two pointers, not the bits of a command.
+  stream_fifo #(
+      .BITS (CommandBits),
+      .DEPTH(2)
   ) u_buffer (
       .clk_i,
       .rst_ni,
-      .in_valid_i (make_span_i || whole),
+      .in_valid_i (make_i),
       .in_ready_o (free_o),
       .in_data_i  (cmd),
       .out_valid_o(cmd_valid_o),

@@ -60,38 +60,57 @@ module token_reader #(
 
   // ---- beats that came ---------------------------------------------------------------------------------------------
   logic [BeatBits-1:0] mem[Depth];
-  logic [KindBits*BEAT_WORDS-1:0] kinds[Depth];  // each word's lowest bits, for a second address
+  // What each word says if a token begins with it, for a second address: {last of its frame, lacking, words behind it}.
+  // Words behind it, not words, because what was never written must not look like a token of none.
+  localparam int WordsBits = $clog2(TOKEN_WORDS);
+  localparam int SaidBits = 2 + WordsBits;
+  logic [SaidBits*BEAT_WORDS-1:0] said[Depth];
+  logic [SaidBits*BEAT_WORDS-1:0] said_in;
   logic [BeatAtBits-1:0] end_beat_q;  // behind the newest
   logic last_q;  // the newest had TLAST
+  logic full_q;  // beats_held is Depth
   logic dropping_q, flushed_q;
 
   logic [AtBits-1:0] front_at_q;  // the front's first word, below; no word before it is needed any more
   logic [BeatAtBits-1:0] front_beat, beats_held, next_end_beat;
+  logic full_here, full_behind;  // in the next clock, if the front stays, and if what is behind it becomes the front
   logic push;
   assign front_beat = BeatAtBits'(front_at_q >> OffBits);
   assign beats_held = end_beat_q - front_beat;
-  assign s_axis_tready_o = rst_ni && beats_held != BeatAtBits'(Depth) && !last_q;
+  assign s_axis_tready_o = rst_ni && !full_q && !last_q;
   assign push = s_axis_tvalid_i && s_axis_tready_o;
   assign next_end_beat = end_beat_q + BeatAtBits'(push);
+  assign full_here = next_end_beat - front_beat == BeatAtBits'(Depth);
+  assign full_behind = next_end_beat - BeatAtBits'(next_at_q >> OffBits) == BeatAtBits'(Depth);
+  for (genvar w = 0; w < BEAT_WORDS; w++) begin : gen_said
+    logic [KindBits-1:0] kind;
+    logic [4:0] words;
+    logic [WordsBits-1:0] behind;  // yosys 0.23 takes no ?: with a cast in a concatenation
+    assign kind = s_axis_tdata_i[32*w+:KindBits];
+    assign words = token_words(kind);
+    assign behind = words == 5'd0 ? WordsBits'(0) : WordsBits'(words - 5'd1);
+    assign said_in[SaidBits*w+:SaidBits] = {kind == KindEnd, words == 5'd0, behind};
+  end
 
   // ---- looking ahead: where the token behind the front begins, of what kind it is, and where it ends ---------------
-  // So the kind's length, found by an address, is not in one path with what taking a token depends on.
-  logic [AtBits-1:0] next_at_q, next_end_at, words_ahead;
+  // So the token's length, found by an address, is not in one path with what taking a token depends on.
+  logic [AtBits-1:0] next_at_q, next_rest, next_end_at, words_ahead;
   logic header_q;  // the next one is the frame's header
   logic next_there, look;
-  logic [KindBits*BEAT_WORDS-1:0] next_kinds;
-  logic [KindBits-1:0] next_kind;
-  logic [4:0] next_words;
+  logic [SaidBits*BEAT_WORDS-1:0] next_said;
+  logic next_is_end, next_lacking;
+  logic [WordsBits-1:0] body_behind, next_behind;
   assign words_ahead = (AtBits'(end_beat_q) << OffBits) - next_at_q;
   assign next_there  = !words_ahead[AtBits-1] && words_ahead != '0;
-  assign next_kinds  = kinds[AddrBits'(next_at_q>>OffBits)];
-  if (BEAT_WORDS > 1) begin : gen_next_kind
-    assign next_kind = next_kinds[KindBits*next_at_q[OffBits-1:0]+:KindBits];
-  end else begin : gen_next_kind
-    assign next_kind = next_kinds;
+  assign next_said   = said[AddrBits'(next_at_q>>OffBits)];
+  if (BEAT_WORDS > 1) begin : gen_next_said
+    assign {next_is_end, next_lacking, body_behind} = next_said[SaidBits*next_at_q[OffBits-1:0]+:SaidBits];
+  end else begin : gen_next_said
+    assign {next_is_end, next_lacking, body_behind} = next_said;
   end
-  assign next_words  = header_q ? 5'(HeaderWords) : token_words(next_kind) == 5'd0 ? 5'd1 : token_words(next_kind);
-  assign next_end_at = next_at_q + AtBits'(next_words);
+  assign next_behind = header_q ? WordsBits'(HeaderWords - 1) : body_behind;
+  assign next_rest   = AtBits'(next_behind);
+  assign next_end_at = next_at_q - ~next_rest;  // next_at_q + next_rest + 1, in one carry chain
 
   // ---- the token at the front --------------------------------------------------------------------------------------
   logic front_valid_q, front_header_q, front_lacking_q, front_is_end_q;
@@ -134,7 +153,8 @@ module token_reader #(
   assign moving_o = take || look || (dropping_q && (last_q || !flushed_q));
 
   always_ff @(posedge clk_i) begin
-    if (take) begin
+    // Taken or not: token_valid_q says whether it counts, so that a token's many bits wait for less.
+    if (out_free) begin
       token_q <= front;
       flags_q.header <= front_header_q;
       flags_q.lacking <= front_lacking_q && !cut;
@@ -148,15 +168,15 @@ module token_reader #(
 
   // ---- state -------------------------------------------------------------------------------------------------------
   always_ff @(posedge clk_i) begin
-    if (push) begin
-      mem[AddrBits'(end_beat_q)] <= s_axis_tdata_i;
-      for (int w = 0; w < BEAT_WORDS; w++)
-      kinds[AddrBits'(end_beat_q)][KindBits*w+:KindBits] <= s_axis_tdata_i[32*w+:KindBits];
+    // A free place is written whether or not a beat comes: so many bits need not wait for it.
+    if (!full_q) begin
+      mem[AddrBits'(end_beat_q)]  <= s_axis_tdata_i;
+      said[AddrBits'(end_beat_q)] <= said_in;
     end
     if (look) begin
       front_header_q  <= header_q;
-      front_lacking_q <= !header_q && token_words(next_kind) == 5'd0;
-      front_is_end_q  <= !header_q && next_kind == KindEnd;
+      front_lacking_q <= !header_q && next_lacking;
+      front_is_end_q  <= !header_q && next_is_end;
       front_end_at_q  <= next_end_at;
     end
     if (!rst_ni) begin
@@ -168,9 +188,11 @@ module token_reader #(
       header_q <= 1'b1;
       dropping_q <= 1'b0;
       flushed_q <= 1'b0;
+      full_q <= 1'b0;
     end else begin
+      full_q <= !dropping_q && (look ? full_behind : full_here);
       end_beat_q <= next_end_beat;
-      flushed_q  <= dropping_q;
+      flushed_q <= dropping_q;
       if (dropping_q) begin
         // What is held goes; the next frame begins with a beat.
         next_at_q <= AtBits'(next_end_beat) << OffBits;
@@ -202,6 +224,7 @@ module token_reader #(
       assert (!drop_i || (token_valid_q && token_ready_i && !flags_q.ends));
       // 2. What is held fits. (Behind a cut token the front may lie past what came.)
       assert (dropping_q || beats_held <= BeatAtBits'(Depth));
+      assert (full_q == (beats_held == BeatAtBits'(Depth)));
       // 3. What is dropped is of a frame whose header has been taken: busy_o need not ask for dropping_q.
       assert (!dropping_q || !header_q);
     end

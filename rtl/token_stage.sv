@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // The stage in front of frame_control: a token is judged by token_facts and token_check in the clock in which it comes
-// in, and stands in a register with its verdict until frame_control is done with it. So what a token may do is known
-// from flip-flops.
+// in, and stands in a queue with its verdict until frame_control is done with it. So what a token may do is known from
+// flip-flops.
 //
-// Handshake: token_* is valid/ready, token_ready_o depends on registers and on held_ready_i, not on token_valid_i.
-//   held_* is valid/ready, token and verdict stable while it waits; held_ready_i may depend on them.
+// Handshake: token_* is valid/ready, token_ready_o depends on registers only. held_* is valid/ready, token and verdict
+//   stable while it waits; held_ready_i may depend on them.
 // State: width, lines, index, phases, the table's and the units' state advance with each token that comes in, good or
 //   not. So after a token at fault they are wrong, and nobody asks: no token comes in behind it but a header, which
 //   sets all of them anew.
-// Errors: a token at fault lets none in behind it. If it does not end its frame, another token of the frame follows:
-//   that one is taken and forgotten, and drop_o, in this clock, has the reader drop what is behind it, unless it ends
-//   the frame itself. dropping_o: that token has yet to come.
-// Fault: fault_unit_o and fault_token_o are of the token held, while it is at fault: whom a TREE blames; otherwise unit
-//   0 and the token's own index.
+// Errors: a token at fault lets none in behind it until frame_control has taken it. If it does not end its frame,
+//   another token of the frame follows: that one is taken and forgotten, and drop_o, in this clock, has the reader drop
+//   what is behind it, unless it ends the frame itself. dropping_o: that token has yet to come.
+// Fault: fault_unit_o and fault_token_o count while the token held is at fault: whom a TREE blames; otherwise unit 0
+//   and the token's own index.
 // Units: unit_behind_o, 1 clock late: a unit has been given more than another by the tokens that came in; behind_o
 //   names the unit that has least, and its line.
-// Latency: 1 clock. Throughput: a token a clock.
-// Cost: a register of a token and its verdict; counters of 15, 15 and 32 bits, with units 39 flip-flops; token_facts
-//   and token_check.
+// Capacity: two tokens. Latency: 1 clock. Throughput: a token a clock.
+// Cost: a stream_fifo of two tokens, a skid_buffer of their verdicts; counters of 15, 15 and 32 bits, with units 39 flip-flops;
+//   token_facts and token_check.
 `default_nettype none
 
 module token_stage #(
@@ -49,38 +49,61 @@ module token_stage #(
 );
   `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
+  `include "generated/kage_order.svh"
 
 flags_t flags;
   assign flags = token_flags_i;
 
-  // ---- the register ------------------------------------------------------------------------------------------------
-  logic valid_q, ends_q, drop_q, free, take;
-  logic [TOKEN_WORDS*32-1:0] token_q;
-  verdict_t verdict, verdict_q;
-  assign free = !valid_q || (verdict_q.good && held_ready_i);
-  assign take = token_valid_i && free && !drop_q;
-  assign token_ready_o = free;
+  // ---- the queue ---------------------------------------------------------------------------------------------------
+  // At most two tokens. One at fault is the newest, since none comes in behind it.
+  logic queue_ready, take, held_bad, bad_q, ends_q, drop_q;
+  logic token_room, token_there;
+  verdict_t verdict, held_verdict;
+  assign verdict_o = held_verdict;
+  assign held_bad = held_valid_o && !held_verdict.good;
+  assign token_ready_o = queue_ready && !bad_q;
+  assign take = token_valid_i && token_ready_o && !drop_q;
   assign drop_o = drop_q && token_valid_i && !flags.ends;
   assign dropping_o = drop_q;
-  assign held_valid_o = valid_q;
-  assign held_o = token_q;
-  assign verdict_o = verdict_q;
+  // The verdict comes from flip-flops. A token's many bits come through a multiplexer, so that held_ready_i moves a
+  // pointer and not all of them. Both buffers hold as many at any time.
+  skid_buffer #(
+      .BITS(VerdictBits)
+  ) u_verdict (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (take),
+      .in_ready_o (queue_ready),
+      .in_data_i  (verdict),
+      .out_valid_o(held_valid_o),
+      .out_ready_i(held_ready_i),
+      .out_data_o (held_verdict)
+  );
+  stream_fifo #(
+      .BITS (TOKEN_WORDS * 32),
+      .DEPTH(2)
+  ) u_token (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (take),
+      .in_ready_o (token_room),
+      .in_data_i  (token_i),
+      .out_valid_o(token_there),
+      .out_ready_i(held_ready_i),
+      .out_data_o (held_o)
+  );
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      valid_q <= 1'b0;
-      drop_q  <= 1'b0;
+      bad_q  <= 1'b0;
+      drop_q <= 1'b0;
     end else begin
-      if (free) valid_q <= take;
-      else if (held_ready_i) valid_q <= 1'b0;
-      if (valid_q && !verdict_q.good && held_ready_i) drop_q <= !ends_q;
+      if (take) bad_q <= !verdict.good;
+      else if (held_bad && held_ready_i) bad_q <= 1'b0;
+      if (held_bad && held_ready_i) drop_q <= !ends_q;
       else if (token_valid_i) drop_q <= 1'b0;
     end
-    if (free) begin
-      token_q <= token_i;
-      verdict_q <= verdict;
-      ends_q <= flags.ends;
-    end
+    if (take) ends_q <= flags.ends;
   end
 
   // ---- the frame, as the token finds it that comes in --------------------------------------------------------------
@@ -88,27 +111,24 @@ flags_t flags;
   logic [LineNumberBits-1:0] line_q, left_q;  // lines that have ended, and those that have not
   logic lines_done_q;  // left_q is 0
   logic first_q;  // the header was the last token
-  logic [31:0] index_q, index;  // the token held, and the one that comes in
+  logic [31:0] index_q, index;  // of the newest token, and of the one that comes in
   assign index = index_q + 32'd1;
 
+  // A header's words are taken whenever token_reader has one, even if it has not come whole, because nothing of the frame
+  // before is judged any more. So these flip-flops wait for no handshake.
   always_ff @(posedge clk_i) begin
-    if (take) begin
-      first_q <= flags.header;
-      if (flags.header) begin
-        width_q <= token_i[HeaderWidthLsb+:X_BITS];
-        line_q <= '0;
-        left_q <= token_i[HeaderHeightLsb+:LineNumberBits];
-        lines_done_q <= 1'b0;
-        index_q <= '0;
-      end else begin
-        index_q <= index;
-        if (token_i[KindBits-1:0] == KindEol) begin
-          line_q <= line_q + 1'b1;
-          left_q <= left_q - 1'b1;
-          lines_done_q <= left_q == LineNumberBits'(1);
-        end
-      end
+    if (take) first_q <= flags.header;
+    if (flags.header) begin
+      width_q <= token_i[HeaderWidthLsb+:X_BITS];
+      line_q <= '0;
+      left_q <= token_i[HeaderHeightLsb+:LineNumberBits];
+      lines_done_q <= 1'b0;
+    end else if (take && verdict.eol) begin
+      line_q <= line_q + 1'b1;
+      left_q <= left_q - 1'b1;
+      lines_done_q <= left_q == LineNumberBits'(1);
     end
+    if (take) index_q <= flags.header ? '0 : index;
   end
 
   // ---- the verdict -------------------------------------------------------------------------------------------------
@@ -122,7 +142,7 @@ flags_t flags;
       .facts_o(facts)
   );
 
-  logic body_good, seg_goes, resolved, raised;
+  logic body_good, seg_goes, completes, resolved, raised;
   logic [CodeBits-1:0] body_code, head_code;
   logic [DsfBits-1:0] bias;
   logic [UnitNumberBits-1:0] unit_to_blame, unit_of_behind;
@@ -154,6 +174,7 @@ flags_t flags;
       .fault_unit_o   (unit_to_blame),
       .fault_token_o  (token_to_blame),
       .seg_goes_o     (seg_goes),
+      .completes_o    (completes),
       .bias_o         (bias),
       .resolved_o     (resolved),
       .behind_o       (unit_behind_o),
@@ -161,14 +182,27 @@ flags_t flags;
       .behind_ahead_o (ahead_of_behind)
   );
 
+  // What the token is, so that frame_control finds no kind in the clock in which it acts on it.
+  logic [KindBits-1:0] kind;
+  logic body;
+  assign kind = token_i[KindBits-1:0];
+  assign body = !flags.header;
   assign head_code = flags.cut ? ErrLastEarly : facts.head_error;
   always_comb begin
     verdict.header = flags.header;
     verdict.cut = flags.cut;
-    verdict.empty = facts.empty;
+    verdict.eol = body && kind == KindEol;
+    verdict.end_token = body && kind == KindEnd;
+    verdict.span = body && kind_has_range(kind) && !facts.empty;
+    verdict.tp = body && TRANSLUCENCY > 0 && kind == KindTp;
+    verdict.entry = body && HasTable && kind == KindTable;
+    verdict.tree = body && UNITS > 0 && kind == KindTree;
+    verdict.face = body && UNITS > 0 && kind == KindFace;
+    verdict.seg = body && UNITS > 0 && kind == KindSeg;
     verdict.good = flags.header ? !flags.cut && facts.head_error == ErrNone : body_good;
     verdict.code = flags.header ? head_code : body_code;
     verdict.seg_goes = !flags.header && seg_goes;
+    verdict.completes = completes;
     verdict.resolved = resolved;
     verdict.bias = bias;
   end
@@ -180,7 +214,7 @@ flags_t flags;
   assign fault_unit_o  = raised_q ? fault_unit_q : '0;
   assign fault_token_o = raised_q ? fault_token_q : index_q;
   always_ff @(posedge clk_i) begin
-    if (free) begin
+    if (take) begin
       raised_q <= !flags.header && raised;
       fault_unit_q <= unit_to_blame;
       fault_token_q <= token_to_blame;
@@ -203,7 +237,9 @@ flags_t flags;
       assert (!take || !wrong_q || flags.header);
       // 2. A token to be dropped is of the frame of the one at fault.
       assert (!drop_q || !token_valid_i || !flags.header);
-      assert (!drop_q || !valid_q);
+      assert (!drop_q || !held_valid_o);
+      // 4. Token and verdict are of each other.
+      assert (queue_ready == token_room && held_valid_o == token_there);
       // 3. Of lines that are left.
       assert (!take || flags.header || wrong_q || lines_done_q == (left_q == '0));
     end

@@ -10,29 +10,34 @@ localparam int TallyOne = COUNT_BITS > 0 ? COUNT_BITS : 1;  // one counter
 localparam logic [PixelBits-1:0] PixelClear = PixelBits'(ClearDepth);
 /* verilator lint_on UNUSEDPARAM */
 
-// All sums are taken modulo 2^BlendBits and come out right.
+// The share of a command as pixel_blend takes it: TP's alpha; of RESOLVE what is left of a colour, 1 - shade. It is
+// worked out long before its use, because pixel_blend is the slowest part of the pixels' loop.
+function automatic logic [ShareBits-1:0] pixel_weight(input logic [KindBits-1:0] kind,
+                                                      input logic [ShareBits-1:0] share);
+  pixel_weight = COUNT_BITS == 0 && kind == KindResolve ? ShareBits'(WholeShare) - share : share;
+endfunction
+
 localparam int BlendBits = SHADE_FRAC > 8 ? SHADE_FRAC + 8 : 16;
 // A colour with a share of another: of TP `over` with alpha / 255, of RESOLVE (resolve = 1) black with shade /
-// 2^SHADE_FRAC; rounded once. There is one product a channel: share x (over - under), or share x under.
+// 2^SHADE_FRAC; rounded once. Only the product with `under` waits for the command before; the one with `over` is a
+// multiplier of its own so that it need not.
 function automatic logic [RgbBits-1:0] pixel_blend(input logic [RgbBits-1:0] under, input logic [RgbBits-1:0] over,
-                                                   input logic [ShareBits-1:0] share, input logic resolve);
-  logic signed [8:0] factor;
-  logic [BlendBits-1:0] product;
-  logic [15:0] mixed;
+                                                   input logic [ShareBits-1:0] weight, input logic resolve);
+  logic [7:0] alpha;
+  logic [ShareBits-1:0] keep;
+  logic [BlendBits-1:0] added, sum;
   begin
-    {factor, product, mixed} = '0;
+    {added, sum} = '0;
+    alpha = 8'(weight);
+    keep = resolve ? weight : ShareBits'({1'b0, 8'd255 - alpha});
     for (int c = 0; c < CHANNELS; c++) begin
-      factor = resolve ? 9'({1'b0, under[c*8+:8]}) : 9'({1'b0, over[c*8+:8]}) - 9'({1'b0, under[c*8+:8]});
-      product = BlendBits'(factor) * BlendBits'({1'b0, share});
-      // 255 under + product + 128 lies in 128 .. 65153. Its own 1/256 added, a division by 256 is one by 255, rounded.
-      mixed = {under[c*8+:8], 8'd128} - 16'(under[c*8+:8]) + 16'(product);
-      mixed = mixed + (mixed >> 8);
-      if (resolve) begin
-        product = (BlendBits'(under[c*8+:8]) << SHADE_FRAC) + BlendBits'(HalfShare) - product;
-        pixel_blend[c*8+:8] = 8'(product >> SHADE_FRAC);
-      end else begin
-        pixel_blend[c*8+:8] = mixed[15:8];
-      end
+      added = BlendBits'(over[c*8+:8]) * BlendBits'(alpha) + BlendBits'(128);
+      if (resolve) added = BlendBits'(HalfShare);
+      // At most 255 x 255 + 128 or (255 x 2^SHADE_FRAC) + 2^(SHADE_FRAC - 1): it fits.
+      sum = BlendBits'(under[c*8+:8]) * BlendBits'(keep) + added;
+      // Its own 1/256 added, a division by 256 is one by 255, rounded.
+      if (resolve) pixel_blend[c*8+:8] = 8'(sum >> SHADE_FRAC);
+      else pixel_blend[c*8+:8] = 8'((sum + (sum >> 8)) >> 8);
     end
   end
 endfunction
@@ -45,13 +50,13 @@ endfunction
 
 // Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel, or the tree's, of
 // RESOLVE the background; `count` is the class for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE,
-// {light, bias} for ES; `share` is TP's alpha and RESOLVE's shade. RESOLVE reaches the pixels only where TPs follow;
+// {light, bias} for ES; `weight` is pixel_weight's, of TP and RESOLVE. RESOLVE reaches the pixels only where TPs follow;
 // otherwise line_out darkens. With counters RESOLVE darkens nothing: where there is something to darken CmdOut sends
 // the line to line_out and CmdLoad brings its colours back. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [KindBits-1:0] kind,
                                                     input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
                                                     input logic [CountBits-1:0] count,
-                                                    input logic [ShareBits-1:0] share);
+                                                    input logic [ShareBits-1:0] weight);
   logic in_front, clear, dark, shadow;
   logic [DsfBits-1:0] sum;
   logic [  RgbBits-1:0] blended;
@@ -63,7 +68,7 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
     dark = COUNT_BITS == 0 && shadow && pixel[PixelClassAt];
     blended = '0;
     if (TRANSLUCENCY > 0) begin
-      blended = pixel_blend(pixel[PixelColorAt+:RgbBits], color, share, COUNT_BITS == 0 && kind == KindResolve);
+      blended = pixel_blend(pixel[PixelColorAt+:RgbBits], color, weight, COUNT_BITS == 0 && kind == KindResolve);
     end
     pixel_next = pixel;
     // TREE does what OP does.

@@ -19,8 +19,8 @@ namespace {
 using namespace kage;
 
 constexpr int kBetweenLines = 4;  // from a buffered line's last pixel into the core to the next line's first
-constexpr int kBankedFrame = 29;  // header, pipelines, way out
-constexpr int kSystolicFrame = 27;
+constexpr int kBankedFrame = 30;  // header, pipelines, way out
+constexpr int kSystolicFrame = 28;
 
 /// A frame of `lines` lines, each `segments` segments of every unit and a TREE, a line ahead as a front end writes
 /// them.
@@ -63,6 +63,7 @@ bool core(const char* name, Config c, int units, int width) {
   const int seg_words = Layout(c).words[static_cast<std::size_t>(Kind::SEG)];
   int levels = 0;
   while (1 << levels < units) ++levels;
+  const int buffers = levels > 0 ? (levels - 1) / 2 : 0;  // of the tree
   bool good = true;
   const auto row = [&](const std::string& what, int words, int feeder, double taken, int least, int most) {
     const bool right = taken >= least && taken <= most;
@@ -85,7 +86,7 @@ bool core(const char* name, Config c, int units, int width) {
   // A line alone, from header to last pixel. Banked, the tree makes it, then it leaves; systolic, it leaves at once.
   for (const int pixels : {1, width / 2, width}) {
     const int made = banked ? 2 * pixels + (pixels + c.lanes - 1) / c.lanes + kBankedFrame : pixels + kSystolicFrame;
-    const int stated = 2 * units + levels + made;
+    const int stated = 2 * units + levels + buffers + made;
     row(fmt::format("frame of {:>3} pixels", pixels), units * seg_words, 2 * units,
         static_cast<double>(clocks(pixels, 1, 1)), stated, stated);
   }

@@ -23,10 +23,18 @@ typedef struct packed {
 typedef struct packed {
   logic header;  // as in its flags
   logic cut;  // as in its flags
-  logic empty;  // as in its facts
   logic good;  // there is nothing against it
   logic [CodeBits-1:0] code;  // of its error, if it is not good
+  logic eol;  // it is an EOL
+  logic end_token;  // it is an END
+  logic span;  // it has a range that is not empty
+  logic tp;  // it is a TP
+  logic entry;  // it is a TABLE
+  logic tree;  // it is a TREE
+  logic face;  // it is a FACE
+  logic seg;  // it is a SEG
   logic seg_goes;  // a good SEG that its unit takes
+  logic completes;  // a SEG that ends its unit's line
   logic resolved;  // the token before it in its line is a RESOLVE
   logic [DsfBits-1:0] bias;  // as the token finds it
 } verdict_t;
@@ -84,6 +92,7 @@ typedef struct packed {
   logic [EntryBits-1:0] entry;  // FACE's fields from index on
   logic [DepthBits-1:0] z;  // SEG's depth, extended by 0 if CLASSIC
   logic [DX_BITS-1:0] dx;  // SEG's pixels
+  logic completes;  // the SEG ends its unit's line
 } piece_t;
 
 // The nearest face at a pixel of the tree's line: from tree_core to the pixels.

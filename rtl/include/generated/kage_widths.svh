@@ -73,13 +73,13 @@ localparam int PointZAt = ClassBits + RgbBits + ORDER_BITS,  // its depth
 // The buses of kage_buses.svh.
 localparam int FactsBits = CodeBits + 1 + 1,  // what a token says by itself
 localparam int FlagsBits = 1 + 1 + 1 + 1 + 1,  // what its frame says of a token
-localparam int VerdictBits = 1 + 1 + 1 + 1 + CodeBits + 1 + 1 + DsfBits,  // what a token is and finds, judged before it is acted on
+localparam int VerdictBits = 1 + 1 + 1 + CodeBits + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + DsfBits,  // what a token is and finds, judged before it is acted on
 localparam int CommandBits = KindBits + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // what the pixels of a range do
 localparam int LineBits = 1 + 1 + 1 + 1 + X_BITS + RgbBits + FactorBits,  // a line, in the order of the lines
 localparam int TableEntryBits = CLASS_BITS + LightBits + EntryShareBits,  // an entry of the light table
 localparam int LoadBits = X_BITS + RgbBits + 1,  // a pixel's colour that comes back
 localparam int TreeCallBits = 1 + 1 + 1 + 1,  // what happens to the tree in a clock
-localparam int PieceBits = UnitBits + FACE_BITS + EntryBits + DepthBits + DX_BITS,  // a FACE or a SEG
+localparam int PieceBits = UnitBits + FACE_BITS + EntryBits + DepthBits + DX_BITS + 1,  // a FACE or a SEG
 localparam int TreePixelBits = Z_BITS + CLASS_BITS + RgbBits + 1,  // the nearest face at a pixel of the tree's line
 localparam int ErrorBits = CodeBits + 32 + 16 + 32 + UnitNumberBits,  // a frame's first error
 localparam int BehindBits = UnitNumberBits + LineNumberBits,  // the unit that is behind

@@ -92,6 +92,7 @@ void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView
   eol_token_.clear();
   background_ = low(h.background, derived::rgb_bits(config_));
   shade_ = 0;
+  given_.assign(static_cast<std::size_t>(config_.units), 0);
   resolved_ = painted_ = false;
   bias_ = 0;
   token_words(words, false);
@@ -194,6 +195,10 @@ void ExpectedEvents::segment_event(const SegmentToken& s) {
   if (s.face != derived::blank_face(config_)) e.expect(at::segment::z, low(s.z, derived::segment_depth_bits(config_)));
   e.expect(at::segment::dx, static_cast<std::uint64_t>(s.dx));
   e.expect(at::segment::face, static_cast<std::uint64_t>(s.face));
+  int& given = given_[static_cast<std::size_t>(s.unit)];
+  given += s.dx;
+  e.expect(at::segment::completes, given == width_ ? 1 : 0);
+  if (given == width_) given = 0;
   put(e);
 }
 

@@ -156,6 +156,7 @@ class ExpectedEvents : public CoreObserver {
   std::uint32_t token_ = 0;  // the one at hand
   std::uint64_t background_ = 0;
   std::uint64_t shade_ = 0;
+  std::vector<int> given_;  // pixels of the line that a unit is being given
 
   // Of the line:
   bool resolved_ = false;

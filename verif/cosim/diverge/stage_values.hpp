@@ -55,7 +55,7 @@ inline constexpr std::array<StageInfo, kStages> kStageInfo{{
     {"token to frame control", {{{"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"words", ValueText::words}, {"at_last", ValueText::number}, {"flags", ValueText::flags}}}},
     {"entry of the light table", {{{"class", ValueText::number}, {"light", ValueText::number}, {"share 0", ValueText::number}, {"share 1", ValueText::number}, {"share 2", ValueText::number}}}},
     {"face to an expansion unit", {{{"face", ValueText::number}, {"index", ValueText::number}, {"class", ValueText::number}, {"dz", ValueText::ramp}, {"color", ValueText::color}}}},
-    {"segment to an expansion unit", {{{"z", ValueText::ramp}, {"dx", ValueText::number}, {"face", ValueText::number}}}},
+    {"segment to an expansion unit", {{{"z", ValueText::ramp}, {"dx", ValueText::number}, {"face", ValueText::number}, {"completes", ValueText::number}}}},
     {"pixel of an expansion unit", {{{"z", ValueText::depth}, {"index", ValueText::number}, {"color", ValueText::color}, {"class", ValueText::number}}}},
     {"pixel of the compare tree", {{{"z", ValueText::depth}, {"color", ValueText::color}, {"class", ValueText::number}}}},
     {"line to the way out", {{{"first", ValueText::number}, {"blank", ValueText::number}, {"load", ValueText::number}, {"painted", ValueText::number}, {"width", ValueText::number}, {"background", ValueText::color}, {"shade", ValueText::number}}}},
@@ -76,7 +76,7 @@ namespace at {
 namespace token { enum : int { words = 0, at_last = 11, flags = 12 }; }
 namespace table { enum : int { normal_class = 0, light = 1, share = 2 }; }
 namespace face { enum : int { face = 0, index = 1, normal_class = 2, dz = 3, color = 4 }; }
-namespace segment { enum : int { z = 0, dx = 1, face = 2 }; }
+namespace segment { enum : int { z = 0, dx = 1, face = 2, completes = 3 }; }
 namespace unit { enum : int { z = 0, index = 1, color = 2, normal_class = 3 }; }
 namespace tree { enum : int { z = 0, color = 1, normal_class = 2 }; }
 namespace line { enum : int { first = 0, blank = 1, load = 2, painted = 3, width = 4, background = 5, shade = 6 }; }

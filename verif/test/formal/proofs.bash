@@ -17,15 +17,26 @@
 
 # ---- compare_tree ----------------------------------------------------------------------------------------------------
 tree_proof() { # UNITS: the wires of the proof are the tree's own: its lowest bits, the rest is unused
-  local units=$1 nodes=0 level=$1 data=5
+  local units=$1 nodes=0 level=$1 data=5 inside='' k=0 i node at levels=0
+  while [ $((1 << levels)) -lt "$units" ]; do levels=$((levels + 1)); done
   while :; do
+    # A skid_buffer is behind each node of an even level but the last.
+    if [ $k -gt 0 ] && [ $((k % 2)) = 0 ] && [ $k -lt $levels ]; then
+      for ((i = 0; i < level; i++)); do
+        node=$((nodes + i)) at="dut.gen_tree.gen_level[$((k - 1))].gen_node[$i]"
+        inside+=" inside_own_valid[$node]=\\$at.own_valid inside_own_last[$node]=\\$at.own_last"
+        inside+=" inside_own_data[$(((node + 1) * data - 1)):$((node * data))]=\\$at.own_data"
+        inside+=" inside_spare_valid[$node]=\\$at.gen_buffer.u_buffer.spare_valid_q"
+        inside+=" inside_spare[$(((node + 1) * (data + 1) - 1)):$((node * (data + 1)))]=\\$at.gen_buffer.u_buffer.spare_q"
+      done
+    fi
     nodes=$((nodes + level))
     [ $level -gt 1 ] || break
-    level=$(((level + 1) / 2))
+    level=$(((level + 1) / 2)) k=$((k + 1))
   done
-  proof "compare_tree_$units" module=compare_tree rtl="compare_cell compare_tree" own_assertions=yes set="UNITS=$units" inside="
+  proof "compare_tree_$units" module=compare_tree rtl="compare_cell compare_tree skid_buffer" own_assertions=yes set="UNITS=$units" inside="
     inside_valid[$((nodes - 1)):0]=dut.gen_tree.valid inside_last[$((nodes - 1)):0]=dut.gen_tree.last
-    inside_data[$((nodes * data - 1)):0]=dut.gen_tree.data" steps=8 induction=2 cover=8
+    inside_data[$((nodes * data - 1)):0]=dut.gen_tree.data$inside" steps=8 induction=2 cover=10
 }
 for units in 2 3 4 5; do tree_proof $units; done
 defect right_wins_ties compare_tree_3 compare_cell.sv 's/] < left_data_i/] <= left_data_i/'
@@ -52,17 +63,17 @@ for depth in 2 4; do
   fifo_memory=
   for ((word = 0; word < depth; word++)); do fifo_memory+=" inside_memory[$((2 * word + 1)):$((2 * word))]=\\dut.mem[$word]"; done
   proof stream_fifo_$depth module=stream_fifo rtl=stream_fifo rules="queue_rules stream_rules" set="DEPTH=$depth" \
-    inside="inside_count=dut.count_q inside_oldest=dut.rd_q inside_next=dut.wr_q$fifo_memory" steps=9 induction=2 cover=14
+    inside="inside_count=dut.count inside_oldest=dut.rd_at inside_next=dut.wr_at$fifo_memory" steps=9 induction=2 cover=14
 done
 defect fifo_full_unseen stream_fifo_2 stream_fifo.sv 's/assign in_ready_o  = .*/assign in_ready_o = 1;/'
 defect fifo_empty_unseen stream_fifo_2 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = 1;/'
-defect fifo_word_lost stream_fifo_4 stream_fifo.sv 's/if (push && !pop) count_q/if (push \&\& !out_ready_i) count_q/'
+defect fifo_word_lost stream_fifo_4 stream_fifo.sv 's/if (push) wr_q/if (push \&\& !out_ready_i) wr_q/'
 defect fifo_word_doubled stream_fifo_4 stream_fifo.sv 's/if (pop) rd_q/if (pop \&\& !push) rd_q/'
-defect fifo_capacity_unused stream_fifo_4 stream_fifo.sv 's/assign in_ready_o  = .*/assign in_ready_o = count_q < 3;/'
-defect fifo_ready_by_valid stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = count_q != 0 \&\& out_ready_i;/'
-defect fifo_valid_falls stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = count_q != 0 \&\& !(count_q == 2 \&\& in_valid_i);/'
-defect fifo_data_move stream_fifo_4 stream_fifo.sv 's/assign out_data_o  = .*/assign out_data_o = mem[out_ready_i ? rd_q : wr_q];/'
-defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/count_q <= '0;/;/"
+defect fifo_capacity_unused stream_fifo_4 stream_fifo.sv 's/assign in_ready_o  = .*/assign in_ready_o = count < 3;/'
+defect fifo_ready_by_valid stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = count != 0 \&\& out_ready_i;/'
+defect fifo_valid_falls stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = count != 0 \&\& !(count == 2 \&\& in_valid_i);/'
+defect fifo_data_move stream_fifo_4 stream_fifo.sv 's/assign out_data_o  = .*/assign out_data_o = mem[out_ready_i ? rd_at : wr_at];/'
+defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/wr_q <= '0;/;/"
 
 # ---- registers -------------------------------------------------------------------------------------------------------
 proof registers_axi module=registers rtl=registers rules="lite_rules stream_rules" set="MODEL=0" steps=8 induction=2 cover=8
@@ -79,11 +90,11 @@ defect axil_read_lost registers_axi registers.sv 's/assign s_axil_arready_o = .*
 defect axil_r_unasked registers_axi registers.sv 's/if (s_axil_arvalid_i \&\& s_axil_arready_o) s_axil_rvalid_o/if (s_axil_arready_o) s_axil_rvalid_o/'
 defect axil_r_in_reset registers_axi registers.sv "s/^      s_axil_rvalid_o *<= 1'b0;/      ;/"
 defect axil_b_in_reset registers_axi registers.sv "s/^      s_axil_bvalid_o *<= 1'b0;/      ;/"
-defect watchdog_late registers_watchdog registers.sv "s/idle_q == last_idle_q/idle_q == limit_q/"
-defect watchdog_early registers_watchdog registers.sv "s/last_idle_q <= limit_q - 32'd1/last_idle_q <= limit_q - 32'd2/"
-defect watchdog_again registers_watchdog registers.sv 's/\&\& !bitten_q \&\& idle_q ==/\&\& idle_q ==/; s/if (bite) bitten_q/if (bite) idle_q/'
-defect watchdog_not_anew registers_watchdog registers.sv 's/if (write_limit || limit_new_q || progress_q/if (progress_q/'
-defect watchdog_out_of_frame registers_watchdog registers.sv 's/limited_q \&\& open_q \&\& /limited_q \&\& /; s/|| progress_q || !open_q) begin/|| progress_q) begin/'
+defect watchdog_late registers_watchdog registers.sv "s/at_limit_q <= idle_q ==/at_limit_q <= idle_q - 32'd1 ==/"
+defect watchdog_early registers_watchdog registers.sv "s/before_last_q <= limit_q - 32'd2/before_last_q <= limit_q - 32'd3/"
+defect watchdog_again registers_watchdog registers.sv 's/\&\& !bitten_q \&\&$/\&\&/; s/if (bite) bitten_q/if (bite) idle_q/'
+defect watchdog_not_anew registers_watchdog registers.sv 's/assign anew = write_limit || limit_new_q || /assign anew = /'
+defect watchdog_out_of_frame registers_watchdog registers.sv 's/limited_q \&\& open_q \&\& /limited_q \&\& /; s/|| progress || !open_q;/|| progress;/'
 defect event_lost registers_watchdog registers.sv 's/irq_q <= irq_set | (write_irq ? \(.*\) : irq_q);/irq_q <= write_irq ? \1 : irq_set | irq_q;/'
 defect strobe_ignored registers registers.sv 's/write_limit) limit_q <= .*/write_limit) limit_q <= w_data_q;/'
 defect register_wrong registers registers.sv 's/RegErrorToken: value = error_token_q/RegErrorToken: value = error_frame_q/'
@@ -114,14 +125,14 @@ reader_proof token_reader_1 1 10
 reader_proof token_reader_2 2 9
 reader_proof token_reader_4 4 9
 reader_proof token_reader_resets 2 7 RESETS=1 BIT=4
-defect reader_beat_lost token_reader_2 token_reader.sv 's/if (push) begin/if (push \&\& !take) begin/'
+defect reader_beat_lost token_reader_2 token_reader.sv 's/^    if (!full_q) begin/    if (!full_q \&\& !take) begin/'
 defect reader_words_shifted token_reader_2 token_reader.sv "s/== OffBits'(o)) front/== OffBits'(o) \&\& !token_valid_q) front/"
-defect reader_word_skipped token_reader_2 token_reader.sv "s/5'(HeaderWords) :/5'(HeaderWords + 1) :/"
+defect reader_word_skipped token_reader_2 token_reader.sv "s/WordsBits'(HeaderWords - 1) :/WordsBits'(HeaderWords) :/"
 defect reader_token_doubled token_reader_2 token_reader.sv 's/next_at_q  <= next_end_at/if (token_ready_i) next_at_q <= next_end_at/'
 defect reader_cut_unseen token_reader_4 token_reader.sv 's/(next_there || last_q)/next_there/'
 defect reader_rest_kept token_reader_4 token_reader.sv 's/dropping_q <= drop_i ||/dropping_q <=/'
 defect reader_at_last_wrong token_reader_2 token_reader.sv 's/flags_q.at_last <= .*/flags_q.at_last <= last_q;/'
-defect reader_token_moves token_reader_2 token_reader.sv 's/^    if (take) begin/    if (whole) begin/'
+defect reader_token_moves token_reader_2 token_reader.sv 's/^    if (out_free) begin/    if (whole) begin/'
 defect reader_token_falls token_reader_2 token_reader.sv 's/else if (out_free) token_valid_q <= take/else token_valid_q <= take/'
 defect reader_beat_lost_in_reset token_reader_resets token_reader.sv 's/assign s_axis_tready_o = rst_ni &&/assign s_axis_tready_o =/'
 defect reader_token_in_reset token_reader_resets token_reader.sv 's/if (!rst_ni) token_valid_q <= .*/if (0) ;/'
@@ -156,7 +167,7 @@ defect out_standstill line_out_frames line_out.sv 's/assign start = .*/assign st
 defect out_moves_unseen line_out line_out.sv 's/assign moving_o = .*/assign moving_o = start || (go \&\& sending_q);/'
 defect out_video_falls line_out skid_buffer.sv 's/assign out_free = .*/assign out_free = 1;/'
 defect out_reset_lets_through line_out_resets skid_buffer.sv "s/out_valid_q   <= 1'b0;/out_valid_q <= out_valid_q;/"
-defect out_rounds_down line_out_colors line_out.sv "s/(SHADE_FRAC + 9)'(HalfShare);/'0;/"
+defect out_rounds_down line_out_colors line_out.sv "s/(SHADE_FRAC + 9)'(HalfShare)) >>/(SHADE_FRAC + 9)'(0)) >>/"
 defect out_blank_shown line_out_colors line_out.sv 's/ && !blank_at_q\[LightStages+2\]//'
 defect out_load_to_video line_out_loads line_out.sv 's/valid_q\[Depth-1\] && !load_at_q\[Depth-1\]/valid_q[Depth-1]/'
 defect out_load_places line_out_loads line_out.sv 's/load\.last ? .0 : load_x_q + 1.b1/load_x_q + 1'"'"'b1/'

@@ -58,10 +58,18 @@ struct FlagsBus {
 struct VerdictBus {
   Place header;  ///< as in its flags
   Place cut;  ///< as in its flags
-  Place empty;  ///< as in its facts
   Place good;  ///< there is nothing against it
   Place code;  ///< of its error, if it is not good
+  Place eol;  ///< it is an EOL
+  Place end_token;  ///< it is an END
+  Place span;  ///< it has a range that is not empty
+  Place tp;  ///< it is a TP
+  Place entry;  ///< it is a TABLE
+  Place tree;  ///< it is a TREE
+  Place face;  ///< it is a FACE
+  Place seg;  ///< it is a SEG
   Place seg_goes;  ///< a good SEG that its unit takes
+  Place completes;  ///< a SEG that ends its unit's line
   Place resolved;  ///< the token before it in its line is a RESOLVE
   Place bias;  ///< as the token finds it
 
@@ -71,14 +79,30 @@ struct VerdictBus {
     at += bias.bits;
     resolved = {at, 1};
     at += resolved.bits;
+    completes = {at, 1};
+    at += completes.bits;
     seg_goes = {at, 1};
     at += seg_goes.bits;
+    seg = {at, 1};
+    at += seg.bits;
+    face = {at, 1};
+    at += face.bits;
+    tree = {at, 1};
+    at += tree.bits;
+    entry = {at, 1};
+    at += entry.bits;
+    tp = {at, 1};
+    at += tp.bits;
+    span = {at, 1};
+    at += span.bits;
+    end_token = {at, 1};
+    at += end_token.bits;
+    eol = {at, 1};
+    at += eol.bits;
     code = {at, kCodeBits};
     at += code.bits;
     good = {at, 1};
     at += good.bits;
-    empty = {at, 1};
-    at += empty.bits;
     cut = {at, 1};
     at += cut.bits;
     header = {at, 1};
@@ -205,9 +229,12 @@ struct PieceBus {
   Place entry;  ///< FACE's fields from index on
   Place z;  ///< SEG's depth, extended by 0 if CLASSIC
   Place dx;  ///< SEG's pixels
+  Place completes;  ///< the SEG ends its unit's line
 
   explicit constexpr PieceBus([[maybe_unused]] const Config& c) {
     int at = 0;
+    completes = {at, 1};
+    at += completes.bits;
     dx = {at, c.dx_bits};
     at += dx.bits;
     z = {at, derived::depth_bits(c)};

@@ -23,10 +23,9 @@ Point point_of(Top& top, const TreeShape& s) {
 }
 
 template <class Top>
-void quiet(Top& top, int width) {
+void quiet(Top& top) {
   top.frame_start_i = 0;
   top.flush_i = 0;
-  top.width_i = static_cast<SData>(width);
   top.face_valid_i = 0;
   top.seg_valid_i = 0;
   top.px_ready_i = 0;
@@ -46,10 +45,10 @@ class Frames {
         offer_(stall_percent(dice)) {}
 
   void run() {
-    quiet(*top_, width_);
+    quiet(*top_);
     while (frames_ < kFrames || !to_give_.empty() || !giving_.empty() || !expected_.empty()) {
       REQUIRE(top_.clocks < 400000);
-      quiet(*top_, width_);
+      quiet(*top_);
       offer();
       look();
       edge();
@@ -184,15 +183,17 @@ TEST_CASE("expansion_unit buffers two lines of 2^SEG_BITS segments and no more",
     std::vector<Point> expected;
     std::deque<Segment> segments;
     for (int i = 0; i < 3; ++i) {
-      std::vector<Segment> line(8, Segment{0, 1, kShape.blank()});  // eight segments, the last one as long as is left
+      std::vector<Segment> line(
+          8, Segment{0, 1, kShape.blank(), false});  // eight segments, the last one as long as is left
       line.back().dx = width - 7;
+      line.back().completes = true;
       segments.insert(segments.end(), line.begin(), line.end());
       const auto points = expand(kShape, {}, line);
       expected.insert(expected.end(), points.begin(), points.end());
     }
     std::size_t given = 0, taken = 0;
     for (int clock = 0; clock < 200; ++clock) {
-      quiet(*top, width);
+      quiet(*top);
       top->px_ready_i = clock >= 100 ? 1 : 0;
       top->seg_valid_i = given < segments.size() ? 1 : 0;
       if (given < segments.size()) put_segment(*top, kShape, segments[given]);
@@ -220,10 +221,10 @@ TEST_CASE("expansion_unit takes 6 clocks to a line's first pixel and leaves no g
     int given = 0, taken = 0;
     while (taken < width * lines) {
       REQUIRE(top.clocks < 1000);
-      quiet(*top, width);
+      quiet(*top);
       top->px_ready_i = 1;
       top->seg_valid_i = given < width * lines ? 1 : 0;
-      put_segment(*top, kShape, {0, 1, kShape.blank()});
+      put_segment(*top, kShape, {0, 1, kShape.blank(), given % width == width - 1});
       top.settle();
       if (top->px_valid_o) {
         if (taken == 0) first = top.clocks;

@@ -36,7 +36,8 @@ struct Verdict {
   Code code = Code::NONE;
   int unit = 0;
   std::uint32_t token = 0;
-  bool pass = false;  // a segment goes to its unit
+  bool pass = false;       // a segment goes to its unit
+  bool completes = false;  // and ends the unit's line
 };
 
 /// The rules, told in lines of the frame and a list of all faults.
@@ -76,8 +77,10 @@ class Rules {
           v.code = Code::ORDER;
         else if (!exists)
           v.code = Code::RANGE;
-        else
+        else {
           v.pass = !unit->fault && !fault_of(t);
+          v.completes = unit->sum + t.dx == width;
+        }
         break;
       case kTree:
         if (!due)
@@ -349,7 +352,10 @@ class Frames {
       REQUIRE(top_->tree_unit_o == want.unit);
       REQUIRE(top_->tree_token_o == want.token);
     }
-    if (t.kind == kSeg && code == Code::NONE) REQUIRE(top_->seg_pass_o == (want.pass ? 1 : 0));
+    if (t.kind == kSeg && code == Code::NONE) {
+      REQUIRE(top_->seg_pass_o == (want.pass ? 1 : 0));
+      if (want.pass) REQUIRE(top_->completes_o == (want.completes ? 1 : 0));
+    }
   }
 
   Dice& dice_;

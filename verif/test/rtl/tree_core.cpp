@@ -53,11 +53,10 @@ std::vector<Pixel> merge(const Lines& units) {
 }
 
 template <class Top>
-void quiet(Top& top, int width) {
+void quiet(Top& top) {
   put(top.call_i, kCall.start, 0);
   put(top.call_i, kCall.flush, 0);
   put(top.call_i, kCall.claim, 0);
-  top.width_i = static_cast<CData>(width);
   put(top.call_i, kCall.face, 0);
   top.seg_valid_i = 0;
   top.line_ready_i = 0;
@@ -134,7 +133,7 @@ class Frames {
   void run() {
     while (frames_ < kFrames || !events_.empty() || !expected_.empty()) {
       REQUIRE(top_.clocks < 400000);
-      quiet(*top_, width_);
+      quiet(*top_);
       begin();
       if (!flush_ && open_ && offer_(dice_, !events_.empty()))
         bring(events_.front());
@@ -152,12 +151,13 @@ class Frames {
   static constexpr TreeShape kOf = tree_shape_of<Model>();
   static constexpr int kFrames = 14;
 
-  /// A flush, or the begin of a frame, which may be as soon as all lines of the frame before the last one have left.
+  /// A flush, or the begin of a frame, which may be as soon as all lines of the frame before the last one have left,
+  /// and comes two clocks or more behind what ends frame_ready_o.
   void begin() {
     flush_ = flushes_ && open_ && dice_.below(150) == 0;
     put(top_->call_i, kCall.flush, flush_ ? 1 : 0);
     if (open_ && events_.empty() && !flush_) open_ = false;
-    const bool wanted = !open_ && !flush_ && frames_ < kFrames && dice_.percent(60);
+    const bool wanted = !open_ && !flush_ && frames_ < kFrames && top_.clocks >= settled_ && dice_.percent(60);
     top_.settle();
     start_ = wanted && top_->frame_ready_o;
     put(top_->call_i, kCall.start, start_ ? 1 : 0);
@@ -190,7 +190,8 @@ class Frames {
     const bool out = top_->line_valid_o && top_->line_ready_i;
     const bool hold = top_->line_valid_o && !out && !expected_.empty();
     waiting_ = hold ? std::optional(pixel_of(*top_, kOf)) : std::nullopt;
-    const bool done = event_ != nullptr && (event_->kind != Event::kSegment || top_->seg_ready_o);
+    const bool segment = event_ != nullptr && event_->kind == Event::kSegment;
+    const bool done = event_ != nullptr && (!segment || top_->seg_ready_o);
     top_.edge();
     if (out) {
       if (expected_.front().last) ++left_;
@@ -210,6 +211,7 @@ class Frames {
       open_ = false;
     }
     if (start_) begin_frame();
+    if (start_ || flush_ || (segment && done)) settled_ = top_.clocks + 1;
   }
 
   void begin_frame() {
@@ -232,6 +234,7 @@ class Frames {
   std::deque<Pixel> expected_;  // of lines claimed
   std::optional<Pixel> waiting_;
   int width_ = 1, frames_ = 0, claimed_ = 0, left_ = 0;
+  std::uint64_t settled_ = 0;           // the clock from which on frame_ready_o says all that has been
   bool open_ = false;                   // a frame has begun and has not been flushed
   std::vector<int> last_line_;          // claims up to the end of each frame
   bool flush_ = false, start_ = false;  // this clock
@@ -249,6 +252,7 @@ void clocks_test() {
   constexpr int units = s.units;
   int levels = 0;
   while (1 << levels < units) ++levels;
+  const int buffers = levels > 0 ? (levels - 1) / 2 : 0;
   each_seed(3, [&](Dice& dice) {
     Bench<Model> top(dice);
     const int width = dice.between(1, 8);  // segments of length 1: no other could show a bubble
@@ -257,11 +261,11 @@ void clocks_test() {
     // The first line: given unit by unit, so that one comes last; then no stall until it has left.
     while (taken < width) {
       REQUIRE(top.clocks < 5000);
-      quiet(*top, width);
+      quiet(*top);
       top->line_ready_i = 1;
       top->seg_valid_i = given < width * units ? 1 : 0;
       put_unit(*top, s, given / width);
-      put_segment(*top, s, {0, 1, s.blank()});
+      put_segment(*top, s, {0, 1, s.blank(), given % width == width - 1});
       put(top->call_i, kCall.claim, top.clocks == complete + 1 && complete != 0 ? 1 : 0);
       top.settle();
       if (top->line_valid_o) {
@@ -275,8 +279,8 @@ void clocks_test() {
     }
     // From the segment that completes the line to the line's last pixel: the latency, and a clock for each further
     // pixel.
-    REQUIRE(first - complete == static_cast<std::uint64_t>(6 + levels));
-    REQUIRE(top.clocks - complete == static_cast<std::uint64_t>(6 + levels + width));
+    REQUIRE(first - complete == static_cast<std::uint64_t>(7 + levels + buffers));
+    REQUIRE(top.clocks - complete == static_cast<std::uint64_t>(7 + levels + buffers + width));
   });
 }
 
@@ -289,10 +293,10 @@ void two_lines_test() {
     const int width = 8;
     int given = 0, taken = 0;
     for (int clock = 0; clock < 40 * units + 100; ++clock) {
-      quiet(*top, width);
+      quiet(*top);
       top->seg_valid_i = given < 2 * width * units ? 1 : 0;
       put_unit(*top, s, given / width % units);
-      put_segment(*top, s, {0, 1, s.blank()});
+      put_segment(*top, s, {0, 1, s.blank(), given % width == width - 1});
       put(top->call_i, kCall.claim, clock == 40 * units || clock == 40 * units + 1 ? 1 : 0);
       top->line_ready_i = clock >= 40 * units + 1 ? 1 : 0;
       top.settle();
@@ -342,10 +346,10 @@ TEST_CASE("tree_core drops by a flush what was not claimed, and holds the next f
     const int claims = dice.below(3);
     int given = 0, taken = 0;
     const auto clock = [&](bool flush, bool claim, bool ready) {
-      quiet(*top, width);
+      quiet(*top);
       top->seg_valid_i = !flush && given < 4 ? 1 : 0;
       put_unit(*top, kTwo, given % 2);
-      put_segment(*top, kTwo, {0, width, kTwo.blank()});
+      put_segment(*top, kTwo, {0, width, kTwo.blank(), true});
       put(top->call_i, kCall.flush, flush ? 1 : 0);
       put(top->call_i, kCall.claim, claim ? 1 : 0);
       top->line_ready_i = ready ? 1 : 0;
@@ -360,7 +364,7 @@ TEST_CASE("tree_core drops by a flush what was not claimed, and holds the next f
     clock(true, false, false);
     for (int i = 0; i < 10; ++i) {
       top.settle();
-      REQUIRE(top->frame_ready_o == (claims == 0 && i > 0 ? 1 : 0));
+      REQUIRE(top->frame_ready_o == (i == 0 || (claims == 0 && i > 1) ? 1 : 0));
       clock(false, false, false);
     }
     while (taken < claims * width) {

@@ -34,6 +34,7 @@ struct Face {
 struct Segment {
   std::uint64_t z;
   int dx, face;
+  bool completes;  // its line
 };
 
 struct Point {
@@ -63,7 +64,7 @@ inline std::vector<Segment> random_line(Dice& dice, const TreeShape& s, int widt
     if (manner == 0 && dice.percent(90)) dx = low;
     if (manner == 1) dx = high;
     const int face = faces == 0 || dice.percent(25) ? s.blank() : dice.below(faces);
-    line.push_back({dice.bits(s.classic != 0 ? 15 : s.depth_bits()), dx, face});
+    line.push_back({dice.bits(s.classic != 0 ? 15 : s.depth_bits()), dx, face, dx == width});
     width -= dx;
   }
   return line;
@@ -112,6 +113,7 @@ void put_segment(Top& top, const TreeShape& s, const Segment& segment) {
   put(top.piece_i, piece.z, segment.z);
   put(top.piece_i, piece.dx, static_cast<std::uint64_t>(segment.dx));
   put(top.piece_i, piece.face, static_cast<std::uint64_t>(segment.face));
+  put(top.piece_i, piece.completes, segment.completes ? 1U : 0U);
 }
 
 }  // namespace kage::rtl

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// expansion_unit from its ports alone: a line whose segments were taken leaves with as many pixels as it is wide, the
+// expansion_unit from its ports alone: a line whose segments were taken leaves with as many pixels as they have, the
 // last of them as its last. What the pixels are is held against the golden core.
 `default_nettype none
 
 module expansion_unit_monitor #(
-    parameter int X_BITS  = 11,
     parameter int DX_BITS = 9
 ) (
     input wire logic               clk_i,
     input wire logic               rst_ni,
     input wire logic               flush_i,
-    input wire logic [ X_BITS-1:0] width_i,
     input wire logic               seg_valid_i,
     input wire logic               seg_ready_o,
     input wire logic [DX_BITS-1:0] seg_dx,
+    input wire logic               seg_completes,
     input wire logic               px_valid_o,
     input wire logic               px_ready_i,
     input wire logic               px_last_o
@@ -28,7 +27,7 @@ module expansion_unit_monitor #(
   logic take, whole, last;
   assign take  = seg_valid_i && seg_ready_o;
   assign sum   = sum_q + 32'(seg_dx);
-  assign whole = take && sum == 32'(width_i);
+  assign whole = take && seg_completes;
   assign last  = x_q + 1 == widths[at_q];
 
   always_ff @(posedge clk_i) begin
@@ -37,7 +36,7 @@ module expansion_unit_monitor #(
     end else begin
       if (take) begin
         sum_q <= whole ? 0 : sum;
-        if (seg_dx == '0 || sum > 32'(width_i)) lost_q <= 1'b1;
+        if (seg_dx == '0) lost_q <= 1'b1;
       end
       if (px_valid_o && !lost_q)
         trace_module(PartExpansionUnit, {510'd0, 1'b1, last}, {510'd0, lines_q > 0, px_last_o});
@@ -53,10 +52,10 @@ module expansion_unit_monitor #(
 endmodule
 
 bind expansion_unit expansion_unit_monitor #(
-    .X_BITS (X_BITS),
     .DX_BITS(DX_BITS)
 ) u_monitor (
-    .seg_dx(piece.dx),
+    .seg_dx       (piece.dx),
+    .seg_completes(piece.completes),
     .*
 );
 

@@ -43,7 +43,8 @@ module frame_control_monitor #(
       trace_module(PartFrameControl, 512'(UNITS > 0 && frame_control.error_valid_o && !header),
                    512'(frame_control.call.flush));
       if (frame_control.frame_end_o) begin
-        trace_module(PartFrameControl, 512'd1, 512'((good && frame_control.is_end) || !frame_control.dropping_i));
+        trace_module(PartFrameControl, 512'd1,
+                     512'((good && frame_control.verdict.end_token) || !frame_control.dropping_i));
       end
     end
   end
@@ -54,6 +55,7 @@ bind frame_control frame_control_monitor #(
     .DSF_BITS(DSF_BITS),
     .UNITS(UNITS)
 ) u_monitor (
+    .good(accept && verdict.good),
     .header(verdict.header),
     .bias(verdict.bias),
     .uses_state(kind == KindEv || kind == KindEs || kind == KindEol),

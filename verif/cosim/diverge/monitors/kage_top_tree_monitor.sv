@@ -42,7 +42,7 @@ module kage_top_tree_monitor #(
                    64'(piece.entry[EntryDzAt+:DepthBits]), 64'(piece.entry[EntryColorAt+:RgbBits]));
       end
       if (tree_seg_valid && tree_seg_ready) begin
-        trace_segment(32'(piece.unit), 64'(piece.z), 64'(piece.dx), 64'(piece.face));
+        trace_segment(32'(piece.unit), 64'(piece.z), 64'(piece.dx), 64'(piece.face), 64'(piece.completes));
       end
       if (tree_valid && tree_ready) begin
         trace_tree(0, 64'(pixel.z), 64'(pixel.color), 64'(pixel.normal_class));

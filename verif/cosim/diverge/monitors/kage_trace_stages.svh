@@ -15,8 +15,8 @@ function automatic void trace_face(input int v_unit_at, input logic [63:0] v_fac
   kage_trace(StageFace, v_unit_at, TraceBits'({v_color, v_dz, v_normal_class, v_index, v_face}));
 endfunction
 
-function automatic void trace_segment(input int v_unit_at, input logic [63:0] v_z, input logic [63:0] v_dx, input logic [63:0] v_face);
-  kage_trace(StageSegment, v_unit_at, TraceBits'({v_face, v_dx, v_z}));
+function automatic void trace_segment(input int v_unit_at, input logic [63:0] v_z, input logic [63:0] v_dx, input logic [63:0] v_face, input logic [63:0] v_completes);
+  kage_trace(StageSegment, v_unit_at, TraceBits'({v_completes, v_face, v_dx, v_z}));
 endfunction
 
 function automatic void trace_unit(input int v_unit_at, input logic [63:0] v_z, input logic [63:0] v_index, input logic [63:0] v_color, input logic [63:0] v_normal_class);

@@ -28,7 +28,7 @@ module tree_core_monitor #(
         trace_module(PartTreeCore, {
                      510'd0,
                      tree_core.call.face && 32'(tree_core.piece.unit) == u,
-                     tree_core.seg_valid_i && 32'(tree_core.piece.unit) == u
+                     tree_core.held_valid && 32'(tree_core.held_piece.unit) == u
                      }, {510'd0, tree_core.gen_unit[u].u_unit.face_valid_i, tree_core.gen_unit[u].u_unit.seg_valid_i});
       end
     end
