@@ -261,6 +261,8 @@ module pixel_banked #(
   logic now_at_end, now_leaves;
   logic [InfoBits-1:0] info_now;
   assign info_now = info_q[(Last-1)*InfoBits+:InfoBits];
+  logic now_opaque_q;  // of now_kind
+  always_ff @(posedge clk_i) now_opaque_q <= pixel_opaque(info_q[(Last-1)*InfoBits-1-:KindBits]);
   assign {now_kind, now_count, now_weight, now_lanes, now_addr, now_at_end, now_leaves} = info_now;
 
   // ---- the tree's line ---------------------------------------------------------------------------------------------
@@ -365,6 +367,7 @@ module pixel_banked #(
         next[l*PixelBits+:PixelBits] = pixel_next(
           word[l*PixelBits+:PixelBits],
           now_kind,
+          now_opaque_q,
           now_z[l*Z_BITS+:Z_BITS],
           now_color[l*RgbBits+:RgbBits],
           now_counts[l*CountBits+:CountBits],

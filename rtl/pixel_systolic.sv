@@ -68,7 +68,7 @@ module pixel_systolic #(
   // Processor i holds, in vectors with processor 0 lowest: the command that is at it, depth and colour at this pixel;
   // of the command that was at it a clock ago whether the pixel is in its range, depth and colour clamped; and the
   // pixel's state. What goes along unchanged has a place more, for the last processor's second clock.
-  logic [N-1:0] valid_q, hit, hit_q;
+  logic [N-1:0] valid_q, hit, hit_q, opaque_d, opaque_q;
   logic [(N+1)*KindBits-1:0] kind_q;
   logic [N*X_BITS-1:0] xl_q, xr_q;
   logic [(N+1)*CountBits-1:0] count_q;
@@ -150,8 +150,10 @@ module pixel_systolic #(
     depth_d = depth_q;
     shown_d = shown_q;
     {begins, z} = '0;
+    opaque_d = '0;
     for (int i = 0; i < N; i++) begin
       begins = (i > 0 && hit_q[i>0?i-1 : 0]) || xl_q[i*X_BITS+:X_BITS] == X_BITS'(i);
+      opaque_d[i] = pixel_opaque(kind_q[i*KindBits+:KindBits]);
       hit[i] = valid_q[i] && begins && xr_q[i*X_BITS+:X_BITS] != X_BITS'(i);
       if (hit[i]) begin
         z = z_q[i*DepthBits+:DepthBits];
@@ -182,7 +184,7 @@ module pixel_systolic #(
         if (UNITS > 0 && kind == KindTree) {depth, color, count} = {tree_z, tree_color, tree_count};
         pixel = pixel_q[i*PixelBits+:PixelBits];
         pixel_d[i*PixelBits+:PixelBits] =
-            pixel_next(pixel, kind, depth, color, count, weight_q[(i+1)*ShareBits+:ShareBits]);
+            pixel_next(pixel, kind, opaque_q[i], depth, color, count, weight_q[(i+1)*ShareBits+:ShareBits]);
         // Of the EOLs and CmdOuts in the chain only one is among its line's pixels: the OR of all exits is that one's.
         if (kind == KindEol || (HasLoads && kind == CmdOut)) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count[DsfBits-1:0]);
@@ -226,6 +228,7 @@ module pixel_systolic #(
     dz_q     <= (N * DepthBits)'({dz_q, cmd.dz});
     color_q  <= (N * ColorBits)'({color_d, cmd.color});
     weight_q <= ((N + 1) * ShareBits)'({weight_q, pixel_weight(cmd.kind, cmd.share)});
+    opaque_q <= opaque_d;
     depth_q  <= depth_d;
     shown_q  <= shown_d;
     pixel_q  <= pixel_d;

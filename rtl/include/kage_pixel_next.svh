@@ -48,13 +48,20 @@ function automatic logic pixel_shadow(input logic [PixelBits-1:0] pixel, input l
   pixel_shadow = FSF > 0 ? pixel[PixelFsfAt] : (pixel[PixelDsfAt+:DsfBits] + bias) != '0;
 endfunction
 
-// Next state of a pixel in the range of a token. `z` and `color` are the span's at this pixel, or the tree's, of
+// Whether a token does what OP does; TREE does.
+function automatic logic pixel_opaque(input logic [KindBits-1:0] kind);
+  pixel_opaque = kind == KindOp || (UNITS > 0 && kind == KindTree);
+endfunction
+
+// Next state of a pixel in the range of a token. `opaque` is pixel_opaque's of its kind, found a clock ahead, since
+// what the depth comparison says has the longest way. `z` and `color` are the span's at this pixel, or the tree's, of
 // RESOLVE the background; `count` is the class for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE,
 // {light, bias} for ES; `weight` is pixel_weight's, of TP and RESOLVE. RESOLVE reaches the pixels only where TPs follow;
 // otherwise line_out darkens. With counters RESOLVE darkens nothing: where there is something to darken CmdOut sends
 // the line to line_out and CmdLoad brings its colours back. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [KindBits-1:0] kind,
-                                                    input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
+                                                    input logic opaque, input logic [Z_BITS-1:0] z,
+                                                    input logic [RgbBits-1:0] color,
                                                     input logic [CountBits-1:0] count,
                                                     input logic [ShareBits-1:0] weight);
   logic in_front, clear, dark, shadow;
@@ -71,14 +78,7 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
       blended = pixel_blend(pixel[PixelColorAt+:RgbBits], color, weight, COUNT_BITS == 0 && kind == KindResolve);
     end
     pixel_next = pixel;
-    // TREE does what OP does.
-    unique case (UNITS > 0 && kind == KindTree ? KindOp : kind)
-      KindOp:
-      if (in_front) begin
-        pixel_next[PixelZAt+:Z_BITS] = z;
-        pixel_next[PixelColorAt+:RgbBits] = color;
-        if (DSF_BITS > 0) pixel_next[PixelClassAt+:CLASS_BITS] = count[CLASS_BITS-1:0];
-      end
+    unique case (kind)
       KindSp:  if (DSF_BITS > 0 && in_front) pixel_next[PixelDsfAt+:DsfBits] = sum;
       KindNc:  if (DSF_BITS > 0) pixel_next[PixelDsfAt+:DsfBits] = sum;
       KindEv:
@@ -113,6 +113,11 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
       KindEol: pixel_next = PixelClear;
       default: pixel_next = pixel;
     endcase
+    if (opaque && in_front) begin
+      pixel_next[PixelZAt+:Z_BITS] = z;
+      pixel_next[PixelColorAt+:RgbBits] = color;
+      if (DSF_BITS > 0) pixel_next[PixelClassAt+:CLASS_BITS] = count[CLASS_BITS-1:0];
+    end
   end
 endfunction
 
