@@ -61,10 +61,10 @@ module kage_top_wires_monitor #(
   };
   if (UNITS > 0) begin : gen_tree
     assign tree = {
-      kage_top.tree_call, kage_top.line.width, kage_top.tree_seg_valid, kage_top.tree_piece, kage_top.tree_ready
+      kage_top.tree_call, kage_top.tree_seg_valid, kage_top.tree_piece, kage_top.tree_ready
     } == {
-      kage_top.gen_tree.u_tree.call_i, kage_top.gen_tree.u_tree.width_i, kage_top.gen_tree.u_tree.seg_valid_i,
-      kage_top.gen_tree.u_tree.piece_i, kage_top.gen_tree.u_tree.line_ready_i
+      kage_top.gen_tree.u_tree.call_i, kage_top.gen_tree.u_tree.seg_valid_i, kage_top.gen_tree.u_tree.piece_i,
+      kage_top.gen_tree.u_tree.line_ready_i
     };
   end else begin : gen_no_tree
     assign tree = 1'b1;
