@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of line_phase at its ports, to a bound of tokens, for any tokens of a line that are in order
-// (verif/test/formal/run.sh):
+// What is proved of line_phase, for any number of tokens of a line that are in order (verif/test/formal/run.sh):
 //   order          a token is in order where docs/stream.md ("Order in a line") lets it stand, and nowhere else, for
 //                  each kind;
 //   resolved_last  resolved_o says that a RESOLVE was the line's last token;
@@ -8,7 +7,8 @@
 //                  2^DSF_BITS.
 //
 // How: the proof keeps which kinds the line has had, and decides by that; the module keeps a phase. Only tokens that
-// the proof lets stand are taken, of kinds that the configuration has: behind others nobody asks.
+// the proof lets stand are taken, of kinds that the configuration has: behind others nobody asks. By induction: run.sh
+// connects inside_* to the phase and the marks, and the lemmas say what they are by the kinds.
 //
 // Why small widths say it for all: a count is only added to, modulo its width. DSF_BITS is 2 here, 1 and 0 besides.
 // proofs.bash has five sets of parameters: with and without FSF, counters and translucency.
@@ -107,6 +107,18 @@ module line_phase_proof #(
       if (has) order : assert (in_order == may);
       resolved_last : assert (resolved == (resolve_q && !tp_q));
       bias_sum : assert (bias == sum_q);
+    end
+  end
+
+  // ---- for induction: the phase and the marks are what the kinds say -----------------------------------------------
+  (* keep *) logic [1:0] inside_phase, inside_marks;
+  always_comb begin
+    if (started_q) begin
+      lemma_phase : assert (inside_phase == (tp_q ? 2'd3 : resolve_q ? 2'd2 : shadow_q ? 2'd1 : 2'd0));
+      lemma_marks : assert (inside_marks == {COUNT_BITS > 0 && shadow_since_es_q, FSF > 0 && shadow_since_ev_q});
+      lemma_since : assert (shadow_q || !(shadow_since_ev_q || shadow_since_es_q || resolve_q));
+      lemma_resolved : assert (!(tp_q && shadow_q) || resolve_q);
+      lemma_closed : assert (!resolve_q || (closed && !(COUNT_BITS > 0 && shadow_since_es_q)));
     end
   end
 

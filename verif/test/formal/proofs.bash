@@ -102,11 +102,12 @@ defect read_past_okay registers registers.sv 's/s_axil_araddr_i > RegLast/s_axil
 defect write_past_okay registers registers.sv "s/aw_addr_q > RegLast + 8'd3/aw_addr_q > RegLast + 8'd4/"
 
 # ---- line_phase ------------------------------------------------------------------------------------------------------
-proof line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
-proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
-proof line_phase_samples module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1" steps=12 cover=12
-proof line_phase_counts module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=2 TRANSLUCENCY=0" steps=12 cover=12
-proof line_phase_plain module=line_phase rtl=line_phase set="DSF_BITS=0 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" steps=12 cover=12
+phase_inside="inside_phase=dut.phase_q inside_marks=dut.marks_q"
+proof line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=0 TRANSLUCENCY=1" inside="$phase_inside" steps=12 induction=2 cover=12
+proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" inside="$phase_inside" steps=12 induction=2 cover=12
+proof line_phase_samples module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1" inside="$phase_inside" steps=12 induction=2 cover=12
+proof line_phase_counts module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=2 TRANSLUCENCY=0" inside="$phase_inside" steps=12 induction=2 cover=12
+proof line_phase_plain module=line_phase rtl=line_phase set="DSF_BITS=0 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" inside="$phase_inside" steps=12 induction=2 cover=12
 defect phase_op_in_volume line_phase include/generated/kage_order.svh "s/KindOp: order_in = 4'b0001/KindOp: order_in = 4'b0011/"
 defect phase_end_of_no_volume line_phase line_phase.sv "s/assign with_marks = .*/assign with_marks = '0;/"
 defect phase_volume_left_open line_phase include/generated/kage_order.svh 's/KindResolve: order_without = MarkVolume | /KindResolve: order_without = /'
