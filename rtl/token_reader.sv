@@ -71,7 +71,7 @@ module token_reader #(
   logic full_q;  // beats_held is Depth
   logic dropping_q, flushed_q;
 
-  logic [AtBits-1:0] front_at_q;  // the front's first word, below; no word before it is needed any more
+  logic [AtBits-1:0] front_at_q, next_at_q;  // first words: the front's, before which none is needed; the next's
   logic [BeatAtBits-1:0] front_beat, beats_held, next_end_beat;
   logic full_here, full_behind;  // in the next clock, if the front stays, and if what is behind it becomes the front
   logic push;
@@ -94,7 +94,7 @@ module token_reader #(
 
   // ---- looking ahead: where the token behind the front begins, of what kind it is, and where it ends ---------------
   // So the token's length, found by an address, is not in one path with what taking a token depends on.
-  logic [AtBits-1:0] next_at_q, next_rest, next_end_at, words_ahead;
+  logic [AtBits-1:0] next_rest, next_end_at, words_ahead;
   logic header_q;  // the next one is the frame's header
   logic next_there, look;
   logic [SaidBits*BEAT_WORDS-1:0] next_said;
