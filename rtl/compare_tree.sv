@@ -10,8 +10,8 @@
 //   units' lines have the same width.
 // Latency: levels + floor((levels - 1) / 2) clocks (0 with one unit: wires). Throughput: a pixel a clock. rst_ni low
 //   empties the tree.
-// Cost: UNITS - 1 compare cells, a register for each pixel that passes, and with more than four units a skid_buffer for
-//   each node of levels 2 and 4.
+// Cost: UNITS - 1 compare cells, a register for each pixel that passes, a skid_buffer for each node of level 2 with
+//   more than four units, and of level 4 with more than sixteen.
 `default_nettype none
 `include "kage_illegal.svh"
 

@@ -2,9 +2,11 @@
 // Beats to tokens: cuts the words of the input port into the frame's header and its tokens, one whole token at a time.
 //
 // Handshake: s_axis_* is AXI4-Stream; s_axis_tready_o depends on registers and on rst_ni, which keeps it low: no beat
-//   is taken and lost in reset. token_* is valid/ready, the token and its flags stable while it waits. drop_i may be
-//   high only with token_ready_i, and only for a token without the flag `ends`: the rest of the frame is then dropped
-//   up to and with TLAST. The reader drops the rest by itself after a token that ends it (END, or one that TLAST cut).
+//   is taken and lost in reset. token_* is valid/ready, the token and its flags stable while it waits. Without
+//   token_valid_o they are what comes next, in part, or the token before; `header` is then high only while no token
+//   of another frame is to come first. drop_i may be high only with token_ready_i, and only for a token without the
+//   flag `ends`: the rest of the frame is then dropped up to and with TLAST. The reader drops the rest by itself
+//   after a token that ends it (END, or one that TLAST cut).
 // Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks
 //   is passed on as soon as its first word is there. A cut token is passed on with the flag `cut` and whatever words
 //   there are.
@@ -218,6 +220,12 @@ module token_reader #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
+  // Behind the last word of a frame that was not ended `said` is read where nothing may have been written. Any value will
+  // do, because such a token is cut in any case; a simulator's unknown would spread. The proof takes any value.
+`ifndef FORMAL
+  initial for (int i = 0; i < Depth; i++) if ((^said[i]) === 1'bx) said[i] = '0;
+`endif
+
   always @(posedge clk_i) begin
     if (rst_ni) begin
       // 1. Only a token that is accepted and not final can ask for the rest to be dropped.

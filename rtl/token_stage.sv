@@ -5,9 +5,9 @@
 //
 // Handshake: token_* is valid/ready, token_ready_o depends on registers only. held_* is valid/ready, token and verdict
 //   stable while it waits; held_ready_i may depend on them.
-// State: width, lines, index, phases, the table's and the units' state advance with each token that comes in, good or
-//   not. So after a token at fault they are wrong, and nobody asks: no token comes in behind it but a header, which
-//   sets all of them anew.
+// State: width and lines are set by a header as soon as it shows, token_valid_i or not; they, index, phases, the
+//   table's and the units' state advance with each token that comes in, good or not. So after a token at fault they
+//   are wrong, and nobody asks: no token comes in behind it but a header, which sets all of them anew.
 // Errors: a token at fault lets none in behind it until frame_control has taken it. If it does not end its frame,
 //   another token of the frame follows: that one is taken and forgotten, and drop_o, in this clock, has the reader drop
 //   what is behind it, unless it ends the frame itself. dropping_o: that token has yet to come.
@@ -115,10 +115,11 @@ flags_t flags;
   assign index = index_q + 32'd1;
 
   // A header's words are taken whenever token_reader has one, even if it has not come whole, because nothing of the frame
-  // before is judged any more. So these flip-flops wait for no handshake.
+  // before is judged any more. So these flip-flops wait for no handshake. With units they wait until a token at fault has
+  // been taken, since behind_o tells its frame's line until then.
   always_ff @(posedge clk_i) begin
     if (take) first_q <= flags.header;
-    if (flags.header) begin
+    if (flags.header && (UNITS == 0 || !bad_q)) begin
       width_q <= token_i[HeaderWidthLsb+:X_BITS];
       line_q <= '0;
       left_q <= token_i[HeaderHeightLsb+:LineNumberBits];
@@ -238,9 +239,9 @@ flags_t flags;
       // 2. A token to be dropped is of the frame of the one at fault.
       assert (!drop_q || !token_valid_i || !flags.header);
       assert (!drop_q || !held_valid_o);
-      // 4. Token and verdict are of each other.
+      // 3. Token and verdict are of each other.
       assert (queue_ready == token_room && held_valid_o == token_there);
-      // 3. Of lines that are left.
+      // 4. Of lines that are left.
       assert (!take || flags.header || wrong_q || lines_done_q == (left_q == '0));
     end
   end

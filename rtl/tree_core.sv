@@ -8,13 +8,13 @@
 //   ones: none. All pixels of a line but the last are offered as soon as every unit has the line. The last pixel
 //   waits for a claim.
 // Lines asked for: `claim`, one clock, says that a TREE was good: whoever reads line_* will take one line more. All
-//   segments of the line have come in by then. drop_o, one clock, says that a line of which a part has been taken will not
-//   come; nothing taken then counts.
-// Frames: `start` exchanges the tables; it may come while frame_ready_o, two clocks or more behind a segment, a flush or
-//   another start. Lines of the frame before may still be
-//   leaving then, none of the one before that, and its segments are all in their units. After a frame with an error `flush`, one clock or more, drops what has
-//   not been claimed: lines claimed leave first, and frame_ready_o is low until the rest is gone. No face, segment or
-//   claim comes from a flush until the next start.
+//   segments of the line have come in by then. drop_o, one clock, says that a line of which a part has been taken
+//   will not come; nothing taken then counts.
+// Frames: `start` exchanges the tables; it may come while frame_ready_o, two clocks or more behind a segment, a flush
+//   or another start. Lines of the frame before may still be leaving then, none of the one before that, and its
+//   segments are all in their units. After a frame with an error `flush`, one clock or more, drops what has not been
+//   claimed: lines claimed leave first, and frame_ready_o is low until the rest is gone. No face, segment or claim
+//   comes from a flush until the next start.
 // Status: moving_o: a line that was asked for comes nearer, and only line_ready_i could hold it up; or a flush does its
 //   work. It also stays high for some clocks after something has entered a unit or the tree, because the effect may not
 //   be visible before.
@@ -27,7 +27,7 @@
 module tree_core #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    localparam int ClaimBits = 5  // no more than 16 lines fit in units and tree
+    localparam int ClaimBits = 5  // no more than 18 lines fit in units and tree: 64 units, lines of one pixel
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -117,7 +117,6 @@ module tree_core #(
     held_piece = piece;
     {held_piece.unit, held_piece.face, held_piece.z, held_piece.dx, held_piece.completes} = held_segment;
     unit_piece = held_piece;
-    unit_piece.unit = held_valid ? held_piece.unit : piece.unit;
     unit_piece.face = held_valid ? held_piece.face : piece.face;
   end
 
@@ -151,7 +150,7 @@ module tree_core #(
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) way_q <= '0;
-    else way_q <= {way_q[Way-2:0], seg_moves || (px_valid & px_ready) != '0};
+    else way_q <= {way_q[Way-2:0], seg_moves || (px_valid & px_ready) != '0 || (line_valid_o && line_ready_i)};
   end
 
   // ---- tree --------------------------------------------------------------------------------------------------------
@@ -189,7 +188,7 @@ module tree_core #(
       assert (!call.start || (frame_ready && frame_ready_o));
       // 2. No line leaves that was not claimed, and no more are claimed than fit.
       assert (!line_left || claimed_q != '0);
-      assert (claimed_q <= ClaimBits'(16));
+      assert (claimed_q <= ClaimBits'(18));
       // 3. Nothing is given between a flush and the next frame.
       assert (!flushing_q || !(call.face || seg_valid_i || call.claim));
       // 4. Entries and segments come to the units one at a time.

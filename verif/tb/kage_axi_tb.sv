@@ -93,7 +93,7 @@ module kage_axi_tb #(
       rready  = 1'b1;
       while (!rvalid) @(negedge clk);
       value = rdata;
-      if (rresp != 2'b00) fail("a register answers an error");
+      if (rresp !== 2'b00) fail("a register answers an error");
       @(negedge clk);
       rready = 1'b0;
     end
@@ -101,7 +101,7 @@ module kage_axi_tb #(
   task automatic expect_register(input logic [7:0] address, input logic [31:0] wanted, input string name);
     begin
       read(address);
-      if (value != wanted) begin
+      if (value !== wanted) begin
         $display("%0s is %h, not %h", name, value, wanted);
         fail("a register has another value");
       end
@@ -115,7 +115,7 @@ module kage_axi_tb #(
       @(negedge clk);
       {awvalid, wvalid} = 2'b00;
       while (!bvalid) @(negedge clk);
-      if (bresp != 2'b00) fail("a write answers an error");
+      if (bresp !== 2'b00) fail("a write answers an error");
     end
   endtask
 
@@ -164,10 +164,10 @@ module kage_axi_tb #(
   // ---- pixels ------------------------------------------------------------------------------------------------------
   integer pixels = 0;
   always @(posedge clk) begin
-    if (rst_n && m_valid && m_ready) begin
-      if (m_data != Background[RgbBits-1:0]) fail("a pixel is not the background");
-      if (m_user != (pixels == 0)) fail("TUSER is not on the first pixel, or on another");
-      if (m_last != (pixels % Width == Width - 1)) fail("TLAST is not on a line's last pixel, or on another");
+    if (rst_n && m_valid !== 1'b0 && m_ready) begin
+      if (m_data !== Background[RgbBits-1:0]) fail("a pixel is not the background");
+      if (m_user !== (pixels == 0)) fail("TUSER is not on the first pixel, or on another");
+      if (m_last !== (pixels % Width == Width - 1)) fail("TLAST is not on a line's last pixel, or on another");
       if (pixels == Lines * Width) fail("more pixels come than the frame has");
       pixels <= pixels + 1;
     end
@@ -186,15 +186,15 @@ module kage_axi_tb #(
     make_frame(value, 32'd7);
     send;
     while (pixels != Lines * Width) @(negedge clk);
-    while (!irq) @(negedge clk);
+    while (irq !== 1'b1) @(negedge clk);
     write(RegIrq, 32'd1);
     expect_register(RegFrames, 32'd1, "FRAMES");
     expect_register(RegErrors, 32'd0, "ERRORS");
-    if (irq) fail("the interrupt stays though it was cleared");
+    if (irq !== 1'b0) fail("the interrupt stays though it was cleared");
     read(RegParamHash);
     make_frame(~value, 32'd8);
     send;
-    while (!irq) @(negedge clk);
+    while (irq !== 1'b1) @(negedge clk);
     expect_register(RegFrames, 32'd2, "FRAMES");
     expect_register(RegErrors, 32'd1, "ERRORS");
     expect_register(RegErrorFrame, 32'd8, "ERROR_FRAME");
