@@ -9,13 +9,14 @@
 // Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut
 //   takes one per group of the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first:
 //   what the RAM held never matters.
-// Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, next state 1, write 1. Throughput: a group
-//   a clock.
-// Hazards: a group is read 3 clocks before its next state is written. The three results under way are forwarded in
-//   front of the comparison: the newest as it is, the two older ones by a register beside the RAM's. The hazards of the
-//   tree's line are tree_line's.
-// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; with units
-//   tree_line.
+// Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, what is found ahead 1, next state 1, write
+//   1. Throughput: a group a clock.
+// Hazards: a group is read 4 clocks before its next state is written, and the four results under way are forwarded.
+//   The newest is the only one that a loop of one clock is left of: depths are compared a clock ahead of it, once with
+//   what the pixel has without it and once with its own new depth, so that it only chooses between two answers. The
+//   hazards of the tree's line are tree_line's.
+// Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; two
+//   comparisons of depth a lane; with units tree_line.
 `default_nettype none
 
 module pixel_banked #(
@@ -36,7 +37,7 @@ module pixel_banked #(
   localparam int Levels = $clog2(LANES);
   localparam int OffBits = LANES > 1 ? Levels : 1;
   localparam int WordBits = LANES * PixelBits;
-  localparam int Last = Levels + 2;  // the stage at which a group's next state is computed; the walker is stage 0
+  localparam int Last = Levels + 3;  // the stage at which a group's next state is computed; the walker is stage 0
 
   command_t cmd;
   assign cmd = cmd_i;
@@ -219,13 +220,13 @@ module pixel_banked #(
   end
 
   // ---- what goes along with a group, stage 1 .. Last ---------------------------------------------------------------
-  // {kind, count, weight, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
+  // {count, weight, kind, lanes, address, last of its line, leaves}; the walker's flat colour likewise.
   localparam int InfoBits = KindBits + CountBits + ShareBits + LANES + AddrBits + 2;
   logic [Last*InfoBits-1:0] info_q;
   logic [Last:0] valid;  // bit k: stage k holds a group
   logic [Last-1:0] valid_q;
   logic [InfoBits-1:0] info_walk;
-  assign info_walk = {walk_kind_q, walk_count_q, walk_weight_q, walk_lanes, walk_group_q, walk_at_end_q, walk_leaves_q};
+  assign info_walk = {walk_count_q, walk_weight_q, walk_kind_q, walk_lanes, walk_group_q, walk_at_end_q, walk_leaves_q};
   assign valid = {valid_q, walk_valid_q};
 
   always_ff @(posedge clk_i) begin
@@ -237,39 +238,39 @@ module pixel_banked #(
   if (SMOOTH == 0) begin : gen_flat
     logic unused_dcolor;
     assign unused_dcolor = ^cmd.dcolor;
-    logic [Last*RgbBits-1:0] flat_q;
-    always_ff @(posedge clk_i) flat_q <= {flat_q[(Last-1)*RgbBits-1:0], walk_flat_q};
-    assign lane_color = {LANES{flat_q[(Last-1)*RgbBits+:RgbBits]}};
+    logic [(Last-1)*RgbBits-1:0] flat_q;
+    always_ff @(posedge clk_i) flat_q <= {flat_q[(Last-2)*RgbBits-1:0], walk_flat_q};
+    assign lane_color = {LANES{flat_q[(Last-2)*RgbBits+:RgbBits]}};
   end
 
   // Address of the group at stage k, k = 1 .. Last: the walker's goes in at stage 1.
   localparam int AddrAt = 2;
-  logic [AddrBits-1:0] addr_read, addr_before, addr_now;  // stages Last - 2, Last - 1, Last
-  if (Last > 2) begin : gen_addr_read
-    assign addr_read = info_q[(Last-3)*InfoBits+AddrAt+:AddrBits];
+  logic [AddrBits-1:0] addr_read, addr_ahead2, addr_ahead;  // stages Last - 3, Last - 2, Last - 1
+  if (Last > 3) begin : gen_addr_read
+    assign addr_read = info_q[(Last-4)*InfoBits+AddrAt+:AddrBits];
   end else begin : gen_addr_read_walk
     assign addr_read = walk_group_q;
   end
-  assign addr_before = info_q[(Last-2)*InfoBits+AddrAt+:AddrBits];
-  assign addr_now = info_q[(Last-1)*InfoBits+AddrAt+:AddrBits];
+  assign addr_ahead2 = info_q[(Last-3)*InfoBits+AddrAt+:AddrBits];
 
-  logic [KindBits-1:0] now_kind;
-  logic [CountBits-1:0] now_count;
-  logic [ShareBits-1:0] now_weight;
-  logic [LANES-1:0] now_lanes;
+  // The group whose next state is computed, and the one behind it.
+  logic [KindBits-1:0] now_kind, ahead_kind;
+  logic [CountBits-1:0] ahead_count;
+  logic [ShareBits-1:0] ahead_weight;
+  logic [LANES-1:0] now_lanes, ahead_lanes;
   logic [AddrBits-1:0] now_addr;
   logic now_at_end, now_leaves;
-  logic [InfoBits-1:0] info_now;
-  assign info_now = info_q[(Last-1)*InfoBits+:InfoBits];
-  logic now_opaque_q;  // of now_kind
-  always_ff @(posedge clk_i) now_opaque_q <= pixel_opaque(info_q[(Last-1)*InfoBits-1-:KindBits]);
-  assign {now_kind, now_count, now_weight, now_lanes, now_addr, now_at_end, now_leaves} = info_now;
+  logic [CountBits+ShareBits-1:0] unused_now;
+  logic [1:0] unused_ahead;
+  assign {unused_now, now_kind, now_lanes, now_addr, now_at_end, now_leaves} = info_q[(Last-1)*InfoBits+:InfoBits];
+  assign {ahead_count, ahead_weight, ahead_kind, ahead_lanes, addr_ahead, unused_ahead} =
+      info_q[(Last-2)*InfoBits+:InfoBits];
 
   // ---- the tree's line ---------------------------------------------------------------------------------------------
-  // Depth, colour and count of each lane: the span's, or what the tree has there.
-  logic [LANES*Z_BITS-1:0] now_z;
-  logic [LANES*RgbBits-1:0] now_color;
-  logic [LANES*CountBits-1:0] now_counts;
+  // Depth, colour and count of each lane, a clock ahead: the span's, or what the tree has there.
+  logic [LANES*Z_BITS-1:0] ahead_z;
+  logic [LANES*RgbBits-1:0] ahead_color;
+  logic [LANES*CountBits-1:0] ahead_counts;
 
   if (UNITS > 0) begin : gen_tree
     logic [LANES*Z_BITS-1:0] tree_z;
@@ -288,7 +289,7 @@ module pixel_banked #(
         .drop_i    (tree_drop_i),
         .here_o    (tree_here),
         .pass_i    (take3 && next_tree),
-        .rd_en_i   (valid[Last-2]),
+        .rd_en_i   (valid[Last-3]),
         .rd_group_i(addr_read),
         .z_o       (tree_z),
         .color_o   (tree_color),
@@ -297,14 +298,14 @@ module pixel_banked #(
     );
 
     always_comb begin
-      now_z = lane_z;
-      now_color = lane_color;
-      now_counts = {LANES{now_count}};
-      if (now_kind == KindTree) begin
-        now_z = tree_z;
-        now_color = tree_color;
+      ahead_z = lane_z;
+      ahead_color = lane_color;
+      ahead_counts = {LANES{ahead_count}};
+      if (ahead_kind == KindTree) begin
+        ahead_z = tree_z;
+        ahead_color = tree_color;
         for (int l = 0; l < LANES; l++) begin
-          if (DSF_BITS > 0) now_counts[l*CountBits+:CountBits] = CountBits'(tree_class[l*CLASS_BITS+:CLASS_BITS]);
+          if (DSF_BITS > 0) ahead_counts[l*CountBits+:CountBits] = CountBits'(tree_class[l*CLASS_BITS+:CLASS_BITS]);
         end
       end
     end
@@ -313,20 +314,24 @@ module pixel_banked #(
     assign unused_tree = ^{tree_valid_i, tree_i, tree_drop_i};
     assign tree_ready_o = 1'b0;
     assign {tree_here, tree_moving} = '0;
-    assign now_z = lane_z;
-    assign now_color = lane_color;
-    assign now_counts = {LANES{now_count}};
+    assign ahead_z = lane_z;
+    assign ahead_color = lane_color;
+    assign ahead_counts = {LANES{ahead_count}};
   end
 
   // ---- read, next state, write -------------------------------------------------------------------------------------
-  logic [WordBits-1:0] ram_data, stored_q, recent_q, word, next, done_q, done2_q;
+  logic [WordBits-1:0] ram_data, stored_q, recent_q, settled, word_q, word, next, done_q, done, done2_q;
+  logic [LANES-1:0] blends, word_blends_q, done_blends_q;
+  logic [LANES*RgbBits-1:0] blended, blended_q;
+  logic [LANES*Z_BITS-1:0] old_z;
   logic [AddrBits-1:0] done_addr_q;
   logic done_valid_q;
-  // The group computed 1, 2, 3 clocks before is the same; of 1 and 2 those lanes that it changed, which also keeps the
-  // number of bits low that a flip-flop selects. recent_q is 2 or 3 clocks old, for the lanes of use_recent_q. What the
-  // RAM gives goes into stored_q as it is, because nothing else fits in the clock of a block RAM's output.
-  logic [LANES-1:0] same1_q, same2_q, use_recent_q;
-  logic same3_q;
+  // The group computed 1 .. 4 clocks before is the same; of 1, 2 and 3 those lanes that it changed, which also keeps the
+  // number of bits low that a flip-flop selects. recent_q is 3 or 4 clocks old, for the lanes of use_recent_q. What the
+  // RAM gives goes into stored_q as it is, because nothing else fits in the clock of a block RAM's output. `settled` is
+  // what a pixel has of all groups but the one right before, a clock ahead; word is what it has.
+  logic [LANES-1:0] same1_q, same2_q, same3_q, use_recent_q;
+  logic same4_q;
 
   ram_1r1w #(
       .BITS (WordBits),
@@ -335,44 +340,98 @@ module pixel_banked #(
       .clk_i,
       .wr_en_i  (done_valid_q),
       .wr_addr_i(done_addr_q),
-      .wr_data_i(done_q),
-      .rd_en_i  (valid[Last-2]),
+      .wr_data_i(done),
+      .rd_en_i  (valid[Last-3]),
       .rd_addr_i(addr_read),
       .rd_data_o(ram_data)
   );
 
+  always_comb begin
+    settled = stored_q;
+    for (int l = 0; l < LANES; l++) begin
+      if (same2_q[l]) settled[l*PixelBits+:PixelBits] = done[l*PixelBits+:PixelBits];
+      else if (use_recent_q[l]) settled[l*PixelBits+:PixelBits] = recent_q[l*PixelBits+:PixelBits];
+      // The depth without what the group right before does: that group's pixel has all before it.
+      old_z[l*Z_BITS+:Z_BITS] = settled[l*PixelBits+PixelZAt+:Z_BITS];
+      if (same1_q[l]) old_z[l*Z_BITS+:Z_BITS] = word[l*PixelBits+PixelZAt+:Z_BITS];
+    end
+  end
+
   always_ff @(posedge clk_i) begin
-    // For the group that moves from stage Last - 2 to Last - 1; see the contract's hazards.
-    same2_q <= valid[Last] && addr_read == addr_now ? now_lanes : '0;
-    same3_q <= done_valid_q && addr_read == done_addr_q;
-    // For the group that moves from stage Last - 1 to Last.
-    same1_q <= valid[Last] && addr_before == addr_now ? now_lanes : '0;
-    use_recent_q <= same2_q | {LANES{same3_q}};
+    // For the group that moves from stage Last - 3 to Last - 2; see the contract's hazards.
+    same3_q <= valid[Last] && addr_read == now_addr ? now_lanes : '0;
+    same4_q <= done_valid_q && addr_read == done_addr_q;
+    // For the group that moves from stage Last - 2 to Last - 1.
+    same1_q <= valid[Last-1] && addr_ahead2 == addr_ahead ? ahead_lanes : '0;
+    same2_q <= valid[Last] && addr_ahead2 == now_addr ? now_lanes : '0;
+    use_recent_q <= same3_q | {LANES{same4_q}};
     stored_q <= ram_data;
     recent_q <= done2_q;
+    // For the group that moves from stage Last - 1 to Last.
+    word_q <= settled;
     for (int l = 0; l < LANES; l++) begin
-      if (same2_q[l]) recent_q[l*PixelBits+:PixelBits] <= done_q[l*PixelBits+:PixelBits];
+      if (same3_q[l]) recent_q[l*PixelBits+:PixelBits] <= done[l*PixelBits+:PixelBits];
+      if (same1_q[l]) word_q[l*PixelBits+:PixelBits] <= next[l*PixelBits+:PixelBits];
+    end
+    word_blends_q <= same1_q & blends;
+    done_blends_q <= blends;
+    blended_q <= blended;
+  end
+
+  // A blended colour is chosen a clock later: nothing stands between the blender and its register.
+  always_comb begin
+    word = word_q;
+    done = done_q;
+    for (int l = 0; l < LANES; l++) begin
+      if (TRANSLUCENCY > 0 && word_blends_q[l]) word[l*PixelBits+PixelColorAt+:RgbBits] = blended_q[l*RgbBits+:RgbBits];
+      if (TRANSLUCENCY > 0 && done_blends_q[l]) done[l*PixelBits+PixelColorAt+:RgbBits] = blended_q[l*RgbBits+:RgbBits];
+    end
+  end
+
+  // Of each lane: whether the group right before has given the pixel a depth; whether this group's depth is in front of
+  // that, and whether it is in front of what the pixel had without it.
+  logic [LANES-1:0] moved_q, before_new_q, before_old_q, in_front;
+  logic now_opaque_q;  // of now_kind
+  logic [LANES*Z_BITS-1:0] now_z;
+  logic [LANES*RgbBits-1:0] now_color;
+  logic [LANES*CountBits-1:0] now_counts;
+  logic [KeepBits-1:0] now_keep;
+  logic [LANES*AddedBits-1:0] now_added;
+
+  always_ff @(posedge clk_i) begin
+    now_opaque_q <= pixel_opaque(ahead_kind);
+    now_z <= ahead_z;
+    now_color <= ahead_color;
+    now_counts <= ahead_counts;
+    now_keep <= pixel_keep(ahead_kind, ahead_weight);
+    for (int l = 0; l < LANES; l++) begin
+      now_added[l*AddedBits+:AddedBits] <= pixel_added(ahead_kind, 8'(ahead_weight), ahead_color[l*RgbBits+:RgbBits]);
+      moved_q[l] <= same1_q[l] && ((now_opaque_q && in_front[l]) || now_kind == KindEol);
+      before_new_q[l] <= now_kind == KindEol || pixel_in_front(ahead_z[l*Z_BITS+:Z_BITS], now_z[l*Z_BITS+:Z_BITS]);
+      before_old_q[l] <= pixel_in_front(ahead_z[l*Z_BITS+:Z_BITS], old_z[l*Z_BITS+:Z_BITS]);
     end
   end
 
   always_comb begin
-    word = stored_q;
-    for (int l = 0; l < LANES; l++) begin
-      if (same1_q[l]) word[l*PixelBits+:PixelBits] = done_q[l*PixelBits+:PixelBits];
-      else if (use_recent_q[l]) word[l*PixelBits+:PixelBits] = recent_q[l*PixelBits+:PixelBits];
-    end
     next = word;
+    {blends, blended} = '0;
     for (int l = 0; l < LANES; l++) begin
+      in_front[l] = moved_q[l] ? before_new_q[l] : before_old_q[l];
       if (now_lanes[l]) begin
         next[l*PixelBits+:PixelBits] = pixel_next(
           word[l*PixelBits+:PixelBits],
           now_kind,
           now_opaque_q,
+          in_front[l],
           now_z[l*Z_BITS+:Z_BITS],
           now_color[l*RgbBits+:RgbBits],
-          now_counts[l*CountBits+:CountBits],
-          now_weight
+          now_counts[l*CountBits+:CountBits]
         );
+        blends[l] = pixel_blends(word[l*PixelBits+:PixelBits], now_kind, in_front[l], now_counts[l*CountBits+:DsfBits]);
+      end
+      if (TRANSLUCENCY > 0) begin
+        blended[l*RgbBits+:RgbBits] =
+            pixel_blend(word[l*PixelBits+PixelColorAt+:RgbBits], now_keep, now_added[l*AddedBits+:AddedBits]);
       end
     end
   end
@@ -385,7 +444,7 @@ module pixel_banked #(
     end
     done_addr_q <= now_addr;
     done_q      <= next;
-    done2_q     <= done_q;
+    done2_q     <= done;
   end
 
   // ---- the line leaves ---------------------------------------------------------------------------------------------
@@ -394,7 +453,7 @@ module pixel_banked #(
     else exit_valid_o <= valid[Last] && now_leaves;
     exit_last_o <= now_at_end;
     for (int l = 0; l < LANES; l++) begin
-      exit_data_o[l*ExitBits+:ExitBits] <= pixel_exit(word[l*PixelBits+:PixelBits], now_count[DsfBits-1:0]);
+      exit_data_o[l*ExitBits+:ExitBits] <= pixel_exit(word[l*PixelBits+:PixelBits], now_counts[l*CountBits+:DsfBits]);
     end
   end
 

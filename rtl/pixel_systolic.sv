@@ -170,11 +170,16 @@ module pixel_systolic #(
   logic [Z_BITS-1:0] depth;
   logic [RgbBits-1:0] color;
   logic [PixelBits-1:0] pixel;
+  logic in_front;
+  logic [ShareBits-1:0] weight;
+  logic [7:0] alpha;
+  logic [KeepBits-1:0] keep;
+  logic [AddedBits-1:0] added;
   logic [ExitBits-1:0] leaving;
   always_comb begin
     pixel_d = pixel_q;
     joined_d = '0;
-    {kind, count, depth, color, pixel, leaving} = '0;
+    {kind, count, depth, color, pixel, in_front, weight, alpha, keep, added, leaving} = '0;
     for (int i = 0; i < N; i++) begin
       if (hit_q[i]) begin
         kind  = kind_q[(i+1)*KindBits+:KindBits];
@@ -183,8 +188,15 @@ module pixel_systolic #(
         color = shown_q[i*RgbBits+:RgbBits];
         if (UNITS > 0 && kind == KindTree) {depth, color, count} = {tree_z, tree_color, tree_count};
         pixel = pixel_q[i*PixelBits+:PixelBits];
-        pixel_d[i*PixelBits+:PixelBits] =
-            pixel_next(pixel, kind, opaque_q[i], depth, color, count, weight_q[(i+1)*ShareBits+:ShareBits]);
+        in_front = pixel_in_front(depth, pixel[PixelZAt+:Z_BITS]);
+        weight = weight_q[(i+1)*ShareBits+:ShareBits];
+        alpha = 8'(weight);
+        keep = pixel_keep(kind, weight);
+        added = pixel_added(kind, alpha, color);
+        pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, opaque_q[i], in_front, depth, color, count);
+        if (pixel_blends(pixel, kind, in_front, count[DsfBits-1:0])) begin
+          pixel_d[i*PixelBits+PixelColorAt+:RgbBits] = pixel_blend(pixel[PixelColorAt+:RgbBits], keep, added);
+        end
         // Of the EOLs and CmdOuts in the chain only one is among its line's pixels: the OR of all exits is that one's.
         if (kind == KindEol || (HasLoads && kind == CmdOut)) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count[DsfBits-1:0]);

@@ -10,34 +10,56 @@ localparam int TallyOne = COUNT_BITS > 0 ? COUNT_BITS : 1;  // one counter
 localparam logic [PixelBits-1:0] PixelClear = PixelBits'(ClearDepth);
 /* verilator lint_on UNUSEDPARAM */
 
-// The share of a command as pixel_blend takes it: TP's alpha; of RESOLVE what is left of a colour, 1 - shade. It is
-// worked out long before its use, because pixel_blend is the slowest part of the pixels' loop.
+// The share of a command as the blender takes it: TP's alpha; of RESOLVE what is left of a colour, 1 - shade.
 function automatic logic [ShareBits-1:0] pixel_weight(input logic [KindBits-1:0] kind,
                                                       input logic [ShareBits-1:0] share);
   pixel_weight = COUNT_BITS == 0 && kind == KindResolve ? ShareBits'(WholeShare) - share : share;
 endfunction
 
-localparam int BlendBits = SHADE_FRAC > 8 ? SHADE_FRAC + 8 : 16;
-// A colour with a share of another: of TP `over` with alpha / 255, of RESOLVE (resolve = 1) black with shade /
-// 2^SHADE_FRAC; rounded once. Only the product with `under` waits for the command before; the one with `over` is a
-// multiplier of its own so that it need not.
-function automatic logic [RgbBits-1:0] pixel_blend(input logic [RgbBits-1:0] under, input logic [RgbBits-1:0] over,
-                                                   input logic [ShareBits-1:0] weight, input logic resolve);
+// The blender: a colour with a share of another. Of TP `over` with alpha / 255, of RESOLVE black with shade /
+// 2^SHADE_FRAC; rounded once. Only the product with the old colour and one sum wait for the command before, so all else
+// is worked out ahead of them: `keep`, what is left of the old colour, in 1/65536, and `added`.
+//   TP: (t + t / 256) / 256 rounds t = old x (255 - alpha) + over x alpha + 128 by 255, where both divisions round down;
+//   that is 257 t / 65536. So (255 - alpha) x 257, twice the same 8 bits, is `keep`.
+//   RESOLVE: (old x (1 - shade) + half of a share) / 2^SHADE_FRAC, all of it times 2^(16 - SHADE_FRAC).
+// Less than 2^24: 255 x 65536 + 32768 at most, or 257 x (255 x 255 + 128).
+localparam int KeepBits = 17;
+localparam int AddedOne = 24;  // of one channel
+localparam int AddedBits = CHANNELS * AddedOne;
+function automatic logic pixel_darkens(input logic [KindBits-1:0] kind);
+  pixel_darkens = COUNT_BITS == 0 && kind == KindResolve;
+endfunction
+function automatic logic [KeepBits-1:0] pixel_keep(input logic [KindBits-1:0] kind,
+                                                   input logic [ShareBits-1:0] weight);
   logic [7:0] alpha;
-  logic [ShareBits-1:0] keep;
-  logic [BlendBits-1:0] added, sum;
   begin
-    {added, sum} = '0;
     alpha = 8'(weight);
-    keep = resolve ? weight : ShareBits'({1'b0, 8'd255 - alpha});
+    if (TRANSLUCENCY == 0) pixel_keep = '0;
+    else if (pixel_darkens(kind)) pixel_keep = KeepBits'(weight) << (16 - SHADE_FRAC);
+    else pixel_keep = {1'b0, ~alpha, ~alpha};
+  end
+endfunction
+function automatic logic [AddedBits-1:0] pixel_added(input logic [KindBits-1:0] kind,
+                                                     input logic [7:0] alpha,
+                                                     input logic [RgbBits-1:0] over);
+  logic [AddedOne-1:0] sum;
+  begin
+    pixel_added = '0;
+    sum = '0;
     for (int c = 0; c < CHANNELS; c++) begin
-      added = BlendBits'(over[c*8+:8]) * BlendBits'(alpha) + BlendBits'(128);
-      if (resolve) added = BlendBits'(HalfShare);
-      // At most 255 x 255 + 128 or (255 x 2^SHADE_FRAC) + 2^(SHADE_FRAC - 1): it fits.
-      sum = BlendBits'(under[c*8+:8]) * BlendBits'(keep) + added;
-      // Its own 1/256 added, a division by 256 is one by 255, rounded.
-      if (resolve) pixel_blend[c*8+:8] = 8'(sum >> SHADE_FRAC);
-      else pixel_blend[c*8+:8] = 8'((sum + (sum >> 8)) >> 8);
+      sum = AddedOne'(over[c*8+:8]) * AddedOne'({alpha, alpha}) + AddedOne'(257 * 128);
+      if (pixel_darkens(kind)) sum = AddedOne'(32768);
+      if (TRANSLUCENCY > 0) pixel_added[c*AddedOne+:AddedOne] = sum;
+    end
+  end
+endfunction
+function automatic logic [RgbBits-1:0] pixel_blend(input logic [RgbBits-1:0] under, input logic [KeepBits-1:0] keep,
+                                                   input logic [AddedBits-1:0] added);
+  logic [AddedOne-1:0] sum;
+  begin
+    for (int c = 0; c < CHANNELS; c++) begin
+      sum = AddedOne'(under[c*8+:8]) * AddedOne'(keep) + added[c*AddedOne+:AddedOne];
+      pixel_blend[c*8+:8] = 8'(sum >> 16);
     end
   end
 endfunction
@@ -53,30 +75,27 @@ function automatic logic pixel_opaque(input logic [KindBits-1:0] kind);
   pixel_opaque = kind == KindOp || (UNITS > 0 && kind == KindTree);
 endfunction
 
-// Next state of a pixel in the range of a token. `opaque` is pixel_opaque's of its kind, found a clock ahead, since
-// what the depth comparison says has the longest way. `z` and `color` are the span's at this pixel, or the tree's, of
-// RESOLVE the background; `count` is the class for OP and TREE, w for SP and NC, the line's bias for EV and RESOLVE,
-// {light, bias} for ES; `weight` is pixel_weight's, of TP and RESOLVE. RESOLVE reaches the pixels only where TPs follow;
-// otherwise line_out darkens. With counters RESOLVE darkens nothing: where there is something to darken CmdOut sends
-// the line to line_out and CmdLoad brings its colours back. EOL clears.
+// Whether a span, or the tree, with depth `z` is in front of what a pixel has; on a tie the first one drawn stays.
+function automatic logic pixel_in_front(input logic [Z_BITS-1:0] z, input logic [Z_BITS-1:0] drawn);
+  pixel_in_front = z < drawn;
+endfunction
+
+// Next state of a pixel in the range of a token. What has a long way is found ahead of it: `opaque` is pixel_opaque's of
+// the kind, `in_front` pixel_in_front's of `z` and the pixel. A colour that is blended is left to pixel_blends and
+// pixel_blend, because it comes last. `z` and `color` are the span's at this pixel, or the tree's, of RESOLVE the background; `count` is the class for OP
+// and TREE, w for SP and NC, the line's bias for EV and RESOLVE, {light, bias} for ES. RESOLVE reaches the pixels only
+// where TPs follow; otherwise line_out darkens. With counters RESOLVE darkens nothing: where there is something to
+// darken CmdOut sends the line to line_out and CmdLoad brings its colours back. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [KindBits-1:0] kind,
-                                                    input logic opaque, input logic [Z_BITS-1:0] z,
-                                                    input logic [RgbBits-1:0] color,
-                                                    input logic [CountBits-1:0] count,
-                                                    input logic [ShareBits-1:0] weight);
-  logic in_front, clear, dark, shadow;
+                                                    input logic opaque, input logic in_front,
+                                                    input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,
+                                                    input logic [CountBits-1:0] count);
+  logic clear, shadow;
   logic [DsfBits-1:0] sum;
-  logic [  RgbBits-1:0] blended;
   begin
-    in_front = z < pixel[PixelZAt+:Z_BITS];
     clear = pixel[PixelZAt+:Z_BITS] == ClearDepth;
     sum = pixel[PixelDsfAt+:DsfBits] + count[DsfBits-1:0];
     shadow = DSF_BITS > 0 && pixel_shadow(pixel, count[DsfBits-1:0]);
-    dark = COUNT_BITS == 0 && shadow && pixel[PixelClassAt];
-    blended = '0;
-    if (TRANSLUCENCY > 0) begin
-      blended = pixel_blend(pixel[PixelColorAt+:RgbBits], color, weight, COUNT_BITS == 0 && kind == KindResolve);
-    end
     pixel_next = pixel;
     unique case (kind)
       KindSp:  if (DSF_BITS > 0 && in_front) pixel_next[PixelDsfAt+:DsfBits] = sum;
@@ -102,11 +121,9 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
         for (int l = 0; l < LIGHTS; l++) pixel_next[PixelCountsAt+l*TallyOne+:TallyOne] = '0;
       end
       CmdLoad: if (HasLoads) pixel_next[PixelColorAt+:RgbBits] = color;
-      KindTp:  if (TRANSLUCENCY > 0 && in_front) pixel_next[PixelColorAt+:RgbBits] = blended;
       KindResolve:
       if (TRANSLUCENCY > 0) begin
         if (clear) pixel_next[PixelColorAt+:RgbBits] = color;
-        else if (dark) pixel_next[PixelColorAt+:RgbBits] = blended;
         if (DSF_BITS > 0) pixel_next[PixelDsfAt+:DsfBits] = '0;
         if (FSF > 0) pixel_next[PixelFsfAt] = 1'b0;
       end
@@ -118,6 +135,18 @@ function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] 
       pixel_next[PixelColorAt+:RgbBits] = color;
       if (DSF_BITS > 0) pixel_next[PixelClassAt+:CLASS_BITS] = count[CLASS_BITS-1:0];
     end
+  end
+endfunction
+
+// Whether a token in whose range a pixel is gives it pixel_blend's colour: TP in front of it, RESOLVE where it darkens.
+// `bias` is the line's.
+function automatic logic pixel_blends(input logic [PixelBits-1:0] pixel, input logic [KindBits-1:0] kind,
+                                      input logic in_front, input logic [DsfBits-1:0] bias);
+  logic clear, dark;
+  begin
+    clear = pixel[PixelZAt+:Z_BITS] == ClearDepth;
+    dark = DSF_BITS > 0 && COUNT_BITS == 0 && pixel_shadow(pixel, bias) && pixel[PixelClassAt];
+    pixel_blends = TRANSLUCENCY > 0 && (kind == KindTp ? in_front : kind == KindResolve && !clear && dark);
   end
 endfunction
 

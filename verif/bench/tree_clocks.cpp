@@ -19,7 +19,7 @@ namespace {
 using namespace kage;
 
 constexpr int kBetweenLines = 4;  // from a buffered line's last pixel into the core to the next line's first
-constexpr int kBankedFrame = 30;  // header, pipelines, way out
+constexpr int kBankedFrame = 31;  // header, pipelines, way out
 constexpr int kSystolicFrame = 28;
 
 /// A frame of `lines` lines, each `segments` segments of every unit and a TREE, a line ahead as a front end writes

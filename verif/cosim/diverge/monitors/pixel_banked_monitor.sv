@@ -16,18 +16,29 @@ module pixel_banked_monitor #(
     input wire logic [      ADDR_BITS-1:0] now_addr,
     input wire logic [   LANES*Z_BITS-1:0] now_z,
     input wire logic [  LANES*RgbBits-1:0] now_color,
-    input wire logic [LANES*PixelBits-1:0] next
+    input wire logic [LANES*PixelBits-1:0] next,
+    input wire logic [          LANES-1:0] blends,
+    input wire logic [  LANES*RgbBits-1:0] blended
 );
   `include "kage_trace.svh"
   `include "generated/kage_layout.svh"
   `include "kage_trace_pixel.svh"
+
+  // The next state with its colour, which the core chooses a clock later where it is blended.
+  logic [LANES*PixelBits-1:0] full;
+  always_comb begin
+    full = next;
+    for (int l = 0; l < LANES; l++) begin
+      if (blends[l]) full[l*PixelBits+PixelColorAt+:RgbBits] = blended[l*RgbBits+:RgbBits];
+    end
+  end
 
   always_ff @(posedge clk_i) begin
     if (rst_ni && group_valid && now_kind != KindEol && now_kind != CmdOut) begin
       for (int l = 0; l < LANES; l++) begin
         if (now_lanes[l]) begin
           trace_pixel_state(32'(now_addr) * LANES + l, now_kind, 64'(now_z[l*Z_BITS+:Z_BITS]),
-                            64'(now_color[l*RgbBits+:RgbBits]), next[l*PixelBits+:PixelBits]);
+                            64'(now_color[l*RgbBits+:RgbBits]), full[l*PixelBits+:PixelBits]);
         end
       end
     end
