@@ -74,16 +74,18 @@ module token_reader #(
   logic dropping_q, flushed_q;
 
   logic [AtBits-1:0] front_at_q, next_at_q;  // first words: the front's, before which none is needed; the next's
-  logic [BeatAtBits-1:0] front_beat, beats_held, next_end_beat;
+  logic [BeatAtBits-1:0] front_beat, next_beat, beats_held, next_end_beat;
   logic full_here, full_behind;  // in the next clock, if the front stays, and if what is behind it becomes the front
   logic push;
+  // On their own, since yosys takes a cast that shortens at its full width within a longer expression.
   assign front_beat = BeatAtBits'(front_at_q >> OffBits);
+  assign next_beat = BeatAtBits'(next_at_q >> OffBits);
   assign beats_held = end_beat_q - front_beat;
   assign s_axis_tready_o = rst_ni && !full_q && !last_q;
   assign push = s_axis_tvalid_i && s_axis_tready_o;
   assign next_end_beat = end_beat_q + BeatAtBits'(push);
   assign full_here = next_end_beat - front_beat == BeatAtBits'(Depth);
-  assign full_behind = next_end_beat - BeatAtBits'(next_at_q >> OffBits) == BeatAtBits'(Depth);
+  assign full_behind = next_end_beat - next_beat == BeatAtBits'(Depth);
   for (genvar w = 0; w < BEAT_WORDS; w++) begin : gen_said
     logic [KindBits-1:0] kind;
     logic [4:0] words;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of line_out at its ports, to a bound of clocks, for any pixels and any stalls of both ways out
-// (verif/test/formal/run.sh):
+// What is proved of line_out at its ports, for any pixels and any stalls of both ways out (verif/test/formal/run.sh).
+// By induction (MODEL 0):
+//   video.*, load_out.*  what waits stays as it is; reset silences it (stream_rules): m_axis of kage_top is this
+//                output.
+// To a bound of clocks (MODEL 1):
 //   pixels       the video is the pixels of the lines whose load is 0, none lost, doubled or out of order, each
 //                with the colour that the module's head gives: the background, its own, or its own times 1 - shade,
 //                rounded once;
@@ -12,8 +15,6 @@
 //   prompt       while a line is in and announced, a pixel leaves within MOST_WAIT clocks in which the ways out are
 //                ready: no standstill;
 //   buffers      a buffer is free while fewer than two lines are in or on their way;
-//   video.*, load_out.*  what waits stays as it is; reset silences it (stream_rules): m_axis of kage_top is this
-//   output;
 //   moves        while neither moving_o nor a port moves, no valid changes: the watchdog misses nothing.
 // The RTL's own assertions hold as well.
 //
@@ -32,6 +33,7 @@ module line_out_proof #(
     parameter int LANES = 2,
     parameter int MAX_WIDTH = 3,
     parameter int FOLLOWED = 1,  // bits of a colour that are looked at
+    parameter int MODEL = 1,
     parameter int RESETS = 0,  // 1: a reset may come whenever it pleases
     parameter int STALLS = 1,  // 0: the ways out are ready at all times
     parameter int LINES = 2,
@@ -223,17 +225,20 @@ module line_out_proof #(
     quiet_q <= rst_ni && !moving && !video_step && !load_step && !exit_valid;
     {was_valid_q, was_load_q} <= {m_valid, load_valid};
   end
-  always_comb begin
-    if (started_q && rst_ni) begin
-      if (m_valid) begin
-        video_early : assert (video_line < told_q && video_line < begun_q);
-        pixels : assert (m_data[FOLLOWED-1:0] == video_color[FOLLOWED-1:0]);
-        marks : assert (m_user == (first[video_line[1:0]] && video_x_q == '0) && m_last == (video_x_q == video_width));
+  if (MODEL > 0) begin : gen_model
+    always_comb begin
+      if (started_q && rst_ni) begin
+        if (m_valid) begin
+          video_early : assert (video_line < told_q && video_line < begun_q);
+          pixels : assert (m_data[FOLLOWED-1:0] == video_color[FOLLOWED-1:0]);
+          marks :
+          assert (m_user == (first[video_line[1:0]] && video_x_q == '0) && m_last == (video_x_q == video_width));
+        end
+        if (line_valid_i && line_ready) lines : assert (told_q < begun_q);
+        prompt : assert (wait_q < 4'(MOST_WAIT));
+        if (quiet_q) moves : assert ({m_valid, load_valid} == {was_valid_q, was_load_q});
+        buffers : assert (exit_free || taken_q - left_q >= 3'd2);
       end
-      if (line_valid_i && line_ready) lines : assert (told_q < begun_q);
-      prompt : assert (wait_q < 4'(MOST_WAIT));
-      if (quiet_q) moves : assert ({m_valid, load_valid} == {was_valid_q, was_load_q});
-      buffers : assert (exit_free || taken_q - left_q >= 3'd2);
     end
   end
   if (COUNT_BITS > 0 && TRANSLUCENCY > 0) begin : gen_loads
@@ -247,7 +252,7 @@ module line_out_proof #(
         .data_i ({back_color[FOLLOWED-1:0], back_x, back_last})
     );
     always_comb begin
-      if (started_q && rst_ni && load_valid) begin
+      if (MODEL > 0 && started_q && rst_ni && load_valid) begin
         load_early : assert (load_line < told_q && load_line < begun_q);
         loads : assert (back_x == X_BITS'(load_x_q) && back_last == (load_x_q == load_width));
         load_pixels : assert (back_color[FOLLOWED-1:0] == loads_color[FOLLOWED-1:0]);
@@ -258,21 +263,27 @@ module line_out_proof #(
   end
 
   // ---- what the rules are about happens within the bound -----------------------------------------------------------
-  always_comb begin
-    if (started_q && rst_ni) begin
-      pixel_out : cover (video_end);
-      if (RESETS == 0 && MAX_WIDTH > 2) whole_line : cover (video_end && video_width == 2'd2);
-      if (STALLS > 0 && RESETS == 0 && DSF_BITS == 0)
-        stalled : cover (m_valid && !m_ready_i && line_valid_i && in_q == 3'd2);
-      if (RESETS == 0 && DSF_BITS == 0 && MAX_WIDTH == 2) two_lines : cover (left_q == 3'd1 && !first[1] && video_end);
-      if (STALLS == 0) two_frames : cover (left_q == 3'd1 && first[1] && video_end);
-      if (DSF_BITS > 0 && FOLLOWED == 8 && COUNT_BITS == 0) begin
-        dark_pixel : cover (m_valid && m_data == 8'd4 && pixels_q[9:0] == 10'h305 && !blank[0]);
-        half_rounds : cover (m_valid && m_data == 8'd2 && pixels_q[9:0] == 10'h303 && shade[FactorBits-1:0] == 3'd2);
-      end
-      if (COUNT_BITS > 0) begin
-        line_loaded : cover (load_end && load_width == 2'd1);
-        load_overtakes : cover (load_valid && m_valid && load_line > video_line);
+  if (MODEL == 0) begin : gen_held
+    if (COUNT_BITS == 0) always_comb if (started_q && rst_ni) pixel_held : cover (m_valid && !m_ready_i);
+    if (COUNT_BITS > 0) always_comb if (started_q && rst_ni) load_held : cover (load_valid && !load_ready_i);
+  end else begin : gen_reached
+    always_comb begin
+      if (started_q && rst_ni) begin
+        pixel_out : cover (video_end);
+        if (RESETS == 0 && MAX_WIDTH > 2) whole_line : cover (video_end && video_width == 2'd2);
+        if (STALLS > 0 && RESETS == 0 && DSF_BITS == 0)
+          stalled : cover (m_valid && !m_ready_i && line_valid_i && in_q == 3'd2);
+        if (RESETS == 0 && DSF_BITS == 0 && MAX_WIDTH == 2)
+          two_lines : cover (left_q == 3'd1 && !first[1] && video_end);
+        if (STALLS == 0) two_frames : cover (left_q == 3'd1 && first[1] && video_end);
+        if (DSF_BITS > 0 && FOLLOWED == 8 && COUNT_BITS == 0) begin
+          dark_pixel : cover (m_valid && m_data == 8'd4 && pixels_q[9:0] == 10'h305 && !blank[0]);
+          half_rounds : cover (m_valid && m_data == 8'd2 && pixels_q[9:0] == 10'h303 && shade[FactorBits-1:0] == 3'd2);
+        end
+        if (COUNT_BITS > 0) begin
+          line_loaded : cover (load_end && load_width == 2'd1);
+          load_overtakes : cover (load_valid && m_valid && load_line > video_line);
+        end
       end
     end
   end

@@ -122,6 +122,10 @@ reader_proof() { # NAME BEAT_WORDS STEPS SET...
   proof "$1" module=token_reader rtl=token_reader rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=8 \
     set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=$2 MAX_WORDS=$(($2 * $3)) ${*:4}"
 }
+proof token_reader_ports module=token_reader rtl=token_reader rules=stream_rules \
+  inside="inside_full=dut.full_q inside_front_valid=dut.front_valid_q inside_next_at=dut.next_at_q inside_front_at=dut.front_at_q inside_front_end_at=dut.front_end_at_q inside_held=dut.beats_held inside_ahead=dut.words_ahead" \
+  steps=6 induction=2 cover=8 \
+  set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=2 MAX_WORDS=18 MODEL=0 RESETS=1"
 reader_proof token_reader_1 1 10
 reader_proof token_reader_2 2 9
 reader_proof token_reader_4 4 9
@@ -149,6 +153,10 @@ out_proof() { # NAME STEPS DEFECT_STEPS SET...
     set="X_BITS=3 CHANNELS=1 SHADE_FRAC=2 ${*:4}" steps="$2" cover="$2" defect_steps="$3"
 }
 no_shadow=(DSF_BITS=0 FSF=0)
+for loads in 0 1; do
+  proof line_out_ports_$loads module=line_out rtl="line_out skid_buffer ram_1r1w light_resolve" rules=stream_rules steps=6 induction=2 cover=13 \
+    set="X_BITS=3 CHANNELS=1 SHADE_FRAC=2 MAX_WIDTH=1 LANES=1 DSF_BITS=1 COUNT_BITS=$loads TRANSLUCENCY=$loads FOLLOWED=8 MODEL=0 RESETS=1"
+done
 out_proof line_out 13 12 "${no_shadow[@]}" MAX_WIDTH=2 LANES=1
 out_proof line_out_groups 14 13 "${no_shadow[@]}" MAX_WIDTH=3 LANES=2
 out_proof line_out_frames 19 18 "${no_shadow[@]}" MAX_WIDTH=1 LANES=1 STALLS=0

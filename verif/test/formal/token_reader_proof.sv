@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of token_reader at its ports, to a bound of clocks, for any words, any stalls of both sides, drops
-// wherever they are allowed, and, to a lesser bound, a reset at any time (verif/test/formal/run.sh):
+// What is proved of token_reader at its ports, for any words, any stalls of both sides, drops wherever they are allowed,
+// and a reset at any time (verif/test/formal/run.sh).
+// By induction (MODEL 0):
+//   ready_stays  a ready input stays ready until a beat comes;  in_reset  and is not ready in reset: no beat is taken
+//                and lost;
+//   out.*        a token that waits stays as it is, flags and all; reset silences it (stream_rules).
+// To a bound of clocks (MODEL 1), where resets at any time have a lesser one:
 //   whole        a token is offered only when all its words have come, or TLAST has cut it;
 //   flags_right  header, lacking, cut and ends are right: by the kind of its first word, by where the frame's TLAST
 //                lies;
@@ -12,9 +17,6 @@
 //                before it;
 //   on_its_way   until then moving_o is high: a complete token never waits in here;
 //   takes        the input is ready from the second clock on in which no token is complete: no standstill;
-//   ready_stays  a ready input stays ready until a beat comes;  in_reset  and is not ready in reset: no beat is taken
-//                and lost;
-//   out.*        a token that waits stays as it is, flags and all; reset silences it (stream_rules);
 //   busy_in_frame  busy_o is high while something of a frame has come in and its end has not been passed on;
 //   still        while neither a port nor moving_o moves, nothing changes: the watchdog misses nothing.
 // The RTL's own assertions hold as well.
@@ -32,8 +34,10 @@ module token_reader_proof #(
     `include "generated/kage_widths.svh"
     parameter int BEAT_WORDS = 2,
     parameter int BIT = 31,  // of each word, that is followed
+    parameter int MODEL = 1,
     parameter int RESETS = 0,  // 1: a reset comes whenever it pleases, 0: at the start
     parameter int MAX_WORDS = 32,  // that can come within the bound
+    parameter int InsideAtBits = 5,  // AtBits of the module in beats of two words
     localparam int TokenWordsMost = 5,
     localparam int AtBits = $clog2(MAX_WORDS + 8)
 ) (
@@ -186,6 +190,9 @@ module token_reader_proof #(
     end
   end
 
+  (* keep *) logic inside_full, inside_front_valid;
+  (* keep *) logic [InsideAtBits-1:0] inside_next_at, inside_front_at, inside_front_end_at, inside_ahead;
+  (* keep *) logic [InsideAtBits-$clog2(BEAT_WORDS)-1:0] inside_held;
   logic [1:0] held_q;  // clocks in a row without a complete token in which the input was not ready
   logic quiet_q, was_valid_q, was_ready_q, was_busy_q, was_dropping_q, ready_waits_q;
   always_ff @(posedge clk_i) begin
@@ -196,28 +203,48 @@ module token_reader_proof #(
   end
   always_comb begin
     if (started_q && !rst_ni) in_reset : assert (!s_ready);
-    if (started_q && rst_ni) begin
-      if (token_valid) begin
-        whole : assert (is_whole || is_cut);
-        flags_right :
-        assert (flags.header == header_q && flags.cut == is_cut && flags.ends == (is_cut || is_end) &&
-                        flags.lacking == (!header_q && is_whole && kind_words == '0));
-        words : assert ((token_bits & words_there) == (expected_bits & words_there));
-        if (available != '0) kind_first : assert (token[3:0] == kind);
-        if (available != '0) begin
-          first_in_last : assert (flags.at_last == (has_end_q && end_q - out_q <= AtBits'(BEAT_WORDS)));
+    if (started_q && rst_ni && ready_waits_q) ready_stays : assert (s_ready);
+  end
+
+  // For induction, of the registers within (proofs.bash connects inside_*): the places count beats and words modulo four
+  // times what is held, so that what lies past the newest beat is told from what lies before it.
+  if (MODEL == 0) begin : gen_lemmas
+    localparam int OffBits = $clog2(BEAT_WORDS);
+    localparam int Depth = 1 << InsideAtBits - 2 - OffBits;  // beats
+    always_comb begin
+      if (started_q) begin
+        lemma_full : assert (inside_full == (32'(inside_held) == Depth));
+        lemma_fits : assert (dropping || 32'(inside_held) <= Depth);
+        lemma_apart : assert (InsideAtBits'(inside_next_at - inside_front_at) <= InsideAtBits'(8));
+        lemma_next : assert (!inside_front_valid || inside_next_at == inside_front_end_at);
+        lemma_reached : assert (inside_front_valid || dropping || !inside_ahead[InsideAtBits-1]);
+      end
+    end
+  end
+  if (MODEL > 0) begin : gen_model
+    always_comb begin
+      if (started_q && rst_ni) begin
+        if (token_valid) begin
+          whole : assert (is_whole || is_cut);
+          flags_right :
+          assert (flags.header == header_q && flags.cut == is_cut && flags.ends == (is_cut || is_end) &&
+                          flags.lacking == (!header_q && is_whole && kind_words == '0));
+          words : assert ((token_bits & words_there) == (expected_bits & words_there));
+          if (available != '0) kind_first : assert (token[3:0] == kind);
+          if (available != '0) begin
+            first_in_last : assert (flags.at_last == (has_end_q && end_q - out_q <= AtBits'(BEAT_WORDS)));
+          end
         end
+        if (was_complete) prompt : assert (token_valid);
+        if (!token_valid && (is_whole || is_cut)) on_its_way : assert (moving);
+        takes : assert (held_q < 2'd2);
+        if (header_q == 1'b0 || skip_q || available != '0) busy_in_frame : assert (busy);
+        if (quiet_q) begin
+          still :
+          assert ({token_valid, s_ready, busy, dropping} == {was_valid_q, was_ready_q, was_busy_q, was_dropping_q});
+        end
+        lemma_ends : assert (in_q <= AtBits'(MAX_WORDS) && !(push && s_last_i && has_next_end_q));
       end
-      if (was_complete) prompt : assert (token_valid);
-      if (!token_valid && (is_whole || is_cut)) on_its_way : assert (moving);
-      takes : assert (held_q < 2'd2);
-      if (ready_waits_q) ready_stays : assert (s_ready);
-      if (header_q == 1'b0 || skip_q || available != '0) busy_in_frame : assert (busy);
-      if (quiet_q) begin
-        still :
-        assert ({token_valid, s_ready, busy, dropping} == {was_valid_q, was_ready_q, was_busy_q, was_dropping_q});
-      end
-      lemma_ends : assert (in_q <= AtBits'(MAX_WORDS) && !(push && s_last_i && has_next_end_q));
     end
   end
 
@@ -228,7 +255,9 @@ module token_reader_proof #(
     cut_q <= rst_ni && (cut_q || (pop && is_cut));
     cut_off_q <= started_q && (cut_off_q || (!rst_ni && busy));
   end
-  if (RESETS > 0) begin : gen_resets
+  if (MODEL == 0) begin : gen_ports
+    always_comb if (started_q && rst_ni) held : cover (token_valid && !token_ready_i && s_valid_i && s_ready);
+  end else if (RESETS > 0) begin : gen_resets
     always_comb if (started_q && rst_ni) behind_reset : cover (cut_off_q && token_valid && header_q);
   end else begin : gen_no_resets
     always_comb begin
