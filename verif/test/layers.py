@@ -55,11 +55,12 @@ ABOVE = {
     "verif/stimulus": ["stimulus", *MODEL],
     "verif/cosim": ["cosim", *MODEL],
     "verif/opinion": ["opinion", "kage", "number"],
+    "verif/vectors": ["vectors", "cosim", "stimulus", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
     "verif/bench": ["bench", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/test": ["test", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/test": ["test", "vectors", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test/unit/cli": ["test", "cli"],
-    "cli": ["cli", "cosim", "stimulus", *MODEL],
+    "cli": ["cli", "vectors", "cosim", "stimulus", *MODEL],
 }
 
 ROOTS = ("ref", "ref/include", "verif", "")  # what includes are named from, but for those of a file's own folder

@@ -85,6 +85,15 @@ said 0 stream polyhedra --size 64x48 --frames 1 --config polyhedra --out p.kage
 "$kage" stream courtyard "${small[@]}" --out - --json json/stream.0.json >piped.kage 2>stderr || fail "a stream into a pipe"
 "$kage" stream glass --size 64x48 --frames 1 --config glass --out g.kage >/dev/null
 "$kage" stream inside "${small[@]}" --out b.kage >/dev/null
+said 0 vectors courtyard "${small[@]}" --out v
+cp v/manifest.json json/pack.1.json
+said 0 vectors courtyard "${small[@]}" --sizes
+said 0 vectors --check v
+said 0 vectors --compare v v/pixels.hex
+head -c 99 v/pixels.bin >few.raw
+said 1 vectors --compare v few.raw
+sed 2s/38/39/ v/pixels.hex >few.hex
+said 1 vectors --compare v few.hex
 said 0 info a.kage --clocks
 said 0 info p.kage
 said 0 info courtyard

@@ -146,9 +146,9 @@ PY
 
 # ---- what a feature's state implies: the least number of LUTs and flip-flops that go (smooth, glass, counters: come) with it ---------------------------
 # Counted are only what no optimizer can share or drop, in the base's numbers: L = 2 lanes, 24 bits of depth, 3 x 8 of colour,
-# S = 9 bits of shade, `Last` = 3 stages behind the walker.
-#   A bit of a pixel's state, per lane: flip-flops word_q, done_q, done2_q (3); LUTs of word_q's three sources (2), of word (1), of
-#   the next state (1).
+# S = 9 bits of shade, `Last` = 4 stages behind the walker.
+#   A bit of a pixel's state, per lane: flip-flops stored_q, recent_q, word_q, done_q, done2_q (5); LUTs of the three sources of
+#   `settled` (2), of word_q (1), of the next state (1).
 #   A bit of colour that leaves: exit_data_o, group_q per lane; pixel_q, plain_q, color_q, two in the skid buffer, one of the
 #   product's upper 8, and background in frame_control, line_out and four times in the queue. LUTs: the lane's choice, dimmed or
 #   plain, the skid buffer's choice, two for the queue's four words.
@@ -156,8 +156,8 @@ PY
 #   A ramp of B bits, F of them fraction: start, slope, low; part, slope2; first, slope3; root, L leaves without fraction (the
 #   last level), slope of the root; L x OUT for the integer part and again for the value. LUTs: low, part, root, right leaf, and the
 #   clamp of each lane's OUT bits.
-l=2 last=3 s=9
-state_ff=$((3 * l)) state_lut=$((4 * l))
+l=2 last=4 s=9
+state_ff=$((5 * l)) state_lut=$((4 * l))
 exit_ff=$((2 * l + 5 + 1 + 2 + 4)) exit_lut=$((1 + 1 + 1 + 2))
 product_lut=$(((s - 1) * 8))
 implied() { # NAME: "LUTs flip-flops"
@@ -170,8 +170,8 @@ implied() { # NAME: "LUTs flip-flops"
     no-shadow) echo $((3 * state_lut + 3 * product_lut + 24)) $((3 * state_ff + 2 * l + 2 + 3 * 8 + 6 * s + 4 + 5 + last)) ;;
     # 16 bits of colour: in state and exit, and on the way in: cmd, three set-up stages, walker, stages.
     one-channel) echo $((16 * (state_lut + exit_lut) + 2 * product_lut)) $((16 * (state_ff + exit_ff + 5 + last))) ;;
-    # 12 bits of depth: in state, its comparison, cmd_z, cmd_dz and the ramp.
-    small-z) echo $((12 * (state_lut + l + 4 + l))) $((12 * (state_ff + 2 + 7 + 1 + l + 1 + 2 * l))) ;;
+    # 12 bits of depth: in state, its two comparisons and the register in front of them, cmd_z, cmd_dz and the ramp.
+    small-z) echo $((12 * (state_lut + 2 * l + 4 + l))) $((12 * (state_ff + l + 2 + 7 + 1 + l + 1 + 2 * l))) ;;
     # Three ramps of 17 bits, 7 of them fraction, colour and slope in cmd and token_q (187 bits in place of the header's 160), less
     # the flat colour's set-up stages, walker and stages.
     smooth)
@@ -194,7 +194,7 @@ implied() { # NAME: "LUTs flip-flops"
         $((12 * state_ff + 12 * (2 * l + 1) + 4 * (5 + last) + 5 * (25 + 6) + 2 * 8 + 6 * s + 6 * (3 + s) + 3 * (4 + s) + 3 * s + 8 + 2 - 25 - 6 * s + 8 * (5 + last) + 7)) ;;
     # A lane's 51 bits of state with its comparison, its 26 bits of exit_data_o and group_q, the choice among lanes, two leaves, and
     # a stage of flat colour.
-    one-lane) echo $((51 * 4 + 24 + 26 + 24)) $((51 * 3 + 2 * 26 + 2 * (33 - 7) + 2 * 24 + 24)) ;;
+    one-lane) echo $((51 * 4 + 2 * 24 + 26 + 24)) $((51 * 5 + 24 + 2 * 26 + 2 * (33 - 7) + 2 * 24 + 24)) ;;
     # 8 words in place of 4 x 4, and a bit more in two pointers. LUTs: less alignment, but more words to choose from: no bound.
     one-word-beats) echo 0 $((32 * 8 - 2)) ;;
   esac

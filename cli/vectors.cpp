@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage vectors: packs of test vectors: writing, checking, and judging what was captured of a core.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "command.hpp"
+#include "cosim/run.hpp"
+#include "kage/error.hpp"
+#include "kage/explain.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "results.hpp"
+#include "rtl_run.hpp"
+#include "signals.hpp"
+#include "source.hpp"
+#include "text.hpp"
+#include "vectors/capture.hpp"
+#include "vectors/check.hpp"
+#include "vectors/malformed.hpp"
+#include "vectors/texts.hpp"
+#include "vectors/write.hpp"
+
+namespace kage::cli {
+namespace {
+
+struct VectorsCommand : Options {
+  std::string check;
+  std::vector<std::string> compare;  ///< pack, capture
+  std::optional<std::uint64_t> frame;
+  bool sound_only = false;
+  bool no_clocks = false;
+  bool sizes = false;
+};
+
+/// The frames of a pack: those of the source, then the malformed ones.
+class PackFrames {
+ public:
+  explicit PackFrames(const VectorsCommand& o) : source_(o) {
+    if (!o.sound_only && !source_.is_random()) malformed_ = vectors::malformed_frames(source_.config(), o.seed);
+  }
+
+  [[nodiscard]] Source& source() { return source_; }
+  [[nodiscard]] int size() const { return source_.frames() + static_cast<int>(malformed_.size()); }
+  [[nodiscard]] std::string what(int i) const {
+    if (i < source_.frames()) return fmt::format("{}, frame {}", source_.name(), i);
+    return fmt::format("malformed: {}", kErrorNames.at(static_cast<std::size_t>(damaged(i).status.error)));
+  }
+  TokenCounts words(int i, const WordSink& sink) {
+    check_interrupt();
+    if (i < source_.frames()) return source_.frame(i, sink);
+    sink(damaged(i).words);
+    TokenCounts counts;
+    counts.words = damaged(i).words.size();
+    return counts;
+  }
+
+ private:
+  [[nodiscard]] const vectors::MalformedFrame& damaged(int i) const {
+    return malformed_.at(static_cast<std::size_t>(i - source_.frames()));
+  }
+  Source source_;
+  std::vector<vectors::MalformedFrame> malformed_;
+};
+
+/// Registers are read behind each frame with an error and behind the last.
+void settle(std::vector<vectors::PackFrame>& frames) {
+  for (vectors::PackFrame& f : frames) f.settles = f.status.error != ErrorCode::NONE;
+  frames.back().settles = true;
+}
+
+/// What each frame is, without writing anything.
+std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
+  FrameProgress frame_progress(progress, "measuring", from.size());
+  const Config& config = from.source().config();
+  GoldenCore golden(config);
+  const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
+  std::vector<vectors::PackFrame> frames;
+  const auto width = static_cast<std::uint64_t>(config.beat_words);
+  for (int i = 0; i < from.size(); ++i) {
+    frame_progress.next();
+    vectors::PackFrame f;
+    f.what = from.what(i);
+    from.words(i, [&](std::span<const std::uint32_t> words) {
+      f.words += words.size();
+      golden.feed(words, nowhere);
+      frame_progress.wait();
+    });
+    f.status = golden.finish(nowhere);
+    f.beats = (f.words + width - 1) / width;
+    frames.push_back(f);
+  }
+  if (std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.pixels() == 0; }))
+    throw Error(from.source().name() + ": no frame brings a pixel: a pack needs one");
+  settle(frames);
+  return frames;
+}
+
+/// The RTL plays the frames too: what a pack promises is what it does. Fills in the clocks; throws Error at the first
+/// difference.
+void ask_rtl(PackFrames& from, std::vector<vectors::PackFrame>& frames, const VectorsCommand& o) {
+  RtlRun rtl;
+  rtl.options.seed = o.seed;
+  const NamedConfig& named = from.source().named_config();
+  const cosim::Model model = model_of(named, rtl);
+  const std::unique_ptr<cosim::Core> golden = cosim::make_golden(named.config);
+  const std::unique_ptr<cosim::RtlCore> core = cosim::make_rtl(model.library, named.config, rtl.options);
+  cosim::RunOptions options;
+  options.refusals = true;
+  options.same = [&](const cosim::FrameResult& r) { frames.at(static_cast<std::size_t>(r.frame)).clocks = r.cycles; };
+  options.wait = check_interrupt;
+  const cosim::Report report = cosim::run(
+      from.size(), [&](int i, const WordSink& sink) { return from.words(i, sink); }, *golden, *core, options);
+  if (!report.same)
+    throw Error(
+        fmt::format("{}: the RTL differs from the golden model, so there is nothing to promise: kage cosim tells where",
+                    frames.at(static_cast<std::size_t>(report.first_difference->frame)).what));
+}
+
+std::uint64_t bytes_of(const std::vector<vectors::PackFile>& files) {
+  std::uint64_t bytes = 0;
+  for (const vectors::PackFile& f : files) bytes += f.bytes;
+  return bytes;
+}
+
+Json files_json(const std::vector<vectors::PackFile>& files) {
+  Json j = Json::array();
+  for (const vectors::PackFile& f : files) j.push_back({{"name", f.name}, {"bytes", f.bytes}});
+  return j;
+}
+
+Json summary(const vectors::Pack& pack, const std::string& folder) {
+  Json j;
+  j["pack"] = folder;
+  j["scene"] = pack.scene;
+  j["frames"] = pack.frames.size();
+  j["malformed"] = std::count_if(pack.frames.begin(), pack.frames.end(),
+                                 [](const auto& f) { return f.status.error != ErrorCode::NONE; });
+  j["beats"] = pack.beats();
+  j["lines"] = pack.lines();
+  j["pixels"] = pack.pixels();
+  j["clocks"] = pack.clocks() == 0 ? Json(nullptr) : Json(pack.clocks());
+  j["registers"] = pack.reads.size();
+  j["files"] = files_json(pack.files);
+  j["config"] = to_json(pack.config);
+  return j;
+}
+
+int write_pack(const VectorsCommand& o) {
+  if (o.out.empty() && !o.sizes) throw Error("--out: needed: the folder of the pack (or --sizes, which writes none)");
+  check_json(o);
+  PackFrames from(o);
+  Progress progress;
+  vectors::Pack pack;
+  pack.scene = from.source().name();
+  pack.config = from.source().config();
+  pack.config_name = from.source().named_config().name;
+  pack.seed = o.seed;
+  pack.frames = measure(from, progress);
+  progress.clear();
+  pack.reads = vectors::register_reads(pack.config, pack.frames);
+  const std::vector<vectors::PackFile> sizes = vectors::file_sizes(pack.config, pack.frames);
+  std::string text = notes_text(from.source());
+  for (const vectors::PackFile& f : sizes) text += fmt::format("{:<16} {:>12} bytes\n", f.name, f.bytes);
+  if (o.sizes) {
+    pack.files = sizes;
+    TempFiles none;
+    finish(o, {"kage.vectors/1", summary(pack, "")}, none, text + fmt::format("together {} bytes\n", bytes_of(sizes)));
+    return kSame;
+  }
+  if (!json_only(o))
+    fmt::print("{}: {}, some {} bytes\n", o.out, counted(pack.frames.size(), "frame"), bytes_of(sizes));
+  if (!o.no_clocks) ask_rtl(from, pack.frames, o);
+  const OutFolder folder(o.out);
+  TempFiles files;
+  vectors::PackWriter writer(o.out, pack.config, files);
+  FrameProgress frame_progress(progress, pack.scene, from.size());
+  for (int i = 0; i < from.size(); ++i) {
+    frame_progress.next();
+    const vectors::PackFrame written = writer.frame(from.what(i), [&](const WordSink& sink) {
+      from.words(i, [&](std::span<const std::uint32_t> words) {
+        frame_progress.wait();
+        sink(words);
+      });
+    });
+    const vectors::PackFrame& measured = pack.frames.at(static_cast<std::size_t>(i));
+    if (written.words != measured.words || written.status != measured.status)
+      throw Error(fmt::format("{}: the scene changed while its pack was written", measured.what));
+  }
+  writer.finish(pack);
+  progress.clear();
+  const std::string said = fmt::format(
+      "{}{}: {}, {} of them malformed, {}, {}, {} read, {}\nrun it: {}\n", notes_text(from.source()), o.out,
+      counted(pack.frames.size(), "frame"),
+      std::count_if(pack.frames.begin(), pack.frames.end(),
+                    [](const auto& f) { return f.status.error != ErrorCode::NONE; }),
+      counted(pack.beats(), "beat"), counted(pack.pixels(), "pixel"), counted(pack.reads.size(), "register"),
+      pack.clocks() == 0 ? std::string("clocks not counted") : counted(pack.clocks(), "clock"),
+      (std::filesystem::path(o.out) / vectors::kReadme).string());
+  finish(o, {"kage.vectors/1", summary(pack, o.out)}, files, said);
+  return kSame;
+}
+
+int check(const VectorsCommand& o) {
+  check_json(o);
+  const vectors::Pack pack = vectors::checked_pack(o.check);
+  TempFiles none;
+  finish(o, {"kage.vectors/1", summary(pack, o.check)}, none,
+         fmt::format("{}: good: {} for {}, {}, {}\n", o.check, counted(pack.frames.size(), "frame"), pack.config_name,
+                     counted(pack.pixels(), "pixel"), counted(pack.files.size(), "file")));
+  return kSame;
+}
+
+std::string text_of(const vectors::CaptureVerdict& v, const vectors::Pack& pack) {
+  if (v.same()) return fmt::format("same: {}\n", counted(v.compared, v.signatures ? "signature" : "pixel"));
+  std::string text =
+      fmt::format("different: {} of {}\n", v.wrong, counted(v.compared, v.signatures ? "signature" : "pixel"));
+  if (v.first) {
+    const vectors::WrongPlace& w = *v.first;
+    text += fmt::format("first difference: frame {} ({}), line {}{}, {}: expected {}, got {}\n", w.frame,
+                        pack.frames[w.frame].what, w.line, w.x ? fmt::format(", x {}", *w.x) : "", w.what,
+                        v.signatures ? fmt::format("{:08x}", w.expected) : fmt::format("{}", w.expected),
+                        v.signatures ? fmt::format("{:08x}", w.actual) : fmt::format("{}", w.actual));
+  }
+  if (!v.remark.empty()) text += "the capture " + v.remark + "\n";
+  return text;
+}
+
+/// The tokens that made the pixel.
+std::string history_of(const vectors::Pack& pack, const std::string& folder, const vectors::WrongPlace& place) {
+  const PixelHistory h = explain_pixel(pack.config, vectors::words_of(folder, pack, place.frame), *place.x, place.line);
+  std::string text = fmt::format("the pixel's history: {}\n", counted(h.touches.size(), "token"));
+  for (const PixelTouch& t : h.touches) text += fmt::format("{:>8}  {}\n            {}\n", t.token, t.text, t.effect);
+  return text + fmt::format("            {}\n", h.color_text);
+}
+
+int compare(const VectorsCommand& o) {
+  check_json(o);
+  const std::string& folder = o.compare.at(0);
+  const vectors::Pack pack = vectors::checked_pack(folder);
+  const vectors::CaptureVerdict v = vectors::judge(folder, pack, o.compare.at(1), o.frame);
+  Json j;
+  j["pack"] = folder;
+  j["capture"] = o.compare.at(1);
+  j["same"] = v.same();
+  j["compared"] = v.compared;
+  j["signatures"] = v.signatures;
+  j["wrong"] = v.wrong;
+  j["remark"] = v.remark;
+  j["first_difference"] = nullptr;
+  if (v.first)
+    j["first_difference"] = {{"frame", v.first->frame},  {"what", pack.frames[v.first->frame].what},
+                             {"line", v.first->line},    {"x", v.first->x ? Json(*v.first->x) : Json(nullptr)},
+                             {"field", v.first->what},   {"expected", v.first->expected},
+                             {"actual", v.first->actual}};
+  std::string text = text_of(v, pack);
+  if (v.first && v.first->x) text += history_of(pack, folder, *v.first);
+  TempFiles none;
+  finish(o, {"kage.vectors-compare/1", j}, none, text);
+  return v.same() ? kSame : kDifferent;
+}
+
+int run(const VectorsCommand& o) {
+  const int asked = (o.input.empty() ? 0 : 1) + (o.check.empty() ? 0 : 1) + (o.compare.empty() ? 0 : 1);
+  if (asked != 1) throw Error("vectors: give a SCENE, or --check PACK, or --compare PACK CAPTURE: one of them");
+  if (!o.check.empty()) return check(o);
+  if (!o.compare.empty()) return compare(o);
+  return write_pack(o);
+}
+
+}  // namespace
+
+void add_vectors(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(
+      app, "vectors", "Write test vectors with known answers for any simulator or board, and judge what came out",
+      "  kage vectors courtyard --size 64x48 --frames 2 --config default --out pack\n"
+      "  kage vectors courtyard --size 320x240 --sizes\n"
+      "  kage vectors --check pack\n"
+      "  kage vectors --compare pack captured.hex\n"
+      "A pack has stimulus, pixels, signatures and register values, a testbench in plain Verilog and a\n"
+      "README.md that says how to run it. docs/vectors.md has the form of each file.");
+  const auto o = std::make_shared<VectorsCommand>();
+  option_scene(*c, *o);
+  c->get_option("SCENE")->required(false);
+  c->add_option("--out", o->out, "the pack's folder")->type_name("DIR");
+  c->add_flag("--sound-only", o->sound_only, "no malformed frames behind the scene's");
+  c->add_flag("--no-clocks", o->no_clocks, "do not run the RTL, which tells the clocks and that it agrees");
+  c->add_flag("--sizes", o->sizes, "only say how large the pack would be");
+  c->add_option("--check", o->check, "verify a pack: files, hashes, and the golden model once more")->type_name("PACK");
+  c->add_option("--compare", o->compare, "hold a capture (.hex, a picture, else raw bytes) against a pack")
+      ->expected(2)
+      ->type_name("PACK CAPTURE");
+  c->add_option("--frame", o->frame, "the capture is of this frame of the pack alone")
+      ->check(whole_number())
+      ->type_name("N");
+  options_of_frames(*c, *o);
+  option_json(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

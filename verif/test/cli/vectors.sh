@@ -1,0 +1,154 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage vectors: a pack is written, verified and played by Icarus Verilog and Verilator; a core that is wrong fails it by name, a
+# pack that was changed is refused by name, and captures are judged.
+. "$(dirname "$0")/common.bash"
+pack() { "$kage" vectors "$@" --json pack.json; }
+make() { # FOLDER SCENE ARGUMENT...
+  expect 0 pack "${@:2}" --out "$1"
+  expect 0 "$kage" vectors --check "$1"
+}
+make p courtyard --size 16x12 --frames 2 --config default
+json pack.json 'j["frames"]==11 and j["malformed"]==9 and j["pixels"]>=2*16*12 and j["clocks"]>0'
+no_leftovers
+
+# ---- sizes are said before, exactly ----
+expect 0 "$kage" vectors courtyard --size 16x12 --frames 2 --config default --sizes --json sizes.json
+python3 - <<'PY' || fail "--sizes says other sizes than the files have"
+import json, os, sys
+sizes = {f["name"]: f["bytes"] for f in json.load(open("sizes.json"))["files"]}
+sys.exit(any(os.path.getsize(f"p/{n}") != b for n, b in sizes.items()) or len(sizes) != 7)
+PY
+
+# ---- each error, and each register behind it ----
+python3 - <<'PY' || fail "not every error has its frame and its registers"
+import json, sys
+m = json.load(open("p/manifest.json"))
+errors = {f["error"] for f in m["frames"]} - {"NONE"}
+read = {(r["frame"], r["name"]) for r in m["registers"]}
+told = all((i, "ERROR") in read for i, f in enumerate(m["frames"]) if f["error"] != "NONE")
+sys.exit(errors != {"HEADER", "SIZE", "PARAMS", "KIND", "ORDER", "RANGE", "LINE", "LAST_EARLY", "LAST_LATE"} or not told)
+PY
+# The signatures are what zlib says of the pixels.
+python3 - <<'PY' || fail "a signature is not the CRC-32 of its line"
+import json, zlib
+m = json.load(open("p/manifest.json"))
+pixels, lines = open("p/pixels.bin", "rb").read(), open("p/signatures.hex").read().split()
+at = number = 0
+for f in m["frames"]:
+    for y in range(f["height"]):
+        crc = 0
+        for x in range(f["width"]):
+            flags = 2 * (x == 0 and y == 0) + (x == f["width"] - 1)
+            crc = zlib.crc32(pixels[at : at + 3] + bytes([flags]), crc)
+            at += 3
+        assert int(lines[number], 16) == crc, (number, crc)
+        number += 1
+assert at == len(pixels) and number == len(lines)
+PY
+
+# ---- played: by Icarus Verilog, at both tops, with stalls and without ----
+played() { # FOLDER RTL TEXT ARGUMENT...: by Icarus Verilog; the last line has TEXT
+  local folder=$1 rtl=$2 text=$3 last
+  shift 3
+  (cd "$folder" && iverilog -g2012 ${define:+-D$define} -I "$rtl/include" -o pack.vvp kage_pack_tb.v "$rtl"/*.sv "$rtl/kage_axi.v" >build 2>&1 &&
+    vvp -N pack.vvp "$@" >said 2>&1)
+  last=$(grep '^kage_pack_tb: ' "$folder/said" | tail -n1)
+  [[ $last == "kage_pack_tb: $text"* ]] || { fail "$folder $*: not '$text': $last"; tail -n5 "$folder/build" "$folder/said"; }
+}
+played p "$source/rtl" "passed: "
+played p "$source/rtl" "passed: " +seed=3 +stall=40
+define=KAGE_PACK_TOP played p "$source/rtl" "passed: " +seed=4 +stall=10
+# In C the tables compile as they are.
+echo '#include "p/kage_pack.h"
+int main(void) { return kage_pack_frames[0].width == 16 && kage_pack_signatures[0] && kage_pack_registers[0].address ? 0 : 1; }' >c.c
+${CC:-cc} -std=c99 -Wall -Wextra -Werror -o c c.c && ./c || fail "kage_pack.h does not serve C"
+
+# ---- a wrong core is found by name ----
+cp -r "$source/rtl" wrong
+sed -i 's/in_front = z < /in_front = z <= /' wrong/include/kage_pixel_next.svh
+make w courtyard --size 64x48 --frames 1 --config default --sound-only
+played w "$PWD/wrong" "FAILED: frame 0, line "
+grep -q 'channel 0: expected [0-9]*, got [0-9]*, clock [0-9]*$' w/said || fail "the pixel is not told: $(cat w/said)"
+cp -r "$source/rtl" wrong2
+sed -i 's/RegErrorToken: value = error_token_q/RegErrorToken: value = error_frame_q/' wrong2/registers.sv
+played p "$PWD/wrong2" "FAILED: behind frame "
+cp -r "$source/rtl" wrong3
+sed -i "s/first_q <= line\.first;/first_q <= 1;/" wrong3/line_out.sv
+played p "$PWD/wrong3" "FAILED: frame 0, line 1, x 0: expected TUSER 0 TLAST 0, got 1 0"
+cp -r "$source/rtl" wrong4
+sed -i 's/assign next_begun = .*/assign next_begun = 1'"'"'b0;/' wrong4/line_out.sv
+played p "$PWD/wrong4" "FAILED: nothing moves: frame 0, line 0, x 0 is missing"
+
+# ---- other configurations, a stream file, random frames ----
+make u polyhedra --size 32x24 --frames 1 --config polyhedra
+json pack.json 'j["malformed"]>=11'
+make r random:mixed --frames 6 --config tiny --seed 5
+played r "$source/rtl" "passed: " +seed=1 +stall=30
+expect 0 "$kage" stream courtyard --size 16x12 --frames 1 --config default --out s.kage
+make s s.kage --no-clocks
+json pack.json 'j["clocks"] is None'
+
+# ---- captures ----
+expect 0 "$kage" vectors --compare p p/pixels.hex
+cp p/pixels.bin good.raw
+expect 0 "$kage" vectors --compare p good.raw
+sed 's/^.//' p/pixels.hex >plain.hex
+expect 0 "$kage" vectors --compare p plain.hex --json same.json
+json same.json 'j["same"] and j["first_difference"] is None and j["compared"]>0'
+cp p/signatures.hex sums.hex
+expect 0 "$kage" vectors --compare p sums.hex
+sed '14s/.$/x/; 14y/x0123456789abcdef/0123456789abcdef0/' p/signatures.hex >sums1.hex
+expect 1 "$kage" vectors --compare p sums1.hex --json sum.json
+json sum.json 'j["signatures"] and j["first_difference"]["frame"]==1 and j["first_difference"]["line"]==1 and j["first_difference"]["x"] is None'
+python3 - <<'PY'
+b = bytearray(open("p/pixels.bin", "rb").read())
+b[3 * (16 * 12 + 16 * 5 + 7) + 1] ^= 4
+open("wrong.raw", "wb").write(b)
+open("short.raw", "wb").write(b[: 3 * 16 * 3])
+open("long.raw", "wb").write(open("p/pixels.bin", "rb").read() + b"abc")
+open("torn.raw", "wb").write(b[:100])
+PY
+expect 1 "$kage" vectors --compare p wrong.raw --json wrong.json
+grep -q '^first difference: frame 1 (courtyard, frame 1), line 5, x 7, channel 1: expected ' stdout || fail "the place is not told: $(cat stdout)"
+grep -q "^the pixel's history: " stdout || fail "the pixel's history is not told"
+json wrong.json 'not j["same"] and j["wrong"]==1 and j["first_difference"]["field"]=="channel 1" and j["first_difference"]["x"]==7'
+expect 1 "$kage" vectors --compare p short.raw
+grep -q '^the capture ends before frame 0, line 3, x 0$' stdout || fail "an early end is not told: $(cat stdout)"
+expect 1 "$kage" vectors --compare p long.raw
+grep -q '^the capture goes on behind the last frame: 1 more$' stdout || fail "a late end is not told: $(cat stdout)"
+trouble 'torn.raw: ends within a pixel of 3 bytes' "$kage" vectors --compare p torn.raw
+echo 12g456 >bad.hex
+trouble "bad.hex:1: '12g456' is no pixel of 6 hexadecimal digits" "$kage" vectors --compare p bad.hex
+expect 0 "$kage" render courtyard --size 16x12 --frames 2 --config default --out pictures
+expect 0 "$kage" vectors --compare p pictures/courtyard_0001.png --frame 1
+expect 1 "$kage" vectors --compare p pictures/courtyard_0001.png --frame 0
+trouble 'a picture is one frame, and the pack has several' "$kage" vectors --compare p pictures/courtyard_0001.png
+trouble '--frame 99: the pack has frames 0 to 10' "$kage" vectors --compare p good.raw --frame 99
+
+# ---- a pack that is not what was written ----
+broken() { # TEXT COMMAND...: the pack, changed by the command in its folder, is refused
+  local text=$1
+  shift
+  rm -rf b && cp -r p b && (cd b && "$@")
+  trouble "$text" "$kage" vectors --check b
+}
+broken 'b/pixels.hex: is not the file that was written' sed -i '5s/0/1/' pixels.hex
+broken 'b/kage_pack_tb.v: the manifest names it, and it is not there' rm kage_pack_tb.v
+broken "b/stimulus.bin: has $(($(stat -c %s p/stimulus.bin) + 1)) bytes, the manifest says $(stat -c %s p/stimulus.bin)" bash -c 'echo >>stimulus.bin'
+broken 'b/manifest.json: its format is kage.pack/2, this kage reads kage.pack/1' sed -i 's,kage.pack/1,kage.pack/2,' manifest.json
+broken 'b/manifest.json: is not there: no pack' rm manifest.json
+broken 'b/manifest.json: not JSON' truncate -s 100 manifest.json
+broken 'beats is missing' sed -i '0,/      "beats"/s//      "beets"/' manifest.json
+broken 'is a file outside the pack' sed -i 's,"name": "README.md","name": "../README.md",' manifest.json
+# A changed manifest whose files are as it says: the golden model tells.
+broken 'the golden core ends it with' sed -i '0,/"error": "ORDER"/s//"error": "RANGE"/' manifest.json
+
+# ---- bad requests ----
+trouble 'give a SCENE, or --check PACK, or --compare PACK CAPTURE' "$kage" vectors
+trouble '--out: needed' "$kage" vectors courtyard
+trouble 'give a SCENE, or --check PACK' "$kage" vectors courtyard --check p
+trouble 'nowhere/manifest.json: is not there: no pack' "$kage" vectors --check nowhere
+no_leftovers
+
+done_testing

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "kage/config.hpp"
+#include "kage/core.hpp"
+
+namespace kage::vectors {
+
+/// A frame that a core must refuse or cut short.
+struct MalformedFrame {
+  std::vector<std::uint32_t> words;
+  FrameStatus status;  ///< of the golden core
+};
+
+/// For each error that a core of this configuration can meet the smallest of many damaged frames (stimulus/damage.hpp)
+/// that has it, in the order of the codes; fewer where chance brought none. Follows from configuration and seed alone.
+std::vector<MalformedFrame> malformed_frames(const Config& config, std::uint64_t seed);
+
+}  // namespace kage::vectors
