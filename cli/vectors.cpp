@@ -17,6 +17,7 @@
 #include "signals.hpp"
 #include "source.hpp"
 #include "text.hpp"
+#include "vectors/budget.hpp"
 #include "vectors/capture.hpp"
 #include "vectors/check.hpp"
 #include "vectors/malformed.hpp"
@@ -33,35 +34,60 @@ struct VectorsCommand : Options {
   bool sound_only = false;
   bool no_clocks = false;
   bool sizes = false;
+  std::uint64_t budget = 0;  ///< bytes; 0: all lines of all frames
 };
 
 /// The frames of a pack: those of the source, then the malformed ones.
 class PackFrames {
  public:
   explicit PackFrames(const VectorsCommand& o) : source_(o) {
+    if (o.budget > 0 && source_.may_be_refused())
+      throw Error(o.input + ": --budget: frames that may break rules have no lines to choose");
     if (!o.sound_only && !source_.is_random()) malformed_ = vectors::malformed_frames(source_.config(), o.seed);
+    if (o.budget > 0) choose(o);
   }
 
   [[nodiscard]] Source& source() { return source_; }
-  [[nodiscard]] int size() const { return source_.frames() + static_cast<int>(malformed_.size()); }
+  [[nodiscard]] int size() const { return sound() + static_cast<int>(malformed_.size()); }
   [[nodiscard]] std::string what(int i) const {
-    if (i < source_.frames()) return fmt::format("{}, frame {}", source_.name(), i);
-    return fmt::format("malformed: {}", kErrorNames.at(static_cast<std::size_t>(damaged(i).status.error)));
+    if (i >= sound())
+      return fmt::format("malformed: {}", kErrorNames.at(static_cast<std::size_t>(damaged(i).status.error)));
+    const int from = chosen_.empty() ? i : chosen(i).from;
+    return fmt::format("{}, frame {}", source_.name(), from);
+  }
+  [[nodiscard]] std::vector<std::size_t> lines(int i) const {
+    return i < sound() && !chosen_.empty() ? chosen(i).lines : std::vector<std::size_t>();
   }
   TokenCounts words(int i, const WordSink& sink) {
     check_interrupt();
-    if (i < source_.frames()) return source_.frame(i, sink);
-    sink(damaged(i).words);
+    if (i < sound() && chosen_.empty()) return source_.frame(i, sink);
+    const std::vector<std::uint32_t>& held = i < sound() ? chosen(i).words : damaged(i).words;
+    sink(held);
     TokenCounts counts;
-    counts.words = damaged(i).words.size();
+    counts.words = held.size();
     return counts;
   }
 
  private:
+  /// Malformed frames come first: they are small. What is left is for the hardest lines.
+  void choose(const VectorsCommand& o) {
+    const Config& config = source_.config();
+    std::uint64_t bytes = 0;
+    for (const vectors::MalformedFrame& f : malformed_)
+      bytes += vectors::board_bytes(config, f.words.size(), static_cast<std::uint64_t>(f.status.height));
+    if (bytes < o.budget) chosen_ = vectors::choose_lines(source_, o.budget - bytes);
+    if (chosen_.empty())
+      throw Error(fmt::format(
+          "--budget {}: no line of {} fits{}", o.budget, source_.name(),
+          bytes > 0 ? fmt::format(" beside malformed frames of {} bytes (--sound-only leaves them out)", bytes) : ""));
+  }
+  [[nodiscard]] int sound() const { return chosen_.empty() ? source_.frames() : static_cast<int>(chosen_.size()); }
+  [[nodiscard]] const vectors::ChosenFrame& chosen(int i) const { return chosen_.at(static_cast<std::size_t>(i)); }
   [[nodiscard]] const vectors::MalformedFrame& damaged(int i) const {
-    return malformed_.at(static_cast<std::size_t>(i - source_.frames()));
+    return malformed_.at(static_cast<std::size_t>(i - sound()));
   }
   Source source_;
+  std::vector<vectors::ChosenFrame> chosen_;  // with --budget
   std::vector<vectors::MalformedFrame> malformed_;
 };
 
@@ -83,6 +109,7 @@ std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
     frame_progress.next();
     vectors::PackFrame f;
     f.what = from.what(i);
+    f.source_lines = from.lines(i);
     from.words(i, [&](std::span<const std::uint32_t> words) {
       f.words += words.size();
       golden.feed(words, nowhere);
@@ -277,6 +304,7 @@ void add_vectors(CLI::App& app, Action& action) {
       app, "vectors", "Write test vectors with known answers for any simulator or board, and judge what came out",
       "  kage vectors courtyard --size 64x48 --frames 2 --config default --out pack\n"
       "  kage vectors courtyard --size 320x240 --sizes\n"
+      "  kage vectors courtyard --size 320x240 --budget 16384 --out small\n"
       "  kage vectors --check pack\n"
       "  kage vectors --compare pack captured.hex\n"
       "A pack has stimulus, pixels, signatures and register values, a testbench in plain Verilog and a\n"
@@ -287,6 +315,11 @@ void add_vectors(CLI::App& app, Action& action) {
   c->add_option("--out", o->out, "the pack's folder")->type_name("DIR");
   c->add_flag("--sound-only", o->sound_only, "no malformed frames behind the scene's");
   c->add_flag("--no-clocks", o->no_clocks, "do not run the RTL, which tells the clocks and that it agrees");
+  c->add_option("--budget", o->budget,
+                "bytes that a board has for beats and signatures: the hardest lines of the frames that fit, judged by "
+                "what they reach")
+      ->check(whole_number(1))
+      ->type_name("BYTES");
   c->add_flag("--sizes", o->sizes, "only say how large the pack would be");
   c->add_option("--check", o->check, "verify a pack: files, hashes, and the golden model once more")->type_name("PACK");
   c->add_option("--compare", o->compare, "hold a capture (.hex, a picture, else raw bytes) against a pack")

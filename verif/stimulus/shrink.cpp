@@ -13,64 +13,10 @@
 #include "contract/kinds.hpp"
 #include "number/bits.hpp"
 #include "stimulus/damage.hpp"
+#include "stimulus/parts.hpp"
 
 namespace kage::verif {
 namespace {
-
-using Words = std::vector<std::uint32_t>;
-
-std::uint32_t width_of(const Words& frame) { return static_cast<std::uint32_t>(FrameHeader::read(frame).width); }
-
-/// A frame taken apart.
-struct Parts {
-  Words header;
-  std::vector<Words> tokens;
-  Words rest;  ///< from the first word on that begins no token, or behind END
-};
-
-Parts apart(const Config& c, const Words& words) {
-  const Layout layout(c);
-  Parts p;
-  TokenWalk walk(layout, words);
-  p.header.assign(words.begin(), words.end() - static_cast<std::ptrdiff_t>(walk.rest().size()));
-  for (auto token = walk.next(); !token.empty(); token = walk.next()) p.tokens.emplace_back(token.begin(), token.end());
-  p.rest.assign(walk.rest().begin(), walk.rest().end());
-  return p;
-}
-
-Words together(const Parts& p) {
-  Words words = p.header;
-  for (const Words& t : p.tokens) words.insert(words.end(), t.begin(), t.end());
-  words.insert(words.end(), p.rest.begin(), p.rest.end());
-  return words;
-}
-
-bool is(const Words& token, Kind kind) { return kind_of(token[0]) == kind; }
-
-/// Where a SEG is: SEGs run ahead, and a unit's of a line sum to the width.
-class SegmentPlaces {
- public:
-  struct Place {
-    std::size_t line = 0;
-    std::uint32_t x = 0;  ///< its first pixel
-  };
-
-  explicit SegmentPlaces(const Words& header) : width_(width_of(header)) {}
-
-  Place next(const SegmentToken& s) {
-    const auto unit = static_cast<std::size_t>(s.unit);
-    if (units_.size() <= unit) units_.resize(unit + 1);
-    Place& next = units_[unit];
-    const Place place = next;
-    next.x += static_cast<std::uint32_t>(s.dx);
-    if (next.x >= width_) next = {place.line + 1, 0};
-    return place;
-  }
-
- private:
-  std::uint32_t width_;
-  std::vector<Place> units_;
-};
 
 /// Takes `step` columns at one side from a tree's segments, as narrower() does from spans. Faults stay: a segment of no
 /// pixel, and what goes past the line.
@@ -172,20 +118,6 @@ class Shrinker {
     return true;
   }
 
-  /// The frame with these tokens, its height and its EOLs numbered anew if lines have gone.
-  [[nodiscard]] Words numbered(Parts p, std::size_t gone) const {
-    if (gone == 0 || p.header.size() < 2) return together(p);
-    FrameHeader h = FrameHeader::read(p.header);
-    if (static_cast<std::size_t>(h.height) <= gone) return words_;
-    h.height -= static_cast<int>(gone);
-    h.write(p.header);
-    Words words = together(p);
-    TokenPlaces places(config_, words);
-    std::uint64_t y = 0;
-    for (const TokenPlaces::At at : places.of(Kind::EOL)) places.put(at, layout_.eol_y, y++);
-    return words;
-  }
-
   bool lines() {
     const auto count = [&] {
       const Parts p = apart(config_, words_);
@@ -193,20 +125,7 @@ class Shrinker {
           std::count_if(p.tokens.begin(), p.tokens.end(), [](const Words& t) { return is(t, Kind::EOL); }));
     };
     const auto without = [&](std::size_t first, std::size_t last) {
-      Parts p = apart(config_, words_);
-      std::vector<Words> left;
-      std::size_t line = 0;
-      bool state = true;  // what stands before the first line stays
-      SegmentPlaces segments(p.header);
-      for (Words& t : p.tokens) {
-        state = state && info_of(kind_of(t[0])).state;
-        const std::size_t of = is(t, Kind::SEG) ? segments.next(decode(config_, layout_, t).segment).line : line;
-        const bool gone = !state && !is(t, Kind::END) && of >= first && of < last;
-        line += is(t, Kind::EOL) ? 1U : 0U;
-        if (!gone) left.push_back(std::move(t));
-      }
-      p.tokens = std::move(left);
-      return numbered(std::move(p), last - first);
+      return only_lines(config_, words_, [&](std::size_t line) { return line < first || line >= last; });
     };
     return fewer(
         count, without, [&](Words w) { return accept(std::move(w)); }, more_);

@@ -37,6 +37,7 @@ Json frame_json(const PackFrame& f) {
     j["error_token"] = f.status.token;
     j["error_unit"] = f.status.unit;
   }
+  j["source_lines"] = f.source_lines.empty() ? Json(nullptr) : Json(f.source_lines);
   j["registers_are_read"] = f.settles;
   j["clocks"] = f.clocks == 0 ? Json(nullptr) : Json(f.clocks);
   return j;
@@ -105,6 +106,7 @@ PackFrame frame_of(const Reader& r) {
     f.status.token = static_cast<std::uint32_t>(r.number("error_token", kAll));
     f.status.unit = static_cast<std::uint32_t>(r.number("error_unit", kAll));
   }
+  if (!r.at("source_lines").is_null()) f.source_lines = r.get<std::vector<std::size_t>>("source_lines");
   f.settles = r.get<bool>("registers_are_read");
   if (!r.at("clocks").is_null()) f.clocks = r.number("clocks", most);
   return f;

@@ -29,6 +29,7 @@ struct PackFrame {
   std::string what;         ///< where it comes from: "courtyard, frame 0", "malformed: ORDER"
   std::uint64_t words = 0;  ///< of 32 bits, without those that fill the last beat
   std::uint64_t beats = 0;
+  std::vector<std::size_t> source_lines;  ///< that --budget took of the scene's frame; empty: all
   FrameStatus status;        ///< as the golden core ends it: error, and the size that leaves
   bool settles = false;      ///< the registers are read behind it, before the next frame comes
   std::uint64_t clocks = 0;  ///< that the RTL took for it alone, without stalls; 0: it was not asked

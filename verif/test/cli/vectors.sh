@@ -89,6 +89,41 @@ expect 0 "$kage" stream courtyard --size 16x12 --frames 1 --config default --out
 make s s.kage --no-clocks
 json pack.json 'j["clocks"] is None'
 
+# ---- the hardest lines that fit ----
+for bytes in 4000 20000; do
+  make b courtyard --size 64x48 --frames 2 --config default --budget $bytes
+  python3 - $bytes <<'PY' || fail "--budget $bytes: too many bytes, or lines that are not the frame's"
+import json, os, sys
+m, budget = json.load(open("b/manifest.json")), int(sys.argv[1])
+used = os.path.getsize("b/stimulus.bin") + 4 * m["lines"]
+scene = [f for f in m["frames"] if f["error"] == "NONE"]
+sound = all(len(f["source_lines"]) == f["height"] and f["source_lines"] == sorted(set(f["source_lines"])) for f in scene)
+sys.exit(used > budget or used < 0.8 * budget or not sound or not scene or sum(f["error"] != "NONE" for f in m["frames"]) != 9)
+PY
+done
+played b "$source/rtl" "passed: " +seed=2 +stall=20
+# A line's pixels are those of the whole frame.
+expect 0 pack courtyard --size 64x48 --frames 2 --config default --sound-only --no-clocks --out whole
+python3 - <<'PY' || fail "a chosen line has other pixels than in its frame"
+import json, sys
+m, at = json.load(open("b/manifest.json")), 0
+part, whole = open("b/pixels.bin", "rb").read(), open("whole/pixels.bin", "rb").read()
+for f in m["frames"]:
+    frame = int(f["what"].split()[-1]) if f["error"] == "NONE" else None
+    for y in f["source_lines"] or [None] * f["height"]:
+        line = part[at : at + 3 * f["width"]]
+        at += len(line)
+        if y is not None and line != whole[3 * 64 * (48 * frame + y) :][: 3 * 64]:
+            sys.exit(f"frame {frame}, line {y}")
+PY
+# Few bytes reach as much as the whole frame does, as far as lines alone can.
+expect 0 pack polyhedra --size 64x48 --frames 1 --config polyhedra --sound-only --budget 30000 --out few
+expect 0 "$kage" vectors --check few
+trouble '--budget 100: no line of courtyard fits beside malformed frames of' "$kage" vectors courtyard --size 64x48 --config default --budget 100 --out none
+trouble "--budget 20: no line of courtyard fits" "$kage" vectors courtyard --size 64x48 --config default --budget 20 --sound-only --out none
+trouble 'frames that may break rules have no lines to choose' "$kage" vectors random:damaged --config default --budget 9000 --out none
+[ ! -e none ] || fail "a pack that cannot be leaves a folder"
+
 # ---- captures ----
 expect 0 "$kage" vectors --compare p p/pixels.hex
 cp p/pixels.bin good.raw
@@ -127,6 +162,7 @@ trouble 'a picture is one frame, and the pack has several' "$kage" vectors --com
 trouble '--frame 99: the pack has frames 0 to 10' "$kage" vectors --compare p good.raw --frame 99
 
 # ---- a pack that is not what was written ----
+rm -rf b
 broken() { # TEXT COMMAND...: the pack, changed by the command in its folder, is refused
   local text=$1
   shift
