@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
 #include "command.hpp"
 #include "cosim/run.hpp"
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "kage/explain.hpp"
 #include "options.hpp"
@@ -32,7 +34,7 @@ struct VectorsCommand : Options {
   std::vector<std::string> compare;  ///< pack, capture
   std::optional<std::uint64_t> frame;
   bool sound_only = false;
-  bool no_clocks = false;
+  bool no_rtl = false;
   bool sizes = false;
   std::uint64_t budget = 0;  ///< bytes; 0: all lines of all frames
 };
@@ -48,7 +50,10 @@ class PackFrames {
   }
 
   [[nodiscard]] Source& source() { return source_; }
-  [[nodiscard]] int size() const { return sound() + static_cast<int>(malformed_.size()); }
+  [[nodiscard]] int size() const { return sound() + 2 * static_cast<int>(malformed_.size()); }
+  /// Whether the registers are read behind a frame with an error. Malformed frames come twice: one by one, then right
+  /// behind each other.
+  [[nodiscard]] bool settles(int i) const { return i < sound() + static_cast<int>(malformed_.size()); }
   [[nodiscard]] std::string what(int i) const {
     if (i >= sound())
       return fmt::format("malformed: {}", kErrorNames.at(static_cast<std::size_t>(damaged(i).status.error)));
@@ -74,7 +79,7 @@ class PackFrames {
     const Config& config = source_.config();
     std::uint64_t bytes = 0;
     for (const vectors::MalformedFrame& f : malformed_)
-      bytes += vectors::board_bytes(config, f.words.size(), static_cast<std::uint64_t>(f.status.height));
+      bytes += 2 * vectors::board_bytes(config, f.words.size(), static_cast<std::uint64_t>(f.status.height));
     if (bytes < o.budget) chosen_ = vectors::choose_lines(source_, o.budget - bytes);
     if (chosen_.empty())
       throw Error(fmt::format(
@@ -84,18 +89,12 @@ class PackFrames {
   [[nodiscard]] int sound() const { return chosen_.empty() ? source_.frames() : static_cast<int>(chosen_.size()); }
   [[nodiscard]] const vectors::ChosenFrame& chosen(int i) const { return chosen_.at(static_cast<std::size_t>(i)); }
   [[nodiscard]] const vectors::MalformedFrame& damaged(int i) const {
-    return malformed_.at(static_cast<std::size_t>(i - sound()));
+    return malformed_.at(static_cast<std::size_t>(i - sound()) % malformed_.size());
   }
   Source source_;
   std::vector<vectors::ChosenFrame> chosen_;  // with --budget
   std::vector<vectors::MalformedFrame> malformed_;
 };
-
-/// Registers are read behind each frame with an error and behind the last.
-void settle(std::vector<vectors::PackFrame>& frames) {
-  for (vectors::PackFrame& f : frames) f.settles = f.status.error != ErrorCode::NONE;
-  frames.back().settles = true;
-}
 
 /// What each frame is, without writing anything.
 std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
@@ -117,11 +116,21 @@ std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
     });
     f.status = golden.finish(nowhere);
     f.beats = (f.words + width - 1) / width;
+    f.settles = i + 1 == from.size() || (from.settles(i) && f.status.error != ErrorCode::NONE);
     frames.push_back(f);
   }
   if (std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.pixels() == 0; }))
     throw Error(from.source().name() + ": no frame brings a pixel: a pack needs one");
-  settle(frames);
+  constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();  // a bench counts in 32 bits with a sign
+  std::uint64_t beats = 0;
+  std::uint64_t pixels = 0;
+  for (const vectors::PackFrame& f : frames) {
+    beats += f.beats;
+    pixels += f.pixels();
+  }
+  if (beats > most || pixels > most)
+    throw Error(fmt::format("{}: {} beats, {} pixels: a testbench counts up to {}: fewer --frames, or a smaller --size",
+                            from.source().name(), beats, pixels, most));
   return frames;
 }
 
@@ -140,10 +149,12 @@ void ask_rtl(PackFrames& from, std::vector<vectors::PackFrame>& frames, const Ve
   options.wait = check_interrupt;
   const cosim::Report report = cosim::run(
       from.size(), [&](int i, const WordSink& sink) { return from.words(i, sink); }, *golden, *core, options);
-  if (!report.same)
-    throw Error(
-        fmt::format("{}: the RTL differs from the golden model, so there is nothing to promise: kage cosim tells where",
-                    frames.at(static_cast<std::size_t>(report.first_difference->frame)).what));
+  if (report.same) return;
+  const cosim::Difference& d = *report.first_difference;
+  throw Error(fmt::format(
+      "{}: the RTL differs from the golden model at line {}, x {}, {}: expected {}, got {}{}: nothing is promised",
+      frames.at(static_cast<std::size_t>(d.frame)).what, d.line, d.x, d.field, d.expected, d.actual,
+      d.remark.empty() ? "" : " (" + d.remark + ")"));
 }
 
 std::uint64_t bytes_of(const std::vector<vectors::PackFile>& files) {
@@ -175,9 +186,25 @@ Json summary(const vectors::Pack& pack, const std::string& folder) {
   return j;
 }
 
+/// A pack may be written over an older one, and over nothing else.
+void refuse_other_files(const std::filesystem::path& folder) {
+  std::error_code e;
+  if (!std::filesystem::is_directory(folder, e) || std::filesystem::is_empty(folder, e)) return;
+  const std::filesystem::path manifest = folder / vectors::kManifest;
+  const bool pack =
+      std::filesystem::is_regular_file(manifest, e) && read_file(manifest).find("\"kage.pack/") != std::string::npos;
+  if (!pack)
+    throw Error(folder.string() + ": is not empty and no pack, whose files would be replaced: name another folder");
+}
+
 int write_pack(const VectorsCommand& o) {
   if (o.out.empty() && !o.sizes) throw Error("--out: needed: the folder of the pack (or --sizes, which writes none)");
   check_json(o);
+  std::optional<OutFolder> folder;
+  if (!o.sizes) {
+    refuse_other_files(o.out);
+    folder.emplace(o.out);
+  }
   PackFrames from(o);
   Progress progress;
   vectors::Pack pack;
@@ -185,6 +212,7 @@ int write_pack(const VectorsCommand& o) {
   pack.config = from.source().config();
   pack.config_name = from.source().named_config().name;
   pack.seed = o.seed;
+  pack.made_by = "kage " KAGE_VERSION;
   pack.frames = measure(from, progress);
   progress.clear();
   pack.reads = vectors::register_reads(pack.config, pack.frames);
@@ -197,10 +225,12 @@ int write_pack(const VectorsCommand& o) {
     finish(o, {"kage.vectors/1", summary(pack, "")}, none, text + fmt::format("together {} bytes\n", bytes_of(sizes)));
     return kSame;
   }
+  if (!o.no_rtl) {
+    ask_rtl(from, pack.frames, o);
+    pack.rtl_agrees = true;
+  }
   if (!json_only(o))
     fmt::print("{}: {}, some {} bytes\n", o.out, counted(pack.frames.size(), "frame"), bytes_of(sizes));
-  if (!o.no_clocks) ask_rtl(from, pack.frames, o);
-  const OutFolder folder(o.out);
   TempFiles files;
   vectors::PackWriter writer(o.out, pack.config, files);
   FrameProgress frame_progress(progress, pack.scene, from.size());
@@ -232,7 +262,7 @@ int write_pack(const VectorsCommand& o) {
 
 int check(const VectorsCommand& o) {
   check_json(o);
-  const vectors::Pack pack = vectors::checked_pack(o.check);
+  const vectors::Pack pack = vectors::checked_pack(o.check, vectors::Check::all, check_interrupt);
   TempFiles none;
   finish(o, {"kage.vectors/1", summary(pack, o.check)}, none,
          fmt::format("{}: good: {} for {}, {}, {}\n", o.check, counted(pack.frames.size(), "frame"), pack.config_name,
@@ -240,16 +270,21 @@ int check(const VectorsCommand& o) {
   return kSame;
 }
 
+std::string value_text(const vectors::CaptureVerdict& v, std::optional<std::uint32_t> value) {
+  if (!value) return "unknown digits";
+  return v.signatures ? fmt::format("{:08x}", *value) : fmt::format("{}", *value);
+}
+
 std::string text_of(const vectors::CaptureVerdict& v, const vectors::Pack& pack) {
-  if (v.same()) return fmt::format("same: {}\n", counted(v.compared, v.signatures ? "signature" : "pixel"));
-  std::string text =
-      fmt::format("different: {} of {}\n", v.wrong, counted(v.compared, v.signatures ? "signature" : "pixel"));
+  const std::string compared = counted(v.compared, v.signatures ? "signature" : "pixel");
+  if (v.same()) return fmt::format("same: {}\n", compared);
+  std::string text = v.wrong == 0 ? fmt::format("incomplete: {}, all of them the same\n", compared)
+                                  : fmt::format("different: {} of {}\n", v.wrong, compared);
   if (v.first) {
     const vectors::WrongPlace& w = *v.first;
     text += fmt::format("first difference: frame {} ({}), line {}{}, {}: expected {}, got {}\n", w.frame,
                         pack.frames[w.frame].what, w.line, w.x ? fmt::format(", x {}", *w.x) : "", w.what,
-                        v.signatures ? fmt::format("{:08x}", w.expected) : fmt::format("{}", w.expected),
-                        v.signatures ? fmt::format("{:08x}", w.actual) : fmt::format("{}", w.actual));
+                        value_text(v, w.expected), value_text(v, w.actual));
   }
   if (!v.remark.empty()) text += "the capture " + v.remark + "\n";
   return text;
@@ -266,8 +301,8 @@ std::string history_of(const vectors::Pack& pack, const std::string& folder, con
 int compare(const VectorsCommand& o) {
   check_json(o);
   const std::string& folder = o.compare.at(0);
-  const vectors::Pack pack = vectors::checked_pack(folder);
-  const vectors::CaptureVerdict v = vectors::judge(folder, pack, o.compare.at(1), o.frame);
+  const vectors::Pack pack = vectors::checked_pack(folder, vectors::Check::answers, check_interrupt);
+  const vectors::CaptureVerdict v = vectors::judge(folder, pack, o.compare.at(1), o.frame, check_interrupt);
   Json j;
   j["pack"] = folder;
   j["capture"] = o.compare.at(1);
@@ -278,10 +313,13 @@ int compare(const VectorsCommand& o) {
   j["remark"] = v.remark;
   j["first_difference"] = nullptr;
   if (v.first)
-    j["first_difference"] = {{"frame", v.first->frame},  {"what", pack.frames[v.first->frame].what},
-                             {"line", v.first->line},    {"x", v.first->x ? Json(*v.first->x) : Json(nullptr)},
-                             {"field", v.first->what},   {"expected", v.first->expected},
-                             {"actual", v.first->actual}};
+    j["first_difference"] = {{"frame", v.first->frame},
+                             {"what", pack.frames[v.first->frame].what},
+                             {"line", v.first->line},
+                             {"x", v.first->x ? Json(*v.first->x) : Json(nullptr)},
+                             {"field", v.first->what},
+                             {"expected", v.first->expected},
+                             {"actual", v.first->actual ? Json(*v.first->actual) : Json(nullptr)}};
   std::string text = text_of(v, pack);
   if (v.first && v.first->x) text += history_of(pack, folder, *v.first);
   TempFiles none;
@@ -292,6 +330,11 @@ int compare(const VectorsCommand& o) {
 int run(const VectorsCommand& o) {
   const int asked = (o.input.empty() ? 0 : 1) + (o.check.empty() ? 0 : 1) + (o.compare.empty() ? 0 : 1);
   if (asked != 1) throw Error("vectors: give a SCENE, or --check PACK, or --compare PACK CAPTURE: one of them");
+  if (o.frame && o.compare.empty()) throw Error("--frame: only a capture is of one frame: --compare");
+  if (o.input.empty() && (!o.out.empty() || o.sizes || o.sound_only || o.no_rtl || o.budget > 0 || o.size_given ||
+                          o.frames > 0 || !o.config.empty()))
+    throw Error(
+        fmt::format("{} takes no option of writing a pack but --json", o.check.empty() ? "--compare" : "--check"));
   if (!o.check.empty()) return check(o);
   if (!o.compare.empty()) return compare(o);
   return write_pack(o);
@@ -314,7 +357,7 @@ void add_vectors(CLI::App& app, Action& action) {
   c->get_option("SCENE")->required(false);
   c->add_option("--out", o->out, "the pack's folder")->type_name("DIR");
   c->add_flag("--sound-only", o->sound_only, "no malformed frames behind the scene's");
-  c->add_flag("--no-clocks", o->no_clocks, "do not run the RTL, which tells the clocks and that it agrees");
+  c->add_flag("--no-rtl", o->no_rtl, "do not hold the RTL against the frames first, which also tells the clocks");
   c->add_option("--budget", o->budget,
                 "bytes that a board has for beats and signatures: the hardest lines of the frames that fit, judged by "
                 "what they reach")

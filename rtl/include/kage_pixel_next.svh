@@ -80,12 +80,12 @@ function automatic logic pixel_in_front(input logic [Z_BITS-1:0] z, input logic 
   pixel_in_front = z < drawn;
 endfunction
 
-// Next state of a pixel in the range of a token. What has a long way is found ahead of it: `opaque` is pixel_opaque's of
-// the kind, `in_front` pixel_in_front's of `z` and the pixel. A colour that is blended is left to pixel_blends and
-// pixel_blend, because it comes last. `z` and `color` are the span's at this pixel, or the tree's, of RESOLVE the background; `count` is the class for OP
-// and TREE, w for SP and NC, the line's bias for EV and RESOLVE, {light, bias} for ES. RESOLVE reaches the pixels only
-// where TPs follow; otherwise line_out darkens. With counters RESOLVE darkens nothing: where there is something to
-// darken CmdOut sends the line to line_out and CmdLoad brings its colours back. EOL clears.
+// Next state of a pixel in the range of a token. What has a long way is found ahead: `opaque` is pixel_opaque's,
+// `in_front` pixel_in_front's. Blended colours come last, by pixel_blends and pixel_blend. `z` and `color` are the
+// span's at this pixel, or the tree's, of RESOLVE the background; `count` is the class for OP and TREE, w for SP and
+// NC, the line's bias for EV and RESOLVE, {light, bias} for ES. RESOLVE comes only where TPs follow; otherwise line_out
+// darkens. With counters RESOLVE darkens nothing: CmdOut sends a line with something to darken to line_out, and CmdLoad
+// brings its colours back. EOL clears.
 function automatic logic [PixelBits-1:0] pixel_next(input logic [PixelBits-1:0] pixel, input logic [KindBits-1:0] kind,
                                                     input logic opaque, input logic in_front,
                                                     input logic [Z_BITS-1:0] z, input logic [RgbBits-1:0] color,

@@ -26,9 +26,7 @@ Parts apart(const Config& config, const Words& words);
 Words together(const Parts& parts);
 
 inline bool is(const Words& token, Kind kind) { return kind_of(token[0]) == kind; }
-inline std::uint32_t width_of(const Words& frame) {
-  return static_cast<std::uint32_t>(FrameHeader::read(frame).width);
-}
+inline std::uint32_t width_of(const Words& frame) { return static_cast<std::uint32_t>(FrameHeader::read(frame).width); }
 
 /// Where a SEG is: SEGs run ahead, and a unit's of a line sum to the width.
 class SegmentPlaces {
@@ -48,8 +46,8 @@ class SegmentPlaces {
   std::vector<Place> units_;
 };
 
-/// The frame with those of its lines alone for which `keeps` is true: height and EOLs are numbered anew, and SEGs go with
-/// their line. What stands before the first line stays. A frame that would have no line is given back as it is.
+/// The frame with those of its lines alone for which `keeps` is true: height and EOLs are numbered anew, and SEGs go
+/// with their line. What stands before the first line stays. A frame that would have no line is given back as it is.
 Words only_lines(const Config& config, const Words& words, const std::function<bool(std::size_t line)>& keeps);
 
 }  // namespace kage::verif

@@ -42,9 +42,8 @@ class Chooser {
       frames.back().lines.push_back(lines_[i].y);
     }
     for (ChosenFrame& f : frames)
-      f.words = verif::only_lines(config_, source_.words(f.from), [&](std::size_t y) {
-        return std::binary_search(f.lines.begin(), f.lines.end(), y);
-      });
+      f.words = verif::only_lines(config_, source_.words(f.from),
+                                  [&](std::size_t y) { return std::binary_search(f.lines.begin(), f.lines.end(), y); });
     return frames;
   }
 
@@ -77,7 +76,8 @@ class Chooser {
   }
   /// Bytes that the line adds. A beat that is not full counts whole, as a frame's last one may be.
   [[nodiscard]] std::uint64_t cost(const Line& line) const {
-    const bool first = used_.size() <= static_cast<std::size_t>(line.frame) || !used_[static_cast<std::size_t>(line.frame)];
+    const bool first =
+        used_.size() <= static_cast<std::size_t>(line.frame) || !used_[static_cast<std::size_t>(line.frame)];
     const std::uint64_t words = line.words + (first ? base_[static_cast<std::size_t>(line.frame)] : 0);
     return board_bytes(config_, words + (first ? static_cast<std::uint64_t>(config_.beat_words) - 1 : 0), 1);
   }

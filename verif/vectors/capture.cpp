@@ -77,19 +77,21 @@ class Expected {
 
 class Judge {
  public:
-  Judge(const std::filesystem::path& folder, const Pack& pack, std::optional<std::uint64_t> frame)
-      : expected_(folder, pack, frame), wanted_(static_cast<std::size_t>(pack.config.channels)) {}
+  Judge(const std::filesystem::path& folder, const Pack& pack, std::optional<std::uint64_t> frame,
+        const std::function<void()>& wait)
+      : expected_(folder, pack, frame), wanted_(static_cast<std::size_t>(pack.config.channels)), wait_(wait) {}
 
-  /// The next pixel of the capture; `flags`: 2 TUSER + TLAST, where it has them.
-  void pixel(std::span<const std::uint8_t> got, std::optional<unsigned> flags) {
+  /// The next pixel of the capture, none in a channel that is unknown; `flags`: 2 TUSER + TLAST, where it has them.
+  void pixel(std::span<const std::optional<std::uint8_t>> got, std::optional<unsigned> flags) {
+    if (judged_++ % 4096 == 0) wait_();
     if (expected_.done()) {
       ++extra_;
       return;
     }
     expected_.pixel(wanted_);
     bool good = true;
-    const auto differ = [&](const std::string& what, std::uint32_t e, std::uint32_t a) {
-      if (e == a) return;
+    const auto differ = [&](const std::string& what, std::uint32_t e, std::optional<std::uint32_t> a) {
+      if (a == e) return;
       good = false;
       note(what, e, a, expected_.x());
     };
@@ -101,15 +103,15 @@ class Judge {
     count(good);
     expected_.next_pixel();
   }
-  void signature(std::uint32_t got) {
+  void signature(std::optional<std::uint32_t> got) {
     verdict_.signatures = true;
     if (expected_.done()) {
       ++extra_;
       return;
     }
     const std::uint32_t wanted = expected_.signature();
-    if (wanted != got) note("signature", wanted, got, std::nullopt);
-    count(wanted == got);
+    if (got != wanted) note("signature", wanted, got, std::nullopt);
+    count(got == wanted);
     expected_.next_line();
   }
   CaptureVerdict verdict() {
@@ -124,7 +126,7 @@ class Judge {
   }
 
  private:
-  void note(const std::string& what, std::uint32_t e, std::uint32_t a, std::optional<int> x) {
+  void note(const std::string& what, std::uint32_t e, std::optional<std::uint32_t> a, std::optional<int> x) {
     if (!verdict_.first) verdict_.first = WrongPlace{expected_.frame(), expected_.line(), x, what, e, a};
   }
   void count(bool good) {
@@ -136,13 +138,20 @@ class Judge {
   std::vector<std::uint8_t> wanted_;
   CaptureVerdict verdict_;
   std::uint64_t extra_ = 0;
+  std::uint64_t judged_ = 0;
+  const std::function<void()>& wait_;
 };
+
+/// Hexadecimal digits; none if one is unknown.
+std::optional<std::uint32_t> number_of(const std::string& digits) {
+  if (digits.find_first_of("xXzZ") != std::string::npos) return std::nullopt;
+  return static_cast<std::uint32_t>(std::stoul(digits, nullptr, 16));
+}
 
 void judge_hex(Judge& judge, const Pack& pack, const std::filesystem::path& path) {
   std::ifstream in(path);
-  if (!in) throw Error(path.string() + ": cannot be read");
   const auto digits = static_cast<std::size_t>(2 * pack.config.channels);
-  std::vector<std::uint8_t> pixel(static_cast<std::size_t>(pack.config.channels));
+  std::vector<std::optional<std::uint8_t>> pixel(static_cast<std::size_t>(pack.config.channels));
   std::string line;
   std::optional<std::size_t> length;
   for (std::uint64_t number = 1; std::getline(in, line); ++number) {
@@ -150,9 +159,9 @@ void judge_hex(Judge& judge, const Pack& pack, const std::filesystem::path& path
     line.erase(
         std::remove_if(line.begin(), line.end(), [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '_'; }),
         line.end());
-    if (line.empty()) continue;
-    const bool hex = line.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
-    const bool fits = line.size() == digits || line.size() == digits + 1 || line.size() == 8;
+    if (line.empty() || line[0] == '@') continue;  // $writememh tells addresses so
+    const bool hex = line.find_first_not_of("0123456789abcdefABCDEFxXzZ") == std::string::npos;
+    const bool fits = line.size() == digits || line.size() == 8 || (line.size() == digits + 1 && line[0] <= '3');
     if (!hex || !fits || (length && *length != line.size()))
       throw Error(
           fmt::format("{}:{}: '{}' is no pixel of {} hexadecimal digits, with or without one in front for TUSER and "
@@ -160,25 +169,28 @@ void judge_hex(Judge& judge, const Pack& pack, const std::filesystem::path& path
                       path.string(), number, line.substr(0, 40), digits));
     length = line.size();
     if (line.size() == 8) {
-      judge.signature(static_cast<std::uint32_t>(std::stoul(line, nullptr, 16)));
+      judge.signature(number_of(line));
       continue;
     }
     const std::size_t from = line.size() - digits;
-    for (std::size_t c = 0; c < pixel.size(); ++c)
-      pixel[c] = static_cast<std::uint8_t>(std::stoul(line.substr(from + digits - 2 * c - 2, 2), nullptr, 16));
-    judge.pixel(pixel, from == 1 ? std::optional<unsigned>(std::stoul(line.substr(0, 1), nullptr, 16)) : std::nullopt);
+    for (std::size_t c = 0; c < pixel.size(); ++c) {
+      const std::optional<std::uint32_t> value = number_of(line.substr(from + digits - 2 * c - 2, 2));
+      pixel[c] = value ? std::optional(static_cast<std::uint8_t>(*value)) : std::nullopt;
+    }
+    judge.pixel(pixel, from == 1 ? number_of(line.substr(0, 1)) : std::nullopt);
   }
+  if (in.bad()) throw Error(path.string() + ": cannot be read");
 }
 
 void judge_raw(Judge& judge, const Pack& pack, const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path.string() + ": cannot be read");
   std::vector<char> bytes(static_cast<std::size_t>(pack.config.channels));
-  std::vector<std::uint8_t> pixel(bytes.size());
+  std::vector<std::optional<std::uint8_t>> pixel(bytes.size());
   while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    std::copy(bytes.begin(), bytes.end(), pixel.begin());
+    std::transform(bytes.begin(), bytes.end(), pixel.begin(), [](char c) { return static_cast<std::uint8_t>(c); });
     judge.pixel(pixel, std::nullopt);
   }
+  if (in.bad()) throw Error(path.string() + ": cannot be read");
   if (in.gcount() != 0) throw Error(fmt::format("{}: ends within a pixel of {} bytes", path.string(), bytes.size()));
 }
 
@@ -190,8 +202,11 @@ void judge_picture(Judge& judge, const PackFrame& frame, const Pack& pack, const
                             image.height, image.channels, frame.status.width, frame.status.height,
                             pack.config.channels));
   const auto channels = static_cast<std::size_t>(image.channels);
-  for (std::size_t at = 0; at < image.data.size(); at += channels)
-    judge.pixel(std::span(image.data).subspan(at, channels), std::nullopt);
+  std::vector<std::optional<std::uint8_t>> pixel(channels);
+  for (std::size_t at = 0; at < image.data.size(); at += channels) {
+    for (std::size_t c = 0; c < channels; ++c) pixel[c] = image.data[at + c];
+    judge.pixel(pixel, std::nullopt);
+  }
 }
 
 bool is_picture(const std::filesystem::path& path) {
@@ -205,7 +220,10 @@ bool is_picture(const std::filesystem::path& path) {
 }  // namespace
 
 CaptureVerdict judge(const std::filesystem::path& folder, const Pack& pack, const std::filesystem::path& capture,
-                     std::optional<std::uint64_t> frame) {
+                     std::optional<std::uint64_t> frame, const std::function<void()>& wait) {
+  std::error_code e;
+  if (!std::filesystem::is_regular_file(capture, e)) throw Error(capture.string() + ": no file");
+  if (std::filesystem::file_size(capture, e) == 0) throw Error(capture.string() + ": is empty: no capture");
   if (frame && *frame >= pack.frames.size())
     throw Error(fmt::format("--frame {}: the pack has frames 0 to {}", *frame, pack.frames.size() - 1));
   const bool picture = is_picture(capture);
@@ -217,13 +235,16 @@ CaptureVerdict judge(const std::filesystem::path& folder, const Pack& pack, cons
     frame = static_cast<std::uint64_t>(std::find_if(pack.frames.begin(), pack.frames.end(), has_pixels) -
                                        pack.frames.begin());
   }
-  Judge judge(folder, pack, frame);
+  Judge judge(folder, pack, frame, wait);
   if (picture)
     judge_picture(judge, pack.frames[*frame], pack, capture);
   else if (capture.extension() == ".hex")
     judge_hex(judge, pack, capture);
-  else
+  else if (capture.extension() == ".bin" || capture.extension() == ".raw")
     judge_raw(judge, pack, capture);
+  else
+    throw Error(fmt::format("{}: a capture ends with .hex, .bin, .raw, or as a picture does: {} is none",
+                            capture.string(), capture.extension().string()));
   return judge.verdict();
 }
 

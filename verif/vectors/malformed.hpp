@@ -17,7 +17,8 @@ struct MalformedFrame {
 };
 
 /// For each error that a core of this configuration can meet the smallest of many damaged frames (stimulus/damage.hpp)
-/// that has it, in the order of the codes; fewer where chance brought none. Follows from configuration and seed alone.
+/// that has it behind its first line and before its last, else the smallest that has it, in the order of the codes;
+/// fewer where chance brought none. Follows from configuration and seed alone.
 std::vector<MalformedFrame> malformed_frames(const Config& config, std::uint64_t seed);
 
 }  // namespace kage::vectors

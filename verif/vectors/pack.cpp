@@ -187,6 +187,8 @@ Json to_json(const Pack& pack) {
   Json j{{"schema", kPackSchema}, {"scene", pack.scene}, {"config_name", pack.config_name}};
   j["config"] = report::to_json(pack.config);
   j["seed"] = pack.seed;
+  j["made_by"] = pack.made_by;
+  j["rtl_agrees"] = pack.rtl_agrees ? Json(*pack.rtl_agrees) : Json(nullptr);
   j["beats"] = pack.beats();
   j["lines"] = pack.lines();
   j["pixels"] = pack.pixels();
@@ -219,6 +221,8 @@ Pack pack_of(const Json& manifest, const std::string& where) {
   }
   validate(p.config, where + ": config");
   p.seed = r.number("seed", ~std::uint64_t{0});
+  p.made_by = r.get<std::string>("made_by");
+  if (!r.at("rtl_agrees").is_null()) p.rtl_agrees = r.get<bool>("rtl_agrees");
   for (const Reader& f : r.list("frames")) p.frames.push_back(frame_of(f));
   for (const Reader& f : r.list("registers"))
     p.reads.push_back(

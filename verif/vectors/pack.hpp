@@ -30,9 +30,9 @@ struct PackFrame {
   std::uint64_t words = 0;  ///< of 32 bits, without those that fill the last beat
   std::uint64_t beats = 0;
   std::vector<std::size_t> source_lines;  ///< that --budget took of the scene's frame; empty: all
-  FrameStatus status;        ///< as the golden core ends it: error, and the size that leaves
-  bool settles = false;      ///< the registers are read behind it, before the next frame comes
-  std::uint64_t clocks = 0;  ///< that the RTL took for it alone, without stalls; 0: it was not asked
+  FrameStatus status;                     ///< as the golden core ends it: error, and the size that leaves
+  bool settles = false;                   ///< the registers are read behind it, before the next frame comes
+  std::uint64_t clocks = 0;               ///< that the RTL took for it alone, without stalls; 0: it was not asked
 
   [[nodiscard]] std::uint64_t lines() const { return static_cast<std::uint64_t>(status.height); }
   [[nodiscard]] std::uint64_t pixels() const { return lines() * static_cast<std::uint64_t>(status.width); }
@@ -59,7 +59,9 @@ struct Pack {
   std::string scene;  ///< name of a built-in scene, or a file
   std::string config_name;
   Config config;
-  std::uint64_t seed = 0;  ///< of what is random: the malformed frames
+  std::string made_by;             ///< "kage 0.1.0 (1234abc)"
+  std::optional<bool> rtl_agrees;  ///< the RTL has played it and drew the same; none: it was not asked
+  std::uint64_t seed = 0;          ///< of what is random: the malformed frames
   std::vector<PackFrame> frames;
   std::vector<RegisterRead> reads;
   std::vector<PackFile> files;  ///< all but the manifest
@@ -74,7 +76,8 @@ struct Pack {
 /// too. The registers are those of a core that got nothing but these frames since reset.
 std::vector<RegisterRead> register_reads(const Config& config, std::span<const PackFrame> frames);
 
-/// The bytes of each file that grows with the frames, before anything is written; all others have some 20 kB.
+/// The bytes of each file that grows with the frames, before anything is written; the others have some 30 kB, and
+/// kage_pack.h 12 bytes a line besides.
 std::vector<PackFile> file_sizes(const Config& config, std::span<const PackFrame> frames);
 
 /// The CRC-32 of a line, as zlib has it: of each pixel its channels, and a byte with TLAST in bit 0 and TUSER in bit 1.

@@ -18,22 +18,24 @@ namespace {
 /// A file of the pack that is being written, with its hash.
 class Counted {
  public:
-  Counted(TempFiles& files, const std::filesystem::path& folder, std::string name)
-      : name_(std::move(name)), out_(files, folder / name_) {}
+  /// Without `files` nothing is written but the hash.
+  Counted(TempFiles* files, const std::filesystem::path& folder, std::string name) : name_(std::move(name)) {
+    if (files != nullptr) out_ = std::make_unique<OutputFile>(*files, folder / name_);
+  }
 
   void write(std::string_view bytes) {
-    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (out_) out_->write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     hash_.add_piece(std::span<const char>(bytes.data(), bytes.size()));
     bytes_ += bytes.size();
   }
   PackFile close() {
-    out_.close();
+    if (out_) out_->close();
     return {name_, bytes_, hash_.take()};
   }
 
  private:
   std::string name_;
-  OutputFile out_;
+  std::unique_ptr<OutputFile> out_;
   cosim::Sha256 hash_;
   std::uint64_t bytes_ = 0;
 };
@@ -41,7 +43,7 @@ class Counted {
 }  // namespace
 
 struct PackWriter::Data {
-  Data(const std::filesystem::path& to, const Config& c, TempFiles& f)
+  Data(const std::filesystem::path& to, const Config& c, TempFiles* f)
       : folder(to),
         config(c),
         files(f),
@@ -96,7 +98,7 @@ struct PackWriter::Data {
 
   std::filesystem::path folder;
   Config config;
-  TempFiles& files;
+  TempFiles* files;
   GoldenCore golden;
   Counted stimulus_hex, stimulus_bin, pixels_hex, pixels_bin, signatures_hex;
   std::vector<std::uint32_t> held;  // words of the beats that have not been written
@@ -106,7 +108,8 @@ struct PackWriter::Data {
 };
 
 PackWriter::PackWriter(const std::filesystem::path& folder, const Config& config, TempFiles& files)
-    : data_(std::make_unique<Data>(folder, config, files)) {}
+    : data_(std::make_unique<Data>(folder, config, &files)) {}
+PackWriter::PackWriter(const Config& config) : data_(std::make_unique<Data>("", config, nullptr)) {}
 PackWriter::~PackWriter() = default;
 
 PackFrame PackWriter::frame(const std::string& what, const std::function<void(const WordSink&)>& words_of) {
@@ -141,7 +144,7 @@ void PackWriter::finish(Pack& pack) {
   put(kCHeader, c_header(pack, d.signatures));
   put(kReadme, readme(pack));
   put(kBench, read_file(data_directory() / "verif/vectors/bench" / kBench));
-  write_text(d.files, (d.folder / kManifest).string(), to_json(pack).dump(2) + "\n");
+  if (d.files != nullptr) write_text(*d.files, (d.folder / kManifest).string(), to_json(pack).dump(2) + "\n");
 }
 
 }  // namespace kage::vectors

@@ -17,6 +17,8 @@ namespace kage::vectors {
 class PackWriter {
  public:
   PackWriter(const std::filesystem::path& folder, const Config& config, TempFiles& files);
+  /// Writes nothing: finish() tells the lengths and hashes that the files would have.
+  explicit PackWriter(const Config& config);
   ~PackWriter();
   PackWriter(const PackWriter&) = delete;
   PackWriter& operator=(const PackWriter&) = delete;

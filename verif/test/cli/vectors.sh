@@ -9,7 +9,7 @@ make() { # FOLDER SCENE ARGUMENT...
   expect 0 "$kage" vectors --check "$1"
 }
 make p courtyard --size 16x12 --frames 2 --config default
-json pack.json 'j["frames"]==11 and j["malformed"]==9 and j["pixels"]>=2*16*12 and j["clocks"]>0'
+json pack.json 'j["frames"]==20 and j["malformed"]==18 and j["pixels"]>=2*16*12 and j["clocks"]>0'
 no_leftovers
 
 # ---- sizes are said before, exactly ----
@@ -26,7 +26,12 @@ import json, sys
 m = json.load(open("p/manifest.json"))
 errors = {f["error"] for f in m["frames"]} - {"NONE"}
 read = {(r["frame"], r["name"]) for r in m["registers"]}
-told = all((i, "ERROR") in read for i, f in enumerate(m["frames"]) if f["error"] != "NONE")
+told = all((i, "ERROR") in read for i, f in enumerate(m["frames"]) if f["error"] != "NONE" and f["registers_are_read"])
+told = told and sum(f["registers_are_read"] for f in m["frames"]) == 10
+broken = [f for f in m["frames"] if f["error"] != "NONE"]
+within = [f["error"] for f in broken if 0 < f["error_line"] < f["height"]]
+if not {"KIND", "ORDER", "RANGE", "LINE"} <= set(within) or m["rtl_agrees"] is not True:
+    sys.exit("no error within a frame's lines, or the RTL was not asked")
 sys.exit(errors != {"HEADER", "SIZE", "PARAMS", "KIND", "ORDER", "RANGE", "LINE", "LAST_EARLY", "LAST_LATE"} or not told)
 PY
 # The signatures are what zlib says of the pixels.
@@ -59,6 +64,21 @@ played() { # FOLDER RTL TEXT ARGUMENT...: by Icarus Verilog; the last line has T
 played p "$source/rtl" "passed: "
 played p "$source/rtl" "passed: " +seed=3 +stall=40
 define=KAGE_PACK_TOP played p "$source/rtl" "passed: " +seed=4 +stall=10
+# By Verilator; and a netlist of the least core, whose file takes the RTL's place. The bench itself is Verilog-2005, where slang is.
+(cd p && verilator --binary --timing -Wno-fatal -CFLAGS -O0 -I"$source/rtl/include" --top-module kage_pack_tb kage_pack_tb.v \
+  "$source"/rtl/*.sv "$source/rtl/kage_axi.v" >build 2>&1 && obj_dir/Vkage_pack_tb +seed=1 +stall=20 >said 2>&1)
+grep -q '^kage_pack_tb: passed: ' p/said || { fail "Verilator: $(tail -n3 p/said)"; tail -n5 p/build; }
+make t random:mixed --frames 3 --config tiny --seed 5 --no-rtl
+sets=$(python3 -c 'import yaml; print(*(f"-chparam {k} {v}" for k, v in yaml.safe_load(open("'"$source"'/rtl/defs/configs.yaml"))["tiny"].items()))')
+yosys -q -p "read_verilog -defer -sv -I$source/rtl/include $source/rtl/*.sv; hierarchy -top kage_top $sets; proc; flatten; opt; rename -top kage_top; write_verilog -noattr t/net.v" >t/build 2>&1
+(cd t && iverilog -g2005 -DKAGE_PACK_NETLIST -o pack.vvp kage_pack_tb.v net.v >>build 2>&1 && vvp -N pack.vvp +seed=2 +stall=20 >said 2>&1)
+grep -q '^kage_pack_tb: passed: ' t/said || { fail "a netlist: $(tail -n3 t/said)"; tail -n5 t/build; }
+# Where files are missing nothing passes.
+mkdir bare
+(cd bare && vvp -N ../p/pack.vvp) >said 2>&1
+grep -q '^kage_pack_tb: FAILED: a .hex file is missing or short' said || fail "a bench without its files: $(tail -n1 said)"
+rm -rf b && cp -r p b && head -n 4 p/registers.hex >b/registers.hex
+played b "$source/rtl" "FAILED: a .hex file is missing or short"
 # In C the tables compile as they are.
 echo '#include "p/kage_pack.h"
 int main(void) { return kage_pack_frames[0].width == 16 && kage_pack_signatures[0] && kage_pack_registers[0].address ? 0 : 1; }' >c.c
@@ -69,7 +89,12 @@ cp -r "$source/rtl" wrong
 sed -i 's/in_front = z < /in_front = z <= /' wrong/include/kage_pixel_next.svh
 make w courtyard --size 64x48 --frames 1 --config default --sound-only
 played w "$PWD/wrong" "FAILED: frame 0, line "
+[ "$(grep -c '^kage_pack_tb: ' w/said)" = 1 ] || fail "more than one line tells of failures: $(cat w/said)"
 grep -q 'channel 0: expected [0-9]*, got [0-9]*, clock [0-9]*$' w/said || fail "the pixel is not told: $(cat w/said)"
+cp -r "$source/rtl" wrong5
+sed -i 's/\.m_axis_tdata_o(m_axis_tdata)/.m_axis_tdata_o(sent)/; s/^  kage_top #(/  wire [CHANNELS*8-1:0] sent;\n  assign m_axis_tdata = m_axis_tready ? sent : ~sent;\n&/' wrong5/kage_axi.v
+played w "$PWD/wrong5" "FAILED: frame 0, line 0, x " +seed=1 +stall=50
+grep -q 'a pixel that waits changes or goes, clock' w/said || fail "a pixel that changes while it waits is not told: $(cat w/said)"
 cp -r "$source/rtl" wrong2
 sed -i 's/RegErrorToken: value = error_token_q/RegErrorToken: value = error_frame_q/' wrong2/registers.sv
 played p "$PWD/wrong2" "FAILED: behind frame "
@@ -82,11 +107,11 @@ played p "$PWD/wrong4" "FAILED: nothing moves: frame 0, line 0, x 0 is missing"
 
 # ---- other configurations, a stream file, random frames ----
 make u polyhedra --size 32x24 --frames 1 --config polyhedra
-json pack.json 'j["malformed"]>=11'
+json pack.json 'j["malformed"]==24'
 make r random:mixed --frames 6 --config tiny --seed 5
 played r "$source/rtl" "passed: " +seed=1 +stall=30
 expect 0 "$kage" stream courtyard --size 16x12 --frames 1 --config default --out s.kage
-make s s.kage --no-clocks
+make s s.kage --no-rtl
 json pack.json 'j["clocks"] is None'
 
 # ---- the hardest lines that fit ----
@@ -98,12 +123,12 @@ m, budget = json.load(open("b/manifest.json")), int(sys.argv[1])
 used = os.path.getsize("b/stimulus.bin") + 4 * m["lines"]
 scene = [f for f in m["frames"] if f["error"] == "NONE"]
 sound = all(len(f["source_lines"]) == f["height"] and f["source_lines"] == sorted(set(f["source_lines"])) for f in scene)
-sys.exit(used > budget or used < 0.8 * budget or not sound or not scene or sum(f["error"] != "NONE" for f in m["frames"]) != 9)
+sys.exit(used > budget or used < 0.8 * budget or not sound or not scene or sum(f["error"] != "NONE" for f in m["frames"]) != 18)
 PY
 done
 played b "$source/rtl" "passed: " +seed=2 +stall=20
 # A line's pixels are those of the whole frame.
-expect 0 pack courtyard --size 64x48 --frames 2 --config default --sound-only --no-clocks --out whole
+expect 0 pack courtyard --size 64x48 --frames 2 --config default --sound-only --no-rtl --out whole
 python3 - <<'PY' || fail "a chosen line has other pixels than in its frame"
 import json, sys
 m, at = json.load(open("b/manifest.json")), 0
@@ -125,6 +150,19 @@ trouble 'frames that may break rules have no lines to choose' "$kage" vectors ra
 [ ! -e none ] || fail "a pack that cannot be leaves a folder"
 
 # ---- captures ----
+sed '3s/..$/xx/' p/pixels.hex >unknown.hex
+expect 1 "$kage" vectors --compare p unknown.hex --json unknown.json
+json unknown.json 'j["wrong"]==1 and j["first_difference"]["actual"] is None and j["first_difference"]["x"]==2'
+(echo @0; cat p/pixels.hex) >at.hex
+expect 0 "$kage" vectors --compare p at.hex
+trouble "nowhere.hex: no file" "$kage" vectors --compare p nowhere.hex
+trouble "p: no file" "$kage" vectors --compare p p
+: >empty.raw
+trouble "empty.raw: is empty: no capture" "$kage" vectors --compare p empty.raw
+trouble "p/kage_pack.vh: a capture ends with .hex, .bin, .raw, or as a picture does" "$kage" vectors --compare p p/kage_pack.vh
+# What a board's people change of a pack is not what a capture is judged by.
+cp -r p mine && echo >>mine/README.md && echo >>mine/kage_pack_tb.v
+expect 0 "$kage" vectors --compare mine p/pixels.hex
 expect 0 "$kage" vectors --compare p p/pixels.hex
 cp p/pixels.bin good.raw
 expect 0 "$kage" vectors --compare p good.raw
@@ -149,6 +187,7 @@ grep -q '^first difference: frame 1 (courtyard, frame 1), line 5, x 7, channel 1
 grep -q "^the pixel's history: " stdout || fail "the pixel's history is not told"
 json wrong.json 'not j["same"] and j["wrong"]==1 and j["first_difference"]["field"]=="channel 1" and j["first_difference"]["x"]==7'
 expect 1 "$kage" vectors --compare p short.raw
+grep -q '^incomplete: 48 pixels, all of them the same$' stdout || fail "a capture that is short is not told: $(cat stdout)"
 grep -q '^the capture ends before frame 0, line 3, x 0$' stdout || fail "an early end is not told: $(cat stdout)"
 expect 1 "$kage" vectors --compare p long.raw
 grep -q '^the capture goes on behind the last frame: 1 more$' stdout || fail "a late end is not told: $(cat stdout)"
@@ -159,7 +198,7 @@ expect 0 "$kage" render courtyard --size 16x12 --frames 2 --config default --out
 expect 0 "$kage" vectors --compare p pictures/courtyard_0001.png --frame 1
 expect 1 "$kage" vectors --compare p pictures/courtyard_0001.png --frame 0
 trouble 'a picture is one frame, and the pack has several' "$kage" vectors --compare p pictures/courtyard_0001.png
-trouble '--frame 99: the pack has frames 0 to 10' "$kage" vectors --compare p good.raw --frame 99
+trouble '--frame 99: the pack has frames 0 to 19' "$kage" vectors --compare p good.raw --frame 99
 
 # ---- a pack that is not what was written ----
 rm -rf b
@@ -177,13 +216,37 @@ broken 'b/manifest.json: is not there: no pack' rm manifest.json
 broken 'b/manifest.json: not JSON' truncate -s 100 manifest.json
 broken 'beats is missing' sed -i '0,/      "beats"/s//      "beets"/' manifest.json
 broken 'is a file outside the pack' sed -i 's,"name": "README.md","name": "../README.md",' manifest.json
-# A changed manifest whose files are as it says: the golden model tells.
+# Files and hashes are as the manifest says, but not what the frames come to.
+again() { # FILE SED-EXPRESSION: changed, and its hash with it
+  sed -i "$2" "$1" && python3 - "$1" <<'PY'
+import hashlib, json, sys
+m = json.load(open("manifest.json"))
+for f in m["files"]:
+    if f["name"] == sys.argv[1]:
+        f["sha256"] = hashlib.sha256(open(f["name"], "rb").read()).hexdigest()
+json.dump(m, open("manifest.json", "w"))
+PY
+}
+broken "b/signatures.hex: is not what the pack's frames come to" again signatures.hex '2s/./5/'
+broken "b/registers.hex: is not what the pack's frames come to" again registers.hex '2s/.$/9/'
+broken "b/pixels.hex: is not what the pack's frames come to" again pixels.hex '2s/.$/9/'
+broken 'its frames have' sed -i '0,/"beats": [0-9]*,/s//"beats": 999999999999,/; 0,/      "beats": [0-9]*,/s//      "beats": 99999999999,/' manifest.json
 broken 'the golden core ends it with' sed -i '0,/"error": "ORDER"/s//"error": "RANGE"/' manifest.json
 
 # ---- bad requests ----
 trouble 'give a SCENE, or --check PACK, or --compare PACK CAPTURE' "$kage" vectors
 trouble '--out: needed' "$kage" vectors courtyard
 trouble 'give a SCENE, or --check PACK' "$kage" vectors courtyard --check p
+trouble '--frame: only a capture is of one frame' "$kage" vectors courtyard --frame 3 --out none
+trouble '--check takes no option of writing a pack' "$kage" vectors --check p --out none
+trouble '--compare takes no option of writing a pack' "$kage" vectors --compare p good.raw --sizes
+mkdir mine2 && echo mine >mine2/README.md
+trouble 'mine2: is not empty and no pack' "$kage" vectors courtyard --out mine2
+[ "$(cat mine2/README.md)" = mine ] || fail "a file of another's is replaced"
+make p courtyard --size 16x12 --frames 1 --config default --no-rtl  # over an older one
+json p/manifest.json 'j["rtl_agrees"] is None'
+touch file
+trouble 'file' "$kage" vectors courtyard --out file
 trouble 'nowhere/manifest.json: is not there: no pack' "$kage" vectors --check nowhere
 no_leftovers
 

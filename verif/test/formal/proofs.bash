@@ -122,10 +122,15 @@ reader_proof() { # NAME BEAT_WORDS STEPS SET...
   proof "$1" module=token_reader rtl=token_reader rules=stream_rules own_assertions=yes steps="$3" cover="$3" defect_steps=8 \
     set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=$2 MAX_WORDS=$(($2 * $3)) ${*:4}"
 }
-proof token_reader_ports module=token_reader rtl=token_reader rules=stream_rules \
-  inside="inside_full=dut.full_q inside_front_valid=dut.front_valid_q inside_next_at=dut.next_at_q inside_front_at=dut.front_at_q inside_front_end_at=dut.front_end_at_q inside_held=dut.beats_held inside_ahead=dut.words_ahead" \
-  steps=6 induction=2 cover=8 \
-  set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=2 MAX_WORDS=18 MODEL=0 RESETS=1"
+reader_inside=(inside_full=dut.full_q inside_front_valid=dut.front_valid_q inside_next_at=dut.next_at_q inside_front_at=dut.front_at_q
+  inside_front_end_at=dut.front_end_at_q inside_held=dut.beats_held inside_ahead=dut.words_ahead)
+reader_ports() { # BEAT_WORDS BITS-OF-A-PLACE
+  proof "token_reader_ports_$1" module=token_reader rtl=token_reader rules=stream_rules inside="${reader_inside[*]}" steps=6 induction=2 cover=12 \
+    set="X_BITS=8 Z_BITS=12 Z_FRAC=6 CHANNELS=1 BEAT_WORDS=$1 MAX_WORDS=$((12 * $1)) InsideAtBits=$2 MODEL=0 RESETS=1"
+}
+reader_ports 1 5
+reader_ports 2 5
+reader_ports 4 6
 reader_proof token_reader_1 1 10
 reader_proof token_reader_2 2 9
 reader_proof token_reader_4 4 9
@@ -139,6 +144,8 @@ defect reader_rest_kept token_reader_4 token_reader.sv 's/dropping_q <= drop_i |
 defect reader_at_last_wrong token_reader_2 token_reader.sv 's/flags_q.at_last <= .*/flags_q.at_last <= last_q;/'
 defect reader_token_moves token_reader_2 token_reader.sv 's/^    if (out_free) begin/    if (whole) begin/'
 defect reader_token_falls token_reader_2 token_reader.sv 's/else if (out_free) token_valid_q <= take/else token_valid_q <= take/'
+defect reader_port_falls token_reader_ports_1 token_reader.sv 's/else if (out_free) token_valid_q <= take/else token_valid_q <= take/'
+defect reader_port_ready_falls token_reader_ports_4 token_reader.sv 's/assign s_axis_tready_o = rst_ni/assign s_axis_tready_o = rst_ni \&\& !(token_valid_q \&\& beats_held[0])/'
 defect reader_beat_lost_in_reset token_reader_resets token_reader.sv 's/assign s_axis_tready_o = rst_ni &&/assign s_axis_tready_o =/'
 defect reader_token_in_reset token_reader_resets token_reader.sv 's/if (!rst_ni) token_valid_q <= .*/if (0) ;/'
 defect reader_ready_falls token_reader_2 token_reader.sv 's/assign s_axis_tready_o = rst_ni/assign s_axis_tready_o = rst_ni \&\& !(token_valid_q \&\& beats_held[0])/'
@@ -153,10 +160,12 @@ out_proof() { # NAME STEPS DEFECT_STEPS SET...
     set="X_BITS=3 CHANNELS=1 SHADE_FRAC=2 ${*:4}" steps="$2" cover="$2" defect_steps="$3"
 }
 no_shadow=(DSF_BITS=0 FSF=0)
-for loads in 0 1; do
-  proof line_out_ports_$loads module=line_out rtl="line_out skid_buffer ram_1r1w light_resolve" rules=stream_rules steps=6 induction=2 cover=13 \
-    set="X_BITS=3 CHANNELS=1 SHADE_FRAC=2 MAX_WIDTH=1 LANES=1 DSF_BITS=1 COUNT_BITS=$loads TRANSLUCENCY=$loads FOLLOWED=8 MODEL=0 RESETS=1"
-done
+out_ports() { # NAME SET...
+  proof "line_out_ports_$1" module=line_out rtl="line_out skid_buffer ram_1r1w light_resolve" rules=stream_rules steps=16 induction=2 cover=16 \
+    set="X_BITS=3 CHANNELS=1 SHADE_FRAC=2 DSF_BITS=1 FOLLOWED=8 MODEL=0 RESETS=1 ${*:2}"
+}
+out_ports plain MAX_WIDTH=3 LANES=2
+out_ports loads MAX_WIDTH=3 LANES=2 COUNT_BITS=1 TRANSLUCENCY=1
 out_proof line_out 13 12 "${no_shadow[@]}" MAX_WIDTH=2 LANES=1
 out_proof line_out_groups 14 13 "${no_shadow[@]}" MAX_WIDTH=3 LANES=2
 out_proof line_out_frames 19 18 "${no_shadow[@]}" MAX_WIDTH=1 LANES=1 STALLS=0
@@ -175,6 +184,8 @@ defect out_buffer_unfreed line_out line_out.sv "s/taken_q + 2'(exit_take_i) - 2'
 defect out_standstill line_out_frames line_out.sv 's/assign start = .*/assign start = line_valid_i \&\& next_begun \&\& may_start \&\& taken_q[1];/'
 defect out_moves_unseen line_out line_out.sv 's/assign moving_o = .*/assign moving_o = start || (go \&\& sending_q);/'
 defect out_video_falls line_out skid_buffer.sv 's/assign out_free = .*/assign out_free = 1;/'
+defect out_port_falls line_out_ports_plain skid_buffer.sv 's/assign out_free = .*/assign out_free = 1;/'
+defect out_port_load_falls line_out_ports_loads line_out.sv 's/assign go = load_valid_o ? load_ready_i : video_go;/assign go = load_valid_o || video_go;/'
 defect out_reset_lets_through line_out_resets skid_buffer.sv "s/out_valid_q   <= 1'b0;/out_valid_q <= out_valid_q;/"
 defect out_rounds_down line_out_colors line_out.sv "s/(SHADE_FRAC + 9)'(HalfShare)) >>/(SHADE_FRAC + 9)'(0)) >>/"
 defect out_blank_shown line_out_colors line_out.sv 's/ && !blank_at_q\[LightStages+2\]//'

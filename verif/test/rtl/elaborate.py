@@ -48,48 +48,74 @@ def output_of(command, cwd):
     return done.returncode, done.stdout
 
 
-# Read wrongly by yosys; the rule must find it.
-SHORTENS = """module shortens (input logic [3:0] a, input logic [4:0] n, output logic y);
-  assign y = a - 4'(n) == 4'd4;
-endmodule
-"""
+# Each may be read wrongly by yosys, so the rule must find it; a, b have 4 bits, n has 5, y has 1 and z has 9.
+SHORTENS = [
+    "y = a - 4'(n) == 4'd4",
+    "y = a - (b[0] ? 4'(n) : b) == 4'd4",
+    "y = $signed(4'(n)) - $signed(a) < 0",
+    "y = a - 4'(3'(n)) == 4'd4",
+    "z = {~4'(n)}",
+    "z = {2{-4'(n)}}",
+    "z = {b[0] ? 4'(n) : b, 1'b0}",
+    "y = &4'(n)",
+    "y = !(~4'(n))",
+    "y = 4'(n) inside {4'd1, 4'd2}",
+    "z = 9'(~4'(n))",
+    "case (~4'(n)) 4'd1: y = 1'b1; default: y = 1'b0; endcase",
+]
+# These are read alike by all: the cast goes straight to what has its width, or is of a constant.
+ALONE = ["w = 4'(n)", "w = b[0] ? 4'(n) : b", "w = b[3'(n)] ? a : b", "y = a - 4'(Five) == b", "w = f(4'(n))"]
 
 
 def shortened(compilation, places):
-    """Where an operand of an operator is a cast of a wider value that is not constant: file:line and its text."""
+    """Where a cast of a wider value, which is no constant, is an operand: file:line and its text."""
     from pyslang import ast
 
     found = set()
-
-    def operands(node):
-        if isinstance(node, ast.BinaryExpression):
-            yield from operands(node.left)
-            yield from operands(node.right)
-        elif isinstance(node, ast.UnaryExpression) or (isinstance(node, ast.ConversionExpression) and node.isImplicit):
-            yield from operands(node.operand)
-        elif isinstance(node, ast.ConditionalExpression):
-            yield from operands(node.left)
-            yield from operands(node.right)
-        else:
-            yield node
-
-    def look(node):
-        if isinstance(node, ast.BinaryExpression):
-            for operand in operands(node):
-                if isinstance(operand, ast.ConversionExpression) and not operand.isImplicit:
-                    wide = operand.operand
-                    if wide.type.bitWidth > operand.type.bitWidth and not is_constant(wide):
-                        at = operand.sourceRange.start
-                        text = str(operand.syntax).strip()
-                        found.add(
-                            f"{places.getFileName(at)}:{places.getLineNumber(at)}: {text} shortens within an expression"
-                        )
-        return True
+    operators = (ast.BinaryExpression, ast.UnaryExpression, ast.ConcatenationExpression, ast.ReplicationExpression)
+    operators += (ast.InsideExpression, ast.CallExpression, ast.ConversionExpression)
 
     def is_constant(node):
         """A parameter, or a loop's variable, which is one once the loop is unrolled."""
         symbol = getattr(node, "symbol", None)
         return str(node.type) == "int" or (symbol is not None and symbol.kind == ast.SymbolKind.Parameter)
+
+    def parts(node):
+        """The operands of an expression."""
+        if isinstance(node, ast.BinaryExpression):
+            return [node.left, node.right]
+        if isinstance(node, ast.ConditionalExpression):
+            return [node.left, node.right]
+        if isinstance(node, ast.ConcatenationExpression):
+            return list(node.operands)
+        if isinstance(node, ast.ReplicationExpression):
+            return [node.concat]
+        if isinstance(node, ast.InsideExpression):
+            return [node.left, *node.rangeList]
+        if isinstance(node, ast.CallExpression):
+            return list(node.arguments) if node.isSystemCall else []
+        return [node.operand] if isinstance(node, (ast.UnaryExpression, ast.ConversionExpression)) else []
+
+    def operand(node):
+        """Whether a cast is that of a wider value; what only passes a value on is looked through."""
+        if isinstance(node, ast.ConversionExpression) and not node.isImplicit:
+            wide = node.operand
+            if wide.type.bitWidth > node.type.bitWidth and not is_constant(wide):
+                at = node.sourceRange.start
+                text = str(node.syntax).strip()
+                found.add(f"{places.getFileName(at)}:{places.getLineNumber(at)}: {text} shortens within an expression")
+            return
+        through = (ast.ConditionalExpression, ast.UnaryExpression, ast.ConversionExpression)
+        for part in parts(node) if isinstance(node, through) else []:
+            operand(part)
+
+    def look(node):
+        if isinstance(node, operators) and not (isinstance(node, ast.ConversionExpression) and node.isImplicit):
+            for part in parts(node):
+                operand(part)
+        if isinstance(node, ast.CaseStatement):
+            operand(node.expr)
+        return True
 
     compilation.getRoot().visit(look)
     return sorted(found)
@@ -175,13 +201,25 @@ class Readers:
         return good and not short, "\n".join([text, *short])
 
     def rule_of_slang(self):
-        """Whether shortened() finds what it is for."""
+        """Each statement that shortened() does not judge as it must."""
         import pyslang
 
-        compilation = pyslang.ast.Compilation()
-        tree = pyslang.syntax.SyntaxTree.fromText(SHORTENS)
-        compilation.addSyntaxTree(tree)
-        return len(shortened(compilation, tree.sourceManager)) == 1
+        wrong = []
+        for statement, short in [*((s, True) for s in SHORTENS), *((s, False) for s in ALONE)]:
+            tree = pyslang.syntax.SyntaxTree.fromText(
+                f"""
+              module m (input logic [3:0] a, b, input logic [4:0] n, output logic y, output logic [3:0] w, output logic [8:0] z);
+                localparam int Five = 5;
+                function automatic logic [3:0] f(input logic [3:0] of); f = of; endfunction
+                always_comb begin {{y, w, z}} = '0; {statement}; end
+              endmodule""".replace("endcase;", "endcase")
+            )
+            compilation = pyslang.ast.Compilation()
+            compilation.addSyntaxTree(tree)
+            errors = [d for d in compilation.getAllDiagnostics() if d.isError()]
+            if errors or bool(shortened(compilation, tree.sourceManager)) != short:
+                wrong.append(statement)
+        return wrong
 
 
 def main():
@@ -211,9 +249,10 @@ def main():
                 bad += 1
                 print(f"{reader}: LANES=3: {'accepted' if accepted else 'refused, but not because ' + REASON}: {text}")
             print(f"{reader}: {good} configurations of {len(configurations)}")
-        if "slang" in args.readers and not Readers(args.source, pathlib.Path(work)).rule_of_slang():
-            bad += 1
-            print("slang: a cast that shortens within an expression is not found")
+        if "slang" in args.readers:
+            for statement in Readers(args.source, pathlib.Path(work)).rule_of_slang():
+                bad += 1
+                print(f"slang: {statement}: not judged as it must be")
     sys.exit(bad != 0)
 
 

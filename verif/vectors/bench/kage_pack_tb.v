@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plays a pack of test vectors (kage vectors) against the core and holds every pixel, each line's signature and the
-// registers against the pack. Plain Verilog-2005; run it in the pack's folder (README.txt there says how).
+// registers against the pack. Plain Verilog-2005; run it in the pack's folder (README.md there says how).
 //
-// +seed=N +stall=P: each port stops in P per cent of the clocks, which ones follows from N. +dump: kage_pack.vcd.
+// +seed=N +stall=P: each stream stops in P per cent of the clocks, N selects which. +dump writes kage_pack.vcd.
 // The core is kage_axi; with KAGE_PACK_TOP defined it is kage_top, with KAGE_PACK_NETLIST kage_top without parameters,
 // as synthesis leaves it.
 //
-// Its last line is "kage_pack_tb: passed: ..." or "kage_pack_tb: FAILED: ...", which names the first wrong pixel by
-// frame, line, x, channel and clock. Inputs change at falling edges, so no simulator's order of events matters.
+// Exactly one line begins "kage_pack_tb: ", and then the simulation ends by $finish: "passed: ..." or "FAILED: ...", with
+// the first wrong pixel by frame, line, x, channel and clock. Inputs change at falling edges and outputs are looked at
+// shortly before rising ones, so neither a simulator's order of events nor a netlist's delays matter.
 `timescale 1ns / 1ps
 `include "kage_pack.vh"
 `default_nettype none
@@ -32,17 +33,20 @@ module kage_pack_tb;
     $readmemh("registers.hex", reads);
   end
 
-  // ---- clock, reset, chance ----------------------------------------------------------------------------------------
-  reg clk, rst_n;
-  reg [31:0] dice;
-  reg [31:0] stall;
+  // ---- what the bench knows, clock, reset ---------------------------------------------------------------------------
+  reg clk, rst_n, failed;
+  reg [31:0] dice, stall, value, signature;
+  reg [PIXEL_BITS-1:0] wanted, held;
+  reg taken, waits;
   integer clocks, quiet;
+  integer beat, in_frame, in_beat, allowed;  // beats sent, and where that is; frames up to `allowed` may go in
+  integer pixel, line, out_frame, out_line, out_x;  // pixels and lines that have come, and where the next one is
+  integer c, r, f, lines;
   initial begin
-    clk = 1'b0;
-    rst_n = 1'b0;
-    clocks = 0;
-    quiet = 0;
-    stall = 0;
+    {clk, rst_n, failed, taken, waits} = 5'd0;
+    {clocks, quiet, beat, in_frame, in_beat, pixel, line, out_frame, out_line, out_x, r, lines} = 0;
+    allowed = -1;
+    signature = 32'hffffffff;
     dice = 32'd1;
     if ($value$plusargs("seed=%d", dice)) dice = dice * 32'h9e3779b9 + 32'd1;
     if (dice == 32'd0) dice = 32'd1;
@@ -52,7 +56,7 @@ module kage_pack_tb;
       $dumpvars;
     end
     repeat (4) @(negedge clk);
-    rst_n = 1'b1;
+    rst_n <= 1'b1;
   end
   always #5 clk = !clk;
 
@@ -112,58 +116,22 @@ module kage_pack_tb;
 `endif
 
   // ---- verdict -----------------------------------------------------------------------------------------------------
-  reg failed;
-  initial failed = 1'b0;
+  // The first failure is told, no other.
   always @(posedge clk) begin
     clocks <= clocks + 1;
-    if (rst_n && !failed) begin
-      if ((m_valid ^ s_ready ^ arready ^ rvalid ^ irq) === 1'bx) begin
-        $display("kage_pack_tb: FAILED: a handshake or the interrupt is unknown, clock %0d", clocks);
-        failed <= 1'b1;
-      end
-      quiet <= (s_valid && s_ready) || (m_valid && m_ready) ? 0 : quiet + 1;
-      if (quiet == QUIET) begin
-        $display("kage_pack_tb: FAILED: nothing moves: frame %0d, line %0d, x %0d is missing, beat %0d of %0d waits, clock %0d",
-                 out_frame, out_line, out_x, beat, `KAGE_PACK_BEATS, clocks);
-        failed <= 1'b1;
-      end
-    end
     if (failed) $finish;
   end
-
-  // ---- frames in ---------------------------------------------------------------------------------------------------
-  // Those up to `allowed`: the registers are read before the next one comes.
-  integer beat, in_frame, in_beat, allowed;
-  reg taken;
+  // A file that is missing or short leaves the end of its memory unknown, or 0 where a simulator knows no X.
   initial begin
-    {s_valid, s_last, taken} = 3'b000;
-    s_data = 0;
-    beat = 0;
-    in_frame = 0;
-    in_beat = 0;
-  end
-  always @(posedge clk) taken <= s_valid && s_ready && rst_n;
-  always @(negedge clk) begin
-    dice = next_dice(dice);
-    if (taken) begin
-      s_valid = 1'b0;
-      beat = beat + 1;
-      in_beat = in_beat + 1;
-      if (in_beat == frames[in_frame][127:96]) begin
-        in_beat  = 0;
-        in_frame = in_frame + 1;
-      end
+    #1;
+    if (^stimulus[`KAGE_PACK_BEATS-1] === 1'bx || ^pixels[`KAGE_PACK_PIXELS-1] === 1'bx ||
+        ^signatures[`KAGE_PACK_LINES-1] === 1'bx || ^frames[`KAGE_PACK_FRAMES-1] === 1'bx ||
+        ^reads[`KAGE_PACK_READS-1] === 1'bx || frames[`KAGE_PACK_FRAMES-1][127:96] == 0) begin
+      $display("kage_pack_tb: FAILED: a .hex file is missing or short: is this the pack's folder?");
+      failed = 1'b1;
     end
-    if (rst_n && !s_valid && beat != `KAGE_PACK_BEATS && in_frame <= allowed && dice[15:0] % 100 >= stall) begin
-      s_valid = 1'b1;
-      s_data  = stimulus[beat][BEAT_BITS-1:0];
-      s_last  = stimulus[beat][BEAT_BITS];
-    end
-    m_ready = dice[31:16] % 100 >= stall;
   end
-  initial m_ready = 1'b0;
 
-  // ---- pixels out --------------------------------------------------------------------------------------------------
   function [31:0] crc;  // CRC-32 of a byte more, as zlib has it
     input [31:0] so_far;
     input [7:0] more;
@@ -174,63 +142,99 @@ module kage_pack_tb;
     end
   endfunction
 
-  integer pixel, line, out_frame, out_line, out_x, c;
-  reg [31:0] signature;
-  reg [PIXEL_BITS-1:0] wanted;
+  // The sampled pixel is the next one of the pack?
+  task check_pixel;
+    begin
+      // A frame without lines brings no pixels.
+      while (frames[out_frame][95:64] == 0) out_frame = out_frame + 1;
+      wanted = pixels[pixel];
+      for (c = 0; c < `KAGE_PACK_CHANNELS; c = c + 1) begin
+        if (m_data[8*c+:8] !== wanted[8*c+:8] && !failed) begin
+          $display("kage_pack_tb: FAILED: frame %0d, line %0d, x %0d, channel %0d: expected %0d, got %0d, clock %0d",
+                   out_frame, out_line, out_x, c, wanted[8*c+:8], m_data[8*c+:8], clocks);
+          failed = 1'b1;
+        end
+        signature = crc(signature, m_data[8*c+:8]);
+      end
+      if ({m_user, m_last} !== wanted[RGB_BITS+:2] && !failed) begin
+        $display("kage_pack_tb: FAILED: frame %0d, line %0d, x %0d: expected TUSER %b TLAST %b, got %b %b, clock %0d",
+                 out_frame, out_line, out_x, wanted[RGB_BITS+1], wanted[RGB_BITS], m_user, m_last, clocks);
+        failed = 1'b1;
+      end
+      signature = crc(signature, {6'd0, m_user, m_last});
+      pixel = pixel + 1;
+      out_x = out_x + 1;
+      if (out_x == frames[out_frame][63:32]) begin
+        if (~signature !== signatures[line] && !failed) begin
+          $display("kage_pack_tb: FAILED: frame %0d, line %0d: expected signature %h, got %h, clock %0d", out_frame,
+                   out_line, signatures[line], ~signature, clocks);
+          failed = 1'b1;
+        end
+        signature = 32'hffffffff;
+        line = line + 1;
+        out_x = 0;
+        out_line = out_line + 1;
+        if (out_line == frames[out_frame][95:64]) begin
+          out_line  = 0;
+          out_frame = out_frame + 1;
+        end
+      end
+    end
+  endtask
+
+  // ---- frames in, pixels out: inputs at the falling edge, a look at the outputs right before the rising one ---------
   initial begin
-    pixel = 0;
-    line = 0;
-    out_frame = 0;
-    out_line = 0;
-    out_x = 0;
-    signature = 32'hffffffff;
+    {s_valid, s_last, m_ready} = 3'b000;
+    s_data = 0;
   end
-  always @(posedge clk) begin
-    if (rst_n && m_valid && m_ready && !failed) begin
-      if (pixel == `KAGE_PACK_PIXELS) begin
-        $display("kage_pack_tb: FAILED: a pixel more than the pack has, clock %0d", clocks);
-        failed <= 1'b1;
-      end else begin
-        // A frame without lines brings no pixels.
-        while (frames[out_frame][95:64] == 0) out_frame = out_frame + 1;
-        wanted = pixels[pixel];
-        for (c = `KAGE_PACK_CHANNELS - 1; c >= 0; c = c - 1) begin
-          if (m_data[8*c+:8] !== wanted[8*c+:8]) begin
-            $display("kage_pack_tb: FAILED: frame %0d, line %0d, x %0d, channel %0d: expected %0d, got %0d, clock %0d",
-                     out_frame, out_line, out_x, c, wanted[8*c+:8], m_data[8*c+:8], clocks);
-            failed <= 1'b1;
-          end
+  always @(negedge clk) begin
+    if (rst_n === 1'b1 && !failed) begin
+      dice = next_dice(dice);
+      if (taken) begin
+        s_valid = 1'b0;
+        beat = beat + 1;
+        in_beat = in_beat + 1;
+        if (in_beat == frames[in_frame][127:96]) begin
+          in_beat  = 0;
+          in_frame = in_frame + 1;
         end
-        if ({m_user, m_last} !== wanted[RGB_BITS+:2]) begin
-          $display("kage_pack_tb: FAILED: frame %0d, line %0d, x %0d: expected TUSER %b TLAST %b, got %b %b, clock %0d",
-                   out_frame, out_line, out_x, wanted[RGB_BITS+1], wanted[RGB_BITS], m_user, m_last, clocks);
-          failed <= 1'b1;
+      end
+      if (!s_valid && beat != `KAGE_PACK_BEATS && in_frame <= allowed && dice[15:0] % 100 >= stall) begin
+        s_valid = 1'b1;
+        s_data  = stimulus[beat][BEAT_BITS-1:0];
+        s_last  = stimulus[beat][BEAT_BITS];
+      end
+      m_ready = dice[31:16] % 100 >= stall;
+      #4;
+      if ((m_valid ^ s_ready ^ arready ^ rvalid ^ irq) === 1'bx) begin
+        if (!failed) $display("kage_pack_tb: FAILED: a handshake or the interrupt is unknown, clock %0d", clocks);
+        failed = 1'b1;
+      end
+      taken = s_valid && s_ready === 1'b1;
+      if (waits && {m_valid, m_user, m_last, m_data} !== {1'b1, held[RGB_BITS+1:0]} && !failed) begin
+        $display("kage_pack_tb: FAILED: frame %0d, line %0d, x %0d: a pixel that waits changes or goes, clock %0d", out_frame,
+                 out_line, out_x, clocks);
+        failed = 1'b1;
+      end
+      waits = m_valid === 1'b1 && !m_ready;
+      held  = {2'b00, m_user, m_last, m_data};
+      quiet = taken || (m_valid === 1'b1 && m_ready) ? 0 : quiet + 1;
+      if (m_valid === 1'b1 && m_ready && !failed) begin
+        if (pixel != `KAGE_PACK_PIXELS) check_pixel;
+        else begin
+          $display("kage_pack_tb: FAILED: a pixel more than the pack has, clock %0d", clocks);
+          failed = 1'b1;
         end
-        for (c = 0; c < `KAGE_PACK_CHANNELS; c = c + 1) signature = crc(signature, m_data[8*c+:8]);
-        signature = crc(signature, {6'd0, m_user, m_last});
-        pixel = pixel + 1;
-        out_x = out_x + 1;
-        if (out_x == frames[out_frame][63:32]) begin
-          if (~signature !== signatures[line]) begin
-            $display("kage_pack_tb: FAILED: frame %0d, line %0d: expected signature %h, got %h, clock %0d", out_frame,
-                     out_line, signatures[line], ~signature, clocks);
-            failed <= 1'b1;
-          end
-          signature = 32'hffffffff;
-          line = line + 1;
-          out_x = 0;
-          out_line = out_line + 1;
-          if (out_line == frames[out_frame][95:64]) begin
-            out_line  = 0;
-            out_frame = out_frame + 1;
-          end
-        end
+      end
+      if (quiet == QUIET && !failed) begin
+        $display("kage_pack_tb: FAILED: nothing moves: frame %0d, line %0d, x %0d is missing, beat %0d of %0d waits, clock %0d",
+                 out_frame, out_line, out_x, beat, `KAGE_PACK_BEATS, clocks);
+        failed = 1'b1;
       end
     end
   end
 
   // ---- registers ---------------------------------------------------------------------------------------------------
-  reg [31:0] value;
   task read;
     input [7:0] address;
     begin
@@ -243,7 +247,7 @@ module kage_pack_tb;
       rready  = 1'b1;
       while (!rvalid) @(negedge clk);
       value = rdata;
-      if (rresp !== 2'b00) begin
+      if (rresp !== 2'b00 && !failed) begin
         $display("kage_pack_tb: FAILED: the register at %h answers an error, clock %0d", address, clocks);
         failed = 1'b1;
       end
@@ -252,22 +256,18 @@ module kage_pack_tb;
     end
   endtask
 
-  integer r, f, lines;
   initial begin
-    {arvalid, araddr, rready} = 0;
-    allowed = -1;
-    lines = 0;
-    r = 0;
+    {arvalid, araddr, rready} = 10'd0;
     @(posedge rst_n);
     for (f = 0; f < `KAGE_PACK_FRAMES && !failed; f = f + 1) begin
-      allowed = f;
-      lines   = lines + frames[f][95:64];
+      allowed <= f;
+      lines = lines + frames[f][95:64];
       if (frames[f][0]) begin
         value = 0;
         while ((value != f + 1 || line != lines) && !failed) read(`KAGE_PACK_REG_FRAMES);
         while (r < `KAGE_PACK_READS && reads[r][127:96] == f && !failed) begin
           read(reads[r][71:64]);
-          if ((value & reads[r][63:32]) !== reads[r][31:0]) begin
+          if ((value & reads[r][63:32]) !== reads[r][31:0] && !failed) begin
             $display("kage_pack_tb: FAILED: behind frame %0d the register at %h is %h, expected %h in the bits %h, clock %0d",
                      f, reads[r][71:64], value, reads[r][31:0], reads[r][63:32], clocks);
             failed = 1'b1;
@@ -276,13 +276,17 @@ module kage_pack_tb;
         end
       end
     end
-    if (!failed) begin
-      repeat (100) @(negedge clk);  // a pixel too many would come by now
-      if (!failed)
-        $display("kage_pack_tb: passed: %0d pixels, %0d lines, %0d frames, %0d registers, %0d clocks", pixel, line,
-                 `KAGE_PACK_FRAMES, r, clocks);
-      $finish;
+    repeat (100) if (!failed) @(negedge clk);  // a pixel too many would come by now
+    if (!failed && (pixel != `KAGE_PACK_PIXELS || line != `KAGE_PACK_LINES || beat != `KAGE_PACK_BEATS ||
+                    r != `KAGE_PACK_READS)) begin
+      $display("kage_pack_tb: FAILED: only %0d of %0d pixels, %0d of %0d beats, %0d of %0d registers", pixel,
+               `KAGE_PACK_PIXELS, beat, `KAGE_PACK_BEATS, r, `KAGE_PACK_READS);
+      failed = 1'b1;
     end
+    if (!failed)
+      $display("kage_pack_tb: passed: %0d pixels, %0d lines, %0d frames, %0d registers, %0d clocks", pixel, line,
+               `KAGE_PACK_FRAMES, r, clocks);
+    $finish;
   end
 
 endmodule
