@@ -94,7 +94,7 @@ void option_json(CLI::App& command, Options& options) {
 static std::string what_a_scene_is() {
   return fmt::format(
       "a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), a stream file, or, "
-      "for cosim and explain, random frames (random, random:damaged, random:mixed)",
+      "for cosim, explain and vectors, random frames (random, random:damaged, random:mixed)",
       fmt::join(builtin_scenes(), ", "));
 }
 

@@ -42,7 +42,7 @@ void refuse_order_tree(const std::string& path) {
 
 void refuse_random(const std::string& input) {
   if (verif::random_manner(input))
-    throw Error(fmt::format("{}: random frames are for kage cosim and kage explain", input));
+    throw Error(fmt::format("{}: random frames are for kage cosim, kage explain and kage vectors", input));
 }
 
 Source::Source(const Options& options) : options_(options) {

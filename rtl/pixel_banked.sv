@@ -12,9 +12,9 @@
 // Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, what is found ahead 1, next state 1, write
 //   1. Throughput: a group a clock.
 // Hazards: a group is read 4 clocks before its next state is written, and the four results under way are forwarded.
-//   Only the newest still lies in a loop of one clock: depths are compared a clock ahead of it, once with what the
-//   pixel has without it and once with its own new depth, so that it only chooses between two answers. Behind an EOL
-//   every depth is in front; a blank pixel of the tree then draws what a clear pixel is. tree_line has its own hazards.
+//   The result right before is not there yet, so depth is compared twice, a clock early: with the stored depth, as if
+//   that result changed nothing, and with the depth that it may bring; moved_q selects the answer. Behind an EOL every
+//   depth is in front; a blank pixel of the tree then draws what a clear pixel is. tree_line has its own hazards.
 // Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; two
 //   comparisons of depth a lane; with units tree_line.
 `default_nettype none

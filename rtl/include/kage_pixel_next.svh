@@ -19,8 +19,8 @@ endfunction
 // The blender: a colour with a share of another. Of TP `over` with alpha / 255, of RESOLVE black with shade /
 // 2^SHADE_FRAC; rounded once. Only the product with the old colour and one sum wait for the command before, so all else
 // is worked out ahead of them: `keep`, what is left of the old colour, in 1/65536, and `added`.
-//   TP: (t + t / 256) / 256 rounds t = old x (255 - alpha) + over x alpha + 128 by 255, where both divisions round down;
-//   that is 257 t / 65536. So (255 - alpha) x 257, twice the same 8 bits, is `keep`.
+//   TP: with t = old x (255 - alpha) + over x alpha + 128 the colour is 257 t / 65536, rounded down, for any t here. So
+//   both weights are multiplied by 257 beforehand: `keep` is 255 - alpha twice, one behind the other.
 //   RESOLVE: (old x (1 - shade) + half of a share) / 2^SHADE_FRAC, all of it times 2^(16 - SHADE_FRAC).
 // Less than 2^24: 255 x 65536 + 32768 at most, or 257 x (255 x 255 + 128).
 localparam int KeepBits = 17;

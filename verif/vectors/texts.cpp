@@ -126,7 +126,7 @@ std::string readme(const Pack& pack) {
       "```\n\n"
       "The last line is `kage_pack_tb: passed: ...`, or `FAILED` with frame, line, x, channel and clock. A netlist: "
       "add\n"
-      "`-D KAGE_PACK_NETLIST` and give its file in place of the RTL.\n\n"
+      "`-DKAGE_PACK_NETLIST` and give its file in place of the RTL.\n\n"
       "| file | a line, or an entry |\n|---|---|\n"
       "| `stimulus.hex` | a beat of `s_axis`: a digit TLAST, then TDATA |\n"
       "| `stimulus.bin` | the same beats, without TLAST, words little-endian |\n"

@@ -98,7 +98,7 @@ done
 for command in render "stream --out r.kage" info "info --tokens 0" order; do
   for kind in random random:damaged random:mixed; do
     # shellcheck disable=SC2086
-    trouble "$kind: random frames are for kage cosim and kage explain" "$kage" $command $kind
+    trouble "$kind: random frames are for kage cosim, kage explain and kage vectors" "$kage" $command $kind
   done
 done
 trouble "random:foo: no such random frames (there are random, random:damaged, random:mixed)" "$kage" cosim random:foo

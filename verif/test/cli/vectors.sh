@@ -62,7 +62,8 @@ played() { # FOLDER RTL TEXT ARGUMENT...: by Icarus Verilog; the last line has T
   [[ $last == "kage_pack_tb: $text"* ]] || { fail "$folder $*: not '$text': $last"; tail -n5 "$folder/build" "$folder/said"; }
 }
 played p "$source/rtl" "passed: "
-played p "$source/rtl" "passed: " +seed=3 +stall=40
+played p "$source/rtl" "passed: " +seed=3 +stall=40 +capture=captured.hex
+expect 0 "$kage" vectors --compare p p/captured.hex
 define=KAGE_PACK_TOP played p "$source/rtl" "passed: " +seed=4 +stall=10
 # By Verilator; and a netlist of the least core, whose file takes the RTL's place. The bench itself is Verilog-2005, where slang is.
 (cd p && verilator --binary --timing -Wno-fatal -CFLAGS -O0 -I"$source/rtl/include" --top-module kage_pack_tb kage_pack_tb.v \

@@ -2,7 +2,8 @@
 // Plays a pack of test vectors (kage vectors) against the core and holds every pixel, each line's signature and the
 // registers against the pack. Plain Verilog-2005; run it in the pack's folder (README.md there says how).
 //
-// +seed=N +stall=P: each stream stops in P per cent of the clocks, N selects which. +dump writes kage_pack.vcd.
+// +seed=N +stall=P: each stream stops in P per cent of the clocks, N selects which. +dump writes kage_pack.vcd,
+// +capture=FILE all pixels that came, as pixels.hex has them.
 // The core is kage_axi; with KAGE_PACK_TOP defined it is kage_top, with KAGE_PACK_NETLIST kage_top without parameters,
 // as synthesis leaves it.
 //
@@ -41,7 +42,8 @@ module kage_pack_tb;
   integer clocks, quiet;
   integer beat, in_frame, in_beat, allowed;  // beats sent, and where that is; frames up to `allowed` may go in
   integer pixel, line, out_frame, out_line, out_x;  // pixels and lines that have come, and where the next one is
-  integer c, r, f, lines;
+  integer c, r, f, lines, capture;
+  reg [8*256-1:0] capture_name;
   initial begin
     {clk, rst_n, failed, taken, waits} = 5'd0;
     {clocks, quiet, beat, in_frame, in_beat, pixel, line, out_frame, out_line, out_x, r, lines} = 0;
@@ -51,6 +53,8 @@ module kage_pack_tb;
     if ($value$plusargs("seed=%d", dice)) dice = dice * 32'h9e3779b9 + 32'd1;
     if (dice == 32'd0) dice = 32'd1;
     if (!$value$plusargs("stall=%d", stall)) stall = 0;
+    capture = 0;
+    if ($value$plusargs("capture=%s", capture_name)) capture = $fopen(capture_name, "w");
     if ($test$plusargs("dump")) begin
       $dumpfile("kage_pack.vcd");
       $dumpvars;
@@ -219,6 +223,7 @@ module kage_pack_tb;
       waits = m_valid === 1'b1 && !m_ready;
       held  = {2'b00, m_user, m_last, m_data};
       quiet = taken || (m_valid === 1'b1 && m_ready) ? 0 : quiet + 1;
+      if (m_valid === 1'b1 && m_ready && capture != 0) $fdisplay(capture, "%h%h", {2'b00, m_user, m_last}, m_data);
       if (m_valid === 1'b1 && m_ready && !failed) begin
         if (pixel != `KAGE_PACK_PIXELS) check_pixel;
         else begin
