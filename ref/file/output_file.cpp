@@ -84,7 +84,8 @@ class OutputFile::Buffer : public std::streambuf {
   }
   std::streamsize xsputn(const char* data, std::streamsize size) override {
     if (size > epptr() - pptr()) flush();
-    if (size >= epptr() - pptr()) {
+    // Only an empty buffer may be passed by: what is in it comes first.
+    if (size >= static_cast<std::streamsize>(bytes_.size())) {
       write_all(fd_, data, static_cast<std::size_t>(size), name_);
       return size;
     }
