@@ -81,14 +81,16 @@ cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor wha
   const bool monitors = what == ModelFor::kMonitors;
   const bool waves = what == ModelFor::kWaveforms;
   const std::string name = fmt::format("the RTL model of configuration {}{}", config.name,
-                                       monitors ? " with monitors"
-                                       : waves  ? " for waveforms"
-                                                : "");
+                                       monitors             ? " with monitors"
+                                       : waves              ? " for waveforms"
+                                       : !rtl.ports.empty() ? " with ports"
+                                                            : "");
   cosim::Model model =
       cosim::find_model(config.config, {.fault = rtl.fault,
                                         .monitors = monitors,
                                         .waves = waves,
                                         .mutants = rtl.options.mutant != 0,
+                                        .ports = rtl.ports,
                                         .progress = [&](double seconds) {
                                           check_interrupt();
                                           progress.show(fmt::format("building {}: {:.0f} s", name, seconds));

@@ -17,6 +17,7 @@ namespace kage::cli {
 /// How a command runs the RTL.
 struct RtlRun {
   std::string fault;
+  std::string ports = {};     // cosim::ModelOptions::ports
   cosim::RtlOptions options;  // with a mutant the model is one that has them all
 };
 

@@ -23,11 +23,15 @@
 #include "vectors/capture.hpp"
 #include "vectors/check.hpp"
 #include "vectors/malformed.hpp"
+#include "vectors/module_pack.hpp"
 #include "vectors/texts.hpp"
 #include "vectors/write.hpp"
 
 namespace kage::cli {
 namespace {
+
+/// Per cent of clocks in which each port stops while a module's ports are recorded: so all of its handshakes wait.
+constexpr int kModuleStalls = 25;
 
 struct VectorsCommand : Options {
   std::string check;
@@ -36,6 +40,7 @@ struct VectorsCommand : Options {
   bool sound_only = false;
   bool no_rtl = false;
   bool sizes = false;
+  std::string module;        ///< empty: the whole core
   std::uint64_t budget = 0;  ///< bytes; 0: all lines of all frames
 };
 
@@ -169,6 +174,56 @@ Json files_json(const std::vector<vectors::PackFile>& files) {
   return j;
 }
 
+/// What passes at a module's ports while the RTL draws the frames.
+int write_module_pack(PackFrames& from, const VectorsCommand& o) {
+  const NamedConfig& named = from.source().named_config();
+  vectors::PortsRecord record(named.config, vectors::pack_module(o.module, named.config));
+  RtlRun rtl;
+  rtl.ports = o.module;
+  rtl.options.seed = o.seed;
+  rtl.options.idle_percent = kModuleStalls;
+  rtl.options.backpressure_percent = kModuleStalls;
+  rtl.options.text = [&](int, std::string_view text) { say(record.text(text)); };
+  const cosim::Model model = model_of(named, rtl);
+  const std::unique_ptr<cosim::RtlCore> core = cosim::make_rtl(model.library, named.config, rtl.options);
+  const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
+  Progress progress;
+  FrameProgress frame_progress(progress, o.module, from.size());
+  int frames = 0;
+  for (int i = 0; i < from.size(); ++i) {
+    frame_progress.next();
+    GoldenCore golden(named.config);
+    bool refused = false;
+    core->begin(i);
+    from.words(i, [&](std::span<const std::uint32_t> words) {
+      check_interrupt();
+      golden.feed(words, nowhere);
+      core->feed(words, nowhere);
+    });
+    const FrameStatus expected = golden.finish(nowhere);
+    const FrameStatus actual = core->finish(nowhere).status;
+    refused = expected.width == 0;
+    if (!refused && expected != actual)
+      throw Error(fmt::format("{}: the RTL differs from the golden model: kage cosim tells where", from.what(i)));
+    ++frames;
+  }
+  progress.clear();
+  TempFiles files;
+  record.write(o.out, files, from.source().name(), frames, "kage " KAGE_VERSION);
+  Json j;
+  j["pack"] = o.out;
+  j["module"] = o.module;
+  j["scene"] = from.source().name();
+  j["frames"] = frames;
+  j["clocks"] = record.clocks();
+  j["config"] = to_json(named.config);
+  finish(o, {"kage.vectors-module/1", j}, files,
+         fmt::format("{}{}: {} at the ports of {}, of {}\nrun it: {}\n", notes_text(from.source()), o.out,
+                     counted(record.clocks(), "clock"), o.module, counted(static_cast<std::uint64_t>(frames), "frame"),
+                     (std::filesystem::path(o.out) / vectors::kReadme).string()));
+  return kSame;
+}
+
 Json summary(const vectors::Pack& pack, const std::string& folder) {
   Json j;
   j["pack"] = folder;
@@ -191,8 +246,9 @@ void refuse_other_files(const std::filesystem::path& folder) {
   std::error_code e;
   if (!std::filesystem::is_directory(folder, e) || std::filesystem::is_empty(folder, e)) return;
   const std::filesystem::path manifest = folder / vectors::kManifest;
-  const bool pack =
-      std::filesystem::is_regular_file(manifest, e) && read_file(manifest).find("\"kage.pack/") != std::string::npos;
+  const bool pack = std::filesystem::is_regular_file(manifest, e) &&
+                    (read_file(manifest).find("\"kage.pack/") != std::string::npos ||
+                     read_file(manifest).find("\"kage.module-pack/") != std::string::npos);
   if (!pack)
     throw Error(folder.string() + ": is not empty and no pack, whose files would be replaced: name another folder");
 }
@@ -200,12 +256,15 @@ void refuse_other_files(const std::filesystem::path& folder) {
 int write_pack(const VectorsCommand& o) {
   if (o.out.empty() && !o.sizes) throw Error("--out: needed: the folder of the pack (or --sizes, which writes none)");
   check_json(o);
+  if (!o.module.empty() && (o.sizes || o.no_rtl))
+    throw Error("--module: the RTL must run to tell what passes at its ports: no --sizes, no --no-rtl");
   std::optional<OutFolder> folder;
   if (!o.sizes) {
     refuse_other_files(o.out);
     folder.emplace(o.out);
   }
   PackFrames from(o);
+  if (!o.module.empty()) return write_module_pack(from, o);
   Progress progress;
   vectors::Pack pack;
   pack.scene = from.source().name();
@@ -331,8 +390,8 @@ int run(const VectorsCommand& o) {
   const int asked = (o.input.empty() ? 0 : 1) + (o.check.empty() ? 0 : 1) + (o.compare.empty() ? 0 : 1);
   if (asked != 1) throw Error("vectors: give a SCENE, or --check PACK, or --compare PACK CAPTURE: one of them");
   if (o.frame && o.compare.empty()) throw Error("--frame: only a capture is of one frame: --compare");
-  if (o.input.empty() && (!o.out.empty() || o.sizes || o.sound_only || o.no_rtl || o.budget > 0 || o.size_given ||
-                          o.frames > 0 || !o.config.empty()))
+  if (o.input.empty() && (!o.out.empty() || o.sizes || o.sound_only || o.no_rtl || !o.module.empty() || o.budget > 0 ||
+                          o.size_given || o.frames > 0 || !o.config.empty()))
     throw Error(
         fmt::format("{} takes no option of writing a pack but --json", o.check.empty() ? "--compare" : "--check"));
   if (!o.check.empty()) return check(o);
@@ -348,6 +407,7 @@ void add_vectors(CLI::App& app, Action& action) {
       "  kage vectors courtyard --size 64x48 --frames 2 --config default --out pack\n"
       "  kage vectors courtyard --size 320x240 --sizes\n"
       "  kage vectors courtyard --size 320x240 --budget 16384 --out small\n"
+      "  kage vectors courtyard --size 16x12 --frames 1 --module pixel_banked --out module\n"
       "  kage vectors --check pack\n"
       "  kage vectors --compare pack captured.hex\n"
       "A pack has stimulus, pixels, signatures and register values, a testbench in plain Verilog and a\n"
@@ -356,6 +416,9 @@ void add_vectors(CLI::App& app, Action& action) {
   option_scene(*c, *o);
   c->get_option("SCENE")->required(false);
   c->add_option("--out", o->out, "the pack's folder")->type_name("DIR");
+  c->add_option("--module", o->module,
+                "a pack of one module: what passes at its ports, clock by clock, while both streams stop now and then")
+      ->type_name("MODULE");
   c->add_flag("--sound-only", o->sound_only, "no malformed frames behind the scene's");
   c->add_flag("--no-rtl", o->no_rtl, "do not hold the RTL against the frames first, which also tells the clocks");
   c->add_option("--budget", o->budget,
@@ -365,7 +428,7 @@ void add_vectors(CLI::App& app, Action& action) {
       ->type_name("BYTES");
   c->add_flag("--sizes", o->sizes, "only say how large the pack would be");
   c->add_option("--check", o->check, "verify a pack: files, hashes, and the golden model once more")->type_name("PACK");
-  c->add_option("--compare", o->compare, "hold a capture (.hex, a picture, else raw bytes) against a pack")
+  c->add_option("--compare", o->compare, "hold a capture (.hex, .bin, .raw or a picture) against a pack")
       ->expected(2)
       ->type_name("PACK CAPTURE");
   c->add_option("--frame", o->frame, "the capture is of this frame of the pack alone")

@@ -101,8 +101,9 @@ std::vector<std::string> lines_of(const ModelTools& tools) {
 nlohmann::ordered_json about(const Config& config, const ModelOptions& options, const ModelTools& tools) {
   nlohmann::ordered_json values;
   for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
-  return {{"config", values},       {"fault", options.fault},     {"monitors", options.monitors},
-          {"waves", options.waves}, {"mutants", options.mutants}, {"tools", lines_of(tools)}};
+  return {{"config", values},        {"fault", options.fault},     {"monitors", options.monitors},
+          {"waves", options.waves},  {"mutants", options.mutants}, {"ports", options.ports},
+          {"tools", lines_of(tools)}};
 }
 
 /// The command that builds the model in the folder `work` of the sources that lie in work/source.
@@ -118,6 +119,7 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
   if (options.monitors) command.emplace_back("--monitors");
   if (options.waves) command.emplace_back("--waves");
   if (options.mutants) command.emplace_back("--mutants");
+  if (!options.ports.empty()) command.insert(command.end(), {"--ports", options.ports});
   command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
                                  "--keep", (work / "build").string()});
   return command;

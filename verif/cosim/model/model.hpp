@@ -26,6 +26,7 @@ struct ModelOptions {
   bool monitors = false;   ///< with those of verif/cosim/diverge/monitors (slower)
   bool waves = false;      ///< able to write waveforms (slower)
   bool mutants = false;    ///< with all mutants of verif/mutants, behind RtlOptions::mutant (slower)
+  std::string ports = {};  ///< a module whose ports it writes as text at every clock (driver/ports.py); empty for none
   BuildProgress progress = {};
 };
 

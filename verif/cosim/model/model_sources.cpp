@@ -139,6 +139,7 @@ std::string model_key(const fs::path& data, const ModelSources& sources, const C
   hash.add(std::string_view(options.monitors ? "monitors" : ""));
   hash.add(std::string_view(options.waves ? "waves" : ""));
   hash.add(std::string_view(options.mutants ? "mutants" : ""));
+  hash.add(options.ports);
   hash.add(tools.verilator);
   hash.add(tools.cxx);
   hash.add(tools.compiler);

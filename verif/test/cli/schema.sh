@@ -94,6 +94,8 @@ head -c 99 v/pixels.bin >few.raw
 said 1 vectors --compare v few.raw
 sed 2s/38/39/ v/pixels.hex >few.hex
 said 1 vectors --compare v few.hex
+said 0 vectors courtyard "${small[@]}" --sound-only --module line_out --out vm
+cp vm/manifest.json json/pack.2.json
 said 0 info a.kage --clocks
 said 0 info p.kage
 said 0 info courtyard

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build the RTL model of one configuration: a shared library with the C interface of rtl_model.h.
 
-usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--quick] [--jobs N] [--keep DIR]
+usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--ports MODULE] [--quick] [--jobs N] [--keep DIR]
 
   PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
   --fault NAME   apply verif/cosim/model/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
@@ -11,6 +11,7 @@ usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [
   --monitors     with the monitors of verif/cosim/diverge/monitors, which tell what passes between modules
   --waves        able to write waveforms
   --mutants      with every mutant of verif/mutants/mutants.yaml behind a select; one whose text the RTL has not exactly once stops the build
+  --ports        writes the ports of each instance of rtl/MODULE.sv as text at every clock (ports.py)
   --quick        for a model that runs little, as those of --fault, --monitors, --waves and --mutants do: loops over lanes and processors stay
                  loops, and the compiler takes less care. A systolic core of 64 processors takes 4 s to build in place of 10
   --jobs N       compilers at a time (default 2)
@@ -29,10 +30,12 @@ import shutil
 import signal
 import tempfile
 
+import ports
 import yaml
 from initial_state import name_initial_state
 from monitors import MONITORS, leave_out, unwatched
 from mutants import put_in
+from ports import write_monitor
 from runtime import Runtime
 from sources import HERE, PATTERNS, RTL, files, only, places
 from steps import Log, end_all, fail, run
@@ -64,6 +67,10 @@ def parameters(arguments):
     return values
 
 
+def pixel_parameters():
+    return [p["name"] for p in yaml.safe_load(DEFS.read_text())["pixel_params"]]
+
+
 def main():
     signal.signal(signal.SIGTERM, end_all)
     for name in UNASKED.split():
@@ -76,6 +83,7 @@ def main():
     parser.add_argument("--monitors", action="store_true")
     parser.add_argument("--waves", action="store_true")
     parser.add_argument("--mutants", action="store_true")
+    parser.add_argument("--ports")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep")
@@ -142,6 +150,9 @@ class Build:
         if self.args.mutants:  # what is wrong on purpose may be bad style
             command += ["-Wno-fatal", self.work / "kage_mutants.sv"]
         command += files("modules", self.rtl)
+        if self.args.ports:
+            write_monitor(self.work / ports.NAME, self.rtl, self.args.ports, pixel_parameters())
+            command += ["-Wno-fatal", self.work / ports.NAME]
         monitors = [m for m in files("monitors") if m.suffix == ".sv"] if self.args.monitors else []
         missing = []
         while not run("verilator", command + monitors, self.log, lambda text: leave_out(monitors, missing, text)):
