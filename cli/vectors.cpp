@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -139,18 +140,16 @@ std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
   return frames;
 }
 
-/// The RTL plays the frames too: what a pack promises is what it does. Fills in the clocks; throws Error at the first
+/// The RTL plays the frames and is held against the golden model, as kage cosim does; throws Error at the first
 /// difference.
-void ask_rtl(PackFrames& from, std::vector<vectors::PackFrame>& frames, const VectorsCommand& o) {
-  RtlRun rtl;
-  rtl.options.seed = o.seed;
+void play(PackFrames& from, const RtlRun& rtl, const std::function<void(const cosim::FrameResult&)>& same) {
   const NamedConfig& named = from.source().named_config();
   const cosim::Model model = model_of(named, rtl);
   const std::unique_ptr<cosim::Core> golden = cosim::make_golden(named.config);
   const std::unique_ptr<cosim::RtlCore> core = cosim::make_rtl(model.library, named.config, rtl.options);
   cosim::RunOptions options;
   options.refusals = true;
-  options.same = [&](const cosim::FrameResult& r) { frames.at(static_cast<std::size_t>(r.frame)).clocks = r.cycles; };
+  options.same = same;
   options.wait = check_interrupt;
   const cosim::Report report = cosim::run(
       from.size(), [&](int i, const WordSink& sink) { return from.words(i, sink); }, *golden, *core, options);
@@ -158,8 +157,7 @@ void ask_rtl(PackFrames& from, std::vector<vectors::PackFrame>& frames, const Ve
   const cosim::Difference& d = *report.first_difference;
   throw Error(fmt::format(
       "{}: the RTL differs from the golden model at line {}, x {}, {}: expected {}, got {}{}: nothing is promised",
-      frames.at(static_cast<std::size_t>(d.frame)).what, d.line, d.x, d.field, d.expected, d.actual,
-      d.remark.empty() ? "" : " (" + d.remark + ")"));
+      from.what(d.frame), d.line, d.x, d.field, d.expected, d.actual, d.remark.empty() ? "" : " (" + d.remark + ")"));
 }
 
 std::uint64_t bytes_of(const std::vector<vectors::PackFile>& files) {
@@ -184,42 +182,23 @@ int write_module_pack(PackFrames& from, const VectorsCommand& o) {
   rtl.options.idle_percent = kModuleStalls;
   rtl.options.backpressure_percent = kModuleStalls;
   rtl.options.text = [&](int, std::string_view text) { say(record.text(text)); };
-  const cosim::Model model = model_of(named, rtl);
-  const std::unique_ptr<cosim::RtlCore> core = cosim::make_rtl(model.library, named.config, rtl.options);
-  const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
   Progress progress;
   FrameProgress frame_progress(progress, o.module, from.size());
-  int frames = 0;
-  for (int i = 0; i < from.size(); ++i) {
-    frame_progress.next();
-    GoldenCore golden(named.config);
-    bool refused = false;
-    core->begin(i);
-    from.words(i, [&](std::span<const std::uint32_t> words) {
-      check_interrupt();
-      golden.feed(words, nowhere);
-      core->feed(words, nowhere);
-    });
-    const FrameStatus expected = golden.finish(nowhere);
-    const FrameStatus actual = core->finish(nowhere).status;
-    refused = expected.width == 0;
-    if (!refused && expected != actual)
-      throw Error(fmt::format("{}: the RTL differs from the golden model: kage cosim tells where", from.what(i)));
-    ++frames;
-  }
+  play(from, rtl, [&](const cosim::FrameResult&) { frame_progress.next(); });
   progress.clear();
   TempFiles files;
-  record.write(o.out, files, from.source().name(), frames, "kage " KAGE_VERSION);
+  record.write(o.out, files, from.source().name(), from.size(), "kage " KAGE_VERSION);
   Json j;
   j["pack"] = o.out;
   j["module"] = o.module;
   j["scene"] = from.source().name();
-  j["frames"] = frames;
+  j["frames"] = from.size();
   j["clocks"] = record.clocks();
   j["config"] = to_json(named.config);
   finish(o, {"kage.vectors-module/1", j}, files,
          fmt::format("{}{}: {} at the ports of {}, of {}\nrun it: {}\n", notes_text(from.source()), o.out,
-                     counted(record.clocks(), "clock"), o.module, counted(static_cast<std::uint64_t>(frames), "frame"),
+                     counted(record.clocks(), "clock"), o.module,
+                     counted(static_cast<std::uint64_t>(from.size()), "frame"),
                      (std::filesystem::path(o.out) / vectors::kReadme).string()));
   return kSame;
 }
@@ -229,8 +208,7 @@ Json summary(const vectors::Pack& pack, const std::string& folder) {
   j["pack"] = folder;
   j["scene"] = pack.scene;
   j["frames"] = pack.frames.size();
-  j["malformed"] = std::count_if(pack.frames.begin(), pack.frames.end(),
-                                 [](const auto& f) { return f.status.error != ErrorCode::NONE; });
+  j["malformed"] = pack.malformed();
   j["beats"] = pack.beats();
   j["lines"] = pack.lines();
   j["pixels"] = pack.pixels();
@@ -246,9 +224,9 @@ void refuse_other_files(const std::filesystem::path& folder) {
   std::error_code e;
   if (!std::filesystem::is_directory(folder, e) || std::filesystem::is_empty(folder, e)) return;
   const std::filesystem::path manifest = folder / vectors::kManifest;
-  const bool pack = std::filesystem::is_regular_file(manifest, e) &&
-                    (read_file(manifest).find("\"kage.pack/") != std::string::npos ||
-                     read_file(manifest).find("\"kage.module-pack/") != std::string::npos);
+  const std::string text = std::filesystem::is_regular_file(manifest, e) ? read_file(manifest) : std::string();
+  const bool pack =
+      text.find("\"kage.pack/") != std::string::npos || text.find("\"kage.module-pack/") != std::string::npos;
   if (!pack)
     throw Error(folder.string() + ": is not empty and no pack, whose files would be replaced: name another folder");
 }
@@ -285,7 +263,10 @@ int write_pack(const VectorsCommand& o) {
     return kSame;
   }
   if (!o.no_rtl) {
-    ask_rtl(from, pack.frames, o);
+    RtlRun rtl;
+    rtl.options.seed = o.seed;
+    play(from, rtl,
+         [&](const cosim::FrameResult& r) { pack.frames.at(static_cast<std::size_t>(r.frame)).clocks = r.cycles; });
     pack.rtl_agrees = true;
   }
   if (!json_only(o))
@@ -307,14 +288,12 @@ int write_pack(const VectorsCommand& o) {
   }
   writer.finish(pack);
   progress.clear();
-  const std::string said = fmt::format(
-      "{}{}: {}, {} of them malformed, {}, {}, {} read, {}\nrun it: {}\n", notes_text(from.source()), o.out,
-      counted(pack.frames.size(), "frame"),
-      std::count_if(pack.frames.begin(), pack.frames.end(),
-                    [](const auto& f) { return f.status.error != ErrorCode::NONE; }),
-      counted(pack.beats(), "beat"), counted(pack.pixels(), "pixel"), counted(pack.reads.size(), "register"),
-      pack.clocks() == 0 ? std::string("clocks not counted") : counted(pack.clocks(), "clock"),
-      (std::filesystem::path(o.out) / vectors::kReadme).string());
+  const std::string said =
+      fmt::format("{}{}: {}, {} of them malformed, {}, {}, {} read, {}\nrun it: {}\n", notes_text(from.source()), o.out,
+                  counted(pack.frames.size(), "frame"), pack.malformed(), counted(pack.beats(), "beat"),
+                  counted(pack.pixels(), "pixel"), counted(pack.reads.size(), "register"),
+                  pack.clocks() == 0 ? std::string("clocks not counted") : counted(pack.clocks(), "clock"),
+                  (std::filesystem::path(o.out) / vectors::kReadme).string());
   finish(o, {"kage.vectors/1", summary(pack, o.out)}, files, said);
   return kSame;
 }

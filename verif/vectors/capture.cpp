@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <functional>
 #include <numeric>
@@ -90,12 +91,13 @@ class Judge {
     }
     expected_.pixel(wanted_);
     bool good = true;
-    const auto differ = [&](const std::string& what, std::uint32_t e, std::optional<std::uint32_t> a) {
+    const auto differ = [&](const char* what, std::uint32_t e, std::optional<std::uint32_t> a) {
       if (a == e) return;
       good = false;
       note(what, e, a, expected_.x());
     };
-    for (std::size_t c = 0; c < wanted_.size(); ++c) differ(fmt::format("channel {}", c), wanted_[c], got[c]);
+    static constexpr std::array kChannels{"channel 0", "channel 1", "channel 2"};
+    for (std::size_t c = 0; c < wanted_.size(); ++c) differ(kChannels.at(c), wanted_[c], got[c]);
     if (flags) {
       differ("TUSER", expected_.user() ? 1 : 0, *flags >> 1);
       differ("TLAST", expected_.last() ? 1 : 0, *flags & 1);

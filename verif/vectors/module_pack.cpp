@@ -47,9 +47,10 @@ std::string hex_of(const std::vector<bool>& bits) {
   return hex;
 }
 
-std::uint32_t number_at(const std::string& hex, const PortsRecord::Port& port, int lsb, int bits) {
+/// The first word of a port.
+std::uint32_t word_of(const std::string& hex, const PortsRecord::Port& port) {
   std::uint32_t value = 0;
-  for (int b = 0; b < bits; ++b) value |= bit(hex, port.lsb + lsb + b) ? std::uint32_t{1} << b : 0;
+  for (int b = 0; b < 32; ++b) value |= bit(hex, port.lsb + b) ? std::uint32_t{1} << b : 0;
   return value;
 }
 
@@ -152,7 +153,7 @@ std::string PortsRecord::care(const std::string& outputs) const {
     const std::size_t words = cut       ? 0
                               : header  ? kHeaderWords
                               : lacking ? 1
-                                        : Layout(config_).words_of(number_at(outputs, token, 0, 32));
+                                        : Layout(config_).words_of(word_of(outputs, token));
     ignore(token, std::min(token.bits, static_cast<int>(32 * words)));
   }
   return hex_of(bits);

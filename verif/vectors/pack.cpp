@@ -118,6 +118,9 @@ std::uint64_t Pack::beats() const { return sum(frames, &PackFrame::beats); }
 std::uint64_t Pack::lines() const { return sum(frames, &PackFrame::lines); }
 std::uint64_t Pack::pixels() const { return sum(frames, &PackFrame::pixels); }
 std::uint64_t Pack::clocks() const { return sum(frames, &PackFrame::clocks); }
+std::uint64_t Pack::malformed() const {
+  return sum(frames, [](const PackFrame& f) { return f.status.error == ErrorCode::NONE ? 0U : 1U; });
+}
 
 std::vector<RegisterRead> register_reads(const Config& config, std::span<const PackFrame> frames) {
   std::vector<RegisterRead> reads;

@@ -70,6 +70,7 @@ struct Pack {
   [[nodiscard]] std::uint64_t lines() const;
   [[nodiscard]] std::uint64_t pixels() const;
   [[nodiscard]] std::uint64_t clocks() const;
+  [[nodiscard]] std::uint64_t malformed() const;  ///< frames with an error
 };
 
 /// What the registers must say behind the frames that settle, by how the frames end; behind the last one all constants

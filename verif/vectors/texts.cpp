@@ -107,14 +107,12 @@ std::string c_header(const Pack& pack, std::span<const std::uint32_t> signatures
 }
 
 std::string readme(const Pack& pack) {
-  const auto malformed = std::count_if(pack.frames.begin(), pack.frames.end(),
-                                       [](const PackFrame& f) { return f.status.error != ErrorCode::NONE; });
   std::string text = fmt::format(
       "# Test vectors: {}, configuration {}\n\n"
       "{}, {} of them malformed: {}, {}. What goes in, beat by beat, and every pixel that must come out of kage,\n"
       "the span-stream rendering core, in this configuration. `manifest.json` names each file with its SHA-256.\n\n",
-      pack.scene, pack.config_name, counted(pack.frames.size(), "frame"), malformed, counted(pack.beats(), "beat"),
-      counted(pack.pixels(), "pixel"));
+      pack.scene, pack.config_name, counted(pack.frames.size(), "frame"), pack.malformed(),
+      counted(pack.beats(), "beat"), counted(pack.pixels(), "pixel"));
   text +=
       "Run it in this folder; RTL is the core's folder `rtl`:\n\n"
       "```sh\n"
