@@ -82,6 +82,7 @@ std::string config_text(const Json& about) {
       if (config.*(p.member) != defaults.*(p.member))
         text += fmt::format("{}{}={}", text.empty() ? "" : " ", p.name, config.*(p.member));
   if (const std::string fault = about.value("fault", ""); !fault.empty()) text += ", fault " + fault;
+  if (const std::string netlist = about.value("netlist", ""); !netlist.empty()) text += ", " + netlist + " netlist";
   if (about.value("monitors", false)) text += ", with monitors";
   if (about.value("waves", false)) text += ", for waveforms";
   if (about.value("mutants", false)) text += ", with mutants";

@@ -43,6 +43,7 @@ void remove_old_evidence(TempFiles& files, const std::string& folder, const std:
 /// What decides words and clocks besides scene, size, configuration and seed.
 report::OptionsRecord options_of(const CosimCommand& o) {
   return {.fault = o.rtl.fault,
+          .netlist = o.rtl.netlist,
           .idle = o.rtl.options.idle_percent,
           .backpressure = o.rtl.options.backpressure_percent,
           .degrade = o.degrade,
@@ -69,7 +70,10 @@ std::optional<cosim::Divergence> SceneRun::find_divergence(int frame) {
   const Config& config = source.config();
   const cosim::ReplayOptions options = replay(ModelFor::kMonitors);
   progress_.show("looking for the stage that differs first");
-  if (const std::string missing = cosim::make_rtl(options.library, config)->missing_monitors(); !missing.empty())
+  // Of a netlist the ports are all that can be watched.
+  const std::string missing =
+      o_.rtl.netlist.empty() ? cosim::make_rtl(options.library, config)->missing_monitors() : "";
+  if (!missing.empty())
     source.note(fmt::format("the RTL has no longer the nets that these watch, and what they watch is not looked at: {}",
                             missing));
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };

@@ -39,7 +39,7 @@ void option_cache_verdicts(CLI::App& command, bool& cache) {
        "--jobs 1 "
        "all frames before it), the RTL, the configuration, the stalls and the seed are those of the earlier run. "
        "Verdicts "
-       "are kept in ~/.cache/kage/verdicts; a run with --fault leaves them alone");
+       "are kept in ~/.cache/kage/verdicts; a run with --fault or --netlist leaves them alone");
   flag("--no-cache-verdicts", false,
        "run every frame, also where --cache-verdicts stands before this option; the default");
 }
@@ -53,6 +53,7 @@ void SceneRun::no_verdicts(std::string why) {
 void SceneRun::open_verdicts() {
   if (!o_.cache_verdicts) return;
   if (!o_.rtl.fault.empty()) return no_verdicts("with --fault every frame is run");
+  if (!o_.rtl.netlist.empty()) return no_verdicts("with --netlist every frame is run");
   if (o_.rtl.options.mutant != 0) return no_verdicts("with --mutant every frame is run");
   if (o_.rtl.options.prelude) return no_verdicts("random:mixed runs every frame, for other frames go ahead of its own");
   const cosim::RtlIdentity rtl = identity_of(source_->named_config());

@@ -18,6 +18,7 @@ namespace {
 struct ModelCommand : Options {
   std::vector<std::string> configs;
   std::string fault;
+  std::string netlist;
 };
 
 int run(const ModelCommand& o) {
@@ -28,7 +29,7 @@ int run(const ModelCommand& o) {
   for (const std::string& name : o.configs) list.push_back(load_config(name));
   Json j = Json::array();
   for (const NamedConfig& named : list) {
-    const cosim::Model model = model_of(named, {.fault = o.fault, .options = {}});
+    const cosim::Model model = model_of(named, {.fault = o.fault, .netlist = o.netlist, .options = {}});
     if (!json_only(o))
       fmt::print("{}: {} ({})\n", named.name, model.library.string(),
                  model.build_seconds > 0 ? fmt::format("built in {:.0f} s", model.build_seconds) : "was there");
@@ -47,12 +48,14 @@ void add_model(CLI::App& app, Action& action) {
   CLI::App* c = add_command(app, "model", "Build the RTL models of configurations ahead of their use",
                             "  kage model\n"
                             "  kage model default full\n"
+                            "  kage model tiny --netlist ice40\n"
                             "  kage model mine.yaml --json -");
   const auto o = std::make_shared<ModelCommand>();
   c->add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
   option_fault(*c, o->fault);
+  option_netlist(*c, o->netlist);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -52,7 +52,17 @@ void option_rtl(CLI::App& command, RtlRun& rtl) {
                   "percent of clocks at random in which no output is taken, default 0")
       ->check(whole_number(0, 95))
       ->type_name("P");
+  option_netlist(command, rtl.netlist);
   option_defect(command, rtl);
+}
+
+void option_netlist(CLI::App& command, std::string& netlist) {
+  command
+      .add_option("--netlist", netlist,
+                  "in place of the RTL run the cells that yosys makes of it for a family of FPGAs, as models of "
+                  "verif/cosim/model/cells (docs/gates.md)")
+      ->check(CLI::IsMember({"ice40", "ecp5"}))
+      ->type_name("FAMILY");
 }
 
 void option_defect(CLI::App& command, RtlRun& rtl) {
@@ -71,6 +81,7 @@ void refuse_rtl(const RtlRun& rtl, const std::string& why) {
                             : rtl.options.idle_percent != 0         ? "--idle"
                             : rtl.options.backpressure_percent != 0 ? "--backpressure"
                             : rtl.options.mutant != 0               ? "--mutant"
+                            : !rtl.netlist.empty()                  ? "--netlist"
                                                                     : nullptr;
   if (given != nullptr) throw Error(fmt::format("{}: {}", given, why));
 }
@@ -80,7 +91,10 @@ cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor wha
   Progress progress;
   const bool monitors = what == ModelFor::kMonitors;
   const bool waves = what == ModelFor::kWaveforms;
-  const std::string name = fmt::format("the RTL model of configuration {}{}", config.name,
+  if (!rtl.netlist.empty() && rtl.options.mutant != 0)
+    throw Error("--mutant: a mutant is chosen within a model of the RTL: not with --netlist (--fault is built in)");
+  const std::string name = fmt::format("the {} of configuration {}{}",
+                                       rtl.netlist.empty() ? "RTL model" : rtl.netlist + " netlist", config.name,
                                        monitors             ? " with monitors"
                                        : waves              ? " for waveforms"
                                        : !rtl.ports.empty() ? " with ports"
@@ -91,6 +105,7 @@ cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor wha
                                         .waves = waves,
                                         .mutants = rtl.options.mutant != 0,
                                         .ports = rtl.ports,
+                                        .netlist = rtl.netlist,
                                         .progress = [&](double seconds) {
                                           check_interrupt();
                                           progress.show(fmt::format("building {}: {:.0f} s", name, seconds));

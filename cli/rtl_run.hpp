@@ -18,14 +18,18 @@ namespace kage::cli {
 struct RtlRun {
   std::string fault;
   std::string ports = {};     // cosim::ModelOptions::ports
+  std::string netlist = {};   // cosim::ModelOptions::netlist
   cosim::RtlOptions options;  // with a mutant the model is one that has them all
 };
 
 /// The options of option_rtl().
-inline constexpr std::array kRtlOptions{"--fault", "--mutant", "--idle", "--backpressure"};
+inline constexpr std::array kRtlOptions{"--fault", "--mutant", "--netlist", "--idle", "--backpressure"};
 
-/// --idle, --backpressure, and those of option_defect().
+/// --idle, --backpressure, --netlist, and those of option_defect().
 void option_rtl(CLI::App& command, RtlRun& rtl);
+
+/// --netlist: the RTL as an FPGA's cells.
+void option_netlist(CLI::App& command, std::string& netlist);
 
 /// RTL that is wrong on purpose: --fault, and --mutant, which no help shows (docs/mutants.md).
 void option_defect(CLI::App& command, RtlRun& rtl);

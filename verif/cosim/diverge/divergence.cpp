@@ -35,10 +35,18 @@ struct Found {
   std::string misconduct;
   Handshakes handshakes;
   bool handshakes_known = false;  // their monitor fits the RTL
+  bool ports_alone = false;       // nothing within the core is watched, as of a netlist
   bool given_up = false;          // the frame has not ended
 
   [[nodiscard]] bool any() const { return mismatch || unexpected || part; }
 };
+
+// Whether what leaves the core is all that the monitors tell of.
+bool only_ports(std::uint32_t unwatched) {
+  constexpr std::uint32_t kAll = (1U << (kHandshakeStage + 1)) - 1;
+  constexpr std::uint32_t kOut = 1U << static_cast<unsigned>(Stage::out) | 1U << static_cast<unsigned>(Stage::part);
+  return (unwatched | kOut) == kAll && (unwatched >> static_cast<unsigned>(Stage::out) & 1U) == 0;
+}
 
 // One frame on a core that has seen those before it.
 Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& config, const ReplayOptions& options,
@@ -55,6 +63,7 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   rtl.begin(frame);
   rtl.record(true, take);
   found.handshakes_known = (rtl.unwatched() >> kHandshakeStage & 1U) == 0;
+  found.ports_alone = only_ports(rtl.unwatched());
   const auto end = [&] { search.end(rtl.clock(), !found.handshakes_known || rtl.handshakes().waits(Port::tree)); };
   try {
     in_pieces(feed, frame, [&](std::span<const std::uint32_t> piece) {
@@ -226,7 +235,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   } else if (found.unexpected) {
     describe_unexpected(d, found);
   }
-  if (found.mismatch || found.unexpected) d.module = blame(config, found.clue);
+  if (found.mismatch || found.unexpected) d.module = found.ports_alone ? "kage_top" : blame(config, found.clue);
   // What has no handshake waits for nobody; and who waits is not known where the handshakes' monitor does not fit.
   const bool waits = found.handshakes_known && d.stage != Stage::claim && d.stage != Stage::error &&
                      d.stage != Stage::face && d.stage != Stage::table && d.stage != Stage::state &&

@@ -94,16 +94,18 @@ HiddenFolder work_folder(const fs::path& folder) {
 /// Names and versions, a line each.
 std::vector<std::string> lines_of(const ModelTools& tools) {
   const auto line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
-  return {line(tools.verilator), line(tools.compiler)};
+  std::vector<std::string> lines{line(tools.verilator), line(tools.compiler)};
+  if (!tools.yosys.empty()) lines.push_back(line(tools.yosys));
+  return lines;
 }
 
 /// What the cache says of a model, for `kage cache list`.
 nlohmann::ordered_json about(const Config& config, const ModelOptions& options, const ModelTools& tools) {
   nlohmann::ordered_json values;
   for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
-  return {{"config", values},        {"fault", options.fault},     {"monitors", options.monitors},
-          {"waves", options.waves},  {"mutants", options.mutants}, {"ports", options.ports},
-          {"tools", lines_of(tools)}};
+  return {{"config", values},           {"fault", options.fault},     {"monitors", options.monitors},
+          {"waves", options.waves},     {"mutants", options.mutants}, {"ports", options.ports},
+          {"netlist", options.netlist}, {"tools", lines_of(tools)}};
 }
 
 /// The command that builds the model in the folder `work` of the sources that lie in work/source.
@@ -120,6 +122,7 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
   if (options.waves) command.emplace_back("--waves");
   if (options.mutants) command.emplace_back("--mutants");
   if (!options.ports.empty()) command.insert(command.end(), {"--ports", options.ports});
+  if (!options.netlist.empty()) command.insert(command.end(), {"--netlist", options.netlist});
   command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),
                                  "--keep", (work / "build").string()});
   return command;
@@ -203,7 +206,7 @@ Model find_model(const Config& config, const ModelOptions& options) {
 }
 
 std::vector<std::string> model_tools() {
-  return lines_of({.verilator = verilator_version(), .cxx = {}, .compiler = compiler_version()});
+  return lines_of({.verilator = verilator_version(), .cxx = {}, .compiler = compiler_version(), .yosys = {}});
 }
 
 }  // namespace kage::cosim

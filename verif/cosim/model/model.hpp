@@ -27,13 +27,15 @@ struct ModelOptions {
   bool waves = false;      ///< able to write waveforms (slower)
   bool mutants = false;    ///< with all mutants of verif/mutants, behind RtlOptions::mutant (slower)
   std::string ports = {};  ///< a module whose ports it writes as text at every clock (driver/ports.py); empty for none
+  std::string netlist = {};  ///< a family of FPGAs, ice40 or ecp5: of the cells that yosys makes of the RTL for it
+                             ///< (driver/netlist.py); empty for the RTL itself
   BuildProgress progress = {};
 };
 
 /// The model of `config` from the cache (cosim/model/model_cache.hpp), built first if it is not there or damaged. Its
 /// key is the SHA-256 of all sources that it is made of, the parameters, the options, $CXX, and the versions of
-/// Verilator and compiler, so that a changed source is another model. Two programs that want the same one build it
-/// once. Throws Error that names the log when the build fails.
+/// Verilator, compiler and, for a netlist, yosys, so that a changed source is another model. Two programs that want the
+/// same one build it once. Throws Error that names the log when the build fails.
 Model find_model(const Config& config, const ModelOptions& options = {});
 
 /// The names that ModelOptions::fault takes, sorted.

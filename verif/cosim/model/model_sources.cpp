@@ -40,6 +40,7 @@ std::string output_of(const char* command) {
 }
 
 constexpr const char* kVerilator = "\"${VERILATOR:-verilator}\" --version 2>/dev/null";
+constexpr const char* kYosys = "${YOSYS:-yosys} -V 2>/dev/null";
 constexpr const char* kCompiler = "${CXX:-c++} --version 2>/dev/null";
 
 /// The patterns of a role of sources.yaml.
@@ -102,6 +103,9 @@ ModelTools model_tool_versions(const ModelOptions& options, bool anew) {
   const char* const cxx = std::getenv("CXX");
   tools.cxx = cxx != nullptr ? cxx : "";
   tools.compiler = anew ? output_of(kCompiler) : compiler_version();
+  if (!options.netlist.empty()) tools.yosys = output_of(kYosys);
+  if (!options.netlist.empty() && tools.yosys.empty())
+    throw Error("yosys: not found, and netlists need it: tools/deps test installs it");
   return tools;
 }
 
@@ -122,6 +126,7 @@ ModelSources model_sources(const fs::path& data, const ModelOptions& options) {
   add(files_of(data, roles, "driver"));
   if (options.monitors) add(files_of(data, roles, "monitors"));
   if (options.mutants) add(files_of(data, roles, "mutants"));
+  if (!options.netlist.empty()) add(files_of(data, roles, "cells"));
   if (!options.fault.empty()) sources.files.push_back(fault_file(data, roles, options.fault));
   std::sort(sources.files.begin(), sources.files.end());
   return sources;
@@ -140,9 +145,11 @@ std::string model_key(const fs::path& data, const ModelSources& sources, const C
   hash.add(std::string_view(options.waves ? "waves" : ""));
   hash.add(std::string_view(options.mutants ? "mutants" : ""));
   hash.add(options.ports);
+  hash.add(options.netlist);
   hash.add(tools.verilator);
   hash.add(tools.cxx);
   hash.add(tools.compiler);
+  hash.add(tools.yosys);
   return hash.take();
 }
 

@@ -16,6 +16,7 @@ struct ModelTools {
   std::string verilator;  ///< what `verilator --version` prints
   std::string cxx;        ///< $CXX, which may have flags
   std::string compiler;   ///< what it prints for --version
+  std::string yosys;      ///< what `yosys -V` prints, of a netlist; empty for the RTL
 };
 
 /// Each is empty if the tool cannot be run. A program asks a tool once: `verilator --version` starts Perl, which takes
@@ -23,8 +24,8 @@ struct ModelTools {
 const std::string& verilator_version();
 const std::string& compiler_version();
 
-/// Throws Error if there is no Verilator. With `anew` the tools are asked now, as they may be others since this program
-/// asked first.
+/// Throws Error if there is no Verilator, or, for a netlist, no yosys. With `anew` the tools are asked now, as they may
+/// be others since this program asked first.
 ModelTools model_tool_versions(const ModelOptions& options, bool anew = false);
 
 /// What a model is made of: all that build.py reads, by verif/cosim/model/driver/sources.yaml. Paths are below the

@@ -23,6 +23,7 @@ template <class V>
 void keys(V& v, Of<OptionsRecord>) {
   using R = OptionsRecord;
   v("fault", &R::fault);
+  v("netlist", &R::netlist);
   v("idle", &R::idle);
   v("backpressure", &R::backpressure);
   v("degrade", &R::degrade);

@@ -186,6 +186,15 @@ module kage_pack_tb;
     end
   endtask
 
+  // In reset too: from its second clock on.
+  always @(negedge clk) begin
+    #4;
+    if (clocks != 0 && !failed && (m_valid ^ s_ready ^ awready ^ wready ^ bvalid ^ arready ^ rvalid ^ irq) === 1'bx) begin
+      $display("kage_pack_tb: FAILED: a handshake or the interrupt is unknown, clock %0d", clocks);
+      failed = 1'b1;
+    end
+  end
+
   // ---- frames in, pixels out: inputs at the falling edge, a look at the outputs right before the rising one ---------
   initial begin
     {s_valid, s_last, m_ready} = 3'b000;
@@ -210,10 +219,6 @@ module kage_pack_tb;
       end
       m_ready = dice[31:16] % 100 >= stall;
       #4;
-      if ((m_valid ^ s_ready ^ arready ^ rvalid ^ irq) === 1'bx) begin
-        if (!failed) $display("kage_pack_tb: FAILED: a handshake or the interrupt is unknown, clock %0d", clocks);
-        failed = 1'b1;
-      end
       taken = s_valid && s_ready === 1'b1;
       if (waits && {m_valid, m_user, m_last, m_data} !== {1'b1, held[RGB_BITS+1:0]} && !failed) begin
         $display("kage_pack_tb: FAILED: frame %0d, line %0d, x %0d: a pixel that waits changes or goes, clock %0d", out_frame,
@@ -252,6 +257,10 @@ module kage_pack_tb;
       rready  = 1'b1;
       while (!rvalid) @(negedge clk);
       value = rdata;
+      if (^rdata === 1'bx && !failed) begin
+        $display("kage_pack_tb: FAILED: the register at %h is %h, clock %0d", address, rdata, clocks);
+        failed = 1'b1;
+      end
       if (rresp !== 2'b00 && !failed) begin
         $display("kage_pack_tb: FAILED: the register at %h answers an error, clock %0d", address, clocks);
         failed = 1'b1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels that leave the core of pixels, come back to it, and go out, as events (rtl/defs/stages.yaml).
+// The pixels that leave the core of pixels and those that come back to it, as events (rtl/defs/stages.yaml).
 // Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
@@ -19,12 +19,7 @@ module kage_top_pixels_monitor #(
     input wire logic [EXIT_LANES*ExitBits-1:0] exit_data,
     input wire logic                           load_valid,
     input wire logic                           load_ready,
-    input wire logic [           LoadBits-1:0] load,
-    input wire logic                           m_axis_tvalid_o,
-    input wire logic                           m_axis_tready_i,
-    input wire logic [            RgbBits-1:0] m_axis_tdata_o,
-    input wire logic                           m_axis_tuser_o,
-    input wire logic                           m_axis_tlast_o
+    input wire logic [           LoadBits-1:0] load
 );
   `include "kage_trace.svh"
   `include "generated/kage_buses.svh"
@@ -52,9 +47,6 @@ module kage_top_pixels_monitor #(
       end
       if (load_valid && load_ready) begin
         trace_load(0, 64'(back.x), 64'(back.color));
-      end
-      if (m_axis_tvalid_o && m_axis_tready_i) begin
-        trace_out(0, 64'(m_axis_tdata_o), 64'(m_axis_tuser_o), 64'(m_axis_tlast_o));
       end
     end
   end

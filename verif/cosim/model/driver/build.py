@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build the RTL model of one configuration: a shared library with the C interface of rtl_model.h.
 
-usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--ports MODULE] [--quick] [--jobs N] [--keep DIR]
+usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--ports MODULE] [--netlist FAMILY] [--quick] [--jobs N] [--keep DIR]
 
   PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
   --fault NAME   apply verif/cosim/model/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
@@ -12,6 +12,8 @@ usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [
   --waves        able to write waveforms
   --mutants      with every mutant of verif/mutants/mutants.yaml behind a select; one whose text the RTL has not exactly once stops the build
   --ports        writes the ports of each instance of rtl/MODULE.sv as text at every clock (ports.py)
+  --netlist      of the cells that yosys makes of the RTL for ice40 or ecp5, in place of the RTL (netlist.py); of the monitors it has those that
+                 need the core's ports alone
   --quick        for a model that runs little, as those of --fault, --monitors, --waves and --mutants do: loops over lanes and processors stay
                  loops, and the compiler takes less care. A systolic core of 64 processors takes 4 s to build in place of 10
   --jobs N       compilers at a time (default 2)
@@ -30,6 +32,7 @@ import shutil
 import signal
 import tempfile
 
+import netlist
 import ports
 import yaml
 from initial_state import name_initial_state
@@ -84,6 +87,7 @@ def main():
     parser.add_argument("--waves", action="store_true")
     parser.add_argument("--mutants", action="store_true")
     parser.add_argument("--ports")
+    parser.add_argument("--netlist", choices=netlist.FAMILIES)
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep")
@@ -92,6 +96,8 @@ def main():
         fail(f"{args.fault}: no {FAULTS / (args.fault + '.patch')}")
     if not args.out:
         fail("no OUT.so given")
+    if args.netlist and (args.mutants or args.ports):
+        fail("--netlist: it has no modules within, so no --mutants and no --ports")
     out = pathlib.Path(args.out).resolve()
     values = parameters(args.params)
     work = pathlib.Path(args.keep).resolve() if args.keep else pathlib.Path(tempfile.mkdtemp(prefix="kage-model-"))
@@ -139,7 +145,9 @@ class Build:
         width = self.values["MAX_WIDTH"]
         unroll = 8 if self.quick else width if self.values["ARRANGEMENT"] == 0 and 64 < width <= 128 else 64
         command = [self.verilator, "--cc", "--prefix", "Vkage", "--top-module", "kage_top", "--Mdir", self.obj, "-O3"]
-        command += ["--x-initial", "unique", "--flatten", "-Wall", *PATTERNS["flags"]]
+        command += ["--x-initial", "unique", "--flatten", *PATTERNS["flags"]]
+        # A netlist is nobody's style.
+        command += ["-Wno-fatal", "-Wno-lint", "-Wno-style"] if self.args.netlist else ["-Wall"]
         command += ["--unroll-count", str(unroll), "--unroll-stmts", "1000000"]
         command += [*(f"-I{folder}" for folder in places("includes", self.rtl)), "-CFLAGS", CFLAGS]
         command += [f"-G{n}={v}" for n, v in self.values.items()] + [f"-D{d}" for d in self.args.define]
@@ -149,16 +157,26 @@ class Build:
             command.append(f"-I{MONITORS}")
         if self.args.mutants:  # what is wrong on purpose may be bad style
             command += ["-Wno-fatal", self.work / "kage_mutants.sv"]
-        command += files("modules", self.rtl)
+        command += self.netlist() if self.args.netlist else files("modules", self.rtl)
         if self.args.ports:
             write_monitor(self.work / ports.NAME, self.rtl, self.args.ports, pixel_parameters())
             command += ["-Wno-fatal", self.work / ports.NAME]
         monitors = [m for m in files("monitors") if m.suffix == ".sv"] if self.args.monitors else []
         missing = []
+        if self.args.netlist:
+            missing = [m for m in monitors if m not in files("port_monitors")]
+            monitors = [m for m in monitors if m not in missing]
         while not run("verilator", command + monitors, self.log, lambda text: leave_out(monitors, missing, text)):
             pass
         name_initial_state(self.obj)
         return missing
+
+    def netlist(self):
+        """What stands in place of the RTL: its netlist, the models of its cells, and a kage_top with parameters around it."""
+        synthesized, top = self.work / "netlist.v", self.work / "kage_top.sv"
+        netlist.synthesize(self.args.netlist, synthesized, self.values, self.rtl, self.log, "kage_netlist")
+        netlist.wrapper(top, self.rtl, "kage_netlist")
+        return [top, synthesized, *(f for f in files("cells") if f.stem == self.args.netlist)]
 
     def write_params(self, missing):
         """What the driver has of the model as constants."""
