@@ -85,6 +85,7 @@ std::string config_text(const Json& about) {
   if (const std::string netlist = about.value("netlist", ""); !netlist.empty()) text += ", " + netlist + " netlist";
   if (about.value("monitors", false)) text += ", with monitors";
   if (about.value("waves", false)) text += ", for waveforms";
+  if (about.value("lines", false)) text += ", counting lines";
   if (about.value("mutants", false)) text += ", with mutants";
   return text;
 }

@@ -91,18 +91,21 @@ cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor wha
   Progress progress;
   const bool monitors = what == ModelFor::kMonitors;
   const bool waves = what == ModelFor::kWaveforms;
+  const bool lines = what == ModelFor::kLines;
   if (!rtl.netlist.empty() && rtl.options.mutant != 0)
     throw Error("--mutant: a mutant is chosen within a model of the RTL: not with --netlist (--fault is built in)");
   const std::string name = fmt::format("the {} of configuration {}{}",
                                        rtl.netlist.empty() ? "RTL model" : rtl.netlist + " netlist", config.name,
                                        monitors             ? " with monitors"
                                        : waves              ? " for waveforms"
+                                       : lines              ? " that counts lines"
                                        : !rtl.ports.empty() ? " with ports"
                                                             : "");
   cosim::Model model =
       cosim::find_model(config.config, {.fault = rtl.fault,
                                         .monitors = monitors,
                                         .waves = waves,
+                                        .lines = lines,
                                         .mutants = rtl.options.mutant != 0,
                                         .ports = rtl.ports,
                                         .netlist = rtl.netlist,

@@ -38,7 +38,7 @@ void option_defect(CLI::App& command, RtlRun& rtl);
 void refuse_rtl(const RtlRun& rtl, const std::string& why);
 
 /// What a model is for besides pixels.
-enum class ModelFor { kPixels, kMonitors, kWaveforms };
+enum class ModelFor { kPixels, kMonitors, kWaveforms, kLines };
 
 /// The model of a configuration; says how long it takes where it has to be built. Notes on standard error, once in a
 /// run, if the current folder is of a tree with another rtl/ than the model's.

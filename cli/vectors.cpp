@@ -23,6 +23,7 @@
 #include "vectors/budget.hpp"
 #include "vectors/capture.hpp"
 #include "vectors/check.hpp"
+#include "vectors/cover.hpp"
 #include "vectors/malformed.hpp"
 #include "vectors/module_pack.hpp"
 #include "vectors/texts.hpp"
@@ -41,6 +42,7 @@ struct VectorsCommand : Options {
   bool sound_only = false;
   bool no_rtl = false;
   bool sizes = false;
+  bool cover = false;
   std::string module;        ///< empty: the whole core
   std::uint64_t budget = 0;  ///< bytes; 0: all lines of all frames
 };
@@ -53,7 +55,10 @@ class PackFrames {
       throw Error(o.input + ": --budget: frames that may break rules have no lines to choose");
     if (!o.sound_only && !source_.is_random()) malformed_ = vectors::malformed_frames(source_.config(), o.seed);
     if (o.budget > 0) choose(o);
+    if (o.cover) cover(o);
   }
+  /// With --cover.
+  [[nodiscard]] const std::optional<vectors::Cover>& covered() const { return cover_; }
 
   [[nodiscard]] Source& source() { return source_; }
   [[nodiscard]] int size() const { return sound() + 2 * static_cast<int>(malformed_.size()); }
@@ -80,6 +85,17 @@ class PackFrames {
   }
 
  private:
+  /// So few of the source's frames that they reach what all reach.
+  void cover(const VectorsCommand& o) {
+    const cosim::Model model = model_of(source_.named_config(), {}, ModelFor::kLines);
+    Progress progress;
+    FrameProgress frame_progress(progress, "lines reached", source_.frames());
+    cover_ = vectors::cover(source_, model.library, o.seed, [&](int) {
+      check_interrupt();
+      frame_progress.next();
+    });
+    chosen_ = cover_->frames;
+  }
   /// Malformed frames come first: they are small. What is left is for the hardest lines.
   void choose(const VectorsCommand& o) {
     const Config& config = source_.config();
@@ -98,7 +114,8 @@ class PackFrames {
     return malformed_.at(static_cast<std::size_t>(i - sound()) % malformed_.size());
   }
   Source source_;
-  std::vector<vectors::ChosenFrame> chosen_;  // with --budget
+  std::vector<vectors::ChosenFrame> chosen_;  // with --budget or --cover
+  std::optional<vectors::Cover> cover_;
   std::vector<vectors::MalformedFrame> malformed_;
 };
 
@@ -203,7 +220,22 @@ int write_module_pack(PackFrames& from, const VectorsCommand& o) {
   return kSame;
 }
 
-Json summary(const vectors::Pack& pack, const std::string& folder) {
+Json lines_json(const std::optional<vectors::Cover>& cover) {
+  if (!cover) return nullptr;
+  return {{"reached", cover->reached}, {"unreached", cover->unreached}};
+}
+
+std::string cover_text(const std::optional<vectors::Cover>& cover, int of) {
+  if (!cover) return "";
+  std::string text =
+      fmt::format("{} of {} reach {} of {} lines and branches of the RTL, {}\n", counted(cover->frames.size(), "frame"),
+                  of, cover->reached.size(), cover->reached.size() + cover->unreached.size(),
+                  counted(cover->points, "kind of token and error", "kinds of tokens and errors"));
+  for (const std::string& place : cover->unreached) text += fmt::format("  not reached: rtl/{}\n", place);
+  return text;
+}
+
+Json summary(const vectors::Pack& pack, const std::string& folder, const std::optional<vectors::Cover>& cover) {
   Json j;
   j["pack"] = folder;
   j["scene"] = pack.scene;
@@ -214,6 +246,7 @@ Json summary(const vectors::Pack& pack, const std::string& folder) {
   j["pixels"] = pack.pixels();
   j["clocks"] = pack.clocks() == 0 ? Json(nullptr) : Json(pack.clocks());
   j["registers"] = pack.reads.size();
+  j["lines_of_rtl"] = lines_json(cover);
   j["files"] = files_json(pack.files);
   j["config"] = to_json(pack.config);
   return j;
@@ -234,6 +267,7 @@ void refuse_other_files(const std::filesystem::path& folder) {
 int write_pack(const VectorsCommand& o) {
   if (o.out.empty() && !o.sizes) throw Error("--out: needed: the folder of the pack (or --sizes, which writes none)");
   check_json(o);
+  if (o.cover && o.budget > 0) throw Error("--cover: frames that reach all are not those that fit: no --budget");
   if (!o.module.empty() && (o.sizes || o.no_rtl))
     throw Error("--module: the RTL must run to tell what passes at its ports: no --sizes, no --no-rtl");
   std::optional<OutFolder> folder;
@@ -254,12 +288,13 @@ int write_pack(const VectorsCommand& o) {
   progress.clear();
   pack.reads = vectors::register_reads(pack.config, pack.frames);
   const std::vector<vectors::PackFile> sizes = vectors::file_sizes(pack.config, pack.frames);
-  std::string text = notes_text(from.source());
+  std::string text = notes_text(from.source()) + cover_text(from.covered(), from.source().frames());
   for (const vectors::PackFile& f : sizes) text += fmt::format("{:<16} {:>12} bytes\n", f.name, f.bytes);
   if (o.sizes) {
     pack.files = sizes;
     TempFiles none;
-    finish(o, {"kage.vectors/1", summary(pack, "")}, none, text + fmt::format("together {} bytes\n", bytes_of(sizes)));
+    finish(o, {"kage.vectors/1", summary(pack, "", from.covered())}, none,
+           text + fmt::format("together {} bytes\n", bytes_of(sizes)));
     return kSame;
   }
   if (!o.no_rtl) {
@@ -289,12 +324,13 @@ int write_pack(const VectorsCommand& o) {
   writer.finish(pack);
   progress.clear();
   const std::string said =
-      fmt::format("{}{}: {}, {} of them malformed, {}, {}, {} read, {}\nrun it: {}\n", notes_text(from.source()), o.out,
+      fmt::format("{}{}: {}, {} of them malformed, {}, {}, {} read, {}\nrun it: {}\n",
+                  notes_text(from.source()) + cover_text(from.covered(), from.source().frames()), o.out,
                   counted(pack.frames.size(), "frame"), pack.malformed(), counted(pack.beats(), "beat"),
                   counted(pack.pixels(), "pixel"), counted(pack.reads.size(), "register"),
                   pack.clocks() == 0 ? std::string("clocks not counted") : counted(pack.clocks(), "clock"),
                   (std::filesystem::path(o.out) / vectors::kReadme).string());
-  finish(o, {"kage.vectors/1", summary(pack, o.out)}, files, said);
+  finish(o, {"kage.vectors/1", summary(pack, o.out, from.covered())}, files, said);
   return kSame;
 }
 
@@ -302,7 +338,7 @@ int check(const VectorsCommand& o) {
   check_json(o);
   const vectors::Pack pack = vectors::checked_pack(o.check, vectors::Check::all, check_interrupt);
   TempFiles none;
-  finish(o, {"kage.vectors/1", summary(pack, o.check)}, none,
+  finish(o, {"kage.vectors/1", summary(pack, o.check, std::nullopt)}, none,
          fmt::format("{}: good: {} for {}, {}, {}\n", o.check, counted(pack.frames.size(), "frame"), pack.config_name,
                      counted(pack.pixels(), "pixel"), counted(pack.files.size(), "file")));
   return kSame;
@@ -369,8 +405,8 @@ int run(const VectorsCommand& o) {
   const int asked = (o.input.empty() ? 0 : 1) + (o.check.empty() ? 0 : 1) + (o.compare.empty() ? 0 : 1);
   if (asked != 1) throw Error("vectors: give a SCENE, or --check PACK, or --compare PACK CAPTURE: one of them");
   if (o.frame && o.compare.empty()) throw Error("--frame: only a capture is of one frame: --compare");
-  if (o.input.empty() && (!o.out.empty() || o.sizes || o.sound_only || o.no_rtl || !o.module.empty() || o.budget > 0 ||
-                          o.size_given || o.frames > 0 || !o.config.empty()))
+  if (o.input.empty() && (!o.out.empty() || o.sizes || o.sound_only || o.no_rtl || o.cover || !o.module.empty() ||
+                          o.budget > 0 || o.size_given || o.frames > 0 || !o.config.empty()))
     throw Error(
         fmt::format("{} takes no option of writing a pack but --json", o.check.empty() ? "--compare" : "--check"));
   if (!o.check.empty()) return check(o);
@@ -386,6 +422,7 @@ void add_vectors(CLI::App& app, Action& action) {
       "  kage vectors courtyard --size 64x48 --frames 2 --config default --out pack\n"
       "  kage vectors courtyard --size 320x240 --sizes\n"
       "  kage vectors courtyard --size 320x240 --budget 16384 --out small\n"
+      "  kage vectors random:mixed --frames 500 --cover --config glass --out all\n"
       "  kage vectors courtyard --size 16x12 --frames 1 --module pixel_banked --out module\n"
       "  kage vectors --check pack\n"
       "  kage vectors --compare pack captured.hex\n"
@@ -405,6 +442,9 @@ void add_vectors(CLI::App& app, Action& action) {
                 "what they reach")
       ->check(whole_number(1))
       ->type_name("BYTES");
+  c->add_flag("--cover", o->cover,
+              "of the frames take so few that they reach all lines and branches of the RTL, kinds of tokens and errors "
+              "that all of them reach; say which lines none reaches");
   c->add_flag("--sizes", o->sizes, "only say how large the pack would be");
   c->add_option("--check", o->check, "verify a pack: files, hashes, and the golden model once more")->type_name("PACK");
   c->add_option("--compare", o->compare, "hold a capture (.hex, .bin, .raw or a picture) against a pack")

@@ -103,9 +103,9 @@ std::vector<std::string> lines_of(const ModelTools& tools) {
 nlohmann::ordered_json about(const Config& config, const ModelOptions& options, const ModelTools& tools) {
   nlohmann::ordered_json values;
   for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
-  return {{"config", values},           {"fault", options.fault},     {"monitors", options.monitors},
-          {"waves", options.waves},     {"mutants", options.mutants}, {"ports", options.ports},
-          {"netlist", options.netlist}, {"tools", lines_of(tools)}};
+  return {{"config", values},       {"fault", options.fault},     {"monitors", options.monitors},
+          {"waves", options.waves}, {"mutants", options.mutants}, {"lines", options.lines},
+          {"ports", options.ports}, {"netlist", options.netlist}, {"tools", lines_of(tools)}};
 }
 
 /// The command that builds the model in the folder `work` of the sources that lie in work/source.
@@ -121,6 +121,7 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
   if (options.monitors) command.emplace_back("--monitors");
   if (options.waves) command.emplace_back("--waves");
   if (options.mutants) command.emplace_back("--mutants");
+  if (options.lines) command.emplace_back("--lines");
   if (!options.ports.empty()) command.insert(command.end(), {"--ports", options.ports});
   if (!options.netlist.empty()) command.insert(command.end(), {"--netlist", options.netlist});
   command.insert(command.end(), {"--jobs", std::to_string(std::clamp(std::thread::hardware_concurrency(), 1U, 8U)),

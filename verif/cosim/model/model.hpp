@@ -25,6 +25,7 @@ struct ModelOptions {
   std::string fault = {};  ///< a deliberate defect of verif/cosim/model/faults; empty for none
   bool monitors = false;   ///< with those of verif/cosim/diverge/monitors (slower)
   bool waves = false;      ///< able to write waveforms (slower)
+  bool lines = false;      ///< counts how often each line and branch of the RTL runs (slower)
   bool mutants = false;    ///< with all mutants of verif/mutants, behind RtlOptions::mutant (slower)
   std::string ports = {};  ///< a module whose ports it writes as text at every clock (driver/ports.py); empty for none
   std::string netlist = {};  ///< a family of FPGAs, ice40 or ecp5: of the cells that yosys makes of the RTL for it

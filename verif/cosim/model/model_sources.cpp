@@ -144,6 +144,7 @@ std::string model_key(const fs::path& data, const ModelSources& sources, const C
   hash.add(std::string_view(options.monitors ? "monitors" : ""));
   hash.add(std::string_view(options.waves ? "waves" : ""));
   hash.add(std::string_view(options.mutants ? "mutants" : ""));
+  hash.add(std::string_view(options.lines ? "lines" : ""));
   hash.add(options.ports);
   hash.add(options.netlist);
   hash.add(tools.verilator);

@@ -112,6 +112,14 @@ class Rtl : public RtlCore {
     if (table_->wave(model_, path.c_str(), first, last) != 0) throw Error("a model that writes no waveforms");
   }
   int end_wave() override { return table_->end_wave(model_); }
+  std::map<std::string, std::uint64_t> lines() override {
+    std::map<std::string, std::uint64_t> counts;
+    const auto point = [](void* user, const char* place, std::uint64_t count) {
+      (*static_cast<std::map<std::string, std::uint64_t>*>(user))[place] = count;
+    };
+    if (table_->lines(model_, point, &counts) != 0) throw Error("a model that counts no lines");
+    return counts;
+  }
 
   void access(RegisterAccess* write, RegisterAccess* read) override {
     table_->reg_access(model_, write == nullptr ? nullptr : &write->bus, read == nullptr ? nullptr : &read->bus);

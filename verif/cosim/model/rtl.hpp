@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -40,8 +41,8 @@ struct RegisterAccess {
   kage_rtl_access bus;  ///< what goes there, and comes from there
 };
 
-/// The RTL, simulated. Events and handshakes need a model that was built with monitors, waveforms one that was built
-/// for them (ModelOptions).
+/// The RTL, simulated. Events and handshakes need a model that was built with monitors, waveforms and counts of lines
+/// one that was built for them (ModelOptions).
 class RtlCore : public Core {
  public:
   /// A write, a read (the other is nullptr), or both at the same time, while the streams go on; by a master that takes
@@ -90,6 +91,10 @@ class RtlCore : public Core {
 
   /// Ends it. 0: it is whole; else the errno of what could not be written.
   virtual int end_wave() = 0;
+
+  /// Each line and branch of the RTL ("token_reader.sv:120 else"), and how often it has run in the model's life. Throws
+  /// Error if the model was not built to count them.
+  virtual std::map<std::string, std::uint64_t> lines() = 0;
 };
 
 /// The RTL, simulated by the model library that find_model() gave. Throws Error if the library does not fit.

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Build the RTL model of one configuration: a shared library with the C interface of rtl_model.h.
 
-usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--ports MODULE] [--netlist FAMILY] [--quick] [--jobs N] [--keep DIR]
+usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--lines] [--ports MODULE] [--netlist FAMILY] [--quick] [--jobs N] [--keep DIR]
 
   PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
   --fault NAME   apply verif/cosim/model/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
@@ -11,6 +11,7 @@ usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [
   --monitors     with the monitors of verif/cosim/diverge/monitors, which tell what passes between modules
   --waves        able to write waveforms
   --mutants      with every mutant of verif/mutants/mutants.yaml behind a select; one whose text the RTL has not exactly once stops the build
+  --lines        counts how often each line and branch of the RTL runs
   --ports        writes the ports of each instance of rtl/MODULE.sv as text at every clock (ports.py)
   --netlist      of the cells that yosys makes of the RTL for ice40 or ecp5, in place of the RTL (netlist.py); of the monitors it has those that
                  need the core's ports alone
@@ -53,7 +54,7 @@ CFLAGS = (
 )
 # What make and compilers would take from the environment beside $CXX. It is no part of a model's key, so no model has it.
 UNASKED = "CXXFLAGS CPPFLAGS CFLAGS LDFLAGS LDLIBS OPT OPT_FAST OPT_SLOW OPT_GLOBAL USER_CPPFLAGS USER_LDFLAGS USER_LDLIBS MAKEFLAGS MFLAGS"
-PARTS = ("monitors", "waves", "mutants")  # options that a model is built with
+PARTS = ("monitors", "waves", "mutants", "lines")  # options that a model is built with
 
 
 def parameters(arguments):
@@ -86,6 +87,7 @@ def main():
     parser.add_argument("--monitors", action="store_true")
     parser.add_argument("--waves", action="store_true")
     parser.add_argument("--mutants", action="store_true")
+    parser.add_argument("--lines", action="store_true")
     parser.add_argument("--ports")
     parser.add_argument("--netlist", choices=netlist.FAMILIES)
     parser.add_argument("--quick", action="store_true")
@@ -119,7 +121,7 @@ class Build:
         self.obj = work / "obj"
         self.verilator = os.environ.get("VERILATOR") or "verilator"
         self.cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
-        self.quick = args.quick or bool(args.fault) or args.monitors or args.waves or args.mutants
+        self.quick = args.quick or bool(args.fault) or args.monitors or args.waves or args.mutants or args.lines
         # The log outlives a failure.
         beside = pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"
         self.log = Log(work / "build.log" if args.keep else beside)
@@ -153,6 +155,8 @@ class Build:
         command += [f"-G{n}={v}" for n, v in self.values.items()] + [f"-D{d}" for d in self.args.define]
         if self.args.waves:
             command += ["--trace-fst", "--trace-structs"]  # a bus by its fields
+        if self.args.lines:
+            command.append("--coverage-line")
         if self.args.monitors:
             command.append(f"-I{MONITORS}")
         if self.args.mutants:  # what is wrong on purpose may be bad style
@@ -230,6 +234,8 @@ class Build:
             objects.append("verilated_fst_c.o")
         if self.args.monitors or self.args.mutants:
             objects.append("verilated_dpi.o")
+        if self.args.lines:
+            objects.append("verilated_cov.o")
         runtime = Runtime(self.verilator, self.cxx, [*flags, CFLAGS], self.obj)
         runtime.take(objects)
         run("compiling the model", [*make, "Vkage__ALL.o", *objects], self.log)

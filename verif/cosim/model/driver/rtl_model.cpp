@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "lines.hpp"
 #include "model.hpp"
 
 namespace {
@@ -106,6 +107,13 @@ const kage_rtl_table kTable = {
 #else
     [](kage_rtl*, const char*, std::uint64_t, std::uint64_t) { return -1; },
     [](kage_rtl*) { return -1; },
+#endif
+#ifdef KAGE_LINES
+    [](kage_rtl* m, void (*point)(void* user, const char* place, std::uint64_t count), void* user) {
+      return tell_lines(m->context, point, user);
+    },
+#else
+    [](kage_rtl*, void (*)(void*, const char*, std::uint64_t), void*) { return -1; },
 #endif
 };
 

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* Rises with every change of kage_rtl_table. A program refuses a model of another number: the table begins with it. */
-#define KAGE_RTL_ABI 13u
+#define KAGE_RTL_ABI 14u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -178,6 +178,10 @@ typedef struct {
 
   /* End the waveform where it stands. 0: it is whole; else the errno of what could not be written of it. */
   int (*end_wave)(kage_rtl*);
+
+  /* Tell `point` of each line and branch of the RTL, "token_reader.sv:120 else", how often it has run since create();
+   * of each module's instances and parameters once. -1: the model was not built to count them. */
+  int (*lines)(kage_rtl*, void (*point)(void* user, const char* place, uint64_t count), void* user);
 } kage_rtl_table;
 
 /* The library's only symbol, of this type. */
