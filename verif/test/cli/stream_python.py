@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""stream_python.py KAGE SOURCE FILE...: ref/bind/python/kage_stream.py against the program: each token of each file is what
+"""stream_python.py KAGE SOURCE FILE...: python/kage/stream.py against the program: each token of each file is what
 `kage info --tokens` says, and what is written again of what was read is the very file. Prints the kinds that were there."""
 
 import pathlib
@@ -8,8 +8,8 @@ import subprocess
 import sys
 
 kage, source, *files = sys.argv[1:]
-sys.path.insert(0, f"{source}/ref/bind/python")
-import kage_stream as ks  # noqa: E402
+sys.path.insert(0, f"{source}/python")
+from kage import stream as ks  # noqa: E402
 
 
 def told(file, frame):

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Streams in Python (ref/bind/python/kage_stream.py): read, told and written as the program does, in named configurations that
+# Streams in Python (python/kage/stream.py): read, told and written as the program does, in named configurations that
 # between them have all kinds of tokens.
 . "$(dirname "$0")/common.bash"
 

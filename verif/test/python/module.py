@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""module.py KAGE SOURCE LIBRARY: the package python/kage against the program: the golden core's lines are the pack's pixels, steps
+tell every token and the state behind it, and what is wrong is refused in a line."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+program, source, library = sys.argv[1:]
+sys.path.insert(0, f"{source}/python")
+os.environ |= {"KAGE": program, "KAGE_GOLDEN": library}
+import kage  # noqa: E402
+
+
+def fail(text):
+    sys.exit(f"FAILED: {text}")
+
+
+def same(what, got, wanted):
+    if got != wanted:
+        fail(f"{what}: {got}, expected {wanted}")
+
+
+def refused(error, call, *words):
+    try:
+        call()
+    except error as e:
+        text = str(e)
+        if "\n" in text or not all(w in text for w in words):
+            fail(f"says '{text}', expected {words}")
+        return
+    fail(f"not refused: {words}")
+
+
+def pack_by_golden(folder, scene, config, size):
+    """Every frame of a pack, sound and malformed: the golden core by Python gives its very pixels and errors."""
+    options = [*(["--size", size, "--degrade"] if size else []), "--frames", "2", "--config", config, "--no-rtl"]
+    pack = kage.write_pack(scene, folder / f"{config}-{scene}", options)
+    core = kage.Golden(pack.config)
+    frames = pack.frames()
+    for i, f in enumerate(frames):
+        drawn = core.frame(f.words)
+        same(f"{config} frame {i}: lines", drawn.lines, f.lines)
+        same(f"{config} frame {i}: whether it is sound", bool(drawn.status), f.error == "NONE")
+        if not drawn.status and not drawn.status.text.startswith(f"{f.error}:"):
+            fail(f"{config} frame {i}: {drawn.status}, expected {f.error}")
+    return core, frames
+
+
+def states(core, words):
+    """Word by word: the same frame, and the state that pixels have right ahead of a line's end is what the line shows."""
+    whole = core.frame(words)
+    shown = {}
+    clear = (1 << core.config.Z_BITS) - 1
+    before, checked, kinds = [], 0, []
+    for step in core.steps(words):
+        kinds.append(step.kind)
+        if step.kind == "EOL":
+            shown[step.line - 1] = before
+        width = whole.width
+        before = [core.pixel(x) for x in range(width)] if step.kind != "END" else []
+    same("the frame by steps", core.finished, whole)
+    same("the first and the last step", (kinds[0], kinds[-1]), ("HEADER", "END"))
+    for y, pixels in shown.items():
+        for x, p in enumerate(pixels):
+            if p.z not in (None, clear):
+                at = x * core.config.CHANNELS
+                same(f"line {y}, x {x}", bytes(p.color), whole.lines[y][at : at + core.config.CHANNELS])
+                checked += 1
+    return checked
+
+
+with tempfile.TemporaryDirectory() as name:
+    folder = pathlib.Path(name)
+    tiny, frames = pack_by_golden(folder, "courtyard", "tiny", "24x16")
+    if (checked := states(tiny, frames[0].words)) < 100:
+        fail(f"only {checked} pixels of tiny were looked at")
+    pack_by_golden(folder, "courtyard", "default", "24x16")
+    pack_by_golden(folder, "three-lights", "lights", "24x16")
+    pack_by_golden(folder, "polyhedra", "polyhedra", "24x16")
+    pack_by_golden(folder, "random:mixed", "glasslights", None)
+
+    # A stream file's frames, and a configuration by mapping.
+    stream = folder / "courtyard.kage"
+    subprocess.run([program, "stream", "courtyard", "--size", "24x16", "--frames", "2", "--config", "default", "--out", stream], check=True, capture_output=True)  # fmt: skip
+    core = kage.Golden(stream)
+    drawn = [core.frame(words) for words in kage.frames(stream)]
+    same("frames of the file", len(drawn), 2)
+    same("by a mapping", kage.Golden({"LANES": 8, "MAX_WIDTH": 1280}).config, core.config)
+    same("by a Config", kage.Golden(core.config).frame(next(kage.frames(stream))), drawn[0])
+    if kage.Golden("tiny").frame(next(kage.frames(stream))).status:
+        fail("a frame of another configuration is sound")
+
+    # What is wrong.
+    refused(kage.GoldenError, lambda: kage.Golden("nowhere"), "nowhere", "no configuration")
+    refused(kage.GoldenError, lambda: kage.Golden({"Z_BITS": 99}), "Z_BITS")
+    refused(kage.PackError, lambda: kage.Pack(folder / "none"), "manifest.json")
+    refused(kage.PackError, lambda: kage.write_pack("nowhere", folder / "x"), "nowhere")
+    pixels = folder / "tiny-courtyard/../default-courtyard/pixels.bin"
+    data = bytearray(pixels.read_bytes())
+    data[3] ^= 1
+    pixels.write_bytes(data)
+    refused(kage.PackError, lambda: kage.Pack(folder / "default-courtyard").frames(), "pixels.bin", "manifest")
+    (folder / "tiny-courtyard/manifest.json").write_text("{}")
+    refused(kage.PackError, lambda: kage.Pack(folder / "tiny-courtyard"), "kage.pack/1")
+    try:
+        core.pixel(10**6)
+        fail("pixel 10^6 is there")
+    except IndexError:
+        pass
+    missing = subprocess.run([sys.executable, "-c", "import kage; kage.Golden('tiny')"], env=os.environ | {"PYTHONPATH": f"{source}/python", "KAGE_GOLDEN": "/nowhere.so"}, capture_output=True, text=True)  # fmt: skip
+    if "libkage_golden.so: not found" not in missing.stderr:
+        fail(f"a missing library: {missing.stderr}")
+    # As a user installs it. No index is asked: setuptools is the system's.
+    into = folder / "installed"
+    done = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index", "--target", into, f"{source}/python"], env=os.environ | {"KAGE_BUILD": str(pathlib.Path(library).parents[1])}, capture_output=True, text=True)  # fmt: skip
+    if done.returncode != 0:
+        fail(f"pip install: {done.stderr[-500:]}")
+    del os.environ["KAGE_GOLDEN"]
+    told = subprocess.run([sys.executable, "-c", "import kage; print(kage.__file__, kage.Golden({'Z_BITS': 16}).config.Z_BITS)"], env=os.environ | {"PYTHONPATH": str(into)}, cwd=folder, capture_output=True, text=True)  # fmt: skip
+    same("the installed package", told.stdout.split(), [str(into / "kage/__init__.py"), "16"])
+print("passed")
