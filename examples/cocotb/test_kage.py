@@ -128,12 +128,12 @@ class Bench:
             assert user == wanted or (len(user) == 1 and user * len(wanted) == wanted), f"{name}: line {y}: TUSER {user}"
 
     async def read(self, register):
-        answer = await self.registers.read(address(register), 4)
+        answer = await with_timeout(self.registers.read(address(register), 4), 10, "us")
         assert answer.resp == AxiResp.OKAY, f"{register}: {answer.resp}"
         return int.from_bytes(answer.data, "little")
 
     async def write(self, register, value):
-        answer = await self.registers.write(address(register), value.to_bytes(4, "little"))
+        answer = await with_timeout(self.registers.write(address(register), value.to_bytes(4, "little")), 10, "us")
         assert answer.resp == AxiResp.OKAY, f"{register}: {answer.resp}"
 
     async def until(self, register, value):
@@ -318,7 +318,7 @@ async def register_accesses(dut):
         assert await write_raw(address("ID"), 1, 15, order) == AxiResp.OKAY  # read only: ignored
         past = max(at for at, _, _ in REGISTERS.values()) + 4
         assert await write_raw(past, 1, 15, order) == AxiResp.SLVERR, order
-        assert (await bench.registers.read(past, 4)).resp == AxiResp.SLVERR
+        assert (await with_timeout(bench.registers.read(past, 4), 10, "us")).resp == AxiResp.SLVERR
     assert await bench.read("ID") == 0x4B414745
     # A read and a write at the same time.
     write = cocotb.start_soon(bench.write("CONTROL", 7))

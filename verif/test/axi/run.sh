@@ -43,6 +43,6 @@ case $fault in
   *)
     [ $passed = 0 ] || { echo "run.sh: $config with the defect $fault passes"; exit 1; }
     grep -qE '^ *\*\* TESTS=[0-9]+ PASS=[0-9]+ FAIL=[1-9]|AssertionError' "$work/log" || { tail -20 "$work/log"; echo "run.sh: $config with $fault: it does not run"; exit 1; }
-    grep -m1 'AssertionError: ' "$work/log" | sed 's/^ *//'
+    grep -m1 -E '(AssertionError|SimTimeoutError)' "$work/log" | sed 's/^ *//'
     ;;
 esac
