@@ -268,6 +268,7 @@ int write_pack(const VectorsCommand& o) {
   if (o.out.empty() && !o.sizes) throw Error("--out: needed: the folder of the pack (or --sizes, which writes none)");
   check_json(o);
   if (o.cover && o.budget > 0) throw Error("--cover: frames that reach all are not those that fit: no --budget");
+  if (o.cover && o.no_rtl) throw Error("--cover: the RTL must run to tell which of its lines are reached: no --no-rtl");
   if (!o.module.empty() && (o.sizes || o.no_rtl))
     throw Error("--module: the RTL must run to tell what passes at its ports: no --sizes, no --no-rtl");
   std::optional<OutFolder> folder;

@@ -1,23 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Puts the golden core's library into the package, where the source tree around it has been built."""
+"""Puts the golden core's library into the package, where the source tree around it has been built. The wheel is for this
+machine then."""
 
 import os
 import pathlib
 import shutil
 
-from setuptools import setup
+from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
 
 TREE = pathlib.Path(__file__).resolve().parent.parent
 
 
+LIBRARY = pathlib.Path(os.environ.get("KAGE_BUILD", TREE / "build/release")) / "lib/libkage_golden.so"
+
+
 class BuildWithLibrary(build_py):
     def run(self):
         super().run()
-        build = pathlib.Path(os.environ.get("KAGE_BUILD", TREE / "build/release"))
-        library = build / "lib/libkage_golden.so"
-        if library.exists():
-            shutil.copyfile(library.resolve(), pathlib.Path(self.build_lib) / "kage/libkage_golden.so")
+        copy = pathlib.Path(self.build_lib) / "kage/libkage_golden.so"
+        copy.unlink(missing_ok=True)  # an older build's
+        if LIBRARY.exists():
+            shutil.copyfile(LIBRARY.resolve(), copy)
+        else:
+            print(f"{LIBRARY}: missing, so the package has no golden core: build kage (tools/demo) and install it again")
 
 
-setup(cmdclass={"build_py": BuildWithLibrary})
+class ForThisMachine(Distribution):
+    def has_ext_modules(self):
+        return LIBRARY.exists()
+
+
+setup(cmdclass={"build_py": BuildWithLibrary}, distclass=ForThisMachine)

@@ -127,6 +127,15 @@ class Bench:
             wanted = [int(y == 0 and x == 0) for x in range(frame.width) for _ in range(self.channels)]
             assert user == wanted or (len(user) == 1 and user * len(wanted) == wanted), f"{name}: line {y}: TUSER {user}"
 
+    async def nothing_more(self):
+        """No pixel comes behind those that were expected."""
+        self.sink.clear_pause_generator()
+        self.sink.pause = False
+        for _ in range(100):
+            await RisingEdge(self.dut.aclk)
+            assert not self.dut.m_axis_tvalid.value, "a pixel too many"
+        assert self.sink.empty(), "a line too many"
+
     async def read(self, register):
         answer = await with_timeout(self.registers.read(address(register), 4), 10, "us")
         assert answer.resp == AxiResp.OKAY, f"{register}: {answer.resp}"
@@ -162,19 +171,24 @@ async def frame(dut, pattern):
     await bench.expect(bench.frame, pattern)
     await bench.until("FRAMES", 1)
     assert await bench.read("ERRORS") == 0
+    await bench.nothing_more()
 
 
 @cocotb.test()
 async def unknown_inputs_in_reset(dut):
     """Data and addresses are X while reset holds, and while their valid is low behind it."""
     bench = Bench(dut)
+    await RisingEdge(dut.aclk)
+    await RisingEdge(dut.aclk)  # the models have put their own values there by now
     for signal in (dut.s_axis_tdata, dut.s_axis_tlast, dut.s_axil_awaddr, dut.s_axil_wdata, dut.s_axil_wstrb, dut.s_axil_araddr):
         signal.value = cocotb.types.LogicArray("X" * len(signal))
     await bench.reset(clocks=3)
     for _ in range(20):
         await RisingEdge(dut.aclk)
+        assert not dut.s_axis_tdata.value.is_resolvable and not dut.s_axil_wdata.value.is_resolvable
     await bench.send(bench.words)
     await bench.expect(bench.frame, "behind unknown inputs")
+    await bench.nothing_more()
 
 
 @cocotb.test()
@@ -191,6 +205,7 @@ async def resets_within_a_frame(dut):
         await bench.send(bench.words)
         await bench.expect(bench.frame, f"behind a reset of {clocks}")
         await bench.until("FRAMES", 1)
+    await bench.nothing_more()
 
 
 @cocotb.test()
@@ -217,6 +232,7 @@ async def malformed_frames(dut):
             assert await bench.read("ERROR_TOKEN") == frame.status.token, f"{name}: expected {frame.status}"
             assert await bench.read("ERROR_FRAME") == frame.status.frame, f"{name}: expected {frame.status}"
         assert await bench.read("ERRORS") == errors, name
+        await bench.nothing_more()
     assert len(seen) >= 6, f"only the errors {sorted(seen)} came"
 
 
@@ -269,8 +285,11 @@ async def register_accesses(dut):
     assert field("SHAPE", "MAX_WIDTH", shape) == config.MAX_WIDTH
     assert field("SHAPE", "BEAT_WORDS", shape) == config.BEAT_WORDS
 
+    answers = bench.registers.write_if.b_channel
+
     async def write_raw(at, value, strobes, order):
         """A write whose address comes before its data, with it, or behind it; the answer is taken late."""
+        answers.pause = True  # the master takes none of them
         dut.s_axil_bready.value = 0
         todo = {"address": order == "data first", "data": order == "address first"}  # whether it waits for the other
         sent = set()
@@ -303,15 +322,20 @@ async def register_accesses(dut):
             await RisingEdge(dut.aclk)  # the answer waits, which the watch looks at
         dut.s_axil_bready.value = 1
         await ReadOnly()
+        assert dut.s_axil_bvalid.value, "the answer went away"
         response = AxiResp(int(dut.s_axil_bresp.value))
         await RisingEdge(dut.aclk)
         dut.s_axil_bready.value = 0
+        await RisingEdge(dut.aclk)
+        assert not dut.s_axil_bvalid.value, "a second answer"
+        answers.clear()
+        answers.pause = False
         return response
 
     for order in ("together", "address first", "data first"):
-        await write_raw(address("WATCHDOG"), 0x11223344, 15, order)
+        assert await write_raw(address("WATCHDOG"), 0x11223344, 15, order) == AxiResp.OKAY
         assert await bench.read("WATCHDOG") == 0x11223344, order
-        await write_raw(address("WATCHDOG"), 0xAABBCCDD, 0b0101, order)
+        assert await write_raw(address("WATCHDOG"), 0xAABBCCDD, 0b0101, order) == AxiResp.OKAY
         assert await bench.read("WATCHDOG") == 0x11BB33DD, order
         assert await write_raw(address("WATCHDOG"), 0, 0, order) == AxiResp.OKAY
         assert await bench.read("WATCHDOG") == 0x11BB33DD, order
@@ -365,3 +389,4 @@ async def interrupt_and_watchdog(dut):
     bench.sink.pause = False
     await bench.expect(bench.frame, "behind a standstill")
     await bench.until("FRAMES", 2)
+    await bench.nothing_more()

@@ -154,6 +154,7 @@ class Golden:
         #: the core's parameters
         self.config = stream.Config(**values)
         self._lines: list[bytes] = []
+        self._open = False  # a frame has begun by steps
         self._taker = _TAKER(lambda _, y, pixels, size: self._lines.append(ctypes.string_at(pixels, size)))
         self._lib.kage_golden_on_line(self._core, self._taker, None)
 
@@ -163,33 +164,30 @@ class Golden:
 
     def frame(self, words: Sequence[int]) -> Frame:
         """Draw a whole frame, sound or malformed: `words` of 32 bits, the last one with TLAST."""
+        self._forget()
         array = (ctypes.c_uint * len(words))(*words)
-        self._lines.clear()
         if self._lib.kage_golden_feed(self._core, array, len(words)) == _ERROR:
             raise GoldenError(self._lib.kage_golden_error(self._core).decode())
         return self._finish()
 
     def steps(self, words: Iterable[int]) -> Iterator[Step]:
-        """Give a frame word by word; a step for each token that was accepted. After the last one, `finished` is the frame.
-        It ends early, at the token that is refused."""
-        self._lines.clear()
-        failed = False
+        """Give a frame word by word; a step for each token that was accepted, up to END or one that is refused. After all
+        words, `finished` is the frame."""
+        self._forget()
+        self._open = True
+        going = True  # no END and no error yet
         for word in words:
             what = self._lib.kage_golden_word(self._core, word)
             if what == _ERROR:
                 raise GoldenError(self._lib.kage_golden_error(self._core).decode())
-            failed = failed or what == _FAILED
-            if what in (_TOKEN, _END) and not failed:
-                if what == _END and self._lib.kage_golden_token_kind(self._core) != KINDS.index("END"):
-                    continue
+            if going and what in (_TOKEN, _END):
                 yield Step(
                     self._lib.kage_golden_token_index(self._core),
                     KINDS[self._lib.kage_golden_token_kind(self._core)],
                     self._lib.kage_golden_token_text(self._core).decode(),
                     self._lib.kage_golden_line(self._core),
                 )
-                if what == _END:
-                    break
+            going = going and what not in (_END, _FAILED)
         self.finished = self._finish()
 
     def pixel(self, x: int) -> Pixel:
@@ -210,7 +208,15 @@ class Golden:
             tuple(field(PIXEL["count"] + i) for i in range(self.config.LIGHTS if self.config.COUNT_BITS else 0)),
         )
 
+    def _forget(self) -> None:
+        """A frame whose steps were not all asked for ends here, so that the next one begins."""
+        if self._open:
+            self._lib.kage_golden_finish(self._core)
+        self._open = False
+        self._lines.clear()
+
     def _finish(self) -> Frame:
+        self._open = False
         self._lib.kage_golden_finish(self._core)
         values = [self._lib.kage_golden_status(self._core, i) for i in range(7)]
         status = Status(*values[:5], self._lib.kage_golden_status_text(self._core).decode())

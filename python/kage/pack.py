@@ -45,10 +45,19 @@ class Pack:
             raise PackError(f"{path}: not JSON: {e}") from e
         if not isinstance(self.manifest, dict) or self.manifest.get("schema") != SCHEMA:
             raise PackError(f"{path}: not a pack of format {SCHEMA}")
-        self.config = stream.Config(**self.manifest["config"])
+        try:
+            self.config = stream.Config(**self.manifest["config"])
+        except (KeyError, TypeError) as e:
+            raise PackError(f"{path}: its configuration is not one: {e}") from e
 
     def frames(self) -> list[PackFrame]:
-        """All frames in order, malformed ones too."""
+        """All frames in order, malformed ones too. Raises PackError where the files have not what the manifest says."""
+        try:
+            return self._frames()
+        except (KeyError, TypeError, ValueError) as e:
+            raise PackError(f"{self.folder / 'manifest.json'}: not as a pack's is: {e!r}") from e
+
+    def _frames(self) -> list[PackFrame]:
         words = self._bytes("stimulus.bin")
         pixels = self._bytes("pixels.bin")
         frames, beat_at, pixel_at = [], 0, 0
@@ -61,6 +70,8 @@ class Pack:
             pixel_at += f["height"] * row
             numbers = [int.from_bytes(taken[4 * i : 4 * i + 4], "little") for i in range(f["words"])]
             frames.append(PackFrame(f["what"], f["error"], numbers, lines))
+        if beat_at != len(words) or pixel_at != len(pixels):
+            raise ValueError("its frames are not all of stimulus.bin and pixels.bin")
         return frames
 
     def _bytes(self, name: str) -> bytes:

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "cosim/model/rtl.hpp"
 #include "stimulus/coverage.hpp"
@@ -120,15 +121,37 @@ Cover cover(FrameSource& source, const std::filesystem::path& library, std::uint
   for (const std::size_t i : order)
     if (chosen[i] && lines.alone(chosen)[i] == 0 && points.alone(chosen)[i] == 0) chosen[i] = false;
 
+  // What counts is what the chosen frames reach when they follow each other, which may be more than each alone or less.
+  // For what is lost so, the smallest frame that has it is taken too.
+  const auto play = [&] {
+    std::vector<std::vector<std::uint32_t>> held;
+    for (std::size_t i = 0; i < count; ++i)
+      if (chosen[i]) held.push_back(source.words(static_cast<int>(i)));
+    std::vector<const std::vector<std::uint32_t>*> in_order;
+    for (const auto& words : held) in_order.push_back(&words);
+    return counts_of(library, config, seed, in_order);
+  };
+  std::map<std::string, std::uint64_t> together = play();
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& [place, frames] : lines.all()) {
+      if (together.at(place) > 0) continue;
+      const auto by = std::min_element(frames.begin(), frames.end(), [&](int a, int b) {
+        return std::pair(chosen[static_cast<std::size_t>(a)], size[static_cast<std::size_t>(a)]) <
+               std::pair(chosen[static_cast<std::size_t>(b)], size[static_cast<std::size_t>(b)]);
+      });
+      if (by == frames.end() || chosen[static_cast<std::size_t>(*by)]) continue;
+      chosen[static_cast<std::size_t>(*by)] = true;
+      more = true;
+      break;
+    }
+    if (more) together = play();
+  }
+
   Cover result;
   for (std::size_t i = 0; i < count; ++i)
     if (chosen[i]) result.frames.push_back({static_cast<int>(i), {}, source.words(static_cast<int>(i))});
-  // Some is reached only where one frame follows another.
-  std::vector<const std::vector<std::uint32_t>*> in_order;
-  for (const ChosenFrame& f : result.frames) in_order.push_back(&f.words);
-  const std::map<std::string, std::uint64_t> together = counts_of(library, config, seed, in_order);
-  for (const auto& [place, frames] : lines.all())
-    (frames.empty() && together.at(place) == 0 ? result.unreached : result.reached).push_back(place);
+  for (const auto& [place, times] : together) (times == 0 ? result.unreached : result.reached).push_back(place);
   result.points = points.all().size();
   return result;
 }

@@ -13,17 +13,18 @@ namespace kage::vectors {
 
 /// Few frames that reach what many reach.
 struct Cover {
-  std::vector<ChosenFrame> frames;   ///< whole ones, in the order of the source
-  std::vector<std::string> reached;  ///< lines and branches of the RTL, "token_reader.sv:120 else", sorted
+  std::vector<ChosenFrame> frames;  ///< whole ones, in the order of the source
   std::vector<std::string>
-      unreached;             ///< those that no frame of the source reaches, nor the chosen ones in a row; sorted
-  std::uint64_t points = 0;  ///< of stimulus/coverage.hpp: kinds of tokens and errors that are reached
+      reached;  ///< lines and branches of the RTL that they reach in a row, "token_reader.sv:120 else"
+  std::vector<std::string> unreached;  ///< the others; sorted, as those are
+  std::uint64_t points = 0;            ///< of stimulus/coverage.hpp: kinds of tokens and errors that are reached
 };
 
 /// Of a source's frames so few that they reach all lines and branches of the RTL, all kinds of tokens and all errors
 /// that all of them reach: time after time that frame which reaches most for its words, then none that the others make
-/// needless. Each runs alone on a core out of reset whose streams stop in a quarter of the clocks, by `seed`. `library`
-/// is a model of the source's configuration that counts lines. Throws as FrameSource::frame().
+/// needless. Each is tried alone, then all chosen ones in a row, on a core out of reset whose streams stop in a quarter
+/// of the clocks, by `seed`. `library` is a model of the source's configuration that counts lines. Throws as
+/// FrameSource::frame().
 Cover cover(FrameSource& source, const std::filesystem::path& library, std::uint64_t seed,
             const std::function<void(int frame)>& progress);
 

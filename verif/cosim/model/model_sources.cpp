@@ -103,9 +103,11 @@ ModelTools model_tool_versions(const ModelOptions& options, bool anew) {
   const char* const cxx = std::getenv("CXX");
   tools.cxx = cxx != nullptr ? cxx : "";
   tools.compiler = anew ? output_of(kCompiler) : compiler_version();
+  const char* const yosys = std::getenv("YOSYS");
   if (!options.netlist.empty()) tools.yosys = output_of(kYosys);
   if (!options.netlist.empty() && tools.yosys.empty())
     throw Error("yosys: not found, and netlists need it: tools/deps test installs it");
+  if (!options.netlist.empty() && yosys != nullptr) tools.yosys += yosys;  // it may have flags
   return tools;
 }
 

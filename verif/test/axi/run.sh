@@ -15,6 +15,7 @@ top=$(cd "$(dirname "$0")/../../.." && pwd)
 . "$top/tools/pypi.sh"
 cocotb=$(pypi_folder cocotb)
 [ -d "$cocotb" ] || { echo "run.sh: cocotb is not installed: tools/deps axi does that"; exit 77; }
+unset COCOTB_TESTCASE COCOTB_TEST_FILTER COCOTB_TEST_MODULES
 export PATH=$cocotb/bin:$PATH PYTHONPATH=$cocotb KAGE_GOLDEN=$build/lib/libkage_golden.so
 rm -rf "$work"
 mkdir -p "$work"
@@ -34,7 +35,8 @@ rc=0
 make -C "$top/examples/cocotb" WORK="$work" RTL="$rtl" KAGE="$build/bin/kage" CONFIG="$work/config.yaml" SIZE="$size" >"$work/log" 2>&1 || rc=$?
 passed=0
 # Newer cocotbs end make with an error where a test fails, older ones tell it in results.xml alone.
-if [ $rc = 0 ] && [ -f "$work/results.xml" ] && ! grep -q '<failure\|<error' "$work/results.xml"; then passed=1; fi
+if [ $rc = 0 ] && [ -f "$work/results.xml" ] && ! grep -q '<failure\|<error' "$work/results.xml" &&
+  grep -q 'TESTS=9 PASS=9 ' "$work/log"; then passed=1; fi
 grep -E '\*\* (test_kage|TESTS)' "$work/log" | sed 's/^ *//' || true
 case $fault in
   '' | polite_ready)

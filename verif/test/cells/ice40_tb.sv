@@ -186,7 +186,8 @@ module cells_tb;
       // Eight words, in all slots.
       waddr = 11'($urandom) & 11'h703;
       raddr = 11'($urandom) & 11'h703;
-      mask = n < 3 ? 16'd0 : 16'($urandom);
+      if (waddr[7:0] == raddr[7:0]) re = 1'b0;  // ours gives X, yosys' the old word
+      mask  = n < 3 ? 16'd0 : 16'($urandom);
       wdata = 16'($urandom);
       #1 clk = 1'b1;
       #1 clk = 1'b0;

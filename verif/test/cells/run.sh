@@ -15,13 +15,14 @@ trap 'rm -rf "$work"' EXIT
 fail() { echo "run.sh: $family: $1" >&2; exit 1; }
 
 # ---- yosys' own models, by other names; what they say of delays is no part of them ----
-own=$(dirname "$(dirname "$(realpath "$(command -v yosys)")")")/share/yosys/$family/cells_sim.v
+read -ra yosys <<<"${YOSYS:-yosys}"
+own=${KAGE_YOSYS_SHARE:-$(dirname "$(dirname "$(realpath "$(command -v "${yosys[0]}")")")")/share/yosys}/$family/cells_sim.v
 names=$(sed -nE 's/^module \\?([A-Za-z0-9_$]+).*/\1/p' "$own" | sort -u)
 rename=$(for n in $names; do printf 's/(^|[^A-Za-z0-9_$"])%s\\b/\\1tool_%s/g;' "${n//$/\\$}" "${n//$/}"; done)
 sed -E "s/^(module )\\\\\\$/\\1/; $rename" "$own" | grep -v '`include' | awk '/specify/ && !/endspecify/{skip=1} !skip; /endspecify/{skip=0}' >"$work/tool.v"
 
 # ---- the netlist of pieces.sv ----
-yosys -q -l "$work/yosys.log" -p "read_verilog -defer -sv $top/rtl/ram_1r1w.sv $here/pieces.sv
+"${yosys[@]}" -q -l "$work/yosys.log" -p "read_verilog -defer -sv $top/rtl/ram_1r1w.sv $here/pieces.sv
   hierarchy -top pieces -chparam FACTOR $factor; synth_$family -top pieces; rename pieces pieces_netlist; write_verilog -noattr $work/netlist.v" \
   >/dev/null || fail "yosys failed: $(tail -1 "$work/yosys.log")"
 modelled=$(sed -nE 's/^module ([A-Za-z0-9_]+).*/\1/p' "$cells")

@@ -237,6 +237,14 @@ broken 'the golden core ends it with' sed -i '0,/"error": "ORDER"/s//"error": "R
 # ---- bad requests ----
 trouble 'give a SCENE, or --check PACK, or --compare PACK CAPTURE' "$kage" vectors
 trouble '--out: needed' "$kage" vectors courtyard
+# ---- frames that reach what all reach: fewer than all, and each reaches something ----
+expect 0 "$kage" vectors random:mixed --frames 40 --config tiny --cover --out cover --json cover.json
+json cover.json 'j["frames"] < 25 and j["malformed"] > 3 and len(j["lines_of_rtl"]["reached"]) > 300'
+json cover.json 'any("registers.sv" in p for p in j["lines_of_rtl"]["unreached"]) and not set(j["lines_of_rtl"]["reached"]) & set(j["lines_of_rtl"]["unreached"])'
+expect 0 "$kage" vectors --check cover
+trouble '--cover: the RTL must run' "$kage" vectors random --cover --no-rtl --out none
+trouble 'no --budget' "$kage" vectors courtyard --cover --budget 5000 --out none
+
 trouble 'give a SCENE, or --check PACK' "$kage" vectors courtyard --check p
 trouble '--frame: only a capture is of one frame' "$kage" vectors courtyard --frame 3 --out none
 trouble '--check takes no option of writing a pack' "$kage" vectors --check p --out none

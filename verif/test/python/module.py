@@ -5,6 +5,7 @@ tell every token and the state behind it, and what is wrong is refused in a line
 
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -94,6 +95,15 @@ with tempfile.TemporaryDirectory() as name:
     if kage.Golden("tiny").frame(next(kage.frames(stream))).status:
         fail("a frame of another configuration is sound")
 
+    # Malformed frames by steps are the frame at once; steps that nobody asks for leave nothing to the next frame.
+    for f in pack_by_golden(folder, "random:mixed", "tiny", None)[1] + frames:
+        whole = tiny.frame(f.words)
+        for _ in tiny.steps(f.words):
+            pass
+        same(f"{f.what} by steps", tiny.finished, whole)
+        next(tiny.steps(f.words), None)
+        same(f"{f.what} behind a step", tiny.frame(f.words), whole)
+
     # What is wrong.
     refused(kage.GoldenError, lambda: kage.Golden("nowhere"), "nowhere", "no configuration")
     refused(kage.GoldenError, lambda: kage.Golden({"Z_BITS": 99}), "Z_BITS")
@@ -104,7 +114,13 @@ with tempfile.TemporaryDirectory() as name:
     data[3] ^= 1
     pixels.write_bytes(data)
     refused(kage.PackError, lambda: kage.Pack(folder / "default-courtyard").frames(), "pixels.bin", "manifest")
-    (folder / "tiny-courtyard/manifest.json").write_text("{}")
+    manifest = folder / "tiny-courtyard/manifest.json"
+    whole = manifest.read_text()
+    manifest.write_text(whole.replace('"Z_BITS"', '"Y_BITS"'))
+    refused(kage.PackError, lambda: kage.Pack(manifest.parent), "manifest.json", "configuration")
+    manifest.write_text(whole.replace('"height"', '"hight"'))
+    refused(kage.PackError, lambda: kage.Pack(manifest.parent).frames(), "manifest.json", "height")
+    manifest.write_text("{}")
     refused(kage.PackError, lambda: kage.Pack(folder / "tiny-courtyard"), "kage.pack/1")
     try:
         core.pixel(10**6)
@@ -116,7 +132,8 @@ with tempfile.TemporaryDirectory() as name:
         fail(f"a missing library: {missing.stderr}")
     # As a user installs it. No index is asked: setuptools is the system's.
     into = folder / "installed"
-    done = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index", "--target", into, f"{source}/python"], env=os.environ | {"KAGE_BUILD": str(pathlib.Path(library).parents[1])}, capture_output=True, text=True)  # fmt: skip
+    shutil.copytree(f"{source}/python", folder / "python")
+    done = subprocess.run([sys.executable, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps", "--no-index", "--target", into, folder / "python"], env=os.environ | {"KAGE_BUILD": str(pathlib.Path(library).parents[1])}, capture_output=True, text=True)  # fmt: skip
     if done.returncode != 0:
         fail(f"pip install: {done.stderr[-500:]}")
     del os.environ["KAGE_GOLDEN"]

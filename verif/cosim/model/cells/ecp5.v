@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells of ECP5 that yosys' synth_ecp5 leaves of the core, for `kage cosim --netlist ecp5`. Registers and memories have
-// no initial value: a simulator gives them X, or random bits. A cell or a mode that is not here is an error of
+// no initial value: a simulator gives them X, or random bits. What an enable or a reset that is X may decide becomes X. A cell or a mode that is not here is an error of
 // elaboration, in which a missing module's name says what it is.
 //
 // verif/test/cells holds each against yosys' own model where yosys has one, and against RTL that becomes such cells.
@@ -85,10 +85,7 @@ module TRELLIS_FF #(
 );
   wire enable = CEMUX == "1" ? 1'b1 : CEMUX == "0" ? 1'b0 : CEMUX == "INV" ? ~CE : CE;
   wire set = LSRMUX == "INV" ? ~LSR : LSR;
-  always @(posedge CLK) begin
-    if (set) Q <= REGSET == "SET";
-    else if (enable) Q <= DI;
-  end
+  always @(posedge CLK) Q <= set ? REGSET == "SET" : enable ? DI : Q;
   generate
     if (CLKMUX != "CLK") TRELLIS_FF_on_the_falling_edge_is_not_modelled u_refused ();
     if (SRMODE != "LSR_OVER_CE") TRELLIS_FF_of_another_SRMODE_is_not_modelled u_refused ();
@@ -110,7 +107,7 @@ module TRELLIS_DPR16X4 #(
 );
   reg [3:0] memory[0:15];
   wire write = WREMUX == "1" ? 1'b1 : WREMUX == "0" ? 1'b0 : WREMUX == "INV" ? ~WRE : WRE;
-  always @(posedge WCK) if (write) memory[WAD] <= DI;
+  always @(posedge WCK) if (write !== 1'b0) memory[WAD] <= write === 1'b1 ? DI : 4'bxxxx;
   assign DO = memory[RAD];
   generate
     if (WCKMUX != "WCK") TRELLIS_DPR16X4_on_the_falling_edge_is_not_modelled u_refused ();
@@ -161,8 +158,8 @@ endmodule
 // 18 kbit, kept as 2048 bytes of 9 bits. A port of 1, 2 or 4 bits takes a part of a byte's lowest eight, one of 9 a byte,
 // one of 18 two; address pins 13 .. 3 choose the byte, and the lowest two pins of a port of 18 say which bytes are written.
 // At a width of 36 port A writes four bytes, the pins 3 .. 0 say which, and port B reads them; the lower half of the data
-// is at the pins of A, the upper half at those of B. A read gives what stood there before any write of the same clock. In
-// mode NORMAL a port that writes keeps its output.
+// is at the pins of A, the upper half at those of B, as yosys has it. At a width of 36 a read of what is written in the same
+// clock gives X. In mode NORMAL a port that writes keeps its output.
 module DP16KD #(
     parameter DATA_WIDTH_A = 18,
     parameter DATA_WIDTH_B = 18,
@@ -252,15 +249,19 @@ module DP16KD #(
     if (DATA_WIDTH_A == 36 || DATA_WIDTH_B == 36) begin : gen_simple
       wire [10:0] to = {ad_a[13:5], 2'd0};
       wire [10:0] from = {ad_b[13:5], 2'd0};
+      wire writes = on_a && WEA;
+      wire meets = writes !== 1'b0 && to == from;  // the device may give old, new or mixed bits
       always @(posedge CLKA) begin
-        if (on_a && WEA && ad_a[0]) memory[to] <= di_a[8:0];
-        if (on_a && WEA && ad_a[1]) memory[to|11'd1] <= di_a[17:9];
-        if (on_a && WEA && ad_a[2]) memory[to|11'd2] <= di_b[8:0];
-        if (on_a && WEA && ad_a[3]) memory[to|11'd3] <= di_b[17:9];
+        if ((writes && ad_a[0]) !== 1'b0) memory[to] <= (writes && ad_a[0]) === 1'b1 ? di_a[8:0] : 9'bx;
+        if ((writes && ad_a[1]) !== 1'b0) memory[to|11'd1] <= (writes && ad_a[1]) === 1'b1 ? di_a[17:9] : 9'bx;
+        if ((writes && ad_a[2]) !== 1'b0) memory[to|11'd2] <= (writes && ad_a[2]) === 1'b1 ? di_b[8:0] : 9'bx;
+        if ((writes && ad_a[3]) !== 1'b0) memory[to|11'd3] <= (writes && ad_a[3]) === 1'b1 ? di_b[17:9] : 9'bx;
       end
       always @(posedge CLKB) begin
         if (RSTB) {do_b, do_a} <= 36'd0;
-        else if (on_b) {do_b, do_a} <= {memory[from|11'd3], memory[from|11'd2], memory[from|11'd1], memory[from]};
+        else if (on_b !== 1'b0)
+          {do_b, do_a} <= on_b !== 1'b1 || meets ? 36'bx :
+              {memory[from|11'd3], memory[from|11'd2], memory[from|11'd1], memory[from]};
       end
       if (DATA_WIDTH_A != DATA_WIDTH_B) DP16KD_of_36_and_fewer_bits_is_not_modelled u_refused ();
     end else begin : gen_dual

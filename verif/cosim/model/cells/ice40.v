@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells of iCE40 that yosys' synth_ice40 leaves of the core, for `kage cosim --netlist ice40`. Registers and memories
-// have no initial value: a simulator gives them X, or random bits. A cell, a clock edge or a reset that is not here is an
+// have no initial value: a simulator gives them X, or random bits. What an enable or a reset that is X may decide becomes X. A cell, a clock edge or a reset that is not here is an
 // error of elaboration.
 //
 // verif/test/cells holds each against yosys' own model, and against RTL that becomes such cells.
@@ -47,7 +47,7 @@ module SB_DFFE (
     input wire D,
     output reg Q
 );
-  always @(posedge C) if (E) Q <= D;
+  always @(posedge C) Q <= E ? D : Q;
 endmodule
 
 module SB_DFFSR (
@@ -75,7 +75,7 @@ module SB_DFFESR (
     input wire D,
     output reg Q
 );
-  always @(posedge C) if (E) Q <= R ? 1'b0 : D;
+  always @(posedge C) Q <= E ? (R ? 1'b0 : D) : Q;
 endmodule
 
 module SB_DFFESS (
@@ -85,12 +85,12 @@ module SB_DFFESS (
     input wire D,
     output reg Q
 );
-  always @(posedge C) if (E) Q <= S ? 1'b1 : D;
+  always @(posedge C) Q <= E ? (S ? 1'b1 : D) : Q;
 endmodule
 
 // 4 kbit: 256 words of 16 bits, or, with a mode of 1, 2 or 3, 512 x 8, 1024 x 4 or 2048 x 2. Then address bits 8 and up
-// choose one of 2, 4 or 8 neighbouring bits of the word, and each datum has one pin of as many. Reading a word in the clock
-// in which it is written gives the old one.
+// choose one of 2, 4 or 8 neighbouring bits of the word, and each datum has one pin of as many. A bit that is read in the
+// clock in which it is written is X: the device may give the old or the new one.
 module SB_RAM40_4K #(
     parameter WRITE_MODE = 0,
     parameter READ_MODE = 0,
@@ -121,22 +121,26 @@ module SB_RAM40_4K #(
 
   reg [15:0] memory[0:255];
 
-  reg [15:0] next, word, read;
+  reg [15:0] next, word, read, written;
   integer i, j;
   always @(posedge WCLK) begin
-    if (WE && WCLKE) begin
+    if ((WE & WCLKE) !== 1'b0) begin
       next = memory[WADDR[7:0]];
       for (i = 0; i < 16; i = i + WSTEP)
         if (WRITE_MODE != 0 || !MASK[i]) next[i+{29'd0, WADDR[10:8]&WSLOTS}] = WDATA[i+WPIN];
-      memory[WADDR[7:0]] <= next;
+      memory[WADDR[7:0]] <= (WE & WCLKE) === 1'b1 ? next : 16'hxxxx;
     end
   end
   always @(posedge RCLK) begin
-    if (RE && RCLKE) begin
+    if ((RE & RCLKE) !== 1'b0) begin
+      written = 16'd0;
+      for (j = 0; j < 16; j = j + WSTEP)
+        if (WRITE_MODE != 0 || !MASK[j]) written[j+{29'd0, WADDR[10:8]&WSLOTS}] = (WE & WCLKE) !== 1'b0;
       word = memory[RADDR[7:0]];
+      if (WADDR[7:0] == RADDR[7:0]) word = (word & ~written) | (written & 16'hxxxx);
       read = 16'd0;
       for (j = 0; j < 16; j = j + RSTEP) read[j+RPIN] = word[j+{29'd0, RADDR[10:8]&RSLOTS}];
-      RDATA <= read;
+      RDATA <= (RE & RCLKE) === 1'b1 ? read : 16'hxxxx;
     end
   end
 endmodule

@@ -60,16 +60,15 @@ def main():
     parser.add_argument("out")
     parser.add_argument("params", nargs="*")
     args = parser.parse_args()
-    with tempfile.TemporaryDirectory(prefix="kage-netlist-") as folder:
-        whole = pathlib.Path(folder) / "netlist.v"
-        synthesize(
-            args.family,
-            whole,
-            parameters(args.params),
-            sources.RTL,
-            Log(pathlib.Path(tempfile.gettempdir()) / f"kage-netlist-{os.getpid()}.log"),
-        )
-        pathlib.Path(args.out).write_bytes(whole.read_bytes())
+    out = pathlib.Path(args.out).resolve()
+    log = Log(pathlib.Path(tempfile.gettempdir()) / f"kage-netlist-{os.getpid()}.log")  # it outlives a failure
+    partial = out.with_name(f".{out.name}.{os.getpid()}.v")
+    try:
+        synthesize(args.family, partial, parameters(args.params), sources.RTL, log)
+        os.replace(partial, out)
+    finally:
+        partial.unlink(missing_ok=True)
+    log.path.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":
