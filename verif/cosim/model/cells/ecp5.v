@@ -249,19 +249,22 @@ module DP16KD #(
     if (DATA_WIDTH_A == 36 || DATA_WIDTH_B == 36) begin : gen_simple
       wire [10:0] to = {ad_a[13:5], 2'd0};
       wire [10:0] from = {ad_b[13:5], 2'd0};
-      wire writes = on_a && WEA;
-      wire meets = writes !== 1'b0 && to == from;  // the device may give old, new or mixed bits
+      wire [3:0] writes = {4{on_a && WEA}} & ad_a[3:0];
+      wire [3:0] meets = to == from ? writes : 4'd0;  // the device may give old, new or mixed bits
       always @(posedge CLKA) begin
-        if ((writes && ad_a[0]) !== 1'b0) memory[to] <= (writes && ad_a[0]) === 1'b1 ? di_a[8:0] : 9'bx;
-        if ((writes && ad_a[1]) !== 1'b0) memory[to|11'd1] <= (writes && ad_a[1]) === 1'b1 ? di_a[17:9] : 9'bx;
-        if ((writes && ad_a[2]) !== 1'b0) memory[to|11'd2] <= (writes && ad_a[2]) === 1'b1 ? di_b[8:0] : 9'bx;
-        if ((writes && ad_a[3]) !== 1'b0) memory[to|11'd3] <= (writes && ad_a[3]) === 1'b1 ? di_b[17:9] : 9'bx;
+        if (writes[0] !== 1'b0) memory[to] <= writes[0] === 1'b1 ? di_a[8:0] : 9'bx;
+        if (writes[1] !== 1'b0) memory[to|11'd1] <= writes[1] === 1'b1 ? di_a[17:9] : 9'bx;
+        if (writes[2] !== 1'b0) memory[to|11'd2] <= writes[2] === 1'b1 ? di_b[8:0] : 9'bx;
+        if (writes[3] !== 1'b0) memory[to|11'd3] <= writes[3] === 1'b1 ? di_b[17:9] : 9'bx;
       end
       always @(posedge CLKB) begin
         if (RSTB) {do_b, do_a} <= 36'd0;
-        else if (on_b !== 1'b0)
-          {do_b, do_a} <= on_b !== 1'b1 || meets ? 36'bx :
-              {memory[from|11'd3], memory[from|11'd2], memory[from|11'd1], memory[from]};
+        else if (on_b !== 1'b0) begin
+          do_a[8:0] <= on_b !== 1'b1 || meets[0] !== 1'b0 ? 9'bx : memory[from];
+          do_a[17:9] <= on_b !== 1'b1 || meets[1] !== 1'b0 ? 9'bx : memory[from|11'd1];
+          do_b[8:0] <= on_b !== 1'b1 || meets[2] !== 1'b0 ? 9'bx : memory[from|11'd2];
+          do_b[17:9] <= on_b !== 1'b1 || meets[3] !== 1'b0 ? 9'bx : memory[from|11'd3];
+        end
       end
       if (DATA_WIDTH_A != DATA_WIDTH_B) DP16KD_of_36_and_fewer_bits_is_not_modelled u_refused ();
     end else begin : gen_dual
