@@ -291,12 +291,12 @@ async def register_accesses(dut):
         """A write whose address comes before its data, with it, or behind it; the answer is taken late."""
         answers.pause = True  # the master takes none of them
         dut.s_axil_bready.value = 0
-        todo = {"address": order == "data first", "data": order == "address first"}  # whether it waits for the other
+        second = {"address": order == "data first", "data": order == "address first"}  # it waits for the other one
         sent = set()
         wait = 3
         for _ in range(50):
             for what, valid in (("address", dut.s_axil_awvalid), ("data", dut.s_axil_wvalid)):
-                valid.value = int(what not in sent and (not todo[what] or wait == 0))
+                valid.value = int(what not in sent and (not second[what] or wait == 0))
             dut.s_axil_awaddr.value = at
             dut.s_axil_wdata.value = value
             dut.s_axil_wstrb.value = strobes

@@ -21,7 +21,7 @@ class Aims {
   void reach(const std::string& name, int frame) { frames_of_[name].push_back(frame); }
   void know(const std::string& name) { frames_of_.try_emplace(name); }
 
-  /// Whether something is reached by a frame of `chosen` and by none of the others in it: per frame, how much.
+  /// Per frame of `chosen`: how much it alone reaches of them.
   [[nodiscard]] std::vector<int> alone(const std::vector<bool>& chosen) const {
     std::vector<int> count(chosen.size());
     for (const auto& [name, frames] : frames_of_) {

@@ -19,12 +19,7 @@ unset COCOTB_TESTCASE COCOTB_TEST_FILTER COCOTB_TEST_MODULES
 export PATH=$cocotb/bin:$PATH PYTHONPATH=$cocotb KAGE_GOLDEN=$build/lib/libkage_golden.so
 rm -rf "$work"
 mkdir -p "$work"
-python3 - "$top" "$config" >"$work/config.yaml" <<'PY'
-import sys, yaml
-top, name = sys.argv[1:]
-known = yaml.safe_load(open(f"{top}/rtl/defs/configs.yaml")) | yaml.safe_load(open(f"{top}/constraints/cores.yaml"))
-for item in (known[name] or {}).items(): print("%s: %d" % item)
-PY
+"$top/tools/core_config.py" "$config" >"$work/config.yaml"
 rtl=$top/rtl
 if [ -n "$fault" ]; then
   cp -r "$top/rtl" "$work/rtl"
