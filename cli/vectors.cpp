@@ -19,6 +19,7 @@
 #include "rtl_run.hpp"
 #include "signals.hpp"
 #include "source.hpp"
+#include "standard_files.hpp"
 #include "text.hpp"
 #include "vectors/budget.hpp"
 #include "vectors/capture.hpp"

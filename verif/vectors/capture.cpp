@@ -152,7 +152,7 @@ std::optional<std::uint32_t> number_of(const std::string& digits) {
 
 void judge_hex(Judge& judge, const Pack& pack, const std::filesystem::path& path) {
   std::ifstream in(path);
-  const auto digits = static_cast<std::size_t>(2 * pack.config.channels);
+  const std::size_t digits = std::size_t{2} * static_cast<std::size_t>(pack.config.channels);
   std::vector<std::optional<std::uint8_t>> pixel(static_cast<std::size_t>(pack.config.channels));
   std::string line;
   std::optional<std::size_t> length;

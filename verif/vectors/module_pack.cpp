@@ -139,7 +139,7 @@ std::string PortsRecord::care(const std::string& outputs) const {
   const int all = std::accumulate(out_.begin(), out_.end(), 0, [](int sum, const Port& p) { return sum + p.bits; });
   std::vector<bool> bits(static_cast<std::size_t>(all), true);
   const auto ignore = [&](const Port& p, int from) {
-    for (int b = from; b < p.bits; ++b) bits[static_cast<std::size_t>(p.lsb + b)] = false;
+    std::fill(bits.begin() + p.lsb + from, bits.begin() + p.lsb + p.bits, false);
   };
   for (const PackModule::Qualified& q : module_->qualified)
     if (!bit(outputs, port_of(out_, q.by).lsb)) ignore(port_of(out_, q.port), 0);
