@@ -64,7 +64,13 @@ report::SceneRecord some_scene(const std::string& name) {
   s.page_crc32 = "00c0ffee";
   s.ways = {{.object = "gem", .component = 2, .components = 3, .unit_frames = 1, .span_frames = 1, .why = "no room"}};
   s.first_difference = some_difference(4);
-  s.options = {.fault = "wrong_compare", .idle = 20, .order = "exact", .alpha = 1.0 / 3, .samples = 4, .classes = 16};
+  s.options = {.fault = "wrong_compare",
+               .netlist = "ecp5",
+               .idle = 20,
+               .order = "exact",
+               .alpha = 1.0 / 3,
+               .samples = 4,
+               .classes = 16};
   s.config_name = "default";
   s.config.lanes = 4;
   s.seed = ~std::uint64_t{0};
