@@ -14,7 +14,7 @@ install(FILES ${PROJECT_BINARY_DIR}/kageConfig.cmake ${PROJECT_BINARY_DIR}/kageC
 
 install(DIRECTORY rtl scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kage)
 install(DIRECTORY verif/cosim/report/page DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/report)
-install(DIRECTORY verif/cosim/model/driver verif/cosim/model/faults DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/model USE_SOURCE_PERMISSIONS)
+install(DIRECTORY verif/cosim/model/cells verif/cosim/model/driver verif/cosim/model/faults DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/model USE_SOURCE_PERMISSIONS)
 install(DIRECTORY verif/vectors/bench DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/vectors)
 install(DIRECTORY verif/cosim/diverge/monitors DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/diverge)
 
@@ -22,6 +22,8 @@ install(DIRECTORY verif/cosim/diverge/monitors DESTINATION ${CMAKE_INSTALL_DATAD
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "__pycache__" EXCLUDE)
+install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
 install(DIRECTORY verif/test/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/verif/test PATTERN "*.sh" EXCLUDE)
 
 # For builds without CMake: pkg-config --cflags --libs kage. The static libraries ask for what they are linked with.

@@ -4,8 +4,8 @@
 //
 // Handshake: valid/ready on both sides, each at its own clock; in_ready_o and out_valid_o depend on registers only. A word
 // that is offered stays until it is taken.
-// Crossing: each side sends the other its pointer in Gray code, in which one bit changes at a time, through two flip-flops.
-// A pointer that is caught in the middle of a change is the old or the new one, so a side that sees an old one believes
+// Crossing: each side sends the other its pointer in Gray code, in which one bit changes at a time, through a
+// synchronizer. A pointer that is caught in the middle of a change is the old or the new one, so a side that sees an old one believes
 // that less is free, or less has come, than is true. The words themselves are read two clocks or more after they were
 // written.
 // Reset: at both sides at once, for as long as both are in it; each may leave it when it likes. Whoever resets one side
@@ -43,54 +43,63 @@ module async_fifo #(
   (* no_rw_check, rw_addr_collision = "no", ramstyle = "no_rw_check" *)
   logic [BITS-1:0] mem[DEPTH];
 
-  // Words that have come, and words that have been taken out of mem, modulo 2 DEPTH: as numbers and in Gray code.
-  logic [PtrBits-1:0] wr_q, wr_d, wr_gray_q, rd_q, rd_d, rd_gray_q;
-  // The other side's pointer, behind a first flip-flop that may be undecided for a while, and behind a second.
-  logic [PtrBits-1:0] rd_meta_q, rd_seen_q, wr_meta_q, wr_seen_q;
+  // Words that have come, and words that have been taken out of mem, modulo 2 DEPTH: as numbers and in Gray code. What the
+  // other side has seen of the Gray code is some clocks old.
+  logic [PtrBits-1:0] wr_q, wr_d, wr_gray_q, wr_seen, rd_q, rd_d, rd_gray_q, rd_seen;
 
   // ---- the input's side --------------------------------------------------------------------------------------------
   // Full: as many words have come as fit behind those that were taken, which in Gray code turns the two highest bits.
   logic push;
-  assign in_ready_o = wr_gray_q != {~rd_seen_q[PtrBits-1:PtrBits-2], rd_seen_q[PtrBits-3:0]};
+  assign in_ready_o = wr_gray_q != {~rd_seen[PtrBits-1:PtrBits-2], rd_seen[PtrBits-3:0]};
   assign push       = in_valid_i && in_ready_o;
   assign wr_d       = push ? wr_q + 1'b1 : wr_q;
+
+  synchronizer #(
+      .BITS(PtrBits)
+  ) u_rd_seen (
+      .clk_i (in_clk_i),
+      .rst_ni(in_rst_ni),
+      .in_i  (rd_gray_q),
+      .out_o (rd_seen)
+  );
 
   always_ff @(posedge in_clk_i) begin
     if (push) mem[wr_q[PtrBits-2:0]] <= in_data_i;
     if (!in_rst_ni) begin
       wr_q      <= '0;
       wr_gray_q <= '0;
-      rd_meta_q <= '0;
-      rd_seen_q <= '0;
     end else begin
       wr_q      <= wr_d;
       wr_gray_q <= wr_d ^ (wr_d >> 1);
-      rd_meta_q <= rd_gray_q;
-      rd_seen_q <= rd_meta_q;
     end
   end
 
   // ---- the output's side -------------------------------------------------------------------------------------------
   logic take, out_valid_q;
   logic [BITS-1:0] out_q;
-  assign take        = rd_gray_q != wr_seen_q && (!out_valid_q || out_ready_i);
+  assign take        = rd_gray_q != wr_seen && (!out_valid_q || out_ready_i);
   assign rd_d        = take ? rd_q + 1'b1 : rd_q;
   assign out_valid_o = out_valid_q;
   assign out_data_o  = out_q;
+
+  synchronizer #(
+      .BITS(PtrBits)
+  ) u_wr_seen (
+      .clk_i (out_clk_i),
+      .rst_ni(out_rst_ni),
+      .in_i  (wr_gray_q),
+      .out_o (wr_seen)
+  );
 
   always_ff @(posedge out_clk_i) begin
     if (take) out_q <= mem[rd_q[PtrBits-2:0]];
     if (!out_rst_ni) begin
       rd_q        <= '0;
       rd_gray_q   <= '0;
-      wr_meta_q   <= '0;
-      wr_seen_q   <= '0;
       out_valid_q <= 1'b0;
     end else begin
       rd_q      <= rd_d;
       rd_gray_q <= rd_d ^ (rd_d >> 1);
-      wr_meta_q <= wr_gray_q;
-      wr_seen_q <= wr_meta_q;
       if (take) out_valid_q <= 1'b1;
       else if (out_ready_i) out_valid_q <= 1'b0;
     end

@@ -7,11 +7,12 @@
 #   rtl, rules      files of rtl/ and of verif/test/formal that it is made of
 #   set             PARAMETER=VALUE... of the proof
 #   inside          WIRE=NET...: wires of the proof that are nets within the module (dut), for induction
+#   clocks          several: each is free; one if left out
 #   own_assertions  yes: the assertions within the RTL are proved as well
 #   steps           clocks from the start: the base case, or the bound
 #   induction       clocks of the step; left out where the proof goes to a bound only
 #   defect_steps    clocks within which a defect must be found; steps if left out
-#   cover           clocks in which every cover statement must be reached
+#   cover           clocks in which every cover statement must be reached; left out where another proof of the module reaches them
 # defect NAME PROOF FILE SED-EXPRESSION: changes FILE of rtl/, a module or a header (include/...); PROOF must refute it. Every property of a module, lemmas
 #   aside, must be refuted by at least one.
 
@@ -74,6 +75,28 @@ defect fifo_ready_by_valid stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = 
 defect fifo_valid_falls stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = count != 0 \&\& !(count == 2 \&\& in_valid_i);/'
 defect fifo_data_move stream_fifo_4 stream_fifo.sv 's/assign out_data_o  = .*/assign out_data_o = mem[out_ready_i ? rd_at : wr_at];/'
 defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/wr_q <= '0;/;/"
+
+# ---- async_fifo ------------------------------------------------------------------------------------------------------
+async_cover=([4]=48 [8]=72)
+for depth in 4 8 16; do
+  fifo_memory=
+  for ((word = 0; word < depth; word++)); do fifo_memory+=" inside_memory[$word]=\\dut.mem[$word]"; done
+  proof async_fifo_$depth module=async_fifo rtl=board/async_fifo rules=undecided_synchronizer clocks=several set="DEPTH=$depth" \
+    inside="inside_wr=dut.wr_q inside_rd=dut.rd_q inside_wr_gray=dut.wr_gray_q inside_rd_gray=dut.rd_gray_q
+    inside_wr_meta=dut.u_wr_seen.meta_q inside_wr_seen=dut.wr_seen inside_rd_meta=dut.u_rd_seen.meta_q
+    inside_rd_seen=dut.rd_seen$fifo_memory" steps=8 induction=2 defect_steps=20 cover="${async_cover[$depth]:-}"
+done
+defect async_not_gray async_fifo_4 board/async_fifo.sv 's/\([wr][rd]_d\) ^ ([wr][rd]_d >> 1)/\1/
+  s/{~rd_seen\[PtrBits-1:PtrBits-2\], rd_seen\[PtrBits-3:0\]}/{~rd_seen[PtrBits-1], rd_seen[PtrBits-2:0]}/'
+defect async_full_unseen async_fifo_4 board/async_fifo.sv 's/assign in_ready_o = .*/assign in_ready_o = 1;/'
+defect async_full_late async_fifo_4 board/async_fifo.sv 's/assign in_ready_o = wr_gray_q/logic [PtrBits-1:0] late_q; always_ff @(posedge in_clk_i) late_q <= wr_gray_q; assign in_ready_o = late_q/'
+defect async_empty_unseen async_fifo_4 board/async_fifo.sv 's/assign take *= rd_gray_q != wr_seen \&\&/assign take =/'
+defect async_word_overwritten async_fifo_4 board/async_fifo.sv 's/ \&\& (!out_valid_q || out_ready_i);/;/'
+defect async_wrong_place async_fifo_4 board/async_fifo.sv 's/mem\[rd_q\[/mem[rd_d[/'
+defect async_valid_falls async_fifo_4 board/async_fifo.sv 's/else if (out_ready_i) out_valid_q/else out_valid_q/'
+defect async_kept_in_reset async_fifo_4 board/async_fifo.sv "s/out_valid_q <= 1'b0;\$/out_valid_q <= out_valid_q;/"
+defect async_waits_for_two async_fifo_4 board/async_fifo.sv 's/assign take *= rd_gray_q != wr_seen/assign take = rd_gray_q != wr_seen \&\& (wr_seen[0] == wr_seen[1] || in_valid_i)/'
+defect async_only_when_empty async_fifo_4 board/async_fifo.sv 's/assign in_ready_o = wr_gray_q .*/assign in_ready_o = wr_gray_q == rd_seen;/'
 
 # ---- registers -------------------------------------------------------------------------------------------------------
 proof registers_axi module=registers rtl=registers rules="lite_rules stream_rules" set="MODEL=0" steps=8 induction=2 cover=8

@@ -17,8 +17,9 @@ for tool in yosys yosys-smtbmc yices-smt2; do
   command -v $tool >/dev/null || { echo "run.sh: $tool is missing (tools/deps test)" >&2; exit 2; }
 done
 # Newer versions of yosys keep assertions as $check cells, which have to be lowered to what the solver's language has.
-lower=
-if yosys -q -p "tee -q -o /dev/stdout help chformal" 2>/dev/null | grep -q -e '-lower'; then lower="async2sync; chformal -lower;"; fi
+# Of several clocks each is free, and every step of the solver may be an edge of any.
+lower='' one_clock=
+if yosys -q -p "tee -q -o /dev/stdout help chformal" 2>/dev/null | grep -q -e '-lower'; then lower="chformal -lower;" one_clock="async2sync;"; fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 here=verif/test/formal
@@ -30,7 +31,7 @@ proof() { # NAME KEY=VALUE...
   local name=$1 pair
   shift
   proofs+=("$name")
-  of[$name.module]=$name of[$name.inside]='' of[$name.induction]='' of[$name.set]='' of[$name.rules]='' of[$name.own_assertions]=''
+  of[$name.module]=$name of[$name.inside]='' of[$name.induction]='' of[$name.set]='' of[$name.rules]='' of[$name.own_assertions]='' of[$name.clocks]=one
   for pair in "$@"; do of[$name.${pair%%=*}]=${pair#*=}; done
   : "${of[$name.top]:=${of[$name.module]}_proof}"
 }
@@ -45,7 +46,7 @@ bad=0
 declare -A stated refuted # [MODULE:PROPERTY]
 
 translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, with the RTL's FILE, a module or a header, taken from $work
-  local proof=$1 name=$2 changed=${3:-} rtl=() own=() word script headers=rtl/include
+  local proof=$1 name=$2 changed=${3:-} rtl=() own=() word script headers=rtl/include clocks=$one_clock
   local top=${of[$proof.top]}
   for word in ${of[$proof.rtl]}; do
     if [ "$word.sv" = "$changed" ]; then rtl+=("$work/$word.sv"); else rtl+=("rtl/$word.sv"); fi
@@ -54,6 +55,7 @@ translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, wi
   if [[ $changed == include/* ]]; then headers=$work/include; fi
   [[ -z $changed || $changed == include/* || " ${rtl[*]} " == *" $work/$changed "* ]] || { echo "run.sh: $name: $proof reads no $changed" >&2; exit 2; }
   for word in ${of[$proof.rules]} "$top"; do own+=("$here/$word.sv"); done
+  [ "${of[$proof.clocks]}" = one ] || clocks="clk2fflogic;"
   script="read_verilog -sv ${of[$proof.own_assertions]:+-formal} -I$headers ${rtl[*]}; "
   script+="read_verilog -sv -formal -I$headers ${own[*]}; "
   for word in ${of[$proof.set]}; do script+="chparam -set ${word%%=*} ${word#*=} $top; "; done
@@ -64,7 +66,7 @@ translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, wi
     for word in ${of[$proof.inside]}; do script+="connect -set ${word%%=*} ${word#*=}; "; done
     script+="cd ..; "
   fi
-  script+="prep -top $top; $lower setundef -undriven -anyseq; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2"
+  script+="prep -top $top; $clocks $lower setundef -undriven -anyseq; opt_clean; check -assert; write_smt2 -wires $work/$name.smt2"
   yosys -q -l "$work/$name.log" -p "$script" >"$work/$name.out" 2>&1 ||
     { echo "run.sh: $name: yosys failed" >&2; tail -5 "$work/$name.out" >&2; exit 2; }
   # A name that is nowhere would be a free bit, which refutes everything.
@@ -88,7 +90,7 @@ run_proof() { # NAME: base case or bound, induction, covers
     < <(sed -n 's/^; yosys-smt2-assert [0-9]* //p' "$work/$name.smt2" | properties)
   [ -z "${of[$name.induction]}" ] || how="by induction"
   if solve "$name" -t "${of[$name.steps]}" && { [ -z "${of[$name.induction]}" ] || solve "$name" -i -t "${of[$name.induction]}"; } &&
-    solve "$name" -c -t "${of[$name.cover]}"; then
+    { [ -z "${of[$name.cover]}" ] || solve "$name" -c -t "${of[$name.cover]}"; }; then
     echo "$name: proved $how ($((SECONDS - start)) s)"
   else
     echo "$name: NOT proved" >&2
@@ -98,7 +100,7 @@ run_proof() { # NAME: base case or bound, induction, covers
 }
 run_defect() { # NAME: the proof must refute it from reset on; that it is not proved would not do
   local name=$1 proof=${of[$1.proof]} file=${of[$1.file]} start=$SECONDS failed found property
-  rm -rf "$work/include" && cp -r rtl/include "$work"
+  rm -rf "$work/include" && cp -r rtl/include "$work" && mkdir -p "$(dirname "$work/$file")"
   sed "${of[$name.expression]}" "rtl/$file" >"$work/$file"
   if cmp -s "$work/$file" "rtl/$file"; then echo "run.sh: $name: changes nothing" >&2; exit 2; fi
   translate "$proof" "$name" "$file"
