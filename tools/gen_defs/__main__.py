@@ -16,7 +16,7 @@ import sv_widths
 import tables
 import yaml
 from definition import Defs
-from files import DEVICES, NOTE, SOURCE, STAGES, TOP
+from files import BOARD, DEVICES, NOTE, SOURCE, STAGES, TOP
 from stages import Stages
 from templates import render
 
@@ -91,6 +91,14 @@ def of_stages(stages):
     }
 
 
+def of_board(board):
+    """The files that rtl/defs/board.yaml makes."""
+    return {
+        "rtl/board/include/board_registers.svh": registers.board_svh(board),
+        "verif/board/board_registers.h": registers.board_h(board),
+    }
+
+
 def of_docs(defs):
     """The pages of docs that have tables."""
     texts = {path: path.read_text() for path in sorted((TOP / "docs").glob("*.md"))}
@@ -99,7 +107,9 @@ def of_docs(defs):
 
 def main(check):
     defs = Defs(TOP / SOURCE)
-    out = of_definition(defs) | of_stages(Stages(TOP / STAGES, defs)) | of_docs(defs)
+    board = registers.checked_board(yaml.safe_load((TOP / BOARD).read_text()))
+    defs.d["board"] = board
+    out = of_definition(defs) | of_stages(Stages(TOP / STAGES, defs)) | of_board(board) | of_docs(defs)
     stale = [p for p, text in out.items() if not (TOP / p).exists() or (TOP / p).read_text() != text]
     for p in stale:
         print(("differs: " if check else "wrote ") + p)

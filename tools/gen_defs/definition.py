@@ -254,5 +254,5 @@ class Defs:
         for f in r.get("fields", []):
             last = f["lsb"] + f["bits"] - 1
             place = f"bit {last}" if f["bits"] == 1 else f"bits {last}-{f['lsb']}"
-            fields.append(f"{place} {f['name']}" + ("" if f["parameter"] else f": {f['doc']}"))
+            fields.append(f"{place} {f['name']}" + ("" if f.get("parameter") else f": {f['doc']}"))
         return text + (": " if fields else "") + "; ".join(fields)

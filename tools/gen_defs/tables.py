@@ -141,6 +141,16 @@ def registers(defs):
     return md(("address", "name", "access", "meaning"), rows)
 
 
+def board_registers(defs):
+    board = defs.d["board"]
+    rows = [(f"0x{r['addr']:03X}", f"`{r['name']}`", r["access"], defs.register_text(r)) for r in board["registers"]]
+    rows += [
+        (f"0x{w['addr']:04X}", f"`{w['name']}`", w["access"], f"{w['words']} words: {w['doc']}")
+        for w in board["windows"]
+    ]
+    return md(("address", "name", "access", "meaning"), rows)
+
+
 def figures(_):
     """What tools/fpga --record measured."""
 
@@ -187,6 +197,7 @@ TABLES = {
         words,
         errors,
         registers,
+        board_registers,
         figures,
     )
 }

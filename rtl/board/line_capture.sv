@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the pixels of one line that the core draws, beside its m_axis: a host reads them when the line's signature was not the
+// expected one, to see which pixel and channel it is.
+//
+// Takes: a pixel that moves, beat_i. It is listened to and never held up. line_i chooses the line, by its number since
+//   clear_i. Of a line with more than PIXELS pixels the first ones are kept; all are counted.
+// Host's port: a read's word comes a clock after its address: colour in the lowest bits, TLAST in bit 24, TUSER in bit 25.
+// Latency: a pixel is there two clocks after it moved. Throughput: a pixel a clock.
+// Cost: PIXELS words of 26 bits of block RAM (10 with one channel), two counters and a comparator of 32 bits.
+`default_nettype none
+
+module line_capture #(
+    parameter int CHANNELS = 3,
+    parameter int PIXELS = 640,
+    localparam int AddrBits = $clog2(PIXELS)
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    input wire logic                  beat_i,
+    input wire logic [CHANNELS*8-1:0] data_i,
+    input wire logic                  user_i,
+    input wire logic                  last_i,
+
+    input  wire logic        clear_i,
+    input  wire logic [31:0] line_i,
+    output logic      [15:0] pixels_o, // of the line, so far
+
+    input  wire logic [AddrBits-1:0] host_addr_i,
+    output logic      [        31:0] host_rd_data_o
+);
+  localparam int Bits = CHANNELS * 8 + 2;
+
+  logic [31:0] number_q;
+  logic chosen_q, beat_q;
+  logic [Bits-1:0] pixel_q, captured;
+
+  always_ff @(posedge clk_i) begin
+    pixel_q <= {user_i, last_i, data_i};
+    if (!rst_ni || clear_i) begin
+      beat_q   <= 1'b0;
+      chosen_q <= line_i == '0;
+      number_q <= '0;
+      pixels_o <= '0;
+    end else begin
+      beat_q <= beat_i;
+      // The comparison of 32 bits has a clock of its own: the number of the line behind a last pixel is one more.
+      if (beat_i && last_i) number_q <= number_q + 32'd1;
+      chosen_q <= number_q == line_i;
+      if (beat_q && chosen_q && pixels_o != '1) pixels_o <= pixels_o + 16'd1;
+    end
+  end
+
+  ram_1r1w #(
+      .BITS (Bits),
+      .WORDS(PIXELS)
+  ) u_ram (
+      .clk_i,
+      .wr_en_i  (beat_q && chosen_q && pixels_o < 16'(PIXELS)),
+      .wr_addr_i(pixels_o[AddrBits-1:0]),
+      .wr_data_i(pixel_q),
+      .rd_en_i  (1'b1),
+      .rd_addr_i(host_addr_i),
+      .rd_data_o(captured)
+  );
+  assign host_rd_data_o = {6'b0, captured[Bits-1-:2], 24'(captured[CHANNELS*8-1:0])};
+
+endmodule
+
+`default_nettype wire

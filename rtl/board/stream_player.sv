@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gives the core frames from a list: from the memory, or straight from the link. The player adds TLAST.
+//
+// List: a word N, the number of words of a frame, then these words, then the next frame; N = 0 ends the list. From the
+//   memory the list begins at address_i. With loop_i it begins anew behind its end, and from the link the end is passed
+//   over; a list without a frame ends at once.
+// Commands: start_i, for one clock while playing_o is low; stop_i, for one clock: no frame begins after the one at hand, and
+//   from the link, where a frame at hand may never be whole, the rest of it has to come or the core is held in reset.
+//   direct_i, loop_i and paced_i stay as they are while playing_o is high.
+// Pace: with paced_i a frame begins when the screen has asked for it; a request that comes while a frame goes on waits for
+//   that frame's end, and a second one beside it is lost (video_out asks for none). Without, requests are taken and
+//   forgotten.
+// Handshake: valid/ready on all ports; m_axis is AXI4-Stream with BEAT_WORDS words a beat, the first one lowest, and zeros
+//   behind the frame's last word. A frame is read in runs of at most 2^15 words.
+// Memory: run_valid_o with address and number of words, then the words (block_memory, sdram_memory).
+// Throughput: a word a clock with BEAT_WORDS 1; with more, BEAT_WORDS words in BEAT_WORDS + 1 clocks. Between two frames
+//   the memory's latency passes twice.
+// Cost: about 150 flip-flops, and 32 BEAT_WORDS for the beat.
+`default_nettype none
+
+module stream_player #(
+    parameter int ADDR_BITS  = 23,
+    parameter int BEAT_WORDS = 1
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+
+    input  wire logic                 start_i,
+    input  wire logic                 stop_i,
+    input  wire logic                 direct_i,
+    input  wire logic                 loop_i,
+    input  wire logic                 paced_i,
+    input  wire logic [ADDR_BITS-1:0] address_i,
+    output logic                      playing_o,
+    output logic      [         31:0] played_o,   // frames since start_i
+    output logic                      word_o,     // a word of a frame moves on in this clock: data_o
+    output logic      [         31:0] data_o,
+
+    input  wire logic frame_req_valid_i,
+    output logic      frame_req_ready_o,
+
+    output logic                      run_valid_o,
+    input  wire logic                 run_ready_i,
+    output logic      [ADDR_BITS-1:0] run_addr_o,
+    output logic      [         15:0] run_words_o,
+    input  wire logic                 rd_valid_i,
+    output logic                      rd_ready_o,
+    input  wire logic [         31:0] rd_data_i,
+
+    input  wire logic        link_valid_i,
+    output logic             link_ready_o,
+    input  wire logic [31:0] link_data_i,
+
+    output logic                         m_axis_tvalid_o,
+    input  wire logic                    m_axis_tready_i,
+    output logic      [BEAT_WORDS*32-1:0] m_axis_tdata_o,
+    output logic                         m_axis_tlast_o
+);
+  localparam int RunBits = 15;
+
+  typedef enum logic [2:0] {
+    Idle,
+    AskCount,  // a run of the word N
+    Count,     // N
+    Wait,      // for the screen
+    AskFrame,  // a run of the frame
+    Frame      // its words
+  } state_t;
+  state_t state_q;
+
+  logic [ADDR_BITS-1:0] at_q;  // the next word to ask for
+  logic [31:0] left_q;  // words of the frame that have not come
+  logic [RunBits:0] run_left_q, run_words;  // and of the run
+  logic stopping_q, any_q, asked_q;
+  logic in_valid, in_ready, take, last_word;
+  logic [31:0] in_data;
+  assign in_valid  = direct_i ? link_valid_i : rd_valid_i;
+  assign in_data   = direct_i ? link_data_i : rd_data_i;
+  assign take      = in_valid && in_ready;
+  assign last_word = left_q == 32'd1;
+
+  assign playing_o = state_q != Idle;
+  assign word_o    = take && state_q == Frame;
+  assign data_o    = in_data;
+
+  assign run_words   = left_q > 32'(2 ** RunBits) ? (RunBits + 1)'(2 ** RunBits) : left_q[RunBits:0];
+  assign run_valid_o = state_q == AskCount || state_q == AskFrame;
+  assign run_addr_o  = at_q;
+  assign run_words_o = state_q == AskCount ? 16'd1 : 16'(run_words);
+
+  // ---- what the words are ------------------------------------------------------------------------------------------
+  logic beat_free;
+  assign in_ready     = (state_q == Count && !(direct_i && stopping_q)) || (state_q == Frame && beat_free);
+  // A reset may come in the middle of a run: the memory takes no other before the words of that one have left.
+  assign rd_ready_o   = (in_ready && !direct_i) || state_q == Idle || state_q == AskCount;
+  assign link_ready_o = in_ready && direct_i;
+
+  // A request waits for a frame that is due; beside it nothing has to be kept.
+  assign frame_req_ready_o = !paced_i || !asked_q;
+
+  always_ff @(posedge clk_i) begin
+    if (frame_req_valid_i && frame_req_ready_o) asked_q <= paced_i;
+    if (stop_i) stopping_q <= 1'b1;
+    case (state_q)
+      Idle: begin
+        stopping_q <= 1'b0;
+        any_q      <= 1'b0;
+        at_q       <= address_i;
+        if (start_i) begin
+          state_q  <= direct_i ? Count : AskCount;
+          played_o <= '0;
+        end
+      end
+      AskCount:
+      if (run_ready_i) begin
+        at_q    <= at_q + 1'b1;
+        state_q <= Count;
+      end
+      Count:
+      if (direct_i && stopping_q) begin
+        state_q <= Idle;
+      end else if (take) begin
+        left_q <= in_data;
+        if (in_data != '0) begin
+          state_q <= stopping_q ? Idle : paced_i ? Wait : direct_i ? Frame : AskFrame;
+        end else begin
+          at_q    <= address_i;
+          state_q <= stopping_q || !loop_i || !(direct_i || any_q) ? Idle : direct_i ? Count : AskCount;
+        end
+      end
+      Wait:
+      if (stopping_q) begin
+        state_q <= Idle;
+      end else if (asked_q) begin
+        asked_q <= 1'b0;
+        state_q <= direct_i ? Frame : AskFrame;
+      end
+      AskFrame: begin
+        run_left_q <= run_words;
+        if (run_ready_i) begin
+          at_q    <= at_q + ADDR_BITS'(run_words);
+          state_q <= Frame;
+        end
+      end
+      Frame:
+      if (take) begin
+        left_q     <= left_q - 32'd1;
+        run_left_q <= run_left_q - 1'b1;
+        if (last_word) begin
+          any_q    <= 1'b1;
+          played_o <= played_o + 32'd1;
+          state_q  <= direct_i ? Count : stopping_q ? Idle : AskCount;
+        end else if (!direct_i && run_left_q == (RunBits + 1)'(1)) begin
+          state_q <= AskFrame;
+        end
+      end
+      default: state_q <= Idle;
+    endcase
+    if (!rst_ni) begin
+      state_q    <= Idle;
+      stopping_q <= 1'b0;
+      asked_q    <= 1'b0;
+      played_o   <= '0;
+    end
+  end
+
+  // ---- words to beats ----------------------------------------------------------------------------------------------
+  localparam int PlaceBits = BEAT_WORDS > 1 ? $clog2(BEAT_WORDS) : 1;
+  logic [BEAT_WORDS*32-1:0] beat_q;
+  logic [PlaceBits-1:0] place_q;  // of the next word
+  logic full_q, last_q;
+  assign m_axis_tvalid_o = full_q;
+  assign m_axis_tdata_o  = beat_q;
+  assign m_axis_tlast_o  = last_q;
+  // A beat of one word may be replaced while it leaves; one of several is begun behind the one that left.
+  assign beat_free       = !full_q || (BEAT_WORDS == 1 && m_axis_tready_i);
+
+  always_ff @(posedge clk_i) begin
+    if (word_o) begin
+      for (int w = 0; w < BEAT_WORDS; w++) begin
+        if (place_q == PlaceBits'(w)) beat_q[w*32+:32] <= in_data;
+        else if (place_q == '0) beat_q[w*32+:32] <= '0;
+      end
+      last_q <= last_word;
+    end
+    if (!rst_ni) begin
+      full_q  <= 1'b0;
+      place_q <= '0;
+    end else if (word_o) begin
+      full_q  <= last_word || place_q == PlaceBits'(BEAT_WORDS - 1);
+      place_q <= last_word || place_q == PlaceBits'(BEAT_WORDS - 1) ? '0 : place_q + 1'b1;
+    end else if (m_axis_tready_i) begin
+      full_q <= 1'b0;
+    end
+  end
+
+endmodule
+
+`default_nettype wire
