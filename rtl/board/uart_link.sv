@@ -9,9 +9,9 @@
 //   understood.
 // State: fresh_o from reset to the first HELLO; axi_error_o and overrun_o from when it happens to the next HELLO. The
 //   counters stay at 65535: frames that were right, others, and right ones for which no slot was free.
-// Latency: 8 clocks from a frame's last flag to its first word on the stream, 16 with an address; an ACK begins 5
-//   clocks after the flag. Throughput: a byte a clock from the line, a word in 9 clocks, a byte in 2 clocks to the
-//   line.
+// Latency: 14 clocks from a frame's last flag to its first word on the stream, 22 to its first word on AXI4-Lite; 5 to
+//   the first flag of the ACK. Throughput: a byte a clock from the line, a word in 9 clocks to the stream, in 10 to
+//   AXI4-Lite, a byte in 2 clocks to the line.
 // Cost: with four slots 598 LUT, 342 flip-flops and two block RAMs of an iCE40.
 `default_nettype none
 
