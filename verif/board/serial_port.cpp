@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/serial.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -112,6 +113,12 @@ void SerialPort::set_up(int baud) {
   if (::cfgetospeed(&now_set) != rate->second || ::cfgetispeed(&now_set) != rate->second)
     fail(fmt::format("{} baud is not possible on this port", baud));
   if ((now_set.c_cflag & (CSIZE | PARENB | CSTOPB | CRTSCTS)) != CS8) fail("cannot be set to 8N1 without flow control");
+  // A USB bridge may keep bytes back for 16 ms to send more at once. Not every driver knows this, and all work without.
+  serial_struct driver{};
+  if (::ioctl(file_, TIOCGSERIAL, &driver) == 0) {
+    driver.flags |= ASYNC_LOW_LATENCY;
+    (void)::ioctl(file_, TIOCSSERIAL, &driver);
+  }
   ::tcflush(file_, TCIOFLUSH);
 }
 

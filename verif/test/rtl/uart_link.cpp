@@ -26,7 +26,7 @@ using kage::board::LinkOptions;
 
 namespace {
 
-enum class Damage { none, lost, doubled, corrupted, inserted };
+enum class Damage { none, lost, doubled, corrupted, inserted, any };
 
 /// One direction of the line.
 struct Wire {
@@ -46,10 +46,14 @@ struct Wire {
     left = dice.below(2 * apart);
     ++damages;
     const auto other = static_cast<std::uint8_t>(dice.percent(30) ? (dice.percent(50) ? 0x7E : 0x7D) : dice.bits(8));
-    if (damage == Damage::lost) return;
-    if (damage == Damage::doubled) bytes.push_back(byte);
-    if (damage == Damage::inserted) bytes.push_back(other);
-    bytes.push_back(damage != Damage::corrupted ? byte : other != byte ? other : static_cast<std::uint8_t>(byte ^ 1));
+    const Damage now = damage != Damage::any ? damage : static_cast<Damage>(dice.between(1, 4));
+    if (now == Damage::lost) return;
+    if (now == Damage::doubled) bytes.push_back(byte);
+    if (now == Damage::inserted) bytes.push_back(other);
+    if (now != Damage::corrupted)
+      bytes.push_back(byte);
+    else
+      bytes.push_back(other != byte ? other : static_cast<std::uint8_t>(byte ^ 1));
   }
 };
 
@@ -342,6 +346,25 @@ TEST_CASE("Bytes lost on the way to the host", "[uart_link]") { damage_test(Dama
 TEST_CASE("Bytes doubled on the way to the host", "[uart_link]") { damage_test(Damage::doubled, false); }
 TEST_CASE("Bytes corrupted on the way to the host", "[uart_link]") { damage_test(Damage::corrupted, false); }
 TEST_CASE("Bytes inserted on the way to the host", "[uart_link]") { damage_test(Damage::inserted, false); }
+
+TEST_CASE("Damage of all sorts, both ways at once", "[uart_link]") {
+  each_seed(8, [](Dice& dice) {
+    Board<Vuart_link2> board(dice);
+    Link link(board, {3'000, 60, 0});
+    link.hello();
+    Truth truth;
+    truth.memory = board.memory;
+    for (Wire* wire : {&board.to_board, &board.to_host}) {
+      wire->damage = Damage::any;
+      wire->apart = dice.between(50, 150);
+    }
+    while (board.to_board.damages < 250) transfer(dice, link, truth, 5);
+    link.flush();
+    require_exact(board, truth);
+    REQUIRE(board.to_host.damages > 50);
+    REQUIRE(board.top->overruns_o == 0);
+  });
+}
 
 TEST_CASE("A board that is reset is told from one that is silent", "[uart_link]") {
   each_seed(10, [](Dice& dice) {
