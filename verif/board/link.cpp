@@ -59,6 +59,7 @@ void Link::hello() {
                         "link: stalled: the board does not execute what an earlier session sent it");
       if (heard_) {
         heard_ = false;  // until the next timer at least one answer must come
+        tries_ = 0;
         send({FrameKind::poll, 0, {}});
         timer_ = now + options_.timeout;
       } else {
