@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Included inside a module.
 //
-// Kinds of frames between host and board: docs/link.md, which verif/board/link_protocol.hpp has in C++.
+// Kinds of frames between host and board: docs/link.md, which verif/board/link_frame.hpp has in C++.
 /* verilator lint_off UNUSEDPARAM */
 localparam logic [7:0] KindPoll = 8'h00;
 localparam logic [7:0] KindHello = 8'h01;
