@@ -56,9 +56,10 @@ ABOVE = {
     "verif/cosim": ["cosim", *MODEL],
     "verif/opinion": ["opinion", "kage", "number"],
     "verif/vectors": ["vectors", "cosim", "stimulus", *MODEL],
+    "verif/board": ["board", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
     "verif/bench": ["bench", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/test": ["test", "vectors", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/test": ["test", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test/unit/cli": ["test", "cli"],
     "cli": ["cli", "vectors", "cosim", "stimulus", *MODEL],
 }
