@@ -23,3 +23,11 @@ function automatic logic [31:0] crc32_next(input logic [31:0] crc, input logic [
     for (int i = 0; i < 8; i++) crc32_next = {1'b0, crc32_next[31:1]} ^ (crc32_next[0] ? 32'hEDB88320 : 32'h00000000);
   end
 endfunction
+
+// The same of the four bytes of a word, the lowest first.
+function automatic logic [31:0] crc32_word(input logic [31:0] crc, input logic [31:0] data);
+  begin
+    crc32_word = crc;
+    for (int b = 0; b < 4; b++) crc32_word = crc32_next(crc32_word, data[b*8+:8]);
+  end
+endfunction
