@@ -34,7 +34,6 @@ module line_signature #(
     input wire logic [15:0] wrap_i,
 
     output logic [31:0] lines_o,          // lines since clear_i
-    output logic [15:0] place_o,          // of the line at hand
     output logic [31:0] mismatches_o,     // lines that differed
     output logic [15:0] mismatch_place_o, // of the first of them
 
@@ -69,7 +68,6 @@ module line_signature #(
   logic [15:0] next_place;
   assign next_place  = place_q + 16'd1;
   assign place_there = ended_place_q < 16'(LINES);
-  assign place_o     = place_q;
 
   always_ff @(posedge clk_i) begin
     data_q           <= data_i;
