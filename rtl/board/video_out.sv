@@ -144,7 +144,7 @@ module video_out #(
   logic [YBits-1:0] owed_q;
   // A frame has been shown since reset. One is due, because it was asked for and has not begun.
   logic played_q, due_q;
-  // The picture's right and lower edge, as it came last, and the last colour shown.
+  // The picture's right edge, of the line that came whole last; below the last line that had a pixel; the last colour shown.
   logic [XBits-1:0] width_q;
   logic [YBits-1:0] height_q;
   logic [DataBits-1:0] last_q;
@@ -190,8 +190,8 @@ module video_out #(
       else if ((miss || wide) && !(drop && head_last)) owed_q <= owed_q + 1'b1;
       else if (!miss && !wide && drop && head_last && showing) owed_q <= owed_q - 1'b1;
 
-      if (feed && head_last) width_q <= x + 1'b1;
-      if (feed && head_eof) height_q <= y + 1'b1;
+      if (feed && (head_last || x == XBits'(H_ACTIVE - 1))) width_q <= x + 1'b1;
+      if (feed) height_q <= y + 1'b1;
       if (begins) played_q <= 1'b1;
       if (begins) due_q <= 1'b0;
       else if (blank_start) due_q <= 1'b1;
