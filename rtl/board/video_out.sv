@@ -1,29 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the core's m_axis to a screen that waits for nobody: a FIFO of two lines between the clocks, the timing of a video
-// mode, and what is shown and counted when a pixel comes too late.
+// From the core's m_axis to a screen that waits for nobody: a FIFO of two lines between the clocks, the timing of a
+// video mode, and what is shown and counted when a pixel comes too late.
 //
-// Handshake: the port of pixels is AXI4-Stream video, valid/ready: TUSER on a frame's first pixel, TLAST on a line's last.
-// Ready is the FIFO's free place and nothing else, so the core rests while the screen is in blanking. Requests leave by
-// valid/ready in the core's clock.
+// Handshake: the port of pixels is AXI4-Stream video, valid/ready: TUSER on a frame's first pixel, TLAST on a line's
+// last. Ready is the FIFO's free place and nothing else, so the core rests while the screen is in blanking. Requests
+// leave by valid/ready in the core's clock.
 // Request: one per frame, when vertical blanking begins. It is left out where the frame that was asked for last has not
 // begun to be shown, so that never more than one is due. Who feeds the core starts a frame for each.
-// Shown: a frame begins at the screen's first pixel, if its TUSER waits there; what comes before TUSER is dropped, and a TUSER
-// waits for the next screen. The picture lies top left. Right of a line's TLAST and below the frame's last line (lines_i
-// of them; the core's clock takes lines_i with TUSER) is BORDER. What is wider or higher than the screen is dropped.
-// Underrun: where a pixel is not there in time, the last colour shown is repeated to the picture's right edge, which is that of
-// the line that came whole last (at first the screen's). The pixels that come late are dropped, up to and with the line's
-// TLAST; lines whose turn passes meanwhile are shown in that colour too, and are owed likewise. The first line that begins
-// with nothing owed is shown again. Where the last line is late the pixel side has not seen that the frame ended, and the lines
-// below are shown so too. Where no frame waits at the screen's first pixel, but one was shown before, the frame is late: the
-// last colour covers the place of the picture shown last, and the next screen tries again.
+// Shown: a frame begins at the screen's first pixel, if its TUSER waits there; what comes before TUSER is dropped, and
+// a TUSER waits for the next screen. The picture lies top left. Right of a line's TLAST and below the frame's last line
+// (lines_i of them; the core's clock takes lines_i with TUSER) is BORDER. What is wider or higher than the screen is
+// dropped; the rest of a wide line must pass, a pixel a clock, before the next line begins, or that one runs short.
+// Underrun: where a pixel is not there in time, the last colour shown is repeated to the picture's right edge, which is
+// that of the line that came whole last (at first the screen's). The pixels that come late are dropped, up to and with
+// the line's TLAST; lines whose turn passes meanwhile are shown in that colour too, and are owed likewise. The first
+// line that begins with nothing owed is shown again. Where the last line is late the pixel side has not seen that the
+// frame ended, and the lines below are shown so too. Where no frame waits at the screen's first pixel, but one was
+// shown before, the frame is late: the last colour covers the place of the picture shown last (down to its last line
+// that had a pixel in time), and the next screen tries again.
 // Counted, in the core's clock, all of 16 bits that stay at their end: frames_shown_o screens that began a frame,
 // late_frames_o those that had none to begin, underrun_frames_o late ones and shown ones in which a line ran short,
-// underrun_lines_o the lines that ran short in shown ones (late frames count none). They rise a few clocks after vertical
-// blanking begins. led_o, in the pixel's clock, is high for 2^LED_BITS clocks after each pixel that was late.
+// underrun_lines_o the lines that ran short in shown ones (late frames count none). They rise a few clocks after
+// vertical blanking begins. led_o, in the pixel's clock, is high for 2^LED_BITS - 1 clocks after each line that ran
+// short and each late frame.
 // Before the first frame all is BORDER and nothing counts.
 // Reset: at both sides at once, as async_fifo has it. A frame that it cuts is gone; the next TUSER begins the next.
 // Latency: from the FIFO's output to rgb_o 1 clock. Throughput: a pixel a clock of the slower side.
-// Cost: 640x480: 2,048 x 27 bits of block RAM, 340 flip-flops, 430 LUTs.
+// Cost: 640x480: block RAM of 2,048 x 27 bits (3 blocks of an ECP5, 14 of an iCE40), 426 flip-flops, 496 LUTs of four
+// inputs.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -78,7 +82,7 @@ module video_out #(
   localparam int WordBits = DataBits + 3;
   localparam int EventBits = YBits + 3;
 
-  // ---- the core's clock: each pixel with its flags goes into the FIFO ---------------------------------------------------
+  // ---- the core's clock: each pixel with its flags goes into the FIFO -----------------------------------------------
   // Lines of the frame that have not ended; the last of them ends the frame.
   logic [15:0] left_q, left;
   logic push, end_of_frame;
@@ -109,7 +113,7 @@ module video_out #(
       .out_data_o ({head_eof, head_last, head_user, head_data})
   );
 
-  // ---- the pixel's clock: what the beam meets ----------------------------------------------------------------------------
+  // ---- the pixel's clock: what the beam meets -----------------------------------------------------------------------
   logic active, hsync, vsync, frame_start, blank_start;
   logic [XBits-1:0] x;
   logic [YBits-1:0] y;
@@ -144,7 +148,8 @@ module video_out #(
   logic [YBits-1:0] owed_q;
   // A frame has been shown since reset. One is due, because it was asked for and has not begun.
   logic played_q, due_q;
-  // The picture's right edge, of the line that came whole last; below the last line that had a pixel; the last colour shown.
+  // The picture's right edge, of the line that came whole last; below the last line that had a pixel; the last colour
+  // shown.
   logic [XBits-1:0] width_q;
   logic [YBits-1:0] height_q;
   logic [DataBits-1:0] last_q;
@@ -199,7 +204,7 @@ module video_out #(
     if (feed) last_q <= head_data;
   end
 
-  // ---- colour ------------------------------------------------------------------------------------------------------------
+  // ---- colour -------------------------------------------------------------------------------------------------------
   logic repeats;
   assign repeats = x < width_q && !ended && (short || (late && y < height_q));
 
@@ -242,7 +247,7 @@ module video_out #(
     end
   end
 
-  // ---- a word to the core's clock each time vertical blanking begins -------------------------------------------------------
+  // ---- a word to the core's clock each time vertical blanking begins ------------------------------------------------
   logic shown_q, event_valid_q, event_ready;
   logic [YBits-1:0] short_lines_q;
   logic [EventBits-1:0] event_q;
@@ -279,7 +284,7 @@ module video_out #(
       .out_data_o ({done_lines, done_late, done_shown, done_ask})
   );
 
-  // ---- the core's clock again: request and counters -----------------------------------------------------------------------
+  // ---- the core's clock again: request and counters -----------------------------------------------------------------
   logic ask_q;
   logic [15:0] shown_count_q, late_count_q, frame_count_q, line_count_q;
   logic [16:0] line_sum;

@@ -2,12 +2,12 @@
 // The counters of a video mode, in its pixel clock: where on the screen the beam is, and the two syncs.
 //
 // Handshake: none; a pixel a clock, for ever. After reset comes the first pixel of a frame.
-// A line is H_ACTIVE pixels, front porch, sync, back porch; a frame is so many lines likewise. vsync_o changes where the
-// hsync pulse of a line begins, as the standards of progressive modes have it. The syncs are high in their pulse if
-// H_POSITIVE or V_POSITIVE is 1, else low. x_o and y_o count on in blanking. frame_start_o is high for the frame's first
-// pixel, blank_start_o for the first pixel of the first line that is not seen.
+// A line is H_ACTIVE pixels, front porch, sync, back porch; a frame is so many lines likewise. vsync_o changes where
+// the hsync pulse of a line begins, as the standards of progressive modes have it. The syncs are high in their pulse if
+// H_POSITIVE or V_POSITIVE is 1, else low. x_o and y_o count on in blanking. frame_start_o is high for the frame's
+// first pixel, blank_start_o for the first pixel of the first line that is not seen.
 // Latency: all outputs are registers and belong to the same pixel. Throughput: a pixel a clock.
-// Cost: 640x480: 27 flip-flops, 50 LUTs.
+// Cost: 640x480: 26 flip-flops, 61 LUTs of four inputs.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -36,9 +36,11 @@ module video_timing #(
     output logic             frame_start_o,
     output logic             blank_start_o
 );
-  if (H_ACTIVE < 2 || V_ACTIVE < 2 || H_FRONT < 1 || H_SYNC < 1 || H_BACK < 1 || V_FRONT < 1 || V_SYNC < 1 || V_BACK < 1)
-  begin : gen_bad_mode
-    `KAGE_ILLEGAL("a mode has two pixels and two lines or more, and no porch or sync is 0")
+  if (H_ACTIVE < 2 || H_FRONT < 1 || H_SYNC < 1 || H_BACK < 1) begin : gen_bad_line
+    `KAGE_ILLEGAL("a line has two pixels or more, and no porch or sync is 0")
+  end
+  if (V_ACTIVE < 2 || V_FRONT < 1 || V_SYNC < 1 || V_BACK < 1) begin : gen_bad_frame
+    `KAGE_ILLEGAL("a frame has two lines or more, and no porch or sync is 0")
   end
   if (H_POSITIVE < 0 || H_POSITIVE > 1 || V_POSITIVE < 0 || V_POSITIVE > 1) begin : gen_bad_polarity
     `KAGE_ILLEGAL("H_POSITIVE and V_POSITIVE are 0 or 1")

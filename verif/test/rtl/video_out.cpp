@@ -447,11 +447,14 @@ TEST_CASE("a frame that is late", "[video_out]") {
   each_seed(4, [](Dice& dice) {
     std::vector<Frame> sent;
     int asked = 0;
+    long led = 0;
     const auto seen = on_purpose(dice, sent, [&](auto& b) {
       b.frames[1].holds = {{0, beam(2, 1, 0)}};
       b.run(2);
       asked = b.asked;
+      led = b.led_clocks;
     });
+    REQUIRE(led == (1 << parameter<Vvideo_out>("LED_BITS")) - 1);
     REQUIRE(asked == 2);  // the second is still due when the screen that waits for it ends
     REQUIRE(is(seen[0].picture, sent[0]));
     for (const std::uint32_t colour : seen[1].picture.pixels) REQUIRE(colour == sent[0].pixels.back());
