@@ -124,6 +124,7 @@ class Board {
     pixel_clock_ = 0;
     counts_ = {};
     asked = 0;
+    taken = 0;
     shown_ = 0;
     screen_ = Screen(mode_of(kGrey));
     receiver = DviReceiver();
@@ -136,6 +137,7 @@ class Board {
   bool obeys = true;     ///< a source that does not obey sends whatever the requests say
   int answer_stall = 0;  ///< percent, of clocks in which a request is not taken
   int asked = 0;
+  int taken = 0;  ///< words that went in
   std::vector<Seen> seen;
   std::vector<Frame> sent;
   DviReceiver receiver;
@@ -156,10 +158,10 @@ class Board {
     const bool pixel = pixel_at_ == next;
     const bool core_rises = core && !core_high_;
     const bool pixel_rises = pixel && (kLink ? steps_ == 0 : !pixel_high_);
-    bool taken = false;
+    bool took = false;
     bool asks = false;
     if (core_rises) {
-      taken = top_->s_axis_tvalid_i && top_->s_axis_tready_o;
+      took = top_->s_axis_tvalid_i && top_->s_axis_tready_o;
       asks = top_->frame_req_valid_o && top_->frame_req_ready_i;
     }
     if (core) {
@@ -196,11 +198,12 @@ class Board {
       if (!top_->active_o) REQUIRE(top_->rgb_o == 0);
       look({top_->active_o != 0, top_->hsync_o != 0, top_->vsync_o != 0, static_cast<std::uint32_t>(top_->rgb_o)});
     }
-    if (core_rises && running_) source(taken, asks);
+    if (core_rises && running_) source(took, asks);
   }
 
-  void source(bool taken, bool asks) {
-    if (taken) {
+  void source(bool took, bool asks) {
+    if (took) {
+      ++taken;
       words_.pop_front();
       offered_ = false;
     }
@@ -363,7 +366,8 @@ void random_test(int rounds) {
     torn += sum.frames - sum.late;
     late += sum.late;
   });
-  if (std::getenv("KAGE_SEED") == nullptr) {
+  // Few rounds may have few of a kind, and one seed may have none.
+  if (rounds >= 40 && std::getenv("KAGE_SEED") == nullptr) {
     REQUIRE(whole > 20);
     REQUIRE(torn > 20);
     REQUIRE(late > 20);
@@ -546,5 +550,16 @@ TEST_CASE("nothing was ever played", "[video_out]") {
     REQUIRE(board.asked == 1);
     for (const Seen& s : board.seen)
       for (const std::uint32_t colour : s.picture.pixels) REQUIRE(colour == kBorder);
+  });
+}
+
+TEST_CASE("two lines wait while the screen is in blanking", "[video_out]") {
+  each_seed(2, [](Dice& dice) {
+    Board<Vvideo_out> board(dice, 47, 100);
+    for (int i = 0; i < 3; ++i) board.frames.push_back(frame_of(dice, kWide, kHigh, false));
+    board.run_to(beam(1, 0, 0));
+    REQUIRE(board.taken == 2 * kWide + 1);  // one more waits at the FIFO's output
+    board.run_to(beam(1, kHigh, 0));
+    REQUIRE(board.taken >= kWide * kHigh);
   });
 }
