@@ -25,8 +25,8 @@
 // short and each late frame.
 // Before the first frame all is BORDER and nothing counts.
 // Reset: at both sides at once, as async_fifo has it. A frame that it cuts is gone; the next TUSER begins the next.
-// Latency: from the FIFO's output to rgb_o 1 clock. Throughput: a pixel a clock of the slower side.
-// Cost: 640x480: block RAM of 2,048 x 27 bits (3 blocks of an ECP5, 14 of an iCE40), 426 flip-flops, 496 LUTs of four
+// Latency: from the FIFO's output to rgb_o 2 clocks. Throughput: a pixel a clock of the slower side.
+// Cost: 640x480: block RAM of 2,048 x 27 bits (3 blocks of an ECP5, 14 of an iCE40), 482 flip-flops, 525 LUTs of four
 // inputs.
 `default_nettype none
 `include "kage_illegal.svh"
@@ -95,6 +95,8 @@ module video_out #(
     else if (push) left_q <= s_axis_tlast_i && left != '0 ? left - 1'b1 : left;
   end
 
+  logic line_valid, line_ready;
+  logic [WordBits-1:0] line_word;
   logic head_valid, head_ready, head_eof, head_last, head_user;
   logic [DataBits-1:0] head_data;
   async_fifo #(
@@ -108,6 +110,20 @@ module video_out #(
       .in_data_i  ({end_of_frame, s_axis_tlast_i, s_axis_tuser_i, s_axis_tdata_i}),
       .out_clk_i  (pix_clk_i),
       .out_rst_ni (pix_rst_ni),
+      .out_valid_o(line_valid),
+      .out_ready_i(line_ready),
+      .out_data_o (line_word)
+  );
+
+  // What is done with a word depends on its flags, and a block RAM's output comes late in a clock: so registers between.
+  skid_buffer #(
+      .BITS(WordBits)
+  ) i_head (
+      .clk_i      (pix_clk_i),
+      .rst_ni     (pix_rst_ni),
+      .in_valid_i (line_valid),
+      .in_ready_o (line_ready),
+      .in_data_i  (line_word),
       .out_valid_o(head_valid),
       .out_ready_i(head_ready),
       .out_data_o ({head_eof, head_last, head_user, head_data})

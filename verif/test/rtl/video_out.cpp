@@ -558,7 +558,7 @@ TEST_CASE("two lines wait while the screen is in blanking", "[video_out]") {
     Board<Vvideo_out> board(dice, 47, 100);
     for (int i = 0; i < 3; ++i) board.frames.push_back(frame_of(dice, kWide, kHigh, false));
     board.run_to(beam(1, 0, 0));
-    REQUIRE(board.taken == 2 * kWide + 1);  // one more waits at the FIFO's output
+    REQUIRE(board.taken == 2 * kWide + 3);  // three more wait behind the FIFO, in registers
     board.run_to(beam(1, kHigh, 0));
     REQUIRE(board.taken >= kWide * kHigh);
   });
