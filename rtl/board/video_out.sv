@@ -115,7 +115,7 @@ module video_out #(
       .out_data_o (line_word)
   );
 
-  // What is done with a word depends on its flags, and a block RAM's output comes late in a clock: so registers between.
+  // What is done with a word depends on its flags, and a block RAM's output comes late in a clock: registers.
   skid_buffer #(
       .BITS(WordBits)
   ) i_head (

@@ -563,3 +563,25 @@ TEST_CASE("two lines wait while the screen is in blanking", "[video_out]") {
     REQUIRE(board.taken >= kWide * kHigh);
   });
 }
+
+// From its release on a pixel a clock is dropped. A line later the beam is a line on, and less than a line's clocks
+// were needed for the late line: so each that much later costs one line more, wherever in a line the stream comes back.
+TEST_CASE("lines are late by every number of clocks", "[video_out]") {
+  each_seed(1, [](Dice& dice) {
+    const int gain = mode_of(false).h_total() - kWide;
+    std::vector<int> lines;
+    for (int late = 0; late < 5 * gain; ++late) {
+      Board<Vvideo_out> board(dice, 50, 100);
+      for (int i = 0; i < 3; ++i) board.frames.push_back(frame_of(dice, kWide, kHigh, false));
+      board.frames[0].holds = {{kWide, beam(1, 1, late)}};
+      board.run(2);
+      check(board);
+      REQUIRE(board.seen[1].counts == kGood);
+      lines.push_back(board.seen[0].counts.lines);
+    }
+    for (std::size_t i = static_cast<std::size_t>(gain); i < lines.size(); ++i) {
+      INFO(i << " clocks late");
+      REQUIRE(lines[i] == std::min(lines[i - static_cast<std::size_t>(gain)] + 1, kHigh - 1));
+    }
+  });
+}
