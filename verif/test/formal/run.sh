@@ -99,6 +99,7 @@ run_proof() { # NAME: base case or bound, induction, covers
 run_defect() { # NAME: the proof must refute it from reset on; that it is not proved would not do
   local name=$1 proof=${of[$1.proof]} file=${of[$1.file]} start=$SECONDS failed found property
   rm -rf "$work/include" && cp -r rtl/include "$work"
+  mkdir -p "$work/board"
   sed "${of[$name.expression]}" "rtl/$file" >"$work/$file"
   if cmp -s "$work/$file" "rtl/$file"; then echo "run.sh: $name: changes nothing" >&2; exit 2; fi
   translate "$proof" "$name" "$file"
