@@ -11,9 +11,10 @@
 // in order at rd_valid_o, which has no ready: who asks has room. Neither port is ready before ready_o, which is when the chip
 // has started (T_INIT after reset, and some 100 clocks).
 // Refresh: one is due every RefreshClocks, by a counter that never waits, and goes before any word or block that was not
-// accepted yet. It starts at most Late clocks after it is due: T_RAS or T_WR until the open row may be closed, T_RP, T_RCD, a
-// block of 2 x BURST clocks (or CAS_LATENCY + 3 until the bus is free for a word), T_WR or T_RAS again, T_RP. RefreshClocks is
-// such that a row sees its next refresh within T_REF even so: 2^ROW_BITS x RefreshClocks + Late clocks.
+// accepted yet. It comes at most Late clocks after it is due: the command before it (T_RFC the longest), T_RAS or T_WR until
+// the open row may be closed, T_RP, T_RCD, a block of 2 x BURST clocks (or CAS_LATENCY + 3 until the bus is free for a word),
+// T_RAS and T_WR again, T_RP: 68 clocks at 100 MHz, added up as if none overlapped. RefreshClocks is such that a row sees its
+// next refresh within T_REF even so: 2^ROW_BITS x RefreshClocks + Late clocks.
 // Pins: all outputs are flip-flops (those of cke and cs are constant); dq_oe_o says when dq_o is driven. READ_DELAY: clocks
 // from the one in which a read stands on the pins to the one in which its first half stands at dq_i. It is CAS_LATENCY where
 // the chip takes commands at the end of their clock, one less where its clock is turned round, and one more for each register
@@ -95,7 +96,8 @@ module sdram_controller #(
   localparam int Ras = RasTime + Rp < Rc ? Rc - Rp : RasTime;
   localparam int RasMax = 32'(64'(T_RAS_MAX) * (64'(CLOCK_HZ) / 64'd1000) / Million);
 
-  localparam int Late = 2 * Ras + 2 * Wr + 2 * Rp + Rcd + Rfc + 2 * BURST + CAS_LATENCY + 8;
+  localparam int Longest = 2 * BURST < CAS_LATENCY + 3 ? CAS_LATENCY + 3 : 2 * BURST;
+  localparam int Late = Rfc + Ras + Rp + Rcd + Longest + Ras + Wr + Rp + 1;
   localparam int AllRows = 32'(64'(T_REF) * (64'(CLOCK_HZ) / 64'd1000) / Million);
   localparam int RefreshClocks = (AllRows - Late) / 2 ** ROW_BITS;
 
@@ -184,7 +186,7 @@ module sdram_controller #(
   assign req_ready_o = accept && (!wr_valid_i || write_q);
 
   always_ff @(posedge clk_i) begin
-    if (accept) begin
+    if (accept && (wr_valid_i || req_valid_i)) begin
       write_q <= accept_write;
       {row_q, bank_q, word_q} <= accept_write ? wr_addr_i : {req_block_i, BurstBits'(0)};
       data_q <= wr_data_i;

@@ -15,7 +15,7 @@
 
 module sdram_chip #(
     parameter int ROW_BITS = 13,
-    parameter int COLUMN_BITS = 9,
+    parameter int COLUMN_BITS = 9,  // at most 10: those below A10
     parameter int BANK_BITS = 2,
     parameter int RETENTION = 6_400_000,  // 64 ms
     // For sdram_rules, in clocks: of 10 ns here, grade -7.
@@ -139,7 +139,7 @@ module sdram_chip #(
       now_writes = command == 3'b100;
       now_left = burst;
       now_bank = ba_i;
-      now_column = COLUMN_BITS'({a_i[ROW_BITS-1:11], a_i[9:0]});
+      now_column = COLUMN_BITS'(a_i[9:0]);
     end
     at = place(now_bank, rows[32'(now_bank)*ROW_BITS+:ROW_BITS], now_column);
     oe = oe_q >> 1;
@@ -147,7 +147,7 @@ module sdram_chip #(
     if (now_left != '0 && now_reads) begin
       word = mem.exists(at) != 0 ? mem[at] : never(at);
       oe[latency-1'b1] = 1'b1;
-      way[32'(latency-1'b1)*16+:16] = word;
+      way[{latency-1'b1, 4'd0}+:16] = word;
     end
     if (now_left != '0 && now_writes) begin
       word = mem.exists(at) != 0 ? mem[at] : never(at);

@@ -20,10 +20,7 @@
 `default_nettype none
 
 module sdram_controller_proof #(
-    parameter int DATA = 1,
-    parameter int RESETS = 1,
     parameter int CAS_LATENCY = 2,
-    parameter int PATIENCE = 64,
     localparam int RowBits = 11,
     localparam int ColumnBits = 3,
     localparam int BankBits = 1,
@@ -40,8 +37,9 @@ module sdram_controller_proof #(
     localparam int Wr = 3,
     localparam int Mrd = 2,
     localparam int CloseRas = Rc - Rp,  // the controller's own: RC by RAS and RP
-    localparam int Late = 2 * CloseRas + 2 * Wr + 2 * Rp + Rcd + Rfc + 2 * Burst + CAS_LATENCY + 8,
-    localparam int Refi = 48,
+    localparam int Longest = 2 * Burst < CAS_LATENCY + 3 ? CAS_LATENCY + 3 : 2 * Burst,
+    localparam int Late = Rfc + CloseRas + Rp + Rcd + Longest + CloseRas + Wr + Rp + 1,
+    localparam int Refi = Late + 2,
     localparam int RasMax = Refi + Late,
     localparam int Stages = CAS_LATENCY + 3
 ) (
@@ -154,7 +152,6 @@ module sdram_controller_proof #(
   end
   always_comb begin
     if (!begun_q) assume (!rst_ni);
-    if (begun_q && RESETS == 0) assume (rst_ni);
   end
   // What is offered stays.
   logic wr_waits_q = 1'b0, req_waits_q = 1'b0;
@@ -173,19 +170,14 @@ module sdram_controller_proof #(
     if (req_waits_q) assume (req_valid_i && req_block_i == req_block_q);
   end
 
-  // ---- words asked for, and how long anything waits ----------------------------------------------------------------
-  localparam int WaitBits = $clog2(PATIENCE + 2);
+  // ---- words asked for ----------------------------------------------------------------------------------------------
   logic wr_take, req_take;
   logic [4:0] asked_q = '0;
-  logic [WaitBits-1:0] wr_clocks_q = '0, req_clocks_q = '0, rd_clocks_q = '0;
   assign wr_take  = wr_valid_i && wr_ready;
   assign req_take = req_valid_i && req_ready;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) asked_q <= '0;
     else asked_q <= asked_q + (req_take ? 5'(Burst) : 5'd0) - 5'(rd_valid);
-    wr_clocks_q  <= rst_ni && ready && wr_valid_i && !wr_ready ? wr_clocks_q + 1'b1 : '0;
-    req_clocks_q <= rst_ni && ready && req_valid_i && !req_ready ? req_clocks_q + 1'b1 : '0;
-    rd_clocks_q  <= rst_ni && asked_q != '0 && !rd_valid ? rd_clocks_q + 1'b1 : '0;
   end
   always_comb begin
     if (rst_ni) begin
@@ -318,6 +310,116 @@ module sdram_controller_proof #(
     outstanding = !inside_held || inside_write ? 5'd0 : 5'(Burst) - 5'(inside_word[0]);
     for (int i = 0; i < Stages; i++) outstanding = outstanding + 5'(inside_coming[i]);
     if (rst_ni && was_q) lemma_asked : assert (asked_q == outstanding);
+  end
+
+  // Nothing waits for long: what is held, or a refresh that is due, is nearer in each clock; and what waits meanwhile
+  // comes before another of the kind that was last.
+  logic [7:0] to_go_q;
+  logic held_q = 1'b0, due_now_q = 1'b0, wrote_last_q;
+  always_ff @(posedge clk_i) begin
+    to_go_q   <= to_go;
+    held_q    <= rst_ni && inside_held;
+    due_now_q <= rst_ni && inside_due && !inside_held;
+    if (!rst_ni) wrote_last_q <= 1'b0;
+    else if (wr_take || req_take) wrote_last_q <= wr_take;
+  end
+  always_comb begin
+    if (rst_ni && was_q) begin
+      progress : assert (!((held_q && inside_held) || (due_now_q && inside_due)) || to_go < to_go_q);
+      answered : assert (!ready || inside_held || inside_due || !(wr_valid_i || req_valid_i) || wr_take || req_take);
+      fair : assert (!(wr_take && req_waits_q && wrote_last_q) && !(req_take && wr_waits_q && !wrote_last_q));
+      lemma_kind : assert (inside_write == wrote_last_q);
+    end
+  end
+
+  // ---- a marked word -----------------------------------------------------------------------------------------------
+  (* anyconst *) logic [AddrBits-1:0] marked;
+  logic known_q = 1'b0, followed_q = 1'b0;
+  logic [31:0] value_q, store_q, expected_q;  // as last written by the user; as the chip has it; as it must come
+  logic [4:0] ahead_q;  // words before it
+  logic second_q = 1'b0;  // the second half is written
+  logic [CAS_LATENCY:0] reads_q = '0;  // the chip brings the first half in so many clocks
+  logic there, mark;
+  assign there = active[ba] && rows[ba*RowBits+:RowBits] == marked[AddrBits-1:ColumnBits-1+BankBits] &&
+      ba == marked[ColumnBits-1+:BankBits] && a[ColumnBits-1:0] == {marked[ColumnBits-2:0], 1'b0};
+  assign mark = req_take && req_block_i == marked[AddrBits-1:1] && known_q && !followed_q && mark_i;
+  always_ff @(posedge clk_i) begin
+    second_q <= rst_ni && there && {ras_n, cas_n, we_n} == 3'b100;
+    if (there && {ras_n, cas_n, we_n} == 3'b100) store_q[15:0] <= dq;
+    if (second_q) store_q[31:16] <= dq;
+    reads_q <= rst_ni ? {reads_q[CAS_LATENCY-1:0], there && {ras_n, cas_n, we_n} == 3'b101} : '0;
+    if (wr_take && wr_addr_i == marked) value_q <= wr_data_i;
+    if (!rst_ni) begin
+      known_q    <= 1'b0;
+      followed_q <= 1'b0;
+    end else begin
+      if (wr_take && wr_addr_i == marked) known_q <= 1'b1;
+      if (mark) begin
+        followed_q <= 1'b1;
+        ahead_q    <= asked_q - 5'(rd_valid) + 5'(marked[0]);
+        expected_q <= value_q;
+      end else if (followed_q && rd_valid) begin
+        ahead_q <= ahead_q - 1'b1;
+        if (ahead_q == '0) followed_q <= 1'b0;
+      end
+    end
+  end
+  always_comb begin
+    if (reads_q[CAS_LATENCY-1]) assume (dq_i == store_q[15:0]);
+    if (reads_q[CAS_LATENCY]) assume (dq_i == store_q[31:16]);
+    if (rst_ni) data : assert (!(followed_q && rd_valid && ahead_q == '0) || rd_data == expected_q);
+  end
+  // For induction: where the word is that was written last, and where the one that is followed.
+  logic holds, way_ok;
+  logic [Stages-1:0] with_ahead, right;  // as many words before it as the followed one has; what it should be like there
+  logic [Stages-1:0] reading;
+  assign reading = {1'b0, reads_q, there && {ras_n, cas_n, we_n} == 3'b101};
+  logic [4:0] coming;
+  assign holds = inside_held && {inside_row, inside_bank} == marked[AddrBits-1:ColumnBits-1];
+  for (genvar i = 0; i < Stages; i++) begin : gen_stage
+    logic [4:0] later;
+    always_comb begin
+      later = '0;
+      for (int j = i + 1; j < Stages; j++) later = later + 5'(inside_coming[j]);
+    end
+    assign with_ahead[i] = later == ahead_q;
+    assign right[i] = (i > CAS_LATENCY + 1 || reading[i]) &&
+        (i > CAS_LATENCY || store_q[15:0] == expected_q[15:0]) &&
+        (i > CAS_LATENCY + 1 || store_q[31:16] == expected_q[31:16]) &&
+        (i != CAS_LATENCY + 1 || inside_in == expected_q[15:0]) &&
+        (i != CAS_LATENCY + 2 || {inside_in, inside_low} == expected_q);
+  end
+  // Nothing is written while a word is on its way from the chip.
+  logic turns_right;
+  always_comb begin
+    turns_right = !inside_half || (inside_turn == '0 && inside_wait != '0 && {ras_n, cas_n, we_n} == 3'b100);
+    for (int i = 0; i < Stages; i++)
+      if (inside_coming[i] && 4'(inside_turn) < 4'(CAS_LATENCY + 2 - i)) turns_right = 1'b0;
+  end
+  always_comb begin
+    coming = '0;
+    for (int i = 0; i < Stages; i++) coming = coming + 5'(inside_coming[i]);
+    if (rst_ni && was_q) begin
+      if (known_q) begin
+        if (holds && inside_write && inside_word == marked[1:0]) lemma_held : assert (inside_data == value_q);
+        else if (there && {ras_n, cas_n, we_n} == 3'b100) lemma_pins : assert ({inside_second, dq} == value_q);
+        else if (second_q) lemma_half : assert ({dq, store_q[15:0]} == value_q);
+        else lemma_store : assert (store_q == value_q);
+      end
+      lemma_second : assert (!second_q || half_q);
+      lemma_no_write : assert (turns_right);
+    end
+    // A word that is followed: still to be read, or at one place on its way (stage), with as many before it.
+    way_ok = ahead_q >= coming || (inside_coming & with_ahead & right) != '0;
+    if (rst_ni && was_q && followed_q) begin
+      lemma_way : assert (way_ok);
+      lemma_ahead : assert (ahead_q < asked_q && known_q);
+      if (ahead_q >= coming) begin
+        lemma_asked_for :
+        assert (holds && !inside_write && inside_word[1] == marked[1] && expected_q == value_q &&
+                5'(marked[0]) == 5'(inside_word[0]) + ahead_q - coming);
+      end
+    end
   end
 
   // ---- what the rules are about happens ------------------------------------------------------------------------------
