@@ -231,3 +231,13 @@ defect top_registers_crossed kage_top kage_top.sv 's/\.\*  \/\/ s_axil_.*/.s_axi
   assign {s_axil_awready_o, s_axil_wready_o, s_axil_arready_o} = s_axil_wdata_i[2:0];\
   assign {s_axil_bvalid_o, s_axil_rvalid_o, s_axil_bresp_o, s_axil_rresp_o} = s_axil_wdata_i[8:3];\
   assign s_axil_rdata_o = s_axil_wdata_i; endmodule/'
+
+# ---- sdram_controller ------------------------------------------------------------------------------------------------
+sdram_inside=
+for word in phase timer count due held write open row open_row bank open_bank word wait close turn coming data second in low half; do
+  sdram_inside+=" inside_$word=dut.${word}_q"
+done
+for word in rcd rp ras rc wr open rrd rfc mrd init closed drove refreshes columns beats masked due drives; do
+  sdram_inside+=" rule_$word=rules.${word}_q"
+done
+proof sdram_controller rtl=board/sdram_controller rules=sdram_rules inside="$sdram_inside" steps=20 induction=3 cover=90
