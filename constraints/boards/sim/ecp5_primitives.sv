@@ -2,7 +2,6 @@
 // The primitives of Lattice's ECP5 that boards' tops use, as they behave, for simulation: a PLL, an output register of double
 // data rate, a pad. What of a primitive no top uses is refused or left out.
 `default_nettype none
-`timescale 1ps / 1ps
 
 // The PLL: it measures CLKI's period, and 30 periods later all clocks run, each a part of the oscillator, all beginning with a
 // rising edge at once. LOCK follows ten periods after them. Jitter and phases other than DIV - 1 (0 degrees) are not

@@ -5,7 +5,6 @@
 // dq_late: what the chip puts out reaches the FPGA's flip-flop 11 ns after the clock left it: 3 ns for the clock's way out, 6 for
 // the chip (t_AC), 2 for the way in.
 `default_nettype none
-`timescale 1ps / 1ps
 
 module board_sim #(
     `include "generated/kage_pixel_params.svh"
