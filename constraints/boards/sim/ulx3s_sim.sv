@@ -84,6 +84,9 @@ module board_sim #(
   always @(dq) dq_late <= #11000 dq;
   always @(dq_oe) dq_oe_late <= #11000 dq_oe;
 
+  // The chip has its supply from its first clock on, and knows nothing before.
+  logic power_q = 1'b0;
+  always_ff @(posedge sdram_clk) power_q <= 1'b1;
   logic [31:0] lost;
   sdram_chip #(
       .INIT     (T_INIT / 1000 * (MemHz / 1_000_000)),
@@ -99,7 +102,7 @@ module board_sim #(
       .MRD      (2),
       .RAS_MAX  (MemHz / 10_000)
   ) u_chip (
-      .power_i    (1'b1),
+      .power_i    (power_q),
       .clk_i      (sdram_clk),
       .cke_i      (cke),
       .cs_ni      (csn),

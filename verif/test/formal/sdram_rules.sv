@@ -28,9 +28,12 @@
 // Low rst_ni is power off: everything starts anew. active_o and row_o say which rows are open, for those who keep data.
 `default_nettype none
 
+// In simulation a rule is looked at where the chip takes its pins, at the clock's edge: between edges pins may be anything.
 `ifdef FORMAL
+`define SDRAM_RULES_AT always_comb
 `define SDRAM_RULE(name, holds) name : assert (holds);
 `else
+`define SDRAM_RULES_AT always_ff @(posedge clk_i)
 `define SDRAM_RULE(name, holds) \
 name : assert (holds) else $fatal(1, "SDRAM: rule %s is broken at %0t, bank %0d", `"name`", $time, ba_i);
 `endif
@@ -212,7 +215,7 @@ module sdram_rules #(
       open_long[b] = active_q[b] && open_q[b*MaxBits+:MaxBits] > MaxBits'(RAS_MAX);
     end
   end
-  always_comb begin
+  `SDRAM_RULES_AT begin
     if (rst_ni) begin
       `SDRAM_RULE(enabled, cke_i)
       `SDRAM_RULE(known, !stop && !((read || write) && a_i[10]))
