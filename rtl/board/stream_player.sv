@@ -7,9 +7,8 @@
 // Commands: start_i, for one clock while playing_o is low; stop_i, for one clock: no frame begins after the one at hand, and
 //   from the link, where a frame at hand may never be whole, the rest of it has to come or the core is held in reset.
 //   direct_i, loop_i and paced_i stay as they are while playing_o is high.
-// Pace: with paced_i a frame begins when the screen has asked for it; a request that comes while a frame goes on waits for
-//   that frame's end, and a second one beside it is lost (video_out asks for none). Without, requests are taken and
-//   forgotten.
+// Pace: with paced_i a frame begins when the screen has asked for one, without, at once. A request is kept until a frame
+//   begins, and two are as good as one.
 // Handshake: valid/ready on all ports; m_axis is AXI4-Stream with BEAT_WORDS words a beat, the first one lowest, and zeros
 //   behind the frame's last word. A frame is read in runs of at most 2^15 words.
 // Memory: run_valid_o with address and number of words, then the words (block_memory, sdram_memory).
@@ -72,12 +71,13 @@ module stream_player #(
   logic [31:0] left_q;  // words of the frame that have not come
   logic [RunBits:0] run_left_q, run_words;  // and of the run
   logic stopping_q, any_q, asked_q;
-  logic in_valid, in_ready, take, last_word;
+  logic in_valid, in_ready, take, last_word, begins;
   logic [31:0] in_data;
   assign in_valid  = direct_i ? link_valid_i : rd_valid_i;
   assign in_data   = direct_i ? link_data_i : rd_data_i;
   assign take      = in_valid && in_ready;
   assign last_word = left_q == 32'd1;
+  assign begins    = state_q == Wait && !stopping_q && (asked_q || !paced_i);
 
   assign playing_o = state_q != Idle;
   assign word_o    = take && state_q == Frame;
@@ -95,11 +95,11 @@ module stream_player #(
   assign rd_ready_o   = (in_ready && !direct_i) || state_q == Idle || state_q == AskCount;
   assign link_ready_o = in_ready && direct_i;
 
-  // A request waits for a frame that is due; beside it nothing has to be kept.
-  assign frame_req_ready_o = !paced_i || !asked_q;
+  assign frame_req_ready_o = 1'b1;
 
   always_ff @(posedge clk_i) begin
-    if (frame_req_valid_i && frame_req_ready_o) asked_q <= paced_i;
+    if (frame_req_valid_i) asked_q <= 1'b1;
+    else if (begins) asked_q <= 1'b0;
     if (stop_i) stopping_q <= 1'b1;
     case (state_q)
       Idle: begin
@@ -122,7 +122,7 @@ module stream_player #(
       end else if (take) begin
         left_q <= in_data;
         if (in_data != '0) begin
-          state_q <= stopping_q ? Idle : paced_i ? Wait : direct_i ? Frame : AskFrame;
+          state_q <= stopping_q ? Idle : Wait;
         end else begin
           at_q    <= address_i;
           state_q <= stopping_q || !loop_i || !(direct_i || any_q) ? Idle : direct_i ? Count : AskCount;
@@ -131,8 +131,7 @@ module stream_player #(
       Wait:
       if (stopping_q) begin
         state_q <= Idle;
-      end else if (asked_q) begin
-        asked_q <= 1'b0;
+      end else if (begins) begin
         state_q <= direct_i ? Frame : AskFrame;
       end
       AskFrame: begin
