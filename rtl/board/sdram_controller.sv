@@ -1,55 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 // A controller for one SDR SDRAM of 16 bits (IS42S16160, W9825G6KH, AS4C16M16 and their like), in the memory's clock.
 //
-// Words have 32 bits: two columns, the lower half in the even one. The address of a word is {row, bank, column without its
-// lowest bit}. The chip runs with bursts of two columns, so a word is a command; one row is open at a time, and stays open
-// until another is wanted or a refresh is due.
+// Words have 32 bits: two columns, the lower half in the even one. The address of a word is {row, bank, column
+// without its lowest bit}. The chip runs with bursts of two columns, so a word is a command; one row is open at a
+// time, and stays open until another is wanted or a refresh is due.
 //
 // Handshake: valid/ready at the ports for words to write and for blocks to read; wr_ready_o and req_ready_o depend on
-// registers and on the other port's valid: of a word and a block that both wait, the one is next whose kind was not last.
-// What was accepted is done in that order, so a block brings what was written before. A block of BURST words, aligned, comes
-// in order at rd_valid_o, which has no ready: who asks has room. Neither port is ready before ready_o, which is when the chip
-// has started (T_INIT after reset, and some 100 clocks).
-// Refresh: one is due every RefreshClocks, by a counter that never waits, and goes before any word or block that was not
-// accepted yet. It comes at most Late clocks after it is due: the command before it (T_RFC the longest), T_RAS or T_WR until
-// the open row may be closed, T_RP, T_RCD, a block of 2 x BURST clocks (or CAS_LATENCY + 3 until the bus is free for a word),
-// T_RAS and T_WR again, T_RP: 68 clocks at 100 MHz, added up as if none overlapped. RefreshClocks is such that a row sees its
-// next refresh within T_REF even so: 2^ROW_BITS x RefreshClocks + Late clocks.
-// Pins: all outputs are flip-flops (those of cke and cs are constant); dq_oe_o says when dq_o is driven. READ_DELAY: clocks
-// from the one in which a read stands on the pins to the one in which its first half stands at dq_i. It is CAS_LATENCY where
-// the chip takes commands at the end of their clock, one less where its clock is turned round, and one more for each register
-// between pad and dq_i.
-// Latency: a block whose row is open brings its first word READ_DELAY + 4 clocks after it was accepted; another row costs
-// T_RP + T_RCD more, and the rest of T_RAS or T_WR.
+// registers and on the other port's valid: of a word and a block that both wait, the one is next whose kind was not
+// last. What was accepted is done in that order, so a block brings what was written before. A block of BURST words,
+// aligned, comes in order at rd_valid_o, which has no ready: who asks has room. Neither port is ready before ready_o,
+// which is when the chip has started (T_INIT after reset, and some 100 clocks).
+// Refresh: one is due every RefreshClocks, by a counter that never waits, and goes before any word or block that was
+// not accepted yet. It comes at most Late clocks after it is due: the command before it (T_RFC the longest), T_RAS or
+// T_WR until the open row may be closed, T_RP, T_RCD, a block of 2 x BURST clocks (or CAS_LATENCY + 3 until the bus
+// is free for a word), T_RAS and T_WR again, T_RP: 61 clocks at 100 MHz, added up as if none overlapped.
+// RefreshClocks is such that a row sees its next refresh within T_REF even so: 2^ROW_BITS x RefreshClocks + Late
+// clocks.
+// Pins: all outputs are flip-flops (those of cke and cs are constant); dq_oe_o says when dq_o is driven. READ_DELAY:
+// clocks from the one in which a read stands on the pins to the one in which its first half stands at dq_i. It is
+// CAS_LATENCY where the chip takes commands at the end of their clock, one less where its clock is turned round, and
+// one more for each register between pad and dq_i.
+// Latency: a block whose row is open brings its first word READ_DELAY + 4 clocks after it was accepted; another row
+// costs T_RP + T_RCD more, and the rest of T_RAS or T_WR.
 // Throughput: a word in two clocks, written or read, while they are in one row; a block after another in another row
-// takes 2 x BURST + T_RP + T_RCD clocks. (At 100 MHz: CLOCKS_NOTE.)
-// Cost: COST_NOTE
+// takes 2 x BURST + T_RP + T_RCD clocks. At 100 MHz, refresh counted in, 194 MB/s within rows and 166 MB/s
+// with another row for each block (rtl_modules [sdram]).
+// Cost: yosys synth_ecp5: 270 LUT4 and 12 carry cells, 200 flip-flops.
 `default_nettype none
 `include "kage_illegal.svh"
 
 module sdram_controller #(
-    parameter  int CLOCK_HZ       = 100_000_000,
-    parameter  int ROW_BITS       = 13,
-    parameter  int COLUMN_BITS    = 9,
-    parameter  int BANK_BITS      = 2,
-    parameter  int BURST          = 16,            // words of a block, a power of two, at least 2
-    parameter  int CAS_LATENCY    = 3,
-    parameter  int READ_DELAY     = CAS_LATENCY,
+    parameter int CLOCK_HZ = 100_000_000,
+    parameter int ROW_BITS = 13,
+    parameter int COLUMN_BITS = 9,
+    parameter int BANK_BITS = 2,
+    parameter int BURST = 16,  // words of a block, a power of two, at least 2
+    parameter int CAS_LATENCY = 3,
+    parameter int READ_DELAY = CAS_LATENCY,
     // Nanoseconds, the longest of the speed grades -6 and -7 of these chips.
-    parameter  int T_INIT         = 200_000,
-    parameter  int T_RCD          = 21,
-    parameter  int T_RP           = 21,
-    parameter  int T_RAS          = 45,
-    parameter  int T_RAS_MAX      = 100_000,
-    parameter  int T_RC           = 66,
-    parameter  int T_RFC          = 70,
-    parameter  int T_WR           = 15,
-    parameter  int T_REF          = 64_000_000,    // for all rows
-    parameter  int CLOCKS_MRD     = 2,
-    parameter  int CLOCKS_WR      = 2,             // at least, whatever T_WR says
-    parameter  int INIT_REFRESHES = 8,
-    localparam int AddrBits       = ROW_BITS + BANK_BITS + COLUMN_BITS - 1,
-    localparam int BurstBits      = $clog2(BURST)
+    parameter int T_INIT = 200_000,
+    parameter int T_RCD = 21,
+    parameter int T_RP = 21,
+    parameter int T_RAS = 45,
+    parameter int T_RAS_MAX = 100_000,
+    parameter int T_RC = 66,
+    parameter int T_RFC = 70,
+    parameter int T_WR = 15,
+    parameter int T_REF = 64_000_000,  // for all rows
+    parameter int CLOCKS_MRD = 2,
+    parameter int CLOCKS_WR = 2,  // at least, whatever T_WR says
+    parameter int INIT_REFRESHES = 8,
+    localparam int AddrBits = ROW_BITS + BANK_BITS + COLUMN_BITS - 1,
+    localparam int BurstBits = $clog2(BURST)
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -80,7 +82,7 @@ module sdram_controller #(
     output logic                      sdram_dq_oe_o,
     input  wire logic [         15:0] sdram_dq_i
 );
-  // ---- nanoseconds to clocks, rounded up -----------------------------------------------------------------------------
+  // ---- nanoseconds to clocks, rounded up ----------------------------------------------------------------------------
   localparam logic [63:0] KiloHz = (64'(CLOCK_HZ) + 64'd999) / 64'd1000;
   localparam logic [63:0] Million = 64'd1_000_000;
   localparam logic [63:0] UpTo = Million - 64'd1;
@@ -139,7 +141,7 @@ module sdram_controller #(
     `KAGE_ILLEGAL("T_RAS_MAX must be longer than the time between refreshes, which close the row")
   end
 
-  // ---- what goes on --------------------------------------------------------------------------------------------------
+  // ---- what goes on -------------------------------------------------------------------------------------------------
   localparam logic [2:0] Pause = 3'd0;
   localparam logic [2:0] Close = 3'd1;
   localparam logic [2:0] Refreshes = 3'd2;
@@ -223,8 +225,8 @@ module sdram_controller #(
     else if (close) open_q <= 1'b0;
 
     case (phase_q)
-      Pause: if (timer_q == '0) phase_q <= Close;
-      Close: if (close) phase_q <= Refreshes;
+      Pause:   if (timer_q == '0) phase_q <= Close;
+      Close:   if (close) phase_q <= Refreshes;
       Refreshes:
       if (refresh) begin
         count_q <= count_q + 1'b1;
@@ -252,7 +254,7 @@ module sdram_controller #(
     end
   end
 
-  // ---- commands, a clock later on the pins ---------------------------------------------------------------------------
+  // ---- commands, a clock later on the pins --------------------------------------------------------------------------
   logic [2:0] command_q;
   logic [BANK_BITS-1:0] ba_q;
   logic [ROW_BITS-1:0] a_q;
@@ -296,7 +298,7 @@ module sdram_controller #(
   assign sdram_dq_o = dq_q;
   assign sdram_dq_oe_o = oe_q;
 
-  // ---- words that come back ------------------------------------------------------------------------------------------
+  // ---- words that come back -----------------------------------------------------------------------------------------
   logic [Stages-1:0] coming_q;
   logic [15:0] in_q, low_q;
   always_ff @(posedge clk_i) begin

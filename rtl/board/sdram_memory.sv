@@ -1,37 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame memory in an SDRAM: words are written one by one and read as runs, in the core's clock, while the chip has its
-// own. Between the clocks lie two async_fifos, nothing else.
+// A frame memory in an SDRAM: words are written one by one and read as runs, in the core's clock, while the chip has
+// its own. Between the clocks lie two async_fifos, nothing else.
 //
-// Handshake: valid/ready at the ports for words to write, for runs to read ({address, words}, words at least 1, from any
-// address on, round the end of the memory), and for the words of a run, which come in order. A run is accepted when the last
-// word of the former has left. All ready outputs depend on registers, wr_ready_o on whether a block is asked for too.
-// Order: words to write and blocks to read go through one FIFO. So a run brings every word that was accepted before the run
-// was, or in the same clock; a word that is accepted while a run goes on is in it or not.
-// Room: a block of BURST words is asked for only when the FIFO of words read has room for it beside those under way. The room
-// is counted in the core's clock alone, where the words leave.
+// Handshake: valid/ready at the ports for words to write, for runs to read ({address, words}, words at least 1, from
+// any address on, round the end of the memory), and for the words of a run, which come in order. A run is accepted
+// when the last word of the former has left. All ready outputs depend on registers, wr_ready_o on whether a block is
+// asked for too.
+// Order: words to write and blocks to read go through one FIFO. So a run brings every word that was accepted before
+// the run was, or in the same clock; a word that is accepted while a run goes on is in it or not.
+// Room: a block of BURST words is asked for only when the FIFO of words read has room for it beside those under way.
+// The room is counted in the core's clock alone, where the words leave.
 // Reset: both clocks' resets at once, as async_fifo says. Words accepted before the chip has started wait in the FIFO.
 // Latency: from run to first word about 8 clocks of the core and 16 of the memory, 9 more where another row is open.
-// Throughput: a word a clock of the core, or a word in 2.4 clocks of the memory, whichever is less.
-// Cost: COST_NOTE
+// Throughput: a word a clock of the core, or a word in 2.1 clocks of the memory, whichever is less.
+// Cost: yosys synth_ecp5, controller and FIFOs together: 620 LUT4 and 61 carry cells, 410 flip-flops, 14 LUT RAMs of
+// 16 x 4, a block RAM.
 `default_nettype none
 `include "kage_illegal.svh"
 
 module sdram_memory #(
-    parameter  int CLOCK_HZ      = 100_000_000,   // of the memory
-    parameter  int ROW_BITS      = 13,
-    parameter  int COLUMN_BITS   = 9,
-    parameter  int BANK_BITS     = 2,
-    parameter  int BURST         = 16,
-    parameter  int CAS_LATENCY   = 3,
-    parameter  int READ_DELAY    = CAS_LATENCY,
-    parameter  int T_INIT        = 200_000,
-    parameter  int T_REF         = 64_000_000,
-    parameter  int WORDS         = 64,            // places for words read, a power of two
-    parameter  int COMMANDS      = 8,             // words to write and blocks to read that wait
-    localparam int AddrBits      = ROW_BITS + BANK_BITS + COLUMN_BITS - 1,
-    localparam int BurstBits     = $clog2(BURST),
-    localparam int RoomBits      = $clog2(WORDS) + 1,
-    localparam int BlockBits     = 17 - BurstBits
+    parameter  int CLOCK_HZ    = 100_000_000,                             // of the memory
+    parameter  int ROW_BITS    = 13,
+    parameter  int COLUMN_BITS = 9,
+    parameter  int BANK_BITS   = 2,
+    parameter  int BURST       = 16,
+    parameter  int CAS_LATENCY = 3,
+    parameter  int READ_DELAY  = CAS_LATENCY,
+    parameter  int T_INIT      = 200_000,
+    parameter  int T_REF       = 64_000_000,
+    parameter  int WORDS       = 64,                                      // places for words read, a power of two
+    parameter  int COMMANDS    = 8,                                       // words to write and blocks to read that wait
+    localparam int AddrBits    = ROW_BITS + BANK_BITS + COLUMN_BITS - 1,
+    localparam int BurstBits   = $clog2(BURST),
+    localparam int RoomBits    = $clog2(WORDS) + 1,
+    localparam int BlockBits   = 17 - BurstBits
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -69,7 +71,7 @@ module sdram_memory #(
     `KAGE_ILLEGAL("WORDS must be a power of two and at least two bursts, which have at most 64 words")
   end
 
-  // ---- the core's clock: runs to blocks ------------------------------------------------------------------------------
+  // ---- the core's clock: runs to blocks -----------------------------------------------------------------------------
   logic busy_q;  // a run is not over, or words of its last block are still to be thrown away
   logic [AddrBits-BurstBits-1:0] block_q;
   logic [BlockBits-1:0] blocks_q;  // to be asked for
@@ -126,7 +128,7 @@ module sdram_memory #(
     end
   end
 
-  // ---- to the memory's clock, and back -------------------------------------------------------------------------------
+  // ---- to the memory's clock, and back ------------------------------------------------------------------------------
   logic [AddrBits+32:0] command, mem_command;
   logic mem_command_valid, mem_command_ready, mem_write, mem_wr_ready, mem_req_ready;
   logic mem_rd_valid, mem_rd_ready;

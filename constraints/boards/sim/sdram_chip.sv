@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// An SDR SDRAM of 16 bits as its data sheet tells of it, for simulation by Verilator. It knows nothing of any controller.
+// An SDR SDRAM of 16 bits as its data sheet tells of it, for simulation by Verilator. It knows nothing of any
+// controller.
 //
-// What it does: bursts and CAS latency as the mode register says (1, 2, 4, 8 columns in sequence, which turn round within
-// their aligned group), dqm (two clocks late for reads), and what it is asked otherwise is checked by sdram_rules: a broken
-// rule stops the simulation with its name, the time and the bank.
-// Charge leaks: a row that is neither refreshed nor activated for RETENTION clocks reads as its complement from then on. An
-// auto refresh takes the next row, of every bank. What was never written reads as a number made of the address.
+// What it does: bursts and CAS latency as the mode register says (1, 2, 4, 8 columns in sequence, which turn round
+// within their aligned group), dqm (two clocks late for reads), and what it is asked otherwise is checked by
+// sdram_rules: a broken rule stops the simulation with its name, the time and the bank.
+// Charge leaks: a row that is neither refreshed nor activated for RETENTION clocks reads as its complement from then
+// on. An auto refresh takes the next row, of every bank. What was never written reads as a number made of the address.
 // Data bus: split in dq_i, dq_o and dq_oe_o, because Verilator 5.006 makes of a tristate bus between modules an
 // approximation. What is not driven, and what is masked, reads as 16'hdead.
 // Memory: an associative array, so that 32 MB cost nothing but what was written.
-// power_i is no pin: low, the chip has no supply, and forgets its mode; a test that resets its controller turns it off too.
+// power_i is no pin: low, the chip has no supply, and forgets its mode; a test that resets its controller turns it
+// off too.
 // Latency: that of the mode register. Throughput: a column a clock. Cost: none, it is not for synthesis.
 `default_nettype none
 
@@ -125,24 +127,24 @@ module sdram_chip #(
   logic [3:0] oe;
   logic [63:0] way;
   always_ff @(posedge clk_i) begin
-    now_q <= now_q + 1'b1;
-    dqm_q <= dqm_i;
+    now_q  <= now_q + 1'b1;
+    dqm_q  <= dqm_i;
     mask_q <= dqm_q;
 
-    now_reads = reading_q;
+    now_reads  = reading_q;
     now_writes = writing_q;
-    now_left = left_q;
-    now_bank = bank_q;
+    now_left   = left_q;
+    now_bank   = bank_q;
     now_column = column_q;
     if (command == 3'b101 || command == 3'b100) begin
-      now_reads = command == 3'b101;
+      now_reads  = command == 3'b101;
       now_writes = command == 3'b100;
-      now_left = burst;
-      now_bank = ba_i;
+      now_left   = burst;
+      now_bank   = ba_i;
       now_column = COLUMN_BITS'(a_i[9:0]);
     end
-    at = place(now_bank, rows[32'(now_bank)*ROW_BITS+:ROW_BITS], now_column);
-    oe = oe_q >> 1;
+    at  = place(now_bank, rows[32'(now_bank)*ROW_BITS+:ROW_BITS], now_column);
+    oe  = oe_q >> 1;
     way = way_q >> 16;
     if (now_left != '0 && now_reads) begin
       word = mem.exists(at) != 0 ? mem[at] : never(at);
@@ -176,8 +178,8 @@ module sdram_chip #(
     end
     if (command == 3'b001) begin
       for (int b = 0; b < Banks; b++)
-        if (now_q - charged_q[{BANK_BITS'(b), refresh_q}] <= 64'(RETENTION))
-          charged_q[{BANK_BITS'(b), refresh_q}] <= now_q;
+      if (now_q - charged_q[{BANK_BITS'(b), refresh_q}] <= 64'(RETENTION))
+        charged_q[{BANK_BITS'(b), refresh_q}] <= now_q;
       refresh_q <= refresh_q + 1'b1;
     end
     if (!power_i) begin

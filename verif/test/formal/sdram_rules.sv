@@ -7,8 +7,8 @@
 //   enabled     the chip's clock is never suspended: cke is high.
 //   known       no burst stop, and no auto precharge (A10 low in reads and writes): neither is told of here.
 //   pause       no command within INIT clocks after power-up.
-//   start_up    then all banks are precharged, INIT_REFRESHES refreshes and the mode register follow, in this order, before
-//               anything is activated. The mode register is set once.
+//   start_up    then all banks are precharged, INIT_REFRESHES refreshes and the mode register follow, in this order,
+//               before anything is activated. The mode register is set once.
 //   mode        its value is one that the data sheet has: burst of 1, 2, 4 or 8 in sequence, CAS latency 2 or 3.
 //   idle        activate, refresh and mode register only where the bank (all banks) is precharged.
 //   active      read and write only of an active bank.
@@ -21,9 +21,9 @@
 //   driven      words that are written are on the bus in their clocks, unmasked.
 //   unmasked    dqm is low two clocks before each word that is read.
 //   bus         nobody drives the bus while the chip does, nor in the clock after it.
-//   refreshes   the n-th refresh after start-up comes at most n x REFI + SLACK clocks after it. A refresh that comes early
-//               counts for its own interval only. So SLACK clocks are all that refreshes may be late by: with R rows,
-//               R x REFI + SLACK within the chip's 64 ms loses nothing.
+//   refreshes   the n-th refresh after start-up comes at most n x REFI + SLACK clocks after it. A refresh that comes
+//               early counts for its own interval only. So SLACK clocks are all that refreshes may be late by: with R
+//               rows, R x REFI + SLACK within the chip's 64 ms loses nothing.
 //
 // Low rst_ni is power off: everything starts anew. active_o and row_o say which rows are open, for those who keep data.
 `default_nettype none
@@ -67,7 +67,7 @@ module sdram_rules #(
     input wire logic [BANK_BITS-1:0] ba_i,
     input wire logic [ ROW_BITS-1:0] a_i,
     input wire logic [          1:0] dqm_i,
-    input wire logic                 dq_oe_i,  // the controller drives the bus
+    input wire logic                 dq_oe_i, // the controller drives the bus
 
     output logic [         Banks-1:0] active_o,
     output logic [Banks*ROW_BITS-1:0] row_o,
@@ -101,7 +101,8 @@ module sdram_rules #(
   logic closed_q = 1'b0, started_q = 1'b0;  // all banks precharged for the first time; mode register set
   logic [3:0] refreshes_q = '0;
   logic [DueBits-1:0] due_q = '0;  // clocks since start-up less REFI for each refresh, at least 0
-  logic [3:0] burst_q = 4'd1, columns_q = '0, beats_q = '0;  // columns of a burst that are to come; those that are written
+  logic [3:0]
+      burst_q = 4'd1, columns_q = '0, beats_q = '0;  // columns of a burst that are to come; those that are written
   logic [1:0] latency_q = 2'd2;
   logic [11:0] drives_q = '0;  // bit i: the chip drives in i clocks
   logic drove_q = 1'b0;
@@ -132,8 +133,7 @@ module sdram_rules #(
 
   logic [Banks-1:0] asked;  // the banks that the command is about
   always_comb begin
-    for (int b = 0; b < Banks; b++)
-      asked[b] = set_mode || refresh || (precharge && a_i[10]) || BANK_BITS'(b) == ba_i;
+    for (int b = 0; b < Banks; b++) asked[b] = set_mode || refresh || (precharge && a_i[10]) || BANK_BITS'(b) == ba_i;
   end
 
   always_ff @(posedge clk_i) begin
@@ -220,9 +220,10 @@ module sdram_rules #(
       `SDRAM_RULE(enabled, cke_i)
       `SDRAM_RULE(known, !stop && !((read || write) && a_i[10]))
       `SDRAM_RULE(pause, !command || init_q == '0)
-      `SDRAM_RULE(start_up,
-                  (!refresh || closed_q) && (!set_mode || (refreshes_q == 4'(INIT_REFRESHES) && !started_q)) &&
-                  (!(activate || read || write) || started_q))
+      `SDRAM_RULE(
+          start_up,
+          (!refresh || closed_q) && (!set_mode || (refreshes_q == 4'(INIT_REFRESHES) && !started_q)) &&
+          (!(activate || read || write) || started_q))
       `SDRAM_RULE(mode, !set_mode || (ba_i == '0 && a_i[ROW_BITS-1:7] == '0 && a_i[6:5] == 2'b01 && a_i[3:2] == '0))
       `SDRAM_RULE(idle, !(activate || refresh || set_mode) || (asked & active_q) == '0)
       `SDRAM_RULE(active, !(read || write) || (asked & ~active_q) == '0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sdram_controller and a chip on its pins, at 100 MHz. OFF_* take away from the controller's times, so that a test sees the
-// chip refuse it.
+// sdram_controller and a chip on its pins, at 100 MHz. With a T_RCD shorter than the chip's RCD, or a T_REF longer than
+// its RETENTION, a test sees the chip refuse it.
 `default_nettype none
 
 module sdram_bench #(
