@@ -60,19 +60,19 @@ module board_core #(
     output logic      tx_o,
 
     // SDRAM
-    input  wire logic                   mem_clk_i,
-    input  wire logic                   mem_rst_ni,
-    output logic                        sdram_cke_o,
-    output logic                        sdram_cs_no,
-    output logic                        sdram_ras_no,
-    output logic                        sdram_cas_no,
-    output logic                        sdram_we_no,
-    output logic      [  BANK_BITS-1:0] sdram_ba_o,
-    output logic      [   ROW_BITS-1:0] sdram_a_o,
-    output logic      [            1:0] sdram_dqm_o,
-    output logic      [           15:0] sdram_dq_o,
-    output logic                        sdram_dq_oe_o,
-    input  wire logic [           15:0] sdram_dq_i,
+    input  wire logic                 mem_clk_i,
+    input  wire logic                 mem_rst_ni,
+    output logic                      sdram_cke_o,
+    output logic                      sdram_cs_no,
+    output logic                      sdram_ras_no,
+    output logic                      sdram_cas_no,
+    output logic                      sdram_we_no,
+    output logic      [BANK_BITS-1:0] sdram_ba_o,
+    output logic      [ ROW_BITS-1:0] sdram_a_o,
+    output logic      [          1:0] sdram_dqm_o,
+    output logic      [         15:0] sdram_dq_o,
+    output logic                      sdram_dq_oe_o,
+    input  wire logic [         15:0] sdram_dq_i,
 
     // screen
     input  wire logic        pix_clk_i,
@@ -146,7 +146,7 @@ module board_core #(
   logic awvalid, awready, wvalid, wready, bvalid, bready, arvalid, arready, rvalid, rready;
   logic [15:0] awaddr, araddr;
   logic [31:0] wdata, rdata;
-  logic [ 3:0] wstrb;
+  logic [3:0] wstrb;
   logic [1:0] bresp, rresp;
   logic stream_valid, stream_ready, fresh, framing_error, axi_error, overrun;
   logic [31:0] stream_data;
@@ -544,17 +544,19 @@ module board_core #(
 
   // ---- LEDs --------------------------------------------------------------------------------------------------------
   logic [LED_BITS+1:0] blink_q;
-  always_ff @(posedge clk_i) blink_q <= rst_ni ? blink_q + 1'b1 : '0;
-  assign led_o = {
-    irq,
-    memory_ready,
-    fresh,
-    screen_led,
-    check && mismatches != '0,
-    check && lines != '0 && mismatches == '0,
-    playing,
-    blink_q[LED_BITS+1]
-  };
+  always_ff @(posedge clk_i) begin
+    blink_q <= rst_ni ? blink_q + 1'b1 : '0;
+    led_o <= {
+      irq,
+      memory_ready,
+      fresh,
+      screen_led,
+      check && mismatches != '0,
+      check && lines != '0 && mismatches == '0,
+      playing,
+      blink_q[LED_BITS+1]
+    };
+  end
 
   logic unused_here;
   assign unused_here = &{1'b0, rx_taken, framing_error, axi_error, overrun, load_address, play_address};

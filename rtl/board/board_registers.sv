@@ -139,16 +139,16 @@ module board_registers #(
   logic [3:0] wr_strb_q;
   reg_control_t control_q;
   logic write_here;
-  assign s_axil_awready_o = rst_ni && write_q == WriteTake && !aw_held_q;
-  assign s_axil_wready_o  = rst_ni && write_q == WriteTake && !w_held_q;
-  assign s_axil_bvalid_o  = write_q == WriteAnswer;
-  assign m_axil_awvalid_o = aw_left_q;
-  assign m_axil_awaddr_o  = wr_addr_q[7:0];
-  assign m_axil_wvalid_o  = w_left_q;
-  assign m_axil_wdata_o   = wr_data_q;
-  assign m_axil_wstrb_o   = wr_strb_q;
-  assign m_axil_bready_o  = write_q == WriteCore;
-  assign write_here       = write_q == WriteDo && is_here(wr_addr_q);
+  assign s_axil_awready_o    = rst_ni && write_q == WriteTake && !aw_held_q;
+  assign s_axil_wready_o     = rst_ni && write_q == WriteTake && !w_held_q;
+  assign s_axil_bvalid_o     = write_q == WriteAnswer;
+  assign m_axil_awvalid_o    = aw_left_q;
+  assign m_axil_awaddr_o     = wr_addr_q[7:0];
+  assign m_axil_wvalid_o     = w_left_q;
+  assign m_axil_wdata_o      = wr_data_q;
+  assign m_axil_wstrb_o      = wr_strb_q;
+  assign m_axil_bready_o     = write_q == WriteCore;
+  assign write_here          = write_q == WriteDo && is_here(wr_addr_q);
 
   assign hold_o              = control_q.hold;
   assign loop_o              = control_q.loop;
@@ -205,7 +205,7 @@ module board_registers #(
       case ({
         wr_addr_q[15:2], 2'b00
       })
-        RegControl: control_q <= wr_data_q[RegControlBits-1:0];
+        RegControl:     control_q <= wr_data_q[RegControlBits-1:0];
         RegCommand: begin
           start_o <= command.start;
           stop_o  <= command.stop;
@@ -330,7 +330,7 @@ module board_registers #(
         s_axil_rdata_o <= m_axil_rdata_i;
         s_axil_rresp_o <= m_axil_rresp_i;
       end
-      default: if (s_axil_rready_i) read_q <= ReadTake;
+      default:  if (s_axil_rready_i) read_q <= ReadTake;
     endcase
     if (!rst_ni) begin
       read_q    <= ReadTake;

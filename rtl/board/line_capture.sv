@@ -10,8 +10,8 @@
 `default_nettype none
 
 module line_capture #(
-    parameter int CHANNELS = 3,
-    parameter int PIXELS = 640,
+    parameter  int CHANNELS = 3,
+    parameter  int PIXELS   = 640,
     localparam int AddrBits = $clog2(PIXELS)
 ) (
     input wire logic clk_i,

@@ -50,10 +50,10 @@ module stream_player #(
     output logic             link_ready_o,
     input  wire logic [31:0] link_data_i,
 
-    output logic                         m_axis_tvalid_o,
-    input  wire logic                    m_axis_tready_i,
+    output logic                          m_axis_tvalid_o,
+    input  wire logic                     m_axis_tready_i,
     output logic      [BEAT_WORDS*32-1:0] m_axis_tdata_o,
-    output logic                         m_axis_tlast_o
+    output logic                          m_axis_tlast_o
 );
   localparam int RunBits = 15;
 
@@ -73,15 +73,15 @@ module stream_player #(
   logic stopping_q, any_q, asked_q;
   logic in_valid, in_ready, take, last_word, begins;
   logic [31:0] in_data;
-  assign in_valid  = direct_i ? link_valid_i : rd_valid_i;
-  assign in_data   = direct_i ? link_data_i : rd_data_i;
-  assign take      = in_valid && in_ready;
-  assign last_word = left_q == 32'd1;
-  assign begins    = state_q == Wait && !stopping_q && (asked_q || !paced_i);
+  assign in_valid    = direct_i ? link_valid_i : rd_valid_i;
+  assign in_data     = direct_i ? link_data_i : rd_data_i;
+  assign take        = in_valid && in_ready;
+  assign last_word   = left_q == 32'd1;
+  assign begins      = state_q == Wait && !stopping_q && (asked_q || !paced_i);
 
-  assign playing_o = state_q != Idle;
-  assign word_o    = take && state_q == Frame;
-  assign data_o    = in_data;
+  assign playing_o   = state_q != Idle;
+  assign word_o      = take && state_q == Frame;
+  assign data_o      = in_data;
 
   assign run_words   = left_q > 32'(2 ** RunBits) ? (RunBits + 1)'(2 ** RunBits) : left_q[RunBits:0];
   assign run_valid_o = state_q == AskCount || state_q == AskFrame;
@@ -90,10 +90,10 @@ module stream_player #(
 
   // ---- what the words are ------------------------------------------------------------------------------------------
   logic beat_free;
-  assign in_ready     = (state_q == Count && !(direct_i && stopping_q)) || (state_q == Frame && beat_free);
+  assign in_ready          = (state_q == Count && !(direct_i && stopping_q)) || (state_q == Frame && beat_free);
   // A reset may come in the middle of a run: the memory takes no other before the words of that one have left.
-  assign rd_ready_o   = (in_ready && !direct_i) || state_q == Idle || state_q == AskCount;
-  assign link_ready_o = in_ready && direct_i;
+  assign rd_ready_o        = (in_ready && !direct_i) || state_q == Idle || state_q == AskCount;
+  assign link_ready_o      = in_ready && direct_i;
 
   assign frame_req_ready_o = 1'b1;
 

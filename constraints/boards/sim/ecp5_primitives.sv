@@ -9,11 +9,11 @@
 module EHXPLLL #(
     parameter int CLKI_DIV = 1,
     parameter int CLKFB_DIV = 1,
-    parameter FEEDBK_PATH = "CLKOP",
-    parameter CLKOP_ENABLE = "ENABLED",
-    parameter CLKOS_ENABLE = "DISABLED",
-    parameter CLKOS2_ENABLE = "DISABLED",
-    parameter CLKOS3_ENABLE = "DISABLED",
+    parameter string FEEDBK_PATH = "CLKOP",
+    parameter string CLKOP_ENABLE = "ENABLED",
+    parameter string CLKOS_ENABLE = "DISABLED",
+    parameter string CLKOS2_ENABLE = "DISABLED",
+    parameter string CLKOS3_ENABLE = "DISABLED",
     parameter int CLKOP_DIV = 8,
     parameter int CLKOS_DIV = 8,
     parameter int CLKOS2_DIV = 8,
@@ -26,10 +26,10 @@ module EHXPLLL #(
     parameter int CLKOS_FPHASE = 0,
     parameter int CLKOS2_FPHASE = 0,
     parameter int CLKOS3_FPHASE = 0,
-    parameter OUTDIVIDER_MUXA = "DIVA",
-    parameter OUTDIVIDER_MUXB = "DIVB",
-    parameter OUTDIVIDER_MUXC = "DIVC",
-    parameter OUTDIVIDER_MUXD = "DIVD"
+    parameter string OUTDIVIDER_MUXA = "DIVA",
+    parameter string OUTDIVIDER_MUXB = "DIVB",
+    parameter string OUTDIVIDER_MUXC = "DIVC",
+    parameter string OUTDIVIDER_MUXD = "DIVD"
 ) (
     input  wire  RST,
     input  wire  STDBY,
@@ -56,7 +56,7 @@ module EHXPLLL #(
 
   // Periods in picoseconds. The oscillator is kept exact: a clock's half period is rounded alone.
   longint last = 0, period = 0;
-  int edges = 0;
+  int   edges = 0;
   logic runs = 1'b0;
   initial LOCK = 1'b0;
   always @(posedge CLKI) begin

@@ -126,7 +126,7 @@ module sdram_chip #(
   logic [15:0] word;
   logic [3:0] oe;
   logic [63:0] way;
-  always_ff @(posedge clk_i) begin
+  always @(posedge clk_i) begin
     now_q  <= now_q + 1'b1;
     dqm_q  <= dqm_i;
     mask_q <= dqm_q;

@@ -36,9 +36,9 @@ module board_sim #(
   localparam int MemHz = 25_000_000 * FB_DIV * BIT_DIV / MEM_DIV;
 
   logic sdram_clk, cke, csn, rasn, casn, wen, wifi;
-  logic [ 1:0] ba, dqm;
+  logic [1:0] ba, dqm;
   logic [12:0] a;
-  wire [15:0] d;
+  wire  [15:0] d;
   logic [15:0] dq, dq_late;
   logic dq_oe, dq_oe_late;
   ulx3s #(

@@ -91,7 +91,7 @@ def build(work, name, board, fault, verilator, cxx, partial):
     for folder in ("rtl", "rtl/board", BOARDS / board["top"], BOARDS / "sim", "verif/test/formal"):
         command += ["-y", tree / folder]
     command += [f"-G{n}={v}" for n, v in parameters.items()] + ["-CFLAGS", flags, "-LDFLAGS", "-shared", "-o", partial]
-    command += [tree / BOARDS / "sim" / simulation["primitives"], tree / BOARDS / "sim" / simulation["file"], TOP / HERE / "board_model.cpp"]
+    command += [tree / BOARDS / "sim/synchronizer_sim.sv", tree / BOARDS / "sim" / simulation["primitives"], tree / BOARDS / "sim" / simulation["file"], TOP / HERE / "board_model.cpp"]
     run("verilator", command, log, work)
     run("compiling the board", ["make", "-C", work / "obj", "-f", "Vboard.mk", "-j2", f"CXX={shlex.join(cxx)}", "OPT_FAST=-O2", "VM_PARALLEL_BUILDS=0"], log, work)
 

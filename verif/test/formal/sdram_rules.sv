@@ -28,14 +28,11 @@
 // Low rst_ni is power off: everything starts anew. active_o and row_o say which rows are open, for those who keep data.
 `default_nettype none
 
-// In simulation a rule is looked at where the chip takes its pins, at the clock's edge: between edges pins may be anything.
 `ifdef FORMAL
-`define SDRAM_RULES_AT always_comb
 `define SDRAM_RULE(name, holds) name : assert (holds);
 `else
-`define SDRAM_RULES_AT always_ff @(posedge clk_i)
-`define SDRAM_RULE(name, holds) \
-name : assert (holds) else $fatal(1, "SDRAM: rule %s is broken at %0t, bank %0d", `"name`", $time, ba_i);
+// The simulator's message has the rule's name before this text.
+`define SDRAM_RULE(name, holds) name : assert (holds) else $fatal(1, "SDRAM: broken at %0t, bank %0d", $time, ba_i);
 `endif
 
 module sdram_rules #(
@@ -112,10 +109,10 @@ module sdram_rules #(
   logic [3:0] mode_burst;
   always_comb begin
     case (burst_q)
-      4'd1: drives = 12'b1;
-      4'd2: drives = 12'b11;
-      4'd4: drives = 12'b1111;
-      default: drives = 12'b1111_1111;
+      4'd1: drives = 12'h001;
+      4'd2: drives = 12'h003;
+      4'd4: drives = 12'h00F;
+      default: drives = 12'h0FF;
     endcase
     drives = read ? drives_q | drives << latency_q : drives_q;
     case (a_i[2:0])
@@ -215,15 +212,20 @@ module sdram_rules #(
       open_long[b] = active_q[b] && open_q[b*MaxBits+:MaxBits] > MaxBits'(RAS_MAX);
     end
   end
-  `SDRAM_RULES_AT begin
+  // A controller that is reset while the chip keeps its supply sets the mode once more.
+  logic starts_well;
+  always_comb begin
+    starts_well = !refresh || closed_q;
+    if (set_mode && refreshes_q != 4'(INIT_REFRESHES)) starts_well = 1'b0;
+    if ((activate || read || write) && !started_q) starts_well = 1'b0;
+  end
+  // A rule is looked at where the chip takes its pins, at the clock's edge: between edges they may be anything.
+  always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       `SDRAM_RULE(enabled, cke_i)
       `SDRAM_RULE(known, !stop && !((read || write) && a_i[10]))
       `SDRAM_RULE(pause, !command || init_q == '0)
-      `SDRAM_RULE(
-          start_up,
-          (!refresh || closed_q) && (!set_mode || (refreshes_q == 4'(INIT_REFRESHES) && !started_q)) &&
-          (!(activate || read || write) || started_q))
+      `SDRAM_RULE(start_up, starts_well)
       `SDRAM_RULE(mode, !set_mode || (ba_i == '0 && a_i[ROW_BITS-1:7] == '0 && a_i[6:5] == 2'b01 && a_i[3:2] == '0))
       `SDRAM_RULE(idle, !(activate || refresh || set_mode) || (asked & active_q) == '0)
       `SDRAM_RULE(active, !(read || write) || (asked & ~active_q) == '0)
