@@ -72,7 +72,7 @@ module board_registers #(
     output logic [31:0] load_address_o,
     output logic [31:0] play_address_o,
     output logic [15:0] loop_lines_o,
-    output logic [31:0] capture_line_o,
+    output logic [15:0] capture_line_o,
     output logic [15:0] video_lines_o,
 
     // what a host reads
@@ -80,11 +80,10 @@ module board_registers #(
     input wire logic        memory_ready_i,
     input wire logic        irq_i,
     input wire logic [31:0] load_next_i,
-    input wire logic [31:0] load_crc_i,
-    input wire logic [31:0] play_crc_i,
-    input wire logic [31:0] played_i,
-    input wire logic [31:0] lines_i,
-    input wire logic [31:0] mismatches_i,
+    input wire logic [31:0] words_crc_i,        // of the words loaded, or played
+    input wire logic [15:0] played_i,
+    input wire logic [15:0] lines_i,
+    input wire logic [15:0] mismatches_i,
     input wire logic [15:0] mismatch_place_i,
     input wire logic [15:0] captured_i,
     input wire logic [15:0] frames_shown_i,
@@ -216,7 +215,7 @@ module board_registers #(
         end
         RegPlayAddress: play_address_o <= wr_data_q;
         RegLoopLines:   loop_lines_o <= wr_data_q[15:0];
-        RegCaptureLine: capture_line_o <= wr_data_q;
+        RegCaptureLine: capture_line_o <= wr_data_q[15:0];
         RegVideoLines:  video_lines_o <= wr_data_q[15:0];
         default:        ;
       endcase
@@ -279,15 +278,15 @@ module board_registers #(
       RegControl:        value = 32'(control_q);
       RegState:          value = 32'(state);
       RegLoadAddress:    value = load_next_i;
-      RegLoadCrc:        value = load_crc_i;
+      RegLoadCrc:        value = words_crc_i;
       RegPlayAddress:    value = play_address_o;
-      RegPlayCrc:        value = play_crc_i;
-      RegPlayed:         value = played_i;
-      RegLines:          value = lines_i;
+      RegPlayCrc:        value = words_crc_i;
+      RegPlayed:         value = 32'(played_i);
+      RegLines:          value = 32'(lines_i);
       RegLoopLines:      value = 32'(loop_lines_o);
-      RegMismatches:     value = mismatches_i;
+      RegMismatches:     value = 32'(mismatches_i);
       RegMismatchLine:   value = 32'(mismatch_place_i);
-      RegCaptureLine:    value = capture_line_o;
+      RegCaptureLine:    value = 32'(capture_line_o);
       RegCaptured:       value = 32'(captured_i);
       RegVideoLines:     value = 32'(video_lines_o);
       RegFramesShown:    value = 32'(frames_shown_i);

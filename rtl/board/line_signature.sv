@@ -33,8 +33,8 @@ module line_signature #(
     input wire logic        check_i,
     input wire logic [15:0] wrap_i,
 
-    output logic [31:0] lines_o,          // lines since clear_i
-    output logic [31:0] mismatches_o,     // lines that differed
+    output logic [15:0] lines_o,          // lines since clear_i, modulo 65536
+    output logic [15:0] mismatches_o,     // lines that differed, at most 65535
     output logic [15:0] mismatch_place_o, // of the first of them
 
     input  wire logic                 host_wr_en_i,
@@ -95,13 +95,13 @@ module line_signature #(
       kept_q  <= ended_q;
       if (beat_q) crc_q <= last_q ? '1 : crc;
       if (beat_q && last_q) place_q <= next_place == wrap_i ? '0 : next_place;
-      if (kept_q) lines_o <= lines_o + 32'd1;
+      if (kept_q) lines_o <= lines_o + 16'd1;
       compared_q <= ended_q && check_i && place_there;
       // What comes out of the RAM is late in its clock: the comparison has the rest of it, counting a clock of its own.
       differs_q  <= compared_q && expected != wanted_q;
       if (differs_q) begin
         if (mismatches_o == '0) mismatch_place_o <= differing_place_q;
-        mismatches_o <= mismatches_o + 32'd1;
+        if (mismatches_o != '1) mismatches_o <= mismatches_o + 16'd1;
       end
     end
   end

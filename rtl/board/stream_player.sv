@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gives the core frames from a list: from the memory, or straight from the link. The player adds TLAST.
 //
-// List: a word N, the number of words of a frame, then these words, then the next frame; N = 0 ends the list. From the
+// List: a word N, the number of words of a frame in its lower 24 bits, then these words, then the next frame; N = 0 ends the list. From the
 //   memory the list begins at address_i. With loop_i it begins anew behind its end, and from the link the end is passed
 //   over; a list without a frame ends at once.
 // Commands: start_i, for one clock while playing_o is low; stop_i, for one clock: no frame begins after the one at hand, and
@@ -31,7 +31,7 @@ module stream_player #(
     input  wire logic                 paced_i,
     input  wire logic [ADDR_BITS-1:0] address_i,
     output logic                      playing_o,
-    output logic      [         31:0] played_o,   // frames since start_i
+    output logic      [         15:0] played_o,   // frames since start_i, modulo 65536
     output logic                      word_o,     // a word of a frame moves on in this clock: data_o
     output logic      [         31:0] data_o,
 
@@ -68,7 +68,7 @@ module stream_player #(
   state_t state_q;
 
   logic [ADDR_BITS-1:0] at_q;  // the next word to ask for
-  logic [31:0] left_q;  // words of the frame that have not come
+  logic [23:0] left_q;  // words of the frame that have not come
   logic [RunBits:0] run_left_q, run_words;  // and of the run
   logic stopping_q, any_q, asked_q;
   logic in_valid, in_ready, take, last_word, begins;
@@ -76,14 +76,14 @@ module stream_player #(
   assign in_valid    = direct_i ? link_valid_i : rd_valid_i;
   assign in_data     = direct_i ? link_data_i : rd_data_i;
   assign take        = in_valid && in_ready;
-  assign last_word   = left_q == 32'd1;
+  assign last_word   = left_q == 24'd1;
   assign begins      = state_q == Wait && !stopping_q && (asked_q || !paced_i);
 
   assign playing_o   = state_q != Idle;
   assign word_o      = take && state_q == Frame;
   assign data_o      = in_data;
 
-  assign run_words   = left_q > 32'(2 ** RunBits) ? (RunBits + 1)'(2 ** RunBits) : left_q[RunBits:0];
+  assign run_words   = left_q > 24'(2 ** RunBits) ? (RunBits + 1)'(2 ** RunBits) : left_q[RunBits:0];
   assign run_valid_o = state_q == AskCount || state_q == AskFrame;
   assign run_addr_o  = at_q;
   assign run_words_o = state_q == AskCount ? 16'd1 : 16'(run_words);
@@ -120,8 +120,8 @@ module stream_player #(
       if (direct_i && stopping_q) begin
         state_q <= Idle;
       end else if (take) begin
-        left_q <= in_data;
-        if (in_data != '0) begin
+        left_q <= in_data[23:0];
+        if (in_data[23:0] != '0) begin
           state_q <= stopping_q ? Idle : Wait;
         end else begin
           at_q    <= address_i;
@@ -143,11 +143,11 @@ module stream_player #(
       end
       Frame:
       if (take) begin
-        left_q     <= left_q - 32'd1;
+        left_q     <= left_q - 24'd1;
         run_left_q <= run_left_q - 1'b1;
         if (last_word) begin
           any_q    <= 1'b1;
-          played_o <= played_o + 32'd1;
+          played_o <= played_o + 16'd1;
           state_q  <= direct_i ? Count : stopping_q ? Idle : AskCount;
         end else if (!direct_i && run_left_q == (RunBits + 1)'(1)) begin
           state_q <= AskFrame;
