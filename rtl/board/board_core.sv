@@ -308,6 +308,15 @@ module board_core #(
     else if (wr_valid && wr_ready) wr_addr_q <= wr_addr_q + 1'b1;
   end
   if (MEMORY == 1) begin : gen_sdram
+    // From a flip-flop: what comes out of logic may glitch.
+    logic mem_ready, mem_ready_q;
+    always_ff @(posedge mem_clk_i) mem_ready_q <= mem_ready && mem_rst_ni;
+    synchronizer u_ready (
+        .clk_i,
+        .rst_ni,
+        .in_i (mem_ready_q),
+        .out_o(memory_ready)
+    );
     sdram_memory #(
         .CLOCK_HZ   (SDRAM_HZ),
         .ROW_BITS   (ROW_BITS),
@@ -332,7 +341,7 @@ module board_core #(
         .rd_data_o  (rd_data),
         .mem_clk_i,
         .mem_rst_ni,
-        .mem_ready_o(memory_ready),
+        .mem_ready_o(mem_ready),
         .sdram_cke_o,
         .sdram_cs_no,
         .sdram_ras_no,
@@ -499,6 +508,13 @@ module board_core #(
 
   logic screen_led;
   if (SCREEN == 1) begin : gen_screen
+    logic pix_led;
+    synchronizer u_led (
+        .clk_i,
+        .rst_ni,
+        .in_i (pix_led),
+        .out_o(screen_led)
+    );
     video_out #(
         .CHANNELS  (CHANNELS),
         .H_ACTIVE  (H_ACTIVE),
@@ -533,7 +549,7 @@ module board_core #(
         .hsync_o,
         .vsync_o,
         .rgb_o,
-        .led_o            (screen_led)
+        .led_o            (pix_led)
     );
   end else begin : gen_no_screen
     assign m_ready = 1'b1;

@@ -18,7 +18,7 @@ module dvi_encoder (
     input  wire logic [23:0] rgb_i,
     output logic      [29:0] words_o
 );
-  tmds_encoder i_blue (
+  tmds_encoder u_blue (
       .clk_i,
       .rst_ni,
       .active_i,
@@ -27,7 +27,7 @@ module dvi_encoder (
       .word_o   (words_o[9:0])
   );
 
-  tmds_encoder i_green (
+  tmds_encoder u_green (
       .clk_i,
       .rst_ni,
       .active_i,
@@ -36,7 +36,7 @@ module dvi_encoder (
       .word_o   (words_o[19:10])
   );
 
-  tmds_encoder i_red (
+  tmds_encoder u_red (
       .clk_i,
       .rst_ni,
       .active_i,

@@ -103,7 +103,7 @@ module video_out #(
   async_fifo #(
       .BITS (WordBits),
       .DEPTH(2 ** $clog2(2 * H_ACTIVE))
-  ) i_lines (
+  ) u_lines (
       .in_clk_i   (clk_i),
       .in_rst_ni  (rst_ni),
       .in_valid_i (s_axis_tvalid_i),
@@ -119,7 +119,7 @@ module video_out #(
   // What is done with a word depends on its flags, and a block RAM's output comes late in a clock: registers.
   skid_buffer #(
       .BITS(WordBits)
-  ) i_head (
+  ) u_head (
       .clk_i      (pix_clk_i),
       .rst_ni     (pix_rst_ni),
       .in_valid_i (line_valid),
@@ -145,7 +145,7 @@ module video_out #(
       .V_BACK    (V_BACK),
       .H_POSITIVE(H_POSITIVE),
       .V_POSITIVE(V_POSITIVE)
-  ) i_timing (
+  ) u_timing (
       .clk_i        (pix_clk_i),
       .rst_ni       (pix_rst_ni),
       .active_o     (active),
@@ -284,7 +284,7 @@ module video_out #(
   async_fifo #(
       .BITS (EventBits),
       .DEPTH(4)
-  ) i_events (
+  ) u_events (
       .in_clk_i   (pix_clk_i),
       .in_rst_ni  (pix_rst_ni),
       .in_valid_i (event_valid_q),
