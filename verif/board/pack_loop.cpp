@@ -55,8 +55,7 @@ void PackPlay::loop() {
   std::optional<ScreenCounts> first_screen;
   bool hung = false;
   player_.start(0);
-  while (true) {
-    wait();
+  while (true) {  // what would end another run ends the loop, and enough() knows
     const PlayState s = player_.state();
     const std::uint64_t now = clock_.now();
     if (s.lines != last) moved = now;
@@ -83,12 +82,16 @@ void PackPlay::loop() {
 
 void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung) {
   player_.stop();
-  const Waited stopped = wait_for(0, run.lines);
+  Waited stopped = wait_for(0, run.lines);
+  // The core may still draw what it was given last. The board counts modulo 2^32.
+  const std::uint64_t in_last = stopped.state.played % run.frames;
+  const std::uint64_t due = stopped.state.played / run.frames * run.lines + lines_before(run, run.first + in_last);
+  if (stopped.ended) stopped = wait_for(static_cast<std::uint32_t>(due), run.lines);
   if (hung || !stopped.ended) {
     PlayState in_list = stopped.state;
     in_list.lines = static_cast<std::uint32_t>(v.lines % run.lines);
-    in_list.played = static_cast<std::uint32_t>(stopped.state.played % run.frames);
-    hangs(run, in_list, fmt::format("repetition {}: nothing more comes", v.repetitions + 1));
+    in_list.played = static_cast<std::uint32_t>(in_last);
+    hangs(run, in_list, fmt::format("repetition {}: nothing more comes", v.repetitions + 1), false);
     return;
   }
   v.mismatches = player_.get(KAGE_BOARD_MISMATCHES);
@@ -97,9 +100,7 @@ void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung) {
   const auto crc_of_frames = [&](std::uint64_t frames) {
     return Crc{words_crc(run, frames), 4 * (address_of(run, run.first + frames) - frames)};
   };
-  const Crc given = crc_of_frames(run.frames)
-                        .times(stopped.state.played / run.frames)
-                        .then(crc_of_frames(stopped.state.played % run.frames));
+  const Crc given = crc_of_frames(run.frames).times(stopped.state.played / run.frames).then(crc_of_frames(in_last));
   const bool memory = given.crc != stopped.state.play_crc;
   const std::uint32_t at = player_.get(KAGE_BOARD_MISMATCH_LINE);
   const Place place = place_of(run, at);

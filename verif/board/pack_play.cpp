@@ -176,32 +176,36 @@ void PackPlay::play(const PackRun& run) {
     } catch (const LinkError& e) {
       if (e.failure != LinkFailure::stalled) throw;
       lost_ = true;  // whatever the host says waits behind these words
-      hangs(run, {}, fmt::format("the core takes no more of its {} words", pack_.frames[run.first].words));
+      hangs(run, {}, fmt::format("the core takes no more of its {} words", pack_.frames[run.first].words), false);
       return;
     }
   }
-  const Waited waited = wait_for(run.lines, run.lines);
+  // Of other words than were loaded other lines come, or fewer: so the words are looked at first.
+  Waited waited = wait_for(0, run.lines);
+  const PlayState& given = waited.state;
+  const bool whole = given.played == run.frames;
+  if (!run.direct && (whole ? given.play_crc != words_crc(run, run.frames) : waited.ended)) blame_memory(run);
+  if (waited.ended) waited = wait_for(run.lines, run.lines);
   verdict_.seconds += static_cast<double>(clock_.now() - begin) / 1e6;
-  const bool all_given = waited.state.played == run.frames;
-  if (all_given && waited.state.play_crc != words_crc(run, run.frames) && !run.direct) blame_memory(run);
   if (!waited.ended) {
-    hangs(run, waited.state, "nothing more comes");
+    hangs(run, waited.state, "nothing more comes", true);
     return;
   }
   if (!wait_for_frames(run.end())) {
-    hangs(run, waited.state, "the last frame does not end");
+    hangs(run, waited.state, "the last frame does not end", true);
     return;
   }
   shown_ += static_cast<std::uint64_t>(std::count_if(pack_.frames.begin() + static_cast<std::ptrdiff_t>(run.first),
                                                      pack_.frames.begin() + static_cast<std::ptrdiff_t>(run.end()),
                                                      [](const vectors::PackFrame& f) { return f.pixels() > 0; }));
-  judge_lines(run, player_.state());
+  judge_lines(run, player_.state().lines);
   if (!verdict_.first && pack_.frames[run.end() - 1].settles) judge_registers(run.end() - 1);
   if (!verdict_.first) verdict_.frames = run.end();
 }
 
-void PackPlay::judge_lines(const PackRun& run, const PlayState& state) {
-  const std::vector<std::uint32_t> wanted = answers_.signatures(run.first, run.frames);
+void PackPlay::judge_lines(const PackRun& run, std::uint64_t came) {
+  std::vector<std::uint32_t> wanted = answers_.signatures(run.first, run.frames);
+  wanted.resize(std::min<std::uint64_t>(wanted.size(), came));
   const std::vector<std::uint32_t> got = player_.signatures(wanted.size());
   verdict_.lines += wanted.size();
   std::optional<Place> first;
@@ -220,14 +224,14 @@ void PackPlay::judge_lines(const PackRun& run, const PlayState& state) {
   if (first) {
     look_into(run, *first, wanted[at], got[at], of_first);
     verdict_.frames = first->frame + 1;
-  } else if (state.lines != run.lines) {
+  } else if (came > run.lines) {
     const Place last = place_of(run, run.lines);
     cosim::Difference& d = verdict_.first.emplace();
     d.frame = static_cast<int>(last.frame);
     d.field = "height";
     d.expected = last.line;
-    d.actual = last.line + static_cast<std::int64_t>(state.lines - run.lines);
-    d.remark = fmt::format("{} came, {} must", state.lines, run.lines);
+    d.actual = last.line + static_cast<std::int64_t>(came - run.lines);
+    d.remark = fmt::format("{} lines of the list came, {} must", came, run.lines);
     verdict_.frames = last.frame + 1;
   }
 }
@@ -252,21 +256,28 @@ void PackPlay::judge_registers(std::uint64_t frame) {
   }
 }
 
-void PackPlay::hangs(const PackRun& run, const PlayState& state, const std::string& how) {
+void PackPlay::hangs(const PackRun& run, const PlayState& state, const std::string& how, bool judge) {
   Place place = place_of(run, state.lines);
   if (run.lines == 0 || state.lines >= run.lines) place = {std::min(run.first + state.played, run.end() - 1), 0};
   const vectors::PackFrame& frame = pack_.frames[place.frame];
   const std::string status =
       lost_ ? "its registers cannot be read behind these words" : status_text(player_.get(KAGE_REG_STATUS));
+  const std::string text = fmt::format("the core hangs: {} in {} s: {}, line {} of {}, {} of {} frames taken", how,
+                                       static_cast<double>(options_.timeout) / 1e6, status, state.lines, run.lines,
+                                       state.played, run.frames);
+  // A line that came out wrong before is the first difference.
+  if (judge && !lost_) judge_lines(run, std::min<std::uint64_t>(state.lines, run.lines));
+  if (verdict_.first) {
+    verdict_.notes.push_back("behind that " + text);
+    return;
+  }
   cosim::Difference& d = verdict_.first.emplace();
   d.frame = static_cast<int>(place.frame);
   d.line = place.line;
   d.field = "missing";
   d.expected = static_cast<std::int64_t>(frame.pixels());
   d.actual = std::int64_t{place.line} * frame.status.width;
-  d.remark = fmt::format("the core hangs: {} in {} s: {}, line {} of {}, {} of {} frames taken", how,
-                         static_cast<double>(options_.timeout) / 1e6, status, state.lines, run.lines, state.played,
-                         run.frames);
+  d.remark = text;
   verdict_.frames = place.frame + 1;
 }
 

@@ -61,9 +61,9 @@ class PackPlay {
   void video_lines(const PackRun& run);
   Waited wait_for(std::uint64_t lines, std::uint64_t of_lines);
   bool wait_for_frames(std::uint64_t frames);
-  void judge_lines(const PackRun& run, const PlayState& state);
+  void judge_lines(const PackRun& run, std::uint64_t came);
   void judge_registers(std::uint64_t frame);
-  void hangs(const PackRun& run, const PlayState& state, const std::string& how);
+  void hangs(const PackRun& run, const PlayState& state, const std::string& how, bool judge);
   void count_screen();
 
   // pack_search.cpp

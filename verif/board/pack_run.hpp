@@ -24,7 +24,7 @@ struct PackRunOptions {
   std::optional<std::uint64_t> loop;
   bool leave = false;                                ///< with `loop`: leave the board playing when all was right
   std::size_t most_captured = 16;                    ///< wrong lines of the first wrong frame whose pixels are fetched
-  std::function<void()> wait;                        ///< called several times a second; may throw, which ends the run
+  std::function<void()> wait;                        ///< called several times a second, but not in a loop; may throw
   std::function<bool()> enough;                      ///< asked while `loop` lasts; true ends it
   std::function<void(const std::string&)> progress;  ///< told what goes on
   std::function<void()> not_idle;  ///< told where the board could not be left idle, and what is thrown does not say so

@@ -163,7 +163,7 @@ void PackPlay::blame_memory(const PackRun& run) {
     player_.load(at, std::span(&end, 1));
     player_.restart();
     player_.start(0);
-    const Waited waited = wait_for(lines_before(run, part.end()), lines_before(run, part.end()));
+    const Waited waited = wait_for(0, lines_before(run, part.end()));
     player_.restart();  // whoever hangs lets go of the memory
     player_.load(at, std::span(&there, 1));
     return waited.ended && waited.state.played == frames && waited.state.play_crc == words_crc(run, frames);

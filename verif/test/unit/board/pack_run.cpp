@@ -158,7 +158,10 @@ struct Spoil {
       }
     REQUIRE(line >= 0);
   }
-  [[nodiscard]] std::size_t place() const { return static_cast<std::size_t>(x * config().channels + channel); }
+  [[nodiscard]] std::size_t place() const {
+    return static_cast<std::size_t>(x) * static_cast<std::size_t>(config().channels) +
+           static_cast<std::size_t>(channel);
+  }
   void operator()(std::span<std::uint8_t> pixels) const {
     if (std::equal(pixels.begin(), pixels.end(), row.begin(), row.end())) pixels[place()] ^= 0x10;
   }
@@ -307,6 +310,13 @@ TEST_CASE("memory that gives other words is to blame, and not the core") {
   CHECK(board.held());
 }
 
+TEST_CASE("memory that gives another count of words is to blame too") {
+  FakeBoard board(config());
+  const auto second = static_cast<std::uint32_t>(fixture().pack.frames[0].words) + 1;
+  board.memory_gives = [&](std::uint32_t address, std::uint32_t word) { return address == second ? 0 : word; };
+  CHECK(has(trouble(board), "the memory gives other words than were loaded into it, first in frame 1 "));
+}
+
 TEST_CASE("memory that gives another word once is said to do so") {
   FakeBoard board(config());
   bool once = false;
@@ -425,6 +435,20 @@ TEST_CASE("a core that hangs is told from one that is slow") {
   CHECK(v.frames == 2);
 }
 
+TEST_CASE("a line that came out wrong before the core hangs is the first difference") {
+  FakeBoard board(config());
+  board.hangs_in = 2;
+  const Spoil spoil(1, 1, 2, 0);
+  board.spoil = [&](std::uint64_t, std::span<std::uint8_t> pixels) { spoil(pixels); };
+  const PackVerdict v = play(board);
+  REQUIRE(v.first);
+  CHECK(v.first->frame == 1);
+  CHECK(v.first->line == spoil.line);
+  CHECK(v.first->x == 2);
+  REQUIRE(!v.notes.empty());
+  CHECK(has(v.notes.back(), "behind that the core hangs"));
+}
+
 TEST_CASE("a core that hangs at the link's words leaves no board that can be told to be idle") {
   FakeBoard board(config());
   board.memory_words = 4;
@@ -457,7 +481,7 @@ TEST_CASE("a screen's counts are told, and a run has frames of one height") {
 TEST_CASE("a board that is reset in the middle is said to be") {
   FakeBoard whole(config());
   (void)play(whole);
-  for (const std::uint64_t at : {40, 60, 90}) {
+  for (const std::uint64_t at : {40U, 60U, 90U}) {
     FakeBoard board(config());
     board.resets_at = at;
     const std::string text = trouble(board);
