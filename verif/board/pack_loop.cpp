@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
 #include "board/board_registers.h"
 #include "board/pack_play.hpp"
 
@@ -51,17 +55,19 @@ void PackPlay::loop() {
   now_at("played " + frames_text(run) + " over and over");
   const std::uint64_t begin = clock_.now();
   std::uint64_t moved = begin;
-  std::uint32_t last = 0;
+  std::uint64_t played = 0;
+  PlayState last;
   std::optional<ScreenCounts> first_screen;
   bool hung = false;
   player_.start(0);
   while (true) {  // what would end another run ends the loop, and enough() knows
     const PlayState s = player_.state();
     const std::uint64_t now = clock_.now();
-    if (s.lines != last) moved = now;
-    v.lines += static_cast<std::uint32_t>(s.lines - last);  // the board counts modulo 2^32
-    last = s.lines;
-    v.repetitions = v.lines / run.lines;
+    if (s.lines != last.lines || s.played != last.played) moved = now;
+    // The board counts modulo 2^16. Frames are fewer than lines, so it is they that are counted on.
+    played += static_cast<std::uint16_t>(s.played - last.played);
+    last = s;
+    v.repetitions = played / run.frames;
     v.mismatches = player_.get(KAGE_BOARD_MISMATCHES);
     if (screen && !first_screen && v.repetitions > 0) first_screen = player_.screen();
     if (options_.progress)
@@ -70,6 +76,7 @@ void PackPlay::loop() {
     const bool over = *options_.loop != 0 && now - begin >= *options_.loop;
     if (hung || over || v.mismatches != 0 || (options_.enough && options_.enough())) break;
   }
+  v.lines = lines_of(run, played);
   v.seconds = static_cast<double>(clock_.now() - begin) / 1e6;
   if (first_screen) {
     const ScreenCounts now = player_.screen();
@@ -77,20 +84,36 @@ void PackPlay::loop() {
                 now.underrun_frames - first_screen->underrun_frames, now.underrun_lines - first_screen->underrun_lines};
   }
   v.left = options_.leave && !hung && v.mismatches == 0;
-  if (!v.left) end_loop(run, v, hung);
+  if (!v.left) end_loop(run, v, hung, played, last);
 }
 
-void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung) {
+/// Those of so many frames of a list that begins anew at its end.
+std::uint64_t PackPlay::lines_of(const PackRun& run, std::uint64_t frames) const {
+  return frames / run.frames * run.lines + lines_before(run, run.first + frames % run.frames);
+}
+
+void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung, std::uint64_t played, const PlayState& last) {
   player_.stop();
-  Waited stopped = wait_for(0, run.lines);
-  // The core may still draw what it was given last. The board counts modulo 2^32.
-  const std::uint64_t in_last = stopped.state.played % run.frames;
-  const std::uint64_t due = stopped.state.played / run.frames * run.lines + lines_before(run, run.first + in_last);
-  if (stopped.ended) stopped = wait_for(static_cast<std::uint32_t>(due), run.lines);
-  if (hung || !stopped.ended) {
+  const Waited stopped = wait_for(0, run.lines);
+  played += static_cast<std::uint16_t>(stopped.state.played - last.played);
+  v.repetitions = played / run.frames;
+  v.lines = lines_of(run, played);
+  // The core may still draw what it was given last.
+  const std::uint64_t begin = clock_.now();
+  std::uint32_t lines = stopped.state.lines;
+  bool ended = stopped.ended && !hung;
+  while (ended && static_cast<std::uint16_t>(lines - v.lines) != 0) {
+    wait();
+    lines = player_.state().lines;
+    ended = clock_.now() - begin < options_.timeout;
+  }
+  if (!ended) {
     PlayState in_list = stopped.state;
-    in_list.lines = static_cast<std::uint32_t>(v.lines % run.lines);
-    in_list.played = static_cast<std::uint32_t>(in_last);
+    in_list.played = static_cast<std::uint32_t>(played % run.frames);
+    // Of the repetition at hand, as far as the counters' 16 bits say.
+    const std::uint64_t whole = v.repetitions * run.lines;
+    in_list.lines =
+        std::min<std::uint32_t>(static_cast<std::uint16_t>(lines - whole), static_cast<std::uint32_t>(run.lines));
     hangs(run, in_list, fmt::format("repetition {}: nothing more comes", v.repetitions + 1), false);
     return;
   }
@@ -100,7 +123,7 @@ void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung) {
   const auto crc_of_frames = [&](std::uint64_t frames) {
     return Crc{words_crc(run, frames), 4 * (address_of(run, run.first + frames) - frames)};
   };
-  const Crc given = crc_of_frames(run.frames).times(stopped.state.played / run.frames).then(crc_of_frames(in_last));
+  const Crc given = crc_of_frames(run.frames).times(v.repetitions).then(crc_of_frames(played % run.frames));
   const bool memory = given.crc != stopped.state.play_crc;
   const std::uint32_t at = player_.get(KAGE_BOARD_MISMATCH_LINE);
   const Place place = place_of(run, at);

@@ -76,7 +76,8 @@ class PackPlay {
 
   // pack_loop.cpp
   void loop();
-  void end_loop(const PackRun& run, LoopVerdict& v, bool hung);
+  [[nodiscard]] std::uint64_t lines_of(const PackRun& run, std::uint64_t frames) const;
+  void end_loop(const PackRun& run, LoopVerdict& v, bool hung, std::uint64_t played, const PlayState& last);
 
   Transport& clock_;
   const vectors::Pack& pack_;

@@ -16,13 +16,18 @@ namespace {
 /// A count stands before each frame, and a 0 behind the last.
 std::uint64_t list_words(std::uint64_t words_of_frame) { return words_of_frame + 2; }
 
+/// The player counts a frame's words in 24 bits, and a list's frames in 16.
+constexpr std::uint64_t kMostWords = (1U << 24U) - 1;
+constexpr std::uint64_t kMostFrames = (1U << 16U) - 1;
+
 std::uint64_t kept_lines(const Identity& board) {
   return std::min(board.lines, std::uint32_t{KAGE_BOARD_SIGNATURES_WORDS});
 }
 
 /// Whether the frame may follow those of the list.
 bool fits(const PackRun& run, const vectors::PackFrame& frame, const Identity& board) {
-  if (run.direct || run.words + frame.words + 1 > board.memory_words || run.lines + frame.lines() > kept_lines(board))
+  if (run.direct || run.frames >= kMostFrames || run.words + frame.words + 1 > board.memory_words ||
+      run.lines + frame.lines() > kept_lines(board))
     return false;
   return !board.has_screen() || frame.pixels() == 0 || run.height == 0 || run.height == frame.status.height;
 }
@@ -57,6 +62,11 @@ std::vector<PackRun> plan_runs(const vectors::Pack& pack, const Identity& board,
     const vectors::PackFrame& frame = pack.frames[i];
     if (frame.words == 0)
       throw Error(fmt::format("{}: frame {} ({}) has no words: a board cannot play it", port, i, frame.what));
+    if (frame.words > kMostWords)
+      throw Error(
+          fmt::format("{}: frame {} ({}) has {} words, and a board's player takes {}: make the pack with a smaller "
+                      "--size",
+                      port, i, frame.what, frame.words, kMostWords));
     if (frame.pixels() > 0 && frame.lines() > kept_lines(board))
       throw Error(
           fmt::format("{}: frame {} ({}) has {} lines, and board {} keeps signatures of {}: make the pack with a "

@@ -55,6 +55,7 @@ class FakeBoard : public board::Transport {
   [[nodiscard]] bool playing() const { return playing_; }
   [[nodiscard]] std::uint32_t control() const { return control_; }
   [[nodiscard]] std::uint64_t starts() const { return starts_; }
+  [[nodiscard]] std::uint64_t lines_ever() const { return all_lines_; }
   [[nodiscard]] std::uint64_t core_resets() const { return core_resets_; }
 
   // ---- the line ----
@@ -196,15 +197,14 @@ class FakeBoard : public board::Transport {
       case KAGE_BOARD_STATE:
         return KAGE_BOARD_STATE_MEMORY_READY_MASK | (playing_ ? KAGE_BOARD_STATE_PLAYING_MASK : 0);
       case KAGE_BOARD_LOAD_CRC:
-        return load_crc_;
       case KAGE_BOARD_PLAY_CRC:
-        return play_crc_;
+        return words_crc_;
       case KAGE_BOARD_PLAYED:
-        return played_;
+        return played_ & 0xFFFFU;
       case KAGE_BOARD_LINES:
-        return lines_;
+        return lines_ & 0xFFFFU;
       case KAGE_BOARD_MISMATCHES:
-        return mismatches_;
+        return std::min(mismatches_, 0xFFFFU);
       case KAGE_BOARD_MISMATCH_LINE:
         return mismatch_line_;
       case KAGE_BOARD_CAPTURED:
@@ -234,7 +234,7 @@ class FakeBoard : public board::Transport {
       if (held()) reset_core();
     } else if (address == KAGE_BOARD_LOAD_ADDRESS) {
       load_at_ = value;
-      load_crc_ = 0;
+      words_crc_ = 0;
     } else if (address == KAGE_BOARD_COMMAND && !held()) {
       if ((value & KAGE_BOARD_COMMAND_STOP_MASK) != 0) stop();
       if ((value & KAGE_BOARD_COMMAND_START_MASK) != 0 && !playing_) start();
@@ -266,7 +266,7 @@ class FakeBoard : public board::Transport {
     ++arrived_;
     memory_[load_at_ % memory_words] = word;
     ++load_at_;
-    load_crc_ = crc(load_crc_, word);
+    words_crc_ = crc(words_crc_, word);
     return true;
   }
   static std::uint32_t crc(std::uint32_t before, std::uint32_t word) {
@@ -280,12 +280,12 @@ class FakeBoard : public board::Transport {
     ended_.clear();
     frame_words_.clear();
     left_ = 0;
-    lines_ = mismatches_ = mismatch_line_ = captured_ = played_ = play_crc_ = 0;
+    lines_ = mismatches_ = mismatch_line_ = captured_ = played_ = 0;
     golden_ = GoldenCore(config_);
   }
   void start() {
     ++starts_;
-    lines_ = mismatches_ = mismatch_line_ = captured_ = played_ = play_crc_ = 0;
+    lines_ = mismatches_ = mismatch_line_ = captured_ = played_ = words_crc_ = 0;
     playing_ = true;
     left_ = 0;
     at_ = registers_[KAGE_BOARD_PLAY_ADDRESS];
@@ -330,7 +330,7 @@ class FakeBoard : public board::Transport {
     const bool hangs = hangs_in && *hangs_in == ended_.size();
     int last = -1;
     std::vector<std::vector<std::uint8_t>> rows;
-    for (const std::uint32_t word : words) play_crc_ = crc(play_crc_, word);
+    for (const std::uint32_t word : words) words_crc_ = crc(words_crc_, word);
     vectors::PackFrame f;
     f.status = golden_.frame(words, [&](int y, std::span<const std::uint8_t> row) {
       rows.emplace_back(row.begin(), row.end());
@@ -387,7 +387,7 @@ class FakeBoard : public board::Transport {
   std::uint64_t good_ = 0, bad_ = 0;
 
   std::map<std::uint32_t, std::uint32_t> registers_, memory_;
-  std::uint32_t control_ = 0, load_at_ = 0, load_crc_ = 0, play_crc_ = 0, at_ = 0, left_ = 0;
+  std::uint32_t control_ = 0, load_at_ = 0, words_crc_ = 0, at_ = 0, left_ = 0;
   std::uint32_t played_ = 0, lines_ = 0, mismatches_ = 0, mismatch_line_ = 0, captured_ = 0, shown_ = 0;
   bool playing_ = false, hung_ = false;
   std::vector<std::uint32_t> frame_words_;

@@ -529,6 +529,17 @@ TEST_CASE("frames are played over and over") {
   CHECK(!v.loop->left);
 }
 
+TEST_CASE("repetitions are counted beyond what a board's counters hold") {
+  FakeBoard board(config());
+  PackRunOptions o = options();
+  o.loop = 0;
+  o.enough = [&] { return board.lines_ever() > 500'000; };
+  const PackVerdict v = play(board, o);
+  CHECK(v.same());
+  REQUIRE(v.loop);
+  CHECK(v.loop->lines + fixture().lines() == board.lines_ever());
+}
+
 TEST_CASE("a board may be left playing") {
   FakeBoard board(config());
   PackRunOptions o = options();
