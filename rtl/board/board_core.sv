@@ -60,19 +60,19 @@ module board_core #(
     output logic      tx_o,
 
     // SDRAM
-    input  wire logic                   mem_clk_i,
-    input  wire logic                   mem_rst_ni,
-    output logic                        sdram_cke_o,
-    output logic                        sdram_cs_no,
-    output logic                        sdram_ras_no,
-    output logic                        sdram_cas_no,
-    output logic                        sdram_we_no,
-    output logic      [  BANK_BITS-1:0] sdram_ba_o,
-    output logic      [   ROW_BITS-1:0] sdram_a_o,
-    output logic      [            1:0] sdram_dqm_o,
-    output logic      [           15:0] sdram_dq_o,
-    output logic                        sdram_dq_oe_o,
-    input  wire logic [           15:0] sdram_dq_i,
+    input  wire logic                 mem_clk_i,
+    input  wire logic                 mem_rst_ni,
+    output logic                      sdram_cke_o,
+    output logic                      sdram_cs_no,
+    output logic                      sdram_ras_no,
+    output logic                      sdram_cas_no,
+    output logic                      sdram_we_no,
+    output logic      [BANK_BITS-1:0] sdram_ba_o,
+    output logic      [ ROW_BITS-1:0] sdram_a_o,
+    output logic      [          1:0] sdram_dqm_o,
+    output logic      [         15:0] sdram_dq_o,
+    output logic                      sdram_dq_oe_o,
+    input  wire logic [         15:0] sdram_dq_i,
 
     // screen
     input  wire logic        pix_clk_i,
@@ -146,7 +146,7 @@ module board_core #(
   logic awvalid, awready, wvalid, wready, bvalid, bready, arvalid, arready, rvalid, rready;
   logic [15:0] awaddr, araddr;
   logic [31:0] wdata, rdata;
-  logic [ 3:0] wstrb;
+  logic [3:0] wstrb;
   logic [1:0] bresp, rresp;
   logic stream_valid, stream_ready, fresh, framing_error, axi_error, overrun;
   logic [31:0] stream_data;
@@ -190,8 +190,18 @@ module board_core #(
 
   // ---- registers ---------------------------------------------------------------------------------------------------
   logic hold, loop_list, paced, check, direct, start, stop, load_set, playing, memory_ready, irq;
-  logic [31:0] load_address, play_address, capture_line, load_next, load_crc, play_crc, played, lines, mismatches;
-  logic [15:0] loop_lines, video_lines, mismatch_place, captured, frames_shown, late_frames;
+  logic [31:0] load_address, play_address, load_next, words_crc;
+  logic [15:0]
+      capture_line,
+      played,
+      lines,
+      mismatches,
+      loop_lines,
+      video_lines,
+      mismatch_place,
+      captured,
+      frames_shown,
+      late_frames;
   logic [15:0] underrun_frames, underrun_lines;
   logic signature_wr_en;
   logic [$clog2(LINES)-1:0] signature_addr;
@@ -264,8 +274,7 @@ module board_core #(
       .memory_ready_i     (memory_ready),
       .irq_i              (irq),
       .load_next_i        (load_next),
-      .load_crc_i         (load_crc),
-      .play_crc_i         (play_crc),
+      .words_crc_i        (words_crc),
       .played_i           (played),
       .lines_i            (lines),
       .mismatches_i       (mismatches),
@@ -298,14 +307,6 @@ module board_core #(
     if (load_set) wr_addr_q <= load_address[AddrBits-1:0];
     else if (wr_valid && wr_ready) wr_addr_q <= wr_addr_q + 1'b1;
   end
-  crc32_words u_load_crc (
-      .clk_i,
-      .rst_ni,
-      .clear_i(load_set),
-      .word_i (wr_valid && wr_ready),
-      .data_i (stream_data),
-      .crc_o  (load_crc)
-  );
   if (MEMORY == 1) begin : gen_sdram
     sdram_memory #(
         .CLOCK_HZ   (SDRAM_HZ),
@@ -411,13 +412,14 @@ module board_core #(
       .m_axis_tdata_o   (s_data),
       .m_axis_tlast_o   (s_last)
   );
-  crc32_words u_play_crc (
+  // One check serves both: no word is loaded that counts while a list is played.
+  crc32_words u_crc (
       .clk_i,
-      .rst_ni (core_rst_n_q),
-      .clear_i(start),
-      .word_i (word),
-      .data_i (word_data),
-      .crc_o  (play_crc)
+      .rst_ni,
+      .clear_i(load_set || start),
+      .word_i (playing ? word : wr_valid && wr_ready),
+      .data_i (playing ? word_data : stream_data),
+      .crc_o  (words_crc)
   );
   kage_top #(
       `include "generated/kage_impl_param_map.svh"
@@ -544,17 +546,19 @@ module board_core #(
 
   // ---- LEDs --------------------------------------------------------------------------------------------------------
   logic [LED_BITS+1:0] blink_q;
-  always_ff @(posedge clk_i) blink_q <= rst_ni ? blink_q + 1'b1 : '0;
-  assign led_o = {
-    irq,
-    memory_ready,
-    fresh,
-    screen_led,
-    check && mismatches != '0,
-    check && lines != '0 && mismatches == '0,
-    playing,
-    blink_q[LED_BITS+1]
-  };
+  always_ff @(posedge clk_i) begin
+    blink_q <= rst_ni ? blink_q + 1'b1 : '0;
+    led_o <= {
+      irq,
+      memory_ready,
+      fresh,
+      screen_led,
+      check && mismatches != '0,
+      check && lines != '0 && mismatches == '0,
+      playing,
+      blink_q[LED_BITS+1]
+    };
+  end
 
   logic unused_here;
   assign unused_here = &{1'b0, rx_taken, framing_error, axi_error, overrun, load_address, play_address};

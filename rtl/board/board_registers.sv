@@ -72,7 +72,7 @@ module board_registers #(
     output logic [31:0] load_address_o,
     output logic [31:0] play_address_o,
     output logic [15:0] loop_lines_o,
-    output logic [31:0] capture_line_o,
+    output logic [15:0] capture_line_o,
     output logic [15:0] video_lines_o,
 
     // what a host reads
@@ -80,11 +80,10 @@ module board_registers #(
     input wire logic        memory_ready_i,
     input wire logic        irq_i,
     input wire logic [31:0] load_next_i,
-    input wire logic [31:0] load_crc_i,
-    input wire logic [31:0] play_crc_i,
-    input wire logic [31:0] played_i,
-    input wire logic [31:0] lines_i,
-    input wire logic [31:0] mismatches_i,
+    input wire logic [31:0] words_crc_i,        // of the words loaded, or played
+    input wire logic [15:0] played_i,
+    input wire logic [15:0] lines_i,
+    input wire logic [15:0] mismatches_i,
     input wire logic [15:0] mismatch_place_i,
     input wire logic [15:0] captured_i,
     input wire logic [15:0] frames_shown_i,
@@ -139,16 +138,16 @@ module board_registers #(
   logic [3:0] wr_strb_q;
   reg_control_t control_q;
   logic write_here;
-  assign s_axil_awready_o = rst_ni && write_q == WriteTake && !aw_held_q;
-  assign s_axil_wready_o  = rst_ni && write_q == WriteTake && !w_held_q;
-  assign s_axil_bvalid_o  = write_q == WriteAnswer;
-  assign m_axil_awvalid_o = aw_left_q;
-  assign m_axil_awaddr_o  = wr_addr_q[7:0];
-  assign m_axil_wvalid_o  = w_left_q;
-  assign m_axil_wdata_o   = wr_data_q;
-  assign m_axil_wstrb_o   = wr_strb_q;
-  assign m_axil_bready_o  = write_q == WriteCore;
-  assign write_here       = write_q == WriteDo && is_here(wr_addr_q);
+  assign s_axil_awready_o    = rst_ni && write_q == WriteTake && !aw_held_q;
+  assign s_axil_wready_o     = rst_ni && write_q == WriteTake && !w_held_q;
+  assign s_axil_bvalid_o     = write_q == WriteAnswer;
+  assign m_axil_awvalid_o    = aw_left_q;
+  assign m_axil_awaddr_o     = wr_addr_q[7:0];
+  assign m_axil_wvalid_o     = w_left_q;
+  assign m_axil_wdata_o      = wr_data_q;
+  assign m_axil_wstrb_o      = wr_strb_q;
+  assign m_axil_bready_o     = write_q == WriteCore;
+  assign write_here          = write_q == WriteDo && is_here(wr_addr_q);
 
   assign hold_o              = control_q.hold;
   assign loop_o              = control_q.loop;
@@ -205,7 +204,7 @@ module board_registers #(
       case ({
         wr_addr_q[15:2], 2'b00
       })
-        RegControl: control_q <= wr_data_q[RegControlBits-1:0];
+        RegControl:     control_q <= wr_data_q[RegControlBits-1:0];
         RegCommand: begin
           start_o <= command.start;
           stop_o  <= command.stop;
@@ -216,7 +215,7 @@ module board_registers #(
         end
         RegPlayAddress: play_address_o <= wr_data_q;
         RegLoopLines:   loop_lines_o <= wr_data_q[15:0];
-        RegCaptureLine: capture_line_o <= wr_data_q;
+        RegCaptureLine: capture_line_o <= wr_data_q[15:0];
         RegVideoLines:  video_lines_o <= wr_data_q[15:0];
         default:        ;
       endcase
@@ -279,15 +278,15 @@ module board_registers #(
       RegControl:        value = 32'(control_q);
       RegState:          value = 32'(state);
       RegLoadAddress:    value = load_next_i;
-      RegLoadCrc:        value = load_crc_i;
+      RegLoadCrc:        value = words_crc_i;
       RegPlayAddress:    value = play_address_o;
-      RegPlayCrc:        value = play_crc_i;
-      RegPlayed:         value = played_i;
-      RegLines:          value = lines_i;
+      RegPlayCrc:        value = words_crc_i;
+      RegPlayed:         value = 32'(played_i);
+      RegLines:          value = 32'(lines_i);
       RegLoopLines:      value = 32'(loop_lines_o);
-      RegMismatches:     value = mismatches_i;
+      RegMismatches:     value = 32'(mismatches_i);
       RegMismatchLine:   value = 32'(mismatch_place_i);
-      RegCaptureLine:    value = capture_line_o;
+      RegCaptureLine:    value = 32'(capture_line_o);
       RegCaptured:       value = 32'(captured_i);
       RegVideoLines:     value = 32'(video_lines_o);
       RegFramesShown:    value = 32'(frames_shown_i);
@@ -330,7 +329,7 @@ module board_registers #(
         s_axil_rdata_o <= m_axil_rdata_i;
         s_axil_rresp_o <= m_axil_rresp_i;
       end
-      default: if (s_axil_rready_i) read_q <= ReadTake;
+      default:  if (s_axil_rready_i) read_q <= ReadTake;
     endcase
     if (!rst_ni) begin
       read_q    <= ReadTake;

@@ -3,15 +3,15 @@
 // expected one, to see which pixel and channel it is.
 //
 // Takes: a pixel that moves, beat_i. It is listened to and never held up. line_i chooses the line, by its number since
-//   clear_i. Of a line with more than PIXELS pixels the first ones are kept; all are counted.
+//   clear_i, modulo 65536. Of a line with more than PIXELS pixels the first ones are kept; all are counted.
 // Host's port: a read's word comes a clock after its address: colour in the lowest bits, TLAST in bit 24, TUSER in bit 25.
 // Latency: a pixel is there two clocks after it moved. Throughput: a pixel a clock.
-// Cost: PIXELS words of 26 bits of block RAM (10 with one channel), two counters and a comparator of 32 bits.
+// Cost: PIXELS words of 26 bits of block RAM (10 with one channel), two counters and a comparator of 16 bits.
 `default_nettype none
 
 module line_capture #(
-    parameter int CHANNELS = 3,
-    parameter int PIXELS = 640,
+    parameter  int CHANNELS = 3,
+    parameter  int PIXELS   = 640,
     localparam int AddrBits = $clog2(PIXELS)
 ) (
     input wire logic clk_i,
@@ -23,7 +23,7 @@ module line_capture #(
     input wire logic                  last_i,
 
     input  wire logic        clear_i,
-    input  wire logic [31:0] line_i,
+    input  wire logic [15:0] line_i,
     output logic      [15:0] pixels_o, // of the line, so far
 
     input  wire logic [AddrBits-1:0] host_addr_i,
@@ -31,7 +31,7 @@ module line_capture #(
 );
   localparam int Bits = CHANNELS * 8 + 2;
 
-  logic [31:0] number_q;
+  logic [15:0] number_q;
   logic chosen_q, beat_q;
   logic [Bits-1:0] pixel_q, captured;
 
@@ -44,8 +44,8 @@ module line_capture #(
       pixels_o <= '0;
     end else begin
       beat_q <= beat_i;
-      // The comparison of 32 bits has a clock of its own: the number of the line behind a last pixel is one more.
-      if (beat_i && last_i) number_q <= number_q + 32'd1;
+      // The comparison has a clock of its own.
+      if (beat_i && last_i) number_q <= number_q + 16'd1;
       chosen_q <= number_q == line_i;
       if (beat_q && chosen_q && pixels_o != '1) pixels_o <= pixels_o + 16'd1;
     end

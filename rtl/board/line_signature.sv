@@ -10,7 +10,7 @@
 // check_i 0: signatures are kept in the RAM. 1: they are compared with what the RAM has at their place.
 // Host's port: a read's word comes a clock after its address. The host writes while nothing is drawn, or with check_i,
 //   when lines that are drawn read; then its own reads give nothing of use.
-// Latency: a line is counted, kept or compared three clocks after its last pixel. Throughput: a pixel a clock, lines of one
+// Latency: a line is counted and kept three clocks after its last pixel, compared four. Throughput: a pixel a clock, lines of one
 //   pixel too.
 // Cost: LINES words of block RAM, about 150 flip-flops, and a 32-bit CRC of four bytes, or two, in a clock.
 `default_nettype none
@@ -33,8 +33,8 @@ module line_signature #(
     input wire logic        check_i,
     input wire logic [15:0] wrap_i,
 
-    output logic [31:0] lines_o,          // lines since clear_i
-    output logic [31:0] mismatches_o,     // lines that differed
+    output logic [15:0] lines_o,          // lines since clear_i, modulo 65536
+    output logic [15:0] mismatches_o,     // lines that differed, at most 65535
     output logic [15:0] mismatch_place_o, // of the first of them
 
     input  wire logic                 host_wr_en_i,
@@ -62,26 +62,28 @@ module line_signature #(
   assign crc = with_pixel(crc_q, {6'b0, user_q, last_q, data_q});
 
   // ---- its end -----------------------------------------------------------------------------------------------------
-  logic ended_q, compared_q, kept_q, place_there;
+  logic ended_q, compared_q, differs_q, kept_q, place_there;
   logic [31:0] signature_q, wanted_q, expected;
-  logic [15:0] place_q, ended_place_q, compared_place_q;
+  logic [15:0] place_q, ended_place_q, compared_place_q, differing_place_q;
   logic [15:0] next_place;
   assign next_place  = place_q + 16'd1;
   assign place_there = ended_place_q < 16'(LINES);
 
   always_ff @(posedge clk_i) begin
-    data_q           <= data_i;
-    user_q           <= user_i;
-    last_q           <= last_i;
-    signature_q      <= ~crc;
-    ended_place_q    <= place_q;
-    wanted_q         <= signature_q;
-    compared_place_q <= ended_place_q;
+    data_q            <= data_i;
+    user_q            <= user_i;
+    last_q            <= last_i;
+    signature_q       <= ~crc;
+    ended_place_q     <= place_q;
+    wanted_q          <= signature_q;
+    compared_place_q  <= ended_place_q;
+    differing_place_q <= compared_place_q;
     if (!rst_ni || clear_i) begin
       beat_q           <= 1'b0;
       crc_q            <= '1;
       ended_q          <= 1'b0;
       compared_q       <= 1'b0;
+      differs_q        <= 1'b0;
       kept_q           <= 1'b0;
       place_q          <= '0;
       lines_o          <= '0;
@@ -93,11 +95,13 @@ module line_signature #(
       kept_q  <= ended_q;
       if (beat_q) crc_q <= last_q ? '1 : crc;
       if (beat_q && last_q) place_q <= next_place == wrap_i ? '0 : next_place;
-      if (kept_q) lines_o <= lines_o + 32'd1;
+      if (kept_q) lines_o <= lines_o + 16'd1;
       compared_q <= ended_q && check_i && place_there;
-      if (compared_q && expected != wanted_q) begin
-        if (mismatches_o == '0) mismatch_place_o <= compared_place_q;
-        mismatches_o <= mismatches_o + 32'd1;
+      // What comes out of the RAM is late in its clock: the comparison has the rest of it, counting a clock of its own.
+      differs_q  <= compared_q && expected != wanted_q;
+      if (differs_q) begin
+        if (mismatches_o == '0) mismatch_place_o <= differing_place_q;
+        if (mismatches_o != '1) mismatches_o <= mismatches_o + 16'd1;
       end
     end
   end

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gives the core frames from a list: from the memory, or straight from the link. The player adds TLAST.
 //
-// List: a word N, the number of words of a frame, then these words, then the next frame; N = 0 ends the list. From the
+// List: a word N, the number of words of a frame in its lower 24 bits, then these words, then the next frame; N = 0 ends the list. From the
 //   memory the list begins at address_i. With loop_i it begins anew behind its end, and from the link the end is passed
 //   over; a list without a frame ends at once.
 // Commands: start_i, for one clock while playing_o is low; stop_i, for one clock: no frame begins after the one at hand, and
 //   from the link, where a frame at hand may never be whole, the rest of it has to come or the core is held in reset.
 //   direct_i, loop_i and paced_i stay as they are while playing_o is high.
-// Pace: with paced_i a frame begins when the screen has asked for it; a request that comes while a frame goes on waits for
-//   that frame's end, and a second one beside it is lost (video_out asks for none). Without, requests are taken and
-//   forgotten.
+// Pace: with paced_i a frame begins when the screen has asked for one, without, at once. A request is kept until a frame
+//   begins, and two are as good as one.
 // Handshake: valid/ready on all ports; m_axis is AXI4-Stream with BEAT_WORDS words a beat, the first one lowest, and zeros
 //   behind the frame's last word. A frame is read in runs of at most 2^15 words.
 // Memory: run_valid_o with address and number of words, then the words (block_memory, sdram_memory).
@@ -32,7 +31,7 @@ module stream_player #(
     input  wire logic                 paced_i,
     input  wire logic [ADDR_BITS-1:0] address_i,
     output logic                      playing_o,
-    output logic      [         31:0] played_o,   // frames since start_i
+    output logic      [         15:0] played_o,   // frames since start_i, modulo 65536
     output logic                      word_o,     // a word of a frame moves on in this clock: data_o
     output logic      [         31:0] data_o,
 
@@ -51,10 +50,10 @@ module stream_player #(
     output logic             link_ready_o,
     input  wire logic [31:0] link_data_i,
 
-    output logic                         m_axis_tvalid_o,
-    input  wire logic                    m_axis_tready_i,
+    output logic                          m_axis_tvalid_o,
+    input  wire logic                     m_axis_tready_i,
     output logic      [BEAT_WORDS*32-1:0] m_axis_tdata_o,
-    output logic                         m_axis_tlast_o
+    output logic                          m_axis_tlast_o
 );
   localparam int RunBits = 15;
 
@@ -69,37 +68,38 @@ module stream_player #(
   state_t state_q;
 
   logic [ADDR_BITS-1:0] at_q;  // the next word to ask for
-  logic [31:0] left_q;  // words of the frame that have not come
+  logic [23:0] left_q;  // words of the frame that have not come
   logic [RunBits:0] run_left_q, run_words;  // and of the run
   logic stopping_q, any_q, asked_q;
-  logic in_valid, in_ready, take, last_word;
+  logic in_valid, in_ready, take, last_word, begins;
   logic [31:0] in_data;
-  assign in_valid  = direct_i ? link_valid_i : rd_valid_i;
-  assign in_data   = direct_i ? link_data_i : rd_data_i;
-  assign take      = in_valid && in_ready;
-  assign last_word = left_q == 32'd1;
+  assign in_valid    = direct_i ? link_valid_i : rd_valid_i;
+  assign in_data     = direct_i ? link_data_i : rd_data_i;
+  assign take        = in_valid && in_ready;
+  assign last_word   = left_q == 24'd1;
+  assign begins      = state_q == Wait && !stopping_q && (asked_q || !paced_i);
 
-  assign playing_o = state_q != Idle;
-  assign word_o    = take && state_q == Frame;
-  assign data_o    = in_data;
+  assign playing_o   = state_q != Idle;
+  assign word_o      = take && state_q == Frame;
+  assign data_o      = in_data;
 
-  assign run_words   = left_q > 32'(2 ** RunBits) ? (RunBits + 1)'(2 ** RunBits) : left_q[RunBits:0];
+  assign run_words   = left_q > 24'(2 ** RunBits) ? (RunBits + 1)'(2 ** RunBits) : left_q[RunBits:0];
   assign run_valid_o = state_q == AskCount || state_q == AskFrame;
   assign run_addr_o  = at_q;
   assign run_words_o = state_q == AskCount ? 16'd1 : 16'(run_words);
 
   // ---- what the words are ------------------------------------------------------------------------------------------
   logic beat_free;
-  assign in_ready     = (state_q == Count && !(direct_i && stopping_q)) || (state_q == Frame && beat_free);
+  assign in_ready          = (state_q == Count && !(direct_i && stopping_q)) || (state_q == Frame && beat_free);
   // A reset may come in the middle of a run: the memory takes no other before the words of that one have left.
-  assign rd_ready_o   = (in_ready && !direct_i) || state_q == Idle || state_q == AskCount;
-  assign link_ready_o = in_ready && direct_i;
+  assign rd_ready_o        = (in_ready && !direct_i) || state_q == Idle || state_q == AskCount;
+  assign link_ready_o      = in_ready && direct_i;
 
-  // A request waits for a frame that is due; beside it nothing has to be kept.
-  assign frame_req_ready_o = !paced_i || !asked_q;
+  assign frame_req_ready_o = 1'b1;
 
   always_ff @(posedge clk_i) begin
-    if (frame_req_valid_i && frame_req_ready_o) asked_q <= paced_i;
+    if (frame_req_valid_i) asked_q <= 1'b1;
+    else if (begins) asked_q <= 1'b0;
     if (stop_i) stopping_q <= 1'b1;
     case (state_q)
       Idle: begin
@@ -120,9 +120,9 @@ module stream_player #(
       if (direct_i && stopping_q) begin
         state_q <= Idle;
       end else if (take) begin
-        left_q <= in_data;
-        if (in_data != '0) begin
-          state_q <= stopping_q ? Idle : paced_i ? Wait : direct_i ? Frame : AskFrame;
+        left_q <= in_data[23:0];
+        if (in_data[23:0] != '0) begin
+          state_q <= stopping_q ? Idle : Wait;
         end else begin
           at_q    <= address_i;
           state_q <= stopping_q || !loop_i || !(direct_i || any_q) ? Idle : direct_i ? Count : AskCount;
@@ -131,8 +131,7 @@ module stream_player #(
       Wait:
       if (stopping_q) begin
         state_q <= Idle;
-      end else if (asked_q) begin
-        asked_q <= 1'b0;
+      end else if (begins) begin
         state_q <= direct_i ? Frame : AskFrame;
       end
       AskFrame: begin
@@ -144,11 +143,11 @@ module stream_player #(
       end
       Frame:
       if (take) begin
-        left_q     <= left_q - 32'd1;
+        left_q     <= left_q - 24'd1;
         run_left_q <= run_left_q - 1'b1;
         if (last_word) begin
           any_q    <= 1'b1;
-          played_o <= played_o + 32'd1;
+          played_o <= played_o + 16'd1;
           state_q  <= direct_i ? Count : stopping_q ? Idle : AskCount;
         end else if (!direct_i && run_left_q == (RunBits + 1)'(1)) begin
           state_q <= AskFrame;

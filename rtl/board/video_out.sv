@@ -5,8 +5,9 @@
 // Handshake: the port of pixels is AXI4-Stream video, valid/ready: TUSER on a frame's first pixel, TLAST on a line's
 // last. Ready is the FIFO's free place and nothing else, so the core rests while the screen is in blanking. Requests
 // leave by valid/ready in the core's clock.
-// Request: one per frame, when vertical blanking begins. It is left out where the frame that was asked for last has not
-// begun to be shown, so that never more than one is due. Who feeds the core starts a frame for each.
+// Request: one whenever vertical blanking begins and no frame's first pixel waits yet. Who feeds the core starts a frame
+// for each, and remembers one while a frame is under way: a request that is repeated, because that frame is slow, only has
+// the next frame begin early. A frame that brings no picture, because its header is refused, is so followed by another.
 // Shown: a frame begins at the screen's first pixel, if its TUSER waits there; what comes before TUSER is dropped, and
 // a TUSER waits for the next screen. The picture lies top left. Right of a line's TLAST and below the frame's last line
 // (lines_i of them; the core's clock takes lines_i with TUSER) is BORDER. What is wider or higher than the screen is
@@ -162,8 +163,7 @@ module video_out #(
   logic live_q, live, ended_q, ended, short_q, short;
   // Line ends that the stream is behind the beam. While there are any, pixels are dropped.
   logic [YBits-1:0] owed_q;
-  // A frame has been shown since reset. One is due, because it was asked for and has not begun.
-  logic played_q, due_q;
+  logic played_q;  // a frame has been shown since reset
   // The picture's right edge, of the line that came whole last; below the last line that had a pixel; the last colour
   // shown.
   logic [XBits-1:0] width_q;
@@ -195,7 +195,6 @@ module video_out #(
       short_q   <= 1'b0;
       owed_q    <= '0;
       played_q  <= 1'b0;
-      due_q     <= 1'b0;
       width_q   <= XBits'(H_ACTIVE);
       height_q  <= YBits'(V_ACTIVE);
     end else begin
@@ -214,8 +213,6 @@ module video_out #(
       if (feed && (head_last || x == XBits'(H_ACTIVE - 1))) width_q <= x + 1'b1;
       if (feed) height_q <= y + 1'b1;
       if (begins) played_q <= 1'b1;
-      if (begins) due_q <= 1'b0;
-      else if (blank_start) due_q <= 1'b1;
     end
     if (feed) last_q <= head_data;
   end
@@ -279,7 +276,7 @@ module video_out #(
       if (blank_start) event_valid_q <= 1'b1;
       else if (event_ready) event_valid_q <= 1'b0;
     end
-    if (blank_start) event_q <= {short_lines_q, late_q, shown_q, !due_q};
+    if (blank_start) event_q <= {short_lines_q, late_q, shown_q, !(head_valid && head_user)};
   end
 
   logic done_valid, done_late, done_shown, done_ask;

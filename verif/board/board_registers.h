@@ -21,15 +21,15 @@
 #define KAGE_BOARD_COMMAND 0x011Cu /**< wo: what is to happen; reads 0 */
 #define KAGE_BOARD_STATE 0x0120u /**< ro: what goes on */
 #define KAGE_BOARD_LOAD_ADDRESS 0x0124u /**< rw: word of the memory that the link's next word goes to */
-#define KAGE_BOARD_LOAD_CRC 0x0128u /**< ro: CRC-32 of the words loaded since LOAD_ADDRESS was written */
+#define KAGE_BOARD_LOAD_CRC 0x0128u /**< ro: CRC-32 of the words loaded since LOAD_ADDRESS was written; of no use behind START */
 #define KAGE_BOARD_PLAY_ADDRESS 0x012Cu /**< rw: word of the memory that the list begins at */
-#define KAGE_BOARD_PLAY_CRC 0x0130u /**< ro: CRC-32 of the words given to the core since START */
-#define KAGE_BOARD_PLAYED 0x0134u /**< ro: frames given to the core since START */
-#define KAGE_BOARD_LINES 0x0138u /**< ro: lines that came out since START */
+#define KAGE_BOARD_PLAY_CRC 0x0130u /**< ro: CRC-32 of the words given to the core since START; of no use once LOAD_ADDRESS is written */
+#define KAGE_BOARD_PLAYED 0x0134u /**< ro: frames given to the core since START, modulo 65536 */
+#define KAGE_BOARD_LINES 0x0138u /**< ro: lines that came out since START, modulo 65536 */
 #define KAGE_BOARD_LOOP_LINES 0x013Cu /**< rw: lines after which SIGNATURES begins anew; 0: never */
-#define KAGE_BOARD_MISMATCHES 0x0140u /**< ro: lines since START that differed with CHECK */
+#define KAGE_BOARD_MISMATCHES 0x0140u /**< ro: lines since START that differed with CHECK, at most 65535 */
 #define KAGE_BOARD_MISMATCH_LINE 0x0144u /**< ro: place in SIGNATURES of the first of them */
-#define KAGE_BOARD_CAPTURE_LINE 0x0148u /**< rw: which line since START is kept in PIXELS */
+#define KAGE_BOARD_CAPTURE_LINE 0x0148u /**< rw: which line since START is kept in PIXELS, modulo 65536 */
 #define KAGE_BOARD_CAPTURED 0x014Cu /**< ro: pixels of that line that came out since START */
 #define KAGE_BOARD_VIDEO_LINES 0x0150u /**< rw: lines of the frames that go to the screen */
 #define KAGE_BOARD_FRAMES_SHOWN 0x0154u /**< ro: screens that began a frame, since reset, at most 65535 */

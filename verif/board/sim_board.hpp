@@ -31,6 +31,8 @@ class SimBoard : public Transport {
   /// Frames that the screen showed from sync to sync since they were taken last, the oldest first; none of a board without
   /// a screen.
   virtual std::vector<ShownFrame> take_frames() = 0;
+  /// Presses the button that resets the board, or lets it go.
+  virtual void press_reset(bool pressed) = 0;
 };
 
 struct SimBoardOptions {

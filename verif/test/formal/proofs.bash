@@ -231,3 +231,48 @@ defect top_registers_crossed kage_top kage_top.sv 's/\.\*  \/\/ s_axil_.*/.s_axi
   assign {s_axil_awready_o, s_axil_wready_o, s_axil_arready_o} = s_axil_wdata_i[2:0];\
   assign {s_axil_bvalid_o, s_axil_rvalid_o, s_axil_bresp_o, s_axil_rresp_o} = s_axil_wdata_i[8:3];\
   assign s_axil_rdata_o = s_axil_wdata_i; endmodule/'
+
+# ---- sdram_controller ------------------------------------------------------------------------------------------------
+sdram_inside=
+for word in phase timer count due held write open row open_row bank open_bank word wait close turn coming data second in low half; do
+  sdram_inside+=" inside_$word=dut.${word}_q"
+done
+for word in rcd rp ras rc wr open rrd rfc mrd init closed drove refreshes columns beats masked due drives; do
+  sdram_inside+=" rule_$word=rules.${word}_q"
+done
+sdram_proof() { # NAME KEY=VALUE...
+  proof "$1" module=sdram_controller rtl=board/sdram_controller rules=sdram_rules inside="$sdram_inside" "${@:2}"
+}
+sdram_proof sdram_controller steps=14 defect_steps=22 induction=3 cover=36
+sdram_proof sdram_controller_3 set=CAS_LATENCY=3 steps=14 defect_steps=29 induction=3 cover=36
+sdram_proof sdram_controller_data steps=8 defect_steps=35 cover=36
+sdram_proof sdram_controller_rows set=QUIET=1 steps=8 defect_steps=38 cover=30
+sdram_proof sdram_controller_quiet set=QUIET=2 steps=8 defect_steps=110 cover=75
+defect sdram_suspended sdram_controller board/sdram_controller.sv 's/assign sdram_cke_o = .*/assign sdram_cke_o = !held_q;/'
+defect sdram_auto_precharge sdram_controller_rows board/sdram_controller.sv 's/if (close) a_q\[10\]/if (close || column) a_q[10]/'
+defect sdram_no_pause sdram_controller board/sdram_controller.sv "s/TimerBits'(Init)/TimerBits'(0)/"
+defect sdram_start_short sdram_controller board/sdram_controller.sv "s/CountBits'(INIT_REFRESHES - 1)/CountBits'(0)/"
+defect sdram_mode_wrong sdram_controller board/sdram_controller.sv "s/4'b0001})/4'b1001})/"
+defect sdram_row_not_closed sdram_controller_rows board/sdram_controller.sv 's/assign activate = .*/assign activate = running \&\& held_q \&\& !hit \&\& may;/'
+defect sdram_one_bank_closed sdram_controller board/sdram_controller.sv "s/if (close) a_q\[10\] <= 1.b1/if (close) a_q[10] <= 1'b0/"
+defect sdram_rcd_short sdram_controller_rows board/sdram_controller.sv "s/WaitBits'(Rcd - 1)/WaitBits'(Rcd - 2)/"
+defect sdram_rp_short sdram_controller_rows board/sdram_controller.sv "s/WaitBits'(Rp - 1)/WaitBits'(Rp - 2)/"
+defect sdram_ras_short sdram_controller_rows board/sdram_controller.sv "s/CloseBits'(Ras - 1)/CloseBits'(0)/"
+defect sdram_rc_short sdram_controller_rows board/sdram_controller.sv 's/localparam int Ras = .*/localparam int Ras = RasTime;/'
+defect sdram_rfc_short sdram_controller board/sdram_controller.sv "s/WaitBits'(Rfc - 1)/WaitBits'(Rfc - 2)/"
+defect sdram_wr_ignored sdram_controller_rows board/sdram_controller.sv 's/else if (column && write_q && close_q <= .*/else if (0) ;/'
+defect sdram_mrd_short sdram_controller board/sdram_controller.sv "s/WaitBits'(CLOCKS_MRD - 1)/WaitBits'(0)/"
+defect sdram_burst_cut sdram_controller_3 board/sdram_controller.sv "s/else if (column) wait_q <= WaitBits'(1)/else if (column) wait_q <= WaitBits'(0)/"
+defect sdram_half_not_driven sdram_controller_rows board/sdram_controller.sv 's/assign sdram_dq_oe_o = .*/assign sdram_dq_oe_o = oe_q \&\& !half_q;/'
+defect sdram_read_masked sdram_controller_3 board/sdram_controller.sv 's/masked_q <= !running;/masked_q <= !running || held_q;/'
+defect sdram_turn_short sdram_controller_data board/sdram_controller.sv "s/TurnBits'(CAS_LATENCY + 2)/TurnBits'(CAS_LATENCY + 1)/"
+defect sdram_no_refresh sdram_controller_quiet board/sdram_controller.sv 's/if (running && timer_q == .0) due_q <= 1.b1;//'
+defect sdram_row_mixed_up sdram_controller_data board/sdram_controller.sv 's/assign hit = .*/assign hit = open_q \&\& open_bank_q == bank_q;/'
+defect sdram_bank_mixed_up sdram_controller_rows board/sdram_controller.sv 's/assign hit = .*/assign hit = open_q \&\& open_row_q == row_q;/'
+defect sdram_word_lost sdram_controller_3 board/sdram_controller.sv "s/if (column \&\& last) held_q <= 1.b0;/if (column) held_q <= 1'b0;/"
+defect sdram_ready_said_early sdram_controller board/sdram_controller.sv 's/assign ready_o = running/assign ready_o = phase_q != Pause/'
+defect sdram_idle_not_ready sdram_controller board/sdram_controller.sv 's/assign accept = running/assign accept = running \&\& open_q/'
+defect sdram_both_taken sdram_controller board/sdram_controller.sv 's/assign req_ready_o = .*/assign req_ready_o = accept;/'
+defect sdram_activated_again sdram_controller_rows board/sdram_controller.sv 's/if (activate) open_q <= 1.b1/if (0) open_q <= 0/'
+defect sdram_word_unasked sdram_controller_rows board/sdram_controller.sv 's/, column && !write_q} :/, column} :/'
+defect sdram_accepts_early sdram_controller board/sdram_controller.sv 's/assign accept = running/assign accept = (running || phase_q == Refreshes)/'

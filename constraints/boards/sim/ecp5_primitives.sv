@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// The primitives of Lattice's ECP5 that boards' tops use, as they behave, for simulation: a PLL, an output register of double
+// data rate, a pad. What of a primitive no top uses is refused or left out.
+`default_nettype none
+
+// The PLL: it measures CLKI's period, and 30 periods later all clocks run, each a part of the oscillator, all beginning with a
+// rising edge at once. LOCK follows ten periods after them. Jitter and phases other than DIV - 1 (0 degrees) are not
+// modelled.
+module EHXPLLL #(
+    parameter int CLKI_DIV = 1,
+    parameter int CLKFB_DIV = 1,
+    parameter string FEEDBK_PATH = "CLKOP",
+    parameter string CLKOP_ENABLE = "ENABLED",
+    parameter string CLKOS_ENABLE = "DISABLED",
+    parameter string CLKOS2_ENABLE = "DISABLED",
+    parameter string CLKOS3_ENABLE = "DISABLED",
+    parameter int CLKOP_DIV = 8,
+    parameter int CLKOS_DIV = 8,
+    parameter int CLKOS2_DIV = 8,
+    parameter int CLKOS3_DIV = 8,
+    parameter int CLKOP_CPHASE = 0,
+    parameter int CLKOS_CPHASE = 0,
+    parameter int CLKOS2_CPHASE = 0,
+    parameter int CLKOS3_CPHASE = 0,
+    parameter int CLKOP_FPHASE = 0,
+    parameter int CLKOS_FPHASE = 0,
+    parameter int CLKOS2_FPHASE = 0,
+    parameter int CLKOS3_FPHASE = 0,
+    parameter string OUTDIVIDER_MUXA = "DIVA",
+    parameter string OUTDIVIDER_MUXB = "DIVB",
+    parameter string OUTDIVIDER_MUXC = "DIVC",
+    parameter string OUTDIVIDER_MUXD = "DIVD"
+) (
+    input  wire  RST,
+    input  wire  STDBY,
+    input  wire  CLKI,
+    input  wire  CLKFB,
+    input  wire  PHASESEL0,
+    input  wire  PHASESEL1,
+    input  wire  PHASEDIR,
+    input  wire  PHASESTEP,
+    input  wire  PHASELOADREG,
+    input  wire  PLLWAKESYNC,
+    input  wire  ENCLKOP,
+    output logic CLKOP,
+    output logic CLKOS,
+    output logic CLKOS2,
+    output logic CLKOS3,
+    output logic LOCK
+);
+  initial begin
+    if (FEEDBK_PATH != "CLKOP") $fatal(1, "EHXPLLL: FEEDBK_PATH is not CLKOP");
+    if (CLKOP_CPHASE != CLKOP_DIV - 1 || CLKOS_CPHASE != CLKOS_DIV - 1 || CLKOP_FPHASE != 0 || CLKOS_FPHASE != 0)
+      $fatal(1, "EHXPLLL: a phase that is not 0 degrees");
+  end
+
+  // Periods in picoseconds. The oscillator is kept exact: a clock's half period is rounded alone.
+  longint last = 0, period = 0;
+  int   edges = 0;
+  logic runs = 1'b0;
+  initial LOCK = 1'b0;
+  always @(posedge CLKI) begin
+    period = longint'($time) - last;
+    last   = longint'($time);
+    if (edges < 100) edges++;
+    if (edges == 30) begin
+      runs = 1'b1;
+      if (25_000_000 * CLKFB_DIV / CLKI_DIV * CLKOP_DIV < 400_000_000 ||
+          period * CLKI_DIV * 1000 / (CLKFB_DIV * CLKOP_DIV) < 1_250_000 ||
+          period * CLKI_DIV * 1000 / (CLKFB_DIV * CLKOP_DIV) > 2_500_000)
+        $fatal(1, "EHXPLLL: the oscillator does not run at 400 to 800 MHz");
+    end
+    if (edges == 40) LOCK = 1'b1;
+  end
+  function automatic longint half(input int div);
+    half = period * CLKI_DIV * longint'(div) / (2 * CLKFB_DIV * CLKOP_DIV);
+  endfunction
+
+  initial {CLKOP, CLKOS, CLKOS2, CLKOS3} = '0;
+  initial begin
+    wait (runs);
+    forever begin
+      CLKOP = !CLKOP;
+      #(half(CLKOP_DIV));
+    end
+  end
+  initial begin
+    wait (runs);
+    if (CLKOS_ENABLE == "ENABLED")
+      forever begin
+        CLKOS = !CLKOS;
+        #(half(CLKOS_DIV));
+      end
+  end
+  initial begin
+    wait (runs);
+    if (CLKOS2_ENABLE == "ENABLED")
+      forever begin
+        CLKOS2 = !CLKOS2;
+        #(half(CLKOS2_DIV));
+      end
+  end
+  initial begin
+    wait (runs);
+    if (CLKOS3_ENABLE == "ENABLED")
+      forever begin
+        CLKOS3 = !CLKOS3;
+        #(half(CLKOS3_DIV));
+      end
+  end
+endmodule
+
+// Both bits are taken at the rising edge; the first goes out with it, the second at the falling one.
+module ODDRX1F (
+    input  wire  D0,
+    input  wire  D1,
+    input  wire  SCLK,
+    input  wire  RST,
+    output logic Q
+);
+  logic first_q, second_q;
+  always_ff @(posedge SCLK) begin
+    first_q  <= RST ? 1'b0 : D0;
+    second_q <= RST ? 1'b0 : D1;
+  end
+  assign Q = SCLK ? first_q : second_q;
+endmodule
+
+// A pad of both directions: T high lets go of it.
+module BB (
+    input  wire  I,
+    input  wire  T,
+    output logic O,
+    inout  wire  B
+);
+  assign B = T ? 1'bz : I;
+  assign O = B;
+endmodule
+
+`default_nettype wire

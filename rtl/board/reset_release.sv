@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// A clock's own reset: asserted while good_i, of no clock at all (a PLL's lock, a button), is low, and released by two
+// flip-flops of this clock.
+//
+// Reset is asserted for CLOCKS clocks of this clock at least once it is asserted, so that the resets of all clocks overlap, as
+// async_fifo wants it: choose CLOCKS so that it is longer than three clocks of the slowest.
+// Latency: 3 clocks from good_i to rst_no at its rise with CLOCKS more, 3 at its fall. Cost: 3 flip-flops and a counter.
+`default_nettype none
+
+module reset_release #(
+    parameter int CLOCKS = 16
+) (
+    input  wire logic clk_i,
+    input  wire logic good_i,
+    output logic      rst_no
+);
+  localparam int Bits = $clog2(CLOCKS + 1);
+
+  logic good, rst_n_q;
+  logic [Bits-1:0] count_q;
+  synchronizer u_good (
+      .clk_i,
+      .rst_ni(1'b1),
+      .in_i  (good_i),
+      .out_o (good)
+  );
+  assign rst_no = rst_n_q;
+  always_ff @(posedge clk_i) begin
+    if (!good) count_q <= '0;
+    else if (count_q != Bits'(CLOCKS)) count_q <= count_q + 1'b1;
+    rst_n_q <= good && count_q == Bits'(CLOCKS);
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,139 @@
+#!/usr/bin/env -S python3 -B
+# SPDX-License-Identifier: Apache-2.0
+"""Build a board of constraints/boards/boards.yaml as a program for simulation, a shared library (board_model.h).
+
+usage: build_board.py BOARD CACHE [--fault NAME]
+       build_board.py --list
+
+  BOARD         a board that has a simulation
+  CACHE         the folder that libraries are kept in; one that is there already, of the same sources and tools, is not built again
+  --fault NAME  apply verif/board/faults/NAME.patch to a copy of the sources first
+  --list        print the boards that have a simulation
+
+Prints the screen's mode, as the ten numbers H_ACTIVE to V_POSITIVE, and, in the last line, the library's path.
+
+$VERILATOR and $CXX name other tools. On failure: a line on standard error that names the step and the log; exit status 2.
+"""
+
+import argparse
+import hashlib
+import os
+import pathlib
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import yaml
+
+TOP = pathlib.Path(__file__).resolve().parent.parent.parent.parent
+HERE = pathlib.Path("verif/board/sim")
+BOARDS = pathlib.Path("constraints/boards")
+FAULTS = pathlib.Path("verif/board/faults")
+# All that a board's library is made of. Paths are from the top of the source tree.
+PATTERNS = (
+    "rtl/*.sv",
+    "rtl/include/**/*.svh",
+    "rtl/board/**/*.sv*",
+    "constraints/boards/**/*.sv",
+    "constraints/boards/boards.yaml",
+    "verif/test/formal/sdram_rules.sv",
+    f"{HERE}/*",
+)
+
+
+def fail(text):
+    print(text, file=sys.stderr)
+    sys.exit(2)
+
+
+def sources():
+    return sorted(p for pattern in PATTERNS for p in TOP.glob(pattern) if p.is_file())
+
+
+def version(command):
+    try:
+        return subprocess.run([*command, "--version"], capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        fail(f"{command[0]}: cannot be run (tools/deps test)")
+
+
+def run(step, command, log, folder):
+    with log.open("ab") as out:
+        out.write((shlex.join(str(c) for c in command) + "\n").encode())
+        out.flush()
+        if subprocess.run(command, stdout=out, stderr=out, cwd=folder).returncode != 0:
+            kept = pathlib.Path(tempfile.gettempdir()) / f"kage-board-{os.getpid()}.log"
+            shutil.copy(log, kept)
+            fail(f"{step} failed: see {kept}")
+
+
+def build(work, name, board, fault, verilator, cxx, partial):
+    log = work / "build.log"
+    tree = TOP
+    if fault:
+        tree = work / "tree"
+        for source in sources():
+            copy = tree / source.relative_to(TOP)
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(source, copy)
+        run(f"fault {fault}", ["patch", "--fuzz=0", "--batch", "-p1", "-d", tree, "-i", TOP / FAULTS / f"{fault}.patch"], log, work)
+    simulation = board["simulation"]
+    parameters = board["core"] | board["board"] | simulation["core"] | simulation["board"]
+    bit_ps = 2 * simulation["crystal_ps"] // simulation["bits_a_crystal_period"]
+    flags = "-fPIC -fvisibility=hidden -std=c++20 -O1 -DVL_USER_FINISH -DVL_USER_STOP -DVL_USER_FATAL -DVL_PRINTF=kage_board_printf"
+    flags += f" -include {TOP / HERE}/board_printf.hpp -I{TOP / HERE} -DKAGE_BAUD={simulation['baud']}"
+    flags += f" -DKAGE_CRYSTAL_PS={simulation['crystal_ps']} -DKAGE_BIT_PS={bit_ps}"
+    command = [*verilator, "--cc", "--exe", "--timing", "--timescale", "1ps/1ps", "--assert", "--x-initial", "unique", "-Wno-fatal", "-Wno-lint"]
+    command += ["--prefix", "Vboard", "--top-module", "board_sim", "--Mdir", work / "obj", "-O3"]
+    command += [f"-I{tree}/{folder}" for folder in ("rtl/include", "rtl/board/include")]
+    for folder in ("rtl", "rtl/board", BOARDS / board["top"], BOARDS / "sim", "verif/test/formal"):
+        command += ["-y", tree / folder]
+    command += [f"-G{n}={v}" for n, v in parameters.items()] + ["-CFLAGS", flags, "-LDFLAGS", "-shared", "-o", partial]
+    command += [tree / BOARDS / "sim/synchronizer_sim.sv", tree / BOARDS / "sim" / simulation["primitives"], tree / BOARDS / "sim" / simulation["file"], TOP / HERE / "board_model.cpp"]
+    run("verilator", command, log, work)
+    run("compiling the board", ["make", "-C", work / "obj", "-f", "Vboard.mk", "-j2", f"CXX={shlex.join(cxx)}", "OPT_FAST=-O2", "VM_PARALLEL_BUILDS=0"], log, work)
+
+
+MODE = ("H_ACTIVE", "H_FRONT", "H_SYNC", "H_BACK", "V_ACTIVE", "V_FRONT", "V_SYNC", "V_BACK", "H_POSITIVE", "V_POSITIVE")
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n\n")[0])
+    parser.add_argument("board", nargs="?")
+    parser.add_argument("cache", nargs="?")
+    parser.add_argument("--fault", default="")
+    parser.add_argument("--list", action="store_true")
+    args = parser.parse_args()
+    boards = {n: b for n, b in yaml.safe_load((TOP / BOARDS / "boards.yaml").read_text()).items() if "simulation" in b}
+    if args.list:
+        print("\n".join(boards))
+        return
+    if args.board not in boards:
+        fail(f"{args.board}: no board with a simulation; there are {', '.join(boards)}")
+    if args.fault and not (TOP / FAULTS / f"{args.fault}.patch").exists():
+        fail(f"{args.fault}: no {FAULTS / args.fault}.patch")
+    verilator = shlex.split(os.environ.get("VERILATOR") or "verilator")
+    cxx = shlex.split(os.environ.get("CXX") or "c++")
+    key = hashlib.sha256((version(verilator) + version(cxx)).encode())
+    for source in sources() + ([TOP / FAULTS / f"{args.fault}.patch"] if args.fault else []):
+        key.update(str(source.relative_to(TOP)).encode() + b"\0" + hashlib.sha256(source.read_bytes()).digest())
+    cache = pathlib.Path(args.cache)
+    library = cache / f"{args.board}{'-' + args.fault if args.fault else ''}-{key.hexdigest()[:16]}.so"
+    if not library.exists():
+        cache.mkdir(parents=True, exist_ok=True)
+        partial = cache.resolve() / f".{library.name}.{os.getpid()}"
+        try:
+            with tempfile.TemporaryDirectory(prefix="kage-board-") as work:
+                build(pathlib.Path(work), args.board, boards[args.board], args.fault, verilator, cxx, partial)
+            os.replace(partial, library)
+        finally:
+            partial.unlink(missing_ok=True)
+    parameters = boards[args.board]["board"] | boards[args.board]["simulation"]["board"]
+    print(*(parameters.get(name, 0) for name in MODE))
+    print(library)
+
+
+if __name__ == "__main__":
+    main()
