@@ -28,9 +28,10 @@ namespace {
 
 /// Without progress for so long a core hangs. A board in simulation takes minutes for a second of its own.
 constexpr double kDeviceSeconds = 10;
-constexpr double kSimulatedSeconds = 0.5;
-/// More than the board's slots take at the lowest rate, with escapes.
+constexpr double kSimulatedSeconds = 0.1;
+/// More than the board's slots take at the lowest rate, with escapes, and at that of a board in simulation.
 constexpr std::uint64_t kLinkTimeout = 250'000;
+constexpr std::uint64_t kSimulatedLinkTimeout = 10'000;
 
 struct BoardCommand : Options {
   std::string port;
@@ -61,7 +62,7 @@ void print_board(const report::BoardRecord& b) {
   if (b.screen.shown != 0) fmt::print("screen: {}\n", screen_text(b.screen));
   if (!b.loop) return;
   const report::BoardLoopRecord& l = *b.loop;
-  fmt::print("over and over: {} {} times in {:.1f} s, {} of {} different{}\n", counted(l.frames, "frame"),
+  fmt::print("over and over: {} {} times in {:.3f} s, {} of {} different{}\n", counted(l.frames, "frame"),
              l.repetitions, l.seconds, l.mismatches, counted(l.lines, "line"), l.left ? "; the board goes on" : "");
   if (l.screen.shown != 0) fmt::print("screen meanwhile: {}\n", screen_text(l.screen));
 }
@@ -91,7 +92,7 @@ board::PackVerdict play(const BoardCommand& o, const vectors::Pack& pack) {
   };
   board::ConnectOptions connect;
   connect.baud = o.baud.value_or(board::kDefaultBaud);
-  connect.link.timeout = kLinkTimeout;
+  connect.link.timeout = o.simulated() ? kSimulatedLinkTimeout : kLinkTimeout;
   connect.link.patience = options.timeout;
   connect.wait = check_interrupt;
   const board::Connection board = board::connect(o.port, connect);
