@@ -22,6 +22,7 @@ void add_cosim(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
 void add_stream(CLI::App& app, Action& action);
 void add_vectors(CLI::App& app, Action& action);
+void add_board(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);

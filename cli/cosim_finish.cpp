@@ -3,42 +3,19 @@
 // What is found out and written once a scene's frames are compared.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <system_error>
 
 #include "cosim/diverge/waveform.hpp"
 #include "cosim/model/rtl.hpp"
 #include "cosim/report/html.hpp"
 #include "cosim_run.hpp"
 #include "kage/error.hpp"
+#include "old_evidence.hpp"
 #include "results.hpp"
 #include "signals.hpp"
 
 namespace kage::cli {
 namespace {
-
-/// With the new files goes what an earlier run into the folder left of frames that this one has compared: a difference
-/// that is no more, or was another. Of random frames only those that differ leave a picture, and the frame itself.
-void remove_old_evidence(TempFiles& files, const std::string& folder, const std::string& name, bool random,
-                         cosim::FrameSteps steps, const cosim::Report& r) {
-  namespace fs = std::filesystem;
-  if (folder.empty()) return;
-  std::vector<std::string> ends{"_expected.png", "_actual.png", "_difference.png", ".fst", ".gtkw"};
-  if (random) ends.insert(ends.end(), {".png", ".kage", "_ahead.kage"});
-  for (int i = 0; i < r.frames; ++i)
-    for (const std::string& end : ends) {
-      const int frame = steps.first + i * steps.step;
-      const auto& d = r.first_difference;
-      if (d && d->frame == frame && end == kept_ending(*d)) continue;  // it is written anew
-      const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, frame, end);
-      std::error_code ec;
-      const fs::file_type type = fs::symlink_status(path, ec).type();
-      if ((type == fs::file_type::regular || type == fs::file_type::symlink) &&  // else it was not ours
-          std::find(r.pictures.begin(), r.pictures.end(), path.string()) == r.pictures.end())
-        files.remove(path);
-    }
-}
 
 /// What decides words and clocks besides scene, size, configuration and seed.
 report::OptionsRecord options_of(const CosimCommand& o) {

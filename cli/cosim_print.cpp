@@ -52,6 +52,14 @@ ReportLock::ReportLock(const std::string& folder) : lock_(folder, O_RDONLY | O_D
 }
 
 void print_verdict(const report::SceneRecord& s, const std::string& who) {
+  if (s.board) {
+    const report::BoardRecord& b = *s.board;
+    fmt::print("{}{}: {}, {}{}x{}, {} compared, {}{}, {}, {}, board {} {:.3f} s\n", who, s.same ? "same" : "different",
+               counted(s.frames, "frame"), s.sizes_vary ? "up to " : "", s.width, s.height,
+               counted(s.pixels_compared, "pixel"), counted(s.spans, "span"), and_segments(s.segments),
+               counted(b.lines_compared, "line"), counted(b.registers_compared, "register"), b.name, b.seconds);
+    return;
+  }
   fmt::print("{}{}: {}{}, {}{}x{}, {} compared, {}{}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n", who,
              s.same ? "same" : "different", counted(s.frames, "frame"),
              cosim::taken_text(s.verdicts.taken_frames.size()), s.sizes_vary ? "up to " : "", s.width, s.height,

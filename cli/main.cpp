@@ -115,6 +115,7 @@ int run(int argc, char** argv) {
   add_render(app, action);
   add_stream(app, action);
   add_vectors(app, action);
+  add_board(app, action);
   add_info(app, action);
   add_explain(app, action);
   add_diff(app, action);

@@ -12,8 +12,8 @@
 #include "cosim/run.hpp"
 #include "file/read_file.hpp"
 #include "kage/error.hpp"
-#include "kage/explain.hpp"
 #include "options.hpp"
+#include "pack_history.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "rtl_run.hpp"
@@ -366,14 +366,6 @@ std::string text_of(const vectors::CaptureVerdict& v, const vectors::Pack& pack)
   return text;
 }
 
-/// The tokens that made the pixel.
-std::string history_of(const vectors::Pack& pack, const std::string& folder, const vectors::WrongPlace& place) {
-  const PixelHistory h = explain_pixel(pack.config, vectors::words_of(folder, pack, place.frame), *place.x, place.line);
-  std::string text = fmt::format("the pixel's history: {}\n", counted(h.touches.size(), "token"));
-  for (const PixelTouch& t : h.touches) text += fmt::format("{:>8}  {}\n            {}\n", t.token, t.text, t.effect);
-  return text + fmt::format("            {}\n", h.color_text);
-}
-
 int compare(const VectorsCommand& o) {
   check_json(o);
   const std::string& folder = o.compare.at(0);
@@ -397,7 +389,7 @@ int compare(const VectorsCommand& o) {
                              {"expected", v.first->expected},
                              {"actual", v.first->actual ? Json(*v.first->actual) : Json(nullptr)}};
   std::string text = text_of(v, pack);
-  if (v.first && v.first->x) text += history_of(pack, folder, *v.first);
+  if (v.first && v.first->x) text += history_of(pack, folder, v.first->frame, *v.first->x, v.first->line);
   TempFiles none;
   finish(o, {"kage.vectors-compare/1", j}, none, text);
   return v.same() ? kSame : kDifferent;

@@ -22,7 +22,7 @@ struct Difference {
   int line = -1;      ///< -1: of the frame as a whole
   int x = -1;         ///< -1: not at a pixel
   std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
-                      ///< "register" (a remark says which);
+                      ///< "register" (a remark says which); "signature" (of a line on a board);
                       ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion", "finish" (of
                       ///< the RTL)
   std::int64_t expected = 0;

@@ -56,12 +56,12 @@ ABOVE = {
     "verif/cosim": ["cosim", *MODEL],
     "verif/opinion": ["opinion", "kage", "number"],
     "verif/vectors": ["vectors", "cosim", "stimulus", *MODEL],
-    "verif/board": ["board", *MODEL],
+    "verif/board": ["board", "vectors", "cosim", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
     "verif/bench": ["bench", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test": ["test", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test/unit/cli": ["test", "cli"],
-    "cli": ["cli", "vectors", "cosim", "stimulus", *MODEL],
+    "cli": ["cli", "board", "vectors", "cosim", "stimulus", *MODEL],
 }
 
 ROOTS = ("ref", "ref/include", "verif", "")  # what includes are named from, but for those of a file's own folder

@@ -170,6 +170,54 @@ void keys(V& v, Of<ShardRecord>) {
 }
 
 template <class V>
+void keys(V& v, Of<BoardScreenRecord>) {
+  using R = BoardScreenRecord;
+  v("shown", &R::shown);
+  v("late", &R::late);
+  v("underrun_frames", &R::underrun_frames);
+  v("underrun_lines", &R::underrun_lines);
+}
+
+template <class V>
+void keys(V& v, Of<BoardLinkRecord>) {
+  using R = BoardLinkRecord;
+  v("sent", &R::sent);
+  v("resent", &R::resent);
+  v("damaged", &R::damaged);
+  v("good", &R::good);
+  v("bad", &R::bad);
+  v("overruns", &R::overruns);
+}
+
+template <class V>
+void keys(V& v, Of<BoardLoopRecord>) {
+  using R = BoardLoopRecord;
+  v("frames", &R::frames);
+  v("repetitions", &R::repetitions);
+  v("lines", &R::lines);
+  v("mismatches", &R::mismatches);
+  v("seconds", &R::seconds);
+  v("left", &R::left);
+  v("screen", &R::screen);
+}
+
+template <class V>
+void keys(V& v, Of<BoardRecord>) {
+  using R = BoardRecord;
+  v("name", &R::name);
+  v("port", &R::port);
+  v("lines_compared", &R::lines_compared);
+  v("lines_different", &R::lines_different);
+  v("registers_compared", &R::registers_compared);
+  v("runs", &R::runs);
+  v("direct", &R::direct);
+  v("seconds", &R::seconds);
+  v("screen", &R::screen);
+  v("link", &R::link);
+  v("loop", &R::loop);
+}
+
+template <class V>
 void keys(V& v, Of<SceneRecord>) {
   using R = SceneRecord;
   const bool joined = v.record().joined;
@@ -219,6 +267,7 @@ void keys(V& v, Of<SceneRecord>) {
   if (!joined) v("kept", &R::kept);
   v("notes", &R::notes);
   v.if_there("coverage", &R::coverage);
+  v.if_there("board", &R::board);
   if (joined) v("shards", &R::shards);
 }
 
@@ -227,9 +276,9 @@ inline constexpr bool kIsOneOf = (std::is_same_v<T, All> || ...);
 
 /// What has keys of its own.
 template <class T>
-concept Record =
-    kIsOneOf<T, cosim::Stalls, OptionsRecord, WayRecord, FrameRecord, DivergenceRecord, DifferenceRecord, KeptRecord,
-             VerdictsRecord, CoveragePointRecord, CoverageRecord, ShardNumber, ShardRecord, SceneRecord>;
+concept Record = kIsOneOf<T, cosim::Stalls, OptionsRecord, WayRecord, FrameRecord, DivergenceRecord, DifferenceRecord,
+                          KeptRecord, VerdictsRecord, CoveragePointRecord, CoverageRecord, ShardNumber, ShardRecord,
+                          BoardScreenRecord, BoardLinkRecord, BoardLoopRecord, BoardRecord, SceneRecord>;
 
 inline std::string phase_name(std::size_t i) {
   return std::string(i < cosim::kPhases ? cosim::kPhaseNames[i] : "behind the last token");

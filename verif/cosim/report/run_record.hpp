@@ -163,6 +163,50 @@ struct ShardRecord : PartRecord {
   std::string file;  ///< that its report came from
 };
 
+/// What a board's screen counted.
+struct BoardScreenRecord {
+  std::uint64_t shown = 0;            ///< screens that began a frame
+  std::uint64_t late = 0;             ///< screens that had none to begin
+  std::uint64_t underrun_frames = 0;  ///< these, and those with a line that ran short
+  std::uint64_t underrun_lines = 0;
+};
+
+/// Frames of the link to a board.
+struct BoardLinkRecord {
+  std::uint64_t sent = 0;      ///< by the host, each time counted
+  std::uint64_t resent = 0;    ///< of these, those that had been sent before
+  std::uint64_t damaged = 0;   ///< that came from the board and were not whole
+  std::uint64_t good = 0;      ///< that came to the board right, since its reset, at most 65535
+  std::uint64_t bad = 0;       ///< likewise, others
+  std::uint64_t overruns = 0;  ///< likewise, right ones for which there was no room
+};
+
+/// Frames that a board played over and over.
+struct BoardLoopRecord {
+  std::uint64_t frames = 0;
+  std::uint64_t repetitions = 0;
+  std::uint64_t lines = 0;
+  std::uint64_t mismatches = 0;  ///< lines that differed
+  double seconds = 0;
+  bool left = false;  ///< the board goes on
+  BoardScreenRecord screen;
+};
+
+/// What a run on a board has besides (kage board).
+struct BoardRecord {
+  std::string name;
+  std::string port;
+  std::uint64_t lines_compared = 0;
+  std::uint64_t lines_different = 0;
+  std::uint64_t registers_compared = 0;
+  std::uint64_t runs = 0;
+  std::uint64_t direct = 0;
+  double seconds = 0;
+  BoardScreenRecord screen;
+  BoardLinkRecord link;
+  std::optional<BoardLoopRecord> loop;
+};
+
 /// What was found of a scene, by one run or, joined, by all shards of it.
 struct SceneRecord : PartRecord {
   std::string scene;
@@ -192,7 +236,8 @@ struct SceneRecord : PartRecord {
   std::optional<KeptRecord> kept;
   std::vector<std::string> notes;
   std::optional<CoverageRecord> coverage;
-  bool joined = false;  ///< by kage merge: again, folder, rtl, page and kept are the shards' own
+  std::optional<BoardRecord> board;  ///< the actual core was one on a board
+  bool joined = false;               ///< by kage merge: again, folder, rtl, page and kept are the shards' own
   std::vector<ShardRecord> shards;
 
   /// Takes what cosim::run() reports of frames.

@@ -79,6 +79,7 @@ SOMETIMES_IN = {
     ("touches/*", "units"),
     ("touches/*", "tree"),
     ("first_difference", "scene"),
+    ("", "board"),
     ("", "need"),
     ("frames/*", "error_frame"),
     ("frames/*", "error_line"),

@@ -96,6 +96,23 @@ sed 2s/38/39/ v/pixels.hex >few.hex
 said 1 vectors --compare v few.hex
 said 0 vectors courtyard "${small[@]}" --sound-only --module line_out --out vm
 cp vm/manifest.json json/pack.2.json
+# board PACK FAULT...: a board (support/fake_board.cpp), whose device is $port, until the next one.
+fake=
+trap 'kill $fake 2>/dev/null; rm -rf "$temp"' EXIT
+board() {
+  [ -z "$fake" ] || kill "$fake"
+  rm -f name && mkfifo name
+  "$KAGE_FAKE_BOARD" "$@" >name &
+  fake=$!
+  read -r port <name
+}
+board v screen
+said 0 board --port "$port" v --loop 0.1 --out board
+json "$last" 'j["board"]["loop"]["repetitions"]'
+board v line 5
+said 1 board --port "$port" v
+board v once 5
+said 1 board --port "$port" v
 said 0 info a.kage --clocks
 said 0 info p.kage
 said 0 info courtyard

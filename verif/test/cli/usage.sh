@@ -6,7 +6,7 @@
 expect 0 "$kage" --help
 [ "$(wc -L <stdout)" -le 110 ] || fail "--help has long lines"
 expect 0 "$kage" --version
-for command in cosim render stream info explain diff merge model order; do
+for command in cosim board render stream info explain diff merge model order; do
   expect 0 "$kage" $command --help
   grep -q Examples: stdout || fail "$command --help has no examples"
   [ "$(wc -L <stdout)" -le 110 ] || fail "$command --help has long lines"

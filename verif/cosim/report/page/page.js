@@ -10,13 +10,19 @@ const Report = (() => {
 
   // ---- verdict
 
+  const boardText = (b) => `${b.name} at ${b.port}: ${plural(b.lines_compared, "line")} by ${b.lines_compared === 1 ? "its signature" : "their signatures"}, ` +
+      `${count(b.lines_different)} of them different, ${plural(b.registers_compared, "register")}, ${plural(b.runs, "list")}` +
+      (b.screen.shown ? `, ${count(b.screen.underrun_lines)} lines too late for the screen` : "") +
+      (b.loop ? `; ${plural(b.loop.frames, "frame")} ${count(b.loop.repetitions)} times, ${plural(b.loop.mismatches, "line")} different` : "");
+
   function verdict() {
     const terms = [];
     if (first) terms.push(["First difference", first.text], ...Parts.divergenceTerms(first, data.gtkwave));
     if (data.different_pixels !== null)
       terms.push(["Differing pixels", `${count(data.different_pixels)} in ${plural(data.region_count, "region")}`]);
+    if (run.board) terms.push(["Board", boardText(run.board)]);
     if (run.degraded.length) terms.push(["Left out", run.degraded.join("; ")]);
-    Parts.verdict(run.same, "kage cosim", run.scene, data.headline.replace(/^\w+: /, "") + (run.same ? "" : "; a difference ends the run"), terms);
+    Parts.verdict(run.same, run.board ? "kage board" : "kage cosim", run.scene, data.headline.replace(/^\w+: /, "") + (run.same ? "" : "; a difference ends the run"), terms);
     if (first && first.x !== null) {
       const button = make("button", "Show that pixel", {type: "button", id: "show-first"});
       button.addEventListener("click", () => {
@@ -140,7 +146,7 @@ const Report = (() => {
     };
     const told = data.told.filter((p) => p.frame === frame.frame);
     if (told.length) {
-      $("regions").append("Told with the RTL's values:");
+      $("regions").append(run.board ? "The first that differs:" : "Told with the RTL's values:");
       for (const p of told) jump(`${p.x},${p.y}`, p.x, p.y);
     }
   }
@@ -249,8 +255,10 @@ const Report = (() => {
 
   function frames() {
     const heads = ["frame", "verdict", "clocks", "no input", "output blocked", "spans", "span pixels", "segments", "words"];
-    const numbers = data.frames.map((f) => [...Parts.numbers(f), f.words]);
-    const sums = numbers.reduce((sum, row) => sum.map((n, i) => n + row[i]));
+    // On a board no clock is counted, and none is lost that anybody saw.
+    const known = (row) => run.board ? row.map((n, i) => i < 3 ? null : n) : row;
+    const numbers = data.frames.map((f) => known([...Parts.numbers(f), f.words]));
+    const sums = known(numbers.reduce((sum, row) => sum.map((n, i) => n + row[i])));
     table($("table"), heads,
           data.frames.map((f, i) => [f.frame, Parts.verdictWord(f), ...numbers[i].map(count)]),
           data.frames.length > 1 ? ["all", "", ...sums.map(count)] : null);
@@ -276,9 +284,10 @@ const Report = (() => {
   }
 
   function rest() {
-    $("again").append(make("p", ["In ", make("code", run.folder), ", with the RTL of ", make("code", run.rtl), ":"]), command(run.again));
-    $("again").append(make("p", `Seed ${run.seed}. Golden model ${run.golden_seconds.toFixed(3)} s, RTL ` +
-        `${run.rtl_seconds.toFixed(3)} s.`));
+    const on = run.board ? [", with board ", make("code", run.board.name)] : [", with the RTL of ", make("code", run.rtl)];
+    $("again").append(make("p", ["In ", make("code", run.folder), ...on, ":"]), command(run.again));
+    $("again").append(make("p", run.board ? `The board played for ${run.board.seconds.toFixed(3)} s; its clocks are not counted.`
+        : `Seed ${run.seed}. Golden model ${run.golden_seconds.toFixed(3)} s, RTL ${run.rtl_seconds.toFixed(3)} s.`));
     $("again").append(make("p", `Made by ${run.versions.join("; ")}.`, {class: "note"}));
     for (const note of run.notes) $("again").append(make("p", note, {class: "note"}));
     $("config-name").textContent = run.config_name;

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A run on a board as a run of kage cosim is told: its record, its pictures and its page.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+#include "board/pack_run.hpp"
+#include "cosim/report/run_record.hpp"
+#include "file/temp_file.hpp"
+#include "vectors/pack.hpp"
+
+namespace kage::cli {
+
+/// What was played, and what came of it.
+struct BoardRun {
+  const vectors::Pack& pack;
+  std::string folder;  ///< the pack's
+  std::string port;
+  const board::PackVerdict& verdict;
+  const CLI::App& command;
+};
+
+/// The record; with an `out` that is not empty also pictures of the frames, a stream file of them, by which `kage
+/// explain` tells what the page has no room for, and report.html, among `files`. That these cannot be written leaves
+/// the verdict as it is, and a note.
+report::RunRecord record_of(const BoardRun& run, const std::string& out, TempFiles& files);
+
+}  // namespace kage::cli
