@@ -381,7 +381,7 @@ module board_core #(
   end
 
   // ---- player and core, which the host can hold in reset -----------------------------------------------------------
-  logic core_rst_n_q;
+  logic core_rst_n_q = 1'b0;
   always_ff @(posedge clk_i) core_rst_n_q <= rst_ni && !hold;
 
   logic s_valid, s_ready, s_last, m_valid, m_ready, m_user, m_last, word, req_valid, req_ready;

@@ -16,8 +16,10 @@ module reset_release #(
 );
   localparam int Bits = $clog2(CLOCKS + 1);
 
-  logic good, rst_n_q;
-  logic [Bits-1:0] count_q;
+  // An FPGA begins with these, so that the reset is asserted from power-up on.
+  logic rst_n_q = 1'b0;
+  logic [Bits-1:0] count_q = '0;
+  logic good;
   synchronizer u_good (
       .clk_i,
       .rst_ni(1'b1),
