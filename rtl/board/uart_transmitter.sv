@@ -22,7 +22,7 @@ module uart_transmitter #(
     output logic            ready_o,
     input  wire logic [7:0] data_i,
 
-    output logic tx_o
+    output logic tx_o = 1'b1
 );
   if (BAUD < 115200 || BAUD > 3000000) begin : gen_bad_baud
     `KAGE_ILLEGAL("BAUD must be of 115200 to 3000000")
