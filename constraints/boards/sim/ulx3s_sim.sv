@@ -120,6 +120,12 @@ module board_sim #(
   );
   always @(posedge sdram_clk) if (lost != '0) $fatal(1, "the SDRAM: a row lost its charge before it was refreshed");
 
+  // In this order: UART, core, memory, pixels.
+  reset_check u_resets (
+      .clk_i ({u_board.pix_clk, u_board.mem_clk, u_board.clk, clk_i}),
+      .rst_ni({u_board.pix_rst_n, u_board.mem_rst_n, u_board.rst_n, u_board.uart_rst_n})
+  );
+
   logic unused;
   assign unused = &{1'b0, wifi};
 

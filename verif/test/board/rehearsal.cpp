@@ -1,121 +1,241 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's whole top in simulation, from the host's serial line to the wires of its DVI link: a frame is loaded into
-// the SDRAM, played, and what comes out is held against the golden core, by signatures, by registers, and by what a
-// screen shows.
+// First light, rehearsed: a board's whole top in simulation, with its PLL, SDRAM, serial line and the wires of its DVI
+// link, is played a pack on by the very functions of `kage board`; what a monitor at its socket shows is held against
+// the pack too. Then the same with a fault in the board, each of which must be found, and told where:
+// bin/board_rehearsal "[faults]", which tools/rehearse runs, as each fault's board has to be built.
 #include <fmt/format.h>
-#include <zlib.h>
 
-#include <cstring>
+#include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "board/board_registers.h"
 #include "board/link.hpp"
+#include "board/pack_answers.hpp"
+#include "board/pack_run.hpp"
 #include "board/sim_board.hpp"
 #include "kage/core.hpp"
-#include "kage/pipeline.hpp"
+#include "stimulus/random.hpp"
+#include "stimulus/random_frames.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/temp_directory.hpp"
+#include "vectors/check.hpp"
+#include "vectors/malformed.hpp"
+#include "vectors/write.hpp"
 
 using namespace kage;
 using namespace kage::board;
-
-TEST_CASE("a board greets, and says what it is") {
-  const auto board = open_sim_board("ulx3s_25f");
-  Link link(*board, {.timeout = 20000, .tries = 5, .patience = 100000});
-  link.hello();
-  const auto words = link.read(KAGE_BOARD_ID, 6);
-  REQUIRE(words[0] == KAGE_BOARD_ID_VALUE);
-  REQUIRE(words[1] == KAGE_BOARD_LAYOUT_VALUE);
-  REQUIRE(words[2] == 0x554C5833);  // ULX3
-  REQUIRE(words[3] == 8u << 20);
-  REQUIRE(words[5] == (48u << 16 | 64));
-  REQUIRE(board->state().fault == "");
-}
+using kage::test::TempDirectory;
 
 namespace {
 
-/// A host's steps with a board, by its registers.
-struct Host {
-  explicit Host(SimBoard& board) : link(board, {.timeout = 20000, .tries = 5, .patience = 200000}) { link.hello(); }
+constexpr const char* kBoard = "ulx3s_25f";
+constexpr std::uint32_t kBorder = 0x402020;  // of video_out
 
-  void write(std::uint32_t address, std::uint32_t value) { link.write(address, std::array{value}); }
-  std::uint32_t read(std::uint32_t address) { return link.read(address, 1).front(); }
+/// The core of the board in simulation: constraints/boards/boards.yaml.
+Config config() {
+  Config c;
+  c.lanes = 2;
+  c.beat_words = 1;
+  c.max_width = 64;
+  c.x_bits = 7;
+  c.z_frac = 7;
+  return c;
+}
 
-  Link link;
+/// Two sound frames and two malformed ones, a few thousand words: 40 ms of the line.
+struct Fixture {
+  TempDirectory folder;
+  vectors::Pack pack;
+
+  Fixture() {
+    TempFiles files;
+    vectors::PackWriter writer(folder.path(), config(), files);
+    pack.scene = "random";
+    pack.config_name = "rehearsal";
+    pack.config = config();
+    pack.made_by = "a test";
+    const auto add = [&](const std::string& what, const std::vector<std::uint32_t>& words) {
+      pack.frames.push_back(writer.frame(what, [&](const WordSink& sink) { sink(words); }));
+      pack.frames.back().settles = true;
+    };
+    verif::Random random(3);
+    for (std::uint32_t n = 0; pack.frames.size() < 2; ++n) {
+      const std::vector<std::uint32_t> words = verif::sound_frame(random, config(), n);
+      const FrameHeader h = FrameHeader::read(words);
+      if (h.width >= 16 && h.width <= 64 && h.height >= 12 && h.height <= 48 && words.size() < 1800)
+        add(fmt::format("random, frame {}", n), words);
+    }
+    const auto malformed = vectors::malformed_frames(config(), 1);
+    for (std::size_t i = 0; i < 2; ++i) add("malformed", malformed[i].words);
+    pack.reads = vectors::register_reads(config(), pack.frames);
+    writer.finish(pack);
+    files.commit();
+    pack = vectors::checked_pack(folder.path(), vectors::Check::answers, [] {});
+  }
 };
 
-std::uint32_t crc_of(std::span<const std::uint32_t> words) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(words.data()), words.size_bytes()));
+const Fixture& fixture() {
+  static const Fixture f;
+  return f;
+}
+
+LinkOptions link_options() { return {.timeout = 10'000, .tries = 10, .patience = 100'000}; }
+
+PackRunOptions run_options() {
+  PackRunOptions o;
+  o.timeout = 100'000;
+  o.loop = 1;
+  o.leave = true;  // the screen goes on
+  return o;
+}
+
+/// A line that damages every so many bytes on their way to the board.
+class Damaging : public Transport {
+ public:
+  Damaging(SimBoard& board, unsigned every) : board_(board), every_(every) {}
+  void write(std::span<const std::uint8_t> bytes) override {
+    std::vector<std::uint8_t> sent(bytes.begin(), bytes.end());
+    for (std::uint8_t& byte : sent)
+      if (every_ != 0 && ++count_ % every_ == 0 && byte != 0x7E && byte != 0x7D) byte ^= 0x04;
+    board_.write(sent);
+  }
+  std::size_t read(std::span<std::uint8_t> bytes, std::uint64_t deadline) override {
+    return board_.read(bytes, deadline);
+  }
+  std::uint64_t now() override { return board_.now(); }
+
+ private:
+  SimBoard& board_;
+  unsigned every_;
+  unsigned count_ = 0;
+};
+
+/// What a screen shows that is not a frame of the pack; empty: nothing.
+std::string wrong_on_screen(const ShownFrame& shown) {
+  const PackAnswers answers(fixture().folder.path(), fixture().pack);
+  std::string first;
+  for (std::uint64_t f = 0; f < 2; ++f) {
+    const vectors::PackFrame& frame = fixture().pack.frames[f];
+    const std::vector<std::uint8_t> pixels = answers.pixels(f, 0, frame.status.height);
+    std::string wrong;
+    for (int y = 0; y < shown.height && wrong.empty(); ++y) {
+      for (int x = 0; x < shown.width && wrong.empty(); ++x) {
+        const bool inside = x < frame.status.width && y < frame.status.height;
+        for (int c = 0; c < 3; ++c) {
+          const auto at = static_cast<std::size_t>((y * frame.status.width + x) * 3 + c);
+          const unsigned want = inside ? pixels[at] : kBorder >> (8 * c) & 255;
+          const unsigned got = shown.at(x, y) >> (8 * c) & 255;
+          if (want != got && wrong.empty())
+            wrong = fmt::format("the screen: frame {}, line {}, x {}, channel {}: expected {}, got {}", f, y, x, c,
+                                want, got);
+        }
+      }
+    }
+    if (wrong.empty()) return "";
+    if (first.empty()) first = wrong;
+  }
+  return first;
+}
+
+/// Plays the pack, and watches the screen for a few frames. What was found, in a line; "same": nothing.
+std::string rehearse(const SimBoardOptions& options, unsigned damage = 0) {
+  const auto board = open_sim_board(kBoard, options);
+  const auto with_fault = [&](const std::string& told) {
+    const std::string fault = board->state().fault;
+    return fault.empty() ? told : fault;
+  };
+  try {
+    Damaging line(*board, damage);
+    Link link(line, link_options());
+    link.hello();
+    const PackVerdict v = play_pack(link, line, "sim", fixture().folder.path(), fixture().pack, run_options());
+    if (v.first)
+      return with_fault(fmt::format("frame {}, line {}, x {}: {}: expected {}, got {} {}", v.first->frame,
+                                    v.first->line, v.first->x, v.first->field, v.first->expected, v.first->actual,
+                                    v.first->remark));
+    if (damage != 0 && v.link_bad == 0) return "no damage was seen";
+    (void)board->take_frames();
+    std::vector<ShownFrame> shown;
+    while (shown.size() < 3) {
+      (void)link.read(KAGE_BOARD_STATE, 1);
+      for (ShownFrame& frame : board->take_frames()) shown.push_back(std::move(frame));
+    }
+    for (const ShownFrame& frame : shown)
+      if (const std::string wrong = wrong_on_screen(frame); !wrong.empty()) return with_fault(wrong);
+    const auto late = link.read(KAGE_BOARD_UNDERRUN_LINES, 1).front();
+    if (late != 0) return fmt::format("{} lines ran short", late);
+    return with_fault("same");
+  } catch (const Error& e) {
+    return with_fault(e.what());
+  }
 }
 
 }  // namespace
 
-TEST_CASE("a board draws a frame from its SDRAM onto a screen") {
-  Config config;
-  config.lanes = 2;
-  config.beat_words = 1;
-  config.max_width = 64;
-  config.x_bits = 7;
-  config.z_frac = 7;
-  SceneFrames frames(std::make_shared<const Scene>(Scene::load("courtyard")), config,
-                     {.width = 64, .height = 48, .frames = 1});
-  std::vector<std::uint32_t> words;
-  frames.frame(0, [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); });
-  const Image golden = Renderer(frames).image(0);
+TEST_CASE("first light: a pack on a board, and its frames on a screen") { CHECK(rehearse({}) == "same"); }
 
-  const auto board = open_sim_board("ulx3s_25f");
-  Host host(*board);
-  host.write(KAGE_BOARD_CONTROL, 0);
-  REQUIRE(host.read(KAGE_REG_PARAM_HASH) == param_hash(config));
+TEST_CASE("a line that damages a byte in 400 only costs time") { CHECK(rehearse({}, 400) == "same"); }
 
-  std::vector<std::uint32_t> list{static_cast<std::uint32_t>(words.size())};
-  list.insert(list.end(), words.begin(), words.end());
-  list.push_back(0);
-  host.write(KAGE_BOARD_LOAD_ADDRESS, 100);
-  host.link.stream(list);
-  host.link.flush();
-  REQUIRE(host.read(KAGE_BOARD_LOAD_ADDRESS) == 100 + list.size());
-  REQUIRE(host.read(KAGE_BOARD_LOAD_CRC) == crc_of(list));
+TEST_CASE("a board that is reset in the middle says so") {
+  const auto board = open_sim_board(kBoard);
+  Link link(*board, link_options());
+  link.hello();
+  PackRunOptions options = run_options();
+  int waits = 0;
+  options.wait = [&] {
+    if (++waits == 3) board->press_reset(true);
+    if (waits == 4) board->press_reset(false);
+  };
+  try {
+    (void)play_pack(link, *board, "sim", fixture().folder.path(), fixture().pack, options);
+    FAIL("it went on");
+  } catch (const Error& e) {
+    CHECK_THAT(e.what(), Catch::Contains("reset"));
+  }
+}
 
-  host.write(KAGE_BOARD_PLAY_ADDRESS, 100);
-  host.write(KAGE_BOARD_COMMAND, 1u << KAGE_BOARD_COMMAND_START_SHIFT);
-  while (host.read(KAGE_BOARD_LINES) < 48) REQUIRE(board->now() < 1'000'000);
-  REQUIRE(host.read(KAGE_BOARD_PLAY_CRC) == crc_of(words));
-  REQUIRE(host.read(KAGE_REG_FRAMES) == 1);
-  REQUIRE(host.read(KAGE_REG_ERRORS) == 0);
-  const auto signatures = host.link.read(KAGE_BOARD_SIGNATURES, 48);
-  for (int y = 0; y < 48; ++y) {
-    uLong crc = 0;
-    for (int x = 0; x < 64; ++x) {
-      crc = crc32(crc, golden.data.data() + golden.index(x, y), 3);
-      const Bytef flags = static_cast<Bytef>((x == 0 && y == 0 ? 2 : 0) + (x == 63 ? 1 : 0));
-      crc = crc32(crc, &flags, 1);
+TEST_CASE("every fault of a board is found, and told where", "[.][faults]") {
+  struct Fault {
+    const char* name;
+    const char* told;  // what must be told
+    unsigned damage = 0;
+  };
+  const char* one = std::getenv("KAGE_BOARD_FAULT");
+  for (const Fault& fault : {
+           Fault{"swapped_channel", "the screen: frame 0, line 0, x 0, channel 2"},
+           {"sync_polarity", "screen: hsync"},
+           {"tmds_disparity", "DVI: "},
+           {"no_refresh", "u_rules.refreshes"},
+           {"reset_early", "reset 2 is released"},
+           {"crc_unchecked", "LOAD_CRC", 400},
+           {"no_gray_code", ""},
+       }) {
+    if (one != nullptr && std::string(one) != fault.name) continue;
+    const std::string told = rehearse({.fault = fault.name, .other_baud = {}}, fault.damage);
+    fmt::print("{}: {}\n", fault.name, told);
+    INFO(fault.name);
+    CHECK(told != "same");
+    CHECK_THAT(told, Catch::Contains(fault.told));
+  }
+}
+
+TEST_CASE("a frame of credit too many is found", "[.][faults]") {
+  const auto overrun = [](const std::string& fault) {
+    const auto board = open_sim_board(kBoard, {.fault = fault, .other_baud = {}});
+    Link link(*board, link_options());
+    link.hello();
+    // Straight to a player that does not play: no word is taken.
+    link.write(KAGE_BOARD_CONTROL, std::vector<std::uint32_t>{KAGE_BOARD_CONTROL_DIRECT_MASK});
+    try {
+      link.stream(std::vector<std::uint32_t>(63 * 8, 5));
+      link.flush();
+    } catch (const LinkError& e) {
+      return e.failure;
     }
-    CAPTURE(y);
-    CHECK(signatures[static_cast<std::size_t>(y)] == crc);
-  }
-  // What a screen at the DVI socket shows, while the player gives the core a frame whenever the screen asks for one.
-  host.write(KAGE_BOARD_VIDEO_LINES, 48);
-  host.write(KAGE_BOARD_CONTROL, KAGE_BOARD_CONTROL_LOOP_MASK | KAGE_BOARD_CONTROL_PACED_MASK);
-  host.write(KAGE_BOARD_COMMAND, 1u << KAGE_BOARD_COMMAND_START_SHIFT);
-  const std::uint32_t before = host.read(KAGE_BOARD_FRAMES_SHOWN);
-  while (host.read(KAGE_BOARD_FRAMES_SHOWN) < before + 2) REQUIRE(board->now() < 2'000'000);
-  (void)board->take_frames();
-  while (host.read(KAGE_BOARD_FRAMES_SHOWN) < before + 6) REQUIRE(board->now() < 2'000'000);
-  const std::vector<ShownFrame> shown = board->take_frames();
-  CHECK(shown.size() >= 3);
-  INFO(fmt::format("{} us of the board's time, {} frames", board->now(), shown.size()));
-  CHECK(board->state().fault == "");
-  int same = 0;
-  for (const ShownFrame& frame : shown) {
-    bool equal = frame.width == 64 && frame.height == 48;
-    for (int y = 0; equal && y < 48; ++y)
-      for (int x = 0; equal && x < 64; ++x)
-        for (int c = 0; c < 3; ++c)
-          equal = equal &&
-                  (frame.at(x, y) >> (8 * c) & 255) == golden.data[golden.index(x, y) + static_cast<std::size_t>(c)];
-    same += equal;
-  }
-  CHECK(same == static_cast<int>(shown.size()));
-  CHECK(host.read(KAGE_BOARD_UNDERRUN_LINES) == 0);
-  std::fprintf(stderr, "%lu us, %zu words, %zu frames shown, %d the same\n", board->now(), words.size(), shown.size(),
-               same);
+    FAIL("all went through");
+    return LinkFailure::no_answer;
+  };
+  CHECK(overrun("") == LinkFailure::stalled);
+  CHECK(overrun("credit_too_many") == LinkFailure::overrun);
 }
