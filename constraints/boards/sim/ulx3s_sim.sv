@@ -122,6 +122,7 @@ module board_sim #(
 
   // In this order: UART, core, memory, pixels.
   reset_check u_resets (
+      .good_i(u_board.good),
       .clk_i ({u_board.pix_clk, u_board.mem_clk, u_board.clk, clk_i}),
       .rst_ni({u_board.pix_rst_n, u_board.mem_rst_n, u_board.rst_n, u_board.uart_rst_n})
   );
