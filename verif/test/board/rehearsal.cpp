@@ -222,7 +222,7 @@ TEST_CASE("every fault of a board is found, and told where", "[.][faults]") {
            {"sync_polarity", "screen: hsync"},
            {"tmds_disparity", "DVI: "},
            {"no_refresh", "u_rules.refreshes"},
-           {"reset_early", "reset 2 is released after 19 clocks"},
+           {"reset_early", "reset 2 is released after 18 clocks"},
            {"crc_unchecked", "LOAD_CRC", 150},
        }) {
     if (one != nullptr && std::string(one) != fault.name) continue;
