@@ -12,6 +12,7 @@
 //   clocks of the slowest at least, and released in any order (reset_release).
 // MEMORY 0: block RAM of MEMORY_WORDS. 1: an SDRAM, of ROW_BITS, COLUMN_BITS and BANK_BITS.
 // SCREEN 0: no screen; the core's pixels are taken at once. 1: a screen of H_... and V_....
+// CAPTURE 0: no line_capture, so a line that is wrong is known by its signature alone; 1: its pixels can be read.
 // LEDs, high is on: 0 the core's clock runs (blinks), 1 the player is in a list, 2 lines were compared and all were right,
 //   3 one was wrong, 4 the screen had to repeat a colour, 5 no host has greeted since reset, 6 the memory is set up, 7 the
 //   core's interrupt.
@@ -36,6 +37,7 @@ module board_core #(
     parameter int READ_DELAY = CAS_LATENCY,
     parameter int T_INIT = 200_000,
     parameter int LINES = 512,
+    parameter int CAPTURE = 1,
     parameter int SCREEN = 1,
     parameter int H_ACTIVE = 640,
     parameter int H_FRONT = 16,
@@ -84,7 +86,8 @@ module board_core #(
 
     output logic [7:0] led_o
 );
-  localparam int Pixels = MAX_WIDTH > 4096 ? 4096 : MAX_WIDTH;
+  localparam int Pixels = CAPTURE == 0 ? 0 : MAX_WIDTH > 4096 ? 4096 : MAX_WIDTH;
+  localparam int PixelAddrBits = Pixels > 1 ? $clog2(Pixels) : 1;
 
   // ---- the serial line ---------------------------------------------------------------------------------------------
   logic rx_valid, rx_taken, rx_ready, rx_word_valid, tx_valid, tx_ready, tx_word_valid, tx_word_ready;
@@ -206,7 +209,7 @@ module board_core #(
   logic signature_wr_en;
   logic [$clog2(LINES)-1:0] signature_addr;
   logic [31:0] signature_wr_data, signature_rd_data, pixel_rd_data;
-  logic [$clog2(Pixels)-1:0] pixel_addr;
+  logic [PixelAddrBits-1:0] pixel_addr;
   logic core_awvalid, core_awready, core_wvalid, core_wready, core_bvalid, core_bready, core_arvalid, core_arready;
   logic core_rvalid, core_rready;
   logic [7:0] core_awaddr, core_araddr;
@@ -489,22 +492,29 @@ module board_core #(
       .host_wr_data_i  (signature_wr_data),
       .host_rd_data_o  (signature_rd_data)
   );
-  line_capture #(
-      .CHANNELS(CHANNELS),
-      .PIXELS  (Pixels)
-  ) u_capture (
-      .clk_i,
-      .rst_ni        (core_rst_n_q),
-      .beat_i        (beat),
-      .data_i        (m_data),
-      .user_i        (m_user),
-      .last_i        (m_last),
-      .clear_i       (start),
-      .line_i        (capture_line),
-      .pixels_o      (captured),
-      .host_addr_i   (pixel_addr),
-      .host_rd_data_o(pixel_rd_data)
-  );
+  if (CAPTURE == 1) begin : gen_capture
+    line_capture #(
+        .CHANNELS(CHANNELS),
+        .PIXELS  (Pixels)
+    ) u_capture (
+        .clk_i,
+        .rst_ni        (core_rst_n_q),
+        .beat_i        (beat),
+        .data_i        (m_data),
+        .user_i        (m_user),
+        .last_i        (m_last),
+        .clear_i       (start),
+        .line_i        (capture_line),
+        .pixels_o      (captured),
+        .host_addr_i   (pixel_addr),
+        .host_rd_data_o(pixel_rd_data)
+    );
+  end else begin : gen_no_capture
+    assign captured      = '0;
+    assign pixel_rd_data = '0;
+    logic unused;
+    assign unused = &{1'b0, capture_line, pixel_addr};
+  end
 
   logic screen_led;
   if (SCREEN == 1) begin : gen_screen
@@ -518,6 +528,7 @@ module board_core #(
     video_out #(
         .CHANNELS  (CHANNELS),
         .H_ACTIVE  (H_ACTIVE),
+        .WIDTH     (MAX_WIDTH),
         .H_FRONT   (H_FRONT),
         .H_SYNC    (H_SYNC),
         .H_BACK    (H_BACK),

@@ -7,6 +7,7 @@
 //   word. Writes to what is read only are taken and ignored. WSTRB is passed on to the core; the board's own registers are
 //   written whole.
 // Latency: 4 clocks for a write, 5 for a read; to the core, its own beside 3.
+// PIXELS 0: there is no line_capture, and no word of PIXELS.
 // Cost: about 300 flip-flops.
 `default_nettype none
 `include "kage_illegal.svh"
@@ -19,7 +20,7 @@ module board_registers #(
     parameter int SCREEN_WIDTH = 640,
     parameter int SCREEN_HEIGHT = 480,
     localparam int PlaceBits = $clog2(LINES),
-    localparam int PixelBits = $clog2(PIXELS)
+    localparam int PixelBits = PIXELS > 1 ? $clog2(PIXELS) : 1
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -121,7 +122,7 @@ module board_registers #(
     is_signature = address >= WindowSignatures && address < WindowSignatures + 16'(4 * LINES);
   endfunction
   function automatic logic is_pixel(input logic [15:0] address);
-    is_pixel = address >= WindowPixels && address < WindowPixels + 16'(4 * PIXELS);
+    is_pixel = PIXELS != 0 && address >= WindowPixels && address < WindowPixels + 16'(4 * PIXELS);
   endfunction
 
   // ---- writes ------------------------------------------------------------------------------------------------------

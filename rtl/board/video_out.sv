@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the core's m_axis to a screen that waits for nobody: a FIFO of two lines between the clocks, the timing of a
-// video mode, and what is shown and counted when a pixel comes too late.
+// From the core's m_axis to a screen that waits for nobody: a FIFO of two lines (of the screen, or of WIDTH pixels if that
+// is less) between the clocks, the timing of a video mode, and what is shown and counted when a pixel comes too late.
 //
 // Handshake: the port of pixels is AXI4-Stream video, valid/ready: TUSER on a frame's first pixel, TLAST on a line's
 // last. Ready is the FIFO's free place and nothing else, so the core rests while the screen is in blanking. Requests
@@ -35,6 +35,7 @@
 module video_out #(
     parameter int          CHANNELS   = 3,
     parameter int          H_ACTIVE   = 640,
+    parameter int          WIDTH      = H_ACTIVE,    // of the picture at most: room for two lines
     parameter int          H_FRONT    = 16,
     parameter int          H_SYNC     = 96,
     parameter int          H_BACK     = 48,
@@ -79,6 +80,8 @@ module video_out #(
 
   localparam int XBits = $clog2(H_ACTIVE + H_FRONT + H_SYNC + H_BACK);
   localparam int YBits = $clog2(V_ACTIVE + V_FRONT + V_SYNC + V_BACK);
+  localparam int Least = WIDTH < H_ACTIVE ? WIDTH : H_ACTIVE;
+  localparam int Longest = Least < 4 ? 4 : Least;  // an async_fifo passes a word a clock from a depth of 8 on
   localparam int DataBits = 8 * CHANNELS;
   localparam int WordBits = DataBits + 3;
   localparam int EventBits = YBits + 3;
@@ -102,7 +105,7 @@ module video_out #(
   logic [DataBits-1:0] head_data;
   async_fifo #(
       .BITS (WordBits),
-      .DEPTH(2 ** $clog2(2 * H_ACTIVE))
+      .DEPTH(2 ** $clog2(2 * Longest))
   ) u_lines (
       .in_clk_i   (clk_i),
       .in_rst_ni  (rst_ni),

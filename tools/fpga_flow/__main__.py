@@ -9,7 +9,10 @@ import shutil
 import sys
 import time
 
+import board as boards
+import board_run
 import core
+import feed
 import figures as kept
 import flow
 import need
@@ -102,11 +105,7 @@ def tell(f):
     )
     if "need" in f:
         print(need.tell(f["need"], clock))
-    p = f["worst_path"]
-    print(f"worst path {p['ns']:.2f} ns, logic {p['logic_ns']:.2f}, route {p['route_ns']:.2f}: {p['from']}")
-    for module, cells in p["through"]:
-        print(f"    through {cells} cell{'s' if cells > 1 else ''} of {module}")
-    print(f"    to {p['to']}")
+    timing.tell(f["worst_path"])
     print("latest registers:")
     for row in f["worst_endpoints"]:
         print(f"    {row['ns']:6.2f} ns  {row['register']}")
@@ -117,6 +116,28 @@ class Parser(argparse.ArgumentParser):
         raise Trouble(f"{message}; see --help")
 
 
+def check_board_options(options):
+    """What goes with a board, and what with a device; sets `board`, its name or None, and `feed`, what it is to be fed with."""
+    is_board = options.device in boards.names(options.top)
+    options.board = options.device if is_board else None
+    options.feed = is_board and (options.pack or options.stream)
+    if not is_board:
+        core.find_device(options.top, options.device)
+        if options.pack:
+            raise Trouble(f"--pack: takes a board ({', '.join(boards.names(options.top))}), not {options.device}")
+        return
+    if options.core:
+        raise Trouble(f"{options.core[0]}: a board's core stands in {boards.BOARDS}/boards.yaml")
+    for name in ("gate", "fps", "total_lines"):
+        if getattr(options, name) is not None:
+            raise Trouble(f"--{name.replace('_', '-')}: is of a device, and {options.device} is a board")
+    if options.pack and options.stream:
+        raise Trouble("--pack, --stream: one at a time")
+    for name in ("json", "out", "record", "seeds"):
+        if options.feed and getattr(options, name) not in (None, False):
+            raise Trouble(f"--{name}: is of a placement, and nothing is placed for --pack or --stream")
+
+
 def options_of_line():
     """The command line's options; Trouble if they are not legal."""
     parser = Parser(prog="tools/fpga", add_help=False, allow_abbrev=False)
@@ -124,7 +145,7 @@ def options_of_line():
     parser.add_argument("--wheels", type=pathlib.Path, required=True)
     parser.add_argument("device")
     parser.add_argument("core", nargs="*")
-    parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--seeds", type=int)
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--json")
     parser.add_argument("--tools", choices=("wheels", "system"), default="wheels")
@@ -134,7 +155,10 @@ def options_of_line():
     parser.add_argument("--total-lines", type=int)
     parser.add_argument("--gate", type=float)
     parser.add_argument("--record", action="store_true")
+    parser.add_argument("--pack", type=pathlib.Path)
     options = parser.parse_args()
+    check_board_options(options)
+    options.seeds = 1 if options.seeds is None else options.seeds
     if not 1 <= options.seeds <= 100:
         raise Trouble(f"--seeds {options.seeds}: legal is 1 .. 100")
     for name in ("fps", "total_lines"):
@@ -150,15 +174,16 @@ def options_of_line():
     return options
 
 
-def run_into(out, top, device, what, options):
-    """Measures, and leaves the run in the folder `out` once all is done; gives its figures, and their text."""
+def run_into(out, top, options, measured):
+    """Measures, and leaves the run in the folder `out` once all is done; gives its figures, and their text. `measured` takes
+    programs and folder."""
     work = out.with_name(f"{out.name}.part{os.getpid()}")
     try:
         tools = programs.Programs(options.tools, options.wheels, top)
         work.mkdir(parents=True)
         shutil.copytree(top / "rtl", work / "rtl")
         shutil.copytree(top / "constraints", work / "constraints")
-        figures = figures_of(top, device, what, options, tools, work)
+        figures = measured(tools, work)
         text = json.dumps(figures, indent=2) + "\n"
         (work / FIGURES).write_text(text)
         for folder in ("rtl", "constraints"):
@@ -175,21 +200,53 @@ def run_into(out, top, device, what, options):
     return figures, text
 
 
+def tell_or_print(options, figures, text, out, told):
+    if options.json == "-":
+        print(text, end="")
+    else:
+        told(figures, out)
+
+
+def checked_out(out):
+    if out.exists() and not (out / FIGURES).is_file():
+        raise Trouble(f"{out}: is there already, and holds no run of tools/fpga that could be replaced")
+    return out
+
+
+def main_board(options):
+    top = options.top
+    if options.feed:
+        frames = feed.of_pack(options.pack) if options.pack else feed.of_stream(top, options.stream)
+        tools = programs.Programs(options.tools, options.wheels, top)
+        feed.tell(frames, *feed.hold(top, tools, frames, options.board))
+        return 0
+    b = boards.find(top, options.board)
+    out = checked_out(options.out or top / "build/fpga" / b.name)
+    figures, text = run_into(
+        out, top, options, lambda tools, work: board_run.figures_of(b, options, tools, work, Progress())
+    )
+    tell_or_print(options, figures, text, out, board_run.tell)
+    if options.record:
+        kept.record_board(top, figures)
+    return 0 if figures["met"] else 1
+
+
+def tell_core(figures, out):
+    tell(figures)
+    print(f"bitstream, netlist, logs: {out}")
+
+
 def main():
     options = options_of_line()
+    if options.board:
+        return main_board(options)
     top = options.top
     device = core.find_device(top, options.device)
     what = core.find_core(top, options.core)
     row = None if options.gate is None else kept.row_for(top, device.name, what.name, options.seeds)
-    out = options.out or top / "build/fpga" / f"{device.name}-{what.name}"
-    if out.exists() and not (out / FIGURES).is_file():
-        raise Trouble(f"{out}: is there already, and holds no run of tools/fpga that could be replaced")
-    figures, text = run_into(out, top, device, what, options)
-    if options.json == "-":
-        print(text, end="")
-    else:
-        tell(figures)
-        print(f"bitstream, netlist, logs: {out}")
+    out = checked_out(options.out or top / "build/fpga" / f"{device.name}-{what.name}")
+    figures, text = run_into(out, top, options, lambda tools, work: figures_of(top, device, what, options, tools, work))
+    tell_or_print(options, figures, text, out, tell_core)
     if options.record:
         kept.record(top, figures)
     lost = [] if row is None else kept.lost(row, figures, options.gate)

@@ -39,15 +39,14 @@ def read_yaml(path):
 def find_device(top, name):
     devices = read_yaml(top / "constraints/devices.yaml")
     if name not in devices:
-        raise Trouble(f"{name}: no such device; there are {', '.join(devices)}")
+        boards = read_yaml(top / "constraints/boards/boards.yaml")
+        raise Trouble(f"{name}: no such device or board; there are {', '.join([*devices, *boards])}")
     d = devices[name]
     return Device(name, d["family"], tuple(d["nextpnr"]))
 
 
 def find_core(top, words):
     """`words`: at most one CONFIG, and any PARAM=VALUE."""
-    definition = read_yaml(top / "rtl/defs/kage.yaml")
-    known = {p["name"]: p for p in definition["pixel_params"] + definition["impl_params"]}
     names = [w for w in words if "=" not in w]
     if len(names) > 1:
         raise Trouble(f"{names[1]}: one configuration is enough, and {names[0]} is one")
@@ -70,6 +69,16 @@ def find_core(top, words):
                 raise Trouble(f"{word}: {key} takes a whole number")
             values[key] = int(value)
             name += f"-{key}{value}"
+    return checked(top, name, values)
+
+
+def definition(top):
+    return read_yaml(top / "rtl/defs/kage.yaml")
+
+
+def checked(top, name, values):
+    """The core with these parameters, if they are legal."""
+    known = {p["name"]: p for p in definition(top)["pixel_params"] + definition(top)["impl_params"]}
     for key, value in values.items():
         if key not in known:
             raise Trouble(f"{name}: {key}: no such parameter (docs/stream.md#parameters)")

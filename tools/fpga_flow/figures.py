@@ -8,6 +8,7 @@ import statistics
 from trouble import Trouble
 
 PLACE = "constraints/figures.json"
+BOARDS = "constraints/board_figures.json"
 
 
 def key_of(row):
@@ -39,6 +40,32 @@ def row_of(figures):
         "loop_bits": figures["loop_bits"],
         "worst_path": [path["from"], *(f"{cells} of {module}" for module, cells in path["through"]), path["to"]],
     }
+
+
+def record_board(top, figures):
+    """Puts the row of a board's run into BOARDS, in place of the one that was there."""
+    path = top / BOARDS
+    try:
+        rows = {row["board"]: row for row in (json.loads(path.read_text()) if path.exists() else [])}
+    except (ValueError, KeyError, TypeError) as e:
+        raise Trouble(f"{path}: no list of rows: {e}") from e
+    rows[figures["board"]] = {
+        "board": figures["board"],
+        "date": datetime.date.today().isoformat(),
+        "tools": figures["tools"],
+        "cells": figures["cells"],
+        "best_seed": figures["best_seed"],
+        "clocks": [
+            {
+                "clock": c["clock"],
+                "need_mhz": round(c["need_mhz"], 3),
+                "clocks_mhz": [round(mhz, 2) for mhz in c["mhz"]["all"]],
+            }
+            for c in figures["clocks"]
+        ],
+    }
+    text = ",\n".join(json.dumps(rows[k], ensure_ascii=False) for k in sorted(rows))
+    path.write_text(f"[\n{text}\n]\n")
 
 
 def record(top, figures):

@@ -7,26 +7,31 @@ import statistics
 
 from trouble import Trouble
 
-SOURCES = "rtl/*.sv constraints/*.sv"
-
 
 @dataclasses.dataclass
 class Design:
-    """What is placed: a top module with its parameters, and what its files are called."""
+    """What is placed: a top module with its parameters, and what its files are called. Paths are within a run's folder."""
 
     name: str
     top: str
     values: dict
+    sources: str = "rtl/*.sv constraints/*.sv"
+    includes: tuple = ("rtl/include",)
+    pins: str = ""  # the file that places them; none: nextpnr chooses
+    synth: tuple = ()  # options of synth_FAMILY
+    nextpnr: tuple = ()  # options beside the device's
 
 
 def synthesize(programs, device, design, folder):
     """folder/NAME.json, the netlist, and folder/NAME-modules.json, the modules before they are made one."""
     sets = "".join(f" -chparam {k} {v}" for k, v in design.values.items())
+    includes = " ".join(f"-I{i}" for i in design.includes)
+    options = "".join(f" {o}" for o in design.synth)
     script = (
         # Deferred, because a part that the top leaves out may be illegal with the defaults (tree_core of no units).
-        f"read_verilog -defer -sv -Irtl/include {SOURCES}; hierarchy -top {design.top}{sets}; "
+        f"read_verilog -defer -sv {includes} {design.sources}; hierarchy -top {design.top}{sets}; "
         f"design -save read; proc; write_json {design.name}-modules.json; design -load read; "
-        f"synth_{device.family} -top {design.top} -json {design.name}.json"
+        f"synth_{device.family} -top {design.top}{options} -json {design.name}.json"
     )
     programs.run(programs.find("yosys"), ["-q", "-p", script], folder, f"{design.name}-yosys.log")
 
@@ -35,9 +40,20 @@ def place(programs, device, design, folder, seed):
     """Places and routes; gives nextpnr's report. Files are NAME-SEED.*"""
     name = f"{design.name}-{seed}"
     out = ["--textcfg", f"{name}.config"] if device.family == "ecp5" else ["--asc", f"{name}.asc"]
+    pins = ["--lpf" if device.family == "ecp5" else "--pcf", design.pins] if design.pins else []
     programs.run(
         programs.find(f"nextpnr-{device.family}"),
-        ["--quiet", *device.nextpnr, "--json", f"{design.name}.json", "--seed", seed, "--timing-allow-fail"]
+        [
+            "--quiet",
+            *device.nextpnr,
+            *pins,
+            *design.nextpnr,
+            "--json",
+            f"{design.name}.json",
+            "--seed",
+            seed,
+            "--timing-allow-fail",
+        ]
         + ["--report", f"{name}-timing.json", "--detailed-timing-report", *out],
         folder,
         f"{name}-nextpnr.log",
@@ -48,20 +64,26 @@ def place(programs, device, design, folder, seed):
         raise Trouble(f"nextpnr-{device.family}: no timing report of {name}: {e}") from e
 
 
-def pack(programs, device, design, folder, seed):
-    """The bitstream; gives its file's name."""
+def pack(programs, device, design, folder, seed, bitstream=None):
+    """The bitstream, called after the design and the seed, or `bitstream`; gives its file's name."""
     name = f"{design.name}-{seed}"
+    bitstream = bitstream or name
     if device.family == "ecp5":
-        programs.run(programs.find("ecppack"), [f"{name}.config", f"{name}.bit"], folder, f"{name}-pack.log")
-        return f"{name}.bit"
-    programs.run(programs.find("icepack"), [f"{name}.asc", f"{name}.bin"], folder, f"{name}-pack.log")
-    return f"{name}.bin"
+        programs.run(programs.find("ecppack"), [f"{name}.config", f"{bitstream}.bit"], folder, f"{name}-pack.log")
+        return f"{bitstream}.bit"
+    programs.run(programs.find("icepack"), [f"{name}.asc", f"{bitstream}.bin"], folder, f"{name}-pack.log")
+    return f"{bitstream}.bin"
 
 
 def clock_of(report):
     """MHz of the only clock."""
     (clock,) = report["fmax"].values()
     return clock["achieved"]
+
+
+def clocks_of(report):
+    """{net: (MHz reached, MHz that nextpnr held it against)} of all clocks."""
+    return {net: (c["achieved"], c["constraint"]) for net, c in report["fmax"].items()}
 
 
 CELLS = {

@@ -51,14 +51,23 @@ class Places:
     def register(self, cell):
         """Module and signal of a flip-flop or a RAM. The source line of a flip-flop's process beats its name, which may be
         that of a net in another module."""
-        m = re.match(r"rtl/(\w+)\.sv:", self.cells.get(cell, {}).get("attributes", {}).get("src", ""))
+        m = re.match(
+            r"(?:rtl|rtl/board|constraints/boards/\w+)/(\w+)\.sv:",
+            self.cells.get(cell, {}).get("attributes", {}).get("src", ""),
+        )
         return f"{m.group(1) if m else self.module(cell)} {self.signal(cell)}"
 
 
-def worst_path(report, places):
-    """{from, to, ns, logic_ns, route_ns, cells, modules} of the worst path from register to register."""
+def worst_path(report, places, clock=None):
+    """{from, to, ns, logic_ns, route_ns, cells, modules} of the worst path from register to register: of rising edges, or of
+    all edges of one clock, which is named as nextpnr names its net."""
+
+    def counts(p):
+        edges = [p["from"].split(" "), p["to"].split(" ")]
+        return all(e[1:] == [clock] if clock else e[0] == "posedge" for e in edges)
+
     path = max(
-        (p for p in report["critical_paths"] if p["from"].startswith("posedge") and p["to"].startswith("posedge")),
+        (p for p in report["critical_paths"] if counts(p)),
         key=lambda p: sum(s["delay"] for s in p["path"]),
     )["path"]
     logic = sum(s["delay"] for s in path if s["type"] != "routing")
@@ -80,6 +89,14 @@ def worst_path(report, places):
         "cells": len(hops),
         "through": through,
     }
+
+
+def tell(p, title="worst path"):
+    """A path for people."""
+    print(f"{title} {p['ns']:.2f} ns, logic {p['logic_ns']:.2f}, route {p['route_ns']:.2f}: {p['from']}")
+    for module, cells in p["through"]:
+        print(f"    through {cells} cell{'s' if cells > 1 else ''} of {module}")
+    print(f"    to {p['to']}")
 
 
 def worst_endpoints(report, places, count):

@@ -16,13 +16,34 @@ import sv_widths
 import tables
 import yaml
 from definition import Defs
-from files import BOARD, DEVICES, NOTE, SOURCE, STAGES, TOP
+from files import BOARD, BOARDS, DEVICES, NOTE, SOURCE, STAGES, TOP
 from stages import Stages
 from templates import render
 
 
 def rtl_files(pattern):
     return sorted(str(p.relative_to(TOP)) for p in (TOP / "rtl").glob(pattern))
+
+
+def boards():
+    """What kage.core has of constraints/boards: files, parameters, and the boards with all parameters together."""
+    rows = yaml.safe_load((TOP / BOARDS).read_text())
+    folder = (TOP / BOARDS).parent
+    tops = sorted({b["top"] for b in rows.values()})
+    return {
+        "boards": {
+            name: {"synth": [], "nextpnr": []} | b | {"parameters": b["core"] | b["board"]} for name, b in rows.items()
+        },
+        "board_parameters": sorted({name for b in rows.values() for name in b["board"]}),
+        "board_tops": {
+            top: sorted(
+                str(p.relative_to(TOP)) for p in (folder / top).iterdir() if p.suffix in (".sv", ".lpf", ".pcf")
+            )
+            for top in tops
+        },
+        "board_sources": rtl_files("board/*.sv"),
+        "board_includes": rtl_files("board/include/*.svh"),
+    }
 
 
 def file_list():
@@ -63,6 +84,7 @@ def of_definition(defs):
         sources=rtl_files("*.sv"),
         includes=rtl_files("include/**/*.svh"),
         devices=yaml.safe_load((TOP / DEVICES).read_text()),
+        **boards(),
     )
     return out | {
         "ref/include/kage/defs.hpp": cpp_defs.defs_hpp(defs),

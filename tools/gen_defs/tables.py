@@ -5,7 +5,7 @@ import json
 import re
 
 from expressions import camel, plain
-from files import FIGURES, TOP
+from files import BOARD_FIGURES, FIGURES, TOP
 
 
 def filled(defs, text):
@@ -182,6 +182,32 @@ def figures(_):
     return md((*head, "RAM", "DSP", "worst path"), rows)
 
 
+def board_figures(_):
+    """What tools/fpga BOARD --record measured: the seed whose bitstream it is first, then the worst and the best."""
+
+    def cells(r, kind):
+        c = r["cells"].get(kind)
+        return f"{c['used']} of {c['available']}" if c else ""
+
+    def clocks(r):
+        for c in r["clocks"]:
+            text = f"{c['clocks_mhz'][r['best_seed'] - 1]:.1f}"
+            if len(c["clocks_mhz"]) > 1:
+                text += f" ({min(c['clocks_mhz']):.1f} .. {max(c['clocks_mhz']):.1f})"
+            yield f"`{c['clock']}` {text} of {c['need_mhz']:g}"
+
+    rows = [
+        (
+            f"`{r['board']}`",
+            *(cells(r, kind) for kind in ("lut", "ff", "ram", "dsp")),
+            ", ".join(clocks(r)),
+            len(r["clocks"][0]["clocks_mhz"]),
+        )
+        for r in json.loads((TOP / BOARD_FIGURES).read_text())
+    ]
+    return md(("board", "LUT", "flip-flops", "RAM", "DSP", "clocks, MHz reached of MHz needed", "seeds"), rows)
+
+
 TABLES = {
     table.__name__: table
     for table in (
@@ -199,5 +225,6 @@ TABLES = {
         registers,
         board_registers,
         figures,
+        board_figures,
     )
 }

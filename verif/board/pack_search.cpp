@@ -123,6 +123,10 @@ void PackPlay::look_into(const PackRun& run, Place place, std::uint32_t expected
         "and temperature";
     return;
   }
+  if (verdict_.board.pixels == 0) {
+    verdict_.first->remark = repetition + "the board keeps no pixels, so it is the line's signature that tells";
+    return;
+  }
   const auto pixel = pixel_difference(place, again);
   if (pixel) {
     const bool other = got && again.signature != *got;

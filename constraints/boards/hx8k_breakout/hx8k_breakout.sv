@@ -17,6 +17,7 @@ module hx8k_breakout #(
     parameter int CORE_DIVQ = 5,
     parameter int MEMORY_WORDS = 1024,
     parameter int LINES = 256,
+    parameter int CAPTURE = 1,
     parameter int SCREEN = 1,
     parameter int PIX_DIVF = 66,
     parameter int PIX_DIVQ = 5,
@@ -78,8 +79,14 @@ module hx8k_breakout #(
     assign unused = &{1'b0, 7'(PIX_DIVF), 3'(PIX_DIVQ)};
   end
 
-  logic good, rst_n, uart_rst_n, pix_rst_n;
-  assign good = core_locked && pix_locked;
+  // Each LOCK has a flip-flop of its own, which lies beside its PLL: it reaches no others. The crystal runs always.
+  logic core_locked_q, pix_locked_q, good;
+  logic rst_n, uart_rst_n, pix_rst_n;
+  always_ff @(posedge clk_12mhz) begin
+    core_locked_q <= core_locked;
+    pix_locked_q  <= pix_locked;
+    good          <= core_locked_q && pix_locked_q;
+  end
   // Each 16 clocks: 1.3 us of the UART's, 640 ns of the pixels', which are three of the slowest and more.
   reset_release u_core_reset (
       .clk_i (clk),
@@ -113,6 +120,7 @@ module hx8k_breakout #(
       .MEMORY      (0),
       .MEMORY_WORDS(MEMORY_WORDS),
       .LINES       (LINES),
+      .CAPTURE     (CAPTURE),
       .SCREEN      (SCREEN),
       .H_ACTIVE    (H_ACTIVE),
       .H_FRONT     (H_FRONT),

@@ -277,6 +277,20 @@ TEST_CASE("TLAST, TUSER and a line's length are looked at too") {
   CHECK(has(v.first->remark, "the first 2 pixels"));
 }
 
+TEST_CASE("a board that keeps no pixels tells the line") {
+  FakeBoard board(config());
+  board.kept_pixels = 0;
+  const Spoil spoil(1, 1, 3, 0);
+  board.spoil = [&](std::uint64_t, std::span<std::uint8_t> pixels) { spoil(pixels); };
+  const PackVerdict v = play(board);
+  REQUIRE(v.first);
+  CHECK(v.first->frame == 1);
+  CHECK(v.first->line == 1);
+  CHECK(v.first->field == "signature");
+  CHECK(has(v.first->remark, "the board keeps no pixels"));
+  CHECK(v.captured.empty());
+}
+
 TEST_CASE("a register that is wrong is named") {
   FakeBoard board(config());
   board.core_says = [](std::uint32_t address, std::uint32_t value) {

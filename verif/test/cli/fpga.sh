@@ -1,0 +1,121 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# tools/fpga BOARD, as far as nothing is placed: what is asked for and makes no sense, what a board can be fed with, and when a
+# clock is met. tools/test-fpga board places one.
+. "$(dirname "$0")/common.bash"
+command -v yosys >/dev/null || { echo "yosys is missing (tools/deps test)"; exit 77; }
+fpga() { "$source/tools/fpga" "$@" --tools system; }
+
+# refused TEXT ARGUMENT...: exit 2 and one line of tools/fpga that has the text.
+refused() {
+  local text=$1
+  shift
+  expect 2 fpga "$@"
+  [ ! -s stdout ] || fail "$* : says something on standard output"
+  [ "$(wc -l <stderr)" = 1 ] || { fail "$* : not one line on standard error"; sed 's/^/    /' stderr; }
+  grep -q '^tools/fpga: ' stderr || fail "$* : the line does not begin with 'tools/fpga: '"
+  grep -qF -- "$text" stderr || { fail "$* : the line does not name '$text'"; sed 's/^/    /' stderr; }
+}
+said() { grep -qF -- "$1" stdout || { fail "not said: $1"; sed 's/^/    /' stdout; }; }
+
+expect 0 "$source/tools/fpga" --help
+for word in "tools/fpga BOARD" "--pack PACK" "a clock of a board is not met"; do said "$word"; done
+
+refused "nobody: no such device or board; there are ecp5-25f" nobody
+refused "hx8k_breakout" nobody
+refused "tiny: a board's core stands in constraints/boards/boards.yaml" hx8k_breakout tiny
+refused "--gate: is of a device" ulx3s_25f --gate 5
+refused "--fps: is of a device" ulx3s_25f --fps 30
+refused "--pack: takes a board" hx8k --pack pack
+refused "--pack, --stream: one at a time" ulx3s_25f --pack pack --stream a.kage
+refused "--json: is of a placement" ulx3s_25f --pack pack --json -
+refused "--seeds: is of a placement" ulx3s_25f --pack pack --seeds 2
+refused "nowhere/manifest.json: No such file" ulx3s_25f --pack nowhere
+refused "nowhere.kage: No such file" ulx3s_25f --stream nowhere.kage
+mkdir broken other && echo '{"frames": 3}' >broken/manifest.json
+refused "broken/manifest.json: no manifest of a pack" ulx3s_25f --pack broken
+head -c 99 /dev/zero >zeros.kage
+refused "zeros.kage: no stream file" ulx3s_25f --stream zeros.kage
+
+# ---- what a board can be fed with ----
+parameters() { python3 -c "import yaml; [print(f'{k}: {v}') for k, v in yaml.safe_load(open('$source/constraints/boards/boards.yaml'))['$1']['core'].items()]"; }
+parameters ulx3s_25f >ulx3s.yaml
+parameters hx8k_breakout >hx8k.yaml
+expect 0 "$kage" vectors courtyard --size 16x12 --frames 2 --config ulx3s.yaml --no-rtl --out large
+expect 0 "$kage" vectors courtyard --size 16x12 --frames 2 --config hx8k.yaml --degrade --no-rtl --out small
+expect 0 "$kage" vectors courtyard --size 160x120 --frames 1 --config hx8k.yaml --degrade --no-rtl --out big
+expect 0 "$kage" stream courtyard --size 16x12 --frames 2 --config ulx3s.yaml --out large.kage
+expect 0 fpga ulx3s_25f --pack large
+said "SDRAM of 33554432 bytes holds all"
+said "the serial line (3000000 baud): 291 kB/s"
+said "SDRAM (75 MHz, a word in 2.1 clocks)"
+said "in time for a screen of 59.5 Hz"
+expect 0 fpga ulx3s_25f --stream large.kage
+said "large.kage: 2 frames, up to 16x12"
+expect 0 fpga hx8k_breakout --pack small
+said "block RAM of 8192 bytes holds"
+said "block RAM (48 MHz, a word a clock): 192000 kB/s"
+said "no screen"
+refused "large: hx8k_breakout does not hold it: its core has X_BITS 9 and not 11" hx8k_breakout --pack large
+grep -q "; ulx3s_25f, ulx3s_85f would$" stderr || fail "the boards that would are not named"
+refused "bytes in a list, and its memory 8192; no board of constraints/boards does" hx8k_breakout --pack big
+# limit KEY NUMBER: the pack small, with the number in its frames.
+limit() { python3 -c "import json; m = json.load(open('small/manifest.json')); [f.update($1=$2) for f in m['frames']]; json.dump(m, open('other/manifest.json', 'w'))"; }
+limit width 321
+refused "a line has 321 pixels, and MAX_WIDTH is 320" hx8k_breakout --pack other
+limit height 257
+refused "a frame has 257 lines, and the board keeps signatures of 256" hx8k_breakout --pack other
+limit words 2047
+refused "frame 0 has 8196 bytes in a list, and its memory 8192" hx8k_breakout --pack other
+limit words 2046
+expect 0 fpga hx8k_breakout --pack other
+said "holds 1 of"
+
+# ---- when a clock is met, and which seed is the best ----
+PYTHONPATH=$source/tools/fpga_flow python3 - <<'PY' || fail "clocks"
+import board, board_run
+from trouble import Trouble
+
+needs = {"clk": 50.0, "clk_12mhz": 12.0, "pix_clk": 25.125}
+
+
+def run(clk, pix, held=25.13):
+    return {"clk": (clk, 50.0), "clk_12mhz$SB_IO_IN_$glb_clk": (99.0, 12.0), "$glbnet$pix_clk": (pix, held)}
+
+
+def refused(*arguments):
+    try:
+        board_run.clock_rows(*arguments)
+    except Trouble as trouble:
+        return str(trouble)
+    return ""
+
+
+rows = board_run.clock_rows([run(80, 25.0), run(51, 30), run(55, 27)], needs)
+assert [r["clock"] for r in rows] == ["clk", "clk_12mhz", "pix_clk"]
+assert rows[0]["mhz"] == {"median": 55, "worst": 51, "best": 80, "all": [80, 51, 55]}
+assert board_run.best_seed(rows) == 2, "the least margin is 1.02 with the second seed, 1.07 with the third"
+assert board_run.best_seed(board_run.clock_rows([run(80, 25.0), run(51, 30)], needs)) == 1, "the first does not meet pix_clk"
+assert "pix_clk: runs at 25.125 MHz, and nextpnr holds it against 12.000" in refused([run(80, 30, 12.0)], needs)
+assert "clk" in refused([run(80, 30)], {k: v for k, v in needs.items() if k != "clk"})
+
+number = lambda n: f"{n:032b}"  # noqa: E731
+top = {
+    "netnames": {"clk_25mhz": {"bits": [2]}},
+    "cells": {
+        "u_pll": {
+            "type": "EHXPLLL",
+            "parameters": {"CLKI_DIV": number(1), "CLKFB_DIV": number(5), "CLKOP_DIV": number(6), "CLKOS_DIV": number(30)},
+            "connections": {"CLKI": [2], "CLKOP": [3], "CLKOS": [4]},
+        }
+    },
+}
+assert board.clocks(top, 'FREQUENCY PORT "clk_25mhz" 25 MHZ;') == {2: 25, 3: 125, 4: 25}
+top["cells"]["u_pll"] = {
+    "type": "SB_PLL40_CORE",
+    "parameters": {"DIVR": "0000", "DIVF": "1000010", "DIVQ": "101"},
+    "connections": {"REFERENCECLK": [2], "PLLOUTGLOBAL": [3]},
+}
+assert board.clocks(top, "set_frequency clk_25mhz 12") == {2: 12, 3: 25.125}
+PY
+exit $((failures != 0))
