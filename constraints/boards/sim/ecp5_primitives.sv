@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The primitives of Lattice's ECP5 that boards' tops use, as they behave, for simulation: a PLL, an output register of double
-// data rate, a pad. What of a primitive no top uses is refused or left out.
+// The primitives of Lattice's ECP5 that boards' tops use, as they behave, for simulation: a PLL, an output register of
+// double data rate, a pad. What of a primitive no top uses is refused or left out.
 `default_nettype none
 
-// The PLL: it measures CLKI's period, and 30 periods later all clocks run, each a part of the oscillator, all beginning with a
-// rising edge at once. LOCK follows ten periods after them. Jitter and phases other than DIV - 1 (0 degrees) are not
-// modelled.
+// The PLL: it measures CLKI's period, and 30 periods later all clocks run, each a part of the oscillator, all beginning
+// with a rising edge at once. LOCK follows ten periods after them. Jitter and phases other than DIV - 1 (0 degrees) are
+// not modelled.
 module EHXPLLL #(
     parameter int CLKI_DIV = 1,
     parameter int CLKFB_DIV = 1,
