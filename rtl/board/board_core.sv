@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything of a board that is not the vendor's: kage_top, fed by a player from a memory that a host fills over a serial
-// line, its lines signed, and its picture on a screen (docs/boards.md). A board's top, in constraints/boards, adds clocks and
-// pins.
+// Everything of a board that is not the vendor's: kage_top, fed by a player from a memory that a host fills over a
+// serial line, its lines signed, and its picture on a screen (docs/boards.md). A board's top, in constraints/boards,
+// adds clocks and pins.
 //
 //   rx -> uart_receiver -> async_fifo -> uart_link -> board_registers -> kage_top's registers
 //   tx <- uart_transmitter <- async_fifo <-'  '-> memory -> stream_player -> kage_top -> video_out -> screen
 //                                                                              '-> line_signature, line_capture
 //
-// Clocks: the core's (clk_i), the UART's, and, where there are an SDRAM and a screen, the memory's and the pixel's. They
-//   cross by async_fifo alone. Each has a reset of its own, synchronous and active low; all are asserted together for three
-//   clocks of the slowest at least, and released in any order (reset_release).
+// Clocks: the core's (clk_i), the UART's, and, where there are an SDRAM and a screen, the memory's and the pixel's.
+//   They cross by async_fifo alone. Each has a reset of its own, synchronous and active low; all are asserted together
+//   for three clocks of the slowest at least, and released in any order (reset_release).
 // MEMORY 0: block RAM of MEMORY_WORDS. 1: an SDRAM, of ROW_BITS, COLUMN_BITS and BANK_BITS.
 // SCREEN 0: no screen; the core's pixels are taken at once. 1: a screen of H_... and V_....
-// LEDs, high is on: 0 the core's clock runs (blinks), 1 the player is in a list, 2 lines were compared and all were right,
-//   3 one was wrong, 4 the screen had to repeat a colour, 5 no host has greeted since reset, 6 the memory is set up, 7 the
-//   core's interrupt.
+// LEDs, high is on: 0 the core's clock runs (blinks), 1 the player is in a list, 2 lines were compared and all were
+//   right, 3 one was wrong, 4 the screen had to repeat a colour, 5 no host has greeted since reset, 6 the memory is set
+//   up, 7 the core's interrupt.
+// Latency, throughput: a frame moves at the pace of the slowest of memory, core and screen; each module says its own.
 // Cost: docs/boards.md.
 `default_nettype none
 `include "kage_illegal.svh"
