@@ -23,7 +23,6 @@
 module board_core #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    `include "generated/kage_impl_params.svh",
     parameter logic [31:0] BOARD_NAME = "NONE",
     parameter int UART_HZ = 25_000_000,
     parameter int BAUD = 3_000_000,
@@ -49,7 +48,8 @@ module board_core #(
     parameter int H_POSITIVE = 0,
     parameter int V_POSITIVE = 0,
     parameter int LED_BITS = 22,
-    localparam int AddrBits = MEMORY == 1 ? ROW_BITS + COLUMN_BITS + BANK_BITS - 1 : $clog2(MEMORY_WORDS)
+    localparam int AddrBits = MEMORY == 1 ? ROW_BITS + COLUMN_BITS + BANK_BITS - 1 : $clog2(MEMORY_WORDS),
+    `include "generated/kage_impl_params.svh"
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -88,7 +88,7 @@ module board_core #(
   localparam int Pixels = MAX_WIDTH > 4096 ? 4096 : MAX_WIDTH;
 
   // ---- the serial line ---------------------------------------------------------------------------------------------
-  logic rx_valid, rx_taken, rx_ready, rx_word_valid, tx_valid, tx_ready, tx_word_valid, tx_word_ready;
+  logic framing_error, rx_valid, rx_taken, rx_ready, rx_word_valid, tx_valid, tx_ready, tx_word_valid, tx_word_ready;
   logic [7:0] rx_data, rx_word, tx_data, tx_word;
   uart_receiver #(
       .CLOCK_HZ(UART_HZ),
@@ -149,7 +149,7 @@ module board_core #(
   logic [31:0] wdata, rdata;
   logic [3:0] wstrb;
   logic [1:0] bresp, rresp;
-  logic stream_valid, stream_ready, fresh, framing_error, axi_error, overrun;
+  logic stream_valid, stream_ready, fresh, axi_error, overrun;
   logic [31:0] stream_data;
   logic [15:0] link_good, link_bad, link_overruns;
   uart_link u_link (

@@ -66,6 +66,8 @@ module stream_player #(
     `KAGE_ILLEGAL("RUN_BITS must be 1 .. 15")
   end
 
+  localparam int RunMost = 2 ** RUN_BITS;
+
   typedef enum logic [2:0] {
     Idle,
     AskCount,  // a run of the word N
@@ -76,7 +78,7 @@ module stream_player #(
   } state_t;
   state_t state_q;
 
-  logic [ADDR_BITS-1:0] at_q;  // the next word to ask for
+  logic [ADDR_BITS-1:0] at_q, run_step;  // the next word to ask for; words to the next run
   logic [23:0] left_q;  // words of the frame that have not come
   logic [RUN_BITS:0] run_left_q, run_words;  // and of the run
   logic stopping_q, any_q, asked_q;
@@ -92,7 +94,8 @@ module stream_player #(
   assign word_o      = take && state_q == Frame;
   assign data_o      = in_data;
 
-  assign run_words   = left_q > 24'(2 ** RUN_BITS) ? (RUN_BITS + 1)'(2 ** RUN_BITS) : left_q[RUN_BITS:0];
+  assign run_words   = left_q > 24'(RunMost) ? (RUN_BITS + 1)'(RunMost) : left_q[RUN_BITS:0];
+  assign run_step    = ADDR_BITS'(run_words);
   assign run_valid_o = state_q == AskCount || state_q == AskFrame;
   assign run_addr_o  = at_q;
   assign run_words_o = state_q == AskCount ? 16'd1 : 16'(run_words);
@@ -146,7 +149,7 @@ module stream_player #(
       AskFrame: begin
         run_left_q <= run_words;
         if (run_ready_i) begin
-          at_q    <= at_q + ADDR_BITS'(run_words);
+          at_q    <= at_q + run_step;
           state_q <= Frame;
         end
       end
