@@ -2,19 +2,19 @@
 // A first-in first-out buffer between two clocks that know nothing of each other: the one way in which anything crosses
 // from a clock to another in kage.
 //
-// Handshake: valid/ready on both sides, each at its own clock; in_ready_o and out_valid_o depend on registers only. A word
-// that is offered stays until it is taken.
+// Handshake: valid/ready on both sides, each at its own clock; in_ready_o and out_valid_o depend on registers only. A
+// word that is offered stays until it is taken.
 // Crossing: each side sends the other its pointer in Gray code, in which one bit changes at a time, through a
-// synchronizer. A pointer that is caught in the middle of a change is the old or the new one, so a side that sees an old one believes
-// that less is free, or less has come, than is true. The words themselves are read two clocks or more after they were
-// written.
+// synchronizer. A pointer that is caught in the middle of a change is the old or the new one, so a side that sees an
+// old one believes that less is free, or less has come, than is true. The words themselves are read two clocks or more
+// after they were written.
 // Reset: at both sides at once, for as long as both are in it; each may leave it when it likes. Whoever resets one side
 // alone loses words.
-// Capacity: DEPTH words, a power of two, at least 4, and one more in the output's register. Latency: a clock of the input
-// and three to four of the output. Throughput: a word a clock of the slower side, from DEPTH 8 on.
+// Capacity: DEPTH words, a power of two, at least 4, and one more in the output's register. Latency: a clock of the
+// input and three to four of the output. Throughput: a word a clock of the slower side, from DEPTH 8 on.
 // Cost: a RAM of DEPTH x BITS (block RAM, LUT RAM or flip-flops, as the tool decides), BITS flip-flops, eight pointers.
-// Timing constraints: the paths between the clocks need no constraint but that no bit of a pointer comes more than a clock
-// of the faster side later than another.
+// Timing constraints: the paths between the clocks need no constraint but that no bit of a pointer comes more than a
+// clock of the faster side later than another.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -43,8 +43,8 @@ module async_fifo #(
   (* no_rw_check, rw_addr_collision = "no", ramstyle = "no_rw_check" *)
   logic [BITS-1:0] mem[DEPTH];
 
-  // Words that have come, and words that have been taken out of mem, modulo 2 DEPTH: as numbers and in Gray code. What the
-  // other side has seen of the Gray code is some clocks old.
+  // Words that have come, and words that have been taken out of mem, modulo 2 DEPTH: as numbers and in Gray code. What
+  // the other side has seen of the Gray code is some clocks old.
   logic [PtrBits-1:0] wr_q, wr_d, wr_gray_q, wr_seen, rd_q, rd_d, rd_gray_q, rd_seen;
 
   // ---- the input's side --------------------------------------------------------------------------------------------

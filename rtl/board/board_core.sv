@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything of a board that is not the vendor's: kage_top, fed by a player from a memory that a host fills over a serial
-// line, its lines signed, and its picture on a screen (docs/boards.md). A board's top, in constraints/boards, adds clocks and
-// pins.
+// Everything of a board that is not the vendor's: kage_top, fed by a player from a memory that a host fills over a
+// serial line, its lines signed, and its picture on a screen (docs/boards.md). A board's top, in constraints/boards,
+// adds clocks and pins.
 //
 //   rx -> uart_receiver -> async_fifo -> uart_link -> board_registers -> kage_top's registers
 //   tx <- uart_transmitter <- async_fifo <-'  '-> memory -> stream_player -> kage_top -> video_out -> screen
 //                                                                              '-> line_signature, line_capture
 //
-// Clocks: the core's (clk_i), the UART's, and, where there are an SDRAM and a screen, the memory's and the pixel's. They
-//   cross by async_fifo alone. Each has a reset of its own, synchronous and active low; all are asserted together for three
-//   clocks of the slowest at least, and released in any order (reset_release).
+// Clocks: the core's (clk_i), the UART's, and, where there are an SDRAM and a screen, the memory's and the pixel's.
+//   They cross by async_fifo alone. Each has a reset of its own, synchronous and active low; all are asserted together
+//   for three clocks of the slowest at least, and released in any order (reset_release).
 // MEMORY 0: block RAM of MEMORY_WORDS. 1: an SDRAM, of ROW_BITS, COLUMN_BITS and BANK_BITS.
 // SCREEN 0: no screen; the core's pixels are taken at once. 1: a screen of H_... and V_....
 // CAPTURE 0: no line_capture, so a line that is wrong is known by its signature alone; 1: its pixels can be read.
-// LEDs, high is on: 0 the core's clock runs (blinks), 1 the player is in a list, 2 lines were compared and all were right,
-//   3 one was wrong, 4 the screen had to repeat a colour, 5 no host has greeted since reset, 6 the memory is set up, 7 the
-//   core's interrupt.
+// LEDs, high is on: 0 the core's clock runs (blinks), 1 the player is in a list, 2 lines were compared and all were
+//   right, 3 one was wrong, 4 the screen had to repeat a colour, 5 no host has greeted since reset, 6 the memory is set
+//   up, 7 the core's interrupt.
+// Latency, throughput: a frame moves at the pace of the slowest of memory, core and screen; each module says its own.
 // Cost: docs/boards.md.
 `default_nettype none
 `include "kage_illegal.svh"
@@ -23,7 +24,6 @@
 module board_core #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
-    `include "generated/kage_impl_params.svh",
     parameter logic [31:0] BOARD_NAME = "NONE",
     parameter int UART_HZ = 25_000_000,
     parameter int BAUD = 3_000_000,
@@ -50,7 +50,8 @@ module board_core #(
     parameter int H_POSITIVE = 0,
     parameter int V_POSITIVE = 0,
     parameter int LED_BITS = 22,
-    localparam int AddrBits = MEMORY == 1 ? ROW_BITS + COLUMN_BITS + BANK_BITS - 1 : $clog2(MEMORY_WORDS)
+    localparam int AddrBits = MEMORY == 1 ? ROW_BITS + COLUMN_BITS + BANK_BITS - 1 : $clog2(MEMORY_WORDS),
+    `include "generated/kage_impl_params.svh"
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -90,7 +91,7 @@ module board_core #(
   localparam int PixelAddrBits = Pixels > 1 ? $clog2(Pixels) : 1;
 
   // ---- the serial line ---------------------------------------------------------------------------------------------
-  logic rx_valid, rx_taken, rx_ready, rx_word_valid, tx_valid, tx_ready, tx_word_valid, tx_word_ready;
+  logic framing_error, rx_valid, rx_taken, rx_ready, rx_word_valid, tx_valid, tx_ready, tx_word_valid, tx_word_ready;
   logic [7:0] rx_data, rx_word, tx_data, tx_word;
   uart_receiver #(
       .CLOCK_HZ(UART_HZ),
@@ -151,7 +152,7 @@ module board_core #(
   logic [31:0] wdata, rdata;
   logic [3:0] wstrb;
   logic [1:0] bresp, rresp;
-  logic stream_valid, stream_ready, fresh, framing_error, axi_error, overrun;
+  logic stream_valid, stream_ready, fresh, axi_error, overrun;
   logic [31:0] stream_data;
   logic [15:0] link_good, link_bad, link_overruns;
   uart_link u_link (

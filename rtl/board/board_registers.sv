@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The registers of a board (rtl/defs/board.yaml, docs/boards.md) and the way to the core's, for the one master behind the
-// serial link.
+// The registers of a board (rtl/defs/board.yaml, docs/boards.md) and the way to the core's, for the one master behind
+// the serial link.
 //
-// Handshake: an AXI4-Lite slave, and a master towards the core. One write and one read are under way at a time. Addresses
-//   below 0x100 go to the core; where the core is held in reset, they answer SLVERR, as do addresses without a register or
-//   word. Writes to what is read only are taken and ignored. WSTRB is passed on to the core; the board's own registers are
-//   written whole.
-// Latency: 4 clocks for a write, 5 for a read; to the core, its own beside 3.
+// Handshake: an AXI4-Lite slave, and a master towards the core. One write and one read are under way at a time.
+//   Addresses below 0x100 go to the core; where the core is held in reset, they answer SLVERR, as do addresses without
+//   a register or word. Writes to what is read only are taken and ignored. WSTRB is passed on to the core; the board's
+//   own registers are written whole.
+//   The lowest two bits of an address choose nothing. A read of the core that is under way when a write holds the core
+//   answers SLVERR.
+// Latency, with the first clock and the answer's: 4 clocks for a write, 3 for a read, 4 of a RAM's word; for the core's
+//   registers 6 and 5 where the core answers in the next clock. Throughput: one write and one read in that time.
 // PIXELS 0: there is no line_capture, and no word of PIXELS.
 // Cost: about 300 flip-flops.
 `default_nettype none
@@ -314,7 +317,8 @@ module board_registers #(
           read_q    <= ReadCore;
           ar_left_q <= 1'b1;
         end else if (is_signature(rd_addr_q) || is_pixel(rd_addr_q)) begin
-          read_q <= ReadRam;
+          // In the clock of a write the RAM has the write's address: the read comes a clock later.
+          read_q <= signature_wr_en_o ? ReadDo : ReadRam;
         end else if (!is_here(rd_addr_q)) begin
           s_axil_rresp_o <= RespSlverr;
           s_axil_rdata_o <= '0;
@@ -329,6 +333,12 @@ module board_registers #(
         read_q         <= ReadAnswer;
         s_axil_rdata_o <= m_axil_rdata_i;
         s_axil_rresp_o <= m_axil_rresp_i;
+      end else if (control_q.hold) begin
+        // A write has held the core meanwhile: what it was asked is lost.
+        read_q         <= ReadAnswer;
+        ar_left_q      <= 1'b0;
+        s_axil_rdata_o <= '0;
+        s_axil_rresp_o <= RespSlverr;
       end
       default:  if (s_axil_rready_i) read_q <= ReadTake;
     endcase

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CRC-32 of a run of words, as zlib has it of their bytes, the lowest first: by it a host knows that what reached the
-// memory, or the core, is what it sent.
+// The CRC-32 of a run of words, as zlib has it of their bytes, the lowest first: by it a host knows that what reached
+// the memory, or the core, is what it sent.
 //
-// Takes a word in each clock in which word_i is high; clear_i begins anew. crc_o holds all words up to two clocks ago.
+// Takes a word in each clock in which word_i is high. clear_i begins anew: no word counts that came up to its clock.
+// Latency: 2 clocks from a word to crc_o. Throughput: a word a clock.
 // Cost: 65 flip-flops and a 32-bit CRC of four bytes in a clock.
 `default_nettype none
 

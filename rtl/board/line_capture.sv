@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the pixels of one line that the core draws, beside its m_axis: a host reads them when the line's signature was not the
-// expected one, to see which pixel and channel it is.
+// Keeps the pixels of one line that the core draws, beside its m_axis: a host reads them when the line's signature was
+// not the expected one, to see which pixel and channel it is.
 //
 // Takes: a pixel that moves, beat_i. It is listened to and never held up. line_i chooses the line, by its number since
-//   clear_i, modulo 65536. Of a line with more than PIXELS pixels the first ones are kept; all are counted.
-// Host's port: a read's word comes a clock after its address: colour in the lowest bits, TLAST in bit 24, TUSER in bit 25.
-// Latency: a pixel is there two clocks after it moved. Throughput: a pixel a clock.
+//   clear_i, modulo 65536. Of a line with more than PIXELS pixels the first ones are kept; all are counted, to 65535.
+//   More lines than 65536 make the chosen one come again, which counts as more pixels of it. A pixel that moves in the
+//   clock of clear_i belongs to no line.
+// Host's port: a read's word comes a clock after its address: colour in the lowest bits, TLAST in bit 24, TUSER in bit
+//   25.
+// Latency: a pixel is counted a clock after it moved, and there two. Throughput: a pixel a clock.
 // Cost: PIXELS words of 26 bits of block RAM (10 with one channel), two counters and a comparator of 16 bits.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module line_capture #(
     parameter  int CHANNELS = 3,
@@ -29,6 +33,13 @@ module line_capture #(
     input  wire logic [AddrBits-1:0] host_addr_i,
     output logic      [        31:0] host_rd_data_o
 );
+  if (CHANNELS != 1 && CHANNELS != 3) begin : gen_bad_channels
+    `KAGE_ILLEGAL("CHANNELS is 1 or 3")
+  end
+  if (PIXELS < 2 || PIXELS > 32768) begin : gen_bad_pixels
+    `KAGE_ILLEGAL("PIXELS must lie in 2 .. 32768")
+  end
+
   localparam int Bits = CHANNELS * 8 + 2;
 
   logic [15:0] number_q;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// A word for each line that the core draws, beside its m_axis: the CRC-32 by which a host, or the board alone, tells a right
-// line from a wrong one (docs/vectors.md: signatures.hex).
+// A word for each line that the core draws, beside its m_axis: the CRC-32 by which a host, or the board alone, tells a
+// right line from a wrong one (docs/vectors.md: signatures.hex).
 //
 // Takes: a pixel that moves, beat_i. It is listened to and never held up.
-// Signature: CRC-32 as zlib has it, over the pixels of the line from the left; each gives its channels, channel 0 first,
-//   and then a byte 2 TUSER + TLAST.
-// A line's place is its number since clear_i, and begins anew behind wrap_i lines (0: never). Lines whose place is LINES
-//   or more are counted, and neither kept nor compared.
+// Signature: CRC-32 as zlib has it, over the pixels of the line from the left; each gives its channels, channel 0
+//   first, and then a byte 2 TUSER + TLAST.
+// A line's place is its number since clear_i, and begins anew behind wrap_i lines (0: never, not even where 16 bits no
+//   longer count them). Lines whose place is LINES or more are counted, and neither kept nor compared. A pixel that
+//   moves in the clock of clear_i belongs to no line.
 // check_i 0: signatures are kept in the RAM. 1: they are compared with what the RAM has at their place.
 // Host's port: a read's word comes a clock after its address. The host writes while nothing is drawn, or with check_i,
 //   when lines that are drawn read; then its own reads give nothing of use.
-// Latency: a line is counted and kept three clocks after its last pixel, compared four. Throughput: a pixel a clock, lines of one
-//   pixel too.
+// Latency: a line is counted and kept three clocks after its last pixel, compared four. Throughput: a pixel a clock,
+//   lines of one pixel too.
 // Cost: LINES words of block RAM, about 150 flip-flops, and a 32-bit CRC of four bytes, or two, in a clock.
 `default_nettype none
 `include "kage_illegal.svh"
@@ -44,6 +45,9 @@ module line_signature #(
 );
   `include "kage_crc.svh"
 
+  if (CHANNELS != 1 && CHANNELS != 3) begin : gen_bad_channels
+    `KAGE_ILLEGAL("CHANNELS is 1 or 3")
+  end
   if (LINES < 2 || LINES > 32768) begin : gen_bad_lines
     `KAGE_ILLEGAL("LINES must lie in 2 .. 32768")
   end
@@ -66,7 +70,8 @@ module line_signature #(
   logic [31:0] signature_q, wanted_q, expected;
   logic [15:0] place_q, ended_place_q, compared_place_q, differing_place_q;
   logic [15:0] next_place;
-  assign next_place  = place_q + 16'd1;
+  // All places behind the last one are alike: were 65535 followed by 0, a line there would be one that has no place.
+  assign next_place  = place_q == '1 ? place_q : place_q + 16'd1;
   assign place_there = ended_place_q < 16'(LINES);
 
   always_ff @(posedge clk_i) begin

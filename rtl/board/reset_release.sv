@@ -2,10 +2,13 @@
 // A clock's own reset: asserted while good_i, of no clock at all (a PLL's lock, a button), is low, and released by two
 // flip-flops of this clock.
 //
-// Reset is asserted for CLOCKS clocks of this clock at least once it is asserted, so that the resets of all clocks overlap, as
-// async_fifo wants it: choose CLOCKS so that it is longer than three clocks of the slowest.
-// Latency: 3 clocks from good_i to rst_no at its rise with CLOCKS more, 3 at its fall. Cost: 3 flip-flops and a counter.
+// Reset is asserted for CLOCKS clocks of this clock at least once it is asserted, so that the resets of all clocks
+// overlap, as async_fifo wants it: choose CLOCKS so that it is longer than three clocks of the slowest.
+// Latency: 3 clocks from good_i's fall to rst_no's, 3 + CLOCKS from rise to rise. Throughput: a good_i that falls for a
+//   clock asserts the reset for CLOCKS + 1.
+// Cost: 3 flip-flops and a counter.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module reset_release #(
     parameter int CLOCKS = 16
@@ -14,6 +17,11 @@ module reset_release #(
     input  wire logic good_i,
     output logic      rst_no
 );
+  // The synchronizer may begin with anything, which shows for two clocks.
+  if (CLOCKS < 3) begin : gen_bad_clocks
+    `KAGE_ILLEGAL("CLOCKS must be at least 3")
+  end
+
   localparam int Bits = $clog2(CLOCKS + 1);
 
   // An FPGA begins with these, so that the reset is asserted from power-up on.

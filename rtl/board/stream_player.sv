@@ -1,25 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gives the core frames from a list: from the memory, or straight from the link. The player adds TLAST.
 //
-// List: a word N, the number of words of a frame in its lower 24 bits, then these words, then the next frame; N = 0 ends the list. From the
-//   memory the list begins at address_i. With loop_i it begins anew behind its end, and from the link the end is passed
-//   over; a list without a frame ends at once.
-// Commands: start_i, for one clock while playing_o is low; stop_i, for one clock: no frame begins after the one at hand, and
-//   from the link, where a frame at hand may never be whole, the rest of it has to come or the core is held in reset.
-//   direct_i, loop_i and paced_i stay as they are while playing_o is high.
-// Pace: with paced_i a frame begins when the screen has asked for one, without, at once. A request is kept until a frame
-//   begins, and two are as good as one.
-// Handshake: valid/ready on all ports; m_axis is AXI4-Stream with BEAT_WORDS words a beat, the first one lowest, and zeros
-//   behind the frame's last word. A frame is read in runs of at most 2^15 words.
+// List: a word N, the number of words of a frame in its lower 24 bits, then these words, then the next frame; N = 0
+//   ends the list. From the memory the list begins at address_i. With loop_i it begins anew behind its end, and from
+//   the link the end is passed over; a list without a frame ends at once.
+// Commands: start_i, for one clock while playing_o is low; stop_i, for one clock: no frame begins after the one at
+//   hand, and from the link, where a frame at hand may never be whole, the rest of it has to come or the core is held
+//   in reset. direct_i, loop_i and paced_i stay as they are while playing_o is high.
+// Pace: with paced_i a frame begins when the screen has asked for one, without, at once. A request is kept until a
+//   frame begins, and two are as good as one.
+// Handshake: valid/ready on all ports; m_axis is AXI4-Stream with BEAT_WORDS words a beat, the first one lowest, and
+//   zeros behind the frame's last word. A frame is read in runs of at most 2^RUN_BITS words.
 // Memory: run_valid_o with address and number of words, then the words (block_memory, sdram_memory).
-// Throughput: a word a clock with BEAT_WORDS 1; with more, BEAT_WORDS words in BEAT_WORDS + 1 clocks. Between two frames
-//   the memory's latency passes twice.
+// Latency: 1 clock from start_i to the run of N, and without a pace 2 from N to the first run of its frame; 1 from a
+//   word to the beat that it fills.
+// Throughput: a word a clock with BEAT_WORDS 1; with more, BEAT_WORDS words in BEAT_WORDS + 1 clocks. Between two
+//   frames the memory's latency passes twice.
 // Cost: about 150 flip-flops, and 32 BEAT_WORDS for the beat.
 `default_nettype none
+`include "kage_illegal.svh"
 
 module stream_player #(
     parameter int ADDR_BITS  = 23,
-    parameter int BEAT_WORDS = 1
+    parameter int BEAT_WORDS = 1,
+    parameter int RUN_BITS   = 15
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -55,7 +59,14 @@ module stream_player #(
     output logic      [BEAT_WORDS*32-1:0] m_axis_tdata_o,
     output logic                          m_axis_tlast_o
 );
-  localparam int RunBits = 15;
+  if (BEAT_WORDS != 1 && BEAT_WORDS != 2 && BEAT_WORDS != 4 && BEAT_WORDS != 8) begin : gen_bad_beat
+    `KAGE_ILLEGAL("BEAT_WORDS must be one of 1 2 4 8")
+  end
+  if (RUN_BITS < 1 || RUN_BITS > 15) begin : gen_bad_run
+    `KAGE_ILLEGAL("RUN_BITS must be 1 .. 15")
+  end
+
+  localparam int RunMost = 2 ** RUN_BITS;
 
   typedef enum logic [2:0] {
     Idle,
@@ -67,9 +78,9 @@ module stream_player #(
   } state_t;
   state_t state_q;
 
-  logic [ADDR_BITS-1:0] at_q;  // the next word to ask for
+  logic [ADDR_BITS-1:0] at_q, run_step;  // the next word to ask for; words to the next run
   logic [23:0] left_q;  // words of the frame that have not come
-  logic [RunBits:0] run_left_q, run_words;  // and of the run
+  logic [RUN_BITS:0] run_left_q, run_words;  // and of the run
   logic stopping_q, any_q, asked_q;
   logic in_valid, in_ready, take, last_word, begins;
   logic [31:0] in_data;
@@ -83,7 +94,8 @@ module stream_player #(
   assign word_o      = take && state_q == Frame;
   assign data_o      = in_data;
 
-  assign run_words   = left_q > 24'(2 ** RunBits) ? (RunBits + 1)'(2 ** RunBits) : left_q[RunBits:0];
+  assign run_words   = left_q > 24'(RunMost) ? (RUN_BITS + 1)'(RunMost) : left_q[RUN_BITS:0];
+  assign run_step    = ADDR_BITS'(run_words);
   assign run_valid_o = state_q == AskCount || state_q == AskFrame;
   assign run_addr_o  = at_q;
   assign run_words_o = state_q == AskCount ? 16'd1 : 16'(run_words);
@@ -137,7 +149,7 @@ module stream_player #(
       AskFrame: begin
         run_left_q <= run_words;
         if (run_ready_i) begin
-          at_q    <= at_q + ADDR_BITS'(run_words);
+          at_q    <= at_q + run_step;
           state_q <= Frame;
         end
       end
@@ -149,7 +161,7 @@ module stream_player #(
           any_q    <= 1'b1;
           played_o <= played_o + 16'd1;
           state_q  <= direct_i ? Count : stopping_q ? Idle : AskCount;
-        end else if (!direct_i && run_left_q == (RunBits + 1)'(1)) begin
+        end else if (!direct_i && run_left_q == (RUN_BITS + 1)'(1)) begin
           state_q <= AskFrame;
         end
       end

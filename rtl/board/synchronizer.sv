@@ -2,9 +2,10 @@
 // Two flip-flops that bring bits of another clock into this one. async_fifo uses it for its pointers; nothing else of
 // kage may cross.
 //
-// The first flip-flop may see a bit while the bit changes, and then be undecided for a while; it has a clock to decide for
-// the old or the new value. Each bit decides for itself, so of several bits at most one may change at a time.
-// Latency: two clocks, or three for a bit that changed just before a clock. Cost: 2 BITS flip-flops.
+// The first flip-flop may see a bit while the bit changes, and then be undecided for a while; it has a clock to decide
+// for the old or the new value. Each bit decides for itself, so of several bits at most one may change at a time.
+// Latency: two clocks, or three for a bit that changed just before a clock. Throughput: BITS bits a clock.
+// Cost: 2 BITS flip-flops.
 `default_nettype none
 
 module synchronizer #(

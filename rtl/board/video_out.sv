@@ -5,9 +5,10 @@
 // Handshake: the port of pixels is AXI4-Stream video, valid/ready: TUSER on a frame's first pixel, TLAST on a line's
 // last. Ready is the FIFO's free place and nothing else, so the core rests while the screen is in blanking. Requests
 // leave by valid/ready in the core's clock.
-// Request: one whenever vertical blanking begins and no frame's first pixel waits yet. Who feeds the core starts a frame
-// for each, and remembers one while a frame is under way: a request that is repeated, because that frame is slow, only has
-// the next frame begin early. A frame that brings no picture, because its header is refused, is so followed by another.
+// Request: one whenever vertical blanking begins and no frame's first pixel waits yet. Who feeds the core starts a
+// frame for each, and remembers one while a frame is under way: a request that is repeated, because that frame is slow,
+// only has the next frame begin early. A frame that brings no picture, because its header is refused, is so followed by
+// another.
 // Shown: a frame begins at the screen's first pixel, if its TUSER waits there; what comes before TUSER is dropped, and
 // a TUSER waits for the next screen. The picture lies top left. Right of a line's TLAST and below the frame's last line
 // (lines_i of them; the core's clock takes lines_i with TUSER) is BORDER. What is wider or higher than the screen is

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage on Lattice's iCE40-HX8K breakout board: frames from block RAM, or straight from the host, whose line is the FTDI's
-// UART; picture by VGA, through resistors on a header. README.md beside this file says how it is loaded and wired.
+// kage on Lattice's iCE40-HX8K breakout board: frames from block RAM, or straight from the host, whose line is the
+// FTDI's UART; picture by VGA, through resistors on a header. README.md beside this file says how it is loaded and
+// wired.
 //
-// Clocks: 12 MHz from the crystal, for the UART too; a PLL for the core, 12 MHz x (CORE_DIVF + 1) / 2^CORE_DIVQ, and, with a
-//   screen, one for the pixels, 25.125 MHz of 12 x 67 / 32. They cross by async_fifo.
+// Clocks: 12 MHz from the crystal, for the UART too; a PLL for the core, 12 MHz x (CORE_DIVF + 1) / 2^CORE_DIVQ, and,
+//   with a screen, one for the pixels, 25.125 MHz of 12 x 67 / 32. They cross by async_fifo.
 // Reset: until the PLLs have locked. The board has no button.
 // VGA: two bits a colour, the highest of each channel; black outside of the picture. A core of one channel is grey.
 `default_nettype none
@@ -160,7 +161,7 @@ module hx8k_breakout #(
       .led_o        (led)
   );
 
-  // ---- pads: from flip-flops, so that all come together --------------------------------------------------------------
+  // ---- pads: from flip-flops, so that all come together -------------------------------------------------------------
   always_ff @(posedge pix_clk) begin
     vga_hsync <= hsync;
     vga_vsync <= vsync;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// rtl/board/synchronizer.sv as hardware has it: its first flip-flop takes a bit that changed less than WINDOW picoseconds ago
-// as the old or the new one, each bit by itself and at random. A simulation of a board reads this file in its place, so that
-// what crosses without Gray code, or by no synchronizer, comes to grief as it does on a bench.
+// rtl/board/synchronizer.sv as hardware has it: its first flip-flop takes a bit that changed less than WINDOW
+// picoseconds ago as the old or the new one, each bit by itself and at random. A simulation of a board reads this file
+// in its place, so that what crosses without Gray code, or by no synchronizer, comes to grief as it does on a bench.
 `default_nettype none
 
 module synchronizer #(

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ULX3S as a whole, for simulation: its top, and the SDRAM at its pins with the delays of pads and chip. What is outside,
-// crystal, host and screen, is verif/board/sim's.
+// The ULX3S as a whole, for simulation: its top, and the SDRAM at its pins with the delays of pads and chip. What is
+// outside, crystal, host and screen, is verif/board/sim's.
 //
-// dq_late: what the chip puts out reaches the FPGA's flip-flop 11 ns after the clock left it: 3 ns for the clock's way out, 6 for
-// the chip (t_AC), 2 for the way in.
+// dq_late: what the chip puts out reaches the FPGA's flip-flop 11 ns after the clock left it: 3 ns for the clock's way
+// out, 6 for the chip (t_AC), 2 for the way in.
 `default_nettype none
 
 module board_sim #(

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage on an ULX3S (Lattice ECP5): frames from the 32 MB SDRAM, picture by DVI on the GPDI socket, host by the FTDI's UART.
-// README.md beside this file says how it is loaded and what the LEDs mean.
+// kage on an ULX3S (Lattice ECP5): frames from the 32 MB SDRAM, picture by DVI on the GPDI socket, host by the FTDI's
+// UART. README.md beside this file says how it is loaded and what the LEDs mean.
 //
-// Clocks: 25 MHz from the crystal, for the UART too; of it the PLL makes BIT_DIV's bit clock of the DVI link, a fifth of it for
-//   the pixels, the core's and the memory's. The bit clock and the pixels' are one family (tmds_shifter); all others cross by
-//   async_fifo.
+// Clocks: 25 MHz from the crystal, for the UART too; of it the PLL makes BIT_DIV's bit clock of the DVI link, a fifth
+//   of it for the pixels, the core's and the memory's. The bit clock and the pixels' are one family (tmds_shifter); all
+//   others cross by async_fifo.
 // Reset: until the PLL has locked, and while button PWR (BTN0, low when pressed) is pressed.
-// SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Its data are
-//   taken at the memory's falling edge: at 75 MHz they are there from 3 ns before it to 7 behind it, counting 3 ns for the
-//   clock's way out, 6 for the chip and 2 for the way in.
+// SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Its data
+//   are taken at the memory's falling edge: at 75 MHz they are there from 3 ns before it to 7 behind it, counting 3 ns
+//   for the clock's way out, 6 for the chip and 2 for the way in.
 `default_nettype none
 
 module ulx3s #(

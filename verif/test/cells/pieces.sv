@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// RTL that becomes the cells of verif/cosim/model/cells: memories in shapes that take each width of a block RAM, LUT RAM,
-// products, chains of carries and wide choices, in the forms that the core has them. run.sh synthesizes it for a family and
-// plays the netlist beside it.
+// RTL that becomes the cells of verif/cosim/model/cells: memories in shapes that take each width of a block RAM, LUT
+// RAM, products, chains of carries and wide choices, in the forms that the core has them. run.sh synthesizes it for a
+// family and plays the netlist beside it.
 `default_nettype none
 
 module pieces #(
@@ -38,12 +38,12 @@ module pieces #(
     );
   end
 
-  // ---- a RAM that is read at once -------------------------------------------------------------------------------------
+  // ---- a RAM that is read at once -----------------------------------------------------------------------------------
   logic [7:0] few[16];
   always_ff @(posedge clk_i) if (wr_en_i) few[wr_addr_i[3:0]] <= data_i[7:0];
   wire  [ 7:0] lut_ram = few[rd_addr_i[3:0]];
 
-  // ---- arithmetic ----------------------------------------------------------------------------------------------------
+  // ---- arithmetic ---------------------------------------------------------------------------------------------------
   logic [17:0] sum_q;
   logic [5:0] count_q, hash_q;
   logic less_q, choice_q;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// pieces.sv beside its netlist, module pieces_netlist: every output the same in every clock, for random inputs. Where the
-// RTL's own output is X, as of a RAM's word that nobody has written, the netlist may have anything. A RAM is not asked for
-// the word that is written in the same clock: see ram_1r1w.sv.
+// pieces.sv beside its netlist, module pieces_netlist: every output the same in every clock, for random inputs. Where
+// the RTL's own output is X, as of a RAM's word that nobody has written, the netlist may have anything. A RAM is not
+// asked for the word that is written in the same clock: see ram_1r1w.sv.
 `default_nettype none
 
 module pieces_tb #(

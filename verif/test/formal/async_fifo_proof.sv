@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is proved of async_fifo, for any two clocks, any stalls of both sides and a reset of both sides at any time
 // (verif/test/formal/run.sh):
-//   order     words come out once and in order: word number N that leaves is word number N that came. mark_i, free, chooses
-//             the word that is watched.
+//   order     words come out once and in order: word number N that leaves is word number N that came. mark_i, free,
+//             chooses the word that is watched.
 //   stays     valid stays until ready, and same: what goes with it, too.
 //   silent    after an edge of the output's clock in reset nothing is valid.
-//   arrival   from the moment that a word has come, the output idles for at most Idle edges of its clock until the word has
-//             left: the word leaves as soon as those before it, and three to four clocks after it came.
+//   arrival   from the moment that a word has come, the output idles for at most Idle edges of its clock until the word
+//             has left: the word leaves as soon as those before it, and three to four clocks after it came.
 //   capacity  with fewer than DEPTH words in it the FIFO refuses at most Refused edges of the input's clock in a row.
 //
 // How: by induction. A step of the solver is a moment in which each clock rises, falls or rests as it likes, so there
@@ -76,7 +76,7 @@ module async_fifo_proof #(
   assign push     = in_edge && in_rst_nq && in_valid_q && in_ready_q;
   assign pop      = out_edge && out_rst_nq && out_valid_q && out_ready_q;
 
-  // ---- surroundings: both sides are reset at once, until each has had an edge; then each leaves when it likes --------
+  // ---- surroundings: both sides are reset at once, until each has had an edge; then each leaves when it likes -------
   logic in_reset_q = 1'b0, out_reset_q = 1'b0;  // that edge has been
   logic in_reset, out_reset, both, falls;
   assign falls     = (in_rst_nq && !in_rst_ni) || (out_rst_nq && !out_rst_ni);
@@ -97,7 +97,7 @@ module async_fifo_proof #(
   logic runs;  // no reset that is not over for both sides, and none that an edge has not seen yet
   assign runs = !falls && (in_rst_ni || out_rst_ni || (in_reset_q && out_reset_q));
 
-  // ---- words by their numbers, modulo 4 DEPTH: more than there can be inside -----------------------------------------
+  // ---- words by their numbers, modulo 4 DEPTH: more than there can be inside ----------------------------------------
   logic [PtrBits:0] came_q, came, left_q, left;
   assign came = push ? came_q + 1'b1 : came_q;
   assign left = pop ? left_q + 1'b1 : left_q;
@@ -143,7 +143,7 @@ module async_fifo_proof #(
     if (out_edge && !out_rst_nq) silent : assert (!out_valid);
   end
 
-  // ---- for induction -------------------------------------------------------------------------------------------------
+  // ---- for induction ------------------------------------------------------------------------------------------------
   (* keep *) logic [DEPTH*BITS-1:0] inside_memory;
   (* keep *) logic [PtrBits-1:0] inside_wr, inside_rd, inside_wr_gray, inside_rd_gray;
   (* keep *) logic [PtrBits-1:0] inside_wr_meta, inside_wr_seen, inside_rd_meta, inside_rd_seen;
@@ -190,7 +190,7 @@ module async_fifo_proof #(
     end
   end
 
-  // ---- what the rules are about happens ------------------------------------------------------------------------------
+  // ---- what the rules are about happens -----------------------------------------------------------------------------
   logic was_full_q = 1'b0, reset_again_q = 1'b0;
   always_ff @(posedge step) begin
     if (runs && (PtrBits + 1)'(came - left) == (PtrBits + 1)'(DEPTH + 1)) was_full_q <= 1'b1;

@@ -232,7 +232,7 @@ module compare_tree_proof #(
   end
   always_comb if (rst_ni && waits_q) stays : assert (out_valid && {out_data, out_last} == before_q);
 
-  // ---- no standstill: after as many clocks of full supply and demand as a level is behind the inputs it is full -------------------------
+  // ---- no standstill: after as many clocks of full supply and demand as a level is behind the inputs it is full -----
   logic [3:0] flowing_q = '0;
   always_ff @(posedge clk_i) begin
     if (!rst_ni || !(&in_valid_i) || !out_ready_i) flowing_q <= '0;

@@ -2,8 +2,8 @@
 // What is proved of line_out at its ports, for any pixels and any stalls of both ways out (verif/test/formal/run.sh).
 // By induction (MODEL 0):
 //   video.*, load_out.*  what waits stays as it is; reset silences it (stream_rules): m_axis of kage_top is this
-//                output. The surroundings stop behind LINES lines, but the step begins in any state of the module beside
-//                any count of lines, so it is for any number of them.
+//                output. The surroundings stop behind LINES lines, but the step begins in any state of the module
+//                beside any count of lines, so it is for any number of them.
 // To a bound of clocks (MODEL 1):
 //   pixels       the video is the pixels of the lines whose load is 0, none lost, doubled or out of order, each
 //                with the colour that the module's head gives: the background, its own, or its own times 1 - shade,

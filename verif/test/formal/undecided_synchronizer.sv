@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The synchronizer of rtl/board as a proof has to see it: its first flip-flop takes each bit that has just changed as the
-// old or the new one, as it likes. A proof reads this file in place of rtl/board/synchronizer.sv.
+// The synchronizer of rtl/board as a proof has to see it: its first flip-flop takes each bit that has just changed as
+// the old or the new one, as it likes. A proof reads this file in place of rtl/board/synchronizer.sv.
 //
-// A step of the solver is the time within which flip-flops are undecided. A bit that changed in the step before the clock's
-// edge may be caught either way; one that changes in the edge's own step is caught as the old one, and there is a step
-// later in which the edge would have caught it either way.
+// A step of the solver is the time within which flip-flops are undecided. A bit that changed in the step before the
+// clock's edge may be caught either way; one that changes in the edge's own step is caught as the old one, and there is
+// a step later in which the edge would have caught it either way.
 `default_nettype none
 
 module synchronizer #(

@@ -15,7 +15,7 @@ lacks() {
 }
 
 bad=0
-for file in *.sv; do
+for file in *.sv board/*.sv; do
   lacking=$(lacks "$file")
   [ -z "$lacking" ] || { echo "rtl/$file: its contract lacks: $lacking"; bad=1; }
 done

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Every named configuration is elaborated by each tool that reads SystemVerilog here: Verilator, Icarus Verilog, yosys, slang.
-The top is rtl/kage_axi.v, with kage_top in it. A warning is a failure.
+The top is rtl/kage_axi.v, with kage_top in it. So is rtl/board/board_core.sv in some shapes. A warning is a failure.
 
 usage: elaborate.py SOURCE_DIR READER... [--pyslang FOLDER]
 
@@ -25,15 +25,28 @@ import tempfile
 
 import yaml
 
-TOP = "kage_axi"
-ILLEGAL = {"LANES": 3}
+# Top, and a parameter that it must refuse, with the beginning of the reason.
+CORE = ("kage_axi", {"LANES": 3}, "LANES must be one of")
+BOARD = ("board_core", {"BAUD": 9600}, "BAUD must be of")
+BOARDS = {
+    "board without a screen": {"MEMORY": 0, "SCREEN": 0},
+    "board with an SDRAM": {"MEMORY": 1, "SCREEN": 1, "LIGHTS": 2, "COUNT_BITS": 4, "CLASS_BITS": 3},
+    "small board": {
+        "MEMORY": 0,
+        "SCREEN": 1,
+        "CHANNELS": 1,
+        "BEAT_WORDS": 1,
+        "LANES": 1,
+        "ARRANGEMENT": 0,
+        "LINES": 20,
+    },
+}
 # What Icarus Verilog tells of itself. Neither changes what it simulates: no two cases of a `unique case` overlap, as Verilator's
 # assertions check, and an always_comb that wakes more often comes to the same values.
 ICARUS_LACKS = [
     "sorry: Case unique/unique0 qualities are ignored",
     "sorry: constant selects in always_* processes are not currently supported (all bits will be included)",
 ]
-REASON = "LANES must be one of"
 
 
 def output_of(command, cwd):
@@ -124,10 +137,14 @@ def shortened(compilation, places):
 class Readers:
     """A method a tool: what it says of `values`, and whether it accepts them."""
 
-    def __init__(self, source, work):
-        self.rtl, self.work = source / "rtl", work
-        self.files = [*sorted(self.rtl.glob("*.sv")), self.rtl / "kage_axi.v"]
-        self.include = self.rtl / "include"
+    def __init__(self, source, work, top):
+        rtl = source / "rtl"
+        self.work, self.top = work, top
+        self.files = [*sorted(rtl.glob("*.sv")), rtl / "kage_axi.v"]
+        self.include = [f"-I{rtl / 'include'}"]
+        if top == BOARD[0]:
+            self.files = [*sorted(rtl.glob("*.sv")), *sorted(rtl.glob("board/*.sv"))]
+            self.include.append(f"-I{rtl / 'board/include'}")
 
     def verilator(self, values):
         status, text = output_of(
@@ -135,9 +152,9 @@ class Readers:
                 "verilator",
                 "--lint-only",
                 "-Wall",
-                f"-I{self.include}",
+                *self.include,
                 "--top-module",
-                TOP,
+                self.top,
                 *(f"-G{k}={v}" for k, v in values.items()),
                 *self.files,
             ],
@@ -150,12 +167,12 @@ class Readers:
             [
                 "iverilog",
                 "-g2012",
-                f"-I{self.include}",
+                *self.include,
                 "-s",
-                TOP,
+                self.top,
                 "-o",
                 "kage.vvp",
-                *(f"-P{TOP}.{k}={v}" for k, v in values.items()),
+                *(f"-P{self.top}.{k}={v}" for k, v in values.items()),
                 *self.files,
             ],
             self.work,
@@ -169,7 +186,8 @@ class Readers:
     def yosys(self, values):
         sets = " ".join(f"-chparam {k} {v}" for k, v in values.items())
         # -defer: each module with the parameters that it is given alone, for defaults may be illegal (compare_tree without units).
-        script = f"read_verilog -sv -defer -I{self.include} {' '.join(map(str, self.files))}; hierarchy -check -top {TOP} {sets}"
+        read = f"read_verilog -sv -defer {' '.join(self.include)} {' '.join(map(str, self.files))}"
+        script = f"{read}; hierarchy -check -top {self.top} {sets}"
         status, text = output_of(["yosys", "-q", "-p", script], self.work)
         # yosys 0.23 names the line, but leaves out what it says.
         place = re.search(r"^(\S+):(\d+): ERROR", text, re.M)
@@ -183,9 +201,9 @@ class Readers:
         driver.addStandardArgs()
         words = [
             "slang",
-            f"-I{self.include}",
+            *self.include,
             "--top",
-            TOP,
+            self.top,
             "--single-unit",
             "-Werror",
             *(f"-G{k}={v}" for k, v in values.items()),
@@ -236,21 +254,24 @@ def main():
     bad = 0
     with tempfile.TemporaryDirectory() as work:
         for reader in args.readers:
-            read = getattr(Readers(args.source, pathlib.Path(work)), reader)
-            good = 0
-            for name, values in configurations.items():
-                accepted, text = read(values)
-                good += accepted
-                if not accepted:
+            for (top, illegal, reason), named in ((CORE, configurations), (BOARD, BOARDS)):
+                read = getattr(Readers(args.source, pathlib.Path(work), top), reader)
+                good = 0
+                for name, values in named.items():
+                    accepted, text = read(values)
+                    good += accepted
+                    if not accepted:
+                        bad += 1
+                        print(f"{reader}: {name}: refused: {text}", flush=True)
+                accepted, text = read(illegal)
+                if accepted or reason not in text:
                     bad += 1
-                    print(f"{reader}: {name}: refused: {text}", flush=True)
-            accepted, text = read({**configurations["default"], **ILLEGAL})
-            if accepted or REASON not in text:
-                bad += 1
-                print(f"{reader}: LANES=3: {'accepted' if accepted else 'refused, but not because ' + REASON}: {text}")
-            print(f"{reader}: {good} configurations of {len(configurations)}")
+                    print(
+                        f"{reader}: {illegal}: {'accepted' if accepted else 'refused, but not because ' + reason}: {text}"
+                    )
+                print(f"{reader}: {top}: {good} configurations of {len(named)}")
         if "slang" in args.readers:
-            for statement in Readers(args.source, pathlib.Path(work)).rule_of_slang():
+            for statement in Readers(args.source, pathlib.Path(work), CORE[0]).rule_of_slang():
                 bad += 1
                 print(f"slang: {statement}: not judged as it must be")
     sys.exit(bad != 0)

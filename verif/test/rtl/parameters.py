@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Elaboration refuses every parameter out of its range and all that breaks a rule, by name, and takes the ends of the
 ranges. Ranges and rules are those of rtl/defs/kage.yaml. A run of Verilator tells all that is wrong, so one run tries
-many parameters.
+many parameters. Of rtl/board, whose modules say themselves what is legal, each reason has its case.
 
 usage: parameters.py SOURCE_DIR
 """
@@ -44,6 +44,40 @@ LEGAL = (
     "UNITS=5 CLASSIC=1 Z_BITS=15 Z_FRAC=0",
 )
 
+# Of each module of rtl/board, parameters for each of its reasons, in the order in which it gives them, and legal ones at
+# the ends of ranges.
+BOARD = {
+    "async_fifo": (["DEPTH=6", "DEPTH=2"], ["DEPTH=4"]),
+    "block_memory": (["WORDS=100", "WORDS=1024 ADDR_BITS=9"], ["WORDS=2 ADDR_BITS=1"]),
+    "board_registers": (["LINES=2049", "PIXELS=4097"], ["LINES=2048 PIXELS=4096"]),
+    "line_capture": (["CHANNELS=2", "PIXELS=1", "PIXELS=32769"], ["CHANNELS=1 PIXELS=2", "PIXELS=32768"]),
+    "line_signature": (["CHANNELS=2", "LINES=1", "LINES=32769"], ["CHANNELS=1 LINES=2", "LINES=32768"]),
+    "link_receiver": (["SLOTS=1", "SLOTS=3", "SLOTS=128"], ["SLOTS=2", "SLOTS=64"]),
+    "reset_release": (["CLOCKS=2"], ["CLOCKS=3"]),
+    "sdram_controller": (
+        [
+            *("CLOCK_HZ=999999 T_REF=640000000", "BURST=3", "BURST=1", "BURST=512", "CAS_LATENCY=4 READ_DELAY=3"),
+            *("READ_DELAY=0", "ROW_BITS=10", "COLUMN_BITS=11", "BANK_BITS=0"),
+            *("T_RP=0", "T_REF=64000", "T_RAS_MAX=1000"),
+        ],
+        ["CLOCK_HZ=1000000 T_REF=640000000 T_RAS_MAX=1000000", "BURST=2", "CAS_LATENCY=2"],
+    ),
+    "sdram_memory": (["WORDS=48", "BURST=32 WORDS=32", "BURST=128 WORDS=256"], ["BURST=32 WORDS=64"]),
+    "stream_player": (["BEAT_WORDS=3", "RUN_BITS=0", "RUN_BITS=16"], ["BEAT_WORDS=8 RUN_BITS=1", "RUN_BITS=15"]),
+    "uart_receiver": (
+        ["BAUD=115199", "BAUD=3000001", "CLOCK_HZ=11999999 BAUD=3000000"],
+        ["CLOCK_HZ=460800 BAUD=115200"],
+    ),
+    "uart_transmitter": (
+        ["BAUD=115199", "BAUD=3000001", "CLOCK_HZ=11999999 BAUD=3000000"],
+        ["CLOCK_HZ=460800 BAUD=115200"],
+    ),
+    "video_out": (["CHANNELS=2"], ["CHANNELS=1"]),
+    "video_timing": (
+        ["H_ACTIVE=1", "H_SYNC=0", "V_ACTIVE=1", "V_BACK=0", "H_POSITIVE=2", "V_POSITIVE=-1"],
+        ["H_ACTIVE=2 V_ACTIVE=2"],
+    ),
+}
 
 # A module of the core's parameters and checks alone: with nonsense for a width, Verilator gives up on the whole core before
 # it comes to the checks.
@@ -115,6 +149,39 @@ def trials(source, folder, params, rules):
         yield core, values, set(), set()
 
 
+def board_fault(source, module, values, legal):
+    """A line if a module of rtl/board takes what is illegal, refuses what is legal, or gives another module's reason; and
+    the reasons that it gave."""
+    rtl = source / "rtl"
+    command = ["verilator", "--lint-only", "-Wall", f"-I{rtl}/include", f"-I{rtl}/board/include", "-y", f"{rtl}/board"]
+    options = [f"-G{value}" for value in values.split()]
+    run = subprocess.run(
+        [*command, "-y", rtl, "--top-module", module, *options, rtl / "board" / f"{module}.sv"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    said = run.stdout + run.stderr
+    reasons = set(re.findall(r"USERFATAL: \S*/board/%s.sv\S* (.*)" % module, said))
+    if (run.returncode == 0) == legal and legal == (not reasons):
+        return None, reasons
+    return f"rtl/board/{module}.sv: {values}: exit code {run.returncode}, {sorted(reasons)}\n{said[:400]}", reasons
+
+
+def board_faults(source, pool):
+    """The same of all cases, and reasons of rtl/board that no case has."""
+    cases = [(m, v, legal) for m, both in BOARD.items() for legal in (False, True) for v in both[legal]]
+    given = list(pool.map(lambda case: board_fault(source, *case), cases))
+    yield from (fault for fault, _ in given)
+    for file in sorted((source / "rtl/board").glob("*.sv")):
+        stated = set(re.findall(r'`KAGE_ILLEGAL\("(.*)"\)', file.read_text()))
+        seen = set().union(
+            *(reasons for (module, _, _), (_, reasons) in zip(cases, given, strict=True) if module == file.stem)
+        )
+        if stated - seen:
+            yield f"{file}: without a case: {sorted(stated - seen)}"
+
+
 def faults(source, folder):
     defs = yaml.safe_load((source / "rtl/defs/kage.yaml").read_text())
     params, rules = defs["pixel_params"] + defs["impl_params"], defs["rules"]
@@ -122,6 +189,7 @@ def faults(source, folder):
         yield f"rules without a case, or cases without a rule: {sorted(odd)}"
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         yield from pool.map(lambda trial: trial[0].fault(*trial[1:]), trials(source, folder, params, rules))
+        yield from board_faults(source, pool)
 
 
 def main(source):

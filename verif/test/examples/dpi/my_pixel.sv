@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands for a pixel processor of your own: one pixel of a line, at position X, that takes a token a clock. Flat colour, shadows by
-// parity, several volumes; docs/stream.md says what it is to do. It knows nothing of kage's RTL.
+// Stands for a pixel processor of your own: one pixel of a line, at position X, that takes a token a clock. Flat
+// colour, shadows by parity, several volumes; docs/stream.md says what it is to do. It knows nothing of kage's RTL.
 `default_nettype none
 
 module my_pixel #(

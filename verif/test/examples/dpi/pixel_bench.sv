@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks a line of pixel processors against kage's golden core, token by token: after each token every field of every pixel.
+// Checks a line of pixel processors against kage's golden core, token by token: after each token every field of every
+// pixel.
 //
 // +stream=FILE.kage   what to draw, at most WIDTH pixels wide, in configuration `default`
 // +defect=depth|flag  a defect to make, to see it told
-// The last line is "same: ..." or "different: ..."; after a difference, or where something is wrong, the simulator's exit code is not 0.
+// The last line is "same: ..." or "different: ..."; after a difference, or where something is wrong, the simulator's
+// exit code is not 0.
 `default_nettype none
 
 module pixel_bench;
