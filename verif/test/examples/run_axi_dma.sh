@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds and runs examples/axi_dma as its README says: sound, and with defects of core, DMA, driver and pack, each of which it
+# must tell.
+# usage: run_axi_dma.sh KAGE SOURCE
+. "$(dirname "$0")/../cli/common.bash"
+
+# example FOLDER [MAKE_ARGUMENT...]: of this folder's copy of the example, with output in stdout and stderr.
+example() {
+  local folder=$1
+  shift
+  make -s -C "$folder" KAGE="$kage" RTL="$source/rtl" INCLUDE="$source/ref/include" "$@" >stdout 2>stderr
+}
+cp -r "$source/examples/axi_dma" sound
+example sound WORK="$temp/build" || { fail "the example does not pass"; tail -n 20 stdout stderr; done_testing; }
+cat stdout
+grep -q '^kage_dma: same: ' stdout || fail "does not say same"
+[ ! -s stderr ] || fail "says something on standard error: $(head -5 stderr)"
+# What the README shows was printed, but for the clocks, which change with the RTL.
+clocks='s/, [0-9]* clocks$//'
+shown=$(awk '/^```/ { inside = !inside; shown = inside && $0 == "```"; next } shown' "$source/examples/axi_dma/README.md" | sed "$clocks")
+[ -n "$shown" ] || fail "the README shows nothing"
+while IFS= read -r line; do
+  [ "$line" = ... ] || sed "$clocks" stdout | grep -qxF -- "$line" || fail "the README shows another line: $line"
+done <<<"$shown"
+for seed in 2 3 4; do
+  expect 0 build/Vkage_dma build/pack $seed
+done
+expect 2 build/Vkage_dma nowhere
+grep -q '^sim: nowhere/stimulus.bin: cannot be read$' stderr || fail "does not name the file: $(cat stderr)"
+
+# A flipped bit of one pixel that the pack expects.
+cp -r build/pack flipped
+python3 - flipped/pixels.bin <<'PY'
+import sys
+data = bytearray(open(sys.argv[1], "rb").read())
+data[20 * 64 + 7] ^= 1
+open(sys.argv[1], "wb").write(data)
+PY
+expect 1 build/Vkage_dma flipped
+grep -q '^different: frame 0, line 20, x 7, byte 0: expected ' stdout || fail "a flipped pixel is not told: $(tail -3 stdout)"
+grep '^different: frame 0' stdout
+
+# defect NAME PATTERN FILE EDIT: the example with this edit (of sed) in a file of it, or of the RTL, must tell so.
+defect() {
+  local name=$1 pattern=$2 file=$3 edit=$4 folder=defect_$1
+  cp -r "$source/examples/axi_dma" "$folder"
+  cp -r "$source/rtl" "$folder/rtl"
+  sed -i "$edit" "$folder/$file"
+  if cmp -s "$folder/$file" "$source/$file" || cmp -s "$folder/$file" "$source/examples/axi_dma/$file"; then fail "$name: nothing was edited"; fi
+  if example "$folder" WORK="$temp/build_$name" PACK="$temp/build/pack" RTL="$temp/$folder/rtl"; then fail "$name: passes"; fi
+  grep -E "$pattern" stdout stderr | head -n 1 | sed "s/^[a-z]*:/$name: /" | grep . || { fail "$name: is not told"; tail -n 5 stdout stderr; }
+}
+defect compare 'different: frame 0, line [0-9]+, x ' rtl/include/kage_pixel_next.svh 's/in_front = z < /in_front = z > /'
+defect burst 'different: a burst passes a multiple of 4 KB' axi_reader.v 's/room < 16/room == 0/'
+defect tlast 'different: frame 0: expected no error' axi_reader.v 's/m_axis_tlast = left_q == 1/m_axis_tlast = left_q == 2/'
+defect driver 'different: frame 4: expected KIND' kage_driver.c 's/outcome->error = KAGE_FIELD(error, KAGE_ERROR_CODE)/outcome->error = KAGE_FIELD(error, KAGE_ERROR_LINE)/'
+done_testing
