@@ -15,7 +15,7 @@ cp -r "$source/examples/axi_dma" sound
 example sound WORK="$temp/build" || { fail "the example does not pass"; tail -n 20 stdout stderr; done_testing; }
 cat stdout
 grep -q '^kage_dma: same: ' stdout || fail "does not say same"
-[ ! -s stderr ] || fail "says something on standard error: $(head -5 stderr)"
+! grep -hE '(kage_driver\.[ch]|sim\.cpp):.*warning' stdout stderr || fail "does not compile without a warning"
 # What the README shows was printed, but for the clocks, which change with the RTL.
 clocks='s/, [0-9]* clocks$//'
 shown=$(awk '/^```/ { inside = !inside; shown = inside && $0 == "```"; next } shown' "$source/examples/axi_dma/README.md" | sed "$clocks")
