@@ -265,7 +265,7 @@ def main():
     parser.add_argument("--scene", default="courtyard", help="a built-in scene, or a file")
     parser.add_argument("--size", default="64x48")
     parser.add_argument("--pack", help="a pack that is there (kage vectors), with a configuration of its own")
-    parser.add_argument("--work", default="build", type=pathlib.Path, help="the folder for what is built")
+    parser.add_argument("--work", default="build/litex", type=pathlib.Path, help="the folder for what is built")
     parser.add_argument("--rtl", help="the core's files; else those of the source tree or the installation")
     parser.add_argument("--jobs", default=2, type=int)
     options = parser.parse_args()
