@@ -130,12 +130,11 @@ def tell(frames, b, facts):
     else:
         ways.append(("block RAM", 1e6 * facts.core_mhz, f"{facts.core_mhz:g} MHz, a word a clock"))
     for name, rate, how in ways:
-        line = (
-            f"{name} ({how}): {rate / 250:.0f} kB/s; a frame takes {span(mean / rate)}, the largest {span(most / rate)}"
+        said = (
+            f"{name} ({how}): {rate / 250:.0f} kB/s, a frame in {span(mean / rate)}, the largest in {span(most / rate)}"
         )
         if facts.screen_hz:
-            fits = most / rate <= 1 / facts.screen_hz
-            line += f": {'in time for' if fits else 'too slow for'} a screen of {facts.screen_hz:.1f} Hz"
-        print(line)
+            said += f": {'in time' if most / rate <= 1 / facts.screen_hz else 'too slow'} for {facts.screen_hz:.1f} Hz"
+        print(said)
     if not facts.screen_hz:
         print("no screen: frames are played as fast as they come")

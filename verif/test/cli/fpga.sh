@@ -49,7 +49,7 @@ expect 0 fpga ulx3s_25f --pack large
 said "SDRAM of 33554432 bytes holds all"
 said "the serial line (3000000 baud): 291 kB/s"
 said "SDRAM (75 MHz, a word in 2.1 clocks)"
-said "in time for a screen of 59.5 Hz"
+said "in time for 59.5 Hz"
 expect 0 fpga ulx3s_25f --stream large.kage
 said "large.kage: 2 frames, up to 16x12"
 expect 0 fpga hx8k_breakout --pack small

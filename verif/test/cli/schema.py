@@ -75,6 +75,7 @@ SOMETIMES = {"own_sizes", "ahead", "takes", "in_place", "coverage", "scenes", "c
 SOMETIMES_IN = {
     ("", "clocks"),
     ("models/*", "damage"),
+    ("clocks/*", "worst_path"),
     ("verdicts", "removed"),
     ("touches/*", "units"),
     ("touches/*", "tree"),
@@ -90,7 +91,7 @@ SOMETIMES_IN = {
     ("*/runs/*", "named"),
     ("*/runs/*", "right"),
 }
-NAMES = {"config", "stalled_by_phase", "about", "tokens", "lacks", "parameters", "tools", "seconds"}
+NAMES = {"config", "stalled_by_phase", "about", "tokens", "lacks", "parameters", "board_parameters", "tools", "seconds"}
 tried = set()
 
 

@@ -76,7 +76,9 @@ def instance_of(cell):
 class Netlist:
     def __init__(self, module):
         self.names = {}  # bit: the shortest name that a person gave it
-        for name, net in sorted(module["netnames"].items(), key=lambda n: (n[1]["hide_name"], n[0].count("."), len(n[0]), n[0])):
+        for name, net in sorted(
+            module["netnames"].items(), key=lambda n: (n[1]["hide_name"], n[0].count("."), len(n[0]), n[0])
+        ):
             for bit in net["bits"]:
                 self.names.setdefault(bit, name)
         self.driver = {}  # bit: (cell's name, cell)
@@ -89,7 +91,13 @@ class Netlist:
             if re.match(r"\$(a|s)?dff", cell["type"]) or cell["type"].startswith("$sdff"):
                 clock = connections["CLK"][0]
                 register = f"{instance_of(name)}.{self.names.get(outs[0], name).rpartition('.')[2]}".lstrip(".")
-                self.storage.append((register, clock, [b for p, bits in connections.items() if directions[p] == "input" and p != "CLK" for b in bits]))
+                self.storage.append(
+                    (
+                        register,
+                        clock,
+                        [b for p, bits in connections.items() if directions[p] == "input" and p != "CLK" for b in bits],
+                    )
+                )
                 self.of_clock.update((b, (register, clock)) for b in outs)
             elif cell["type"].startswith("$mem"):
                 # A word is written by one clock and, as logic, read at once by whoever has the address.
@@ -98,7 +106,9 @@ class Netlist:
                     continue  # a table
                 clock = connections["WR_CLK"][0]
                 memory = cell["parameters"]["MEMID"].lstrip("\\")
-                self.storage.append((memory, clock, [b for p in ("WR_EN", "WR_ADDR", "WR_DATA") for b in connections[p]]))
+                self.storage.append(
+                    (memory, clock, [b for p in ("WR_EN", "WR_ADDR", "WR_DATA") for b in connections[p]])
+                )
                 self.of_clock.update((b, (memory, clock)) for b in connections["RD_DATA"])
             elif cell["type"] in ("EHXPLLL", "SB_PLL40_CORE"):
                 pass  # its outputs are clocks, and its lock, of no clock
@@ -149,7 +159,16 @@ def rows(found):
     out = {}
     for path, module, a, b in sorted(found):
         out.setdefault((path, module), set()).add((a, b))
-    return [f"| `{p}` | `{m}` | {' and '.join(sorted({c for pair in pairs for c in pair}))} |" for (p, m), pairs in sorted(out.items())]
+    return [
+        f"| `{p}` | `{m}` | {' and '.join(sorted({c for pair in pairs for c in pair}))} |"
+        for (p, m), pairs in sorted(out.items())
+    ]
+
+
+def rows_of(text, name):
+    """The rows that a README lists: below the heading with the board's name, where boards of one top have headings."""
+    sections = [s for s in re.split(r"^#+ ", text, flags=re.M) if f"`{name}`" in s.split("\n", 1)[0]]
+    return [line for line in "".join(sections or [text]).splitlines() if line.startswith("| `u_")]
 
 
 def check(name, extra="", listed=None, show=False):
@@ -164,10 +183,12 @@ def check(name, extra="", listed=None, show=False):
         print("\n".join(want))
         return []
     readme = BOARDS / board["top"] / "README.md"
-    have = listed if listed is not None else [line for line in readme.read_text().splitlines() if line.startswith("| `u_")]
+    have = listed if listed is not None else rows_of(readme.read_text(), name)
     wrong = [f"{name}: {text}, in no async_fifo, synchronizer or tmds_shifter" for text in elsewhere]
     wrong += [f"{name}: {readme.relative_to(TOP)} lacks {row}" for row in want if row not in have]
-    wrong += [f"{name}: {readme.relative_to(TOP)} lists what the netlist has not: {row}" for row in have if row not in want]
+    wrong += [
+        f"{name}: {readme.relative_to(TOP)} lists what the netlist has not: {row}" for row in have if row not in want
+    ]
     if not want:
         wrong.append(f"{name}: no crossing found: this script sees nothing")
     return wrong
@@ -180,12 +201,19 @@ def main():
     if sys.argv[1] == "--self-test":
         board = "ulx3s_25f"
         told = check(board, listed=["| `u_nowhere` | `async_fifo` | clk and clk |"])
+        text = "# Two\n## `one`\n| `u_a` |\n| clk |\n## `one_more`\n| `u_b` |\n"
+        assert rows_of(text, "one_more") == ["| `u_b` |"] and rows_of(text, "none") == ["| `u_a` |", "| `u_b` |"]
         assert any("lists what the netlist has not" in t for t in told) and any("lacks" in t for t in told), told
         source = (TOP / "constraints/boards/ulx3s/ulx3s.sv").read_text()
         with tempfile.TemporaryDirectory() as folder:
             # The same board with a flip-flop of the pixels' clock that looks at one of the memory's.
             changed = pathlib.Path(folder) / "ulx3s.sv"
-            changed.write_text(source.replace("  logic unused;\n", "  logic looks_q;\n  always_ff @(posedge pix_clk) looks_q <= dq_oe;\n  assign wifi_gpio0 = looks_q;\n  logic unused;\n").replace("  assign wifi_gpio0 = 1'b1;\n", ""))
+            changed.write_text(
+                source.replace(
+                    "  logic unused;\n",
+                    "  logic looks_q;\n  always_ff @(posedge pix_clk) looks_q <= dq_oe;\n  assign wifi_gpio0 = looks_q;\n  logic unused;\n",
+                ).replace("  assign wifi_gpio0 = 1'b1;\n", "")
+            )
             told = check(board, extra=changed)
         assert any("reaches" in t and "looks_q" in t for t in told), told
         return 0
