@@ -611,6 +611,13 @@ TEST_CASE("Whatever came before, a flag and a frame are understood", "[uart_link
     line.push_back(0x7E);
     REQUIRE(last_ack(board.exchange(line)).expected == 202);
     REQUIRE(last_ack(board.exchange(encoded(stream_frame(202, {1})))).expected == 203);
+    // A byte may be escaped that need not be, and look like an escape then.
+    std::vector<std::uint8_t> escaped;
+    for (const std::uint8_t byte : encoded(stream_frame(203, {0x5D5D5D5D, 2}))) {
+      if (byte == 0x5D) escaped.push_back(0x7D);
+      escaped.push_back(byte == 0x5D ? 0x7D : byte);
+    }
+    REQUIRE(last_ack(board.exchange(escaped)).expected == 204);
   });
 }
 

@@ -23,12 +23,12 @@ module video_link #(
     input  wire logic        s_axis_tlast_i,
     input  wire logic [15:0] lines_i,
 
-    output logic            frame_req_valid_o,
-    input  wire logic       frame_req_ready_i,
-    output logic     [15:0] frames_shown_o,
-    output logic     [15:0] late_frames_o,
-    output logic     [15:0] underrun_frames_o,
-    output logic     [15:0] underrun_lines_o,
+    output logic             frame_req_valid_o,
+    input  wire logic        frame_req_ready_i,
+    output logic      [15:0] frames_shown_o,
+    output logic      [15:0] late_frames_o,
+    output logic      [15:0] underrun_frames_o,
+    output logic      [15:0] underrun_lines_o,
 
     input  wire logic       pix_clk_i,
     input  wire logic       pix_rst_ni,
