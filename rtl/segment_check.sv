@@ -218,8 +218,8 @@ module segment_check #(
   logic later;  // the segment is of the next line, not of this one
   assign later = ahead != 2'd0;
 
-  // A segment at fault is kept a clock after it was taken, since finding its fault takes a clock. A TREE may be there
-  // by then, a line's end may not.
+  // A segment at fault is kept a clock after it was taken, since finding its fault takes a clock. A TREE may be there by
+  // then, a line's end may not.
   logic new_q, new_later_q;
   logic [CodeBits-1:0] new_code_q;
   logic [UnitBits-1:0] new_unit_q;
