@@ -17,7 +17,7 @@
 //   commands clear the state and the line says that its pixels are background. Tokens are dropped by token_stage and
 //   drop_o. A token at fault waits for nothing but, if it is a header, for tree_frame_ready_i.
 // Units (UNITS > 0): FACE and SEG go to the tree in the clock they leave token_stage and need no command; a SEG waits
-//   for room in the tree by tree_seg_ready_i, a header for tree_frame_ready_i, and neither of these may depend on a valid. A
+//   for room in the tree by tree_seg_ready_i, a header for tree_frame_ready_i, and neither may depend on a valid. A
 //   SEG whose unit is at fault goes nowhere. tree_call_o says, for one clock each, that a header or a FACE left
 //   token_stage, that a TREE became a command, and after an error that there will be no more of this frame. Without
 //   units these outputs are 0 and the inputs do not matter.

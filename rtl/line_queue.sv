@@ -2,7 +2,7 @@
 // The lines between frame_control and line_out, in their order. Under way are one in its pass through the pixels, one
 // that waits for a buffer of line_out, and two in those buffers.
 //
-// Handshake: in_* and out_* are valid/ready. The queue's free place is written in each clock, so an EOL's verdict does not
+// Handshake: in_* and out_* are valid/ready. The queue's free place is written each clock, so an EOL's verdict does not
 //   reach a write enable; the buffer behind it gives line_out a line from flip-flops.
 // Capacity: four lines. Latency: 2 clocks. Throughput: a line a clock.
 // Cost: a stream_fifo of two and a skid_buffer, LineBits wide.

@@ -43,7 +43,7 @@ module pixel_banked #(
   assign cmd = cmd_i;
 
   // ---- set-up stages -----------------------------------------------------------------------------------------------
-  // What goes along unchanged: {leaves, tree, kind, count, weight, colour, first group, last group, first lane, last lane}.
+  // What stays unchanged: {leaves, tree, kind, count, weight, colour, first group, last group, first lane, last lane}.
   localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
   localparam int SetBits = 2 + KindBits + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
   logic [SetBits-1:0] set_d, set1_q, set2_q, set3_q;
@@ -326,7 +326,7 @@ module pixel_banked #(
   logic [LANES*Z_BITS-1:0] old_z;
   logic [AddrBits-1:0] done_addr_q;
   logic done_valid_q;
-  // The group computed 1 .. 4 clocks before is the same; of 1, 2 and 3 those lanes that it changed, which also keeps the
+  // The group computed 1 .. 4 clocks before is the same; of 1, 2 and 3 the lanes that it changed, which also keeps the
   // number of bits low that a flip-flop selects. recent_q is 3 or 4 clocks old, for the lanes of use_recent_q. What the
   // RAM gives goes into stored_q as it is, because nothing else fits in the clock of a block RAM's output. `settled` is
   // what a pixel has of all groups but the one right before, a clock ahead; word is what it has.

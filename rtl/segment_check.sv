@@ -218,7 +218,7 @@ module segment_check #(
   logic later;  // the segment is of the next line, not of this one
   assign later = ahead != 2'd0;
 
-  // A segment at fault is kept a clock after it was taken, since finding its fault takes a clock. A TREE may be there by
+  // A segment at fault is kept a clock after it was taken, as finding its fault takes a clock. A TREE may be there by
   // then, a line's end may not.
   logic new_q, new_later_q;
   logic [CodeBits-1:0] new_code_q;

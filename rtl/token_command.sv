@@ -5,8 +5,8 @@
 // Handshake: free_o says that a command may be made, and depends on registers only: in a clock in which it is high,
 //   make_i may be, and the command is in cmd_* from the next clock on, which is valid/ready. Token, width, share, bias
 //   and background are those of that clock.
-// Commands: of the token, which has a range; or, by the first of eol_i, paint_i, out_i and tree_i that is high, over the
-//   whole line: EOL, RESOLVE with the background as its colour, CmdOut, TREE. These say what it would be, whether or not
+// Commands: of the token, which has a range; or, by the first of eol_i, paint_i, out_i, tree_i that is high, over the
+//   whole line: EOL, RESOLVE with the background as its colour, CmdOut, TREE. They say what it would be, whether or not
 //   it is made, so that the many bits of a command do not wait for make_i.
 // Latency: 1 clock. Throughput: a command a clock.
 // Cost: a stream_fifo of two commands, the choice among the places of fields.

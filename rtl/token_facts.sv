@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a token says by itself, whatever came before it; token_stage and token_check judge what depends on the frame.
 //
-// Question: token_i as it comes into token_stage. Answer: facts_o as facts_t. head_error counts for headers only, bad_range
+// Question: token_i as it comes into token_stage. Answer: facts_o as facts_t. head_error is for headers only, bad_range
 //   and empty for tokens of a body only.
 // Latency: 0. Throughput: a token a clock.
 // Cost: comparators of 32, 32, 16 and 16 bits with constants, two of X_BITS, one of SHADE_FRAC + 1 bits, one of a

@@ -222,7 +222,7 @@ module token_reader #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
-  // Behind the last word of a frame that was not ended `said` is read where nothing may have been written. Any value will
+  // Behind the last word of a frame that was not ended `said` is read where nothing may be written. Any value will
   // do, because such a token is cut in any case; a simulator's unknown would spread. The proof takes any value.
 `ifndef FORMAL
   initial for (int i = 0; i < Depth; i++) if ((^said[i]) === 1'bx) said[i] = '0;

@@ -16,7 +16,7 @@
 // Units: unit_behind_o, 1 clock late: a unit has been given more than another by the tokens that came in; behind_o
 //   names the unit that has least, and its line.
 // Capacity: two tokens. Latency: 1 clock. Throughput: a token a clock.
-// Cost: a stream_fifo of two tokens, a skid_buffer of their verdicts; counters of 15, 15 and 32 bits, with units 39 flip-flops;
+// Cost: a stream_fifo of two tokens, a skid_buffer of their verdicts; counters of 15, 15 and 32 bits, with units 39;
 //   token_facts and token_check.
 `default_nettype none
 
@@ -114,8 +114,8 @@ flags_t flags;
   logic [31:0] index_q, index;  // of the newest token, and of the one that comes in
   assign index = index_q + 32'd1;
 
-  // A header's words are taken whenever token_reader has one, even if it has not come whole, because nothing of the frame
-  // before is judged any more. So these flip-flops wait for no handshake. With units they wait until a token at fault has
+  // A header's words are taken whenever token_reader has one, even if it has not come whole, as nothing of the frame
+  // before is judged any more. So these flip-flops wait for no handshake; with units until a token at fault has
   // been taken, since behind_o tells its frame's line until then.
   always_ff @(posedge clk_i) begin
     if (take) first_q <= flags.header;

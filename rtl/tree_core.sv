@@ -48,7 +48,7 @@ module tree_core #(
 );
   `include "generated/kage_buses.svh"
 
-  // From the segment that completes a line in its unit to the line's first pixel at line_* nothing shows. A watchdog with
+  // From the segment that completes a line in its unit to its first pixel at line_* nothing shows. A watchdog with
   // a lower limit than that would take it for a standstill, and the pixel for progress behind it.
   localparam int Levels = $clog2(UNITS);
   localparam int Way = 6 + Levels + (Levels > 0 ? (Levels - 1) / 2 : 0);  // the latency behind the buffer

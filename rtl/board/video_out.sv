@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the core's m_axis to a screen that waits for nobody: a FIFO of two lines (of the screen, or of WIDTH pixels if that
-// is less) between the clocks, the timing of a video mode, and what is shown and counted when a pixel comes too late.
+// From the core's m_axis to a screen that waits for nobody: a FIFO of two lines (of the screen, or of WIDTH pixels if
+// that is less) between the clocks, a video mode's timing, and what is shown and counted when a pixel comes too late.
 //
 // Handshake: the port of pixels is AXI4-Stream video, valid/ready: TUSER on a frame's first pixel, TLAST on a line's
 // last. Ready is the FIFO's free place and nothing else, so the core rests while the screen is in blanking. Requests

@@ -66,8 +66,8 @@ class LoadedBoard : public SimBoard {
   void write(std::span<const std::uint8_t> bytes) override { functions_->send(board_, bytes.data(), bytes.size()); }
 
   std::size_t read(std::span<std::uint8_t> bytes, std::uint64_t deadline) override {
-    const std::size_t count =
-        functions_->receive(board_, bytes.data(), bytes.size(), std::max(deadline * kMicrosecond, functions_->now(board_)));
+    const std::size_t count = functions_->receive(board_, bytes.data(), bytes.size(),
+                                                  std::max(deadline * kMicrosecond, functions_->now(board_)));
     if (count == 0 && *functions_->stopped(board_) != '\0')
       throw Error(fmt::format("the board in simulation stopped: {}", functions_->stopped(board_)));
     return count;
@@ -76,7 +76,8 @@ class LoadedBoard : public SimBoard {
   std::uint64_t now() override { return functions_->now(board_) / kMicrosecond; }
 
   SimBoardState state() override {
-    SimBoardState state{.microseconds = now(), .leds = static_cast<std::uint8_t>(functions_->leds(board_)), .fault = {}};
+    SimBoardState state{
+        .microseconds = now(), .leds = static_cast<std::uint8_t>(functions_->leds(board_)), .fault = {}};
     if (*functions_->stopped(board_) != '\0')
       state.fault = functions_->stopped(board_);
     else if (!receiver_.fault().empty())
@@ -117,8 +118,8 @@ std::unique_ptr<SimBoard> open_sim_board(const std::string& board, const SimBoar
   std::istringstream numbers(said[said.size() - 2]);
   VideoMode mode{.name = "rehearsal", .mhz = 0};
   int h_positive = 0, v_positive = 0;
-  numbers >> mode.h_active >> mode.h_front >> mode.h_sync >> mode.h_back >> mode.v_active >> mode.v_front >> mode.v_sync >>
-      mode.v_back >> h_positive >> v_positive;
+  numbers >> mode.h_active >> mode.h_front >> mode.h_sync >> mode.h_back >> mode.v_active >> mode.v_front >>
+      mode.v_sync >> mode.v_back >> h_positive >> v_positive;
   if (!numbers) throw Error(fmt::format("{}: build_board.py did not say which mode the screen has", board));
   mode.h_positive = h_positive != 0;
   mode.v_positive = v_positive != 0;

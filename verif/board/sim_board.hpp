@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A board in simulation: the very top of constraints/boards with behavioural primitives round it, as a library that Verilator
-// made, and a line to it that counts the board's own microseconds.
+// A board in simulation: the very top of constraints/boards with behavioural primitives round it, as a library that
+// Verilator made, and a line to it that counts the board's own microseconds.
 #pragma once
 
 #include <cstdint>
@@ -22,26 +22,26 @@ struct SimBoardState {
   std::string fault;  ///< what the screen or a chip found wrong first (timing, TMDS, SDRAM's rules); else empty
 };
 
-/// The line to a board in simulation. Its clock is the board's: it stands still while the host thinks, so a run is the same
-/// every time.
+/// The line to a board in simulation. Its clock is the board's: it stands still while the host thinks, so a run is the
+/// same every time.
 class SimBoard : public Transport {
  public:
   /// The board's state now.
   [[nodiscard]] virtual SimBoardState state() = 0;
-  /// Frames that the screen showed from sync to sync since they were taken last, the oldest first; none of a board without
-  /// a screen.
+  /// Frames that the screen showed from sync to sync since they were taken last, the oldest first; none of a board
+  /// without a screen.
   virtual std::vector<ShownFrame> take_frames() = 0;
   /// Presses the button that resets the board, or lets it go.
   virtual void press_reset(bool pressed) = 0;
 };
 
 struct SimBoardOptions {
-  std::string fault;                    ///< a patch of verif/board/faults that the board is built with; empty: none
-  std::optional<unsigned> other_baud;   ///< the host's rate, where it is not the board's
+  std::string fault;                   ///< a patch of verif/board/faults that the board is built with; empty: none
+  std::optional<unsigned> other_baud;  ///< the host's rate, where it is not the board's
 };
 
-/// Builds the model of `board` (a name in constraints/boards/boards.yaml) unless there is one, and powers it up. Throws Error
-/// for an unknown board, naming those that there are, and where Verilator is missing or refuses the source.
+/// Builds the model of `board` (a name in constraints/boards/boards.yaml) unless there is one, and powers it up. Throws
+/// Error for an unknown board, naming those that there are, and where Verilator is missing or refuses the source.
 std::unique_ptr<SimBoard> open_sim_board(const std::string& board, const SimBoardOptions& options = {});
 
 /// The boards that open_sim_board knows, in the file's order.

@@ -78,25 +78,73 @@ def build(work, name, board, fault, verilator, cxx, partial):
             copy = tree / source.relative_to(TOP)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source, copy)
-        run(f"fault {fault}", ["patch", "--fuzz=0", "--batch", "-p1", "-d", tree, "-i", TOP / FAULTS / f"{fault}.patch"], log, work)
+        run(
+            f"fault {fault}",
+            ["patch", "--fuzz=0", "--batch", "-p1", "-d", tree, "-i", TOP / FAULTS / f"{fault}.patch"],
+            log,
+            work,
+        )
     simulation = board["simulation"]
     parameters = board["core"] | board["board"] | simulation["core"] | simulation["board"]
     bit_ps = 2 * simulation["crystal_ps"] // simulation["bits_a_crystal_period"]
     flags = "-fPIC -fvisibility=hidden -std=c++20 -O1 -DVL_USER_FINISH -DVL_USER_STOP -DVL_USER_FATAL -DVL_PRINTF=kage_board_printf"
     flags += f" -include {TOP / HERE}/board_printf.hpp -I{TOP / HERE} -DKAGE_BAUD={simulation['baud']}"
     flags += f" -DKAGE_CRYSTAL_PS={simulation['crystal_ps']} -DKAGE_BIT_PS={bit_ps}"
-    command = [*verilator, "--cc", "--exe", "--timing", "--timescale", "1ps/1ps", "--assert", "--x-initial", "unique", "-Wno-fatal", "-Wno-lint"]
+    command = [
+        *verilator,
+        "--cc",
+        "--exe",
+        "--timing",
+        "--timescale",
+        "1ps/1ps",
+        "--assert",
+        "--x-initial",
+        "unique",
+        "-Wno-fatal",
+        "-Wno-lint",
+    ]
     command += ["--prefix", "Vboard", "--top-module", "board_sim", "--Mdir", work / "obj", "-O3"]
     command += [f"-I{tree}/{folder}" for folder in ("rtl/include", "rtl/board/include")]
     for folder in ("rtl", "rtl/board", BOARDS / board["top"], BOARDS / "sim", "verif/test/formal"):
         command += ["-y", tree / folder]
     command += [f"-G{n}={v}" for n, v in parameters.items()] + ["-CFLAGS", flags, "-LDFLAGS", "-shared", "-o", partial]
-    command += [tree / BOARDS / "sim/synchronizer_sim.sv", tree / BOARDS / "sim" / simulation["primitives"], tree / BOARDS / "sim" / simulation["file"], TOP / HERE / "board_model.cpp"]
+    command += [
+        tree / BOARDS / "sim/synchronizer_sim.sv",
+        tree / BOARDS / "sim" / simulation["primitives"],
+        tree / BOARDS / "sim" / simulation["file"],
+        TOP / HERE / "board_model.cpp",
+    ]
     run("verilator", command, log, work)
-    run("compiling the board", ["make", "-C", work / "obj", "-f", "Vboard.mk", "-j2", f"CXX={shlex.join(cxx)}", "OPT_FAST=-O2", "VM_PARALLEL_BUILDS=0"], log, work)
+    run(
+        "compiling the board",
+        [
+            "make",
+            "-C",
+            work / "obj",
+            "-f",
+            "Vboard.mk",
+            "-j2",
+            f"CXX={shlex.join(cxx)}",
+            "OPT_FAST=-O2",
+            "VM_PARALLEL_BUILDS=0",
+        ],
+        log,
+        work,
+    )
 
 
-MODE = ("H_ACTIVE", "H_FRONT", "H_SYNC", "H_BACK", "V_ACTIVE", "V_FRONT", "V_SYNC", "V_BACK", "H_POSITIVE", "V_POSITIVE")
+MODE = (
+    "H_ACTIVE",
+    "H_FRONT",
+    "H_SYNC",
+    "H_BACK",
+    "V_ACTIVE",
+    "V_FRONT",
+    "V_SYNC",
+    "V_BACK",
+    "H_POSITIVE",
+    "V_POSITIVE",
+)
 
 
 def main():
