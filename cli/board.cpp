@@ -140,9 +140,9 @@ int run(const BoardCommand& o) {
 void add_board(CLI::App& app, Action& action) {
   CLI::App* c = add_command(
       app, "board", "Play a pack on a board, or on one in simulation, and compare every line and register",
-      "  kage vectors courtyard --size 64x48 --frames 2 --config ulx3s.yaml --out pack\n"
+      "  kage vectors courtyard --size 64x48 --frames 2 --config ulx3s.yaml --out pack   (the board's core)\n"
       "  kage board --port /dev/ttyUSB0 pack\n"
-      "  kage board --port sim:NAME pack   (as constraints/boards names it)\n"
+      "  kage board --port sim:ulx3s_25f pack   (or another of constraints/boards)\n"
       "  kage board --port /dev/ttyUSB0 --loop 3600 --out hour pack\n"
       "  kage board --port /dev/ttyUSB0 --loop 10 --leave pack   (and the screen goes on)\n"
       "The board signs each line, and a signature that is not the pack's has it play the frame again and send that\n"
