@@ -190,6 +190,18 @@ TEST_CASE("first light: a pack on a board, and its frames on a screen") { CHECK(
 
 TEST_CASE("a line that damages a byte in 1500 only costs time") { CHECK(rehearse({}, 1500) == "same"); }
 
+TEST_CASE("a host at another rate than the board's gets no answer") {
+  const auto board = open_sim_board(kBoard, {.fault = {}, .other_baud = 115'200});
+  settle(*board);
+  Link link(*board, {.timeout = 5'000, .tries = 2, .patience = 0});
+  try {
+    link.hello();
+    FAIL("it was greeted");
+  } catch (const LinkError& e) {
+    CHECK(e.failure == LinkFailure::no_answer);
+  }
+}
+
 TEST_CASE("a board that is reset in the middle says so") {
   const auto board = open_sim_board(kBoard);
   Link link(*board, link_options());

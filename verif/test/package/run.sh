@@ -27,7 +27,7 @@ while read -r kind name; do
   declared=$((declared + 1))
 done < <(sed -nE 's/^(class|struct) ([A-Za-z]+);.*/\1 \2/p' "$headers"/*.hpp)
 [ $declared -gt 0 ] || { echo "no header declares what another defines: the check above sees nothing" >&2; exit 1; }
-for file in rtl/defs/kage.yaml rtl/defs/configs.yaml verif/cosim/model/cells/ice40.v verif/cosim/model/driver/netlist.py; do
+for file in rtl/defs/kage.yaml rtl/defs/configs.yaml verif/cosim/model/cells/ice40.v verif/cosim/model/driver/netlist.py verif/board/sim/build_board.py constraints/boards/boards.yaml; do
   [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
 done
 # What is installed to be read is whole: each link of each page leads to a file that is there.

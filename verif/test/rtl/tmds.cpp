@@ -159,11 +159,11 @@ TEST_CASE("each value at each disparity that can be reached", "[tmds]") {
     Encoder encoder(dice);
     // A way to each disparity, found as it goes: values from blanking on.
     std::map<int, std::vector<unsigned>> ways{{0, {}}};
-    std::vector<int> todo{0};
+    std::vector<int> waiting{0};
     std::set<unsigned> words;
-    while (!todo.empty()) {
-      const int before = todo.back();
-      todo.pop_back();
+    while (!waiting.empty()) {
+      const int before = waiting.back();
+      waiting.pop_back();
       for (unsigned value = 0; value < 256; ++value) {
         const unsigned word = encoder.word_behind(ways[before], value);
         check_word(word, value, before);
@@ -172,7 +172,7 @@ TEST_CASE("each value at each disparity that can be reached", "[tmds]") {
         if (ways.count(after) != 0) continue;
         ways[after] = ways[before];
         ways[after].push_back(value);
-        todo.push_back(after);
+        waiting.push_back(after);
       }
     }
     REQUIRE(ways.size() == 9);  // -8, -6 .. 8

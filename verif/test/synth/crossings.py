@@ -119,16 +119,16 @@ class Netlist:
 
     def sources(self, bits):
         """The flip-flops and RAMs that logic brings these bits from."""
-        seen, found, todo = set(), set(), [b for b in bits if isinstance(b, int)]
-        while todo:
-            bit = todo.pop()
+        seen, found, waiting = set(), set(), [b for b in bits if isinstance(b, int)]
+        while waiting:
+            bit = waiting.pop()
             if bit in seen:
                 continue
             seen.add(bit)
             if bit in self.of_clock:
                 found.add(self.of_clock[bit])
             if bit in self.driver:
-                todo += [b for b in self.driver[bit] if isinstance(b, int)]
+                waiting += [b for b in self.driver[bit] if isinstance(b, int)]
         return found
 
 
