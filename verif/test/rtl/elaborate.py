@@ -38,6 +38,7 @@ BOARDS = {
         "BEAT_WORDS": 1,
         "LANES": 1,
         "ARRANGEMENT": 0,
+        "MAX_WIDTH": 64,  # a processor a pixel
         "LINES": 20,
     },
 }

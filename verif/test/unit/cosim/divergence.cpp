@@ -94,8 +94,11 @@ TEST_CASE("sound RTL does not diverge in any stage") {
       damage(random, frames[i]);
       if (frames[i].empty()) frames[i].push_back(0);  // a port brings a beat at least
     }
-    for (int i = 0; i < static_cast<int>(frames.size()); ++i) {
+    const int last = static_cast<int>(frames.size()) - 1;
+    for (int i = 0; i <= last; ++i) {
       CAPTURE(i);
+      // A search in which nothing differs goes back to the first frame: here to two before, and of the last to all.
+      options.steps.first = i == last ? 0 : std::max(0, i - 2);
       options.rtl.idle_percent = i % 3 == 1 ? 30 : 0;
       options.rtl.backpressure_percent = i % 3 == 2 ? 50 : 0;
       const auto d = find_divergence(i, feed_of(frames), c, options);
