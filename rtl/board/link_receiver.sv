@@ -11,7 +11,7 @@
 // Slots: SLOTS frames of 256 bytes. A frame is written to the free slot as it comes; it is kept (committed) when its
 //   CRC and its form are right and its sequence is the expected one. When no slot was free at its first byte it is not
 //   written; if it would have been kept, overrun_o is set.
-// Counters: frames whose CRC and form are right, other frames, and overruns; they stay at 65535.
+// Counters: frames whose CRC and form are right, other frames, and overruns; modulo 65536.
 // Latency: 2 clocks from a frame's last flag to head_valid_o and answer_o. Throughput: a byte a clock.
 // Cost: a RAM of SLOTS x 256 bytes, and without link_deframer 233 LUT and 119 flip-flops of an iCE40, of which 48 are
 //   counters and 24 word counts.
@@ -184,9 +184,9 @@ module link_receiver #(
       bad_frames_o <= '0;
       overruns_o <= '0;
     end else begin
-      if (good && good_frames_o != '1) good_frames_o <= good_frames_o + 16'd1;
-      if (frame_end && !good && bad_frames_o != '1) bad_frames_o <= bad_frames_o + 16'd1;
-      if (in_turn && !writing_q && overruns_o != '1) overruns_o <= overruns_o + 16'd1;
+      if (good) good_frames_o <= good_frames_o + 16'd1;
+      if (frame_end && !good) bad_frames_o <= bad_frames_o + 16'd1;
+      if (in_turn && !writing_q) overruns_o <= overruns_o + 16'd1;
     end
   end
 

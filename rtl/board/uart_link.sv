@@ -8,7 +8,7 @@
 //   AXI4-Lite, with the stream's taker, or with the line; whatever came before, a flag and a valid frame are
 //   understood.
 // State: fresh_o from reset to the first HELLO; axi_error_o and overrun_o from when it happens to the next HELLO. The
-//   counters stay at 65535: frames that were right, others, and right ones for which no slot was free.
+//   counters are modulo 65536: frames that were right, others, and right ones for which no slot was free.
 // Latency: 14 clocks from a frame's last flag to its first word on the stream, 22 to its first word on AXI4-Lite; 5 to
 //   the first flag of the ACK. Throughput: a byte a clock from the line, a word in 9 clocks to the stream, in 10 to
 //   AXI4-Lite, a byte in 2 clocks to the line.

@@ -20,7 +20,7 @@
 // frame ended, and the lines below are shown so too. Where no frame waits at the screen's first pixel, but one was
 // shown before, the frame is late: the last colour covers the place of the picture shown last (down to its last line
 // that had a pixel in time), and the next screen tries again.
-// Counted, in the core's clock, all of 16 bits that stay at their end: frames_shown_o screens that began a frame,
+// Counted, in the core's clock, all modulo 2^16: frames_shown_o screens that began a frame,
 // late_frames_o those that had none to begin, underrun_frames_o late ones and shown ones in which a line ran short,
 // underrun_lines_o the lines that ran short in shown ones (late frames count none). They rise a few clocks after
 // vertical blanking begins. led_o, in the pixel's clock, is high for 2^LED_BITS - 1 clocks after each line that ran
@@ -304,13 +304,11 @@ module video_out #(
   // ---- the core's clock again: request and counters -----------------------------------------------------------------
   logic ask_q;
   logic [15:0] shown_count_q, late_count_q, frame_count_q, line_count_q;
-  logic [16:0] line_sum;
   assign frame_req_valid_o = ask_q;
   assign frames_shown_o    = shown_count_q;
   assign late_frames_o     = late_count_q;
   assign underrun_frames_o = frame_count_q;
   assign underrun_lines_o  = line_count_q;
-  assign line_sum          = {1'b0, line_count_q} + 17'(done_lines);
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -323,10 +321,10 @@ module video_out #(
       if (done_valid && done_ask) ask_q <= 1'b1;
       else if (frame_req_ready_i) ask_q <= 1'b0;
       if (done_valid) begin
-        if (done_shown && shown_count_q != '1) shown_count_q <= shown_count_q + 1'b1;
-        if (done_late && late_count_q != '1) late_count_q <= late_count_q + 1'b1;
-        if ((done_late || done_lines != '0) && frame_count_q != '1) frame_count_q <= frame_count_q + 1'b1;
-        line_count_q <= line_sum[16] ? '1 : line_sum[15:0];
+        if (done_shown) shown_count_q <= shown_count_q + 1'b1;
+        if (done_late) late_count_q <= late_count_q + 1'b1;
+        if (done_late || done_lines != '0) frame_count_q <= frame_count_q + 1'b1;
+        line_count_q <= line_count_q + 16'(done_lines);
       end
     end
   end

@@ -32,13 +32,13 @@
 #define KAGE_BOARD_CAPTURE_LINE 0x0148u /**< rw: which line since START is kept in PIXELS, modulo 65536 */
 #define KAGE_BOARD_CAPTURED 0x014Cu /**< ro: pixels of that line that came out since START */
 #define KAGE_BOARD_VIDEO_LINES 0x0150u /**< rw: lines of the frames that go to the screen */
-#define KAGE_BOARD_FRAMES_SHOWN 0x0154u /**< ro: screens that began a frame, since reset, at most 65535 */
-#define KAGE_BOARD_LATE_FRAMES 0x0158u /**< ro: screens that had none to begin, though one was shown before, likewise */
-#define KAGE_BOARD_UNDERRUN_FRAMES 0x015Cu /**< ro: these, and screens with a line that ran short, likewise */
-#define KAGE_BOARD_UNDERRUN_LINES 0x0160u /**< ro: lines of shown frames that ran short, likewise */
-#define KAGE_BOARD_LINK_GOOD 0x0164u /**< ro: right frames of the link, likewise */
-#define KAGE_BOARD_LINK_BAD 0x0168u /**< ro: other frames of the link, likewise */
-#define KAGE_BOARD_LINK_OVERRUNS 0x016Cu /**< ro: right frames of the link for which there was no room, likewise */
+#define KAGE_BOARD_FRAMES_SHOWN 0x0154u /**< ro: screens that began a frame, since reset, modulo 65536 */
+#define KAGE_BOARD_LATE_FRAMES 0x0158u /**< ro: screens that had none to begin, though one was shown before, modulo 65536 */
+#define KAGE_BOARD_UNDERRUN_FRAMES 0x015Cu /**< ro: late screens, and screens with a line that ran short, modulo 65536 */
+#define KAGE_BOARD_UNDERRUN_LINES 0x0160u /**< ro: lines of shown frames that ran short, modulo 65536 */
+#define KAGE_BOARD_LINK_GOOD 0x0164u /**< ro: right frames that came by the link, since reset, modulo 65536 */
+#define KAGE_BOARD_LINK_BAD 0x0168u /**< ro: other frames that came by the link, modulo 65536 */
+#define KAGE_BOARD_LINK_OVERRUNS 0x016Cu /**< ro: right frames that came by the link and found no room, modulo 65536 */
 #define KAGE_BOARD_SIGNATURES 0x2000u /**< rw: the CRC-32 of each line that came out, or, with CHECK, of each line that must */
 #define KAGE_BOARD_SIGNATURES_WORDS 2048u /**< words of that window */
 #define KAGE_BOARD_PIXELS 0x4000u /**< ro: pixels of line CAPTURE_LINE: colour as TDATA in the lowest bits, TLAST in bit 24, TUSER in bit 25 */

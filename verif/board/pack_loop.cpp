@@ -69,7 +69,7 @@ void PackPlay::loop() {
     last = s;
     v.repetitions = played / run.frames;
     v.mismatches = player_.get(KAGE_BOARD_MISMATCHES);
-    if (screen && !first_screen && v.repetitions > 0) first_screen = player_.screen();
+    if (screen && !first_screen && v.repetitions > 0) first_screen = player_.counts().screen;
     if (options_.progress)
       options_.progress(fmt::format("{}: {} times, {} wrong lines", doing_, v.repetitions, v.mismatches));
     hung = now - moved >= options_.timeout;
@@ -79,9 +79,8 @@ void PackPlay::loop() {
   v.lines = lines_of(run, played);
   v.seconds = static_cast<double>(clock_.now() - begin) / 1e6;
   if (first_screen) {
-    const ScreenCounts now = player_.screen();
-    v.screen = {now.shown - first_screen->shown, now.late - first_screen->late,
-                now.underrun_frames - first_screen->underrun_frames, now.underrun_lines - first_screen->underrun_lines};
+    (void)player_.state();
+    v.screen = player_.counts().screen - *first_screen;
   }
   v.left = options_.leave && !hung && v.mismatches == 0;
   if (!v.left) end_loop(run, v, hung, played, last);

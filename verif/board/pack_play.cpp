@@ -56,9 +56,10 @@ void PackPlay::run() {
   count_screen();
   if (!verdict_.first && options_.loop) loop();
   verdict_.host = player_.link().statistics();
-  verdict_.link_good = player_.get(KAGE_BOARD_LINK_GOOD);
-  verdict_.link_bad = player_.get(KAGE_BOARD_LINK_BAD);
-  verdict_.link_overruns = player_.get(KAGE_BOARD_LINK_OVERRUNS);
+  (void)player_.state();
+  verdict_.link_good = player_.counts().link_good;
+  verdict_.link_bad = player_.counts().link_bad;
+  verdict_.link_overruns = player_.counts().link_overruns;
 }
 
 void PackPlay::get_ready() {
@@ -76,7 +77,7 @@ void PackPlay::get_ready() {
                       "of another board",
                       player_.port(), verdict_.board.name, static_cast<double>(options_.timeout) / 1e6));
   }
-  if (verdict_.board.has_screen()) before_ = player_.screen();
+  before_ = player_.counts().screen;
 }
 
 std::vector<std::uint32_t> PackPlay::list_of(const PackRun& run) const {
@@ -284,11 +285,10 @@ void PackPlay::hangs(const PackRun& run, const PlayState& state, const std::stri
 void PackPlay::count_screen() {
   if (!verdict_.board.has_screen()) return;
   const std::uint64_t begin = clock_.now();
-  ScreenCounts now = player_.screen();
-  while (!verdict_.first && now.shown - before_.shown < shown_ && clock_.now() - begin < kScreensEnd)
-    now = player_.screen();
-  verdict_.screen = {now.shown - before_.shown, now.late - before_.late, now.underrun_frames - before_.underrun_frames,
-                     now.underrun_lines - before_.underrun_lines};
+  do {
+    (void)player_.state();
+    verdict_.screen = player_.counts().screen - before_;
+  } while (!verdict_.first && verdict_.screen.shown < shown_ && clock_.now() - begin < kScreensEnd);
 }
 
 }  // namespace kage::board

@@ -61,7 +61,7 @@ struct PackVerdict {
   double seconds = 0;           ///< from a list's start to its end, added up
   ScreenCounts screen;          ///< while lists were played
   LinkStatistics host;          ///< the host's end of the link
-  std::uint32_t link_good = 0, link_bad = 0, link_overruns = 0;  ///< the board's end, since its reset
+  std::uint64_t link_good = 0, link_bad = 0, link_overruns = 0;  ///< the board's end, from the greeting on
   std::optional<LoopVerdict> loop;
   std::vector<CapturedLine> captured;
   std::vector<std::string> notes;

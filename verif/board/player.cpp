@@ -17,6 +17,8 @@ namespace {
 
 /// Words between two calls of `wait`: some 14 ms at 3 Mbaud.
 constexpr std::size_t kPiece = 1024;
+/// Pieces of a load between two calls of state(): 1,100 frames of the link, which counts them modulo 2^16.
+constexpr int kPiecesToCount = 64;
 
 constexpr std::uint32_t kHold = KAGE_BOARD_CONTROL_HOLD_MASK;
 
@@ -103,7 +105,10 @@ void Player::load(std::uint32_t address, std::span<const std::uint32_t> words) {
   std::uint32_t got = 0;
   for (int tries = 0; tries < 2; ++tries) {
     set(KAGE_BOARD_LOAD_ADDRESS, address);
-    send(words);
+    for (std::size_t at = 0; at < words.size(); at += kPiecesToCount * kPiece) {
+      send(words.subspan(at, std::min(words.size() - at, kPiecesToCount * kPiece)));
+      (void)state();
+    }
     got = get(KAGE_BOARD_LOAD_CRC);
     if (got == wanted) return;
   }
@@ -123,7 +128,7 @@ void Player::start(std::uint32_t address) {
 void Player::stop() { set(KAGE_BOARD_COMMAND, KAGE_BOARD_COMMAND_STOP_MASK); }
 
 PlayState Player::state() {
-  constexpr std::size_t words = (KAGE_BOARD_LINES - KAGE_BOARD_STATE) / 4 + 1;
+  constexpr std::size_t words = (KAGE_BOARD_LINK_OVERRUNS - KAGE_BOARD_STATE) / 4 + 1;
   const std::vector<std::uint32_t> all = link_.read(KAGE_BOARD_STATE, words);
   const auto at = [&](std::uint32_t address) { return all.at((address - KAGE_BOARD_STATE) / 4); };
   PlayState s;
@@ -132,7 +137,17 @@ PlayState Player::state() {
   s.play_crc = at(KAGE_BOARD_PLAY_CRC);
   s.played = at(KAGE_BOARD_PLAYED);
   s.lines = at(KAGE_BOARD_LINES);
+  count(std::span(all).last((KAGE_BOARD_LINK_OVERRUNS - KAGE_BOARD_FRAMES_SHOWN) / 4 + 1));
   return s;
+}
+
+void Player::count(std::span<const std::uint32_t> registers) {
+  if (counted_.empty()) counted_.assign(registers.begin(), registers.end());
+  const std::array sums{&counts_.screen.shown,          &counts_.screen.late, &counts_.screen.underrun_frames,
+                        &counts_.screen.underrun_lines, &counts_.link_good,   &counts_.link_bad,
+                        &counts_.link_overruns};
+  for (std::size_t i = 0; i < sums.size(); ++i) *sums.at(i) += static_cast<std::uint16_t>(registers[i] - counted_[i]);
+  counted_.assign(registers.begin(), registers.end());
 }
 
 void Player::set(std::uint32_t address, std::uint32_t value) { link_.write(address, std::span(&value, 1)); }
@@ -146,11 +161,6 @@ void Player::expect(std::span<const std::uint32_t> signatures) { link_.write(KAG
 std::vector<std::uint32_t> Player::captured(std::uint32_t most, std::uint32_t& came) {
   came = get(KAGE_BOARD_CAPTURED);
   return link_.read(KAGE_BOARD_PIXELS, std::min({came, most, std::uint32_t{KAGE_BOARD_PIXELS_WORDS}}));
-}
-
-ScreenCounts Player::screen() {
-  const std::vector<std::uint32_t> all = link_.read(KAGE_BOARD_FRAMES_SHOWN, 4);
-  return {all[0], all[1], all[2], all[3]};
 }
 
 bool Player::leave_idle() noexcept {

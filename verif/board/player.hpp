@@ -43,12 +43,26 @@ struct PlayState {
   std::uint32_t lines = 0;     ///< that came out
 };
 
-/// What the screen counted since the board's reset.
+/// What the screen counted.
 struct ScreenCounts {
-  std::uint32_t shown = 0;            ///< screens that began a frame
-  std::uint32_t late = 0;             ///< screens that had none to begin, though one was shown before
-  std::uint32_t underrun_frames = 0;  ///< these, and those with a line that ran short
-  std::uint32_t underrun_lines = 0;   ///< lines that ran short
+  std::uint64_t shown = 0;            ///< screens that began a frame
+  std::uint64_t late = 0;             ///< screens that had none to begin, though one was shown before
+  std::uint64_t underrun_frames = 0;  ///< late ones, and those with a line that ran short
+  std::uint64_t underrun_lines = 0;   ///< lines that ran short
+
+  ScreenCounts operator-(const ScreenCounts& before) const {
+    return {shown - before.shown, late - before.late, underrun_frames - before.underrun_frames,
+            underrun_lines - before.underrun_lines};
+  }
+};
+
+/// What the board counted since the Player asked for its state first. The board counts modulo 2^16; each state() adds
+/// what has come since the one before, so state() must be called before 2^16 frames of the link or lines have passed.
+struct BoardCounts {
+  ScreenCounts screen;
+  std::uint64_t link_good = 0;      ///< right frames that came by the link
+  std::uint64_t link_bad = 0;       ///< other frames
+  std::uint64_t link_overruns = 0;  ///< right frames that found no room
 };
 
 /// Functions throw LinkError, and Error of one line that begins with the port's name.
@@ -76,7 +90,10 @@ class Player {
 
   void start(std::uint32_t address);
   void stop();
+  /// How far the player is; counts() is brought up to date too.
   PlayState state();
+  /// As of the last call of state().
+  [[nodiscard]] const BoardCounts& counts() const { return counts_; }
 
   void set(std::uint32_t address, std::uint32_t value);
   std::uint32_t get(std::uint32_t address);
@@ -86,7 +103,6 @@ class Player {
   void expect(std::span<const std::uint32_t> signatures);
   /// Pixels of the captured line as PIXELS has them, `most` at most, and how many came.
   std::vector<std::uint32_t> captured(std::uint32_t most, std::uint32_t& came);
-  ScreenCounts screen();
 
   /// STOP, then HOLD. False if the board could not be reached.
   bool leave_idle() noexcept;
@@ -96,10 +112,13 @@ class Player {
 
  private:
   void send(std::span<const std::uint32_t> words);
+  void count(std::span<const std::uint32_t> registers);
 
   Link& link_;
   std::string port_;
   std::function<void()> wait_;
+  BoardCounts counts_;
+  std::vector<std::uint32_t> counted_;  // the registers of counts as they were last
 };
 
 }  // namespace kage::board

@@ -176,7 +176,7 @@ struct BoardLinkRecord {
   std::uint64_t sent = 0;      ///< by the host, each time counted
   std::uint64_t resent = 0;    ///< of these, those that had been sent before
   std::uint64_t damaged = 0;   ///< that came from the board and were not whole
-  std::uint64_t good = 0;      ///< that came to the board right, since its reset, at most 65535
+  std::uint64_t good = 0;      ///< that came to the board right, from the greeting on
   std::uint64_t bad = 0;       ///< likewise, others
   std::uint64_t overruns = 0;  ///< likewise, right ones for which there was no room
 };

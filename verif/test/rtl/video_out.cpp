@@ -2,6 +2,7 @@
 // video_out between two clocks of any ratio: what the screen shows, line by line, against the frames that were sent and
 // the counts; underruns of each kind, made on purpose; and the whole way through a DVI link.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <deque>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "Vvideo_link.h"
 #include "Vvideo_out.h"
 #include "Vvideo_out_grey.h"
+#include "Vvideo_out_least.h"
 #include "bench.hpp"
 #include "board/dvi_receiver.hpp"
 #include "board/screen.hpp"
@@ -589,4 +591,50 @@ TEST_CASE("lines are late by every number of clocks", "[video_out]") {
       REQUIRE(lines[i] == std::min(lines[i - static_cast<std::size_t>(gain)] + 1, kHigh - 1));
     }
   });
+}
+
+TEST_CASE("the counters are modulo 65536", "[video_out]") {
+  VerilatedContext context;
+  const auto top = std::make_unique<Vvideo_out_least>(&context);
+  constexpr int kScreens = 65536 + 40;
+  constexpr int kClocks = 25;  // of a screen, 5 x 5
+  const auto clock = [&] {  // both clocks are one
+    top->clk_i = top->pix_clk_i = 1;
+    top->eval();
+    top->clk_i = top->pix_clk_i = 0;
+    top->eval();
+  };
+  top->rst_ni = top->pix_rst_ni = 0;
+  top->s_axis_tvalid_i = 0;
+  for (int i = 0; i < 40; ++i) clock();
+  top->rst_ni = top->pix_rst_ni = 1;
+  top->s_axis_tuser_i = 1;
+  top->s_axis_tlast_i = 0;
+  top->lines_i = 2;
+  // Frames of one pixel, which lack all others: both lines of each run short. Then none at all: all are late.
+  for (const bool fed : {true, false}) {
+    top->s_axis_tvalid_i = fed ? 1 : 0;
+    std::array<int, 4> before{};
+    std::array<int, 4> sums{};
+    const auto now = [&] {
+      return std::array<int, 4>{top->frames_shown_o, top->late_frames_o, top->underrun_frames_o,
+                                top->underrun_lines_o};
+    };
+    before = now();
+    for (int screen = 0; screen < kScreens; ++screen) {
+      for (int i = 0; i < kClocks; ++i) clock();
+      const std::array<int, 4> seen = now();
+      for (std::size_t i = 0; i < 4; ++i) sums.at(i) += (seen.at(i) - before.at(i)) & 0xFFFF;
+      before = seen;
+    }
+    CAPTURE(fed, sums);
+    // A screen before the first frame counts nothing; the FIFO holds frames for some screens more.
+    const int screens = sums[0] + sums[1];
+    CHECK(screens >= kScreens - 1);
+    CHECK(screens <= kScreens);
+    CHECK(sums[fed ? 0 : 1] > 65536);
+    CHECK(sums[2] == screens);
+    CHECK(sums[3] == 2 * sums[0]);
+  }
+  top->final();
 }

@@ -49,6 +49,7 @@ class FakeBoard : public board::Transport {
   std::optional<std::uint32_t> other_hash;               ///< PARAM_HASH
   std::function<std::uint32_t(std::uint32_t address, std::uint32_t value)> core_says;  ///< of the core's registers
   std::uint32_t underruns = 0;  ///< lines that run short in each frame that is shown
+  std::uint32_t counted_before = 0;  ///< what the counters of screen and link stand at when it is powered up
 
   // ---- what a test looks at ----
   [[nodiscard]] bool held() const { return (control_ & KAGE_BOARD_CONTROL_HOLD_MASK) != 0; }
@@ -210,15 +211,15 @@ class FakeBoard : public board::Transport {
       case KAGE_BOARD_CAPTURED:
         return captured_;
       case KAGE_BOARD_FRAMES_SHOWN:
-        return shown_;
+        return (counted_before + shown_) & 0xFFFFU;
       case KAGE_BOARD_UNDERRUN_FRAMES:
-        return underruns == 0 ? 0 : shown_;
+        return (counted_before + (underruns == 0 ? 0 : shown_)) & 0xFFFFU;
       case KAGE_BOARD_UNDERRUN_LINES:
-        return underruns * shown_;
+        return (counted_before + underruns * shown_) & 0xFFFFU;
       case KAGE_BOARD_LINK_GOOD:
-        return static_cast<std::uint32_t>(good_);
+        return (counted_before + static_cast<std::uint32_t>(good_)) & 0xFFFFU;
       case KAGE_BOARD_LINK_BAD:
-        return static_cast<std::uint32_t>(bad_);
+        return (counted_before + static_cast<std::uint32_t>(bad_)) & 0xFFFFU;
       default:
         return registers_[address];
     }

@@ -481,12 +481,17 @@ TEST_CASE("a screen's counts are told, and a run has frames of one height") {
   FakeBoard board(config());
   board.screen = 640 | 480U << 16U;
   board.underruns = 2;
+  board.counted_before = GENERATE(0U, 3U, 65535U, 65530U);  // counters of a board that has run for long turn round
   const PackVerdict v = play(board);
   CHECK(v.same());
   const auto shown = static_cast<std::uint32_t>(std::count_if(
       fixture().pack.frames.begin(), fixture().pack.frames.end(), [](const auto& f) { return f.pixels() > 0; }));
   CHECK(v.screen.shown == shown);
+  CHECK(v.screen.underrun_frames == shown);
   CHECK(v.screen.underrun_lines == 2 * shown);
+  CHECK(v.link_good > 50);
+  CHECK(v.link_good < 5000);
+  CHECK(v.link_bad == 0);
   for (const PackRun& run : plan_runs(fixture().pack, v.board, "PORT"))
     for (std::uint64_t i = run.first; i < run.end(); ++i)
       CHECK((fixture().pack.frames[i].pixels() == 0 || fixture().pack.frames[i].status.height == run.height));
