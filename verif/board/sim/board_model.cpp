@@ -51,6 +51,8 @@ struct kage_board {
 
   kage_board_video video = nullptr;
   void* video_context = nullptr;
+  std::uint64_t video_start = 0;  // the first edge, which begins bit 0
+  std::uint64_t video_bit = 0;
   std::uint64_t video_at = kNever;  // the middle of the next bit
   unsigned wires = 0;
 
@@ -97,16 +99,27 @@ struct kage_board {
     tx = top->tx_o;
   }
 
-  // The bits' times are found by the edges of any wire.
+  // The middle of bit `video_bit`. bits_o bits take periods_o periods of the crystal, which need not be a whole number of
+  // picoseconds a bit: reckoned from the start, so that no rounding adds up.
+  [[nodiscard]] std::uint64_t middle() const {
+    return video_start + (2 * video_bit + 1) * KAGE_CRYSTAL_PS * top->periods_o / top->bits_o;
+  }
+
+  // The bits' times are found by the first edge of any wire.
   void screen() {
     if (video == nullptr) return;
     if (top->dvi_o != wires) {
       wires = top->dvi_o;
-      if (video_at == kNever) video_at = now() + KAGE_BIT_PS / 2;
+      if (video_at == kNever) {
+        video_start = now();
+        video_bit = 0;
+        video_at = middle();
+      }
     }
     if (video_at == now()) {
       video(video_context, wires);
-      video_at += KAGE_BIT_PS;
+      ++video_bit;
+      video_at = middle();
     }
   }
 
