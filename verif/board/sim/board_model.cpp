@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's model as Verilator makes it, behind the functions of board_model.h: its crystal, the host's end of the serial line
-// bit by bit, and the wires of its DVI link, each at its own times.
+// A board's model as Verilator makes it, behind the functions of board_model.h: its crystal, the host's end of the
+// serial line bit by bit, and the wires of its DVI link, each at its own times.
 #include "board_model.h"
 
 #include <algorithm>
@@ -99,8 +99,8 @@ struct kage_board {
     tx = top->tx_o;
   }
 
-  // The middle of bit `video_bit`. bits_o bits take periods_o periods of the crystal, which need not be a whole number of
-  // picoseconds a bit: reckoned from the start, so that no rounding adds up.
+  // The middle of bit `video_bit`. bits_o bits take periods_o periods of the crystal, which need not be a whole number
+  // of picoseconds a bit: reckoned from the start, so that no rounding adds up.
   [[nodiscard]] std::uint64_t middle() const {
     return video_start + (2 * video_bit + 1) * KAGE_CRYSTAL_PS * top->periods_o / top->bits_o;
   }
@@ -141,9 +141,7 @@ struct kage_board {
 };
 
 // In place of Verilator's own, which end the process.
-void vl_finish(const char*, int, const char*) VL_MT_UNSAFE {
-  Verilated::threadContextp()->gotFinish(true);
-}
+void vl_finish(const char*, int, const char*) VL_MT_UNSAFE { Verilated::threadContextp()->gotFinish(true); }
 void vl_stop(const char*, int, const char*) VL_MT_UNSAFE { Verilated::threadContextp()->gotFinish(true); }
 void vl_fatal(const char*, int, const char*, const char* message) VL_MT_UNSAFE {
   if (message != nullptr && *message != '\0') said += std::string(message) + "\n";
@@ -205,9 +203,11 @@ std::uint32_t leds(const kage_board* board) { return board->top->led_o; }
 
 const char* stopped(const kage_board* board) { return board->stop.c_str(); }
 
-constexpr kage_board_functions kFunctions{KAGE_BOARD_ABI, open,  close, now,  send,   sending,
+constexpr kage_board_functions kFunctions{KAGE_BOARD_ABI, open,   close, now,  send,   sending,
                                           receive,        button, video, leds, stopped};
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const kage_board_functions* kage_board_model(void) { return &kFunctions; }
+extern "C" __attribute__((visibility("default"))) const kage_board_functions* kage_board_model(void) {
+  return &kFunctions;
+}
