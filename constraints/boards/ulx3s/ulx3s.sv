@@ -111,7 +111,7 @@ module ulx3s #(
 
   logic good, rst_n, uart_rst_n, mem_rst_n, pix_rst_n;
   assign good = locked && btn[0];
-  // Each 16 clocks: 640 ns of the UART's and the pixels', 213 of the memory's at 75 MHz, which is eight of the slowest.
+  // Each 16 clocks: 640 ns of the UART's, which is the slowest, and 213 of the memory's at 75 MHz, five of the UART's.
   reset_release u_core_reset (
       .clk_i (clk),
       .good_i(good),
