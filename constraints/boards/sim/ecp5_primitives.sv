@@ -55,33 +55,37 @@ module EHXPLLL #(
       $fatal(1, "EHXPLLL: a phase that is not 0 degrees");
   end
 
-  // Periods in picoseconds. The oscillator is kept exact: a clock's half period is rounded alone.
+  // CLKI's period in picoseconds, measured once: a clock's n-th edge stands at its exact time, rounded down to a
+  // picosecond, so that no rounding adds up and edges that belong together stay together.
   longint last = 0, period = 0;
   int   edges = 0;
   logic runs = 1'b0;
   initial LOCK = 1'b0;
   always @(posedge CLKI) begin
-    period = longint'($time) - last;
-    last   = longint'($time);
     if (edges < 100) edges++;
     if (edges == 30) begin
-      runs = 1'b1;
+      period = longint'($time) - last;
+      if (period * CLKI_DIV > 100_000) $fatal(1, "EHXPLLL: the phase detector does not run at 10 MHz or more");
       if (period * CLKI_DIV * 1000 / (CLKFB_DIV * CLKOP_DIV) < 1_250_000 ||
           period * CLKI_DIV * 1000 / (CLKFB_DIV * CLKOP_DIV) > 2_500_000)
         $fatal(1, "EHXPLLL: the oscillator does not run at 400 to 800 MHz");
+      runs = 1'b1;
     end
+    last = longint'($time);
     if (edges == 40) LOCK = 1'b1;
   end
-  function automatic longint half(input int div);
-    half = period * CLKI_DIV * longint'(div) / (2 * CLKFB_DIV * CLKOP_DIV);
+  function automatic longint edge_at(input longint n, input int div);
+    edge_at = n * period * CLKI_DIV * longint'(div) / (2 * CLKFB_DIV * CLKOP_DIV);
   endfunction
 
+  longint op_edge = 0, os_edge = 0, os2_edge = 0, os3_edge = 0;
   initial {CLKOP, CLKOS, CLKOS2, CLKOS3} = '0;
   initial begin
     wait (runs);
     forever begin
       CLKOP = !CLKOP;
-      #(half(CLKOP_DIV));
+      op_edge++;
+      #(edge_at(op_edge, CLKOP_DIV) - edge_at(op_edge - 1, CLKOP_DIV));
     end
   end
   initial begin
@@ -89,7 +93,8 @@ module EHXPLLL #(
     if (CLKOS_ENABLE == "ENABLED")
       forever begin
         CLKOS = !CLKOS;
-        #(half(CLKOS_DIV));
+        os_edge++;
+        #(edge_at(os_edge, CLKOS_DIV) - edge_at(os_edge - 1, CLKOS_DIV));
       end
   end
   initial begin
@@ -98,7 +103,8 @@ module EHXPLLL #(
     if (CLKOS2_ENABLE == "ENABLED")
       forever begin
         CLKOS2 = !CLKOS2;
-        #(half(CLKOS2_DIV));
+        os2_edge++;
+        #(edge_at(os2_edge, CLKOS2_DIV) - edge_at(os2_edge - 1, CLKOS2_DIV));
       end
   end
   initial begin
@@ -107,7 +113,8 @@ module EHXPLLL #(
     if (CLKOS3_ENABLE == "ENABLED")
       forever begin
         CLKOS3 = !CLKOS3;
-        #(half(CLKOS3_DIV));
+        os3_edge++;
+        #(edge_at(os3_edge, CLKOS3_DIV) - edge_at(os3_edge - 1, CLKOS3_DIV));
       end
   end
 endmodule

@@ -4,12 +4,15 @@
 //
 // dq_late: what the chip puts out reaches the FPGA's flip-flop 11 ns after the clock left it: 3 ns for the clock's way
 // out, 6 for the chip (t_AC), 2 for the way in.
+// bits_o, periods_o: so many bits go over the DVI link in so many periods of the crystal, which follows from the PLL's
+// parameters. The model's screen looks at the wires by them.
 `default_nettype none
 
 module board_sim #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_impl_params.svh",
     parameter int BAUD = 3_000_000,
+    parameter int REF_DIV = 1,
     parameter int FB_DIV = 5,
     parameter int BIT_DIV = 6,
     parameter int CORE_DIV = 12,
@@ -24,6 +27,8 @@ module board_sim #(
     parameter int V_FRONT = 10,
     parameter int V_SYNC = 2,
     parameter int V_BACK = 33,
+    parameter int H_POSITIVE = 0,
+    parameter int V_POSITIVE = 0,
     parameter int LED_BITS = 22
 ) (
     input  wire logic       clk_i,
@@ -31,9 +36,14 @@ module board_sim #(
     input  wire logic       rx_i,
     output logic            tx_o,
     output logic      [7:0] led_o,
-    output logic      [3:0] dvi_o
+    output logic      [3:0] dvi_o,
+
+    output logic [7:0] bits_o,
+    output logic [7:0] periods_o
 );
-  localparam int MemHz = 25_000_000 * FB_DIV * BIT_DIV / MEM_DIV;
+  localparam int MemHz = 25_000_000 * FB_DIV / REF_DIV * BIT_DIV / MEM_DIV;
+  assign bits_o    = 8'(2 * FB_DIV);  // two in a clock
+  assign periods_o = 8'(REF_DIV);
 
   logic sdram_clk, cke, csn, rasn, casn, wen, wifi;
   logic [1:0] ba, dqm;
@@ -44,22 +54,25 @@ module board_sim #(
   ulx3s #(
       `include "generated/kage_impl_param_map.svh"
       `include "generated/kage_pixel_param_map.svh",
-      .BAUD    (BAUD),
-      .FB_DIV  (FB_DIV),
-      .BIT_DIV (BIT_DIV),
-      .CORE_DIV(CORE_DIV),
-      .MEM_DIV (MEM_DIV),
-      .LINES   (LINES),
-      .T_INIT  (T_INIT),
-      .H_ACTIVE(H_ACTIVE),
-      .H_FRONT (H_FRONT),
-      .H_SYNC  (H_SYNC),
-      .H_BACK  (H_BACK),
-      .V_ACTIVE(V_ACTIVE),
-      .V_FRONT (V_FRONT),
-      .V_SYNC  (V_SYNC),
-      .V_BACK  (V_BACK),
-      .LED_BITS(LED_BITS)
+      .BAUD      (BAUD),
+      .REF_DIV   (REF_DIV),
+      .FB_DIV    (FB_DIV),
+      .BIT_DIV   (BIT_DIV),
+      .CORE_DIV  (CORE_DIV),
+      .MEM_DIV   (MEM_DIV),
+      .LINES     (LINES),
+      .T_INIT    (T_INIT),
+      .H_ACTIVE  (H_ACTIVE),
+      .H_FRONT   (H_FRONT),
+      .H_SYNC    (H_SYNC),
+      .H_BACK    (H_BACK),
+      .V_ACTIVE  (V_ACTIVE),
+      .V_FRONT   (V_FRONT),
+      .V_SYNC    (V_SYNC),
+      .V_BACK    (V_BACK),
+      .H_POSITIVE(H_POSITIVE),
+      .V_POSITIVE(V_POSITIVE),
+      .LED_BITS  (LED_BITS)
   ) u_board (
       .clk_25mhz (clk_i),
       .btn       ({6'b0, button_ni}),

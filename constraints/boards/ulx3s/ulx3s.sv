@@ -2,9 +2,10 @@
 // kage on an ULX3S (Lattice ECP5): frames from the 32 MB SDRAM, picture by DVI on the GPDI socket, host by the FTDI's
 // UART. README.md beside this file says how it is loaded and what the LEDs mean.
 //
-// Clocks: 25 MHz from the crystal, for the UART too; of it the PLL makes BIT_DIV's bit clock of the DVI link, a fifth
-//   of it for the pixels, the core's and the memory's. The bit clock and the pixels' are one family (tmds_shifter); all
-//   others cross by async_fifo.
+// Clocks: 25 MHz from the crystal, for the UART too; of it the PLL makes the bit clock of the DVI link, a fifth of it
+//   for the pixels, the core's and the memory's. The bit clock and the pixels' are one family (tmds_shifter); all
+//   others cross by async_fifo. As the parameters stand: 640x480 at 59.5 Hz. The row ulx3s_85f of boards.yaml makes it
+//   1280x720 at 30.3 Hz.
 // Reset: until the PLL has locked, and while button PWR (BTN0, low when pressed) is pressed.
 // SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Its data
 //   are taken at the memory's falling edge: at 75 MHz they are there from 3 ns before it to 7 behind it, counting 3 ns
@@ -16,7 +17,9 @@ module ulx3s #(
     `include "generated/kage_impl_params.svh",
     parameter logic [31:0] BOARD_NAME = "ULX3",
     parameter int BAUD = 3_000_000,
-    // The PLL: its oscillator runs at 25 MHz x FB_DIV x BIT_DIV, 400 to 800 MHz; each clock is a part of it.
+    // The PLL: the bit clock is 25 MHz / REF_DIV x FB_DIV, and 25 MHz / REF_DIV must be at least 10 MHz. The oscillator
+    // runs BIT_DIV times as fast, at 400 to 800 MHz, and every clock is a part of it.
+    parameter int REF_DIV = 1,
     parameter int FB_DIV = 5,
     parameter int BIT_DIV = 6,
     parameter int CORE_DIV = 12,
@@ -60,11 +63,11 @@ module ulx3s #(
   assign wifi_gpio0 = 1'b1;
 
   // ---- clocks and resets -------------------------------------------------------------------------------------------
-  localparam int VcoHz = 25_000_000 * FB_DIV * BIT_DIV;
+  localparam int VcoHz = 25_000_000 * FB_DIV / REF_DIV * BIT_DIV;
   logic bit_clk, pix_clk, clk, mem_clk, locked;
   (* FREQUENCY_PIN_CLKI = "25" *)
   EHXPLLL #(
-      .CLKI_DIV       (1),
+      .CLKI_DIV       (REF_DIV),
       .CLKFB_DIV      (FB_DIV),
       .FEEDBK_PATH    ("CLKOP"),
       .CLKOP_ENABLE   ("ENABLED"),
@@ -108,7 +111,7 @@ module ulx3s #(
 
   logic good, rst_n, uart_rst_n, mem_rst_n, pix_rst_n;
   assign good = locked && btn[0];
-  // Each 16 clocks: 640 ns of the UART's and the pixels', 213 of the memory's at 75 MHz, which is eight of the slowest.
+  // Each 16 clocks: 640 ns of the UART's, which is the slowest, and 213 of the memory's at 75 MHz, five of the UART's.
   reset_release u_core_reset (
       .clk_i (clk),
       .good_i(good),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A board's model as Verilator makes it, behind the functions of board_model.h: its crystal, the host's end of the serial line
-// bit by bit, and the wires of its DVI link, each at its own times.
+// A board's model as Verilator makes it, behind the functions of board_model.h: its crystal, the host's end of the
+// serial line bit by bit, and the wires of its DVI link, each at its own times.
 #include "board_model.h"
 
 #include <algorithm>
@@ -51,6 +51,8 @@ struct kage_board {
 
   kage_board_video video = nullptr;
   void* video_context = nullptr;
+  std::uint64_t video_start = 0;  // the first edge, which begins bit 0
+  std::uint64_t video_bit = 0;
   std::uint64_t video_at = kNever;  // the middle of the next bit
   unsigned wires = 0;
 
@@ -97,16 +99,27 @@ struct kage_board {
     tx = top->tx_o;
   }
 
-  // The bits' times are found by the edges of any wire.
+  // The middle of bit `video_bit`. bits_o bits take periods_o periods of the crystal, which need not be a whole number
+  // of picoseconds a bit: reckoned from the start, so that no rounding adds up.
+  [[nodiscard]] std::uint64_t middle() const {
+    return video_start + (2 * video_bit + 1) * KAGE_CRYSTAL_PS * top->periods_o / top->bits_o;
+  }
+
+  // The bits' times are found by the first edge of any wire.
   void screen() {
     if (video == nullptr) return;
     if (top->dvi_o != wires) {
       wires = top->dvi_o;
-      if (video_at == kNever) video_at = now() + KAGE_BIT_PS / 2;
+      if (video_at == kNever) {
+        video_start = now();
+        video_bit = 0;
+        video_at = middle();
+      }
     }
     if (video_at == now()) {
       video(video_context, wires);
-      video_at += KAGE_BIT_PS;
+      ++video_bit;
+      video_at = middle();
     }
   }
 
@@ -128,9 +141,7 @@ struct kage_board {
 };
 
 // In place of Verilator's own, which end the process.
-void vl_finish(const char*, int, const char*) VL_MT_UNSAFE {
-  Verilated::threadContextp()->gotFinish(true);
-}
+void vl_finish(const char*, int, const char*) VL_MT_UNSAFE { Verilated::threadContextp()->gotFinish(true); }
 void vl_stop(const char*, int, const char*) VL_MT_UNSAFE { Verilated::threadContextp()->gotFinish(true); }
 void vl_fatal(const char*, int, const char*, const char* message) VL_MT_UNSAFE {
   if (message != nullptr && *message != '\0') said += std::string(message) + "\n";
@@ -192,9 +203,11 @@ std::uint32_t leds(const kage_board* board) { return board->top->led_o; }
 
 const char* stopped(const kage_board* board) { return board->stop.c_str(); }
 
-constexpr kage_board_functions kFunctions{KAGE_BOARD_ABI, open,  close, now,  send,   sending,
+constexpr kage_board_functions kFunctions{KAGE_BOARD_ABI, open,   close, now,  send,   sending,
                                           receive,        button, video, leds, stopped};
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) const kage_board_functions* kage_board_model(void) { return &kFunctions; }
+extern "C" __attribute__((visibility("default"))) const kage_board_functions* kage_board_model(void) {
+  return &kFunctions;
+}

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /** @file
- * What the library of a board in simulation offers (build_board.py makes it, sim_board.cpp loads it). Times are picoseconds
- * since power-up. Nothing runs by itself: time passes within these functions. */
+ * What the library of a board in simulation offers (build_board.py makes it, sim_board.cpp loads it). Times are
+ * picoseconds since power-up. Nothing runs by itself: time passes within these functions. */
 #ifndef KAGE_BOARD_MODEL_H
 #define KAGE_BOARD_MODEL_H
 
@@ -21,7 +21,7 @@ typedef void (*kage_board_video)(void* context, unsigned wires);
 
 typedef struct {
   uint32_t abi;
-  /** Powers the board up; `seed` decides what its flip-flops hold. The host's line runs at `baud`; 0: the board's own. */
+  /** Powers the board up; `seed` decides what its flip-flops hold. The host's line has `baud`; 0: the board's own. */
   kage_board* (*open)(unsigned seed, unsigned baud);
   void (*close)(kage_board*);
   uint64_t (*now)(const kage_board*);

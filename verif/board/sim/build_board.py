@@ -86,10 +86,9 @@ def build(work, name, board, fault, verilator, cxx, partial):
         )
     simulation = board["simulation"]
     parameters = board["core"] | board["board"] | simulation["core"] | simulation["board"]
-    bit_ps = 2 * simulation["crystal_ps"] // simulation["bits_a_crystal_period"]
     flags = "-fPIC -fvisibility=hidden -std=c++20 -O1 -DVL_USER_FINISH -DVL_USER_STOP -DVL_USER_FATAL -DVL_PRINTF=kage_board_printf"
     flags += f" -include {TOP / HERE}/board_printf.hpp -I{TOP / HERE} -DKAGE_BAUD={simulation['baud']}"
-    flags += f" -DKAGE_CRYSTAL_PS={simulation['crystal_ps']} -DKAGE_BIT_PS={bit_ps}"
+    flags += f" -DKAGE_CRYSTAL_PS={simulation['crystal_ps']}"
     command = [
         *verilator,
         "--cc",

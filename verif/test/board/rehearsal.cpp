@@ -148,8 +148,8 @@ void settle(SimBoard& board) {
 }
 
 /// Plays the pack, and watches the screen for a few frames. What was found, in a line; "same": nothing.
-std::string rehearse(const SimBoardOptions& options, unsigned damage = 0) {
-  const auto board = open_sim_board(kBoard, options);
+std::string rehearse(const SimBoardOptions& options, unsigned damage = 0, const char* name = kBoard) {
+  const auto board = open_sim_board(name, options);
   const auto with_fault = [&](const std::string& told) {
     const std::string fault = board->state().fault;
     return fault.empty() ? told : fault;
@@ -187,6 +187,11 @@ std::string rehearse(const SimBoardOptions& options, unsigned damage = 0) {
 }  // namespace
 
 TEST_CASE("first light: a pack on a board, and its frames on a screen") { CHECK(rehearse({}) == "same"); }
+
+// 15 bits in a period of the crystal, and positive syncs.
+TEST_CASE("first light of a board whose bits take no whole number of picoseconds") {
+  CHECK(rehearse({}, 0, "ulx3s_85f") == "same");
+}
 
 TEST_CASE("a line that damages a byte in 1500 only costs time") { CHECK(rehearse({}, 1500) == "same"); }
 
