@@ -13,6 +13,7 @@
 
 #include "board/dvi_receiver.hpp"
 #include "board/sim/board_model.h"
+#include "board/vga_receiver.hpp"
 #include "cosim/model/process.hpp"
 #include "cosim/model/trust.hpp"
 #include "kage/error.hpp"
@@ -43,9 +44,13 @@ std::vector<std::string> lines_of_script(std::vector<std::string> arguments) {
   return lines;
 }
 
+/// What a screen is plugged into.
+enum class Socket : std::uint8_t { none, dvi, vga };
+
 class LoadedBoard : public SimBoard {
  public:
-  LoadedBoard(const fs::path& library, const VideoMode& mode, unsigned baud) : screen_(mode) {
+  LoadedBoard(const fs::path& library, Socket socket, const VideoMode& mode, unsigned baud)
+      : vga_(mode), screen_(mode) {
     {
       const std::scoped_lock lock(loader_lock());
       library_ = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -57,7 +62,8 @@ class LoadedBoard : public SimBoard {
       throw Error(fmt::format("{}: not a board of this kage", library.string()));
     functions_ = function();
     board_ = functions_->open(1, baud);
-    functions_->video(board_, &LoadedBoard::take_wires, this);
+    if (socket == Socket::dvi) functions_->video(board_, &LoadedBoard::take_bits, this);
+    if (socket == Socket::vga) functions_->video(board_, &LoadedBoard::take_pixel, this);
   }
   ~LoadedBoard() override {
     if (board_ != nullptr) functions_->close(board_);
@@ -82,6 +88,8 @@ class LoadedBoard : public SimBoard {
       state.fault = functions_->stopped(board_);
     else if (!receiver_.fault().empty())
       state.fault = "DVI: " + receiver_.fault();
+    else if (!vga_.fault().empty())
+      state.fault = "VGA: " + vga_.fault();
     else if (!screen_.fault().empty())
       state.fault = "screen: " + screen_.fault();
     return state;
@@ -90,18 +98,24 @@ class LoadedBoard : public SimBoard {
   std::vector<ShownFrame> take_frames() override { return screen_.take_frames(); }
 
   void press_reset(bool pressed) override { functions_->button(board_, pressed ? 1 : 0); }
+  void tap_reset(std::uint64_t picoseconds) override { functions_->tap(board_, picoseconds); }
 
  private:
-  static void take_wires(void* self, unsigned wires) {
+  static void take_bits(void* self, unsigned wires) {
     auto& board = *static_cast<LoadedBoard*>(self);
     if (const auto pixel = board.receiver_.put((wires & 1) != 0, (wires & 2) != 0, (wires & 4) != 0, (wires & 8) != 0))
       board.screen_.put(*pixel);
+  }
+  static void take_pixel(void* self, unsigned wires) {
+    auto& board = *static_cast<LoadedBoard*>(self);
+    if (const auto pixel = board.vga_.put((wires & 64) != 0, (wires & 128) != 0, wires & 63)) board.screen_.put(*pixel);
   }
 
   void* library_ = nullptr;  // stays open: threads of Verilator's may still be ending
   const kage_board_functions* functions_ = nullptr;
   kage_board* board_ = nullptr;
   DviReceiver receiver_;
+  VgaReceiver vga_;
   Screen screen_;
 };
 
@@ -114,16 +128,19 @@ std::unique_ptr<SimBoard> open_sim_board(const std::string& board, const SimBoar
   if (!options.fault.empty()) arguments.insert(arguments.end(), {"--fault", options.fault});
   const std::vector<std::string> said = lines_of_script(arguments);
   if (said.size() < 2) throw Error(fmt::format("{}: build_board.py did not say where the library is", board));
-  // The mode of its screen: horizontal and vertical, as VideoMode has them.
+  // Its screen: the socket, then the mode, horizontal and vertical, as VideoMode has them.
   std::istringstream numbers(said[said.size() - 2]);
+  std::string socket;
   VideoMode mode{.name = "rehearsal", .mhz = 0};
   int h_positive = 0, v_positive = 0;
-  numbers >> mode.h_active >> mode.h_front >> mode.h_sync >> mode.h_back >> mode.v_active >> mode.v_front >>
+  numbers >> socket >> mode.h_active >> mode.h_front >> mode.h_sync >> mode.h_back >> mode.v_active >> mode.v_front >>
       mode.v_sync >> mode.v_back >> h_positive >> v_positive;
-  if (!numbers) throw Error(fmt::format("{}: build_board.py did not say which mode the screen has", board));
+  if (!numbers || (socket != "dvi" && socket != "vga" && socket != "none")) throw Error(fmt::format("{}: build_board.py did not say which mode the screen has", board));
   mode.h_positive = h_positive != 0;
   mode.v_positive = v_positive != 0;
-  return std::make_unique<LoadedBoard>(said.back(), mode, options.other_baud.value_or(0));
+  return std::make_unique<LoadedBoard>(
+      said.back(), socket == "dvi" ? Socket::dvi : socket == "vga" ? Socket::vga : Socket::none, mode,
+      options.other_baud.value_or(0));
 }
 
 }  // namespace kage::board

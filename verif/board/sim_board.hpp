@@ -31,8 +31,10 @@ class SimBoard : public Transport {
   /// Frames that the screen showed from sync to sync since they were taken last, the oldest first; none of a board
   /// without a screen.
   virtual std::vector<ShownFrame> take_frames() = 0;
-  /// Presses the button that resets the board, or lets it go.
+  /// Presses the button that resets the board, or lets it go. A board without one goes on.
   virtual void press_reset(bool pressed) = 0;
+  /// Presses it for so many picoseconds of the board's time.
+  virtual void tap_reset(std::uint64_t picoseconds) = 0;
 };
 
 struct SimBoardOptions {

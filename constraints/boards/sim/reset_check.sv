@@ -2,7 +2,8 @@
 // Watches the resets of a board's clocks in simulation. good_i, of no clock, says when they may be released: each LEAST
 // edges of its clock later at least. Of reset_release's 16 clocks that is all, two flip-flops that bring good_i across,
 // and the reset's own; an edge at the very moment of good_i may count or not. A reset that is released earlier stops
-// the simulation.
+// the simulation; so does one that is released before all have been asserted at once. good_i falls three clocks before
+// the reset does: one that was due then is still released.
 `default_nettype none
 
 module reset_check #(
@@ -14,12 +15,26 @@ module reset_check #(
     input wire logic [CLOCKS-1:0] rst_ni
 );
   int edges[CLOCKS];
+  // Whether all have been asserted at once since the first of them was.
+  logic all_asserted = 1'b1;
+  logic [CLOCKS-1:0] last = '0;
+  always @(rst_ni) begin
+    if (rst_ni == '0) all_asserted = 1'b1;
+    else if (&last) all_asserted = 1'b0;
+    last = rst_ni;
+  end
   for (genvar i = 0; i < CLOCKS; i++) begin : gen_clock
+    logic [2:0] fell = '0;
     initial edges[i] = 0;
-    always @(posedge clk_i[i]) edges[i] = good_i ? edges[i] + 1 : 0;
-    always @(posedge rst_ni[i])
+    always @(posedge clk_i[i]) begin
+      fell = {fell[1:0], !good_i};
+      edges[i] = fell == '1 ? 0 : edges[i] + 1;
+    end
+    always @(posedge rst_ni[i]) begin
       if (edges[i] < LEAST)
         $fatal(1, "reset %0d is released after %0d clocks, at least %0d are due", i, edges[i], LEAST);
+      if (!all_asserted) $fatal(1, "reset %0d is released, and not all clocks were in reset at once", i);
+    end
   end
 
 endmodule

@@ -4,6 +4,7 @@
 //
 // dq_late: what the chip puts out reaches the FPGA's flip-flop 11 ns after the clock left it: 3 ns for the clock's way
 // out, 6 for the chip (t_AC), 2 for the way in.
+// wires_o: of the DVI socket, from bit 0 on blue, green, red and the clock.
 // bits_o, periods_o: so many bits go over the DVI link in so many periods of the crystal, which follows from the PLL's
 // parameters. The model's screen looks at the wires by them.
 `default_nettype none
@@ -36,12 +37,13 @@ module board_sim #(
     input  wire logic       rx_i,
     output logic            tx_o,
     output logic      [7:0] led_o,
-    output logic      [3:0] dvi_o,
+    output logic      [7:0] wires_o,
 
     output logic [7:0] bits_o,
     output logic [7:0] periods_o
 );
   localparam int MemHz = 25_000_000 * FB_DIV / REF_DIV * BIT_DIV / MEM_DIV;
+  assign wires_o[7:4] = '0;
   assign bits_o    = 8'(2 * FB_DIV);  // two in a clock
   assign periods_o = 8'(REF_DIV);
 
@@ -79,7 +81,7 @@ module board_sim #(
       .led       (led_o),
       .ftdi_txd  (rx_i),
       .ftdi_rxd  (tx_o),
-      .gpdi_dp   (dvi_o),
+      .gpdi_dp   (wires_o[3:0]),
       .sdram_clk (sdram_clk),
       .sdram_cke (cke),
       .sdram_csn (csn),

@@ -6,10 +6,12 @@
 //   for the pixels, the core's and the memory's. The bit clock and the pixels' are one family (tmds_shifter); all
 //   others cross by async_fifo. As the parameters stand: 640x480 at 59.5 Hz. The row ulx3s_85f of boards.yaml makes it
 //   1280x720 at 30.3 Hz.
-// Reset: until the PLL has locked, and while button PWR (BTN0, low when pressed) is pressed.
-// SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Its data
-//   are taken at the memory's falling edge: at 75 MHz they are there from 3 ns before it to 7 behind it, counting 3 ns
-//   for the clock's way out, 6 for the chip and 2 for the way in.
+// Reset: until the PLL has locked, and while button PWR (BTN0, low when pressed) is pressed. A pulse of any length
+//   resets either all clocks or none: one flip-flop of the crystal's clock decides, and its reset is longer than three
+//   clocks of each of the others.
+// SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Read data
+//   are taken at the memory's falling edge. At 75 MHz they are valid there from 2.3 ns before that edge to 7.5 ns after
+//   it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in.
 `default_nettype none
 
 module ulx3s #(
@@ -65,7 +67,8 @@ module ulx3s #(
   // ---- clocks and resets -------------------------------------------------------------------------------------------
   localparam int VcoHz = 25_000_000 * FB_DIV / REF_DIV * BIT_DIV;
   logic bit_clk, pix_clk, clk, mem_clk, locked;
-  (* FREQUENCY_PIN_CLKI = "25" *)
+  // The analogue settings are ecppll's. Where they are left out nextpnr takes 0: no current in the charge pump.
+  (* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8", MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
   EHXPLLL #(
       .CLKI_DIV       (REF_DIV),
       .CLKFB_DIV      (FB_DIV),
@@ -109,9 +112,14 @@ module ulx3s #(
       .LOCK        (locked)
   );
 
+  // 16 clocks of the slowest clock, 640 ns, which all others see. Their own 16 clocks follow: 213 ns at 75 MHz, which is
+  // five of the slowest.
   logic good, rst_n, uart_rst_n, mem_rst_n, pix_rst_n;
-  assign good = locked && btn[0];
-  // Each 16 clocks: 640 ns of the UART's, which is the slowest, and 213 of the memory's at 75 MHz, five of the UART's.
+  reset_release u_good (
+      .clk_i (clk_25mhz),
+      .good_i(locked && btn[0]),
+      .rst_no(good)
+  );
   reset_release u_core_reset (
       .clk_i (clk),
       .good_i(good),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A board's model as Verilator makes it, behind the functions of board_model.h: its crystal, the host's end of the
-// serial line bit by bit, and the wires of its DVI link, each at its own times.
+// serial line bit by bit, and the wires of its screen, each at its own times.
 #include "board_model.h"
 
 #include <algorithm>
@@ -108,8 +108,8 @@ struct kage_board {
   // The bits' times are found by the first edge of any wire.
   void screen() {
     if (video == nullptr) return;
-    if (top->dvi_o != wires) {
-      wires = top->dvi_o;
+    if (top->wires_o != wires) {
+      wires = top->wires_o;
       if (video_at == kNever) {
         video_start = now();
         video_bit = 0;
@@ -193,6 +193,14 @@ std::size_t receive(kage_board* board, std::uint8_t* bytes, std::size_t room, st
 
 void button(kage_board* board, int pressed) { board->top->button_ni = pressed == 0; }
 
+void tap(kage_board* board, std::uint64_t picoseconds) {
+  Verilated::threadContextp(&board->context);
+  const std::uint64_t end = board->now() + picoseconds;
+  button(board, 1);
+  while (board->now() < end && board->stop.empty()) board->step(end);
+  button(board, 0);
+}
+
 void video(kage_board* board, kage_board_video function, void* context) {
   board->video = function;
   board->video_context = context;
@@ -204,7 +212,7 @@ std::uint32_t leds(const kage_board* board) { return board->top->led_o; }
 const char* stopped(const kage_board* board) { return board->stop.c_str(); }
 
 constexpr kage_board_functions kFunctions{KAGE_BOARD_ABI, open,   close, now,  send,   sending,
-                                          receive,        button, video, leds, stopped};
+                                          receive,        button, tap, video, leds, stopped};
 
 }  // namespace
 

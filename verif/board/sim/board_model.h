@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KAGE_BOARD_ABI 1u
+#define KAGE_BOARD_ABI 2u
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,7 +16,8 @@ extern "C" {
 
 typedef struct kage_board kage_board;
 
-/** Takes the four wires of the DVI link, blue lowest, in the middle of each bit. */
+/** Takes the wires of the screen's socket, as wires_o of constraints/boards/sim has them, in the middle of each bit of a
+ * DVI link, or of each pixel of VGA. */
 typedef void (*kage_board_video)(void* context, unsigned wires);
 
 typedef struct {
@@ -33,6 +34,8 @@ typedef struct {
   size_t (*receive)(kage_board*, uint8_t* bytes, size_t room, uint64_t deadline);
   /** A pressed button resets the board until it is let go. */
   void (*button)(kage_board*, int pressed);
+  /** Presses it for so many picoseconds, which pass. What the board says meanwhile is there for receive(). */
+  void (*tap)(kage_board*, uint64_t picoseconds);
   void (*video)(kage_board*, kage_board_video, void* context);
   uint32_t (*leds)(const kage_board*);
   /** What stopped the simulation: a rule that a chip saw broken; empty: nothing. Then time stands still. */

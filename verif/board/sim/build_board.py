@@ -10,7 +10,8 @@ usage: build_board.py BOARD CACHE [--fault NAME]
   --fault NAME  apply verif/board/faults/NAME.patch to a copy of the sources first
   --list        print the boards that have a simulation
 
-Prints the screen's mode, as the ten numbers H_ACTIVE to V_POSITIVE, and, in the last line, the library's path.
+Prints the screen, as dvi, vga or none and the ten numbers H_ACTIVE to V_POSITIVE of its mode, and, in the last line, the
+library's path.
 
 $VERILATOR and $CXX name other tools. On failure: a line on standard error that names the step and the log; exit status 2.
 """
@@ -178,7 +179,7 @@ def main():
         finally:
             partial.unlink(missing_ok=True)
     parameters = boards[args.board]["board"] | boards[args.board]["simulation"]["board"]
-    print(*(parameters.get(name, 0) for name in MODE))
+    print(boards[args.board]["simulation"]["screen"], *(parameters.get(name, 0) for name in MODE))
     print(library)
 
 
