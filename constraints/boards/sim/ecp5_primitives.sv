@@ -138,9 +138,10 @@ endmodule
 // The flip-flop, as far as one without reset and enable needs it.
 module TRELLIS_FF #(
     parameter string GSR = "ENABLED",
-    parameter string CEMUX = "1",
+    parameter string CEMUX = "CE",
     parameter string CLKMUX = "CLK",
     parameter string LSRMUX = "LSR",
+    parameter string SRMODE = "LSR_OVER_CE",
     parameter string REGSET = "RESET"
 ) (
     input  wire  CLK,
@@ -149,6 +150,8 @@ module TRELLIS_FF #(
     input  wire  DI,
     output logic Q
 );
+  logic unused;
+  assign unused = &{1'b0, SRMODE == "ASYNC"};
   initial begin
     if (GSR != "DISABLED" || CEMUX != "1" || LSRMUX != "LSR" || LSR)
       $fatal(1, "TRELLIS_FF: it has a reset or an enable");

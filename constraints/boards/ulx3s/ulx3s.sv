@@ -206,9 +206,10 @@ module ulx3s #(
     (* syn_useioff, ioff_dir = "output" *)
     TRELLIS_FF #(
         .GSR   ("DISABLED"),
-        .CEMUX ("1"),
+        .CEMUX ("CE"),
         .CLKMUX("CLK"),
         .LSRMUX("LSR"),
+        .SRMODE("ASYNC"),
         .REGSET("SET")
     ) u_ff (
         .CLK(mem_clk),
@@ -230,9 +231,10 @@ module ulx3s #(
     (* syn_useioff, ioff_dir = "input" *)
     TRELLIS_FF #(
         .GSR   ("DISABLED"),
-        .CEMUX ("1"),
+        .CEMUX ("CE"),
         .CLKMUX("INV"),
         .LSRMUX("LSR"),
+        .SRMODE("ASYNC"),
         .REGSET("RESET")
     ) u_ff (
         .CLK(mem_clk),
