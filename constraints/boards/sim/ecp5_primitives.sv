@@ -153,7 +153,7 @@ module TRELLIS_FF #(
   logic unused;
   assign unused = &{1'b0, SRMODE == "ASYNC"};
   initial begin
-    if (GSR != "DISABLED" || CEMUX != "1" || LSRMUX != "LSR" || LSR)
+    if (GSR != "DISABLED" || CEMUX != "CE" || !CE || LSRMUX != "LSR" || LSR)
       $fatal(1, "TRELLIS_FF: it has a reset or an enable");
     Q = REGSET == "SET";
   end
