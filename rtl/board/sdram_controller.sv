@@ -19,7 +19,7 @@
 // Pins: all outputs are flip-flops (those of cke and cs are constant); dq_oe_o says when dq_o is driven. READ_DELAY:
 // clocks from the one in which a read stands on the pins to the one in which its first half stands at dq_i. It is
 // CAS_LATENCY where the chip takes commands at the end of their clock, one less where its clock is turned round, and
-// one more for each register between pad and dq_i.
+// one more for each register between outputs and pads, or between pads and dq_i.
 // Latency: a block whose row is open brings its first word READ_DELAY + 4 clocks after it was accepted; another row
 // costs T_RP + T_RCD more, and the rest of T_RAS or T_WR.
 // Throughput: a word in two clocks, written or read, while they are in one row; a block after another in another row

@@ -141,12 +141,15 @@ std::unique_ptr<SimBoard> open_sim_board(const std::string& board, const SimBoar
   int h_positive = 0, v_positive = 0;
   numbers >> socket >> mode.h_active >> mode.h_front >> mode.h_sync >> mode.h_back >> mode.v_active >> mode.v_front >>
       mode.v_sync >> mode.v_back >> h_positive >> v_positive;
-  if (!numbers || (socket != "dvi" && socket != "vga" && socket != "none")) throw Error(fmt::format("{}: build_board.py did not say which mode the screen has", board));
+  if (!numbers || (socket != "dvi" && socket != "vga" && socket != "none"))
+    throw Error(fmt::format("{}: build_board.py did not say which mode the screen has", board));
   mode.h_positive = h_positive != 0;
   mode.v_positive = v_positive != 0;
-  return std::make_unique<LoadedBoard>(
-      said.back(), socket == "dvi" ? Socket::dvi : socket == "vga" ? Socket::vga : Socket::none, mode,
-      options.other_baud.value_or(0));
+  return std::make_unique<LoadedBoard>(said.back(),
+                                       socket == "dvi"   ? Socket::dvi
+                                       : socket == "vga" ? Socket::vga
+                                                         : Socket::none,
+                                       mode, options.other_baud.value_or(0));
 }
 
 }  // namespace kage::board

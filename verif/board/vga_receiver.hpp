@@ -15,10 +15,10 @@ class VgaReceiver {
  public:
   explicit VgaReceiver(const VideoMode& expected) : mode_(expected) {}
 
-  /// One pixel's clock. `rgb` has two bits a colour, red in bits 0-1, green in 2-3, blue in 4-5; the pixel that comes back
-  /// has eight of each, 0, 85, 170 or 255. A pixel is active where the mode has its picture behind the last pulses of
-  /// hsync and vsync; before the first of vsync none is. Nothing comes back before the first pulse of hsync that begins
-  /// where a line's would, since wires may be at anything while a board is powered up or reset.
+  /// One pixel's clock. `rgb` has two bits a colour, red in bits 0-1, green in 2-3, blue in 4-5; the pixel that comes
+  /// back has eight of each, 0, 85, 170 or 255. A pixel is active where the mode has its picture behind the last pulses
+  /// of hsync and vsync; before the first of vsync none is. Nothing comes back before the first pulse of hsync that
+  /// begins where a line's would, since wires may be at anything while a board is powered up or reset.
   std::optional<VideoPixel> put(bool hsync, bool vsync, unsigned rgb);
 
   /// The first colour outside of the picture, where a monitor takes its black level; else empty.

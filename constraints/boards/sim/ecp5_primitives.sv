@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The primitives of Lattice's ECP5 that boards' tops use, as they behave, for simulation: a PLL, an output register of
-// double data rate, a pad. What of a primitive no top uses is refused or left out.
+// double data rate, a flip-flop, a pad. What of a primitive no top uses is refused or left out.
 `default_nettype none
 
 // The PLL: it measures CLKI's period, and 30 periods later all clocks run, each a part of the oscillator, CLKOP and
@@ -133,6 +133,35 @@ module ODDRX1F (
     second_q <= RST ? 1'b0 : D1;
   end
   assign Q = SCLK ? first_q : second_q;
+endmodule
+
+// The flip-flop, as far as one without reset and enable needs it.
+module TRELLIS_FF #(
+    parameter string GSR = "ENABLED",
+    parameter string CEMUX = "CE",
+    parameter string CLKMUX = "CLK",
+    parameter string LSRMUX = "LSR",
+    parameter string SRMODE = "LSR_OVER_CE",
+    parameter string REGSET = "RESET"
+) (
+    input  wire  CLK,
+    input  wire  LSR,
+    input  wire  CE,
+    input  wire  DI,
+    output logic Q
+);
+  logic unused;
+  assign unused = &{1'b0, SRMODE == "ASYNC"};
+  initial begin
+    if (GSR != "DISABLED" || CEMUX != "CE" || !CE || LSRMUX != "LSR" || LSR)
+      $fatal(1, "TRELLIS_FF: it has a reset or an enable");
+    Q = REGSET == "SET";
+  end
+  if (CLKMUX == "INV") begin : gen_falling
+    always_ff @(negedge CLK) Q <= DI;
+  end else begin : gen_rising
+    always_ff @(posedge CLK) Q <= DI;
+  end
 endmodule
 
 // A pad of both directions: T high lets go of it.

@@ -127,7 +127,7 @@ module board_sim #(
       .ba_i       (ba),
       .a_i        (a),
       .dqm_i      (dqm),
-      .dq_driven_i(u_board.dq_oe),
+      .dq_driven_i(u_board.dq_oe_q),
       .dq_i       (d),
       .dq_o       (dq),
       .dq_oe_o    (dq_oe),

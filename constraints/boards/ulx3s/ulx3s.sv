@@ -11,7 +11,8 @@
 //   clocks of each of the others.
 // SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Read data
 //   are taken at the memory's falling edge. At 75 MHz they are valid there from 2.3 ns before that edge to 7.5 ns after
-//   it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in.
+//   it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in. All pins but clock,
+//   data enable and constants have their flip-flop in the pad, so no placement changes their delays.
 `default_nettype none
 
 module ulx3s #(
@@ -144,8 +145,9 @@ module ulx3s #(
   // ---- the board's core --------------------------------------------------------------------------------------------
   logic active, hsync, vsync;
   logic [23:0] rgb;
-  logic [15:0] dq_out, dq_in, dq_in_q;
-  logic dq_oe;
+  logic [35:0] mem_out, mem_out_q;
+  logic [15:0] dq_in, dq_in_q;
+  logic dq_oe, dq_oe_q;
   board_core #(
       `include "generated/kage_impl_param_map.svh"
       `include "generated/kage_pixel_param_map.svh",
@@ -155,7 +157,7 @@ module ulx3s #(
       .MEMORY     (1),
       .SDRAM_HZ   (VcoHz / MEM_DIV),
       .CAS_LATENCY(2),
-      .READ_DELAY (2),
+      .READ_DELAY (3),                // the clock is turned round; a register out and one in
       .T_INIT     (T_INIT),
       .LINES      (LINES),
       .H_ACTIVE   (H_ACTIVE),
@@ -180,13 +182,13 @@ module ulx3s #(
       .mem_rst_ni   (mem_rst_n),
       .sdram_cke_o  (sdram_cke),
       .sdram_cs_no  (sdram_csn),
-      .sdram_ras_no (sdram_rasn),
-      .sdram_cas_no (sdram_casn),
-      .sdram_we_no  (sdram_wen),
-      .sdram_ba_o   (sdram_ba),
-      .sdram_a_o    (sdram_a),
-      .sdram_dqm_o  (sdram_dqm),
-      .sdram_dq_o   (dq_out),
+      .sdram_ras_no (mem_out[0]),
+      .sdram_cas_no (mem_out[1]),
+      .sdram_we_no  (mem_out[2]),
+      .sdram_ba_o   (mem_out[4:3]),
+      .sdram_a_o    (mem_out[17:5]),
+      .sdram_dqm_o  (mem_out[19:18]),
+      .sdram_dq_o   (mem_out[35:20]),
       .sdram_dq_oe_o(dq_oe),
       .sdram_dq_i   (dq_in_q),
       .pix_clk_i    (pix_clk),
@@ -199,15 +201,49 @@ module ulx3s #(
   );
 
   // ---- pads --------------------------------------------------------------------------------------------------------
+  for (genvar i = 0; i < 36; i++) begin : gen_out
+    // The three bits of the command are high, which is none, from configuration to the reset's end.
+    (* syn_useioff, ioff_dir = "output" *)
+    TRELLIS_FF #(
+        .GSR   ("DISABLED"),
+        .CEMUX ("CE"),
+        .CLKMUX("CLK"),
+        .LSRMUX("LSR"),
+        .SRMODE("ASYNC"),
+        .REGSET("SET")
+    ) u_ff (
+        .CLK(mem_clk),
+        .LSR(1'b0),
+        .CE (1'b1),
+        .DI (mem_out[i] || (i < 3 && !mem_rst_n)),
+        .Q  (mem_out_q[i])
+    );
+  end
+  assign {sdram_dqm, sdram_a, sdram_ba, sdram_wen, sdram_casn, sdram_rasn} = mem_out_q[19:0];
+  always_ff @(posedge mem_clk) dq_oe_q <= dq_oe;
   for (genvar i = 0; i < 16; i++) begin : gen_dq
     BB u_pad (
-        .I(dq_out[i]),
-        .T(!dq_oe),
+        .I(mem_out_q[20+i]),
+        .T(!dq_oe_q),
         .O(dq_in[i]),
         .B(sdram_d[i])
     );
+    (* syn_useioff, ioff_dir = "input" *)
+    TRELLIS_FF #(
+        .GSR   ("DISABLED"),
+        .CEMUX ("CE"),
+        .CLKMUX("INV"),
+        .LSRMUX("LSR"),
+        .SRMODE("ASYNC"),
+        .REGSET("RESET")
+    ) u_ff (
+        .CLK(mem_clk),
+        .LSR(1'b0),
+        .CE (1'b1),
+        .DI (dq_in[i]),
+        .Q  (dq_in_q[i])
+    );
   end
-  always_ff @(negedge mem_clk) dq_in_q <= dq_in;
   ODDRX1F u_sdram_clk (
       .D0  (1'b0),
       .D1  (1'b1),

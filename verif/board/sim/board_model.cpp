@@ -211,8 +211,8 @@ std::uint32_t leds(const kage_board* board) { return board->top->led_o; }
 
 const char* stopped(const kage_board* board) { return board->stop.c_str(); }
 
-constexpr kage_board_functions kFunctions{KAGE_BOARD_ABI, open,   close, now,  send,   sending,
-                                          receive,        button, tap, video, leds, stopped};
+constexpr kage_board_functions kFunctions{KAGE_BOARD_ABI, open,   close, now,   send, sending,
+                                          receive,        button, tap,   video, leds, stopped};
 
 }  // namespace
 

@@ -16,8 +16,8 @@ extern "C" {
 
 typedef struct kage_board kage_board;
 
-/** Takes the wires of the screen's socket, as wires_o of constraints/boards/sim has them, in the middle of each bit of a
- * DVI link, or of each pixel of VGA. */
+/** Takes the wires of the screen's socket, as wires_o of constraints/boards/sim has them, in the middle of each bit of
+ * a DVI link, or of each pixel of VGA. */
 typedef void (*kage_board_video)(void* context, unsigned wires);
 
 typedef struct {

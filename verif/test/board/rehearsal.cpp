@@ -138,8 +138,7 @@ std::string wrong_on_screen(const Rig& rig, const ShownFrame& shown) {
       for (int x = 0; x < shown.width && wrong.empty(); ++x) {
         const bool inside = x < frame.status.width && y < frame.status.height;
         for (int c = 0; c < 3; ++c) {
-          const auto at =
-              static_cast<std::size_t>((y * frame.status.width + x) * channels + std::min(c, channels - 1));
+          const auto at = static_cast<std::size_t>((y * frame.status.width + x) * channels + std::min(c, channels - 1));
           const unsigned want = as_shown(inside ? pixels[at] : kBorder >> (8 * c) & 255);
           const unsigned got = shown.at(x, y) >> (8 * c) & 255;
           if (want != got && wrong.empty())
@@ -238,7 +237,9 @@ TEST_CASE("first light of the HX8K board with VGA, which keeps no pixels of a li
   CHECK(rehearse({}, 0, hx8k(true)) == "same");
 }
 
-TEST_CASE("a line that damages a byte in 1500 only costs time", "[.][rehearse]") { CHECK(rehearse({}, 1500) == "same"); }
+TEST_CASE("a line that damages a byte in 1500 only costs time", "[.][rehearse]") {
+  CHECK(rehearse({}, 1500) == "same");
+}
 
 TEST_CASE("a host at another rate than the board's gets no answer") {
   const auto board = open_sim_board(kBoard, {.fault = {}, .other_baud = 115'200});
@@ -301,7 +302,8 @@ TEST_CASE("every fault of a board is found, and told where", "[.][rehearse][faul
 }
 
 TEST_CASE("a reset that a tap of the button brings to some clocks only is found", "[.][rehearse][faults]") {
-  CHECK_THAT(tap({.fault = "reset_in_parts", .other_baud = {}}), Catch::Contains("not all clocks were in reset at once"));
+  CHECK_THAT(tap({.fault = "reset_in_parts", .other_baud = {}}),
+             Catch::Contains("not all clocks were in reset at once"));
 }
 
 TEST_CASE("a frame of credit too many is found", "[.][rehearse][faults]") {

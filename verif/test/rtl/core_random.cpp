@@ -229,7 +229,7 @@ struct Trial {
 int main(int argc, char** argv) {
   const char* fixed = std::getenv("KAGE_SEED");
   const char* length = std::getenv("KAGE_ROUNDS");
-  const int rounds = length != nullptr ? std::atoi(length) : 60;
+  const int rounds = length != nullptr ? std::atoi(length) : 20;
   std::random_device device;
   for (int i = 1; i < argc; ++i) {
     const rtl::CoreModel model = rtl::load_core("core_random", argv[i]);

@@ -598,7 +598,7 @@ TEST_CASE("the counters are modulo 65536", "[video_out]") {
   const auto top = std::make_unique<Vvideo_out_least>(&context);
   constexpr int kScreens = 65536 + 40;
   constexpr int kClocks = 25;  // of a screen, 5 x 5
-  const auto clock = [&] {  // both clocks are one
+  const auto clock = [&] {     // both clocks are one
     top->clk_i = top->pix_clk_i = 1;
     top->eval();
     top->clk_i = top->pix_clk_i = 0;
@@ -617,8 +617,7 @@ TEST_CASE("the counters are modulo 65536", "[video_out]") {
     std::array<int, 4> before{};
     std::array<int, 4> sums{};
     const auto now = [&] {
-      return std::array<int, 4>{top->frames_shown_o, top->late_frames_o, top->underrun_frames_o,
-                                top->underrun_lines_o};
+      return std::array<int, 4>{top->frames_shown_o, top->late_frames_o, top->underrun_frames_o, top->underrun_lines_o};
     };
     before = now();
     for (int screen = 0; screen < kScreens; ++screen) {

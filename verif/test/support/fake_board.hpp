@@ -49,7 +49,7 @@ class FakeBoard : public board::Transport {
   std::optional<std::uint64_t> resets_at;                ///< frame of the link since power-up
   std::optional<std::uint32_t> other_hash;               ///< PARAM_HASH
   std::function<std::uint32_t(std::uint32_t address, std::uint32_t value)> core_says;  ///< of the core's registers
-  std::uint32_t underruns = 0;  ///< lines that run short in each frame that is shown
+  std::uint32_t underruns = 0;       ///< lines that run short in each frame that is shown
   std::uint32_t counted_before = 0;  ///< what the counters of screen and link stand at when it is powered up
 
   // ---- what a test looks at ----
