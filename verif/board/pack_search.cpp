@@ -184,8 +184,8 @@ void PackPlay::blame_memory(const PackRun& run) {
                   player_.port(), verdict_.board.name, where));
 }
 
-/// Throws where the player waits for words of the memory and the core for its input: the memory has stopped, and no core
-/// hangs. `frame` is the one behind those that were given whole, and `crc_before` PLAY_CRC behind these.
+/// Throws where the player waits for words of the memory and the core for its input: the memory has stopped, and no
+/// core hangs. `frame` is the one behind those that were given whole, and `crc_before` PLAY_CRC behind these.
 void PackPlay::blame_silent_memory(const PackRun& run, const PlayState& state, std::uint64_t frame,
                                    std::uint32_t crc_before) {
   if (!state.playing) return;
@@ -195,15 +195,14 @@ void PackPlay::blame_silent_memory(const PackRun& run, const PlayState& state, s
   // Which word of that frame was the last.
   std::uint64_t given = 0;
   if (state.play_crc != crc_before) {
-    const std::vector<std::uint32_t> words =
-        frame < run.end() ? answers_.words(frame) : std::vector<std::uint32_t>{};
+    const std::vector<std::uint32_t> words = frame < run.end() ? answers_.words(frame) : std::vector<std::uint32_t>{};
     std::uint32_t crc = crc_before;
     while (given < words.size() && crc != state.play_crc) crc = crc_of(std::span(words).subspan(given++, 1), crc);
     if (crc != state.play_crc) blame_memory(run);
   }
-  const std::string where = given != 0             ? fmt::format("word {} of frame {}", given, frame)
+  const std::string where = given != 0           ? fmt::format("word {} of frame {}", given, frame)
                             : frame == run.first ? "the start of the list"
-                                                   : fmt::format("frame {}", frame - 1);
+                                                 : fmt::format("frame {}", frame - 1);
   throw Error(
       fmt::format("{}: board {}: the memory gives no more words behind {}, and the core waits for them: look at the "
                   "memory's clock, supply and pins; the core is not to blame",

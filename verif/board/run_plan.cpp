@@ -106,7 +106,8 @@ std::string why_unfit(const vectors::Pack& pack, const Identity& board, const st
   if (board.param_hash != hash) {
     if (port.starts_with(kSimulated))
       return fmt::format(
-          "{}: board {} has a core of PARAM_HASH {:08x}, and the pack is for {:08x} ({}): make the pack for the core of "
+          "{}: board {} has a core of PARAM_HASH {:08x}, and the pack is for {:08x} ({}): make the pack for the core "
+          "of "
           "the simulation: kage vectors ... --config FILE, where FILE has the line {}",
           port, board.name, board.param_hash, hash, pack.config_name, sim_core(port.substr(kSimulated.size())));
     const std::string other = config_with(board.param_hash);

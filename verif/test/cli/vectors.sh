@@ -122,6 +122,9 @@ json pack.json 'j["clocks"] is None'
 
 # ---- the hardest lines that fit ----
 for bytes in 4000 20000; do
+  expect 0 "$kage" vectors courtyard --size 64x48 --frames 2 --config default --budget $bytes --out b
+  told=$(sed -n "s/^b: .* frames, \([0-9]*\) of $bytes bytes for a board, files of .*/\1/p" stdout)
+  [ "$told" = "$(($(stat -c %s b/stimulus.bin) + 4 * $(wc -l <b/signatures.hex)))" ] || fail "--budget $bytes: says $told bytes for a board: $(cat stdout)"
   make b courtyard --size 64x48 --frames 2 --config default --budget $bytes
   python3 - $bytes <<'PY' || fail "--budget $bytes: too many bytes, or lines that are not the frame's"
 import json, os, sys
@@ -163,6 +166,8 @@ json unknown.json 'j["wrong"]==1 and j["first_difference"]["actual"] is None and
 expect 0 "$kage" vectors --compare p at.hex
 trouble "nowhere.hex: no file" "$kage" vectors --compare p nowhere.hex
 trouble "p: no file" "$kage" vectors --compare p p
+cp p/pixels.hex capture
+trouble "capture: a capture ends with .hex, .bin, .raw, or as a picture does: a name without a dot is none" "$kage" vectors --compare p capture
 : >empty.raw
 trouble "empty.raw: is empty: no capture" "$kage" vectors --compare p empty.raw
 trouble "p/kage_pack.vh: a capture ends with .hex, .bin, .raw, or as a picture does" "$kage" vectors --compare p p/kage_pack.vh

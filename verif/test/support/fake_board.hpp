@@ -43,11 +43,11 @@ class FakeBoard : public board::Transport {
   std::function<void(std::uint64_t line, std::span<std::uint8_t>)> spoil;  ///< the pixels of a line since power-up
   std::function<std::uint32_t(std::uint32_t address, std::uint32_t word)> memory_gives;  ///< what is read of the memory
   std::function<std::uint32_t(std::uint64_t number, std::uint32_t word)> arrives;  ///< at the memory, since power-up
-  std::function<bool(std::uint8_t&)> to_board, to_host;  ///< a byte of the line; false: it is lost
-  std::optional<std::uint64_t> hangs_in;                 ///< frame since the core's reset
+  std::function<bool(std::uint8_t&)> to_board, to_host;    ///< a byte of the line; false: it is lost
+  std::optional<std::uint64_t> hangs_in;                   ///< frame since the core's reset
   std::function<bool(std::uint32_t address)> memory_ends;  ///< true: from that read on the memory gives no word
-  std::optional<std::uint64_t> resets_at;                ///< frame of the link since power-up
-  std::optional<std::uint32_t> other_hash;               ///< PARAM_HASH
+  std::optional<std::uint64_t> resets_at;                  ///< frame of the link since power-up
+  std::optional<std::uint32_t> other_hash;                 ///< PARAM_HASH
   std::function<std::uint32_t(std::uint32_t address, std::uint32_t value)> core_says;  ///< of the core's registers
   std::uint32_t underruns = 0;       ///< lines that run short in each frame that is shown
   std::uint32_t counted_before = 0;  ///< what the counters of screen and link stand at when it is powered up

@@ -378,7 +378,7 @@ TEST_CASE("words that reach the memory damaged are sent once more") {
   CHECK(play(board).same());
   FakeBoard worse(config());
   worse.arrives = [](std::uint64_t, std::uint32_t word) { return word ^ 4U; };
-  CHECK(has(trouble(worse), "words reached the board's memory damaged, twice"));
+  CHECK(has(trouble(worse), "words reached the board damaged, twice"));
 }
 
 TEST_CASE("bytes that the line loses or damages change nothing but the time") {
@@ -419,8 +419,9 @@ TEST_CASE("a core of another configuration is refused, with what to do") {
             "{X_BITS: 8, Z_BITS: 16, Z_FRAC: 8, CHANNELS: 1, DSF_BITS: 0, FSF: 0, LANES: 1, MAX_WIDTH: 160, "
             "BEAT_WORDS: 1}"));
   for (const std::string& name : sim_boards()) CHECK_NOTHROW(config_from_text(sim_core(name), name));
-  CHECK_THROWS_WITH(sim_core("nothing"), "sim:nothing: no board with a simulation; there are ulx3s_25f, ulx3s_85f, "
-                                         "hx8k_breakout, hx8k_breakout_vga");
+  CHECK_THROWS_WITH(sim_core("nothing"),
+                    "sim:nothing: no board with a simulation; there are ulx3s_25f, ulx3s_85f, "
+                    "hx8k_breakout, hx8k_breakout_vga");
 }
 
 TEST_CASE("a core that is too narrow, or of other beats, is refused") {
@@ -487,8 +488,7 @@ TEST_CASE("a core that hangs is told from one that is slow") {
   CHECK(v.first->frame == 1);
   CHECK(v.first->line == 1);
   CHECK(v.first->field == "missing");
-  CHECK(has(v.first->remark,
-            "the core hangs: nothing more comes in 0.1 s: STATUS 0x1 (a frame is open)"));
+  CHECK(has(v.first->remark, "the core hangs: nothing more comes in 0.1 s: STATUS 0x1 (a frame is open)"));
   CHECK(v.frames == 2);
 }
 
