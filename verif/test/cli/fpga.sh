@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # tools/fpga BOARD, as far as nothing is placed: what is asked for and makes no sense, what a board can be fed with, and when a
-# clock is met. tools/test-fpga board places one.
+# clock or a path between two is met. tools/test-fpga board places one.
 . "$(dirname "$0")/common.bash"
 command -v yosys >/dev/null || { echo "yosys is missing (tools/deps test)"; exit 77; }
 fpga() { "$source/tools/fpga" "$@" --tools system; }
@@ -19,7 +19,7 @@ refused() {
 said() { grep -qF -- "$1" stdout || { fail "not said: $1"; sed 's/^/    /' stdout; }; }
 
 expect 0 "$source/tools/fpga" --help
-for word in "tools/fpga BOARD" "--pack PACK" "a clock of a board is not met"; do said "$word"; done
+for word in "tools/fpga BOARD" "--pack PACK" "a clock of a board is not met, or a path between two"; do said "$word"; done
 
 refused "nobody: no such device or board; there are ecp5-25f" nobody
 refused "hx8k_breakout" nobody
@@ -71,9 +71,10 @@ limit words 2046
 expect 0 fpga hx8k_breakout --pack other
 said "holds 1 of"
 
-# ---- when a clock is met, and which seed is the best ----
+# ---- when a clock or a path between two clocks is met, and which seed is the best ----
 PYTHONPATH=$source/tools/fpga_flow python3 - <<'PY' || fail "clocks"
-import board, board_run
+import contextlib, io
+import between, board, board_run, timing
 from trouble import Trouble
 
 needs = {"clk": 50.0, "clk_12mhz": 12.0, "pix_clk": 25.125}
@@ -98,6 +99,45 @@ assert board_run.best_seed(rows) == 2, "the least margin is 1.02 with the second
 assert board_run.best_seed(board_run.clock_rows([run(80, 25.0), run(51, 30)], needs)) == 1, "the first does not meet pix_clk"
 assert "pix_clk: runs at 25.125 MHz, and nextpnr holds it against 12.000" in refused([run(80, 30, 12.0)], needs)
 assert "clk" in refused([run(80, 30)], {k: v for k, v in needs.items() if k != "clk"})
+
+# What nextpnr's rates leave out: the longest path of each pair of clocks, within a period of the faster one.
+NET = {"clk": "clk", "clk_12mhz": "clk_12mhz$SB_IO_IN_$glb_clk", "pix_clk": "$glbnet$pix_clk", "pads": None, "other": "other"}
+
+
+def path(source, sink, ns, edges=("posedge", "posedge")):
+    names = [f"{e} {NET[c]}" if NET[c] else "<async>" for e, c in zip(edges, (source, sink))]
+    step = lambda kind, delay, a, b: {"type": kind, "delay": delay, "from": {"cell": a}, "to": {"cell": b}}  # noqa: E731
+    steps = [step("clk-to-q", 0.5, "a_SB_DFF_Q", "a_SB_DFF_Q"), step("routing", ns - 0.5, "a_SB_DFF_Q", "b_SB_DFF_Q")]
+    return {"from": names[0], "to": names[1], "path": steps}
+
+
+def report(fifo, more=()):
+    own = [path("clk", "clk", 19), path("pads", "clk", 300), path("pix_clk", "pads", 300)]
+    return {"critical_paths": [*own, path("clk", "clk_12mhz", 2), path("clk_12mhz", "clk", fifo), *more]}
+
+
+rows = board_run.clock_rows([run(80, 30), run(60, 30)], needs)
+crossings = between.rows_of([report(21), report(20)], rows)
+assert [(c["from"], c["to"], c["allowed_ns"]) for c in crossings] == [("clk", "clk_12mhz", 20), ("clk_12mhz", "clk", 20)]
+assert crossings[1]["ns"] == [21, 20] and board_run.best_seed(rows) == 0 and board_run.best_seed(rows, crossings) == 1
+assert board_run.judge(rows, crossings, 1) and not board_run.judge(rows, crossings, 0)
+assert [c["met"] for c in crossings] == [True, False] and all(r["met"] for r in rows), "the clocks alone are met"
+places = timing.Places({"top": {"cells": {}}}, "top", {"cells": {}})
+crossings[1]["worst_path"] = between.worst_path(report(21), places, crossings[1], rows)
+assert crossings[1]["worst_path"]["route_ns"] == 20.5, crossings[1]
+told = io.StringIO()
+with contextlib.redirect_stdout(told):
+    between.tell(crossings, 0)
+assert "clk_12mhz to clk  21.00 ns of 20 allowed: NOT MET; median of 2 seeds 20.50, worst 21.00, best 20.00\n" in told.getvalue()
+assert "longest path from clk_12mhz to clk 21.00 ns, logic 0.50, route 20.50: top a\n" in told.getvalue(), told.getvalue()
+half = between.rows_of([report(1, [path("pix_clk", "clk", 11, ("posedge", "negedge"))])], rows[:3])
+assert [(c["allowed_ns"], c["ns"]) for c in half if c["from"] == "pix_clk"] == [(10, [11])], "half a clock between two edges"
+for bad, text in (({"critical_paths": []}, "has no path between two clocks"), (report(1, [path("clk", "other", 1)]), "path of other")):
+    try:
+        between.rows_of([bad], rows)
+        raise SystemExit(f"taken: {text}")
+    except Trouble as trouble:
+        assert text in str(trouble), trouble
 
 number = lambda n: f"{n:032b}"  # noqa: E731
 top = {
