@@ -8,66 +8,77 @@ Why that is enough, with T the faster clock's period:
       earliest, by a register that takes it one clock later at the earliest; T is within one clock.
   synchronizer of one bit: needs no bound. T keeps its latency to what it says.
   tmds_shifter: each edge of pix_clk_i is one of bit_clk_i, so a path has 1, 2, 3 .. T. `phase_q` to `seen_q` needs less than T, or
-      the words are taken at one time in one clock and at another in the next. A word is taken two T after it changed, and T is
-      asked of it too, because nextpnr tells one path of each pair of clocks, the longest.
+      the words are taken at one time in one pixel and at another in the next. A word is taken two T after it changed, and T is
+      asked of it too, because both are of the same pair of clocks.
 From a rising edge to a falling one, or from a falling one to a rising one, half of that is allowed.
 
-What is not in these figures: nextpnr takes every clock to reach all its flip-flops at once, so the times at which two clock nets
-reach theirs are not compared."""
+The time of a path is the latest arrival at a flip-flop that nextpnr's report has, and the setup time of the pair's critical path.
+nextpnr counts an arrival from where the first clock's net begins, so the wire of that clock to its flip-flop is in it, which
+differs from bit to bit. Its `critical_paths` leave that wire out of a path between two clocks, and are not always of the path that
+is longest without it. What is not in the time: the wire of the second clock to its flip-flop, and where the two nets begin."""
+
+import dataclasses
 
 import flow
-import timing
 from trouble import Trouble
 
 PADS = "<async>"  # in place of a clock: a pin, or what a PLL or a pin brings
 
 
-def ends(path, clock_of):
-    """((edge, clock), (edge, clock)) of a path between two clocks; None where it is of one, or of none."""
-    if PADS in (path["from"], path["to"]):
+@dataclasses.dataclass(frozen=True)
+class Latest:
+    ns: float
+    cell: str  # of the netlist, that it arrives at
+
+
+def pair(start, end, clock_of):
+    """(edge, clock, edge, clock) of two events of the report as "posedge net"; None where they are of one clock, or of none."""
+    if PADS in (start, end):
         return None
-    (edge, net), (to_edge, to_net) = path["from"].split(" ", 1), path["to"].split(" ", 1)
+    (edge, net), (to_edge, to_net) = start.split(" ", 1), end.split(" ", 1)
     unknown = {net, to_net} - set(clock_of)
     if unknown:
         raise Trouble(f"nextpnr's report has a path of {unknown.pop()}, which is no clock of the board")
-    return None if net == to_net else ((edge, clock_of[net]), (to_edge, clock_of[to_net]))
+    return None if net == to_net else (edge, clock_of[net], to_edge, clock_of[to_net])
 
 
-def longest(report, clock_of, needs):
-    """{(from, to, ns allowed): path} of a report."""
+def latest_of(report, clock_of):
+    """{pair: Latest} of a report."""
+    setup = {
+        pair(p["from"], p["to"], clock_of): sum(s["delay"] for s in p["path"] if s["type"] == "setup")
+        for p in report["critical_paths"]
+    }
     found = {}
-    for path in report["critical_paths"]:
-        if not (pair := ends(path, clock_of)):
-            continue
-        (edge, source), (to_edge, sink) = pair
-        allowed = 1000 / max(needs[source], needs[sink]) / (1 if edge == to_edge else 2)
-        key = source, sink, allowed
-        if key not in found or timing.delay(path) > timing.delay(found[key]):
-            found[key] = path
-    return found
+    for net in report["detailed_net_timings"]:
+        for end in net["endpoints"]:
+            key = pair(net["event"], end["event"], clock_of)
+            ns = max(end["delay"])
+            if key and (key not in found or ns > found[key].ns):
+                found[key] = Latest(ns, end["cell"])
+    if found.keys() != setup.keys() - {None}:
+        raise Trouble("nextpnr's report has critical paths between other clocks than it has arrivals between")
+    return {key: Latest(at.ns + setup[key], at.cell) for key, at in found.items()}
 
 
 def rows_of(reports, clocks):
-    """A row for each way from a clock to another. `clocks`: the rows of the clocks, which have their names of nextpnr's nets."""
+    """A row for each way from a clock to another. `clocks`: the rows of the clocks, which have the names of nextpnr's nets."""
     clock_of = {c["net"]: c["clock"] for c in clocks}
     needs = {c["clock"]: c["need_mhz"] for c in clocks}
-    found = [longest(r, clock_of, needs) for r in reports]
+    found = [latest_of(r, clock_of) for r in reports]
     if len(clocks) > 1 and not found[0]:
         raise Trouble("nextpnr's report has no path between two clocks, and the board has several: its form is another")
     if any(f.keys() != found[0].keys() for f in found):
         raise Trouble("nextpnr's reports of two seeds have paths between other clocks")
     return [
-        {"from": key[0], "to": key[1], "allowed_ns": key[2], "ns": [timing.delay(f[key]) for f in found]}
-        for key in sorted(found[0])
+        {
+            "from": source,
+            "to": sink,
+            "allowed_ns": 1000 / max(needs[source], needs[sink]) / (1 if edge == to_edge else 2),
+            "ns": [f[edge, source, to_edge, sink].ns for f in found],
+            "cells": [f[edge, source, to_edge, sink].cell for f in found],
+        }
+        for edge, source, to_edge, sink in sorted(found[0], key=lambda k: (k[1], k[3], k))
     ]
-
-
-def worst_path(report, places, row, clocks):
-    """The longest path of a row, in the RTL's words."""
-    clock_of = {c["net"]: c["clock"] for c in clocks}
-    needs = {c["clock"]: c["need_mhz"] for c in clocks}
-    path = longest(report, clock_of, needs)[row["from"], row["to"], row["allowed_ns"]]
-    return timing.in_words(path["path"], places)
 
 
 def tell(rows, seed):
@@ -76,12 +87,9 @@ def tell(rows, seed):
     for r in rows:
         text = (
             f"{r['from'] + ' to ' + r['to']:<{wide}} {r['ns'][seed]:6.2f} ns of {r['allowed_ns']:.4g} allowed: "
-            f"{'met' if r['met'] else 'NOT MET'}"
+            f"{'met' if r['met'] else 'NOT MET, at ' + r['ends_at']}"
         )
         if len(r["ns"]) > 1:
             s = flow.spread(r["ns"])
             text += f"; median of {len(r['ns'])} seeds {s['median']:.2f}, worst {s['best']:.2f}, best {s['worst']:.2f}"
         print(text)
-    for r in rows:
-        if "worst_path" in r:
-            timing.tell(r["worst_path"], f"longest path from {r['from']} to {r['to']}")

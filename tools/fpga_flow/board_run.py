@@ -75,8 +75,7 @@ def figures_of(b, options, tools, folder, progress):
         if not r["met"] or r["clock"] == "clk":
             r["worst_path"] = timing.worst_path(reports[best], places, r["net"])
     for r in crossings:
-        if not r["met"]:
-            r["worst_path"] = between.worst_path(reports[best], places, r, rows)
+        r["ends_at"] = places.register(r.pop("cells")[best])
     return {
         "schema": "kage.fpga-board/1",  # docs/schema/fpga-board.json
         "board": b.name,

@@ -66,16 +66,10 @@ def worst_path(report, places, clock=None):
         edges = [p["from"].split(" "), p["to"].split(" ")]
         return all(e[1:] == [clock] if clock else e[0] == "posedge" for e in edges)
 
-    return in_words(max((p for p in report["critical_paths"] if counts(p)), key=delay)["path"], places)
-
-
-def delay(path):
-    """Nanoseconds of a path of the report, from the clock's edge to the flip-flop that it ends at, with that one's setup time."""
-    return sum(s["delay"] for s in path["path"])
-
-
-def in_words(path, places):
-    """What worst_path() gives, of a path's steps."""
+    path = max(
+        (p for p in report["critical_paths"] if counts(p)),
+        key=lambda p: sum(s["delay"] for s in p["path"]),
+    )["path"]
     logic = sum(s["delay"] for s in path if s["type"] != "routing")
     route = sum(s["delay"] for s in path if s["type"] == "routing")
     hops = [s["to"]["cell"] for s in path if s["type"] == "logic"]

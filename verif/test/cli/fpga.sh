@@ -104,16 +104,22 @@ assert "clk" in refused([run(80, 30)], {k: v for k, v in needs.items() if k != "
 NET = {"clk": "clk", "clk_12mhz": "clk_12mhz$SB_IO_IN_$glb_clk", "pix_clk": "$glbnet$pix_clk", "pads": None, "other": "other"}
 
 
-def path(source, sink, ns, edges=("posedge", "posedge")):
-    names = [f"{e} {NET[c]}" if NET[c] else "<async>" for e, c in zip(edges, (source, sink))]
-    step = lambda kind, delay, a, b: {"type": kind, "delay": delay, "from": {"cell": a}, "to": {"cell": b}}  # noqa: E731
-    steps = [step("clk-to-q", 0.5, "a_SB_DFF_Q", "a_SB_DFF_Q"), step("routing", ns - 0.5, "a_SB_DFF_Q", "b_SB_DFF_Q")]
-    return {"from": names[0], "to": names[1], "path": steps}
+def ends(source, sink, edges=("posedge", "posedge")):
+    return [f"{e} {NET[c]}" if NET[c] else "<async>" for e, c in zip(edges, (source, sink))]
 
 
 def report(fifo, more=()):
-    own = [path("clk", "clk", 19), path("pads", "clk", 300), path("pix_clk", "pads", 300)]
-    return {"critical_paths": [*own, path("clk", "clk_12mhz", 2), path("clk_12mhz", "clk", fifo), *more]}
+    """Of (from, to, latest arrival, edges); each has an earlier one too, and 0.5 ns of setup time."""
+    found = [("clk", "clk", 19), ("pads", "clk", 300), ("pix_clk", "pads", 300), ("clk", "clk_12mhz", 2), ("clk_12mhz", "clk", fifo)]
+    nets, paths = [], []
+    for source, sink, ns, *edges in [*found, *more]:
+        start, end = ends(source, sink, *edges)
+        for late in (ns - 0.5, 1):
+            at = {"event": end, "cell": f"b{late}_SB_DFF_Q", "port": "D", "delay": [late / 2, late]}
+            nets.append({"event": start, "net": "a", "endpoints": [at]})
+        steps = [{"type": "routing", "delay": 0.2}, {"type": "setup", "delay": 0.5}]
+        paths.append({"from": start, "to": end, "path": steps})
+    return {"critical_paths": paths, "detailed_net_timings": nets}
 
 
 rows = board_run.clock_rows([run(80, 30), run(60, 30)], needs)
@@ -123,16 +129,20 @@ assert crossings[1]["ns"] == [21, 20] and board_run.best_seed(rows) == 0 and boa
 assert board_run.judge(rows, crossings, 1) and not board_run.judge(rows, crossings, 0)
 assert [c["met"] for c in crossings] == [True, False] and all(r["met"] for r in rows), "the clocks alone are met"
 places = timing.Places({"top": {"cells": {}}}, "top", {"cells": {}})
-crossings[1]["worst_path"] = between.worst_path(report(21), places, crossings[1], rows)
-assert crossings[1]["worst_path"]["route_ns"] == 20.5, crossings[1]
+for c in crossings:
+    c["ends_at"] = places.register(c["cells"][0])
 told = io.StringIO()
 with contextlib.redirect_stdout(told):
     between.tell(crossings, 0)
-assert "clk_12mhz to clk  21.00 ns of 20 allowed: NOT MET; median of 2 seeds 20.50, worst 21.00, best 20.00\n" in told.getvalue()
-assert "longest path from clk_12mhz to clk 21.00 ns, logic 0.50, route 20.50: top a\n" in told.getvalue(), told.getvalue()
-half = between.rows_of([report(1, [path("pix_clk", "clk", 11, ("posedge", "negedge"))])], rows[:3])
+line = "clk_12mhz to clk  21.00 ns of 20 allowed: NOT MET, at top b20.5; median of 2 seeds 20.50, worst 21.00, best 20.00\n"
+assert line in told.getvalue(), told.getvalue()
+half = between.rows_of([report(1.5, [("pix_clk", "clk", 11, ("posedge", "negedge"))])], rows)
 assert [(c["allowed_ns"], c["ns"]) for c in half if c["from"] == "pix_clk"] == [(10, [11])], "half a clock between two edges"
-for bad, text in (({"critical_paths": []}, "has no path between two clocks"), (report(1, [path("clk", "other", 1)]), "path of other")):
+none = {"critical_paths": [], "detailed_net_timings": []}
+lost = report(2, [("pix_clk", "clk", 2)])
+lost["detailed_net_timings"] = lost["detailed_net_timings"][:-2]
+bad_reports = (none, "has no path between two clocks"), (report(2, [("clk", "other", 2)]), "path of other"), (lost, "than it has arrivals")
+for bad, text in bad_reports:
     try:
         between.rows_of([bad], rows)
         raise SystemExit(f"taken: {text}")
