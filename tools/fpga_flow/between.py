@@ -12,10 +12,14 @@ Why that is enough, with T the faster clock's period:
       asked of it too, because both are of the same pair of clocks.
 From a rising edge to a falling one, or from a falling one to a rising one, half of that is allowed.
 
-The time of a path is the latest arrival at a flip-flop that nextpnr's report has, and the setup time of the pair's critical path.
-nextpnr counts an arrival from where the first clock's net begins, so the wire of that clock to its flip-flop is in it, which
-differs from bit to bit. Its `critical_paths` leave that wire out of a path between two clocks, and are not always of the path that
-is longest without it. What is not in the time: the wire of the second clock to its flip-flop, and where the two nets begin."""
+The time of a pair of clocks is the greater of two that nextpnr's report has:
+  `critical_paths` has a path of each pair, with its setup time. nextpnr chooses it by arrivals, which hold the first clock's wire to
+      its flip-flop, and tells it without that wire, which differs from bit to bit of a pointer.
+  `detailed_net_timings` has the arrivals, counted from where the first clock's net begins. It names one first clock a net, so of a
+      net that two clocks launch nothing can be told; those are words, while a bit of a pointer comes from one flip-flop alone.
+Not in the time are the second clock's wire to its flip-flop, and what lies before both clocks' nets."""
+
+import collections
 
 import dataclasses
 
@@ -28,7 +32,7 @@ PADS = "<async>"  # in place of a clock: a pin, or what a PLL or a pin brings
 @dataclasses.dataclass(frozen=True)
 class Latest:
     ns: float
-    cell: str  # of the netlist, that it arrives at
+    cell: str  # of the netlist, that it ends at
 
 
 def pair(start, end, clock_of):
@@ -44,20 +48,23 @@ def pair(start, end, clock_of):
 
 def latest_of(report, clock_of):
     """{pair: Latest} of a report."""
-    setup = {
-        pair(p["from"], p["to"], clock_of): sum(s["delay"] for s in p["path"] if s["type"] == "setup")
-        for p in report["critical_paths"]
-    }
-    found = {}
+    found, setup = {}, {}
+    for path in report["critical_paths"]:
+        if key := pair(path["from"], path["to"], clock_of):
+            found[key] = Latest(sum(s["delay"] for s in path["path"]), path["path"][-1]["to"]["cell"])
+            setup[key] = sum(s["delay"] for s in path["path"] if s["type"] == "setup")
     for net in report["detailed_net_timings"]:
+        times = collections.Counter((end["cell"], end["port"]) for end in net["endpoints"])
         for end in net["endpoints"]:
             key = pair(net["event"], end["event"], clock_of)
-            ns = max(end["delay"])
-            if key and (key not in found or ns > found[key].ns):
-                found[key] = Latest(ns, end["cell"])
-    if found.keys() != setup.keys() - {None}:
-        raise Trouble("nextpnr's report has critical paths between other clocks than it has arrivals between")
-    return {key: Latest(at.ns + setup[key], at.cell) for key, at in found.items()}
+            if not key or times[end["cell"], end["port"]] > 1:
+                continue
+            if key not in found:
+                raise Trouble(f"nextpnr's report has no critical path from {key[1]} to {key[3]}, and an arrival")
+            at = Latest(max(end["delay"]) + setup[key], end["cell"])
+            if at.ns > found[key].ns:
+                found[key] = at
+    return found
 
 
 def rows_of(reports, clocks):

@@ -108,17 +108,25 @@ def ends(source, sink, edges=("posedge", "posedge")):
     return [f"{e} {NET[c]}" if NET[c] else "<async>" for e, c in zip(edges, (source, sink))]
 
 
-def report(fifo, more=()):
-    """Of (from, to, latest arrival, edges); each has an earlier one too, and 0.5 ns of setup time."""
+def report(fifo, more=(), arrivals=()):
+    """Of (from, to, latest, edges): an arrival, 0.5 ns of setup time, and a critical path that is shorter by a clock's wire. In
+    `arrivals`: without a critical path, and at an endpoint that the net has twice, once for each clock that launches it."""
     found = [("clk", "clk", 19), ("pads", "clk", 300), ("pix_clk", "pads", 300), ("clk", "clk_12mhz", 2), ("clk_12mhz", "clk", fifo)]
     nets, paths = [], []
-    for source, sink, ns, *edges in [*found, *more]:
+
+    def net(source, sink, ns, *edges, count=1):
         start, end = ends(source, sink, *edges)
-        for late in (ns - 0.5, 1):
-            at = {"event": end, "cell": f"b{late}_SB_DFF_Q", "port": "D", "delay": [late / 2, late]}
-            nets.append({"event": start, "net": "a", "endpoints": [at]})
-        steps = [{"type": "routing", "delay": 0.2}, {"type": "setup", "delay": 0.5}]
+        at = {"event": end, "cell": f"b{ns}_SB_DFF_Q", "port": "D", "delay": [ns / 2, ns]}
+        nets.append({"event": start, "net": "a", "endpoints": count * [at]})
+        return start, end
+
+    for source, sink, ns, *edges in [*found, *more]:
+        start, end = net(source, sink, ns - 0.5, *edges)
+        steps = [(ns - 1.5, "routing"), (0.5, "setup")]
+        steps = [{"type": t, "delay": d, "to": {"cell": f"c{ns}_SB_DFF_Q"}} for d, t in steps]
         paths.append({"from": start, "to": end, "path": steps})
+    for source, sink, ns, count in arrivals:
+        net(source, sink, ns, count=count)
     return {"critical_paths": paths, "detailed_net_timings": nets}
 
 
@@ -139,9 +147,12 @@ assert line in told.getvalue(), told.getvalue()
 half = between.rows_of([report(1.5, [("pix_clk", "clk", 11, ("posedge", "negedge"))])], rows)
 assert [(c["allowed_ns"], c["ns"]) for c in half if c["from"] == "pix_clk"] == [(10, [11])], "half a clock between two edges"
 none = {"critical_paths": [], "detailed_net_timings": []}
-lost = report(2, [("pix_clk", "clk", 2)])
-lost["detailed_net_timings"] = lost["detailed_net_timings"][:-2]
-bad_reports = (none, "has no path between two clocks"), (report(2, [("clk", "other", 2)]), "path of other"), (lost, "than it has arrivals")
+lost = report(2, arrivals=[("pix_clk", "clk", 2, 1)])
+assert between.rows_of([report(2, arrivals=[("clk_12mhz", "clk", 15, 2)])], rows)[1]["ns"] == [2], "two clocks launch that net"
+words = report(2)
+words["critical_paths"][-1]["path"][0]["delay"] = 8.5
+assert between.rows_of([words], rows)[1]["ns"] == [9], "words have a critical path alone"
+bad_reports = (none, "has no path between two clocks"), (report(2, [("clk", "other", 2)]), "path of other"), (lost, "no critical path from pix_clk to clk")
 for bad, text in bad_reports:
     try:
         between.rows_of([bad], rows)
