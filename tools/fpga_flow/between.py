@@ -20,7 +20,6 @@ The time of a pair of clocks is the greater of two that nextpnr's report has:
 Not in the time are the second clock's wire to its flip-flop, and what lies before both clocks' nets."""
 
 import collections
-
 import dataclasses
 
 import flow

@@ -132,9 +132,7 @@ def tell(frames, b, facts):
     else:
         ways.append(("block RAM", 1e6 * facts.core_mhz, f"{facts.core_mhz:g} MHz, a word a clock"))
     for name, rate, how in ways:
-        said = (
-            f"{name} ({how}): {'at most ' if name == LINK else ''}{rate / 250:.0f} kB/s, a frame in {span(mean / rate)}, the largest in {span(most / rate)}"
-        )
+        said = f"{name} ({how}): {'at most ' if name == LINK else ''}{rate / 250:.0f} kB/s, a frame in {span(mean / rate)}, the largest in {span(most / rate)}"
         if facts.screen_hz:
             said += f": {'in time' if most / rate <= 1 / facts.screen_hz else 'too slow'} for {facts.screen_hz:.1f} Hz"
         print(said)
