@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Every path of a board's netlist from a flip-flop or RAM of one clock to one of another is one that a board may have, and the
-board's README lists exactly the modules that have some. A board may have these:
+board's README lists exactly the modules that have some. Besides, a PLL of ECP5 has its analogue settings. A board may have:
 
   synchronizer  to meta_q from a flip-flop with no logic between, because logic may glitch; of several bits only in an async_fifo,
                 because no more than one bit may change at a time
@@ -93,7 +93,8 @@ class Netlist:
         self.memory_bits = set()  # that RAMs give
         self.of_clock = {}  # bit that a flip-flop or RAM gives: (register's name, its clock)
         for name, cell in module["cells"].items():
-            connections, directions = cell["connections"], cell["port_directions"]
+            connections = cell["connections"]
+            directions = cell.get("port_directions") or {p: "output" if p == "Q" else "input" for p in connections}
             outs = [b for p, bits in connections.items() if directions[p] == "output" for b in bits]
             ins = [b for p, bits in connections.items() if directions[p] == "input" for b in bits]
             if re.match(r"\$(a|s)?dff", cell["type"]) or cell["type"].startswith("$sdff"):
@@ -123,8 +124,8 @@ class Netlist:
             elif cell["type"] in PLLS:  # its other output is its lock, of no clock
                 clocks = [bits for p, bits in connections.items() if p.startswith(PLLS[cell["type"]])]
                 self.pll.update((b, name) for bits in clocks for b in bits)
-            elif "SCLK" in connections:  # a register at a pad
-                clock = connections["SCLK"][0]
+            elif "SCLK" in connections or cell["type"] == "TRELLIS_FF":  # a register at a pad
+                clock = connections["SCLK" if "SCLK" in connections else "CLK"][0]
                 self.storage.append((name, name.rpartition(".")[0], clock, [b for b in ins if b != clock], []))
                 self.of_clock.update((b, (name, clock)) for b in outs)
             else:
@@ -232,6 +233,17 @@ def rows_of(text, name):
     return [line for line in "".join(sections or [text]).splitlines() if line.startswith("| `u_")]
 
 
+def dead_plls(module):
+    """ECP5's PLLs without current in the charge pump: where an analogue setting is left out nextpnr writes 0."""
+    return [
+        f"{cell} lacks {attribute}"
+        for cell, what in module["cells"].items()
+        if what["type"] == "EHXPLLL"
+        for attribute in ("ICP_CURRENT", "LPF_RESISTOR", "MFG_ENABLE_FILTEROPAMP", "MFG_GMCREF_SEL")
+        if what["attributes"].get(attribute, "0").strip() in ("", "0")
+    ]
+
+
 def check(name, extra=(), listed=None, show=False):
     """What is wrong with a board, with `extra` mutants, a sentence each."""
     board = yaml.safe_load((BOARDS / "boards.yaml").read_text())[name]
@@ -246,7 +258,7 @@ def check(name, extra=(), listed=None, show=False):
         return []
     readme = BOARDS / board["top"] / "README.md"
     have = listed if listed is not None else rows_of(readme.read_text(), name)
-    wrong = [f"{name}: {text}" for text in bad]
+    wrong = [f"{name}: {text}" for text in [*bad, *dead_plls(top)]]
     wrong += [f"{name}: {readme.relative_to(TOP)} lacks {row}" for row in want if row not in have]
     wrong += [
         f"{name}: {readme.relative_to(TOP)} lists what the netlist has not: {row}" for row in have if row not in want
@@ -284,6 +296,7 @@ MUTANTS = (
     ("", "rst_n", "", "of clk reaches u_flag.meta_q of mem_clk, not by in_i, or by logic"),
     ("", "u_crystal", "", "reaches u_crystal.seen_q of bit_clk, with clocks that one PLL does not make"),
     ("", "u_logic", "", "count_q of pix_clk reaches u_logic.pairs_of_logic of bit_clk, which is neither"),
+    ("constraints/boards/ulx3s/ulx3s.sv", 'ICP_CURRENT = "12", ', "", "u_pll lacks ICP_CURRENT"),
     (
         "rtl/board/board_core.sv",
         ".in_i (mem_ready_q)",
