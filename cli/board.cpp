@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage board --port PORT PACK: a pack played on a board, and the verdict.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -11,6 +13,7 @@
 
 #include "board/connection.hpp"
 #include "board/pack_run.hpp"
+#include "board/sim_board.hpp"
 #include "board_report.hpp"
 #include "command.hpp"
 #include "cosim_print.hpp"
@@ -70,6 +73,11 @@ void print_board(const report::BoardRecord& b) {
 void check_options(const BoardCommand& o) {
   if (o.port == board::kSimulated) throw Error("--port: sim: needs a board's name behind it, as sim:NAME");
   if (o.simulated() && o.baud) throw Error("--baud: a board in simulation has no rate to be given");
+  if (o.simulated()) {
+    const std::vector<std::string> boards = board::sim_boards();
+    if (std::find(boards.begin(), boards.end(), o.port.substr(board::kSimulated.size())) == boards.end())
+      throw Error(fmt::format("{}: no board with a simulation; there are {}", o.port, fmt::join(boards, ", ")));
+  }
   if (o.leave && !o.loop) throw Error("--leave: only frames that are played over and over can be left: --loop");
 }
 

@@ -67,7 +67,10 @@ OutFolder::OutFolder(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code ec;
   std::vector<fs::path> missing;
-  for (fs::path p = path; !p.empty() && !fs::exists(p, ec); p = p.parent_path()) missing.insert(missing.begin(), p);
+  for (fs::path p = path; !p.empty() && !fs::exists(p, ec); p = p.parent_path()) {
+    if (fs::is_symlink(p, ec)) throw Error(fmt::format("{}: a link to nowhere", p.string()));
+    missing.insert(missing.begin(), p);
+  }
   // One by one, so that a failure half-way leaves none: the destructor of a half-made object does not run.
   for (const fs::path& p : missing) {
     if (fs::create_directory(p, ec)) made_.insert(made_.begin(), p);

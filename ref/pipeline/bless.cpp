@@ -32,6 +32,8 @@ class MadeFolders {
   void make(const fs::path& folder) {
     std::error_code ec;
     if (folder.empty() || fs::is_directory(folder, ec)) return;
+    if (fs::is_symlink(folder, ec) && !fs::exists(folder, ec))
+      throw Error(fmt::format("{}: a link to nowhere", folder.string()));
     make(folder.parent_path());
     if (!fs::create_directory(folder, ec) || ec)
       throw Error(fmt::format("{}: the folder cannot be made: {}", folder.string(), ec ? ec.message() : "it exists"));

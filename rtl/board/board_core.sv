@@ -104,7 +104,7 @@ module board_core #(
       .data_o         (rx_data),
       .framing_error_o(framing_error)
   );
-  // The link takes a byte a clock, so this FIFO is never full; if it were, the frame's CRC would tell.
+  // The link takes a byte a clock, so this FIFO is never full. A byte lost here makes the frame's CRC wrong.
   async_fifo #(
       .BITS (8),
       .DEPTH(16)

@@ -26,10 +26,8 @@ module link_deframer (
     output logic       good_o,
     output logic [8:0] size_o
 );
+  `include "kage_link.svh"
   `include "kage_crc.svh"
-
-  localparam logic [7:0] Flag = 8'h7E;
-  localparam logic [7:0] Escape = 8'h7D;
 
   // size_q: bytes of the body so far, 257 at most. Whatever came before, a flag leaves the state of reset.
   logic [ 8:0] size_q;

@@ -123,8 +123,8 @@ module link_receiver #(
   assign kept_kind = kind_q != KindHello && kind_q != KindPoll;
   assign in_turn = good && kept_kind && !fresh_o && ahead == '0;
   assign keep = in_turn && writing_q;
-  // Dropped, and the host must send it again. A frame that was kept before and comes once more is not missed: were it,
-  // a host that goes back would be told to go back for what it sends again, for ever.
+  // missed: the frame is dropped, and the host must send it again. A frame that was kept before and comes once more is
+  // not missed, because a host that goes back would be told to go back for what it sends again, for ever.
   assign ahead = sequence_q - expected_o;
   assign missed = frame_end && (!good || (kept_kind && (fresh_o || !ahead[7]) && !keep));
 

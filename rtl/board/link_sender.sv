@@ -35,9 +35,6 @@ module link_sender (
   `include "kage_link.svh"
   `include "kage_crc.svh"
 
-  localparam logic [7:0] Flag = 8'h7E;
-  localparam logic [7:0] Escape = 8'h7D;
-
   typedef enum logic [2:0] {
     Idle,
     Opening,  // the flag at the start goes out

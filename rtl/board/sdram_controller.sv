@@ -6,10 +6,10 @@
 // time, and stays open until another is wanted or a refresh is due.
 //
 // Handshake: valid/ready at the ports for words to write and for blocks to read; wr_ready_o and req_ready_o depend on
-// registers and on the other port's valid: of a word and a block that both wait, the one is next whose kind was not
-// last. What was accepted is done in that order, so a block brings what was written before. A block of BURST words,
-// aligned, comes in order at rd_valid_o, which has no ready: who asks has room. Neither port is ready before ready_o,
-// which is when the chip has started (T_INIT after reset, and some 100 clocks).
+// registers and on the other port's valid: words to write and blocks to read alternate while both wait. What was
+// accepted first is done first, so a block brings what was written before. A block of BURST words, aligned, comes in
+// order at rd_valid_o, which has no ready: who asks has room. Neither port is ready before ready_o, which is when the
+// chip has started (T_INIT after reset, and some 100 clocks).
 // Refresh: one is due every RefreshClocks, by a counter that never waits, and goes before any word or block that was
 // not accepted yet. It comes at most Late clocks after it is due: the command before it (T_RFC the longest), T_RAS or
 // T_WR until the open row may be closed, T_RP, T_RCD, a block of 2 x BURST clocks (or CAS_LATENCY + 3 until the bus

@@ -6,12 +6,12 @@
 // five times as fast: bits 1..0 are of channel 0, 3..2 of channel 1, 5..4 of channel 2, 7..6 of the link's clock. Of a
 // pair the lower bit goes out first, at the rising edge; the output register is the board's. The link's clock is high
 // for the first five bits of a word.
-// Crossing: the one crossing in kage without an async_fifo. Both clocks come from one PLL, each edge of pix_clk_i lies
-// at one of bit_clk_i, and timing analysis sees the paths between them as it sees any other: constrain both clocks, and
-// do not call them asynchronous. A flip-flop that toggles with pix_clk_i is watched in bit_clk_i. Its change is seen
-// one bit clock after the words changed, and the words are taken at the next, with three more before they change again.
-// Nothing counts to five by itself, so no reset need bring the two clocks in step, and a step that is lost is found
-// again in the next pixel.
+// Crossing: the one crossing in kage without an async_fifo. Both clocks come from one PLL, and each edge of pix_clk_i
+// is one of bit_clk_i. A path from pix_clk_i to bit_clk_i must take less than a clock of bit_clk_i: tools/fpga holds it
+// against that, other tools need both clocks constrained as related. A flip-flop that toggles with pix_clk_i is watched
+// in bit_clk_i. Its change is seen one bit clock after the words changed, and the words are taken at the next, with
+// three more before they change again. Nothing counts to five by itself, so no reset need bring the clocks in step, and
+// a step that is lost is found again in the next pixel.
 // Latency: from the edge of pix_clk_i after which words_i is valid 3 clocks of bit_clk_i to the first pair.
 // Throughput: three words and their clock every five clocks of bit_clk_i.
 // Cost: 36 flip-flops, 28 LUTs of four inputs.

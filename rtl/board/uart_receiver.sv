@@ -3,8 +3,8 @@
 //
 // Handshake: valid_o is high for one clock with a byte, and nothing holds the byte back: whoever cannot take it loses
 //   it. The line changes at any time; two flip-flops stand before its first use.
-// Timing: a phase accumulator counts bits, so CLOCK_HZ need not be a multiple of BAUD. A clock may be as slow as four
-//   clocks a bit. A bit is read within one clock of its middle, counted from the start bit's edge, whatever the phase
+// Timing: a phase accumulator counts bits, so CLOCK_HZ need not be a multiple of BAUD. CLOCK_HZ must be at least
+//   4 x BAUD. A bit is read within one clock of its middle, counted from the start bit's edge, whatever the phase
 //   of the line: half a clock each way for the moment at which the edge is seen, and half for the moment of reading.
 //   The stop bit, read at 9.5 bits, ends 10 of the sender's bits behind the edge and begins 9 behind it. A sender's
 //   bits may therefore differ by (0.5 - BAUD / CLOCK_HZ) / 10, less 0.03 % for the accumulator's rounding: 2.4 % at 4

@@ -81,6 +81,8 @@ def clocks(module, pins):
             for out in ("CLKOP", "CLKOS", "CLKOS2", "CLKOS3"):
                 if out in nets:
                     mhz[nets[out]] = fed_back / p[f"{out}_DIV"]
+        elif cell["type"] == "SB_GB":
+            mhz[nets["GLOBAL_BUFFER_OUTPUT"]] = mhz[nets["USER_SIGNAL_TO_GLOBAL_BUFFER"]]
         elif cell["type"] == "SB_PLL40_CORE":  # FEEDBACK_PATH SIMPLE
             mhz[nets["PLLOUTGLOBAL"]] = mhz[nets["REFERENCECLK"]] * (p["DIVF"] + 1) / (p["DIVR"] + 1) / 2 ** p["DIVQ"]
     return mhz

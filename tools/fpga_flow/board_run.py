@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A board's bitstream: placed by several seeds, each clock held against what it runs at, the best seed packed."""
+"""A board's bitstream: placed by several seeds, each clock and each path between clocks held against what it must be, the best
+seed packed."""
 
 import json
 import shlex
 
+import between
 import board as boards
 import flow
 import timing
@@ -35,10 +37,23 @@ def clock_rows(runs, needs):
     return sorted(rows, key=lambda r: r["clock"])
 
 
-def best_seed(rows):
-    """The seed, from 0, whose least margin is the greatest: where it is 1 or more all clocks are met."""
-    seeds = range(len(rows[0]["mhz"]["all"]))
-    return max(seeds, key=lambda s: min(r["mhz"]["all"][s] / r["need_mhz"] for r in rows))
+def best_seed(rows, crossings=()):
+    """The seed, from 0, whose least margin is the greatest: where it is 1 or more all clocks and paths between them are met."""
+
+    def margin(s):
+        clocks = [r["mhz"]["all"][s] / r["need_mhz"] for r in rows]
+        return min(clocks + [r["allowed_ns"] / r["ns"][s] for r in crossings if r["ns"][s] > 0])
+
+    return max(range(len(rows[0]["mhz"]["all"])), key=margin)
+
+
+def judge(rows, crossings, seed):
+    """Says of each clock and each way between clocks whether the seed, from 0, meets it; gives whether it meets all."""
+    for r in rows:
+        r["met"] = r["mhz"]["all"][seed] >= r["need_mhz"]
+    for r in crossings:
+        r["met"] = r["ns"][seed] <= r["allowed_ns"]
+    return all(r["met"] for r in [*rows, *crossings])
 
 
 def figures_of(b, options, tools, folder, progress):
@@ -50,14 +65,17 @@ def figures_of(b, options, tools, folder, progress):
     ]
     modules = json.loads((folder / f"{b.name}-modules.json").read_text())["modules"]
     rows = clock_rows([flow.clocks_of(r) for r in reports], boards.needs(modules, b, folder))
-    best = best_seed(rows)
+    crossings = between.rows_of(reports, rows)
+    best = best_seed(rows, crossings)
     bitstream = progress.step("bitstream", lambda: flow.pack(tools, b.device, design, folder, best + 1, b.name))
     netlist = json.loads((folder / f"{b.name}.json").read_text())["modules"][b.top]
     places = timing.Places(modules, next(n for n in modules if boards.plain(n) == b.top), netlist)
+    met = judge(rows, crossings, best)
     for r in rows:
-        r["met"] = r["mhz"]["all"][best] >= r["need_mhz"]
         if not r["met"] or r["clock"] == "clk":
             r["worst_path"] = timing.worst_path(reports[best], places, r["net"])
+    for r in crossings:
+        r["ends_at"] = places.register(r.pop("cells")[best])
     return {
         "schema": "kage.fpga-board/1",  # docs/schema/fpga-board.json
         "board": b.name,
@@ -67,8 +85,9 @@ def figures_of(b, options, tools, folder, progress):
         "tools": {n: tools.find(n).version for n in ("yosys", f"nextpnr-{b.device.family}")},
         "cells": flow.cells_of(b.device, reports[best], netlist),
         "clocks": [{k: v for k, v in r.items() if k != "net"} for r in rows],
+        "crossings": crossings,
         "best_seed": best + 1,
-        "met": all(r["met"] for r in rows),
+        "met": met,
         "bitstream": bitstream,
         "load": b.load,
         "seconds": progress.steps,
@@ -90,6 +109,7 @@ def tell(f, out):
             m = c["mhz"]
             text += f"; median of {seeds} seeds {m['median']:.1f}, worst {m['worst']:.1f}, best {m['best']:.1f}"
         print(text)
+    between.tell(f["crossings"], f["best_seed"] - 1)
     if seeds > 1:
         print(f"seed {f['best_seed']} has the greatest least margin: the bitstream is of it")
     for c in f["clocks"]:
@@ -97,5 +117,5 @@ def tell(f, out):
             timing.tell(c["worst_path"], f"worst path of {c['clock']}")
     print(f"bitstream, netlist, logs: {out}")
     print(
-        f"{'load it' if f['met'] else 'a clock is not met: it may fail where'}: {f['load']} {shlex.quote(str(out / f['bitstream']))}"
+        f"{'load it' if f['met'] else 'a clock or a path between clocks is not met: it may fail where'}: {f['load']} {shlex.quote(str(out / f['bitstream']))}"
     )

@@ -10,8 +10,10 @@ import board as boards
 import core
 from trouble import Trouble
 
-# docs/link.md: a byte has 10 bits on the line; a frame of STREAM has 63 words and 8 bytes beside them.
+# docs/link.md: a byte has 10 bits on the line; a frame of STREAM has 63 words and 8 bytes beside them. Escaped bytes and
+# waits for credit make it less.
 LINE = 1 / 10 * (63 * 4) / (63 * 4 + 8)
+LINK = "the serial line"
 # rtl/board/sdram_memory.sv: a word in 2.1 clocks of the memory.
 SDRAM_CLOCKS = 2.1
 
@@ -126,16 +128,14 @@ def tell(frames, b, facts):
             else f"{held} of {len(words)} frames at a time, from the first on"
         )
     )
-    ways = [("the serial line", facts.baud * LINE / 4, f"{facts.baud} baud")]
+    ways = [(LINK, facts.baud * LINE / 4, f"{facts.baud} baud")]
     if facts.sdram:
         rate = min(1e6 * facts.memory_mhz / SDRAM_CLOCKS, 1e6 * facts.core_mhz)
         ways.append(("SDRAM", rate, f"{facts.memory_mhz:g} MHz, a word in {SDRAM_CLOCKS} clocks"))
     else:
         ways.append(("block RAM", 1e6 * facts.core_mhz, f"{facts.core_mhz:g} MHz, a word a clock"))
     for name, rate, how in ways:
-        said = (
-            f"{name} ({how}): {rate / 250:.0f} kB/s, a frame in {span(mean / rate)}, the largest in {span(most / rate)}"
-        )
+        said = f"{name} ({how}): {'at most ' if name == LINK else ''}{rate / 250:.0f} kB/s, a frame in {span(mean / rate)}, the largest in {span(most / rate)}"
         if facts.screen_hz:
             said += f": {'in time' if most / rate <= 1 / facts.screen_hz else 'too slow'} for {facts.screen_hz:.1f} Hz"
         print(said)

@@ -63,6 +63,15 @@ def record_board(top, figures):
             }
             for c in figures["clocks"]
         ],
+        "crossings": [
+            {
+                "from": c["from"],
+                "to": c["to"],
+                "allowed_ns": round(c["allowed_ns"], 3),
+                "ns": [round(ns, 2) for ns in c["ns"]],
+            }
+            for c in figures["crossings"]
+        ],
     }
     text = ",\n".join(json.dumps(rows[k], ensure_ascii=False) for k in sorted(rows))
     path.write_text(f"[\n{text}\n]\n")

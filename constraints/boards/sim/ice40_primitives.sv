@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The primitives of Lattice's iCE40 that boards' tops use, as they behave, for simulation: a PLL. What of a primitive no
-// top uses is refused or left out.
+// The primitives of Lattice's iCE40 that boards' tops use, as they behave, for simulation: a PLL, a buffer. What of a
+// primitive no top uses is refused or left out.
 `default_nettype none
 
 // The PLL: it measures REFERENCECLK's period, and 30 periods later its clock runs, 1.3 ns behind the reference's edges,
@@ -65,6 +65,14 @@ module SB_PLL40_CORE #(
       #(edge_at(out_edge) - edge_at(out_edge - 1));
     end
   end
+endmodule
+
+// A way into one of the global nets, without its delay.
+module SB_GB (
+    input  wire  USER_SIGNAL_TO_GLOBAL_BUFFER,
+    output logic GLOBAL_BUFFER_OUTPUT
+);
+  assign GLOBAL_BUFFER_OUTPUT = USER_SIGNAL_TO_GLOBAL_BUFFER;
 endmodule
 
 `default_nettype wire

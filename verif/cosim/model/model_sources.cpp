@@ -105,8 +105,11 @@ ModelTools model_tool_versions(const ModelOptions& options, bool anew) {
   tools.compiler = anew ? output_of(kCompiler) : compiler_version();
   const char* const yosys = std::getenv("YOSYS");
   if (!options.netlist.empty()) tools.yosys = output_of(kYosys);
-  if (!options.netlist.empty() && tools.yosys.empty())
-    throw Error("yosys: not found, and netlists need it: tools/deps test installs it");
+  if (!options.netlist.empty() && tools.yosys.empty()) {
+    if (yosys != nullptr && *yosys != '\0')
+      throw Error(fmt::format("$YOSYS: `{} -V` fails or says no version, and netlists need a yosys", yosys));
+    throw Error("yosys: not found, or `yosys -V` fails, and netlists need it: tools/deps test installs it");
+  }
   if (!options.netlist.empty() && yosys != nullptr) tools.yosys += yosys;  // it may have flags
   return tools;
 }

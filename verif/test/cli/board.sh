@@ -27,7 +27,7 @@ trouble "--loop: -1 is not in 0 .. 10000000" "$kage" board --port /dev/null --lo
 trouble "--leave: only frames that are played over and over can be left" "$kage" board --port /dev/null --leave pack
 trouble "sim: needs a board's name behind it" "$kage" board --port sim: pack
 trouble "--baud: a board in simulation has no rate" "$kage" board --port sim:nothing --baud 9600 pack
-trouble "nothing" "$kage" board --port sim:nothing pack
+trouble "kage: sim:nothing: no board with a simulation; there are ulx3s_25f" "$kage" board --port sim:nothing pack
 trouble "nowhere/manifest.json: is not there: no pack" "$kage" board --port /dev/null nowhere
 trouble "/dev/nothing: no such device" "$kage" board --port /dev/nothing pack
 trouble "/dev/null: is not a terminal" "$kage" board --port /dev/null pack

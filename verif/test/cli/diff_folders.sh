@@ -82,6 +82,8 @@ expect 1 "$kage" diff --bless --prune f g --json r.json
 json r.json 'j["removed"]==["old.kage"] and j["missing"]==["README"] and j["added"]==["s.kage"] and j["changed"]==["wave.fst"]'
 [ -e g/README ] && [ ! -e g/old.kage ] || fail "--prune: README is gone, or old.kage is there"
 expect 0 "$kage" diff --bless f g --exclude README
+mkdir -p nested/sub astray && cp f/glass_0000.png nested/sub && ln -s nowhere/x astray/sub
+trouble "astray/sub: a link to nowhere" "$kage" diff --bless nested astray
 expect 0 "$kage" diff f g --exclude README
 mkdir empty
 expect 1 "$kage" diff exact empty

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # tools/fpga BOARD, as far as nothing is placed: what is asked for and makes no sense, what a board can be fed with, and when a
-# clock is met. tools/test-fpga board places one.
+# clock or a path between two is met. tools/test-fpga board places one.
 . "$(dirname "$0")/common.bash"
 command -v yosys >/dev/null || { echo "yosys is missing (tools/deps test)"; exit 77; }
 fpga() { "$source/tools/fpga" "$@" --tools system; }
@@ -19,7 +19,7 @@ refused() {
 said() { grep -qF -- "$1" stdout || { fail "not said: $1"; sed 's/^/    /' stdout; }; }
 
 expect 0 "$source/tools/fpga" --help
-for word in "tools/fpga BOARD" "--pack PACK" "a clock of a board is not met"; do said "$word"; done
+for word in "tools/fpga BOARD" "--pack PACK" "a clock of a board is not met, or a path between two"; do said "$word"; done
 
 refused "nobody: no such device or board; there are ecp5-25f" nobody
 refused "hx8k_breakout" nobody
@@ -47,7 +47,7 @@ expect 0 "$kage" vectors courtyard --size 160x120 --frames 1 --config hx8k.yaml 
 expect 0 "$kage" stream courtyard --size 16x12 --frames 2 --config ulx3s.yaml --out large.kage
 expect 0 fpga ulx3s_25f --pack large
 said "SDRAM of 33554432 bytes holds all"
-said "the serial line (3000000 baud): 291 kB/s"
+said "the serial line (3000000 baud): at most 291 kB/s"
 said "SDRAM (75 MHz, a word in 2.1 clocks)"
 said "in time for 59.5 Hz"
 expect 0 fpga ulx3s_25f --stream large.kage
@@ -76,9 +76,10 @@ limit words 2046
 expect 0 fpga hx8k_breakout --pack other
 said "holds 1 of"
 
-# ---- when a clock is met, and which seed is the best ----
+# ---- when a clock or a path between two clocks is met, and which seed is the best ----
 PYTHONPATH=$source/tools/fpga_flow python3 - <<'PY' || fail "clocks"
-import board, board_run
+import contextlib, io
+import between, board, board_run, timing
 from trouble import Trouble
 
 needs = {"clk": 50.0, "clk_12mhz": 12.0, "pix_clk": 25.125}
@@ -103,6 +104,66 @@ assert board_run.best_seed(rows) == 2, "the least margin is 1.02 with the second
 assert board_run.best_seed(board_run.clock_rows([run(80, 25.0), run(51, 30)], needs)) == 1, "the first does not meet pix_clk"
 assert "pix_clk: runs at 25.125 MHz, and nextpnr holds it against 12.000" in refused([run(80, 30, 12.0)], needs)
 assert "clk" in refused([run(80, 30)], {k: v for k, v in needs.items() if k != "clk"})
+
+# What nextpnr's rates leave out: the longest path of each pair of clocks, within a period of the faster one.
+NET = {"clk": "clk", "clk_12mhz": "clk_12mhz$SB_IO_IN_$glb_clk", "pix_clk": "$glbnet$pix_clk", "pads": None, "other": "other"}
+
+
+def ends(source, sink, edges=("posedge", "posedge")):
+    return [f"{e} {NET[c]}" if NET[c] else "<async>" for e, c in zip(edges, (source, sink))]
+
+
+def report(fifo, more=(), arrivals=()):
+    """Of (from, to, latest, edges): an arrival, 0.5 ns of setup time, and a critical path that is shorter by a clock's wire. In
+    `arrivals`: without a critical path, and at an endpoint that the net has twice, once for each clock that launches it."""
+    found = [("clk", "clk", 19), ("pads", "clk", 300), ("pix_clk", "pads", 300), ("clk", "clk_12mhz", 2), ("clk_12mhz", "clk", fifo)]
+    nets, paths = [], []
+
+    def net(source, sink, ns, *edges, count=1):
+        start, end = ends(source, sink, *edges)
+        at = {"event": end, "cell": f"b{ns}_SB_DFF_Q", "port": "D", "delay": [ns / 2, ns]}
+        nets.append({"event": start, "net": "a", "endpoints": count * [at]})
+        return start, end
+
+    for source, sink, ns, *edges in [*found, *more]:
+        start, end = net(source, sink, ns - 0.5, *edges)
+        steps = [(ns - 1.5, "routing"), (0.5, "setup")]
+        steps = [{"type": t, "delay": d, "to": {"cell": f"c{ns}_SB_DFF_Q"}} for d, t in steps]
+        paths.append({"from": start, "to": end, "path": steps})
+    for source, sink, ns, count in arrivals:
+        net(source, sink, ns, count=count)
+    return {"critical_paths": paths, "detailed_net_timings": nets}
+
+
+rows = board_run.clock_rows([run(80, 30), run(60, 30)], needs)
+crossings = between.rows_of([report(21), report(20)], rows)
+assert [(c["from"], c["to"], c["allowed_ns"]) for c in crossings] == [("clk", "clk_12mhz", 20), ("clk_12mhz", "clk", 20)]
+assert crossings[1]["ns"] == [21, 20] and board_run.best_seed(rows) == 0 and board_run.best_seed(rows, crossings) == 1
+assert board_run.judge(rows, crossings, 1) and not board_run.judge(rows, crossings, 0)
+assert [c["met"] for c in crossings] == [True, False] and all(r["met"] for r in rows), "the clocks alone are met"
+places = timing.Places({"top": {"cells": {}}}, "top", {"cells": {}})
+for c in crossings:
+    c["ends_at"] = places.register(c["cells"][0])
+told = io.StringIO()
+with contextlib.redirect_stdout(told):
+    between.tell(crossings, 0)
+line = "clk_12mhz to clk  21.00 ns of 20 allowed: NOT MET, at top b20.5; median of 2 seeds 20.50, worst 21.00, best 20.00\n"
+assert line in told.getvalue(), told.getvalue()
+half = between.rows_of([report(1.5, [("pix_clk", "clk", 11, ("posedge", "negedge"))])], rows)
+assert [(c["allowed_ns"], c["ns"]) for c in half if c["from"] == "pix_clk"] == [(10, [11])], "half a clock between two edges"
+none = {"critical_paths": [], "detailed_net_timings": []}
+lost = report(2, arrivals=[("pix_clk", "clk", 2, 1)])
+assert between.rows_of([report(2, arrivals=[("clk_12mhz", "clk", 15, 2)])], rows)[1]["ns"] == [2], "two clocks launch that net"
+words = report(2)
+words["critical_paths"][-1]["path"][0]["delay"] = 8.5
+assert between.rows_of([words], rows)[1]["ns"] == [9], "words have a critical path alone"
+bad_reports = (none, "has no path between two clocks"), (report(2, [("clk", "other", 2)]), "path of other"), (lost, "no critical path from pix_clk to clk")
+for bad, text in bad_reports:
+    try:
+        between.rows_of([bad], rows)
+        raise SystemExit(f"taken: {text}")
+    except Trouble as trouble:
+        assert text in str(trouble), trouble
 
 number = lambda n: f"{n:032b}"  # noqa: E731
 top = {

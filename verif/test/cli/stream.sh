@@ -107,10 +107,12 @@ trouble late.kage "$kage" cosim late.kage --out kept --json kept/r.json
 
 # What cannot be written is found before the work: nothing is read, so even a missing scene is not reached.
 mkdir folder
+ln -s nowhere/x dangling
 for command in render cosim; do
   trouble "folder: exists and is not a file" "$kage" $command nowhere.obj --json folder --out unmade
   trouble "no/r.json: cannot be written: no such folder" "$kage" $command nowhere.obj --json no/r.json --out unmade
   trouble "c.kage/x: the folder cannot be made" "$kage" $command nowhere.obj --out c.kage/x
+  for out in dangling dangling/x; do trouble "kage: dangling: a link to nowhere" "$kage" $command nowhere.obj --out $out; done
   [ ! -e unmade ] || fail "a run that cannot write leaves its folder"
 done
 trouble "folder: exists and is not a file" "$kage" info nowhere.kage --json folder

@@ -52,7 +52,11 @@ trouble "--netlist" "$kage" cosim courtyard --netlist xilinx
 mkdir pack && echo '{}' >pack/manifest.json
 trouble "pack: a folder of kage vectors is no scene: kage board plays it" "$kage" cosim pack
 trouble "not with --netlist" "$kage" cosim courtyard --netlist ice40 --mutant 3 --size 32x24 --frames 1
-YOSYS=/nowhere trouble "yosys: not found" "$kage" model tiny --netlist ice40
+YOSYS=/nowhere trouble "\$YOSYS: \`/nowhere -V\` fails" "$kage" model tiny --netlist ice40
+YOSYS=/bin/false trouble "\$YOSYS: \`/bin/false -V\` fails" "$kage" model tiny --netlist ice40
+YOSYS="false -x" trouble "\$YOSYS: \`false -x -V\` fails" "$kage" model tiny --netlist ice40
+mkdir broken_yosys && ln -s /bin/false broken_yosys/yosys
+YOSYS='' PATH=$PWD/broken_yosys:$PATH trouble "yosys: not found, or \`yosys -V\` fails" "$kage" model tiny --netlist ice40
 line "kage: --mutant: 0 is not a whole number from 1 to 100000; see kage cosim --help" "$kage" cosim courtyard --mutant 0
 line "kage: --frames: 1000001 is not a whole number from 1 to 1000000; see kage render --help" "$kage" render courtyard --frames 1000001
 # CLI11 alone would take these for 8, 16 and no number at all, which is within any limits.
