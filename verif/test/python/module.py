@@ -148,7 +148,9 @@ with tempfile.TemporaryDirectory() as name:
     built = pathlib.Path(library).resolve().parents[1]
     if (built / "build.ninja").exists():
         targets = re.search("--target (.*)", pathlib.Path(f"{source}/tools/demo").read_text())[1].split()
-        making = subprocess.run(["ninja", "-C", built, "-t", "commands", *targets], capture_output=True, text=True, check=True)
+        making = subprocess.run(
+            ["ninja", "-C", built, "-t", "commands", *targets], capture_output=True, text=True, check=True
+        )
         if f"lib/{pathlib.Path(library).resolve().name}" not in making.stdout:
             fail(f"tools/demo builds {targets}, without libkage_golden")
     del os.environ["KAGE"]
@@ -157,7 +159,9 @@ with tempfile.TemporaryDirectory() as name:
     (folder / "readme").mkdir()
     line = next(c for c in commands.splitlines() if c.startswith("kage stream"))
     subprocess.run(line, shell=True, cwd=folder / "readme", env=with_kage, check=True, capture_output=True)
-    done = subprocess.run([sys.executable, "-c", example], cwd=folder / "readme", env=with_kage, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", example], cwd=folder / "readme", env=with_kage, capture_output=True, text=True
+    )
     same("the README's example", (done.returncode, done.stderr), (0, ""))
     if "END" in done.stdout or "NONE" not in done.stdout or "Pixel(" not in done.stdout:
         fail(f"the README's example prints {done.stdout[-500:]}")
