@@ -122,10 +122,10 @@ json pack.json 'j["clocks"] is None'
 
 # ---- the hardest lines that fit ----
 for bytes in 4000 20000; do
-  expect 0 "$kage" vectors courtyard --size 64x48 --frames 2 --config default --budget $bytes --out b
+  expect 0 pack courtyard --size 64x48 --frames 2 --config default --budget $bytes --out b
   told=$(sed -n "s/^b: .* frames, \([0-9]*\) of $bytes bytes for a board, files of .*/\1/p" stdout)
   [ "$told" = "$(($(stat -c %s b/stimulus.bin) + 4 * $(wc -l <b/signatures.hex)))" ] || fail "--budget $bytes: says $told bytes for a board: $(cat stdout)"
-  make b courtyard --size 64x48 --frames 2 --config default --budget $bytes
+  expect 0 "$kage" vectors --check b
   python3 - $bytes <<'PY' || fail "--budget $bytes: too many bytes, or lines that are not the frame's"
 import json, os, sys
 m, budget = json.load(open("b/manifest.json")), int(sys.argv[1])
