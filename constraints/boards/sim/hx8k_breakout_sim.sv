@@ -80,7 +80,7 @@ module board_sim #(
       .CLOCKS(3)
   ) u_resets (
       .good_i(u_board.good),
-      .clk_i ({u_board.pix_clk, u_board.clk, u_board.uart_clk}),
+      .clk_i ({u_board.pix_clk, u_board.clk, u_board.crystal_clk}),
       .rst_ni({u_board.pix_rst_n, u_board.rst_n, u_board.uart_rst_n})
   );
 
