@@ -61,7 +61,7 @@ void print_board(const report::BoardRecord& b) {
       "board {} at {}: {} played{}; link: {} sent, {} of them again, {} came damaged\n", b.name, b.port,
       counted(b.runs, "list"),
       b.direct == 0 ? "" : fmt::format(", {} of them from the link, as a frame larger than the memory", b.direct),
-      counted(b.link.sent, "frame"), b.link.resent, b.link.damaged + b.link.bad);
+      counted(b.link.sent, "packet"), b.link.resent, b.link.damaged + b.link.bad);
   if (b.screen.shown != 0) fmt::print("screen: {}\n", screen_text(b.screen));
   if (!b.loop) return;
   const report::BoardLoopRecord& l = *b.loop;
@@ -150,7 +150,9 @@ void add_board(CLI::App& app, Action& action) {
       app, "board", "Play a pack on a board, or on one in simulation, and compare every line and register",
       "  kage vectors courtyard --size 64x48 --frames 2 --config ulx3s.yaml --out pack   (the board's core)\n"
       "  kage board --port /dev/ttyUSB0 pack\n"
-      "  kage board --port sim:ulx3s_25f pack   (or another of constraints/boards)\n"
+      "  verif/board/sim/build_board.py --core ulx3s_25f >sim.yaml   (a board in simulation has a smaller core)\n"
+      "  kage vectors courtyard --size 48x24 --frames 2 --config sim.yaml --out sim-pack\n"
+      "  kage board --port sim:ulx3s_25f sim-pack   (or another of constraints/boards)\n"
       "  kage board --port /dev/ttyUSB0 --loop 3600 --out hour pack\n"
       "  kage board --port /dev/ttyUSB0 --loop 10 --leave pack   (and the screen goes on)\n"
       "The board signs each line, and a signature that is not the pack's has it play the frame again and send that\n"

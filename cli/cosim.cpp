@@ -148,6 +148,7 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
       "  kage cosim courtyard --fault wrong_compare\n"
+      "  kage cosim courtyard --degrade --netlist ice40 --config tiny --size 64x48   (an FPGA's cells for the RTL)\n"
       "  kage cosim courtyard penumbra glass --size 160x120\n"
       "  kage cosim random:mixed --frames 1000 --seed 5 --config glass --coverage\n"
       "  kage cosim courtyard --shard 2/4 --junit cosim-2.xml --json cosim-2.json   (then kage merge)\n"

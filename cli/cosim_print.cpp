@@ -60,11 +60,12 @@ void print_verdict(const report::SceneRecord& s, const std::string& who) {
                counted(b.lines_compared, "line"), counted(b.registers_compared, "register"), b.name, b.seconds);
     return;
   }
-  fmt::print("{}{}: {}{}, {}{}x{}, {} compared, {}{}, {}, golden {:.3f} s, RTL {:.3f} s, seed {}\n", who,
+  fmt::print("{}{}: {}{}, {}{}x{}, {} compared, {}{}, {}, golden {:.3f} s, {} {:.3f} s, seed {}\n", who,
              s.same ? "same" : "different", counted(s.frames, "frame"),
              cosim::taken_text(s.verdicts.taken_frames.size()), s.sizes_vary ? "up to " : "", s.width, s.height,
              counted(s.pixels_compared, "pixel"), counted(s.spans, "span"), and_segments(s.segments),
-             counted(s.cycles, "cycle"), s.golden_seconds, s.rtl_seconds, s.seed);
+             counted(s.cycles, "cycle"), s.golden_seconds,
+             s.options.netlist.empty() ? "RTL" : "cells of " + s.options.netlist, s.rtl_seconds, s.seed);
 }
 
 void print_coverage(const report::CoverageRecord& coverage, const std::string& who) {

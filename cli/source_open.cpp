@@ -16,6 +16,7 @@
 #include "progress.hpp"
 #include "signals.hpp"
 #include "source.hpp"
+#include "vectors/pack.hpp"
 
 namespace kage::cli {
 namespace {
@@ -34,6 +35,14 @@ constexpr double kShapeTolerance = 0.01;
 // Random frames of a run that does not say how many.
 constexpr int kRandomFrames = 200;
 
+/// A pack is played by a board, and by the testbench in it.
+void refuse_pack(const std::string& input) {
+  const std::filesystem::path folder(input);
+  std::error_code e;
+  if (std::filesystem::is_directory(folder, e) && std::filesystem::exists(folder / vectors::kManifest, e))
+    throw Error(fmt::format("{}: a folder of kage vectors is no scene: kage board plays it", input));
+}
+
 }  // namespace
 
 void refuse_order_tree(const std::string& path) {
@@ -51,6 +60,7 @@ Source::Source(const Options& options) : options_(options) {
     return;
   }
   refuse_order_tree(options.input);
+  refuse_pack(options.input);
   if (is_stream_file(options.input))
     open_stream(options);
   else

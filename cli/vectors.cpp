@@ -184,6 +184,14 @@ std::uint64_t bytes_of(const std::vector<vectors::PackFile>& files) {
   return bytes;
 }
 
+/// What --budget counts.
+std::uint64_t bytes_for_board(const vectors::Pack& pack) {
+  std::uint64_t bytes = 0;
+  for (const vectors::PackFrame& f : pack.frames)
+    bytes += vectors::board_bytes(pack.config, f.words, static_cast<std::uint64_t>(f.status.height));
+  return bytes;
+}
+
 Json files_json(const std::vector<vectors::PackFile>& files) {
   Json j = Json::array();
   for (const vectors::PackFile& f : files) j.push_back({{"name", f.name}, {"bytes", f.bytes}});
@@ -307,7 +315,9 @@ int write_pack(const VectorsCommand& o) {
     pack.rtl_agrees = true;
   }
   if (!json_only(o))
-    fmt::print("{}: {}, some {} bytes\n", o.out, counted(pack.frames.size(), "frame"), bytes_of(sizes));
+    fmt::print("{}: {}{}, files of some {} bytes\n", o.out, counted(pack.frames.size(), "frame"),
+               o.budget > 0 ? fmt::format(", {} of {} bytes for a board", bytes_for_board(pack), o.budget) : "",
+               bytes_of(sizes));
   TempFiles files;
   vectors::PackWriter writer(o.out, pack.config, files);
   FrameProgress frame_progress(progress, pack.scene, from.size());

@@ -191,7 +191,8 @@ class Golden:
         self.finished = self._finish()
 
     def pixel(self, x: int) -> Pixel:
-        """The state of a pixel of the line at hand, behind the last step. Raises IndexError where the line has none."""
+        """The state of a pixel of the line at hand, behind the last step. Raises IndexError where the line has no such
+        pixel, and behind END, where there is no line."""
 
         def field(number: int) -> int | None:
             value = self._lib.kage_golden_pixel(self._core, x, number)

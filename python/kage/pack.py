@@ -91,7 +91,7 @@ def write_pack(source: str | os.PathLike[str], out: str | os.PathLike[str], opti
     built = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin/kage"
     program = os.environ.get("KAGE") or (str(built) if built.exists() else shutil.which("kage"))
     if not program:
-        raise PackError("kage: not found: build it (tools/demo), or name it in $KAGE")
+        raise PackError("kage: not found: build it (tools/demo) and put build/release/bin into PATH, or name the program in $KAGE")
     try:
         done = subprocess.run(
             [program, "vectors", os.fspath(source), "--out", os.fspath(out), *options], capture_output=True, text=True

@@ -89,9 +89,12 @@ def hold(top, tools, frames, name):
         if other == name and reasons[other] is None:
             return b, facts
     able = [n for n, reason in reasons.items() if reason is None]
+    # The memory is looked at last: all else fits.
+    line = "; kage board plays it straight from the line" if "bytes in a list" in reasons[name] else ""
     raise Trouble(
         f"{frames.name}: {name} does not hold it: {reasons[name]}; "
         + (f"{', '.join(able)} would" if able else "no board of constraints/boards does")
+        + line
     )
 
 

@@ -109,7 +109,7 @@ def board_h(board):
     for w in board["windows"]:
         o.append(f"#define KAGE_BOARD_{w['name']} 0x{w['addr']:04X}u /**< {w['access']}: {w['doc']} */")
         o.append(f"#define KAGE_BOARD_{w['name']}_WORDS {w['words']}u /**< words of that window */")
-    o += ["", *c_fields("KAGE_BOARD_", board["registers"]), "", "#endif", ""]
+    o += ["", *c_fields("KAGE_BOARD_", board["registers"] + board["windows"]), "", "#endif", ""]
     return "\n".join(o)
 
 

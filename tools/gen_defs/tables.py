@@ -145,7 +145,7 @@ def board_registers(defs):
     board = defs.d["board"]
     rows = [(f"0x{r['addr']:03X}", f"`{r['name']}`", r["access"], defs.register_text(r)) for r in board["registers"]]
     rows += [
-        (f"0x{w['addr']:04X}", f"`{w['name']}`", w["access"], f"{w['words']} words: {w['doc']}")
+        (f"0x{w['addr']:04X}", f"`{w['name']}`", w["access"], f"{w['words']} words: {defs.register_text(w)}")
         for w in board["windows"]
     ]
     return md(("address", "name", "access", "meaning"), rows)

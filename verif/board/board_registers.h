@@ -41,7 +41,7 @@
 #define KAGE_BOARD_LINK_OVERRUNS 0x016Cu /**< ro: right frames that came by the link and found no room, modulo 65536 */
 #define KAGE_BOARD_SIGNATURES 0x2000u /**< rw: the CRC-32 of each line that came out, or, with CHECK, of each line that must */
 #define KAGE_BOARD_SIGNATURES_WORDS 2048u /**< words of that window */
-#define KAGE_BOARD_PIXELS 0x4000u /**< ro: pixels of line CAPTURE_LINE: colour as TDATA in the lowest bits, TLAST in bit 24, TUSER in bit 25 */
+#define KAGE_BOARD_PIXELS 0x4000u /**< ro: pixels of line CAPTURE_LINE, colour as TDATA in bits 23-0 */
 #define KAGE_BOARD_PIXELS_WORDS 4096u /**< words of that window */
 
 #define KAGE_BOARD_SIZES_LINES_SHIFT 0u /**< SIZES: signatures of lines */
@@ -72,5 +72,9 @@
 #define KAGE_BOARD_STATE_MEMORY_READY_MASK 0x00000002u /**< its bits */
 #define KAGE_BOARD_STATE_IRQ_SHIFT 2u /**< STATE: the core's interrupt */
 #define KAGE_BOARD_STATE_IRQ_MASK 0x00000004u /**< its bits */
+#define KAGE_BOARD_PIXELS_LAST_SHIFT 24u /**< PIXELS: TLAST */
+#define KAGE_BOARD_PIXELS_LAST_MASK 0x01000000u /**< its bits */
+#define KAGE_BOARD_PIXELS_USER_SHIFT 25u /**< PIXELS: TUSER */
+#define KAGE_BOARD_PIXELS_USER_MASK 0x02000000u /**< its bits */
 
 #endif

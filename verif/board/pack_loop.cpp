@@ -106,7 +106,13 @@ void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung, std::uint
     lines = player_.state().lines;
     ended = clock_.now() - begin < options_.timeout;
   }
+  // What the core was given since the start: whole repetitions, and the frames behind them.
+  const auto crc_of_frames = [&](std::uint64_t frames) {
+    return Crc{words_crc(run, frames), 4 * (address_of(run, run.first + frames) - frames)};
+  };
+  const Crc given = crc_of_frames(run.frames).times(v.repetitions).then(crc_of_frames(played % run.frames));
   if (!ended) {
+    blame_silent_memory(run, stopped.state, run.first + played % run.frames, given.crc);
     PlayState in_list = stopped.state;
     in_list.played = static_cast<std::uint32_t>(played % run.frames);
     // Of the repetition at hand, as far as the counters' 16 bits say.
@@ -118,11 +124,6 @@ void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung, std::uint
   }
   v.mismatches = player_.get(KAGE_BOARD_MISMATCHES);
   if (v.mismatches == 0) return;
-  // What the core was given since the start: whole repetitions, and the frames behind them.
-  const auto crc_of_frames = [&](std::uint64_t frames) {
-    return Crc{words_crc(run, frames), 4 * (address_of(run, run.first + frames) - frames)};
-  };
-  const Crc given = crc_of_frames(run.frames).times(v.repetitions).then(crc_of_frames(played % run.frames));
   const bool memory = given.crc != stopped.state.play_crc;
   const std::uint32_t at = player_.get(KAGE_BOARD_MISMATCH_LINE);
   const Place place = place_of(run, at);

@@ -186,6 +186,8 @@ void PackPlay::play(const PackRun& run) {
   const PlayState& given = waited.state;
   const bool whole = given.played == run.frames;
   if (!run.direct && (whole ? given.play_crc != words_crc(run, run.frames) : waited.ended)) blame_memory(run);
+  if (!run.direct && !waited.ended && given.played <= run.frames)
+    blame_silent_memory(run, given, run.first + given.played, words_crc(run, given.played));
   if (waited.ended) waited = wait_for(run.lines, run.lines);
   verdict_.seconds += static_cast<double>(clock_.now() - begin) / 1e6;
   if (!waited.ended) {

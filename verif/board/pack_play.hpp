@@ -72,6 +72,7 @@ class PackPlay {
   void look_into(const PackRun& run, Place place, std::uint32_t expected, std::optional<std::uint32_t> got,
                  const std::vector<int>& wrong_lines);
   [[noreturn]] void blame_memory(const PackRun& run);
+  void blame_silent_memory(const PackRun& run, const PlayState& state, std::uint64_t frame, std::uint32_t crc_before);
   void keep(Place place, const Replay& got);
 
   // pack_loop.cpp

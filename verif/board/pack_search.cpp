@@ -11,12 +11,6 @@
 #include "kage/error.hpp"
 
 namespace kage::board {
-namespace {
-
-constexpr std::uint32_t kUserBit = 1U << 25U;
-constexpr std::uint32_t kLastBit = 1U << 24U;
-
-}  // namespace
 
 /// The frames `first` to that of the line once more, on a core that was reset, and that line.
 PackPlay::Replay PackPlay::replay(const PackRun& run, std::uint64_t first, Place line) {
@@ -62,8 +56,8 @@ std::optional<cosim::Difference> PackPlay::pixel_difference(Place place, const R
       if (d.expected != d.actual) return d;
     }
     d.field = "port";
-    const bool user = (pixel & kUserBit) != 0;
-    const bool last = (pixel & kLastBit) != 0;
+    const bool user = (pixel & KAGE_BOARD_PIXELS_USER_MASK) != 0;
+    const bool last = (pixel & KAGE_BOARD_PIXELS_LAST_MASK) != 0;
     d.expected = x == 0 && place.line == 0 ? 1 : 0;
     d.actual = user ? 1 : 0;
     d.remark = fmt::format("TUSER is {}, and must be {}", d.actual, d.expected);
@@ -187,6 +181,31 @@ void PackPlay::blame_memory(const PackRun& run) {
   throw Error(
       fmt::format("{}: board {}: the memory gives other words than were loaded into it, {}: look at its clock, supply "
                   "and pins; the core is not to blame",
+                  player_.port(), verdict_.board.name, where));
+}
+
+/// Throws where the player waits for words of the memory and the core for its input: the memory has stopped, and no
+/// core hangs. `frame` is the one behind those that were given whole, and `crc_before` PLAY_CRC behind these.
+void PackPlay::blame_silent_memory(const PackRun& run, const PlayState& state, std::uint64_t frame,
+                                   std::uint32_t crc_before) {
+  if (!state.playing) return;
+  const std::uint32_t status = player_.get(KAGE_REG_STATUS);
+  const bool waits = status == 0 || (status & KAGE_STATUS_WAITING_INPUT_MASK) != 0;
+  if (!waits) return;
+  // Which word of that frame was the last.
+  std::uint64_t given = 0;
+  if (state.play_crc != crc_before) {
+    const std::vector<std::uint32_t> words = frame < run.end() ? answers_.words(frame) : std::vector<std::uint32_t>{};
+    std::uint32_t crc = crc_before;
+    while (given < words.size() && crc != state.play_crc) crc = crc_of(std::span(words).subspan(given++, 1), crc);
+    if (crc != state.play_crc) blame_memory(run);
+  }
+  const std::string where = given != 0           ? fmt::format("word {} of frame {}", given, frame)
+                            : frame == run.first ? "the start of the list"
+                                                 : fmt::format("frame {}", frame - 1);
+  throw Error(
+      fmt::format("{}: board {}: the memory gives no more words behind {}, and the core waits for them: look at the "
+                  "memory's clock, supply and pins; the core is not to blame",
                   player_.port(), verdict_.board.name, where));
 }
 

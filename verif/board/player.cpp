@@ -112,10 +112,10 @@ void Player::load(std::uint32_t address, std::span<const std::uint32_t> words) {
     got = get(KAGE_BOARD_LOAD_CRC);
     if (got == wanted) return;
   }
-  throw Error(
-      fmt::format("{}: words reached the board's memory damaged, twice: LOAD_CRC is {:08x} and must be {:08x}: use a "
-                  "shorter cable or a lower baud rate",
-                  port_, got, wanted));
+  throw Error(fmt::format(
+      "{}: words reached the board damaged, twice: LOAD_CRC is {:08x} and must be {:08x}: the line damages bytes "
+      "and the link's 16-bit check did not see it: use a shorter cable, no hub, or a lower baud rate",
+      port_, got, wanted));
 }
 
 void Player::direct(std::span<const std::uint32_t> words) { send(words); }

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "board/board_registers.h"
+#include "board/connection.hpp"
+#include "board/sim_board.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -102,6 +104,12 @@ std::string why_unfit(const vectors::Pack& pack, const Identity& board, const st
                       const std::vector<std::uint32_t>& widest_refused) {
   const std::uint32_t hash = param_hash(pack.config);
   if (board.param_hash != hash) {
+    if (port.starts_with(kSimulated))
+      return fmt::format(
+          "{}: board {} has a core of PARAM_HASH {:08x}, and the pack is for {:08x} ({}): make the pack for the core "
+          "of "
+          "the simulation: kage vectors ... --config FILE, where FILE has the line {}",
+          port, board.name, board.param_hash, hash, pack.config_name, sim_core(port.substr(kSimulated.size())));
     const std::string other = config_with(board.param_hash);
     return fmt::format(
         "{}: board {} has a core of PARAM_HASH {:08x}{}, and the pack is for {:08x} ({}): load a bitstream of "

@@ -123,6 +123,12 @@ class LoadedBoard : public SimBoard {
 
 std::vector<std::string> sim_boards() { return lines_of_script({"--list"}); }
 
+std::string sim_core(const std::string& board) {
+  const std::vector<std::string> said = lines_of_script({"--core", board});
+  if (said.empty()) throw Error(fmt::format("{}: build_board.py did not say which core it has", board));
+  return said.back();
+}
+
 std::unique_ptr<SimBoard> open_sim_board(const std::string& board, const SimBoardOptions& options) {
   std::vector<std::string> arguments{board, cosim::cache_folder("boards").string()};
   if (!options.fault.empty()) arguments.insert(arguments.end(), {"--fault", options.fault});

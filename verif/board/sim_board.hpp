@@ -49,4 +49,7 @@ std::unique_ptr<SimBoard> open_sim_board(const std::string& board, const SimBoar
 /// The boards that open_sim_board knows, in the file's order.
 std::vector<std::string> sim_boards();
 
+/// The parameters of the core that `board` has in simulation, as a line of YAML. Throws Error for an unknown board.
+std::string sim_core(const std::string& board);
+
 }  // namespace kage::board

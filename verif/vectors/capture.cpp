@@ -246,7 +246,8 @@ CaptureVerdict judge(const std::filesystem::path& folder, const Pack& pack, cons
     judge_raw(judge, pack, capture);
   else
     throw Error(fmt::format("{}: a capture ends with .hex, .bin, .raw, or as a picture does: {} is none",
-                            capture.string(), capture.extension().string()));
+                            capture.string(),
+                            capture.has_extension() ? capture.extension().string() : "a name without a dot"));
   return judge.verdict();
 }
 

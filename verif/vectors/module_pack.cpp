@@ -222,7 +222,7 @@ void PortsRecord::write(const std::filesystem::path& folder, TempFiles& files, c
         "# Test vectors of {0}\n\nWhat passes at its ports in {1} while the core draws {2} of {3}. Run it in this "
         "folder; RTL\n"
         "is the core's folder `rtl`:\n\n```sh\n"
-        "iverilog -g2012 -I RTL/include -o module.vvp {4} RTL/*.sv && vvp module.vvp\n```\n\n"
+        "iverilog -g2012 -IRTL/include -o module.vvp {4} RTL/*.sv && vvp module.vvp\n```\n\n"
         "The one line that begins with `kage_module_tb: ` says `passed`, or `FAILED` with the clock, and which ports.\n"
         "`inputs.hex`, `outputs.hex` and `care.hex` have a line a clock, the first port of `{5}` in the uppermost "
         "bits;\n"

@@ -4,11 +4,14 @@
 
 usage: build_board.py BOARD CACHE [--fault NAME]
        build_board.py --list
+       build_board.py --core BOARD
 
   BOARD         a board that has a simulation
   CACHE         the folder that libraries are kept in; one that is there already, of the same sources and tools, is not built again
   --fault NAME  apply verif/board/faults/NAME.patch to a copy of the sources first
   --list        print the boards that have a simulation
+  --core BOARD  print the parameters of the core that the board has in simulation, as a line of YAML: a pack for it is made
+                with them (kage vectors --config FILE)
 
 Prints the screen, as dvi, vga or none and the ten numbers H_ACTIVE to V_POSITIVE of its mode, and, in the last line, the
 library's path.
@@ -70,6 +73,10 @@ def run(step, command, log, folder):
             fail(f"{step} failed: see {kept}")
 
 
+def core_of(board):
+    return board["core"] | board["simulation"]["core"]
+
+
 def build(work, name, board, fault, verilator, cxx, partial):
     log = work / "build.log"
     tree = TOP
@@ -86,7 +93,7 @@ def build(work, name, board, fault, verilator, cxx, partial):
             work,
         )
     simulation = board["simulation"]
-    parameters = board["core"] | board["board"] | simulation["core"] | simulation["board"]
+    parameters = board["board"] | core_of(board) | simulation["board"]
     flags = "-fPIC -fvisibility=hidden -std=c++20 -O1 -DVL_USER_FINISH -DVL_USER_STOP -DVL_USER_FATAL -DVL_PRINTF=kage_board_printf"
     flags += f" -include {TOP / HERE}/board_printf.hpp -I{TOP / HERE} -DKAGE_BAUD={simulation['baud']}"
     flags += f" -DKAGE_CRYSTAL_PS={simulation['crystal_ps']}"
@@ -153,13 +160,18 @@ def main():
     parser.add_argument("cache", nargs="?")
     parser.add_argument("--fault", default="")
     parser.add_argument("--list", action="store_true")
+    parser.add_argument("--core", metavar="BOARD")
     args = parser.parse_args()
     boards = {n: b for n, b in yaml.safe_load((TOP / BOARDS / "boards.yaml").read_text()).items() if "simulation" in b}
     if args.list:
         print("\n".join(boards))
         return
-    if args.board not in boards:
-        fail(f"{args.board}: no board with a simulation; there are {', '.join(boards)}")
+    name = args.core or args.board
+    if name not in boards:
+        fail(f"sim:{name}: no board with a simulation; there are {', '.join(boards)}")
+    if args.core:
+        print("{" + ", ".join(f"{n}: {v}" for n, v in core_of(boards[name]).items()) + "}")
+        return
     if args.fault and not (TOP / FAULTS / f"{args.fault}.patch").exists():
         fail(f"{args.fault}: no {FAULTS / args.fault}.patch")
     verilator = shlex.split(os.environ.get("VERILATOR") or "verilator")

@@ -16,6 +16,7 @@
 #include "board/pack_answers.hpp"
 #include "board/pack_run.hpp"
 #include "board/sim_board.hpp"
+#include "contract/config_text.hpp"
 #include "kage/core.hpp"
 #include "stimulus/random.hpp"
 #include "stimulus/random_frames.hpp"
@@ -34,34 +35,20 @@ namespace {
 constexpr const char* kBoard = "ulx3s_25f";
 constexpr std::uint32_t kBorder = 0x402020;  // of video_out
 
-/// A board, and the core that it has in simulation: constraints/boards/boards.yaml.
+/// A board, and the core that it has in simulation.
 struct Rig {
-  const char* board;
+  std::string board;
   Config config;
   int colour_bits = 8;  // of the screen; 0: there is none
 };
 
-Rig ulx3s(const char* board = kBoard) {
-  Config c;
-  c.lanes = 2;
-  c.beat_words = 1;
-  c.max_width = 64;
-  c.x_bits = 7;
-  c.z_frac = 7;
-  return {board, c, 8};
+Rig rig_of(const std::string& board, int colour_bits) {
+  return {board, config_from_text(sim_core(board), board), colour_bits};
 }
 
-Rig hx8k(bool vga) {
-  Config c;
-  c.x_bits = c.z_frac = vga ? 8 : 9;
-  c.z_bits = 16;
-  c.channels = 1;
-  c.dsf_bits = c.fsf = 0;
-  c.lanes = 1;
-  c.max_width = vga ? 160 : 320;
-  c.beat_words = 1;
-  return {vga ? "hx8k_breakout_vga" : "hx8k_breakout", c, vga ? 2 : 0};
-}
+Rig ulx3s(const char* board = kBoard) { return rig_of(board, 8); }
+
+Rig hx8k(bool vga) { return rig_of(vga ? "hx8k_breakout_vga" : "hx8k_breakout", vga ? 2 : 0); }
 
 /// Two sound frames and two malformed ones, a few thousand words: 40 ms of the line.
 struct Fixture {

@@ -50,7 +50,7 @@ kill -KILL "${boards[-1]}"
 board
 expect 0 "$kage" board --port "$port" pack --json same.json --out out
 grep -qE "^same: [0-9]+ frames, up to 16x12, .* lines, [0-9]+ registers, board FAKE [0-9.]+ s$" stdout || fail "$(cat stdout)"
-grep -qE "^board FAKE at $port: [0-9]+ lists played; link: [0-9]+ frames sent, 0 of them again, 0 came damaged$" stdout || fail "$(cat stdout)"
+grep -qE "^board FAKE at $port: [0-9]+ lists played; link: [0-9]+ packets sent, 0 of them again, 0 came damaged$" stdout || fail "$(cat stdout)"
 grep -q "^report: out/report.html$" stdout || fail "no page: $(cat stdout)"
 python3 - <<'PY' || fail "the JSON is not what the pack has"
 import json, sys
@@ -110,6 +110,9 @@ trouble "load a bitstream of default, or make the pack with" "$kage" board --por
 kill "${boards[-1]}"
 board memory 3
 trouble "the memory gives other words than were loaded into it, first in frame 0 (courtyard, frame 0)" "$kage" board --port "$port" pack
+kill "${boards[-1]}"
+board silent 3
+trouble "board FAKE: the memory gives no more words behind word 2 of frame 0, and the core waits for them" "$kage" board --port "$port" pack --timeout 0.3
 kill "${boards[-1]}"
 board reset 30
 trouble "the board was reset while it " "$kage" board --port "$port" pack

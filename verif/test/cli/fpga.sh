@@ -58,7 +58,12 @@ said "block RAM (48 MHz, a word a clock): 192000 kB/s"
 said "no screen"
 refused "large: hx8k_breakout does not hold it: its core has X_BITS 9 and not 11" hx8k_breakout --pack large
 grep -q "; ulx3s_25f, ulx3s_85f would$" stderr || fail "the boards that would are not named"
-refused "bytes in a list, and its memory 8192; no board of constraints/boards does" hx8k_breakout --pack big
+refused "bytes in a list, and its memory 8192; no board of constraints/boards does; kage board plays it straight from the line" hx8k_breakout --pack big
+# The pack of the board's README fits.
+line=$(sed -n 's/^kage vectors \(.*--config hx8k.yaml.*\)--out pack.*/\1/p' "$source/constraints/boards/hx8k_breakout/README.md")
+# shellcheck disable=SC2086 # words
+expect 0 "$kage" vectors $line --no-rtl --out readme
+expect 0 fpga hx8k_breakout --pack readme
 # limit KEY NUMBER: the pack small, with the number in its frames.
 limit() { python3 -c "import json; m = json.load(open('small/manifest.json')); [f.update($1=$2) for f in m['frames']]; json.dump(m, open('other/manifest.json', 'w'))"; }
 limit width 321

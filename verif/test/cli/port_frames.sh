@@ -70,7 +70,7 @@ expect 0 timeout 10 "$kage" info header.kage --tokens 0
 expect 0 "$kage" info other.kage --tokens 0
 grep -qE '^ *0  header: 2x1, .*, magic_version 0x4b470000 and not 0x4b470001, param_hash 0x' stdout || fail "a header of another core: $(cat stdout)"
 expect 0 "$kage" info mixed.kage --json i.json
-grep -q '^mixed.kage: 3 frames (1 unchecked: PORT), ' stdout || fail "unchecked frames are not told: $(cat stdout)"
+grep -q '^mixed.kage: 3 frames (1 in sections PORT: these may break rules, and are not checked), ' stdout || fail "unchecked frames are not told: $(cat stdout)"
 json i.json 'j["frames"] == 3 and j["unchecked_frames"] == 1'
 expect 0 "$kage" info sound.kage --json i.json
 json i.json 'j["unchecked_frames"] == 0'

@@ -65,10 +65,15 @@ played p "$source/rtl" "passed: "
 played p "$source/rtl" "passed: " +seed=3 +stall=40 +capture=captured.hex
 expect 0 "$kage" vectors --compare p p/captured.hex
 define=KAGE_PACK_TOP played p "$source/rtl" "passed: " +seed=4 +stall=10
-# By Verilator; and a netlist of the least core, whose file takes the RTL's place. The bench itself is Verilog-2005, where slang is.
-(cd p && verilator --binary --timing -Wno-fatal -CFLAGS -O0 -I"$source/rtl/include" --top-module kage_pack_tb kage_pack_tb.v \
-  "$source"/rtl/*.sv "$source/rtl/kage_axi.v" >build 2>&1 && obj_dir/Vkage_pack_tb +seed=1 +stall=20 >said 2>&1)
-grep -q '^kage_pack_tb: passed: ' p/said || { fail "Verilator: $(tail -n3 p/said)"; tail -n5 p/build; }
+# The very lines of the pack's README and of docs/vectors.md, by both simulators; Verilator's program is slow, but soon made.
+lines_of() { sed -n '/^iverilog .*kage_pack_tb/p; /^verilator /p; /^obj_dir/p' "$1"; }
+lines_of p/README.md >lines
+[ "$(wc -l <lines)" = 3 ] || fail "the pack's README does not say how to run it: $(cat lines)"
+lines_of "$source/docs/vectors.md" | cmp -s - lines || fail "docs/vectors.md and the pack's README say different lines"
+sed -i "s,RTL/,$source/rtl/,g; s/--binary/& -CFLAGS -O0/" lines
+(cd p && bash -e ../lines >said 2>build)
+[ "$(grep -c '^kage_pack_tb: passed: ' p/said)" = 2 ] || { fail "the README's lines: $(grep '^kage_pack_tb' p/said)"; tail -n5 p/build; }
+# A netlist of the least core, whose file takes the RTL's place. The bench itself is Verilog-2005, where slang is.
 make t random:mixed --frames 3 --config tiny --seed 5 --no-rtl
 sets=$(python3 -c 'import yaml; print(*(f"-chparam {k} {v}" for k, v in yaml.safe_load(open("'"$source"'/rtl/defs/configs.yaml"))["tiny"].items()))')
 yosys -q -p "read_verilog -defer -sv -I$source/rtl/include $source/rtl/*.sv; hierarchy -top kage_top $sets; proc; flatten; opt; rename -top kage_top; write_verilog -noattr t/net.v" >t/build 2>&1
@@ -117,6 +122,9 @@ json pack.json 'j["clocks"] is None'
 
 # ---- the hardest lines that fit ----
 for bytes in 4000 20000; do
+  expect 0 "$kage" vectors courtyard --size 64x48 --frames 2 --config default --budget $bytes --out b
+  told=$(sed -n "s/^b: .* frames, \([0-9]*\) of $bytes bytes for a board, files of .*/\1/p" stdout)
+  [ "$told" = "$(($(stat -c %s b/stimulus.bin) + 4 * $(wc -l <b/signatures.hex)))" ] || fail "--budget $bytes: says $told bytes for a board: $(cat stdout)"
   make b courtyard --size 64x48 --frames 2 --config default --budget $bytes
   python3 - $bytes <<'PY' || fail "--budget $bytes: too many bytes, or lines that are not the frame's"
 import json, os, sys
@@ -158,6 +166,8 @@ json unknown.json 'j["wrong"]==1 and j["first_difference"]["actual"] is None and
 expect 0 "$kage" vectors --compare p at.hex
 trouble "nowhere.hex: no file" "$kage" vectors --compare p nowhere.hex
 trouble "p: no file" "$kage" vectors --compare p p
+cp p/pixels.hex capture
+trouble "capture: a capture ends with .hex, .bin, .raw, or as a picture does: a name without a dot is none" "$kage" vectors --compare p capture
 : >empty.raw
 trouble "empty.raw: is empty: no capture" "$kage" vectors --compare p empty.raw
 trouble "p/kage_pack.vh: a capture ends with .hex, .bin, .raw, or as a picture does" "$kage" vectors --compare p p/kage_pack.vh

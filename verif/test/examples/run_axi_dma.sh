@@ -29,6 +29,24 @@ done
 expect 2 build/Vkage_dma nowhere
 grep -q '^sim: nowhere/stimulus.bin: cannot be read$' stderr || fail "does not name the file: $(cat stderr)"
 
+# Without make clean: a pack of one's own, however old, and another configuration are another program; the same is not.
+expect 0 "$kage" vectors courtyard --degrade --size 16x12 --frames 1 --config default --no-rtl --out mine
+touch -d 2000-01-01 mine/*
+# made [MAKE_ARGUMENT...]: passes.
+made() {
+  example sound WORK="$temp/other" "$@" || { fail "$*: does not pass"; tail -n 5 stdout stderr; }
+  tail -n 1 stdout | grep -q '^kage_dma: same: ' || fail "$*: says $(tail -n 1 stdout)"
+}
+made SIZE=24x16
+pixels=$(grep -o '[0-9]* pixels compared' stdout)
+made PACK="$temp/mine"
+cp -p other/Vkage_dma before
+made PACK="$temp/mine"
+[ ! other/Vkage_dma -nt before ] || fail "the same pack is compiled again"
+made CONFIG=default SIZE=24x16
+[ "$(grep -o '[0-9]* pixels compared' stdout)" != "$pixels" ] || fail "CONFIG=default: the core of tiny ran"
+rm -rf other
+
 # A flipped bit of one pixel that the pack expects.
 cp -r build/pack flipped
 python3 - flipped/pixels.bin <<'PY'

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """module.py KAGE SOURCE LIBRARY: the package python/kage against the program: the golden core's lines are the pack's pixels, steps
-tell every token and the state behind it, and what is wrong is refused in a line."""
+tell every token and the state behind it, and what is wrong is refused in a line. The commands and the example of its README run."""
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -139,4 +140,32 @@ with tempfile.TemporaryDirectory() as name:
     del os.environ["KAGE_GOLDEN"]
     told = subprocess.run([sys.executable, "-c", "import kage; print(kage.__file__, kage.Golden({'Z_BITS': 16}).config.Z_BITS)"], env=os.environ | {"PYTHONPATH": str(into)}, cwd=folder, capture_output=True, text=True)  # fmt: skip
     same("the installed package", told.stdout.split(), [str(into / "kage/__init__.py"), "16"])
+
+    # The README as it stands, with the installed package: tools/demo builds all that it needs, and its example runs.
+    readme = pathlib.Path(f"{source}/python/README.md").read_text()
+    commands, example = (re.search(f"```{language}\n(.*?)```", readme, re.S)[1] for language in ("sh", "python"))
+    same("the README's first command", commands.split()[0], "tools/demo")
+    built = pathlib.Path(library).resolve().parents[1]
+    if (built / "build.ninja").exists():
+        targets = re.search("--target (.*)", pathlib.Path(f"{source}/tools/demo").read_text())[1].split()
+        making = subprocess.run(
+            ["ninja", "-C", built, "-t", "commands", *targets], capture_output=True, text=True, check=True
+        )
+        if f"lib/{pathlib.Path(library).resolve().name}" not in making.stdout:
+            fail(f"tools/demo builds {targets}, without libkage_golden")
+    del os.environ["KAGE"]
+    plain = os.environ | {"PYTHONPATH": str(into), "PATH": "/usr/bin:/bin"}
+    with_kage = plain | {"PATH": f"{pathlib.Path(program).parent}:/usr/bin:/bin"}
+    (folder / "readme").mkdir()
+    line = next(c for c in commands.splitlines() if c.startswith("kage stream"))
+    subprocess.run(line, shell=True, cwd=folder / "readme", env=with_kage, check=True, capture_output=True)
+    done = subprocess.run(
+        [sys.executable, "-c", example], cwd=folder / "readme", env=with_kage, capture_output=True, text=True
+    )
+    same("the README's example", (done.returncode, done.stderr), (0, ""))
+    if "END" in done.stdout or "NONE" not in done.stdout or "Pixel(" not in done.stdout:
+        fail(f"the README's example prints {done.stdout[-500:]}")
+    missing = subprocess.run([sys.executable, "-c", "import kage; kage.write_pack('courtyard', 'none')"], cwd=folder, env=plain, capture_output=True, text=True)  # fmt: skip
+    if "put build/release/bin into PATH, or name the program in $KAGE" not in missing.stderr:
+        fail(f"a missing program: {missing.stderr}")
 print("passed")

@@ -10,6 +10,7 @@
 //   hash      the core has another PARAM_HASH
 //   screen    none: it has a screen, for which a line of each frame is too late
 //   memory N  word N of the memory is read wrong
+//   silent N  the memory gives no word from N on
 #include "test/support/fake_board.hpp"
 
 #include <fcntl.h>
@@ -44,6 +45,8 @@ void spoil(kage::test::FakeBoard& board, const std::string& fault, std::uint64_t
     board.other_hash = 1;
   else if (fault == "memory")
     board.memory_gives = [n](std::uint32_t address, std::uint32_t word) { return address == n ? word ^ 1U : word; };
+  else if (fault == "silent")
+    board.memory_ends = [n](std::uint32_t address) { return address >= n; };
   else if (fault == "screen")
     board.screen = 640 | 480U << 16U, board.underruns = 1;
 }

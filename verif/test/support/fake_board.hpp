@@ -43,10 +43,11 @@ class FakeBoard : public board::Transport {
   std::function<void(std::uint64_t line, std::span<std::uint8_t>)> spoil;  ///< the pixels of a line since power-up
   std::function<std::uint32_t(std::uint32_t address, std::uint32_t word)> memory_gives;  ///< what is read of the memory
   std::function<std::uint32_t(std::uint64_t number, std::uint32_t word)> arrives;  ///< at the memory, since power-up
-  std::function<bool(std::uint8_t&)> to_board, to_host;  ///< a byte of the line; false: it is lost
-  std::optional<std::uint64_t> hangs_in;                 ///< frame since the core's reset
-  std::optional<std::uint64_t> resets_at;                ///< frame of the link since power-up
-  std::optional<std::uint32_t> other_hash;               ///< PARAM_HASH
+  std::function<bool(std::uint8_t&)> to_board, to_host;    ///< a byte of the line; false: it is lost
+  std::optional<std::uint64_t> hangs_in;                   ///< frame since the core's reset
+  std::function<bool(std::uint32_t address)> memory_ends;  ///< true: from that read on the memory gives no word
+  std::optional<std::uint64_t> resets_at;                  ///< frame of the link since power-up
+  std::optional<std::uint32_t> other_hash;                 ///< PARAM_HASH
   std::function<std::uint32_t(std::uint32_t address, std::uint32_t value)> core_says;  ///< of the core's registers
   std::uint32_t underruns = 0;       ///< lines that run short in each frame that is shown
   std::uint32_t counted_before = 0;  ///< what the counters of screen and link stand at when it is powered up
@@ -256,7 +257,9 @@ class FakeBoard : public board::Transport {
         if (r.address == address && address <= KAGE_REG_SHAPE) value = r.value;
     }
     if (address == KAGE_REG_PARAM_HASH && other_hash) value = *other_hash;
-    if (address == KAGE_REG_STATUS && hung_) value = KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK;
+    if (address == KAGE_REG_STATUS && hung_) value = KAGE_STATUS_OPEN_MASK;
+    if (address == KAGE_REG_STATUS && !hung_ && !frame_words_.empty())
+      value = KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK;
     return core_says ? core_says(address, value) : value;
   }
 
@@ -277,7 +280,7 @@ class FakeBoard : public board::Transport {
   }
   void reset_core() {
     ++core_resets_;
-    playing_ = hung_ = stuck_ = false;
+    playing_ = hung_ = stuck_ = starved_ = false;
     ended_.clear();
     frame_words_.clear();
     left_ = 0;
@@ -291,28 +294,36 @@ class FakeBoard : public board::Transport {
     left_ = 0;
     at_ = registers_[KAGE_BOARD_PLAY_ADDRESS];
     if ((control_ & (KAGE_BOARD_CONTROL_LOOP_MASK | KAGE_BOARD_CONTROL_DIRECT_MASK)) == 0)
-      while (playing_ && !hung_) play_frame();
+      while (playing_ && !hung_ && !starved_) play_frame();
   }
   void stop() {
-    if (!hung_) playing_ = false;
+    if (!hung_ && !starved_) playing_ = false;
   }
   /// What time does elsewhere: a list that is played over and over goes on whenever the host looks.
   void step() {
     if ((control_ & KAGE_BOARD_CONTROL_LOOP_MASK) == 0) return;
-    for (int i = 0; i < 7 && playing_ && !hung_; ++i) play_frame();
+    for (int i = 0; i < 7 && playing_ && !hung_ && !starved_; ++i) play_frame();
   }
-  std::uint32_t memory_word() {
+  /// Nothing where the memory gives no word.
+  std::optional<std::uint32_t> memory_word() {
+    starved_ = starved_ || (memory_ends && memory_ends(at_ % memory_words));
+    if (starved_) return std::nullopt;
     const std::uint32_t word = memory_[at_ % memory_words];
     return memory_gives ? memory_gives(at_++ % memory_words, word) : (++at_, word);
   }
   void play_frame() {
-    const std::uint32_t count = memory_word();
-    if (count == 0) {
+    const std::optional<std::uint32_t> count = memory_word();
+    if (!count) return;
+    if (*count == 0) {
       at_ = registers_[KAGE_BOARD_PLAY_ADDRESS];
       if ((control_ & KAGE_BOARD_CONTROL_LOOP_MASK) == 0) playing_ = false;
       return;
     }
-    for (std::uint32_t i = 0; i < count; ++i) frame_words_.push_back(memory_word());
+    for (std::uint32_t i = 0; i < *count; ++i) {
+      const std::optional<std::uint32_t> word = memory_word();
+      if (!word) return;
+      take_word(*word);
+    }
     draw();
   }
   bool direct(std::uint32_t word) {
@@ -322,16 +333,19 @@ class FakeBoard : public board::Transport {
       playing_ = word != 0;
       return true;
     }
-    frame_words_.push_back(word);
+    take_word(word);
     if (--left_ == 0) draw();
     return !hung_;
+  }
+  void take_word(std::uint32_t word) {
+    frame_words_.push_back(word);
+    words_crc_ = crc(words_crc_, word);
   }
   void draw() {
     const std::vector<std::uint32_t> words = std::exchange(frame_words_, {});
     const bool hangs = hangs_in && *hangs_in == ended_.size();
     int last = -1;
     std::vector<std::vector<std::uint8_t>> rows;
-    for (const std::uint32_t word : words) words_crc_ = crc(words_crc_, word);
     vectors::PackFrame f;
     f.status = golden_.frame(words, [&](int y, std::span<const std::uint8_t> row) {
       rows.emplace_back(row.begin(), row.end());
@@ -360,7 +374,7 @@ class FakeBoard : public board::Transport {
       const bool last = x + 1 == width;
       signature.pixel(row.subspan(x * channels, channels), user, last);
       if (!chosen) continue;
-      std::uint32_t pixel = (user ? 1U << 25U : 0) | (last ? 1U << 24U : 0);
+      std::uint32_t pixel = (user ? KAGE_BOARD_PIXELS_USER_MASK : 0) | (last ? KAGE_BOARD_PIXELS_LAST_MASK : 0);
       for (std::size_t c = 0; c < channels; ++c) pixel |= static_cast<std::uint32_t>(row[x * channels + c]) << (8 * c);
       if (captured_ < kept_pixels) pixels_.at(captured_) = pixel;
       ++captured_;
@@ -390,7 +404,7 @@ class FakeBoard : public board::Transport {
   std::map<std::uint32_t, std::uint32_t> registers_, memory_;
   std::uint32_t control_ = 0, load_at_ = 0, words_crc_ = 0, at_ = 0, left_ = 0;
   std::uint32_t played_ = 0, lines_ = 0, mismatches_ = 0, mismatch_line_ = 0, captured_ = 0, shown_ = 0;
-  bool playing_ = false, hung_ = false;
+  bool playing_ = false, hung_ = false, starved_ = false;
   std::vector<std::uint32_t> frame_words_;
   std::vector<vectors::PackFrame> ended_;
   vectors::PackFrame settled_ = [] {

@@ -11,6 +11,8 @@
 
 #include "board/connection.hpp"
 #include "board/run_plan.hpp"
+#include "board/sim_board.hpp"
+#include "contract/config_text.hpp"
 #include "kage/config.hpp"
 #include "stimulus/random_frames.hpp"
 #include "test/support/catch.hpp"
@@ -340,13 +342,43 @@ TEST_CASE("memory that gives another word once is said to do so") {
   CHECK(has(trouble(board), "not in the same place each time"));
 }
 
+TEST_CASE("memory that gives no word is to blame, and no core that hangs") {
+  const auto second = static_cast<std::uint32_t>(fixture().pack.frames[0].words) + 1;
+  const auto told = [](std::uint32_t from, const std::string& where) {
+    FakeBoard board(config());
+    board.memory_ends = [=](std::uint32_t address) { return address >= from; };
+    return has(trouble(board), "board FAKE: the memory gives no more words behind " + where +
+                                   ", and the core waits for them: look at the memory's clock, supply and pins; the "
+                                   "core is not to blame");
+  };
+  CHECK(told(0, "the start of the list"));
+  CHECK(told(1, "the start of the list"));
+  CHECK(told(2, "word 1 of frame 0"));
+  CHECK(told(second, "frame 0"));
+  CHECK(told(second + 4, "word 3 of frame 1"));
+  // One that gave other words before it stopped is told by these.
+  FakeBoard both(config());
+  both.memory_gives = [](std::uint32_t address, std::uint32_t word) { return address == 3 ? word ^ 1U : word; };
+  both.memory_ends = [](std::uint32_t address) { return address >= 9; };
+  CHECK(has(trouble(both), "the memory gives other words than were loaded into it, first in frame 0 "));
+  // In a repetition.
+  FakeBoard late(config());
+  std::uint64_t reads = 0;
+  late.memory_ends = [&](std::uint32_t address) {
+    return (late.control() & KAGE_BOARD_CONTROL_LOOP_MASK) != 0 && address == second + 4 && ++reads == 4;
+  };
+  PackRunOptions o = options();
+  o.loop = 10'000'000;
+  CHECK(has(trouble(late, o), "the memory gives no more words behind word 3 of frame 1, and the core waits"));
+}
+
 TEST_CASE("words that reach the memory damaged are sent once more") {
   FakeBoard board(config());
   board.arrives = [](std::uint64_t number, std::uint32_t word) { return number == 20 ? word ^ 4U : word; };
   CHECK(play(board).same());
   FakeBoard worse(config());
   worse.arrives = [](std::uint64_t, std::uint32_t word) { return word ^ 4U; };
-  CHECK(has(trouble(worse), "words reached the board's memory damaged, twice"));
+  CHECK(has(trouble(worse), "words reached the board damaged, twice"));
 }
 
 TEST_CASE("bytes that the line loses or damages change nothing but the time") {
@@ -378,6 +410,18 @@ TEST_CASE("a core of another configuration is refused, with what to do") {
   FakeBoard unknown(config());
   unknown.other_hash = 0x12345678;
   CHECK(has(trouble(unknown), "PARAM_HASH 12345678"));
+  // Of a board in simulation it says which core that has, as build_board.py knows it.
+  Identity simulated;
+  simulated.name = "FAKE";
+  simulated.param_hash = 0x12345678;
+  CHECK(has(why_unfit(fixture().pack, simulated, "sim:hx8k_breakout_vga", {}),
+            "make the pack for the core of the simulation: kage vectors ... --config FILE, where FILE has the line "
+            "{X_BITS: 8, Z_BITS: 16, Z_FRAC: 8, CHANNELS: 1, DSF_BITS: 0, FSF: 0, LANES: 1, MAX_WIDTH: 160, "
+            "BEAT_WORDS: 1}"));
+  for (const std::string& name : sim_boards()) CHECK_NOTHROW(config_from_text(sim_core(name), name));
+  CHECK_THROWS_WITH(sim_core("nothing"),
+                    "sim:nothing: no board with a simulation; there are ulx3s_25f, ulx3s_85f, "
+                    "hx8k_breakout, hx8k_breakout_vga");
 }
 
 TEST_CASE("a core that is too narrow, or of other beats, is refused") {
@@ -444,8 +488,7 @@ TEST_CASE("a core that hangs is told from one that is slow") {
   CHECK(v.first->frame == 1);
   CHECK(v.first->line == 1);
   CHECK(v.first->field == "missing");
-  CHECK(has(v.first->remark,
-            "the core hangs: nothing more comes in 0.1 s: STATUS 0x5 (a frame is open, waiting for input)"));
+  CHECK(has(v.first->remark, "the core hangs: nothing more comes in 0.1 s: STATUS 0x1 (a frame is open)"));
   CHECK(v.frames == 2);
 }
 
