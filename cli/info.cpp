@@ -168,8 +168,11 @@ int describe_stream(const InfoCommand& o) {
   write_json(o, {"kage.info-stream/1", j});
   if (!json_only(o)) {
     fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
-               unchecked > 0 ? fmt::format(" ({} in sections PORT: these may break rules, and are not checked)", unchecked) : "", counted(lines, "line"),
-               counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"), counted(file.bytes(), "byte"));
+               unchecked > 0
+                   ? fmt::format(" ({} in sections PORT: these may break rules, and are not checked)", unchecked)
+                   : "",
+               counted(lines, "line"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
+               counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
     for (const report::WayRecord& w : ways.value_or(std::vector<report::WayRecord>()))

@@ -45,8 +45,8 @@ module hx8k_breakout #(
     output logic [1:0] vga_blue
 );
   // ---- clocks and resets -------------------------------------------------------------------------------------------
-  // The crystal's clock by a global net, whose delay is the same everywhere: a clock that goes by other wires reaches some
-  // flip-flops later than the data of others, which nextpnr does not see.
+  // The crystal's clock by a global net, whose delay is the same everywhere: a clock that goes by other wires reaches
+  // some flip-flops later than the data of others, which nextpnr does not see.
   logic crystal_clk, clk, pix_clk, core_locked, pix_locked;
   SB_GB u_crystal_clk (
       .USER_SIGNAL_TO_GLOBAL_BUFFER(clk_12mhz),
