@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clock's own reset: asserted while good_i, of any clock or none (a PLL's lock, a button), is low, and released by two
-// flip-flops of this clock. A pulse of good_i that is shorter than a clock may be seen or not: where several clocks must
-// be reset together, as async_fifo wants it, one of these in one clock drives good_i of all others.
+// A clock's own reset: asserted while good_i, of any clock or none (a PLL's lock, a button), is low, and released by
+// two flip-flops of this clock. A pulse of good_i shorter than a clock may be seen or not: where several clocks must be
+// reset together, as async_fifo wants it, one of these in one clock drives good_i of all others.
 // Reset is asserted for CLOCKS clocks of this clock at least, so that the resets of all clocks overlap: choose CLOCKS
 // so that it is longer than three clocks of the slowest.
 // Latency: 3 clocks from good_i's fall to rst_no's, 3 + CLOCKS from rise to rise. Throughput: a good_i that falls for a

@@ -45,12 +45,12 @@ module hx8k_breakout #(
     output logic [1:0] vga_blue
 );
   // ---- clocks and resets -------------------------------------------------------------------------------------------
-  // The crystal's clock by a global net, whose delay is the same everywhere: a clock that goes by other wires reaches some
-  // flip-flops later than the data of others, which nextpnr does not see.
-  logic uart_clk, clk, pix_clk, core_locked, pix_locked;
-  SB_GB u_uart_clk (
+  // The crystal's clock by a global net, whose delay is the same everywhere: a clock that goes by other wires reaches
+  // some flip-flops later than the data of others, which nextpnr does not see.
+  logic crystal_clk, clk, pix_clk, core_locked, pix_locked;
+  SB_GB u_crystal_clk (
       .USER_SIGNAL_TO_GLOBAL_BUFFER(clk_12mhz),
-      .GLOBAL_BUFFER_OUTPUT        (uart_clk)
+      .GLOBAL_BUFFER_OUTPUT        (crystal_clk)
   );
   SB_PLL40_CORE #(
       .FEEDBACK_PATH("SIMPLE"),
@@ -89,7 +89,7 @@ module hx8k_breakout #(
   // Each LOCK has a flip-flop of its own, which lies beside its PLL: it reaches no others. The crystal runs always.
   logic core_locked_q, pix_locked_q, good;
   logic rst_n, uart_rst_n, pix_rst_n;
-  always_ff @(posedge uart_clk) begin
+  always_ff @(posedge crystal_clk) begin
     core_locked_q <= core_locked;
     pix_locked_q  <= pix_locked;
     good          <= core_locked_q && pix_locked_q;
@@ -101,7 +101,7 @@ module hx8k_breakout #(
       .rst_no(rst_n)
   );
   reset_release u_uart_reset (
-      .clk_i (uart_clk),
+      .clk_i (crystal_clk),
       .good_i(good),
       .rst_no(uart_rst_n)
   );
@@ -141,7 +141,7 @@ module hx8k_breakout #(
   ) u_board (
       .clk_i        (clk),
       .rst_ni       (rst_n),
-      .uart_clk_i   (uart_clk),
+      .uart_clk_i   (crystal_clk),
       .uart_rst_ni  (uart_rst_n),
       .rx_i         (rx),
       .tx_o         (tx),

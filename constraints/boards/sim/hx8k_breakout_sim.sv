@@ -3,8 +3,8 @@
 // outside, crystal, host and screen, is verif/board/sim's. The board has no button: button_ni does nothing.
 //
 // wires_o: of the VGA socket, from bit 0 on red, green and blue of two bits each, hsync, vsync.
-// bits_o, periods_o: so many pixels go out in so many periods of the crystal, which follows from the PLL's parameters. The
-// model's screen looks at the wires by them.
+// bits_o, periods_o: so many pixels go out in so many periods of the crystal, which follows from the PLL's parameters.
+// The model's screen looks at the wires by them.
 `default_nettype none
 
 module board_sim #(
@@ -80,7 +80,7 @@ module board_sim #(
       .CLOCKS(3)
   ) u_resets (
       .good_i(u_board.good),
-      .clk_i ({u_board.pix_clk, u_board.clk, u_board.uart_clk}),
+      .clk_i ({u_board.pix_clk, u_board.clk, u_board.crystal_clk}),
       .rst_ni({u_board.pix_rst_n, u_board.rst_n, u_board.uart_rst_n})
   );
 

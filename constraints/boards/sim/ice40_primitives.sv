@@ -26,8 +26,8 @@ module SB_PLL40_CORE #(
     range_of = mhz < 17 ? 1 : mhz < 26 ? 2 : mhz < 44 ? 3 : mhz < 66 ? 4 : mhz < 101 ? 5 : 6;
   endfunction
 
-  // The reference's period in picoseconds, measured once: the clock's n-th edge stands at its exact time, rounded down to
-  // a picosecond, so that no rounding adds up.
+  // The reference's period in picoseconds, measured once: the clock's n-th edge stands at its exact time, rounded down
+  // to a picosecond, so that no rounding adds up.
   longint last = 0, period = 0, detector_mhz, oscillator_mhz;
   int   edges = 0;
   logic runs = 1'b0;

@@ -9,10 +9,10 @@
 // Reset: until the PLL has locked, and while button PWR (BTN0, low when pressed) is pressed. A pulse of any length
 //   resets either all clocks or none: one flip-flop of the crystal's clock decides, and its reset is longer than three
 //   clocks of each of the others.
-// SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Read data
-//   are taken at the memory's falling edge. At 75 MHz they are valid there from 2.3 ns before that edge to 7.5 ns after
-//   it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in. All pins but clock,
-//   data enable and constants have their flip-flop in the pad, so no placement changes their delays.
+// SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Read
+//   data are taken at the memory's falling edge. At 75 MHz they are valid there from 2.3 ns before that edge to 7.5 ns
+//   after it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in. All pins but
+//   clock, data enable and constants have their flip-flop in the pad, so no placement changes their delays.
 `default_nettype none
 
 module ulx3s #(
@@ -69,7 +69,8 @@ module ulx3s #(
   localparam int VcoHz = 25_000_000 * FB_DIV / REF_DIV * BIT_DIV;
   logic bit_clk, pix_clk, clk, mem_clk, locked;
   // The analogue settings are ecppll's. Where they are left out nextpnr takes 0: no current in the charge pump.
-  (* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8", MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
+  (* FREQUENCY_PIN_CLKI = "25", ICP_CURRENT = "12", LPF_RESISTOR = "8" *)
+  (* MFG_ENABLE_FILTEROPAMP = "1", MFG_GMCREF_SEL = "2" *)
   EHXPLLL #(
       .CLKI_DIV       (REF_DIV),
       .CLKFB_DIV      (FB_DIV),
@@ -113,8 +114,8 @@ module ulx3s #(
       .LOCK        (locked)
   );
 
-  // 16 clocks of the slowest clock, 640 ns, which all others see. Their own 16 clocks follow: 213 ns at 75 MHz, which is
-  // five of the slowest.
+  // 16 clocks of the slowest clock, 640 ns, which all others see. Their own 16 clocks follow: 213 ns at 75 MHz, which
+  // is five of the slowest.
   logic good, rst_n, uart_rst_n, mem_rst_n, pix_rst_n;
   reset_release u_good (
       .clk_i (clk_25mhz),
