@@ -185,7 +185,8 @@ void PackPlay::blame_memory(const PackRun& run) {
 }
 
 /// Throws where the player waits for words of the memory and the core for its input: the memory has stopped, and no
-/// core hangs. `frame` is the one behind those that were given whole, and `crc_before` PLAY_CRC behind these.
+/// core hangs. Of a core without an open frame nothing tells whether it is offered a word, so either may be to blame.
+/// `frame` is the one behind those that were given whole, and `crc_before` PLAY_CRC behind these.
 void PackPlay::blame_silent_memory(const PackRun& run, const PlayState& state, std::uint64_t frame,
                                    std::uint32_t crc_before) {
   if (!state.playing) return;
@@ -203,6 +204,11 @@ void PackPlay::blame_silent_memory(const PackRun& run, const PlayState& state, s
   const std::string where = given != 0           ? fmt::format("word {} of frame {}", given, frame)
                             : frame == run.first ? "the start of the list"
                                                  : fmt::format("frame {}", frame - 1);
+  if (status == 0)
+    throw Error(
+        fmt::format("{}: board {}: no word comes to the core behind {}: the memory gives none, or the core takes none: "
+                    "look at the memory's clock, supply and pins, and play the pack in simulation",
+                    player_.port(), verdict_.board.name, where));
   throw Error(
       fmt::format("{}: board {}: the memory gives no more words behind {}, and the core waits for them: look at the "
                   "memory's clock, supply and pins; the core is not to blame",
