@@ -212,7 +212,8 @@ std::string tap(const SimBoardOptions& options) {
     settle(*board);
     Link link(*board, link_options());
     link.hello();
-    const Fixture& f = fixture(ulx3s());
+    const Rig rig = ulx3s();
+    const Fixture& f = fixture(rig);
     const PackVerdict v = play_pack(link, *board, "sim", f.folder.path(), f.pack, run_options());
     return v.same() ? "same" : v.first->remark;
   } catch (const Error& e) {
@@ -269,7 +270,7 @@ TEST_CASE("a board that is reset in the middle says so") {
     (void)play_pack(link, *board, "sim", fixture(ulx3s()).folder.path(), fixture(ulx3s()).pack, options);
     FAIL("it went on");
   } catch (const Error& e) {
-    CHECK_THAT(e.what(), Catch::Contains("reset"));
+    CHECK_THAT(e.what(), Catch::Matchers::ContainsSubstring("reset"));
   }
 }
 
@@ -297,13 +298,13 @@ TEST_CASE("every fault of a board is found, and told where", "[.][rehearse][faul
     fmt::print("{}: {}\n", fault.name, told);
     INFO(fault.name);
     CHECK(told != "same");
-    CHECK_THAT(told, Catch::Contains(fault.told));
+    CHECK_THAT(told, Catch::Matchers::ContainsSubstring(fault.told));
   }
 }
 
 TEST_CASE("a reset that a tap of the button brings to some clocks only is found", "[.][rehearse][faults]") {
   CHECK_THAT(tap({.fault = "reset_in_parts", .other_baud = {}}),
-             Catch::Contains("not all clocks were in reset at once"));
+             Catch::Matchers::ContainsSubstring("not all clocks were in reset at once"));
 }
 
 TEST_CASE("a frame of credit too many is found", "[.][rehearse][faults]") {
