@@ -315,7 +315,7 @@ TEST_CASE("a frame of credit too many is found", "[.][rehearse][faults]") {
     // Straight to a player that does not play: no word is taken.
     link.write(KAGE_BOARD_CONTROL, std::vector<std::uint32_t>{KAGE_BOARD_CONTROL_DIRECT_MASK});
     try {
-      link.stream(std::vector<std::uint32_t>(63 * 8, 5));
+      link.stream(std::vector<std::uint32_t>(std::size_t{63} * 8, 5));
       link.flush();
     } catch (const LinkError& e) {
       return e.failure;
