@@ -22,13 +22,14 @@ BELOW = {
     "stream": ["contract"],
     "core": ["stream", "simd"],
     "bind": ["core"],
+    "cost": ["core"],
     "order": ["file", "arena", "simd"],
     "scene": ["file", "module", "number"],
     "shadow": ["scene", "order", "number"],
     "geometry": ["shadow", "contract"],
     "frontend": ["geometry", "arena"],
     "image": ["file", "module", "number"],
-    "pipeline": ["frontend", "stream", "core", "image"],
+    "pipeline": ["frontend", "stream", "core", "cost", "image"],
 }
 MODEL = [*BELOW, "kage"]
 

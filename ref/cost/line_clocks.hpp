@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <span>
 
-#include "cosim/phases.hpp"
+#include "cost/token_clocks.hpp"
 #include "kage/config.hpp"
 
-namespace kage::cosim {
+namespace kage {
 
 /// Neighbouring lines whose mean is told beside the worst line: what a buffer of so many lines could even out.
 inline constexpr std::size_t kLineWindow = 16;
@@ -55,4 +55,4 @@ class LineClockCounter {
   LineClocks sums_;
 };
 
-}  // namespace kage::cosim
+}  // namespace kage

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cosim/stream_clocks.hpp"
+#include "cost/line_clocks.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "kage/explain.hpp"
 #include "kage/stream.hpp"
 
-namespace kage::cosim {
+namespace kage {
 
 void LineClockCounter::add(int frame, std::span<const std::uint32_t> words) {
   const FrameHeader header = FrameHeader::read(words);
@@ -38,4 +38,4 @@ void LineClockCounter::add(int frame, std::span<const std::uint32_t> words) {
   }
 }
 
-}  // namespace kage::cosim
+}  // namespace kage
