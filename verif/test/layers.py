@@ -22,7 +22,7 @@ BELOW = {
     "stream": ["contract"],
     "core": ["stream", "simd"],
     "bind": ["core"],
-    "cost": ["core"],
+    "cost": ["stream"],
     "order": ["file", "arena", "simd"],
     "scene": ["file", "module", "number"],
     "shadow": ["scene", "order", "number"],
@@ -30,6 +30,7 @@ BELOW = {
     "frontend": ["geometry", "arena"],
     "image": ["file", "module", "number"],
     "pipeline": ["frontend", "stream", "core", "cost", "image"],
+    "plan": ["pipeline", "cost"],
 }
 MODEL = [*BELOW, "kage"]
 
@@ -47,6 +48,7 @@ PUBLIC = {
     "file": ["paths.hpp"],
     "image": ["image.hpp", "diff.hpp"],
     "pipeline": ["bless.hpp", "pipeline.hpp", "provenance.hpp"],
+    "plan": ["plan.hpp"],
 }
 OWNERS = {name: folder for folder, names in PUBLIC.items() for name in names}
 GROUND = {"defs.hpp", "error.hpp", "registers.h"}  # they have no functions elsewhere and stand below all folders
