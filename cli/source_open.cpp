@@ -165,7 +165,9 @@ void Source::load_scene(const Options& options) {
   Needs needs = needs_of(*scene_, first, options.size.width, options.size.height, options.samples);
   if (options.config.empty()) {
     try {
-      config_ = choose_config(needs);
+      DrawOptions draw = draw_options(options);
+      draw.frames = frames_;
+      config_ = choose_config(*scene_, draw);
     } catch (const Error& e) {
       const std::string line = widened_config(needs);
       throw Error(fmt::format("{}: {}{}", options.input, e.what(),

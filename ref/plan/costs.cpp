@@ -4,8 +4,8 @@
 #include "cost/cells.hpp"
 #include "cost/line_clocks.hpp"
 #include "kage/core.hpp"
-#include "kage/stream.hpp"
 #include "pipeline/stopwatch.hpp"
+#include "stream/token_pieces.hpp"
 
 namespace kage::plan {
 namespace {
@@ -35,30 +35,29 @@ std::vector<PlanCandidate> costs_of(std::span<const PlannedScene> scenes, const 
   std::vector<PlanCandidate> out;
   for (const Config& c : arrangements_of(base)) out.push_back({way, c, {}});
   PlanCost shared;
-  const Layout layout(base);
   GoldenCore core(base);
-  std::vector<std::uint32_t> words;
+  const LineSink nobody = [](int, std::span<const std::uint8_t>) {};
+  TokenPieces tokens(base);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     std::vector<LineClockCounter> counters;
     for (const PlanCandidate& c : out) counters.emplace_back(c.config);
     SceneFrames frames(scenes[s].scene, base, scenes[s].draw);
     for (int i = 0; i < frames.frames(); ++i) {
       step();
-      words.clear();
-      frames.frame(i, [&](std::span<const std::uint32_t> p) { words.insert(words.end(), p.begin(), p.end()); });
-      shared.words += words.size();
-      {
-        const Stopwatch watch(shared.golden_seconds);
-        core.frame(words, [](int, std::span<const std::uint8_t>) {});
-      }
-      const FrameHeader header = FrameHeader::read(words);
+      FrameHeader header;
+      header.width = scenes[s].draw.width;
+      header.height = scenes[s].draw.height;
       for (LineClockCounter& counter : counters) counter.begin(i, header);
-      TokenWalk walk(layout, words);
-      Token token;
-      for (auto at = walk.next(); !at.empty(); at = walk.next()) {
-        decode(base, layout, at, token);
-        for (LineClockCounter& counter : counters) counter.token(token);
-      }
+      tokens.start();
+      frames.frame(i, [&](std::span<const std::uint32_t> words) {
+        shared.words += words.size();
+        tokens.feed(words, [&](const Token& token) {
+          for (LineClockCounter& counter : counters) counter.token(token);
+        });
+        const Stopwatch watch(shared.golden_seconds);
+        core.feed(words, nobody);
+      });
+      core.finish(nobody);
       for (LineClockCounter& counter : counters) counter.end();
     }
     for (std::size_t k = 0; k < out.size(); ++k) {

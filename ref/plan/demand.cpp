@@ -11,36 +11,35 @@
 
 #include "contract/kinds.hpp"
 #include "kage/frontend.hpp"
-#include "kage/stream.hpp"
+#include "stream/token_pieces.hpp"
 
 namespace kage::plan {
 namespace {
 
-/// Makes all frames of a scene and hands on what they were made of, with their words.
-template <class Use>
-void each_frame(const PlannedScene& scene, const Config& config, const FrameStep& step, Use use) {
-  SceneFrames frames(scene.scene, config, scene.draw);
-  std::vector<std::uint32_t> words;
-  for (int i = 0; i < frames.frames(); ++i) {
-    step();
-    words.clear();
-    FrameParts parts;
-    frames.frame(
-        i, [&](std::span<const std::uint32_t> piece) { words.insert(words.end(), piece.begin(), piece.end()); }, parts);
-    use(i, parts, words);
-  }
-}
-
-/// Calls use(token, line) for every token of a frame.
-template <class Use>
-void each_token(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Use use) {
-  TokenWalk walk(layout, words);
-  Token token;
-  int line = 0;
-  for (auto at = walk.next(); !at.empty(); at = walk.next()) {
-    decode(config, layout, at, token);
-    use(token, line);
-    if (token.kind == Kind::EOL) ++line;
+/// Makes all frames of the scenes. Calls `of_parts` with what each was made of and `of_token` with each token, both with
+/// where that is.
+template <class OfParts, class OfToken>
+void each_frame(std::span<const PlannedScene> scenes, const Config& config, const FrameStep& step, OfParts of_parts,
+                OfToken of_token) {
+  TokenPieces tokens(config);
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    SceneFrames frames(scenes[s].scene, config, scenes[s].draw);
+    for (int i = 0; i < frames.frames(); ++i) {
+      step();
+      PlanPlace at{.scene = static_cast<int>(s), .frame = i, .line = 0};
+      FrameParts parts;
+      tokens.start();
+      frames.frame(
+          i,
+          [&](std::span<const std::uint32_t> words) {
+            tokens.feed(words, [&](const Token& token) {
+              of_token(token, at);
+              if (token.kind == Kind::EOL) ++at.line;
+            });
+          },
+          parts);
+      of_parts(parts, PlanPlace{at.scene, at.frame, -1});
+    }
   }
 }
 
@@ -191,46 +190,39 @@ WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& featur
   WayDemand out;
   out.dsf_bits = dsf_bits;
   const Config config = finest(features, dsf_bits, 0);
-  const Layout layout(config);
   std::set<GroupKey> seen;
-  for (std::size_t s = 0; s < scenes.size(); ++s)
-    each_frame(scenes[s], config, step, [&](int frame, const FrameParts& parts, std::span<const std::uint32_t> words) {
-      PlanPlace at{.scene = static_cast<int>(s), .frame = frame};
-      add_geometry(parts.geometry, config, at, seen, out);
-      each_token(config, layout, words, [&](const Token& t, int line) {
-        at.line = line;
+  each_frame(
+      scenes, config, step,
+      [&](const FrameParts& parts, const PlanPlace& at) { add_geometry(parts.geometry, config, at, seen, out); },
+      [&](const Token& t, const PlanPlace& at) {
         if (!info_of(t.kind).depth) return;
         const int pixels = t.span.xr - t.span.xl;
         out.depth_span.raise(pixels, at);
         if (info_of(t.kind).color && config.smooth > 0 && changes_color(t.span, config.channels))
           out.color_span.raise(pixels, at);
       });
-    });
   return out;
 }
 
 UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& features, const FrameStep& step) {
   UnitDemand out;
   const Config config = finest(features, features.needs.shadows ? 1 : 0, kGreatest.units);
-  const Layout layout(config);
-  for (std::size_t s = 0; s < scenes.size(); ++s)
-    each_frame(scenes[s], config, step, [&](int frame, const FrameParts& parts, std::span<const std::uint32_t> words) {
-      PlanPlace at{.scene = static_cast<int>(s), .frame = frame};
-      out.units.raise(parts.polyhedra.units, at);
-      const auto& of = parts.polyhedra.unit_of;
-      out.bodies.raise(static_cast<double>(std::count_if(of.begin(), of.end(), [](int u) { return u >= 0; })), at);
-      std::map<int, int> segments;  // of its line at hand, by unit
-      each_token(config, layout, words, [&](const Token& t, int line) {
-        at.line = line;
+  std::map<int, int> segments;  // of a unit's line at hand
+  each_frame(
+      scenes, config, step,
+      [&](const FrameParts& parts, const PlanPlace& at) {
+        out.units.raise(parts.polyhedra.units, at);
+        const auto& of = parts.polyhedra.unit_of;
+        out.bodies.raise(static_cast<double>(std::count_if(of.begin(), of.end(), [](int u) { return u >= 0; })), at);
+      },
+      [&](const Token& t, const PlanPlace& at) {
         if (t.kind == Kind::FACE) out.faces.raise(t.segment.face + 1.0, {at.scene, at.frame, -1});
-        if (t.kind == Kind::SEG) {
-          out.dx.raise(t.segment.dx, at);
-          int& count = segments[t.segment.unit];
-          count = t.segment.sync ? 1 : count + 1;
-          out.segments.raise(count, at);
-        }
+        if (t.kind != Kind::SEG) return;
+        out.dx.raise(t.segment.dx, at);
+        int& count = segments[t.segment.unit];
+        count = t.segment.sync ? 1 : count + 1;
+        out.segments.raise(count, at);
       });
-    });
   return out;
 }
 

@@ -60,11 +60,12 @@ ABOVE = {
     "verif/opinion": ["opinion", "kage", "number"],
     "verif/vectors": ["vectors", "cosim", "stimulus", *MODEL],
     "verif/board": ["board", "vectors", "cosim", *MODEL],
+    "verif/trade": ["trade", "opinion", "cosim", "stimulus", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
     "verif/bench": ["bench", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/test": ["test", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/test": ["test", "trade", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test/unit/cli": ["test", "cli"],
-    "cli": ["cli", "board", "vectors", "cosim", "stimulus", *MODEL],
+    "cli": ["cli", "trade", "board", "vectors", "cosim", "stimulus", *MODEL],
 }
 
 ROOTS = ("ref", "ref/include", "verif", "")  # what includes are named from, but for those of a file's own folder
