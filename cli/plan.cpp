@@ -152,7 +152,10 @@ Json json_of(const PlanCommand& o, const Plan& plan) {
   j["width"] = plan.size[0];
   j["height"] = plan.size[1];
   j["prefer"] = name_of(o.plan.prefer);
-  j["limits"] = {{"max_z", plan.limits.z}, {"max_color", plan.limits.color}};
+  j["guarantee"] = o.measured ? "measured" : "bound";
+  j["limits"] = {{"max_z", plan.limits.z},
+                 {"max_color", plan.limits.color},
+                 {"max_wrong", o.max_wrong ? Json(*o.max_wrong) : Json(nullptr)}};
   j["z_error_bound"] = plan.z_error;
   j["config"] = cli::to_json(plan.config);
   Json reasons = Json::object();
@@ -217,9 +220,10 @@ void add_plan(CLI::App& app, Action& action) {
        "the least that any core keeps")
       ->check(whole_number(1, 255))
       ->type_name("STEPS");
-  c->add_option("--max-wrong", o->max_wrong,
-                "with --guarantee measured: how many pixels in a million may show another face or shadow than the oracle, "
-                "near ties too; then depth is limited by --max-z only where that is given")
+  c->add_option(
+       "--max-wrong", o->max_wrong,
+       "with --guarantee measured: how many pixels in a million may show another face or shadow than the oracle, "
+       "near ties too; then depth is limited by --max-z only where that is given")
       ->check(real_number(0, 1e6))
       ->type_name("PPM");
   c->add_option_function<std::string>(

@@ -55,30 +55,34 @@ class StateTaker : public CoreObserver {
 void run(const FrameGeometry& g, const Config& config, int threads, CoreObserver* observer, const LineSink& sink) {
   GoldenCore core(config);
   core.observe(observer);
-  make_frame(
-      g, config, 0, [&](std::span<const std::uint32_t> words) { core.feed(words, sink); }, {.threads = threads});
+  make_frame(g, config, 0, [&](std::span<const std::uint32_t> words) { core.feed(words, sink); }, {.threads = threads});
   if (core.finish(sink).error != ErrorCode::NONE)
     throw std::logic_error("the golden core refuses what the front end made");
 }
 
-/// Which face each pixel shows: drawn again with the number of each face as its colour. Depth is what the configuration
-/// makes it; shadows, layers and slopes of colour do not change what is in front.
+/// Which face each pixel shows: drawn again with the number of each face as its colour, without shadows and layers,
+/// which do not change what is in front. All else is the configuration's own, the order of drawing too, which decides
+/// between equal depths.
 void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions& options, DrawnFrame& out) {
   Config plain = config;
   plain.channels = 3;
-  plain.smooth = plain.color_frac = 0;
-  plain.dsf_bits = plain.fsf = plain.count_bits = 0;
-  plain.lights = plain.class_bits = 1;
   FrameGeometry g = make_geometry(frame, plain, options.width, options.height, {.look = options.look});
   g.background = 0xFFFFFF;
   g.fragments.clear();
-  for (std::uint32_t i = 0; i < g.drawn; ++i)
-    for (unsigned c = 0; c < 3; ++c)
-      g.polygons[i].color[c] = static_cast<std::uint8_t>(g.polygons[i].source >> (8 * c));
+  g.volumes.clear();
+  g.shares.clear();
+  for (std::uint32_t i = 0; i < g.drawn; ++i) {
+    ScreenPolygon& p = g.polygons[i];
+    p.lit = false;
+    p.normal_class = 0;
+    p.color_planes = -1;
+    for (unsigned c = 0; c < 3; ++c) p.color[c] = static_cast<std::uint8_t>(p.source >> (8 * c));
+  }
   std::size_t at = 0;
   run(g, plain, options.threads, nullptr, [&](int, std::span<const std::uint8_t> p) {
     for (std::size_t i = 0; i + 2 < p.size(); i += 3, ++at) {
-      const std::uint32_t face = p[i] | static_cast<std::uint32_t>(p[i + 1]) << 8 | static_cast<std::uint32_t>(p[i + 2]) << 16;
+      const std::uint32_t face =
+          p[i] | static_cast<std::uint32_t>(p[i + 1]) << 8 | static_cast<std::uint32_t>(p[i + 2]) << 16;
       out.face[at] = face == 0xFFFFFF ? kNothing : face;
     }
   });
@@ -130,7 +134,8 @@ Accuracy compare(const ScreenTruth& truth, const DrawnFrame& finest, const Drawn
       ++out.visible_wrong;
       continue;
     }
-    if (t.face != kNothing) out.z_max = std::max(out.z_max, std::abs((static_cast<double>(drawn.z[i]) - 1) / range - t.depth));
+    if (t.face != kNothing)
+      out.z_max = std::max(out.z_max, std::abs((static_cast<double>(drawn.z[i]) - 1) / range - t.depth));
     if (t.lit && config.dsf_bits > 0 && drawn.counts[i] != t.counts) {
       ++out.shadow_wrong;
       continue;

@@ -24,16 +24,16 @@ struct MeasuredLimits {
 
 class MeasuredPlan {
  public:
-  /// Keeps the truth of each frame once it has been asked for. `step` is called before each frame that is drawn; what it
-  /// throws goes through.
+  /// Keeps the truth of each frame once it has been asked for. `step` is called before each frame that is drawn; what
+  /// it throws goes through.
   MeasuredPlan(std::span<const PlannedScene> scenes, const MeasuredLimits& limits, std::function<void()> step);
   ~MeasuredPlan();
   MeasuredPlan(const MeasuredPlan&) = delete;
   MeasuredPlan& operator=(const MeasuredPlan&) = delete;
 
   /// Lowers Z_BITS, Z_FRAC, SMOOTH, COLOR_FRAC, SHADE_FRAC and CLASS_BITS as far as the limits allow and rounds each up
-  /// to its step: PlanOptions::lower. Each reason says what the width gives, and what one less gave. Where the widths it
-  /// is given are not enough, the finest depth is tried; Error if that is not enough either.
+  /// to its step: PlanOptions::lower. Each reason says what the width gives, and what one less gave. Where the widths
+  /// it is given are not enough, the finest depth is tried; Error if that is not enough either.
   void lower(Config& widths, std::vector<PlanReason>& reasons);
 
   /// Draws all frames with a configuration and holds them against the truth. Ends early, with what it has, once a limit

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is true of a frame's pixels, by the oracle from the snapped polygons: made once, whatever configurations are held
-// against it.
+// What is true of a frame's pixels, by the oracle from the snapped polygons: made once, whatever configurations are
+// held against it.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ namespace kage::trade {
 inline constexpr std::uint32_t kNothing = ~0U;
 
 struct TruePixel {
-  std::uint32_t face = kNothing;           ///< into SceneFrame::polygons; opaque ones only
-  double depth = 0;                        ///< share of the depth range, 0 at its near end
-  bool lit = false;                        ///< shadows darken it
-  std::array<std::uint8_t, 8> counts{};    ///< of each light its samples in shadow
+  std::uint32_t face = kNothing;         ///< into SceneFrame::polygons; opaque ones only
+  double depth = 0;                      ///< share of the depth range, 0 at its near end
+  bool lit = false;                      ///< shadows darken it
+  std::array<std::uint8_t, 8> counts{};  ///< of each light its samples in shadow
 };
 
 struct ScreenTruth {
