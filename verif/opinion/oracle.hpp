@@ -16,6 +16,9 @@
 
 namespace kage {
 
+/// How far apart the snapped coordinates of a frame are, in 1/256 pixel.
+inline int snap_step(const FrameGeometry& g) { return 1 << (8 - g.sub_bits); }
+
 /// What is true at a pixel.
 struct OraclePixel {
   std::int32_t surface = -1;  ///< nearest drawn polygon, the first in draw order among equals; -1: none
@@ -32,7 +35,7 @@ enum class Verdict : std::uint8_t {
 /// The errors that may part an answer from the truth.
 enum class Errors : std::uint8_t {
   depth,           ///< the core's: sums along a span, and the rounding to an integer
-  depth_and_snap,  ///< also the snap: every vertex moved by up to half a subpixel in x and in y
+  depth_and_snap,  ///< also the snap: every vertex moved by up to half a step of it in x and in y
 };
 
 /// What a pixel may show while every error stays within its bound.
@@ -102,6 +105,7 @@ class Oracle {
   [[nodiscard]] Sure surely_nearer(const ScreenPlane& a, const ScreenPlane& b, int x, Errors errors) const;
   [[nodiscard]] Sure surely_covers(std::uint32_t polygon, int x, Errors errors) const;
   [[nodiscard]] int near_cap(const Volume& v, int x) const;
+  [[nodiscard]] int step() const { return snap_step(*g_); }
   [[nodiscard]] bool meets_line(std::span<const ScreenVertex> outline) const;
 
   const FrameGeometry* g_;

@@ -38,8 +38,7 @@ inline void judge_all(const SceneFrame& f, const Config& config, int width, int 
 }
 
 /// With near and far caps the toggles of every volume sum to zero at every pixel: volumes are closed.
-inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, int height) {
-  Look look;
+inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, int height, Look look = {}) {
   look.far_ends = true;
   look.leave_out = false;
   const FrameGeometry g = make_geometry(f, config, width, height, {.look = look});
