@@ -3,19 +3,22 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "contract/derived.hpp"
 #include "geometry/remarks.hpp"
 
 namespace kage::cli {
 namespace {
 
-std::string coarse_text(const Remarks& r, int z_bits) {
+std::string coarse_text(const Remarks& r, int z_bits, int exponent) {
   const std::string would_do = r.z_bits_needed > 0 ? fmt::format("Z_BITS {} would do", r.z_bits_needed)
                                                    : fmt::format("no Z_BITS up to {} would do", kGreatest.z_bits);
   return fmt::format(
       "with Z_BITS {} surfaces {:.3g} from the eye may be {:.3g} apart and have one depth, more than 1/10000 of the "
       "scene's extent of {:.3g}; {}",
-      z_bits, r.furthest, r.step, r.extent, would_do);
+      z_bits, std::ldexp(r.furthest, exponent), std::ldexp(r.step, exponent), std::ldexp(r.extent, exponent),
+      would_do);
 }
 
 }  // namespace
@@ -31,7 +34,7 @@ void FrameRemarks::add(const Scene& scene, const SceneFrame& frame) {
   ++frames_;
   far_ += r.beyond_far ? 1 : 0;
   backs_ += r.backs && !cull_ && scene.contents().says_sides ? 1 : 0;
-  if (r.step > 0 && coarse_++ == 0) coarse_why_ = coarse_text(r, config_.z_bits);
+  if (r.step > 0 && coarse_++ == 0) coarse_why_ = coarse_text(r, config_.z_bits, frame.exponent);
 }
 
 void FrameRemarks::absorb(const FrameRemarks& later) {
