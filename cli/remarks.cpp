@@ -17,8 +17,7 @@ std::string coarse_text(const Remarks& r, int z_bits, int exponent) {
   return fmt::format(
       "with Z_BITS {} surfaces {:.3g} from the eye may be {:.3g} apart and have one depth, more than 1/10000 of the "
       "scene's extent of {:.3g}; {}",
-      z_bits, std::ldexp(r.furthest, exponent), std::ldexp(r.step, exponent), std::ldexp(r.extent, exponent),
-      would_do);
+      z_bits, std::ldexp(r.furthest, exponent), std::ldexp(r.step, exponent), std::ldexp(r.extent, exponent), would_do);
 }
 
 }  // namespace

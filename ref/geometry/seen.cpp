@@ -43,9 +43,7 @@ std::vector<EyePoint> eye_points(const SceneFrame& frame) {
 }
 
 PictureCut::PictureCut(const Camera& camera, int width, int height)
-    : perspective_(camera.perspective),
-      slope_x_(camera.half_height * width / height),
-      slope_y_(camera.half_height) {}
+    : perspective_(camera.perspective), slope_x_(camera.half_height * width / height), slope_y_(camera.half_height) {}
 
 // Keep what of corners_ has inside() >= 0.
 template <class Inside>
@@ -80,8 +78,8 @@ bool is_drawn(const SceneFrame& frame, const Config& config, const Look& look, s
   const bool blended = config.translucency > 0 && t.alpha < 255;
   if (blended && t.alpha == 0) return false;
   if (!blended && !look.cull) return true;
-  const double facing = blended ? eye_side(frame.camera, triangle_of(frame, polygon))
-                                : facing_of(frame, t, normal_of(frame, t));
+  const double facing =
+      blended ? eye_side(frame.camera, triangle_of(frame, polygon)) : facing_of(frame, t, normal_of(frame, t));
   return !(blended && facing == 0) && !is_culled(frame, look, polygon, facing);
 }
 

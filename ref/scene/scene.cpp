@@ -206,8 +206,7 @@ void Scene::Data::note_large_places() {
     const scene::RawNode& n = raw.nodes[i];
     const auto parent = static_cast<std::size_t>(n.parent);
     const glm::dvec3 at = n.fixed ? n.matrix.origin : n.translation;
-    const glm::dvec3 moved =
-        n.parent < 0 ? glm::dvec3{here(at.x), here(at.y), here(at.z)} : world[parent].vector(at);
+    const glm::dvec3 moved = n.parent < 0 ? glm::dvec3{here(at.x), here(at.y), here(at.z)} : world[parent].vector(at);
     const bool far = largest(moved) > bounds.radius * kFarPlace;
     hangs_on[i] = far ? static_cast<std::int32_t>(i) : n.parent < 0 ? -1 : hangs_on[parent];
   }
@@ -215,7 +214,8 @@ void Scene::Data::note_large_places() {
   bool same = !raw.camera || hangs_on[raw.camera->node] == first;
   for (const Object& object : objects) same = same && hangs_on[object.node] == first;
   if (!same)
-    notes.emplace_back("the scene is so far from the origin, for its size, that its file's numbers are noticeably rounded");
+    notes.emplace_back(
+        "the scene is so far from the origin, for its size, that its file's numbers are noticeably rounded");
 }
 
 std::vector<Light> Scene::Data::lights(const std::vector<Affine>& world) const {
@@ -256,8 +256,7 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
     data->place_objects();
     data->describe();
     data->measure();
-    data->exposure =
-        scene::exposure(data->lights(scene::pose(data->raw, data->time(0, 1), data->frame)), data->bounds);
+    data->exposure = scene::exposure(data->lights(scene::pose(data->raw, data->time(0, 1), data->frame)), data->bounds);
   } catch (const Error& e) {
     throw Error(shown + ": " + e.what());
   }

@@ -9,7 +9,7 @@ namespace kage::scene {
 namespace {
 
 constexpr double kFar = 0x1p12;  // of the scene's size: 12 bits of 53 are spent on where it is, and no more
-constexpr int kLong = 64;        // of the exponent of a scene that stays as it is, whose products are far from all limits
+constexpr int kLong = 64;  // of the exponent of a scene that stays as it is, whose products are far from all limits
 
 // The unevaluated sum high + low of two doubles, |low| at most half a unit in the last place of high: 106 bits.
 struct Pair {
@@ -53,10 +53,9 @@ Placed operator*(const Placed& outer, const Affine& inner) {
   Placed p;
   p.map = {outer.map.vector(inner.x), outer.map.vector(inner.y), outer.map.vector(inner.z), {0, 0, 0}};
   for (int i = 0; i < 3; ++i)
-    p.origin[static_cast<std::size_t>(i)] = outer.origin[static_cast<std::size_t>(i)] +
-                                            two_product(outer.map.x[i], inner.origin.x) +
-                                            two_product(outer.map.y[i], inner.origin.y) +
-                                            two_product(outer.map.z[i], inner.origin.z);
+    p.origin[static_cast<std::size_t>(i)] =
+        outer.origin[static_cast<std::size_t>(i)] + two_product(outer.map.x[i], inner.origin.x) +
+        two_product(outer.map.y[i], inner.origin.y) + two_product(outer.map.z[i], inner.origin.z);
   return p;
 }
 

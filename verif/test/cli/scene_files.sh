@@ -93,7 +93,7 @@ untold far.gltf
 lens near.gltf '{"yfov": 0.7, "znear": 1e-6}'  # depth begins at what is seen
 untold near.gltf
 echo '{Z_BITS: 8}' >coarse.yaml
-told "COARSE" near.gltf --config coarse.yaml
+told "near: depth is coarse: with Z_BITS 8 surfaces 5 from the eye may be 0.00494 apart and have one depth, more than 1/10000 of the scene's extent of 2.83; Z_BITS 13 would do" near.gltf --config coarse.yaml
 lens wide.gltf '{"yfov": 0.7, "znear": 0.5, "aspectRatio": 1.7778}'
 told "1.78 times as wide as high, these 1.33" wide.gltf
 untold wide.gltf --size 64x48   # a size that was asked for is meant

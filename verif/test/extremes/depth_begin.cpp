@@ -80,8 +80,7 @@ TEST_CASE("a near plane far nearer than the scene, or a long lens, leaves surfac
     Look from_near;
     from_near.depth_from_near = true;
     const RayCount now = compare_with_rays(f, make_geometry(f, config, kW, kH), config);
-    const RayCount before =
-        compare_with_rays(f, make_geometry(f, config, kW, kH, {.look = from_near}), config);
+    const RayCount before = compare_with_rays(f, make_geometry(f, config, kW, kH, {.look = from_near}), config);
     UNSCOPED_INFO(v.name << ": " << now.text() << "; depth from the near plane: " << before.text());
     CAPTURE(v.name);
     CHECK(now.good());
@@ -110,9 +109,9 @@ TEST_CASE("family 15: with depth from w0 no face and no volume leaves the range 
             if (Oracle::winding(g.outline(p), x, y) == 0) continue;
             ++looked;
             const auto part = [](std::int64_t v, int n) { return static_cast<double>(v) * n; };
-            const double z = (static_cast<double>(p.depth.c) + part(p.depth.a, x - p.depth.x0) +
-                              part(p.depth.b, y - p.depth.y0)) /
-                             (1 << kPlaneFrac);
+            const double z =
+                (static_cast<double>(p.depth.c) + part(p.depth.a, x - p.depth.x0) + part(p.depth.b, y - p.depth.y0)) /
+                (1 << kPlaneFrac);
             // Half a subpixel of snap each way, and a step.
             const double slack =
                 1 + static_cast<double>(std::abs(p.depth.a) + std::abs(p.depth.b)) / (512.0 * (1 << kPlaneFrac));
@@ -269,8 +268,7 @@ TEST_CASE("family 27: a cap has no acne with a near plane at 1e-6 and from far a
     for (int i = 0; i < 60; ++i) {
       CAPTURE(lens, i);
       SceneFrame f;
-      add_solid(f, i % 2 == 0 ? octahedron_solid() : box_solid(), {0, 0, 0}, {1, 1, 1}, random_turn(random),
-                {1, 1, 1});
+      add_solid(f, i % 2 == 0 ? octahedron_solid() : box_solid(), {0, 0, 0}, {1, 1, 1}, random_turn(random), {1, 1, 1});
       look_at(f.camera, {0, 0, 7}, {0, 0, 0});
       f.camera.half_height = 0.25;
       set(f, lens);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The built-in scenes with depth from w0, against depth from the camera's near plane: what changes is a near tie.
 //
-// `scene_depth_begin -s` prints how many pixels change in each scene, and which bodies leave their units because w0 cuts
-// them.
+// `scene_depth_begin -s` prints how many pixels change in each scene, and which bodies leave their units because w0
+// cuts them.
 #include <algorithm>
 
 #include "opinion/ray_truth.hpp"

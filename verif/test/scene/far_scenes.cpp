@@ -59,8 +59,9 @@ std::string file(const Made& m) {
   const double aside = 0.16;
   nodes.push_back({{"camera", 0},
                    {"translation", place(3, 4, 9)},
-                   {"rotation", {std::cos(aside) * std::sin(down), std::sin(aside) * std::cos(down),
-                                 -std::sin(aside) * std::sin(down), std::cos(aside) * std::cos(down)}}});
+                   {"rotation",
+                    {std::cos(aside) * std::sin(down), std::sin(aside) * std::cos(down),
+                     -std::sin(aside) * std::sin(down), std::cos(aside) * std::cos(down)}}});
   Json lights = Json::array();
   const auto light = [&](Json node, const char* type, double intensity) {
     node["extensions"] = {{"KHR_lights_punctual", {{"light", lights.size()}}}};
@@ -75,9 +76,8 @@ std::string file(const Made& m) {
   Json top = Json::array();
   for (std::size_t i = 0; i < nodes.size(); ++i) top.push_back(i);
   if (m.way == Way::root) {
-    nodes.push_back({{"children", top},
-                     {"translation", {m.offset, m.offset / 2, -m.offset}},
-                     {"scale", {m.unit, m.unit, m.unit}}});
+    nodes.push_back(
+        {{"children", top}, {"translation", {m.offset, m.offset / 2, -m.offset}}, {"scale", {m.unit, m.unit, m.unit}}});
     top = Json::array({nodes.size() - 1});
   }
   const Json members{
@@ -146,8 +146,8 @@ TEST_CASE("a scene's picture is the same in any unit, as far as doubles reach") 
   const test::TempDirectory directory;
   for (const Lamp lamp : {Lamp::sun, Lamp::lamp, Lamp::both}) {
     const auto truth = picture(load(directory, {0, 1, Way::root, lamp}).frame);
-    for (const double power : {-306.0, -200.0, -120.0, -60.0, -30.0, -21.0, -10.0, 10.0, 21.0, 30.0, 60.0, 120.0, 200.0,
-                               300.0, 306.0})
+    for (const double power :
+         {-306.0, -200.0, -120.0, -60.0, -30.0, -21.0, -10.0, 10.0, 21.0, 30.0, 60.0, 120.0, 200.0, 300.0, 306.0})
       for (const Way way : {Way::root, Way::own}) {
         // The lamp's intensity beside a sun is a number of the file, too: the square of the unit.
         if (lamp == Lamp::both && std::abs(power) > 150) continue;

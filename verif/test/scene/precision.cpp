@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rounding in doubles does left of the snap: transform, clipping and projection of every corner of every drawn face
-// once more in floating point of 333 bits, which shares no arithmetic with the golden model.
+// What rounding in doubles does left of the snap: transform, clipping and projection of every corner of every drawn
+// face once more in floating point of 333 bits, which shares no arithmetic with the golden model.
 //
 // `scene_precision -s` prints how many corners snap otherwise, a line for each scene.
 #include <fmt/format.h>
@@ -20,8 +20,7 @@
 namespace kage::verif {
 namespace {
 
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>,
-                                           boost::multiprecision::et_off>;
+using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
@@ -141,10 +140,10 @@ double begin(const SceneFrame& f, const Mesh& mesh, const Screen& screen) {
 
 struct Count {
   std::uint64_t corners = 0;
-  std::uint64_t other = 0;    ///< that snap otherwise
-  std::uint64_t most = 0;     ///< subpixels that one does, at most
-  std::uint64_t faces = 0;    ///< with other corners than the same number of them: clipping went another way
-  std::uint64_t cut = 0;      ///< faces that are clipped
+  std::uint64_t other = 0;  ///< that snap otherwise
+  std::uint64_t most = 0;   ///< subpixels that one does, at most
+  std::uint64_t faces = 0;  ///< with other corners than the same number of them: clipping went another way
+  std::uint64_t cut = 0;    ///< faces that are clipped
 
   /// Compares exact arithmetic on `f` with what the golden model makes of `given`.
   void add(const SceneFrame& f, const SceneFrame& given) {

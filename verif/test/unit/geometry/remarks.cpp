@@ -29,8 +29,8 @@ Remarks look(const SceneFrame& f, const Config& config = {}) { return remarks(f,
 }  // namespace
 
 TEST_CASE("a step of depth longer than 1e-4 of the scene's extent is told, with the width that would do") {
-  // A wall 7 from the eye, and a box around `far`: its back is the furthest surface, depth begins at 4, and a step there
-  // is far^2 / (4 (2^24 - 3)) (1 - 4 / far).
+  // A wall 7 from the eye, and a box around `far`: its back is the furthest surface, depth begins at 4, and a step
+  // there is far^2 / (4 (2^24 - 3)) (1 - 4 / far).
   const auto with_box = [](double far) {
     SceneFrame f = wall();
     add_solid(f, box_solid(), {0, 0, 7 - far + 1}, {1, 1, 1}, Turn{}, {1, 1, 1});
