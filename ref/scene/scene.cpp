@@ -195,9 +195,10 @@ void Scene::Data::measure() {
   note_large_places();
 }
 
-// A node's place far away moves all that hangs on it alike, and loses nothing. Where things hang on different ones, how
-// they lie to each other is what the file's numbers tell, and they are noticeably rounded where a double tells places
-// apart by 2^-23 of the scene and no better, a subpixel of the widest picture.
+// A node's place far away moves all that hangs on it alike, and loses nothing. Where things hang on different ones, or
+// a mesh lies far from its own origin, how things lie to each other is what the file's numbers tell, and they are
+// noticeably rounded where a double tells places apart by 2^-23 of the scene and no better, a subpixel of the widest
+// picture.
 void Scene::Data::note_large_places() {
   const std::vector<Affine> world = scene::pose(raw, time(0, 1), frame);
   std::vector<std::int32_t> hangs_on(raw.nodes.size(), -1);
@@ -212,7 +213,11 @@ void Scene::Data::note_large_places() {
   }
   const std::int32_t first = hangs_on[objects[0].node];
   bool same = !raw.camera || hangs_on[raw.camera->node] == first;
-  for (const Object& object : objects) same = same && hangs_on[object.node] == first;
+  for (const Object& object : objects) {
+    // A mesh's own positions are in single precision, and one of them stands for all.
+    const glm::dvec3 own = world[object.node].vector(meshes[object.mesh].vertices.front());
+    same = same && hangs_on[object.node] == first && !(largest(own) > bounds.radius * kFarPlace);
+  }
   if (!same)
     notes.emplace_back(
         "the scene is so far from the origin, for its size, that its file's numbers are noticeably rounded");
