@@ -75,8 +75,8 @@ static void option_frames(CLI::App& command, Options& options) {
 void option_config(CLI::App& command, Options& options) {
   command
       .add_option("--config", options.config,
-                  "the core's parameters: a name in rtl/defs/configs.yaml or a YAML file of PARAMETER: value lines, "
-                  "default: the first name that can draw it all")
+                  "the core's parameters: a name in rtl/defs/configs.yaml, a YAML file of PARAMETER: value lines, or "
+                  "plan for those that kage plan finds for the scene; default: the cheapest name that can draw it all")
       ->type_name("NAME|FILE");
 }
 

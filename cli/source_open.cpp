@@ -8,11 +8,13 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cosim/model/model.hpp"
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
 #include "mapped.hpp"
 #include "options.hpp"
 #include "order_build.hpp"
+#include "planned.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "source.hpp"
@@ -174,6 +176,14 @@ void Source::load_scene(const Options& options) {
                               line.empty() ? "" : "; --config FILE can, with this line in it: " + line));
     }
     notes_.push_back(fmt::format("configuration: {}", config_.name));
+    return;
+  }
+  if (options.config == kPlanned) {
+    config_ = planned_config(options_, scene_);
+    notes_.push_back(
+        fmt::format("configuration: plan ({}); its RTL model {}",
+                    config_.config.arrangement == 0 ? "systolic" : fmt::format("LANES {}", config_.config.lanes),
+                    cosim::has_model(config_.config) ? "was there" : "was not there (kage model --plan builds it ahead)"));
     return;
   }
   config_ = load_config(options.config);

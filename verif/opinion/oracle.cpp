@@ -143,17 +143,23 @@ OraclePixel Oracle::at(int x) const {
       p.surface = static_cast<std::int32_t>(i);
   }
   if (p.surface < 0) return p;
-  const int mask = (1 << config_.dsf_bits) - 1;
-  for (const Volume& v : volumes_) {
-    int sum = near_cap(v, x);
-    for (const Face& f : v.faces) {
-      const ScreenPolygon& face = g_->polygons[f.polygon];
-      if (nearer(face.depth, g_->polygons[static_cast<std::uint32_t>(p.surface)].depth, x))
-        sum += f.w * winding(g_->outline(face), x, y_);
-    }
-    if ((sum & mask) != 0) p.shadowed = true;
-  }
+  for (const Volume& v : volumes_)
+    p.shadowed = p.shadowed || in_volume(v, x, static_cast<std::uint32_t>(p.surface));
   return p;
+}
+
+bool Oracle::in_volume(const Volume& v, int x, std::uint32_t surface) const {
+  const int mask = (1 << config_.dsf_bits) - 1;
+  int sum = near_cap(v, x);
+  for (const Face& f : v.faces) {
+    const ScreenPolygon& face = g_->polygons[f.polygon];
+    if (nearer(face.depth, g_->polygons[surface].depth, x)) sum += f.w * winding(g_->outline(face), x, y_);
+  }
+  return (sum & mask) != 0;
+}
+
+double Oracle::exact_depth(int x, std::uint32_t surface) const {
+  return static_cast<double>(depth(g_->polygons[surface].depth, x, y_, config_.z_bits)) * 0x1p-24;
 }
 
 Verdict Oracle::judge_surface(int x, const OraclePixel& truth, std::int32_t seen) const {

@@ -58,6 +58,17 @@ class Oracle {
 
   [[nodiscard]] OraclePixel at(int x) const;
 
+  /// The light samples that volumes keep from `surface`, a drawn polygon that the pixel shows. A shadow is calls of
+  /// `shadowed` with the sample's number, more than one if several of its volumes hold the surface.
+  template <class Shadowed>
+  void shadows(int x, std::uint32_t surface, Shadowed&& shadowed) const {
+    for (const Volume& v : volumes_)
+      if (in_volume(v, x, surface)) shadowed(g_->volumes[v.index].sample);
+  }
+
+  /// The exact depth of a drawn polygon at the pixel, in steps of Z_BITS bits, clamped to what is drawn.
+  [[nodiscard]] double exact_depth(int x, std::uint32_t surface) const;
+
   /// Judge an answer: the surface that was seen, and, if it is the right one, its shadow. Errors of depth only.
   [[nodiscard]] Verdict judge_surface(int x, const OraclePixel& truth, std::int32_t seen) const;
   [[nodiscard]] Verdict judge_shadow(int x, const OraclePixel& truth, bool seen) const;
@@ -86,6 +97,7 @@ class Oracle {
   // How an uncertain comparison or test comes out.
   enum class Sure : std::uint8_t { no, maybe, yes };
 
+  [[nodiscard]] bool in_volume(const Volume& v, int x, std::uint32_t surface) const;
   [[nodiscard]] bool nearer(const ScreenPlane& a, const ScreenPlane& b, int x) const;
   [[nodiscard]] Sure surely_nearer(const ScreenPlane& a, const ScreenPlane& b, int x, Errors errors) const;
   [[nodiscard]] Sure surely_covers(std::uint32_t polygon, int x, Errors errors) const;
