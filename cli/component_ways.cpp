@@ -18,7 +18,7 @@ std::string why_spans(SpanReason reason, const std::string& component) {
     case SpanReason::not_convex:
       return component;
     case SpanReason::cut:
-      return "the near plane or the guard band cuts it";
+      return "it reaches nearer to the eye than anything that is seen, or past the guard band";
     case SpanReason::translucent:
       return "it is translucent";
     case SpanReason::culled:

@@ -11,10 +11,13 @@
 namespace kage::cli {
 namespace {
 
-/// x, rounded up to one digit that is not 0.
-double rounded_up(double x) {
-  const double unit = std::pow(10, std::floor(std::log10(x)));
-  return std::ceil(x / unit) * unit;
+std::string coarse_text(const Remarks& r, int z_bits, int exponent) {
+  const std::string would_do = r.z_bits_needed > 0 ? fmt::format("Z_BITS {} would do", r.z_bits_needed)
+                                                   : fmt::format("no Z_BITS up to {} would do", kGreatest.z_bits);
+  return fmt::format(
+      "with Z_BITS {} surfaces {:.3g} from the eye may be {:.3g} apart and have one depth, more than 1/10000 of the "
+      "scene's extent of {:.3g}; {}",
+      z_bits, std::ldexp(r.furthest, exponent), std::ldexp(r.step, exponent), std::ldexp(r.extent, exponent), would_do);
 }
 
 }  // namespace
@@ -24,15 +27,13 @@ std::string in_frames(int some, int all) {
 }
 
 void FrameRemarks::add(const Scene& scene, const SceneFrame& frame) {
-  const Remarks r = remarks(frame, config_, size_.width, size_.height);
+  Look look;
+  look.cull = cull_;
+  const Remarks r = remarks(frame, config_, size_.width, size_.height, look);
   ++frames_;
   far_ += r.beyond_far ? 1 : 0;
   backs_ += r.backs && !cull_ && scene.contents().says_sides ? 1 : 0;
-  if (r.nearest == 0 || coarse_++ > 0) return;
-  coarse_why_ = fmt::format(
-      "the nearest surface lies {:.3g} from the eye, the camera's znear is {:.3g}; of {} steps of depth that leaves "
-      "{:.3g} for this surface and all behind it; a znear from {:.3g} to {:.3g} would do",
-      r.nearest, frame.camera.near, derived::most_depth(config_) - 1, r.steps, rounded_up(r.near_needed), r.nearest);
+  if (r.step > 0 && coarse_++ == 0) coarse_why_ = coarse_text(r, config_.z_bits, frame.exponent);
 }
 
 void FrameRemarks::absorb(const FrameRemarks& later) {

@@ -32,7 +32,7 @@ class FrameRemarks {
   int frames_ = 0;
   int far_ = 0;             // frames with something beyond the camera's far plane,
   int backs_ = 0;           // with a face seen from behind, though the file says that it shows nothing there,
-  int coarse_ = 0;          // with too few steps of depth,
+  int coarse_ = 0;          // in which a step of depth is long,
   std::string coarse_why_;  // as in the first of these
 };
 

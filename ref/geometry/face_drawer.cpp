@@ -2,25 +2,24 @@
 #include "geometry/face_drawer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace kage {
 
-FramePoints::FramePoints(const SceneFrame& frame, const View& view, const ScreenFaces& faces) {
-  eye.reserve(frame.vertices.size());
-  for (const glm::dvec3& p : frame.vertices) eye.push_back(view.to_eye(p));
+FramePoints::FramePoints(std::vector<EyePoint> seen, const ScreenFaces& faces) : eye(std::move(seen)) {
   screen.reserve(eye.size());
   for (const EyePoint& e : eye) screen.push_back(faces.screen_point(e));
 }
 
-FaceDrawer::FaceDrawer(const SceneFrame& frame, const Config& config, const View& view, Clipper& clipper,
-                       FaceShading& shading, FrameGeometry& out)
+FaceDrawer::FaceDrawer(const SceneFrame& frame, std::vector<EyePoint> points, const Config& config, const View& view,
+                       Clipper& clipper, FaceShading& shading, FrameGeometry& out)
     : frame_(&frame),
       config_(&config),
       clipper_(&clipper),
       shading_(&shading),
       out_(&out),
       faces_(view, clipper, out),
-      points_(frame, view, faces_),
+      points_(std::move(points), faces_),
       drawn_(frame.polygons.size()) {}
 
 void FaceDrawer::draw(std::uint32_t index) {

@@ -13,7 +13,8 @@ namespace kage {
 
 /// The frame's vertices, seen from the camera and on the screen.
 struct FramePoints {
-  FramePoints(const SceneFrame& frame, const View& view, const ScreenFaces& faces);
+  /// `seen`: the frame's vertices, by eye_points().
+  FramePoints(std::vector<EyePoint> seen, const ScreenFaces& faces);
 
   std::vector<EyePoint> eye;
   std::vector<ScreenPoint> screen;
@@ -22,8 +23,9 @@ struct FramePoints {
 /// Refers to what it is made of.
 class FaceDrawer {
  public:
-  FaceDrawer(const SceneFrame& frame, const Config& config, const View& view, Clipper& clipper, FaceShading& shading,
-             FrameGeometry& out);
+  /// `points`: the frame's vertices, by eye_points().
+  FaceDrawer(const SceneFrame& frame, std::vector<EyePoint> points, const Config& config, const View& view,
+             Clipper& clipper, FaceShading& shading, FrameGeometry& out);
 
   /// Appends what is seen of the face to the polygons, and notes which they are.
   void draw(std::uint32_t index);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "geometry/check_input.hpp"
 #include "geometry/face_drawer.hpp"
@@ -13,6 +14,7 @@
 #include "geometry/light_table.hpp"
 #include "geometry/polyhedra.hpp"
 #include "geometry/sampled_lights.hpp"
+#include "geometry/seen.hpp"
 #include "geometry/translucent.hpp"
 #include "geometry/volume_maker.hpp"
 #include "kage/error.hpp"
@@ -83,12 +85,13 @@ void keep_first_volumes(FrameGeometry& out) {
   out.left_out = static_cast<std::uint32_t>(all - out.volumes.size());
 }
 
-void make_volumes(const Task& task, const SampledLights& lights, VolumeMaker& maker, ShadowCache& cache,
+void make_volumes(const Task& task, const SampledLights& lights, double near, VolumeMaker& maker, ShadowCache& cache,
                   FrameGeometry& out) {
   const std::vector<SpaceBox> boxes = component_boxes(task.frame);
   VolumeCaster volumes(task.frame, boxes, task.config.dsf_bits, task.look.volumes, ShadowCacheInside::of(cache));
   std::optional<Receivers> receivers;
-  if (task.look.leave_out) receivers.emplace(task.frame, boxes, out.width, out.height, task.config.translucency == 0);
+  if (task.look.leave_out)
+    receivers.emplace(task.frame, boxes, near, out.width, out.height, task.config.translucency == 0);
   std::vector<bool> casts(task.frame.components.size(), true);
   for (std::uint32_t i = 0; i < lights.samples.size(); ++i) {
     const ShadowCaster& caster = lights.samples[i];
@@ -123,14 +126,15 @@ void draw_translucent(const Task& task, const View& view, FaceDrawer& drawer, Tr
 
 FrameGeometry build(const Task& task, int width, int height, TranslucentOrder& order, ShadowCache& shadows) {
   const auto& [frame, config, look] = task;
-  const View view(frame.camera, width, height, config.z_bits, furthest(frame), look.sub_bits);
+  std::vector<EyePoint> points = eye_points(frame);
+  const View view(frame.camera, width, height, config.z_bits, depth_range(frame, config, width, height, look, points), look.sub_bits);
   const SampledLights lights(frame, config, look, view);
   const Lighting lighting(frame.lights, frame.camera.up);
   LightTable table(config, look, frame.lights, lighting, lights.samples_of);
   FaceShading shading(frame, config, lights, lighting, table.exists());
   FrameGeometry out = empty_geometry(task, width, height, lights);
   Clipper clipper(view.near(), view.volume_end(), look.sub_bits);
-  FaceDrawer drawer(frame, config, view, clipper, shading, out);
+  FaceDrawer drawer(frame, std::move(points), config, view, clipper, shading, out);
 
   const std::vector<std::uint32_t> turned_away = draw_all(task, drawer, out);
   out.drawn = static_cast<std::uint32_t>(out.polygons.size());
@@ -139,7 +143,7 @@ FrameGeometry build(const Task& task, int width, int height, TranslucentOrder& o
   if (config.dsf_bits > 0) {
     for (const std::uint32_t i : turned_away) drawer.draw(i);  // what is turned away may still be a cap
     VolumeMaker maker(frame, view, clipper, drawer.points().eye, drawer.drawn(), look.far_ends, out);
-    make_volumes(task, lights, maker, shadows, out);
+    make_volumes(task, lights, view.near(), maker, shadows, out);
   }
   if (config.translucency > 0) draw_translucent(task, view, drawer, order, out);
   table.finish(out);

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "contract/derived.hpp"
-#include "geometry/view.hpp"
+#include "geometry/seen.hpp"
 #include "scene/space.hpp"
 
 namespace kage {
@@ -17,66 +16,43 @@ namespace {
 
 // Where the far plane is taken for the one at which the furthest vertex lies.
 constexpr double kFarMargin = 1e-9;
+// Longer than this share of the scene's size, a step of depth is worth a word.
+constexpr double kLongStep = 1e-4;
 
 class Remarker {
  public:
-  Remarker(const SceneFrame& frame, const Config& config, int width, int height)
+  Remarker(const SceneFrame& frame, const Config& config, int width, int height, const Look& look)
       : frame_(frame),
-        view_(frame.camera, width, height, config.z_bits, furthest(frame)),
-        range_(static_cast<double>(derived::most_depth(config) - 1)),
+        config_(config),
+        width_(width),
         height_(height),
-        slope_y_(frame.camera.half_height),
-        slope_x_(frame.camera.half_height * width / height) {
-    for (const glm::dvec3& p : frame.vertices) eye_points_.push_back(view_.to_eye(p));
-  }
+        look_(look),
+        picture_(frame.camera, width, height),
+        eye_points_(eye_points(frame)),
+        depth_(depth_range(frame, config, width, height, look, eye_points_)) {}
 
   Remarks run() {
     find_far();
     find_backs();
-    if (frame_.camera.perspective) find_coarse_depth();
+    find_coarse_depth();
     return out_;
   }
 
  private:
-  // What of a polygon lies in the picture, before the near plane and beyond `least`: its corners in eye space.
-  std::span<const EyePoint> in_picture(const Polygon& polygon, double least) {
-    corners_.clear();
-    for (const std::uint32_t v : frame_.outline(polygon)) corners_.push_back(eye_points_[v]);
-    const bool perspective = frame_.camera.perspective;
-    const auto across = [&](const EyePoint& p) { return perspective ? p.z : 1.0; };
-    cut([&](const EyePoint& p) { return p.z - least; });
-    cut([&](const EyePoint& p) { return slope_x_ * across(p) - p.x; });
-    cut([&](const EyePoint& p) { return slope_x_ * across(p) + p.x; });
-    cut([&](const EyePoint& p) { return slope_y_ * across(p) - p.y; });
-    cut([&](const EyePoint& p) { return slope_y_ * across(p) + p.y; });
-    return corners_;
-  }
-
-  // Keep what of corners_ has inside() >= 0.
-  template <class Inside>
-  void cut(Inside inside) {
-    buffer_.clear();
-    for (std::size_t i = 0; i < corners_.size(); ++i) {
-      const EyePoint& a = corners_[i];
-      const EyePoint& b = corners_[i + 1 == corners_.size() ? 0 : i + 1];
-      const double da = inside(a);
-      const double db = inside(b);
-      if (da >= 0) buffer_.push_back(a);
-      if ((da >= 0) != (db >= 0)) buffer_.push_back(a + da / (da - db) * (b - a));
-    }
-    corners_.swap(buffer_);
+  [[nodiscard]] bool in_picture(const Polygon& polygon, double least) {
+    return !picture_.of(frame_.outline(polygon), eye_points_, least).empty();
   }
 
   [[nodiscard]] const Triangle& triangle(const Polygon& p) const { return frame_.triangles[p.triangle]; }
 
   void find_far() {
     const double far = frame_.camera.far * (1 + kFarMargin);
-    if (!(far > 0) || furthest(frame_) < far) return;
+    if (!(far > 0) || depth_.far < far) return;
     const auto beyond = [&](const Polygon& p) {
       const auto outline = frame_.outline(p);
       return triangle(p).alpha > 0 &&
              std::any_of(outline.begin(), outline.end(), [&](std::uint32_t v) { return eye_points_[v].z > far; }) &&
-             !in_picture(p, far).empty();
+             in_picture(p, far);
     };
     out_.beyond_far = std::any_of(frame_.polygons.begin(), frame_.polygons.end(), beyond);
   }
@@ -90,7 +66,7 @@ class Remarker {
         const Triangle& t = triangle(p);
         if (t.sides == Sides::both || t.alpha == 0 || (shut && t.sides == Sides::front)) continue;
         const double side = facing(t);
-        if (!(t.sides == Sides::front ? side < 0 : side > 0) || in_picture(p, frame_.camera.near).empty()) continue;
+        if (!(t.sides == Sides::front ? side < 0 : side > 0) || !in_picture(p, frame_.camera.near)) continue;
         out_.backs = true;
         return;
       }
@@ -129,44 +105,40 @@ class Remarker {
     return winding != 0;
   }
 
-  // docs/numbers.md, "A near plane too near": fine enough where two steps at the nearest surface are no longer than a
-  // pixel is wide there.
+  // docs/numbers.md, "How long a step of depth is". With perspective steps grow with the distance. The far end is never
+  // nearer than what is seen, so where steps are short there, no face is looked at.
   void find_coarse_depth() {
-    const Camera& camera = frame_.camera;
-    const double least_steps = height_ / camera.half_height;
-    const double limit = view_.steps_beyond(1) / least_steps;  // no surface nearer than this asks for more
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Polygon& p : frame_.polygons) {
-      const auto outline = frame_.outline(p);
-      const auto closer = [&](std::uint32_t v) { return eye_points_[v].z < nearest; };
-      if (triangle(p).alpha == 0 || std::none_of(outline.begin(), outline.end(), closer)) continue;
-      for (const EyePoint& corner : in_picture(p, camera.near)) nearest = std::min(nearest, corner.z);
-      if (nearest <= limit) return;
-    }
-    if (nearest == std::numeric_limits<double>::infinity()) return;
-    const double needed = nearest / (range_ / least_steps + nearest / furthest(frame_));
-    if (!(needed < nearest)) return;  // no near plane would do: it is the configuration that has too few
-    out_.nearest = nearest;
-    out_.steps = view_.steps_beyond(nearest);
-    out_.near_needed = needed;
+    SpaceBox box;
+    for (const glm::dvec3& p : frame_.vertices) box.add(p);
+    const double most = kLongStep * box.diagonal();
+    const View view(frame_.camera, width_, height_, config_.z_bits, depth_);
+    if (!(view.step(depth_.far) > most)) return;
+    const double furthest = furthest_seen(frame_, config_, width_, height_, look_, eye_points_);
+    if (furthest == 0 || !(view.step(furthest) > most)) return;
+    const double steps = view.step(furthest) / most * static_cast<double>(derived::most_depth(config_) - 1);
+    out_.step = view.step(furthest);
+    out_.furthest = furthest;
+    out_.extent = box.diagonal();
+    Config wider = config_;
+    for (wider.z_bits = config_.z_bits + 1; wider.z_bits <= kGreatest.z_bits && out_.z_bits_needed == 0; ++wider.z_bits)
+      if (static_cast<double>(derived::most_depth(wider) - 1) >= steps) out_.z_bits_needed = wider.z_bits;
   }
 
   const SceneFrame& frame_;
-  View view_;
-  double range_;
-  double height_;
-  double slope_y_;  // half the picture's height and width: per distance (perspective) or as they are
-  double slope_x_;
+  const Config& config_;
+  int width_;
+  int height_;
+  const Look& look_;
+  PictureCut picture_;
   std::vector<EyePoint> eye_points_;  // of the frame's vertices
-  std::vector<EyePoint> corners_;
-  std::vector<EyePoint> buffer_;
+  DepthRange depth_;
   Remarks out_;
 };
 
 }  // namespace
 
-Remarks remarks(const SceneFrame& frame, const Config& config, int width, int height) {
-  return Remarker(frame, config, width, height).run();
+Remarks remarks(const SceneFrame& frame, const Config& config, int width, int height, const Look& look) {
+  return Remarker(frame, config, width, height, look).run();
 }
 
 }  // namespace kage

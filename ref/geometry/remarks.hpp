@@ -5,7 +5,7 @@
 #pragma once
 
 #include "kage/config.hpp"
-#include "kage/scene.hpp"
+#include "kage/geometry.hpp"
 
 namespace kage {
 
@@ -14,13 +14,15 @@ struct Remarks {
   bool backs =
       false;  ///< the picture may show a side of a face that its material does not (Sides), and Look::cull hides
 
-  /// Where the steps of depth are too coarse for the picture (docs/numbers.md, "A near plane too near"), else 0: the
-  /// distance of the nearest surface in the picture,
-  double nearest = 0;
-  double steps = 0;        ///< how many steps of depth there are from it to infinity,
-  double near_needed = 0;  ///< and the nearest near plane with which they would be fine enough.
+  /// Where a step of depth is longer than 1e-4 of the scene's extent at a surface in the picture (docs/numbers.md, "How
+  /// long a step of depth is"), else 0: how long it is at the furthest of these, where it is longest,
+  double step = 0;
+  double furthest = 0;    ///< the distance of that surface,
+  double extent = 0;      ///< the scene's extent, the diagonal of the box round it,
+  int z_bits_needed = 0;  ///< and the least Z_BITS with which it would not be longer; 0: no legal one
 };
 
-Remarks remarks(const SceneFrame& frame, const Config& config, int width, int height);
+/// `look`: as the picture is made; what counts of it is which faces are drawn.
+Remarks remarks(const SceneFrame& frame, const Config& config, int width, int height, const Look& look = {});
 
 }  // namespace kage

@@ -6,37 +6,18 @@
 
 namespace kage {
 
-double furthest(const SceneFrame& frame) {
-  double far = 0;
-  for (const glm::dvec3& p : frame.vertices) far = std::max(far, glm::dot(p - frame.camera.eye, frame.camera.forward));
-  return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
-}
-
-View::View(const Camera& camera, int width, int height, int z_bits, double far, int sub_bits)
+View::View(const Camera& camera, int width, int height, int z_bits, const DepthRange& depth, int sub_bits)
     : camera_(camera),
-      near_(camera.near),
-      far_(far),
+      near_(depth.near),
+      far_(depth.far),
       half_w_(width / 2.0),
       half_h_(height / 2.0),
       per_pixel_x_(camera.half_height / half_h_),
       per_pixel_y_(camera.half_height / half_h_),
       range_(static_cast<double>((std::int64_t{1} << z_bits) - 3)),
+      z_scale_(range_ / (far_ - near_) * (camera.perspective ? near_ * far_ : 1.0)),
       max_slope_(static_cast<double>(std::int64_t{1} << (z_bits + sub_bits))),
-      sub_bits_(sub_bits) {
-  if (camera.perspective) {
-    const double span = 1.0 - near_ / far_;
-    z_base_ = 1.0 + range_ / span;
-    z_scale_ = range_ * near_ / span;
-  } else {
-    z_scale_ = range_ / (far_ - near_);
-    z_base_ = 1.0 - z_scale_ * near_;
-  }
-}
-
-EyePoint View::to_eye(const glm::dvec3& world) const {
-  const glm::dvec3 d = world - camera_.eye;
-  return {glm::dot(d, camera_.right), glm::dot(d, camera_.up), glm::dot(d, camera_.forward)};
-}
+      sub_bits_(sub_bits) {}
 
 ClipPoint View::to_clip(const EyePoint& p) const {
   const double q = camera_.perspective ? p.z : 1.0;
@@ -51,7 +32,12 @@ std::array<glm::dvec3, 4> View::near_corners() const {
   return {centre - across - along, centre + across - along, centre - across + along, centre + across + along};
 }
 
-double View::depth(double w) const { return camera_.perspective ? z_base_ - z_scale_ / w : z_base_ + z_scale_ * w; }
+// Perspective: what is 0 at 1/near and the whole range at 1/far, linear in 1/w. So written, nothing cancels however
+// close the ends lie together, and no end is passed by a rounding.
+double View::depth(double w) const {
+  const double linear = range_ * ((w - near_) / (far_ - near_));
+  return 1.0 + (camera_.perspective ? linear * (far_ / w) : linear);
+}
 
 std::optional<ScreenPlane> View::depth_plane(const glm::dvec3& normal, const EyePoint& point,
                                              const ClipPoint& anchor) const {

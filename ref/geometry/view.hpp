@@ -24,29 +24,41 @@ struct ClipPoint {
   glm::dvec3 color{0, 0, 0};  ///< as displayed, 0 .. 255
 };
 
+/// The point seen from the camera.
+inline EyePoint to_eye(const Camera& camera, const glm::dvec3& world) {
+  const glm::dvec3 d = world - camera.eye;
+  return {glm::dot(d, camera.right), glm::dot(d, camera.up), glm::dot(d, camera.forward)};
+}
+
+/// The distances that stored depth goes over, 0 < near < far.
+struct DepthRange {
+  double near = 1;  ///< w0
+  double far = 2;   ///< of the furthest thing to draw, or beyond
+};
+
 class View {
  public:
-  /// `far`: distance of the furthest thing to draw, > the camera's near. The camera's own far is not used: nothing
-  /// drawn is cut there.
-  /// `sub_bits`: Look::sub_bits.
-  View(const Camera& camera, int width, int height, int z_bits, double far, int sub_bits = kMostSubBits);
+  /// `depth`: of the frame. The camera's own far is not used: nothing drawn is cut there. `sub_bits`: Look::sub_bits.
+  View(const Camera& camera, int width, int height, int z_bits, const DepthRange& depth, int sub_bits = kMostSubBits);
 
-  [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const;
+  [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const { return kage::to_eye(camera_, world); }
   [[nodiscard]] ClipPoint to_clip(const EyePoint& p) const;
+
+  /// w0, where depth begins and faces and volumes are cut: nothing that is seen lies nearer.
   [[nodiscard]] double near() const { return near_; }
   [[nodiscard]] int sub_bits() const { return sub_bits_; }
 
-  /// The picture's corners on the near plane, in world space: everything seen lies between them and a surface.
+  /// The picture's corners at w0, in world space: everything seen lies between them and a surface.
   [[nodiscard]] std::array<glm::dvec3, 4> near_corners() const;
 
   /// Where volumes are cut: a little past everything drawn. Depth there still fits a span's accumulator.
   [[nodiscard]] double volume_end() const { return far_ + 0.01 * (far_ - near_); }
 
-  /// Depth at distance w, in LSB.
+  /// Depth at distance w, in LSB: 1 at w0 and 2^Z_BITS - 2 at the far end, to the bit.
   [[nodiscard]] double depth(double w) const;
 
-  /// Steps of depth from distance w > 0 on to infinity; perspective.
-  [[nodiscard]] double steps_beyond(double w) const { return z_scale_ / w; }
+  /// How far apart two surfaces at distance w > 0 are whose depths differ by an LSB.
+  [[nodiscard]] double step(double w) const { return camera_.perspective ? w / z_scale_ * w : 1 / z_scale_; }
 
   /// The depth plane of the plane through `normal` and `point`, both in eye space, anchored at `anchor`, a point of it
   /// before the camera. Empty if it is too steep: more than 2^(Z_BITS + sub_bits) LSB a pixel.
@@ -73,15 +85,11 @@ class View {
   double half_h_;
   double per_pixel_x_;  // eye x per pixel at w = 1 (perspective) or everywhere (parallel)
   double per_pixel_y_;
-  double range_;   // LSB from near to far
-  double z_base_;  // perspective: depth = z_base - z_scale / w; parallel: z_base + z_scale w
-  double z_scale_;
+  double range_;    // LSB from near to far
+  double z_scale_;  // what depth falls by per 1/w (perspective) or rises by per w (parallel)
   double max_slope_;
   int sub_bits_;
 };
-
-/// To where depth reaches: a little past the frame's furthest vertex. Nothing is cut at the far end.
-double furthest(const SceneFrame& frame);
 
 /// v * 2^frac, rounded half up. |v| 2^frac must be below 2^62.
 std::int64_t to_fixed(double v, int frac);

@@ -64,7 +64,7 @@ std::array<double, 4> sample(const RawTrack& track, double time) {
   return v;
 }
 
-std::vector<Affine> pose(const RawScene& scene, double time) {
+std::vector<Affine> pose(const RawScene& scene, double time, const WorkingFrame& frame) {
   struct Local {
     glm::dvec3 translation;
     Quaternion rotation;
@@ -88,14 +88,13 @@ std::vector<Affine> pose(const RawScene& scene, double time) {
         break;
     }
   }
-  std::vector<Affine> world;
-  world.reserve(scene.nodes.size());
+  std::vector<Affine> own;
+  own.reserve(scene.nodes.size());
   for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
     const RawNode& n = scene.nodes[i];
-    const Affine own = n.fixed ? n.matrix : compose(local[i].translation, local[i].rotation, local[i].scale);
-    world.push_back(n.parent < 0 ? own : world[static_cast<std::size_t>(n.parent)] * own);
+    own.push_back(n.fixed ? n.matrix : compose(local[i].translation, local[i].rotation, local[i].scale));
   }
-  return world;
+  return placed(scene, own, frame);
 }
 
 double end_time(const RawScene& scene) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "raw.hpp"
+#include "working_frame.hpp"
 
 namespace kage::scene {
 
@@ -12,8 +13,8 @@ namespace kage::scene {
 /// x, y, z, w; linear ones turn by slerp, cubic ones as glTF says.
 std::array<double, 4> sample(const RawTrack& track, double time);
 
-/// Object-to-world map of every node at a time.
-std::vector<Affine> pose(const RawScene& scene, double time);
+/// Object-to-world map of every node at a time, in the working frame.
+std::vector<Affine> pose(const RawScene& scene, double time, const WorkingFrame& frame = {});
 
 /// Time of the last key of all tracks, at least the start.
 double end_time(const RawScene& scene);

@@ -19,12 +19,11 @@
 namespace kage {
 namespace {
 
+// Of the scene's radius: see note_large_places().
+constexpr double kFarPlace = 1 << 29;
+
 constexpr int kDefaultFrames = 8;
 constexpr int kPoses = 16;  // of an animation, to find its bounds
-
-// How many times further from the origin than large a scene may be before its numbers are noticeably rounded: a double
-// then tells positions apart by 2^-23 of the scene, a subpixel of the widest picture.
-constexpr double kFar = 1 << 29;
 
 using scene::Affine;
 
@@ -79,6 +78,7 @@ struct Scene::Data {
   std::vector<std::string> object_names;
   std::vector<Component> components;  // of all objects, as in every frame
   std::vector<std::string> notes;
+  scene::WorkingFrame frame;  // of all frames; `bounds` are in it
   scene::Bounds bounds;
   double exposure = 1;
   double end_time = 0;
@@ -87,7 +87,10 @@ struct Scene::Data {
   void build_meshes(const std::function<void()>& wait);
   void place_objects();
   void describe();
+  /// Vertices, or corners of boxes round objects, at some times of the animation.
+  [[nodiscard]] std::vector<glm::dvec3> points() const;
   void measure();
+  void note_large_places();
   [[nodiscard]] std::vector<Light> lights(const std::vector<Affine>& world) const;
   [[nodiscard]] double time(int index, int count) const {
     return raw.start_time + (end_time - raw.start_time) * index / count;
@@ -155,11 +158,11 @@ void Scene::Data::describe() {
 }
 
 // The ball that holds all frames: what moves, by the corners of its box at a number of times.
-void Scene::Data::measure() {
+std::vector<glm::dvec3> Scene::Data::points() const {
   std::vector<glm::dvec3> points;
   const int steps = raw.tracks.empty() ? 1 : kPoses;
   for (int step = 0; step < steps; ++step) {
-    const std::vector<Affine> world = scene::pose(raw, time(step, steps));
+    const std::vector<Affine> world = scene::pose(raw, time(step, steps), frame);
     for (const Object& object : objects) {
       const std::vector<glm::dvec3>& vertices = meshes[object.mesh].vertices;
       if (steps == 1) {
@@ -171,16 +174,60 @@ void Scene::Data::measure() {
       for (unsigned corner = 0; corner < 8; ++corner) points.push_back(world[object.node].point(box.corner(corner)));
     }
   }
-  bounds = scene::bounds_of(points);
+  return points;
+}
+
+void Scene::Data::measure() {
+  std::vector<glm::dvec3> all = points();
+  const auto box = [&all] {
+    SpaceBox b;
+    for (const glm::dvec3& p : all) b.add(p);
+    if (!is_finite(b.high - b.low)) throw Error("the scene is too large to be measured");
+    return b;
+  };
+  // From far away a scene's size is rounded itself, so the origin comes first.
+  frame.origin = scene::working_origin(box());
+  if (frame.is_moved()) all = points();
+  frame.exponent = scene::working_exponent(box());
+  if (frame.exponent != 0) all = points();
+  bounds = scene::bounds_of(all);
   if (!std::isfinite(bounds.radius) || !is_finite(bounds.center)) throw Error("the scene is too large to be measured");
-  if (largest(bounds.center) > bounds.radius * kFar)
-    notes.emplace_back("the scene is so far from the origin, for its size, that its numbers are noticeably rounded");
+  note_large_places();
+}
+
+// A node's place far away moves all that hangs on it alike, and loses nothing. Where things hang on different ones, or
+// a mesh lies far from its own origin, how things lie to each other is what the file's numbers tell, and they are
+// noticeably rounded where a double tells places apart by 2^-23 of the scene and no better, a subpixel of the widest
+// picture.
+void Scene::Data::note_large_places() {
+  const std::vector<Affine> world = scene::pose(raw, time(0, 1), frame);
+  std::vector<std::int32_t> hangs_on(raw.nodes.size(), -1);
+  const auto here = [this](double v) { return frame.length(v); };
+  for (std::size_t i = 0; i < raw.nodes.size(); ++i) {
+    const scene::RawNode& n = raw.nodes[i];
+    const auto parent = static_cast<std::size_t>(n.parent);
+    const glm::dvec3 at = n.fixed ? n.matrix.origin : n.translation;
+    const glm::dvec3 moved = n.parent < 0 ? glm::dvec3{here(at.x), here(at.y), here(at.z)} : world[parent].vector(at);
+    const bool far = largest(moved) > bounds.radius * kFarPlace;
+    hangs_on[i] = far ? static_cast<std::int32_t>(i) : n.parent < 0 ? -1 : hangs_on[parent];
+  }
+  const std::int32_t first = hangs_on[objects[0].node];
+  bool same = !raw.camera || hangs_on[raw.camera->node] == first;
+  for (const Object& object : objects) {
+    // A mesh's own positions are in single precision, and one of them stands for all.
+    const glm::dvec3 own = world[object.node].vector(meshes[object.mesh].vertices.front());
+    same = same && hangs_on[object.node] == first && !(largest(own) > bounds.radius * kFarPlace);
+  }
+  if (!same)
+    notes.emplace_back(
+        "the scene is so far from the origin, for its size, that its file's numbers are noticeably rounded");
 }
 
 std::vector<Light> Scene::Data::lights(const std::vector<Affine>& world) const {
   if (raw.lights.empty()) return {scene::default_light()};
   std::vector<Light> all;
-  for (const scene::RawLight& l : raw.lights) all.push_back(scene::file_light(l, world[l.node]));
+  for (const scene::RawLight& l : raw.lights) all.push_back(scene::file_light(l, world[l.node], frame));
+  scene::relative_intensities(all, frame);
   return all;
 }
 
@@ -214,7 +261,7 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
     data->place_objects();
     data->describe();
     data->measure();
-    data->exposure = scene::exposure(data->lights(scene::pose(data->raw, data->time(0, 1))), data->bounds);
+    data->exposure = scene::exposure(data->lights(scene::pose(data->raw, data->time(0, 1), data->frame)), data->bounds);
   } catch (const Error& e) {
     throw Error(shown + ": " + e.what());
   }
@@ -239,8 +286,10 @@ SceneFrame Scene::frame(int index, int count) const {
   const Data& d = *data_;
   if (index < 0 || index >= count)
     throw Error(d.place + ": frame " + std::to_string(index) + " of " + std::to_string(count) + ": there is none");
-  const std::vector<Affine> world = scene::pose(d.raw, d.time(index, count));
+  const std::vector<Affine> world = scene::pose(d.raw, d.time(index, count), d.frame);
   SceneFrame frame;
+  frame.origin = d.frame.origin;
+  frame.exponent = d.frame.exponent;
   frame.components = d.components;
   std::size_t component = 0;
   for (std::uint32_t i = 0; i < d.objects.size(); ++i) {
@@ -263,7 +312,7 @@ SceneFrame Scene::frame(int index, int count) const {
     }
   }
   try {
-    frame.camera = d.raw.camera ? scene::file_camera(*d.raw.camera, world[d.raw.camera->node], d.bounds)
+    frame.camera = d.raw.camera ? scene::file_camera(*d.raw.camera, world[d.raw.camera->node], d.bounds, d.frame)
                                 : scene::orbit_camera(d.bounds, index, count);
   } catch (const Error& e) {
     const std::string node =

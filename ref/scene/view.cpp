@@ -41,14 +41,14 @@ Bounds bounds_of(const std::vector<glm::dvec3>& points) {
   return b;
 }
 
-Camera file_camera(const RawCamera& raw, const Affine& world, const Bounds& bounds) {
+Camera file_camera(const RawCamera& raw, const Affine& world, const Bounds& bounds, const WorkingFrame& frame) {
   Camera camera;
   camera.eye = world.point(raw.eye);
   orient(camera, world.vector(raw.forward), world.vector(raw.up));
   camera.perspective = raw.perspective;
-  camera.half_height = raw.half_height;
-  camera.near = raw.near > 0 ? raw.near : bounds.radius * kNearShare;
-  camera.far = raw.far > camera.near ? raw.far : 0;
+  camera.half_height = raw.perspective ? raw.half_height : frame.length(raw.half_height);
+  camera.near = raw.near > 0 ? frame.length(raw.near) : bounds.radius * kNearShare;
+  camera.far = frame.length(raw.far) > camera.near ? frame.length(raw.far) : 0;
   camera.aspect = raw.aspect;
   return camera;
 }
@@ -70,14 +70,26 @@ Camera orbit_camera(const Bounds& bounds, int index, int count) {
   return camera;
 }
 
-Light file_light(const RawLight& raw, const Affine& world) {
+Light file_light(const RawLight& raw, const Affine& world, const WorkingFrame& frame) {
   Light light = raw.light;
   light.direction = unit(world.vector(raw.light.direction), {0, -1, 0});
   light.position = world.point(raw.light.position);
+  light.range = frame.length(light.range);
   light.axis_u = world.vector(raw.light.axis_u);
   light.axis_v = world.vector(raw.light.axis_v);
   if (light.shape == LightShape::sphere) light.axis_u = {length(light.axis_u), 0, 0};
   return light;
+}
+
+void relative_intensities(std::vector<Light>& lights, const WorkingFrame& frame) {
+  if (frame.exponent == 0) return;
+  const auto falling = std::count_if(lights.begin(), lights.end(), [](const Light& l) { return l.falls_off; });
+  if (falling == 0 || static_cast<std::size_t>(falling) == lights.size()) return;
+  // A distance is 2^exponent times as long in the file. Of the two kinds the one that the scene's size favours stays.
+  const bool large = frame.exponent > 0;
+  const double factor = std::ldexp(1.0, -2 * std::abs(frame.exponent));
+  for (Light& l : lights)
+    if (l.falls_off == large) l.color *= factor;
 }
 
 double exposure(const std::vector<Light>& lights, const Bounds& bounds) {

@@ -16,9 +16,10 @@ constexpr double kReceiverMargin = 1e-6;
 
 }  // namespace
 
-Receivers::Receivers(const SceneFrame& frame, std::span<const SpaceBox> boxes, int width, int height, bool translucent)
+Receivers::Receivers(const SceneFrame& frame, std::span<const SpaceBox> boxes, double near, int width, int height,
+                     bool translucent)
     : frame_(&frame), boxes_(boxes), known_(frame.vertices.size(), false) {
-  add_picture(width, height);
+  add_picture(near, width, height);
   for (const Component& part : frame.components)
     for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i)
       if (translucent || !part.translucent) see(frame.outline(frame.polygons[i]));
@@ -30,7 +31,7 @@ Receivers::Receivers(const SceneFrame& frame, std::span<const SpaceBox> boxes, i
     }
 }
 
-void Receivers::add_picture(int width, int height) {
+void Receivers::add_picture(double near, int width, int height) {
   const Camera& c = frame_->camera;
   const double up = c.half_height * kWider;
   const double right = up * width / height;
@@ -42,7 +43,7 @@ void Receivers::add_picture(int width, int height) {
   add(-c.right, right);
   add(c.up, up);
   add(-c.up, up);
-  planes_.push_back({-c.forward, -glm::dot(c.forward, c.eye) - c.near / kWider});
+  planes_.push_back({-c.forward, -glm::dot(c.forward, c.eye) - near / kWider});
 }
 
 // Cut the polygon by the picture's planes, and take note of the corners that are left.

@@ -14,9 +14,10 @@ namespace kage {
 /// What of a frame's faces lies in the picture.
 class Receivers {
  public:
-  /// `boxes`: of its components. `translucent`: whether translucent faces are drawn opaque, and take shadow. Refers to
-  /// `frame` and `boxes`.
-  Receivers(const SceneFrame& frame, std::span<const SpaceBox> boxes, int width, int height, bool translucent);
+  /// `boxes`: of its components. `near`: nothing that is seen lies nearer. `translucent`: whether translucent faces are
+  /// drawn opaque, and take shadow. Refers to `frame` and `boxes`.
+  Receivers(const SceneFrame& frame, std::span<const SpaceBox> boxes, double near, int width, int height,
+            bool translucent);
 
   /// By component: false only if its shadow, without end, meets nothing that is seen. A shadow is left out if it lies
   /// beyond one of these planes, all of which have all that is seen on one side: those of the picture, of the box round
@@ -30,7 +31,7 @@ class Receivers {
     double limit;
   };
 
-  void add_picture(int width, int height);
+  void add_picture(double near, int width, int height);
   void see(std::span<const std::uint32_t> outline);
   void add_bound(const glm::dvec3& normal, std::vector<HalfSpace>& to) const;
   [[nodiscard]] static bool beyond(const HalfSpace& s, const SpaceBox& b, const LightPoint& light);

@@ -2,9 +2,9 @@
 //
 // One point of a light, and how a frame's faces stand to it.
 //
-// A volume's far end is further from the light than everything drawn and than the picture's corners on the near plane,
-// hence than every point between eye and surface; so it hides no pixel and is never a span. It counts where the near
-// plane cuts it.
+// A volume's far end is further from the light than everything drawn and than the picture's corners where depth begins,
+// hence than every point between these and a surface; so it hides no pixel and is never a span. It counts where it is
+// cut there.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -30,7 +30,7 @@ struct FacePlane {
 
 class ShadowCaster {
  public:
-  /// Refers to `frame`. `near_corners`: the picture's corners on the near plane; volumes reach past them too.
+  /// Refers to `frame`. `near_corners`: the picture's corners where depth begins; volumes reach past them too.
   /// `extrusion`: how many times as far as they must volumes reach, >= 1.
   ShadowCaster(const SceneFrame& frame, const LightPoint& light, std::span<const glm::dvec3> near_corners,
                double extrusion);

@@ -71,7 +71,7 @@ void measure(const SceneFrame& f, const Config& config, const Look& look, double
   std::vector<double> samples(f.lights.size(), 0);
   for (const auto l : g.sample_light) ++samples[l];
   const Lighting lighting(f.lights, f.camera.up);
-  const View view(f.camera, kWidth, kHeight, config.z_bits, 1e3);
+  const View view(f.camera, kWidth, kHeight, config.z_bits, {f.camera.near, 1e3});
   std::vector<ShadowCaster> casters;
   for (const Light& l : f.lights) casters.emplace_back(f, l, view.near_corners(), 1);
   const bool directional = std::all_of(f.lights.begin(), f.lights.end(), [](const Light& l) { return l.directional; });

@@ -71,7 +71,7 @@ struct Setting {
     return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
   }
   [[nodiscard]] ShadowCaster caster() const {
-    const View view(frame.camera, width, height, kZBits, far());
+    const View view(frame.camera, width, height, kZBits, {frame.camera.near, far()});
     return {frame, frame.lights[0], view.near_corners(), 1};
   }
   [[nodiscard]] std::array<std::uint8_t, 3> background(Shown shown) const {

@@ -6,7 +6,9 @@
 ///
 /// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left
 /// pixel, whose centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is
-/// nearer: 1 at the near plane, 2^Z_BITS - 2 at the far plane. docs/numbers.md has every rounding with its bound.
+/// nearer: 1 where it begins, 2^Z_BITS - 2 at the frame's furthest vertex. It begins at w0, the least distance at which
+/// the picture shows a face, rounded down so that it rarely changes from frame to frame and costs at most a bit.
+/// docs/numbers.md has the rule, and every rounding with its bound.
 #pragma once
 
 #include <array>
@@ -98,8 +100,8 @@ struct VolumeFace {
   std::int32_t w = 1;
 };
 
-/// A piece of the outline of a volume's section with the near plane. An edge that goes down adds w to the sum of all
-/// pixels right of it; an edge that goes up subtracts w.
+/// A piece of the outline of a volume's near cap, its section with the plane at w0. An edge that goes down adds w to
+/// the sum of all pixels right of it; an edge that goes up subtracts w.
 struct NearEdge {
   ScreenVertex from;   ///< where it begins
   ScreenVertex to;     ///< where it ends
@@ -112,7 +114,7 @@ struct ShadowVolume {
   std::uint32_t first_face = 0;  ///< into FrameGeometry::volume_faces
   std::uint32_t face_count = 0;  ///< at least 1
   std::uint32_t first_near = 0;  ///< into FrameGeometry::near_edges
-  std::uint32_t near_count = 0;  ///< 0: the near plane does not cut it
+  std::uint32_t near_count = 0;  ///< 0: the plane at w0 does not cut it
   std::uint32_t component = 0;   ///< of its first caster, into SceneFrame::components
   std::uint32_t sample = 0;      ///< of light that it keeps out, into FrameGeometry::sample_light
 };
@@ -129,8 +131,8 @@ struct PolyhedronEdge {
   std::uint32_t against = kNoPolygon;  ///< likewise
 };
 
-/// A convex polyhedron that is wholly before the near plane, of one colour per face. Its drawn polygons are those not
-/// turned away.
+/// A convex polyhedron that lies wholly from w0 on, of one colour per face. Its drawn polygons are those not turned
+/// away.
 struct Polyhedron {
   std::uint32_t component = 0;      ///< into SceneFrame::components
   std::uint32_t first_polygon = 0;  ///< into FrameGeometry::polygons
@@ -144,7 +146,7 @@ enum class SpanReason : std::uint8_t {
   none,         ///< it is one
   not_closed,   ///< Component::closed
   not_convex,   ///< Component::convex
-  cut,          ///< by the near plane or the guard band
+  cut,          ///< by the plane at w0 or the guard band
   colors,       ///< more than one within a face
   translucent,  ///< a unit's pixels are opaque
   culled,       ///< Look::cull leaves out faces that the eye would see
@@ -197,6 +199,9 @@ struct Look {
   double darkening = 0.55;                             ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
   double extrusion = 1;   ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;  ///< volumes carry their far ends as faces too, which changes no picture; for tests
+  /// Depth begins at the camera's near plane wherever the nearest surface lies: coarser, so that surfaces close to each
+  /// other may change places; for tests.
+  bool depth_from_near = false;
   VolumeWay volumes = VolumeWay::fewest;  ///< how many volumes casters have
   bool leave_out = true;                  ///< shadows that can meet nothing seen, which changes no picture
   /// Makes the picture fit the configuration where make_geometry() would throw Error. A light with too many samples for

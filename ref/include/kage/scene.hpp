@@ -116,13 +116,18 @@ struct Component {
 struct SceneFrame {
   Camera camera;                                      ///< what the frame is seen by
   std::vector<Light> lights = std::vector<Light>(1);  ///< 1 to kMaxLights
-  std::vector<glm::dvec3> vertices;                   ///< in world space
+  std::vector<glm::dvec3> vertices;                   ///< in world space, like all lengths and places of the frame
   std::vector<ShadingVertex> shading;                 ///< what triangles look like at their corners
   /// In draw order: objects in the file's order, components in order of their first face.
   std::vector<Triangle> triangles;
   std::vector<Polygon> polygons;       ///< the same surface, in the same order
   std::vector<std::uint32_t> corners;  ///< of polygons, into vertices
   std::vector<Component> components;   ///< in the order of their triangles; every triangle and polygon belongs to one
+  /// Where the frame's world lies in the file's: a point p of this frame is origin + 2^exponent p there. 0 and 0, but
+  /// for scenes far from their file's origin or in a unit so small or large that doubles would lose them; the same in
+  /// all frames of a scene. Geometry does not look at it.
+  glm::dvec3 origin{0, 0, 0};
+  int exponent = 0;  ///< see `origin`
 
   /// A polygon's corners.
   /// @param p one of `polygons`

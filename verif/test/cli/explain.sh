@@ -24,7 +24,7 @@ sys.exit(a != b)
 PY
 
 # The path through the tree.
-expect 0 "$kage" explain polyhedra --config polyhedra --pixel 300,240
+expect 0 "$kage" explain polyhedra --config polyhedra --pixel 320,200
 grep -q 'level 3: Z [0-9]* of index [0-9]* against nothing: the first wins' stdout || fail "no path through the tree"
 grep -q 'by segments' stdout || fail "the polyhedron has no name"
 

@@ -90,10 +90,10 @@ lens far.gltf '{"yfov": 0.7, "znear": 0.5, "zfar": 4}'
 told "the camera's zfar is ignored: things beyond it are drawn" far.gltf
 lens far.gltf '{"yfov": 0.7, "znear": 0.5, "zfar": 6}'
 untold far.gltf
-lens near.gltf '{"yfov": 0.7, "znear": 1e-6}'
-told "near: depth is coarse: the nearest surface lies 5 from the eye, the camera's znear is 1e-06; of 16777213 steps of depth that leaves 3.36 for this surface and all behind it; a znear from 0.0004 to 5 would do" near.gltf
-lens near.gltf '{"yfov": 0.7, "znear": 0.0004}'
+lens near.gltf '{"yfov": 0.7, "znear": 1e-6}'  # depth begins at what is seen
 untold near.gltf
+echo '{Z_BITS: 8}' >coarse.yaml
+told "near: depth is coarse: with Z_BITS 8 surfaces 5 from the eye may be 0.00494 apart and have one depth, more than 1/10000 of the scene's extent of 2.83; Z_BITS 13 would do" near.gltf --config coarse.yaml
 lens wide.gltf '{"yfov": 0.7, "znear": 0.5, "aspectRatio": 1.7778}'
 told "1.78 times as wide as high, these 1.33" wide.gltf
 untold wide.gltf --size 64x48   # a size that was asked for is meant

@@ -24,5 +24,5 @@ reaches depths default 160x120 ramp_under ramp_over
 reaches depths default 320x240 ramp_under ramp_over
 reaches depths systolic64 64x48 systolic_clamp
 # A core without FSF darkens on a line's way out, by the count and by what the eye is within.
-reaches inside counting 64x48 command_eol_bias
+reaches cutaway counting 64x48 command_eol_bias
 done_testing

@@ -146,7 +146,8 @@ TEST_CASE("the paper's format gives the same bits by segments and by spans") {
 }
 
 TEST_CASE("the paper's format: a split run whose sum leaves 15 bits makes spans, not an error") {
-  // Long thin walls, nearly facing the eye, as deep as the scene: the step is a small fraction that rounds badly.
+  // Long thin walls, nearly facing the eye, at the far end of a deep scene, which a pane in a corner of the picture
+  // begins: the step is a small fraction that rounds badly.
   bool by_segments = false;
   bool by_spans = false;
   for (int i = 0; i < 40; ++i) {
@@ -155,6 +156,7 @@ TEST_CASE("the paper's format: a split run whose sum leaves 15 bits makes spans,
     SceneFrame f;
     add_solid(f, box_solid(), {0, 0, 0}, {7.5, 0.3, 0.0001},
               Turn{{std::cos(a), 0, -std::sin(a)}, {0, 1, 0}, {std::sin(a), 0, std::cos(a)}}, {1, 0.6, 0.2});
+    add_solid(f, pane_solid(), {7.9, 0.5, 19.8}, {0.05, 0.05, 1}, Turn{}, {1, 1, 1}, false, false);
     look_at(f.camera, {0, 0, 20}, {0, 0, 0});
     f.camera.perspective = false;
     f.camera.half_height = 0.6;

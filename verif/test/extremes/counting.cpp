@@ -171,8 +171,8 @@ TEST_CASE("family 24: counting with the eye in, out and on shadow planes, near p
 
 TEST_CASE("family 24: where the eye is in several shadows, IF has their number") {
   SceneFrame f;
-  add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
-  for (int i = 0; i < 3; ++i) add_solid(f, box_solid(), {0, 2 + 2.0 * i, 0}, {1, 0.5, 1}, Turn{}, {1, 1, 1});
+  add_solid(f, box_solid(), {0, -3, 0}, {20, 0.5, 20}, Turn{}, {1, 1, 1});
+  for (int i = 0; i < 3; ++i) add_solid(f, box_solid(), {0, 2 + 2.0 * i, 0}, {3, 0.5, 3}, Turn{}, {1, 1, 1});
   f.lights[0].direction = {0, -1, 0};
   f.camera.near = 0.01;
   look_at(f.camera, {0, 0, 0}, {0, -0.5, 1});

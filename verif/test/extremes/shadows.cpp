@@ -125,11 +125,11 @@ TEST_CASE(
       }
 }
 
-TEST_CASE("family 24: a section with the near plane that covers the whole line is IF, any other is not") {
+TEST_CASE("family 24: a section with the plane at w0 that covers the whole line is IF, any other is not") {
   SceneFrame f;
-  add_solid(f, box_solid(), {0, -3, 0}, {8, 0.5, 8}, Turn{}, {1, 1, 1});
-  add_solid(f, box_solid(), {0, 2, 0}, {1, 0.5, 1}, Turn{}, {1, 1, 1});
-  f.lights[0].direction = {0, -1, 0};
+  add_solid(f, box_solid(), {0, -3, 0}, {20, 0.5, 20}, Turn{}, {1, 1, 1});
+  add_solid(f, box_solid(), {0, 2, 0}, {3, 0.5, 3}, Turn{}, {1, 1, 1});
+  f.lights[0].direction = {0, -1, 0};  // depth begins at 2, where the picture is 2.7 wide
   Look look;
   look.leave_out = false;  // the shadow is behind the eye
   const auto counts = [&](const glm::dvec3& eye) {
@@ -142,10 +142,10 @@ TEST_CASE("family 24: a section with the near plane that covers the whole line i
   f.camera.near = 0.01;
   CHECK(counts({0, 0, 0})[kind(Kind::IF)] == kHeight);  // inside
   CHECK(counts({0, 0, 0})[kind(Kind::NC)] == 0);
-  CHECK(counts({3, 0, 0})[kind(Kind::IF)] == 0);  // outside
-  CHECK(counts({3, 0, 0})[kind(Kind::NC)] == 0);
-  CHECK(counts({1, 0, 0})[kind(Kind::NC)] == kHeight);  // half of every line
-  CHECK(counts({1, 0, 0})[kind(Kind::IF)] == 0);
+  CHECK(counts({9, 0, 0})[kind(Kind::IF)] == 0);  // outside
+  CHECK(counts({9, 0, 0})[kind(Kind::NC)] == 0);
+  CHECK(counts({3, 0, 0})[kind(Kind::NC)] == kHeight);  // half of every line
+  CHECK(counts({3, 0, 0})[kind(Kind::IF)] == 0);
 }
 
 TEST_CASE("family 25: light on a face's plane plus and minus one ulp, inside the caster, behind the eye, far away") {

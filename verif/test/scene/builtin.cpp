@@ -168,21 +168,27 @@ TEST_CASE("built-in scenes: layers of translucent faces are what rays say of the
 }
 
 TEST_CASE("built-in scenes: polyhedra by segments and by spans give the same bits in every frame") {
+  int with_polyhedra = 0;
   for (const std::string& name : builtin_scenes()) {
     const Scene scene = Scene::load(name);
     int by_segments = 0;
+    std::size_t polyhedra = 0;
     for (int i = 0; i < scene.frame_count(); ++i) {
       CAPTURE(name, i);
       Config c;
       c.smooth = i % 2;
       c.color_frac = 8 * c.smooth;
       c.translucency = translucent(scene) ? 1 : 0;
-      for (const SegmentCount& n : same_either_way(scene.frame(i, scene.frame_count()), c, 128, 96))
-        by_segments += n.by_segments;
+      const SceneFrame f = scene.frame(i, scene.frame_count());
+      for (const SegmentCount& n : same_either_way(f, c, 128, 96)) by_segments += n.by_segments;
+      polyhedra += make_geometry(f, c, 128, 96).polyhedra.size();
     }
     CAPTURE(name);
-    CHECK(by_segments > 0);
+    CHECK((by_segments > 0) == (polyhedra > 0));
+    with_polyhedra += polyhedra > 0 ? 1 : 0;
   }
+  // The only convex body of `knot` is its floor, which w0 cuts in every frame.
+  CHECK(with_polyhedra == static_cast<int>(builtin_scenes().size()) - 1);
 }
 
 TEST_CASE("built-in scenes: streams have the same bytes with every compiler, number of threads and Debian") {

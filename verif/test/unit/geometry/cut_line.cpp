@@ -60,7 +60,7 @@ struct Judged {
 void judge(const Camera& camera, const Face& face, const Face& node, Judged& sum) {
   const int side = eye_side(camera, face);
   if (side == 0 || normal(node) == Point{0, 0, 0}) return;  // no tree has a node without a plane
-  const View view(camera, kWidth, kHeight, 24, 100);
+  const View view(camera, kWidth, kHeight, 24, {camera.near, 100});
   const CutLine line = cut_line(view, camera, face, side, node);
   const auto at = [&](const Number& x, const Number& y) { return value_at(camera, face, node, side, x, y); };
   const Number c = at(0, 0);

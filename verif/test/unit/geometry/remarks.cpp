@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of a picture: a near plane so near that depth is coarse, things beyond the far plane, backs of faces.
+// What is told of a picture: steps of depth that are long, things beyond the far plane, backs of faces.
 #include "geometry/remarks.hpp"
+
+#include <cmath>
 
 #include "kage/config.hpp"
 #include "stimulus/shapes.hpp"
@@ -26,55 +28,70 @@ Remarks look(const SceneFrame& f, const Config& config = {}) { return remarks(f,
 
 }  // namespace
 
-TEST_CASE("a near plane too near: from where two steps at the nearest surface are longer than a pixel is wide") {
-  SceneFrame f = wall();
-  CHECK(look(f).nearest == 0);
-  // Steps from w to infinity are (2^24 - 3) n / w, all of them for a near plane far from the furthest vertex; what is
-  // needed is 480 / 0.4 = 1200 of them: n = 7 * 1200 / 16777213 = 0.00050068.
-  f.camera.near = 0.000501;
-  CHECK(look(f).nearest == 0);
-  f.camera.near = 0.000500;
-  Remarks r = look(f);
-  CHECK(r.nearest == Approx(7).epsilon(1e-12));
-  CHECK(r.steps == Approx(1198.4).epsilon(1e-4));
-  CHECK(r.near_needed == Approx(0.00050065).epsilon(1e-4));
-  f.camera.near = r.near_needed * 1.0001;
-  CHECK(look(f).nearest == 0);
-  f.camera.near = 1e-6;
-  r = look(f);
-  CHECK(r.steps == Approx(2.3967).epsilon(1e-4));
-  // The same for depth of 16 bits, at once.
-  f.camera.near = 0.1;
-  Config coarse;
-  coarse.z_bits = 16;
-  CHECK(look(f, coarse).nearest != 0);
-  // Where no near plane would do it is not the near plane's fault.
-  coarse.z_bits = 8;
-  add_solid(f, box_solid(), {0, 0, -1000}, {1, 1, 1}, Turn{}, {1, 1, 1});
-  CHECK(look(f, coarse).nearest == 0);
-  // A parallel view has steps of one length.
-  f.camera.near = 1e-6;
+TEST_CASE("a step of depth longer than 1e-4 of the scene's extent is told, with the width that would do") {
+  // A wall 7 from the eye, and a box around `far`: its back is the furthest surface, depth begins at 4, and a step
+  // there is far^2 / (4 (2^24 - 3)) (1 - 4 / far).
+  const auto with_box = [](double far) {
+    SceneFrame f = wall();
+    add_solid(f, box_solid(), {0, 0, 7 - far + 1}, {1, 1, 1}, Turn{}, {1, 1, 1});
+    return f;
+  };
+  const auto step = [](double far, int z_bits) { return far * (far - 4) / 4 / (std::ldexp(1.0, z_bits) - 3); };
+  for (const double far : {100.0, 5000.0, 6000.0, 1e5})
+    for (const int z_bits : {16, 20, 24, 28}) {
+      CAPTURE(far, z_bits);
+      Config config;
+      config.z_bits = z_bits;
+      const SceneFrame f = with_box(far);
+      const double extent = std::sqrt(8 + far * far);  // of a box 2 wide, from the wall, at 7, to far behind it
+      const Remarks r = look(f, config);
+      // The far end lies 1e-6 past the furthest vertex.
+      const double long_step = 1e-4 * extent;
+      if (step(far, z_bits) < long_step * 0.99) CHECK(r.step == 0);
+      if (step(far, z_bits) < long_step * 1.01) continue;
+      CHECK(r.step == Approx(step(far, z_bits)).epsilon(1e-5));
+      CHECK(r.furthest == Approx(far).epsilon(1e-9));
+      CHECK(r.extent == Approx(extent).epsilon(0.1));
+      // One bit fewer would not do, so many do.
+      const double most = 1e-4 * r.extent;
+      if (r.z_bits_needed == 0) {
+        CHECK(step(far, 28) > most * 0.999);
+      } else {
+        CHECK(step(far, r.z_bits_needed) <= most * 1.001);
+        CHECK(step(far, r.z_bits_needed - 1) > most * 0.999);
+      }
+    }
+  // However near the near plane is, depth begins at what is seen.
+  SceneFrame f = with_box(100);
+  f.camera.near = 1e-9;
+  CHECK(look(f).step == 0);
+  // In parallel view steps have one length. Depth begins at 0 at the latest and ends at 100, and the scene's extent is
+  // 96 or so: at 1e-4 of it between 9,600 and 10,420 steps, for which 14 bits do.
   f.camera.perspective = false;
-  CHECK(look(f).nearest == 0);
+  f.camera.half_height = 3;
+  Config coarse;
+  coarse.z_bits = 8;
+  const Remarks r = look(f, coarse);
+  CHECK(r.extent == Approx(93).epsilon(0.05));
+  CHECK(r.step >= (100.0 - 7) / 253);
+  CHECK(r.step <= 100.0 / 253 * (1 + 1e-5));
+  CHECK(r.z_bits_needed == 14);
+  coarse.z_bits = 14;
+  CHECK(look(f, coarse).step == 0);
 }
 
-TEST_CASE("what counts is what the picture shows") {
+TEST_CASE("what counts for a step is what the picture shows") {
+  Config config;
+  config.z_bits = 16;
   SceneFrame f = wall();
-  f.camera.near = 1e-6;
-  const auto add = [&](const glm::dvec3& at, std::uint8_t alpha) {
-    add_solid(f, box_solid(), at, glm::dvec3(0.001), Turn{}, {1, 1, 1}, true, true, alpha);
-  };
-  add({0, 5, 6.999}, 255);  // beside the view
-  add({0, 0, 7.1}, 255);    // behind the eye
-  add({0, 0, 6.99}, 0);     // not to be seen
-  CHECK(look(f).nearest == Approx(7).epsilon(1e-12));
-  // A long floor begins where the picture's lower edge meets it, a unit below the eye: 1 / 0.4 away.
-  add_solid(f, pane_solid(), {0, -1, 0}, {100, 100, 1}, Turn{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {1, 1, 1}, false,
-            false);
-  CHECK(look(f).nearest == Approx(2.5).epsilon(1e-9));
-  // Near enough for the near plane: 0.01 away there are 1677 steps.
-  add({0, 0, 6.989}, 255);
-  CHECK(look(f).nearest == 0);
+  add_solid(f, box_solid(), {0, 5000, -10000}, {1, 1, 1}, Turn{}, {1, 1, 1});  // above the picture
+  add_solid(f, box_solid(), {0, 0, 5000}, {1, 1, 1}, Turn{}, {1, 1, 1});       // behind the eye
+  CHECK(look(f, config).step == 0);
+  add_solid(f, box_solid(), {0, 0, -9000}, {1, 1, 1}, Turn{}, {1, 1, 1}, true, true, 0);  // of alpha 0
+  config.translucency = 1;
+  CHECK(look(f, config).step == 0);
+  config.translucency = 0;  // drawn as if opaque
+  CHECK(look(f, config).furthest == Approx(9008).epsilon(1e-9));
 }
 
 TEST_CASE("built-in scenes give no remark, in any configuration that draws them at full size") {
@@ -85,7 +102,7 @@ TEST_CASE("built-in scenes give no remark, in any configuration that draws them 
       for (int i = 0; i < scene.frame_count(); ++i) {
         INFO(name << " " << named.name << " " << i);
         const Remarks r = look(scene.frame(i, scene.frame_count()), named.config);
-        CHECK(r.nearest == 0);
+        CHECK(r.step == 0);
         CHECK_FALSE(r.beyond_far);
         CHECK_FALSE(r.backs);
       }
