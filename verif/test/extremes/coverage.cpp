@@ -11,7 +11,7 @@
 #include "opinion/oracle.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/screen.hpp"
+#include "extremes/screen.hpp"
 
 namespace kage::verif {
 namespace {

@@ -7,7 +7,7 @@
 #include "opinion/judge.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/screen.hpp"
+#include "extremes/screen.hpp"
 
 namespace kage::verif {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/screen.hpp"
+#include "extremes/screen.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {

@@ -8,7 +8,7 @@
 #include "frontend/tree_plan.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/screen.hpp"
+#include "extremes/screen.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {
