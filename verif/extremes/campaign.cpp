@@ -87,7 +87,7 @@ class Campaign {
     return true;
   }
 
-  void put(std::size_t lane, std::uint64_t index, double guess, double seconds, const Run& run) {
+  void put(std::size_t lane, std::uint64_t index, double guess, double seconds, const Search& run) {
     const std::scoped_lock lock(mutex_);
     FamilyResult& r = state_.families[lane];
     lanes_[lane].given += seconds - guess;
@@ -131,10 +131,9 @@ class Campaign {
       double guess = 0;
       while (take(lane, index, guess)) {
         const Family& family = *o_.families[lane];
-        const std::string name = case_name(family, o_.seed, index).substr(0, at_hand.size() - 1);
-        std::copy_n(name.c_str(), name.size() + 1, at_hand.begin());
+        set_case_at_hand(case_name(family, o_.seed, index));
         const Clock::time_point from = Clock::now();
-        const Run run =
+        const Search run =
             family.run(o_.seed, index, o_.context, [this] { return stopped_ || (time_is_up() && o_.starts == 0); });
         put(lane, index, guess, since(from), run);
         if (run.failing) failed(lane, index, *run.failing, run.sum.wrong);
@@ -177,6 +176,11 @@ std::string case_name(const Family& family, std::uint64_t seed, std::uint64_t in
 }
 
 const char* case_at_hand() { return at_hand.data(); }
+
+void set_case_at_hand(const std::string& name) {
+  const std::string held = name.substr(0, at_hand.size() - 1);
+  std::copy_n(held.c_str(), held.size() + 1, at_hand.begin());
+}
 
 CampaignState run_campaign(const CampaignOptions& options) { return Campaign(options).run(); }
 

@@ -53,6 +53,7 @@ std::string case_name(const Family& family, std::uint64_t seed, std::uint64_t in
 
 /// What the thread at hand is checking, for a message where the process ends within it.
 const char* case_at_hand();
+void set_case_at_hand(const std::string& name);
 
 CampaignState run_campaign(const CampaignOptions& options);
 

@@ -81,7 +81,7 @@ struct FamilyInfo {
 };
 
 /// What a start and the search from it came to.
-struct Run {
+struct Search {
   std::uint64_t cases = 0;
   Outcome sum;
   std::string nearest;                 ///< the text of the case that came nearest to its bound
@@ -98,7 +98,7 @@ class Family {
 
   [[nodiscard]] const FamilyInfo& info() const { return info_; }
   /// The cases of one start, which follow from seed and index alone. Ends early where `stop` says so.
-  [[nodiscard]] virtual Run run(std::uint64_t seed, std::uint64_t index, const Context& context,
+  [[nodiscard]] virtual Search run(std::uint64_t seed, std::uint64_t index, const Context& context,
                                 const std::function<bool()>& stop) const = 0;
   /// The text of the case that a start begins with.
   [[nodiscard]] virtual std::string text(std::uint64_t seed, std::uint64_t index) const = 0;
@@ -172,10 +172,10 @@ class FamilyOf final : public Family {
  public:
   using Family::Family;
 
-  [[nodiscard]] Run run(std::uint64_t seed, std::uint64_t index, const Context& context,
+  [[nodiscard]] Search run(std::uint64_t seed, std::uint64_t index, const Context& context,
                         const std::function<bool()>& stop) const override {
     Random random(start_state(info_.name, seed, index));
-    Run run;
+    Search run;
     Case best;
     double share = -1;
     for (int step = 0; step <= info_.climb && !stop(); ++step) {

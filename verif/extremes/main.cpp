@@ -169,6 +169,7 @@ int check_files(const Arguments& a) {
       fmt::print("{}: skipped: there are no models of the RTL\n", file.string());
       continue;
     }
+    set_case_at_hand(file.filename().string());
     const Outcome o = c.family->check(c.text, file.string(), a.campaign.context);
     fmt::print("{}: family {}: {}\n", file.string(), c.family->info().name, o.wrong.empty() ? "holds" : o.wrong);
     bad += o.wrong.empty() ? 0 : 1;
@@ -185,7 +186,8 @@ int run_case(const Arguments& a) {
   if (family == nullptr) usage(fmt::format("--case {}: there is no such family (--list has them)", a.one_case));
   const auto seed = parsed<std::uint64_t>("--case, seed", a.one_case.substr(first + 1, second - first - 1), 0, UINT64_MAX);
   const auto index = parsed<std::uint64_t>("--case, index", a.one_case.substr(second + 1), 0, UINT64_MAX);
-  const Run run = family->run(seed, index, a.campaign.context, [] { return signalled != 0; });
+  set_case_at_hand(a.one_case);
+  const Search run = family->run(seed, index, a.campaign.context, [] { return signalled != 0; });
   const std::string text = run.failing ? *run.failing : run.nearest.empty() ? family->text(seed, index) : run.nearest;
   fmt::print("# {}: {} cases, {} pixels, {} items\n", a.one_case, run.cases, run.sum.pixels, run.sum.items);
   if (run.sum.bound > 0)

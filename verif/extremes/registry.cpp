@@ -3,6 +3,9 @@
 
 #include "extremes/coverage.hpp"
 #include "extremes/depth.hpp"
+#include "extremes/orders.hpp"
+#include "extremes/polyhedra.hpp"
+#include "extremes/shadows.hpp"
 
 namespace kage::verif {
 namespace {
@@ -11,6 +14,9 @@ Families made() {
   Families all;
   add_coverage_families(all);
   add_depth_families(all);
+  add_shadow_families(all);
+  add_polyhedra_families(all);
+  add_order_families(all);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     const auto key = [](const auto& f) { return f->info().number > 0 ? f->info().number : 1000; };
     return key(a) < key(b);

@@ -4,7 +4,7 @@
 #include "kage/core.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/light_frames.hpp"
+#include "extremes/light_frames.hpp"
 
 namespace kage::verif {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core_model.hpp"
 #include "stimulus/random.hpp"
-#include "test/support/light_frames.hpp"
+#include "extremes/light_frames.hpp"
 
 namespace {
 
