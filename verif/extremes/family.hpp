@@ -27,7 +27,7 @@ struct Outcome {
 
   /// The first thing that is wrong is told.
   void fail(const std::string& what) {
-    if (wrong.empty()) wrong = what;
+    if (wrong.empty()) wrong = what;  // an empty text is no failure
   }
   /// An error with its bound, which it must not pass.
   void measure(double error, double at_most);

@@ -3,8 +3,11 @@
 
 #include "extremes/coverage.hpp"
 #include "extremes/depth.hpp"
+#include "extremes/lights.hpp"
+#include "extremes/numbers.hpp"
 #include "extremes/orders.hpp"
 #include "extremes/polyhedra.hpp"
+#include "extremes/rtl_cases.hpp"
 #include "extremes/shadows.hpp"
 
 namespace kage::verif {
@@ -17,6 +20,9 @@ Families made() {
   add_shadow_families(all);
   add_polyhedra_families(all);
   add_order_families(all);
+  add_light_families(all);
+  add_number_families(all);
+  add_rtl_families(all);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     const auto key = [](const auto& f) { return f->info().number > 0 ? f->info().number : 1000; };
     return key(a) < key(b);
