@@ -111,6 +111,21 @@ Outcome covers_what_the_oracle_says(const Outline& o, int width, int height, con
   return out;
 }
 
+Outcome draws_nothing(const Outline& flat, int width, int height, const Context& context) {
+  Outcome o = covers_what_the_oracle_says(flat, width, height, context);
+  Scanned scanned(width, height, context);
+  if (scanned.add(flat).hits().unlike(0) != 0) o.fail("a pixel is hit");
+  FrameBuilder frame(width, height);
+  frame.add(rectangle(0, 0, 10, 10), plane(1000), {1, 2, 3});
+  std::vector<std::uint32_t> plain;
+  make_frame(frame.frame(), Config{}, 0, plain, {.threads = 1});
+  frame.add(flat, plane(10), {255, 255, 255});
+  std::vector<std::uint32_t> more;
+  make_frame(frame.frame(), Config{}, 0, more, {.threads = 1});
+  if (more != plain) o.fail("the frame has other words with the polygon than without");
+  return o;
+}
+
 void NearPoint::fields(Fields& f) {
   f.number("x", x, -5000, kWidth * 256 + 5000);
   f.number("y", y, -5000, kHeight * 256 + 5000);
@@ -282,17 +297,7 @@ void FlatCase::fields(Fields& f) {
 Outcome FlatCase::check(const Context& context) const {
   Outline flat;
   for (const Along& a : corners) flat.push_back({x + a.at * dx, y + a.at * dy});
-  Outcome o = covers_what_the_oracle_says(flat, kWidth, kHeight, context);
-  if (Scanned(kWidth, kHeight, context).add(flat).hits().unlike(0) != 0) o.fail("a pixel is hit");
-  FrameBuilder with(kWidth, kHeight);
-  with.add(rectangle(0, 0, 10, 10), plane(1000), {1, 2, 3});
-  std::vector<std::uint32_t> plain;
-  make_frame(with.frame(), Config{}, 0, plain, {.threads = 1});
-  with.add(flat, plane(10), {255, 255, 255});
-  std::vector<std::uint32_t> more;
-  make_frame(with.frame(), Config{}, 0, more, {.threads = 1});
-  if (more != plain) o.fail("the frame has other words with the polygon than without");
-  return o;
+  return draws_nothing(flat, kWidth, kHeight, context);
 }
 
 // ---- 8

@@ -134,6 +134,9 @@ struct JointsCase {
 /// Whether a polygon has the pixels that the oracle says: of those within its box.
 Outcome covers_what_the_oracle_says(const Outline& o, int width, int height, const Context& context = {});
 
+/// Whether a polygon without area has no pixel and changes no word of a frame.
+Outcome draws_nothing(const Outline& flat, int width, int height, const Context& context = {});
+
 void add_coverage_families(Families& to);
 
 }  // namespace kage::verif

@@ -6,10 +6,12 @@
 
 #include <rapidcheck.h>
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -121,6 +123,37 @@ std::uint64_t start_state(const std::string& family, std::uint64_t seed, std::ui
 /// Runs a check; an exception is a failure that tells its text.
 Outcome guarded(const std::function<Outcome()>& check);
 
+/// A type of cases.
+template <class Case>
+concept IsCase = requires(Case c, Fields& f, const Context& context) {
+  c.fields(f);
+  { c.check(context) } -> std::same_as<Outcome>;
+};
+
+/// Its fields as text.
+template <IsCase Case>
+std::string text_of(Case c) {
+  WriteFields write;
+  c.fields(write);
+  return write.text();
+}
+
+/// The case of such a text. Throws Error that names `name` and a line where it is none.
+template <IsCase Case>
+Case case_of(const std::string& text, const std::string& name) {
+  Case c;
+  ReadFields fields(text, name);
+  c.fields(fields);
+  fields.end();
+  return c;
+}
+
+/// How RapidCheck shows one.
+template <IsCase Case>
+void showValue(const Case& c, std::ostream& out) {
+  out << text_of(c);
+}
+
 template <class Case>
 void settle(Case& c) {
   ClampFields clamp;
@@ -185,25 +218,25 @@ class FamilyOf final : public Family {
       const double before = run.sum.share();
       run.sum.add(o);
       if (!o.wrong.empty()) {
-        run.failing = written(c);
+        run.failing = text_of(c);
         return run;
       }
-      if (o.share() > before) run.nearest = written(c);
+      if (o.share() > before) run.nearest = text_of(c);
       if (o.share() >= share) best = c, share = o.share();
     }
     return run;
   }
   [[nodiscard]] std::string text(std::uint64_t seed, std::uint64_t index) const override {
     Random random(start_state(info_.name, seed, index));
-    return written(draw_case<Case>(random));
+    return text_of(draw_case<Case>(random));
   }
   [[nodiscard]] Outcome check(const std::string& text, const std::string& name, const Context& context) const override {
-    const Case c = read(text, name);
+    const Case c = case_of<Case>(text, name);
     return guarded([&] { return c.check(context); });
   }
   [[nodiscard]] std::string shrink(const std::string& text, const Context& context,
                                    const std::function<bool()>& stop) const override {
-    rc::Shrinkable<Case> best = shrinkable_case(read(text, info_.name));
+    rc::Shrinkable<Case> best = shrinkable_case(case_of<Case>(text, info_.name));
     for (bool found = true; found && !stop();) {
       found = false;
       for (rc::Seq<rc::Shrinkable<Case>> ways = best.shrinks(); !stop();) {
@@ -216,23 +249,11 @@ class FamilyOf final : public Family {
         break;
       }
     }
-    return written(best.value());
+    return text_of(best.value());
   }
-  [[nodiscard]] std::string reread(const std::string& text) const override { return written(read(text, info_.name)); }
+  [[nodiscard]] std::string reread(const std::string& text) const override { return text_of(case_of<Case>(text, info_.name)); }
 
  private:
-  static std::string written(Case c) {
-    WriteFields write;
-    c.fields(write);
-    return write.text();
-  }
-  static Case read(const std::string& text, const std::string& name) {
-    Case c;
-    ReadFields fields(text, name);
-    c.fields(fields);
-    fields.end();
-    return c;
-  }
   static Case changed(const Case& from, Random& random) {
     Case c = from;
     CountFields count;
@@ -257,3 +278,13 @@ const Families& all_families();
 const Family* family_named(const std::string& name);
 
 }  // namespace kage::verif
+
+namespace rc {
+
+/// So that rc::check() takes properties of cases.
+template <kage::verif::IsCase Case>
+struct Arbitrary<Case> {
+  static Gen<Case> arbitrary() { return kage::verif::case_generator<Case>(); }
+};
+
+}  // namespace rc

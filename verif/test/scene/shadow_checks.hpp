@@ -4,15 +4,9 @@
 #pragma once
 
 #include "extremes/shadow_checks.hpp"
-#include "test/support/catch.hpp"
+#include "test/extremes/hold.hpp"
 
 namespace kage::verif {
-
-/// A check of extremes/shadow_checks.hpp holds.
-inline void holds(const Outcome& o) {
-  INFO(o.wrong);
-  CHECK(o.wrong.empty());
-}
 
 /// The golden core's picture is the oracle's.
 inline void judge_all(const SceneFrame& f, const Config& config, int width, int height, const Look& look = {}) {
