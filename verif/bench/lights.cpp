@@ -92,7 +92,7 @@ void measure(const SceneFrame& f, const Config& config, const Look& look, double
       double weight = 0.04;
       for (std::size_t l = 0; l < f.lights.size(); ++l) {
         keep -= counts[i][l] / samples[l] * shares[l][static_cast<int>(c)];
-        weight += 0.8 * f.lights[l].color[static_cast<int>(c)] * (counts[i][l] > 0 ? 2 : 1);
+        weight += 0.8 * f.lights[l].color[static_cast<int>(c)];
       }
       const double color = unshadowed[i] >> (8 * c) & 255U;
       const double off = std::abs((picture[i] >> (8 * c) & 255U) - color * keep);

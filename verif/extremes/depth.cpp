@@ -39,10 +39,10 @@ std::vector<std::uint8_t> line_of(const Config& config, const std::vector<std::u
 
 // ---- 15
 
-void RampCase::fields(Fields& f) {
+void RampCase::fields(Fields& f, int least) {
   f.number("z_bits", z_bits, 4, 28, 24);
   f.number("frac", frac, 0, 16);
-  f.number("count", count, 1, 2000);
+  f.number("count", count, least, 2000);
   f.number("x", x, 0, 30'000);
   f.number("anchor", anchor, -1000, 1000);
   f.real("from", from, 0, 1);
@@ -51,7 +51,7 @@ void RampCase::fields(Fields& f) {
   f.number("c_low", c_low, -(1 << 24), 1 << 24);
 }
 
-Outcome RampCase::check(const Context& context) const {
+Outcome RampCase::check(const Context& context, int first) const {
   const int bits = z_bits + frac + 2;
   const double top = std::ldexp(1.0, z_bits) - 2;
   const double begin = 1 + from * (top - 1);
@@ -71,7 +71,7 @@ Outcome RampCase::check(const Context& context) const {
     const Int128 sum = static_cast<Int128>(r.start) + static_cast<Int128>(r.step) * k;
     if (sum < -limit || sum >= limit) o.fail(fmt::format("the accumulator wraps after {} pixels", k));
     const Int128 error = ((sum - half) << (kPlaneFrac - frac)) - exact_value(p, x + k, 0);
-    o.measure(std::abs(in_lsb(error)), (k + 1) * std::ldexp(1.0, -frac - 1));
+    if (k >= first) o.measure(std::abs(in_lsb(error)), (k + 1) * std::ldexp(1.0, -frac - 1));
   }
   o.pixels = static_cast<std::uint64_t>(count);
   return o;
@@ -254,6 +254,7 @@ Outcome ColourCase::check(const Context& /*context*/) const {
     for (int c = 1; c < config.channels; ++c)
       if (line[static_cast<std::size_t>(x * config.channels + c)] != got) o.fail("channels of one plane differ");
     if (x > 0 && (to >= from ? got < before : got > before)) o.fail(fmt::format("it turns round at pixel {}", x));
+    if (x == 0 && from == std::round(from) && got != static_cast<int>(from)) o.fail("a whole colour is not its own");
     before = got;
     const double exact = std::clamp(in_lsb(exact_value(colour, x, 0)), 0.0, 255.0);
     o.measure(std::abs(got - exact), (x + 1) * std::ldexp(1.0, -frac - 1) + 0.5);
@@ -266,10 +267,10 @@ Outcome ColourCase::check(const Context& /*context*/) const {
 
 void LayersCase::Layer::fields(Fields& f) { f.number("color", color, 0, 255); }
 
-void LayersCase::fields(Fields& f) {
+void LayersCase::fields(Fields& f, int least) {
   f.number("alpha", alpha, 0, 255);
   f.number("under", under, 0, 255);
-  f.number("first_count", first_count, 0, 900);
+  f.number("first_count", first_count, least, 900);
   f.number("first", first, 0, 255);
   f.list("layer", layers, 1, 100);
 }
@@ -318,12 +319,14 @@ Outcome LayersCase::check(const Context& context) const {
 
 void add_depth_families(Families& to) {
   add_family<RampCase>(to, {15, "15", "depth along a span: sums of a start and steps", "LSB", 40});
+  add_family<LongRampCase>(to, {15, "15 long", "the same after 500 pixels and more", "LSB", 100, 0.5});
   add_family<PastEndCase>(to, {15, "15 end", "a plane past an end of depth is clamped"});
   add_family<WholeDepthCase>(to, {16, "16", "depth that is whole at every pixel"});
   add_family<CoplanarCase>(to, {17, "17", "coplanar polygons: the first drawn is seen"});
   add_family<ClosePlanesCase>(to, {18, "18", "close planes: a surface shown though another is nearer", "LSB", 60});
   add_family<ColourCase>(to, {19, "19", "colour along a span", "LSB", 40});
   add_family<LayersCase>(to, {20, "20", "translucent layers over each other", "LSB", 60});
+  add_family<DeepLayersCase>(to, {20, "20 deep", "the same with 300 layers and more", "LSB", 60, 0.5});
 }
 
 }  // namespace kage::verif

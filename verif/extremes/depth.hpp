@@ -15,8 +15,19 @@ struct RampCase {
   int anchor = 0;        ///< how far left of it the plane's anchor is
   double from = 1, to = 1;  ///< depth at the ends, as a share of all of it
   int a_low = 0, c_low = 0; ///< added to slope and start, in 2^-24
-  void fields(Fields& f);
-  [[nodiscard]] Outcome check(const Context& context) const;
+  void fields(Fields& f) { fields(f, 1); }
+  void fields(Fields& f, int least);
+  [[nodiscard]] Outcome check(const Context& context) const { return check(context, 0); }
+
+ protected:
+  /// Errors are measured from pixel `first` on.
+  [[nodiscard]] Outcome check(const Context& context, int first) const;
+};
+
+/// Family 15: errors at the end of long spans, where the slope's rounding adds up.
+struct LongRampCase : RampCase {
+  void fields(Fields& f) { RampCase::fields(f, 600); }
+  [[nodiscard]] Outcome check(const Context& context) const { return RampCase::check(context, 500); }
 };
 
 /// Family 15: a plane that leaves depth's range within the picture is clamped there.
@@ -86,8 +97,14 @@ struct LayersCase {
   int under = 0;
   int first = 0, first_count = 0;  ///< so many layers of one colour go ahead
   std::vector<Layer> layers;
-  void fields(Fields& f);
+  void fields(Fields& f) { fields(f, 0); }
+  void fields(Fields& f, int least);
   [[nodiscard]] Outcome check(const Context& context) const;
+};
+
+/// Family 20: hundreds of layers.
+struct DeepLayersCase : LayersCase {
+  void fields(Fields& f) { LayersCase::fields(f, 300); }
 };
 
 void add_depth_families(Families& to);

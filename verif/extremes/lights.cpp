@@ -168,7 +168,7 @@ void TableCase::fields(Fields& f) {
   f.list("sun", suns, 1, 8);
 }
 
-// docs/shadows.md, "Directional": a class's share of what the shadowed lights take is off by at most
+// docs/lights.md, "How far a table is off": what a class says that the shadowed lights take is off by at most
 // k (W + 0.04) r and a rounding for each light, W being the weight of all lights.
 Outcome TableCase::check(const Context& /*context*/) const {
   const double steepest = (srgb_encode(0.2 + 1e-6) / srgb_encode(0.2) - 1) / 1e-6;
