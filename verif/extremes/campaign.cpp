@@ -50,9 +50,9 @@ class Campaign {
 
  private:
   struct Lane {
-    std::uint64_t next = 0;   // index of its next start
-    double given = 0;         // seconds, those of starts under way guessed
-    bool closed = false;      // a case has failed
+    std::uint64_t next = 0;  // index of its next start
+    double given = 0;        // seconds, those of starts under way guessed
+    bool closed = false;     // a case has failed
   };
 
   bool time_is_up() const { return o_.starts == 0 && since(begin_) >= o_.seconds; }
@@ -167,8 +167,8 @@ std::uint64_t CampaignState::pixels() const {
 }
 
 std::size_t CampaignState::failed() const {
-  return static_cast<std::size_t>(std::count_if(families.begin(), families.end(),
-                                                [](const FamilyResult& r) { return !r.sum.wrong.empty(); }));
+  return static_cast<std::size_t>(
+      std::count_if(families.begin(), families.end(), [](const FamilyResult& r) { return !r.sum.wrong.empty(); }));
 }
 
 std::string case_name(const Family& family, std::uint64_t seed, std::uint64_t index) {

@@ -17,13 +17,13 @@ namespace kage::verif {
 struct CampaignOptions {
   std::vector<const Family*> families;
   std::uint64_t seed = 1;
-  double seconds = 0;             ///< for all families together
-  std::uint64_t starts = 0;       ///< of each family, instead of a time; 0: by time
-  int jobs = 2;                   ///< threads
-  double shrink_seconds = 60;     ///< at most, of each failure
-  std::filesystem::path found;    ///< where failures are kept
+  double seconds = 0;           ///< for all families together
+  std::uint64_t starts = 0;     ///< of each family, instead of a time; 0: by time
+  int jobs = 2;                 ///< threads
+  double shrink_seconds = 60;   ///< at most, of each failure
+  std::filesystem::path found;  ///< where failures are kept
   Context context;
-  std::function<bool()> stop;                               ///< whether somebody wants it to end
+  std::function<bool()> stop;                                              ///< whether somebody wants it to end
   std::function<void(double done, const struct CampaignState&)> progress;  ///< called now and then
 };
 
@@ -33,10 +33,10 @@ struct FamilyResult {
   std::uint64_t starts = 0;  ///< that were run to their ends, or to a failure
   std::uint64_t cases = 0;
   Outcome sum;
-  double seconds = 0;        ///< of threads
-  std::string nearest_case;  ///< the name of the start that came nearest to the bound
-  std::string nearest;       ///< that case's text
-  std::string failed_case;   ///< the name of the start that failed
+  double seconds = 0;          ///< of threads
+  std::string nearest_case;    ///< the name of the start that came nearest to the bound
+  std::string nearest;         ///< that case's text
+  std::string failed_case;     ///< the name of the start that failed
   std::filesystem::path kept;  ///< where the failing case is
 };
 

@@ -53,8 +53,7 @@ bool CoreTrial::standstill(kage_rtl* m, Random& random) {
   announce(m, words);
   words.resize(words.size() - 1);  // no END, no TLAST
   api_.submit(m, words.data(), words.size(), 0);
-  if (api_.run(m, UINT64_MAX, 50'000'000) == KAGE_RTL_ASSERT)
-    return fails("did not come to rest: standstill reason 4");
+  if (api_.run(m, UINT64_MAX, 50'000'000) == KAGE_RTL_ASSERT) return fails("did not come to rest: standstill reason 4");
   if (config_.beat_words == 1) {  // else the fill is an error, and the core waits for TLAST: the same standstill
     if (reg(m, KAGE_REG_STATUS) != (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK))
       return fails("STATUS does not say that a frame waits for input");
@@ -74,8 +73,7 @@ bool CoreTrial::standstill(kage_rtl* m, Random& random) {
   api_.submit(m, words.data(), words.size(), 1);
   api_.run(m, UINT64_MAX, 8ULL * static_cast<std::uint64_t>(config_.max_width) + 20'000);
   constexpr std::uint32_t kWaits = KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK;
-  if ((reg(m, KAGE_REG_STATUS) & kWaits) != kWaits)
-    return fails("STATUS does not say that the core waits for output");
+  if ((reg(m, KAGE_REG_STATUS) & kWaits) != kWaits) return fails("STATUS does not say that the core waits for output");
   if (api_.irq(m) == 0) return fails("the watchdog does not bite when output stops");
   api_.reset(m, 1);
   api_.clear_pixels(m);
@@ -121,8 +119,6 @@ bool CoreTrial::frames(kage_rtl* m, Random& random) {
   if (stats.extra_pixels != 0) return fails(std::to_string(stats.extra_pixels) + " pixels past the frames' sizes");
   return true;
 }
-
-
 
 /// Frames, sound and damaged, go in and come to rest.
 bool CoreTrial::submit(kage_rtl* m, Random& random, GoldenCore& golden, Group& group, Counts& counts) {
@@ -177,12 +173,12 @@ bool CoreTrial::same_registers(kage_rtl* m, const Group& group, const Counts& co
     if (KAGE_FIELD(e, KAGE_ERROR_CODE) != static_cast<std::uint32_t>(newest.error) ||
         KAGE_FIELD(e, KAGE_ERROR_LINE) != newest.line || reg(m, KAGE_REG_ERROR_FRAME) != newest.frame ||
         reg(m, KAGE_REG_ERROR_TOKEN) != newest.token || reg(m, KAGE_REG_ERROR_UNIT) != newest.unit)
-      return fails(
-          "error " + std::to_string(KAGE_FIELD(e, KAGE_ERROR_CODE)) + " line " +
-          std::to_string(KAGE_FIELD(e, KAGE_ERROR_LINE)) + " token " + std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) +
-          " unit " + std::to_string(reg(m, KAGE_REG_ERROR_UNIT)) + ", not " +
-          std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) + " token " +
-          std::to_string(newest.token) + " unit " + std::to_string(newest.unit) + ":" + group.story);
+      return fails("error " + std::to_string(KAGE_FIELD(e, KAGE_ERROR_CODE)) + " line " +
+                   std::to_string(KAGE_FIELD(e, KAGE_ERROR_LINE)) + " token " +
+                   std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) + " unit " +
+                   std::to_string(reg(m, KAGE_REG_ERROR_UNIT)) + ", not " +
+                   std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) + " token " +
+                   std::to_string(newest.token) + " unit " + std::to_string(newest.unit) + ":" + group.story);
   }
   if ((reg(m, KAGE_REG_STATUS) & (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK)) != 0)
     return fails("STATUS says that a frame is open:" + group.story);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "extremes/coverage_checks.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/frontend.hpp"
@@ -17,65 +18,6 @@ namespace {
 constexpr int kWidth = 80;
 constexpr int kHeight = 60;
 constexpr int kLimit = kGuard * 256;
-
-/// The pixels of polygons, as kage scans them.
-class Scanned {
- public:
-  Scanned(int width, int height, const Context& context) : hits_(width, height), context_(&context) {}
-  Scanned& add(const Outline& o) {
-    hits_.add(o, context_->planted(Plant::wide_span) ? 1 : 0);
-    return *this;
-  }
-  [[nodiscard]] const Hits& hits() const { return hits_; }
-
- private:
-  Hits hits_;
-  const Context* context_;
-};
-
-/// What is in a picture's box of an outline: columns and lines, from and up to but not.
-struct Box {
-  int x0, y0, x1, y1;
-};
-
-Box box_of(const Outline& o, int width, int height) {
-  const auto xs = std::minmax_element(o.begin(), o.end(), [](auto& a, auto& b) { return a.x < b.x; });
-  const auto ys = std::minmax_element(o.begin(), o.end(), [](auto& a, auto& b) { return a.y < b.y; });
-  const auto in = [](int v, int size) { return std::clamp(v, 0, size); };
-  return {in((xs.first->x >> 8) - 1, width), in((ys.first->y >> 8) - 1, height), in((xs.second->x >> 8) + 2, width),
-          in((ys.second->y >> 8) + 2, height)};
-}
-
-/// How often the oracle has each pixel in some outlines.
-std::vector<int> owners(const std::vector<Outline>& outlines, int width, int height) {
-  std::vector<int> count(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (const Outline& o : outlines) {
-    const Box b = box_of(o, width, height);
-    for (int y = b.y0; y < b.y1; ++y)
-      for (int x = b.x0; x < b.x1; ++x)
-        if (Oracle::winding(o, x, y) != 0) ++count[static_cast<std::size_t>(y * width + x)];
-  }
-  return count;
-}
-
-/// Parts against the whole that they make: each pixel of the whole has one owner, by kage and by the oracle.
-Outcome parts_are_whole(const std::vector<Outline>& parts, const std::vector<Outline>& whole, const Context& context) {
-  Outcome o;
-  Scanned scanned(kWidth, kHeight, context);
-  for (const Outline& p : parts) scanned.add(p);
-  const auto of_parts = owners(parts, kWidth, kHeight);
-  const auto of_whole = owners(whole, kWidth, kHeight);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const auto i = static_cast<std::size_t>(y * kWidth + x);
-      if (of_whole[i] != of_parts[i])
-        o.fail(fmt::format("pixel ({}, {}): the oracle has it in {} parts and in {} wholes", x, y, of_parts[i], of_whole[i]));
-      if (scanned.hits().at(x, y) != of_whole[i])
-        o.fail(fmt::format("pixel ({}, {}) is hit {} times, not {}", x, y, scanned.hits().at(x, y), of_whole[i]));
-    }
-  o.pixels = of_whole.size();
-  return o;
-}
 
 /// A triangle in triangles that share the points, each point in the triangle that holds it.
 void strew(std::vector<Outline>& t, const std::vector<NearPoint>& points) {
@@ -96,35 +38,6 @@ void strew(std::vector<Outline>& t, const std::vector<NearPoint>& points) {
 }
 
 }  // namespace
-
-Outcome covers_what_the_oracle_says(const Outline& o, int width, int height, const Context& context) {
-  Outcome out;
-  Scanned scanned(width, height, context);
-  const Hits& hits = scanned.add(o).hits();
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const int expected = Oracle::winding(o, x, y) != 0 ? 1 : 0;
-      if (hits.at(x, y) != expected)
-        out.fail(fmt::format("pixel ({}, {}) is hit {} times, not {}", x, y, hits.at(x, y), expected));
-    }
-  out.pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  return out;
-}
-
-Outcome draws_nothing(const Outline& flat, int width, int height, const Context& context) {
-  Outcome o = covers_what_the_oracle_says(flat, width, height, context);
-  Scanned scanned(width, height, context);
-  if (scanned.add(flat).hits().unlike(0) != 0) o.fail("a pixel is hit");
-  FrameBuilder frame(width, height);
-  frame.add(rectangle(0, 0, 10, 10), plane(1000), {1, 2, 3});
-  std::vector<std::uint32_t> plain;
-  make_frame(frame.frame(), Config{}, 0, plain, {.threads = 1});
-  frame.add(flat, plane(10), {255, 255, 255});
-  std::vector<std::uint32_t> more;
-  make_frame(frame.frame(), Config{}, 0, more, {.threads = 1});
-  if (more != plain) o.fail("the frame has other words with the polygon than without");
-  return o;
-}
 
 void NearPoint::fields(Fields& f) {
   f.number("x", x, -5000, kWidth * 256 + 5000);
@@ -152,7 +65,7 @@ Outcome TriangulationCase::check(const Context& context) const {
   for (std::size_t i = 0; i < strewn.size(); i += 2)
     strewn[i].x = (strewn[i].x & ~255) + 128, strewn[i].y = (strewn[i].y & ~255) + 128;
   strew(parts, strewn);
-  return parts_are_whole(parts, {{a, b, c, d}}, context);
+  return parts_are_whole(parts, {a, b, c, d}, kWidth, kHeight, context);
 }
 
 // ---- 2
@@ -194,7 +107,7 @@ Outcome QuadCase::check(const Context& context) const {
   for (const auto& [first, second] : {std::pair<Outline, Outline>{{p, q, r}, {p, r, s}}, {{p, q, s}, {q, r, s}}}) {
     // A diagonal outside a quadrilateral that is not convex turns one half over.
     if ((area2(first[0], first[1], first[2]) > 0) != (area2(second[0], second[1], second[2]) > 0)) continue;
-    o.add(parts_are_whole({first, second}, {{p, q, r, s}}, context));
+    o.add(parts_are_whole({first, second}, {p, q, r, s}, kWidth, kHeight, context));
   }
   return o;
 }
@@ -218,11 +131,11 @@ Outcome CentresCase::check(const Context& context) const {
   if (down) {
     const ScreenVertex top{m.x - p * 256, m.y - r * 256};
     const ScreenVertex bottom{m.x + p * 256, m.y + r * 256};
-    return parts_are_whole({{nw, sw, bottom, top}, {top, bottom, se, ne}}, {{nw, sw, se, ne}}, context);
+    return parts_are_whole({{nw, sw, bottom, top}, {top, bottom, se, ne}}, {nw, sw, se, ne}, kWidth, kHeight, context);
   }
   const ScreenVertex left{m.x - r * 256, m.y - p * 256};
   const ScreenVertex right{m.x + r * 256, m.y + p * 256};
-  return parts_are_whole({{nw, left, right, ne}, {left, sw, se, right}}, {{nw, sw, se, ne}}, context);
+  return parts_are_whole({{nw, left, right, ne}, {left, sw, se, right}}, {nw, sw, se, ne}, kWidth, kHeight, context);
 }
 
 // ---- 5
@@ -253,12 +166,11 @@ Outcome FanCase::check(const Context& context) const {
   }
   std::vector<Outline> fan;
   for (std::size_t i = 0; i < outline.size(); ++i) fan.push_back({hub, outline[i], outline[(i + 1) % outline.size()]});
-  Outcome o = parts_are_whole(fan, {{{hub.x - half, hub.y - half},
-                                     {hub.x + half, hub.y - half},
-                                     {hub.x + half, hub.y + half},
-                                     {hub.x - half, hub.y + half}}},
-                              context);
-  return o;
+  const Outline square{{hub.x - half, hub.y - half},
+                       {hub.x + half, hub.y - half},
+                       {hub.x + half, hub.y + half},
+                       {hub.x - half, hub.y + half}};
+  return parts_are_whole(fan, square, kWidth, kHeight, context);
 }
 
 // ---- 6
@@ -273,7 +185,9 @@ void SliverCase::fields(Fields& f) {
 }
 
 Outcome SliverCase::check(const Context& context) const {
-  const auto at = [this](int along, int across) { return upright ? ScreenVertex{across, along} : ScreenVertex{along, across}; };
+  const auto at = [this](int along, int across) {
+    return upright ? ScreenVertex{across, along} : ScreenVertex{along, across};
+  };
   const ScreenVertex a = at(-kLimit + near_end, from);
   const ScreenVertex b = at(kLimit - far_end, to);
   const ScreenVertex c = at(kLimit - far_end, to + 1);
@@ -347,8 +261,8 @@ Outcome GuardCase::check(const Context& context) const {
   if (past > 0) {
     constexpr int kEdge = (1 << 15) * 256;
     ScreenVertex& v = outline[static_cast<std::size_t>(which / 2)];
-    (which % 2 == 0 ? v.x : v.y) =
-        std::array{0, kLimit + 1, -kLimit - 1, kEdge, -kEdge, kEdge + 1, INT32_MAX, INT32_MIN}[static_cast<std::size_t>(past)];
+    (which % 2 == 0 ? v.x : v.y) = std::array{
+        0, kLimit + 1, -kLimit - 1, kEdge, -kEdge, kEdge + 1, INT32_MAX, INT32_MIN}[static_cast<std::size_t>(past)];
   }
   Outcome o;
   FrameBuilder frame(40, 30);
@@ -410,7 +324,8 @@ Outcome MovedCase::check(const Context& /*context*/) const {
       const bool inside = fx >= 0 && fx < kWidth && fy >= 0 && fy < kHeight;
       const std::uint32_t expected = inside ? a[static_cast<std::size_t>(fy * kWidth + fx)] : 0U;
       if (b[static_cast<std::size_t>(y * kWidth + x)] != expected)
-        o.fail(fmt::format("pixel ({}, {}) is {:06x}, not {:06x}", x, y, b[static_cast<std::size_t>(y * kWidth + x)], expected));
+        o.fail(fmt::format("pixel ({}, {}) is {:06x}, not {:06x}", x, y, b[static_cast<std::size_t>(y * kWidth + x)],
+                           expected));
     }
   o.items = b.size();
   const Judgement j = judge(there.frame(), Config{});

@@ -3,8 +3,7 @@
 // Cases of families 1 - 9, 11 and 13: which pixels a polygon covers.
 #pragma once
 
-#include "extremes/family.hpp"
-#include "extremes/screen.hpp"
+#include "extremes/coverage_checks.hpp"
 
 namespace kage::verif {
 
@@ -130,12 +129,6 @@ struct JointsCase {
   void fields(Fields& f);
   [[nodiscard]] Outcome check(const Context& context) const;
 };
-
-/// Whether a polygon has the pixels that the oracle says: of those within its box.
-Outcome covers_what_the_oracle_says(const Outline& o, int width, int height, const Context& context = {});
-
-/// Whether a polygon without area has no pixel and changes no word of a frame.
-Outcome draws_nothing(const Outline& flat, int width, int height, const Context& context = {});
 
 void add_coverage_families(Families& to);
 

@@ -97,7 +97,8 @@ Outcome PastEndCase::check(const Context& /*context*/) const {
     if (std::abs(gap) < 2 + (x + 1) * std::ldexp(1.0, -frac)) continue;  // the order is open
     const std::uint32_t expected = gap < 0 ? 0x020202U : 0x010101U;
     if (p[static_cast<std::size_t>(5 * kWidth + x)] != expected)
-      o.fail(fmt::format("pixel {} shows {:06x}, not {:06x}", x, p[static_cast<std::size_t>(5 * kWidth + x)], expected));
+      o.fail(
+          fmt::format("pixel {} shows {:06x}, not {:06x}", x, p[static_cast<std::size_t>(5 * kWidth + x)], expected));
   }
   const Judgement j = judge(b.frame(), config);
   if (!j.good()) o.fail(j.text());
@@ -191,8 +192,8 @@ Outcome ClosePlanesCase::check(const Context& /*context*/) const {
     const Face& face = faces[i];
     // With no fraction bits errors are as large as a picture is wide.
     const double far = frac < 6 ? 96 >> frac : 1;
-    planes.push_back(plane(at * all + face.z * far, (a * all + face.a * 100) / kWidth, (b * all + face.b * 100) / kWidth,
-                           kWidth / 2, kHeight / 2));
+    planes.push_back(plane(at * all + face.z * far, (a * all + face.a * 100) / kWidth,
+                           (b * all + face.b * 100) / kWidth, kWidth / 2, kHeight / 2));
     builder.add(rectangle(face.left, 0, face.right, kHeight), planes.back(), {static_cast<std::uint8_t>(i + 1), 0, 0});
   }
   const auto p = draw(builder.frame(), config);
@@ -268,7 +269,7 @@ Outcome ColourCase::check(const Context& /*context*/) const {
 void LayersCase::Layer::fields(Fields& f) { f.number("color", color, 0, 255); }
 
 void LayersCase::fields(Fields& f, int least) {
-  f.number("alpha", alpha, 0, 255);
+  f.number("alpha", alpha, 0, least > 0 ? 8 : 255);
   f.number("under", under, 0, 255);
   f.number("first_count", first_count, least, 900);
   f.number("first", first, 0, 255);
@@ -294,7 +295,7 @@ Outcome LayersCase::check(const Context& context) const {
   for (int i = 0; i < all; ++i) {
     const int color = i < first_count ? first : layers[static_cast<std::size_t>(i - first_count)].color;
     s.color = {color, color, color};
-    if (!(context.planted(Plant::lost_layer) && i == 1)) w.tp(s);
+    if (!(context.planted(Plant::lost_layer) && i == all - 1)) w.tp(s);
     exact += (color - exact) * alpha / 255.0;
   }
   w.eol(0);
@@ -326,7 +327,8 @@ void add_depth_families(Families& to) {
   add_family<ClosePlanesCase>(to, {18, "18", "close planes: a surface shown though another is nearer", "LSB", 60});
   add_family<ColourCase>(to, {19, "19", "colour along a span", "LSB", 40});
   add_family<LayersCase>(to, {20, "20", "translucent layers over each other", "LSB", 60});
-  add_family<DeepLayersCase>(to, {20, "20 deep", "the same with 300 layers and more", "LSB", 60, 0.5});
+  add_family<DeepLayersCase>(to,
+                             {20, "20 deep", "the same with 300 layers and more of alpha 8 and less", "LSB", 60, 0.5});
 }
 
 }  // namespace kage::verif

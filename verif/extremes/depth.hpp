@@ -10,11 +10,11 @@ namespace kage::verif {
 /// Family 15: a depth plane along a span, as steep as can be.
 struct RampCase {
   int z_bits = 24, frac = 11;
-  int count = 1;         ///< pixels
-  int x = 0;             ///< of the first
-  int anchor = 0;        ///< how far left of it the plane's anchor is
-  double from = 1, to = 1;  ///< depth at the ends, as a share of all of it
-  int a_low = 0, c_low = 0; ///< added to slope and start, in 2^-24
+  int count = 1;             ///< pixels
+  int x = 0;                 ///< of the first
+  int anchor = 0;            ///< how far left of it the plane's anchor is
+  double from = 1, to = 1;   ///< depth at the ends, as a share of all of it
+  int a_low = 0, c_low = 0;  ///< added to slope and start, in 2^-24
   void fields(Fields& f) { fields(f, 1); }
   void fields(Fields& f, int least);
   [[nodiscard]] Outcome check(const Context& context) const { return check(context, 0); }
@@ -32,8 +32,8 @@ struct LongRampCase : RampCase {
 
 /// Family 15: a plane that leaves depth's range within the picture is clamped there.
 struct PastEndCase {
-  double at = 8e6;       ///< depth in the middle of the picture
-  double slope = 1e5;    ///< a pixel
+  double at = 8e6;     ///< depth in the middle of the picture
+  double slope = 1e5;  ///< a pixel
   int frac = 11;
   void fields(Fields& f);
   [[nodiscard]] Outcome check(const Context& context) const;
@@ -42,9 +42,9 @@ struct PastEndCase {
 /// Family 16: depth that is whole at every pixel, and a second surface beside it.
 struct WholeDepthCase {
   int z_bits = 24, frac = 11;
-  int z = 9'000'000;   ///< in the middle of the picture
-  int slope = 0;       ///< a pixel
-  int offset = 0;      ///< of the second surface
+  int z = 9'000'000;  ///< in the middle of the picture
+  int slope = 0;      ///< a pixel
+  int offset = 0;     ///< of the second surface
   void fields(Fields& f);
   [[nodiscard]] Outcome check(const Context& context) const;
 };
@@ -64,9 +64,9 @@ struct CoplanarCase {
 /// Family 18: planes that are close to each other, parallel or crossing.
 struct ClosePlanesCase {
   struct Face {
-    int left = 0, right = 96;    ///< pixels that it covers
-    double z = 0;                ///< in the middle, apart from the common depth, in LSB
-    double a = 0, b = 0;         ///< slopes apart from the common ones, in LSB a pixel
+    int left = 0, right = 96;  ///< pixels that it covers
+    double z = 0;              ///< in the middle, apart from the common depth, in LSB
+    double a = 0, b = 0;       ///< slopes apart from the common ones, in LSB a pixel
     void fields(Fields& f);
   };
   int z_bits = 24, frac = 11;

@@ -43,7 +43,7 @@ enum class Plant : std::uint8_t {
   none,
   wide_span,    ///< a span of three pixels or more is a pixel too wide
   steep_step,   ///< the step of a depth ramp is one too large
-  lost_layer,   ///< the second of several translucent layers is missing
+  lost_layer,   ///< the last translucent layer is missing
   lost_face,    ///< the last face of a shadow volume is missing
   swapped_pair  ///< two neighbours of a visibility order have changed places
 };
@@ -101,7 +101,7 @@ class Family {
   [[nodiscard]] const FamilyInfo& info() const { return info_; }
   /// The cases of one start, which follow from seed and index alone. Ends early where `stop` says so.
   [[nodiscard]] virtual Search run(std::uint64_t seed, std::uint64_t index, const Context& context,
-                                const std::function<bool()>& stop) const = 0;
+                                   const std::function<bool()>& stop) const = 0;
   /// The text of the case that a start begins with.
   [[nodiscard]] virtual std::string text(std::uint64_t seed, std::uint64_t index) const = 0;
   /// A case from its text. Throws Error that names `name` and a line where it is none.
@@ -206,7 +206,7 @@ class FamilyOf final : public Family {
   using Family::Family;
 
   [[nodiscard]] Search run(std::uint64_t seed, std::uint64_t index, const Context& context,
-                        const std::function<bool()>& stop) const override {
+                           const std::function<bool()>& stop) const override {
     Random random(start_state(info_.name, seed, index));
     Search run;
     Case best;
@@ -251,7 +251,9 @@ class FamilyOf final : public Family {
     }
     return text_of(best.value());
   }
-  [[nodiscard]] std::string reread(const std::string& text) const override { return text_of(case_of<Case>(text, info_.name)); }
+  [[nodiscard]] std::string reread(const std::string& text) const override {
+    return text_of(case_of<Case>(text, info_.name));
+  }
 
  private:
   static Case changed(const Case& from, Random& random) {

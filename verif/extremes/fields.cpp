@@ -235,7 +235,8 @@ void FindEdits::on_real(const char* /*name*/, double& v, double low, double high
     add(simple);
     if (is_whole(v) && is_whole(simple)) {
       for (rc::Seq<std::int64_t> towards =
-               rc::shrink::towards<std::int64_t>(static_cast<std::int64_t>(v), static_cast<std::int64_t>(simple));;) {
+               rc::shrink::towards<std::int64_t>(static_cast<std::int64_t>(v), static_cast<std::int64_t>(simple));
+           ;) {
         const auto next = towards.next();
         if (!next) break;
         add(static_cast<double>(*next));

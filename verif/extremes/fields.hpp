@@ -174,11 +174,11 @@ class ReadFields final : public Fields {
 struct Edit {
   enum class Kind : std::uint8_t { number, real, erase };
   Kind kind = Kind::number;
-  std::size_t place = 0;       ///< of the number or list, in the order of visiting
-  std::int64_t number = 0;     ///< what it becomes
-  double real = 0;             ///< likewise
-  std::size_t first = 0;       ///< elements that go
-  std::size_t count = 0;       ///< likewise
+  std::size_t place = 0;    ///< of the number or list, in the order of visiting
+  std::int64_t number = 0;  ///< what it becomes
+  double real = 0;          ///< likewise
+  std::size_t first = 0;    ///< elements that go
+  std::size_t count = 0;    ///< likewise
 };
 
 /// Finds all edits of a case: lists lose elements first, then numbers come nearer to what is simple, as RapidCheck
@@ -187,6 +187,7 @@ class FindEdits final : public Fields {
  public:
   /// Lists' edits, then numbers'.
   [[nodiscard]] std::vector<Edit> edits() const;
+
  private:
   void on_number(const char* name, std::int64_t& v, std::int64_t low, std::int64_t high, std::int64_t simple) override;
   void on_real(const char* name, double& v, double low, double high, double simple) override;

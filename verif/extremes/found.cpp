@@ -57,7 +57,8 @@ FoundCase read_found(const std::filesystem::path& file) {
     if (found.family == nullptr && line.rfind(kFamily, 0) == 0) {
       const std::string name = line.size() > std::string(kFamily).size() ? line.substr(7) : "";
       found.family = family_named(name);
-      if (found.family == nullptr) throw Error(fmt::format("{}:{}: there is no family \"{}\"", file.string(), number, name));
+      if (found.family == nullptr)
+        throw Error(fmt::format("{}:{}: there is no family \"{}\"", file.string(), number, name));
       line.clear();  // the fields keep their lines' numbers
     }
     found.text += line + "\n";

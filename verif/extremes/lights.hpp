@@ -14,12 +14,12 @@ struct SamplesCase {
     int left = 0, right = 40, light = 0;
     void fields(Fields& f);
   };
-  int bits = 1;          ///< COUNT_BITS
+  int bits = 1;  ///< COUNT_BITS
   bool fsf = true;
   int class_bits = 2;
   int lights = 1;
-  int equal = 0;         ///< so many samples of the first light over the same pixels go ahead
-  int share = 256;       ///< what the first light's sample takes, in 2^-16; each further light half as much again
+  int equal = 0;    ///< so many samples of the first light over the same pixels go ahead
+  int share = 256;  ///< what the first light's sample takes, in 2^-16; each further light half as much again
   std::vector<Sample> samples;
   void fields(Fields& f);
   [[nodiscard]] std::vector<LightSample> all() const;

@@ -180,18 +180,19 @@ int check_files(const Arguments& a) {
 
 int run_case(const Arguments& a) {
   const std::size_t second = a.one_case.rfind(':');
-  const std::size_t first = second == std::string::npos || second == 0 ? std::string::npos : a.one_case.rfind(':', second - 1);
+  const std::size_t first =
+      second == std::string::npos || second == 0 ? std::string::npos : a.one_case.rfind(':', second - 1);
   if (first == std::string::npos) usage(fmt::format("--case {}: it must be FAMILY:SEED:INDEX", a.one_case));
   const Family* family = family_named(a.one_case.substr(0, first));
   if (family == nullptr) usage(fmt::format("--case {}: there is no such family (--list has them)", a.one_case));
-  const auto seed = parsed<std::uint64_t>("--case, seed", a.one_case.substr(first + 1, second - first - 1), 0, UINT64_MAX);
+  const auto seed =
+      parsed<std::uint64_t>("--case, seed", a.one_case.substr(first + 1, second - first - 1), 0, UINT64_MAX);
   const auto index = parsed<std::uint64_t>("--case, index", a.one_case.substr(second + 1), 0, UINT64_MAX);
   set_case_at_hand(a.one_case);
   const Search run = family->run(seed, index, a.campaign.context, [] { return signalled != 0; });
   const std::string text = run.failing ? *run.failing : run.nearest.empty() ? family->text(seed, index) : run.nearest;
   fmt::print("# {}: {} cases, {} pixels, {} items\n", a.one_case, run.cases, run.sum.pixels, run.sum.items);
-  if (run.sum.bound > 0)
-    fmt::print("# nearest: {} of {} {}\n", run.sum.worst, run.sum.bound, family->info().unit);
+  if (run.sum.bound > 0) fmt::print("# nearest: {} of {} {}\n", run.sum.worst, run.sum.bound, family->info().unit);
   fmt::print("# {}\nfamily {}\n{}", run.sum.wrong.empty() ? "holds" : run.sum.wrong, family->info().name, text);
   return run.sum.wrong.empty() ? 0 : 1;
 }

@@ -75,7 +75,11 @@ Outcome NotFiniteCase::check(const Context& /*context*/) const {
       break;
     default:
       says = "light 1: ";
-      (place == 8 ? l.direction.z : place == 9 ? l.color.y : place == 10 ? l.position.x : place == 11 ? l.axis_u.y : l.inner_cosine) = bad;
+      (place == 8    ? l.direction.z
+       : place == 9  ? l.color.y
+       : place == 10 ? l.position.x
+       : place == 11 ? l.axis_u.y
+                     : l.inner_cosine) = bad;
   }
   Outcome o;
   o.items = 1;

@@ -51,7 +51,8 @@ Outcome rays_meet_the_order(const OrderTree& tree, const std::vector<Eye>& eyes,
       const int wrong = oracle.wrong_pairs(eye, target, order, &pairs);
       o.items += static_cast<std::uint64_t>(pairs);
       if (wrong == -2) o.fail(fmt::format("a point of face {} does not lie in exactly one of its fragments", face));
-      if (wrong > 0) o.fail(fmt::format("{} pairs of fragments on a ray through face {} are in the wrong order", wrong, face));
+      if (wrong > 0)
+        o.fail(fmt::format("{} pairs of fragments on a ray through face {} are in the wrong order", wrong, face));
     }
   }
   return o;
@@ -286,7 +287,8 @@ Outcome OnPlanesCase::check(const Context& context) const {
     if (s.how < 3) s.how += 3;
   const auto eyes = eyes_of(on, tree);
   Outcome o = ways_agree(tree, eyes, context);
-  o.add(rays_meet_the_order(tree, std::vector<Eye>(eyes.begin(), eyes.begin() + std::min<std::ptrdiff_t>(4, std::ssize(eyes))), context));
+  o.add(rays_meet_the_order(
+      tree, std::vector<Eye>(eyes.begin(), eyes.begin() + std::min<std::ptrdiff_t>(4, std::ssize(eyes))), context));
   return o;
 }
 
@@ -335,13 +337,13 @@ Outcome LayerRaysCase::check(const Context& /*context*/) const {
 }
 
 void add_order_families(Families& to) {
-  add_family<PartitionCase>(to, {14, "14", "faces cut by planes: fragments partition them, in rationals"});
+  add_family<PartitionCase>(to, {14, "14", "faces cut by planes: fragments partition them, in rationals", {}, 0, 2});
   add_family<CutFacesCase>(to, {14, "14 screen", "the same on the screen: pixels, depths and colours"});
-  add_family<CutLineCase>(to, {14, "14 line", "the line where a plane cuts a face", "2^-15 px", 200});
+  add_family<CutLineCase>(to, {14, "14 line", "the line where a plane cuts a face", "2^-15 px", 2000, 2});
   add_family<WaysCase>(to, {35, "35", "all ways give one order, whatever the eye does"});
   add_family<OnPlanesCase>(to, {36, "36", "the eye on nodes' planes"});
-  add_family<FlatMeshCase>(to, {37, "37", "coplanar and nearly coplanar faces"});
-  add_family<RaysCase>(to, {38, "38", "the order against exact rays"});
+  add_family<FlatMeshCase>(to, {37, "37", "coplanar and nearly coplanar faces", {}, 0, 2});
+  add_family<RaysCase>(to, {38, "38", "the order against exact rays", {}, 0, 2});
   add_family<LayerRaysCase>(to, {38, "38 layers", "translucent layers against rays"});
 }
 

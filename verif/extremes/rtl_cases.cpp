@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::array kModels{"lanes1", "flat4", "systolic64", "tree3", "glass1", "glass4", "soft4", "lights4"};
 /// Of each group all parameters are the same that affect pixels.
-constexpr std::array<std::array<const char*, 3>, 2> kGroups{{{"lanes1", "flat4", "systolic64"},
-                                                             {"glass1", "glass4", nullptr}}};
+constexpr std::array<std::array<const char*, 3>, 2> kGroups{
+    {{"lanes1", "flat4", "systolic64"}, {"glass1", "glass4", nullptr}}};
 /// Clocks of any case at most.
 constexpr std::uint64_t kClocks = 50'000'000;
 

@@ -18,8 +18,8 @@ struct TurnCase {
 /// A box, tetrahedron or octahedron.
 struct SolidCase {
   int kind = 0;
-  double x = 0, y = 0, z = 0;             ///< its middle
-  double wide = 1, high = 1, deep = 1;    ///< half of its sizes
+  double x = 0, y = 0, z = 0;           ///< its middle
+  double wide = 1, high = 1, deep = 1;  ///< half of its sizes
   TurnCase turn;
   void fields(Fields& f);
   [[nodiscard]] Solid solid() const;
@@ -29,7 +29,7 @@ struct SolidCase {
 
 /// Where the eye is and how it looks.
 struct ViewCase {
-  double x = 0, y = 0, z = 4;     ///< eye
+  double x = 0, y = 0, z = 4;  ///< eye
   double at_x = 0, at_y = 0, at_z = 0;
   bool parallel = false;
   double half_height = 0.5;
@@ -40,8 +40,8 @@ struct ViewCase {
 
 /// One light that casts hard shadows.
 struct LampCase {
-  bool placed = false;            ///< a point, else at infinity
-  double x = 0, y = 4, z = 0;     ///< where it is, or where it comes from
+  bool placed = false;         ///< a point, else at infinity
+  double x = 0, y = 4, z = 0;  ///< where it is, or where it comes from
   void fields(Fields& f);
   void apply_to(Light& light) const;
 };
@@ -49,7 +49,7 @@ struct LampCase {
 /// Solids strewn about the origin, on a floor or not.
 struct SceneCase {
   bool floor = true;
-  bool convex = true;             ///< what components say of themselves
+  bool convex = true;  ///< what components say of themselves
   std::vector<SolidCase> solids;
   ViewCase view;
   LampCase lamp;

@@ -84,7 +84,8 @@ Outcome NestedCase::check(const Context& /*context*/) const {
     o.fail("another order of the casters is another picture");
   // One counting volume against a volume for each.
   if (bits > 1)
-    o.add(same_but_near_ties_count(geometry(box_threes(boxes, aside), Config{}), Config{}, g, counting(bits)).outcome());
+    o.add(
+        same_but_near_ties_count(geometry(box_threes(boxes, aside), Config{}), Config{}, g, counting(bits)).outcome());
   return o;
 }
 

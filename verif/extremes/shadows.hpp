@@ -91,10 +91,10 @@ struct CapCase {
 struct TornCase {
   struct Torn {
     SolidCase solid;
-    int inverted = 0;        ///< a bit for each of its faces
-    bool fin = false;        ///< an edge with three faces
-    bool twice = false;      ///< a face that is there twice
-    bool junction = false;   ///< a vertex within its neighbour's edge
+    int inverted = 0;       ///< a bit for each of its faces
+    bool fin = false;       ///< an edge with three faces
+    bool twice = false;     ///< a face that is there twice
+    bool junction = false;  ///< a vertex within its neighbour's edge
     void fields(Fields& f);
   };
   int bits = 1;

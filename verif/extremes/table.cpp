@@ -19,8 +19,8 @@ std::array<std::string, 9> cells(const FamilyResult& r) {
   const std::string what = info.what + (info.rtl ? " (RTL)" : "");
   const std::string verdict = !o.wrong.empty() ? "FAILED" : r.cases == 0 ? "no case" : "holds";
   if (info.unit.empty())
-    return {info.name, what, std::to_string(r.cases), std::to_string(o.pixels), std::to_string(o.items), "exact", "", "",
-            verdict};
+    return {info.name, what,   std::to_string(r.cases), std::to_string(o.pixels), std::to_string(o.items), "exact", "",
+            "",        verdict};
   return {info.name,
           what,
           std::to_string(r.cases),
@@ -52,8 +52,8 @@ std::string table_text(const CampaignState& state, int jobs) {
     text += "|\n";
   }
   text += fmt::format("\n{} of {} families hold; {} oracle-checked pixels in {:.0f} s on {} threads: {:.2e} an hour\n",
-                      state.families.size() - state.failed(), state.families.size(), state.pixels(), state.seconds, jobs,
-                      per_hour(state));
+                      state.families.size() - state.failed(), state.families.size(), state.pixels(), state.seconds,
+                      jobs, per_hour(state));
   for (const FamilyResult& r : state.families) {
     if (r.sum.wrong.empty()) continue;
     text += fmt::format("\nfamily {}, case {}: {}\n", r.family->info().name,
@@ -65,35 +65,32 @@ std::string table_text(const CampaignState& state, int jobs) {
 
 std::string table_json(const CampaignState& state, const CampaignOptions& options) {
   nlohmann::ordered_json all;
+  all["schema"] = "kage.extremes/1";
   all["seed"] = options.seed;
   all["threads"] = options.jobs;
   all["seconds"] = state.seconds;
   all["pixels"] = state.pixels();
   all["pixels_per_hour"] = per_hour(state);
   for (const FamilyResult& r : state.families) {
-    nlohmann::ordered_json row;
-    row["family"] = r.family->info().name;
-    row["what"] = r.family->info().what;
-    row["rtl"] = r.family->info().rtl;
-    row["cases"] = r.cases;
-    row["pixels"] = r.sum.pixels;
-    row["items"] = r.sum.items;
-    row["thread_seconds"] = r.seconds;
-    if (!r.family->info().unit.empty()) {
-      row["unit"] = r.family->info().unit;
-      row["worst"] = r.sum.worst;
-      row["bound"] = r.sum.bound;
-      row["share"] = r.sum.share();
-      row["nearest_case"] = r.nearest_case;
-      row["nearest"] = r.nearest;
-    }
-    row["holds"] = r.sum.wrong.empty();
-    if (!r.sum.wrong.empty()) {
-      row["wrong"] = r.sum.wrong;
-      row["failed_case"] = r.failed_case;
-      row["found"] = r.kept.string();
-    }
-    all["families"].push_back(row);
+    const FamilyInfo& info = r.family->info();
+    all["families"].push_back({{"family", info.name},
+                               {"number", info.number},
+                               {"what", info.what},
+                               {"rtl", info.rtl},
+                               {"cases", r.cases},
+                               {"pixels", r.sum.pixels},
+                               {"items", r.sum.items},
+                               {"thread_seconds", r.seconds},
+                               {"unit", info.unit},
+                               {"worst", r.sum.worst},
+                               {"bound", r.sum.bound},
+                               {"share", r.sum.share()},
+                               {"nearest_case", r.nearest_case},
+                               {"nearest", r.nearest},
+                               {"holds", r.sum.wrong.empty()},
+                               {"wrong", r.sum.wrong},
+                               {"failed_case", r.failed_case},
+                               {"found", r.kept.string()}});
   }
   return all.dump(2) + "\n";
 }

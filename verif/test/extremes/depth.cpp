@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Families 15 - 19: depth and colour along spans.
+#include "extremes/depth.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "extremes/depth.hpp"
 #include "extremes/screen.hpp"
 #include "opinion/judge.hpp"
 #include "stimulus/random.hpp"
@@ -76,7 +77,8 @@ TEST_CASE("family 19: colour from 0 to 255 and back is in range and monotone") {
   for (const int frac : {0, 4, 8, 16})
     for (const bool grey : {false, true})
       for (const bool up : {true, false})
-        for (const int width : {1, 2, 3, 17, kWidth}) holds(ColourCase{frac, grey, width, up ? 0.0 : 255.0, up ? 255.0 : 0.0});
+        for (const int width : {1, 2, 3, 17, kWidth})
+          holds(ColourCase{frac, grey, width, up ? 0.0 : 255.0, up ? 255.0 : 0.0});
   cases_hold<ColourCase>(500);
 }
 

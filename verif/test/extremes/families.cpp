@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Families as such: all are there, their cases are what their texts say, and RapidCheck shrinks them within their ranges.
+// Families as such: all are there, their cases are what their texts say, and RapidCheck shrinks them within their
+// ranges.
 #include <cmath>
 #include <filesystem>
 #include <fstream>

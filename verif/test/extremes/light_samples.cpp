@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples of a light, at the edges of what a counter holds, in the golden core. rtl/family_29_* has the same for the
 // RTL.
+#include "extremes/lights.hpp"
 #include "kage/core.hpp"
 #include "test/extremes/hold.hpp"
-#include "extremes/lights.hpp"
 
 namespace kage::verif {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
-#include "extremes/orders.hpp"
 #include "extremes/order_checks.hpp"
+#include "extremes/orders.hpp"
 #include "geometry/order_mesh.hpp"
 #include "opinion/order_oracle.hpp"
 #include "stimulus/order_meshes.hpp"

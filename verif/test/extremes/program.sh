@@ -3,9 +3,10 @@
 # kage_extremes: a planted error is found, made small, kept whole, and fails when it is run again, as long as it is there;
 # exit codes, messages, JSON, and what is left after Ctrl-C.
 #
-# usage: program.sh KAGE_EXTREMES
+# usage: program.sh KAGE_EXTREMES SOURCE_DIR
 set -euo pipefail
 extremes=$1
+source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() {
@@ -40,8 +41,8 @@ plant() {
 }
 plant wide_span 6 7
 plant wide_span 13 3
-plant steep_step 15 10
-plant lost_layer 20 7
+plant steep_step "15 long" 10
+plant lost_layer "20 deep" 7
 plant lost_face 21 22
 plant swapped_pair 35 8
 
@@ -64,6 +65,12 @@ rows = [[[row.get(k) for k in keys] for row in all_["families"]] for all_ in (on
 assert rows[0] == rows[1], rows
 assert one["pixels"] > 0 and all(row["holds"] for row in one["families"])
 PY
+
+# JSON is what docs/schema says, of a failure too.
+mkdir "$work/json"
+cp "$work/1.json" "$work/json/extremes.1.json"
+gives 1 "$extremes" --plant wide_span --family 6 --starts 5 --found "$work" --json "$work/json/extremes.2.json"
+/usr/bin/python3 "$source/verif/test/cli/schema.py" "$source/docs/schema" "$work/json" || fail "JSON is not what its schema says"
 
 # Bad input gets one line and exit code 2.
 refused() {

@@ -14,8 +14,8 @@
 
 #include "contract/derived.hpp"
 #include "extremes/rtl_models.hpp"
-#include "kage/error.hpp"
 #include "kage/core.hpp"
+#include "kage/error.hpp"
 #include "kage/stream.hpp"
 
 namespace {

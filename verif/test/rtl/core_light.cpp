@@ -57,8 +57,7 @@ int main(int argc, char** argv) try {
   bool good = argc > 1;
   for (int i = 1; i < argc; ++i) {
     const CoreModel model = load_core(argv[i]);
-    for (std::uint64_t seed = test_seed(); good && seed < test_seed() + 8; ++seed)
-      good = family_29(model, seed);
+    for (std::uint64_t seed = test_seed(); good && seed < test_seed() + 8; ++seed) good = family_29(model, seed);
     std::printf("%s: %s\n", argv[i], good ? "right" : "wrong");
   }
   return good ? 0 : 1;

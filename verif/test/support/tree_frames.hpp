@@ -17,8 +17,8 @@ inline SegmentCount count_segments(const Picture& p, const FrameGeometry& g, con
 }
 
 /// The same frame by spans and with each of kUnitCounts units: the same pixels. What the segments were, in that order.
-inline std::array<SegmentCount, kUnitCounts.size()> same_either_way(const SceneFrame& f, const Config& config, int width,
-                                                                    int height) {
+inline std::array<SegmentCount, kUnitCounts.size()> same_either_way(const SceneFrame& f, const Config& config,
+                                                                    int width, int height) {
   const auto counts = either_way_counts(f, config, width, height);
   for (const SegmentCount& c : counts) {
     INFO(c.wrong);

@@ -177,8 +177,8 @@ TEST_CASE("normal classes: the nearest is the nearest, and they cover the sphere
 }
 
 // Between two normals at distance r, what the lights that are kept out take differs by at most k (W + 0.04) r, W being
-// the weight of all lights and k the steepest slope of the loss (docs/lights.md, "How far a table is off"). Here r is the
-// largest that any normal has; verif/extremes/lights.cpp takes each normal's own.
+// the weight of all lights and k the steepest slope of the loss (docs/lights.md, "How far a table is off"). Here r is
+// the largest that any normal has; verif/extremes/lights.cpp takes each normal's own.
 TEST_CASE("family 30: a table's shares are within the bound for directional lights, in every state of shadow") {
   Random random(3);
   double closest = 0;
@@ -240,8 +240,8 @@ TEST_CASE("family 30: a table's shares are within the bound for directional ligh
                 g.shares[(g.polygons[i].normal_class - 1) * lights.size() + l][static_cast<std::size_t>(c)] / 65536.0;
           }
           constexpr double kAmbientWeight = 0.04;
-          const double bound = white[c] * (steepest * (weight + kAmbientWeight) * radius +
-                                           static_cast<double>(lights.size()) * 0x1p-17);
+          const double bound =
+              white[c] * (steepest * (weight + kAmbientWeight) * radius + static_cast<double>(lights.size()) * 0x1p-17);
           const double off = white[c] * std::abs(got - right);
           REQUIRE(off <= bound);
           closest = std::max(closest, off / bound);
