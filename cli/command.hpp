@@ -24,6 +24,8 @@ void add_stream(CLI::App& app, Action& action);
 void add_vectors(CLI::App& app, Action& action);
 void add_board(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
+void add_plan(CLI::App& app, Action& action);
+void add_area(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);

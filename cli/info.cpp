@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "command.hpp"
-#include "cosim/stream_clocks.hpp"
+#include "cost/line_clocks.hpp"
 #include "file/extension.hpp"
 #include "info_scene.hpp"
 #include "kage/error.hpp"
@@ -93,7 +93,7 @@ struct Counted {
 };
 
 /// Checks all frames, and counts their tokens, and what `clocks` counts.
-Counted count_tokens(const InfoCommand& o, const StreamFile& file, std::optional<cosim::LineClockCounter>& clocks) {
+Counted count_tokens(const InfoCommand& o, const StreamFile& file, std::optional<LineClockCounter>& clocks) {
   Counted all;
   Progress progress;
   FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
@@ -114,7 +114,7 @@ Counted count_tokens(const InfoCommand& o, const StreamFile& file, std::optional
   return all;
 }
 
-std::string to_text(const Config& c, const cosim::LineClocks& clocks) {
+std::string to_text(const Config& c, const LineClocks& clocks) {
   if (clocks.frames == 0) return "clocks: no frame is sound, so none has clocks";
   return fmt::format(
       "clocks of a line at most (LANES {}, BEAT_WORDS {}): mean {:.0f}, worst {} (line {} of frame {}), worst {} "
@@ -123,7 +123,7 @@ std::string to_text(const Config& c, const cosim::LineClocks& clocks) {
       clocks.worst_window, clocks.worst_frame);
 }
 
-Json to_json(const Config& config, const cosim::LineClocks& clocks) {
+Json to_json(const Config& config, const LineClocks& clocks) {
   Json j;
   j["config"] = cli::to_json(config);
   j["frames"] = clocks.frames;
@@ -142,7 +142,7 @@ int describe_stream(const InfoCommand& o) {
   if (o.tokens >= file.frame_count())
     throw Error(
         fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
-  std::optional<cosim::LineClockCounter> clocks;
+  std::optional<LineClockCounter> clocks;
   if (o.clocks) clocks.emplace(stream_config(o, file).config);
   const auto [counts, unchecked] = count_tokens(o, file, clocks);
   Json tokens = Json::object();

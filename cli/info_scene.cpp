@@ -11,6 +11,7 @@
 #include "kage/config.hpp"
 #include "kage/scene.hpp"
 #include "options.hpp"
+#include "pipeline/choose.hpp"
 #include "remarks.hpp"
 #include "results.hpp"
 #include "signals.hpp"
@@ -77,6 +78,11 @@ void add_configurations(const Options& o, const Scene& scene, const SceneFrame& 
   j["configurations"] = Json::array();
   j["configuration"] = nullptr;
   j["lacks"] = Json::object();
+  DrawOptions draw = draw_options(o);
+  draw.frames = scene.frame_count();
+  j["costs"] = Json::array();
+  for (const ChoiceCost& c : choices(frame, needs, draw))
+    j["costs"].push_back({{"name", c.named.name}, {"clocks", c.clocks}, {"luts", c.luts}});
   Config config;
   for (const NamedConfig& named : named_configs()) {
     const std::vector<std::string> missing = lacks(named.config, needs);
@@ -84,11 +90,12 @@ void add_configurations(const Options& o, const Scene& scene, const SceneFrame& 
       j["lacks"][named.name] = missing;
       continue;
     }
-    if (j["configuration"].is_null()) {
-      j["configuration"] = named.name;
-      config = named.config;
-    }
     j["configurations"].push_back(named.name);
+  }
+  if (!j["configurations"].empty()) {
+    const NamedConfig chosen = choose_config(scene, draw);
+    j["configuration"] = chosen.name;
+    config = chosen.config;
   }
   const std::string line = j["configuration"].is_null() ? widened_config(needs) : std::string();
   j["widened"] = line.empty() ? Json(nullptr) : Json(line);
@@ -140,6 +147,11 @@ void print(const Options& o, const Json& j) {
   else
     fmt::print("configurations that draw it at {}: {}; {} without --config\n", size, names(j["configurations"]),
                j["configuration"].get<std::string>());
+  const Json& costs = j["costs"];
+  if (costs.size() > 1)
+    for (const Json& c : costs)
+      fmt::print("  {} takes {} clocks for the first frame, and some {:.0f} look-up tables\n", c["name"].get<std::string>(),
+                 number(c["clocks"]), c["luts"].get<double>());
   for (const auto& [name, missing] : j["lacks"].items()) fmt::print("  {} lacks {}\n", name, names(missing));
 }
 

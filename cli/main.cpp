@@ -117,6 +117,8 @@ int run(int argc, char** argv) {
   add_vectors(app, action);
   add_board(app, action);
   add_info(app, action);
+  add_plan(app, action);
+  add_area(app, action);
   add_explain(app, action);
   add_diff(app, action);
   add_merge(app, action);

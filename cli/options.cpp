@@ -201,12 +201,9 @@ void option_fault(CLI::App& command, std::string& fault) {
       ->type_name("NAME");
 }
 
-void options_of_frames(CLI::App& command, Options& options) {
+void options_of_pictures(CLI::App& command, Options& options) {
   option_size(command, options);
   option_frames(command, options);
-  option_config(command, options);
-  option_degrade(command, options);
-  option_units_only(command, options);
   option_translucent(command, options);
   option_cull(command, options);
   option_max_fragments(command, options);
@@ -214,6 +211,13 @@ void options_of_frames(CLI::App& command, Options& options) {
   option_seed(command, options);
   option_threads(command, options);
   option_outside(command, options);
+}
+
+void options_of_frames(CLI::App& command, Options& options) {
+  option_config(command, options);
+  option_degrade(command, options);
+  option_units_only(command, options);
+  options_of_pictures(command, options);
 }
 
 }  // namespace kage::cli

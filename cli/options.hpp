@@ -59,8 +59,10 @@ std::string name_of(TranslucentWay way);
 /// --config: the core's parameters.
 void option_config(CLI::App& command, Options& options);
 
-/// What every command that makes frames takes: --size, --frames, --config, --degrade, --units-only, --order, --alpha,
-/// --cull, --max-fragments, --samples, --classes, --seed, --threads, --allow-outside.
+/// What decides the pictures of a scene: --size, --frames, --order, --alpha, --cull, --max-fragments, --samples,
+/// --classes, --seed; and --threads, --allow-outside.
+void options_of_pictures(CLI::App& command, Options& options);
+/// What every command that makes frames for a core takes: those, and --config, --degrade, --units-only.
 void options_of_frames(CLI::App& command, Options& options);
 void option_max_fragments(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);

@@ -27,6 +27,10 @@ void refuse_order_tree(const std::string& path);
 /// Throws Error if `input` asks for random frames: only kage cosim and kage explain take them.
 void refuse_random(const std::string& input);
 
+/// How a scene is drawn, as the options say. Building an order of translucent faces says nothing and asks for no
+/// interruption: DrawOptions::order is for the caller to set.
+DrawOptions draw_options(const Options& options);
+
 /// The configuration of the core that a stream goes to: the stream's own, or --config, of which only the implementation
 /// parameters may differ from the stream's. Throws Error if another one does.
 NamedConfig stream_config(const Options& options, const StreamFile& stream);

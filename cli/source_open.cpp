@@ -54,6 +54,21 @@ void refuse_random(const std::string& input) {
     throw Error(fmt::format("{}: random frames are for kage cosim, kage explain and kage vectors", input));
 }
 
+DrawOptions draw_options(const Options& options) {
+  DrawOptions draw;
+  draw.width = options.size.width;
+  draw.height = options.size.height;
+  draw.frames = options.frames;
+  draw.look.translucent = options.order;
+  draw.look.samples = options.samples;
+  draw.look.seed = options.seed;
+  draw.look.classes = options.classes;
+  draw.look.cull = options.cull;
+  draw.look.fit = options.degrade;
+  draw.threads = options.threads;
+  return draw;
+}
+
 Source::Source(const Options& options) : options_(options) {
   if (const auto manner = verif::random_manner(options.input)) {
     open_random(options, *manner);
@@ -150,7 +165,9 @@ void Source::load_scene(const Options& options) {
   Needs needs = needs_of(*scene_, first, options.size.width, options.size.height, options.samples);
   if (options.config.empty()) {
     try {
-      config_ = choose_config(needs);
+      DrawOptions draw = draw_options(options);
+      draw.frames = frames_;
+      config_ = choose_config(*scene_, draw);
     } catch (const Error& e) {
       const std::string line = widened_config(needs);
       throw Error(fmt::format("{}: {}{}", options.input, e.what(),
@@ -183,19 +200,10 @@ void Source::open_frames() {
     stream_frames_ = std::make_unique<StreamFrames>(stream_);
     return;
   }
-  DrawOptions draw;
-  draw.width = options_.size.width;
-  draw.height = options_.size.height;
+  DrawOptions draw = draw_options(options_);
   draw.frames = frames_;
-  draw.look.translucent = options_.order;
-  draw.look.samples = options_.samples;
-  draw.look.seed = options_.seed;
-  draw.look.classes = options_.classes;
-  draw.look.cull = options_.cull;
-  draw.look.fit = options_.degrade;
   draw.order =
       progress_ ? order_build(options_, *progress_, name_ + ": order of translucent faces") : order_build(options_);
-  draw.threads = options_.threads;
   draw.name = name_;
   scene_frames_ = std::make_unique<SceneFrames>(scene_, config_.config, std::move(draw));
 }

@@ -17,6 +17,7 @@ install(DIRECTORY verif/cosim/report/page DESTINATION ${CMAKE_INSTALL_DATADIR}/k
 install(DIRECTORY verif/cosim/model/cells verif/cosim/model/driver verif/cosim/model/faults DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/model USE_SOURCE_PERMISSIONS)
 # A board in simulation: kage board --port sim:BOARD.
 install(DIRECTORY constraints/boards DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)
+install(FILES constraints/figures.json DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)
 install(DIRECTORY verif/board/sim DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/board USE_SOURCE_PERMISSIONS)
 install(FILES verif/test/formal/sdram_rules.sv DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/test/formal)
 install(DIRECTORY verif/vectors/bench DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/vectors)

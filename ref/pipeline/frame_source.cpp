@@ -26,9 +26,7 @@ void check_index(int index, int frames) {
 
 Config chosen(const Scene& scene, const DrawOptions& options) {
   check_options(options);
-  const int frames = options.frames > 0 ? options.frames : scene.frame_count();
-  return choose_config(needs_of(scene, scene.frame(0, frames), options.width, options.height, options.look.samples))
-      .config;
+  return choose_config(scene, options).config;
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ def of_definition(defs):
         "rtl/include/generated/kage_registers.svh": registers.registers_svh(defs),
         "rtl/include/generated/kage_widths.svh": sv_widths.widths(defs),
         "rtl/kage.f": file_list(),
-        "verif/cosim/clock_phases.hpp": cpp_clock_phases.clock_phases(defs),
+        "ref/cost/clock_phases.hpp": cpp_clock_phases.clock_phases(defs),
     }
 
 

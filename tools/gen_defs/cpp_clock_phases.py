@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""verif/cosim/clock_phases.hpp: what the clocks of a frame are counted under."""
+"""ref/cost/clock_phases.hpp: what the clocks of a frame are counted under."""
 
 from files import NOTE
 
@@ -22,7 +22,7 @@ def clock_phases(defs):
         "",
         '#include "kage/defs.hpp"',
         "",
-        "namespace kage::cosim {",
+        "namespace kage {",
         "",
         "/// What the clocks of a frame are counted under.",
         f"enum class Phase : std::uint8_t {{ {', '.join(p['name'] for p in phases)} }};",
@@ -40,7 +40,7 @@ def clock_phases(defs):
         "    Phase::state, " + ", ".join(f"Phase::{t['counts_as']}" for t in tokens) + "};",
         "constexpr Phase phase_of(Kind kind) { return kPhaseOfKind[static_cast<std::size_t>(kind)]; }",
         "",
-        "}  // namespace kage::cosim",
+        "}  // namespace kage",
         "",
     ]
     return "\n".join(o)

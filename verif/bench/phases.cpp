@@ -15,11 +15,10 @@ namespace {
 
 using namespace kage;
 
-using cosim::Phase;
 
-cosim::PhaseSums sums_of(const Config& c, std::span<const std::uint32_t> words) {
+PhaseSums sums_of(const Config& c, std::span<const std::uint32_t> words) {
   const Layout layout(c);
-  cosim::PhaseCounter counter(c);
+  PhaseCounter counter(c);
   counter.start(FrameHeader::read(words).width);
   TokenWalk walk(layout, words);
   for (auto token = walk.next(); !token.empty(); token = walk.next()) counter.token(decode(c, layout, token));
@@ -36,7 +35,7 @@ int main() {
     const NamedConfig config = choose_config(needs_of(*scene, scene->frame(0, scene->frame_count()), 640, 480));
     const Config& c = config.config;
     const auto words = SceneFrames(scene, c, {.width = 640, .height = 480, .threads = 1}).words(0);
-    const cosim::PhaseSums s = sums_of(c, words);
+    const PhaseSums s = sums_of(c, words);
     const auto clocks = [&](Phase phase) { return s.of[static_cast<std::size_t>(phase)].clocks; };
     const auto rtl = cosim::make_rtl(cosim::find_model(c).library, c);
     const std::uint64_t cycles = rtl->frame(words, [](int, std::span<const std::uint8_t>) {}).cycles;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cosim/phases.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "contract/kinds.hpp"
@@ -18,54 +17,6 @@ void PhaseMarker::mark(std::span<const std::uint32_t> words, std::vector<std::ui
     --left_;
     marks.push_back(static_cast<std::uint8_t>(phase_));
   }
-}
-
-void PhaseCounter::token(const Token& t) {
-  const auto words = static_cast<std::uint64_t>(layout_.words[static_cast<std::size_t>(t.kind)]);
-  const auto beat = static_cast<std::uint64_t>(config_.beat_words);
-  std::uint64_t clocks = std::max<std::uint64_t>(1, (words + beat - 1) / beat);
-  // What the banked arrangement works on in turn; in the systolic one a token enters every clock.
-  const auto groups = [&](int xl, int xr) {
-    return static_cast<std::uint64_t>(
-        config_.arrangement == 0 || xl == xr ? 1 : (xr - 1) / config_.lanes - xl / config_.lanes + 1);
-  };
-  const Phase phase = phase_of(t.kind);
-  PhaseSums::Sum& sum = sums_.of[static_cast<std::size_t>(phase)];
-  if (info_of(t.kind).line_clocks) {
-    clocks = groups(0, width_);
-  } else if (info_of(t.kind).range) {
-    clocks = std::max(clocks, groups(t.span.xl, t.span.xr));
-    sum.pixels += static_cast<std::uint64_t>(t.span.xr - t.span.xl);
-  }
-  const auto width = static_cast<std::uint64_t>(width_);
-  if (t.kind == Kind::RESOLVE) resolved_ = true;
-  if (t.kind == Kind::TP && !blends_) {
-    blends_ = true;
-    // docs/rtl.md, "Clocks": a line whose colours come back before its TPs.
-    constexpr std::uint64_t kColorsBack = 32;
-    waits_ = groups(0, width_);
-    if (config_.count_bits > 0 && resolved_)
-      waits_ += width + std::max(width, config_.arrangement == 0 ? width : 2 * groups(0, width_)) + kColorsBack;
-  }
-  ++sum.tokens;
-  sum.clocks += clocks;
-  line_ += clocks;
-  if (t.kind != Kind::EOL) return;
-  if (line_ < width) sums_.video += width - line_;
-  lines_.push_back(std::max(line_ + waits_, width));
-  line_ = waits_ = 0;
-  resolved_ = blends_ = false;
-}
-
-std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count) {
-  std::uint64_t window = 0;
-  std::uint64_t worst = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    window += lines[i];
-    if (i >= count) window -= lines[i - count];
-    worst = std::max(worst, window);
-  }
-  return worst;
 }
 
 }  // namespace kage::cosim

@@ -22,13 +22,15 @@ BELOW = {
     "stream": ["contract"],
     "core": ["stream", "simd"],
     "bind": ["core"],
+    "cost": ["stream"],
     "order": ["file", "arena", "simd"],
     "scene": ["file", "module", "number"],
     "shadow": ["scene", "order", "number"],
     "geometry": ["shadow", "contract"],
     "frontend": ["geometry", "arena"],
     "image": ["file", "module", "number"],
-    "pipeline": ["frontend", "stream", "core", "image"],
+    "pipeline": ["frontend", "stream", "core", "cost", "image"],
+    "plan": ["pipeline", "cost"],
 }
 MODEL = [*BELOW, "kage"]
 
@@ -46,6 +48,7 @@ PUBLIC = {
     "file": ["paths.hpp"],
     "image": ["image.hpp", "diff.hpp"],
     "pipeline": ["bless.hpp", "pipeline.hpp", "provenance.hpp"],
+    "plan": ["plan.hpp"],
 }
 OWNERS = {name: folder for folder, names in PUBLIC.items() for name in names}
 GROUND = {"defs.hpp", "error.hpp", "registers.h"}  # they have no functions elsewhere and stand below all folders
@@ -57,12 +60,13 @@ ABOVE = {
     "verif/opinion": ["opinion", "kage", "number"],
     "verif/vectors": ["vectors", "cosim", "stimulus", *MODEL],
     "verif/board": ["board", "vectors", "cosim", *MODEL],
+    "verif/trade": ["trade", "opinion", "cosim", "stimulus", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
     "verif/extremes": ["extremes", "cosim", "stimulus", "opinion", *MODEL],
     "verif/bench": ["bench", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/test": ["test", "extremes", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/test": ["test", "extremes", "trade", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test/unit/cli": ["test", "cli"],
-    "cli": ["cli", "board", "vectors", "cosim", "stimulus", *MODEL],
+    "cli": ["cli", "trade", "board", "vectors", "cosim", "stimulus", *MODEL],
 }
 
 ROOTS = ("ref", "ref/include", "verif", "")  # what includes are named from, but for those of a file's own folder

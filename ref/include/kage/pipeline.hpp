@@ -152,6 +152,15 @@ class StreamFrames : public FrameSource {
 /// @return what a configuration must have
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples = Look{}.samples);
 
+/// Chooses among the named configurations by a scene's first frame: of those that have all it needs, the first in
+/// listed order, unless a later one costs a seventh less, in clocks of that frame times look-up tables of the core.
+/// Configurations with UNITS, or with a processor for each pixel, are taken only where no other serves. Throws Error if
+/// none has all; it names the one that lacks the fewest things, and those.
+/// @param scene what is drawn
+/// @param draw how it is drawn
+/// @return what it is drawn with
+NamedConfig choose_config(const Scene& scene, const DrawOptions& draw);
+
 /// Draws frames with the golden core.
 class Renderer {
  public:

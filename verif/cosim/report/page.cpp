@@ -64,7 +64,7 @@ std::string picture_that_ends(const cosim::Report& run, std::string_view end) {
   return {};
 }
 
-Json phases_of(const cosim::PhaseSums& sums) {
+Json phases_of(const PhaseSums& sums) {
   Json j = Json::array();
   for (const auto& s : sums.of) j.push_back({s.tokens, s.pixels, s.clocks});
   return j;
@@ -184,8 +184,8 @@ Json data_of(const Page& page, Pictures& pictures) {
   }
   j["frames"] = frames_of(page, pictures);
   j["told"] = told_of(page);
-  j["phase_names"] = cosim::kPhaseNames;
-  j["phase_tokens"] = cosim::kPhaseTokens;
+  j["phase_names"] = kPhaseNames;
+  j["phase_tokens"] = kPhaseTokens;
   j["meanings"] = meanings();
   j["explain"] = page.explain;
   j["explain_rtl"] = page.explain_rtl;

@@ -281,7 +281,7 @@ concept Record = kIsOneOf<T, cosim::Stalls, OptionsRecord, WayRecord, FrameRecor
                           BoardScreenRecord, BoardLinkRecord, BoardLoopRecord, BoardRecord, SceneRecord>;
 
 inline std::string phase_name(std::size_t i) {
-  return std::string(i < cosim::kPhases ? cosim::kPhaseNames[i] : "behind the last token");
+  return std::string(i < kPhases ? kPhaseNames[i] : "behind the last token");
 }
 
 }  // namespace kage::report

@@ -33,7 +33,7 @@ struct Band {
 
 /// What else is known of a frame from its words.
 struct FrameTokens {
-  cosim::PhaseSums phases;
+  PhaseSums phases;
   std::uint32_t tokens = 0;  ///< the header is one
   std::uint32_t background = 0;
 };
@@ -72,7 +72,7 @@ class TokenStore {
 
   Config config_;
   Layout layout_;
-  cosim::PhaseCounter counter_;
+  PhaseCounter counter_;
   std::size_t budget_;
   std::function<bool(int, int)> wanted_;
   std::vector<Band> bands_;

@@ -9,7 +9,7 @@
 
 #include "kage/defs.hpp"
 
-namespace kage::cosim {
+namespace kage {
 
 /// What the clocks of a frame are counted under.
 enum class Phase : std::uint8_t { state, opaque, volumes, volume_ends, samples, translucent, line_out };
@@ -27,4 +27,4 @@ inline constexpr std::array<Phase, 16> kPhaseOfKind{
     Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::opaque, Phase::opaque, Phase::volumes, Phase::volumes, Phase::volumes, Phase::volume_ends, Phase::samples, Phase::state, Phase::translucent, Phase::line_out, Phase::state};
 constexpr Phase phase_of(Kind kind) { return kPhaseOfKind[static_cast<std::size_t>(kind)]; }
 
-}  // namespace kage::cosim
+}  // namespace kage

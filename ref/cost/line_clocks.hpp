@@ -8,10 +8,10 @@
 #include <cstdint>
 #include <span>
 
-#include "cosim/phases.hpp"
+#include "cost/token_clocks.hpp"
 #include "kage/config.hpp"
 
-namespace kage::cosim {
+namespace kage {
 
 /// Neighbouring lines whose mean is told beside the worst line: what a buffer of so many lines could even out.
 inline constexpr std::size_t kLineWindow = 16;
@@ -22,6 +22,13 @@ struct LineClocks {
     int line = 0;
     std::uint64_t clocks = 0;
   };
+  /// Neighbouring lines that decide how long a display's line must be.
+  struct Need {
+    double clocks = 0;  ///< of a display's line, at least
+    int frame = 0;
+    int first = 0;  ///< line
+    int count = 0;
+  };
   int frames = 0;
   int height = 0;                 ///< lines of the highest frame
   std::uint64_t lines = 0;        ///< of all frames
@@ -30,12 +37,21 @@ struct LineClocks {
   double worst_window = 0;        ///< mean of a line in the neighbouring lines that take most
   std::size_t window = 0;         ///< how many those are: kLineWindow, or all of a picture that has fewer
   std::uint64_t worst_frame = 0;  ///< clocks of the frame with the most
+  Need need;                      ///< needed_line() of the frame that asks for most
 
   /// Of a line, over all frames; 0 without lines.
   [[nodiscard]] double mean() const {
     return lines == 0 ? 0 : static_cast<double>(clocks) / static_cast<double>(lines);
   }
 };
+
+/// The least clocks T that a line of a display must have, so that a core which takes `lines` clocks for its lines is
+/// never late. The way out holds two lines (docs/rtl.md): while one leaves and one waits, the core works on the next.
+/// So m neighbouring lines have the time of m + 1 lines of the display, and T is the most of sum / (m + 1) over all
+/// runs of neighbours. The first line of a frame begins with the way out empty, behind the blanking of the frame before.
+/// @param lines clocks of each line of a frame, top to bottom
+/// @return T, and the lines that decide it; 0 without lines
+LineClocks::Need needed_line(std::span<const std::uint64_t> lines);
 
 /// Adds frames up, for a core of one configuration.
 class LineClockCounter {
@@ -45,6 +61,11 @@ class LineClockCounter {
   /// A sound frame with its number. Throws Error if it is wider than MAX_WIDTH.
   void add(int frame, std::span<const std::uint32_t> words);
 
+  /// The same token by token, for several counters that share a frame's decoded tokens: begin(), token() of each, end().
+  void begin(int frame, const FrameHeader& header);
+  void token(const Token& t) { counter_.token(t); }
+  void end();
+
   [[nodiscard]] const LineClocks& sums() const { return sums_; }
   [[nodiscard]] const Config& config() const { return config_; }
 
@@ -53,6 +74,8 @@ class LineClockCounter {
   Layout layout_;
   PhaseCounter counter_;
   LineClocks sums_;
+  int frame_ = 0;
+  int height_ = 0;
 };
 
-}  // namespace kage::cosim
+}  // namespace kage

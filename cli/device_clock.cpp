@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "device_clock.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "kage/error.hpp"
+#include "kage/paths.hpp"
+
+namespace kage::cli {
+
+DeviceClock device_clock(const std::string& device) {
+  const std::string path = (data_directory() / "constraints/figures.json").string();
+  std::ifstream file(path);
+  if (!file) throw Error(fmt::format("{}: cannot be read", path));
+  DeviceClock slowest;
+  std::set<std::string> devices;
+  try {
+    for (const auto& row : nlohmann::json::parse(file)) {
+      devices.insert(row.at("device").get<std::string>());
+      const double mhz = row.at("clock_mhz").get<double>();
+      if (row.at("device") != device || (!slowest.core.empty() && mhz >= slowest.mhz)) continue;
+      slowest = {mhz, row.at("core").get<std::string>()};
+    }
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(fmt::format("{}: {}", path, e.what()));
+  }
+  if (slowest.core.empty())
+    throw Error(fmt::format("--device {}: no core was placed there; there are {}", device, fmt::join(devices, ", ")));
+  return slowest;
+}
+
+}  // namespace kage::cli

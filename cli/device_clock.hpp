@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The clock that cores reached on a device, as constraints/figures.json recorded it (docs/timing.md).
+#pragma once
+
+#include <string>
+
+namespace kage::cli {
+
+struct DeviceClock {
+  double mhz = 0;
+  std::string core;  ///< the slowest core with lanes of those that were placed there
+};
+
+/// The clock of the slowest core on the device: a plan does not know its own until it is placed. Throws Error if the
+/// device has no row.
+DeviceClock device_clock(const std::string& device);
+
+}  // namespace kage::cli

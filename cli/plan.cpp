@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// kage plan SCENE...: the least configuration of the core that draws scenes, with the reason for each parameter.
+#include "kage/plan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "device_clock.hpp"
+#include "kage/error.hpp"
+#include "order_build.hpp"
+#include "progress.hpp"
+#include "results.hpp"
+#include "signals.hpp"
+#include "source.hpp"
+#include "text.hpp"
+
+namespace kage::cli {
+namespace {
+
+struct PlanCommand : Options {
+  std::vector<std::string> inputs;
+  PlanOptions plan;
+  std::optional<double> clock;
+  std::string device;
+  std::optional<double> fps;
+  std::optional<int> total_lines;
+};
+
+const std::map<std::string, Prefer>& preferences() {
+  static const std::map<std::string, Prefer> kAll{
+      {"speed", Prefer::speed}, {"area", Prefer::area}, {"words", Prefer::words}};
+  return kAll;
+}
+
+std::string name_of(Prefer prefer) {
+  for (const auto& [name, value] : preferences())
+    if (value == prefer) return name;
+  return {};
+}
+
+PlannedScene open(const PlanCommand& o, const std::string& input, Progress& progress) {
+  refuse_random(input);
+  refuse_order_tree(input);
+  if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
+  PlannedScene scene;
+  scene.scene =
+      std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt}));
+  scene.draw = draw_options(o);
+  scene.draw.order = order_build(o, progress, scene.scene->name() + ": order of translucent faces");
+  return scene;
+}
+
+PlanOptions options_of(const PlanCommand& o, Progress& progress) {
+  PlanOptions options = o.plan;
+  if (o.clock || !o.device.empty()) {
+    PlanClock clock;
+    clock.mhz = o.clock ? *o.clock : device_clock(o.device).mhz;
+    clock.fps = o.fps.value_or(clock.fps);
+    clock.total_lines = o.total_lines.value_or(0);
+    options.clock = clock;
+  } else if (o.fps || o.total_lines) {
+    throw Error("--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says "
+                "how fast the core is");
+  }
+  options.progress = [&progress](double share) {
+    check_interrupt();
+    progress.show(fmt::format("plan: {:.0f} %", 100 * share));
+  };
+  return options;
+}
+
+double per_frame(const Plan& plan, std::uint64_t all) { return static_cast<double>(all) / plan.frames; }
+double per_pixel(const Plan& plan, double all) { return all / static_cast<double>(plan.pixels); }
+
+/// One line of what a configuration costs.
+std::string cost_text(const Plan& plan, const PlanCost& c) {
+  std::string text = fmt::format(
+      "{:.0f} words a frame, {:.2f} clocks a pixel, worst line {} clocks, {:.0f} LUTs (within {:.0f} %), {:.0f} "
+      "flip-flops, {} bits of RAM, {} bits a pixel",
+      per_frame(plan, c.words), per_pixel(plan, static_cast<double>(c.clocks)), c.worst_line, c.luts, 100 * c.luts_off,
+      c.flip_flops, c.ram_bits, c.bits_per_pixel);
+  if (c.meets_clock) text += *c.meets_clock ? "; keeps up" : fmt::format("; does not keep up: {:.0f} clocks a line", c.needed_line);
+  return text;
+}
+
+std::string shape_text(const Config& c) {
+  return c.arrangement == 0 ? fmt::format("systolic, BEAT_WORDS {}", c.beat_words)
+                            : fmt::format("LANES {}, BEAT_WORDS {}", c.lanes, c.beat_words);
+}
+
+std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options) {
+  std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n", fmt::join(o.inputs, " "),
+                                 counted(plan.frames, "frame"), plan.size[0], plan.size[1], name_of(o.plan.prefer));
+  text += fmt::format("# depth within {:.3g} of its range, colour within {} of 255 of fractions without end\n", plan.z_error,
+                      plan.limits.color);
+  if (options.clock)
+    text += fmt::format("# a display of {:g} frames a second and {} lines each, blanking included, at {:g} MHz: {}\n",
+                        options.clock->fps,
+                        options.clock->total_lines > 0 ? options.clock->total_lines : usual_total_lines(plan.size[1]),
+                        options.clock->mhz, *plan.cost.meets_clock ? "the core keeps up" : "no core keeps up, this one comes nearest");
+  text += fmt::format("# costs {}\n", cost_text(plan, plan.cost));
+  for (const PlanCandidate& c : plan.others)
+    text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.cost));
+  if (o.plan.prefer == Prefer::speed && !(plan.smallest.config == plan.config))
+    text += fmt::format("# the smallest, {} ({}): {}\n", plan.smallest.way, shape_text(plan.smallest.config),
+                        cost_text(plan, plan.smallest.cost));
+  return text + to_yaml(plan);
+}
+
+Json place_json(const PlanPlace& at) {
+  if (at.scene < 0) return nullptr;
+  return {{"scene", at.scene}, {"frame", at.frame}, {"line", at.line >= 0 ? Json(at.line) : Json(nullptr)}};
+}
+
+Json cost_json(const Plan& plan, const PlanCost& c) {
+  Json j;
+  j["words_per_frame"] = per_frame(plan, c.words);
+  j["clocks_per_pixel"] = per_pixel(plan, static_cast<double>(c.clocks));
+  j["worst_line_cycles"] = c.worst_line;
+  j["worst_line_at"] = place_json(c.worst_at);
+  j["needed_line_cycles"] = c.needed_line;
+  j["needed_at"] = place_json(c.needed_at);
+  j["needed_lines"] = c.needed_lines;
+  j["luts"] = c.luts;
+  j["luts_off"] = c.luts_off;
+  j["flip_flops"] = c.flip_flops;
+  j["ram_bits"] = c.ram_bits;
+  j["bits_per_pixel"] = c.bits_per_pixel;
+  j["golden_ns_per_pixel"] = per_pixel(plan, c.golden_seconds * 1e9);
+  j["meets_clock"] = c.meets_clock ? Json(*c.meets_clock) : Json(nullptr);
+  return j;
+}
+
+Json candidate_json(const Plan& plan, const PlanCandidate& c) {
+  return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.cost)}};
+}
+
+Json json_of(const PlanCommand& o, const Plan& plan) {
+  Json j;
+  j["scenes"] = o.inputs;
+  j["frames"] = plan.frames;
+  j["width"] = plan.size[0];
+  j["height"] = plan.size[1];
+  j["prefer"] = name_of(o.plan.prefer);
+  j["limits"] = {{"max_z", plan.limits.z}, {"max_color", plan.limits.color}};
+  j["z_error_bound"] = plan.z_error;
+  j["config"] = cli::to_json(plan.config);
+  Json reasons = Json::object();
+  for (const PlanReason& r : plan.reasons) reasons[std::string(r.parameter)] = r.text;
+  j["reasons"] = reasons;
+  j["worst_line_cycles"] = plan.cost.worst_line;
+  j["meets_clock"] = plan.cost.meets_clock ? Json(*plan.cost.meets_clock) : Json(nullptr);
+  j["cost"] = cost_json(plan, plan.cost);
+  j["others"] = Json::array();
+  for (const PlanCandidate& c : plan.others) j["others"].push_back(candidate_json(plan, c));
+  j["smallest"] = candidate_json(plan, plan.smallest);
+  return j;
+}
+
+int run(const PlanCommand& o) {
+  check_json(o);
+  Progress progress;
+  std::vector<PlannedScene> scenes;
+  for (const std::string& input : o.inputs) scenes.push_back(open(o, input, progress));
+  const PlanOptions options = options_of(o, progress);
+  const Plan plan = make_plan(scenes, options);
+  progress.clear();
+  TempFiles files;
+  finish(o, {"kage.plan/1", json_of(o, plan)}, files, text_of(o, plan, options));
+  return kSame;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, Action& action) {
+  CLI::App* c = add_command(app, "plan", "Find the least configuration of the core that draws scenes",
+                            "  kage plan courtyard > mine.yaml && kage cosim courtyard --config mine.yaml\n"
+                            "  kage plan bunny.obj --prefer words --json -\n"
+                            "  kage plan courtyard glass --device ecp5-25f --fps 60\n"
+                            "  kage plan penumbra --samples 64 --max-z 1e-4 --max-color 2\n"
+                            "Each parameter comes with its reason; docs/plan.md has the inequalities.");
+  const auto o = std::make_shared<PlanCommand>();
+  option_scenes(*c, o->inputs);
+  c->add_option("--max-z", o->plan.limits.z,
+                "how far a stored depth may be off, as a share of the depth range; default one step of 24 bits")
+      ->check(real_number(1e-9, 1))
+      ->type_name("SHARE");
+  c->add_option_function<int>(
+       "--max-color",
+       [limits = &o->plan.limits](const int& steps) {
+         limits->color = steps;
+         limits->color_given = true;
+       },
+       "how many steps of 255 a colour may differ from that of a core whose fractions are without end; default 1, or "
+       "the least that any core keeps")
+      ->check(whole_number(1, 255))
+      ->type_name("STEPS");
+  c->add_option_function<std::string>(
+       "--prefer", [plan = &o->plan](const std::string& name) { plan->prefer = preferences().at(name); },
+       "which of several that serve: speed has the fewest clocks, area the fewest look-up tables, words the shortest "
+       "stream; default area")
+      ->option_text("speed|area|words")
+      ->check(CLI::IsMember({"speed", "area", "words"}))
+      ->type_name("WHAT");
+  auto* clock = c->add_option("--clock", o->clock, "the core's clock in MHz, to keep up with a display")
+                    ->check(real_number(0.001, 10000))
+                    ->type_name("MHZ");
+  c->add_option("--device", o->device, "the same: the clock that cores reached on a device of constraints/figures.json")
+      ->excludes(clock)
+      ->type_name("NAME");
+  c->add_option("--fps", o->fps, "frames a second of the display, default 60")
+      ->check(real_number(0.001, 100000))
+      ->type_name("F");
+  c->add_option("--total-lines", o->total_lines,
+                "lines in a frame's time of the display, blanking included; default 525 for 480, 750 for 720, 1125 for "
+                "1080, 2250 for 2160, else a sixteenth more than the picture's")
+      ->check(whole_number(1, 100000))
+      ->type_name("N");
+  options_of_pictures(*c, *o);
+  option_json(*c, *o);
+  c->callback([o, &action] { action = [o] { return run(*o); }; });
+}
+
+}  // namespace kage::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a core takes of an FPGA: RAM and bits of a pixel's state exactly, by its parameters; look-up tables and
+// flip-flops by a linear fit to what yosys counts, because synthesis takes a minute and a plan compares hundreds of
+// cores. `tools/area` measures, fits and states how far the fit is off; kage area says both for one core.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "kage/config.hpp"
+
+namespace kage {
+
+/// Of one core.
+struct Cells {
+  double luts = 0;             ///< look-up tables of four inputs on an ECP5, carry chains and LUT RAM in them
+  double flip_flops = 0;       ///< of the whole core
+  std::uint64_t ram_bits = 0;  ///< of its memories, exact; a tool puts small ones into LUT RAM or flip-flops
+  int bits_per_pixel = 0;      ///< of a pixel's state in the line, exact
+};
+
+/// Estimates a core's cells. The RAM and the bits are exact.
+Cells estimated_cells(const Config& config);
+
+/// How far the look-up tables and the flip-flops of estimated_cells() are off, as a share: the most over all cores that
+/// were measured.
+struct CellSpread {
+  double luts = 0;
+  double flip_flops = 0;
+};
+CellSpread cell_spread(const Config& config);
+
+/// What the fit is a sum of.
+struct CellTerm {
+  std::string_view name;
+  double (*value)(const Config&);
+};
+inline constexpr std::size_t kCellTerms = 16;
+extern const std::array<CellTerm, kCellTerms> kCellTermInfo;
+
+}  // namespace kage

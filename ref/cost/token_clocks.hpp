@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where the clocks of a frame go by design (docs/rtl.md, "Clocks"): each token's, summed by what it is for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cost/clock_phases.hpp"
+#include "kage/stream.hpp"
+
+namespace kage {
+
+struct PhaseSums {
+  struct Sum {
+    std::uint64_t tokens = 0;
+    std::uint64_t pixels = 0;  ///< in the ranges of spans, EV and ES
+    std::uint64_t clocks = 0;
+  };
+  std::array<Sum, kPhases> of{};
+  std::uint64_t video = 0;  ///< clocks in which a line's pixels take longer to leave than its tokens to come
+
+  [[nodiscard]] std::uint64_t clocks() const {
+    std::uint64_t sum = video;
+    for (const Sum& s : of) sum += s.clocks;
+    return sum;
+  }
+};
+
+/// Adds up the tokens of a frame. Not counted: the header, waiting, and the pass that brings colours back before the
+/// TPs of a line.
+class PhaseCounter {
+ public:
+  explicit PhaseCounter(const Config& config) : config_(config), layout_(config) {}
+
+  /// A frame whose lines are so wide.
+  void start(int width) {
+    width_ = width;
+    line_ = 0;
+    sums_ = {};
+    lines_.clear();
+    resolved_ = blends_ = false;
+    waits_ = 0;
+  }
+  void token(const Token& token);
+
+  [[nodiscard]] const PhaseSums& sums() const { return sums_; }
+
+  /// The clocks that each line takes at most, top to bottom: those of its tokens, or of its pixels on their way out if
+  /// these take longer. Those before a line's first TP count too: the pass that paints the line, and with counters the
+  /// way out and back of its colours.
+  [[nodiscard]] const std::vector<std::uint64_t>& lines() const { return lines_; }
+
+ private:
+  Config config_;
+  Layout layout_;
+  int width_ = 0;
+  std::uint64_t line_ = 0;  // clocks of the line at hand
+  PhaseSums sums_;
+  std::vector<std::uint64_t> lines_;
+  // Of the line at hand:
+  bool resolved_ = false;    // it has had a RESOLVE
+  bool blends_ = false;      // it has had a TP
+  std::uint64_t waits_ = 0;  // clocks before its first TP
+};
+
+/// The most clocks that `count` neighbouring lines of a frame take together. Of a frame with fewer lines: all of them.
+std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count);
+
+}  // namespace kage

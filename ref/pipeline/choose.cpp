@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/choose.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "cost/cells.hpp"
+#include "cost/line_clocks.hpp"
+#include "kage/frontend.hpp"
+#include "stream/token_pieces.hpp"
+
+namespace kage {
+namespace {
+
+// A later configuration of the list takes the place of an earlier one if it costs a seventh less. What is first in the
+// list is what most people know, and the costs are of one frame.
+constexpr double kWorthMoving = 6.0 / 7;
+
+/// Whether a configuration is ever chosen without its name.
+bool for_anybody(const Config& c, const Needs& needs) {
+  const bool one_volume_only = c.dsf_bits > 0 && c.fsf == 0;
+  return c.arrangement != 0 && c.units == 0 && !(needs.shadows && needs.several_volumes && one_volume_only);
+}
+
+/// Whether it counts light samples that the scene has not.
+bool counts_in_vain(const Config& c, const Needs& needs) {
+  return c.count_bits > 0 && (!needs.shadows || (needs.samples == 1 && needs.lights == 1));
+}
+
+/// The named configurations that come into question, in listed order.
+std::vector<NamedConfig> in_question(const Needs& needs) {
+  std::vector<NamedConfig> list = named_configs();
+  std::erase_if(list, [&](const NamedConfig& n) {
+    return !for_anybody(n.config, needs) || !lacks(n.config, needs).empty();
+  });
+  const auto vain = [&](const NamedConfig& n) { return counts_in_vain(n.config, needs); };
+  if (!std::all_of(list.begin(), list.end(), vain)) std::erase_if(list, vain);
+  return list;
+}
+
+}  // namespace
+
+std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs,
+                                const DrawOptions& draw) {
+  // The tokens of a frame depend on how shadows are drawn; their words only on widths.
+  std::map<int, std::vector<ChoiceCost>> ways;
+  std::vector<std::pair<int, std::size_t>> order;
+  for (const NamedConfig& n : in_question(needs)) {
+    const int way = needs.shadows ? n.config.dsf_bits : 0;
+    order.emplace_back(way, ways[way].size());
+    ways[way].push_back({n, 0, estimated_cells(n.config).luts});
+  }
+  if (order.size() > 1)
+    for (auto& [way, list] : ways) {
+      const Config& config = list[0].named.config;
+      // An exact order may take long, and hardly changes how many tokens there are: all ways have the same of it.
+      Look look = draw.look;
+      look.translucent = TranslucentWay::submission;
+      const FrameGeometry geometry = make_geometry(first, config, draw.width, draw.height, {.look = look});
+      std::vector<PhaseCounter> counters;
+      for (const ChoiceCost& c : list) counters.emplace_back(c.named.config).start(draw.width);
+      TokenPieces tokens(config);
+      make_frame(
+          geometry, config, 0,
+          [&](std::span<const std::uint32_t> words) {
+            tokens.feed(words, [&](const Token& token) {
+              for (PhaseCounter& counter : counters) counter.token(token);
+            });
+          },
+          {.threads = draw.threads});
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto& lines = counters[i].lines();
+        list[i].clocks = std::accumulate(lines.begin(), lines.end(), std::uint64_t{0});
+      }
+    }
+  std::vector<ChoiceCost> all;
+  for (const auto& [way, at] : order) all.push_back(ways[way][at]);
+  return all;
+}
+
+NamedConfig choose_config(const Scene& scene, const DrawOptions& draw) {
+  const int frames = draw.frames > 0 ? draw.frames : scene.frame_count();
+  const SceneFrame first = scene.frame(0, frames);
+  const Needs needs = needs_of(scene, first, draw.width, draw.height, draw.look.samples);
+  const std::vector<ChoiceCost> all = choices(first, needs, draw);
+  if (all.empty()) return choose_config(needs);
+  const ChoiceCost* best = all.data();
+  for (const ChoiceCost& c : all)
+    if (c.cost() < kWorthMoving * best->cost()) best = &c;
+  return best->named;
+}
+
+}  // namespace kage

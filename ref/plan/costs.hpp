@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the frames of scenes cost a core of given widths, for every arrangement that it may have.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kage/plan.hpp"
+#include "plan/demand.hpp"
+
+namespace kage::plan {
+
+/// Every arrangement of the widths of `base`: banked with each number of lanes and each width of the port; for lines of
+/// up to 64 pixels, which is what a processor for each pixel is worth, systolic too.
+std::vector<Config> arrangements_of(const Config& base);
+
+/// Makes the frames once and costs them for each of arrangements_of(base), in that order. The golden core runs once.
+std::vector<PlanCandidate> costs_of(std::span<const PlannedScene> scenes, const Config& base, const std::string& way,
+                                    const FrameStep& step);
+
+}  // namespace kage::plan

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the frames of scenes ask of a core: found out by making all of them once with widths that lose next to nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kage/config.hpp"
+#include "kage/plan.hpp"
+
+namespace kage::plan {
+
+/// A greatest number and where it was found.
+struct Most {
+  double value = 0;
+  PlanPlace at;
+
+  void raise(double v, const PlanPlace& place) {
+    if (at.scene >= 0 && !(v > value)) return;
+    value = v;
+    at = place;
+  }
+};
+
+/// What scenes ask for, whatever way shadows take.
+struct Features {
+  Needs needs;  ///< of all frames together
+  Most width;   ///< of a picture
+  Most height;
+};
+
+/// A light's share of a colour in 2^-16, and the samples of that light that may all be in shadow.
+struct Share {
+  std::uint32_t value = 0;
+  int samples = 1;
+};
+
+/// Shares that darken one pixel together: all lights of one class and channel.
+struct ShareGroup {
+  std::vector<Share> shares;
+  PlanPlace at;
+};
+
+/// What one way to draw shadows asks for.
+struct WayDemand {
+  int dsf_bits = 0;
+  Most volumes;      ///< of a light sample
+  Most depth_span;   ///< pixels along which depth goes on by steps
+  Most color_span;   ///< pixels along which colour does
+  Most flat_off;     ///< steps of colour by which a corner differs from its polygon's one colour
+  Most classes;      ///< in use in a frame, of light tables
+  std::vector<ShareGroup> groups;  ///< what shadows take, without repetition
+};
+
+/// What expansion units must have for all polyhedra that can go to one.
+struct UnitDemand {
+  Most units;     ///< 0: no frame has a polyhedron
+  Most faces;     ///< of a unit
+  Most dx;        ///< pixels of a segment
+  Most segments;  ///< of a unit's line
+  Most bodies;    ///< polyhedra in units
+};
+
+/// Called before each frame.
+using FrameStep = std::function<void()>;
+
+/// Counts the frames of a scene.
+int frames_of(const PlannedScene& scene);
+
+Features features_of(std::span<const PlannedScene> scenes);
+
+/// A configuration that draws scenes with these features by `dsf_bits` and `units`, with the finest fractions.
+Config finest(const Features& features, int dsf_bits, int units);
+
+WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& features, int dsf_bits,
+                    const FrameStep& step);
+
+UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& features, const FrameStep& step);
+
+/// "frame 3, line 211", with the scene's name if there are several.
+std::string text_of(std::span<const PlannedScene> scenes, const PlanPlace& place);
+
+}  // namespace kage::plan

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "kage/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "kage/error.hpp"
+#include "plan/costs.hpp"
+#include "plan/demand.hpp"
+#include "plan/widths.hpp"
+
+namespace kage {
+namespace {
+
+// With Prefer::speed, configurations that take this much more clocks than the fastest are as fast.
+constexpr double kAsFast = 0.01;
+
+// Passes over the frames that a plan usually takes: parity and counting looked at and costed, and one for units.
+constexpr double kUsualPasses = 6;
+
+/// All configurations with the widths of one way.
+struct Way {
+  plan::Widths widths;
+  std::vector<PlanCandidate> all;
+};
+
+class Planner {
+ public:
+  Planner(std::span<const PlannedScene> scenes, const PlanOptions& options) : scenes_(scenes), options_(options) {
+    for (const PlannedScene& s : scenes) {
+      const int frames = plan::frames_of(s);
+      out_.frames += frames;
+      out_.pixels += static_cast<std::uint64_t>(frames) * static_cast<std::uint64_t>(s.draw.width) *
+                     static_cast<std::uint64_t>(s.draw.height);
+    }
+  }
+
+  Plan run() {
+    features_ = plan::features_of(scenes_);
+    out_.size = {features_.needs.width, features_.needs.height};
+    check();
+    for (const plan::WayDemand& demand : demands()) add_ways(demand);
+    choose();
+    return std::move(out_);
+  }
+
+ private:
+  void check() const {
+    const int lights = features_.needs.lights;
+    if (features_.needs.shadows && lights > kGreatest.lights)
+      throw Error(fmt::format("{} lights cast shadows, and a core tells at most {} apart", lights, kGreatest.lights));
+  }
+
+  void step() {
+    ++steps_;
+    if (options_.progress) options_.progress(std::min(steps_ / (kUsualPasses * out_.frames), 0.99));
+  }
+
+  /// Parity, then counting with more and more bits, until there is one volume for each light sample.
+  std::vector<plan::WayDemand> demands() {
+    std::vector<plan::WayDemand> list;
+    const bool shadows = features_.needs.shadows;
+    for (int bits = shadows ? 1 : 0; bits <= (shadows ? kGreatest.dsf_bits : 0); ++bits) {
+      list.push_back(plan::demand_of(scenes_, features_, bits, [this] { step(); }));
+      if (list.back().volumes.value <= 1) break;
+    }
+    return list;
+  }
+
+  static std::string name_of(const plan::WayDemand& d, const plan::UnitDemand* units) {
+    std::string name = d.dsf_bits == 0   ? "no shadows"
+                       : d.dsf_bits == 1 ? std::string("parity")
+                                         : fmt::format("counting, {} bits", d.dsf_bits);
+    if (units != nullptr) name += fmt::format(", {:.0f} units", units->units.value);
+    return name;
+  }
+
+  void add_ways(const plan::WayDemand& demand) {
+    if (!looked_for_units_) {
+      units_ = plan::unit_demand_of(scenes_, features_, [this] { step(); });
+      looked_for_units_ = true;
+    }
+    add_way(demand, nullptr);
+    if (units_.units.value >= 1) add_way(demand, &units_);
+  }
+
+  void add_way(const plan::WayDemand& demand, const plan::UnitDemand* units) {
+    Way way;
+    way.widths = plan::widths_of(scenes_, features_, demand, units, options_.limits);
+    way.all = plan::costs_of(scenes_, way.widths.config, name_of(demand, units), [this] { step(); });
+    if (options_.clock)
+      for (PlanCandidate& c : way.all) c.cost.meets_clock = c.cost.needed_line <= line_clocks();
+    ways_.push_back(std::move(way));
+  }
+
+  /// Clocks that a line of the display has.
+  [[nodiscard]] double line_clocks() const {
+    const PlanClock& clock = *options_.clock;
+    return clock.mhz * 1e6 / (clock.fps * total_lines());
+  }
+  [[nodiscard]] int total_lines() const {
+    const int given = options_.clock->total_lines;
+    return given > 0 ? given : usual_total_lines(features_.needs.height);
+  }
+
+  /// What is compared; less is better. Where a display sets the pace, what keeps up comes first, and what comes nearest
+  /// to it where nothing does.
+  using Key = std::tuple<double, double, double, double>;
+  [[nodiscard]] Key key_of(const PlanCandidate& c, Prefer prefer) const {
+    const auto words = static_cast<double>(c.cost.words);
+    auto clocks = static_cast<double>(c.cost.clocks);
+    if (prefer == Prefer::speed && clocks <= fewest_ * (1 + kAsFast)) clocks = fewest_;
+    const double late = c.cost.meets_clock.value_or(true) ? 0 : c.cost.needed_line;
+    switch (prefer) {
+      case Prefer::speed:
+        return {late, clocks, c.cost.luts, words};
+      case Prefer::words:
+        return {late, words, c.cost.luts, clocks};
+      default:
+        return {late, c.cost.luts, clocks, words};
+    }
+  }
+
+  [[nodiscard]] const PlanCandidate& best_of(const std::vector<PlanCandidate>& list, Prefer prefer) const {
+    return *std::min_element(list.begin(), list.end(), [&](const PlanCandidate& a, const PlanCandidate& b) {
+      return key_of(a, prefer) < key_of(b, prefer);
+    });
+  }
+
+  void choose() {
+    fewest_ = static_cast<double>(ways_[0].all[0].cost.clocks);
+    for (const Way& w : ways_)
+      for (const PlanCandidate& c : w.all) fewest_ = std::min(fewest_, static_cast<double>(c.cost.clocks));
+    std::vector<PlanCandidate> best;
+    std::vector<PlanCandidate> small;
+    for (const Way& w : ways_) {
+      best.push_back(best_of(w.all, options_.prefer));
+      small.push_back(best_of(w.all, Prefer::area));
+    }
+    const PlanCandidate& taken = best_of(best, options_.prefer);
+    const Way& way = ways_[static_cast<std::size_t>(&taken - best.data())];
+    out_.config = taken.config;
+    out_.cost = taken.cost;
+    out_.smallest = best_of(small, Prefer::area);
+    for (const PlanCandidate& c : best)
+      if (&c != &taken) out_.others.push_back(c);
+    out_.limits = options_.limits;
+    out_.limits.color = way.widths.color_limit;
+    out_.z_error = way.widths.z_error;
+    give_reasons(way, taken);
+  }
+
+  void give_reasons(const Way& way, const PlanCandidate& taken) {
+    for (const ParamInfo& p : kParams) {
+      const auto& given = way.widths.reasons;
+      const auto r =
+          std::find_if(given.begin(), given.end(), [&](const PlanReason& g) { return g.parameter == p.name; });
+      out_.reasons.push_back({p.name, out_.config.*(p.member),
+                              r != given.end() ? r->text : arrangement_reason(p, way, taken)});
+    }
+  }
+
+  [[nodiscard]] std::string arrangement_reason(const ParamInfo& p, const Way& way, const PlanCandidate& taken) const {
+    if (p.member == &Config::arrangement)
+      return taken.config.arrangement != 0 ? "lanes over a line in block RAM" : "a processor for each pixel";
+    if (p.member == &Config::lanes && taken.config.arrangement == 0) return "systolic: without effect";
+    if (p.member == &Config::lanes || p.member == &Config::beat_words) return pace_reason(p, way, taken);
+    if (p.member == &Config::classic) return "the paper's segments are never asked for";
+    return "no units";
+  }
+
+  /// Why as many lanes, or words in a beat: what the half of them would take.
+  [[nodiscard]] std::string pace_reason(const ParamInfo& p, const Way& way, const PlanCandidate& taken) const {
+    const PlanCost& cost = taken.cost;
+    std::string text = fmt::format("worst line {} clocks ({})", cost.worst_line, plan::text_of(scenes_, cost.worst_at));
+    if (options_.clock)
+      text += fmt::format("; a display's line must have {:.0f} and has {:.0f}", cost.needed_line, line_clocks());
+    Config less = taken.config;
+    less.*(p.member) /= 2;
+    const auto half = std::find_if(way.all.begin(), way.all.end(),
+                                   [&](const PlanCandidate& c) { return c.config == less; });
+    if (half == way.all.end()) return text;
+    const double more = static_cast<double>(half->cost.clocks) / static_cast<double>(cost.clocks) - 1;
+    text += fmt::format("; {} take {:.0f} % more clocks and {:+.0f} LUTs", less.*(p.member), 100 * more,
+                        half->cost.luts - cost.luts);
+    if (options_.clock) text += fmt::format(", and must have {:.0f}", half->cost.needed_line);
+    return text;
+  }
+
+  std::span<const PlannedScene> scenes_;
+  const PlanOptions& options_;
+  Plan out_;
+  plan::Features features_;
+  plan::UnitDemand units_;
+  bool looked_for_units_ = false;
+  std::vector<Way> ways_;
+  double fewest_ = 0;
+  int steps_ = 0;
+};
+
+}  // namespace
+
+int usual_total_lines(int height) {
+  for (const auto& [shown, all] : {std::pair{480, 525}, {720, 750}, {1080, 1125}, {2160, 2250}})
+    if (shown == height) return all;
+  return height + (height + 15) / 16;
+}
+
+Plan make_plan(std::span<const PlannedScene> scenes, const PlanOptions& options) {
+  return Planner(scenes, options).run();
+}
+
+std::string to_yaml(const Plan& plan) {
+  std::string text;
+  for (const PlanReason& r : plan.reasons) text += fmt::format("{:<21} # {}\n", fmt::format("{}: {}", r.parameter, r.value), r.text);
+  return text;
+}
+
+}  // namespace kage

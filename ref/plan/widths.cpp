@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "plan/widths.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "kage/error.hpp"
+
+namespace kage::plan {
+namespace {
+
+const ParamInfo& info_of(int Config::*member) {
+  return *std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& p) { return p.member == member; });
+}
+
+int bits_for(double greatest) { return static_cast<int>(std::bit_width(static_cast<unsigned>(greatest))); }
+
+/// " (10 would do; the next step is 11)".
+std::string step_text(int least, int taken) {
+  return taken == least ? std::string() : fmt::format(" ({} would do; the next step is {})", least, taken);
+}
+
+/// How many of a group's samples make a pixel differ by most, and by how much: each sample of a light adds what its
+/// share is off of a full colour, less what it takes of the difference that the colour has already.
+double group_error(const ShareGroup& group, double before, int shade_frac) {
+  double error = before;
+  for (const Share& s : group.shares) {
+    const double share = s.value * 0x1p-16;
+    const double unit = std::ldexp(1.0, -shade_frac);
+    const double kept = std::floor(share / unit + 0.5) * unit;
+    // The share itself is known to 2^-17; the rounding of it is at most half a unit.
+    const double off = std::min(std::abs(share - kept) + 0x1p-17, unit / 2);
+    error += s.samples * std::max(0.0, 255 * off - before * share);
+  }
+  return error;
+}
+
+class Maker {
+ public:
+  Maker(std::span<const PlannedScene> scenes, const Features& features, const WayDemand& way, const UnitDemand* units,
+        const PlanLimits& limits)
+      : scenes_(scenes), features_(features), way_(way), units_(units), limits_(limits) {
+    out_.color_limit = limits.color;
+  }
+
+  Widths run() {
+    positions();
+    depth();
+    shadows();
+    color();
+    rest();
+    validate(out_.config, "plan");
+    return std::move(out_);
+  }
+
+ private:
+  void set(int Config::*member, int value, std::string text) {
+    out_.config.*member = value;
+    out_.reasons.push_back({info_of(member).name, value, std::move(text)});
+  }
+  [[nodiscard]] std::string at(const Most& most) const { return text_of(scenes_, most.at); }
+
+  void positions() {
+    const int width = features_.needs.width;
+    const int least = bits_for(width);
+    const int taken = position_step(least);
+    set(&Config::x_bits, taken,
+        fmt::format("positions reach {}, which {} bits hold{}", width, least, step_text(least, taken)));
+    const int max_width = std::min(width_step(width), (1 << taken) - 1);
+    set(&Config::max_width, max_width,
+        max_width == width ? fmt::format("lines of {} pixels", width)
+                           : fmt::format("lines of {} pixels; the next named width is {}", width, max_width));
+  }
+
+  void depth() {
+    const int width = features_.needs.width;
+    const int height = features_.needs.height;
+    const double pixels = std::max(way_.depth_span.value, 1.0);
+    const auto share = [&](int bits, int frac) { return depth_error_share(pixels, bits, frac, width, height); };
+    const ParamInfo& z = info_of(&Config::z_bits);
+    const ParamInfo& f = info_of(&Config::z_frac);
+    int bits = z.min;
+    while (bits <= z.max && share(bits, f.max) > limits_.z) ++bits;
+    if (bits > z.max)
+      throw Error(fmt::format("--max-z {:.3g}: with {} bits of depth the bound is {:.3g} already (longest span {:.0f} "
+                              "pixels, {})",
+                              limits_.z, z.max, share(z.max, f.max), pixels, at(way_.depth_span)));
+    const int taken = four_step(bits);
+    set(&Config::z_bits, taken,
+        fmt::format("{} keep {:.3g} of the range, --max-z is {:.3g}{}{}", bits, share(bits, f.max), limits_.z,
+                    bits == z.min ? "" : fmt::format("; {} give {:.3g}", bits - 1, share(bits - 1, f.max)),
+                    step_text(bits, taken)));
+    int frac = f.min;
+    while (share(taken, frac) > limits_.z) ++frac;
+    const int frac_taken = position_step(std::max(frac, 1));
+    set(&Config::z_frac, frac_taken,
+        fmt::format("longest span {:.0f} pixels in {}: {} keep {:.3g} of the range{}{}", pixels, at(way_.depth_span), frac,
+                    share(taken, frac),
+                    frac == f.min ? "" : fmt::format(", {} give {:.3g}", frac - 1, share(taken, frac - 1)),
+                    step_text(frac, frac_taken)));
+    out_.z_error = share(taken, frac_taken);
+  }
+
+  void shadows() {
+    const Needs& needs = features_.needs;
+    if (!needs.shadows) {
+      set(&Config::dsf_bits, 0, "nothing opaque casts a shadow");
+      set(&Config::fsf, 0, "no shadows");
+      set(&Config::count_bits, 0, "no shadows");
+      set(&Config::lights, 1, "no shadows");
+      set(&Config::class_bits, 1, "no shadows");
+      return;
+    }
+    const bool several = way_.volumes.value > 1;
+    set(&Config::dsf_bits, way_.dsf_bits,
+        way_.dsf_bits == 1
+            ? fmt::format("parity: {:.0f} volumes for a light sample at most, {}", way_.volumes.value, at(way_.volumes))
+            : fmt::format("counting to {}: {:.0f} volumes for a light sample at most, {}", (1 << way_.dsf_bits) - 1,
+                          way_.volumes.value, at(way_.volumes)));
+    set(&Config::fsf, several ? 1 : 0,
+        several ? "several volumes for a light sample" : "one volume for each light sample");
+    const bool counted = needs.samples > 1 || needs.lights > 1;
+    const int count = counted ? bits_for(needs.samples) : 0;
+    set(&Config::count_bits, count,
+        counted ? fmt::format("{} samples for a light, {} lights", needs.samples, needs.lights)
+                : "one light, a point or at infinity");
+    set(&Config::lights, needs.lights, needs.lights == 1 ? "one light" : fmt::format("{} lights", needs.lights));
+    if (needs.lights > 1) {
+      const int least = std::max(2, bits_for(way_.classes.value));
+      const int taken = class_step(least);
+      set(&Config::class_bits, taken,
+          fmt::format("{:.0f} classes of normals and lights in {}{}", way_.classes.value, at(way_.classes),
+                      step_text(least, taken)));
+    } else {
+      set(&Config::class_bits, 1, "one light, so no table");
+    }
+  }
+
+  /// The least SHADE_FRAC with which a drawn colour off by `drawn` is shown within the limit; none: past the greatest.
+  [[nodiscard]] int shade_frac(double drawn) const {
+    const ParamInfo& p = info_of(&Config::shade_frac);
+    int frac = p.min;
+    while (frac <= p.max && shown_error(drawn, way_.groups, frac) > out_.color_limit) ++frac;
+    return frac;
+  }
+
+  void color() {
+    const Needs& needs = features_.needs;
+    const ParamInfo& c = info_of(&Config::color_frac);
+    const ParamInfo& s = info_of(&Config::shade_frac);
+    const bool may_be_flat = !needs.smooth || way_.flat_off.value <= limits_.color;
+    const double flat = needs.smooth ? way_.flat_off.value : 0;
+    const auto feasible = [&] {
+      return may_be_flat ? shade_frac(flat) <= s.max
+                         : shade_frac(color_error(way_.color_span.value, c.max)) <= s.max;
+    };
+    if (!feasible()) {
+      const int asked = out_.color_limit;
+      while (!feasible() && out_.color_limit < 255) ++out_.color_limit;
+      if (limits_.color_given)
+        throw Error(fmt::format("--max-color {}: no widths keep it, because shares of {} bits fraction are off by more; "
+                                "--max-color {} can be kept",
+                                asked, s.max, out_.color_limit));
+    }
+    set(&Config::channels, needs.color ? 3 : 1, needs.color ? "some colour is not grey" : "all colours are grey");
+    if (!needs.smooth) {
+      set(&Config::smooth, 0, "each polygon has one colour");
+      set(&Config::color_frac, 0, "no slopes of colour");
+    } else if (may_be_flat) {
+      set(&Config::smooth, 0,
+          fmt::format("colour varies within a polygon by {:.2g} steps at most ({}), --max-color is {}", flat,
+                      at(way_.flat_off), out_.color_limit));
+      set(&Config::color_frac, 0, "no slopes of colour");
+    } else {
+      set(&Config::smooth, 1,
+          fmt::format("colour varies within a polygon by {:.2g} steps ({}), --max-color is {}", way_.flat_off.value,
+                      at(way_.flat_off), out_.color_limit));
+      color_frac(c, s);
+    }
+    const double drawn = out_.config.smooth > 0 ? color_error(way_.color_span.value, out_.config.color_frac) : flat;
+    if (!needs.shadows) {
+      set(&Config::shade_frac, s.min, "no shadows");
+      return;
+    }
+    const int frac = shade_frac(drawn);
+    const int taken = std::min(four_step(frac), s.max);
+    const auto shown = [&](int f) { return shown_error(drawn, way_.groups, f); };
+    set(&Config::shade_frac, taken,
+        fmt::format("{} show colours within {:.2g} steps, --max-color is {}{}{}", frac, shown(frac), out_.color_limit,
+                    frac == s.min ? "" : fmt::format("; {} give {:.2g}", frac - 1, shown(frac - 1)),
+                    step_text(frac, taken)));
+  }
+
+  void color_frac(const ParamInfo& c, const ParamInfo& s) {
+    const double pixels = std::max(way_.color_span.value, 1.0);
+    int frac = c.min;
+    const auto serves = [&](int f) {
+      const double drawn = color_error(pixels, f);
+      return std::ceil(drawn) <= out_.color_limit && shade_frac(drawn) <= s.max;
+    };
+    while (frac < c.max && !serves(frac)) ++frac;
+    const int taken = std::min(four_step(frac), c.max);
+    set(&Config::color_frac, taken,
+        fmt::format("longest span that changes colour {:.0f} pixels in {}: {} are off by {:.3g} steps, --max-color is "
+                    "{}{}{}",
+                    pixels, at(way_.color_span), frac, color_error(pixels, frac), out_.color_limit,
+                    frac == c.min ? "" : fmt::format("; {} by {:.3g}", frac - 1, color_error(pixels, frac - 1)),
+                    step_text(frac, taken)));
+  }
+
+  void rest() {
+    set(&Config::translucency, features_.needs.translucency ? 1 : 0,
+        features_.needs.translucency ? "something is translucent" : "all is opaque");
+    if (units_ == nullptr || units_->units.value < 1) {
+      set(&Config::units, 0, units_ == nullptr ? "convex bodies go by spans" : "no convex body can go to a unit");
+      return;
+    }
+    set(&Config::units, static_cast<int>(units_->units.value),
+        fmt::format("{:.0f} bodies at a time, sharing units, {}", units_->bodies.value, at(units_->units)));
+    set(&Config::face_bits, std::max(2, bits_for(units_->faces.value)),
+        fmt::format("{:.0f} faces in a unit, {}; all ones is blank", units_->faces.value, at(units_->faces)));
+    set(&Config::dx_bits, std::max(2, bits_for(units_->dx.value)),
+        fmt::format("a segment of {:.0f} pixels, {}", units_->dx.value, at(units_->dx)));
+    set(&Config::seg_bits, std::max(2, bits_for(units_->segments.value - 1)),
+        fmt::format("{:.0f} segments of a unit on a line, {}", units_->segments.value, at(units_->segments)));
+    set(&Config::order_bits, std::max(1, bits_for(units_->bodies.value)),
+        fmt::format("{:.0f} bodies, {}", units_->bodies.value, at(units_->bodies)));
+  }
+
+  std::span<const PlannedScene> scenes_;
+  const Features& features_;
+  const WayDemand& way_;
+  const UnitDemand* units_;
+  const PlanLimits& limits_;
+  Widths out_;
+};
+
+}  // namespace
+
+int position_step(int least) {
+  for (const int step : {8, 11, 12, 15})
+    if (step >= least) return step;
+  return least;
+}
+
+int four_step(int least) { return (least + 3) / 4 * 4; }
+
+int class_step(int least) {
+  for (const int step : {4, 8, 11})
+    if (step >= least) return step;
+  return least;
+}
+
+int width_step(int least) {
+  int best = 0;
+  for (const NamedConfig& n : named_configs())
+    if (n.config.max_width >= least && (best == 0 || n.config.max_width < best)) best = n.config.max_width;
+  return best == 0 ? least : best;
+}
+
+double depth_error(double pixels, int z_frac, int width, int height) {
+  const double planes = (width + height + 1) * 0x1p-25 + 0x1p-16;
+  return pixels * std::ldexp(0.5, -z_frac) + (z_frac > 0 ? 0.5 : 0.0) + planes;
+}
+
+double depth_error_share(double pixels, int z_bits, int z_frac, int width, int height) {
+  return depth_error(pixels, z_frac, width, height) / (std::ldexp(1.0, z_bits) - 3);
+}
+
+double color_error(double pixels, int color_frac) { return pixels * std::ldexp(0.5, -color_frac); }
+
+double shown_error(double drawn, std::span<const ShareGroup> groups, int shade_frac) {
+  const double before = std::ceil(drawn);
+  double most = before;
+  for (const ShareGroup& g : groups) most = std::max(most, group_error(g, before, shade_frac));
+  return most;
+}
+
+Widths widths_of(std::span<const PlannedScene> scenes, const Features& features, const WayDemand& way,
+                 const UnitDemand* units, const PlanLimits& limits) {
+  return Maker(scenes, features, way, units, limits).run();
+}
+
+}  // namespace kage::plan

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The least widths that keep the limits: each follows from an inequality, which its reason prints (docs/plan.md,
+// docs/numbers.md). Widths are rounded up to steps, so that plans of scenes that are much alike share an RTL model.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kage/plan.hpp"
+#include "plan/demand.hpp"
+
+namespace kage::plan {
+
+/// The next step at or above `least`, of X_BITS and Z_FRAC: 8, 11, 12, 15. Past the last: `least`.
+int position_step(int least);
+/// Of Z_BITS, COLOR_FRAC and SHADE_FRAC: a multiple of four.
+int four_step(int least);
+/// Of MAX_WIDTH: the least width at or above it that a named configuration has; `least` past the widest.
+int width_step(int least);
+/// Of CLASS_BITS: 4, 8, 11.
+int class_step(int least);
+
+/// Bound of a stored depth's error in steps of Z_BITS bits, after `pixels` pixels of a span, in a picture of this size:
+/// half a step of the start's and the slope's rounding, 2^-(Z_FRAC + 1) each and the slope's at every pixel; half a step
+/// for the integer part, if there is a fraction; the rounding of plane and vertices (docs/numbers.md, "Depth").
+double depth_error(double pixels, int z_frac, int width, int height);
+
+/// The same as a share of the depth range, which has 2^Z_BITS - 3 steps.
+double depth_error_share(double pixels, int z_bits, int z_frac, int width, int height);
+
+/// Bound of a colour's error before its first rounding, in steps of 8 bits, after `pixels` pixels.
+double color_error(double pixels, int color_frac);
+
+/// Whole steps by which a pixel may differ from what a core without end of fractions shows, if colours differ by `drawn`
+/// before their first rounding and shares have `shade_frac` fraction bits.
+double shown_error(double drawn, std::span<const ShareGroup> groups, int shade_frac);
+
+/// A configuration and why it has its values.
+struct Widths {
+  Config config;
+  std::vector<PlanReason> reasons;  ///< of each parameter that a scene decides
+  int color_limit = 1;              ///< as kept
+  double z_error = 0;               ///< bound of the depth's error, as a share of the range
+};
+
+/// What an arrangement and a way to draw shadows do not decide. Throws Error if no width keeps the limits.
+Widths widths_of(std::span<const PlannedScene> scenes, const Features& features, const WayDemand& way,
+                 const UnitDemand* units, const PlanLimits& limits);
+
+}  // namespace kage::plan
