@@ -202,11 +202,16 @@ Outcome ClosePlanesCase::check(const Context& /*context*/) const {
     for (int x = 0; x < kWidth; ++x) {
       // The nearest of those that cover the pixel, against the one that is shown.
       const auto seen = static_cast<std::size_t>(p[static_cast<std::size_t>(y * kWidth + x)] & 255U);
+      // A pixel stores no depth but those of 1 .. 2^Z_BITS - 2.
+      const auto held = [&](std::size_t i) {
+        const Int128 unit = Int128{1} << kPlaneFrac;
+        return std::clamp(exact_value(planes[i], x, y), unit, (unit << z_bits) - 2 * unit);
+      };
       Int128 nearest = 0;
       bool any = false;
       for (std::size_t i = 0; i < faces.size(); ++i) {
         if (x < faces[i].left || x >= faces[i].right) continue;
-        const Int128 v = exact_value(planes[i], x, y);
+        const Int128 v = held(i);
         if (!any || v < nearest) nearest = v, any = true;
       }
       if (any != (seen > 0)) o.fail(fmt::format("pixel ({}, {}) shows a face where there is none, or none", x, y));
@@ -218,7 +223,7 @@ Outcome ClosePlanesCase::check(const Context& /*context*/) const {
       }
       // Both are rounded to whole LSB, and each may be off by what its span's sums are off.
       const double bound = 1 + ((x - faces[i].left + 1) + (x + 1)) * std::ldexp(1.0, -frac - 1);
-      o.measure(in_lsb(exact_value(planes[i], x, y) - nearest), bound);
+      o.measure(in_lsb(held(i) - nearest), bound);
     }
   o.pixels = p.size();
   return o;
