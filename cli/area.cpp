@@ -27,8 +27,9 @@ struct AreaCommand : Options {
 
 Json counted_json(const std::optional<trade::Synthesis>& done) {
   if (!done) return nullptr;
-  return {{"luts", done->cells.luts},   {"flip_flops", done->cells.flip_flops}, {"rams", done->cells.rams},
-          {"dsps", done->cells.dsps},   {"yosys", done->yosys},                 {"seconds", done->seconds}};
+  return {{"luts", done->cells.luts}, {"flip_flops", done->cells.flip_flops},
+          {"rams", done->cells.rams}, {"dsps", done->cells.dsps},
+          {"yosys", done->yosys},     {"seconds", done->seconds}};
 }
 
 /// What the estimate is a sum of, by which tools/area fits it.
@@ -82,12 +83,13 @@ int run(const AreaCommand& o) {
 }  // namespace
 
 void add_area(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "area", "Count what configurations take of an FPGA",
-                            "  kage area default full\n"
-                            "  kage area mine.yaml --json -\n"
-                            "  kage area --estimate\n"
-                            "Cells are those of an ECP5, counted by yosys before placement, which takes ten seconds to some\n"
-                            "minutes and is kept; tools/fpga places a core and says its clock.");
+  CLI::App* c =
+      add_command(app, "area", "Count what configurations take of an FPGA",
+                  "  kage area default full\n"
+                  "  kage area mine.yaml --json -\n"
+                  "  kage area --estimate\n"
+                  "Cells are those of an ECP5, counted by yosys before placement, which takes ten seconds to some\n"
+                  "minutes and is kept; tools/fpga places a core and says its clock.");
   const auto o = std::make_shared<AreaCommand>();
   c->add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

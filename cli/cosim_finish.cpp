@@ -28,7 +28,8 @@ report::OptionsRecord options_of(const CosimCommand& o) {
           .alpha = o.alpha,
           .cull = o.cull,
           .samples = o.samples,
-          .classes = o.classes};
+          .classes = o.classes,
+          .sub_bits = o.sub_bits};
 }
 
 }  // namespace

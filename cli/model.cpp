@@ -8,9 +8,12 @@
 
 #include "command.hpp"
 #include "kage/config.hpp"
+#include "kage/scene.hpp"
 #include "options.hpp"
+#include "planned.hpp"
 #include "results.hpp"
 #include "rtl_run.hpp"
+#include "signals.hpp"
 
 namespace kage::cli {
 namespace {
@@ -19,14 +22,28 @@ struct ModelCommand : Options {
   std::vector<std::string> configs;
   std::string fault;
   std::string netlist;
+  std::vector<std::string> planned;  // scenes
 };
+
+/// What the scenes are planned, one by one.
+std::vector<NamedConfig> plans(const ModelCommand& o) {
+  std::vector<NamedConfig> list;
+  for (const std::string& input : o.planned) {
+    NamedConfig named = planned_config(
+        o, std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt})));
+    named.name = fmt::format("plan of {}", input);
+    list.push_back(std::move(named));
+  }
+  return list;
+}
 
 int run(const ModelCommand& o) {
   refuse_inputs({o.json}, o.configs);
   check_json(o);
   std::vector<NamedConfig> list;
-  if (o.configs.empty()) list = named_configs();
+  if (o.configs.empty() && o.planned.empty()) list = named_configs();
   for (const std::string& name : o.configs) list.push_back(load_config(name));
+  for (NamedConfig& named : plans(o)) list.push_back(std::move(named));
   Json j = Json::array();
   for (const NamedConfig& named : list) {
     const cosim::Model model = model_of(named, {.fault = o.fault, .netlist = o.netlist, .options = {}});
@@ -49,11 +66,19 @@ void add_model(CLI::App& app, Action& action) {
                             "  kage model\n"
                             "  kage model default full\n"
                             "  kage model tiny --netlist ice40\n"
-                            "  kage model mine.yaml --json -");
+                            "  kage model mine.yaml --json -\n"
+                            "  kage model --plan courtyard --plan bunny.obj");
   const auto o = std::make_shared<ModelCommand>();
   c->add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
+  c->add_option(
+       "--plan", o->planned,
+       "a scene: the model of the configuration that --config plan takes for it; more than once for more scenes")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->expected(1)
+      ->type_name("SCENE");
+  options_of_pictures(*c, *o);
   option_fault(*c, o->fault);
   option_netlist(*c, o->netlist);
   option_json(*c, *o);

@@ -75,8 +75,8 @@ static void option_frames(CLI::App& command, Options& options) {
 void option_config(CLI::App& command, Options& options) {
   command
       .add_option("--config", options.config,
-                  "the core's parameters: a name in rtl/defs/configs.yaml or a YAML file of PARAMETER: value lines, "
-                  "default: the first name that can draw it all")
+                  "the core's parameters: a name in rtl/defs/configs.yaml, a YAML file of PARAMETER: value lines, or "
+                  "plan for those that kage plan finds for the scene; default: the cheapest name that can draw it all")
       ->type_name("NAME|FILE");
 }
 
@@ -170,6 +170,15 @@ static void option_lights(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
+static void option_sub_bits(CLI::App& command, Options& options) {
+  command
+      .add_option("--sub-bits", options.sub_bits,
+                  fmt::format("round positions on the screen to 2^-N pixel, {} to {}; default {}", kLeastSubBits,
+                              kMostSubBits, options.sub_bits))
+      ->check(whole_number(kLeastSubBits, kMostSubBits))
+      ->type_name("N");
+}
+
 void option_max_fragments(CLI::App& command, Options& options) {
   command
       .add_option(
@@ -208,6 +217,7 @@ void options_of_pictures(CLI::App& command, Options& options) {
   option_cull(command, options);
   option_max_fragments(command, options);
   option_lights(command, options);
+  option_sub_bits(command, options);
   option_seed(command, options);
   option_threads(command, options);
   option_outside(command, options);

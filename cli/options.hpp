@@ -51,6 +51,7 @@ struct Options {
   std::optional<std::uint64_t> max_fragments;  ///< that the order of translucent faces may cut; none: order.hpp's
   int samples = Look{}.samples;                ///< of a light that is no point
   int classes = Look{}.classes;                ///< of normals
+  int sub_bits = Look{}.sub_bits;              ///< of snapped positions
 };
 
 /// As --order has it.
@@ -60,7 +61,7 @@ std::string name_of(TranslucentWay way);
 void option_config(CLI::App& command, Options& options);
 
 /// What decides the pictures of a scene: --size, --frames, --order, --alpha, --cull, --max-fragments, --samples,
-/// --classes, --seed; and --threads, --allow-outside.
+/// --classes, --sub-bits, --seed; and --threads, --allow-outside.
 void options_of_pictures(CLI::App& command, Options& options);
 /// What every command that makes frames for a core takes: those, and --config, --degrade, --units-only.
 void options_of_frames(CLI::App& command, Options& options);

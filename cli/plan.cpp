@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
@@ -14,12 +13,13 @@
 #include "command.hpp"
 #include "device_clock.hpp"
 #include "kage/error.hpp"
-#include "order_build.hpp"
+#include "planned.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
 #include "source.hpp"
 #include "text.hpp"
+#include "trade/measured_plan.hpp"
 
 namespace kage::cli {
 namespace {
@@ -31,6 +31,9 @@ struct PlanCommand : Options {
   std::string device;
   std::optional<double> fps;
   std::optional<int> total_lines;
+  bool measured = false;
+  std::optional<double> max_z;
+  std::optional<double> max_wrong;
 };
 
 const std::map<std::string, Prefer>& preferences() {
@@ -49,16 +52,15 @@ PlannedScene open(const PlanCommand& o, const std::string& input, Progress& prog
   refuse_random(input);
   refuse_order_tree(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
-  PlannedScene scene;
-  scene.scene =
-      std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt}));
-  scene.draw = draw_options(o);
-  scene.draw.order = order_build(o, progress, scene.scene->name() + ": order of translucent faces");
-  return scene;
+  return planned_scene(
+      o, std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt})), progress);
 }
 
 PlanOptions options_of(const PlanCommand& o, Progress& progress) {
   PlanOptions options = o.plan;
+  if (o.max_z) options.limits.z = *o.max_z;
+  if (o.max_wrong && !o.measured)
+    throw Error("--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured");
   if (o.clock || !o.device.empty()) {
     PlanClock clock;
     clock.mhz = o.clock ? *o.clock : device_clock(o.device).mhz;
@@ -66,13 +68,11 @@ PlanOptions options_of(const PlanCommand& o, Progress& progress) {
     clock.total_lines = o.total_lines.value_or(0);
     options.clock = clock;
   } else if (o.fps || o.total_lines) {
-    throw Error("--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says "
-                "how fast the core is");
+    throw Error(
+        "--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says "
+        "how fast the core is");
   }
-  options.progress = [&progress](double share) {
-    check_interrupt();
-    progress.show(fmt::format("plan: {:.0f} %", 100 * share));
-  };
+  options.progress = plan_progress(progress);
   return options;
 }
 
@@ -86,7 +86,8 @@ std::string cost_text(const Plan& plan, const PlanCost& c) {
       "flip-flops, {} bits of RAM, {} bits a pixel",
       per_frame(plan, c.words), per_pixel(plan, static_cast<double>(c.clocks)), c.worst_line, c.luts, 100 * c.luts_off,
       c.flip_flops, c.ram_bits, c.bits_per_pixel);
-  if (c.meets_clock) text += *c.meets_clock ? "; keeps up" : fmt::format("; does not keep up: {:.0f} clocks a line", c.needed_line);
+  if (c.meets_clock)
+    text += *c.meets_clock ? "; keeps up" : fmt::format("; does not keep up: {:.0f} clocks a line", c.needed_line);
   return text;
 }
 
@@ -98,13 +99,15 @@ std::string shape_text(const Config& c) {
 std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options) {
   std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n", fmt::join(o.inputs, " "),
                                  counted(plan.frames, "frame"), plan.size[0], plan.size[1], name_of(o.plan.prefer));
-  text += fmt::format("# depth within {:.3g} of its range, colour within {} of 255 of fractions without end\n", plan.z_error,
-                      plan.limits.color);
+  text += fmt::format("# depth within {:.3g} of its range, colour within {} of 255 of fractions without end{}\n",
+                      plan.z_error, plan.limits.color,
+                      plan.limits.color > options.limits.color ? " (no core keeps less here)" : "");
   if (options.clock)
     text += fmt::format("# a display of {:g} frames a second and {} lines each, blanking included, at {:g} MHz: {}\n",
                         options.clock->fps,
                         options.clock->total_lines > 0 ? options.clock->total_lines : usual_total_lines(plan.size[1]),
-                        options.clock->mhz, *plan.cost.meets_clock ? "the core keeps up" : "no core keeps up, this one comes nearest");
+                        options.clock->mhz,
+                        *plan.cost.meets_clock ? "the core keeps up" : "no core keeps up, this one comes nearest");
   text += fmt::format("# costs {}\n", cost_text(plan, plan.cost));
   for (const PlanCandidate& c : plan.others)
     text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.cost));
@@ -149,7 +152,10 @@ Json json_of(const PlanCommand& o, const Plan& plan) {
   j["width"] = plan.size[0];
   j["height"] = plan.size[1];
   j["prefer"] = name_of(o.plan.prefer);
-  j["limits"] = {{"max_z", plan.limits.z}, {"max_color", plan.limits.color}};
+  j["guarantee"] = o.measured ? "measured" : "bound";
+  j["limits"] = {{"max_z", plan.limits.z},
+                 {"max_color", plan.limits.color},
+                 {"max_wrong", o.max_wrong ? Json(*o.max_wrong) : Json(nullptr)}};
   j["z_error_bound"] = plan.z_error;
   j["config"] = cli::to_json(plan.config);
   Json reasons = Json::object();
@@ -169,7 +175,18 @@ int run(const PlanCommand& o) {
   Progress progress;
   std::vector<PlannedScene> scenes;
   for (const std::string& input : o.inputs) scenes.push_back(open(o, input, progress));
-  const PlanOptions options = options_of(o, progress);
+  PlanOptions options = options_of(o, progress);
+  std::optional<trade::MeasuredPlan> measured;
+  if (o.measured) {
+    int drawn = 0;
+    // Who allows wrong pixels asks for no depth besides, unless it is given.
+    const double z = o.max_wrong && !o.max_z ? 1.0 : options.limits.z;
+    measured.emplace(scenes, trade::MeasuredLimits{o.max_wrong, z, options.limits.color}, [&progress, drawn]() mutable {
+      check_interrupt();
+      progress.show(fmt::format("plan: {} drawn", counted(++drawn, "frame")));
+    });
+    options.lower = [&measured](Config& widths, std::vector<PlanReason>& reasons) { measured->lower(widths, reasons); };
+  }
   const Plan plan = make_plan(scenes, options);
   progress.clear();
   TempFiles files;
@@ -185,10 +202,11 @@ void add_plan(CLI::App& app, Action& action) {
                             "  kage plan bunny.obj --prefer words --json -\n"
                             "  kage plan courtyard glass --device ecp5-25f --fps 60\n"
                             "  kage plan penumbra --samples 64 --max-z 1e-4 --max-color 2\n"
+                            "  kage plan courtyard --guarantee measured --max-wrong 20\n"
                             "Each parameter comes with its reason; docs/plan.md has the inequalities.");
   const auto o = std::make_shared<PlanCommand>();
   option_scenes(*c, o->inputs);
-  c->add_option("--max-z", o->plan.limits.z,
+  c->add_option("--max-z", o->max_z,
                 "how far a stored depth may be off, as a share of the depth range; default one step of 24 bits")
       ->check(real_number(1e-9, 1))
       ->type_name("SHARE");
@@ -202,6 +220,19 @@ void add_plan(CLI::App& app, Action& action) {
        "the least that any core keeps")
       ->check(whole_number(1, 255))
       ->type_name("STEPS");
+  c->add_option(
+       "--max-wrong", o->max_wrong,
+       "with --guarantee measured: how many pixels in a million may show another face or shadow than the oracle, "
+       "near ties too; then depth is limited by --max-z only where that is given")
+      ->check(real_number(0, 1e6))
+      ->type_name("PPM");
+  c->add_option_function<std::string>(
+       "--guarantee", [o](const std::string& name) { o->measured = name == "measured"; },
+       "bound: each width follows from an inequality, whatever the scene; measured: each width was lowered until the "
+       "pictures of these frames were over a limit; default bound")
+      ->option_text("bound|measured")
+      ->check(CLI::IsMember({"bound", "measured"}))
+      ->type_name("HOW");
   c->add_option_function<std::string>(
        "--prefer", [plan = &o->plan](const std::string& name) { plan->prefer = preferences().at(name); },
        "which of several that serve: speed has the fewest clocks, area the fewest look-up tables, words the shortest "

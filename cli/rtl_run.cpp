@@ -7,6 +7,7 @@
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "options.hpp"
+#include "planned.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
@@ -101,18 +102,21 @@ cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor wha
                                        : lines              ? " that counts lines"
                                        : !rtl.ports.empty() ? " with ports"
                                                             : "");
-  cosim::Model model =
-      cosim::find_model(config.config, {.fault = rtl.fault,
-                                        .monitors = monitors,
-                                        .waves = waves,
-                                        .lines = lines,
-                                        .mutants = rtl.options.mutant != 0,
-                                        .ports = rtl.ports,
-                                        .netlist = rtl.netlist,
-                                        .progress = [&](double seconds) {
-                                          check_interrupt();
-                                          progress.show(fmt::format("building {}: {:.0f} s", name, seconds));
-                                        }});
+  const cosim::ModelOptions options{.fault = rtl.fault,
+                                    .monitors = monitors,
+                                    .waves = waves,
+                                    .lines = lines,
+                                    .mutants = rtl.options.mutant != 0,
+                                    .ports = rtl.ports,
+                                    .netlist = rtl.netlist,
+                                    .progress = [&](double seconds) {
+                                      check_interrupt();
+                                      progress.show(fmt::format("building {}: {:.0f} s", name, seconds));
+                                    }};
+  // What a person has not named may be new: the minute that a model takes is told before it passes.
+  if (config.name == kPlanned && !cosim::has_model(config.config, options))
+    say(fmt::format("kage: {} is not there, and is built first\n", name));
+  cosim::Model model = cosim::find_model(config.config, options);
   progress.clear();
   if (!model.damage.empty())
     say(fmt::format("kage: {} was damaged ({}) and has been built anew: {}\n", name, model.damage,

@@ -8,11 +8,13 @@
 #include <cmath>
 #include <filesystem>
 
+#include "cosim/model/model.hpp"
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
 #include "mapped.hpp"
 #include "options.hpp"
 #include "order_build.hpp"
+#include "planned.hpp"
 #include "progress.hpp"
 #include "signals.hpp"
 #include "source.hpp"
@@ -63,6 +65,7 @@ DrawOptions draw_options(const Options& options) {
   draw.look.samples = options.samples;
   draw.look.seed = options.seed;
   draw.look.classes = options.classes;
+  draw.look.sub_bits = options.sub_bits;
   draw.look.cull = options.cull;
   draw.look.fit = options.degrade;
   draw.threads = options.threads;
@@ -94,6 +97,7 @@ void Source::open_random(const Options& options, verif::Manner manner) {
   refuse(options.max_fragments.has_value(), "--max-fragments", "have no faces to be put in order");
   refuse(options.samples != usual.samples, "--samples", "have light samples of their own");
   refuse(options.classes != usual.classes, "--classes", "have light tables of their own");
+  refuse(options.sub_bits != usual.sub_bits, "--sub-bits", "have no positions to be rounded");
   refuse(options.cull, "--cull", "have no faces to be left out");
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
   refuse(options.allow_outside, "--allow-outside", "need no files");
@@ -113,6 +117,8 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
   if (options.samples != Options{}.samples || options.classes != Options{}.classes)
     throw Error(fmt::format("{}: --samples, --classes: only a scene takes them, and this is a stream", options.input));
+  if (options.sub_bits != Options{}.sub_bits)
+    throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   if (options.max_fragments)
@@ -174,6 +180,14 @@ void Source::load_scene(const Options& options) {
                               line.empty() ? "" : "; --config FILE can, with this line in it: " + line));
     }
     notes_.push_back(fmt::format("configuration: {}", config_.name));
+    return;
+  }
+  if (options.config == kPlanned) {
+    config_ = planned_config(options_, scene_);
+    notes_.push_back(
+        fmt::format("configuration: plan ({}); its RTL model {}",
+                    config_.config.arrangement == 0 ? "systolic" : fmt::format("LANES {}", config_.config.lanes),
+                    cosim::has_model(config_.config) ? "was there" : "was not there (kage model --plan builds it ahead)"));
     return;
   }
   config_ = load_config(options.config);

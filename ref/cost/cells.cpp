@@ -34,8 +34,8 @@ int segment_bits(const Config& c) { return derived::segment_depth_bits(c) + c.dx
 
 }  // namespace
 
-// The parts of the RTL that grow with the parameters: fixed control, the port, the token and its check, the command with
-// depth and colour, the lanes, the way out, the table, the units and their tree.
+// The parts of the RTL that grow with the parameters: fixed control, the port, the token and its check, the command
+// with depth and colour, the lanes, the way out, the table, the units and their tree.
 const std::array<CellTerm, kCellTerms> kCellTermInfo{{
     {"one", [](const Config&) { return 1.0; }},
     {"beat_words", [](const Config& c) { return whole(c.beat_words); }},

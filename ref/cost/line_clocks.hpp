@@ -48,7 +48,8 @@ struct LineClocks {
 /// The least clocks T that a line of a display must have, so that a core which takes `lines` clocks for its lines is
 /// never late. The way out holds two lines (docs/rtl.md): while one leaves and one waits, the core works on the next.
 /// So m neighbouring lines have the time of m + 1 lines of the display, and T is the most of sum / (m + 1) over all
-/// runs of neighbours. The first line of a frame begins with the way out empty, behind the blanking of the frame before.
+/// runs of neighbours. The first line of a frame begins with the way out empty, behind the blanking of the frame
+/// before.
 /// @param lines clocks of each line of a frame, top to bottom
 /// @return T, and the lines that decide it; 0 without lines
 LineClocks::Need needed_line(std::span<const std::uint64_t> lines);
@@ -61,7 +62,8 @@ class LineClockCounter {
   /// A sound frame with its number. Throws Error if it is wider than MAX_WIDTH.
   void add(int frame, std::span<const std::uint32_t> words);
 
-  /// The same token by token, for several counters that share a frame's decoded tokens: begin(), token() of each, end().
+  /// The same token by token, for several counters that share a frame's decoded tokens: begin(), token() of each,
+  /// end().
   void begin(int frame, const FrameHeader& header);
   void token(const Token& t) { counter_.token(t); }
   void end();

@@ -59,6 +59,9 @@ void check_look(const Look& look) {
     throw Error(fmt::format("{} samples of a light: there must be 1 .. {}", look.samples, kMaxSamples));
   if (look.classes < 1 || look.classes > kMaxClasses)
     throw Error(fmt::format("{} classes of normals: there must be 1 .. {}", look.classes, kMaxClasses));
+  if (look.sub_bits < kLeastSubBits || look.sub_bits > kMostSubBits)
+    throw Error(
+        fmt::format("{} bits of a subpixel: there must be {} .. {}", look.sub_bits, kLeastSubBits, kMostSubBits));
   if (!(look.darkening >= 0 && look.darkening <= 1)) throw Error("the darkening is not 0 .. 1");
   if (!(look.extrusion >= 1) || !std::isfinite(look.extrusion)) throw Error("the extrusion is not at least 1");
 }

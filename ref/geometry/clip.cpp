@@ -89,12 +89,12 @@ bool clip_edge(ClipPoint& a, ClipPoint& b, GuardSide side) {
   return a_in || b_in;
 }
 
-ScreenVertex snap_onto(const ClipPoint& p, GuardSide side) {
+ScreenVertex snap_onto(const ClipPoint& p, GuardSide side, int sub_bits) {
   ScreenVertex v;
   v.x = (side == GuardSide::x_low ? -kGuard : kGuard) * 256;
   ClipPoint at_q = p;
   at_q.sx = 0;  // x may be out of range by far; only y counts
-  v.y = snap(at_q).y;
+  v.y = snap(at_q, sub_bits).y;
   return v;
 }
 
@@ -146,20 +146,20 @@ void Clipper::snap_cut(const NearCut& cut, std::int32_t w, std::vector<NearEdge>
     const bool a_in = guard_distance(a, side) >= 0;
     const bool b_in = guard_distance(b, side) >= 0;
     if (!a_in && !b_in) {
-      add(snap_onto(a, side), snap_onto(b, side));
+      add(snap_onto(a, side, sub_bits_), snap_onto(b, side, sub_bits_));
       return;
     }
     if (a_in && !b_in) {
       const ClipPoint g = cut_guard(a, b, side);
-      add(snap_onto(g, side), snap_onto(b, side));
+      add(snap_onto(g, side, sub_bits_), snap_onto(b, side, sub_bits_));
       b = g;
     } else if (!a_in) {
       const ClipPoint g = cut_guard(b, a, side);
-      add(snap_onto(a, side), snap_onto(g, side));
+      add(snap_onto(a, side, sub_bits_), snap_onto(g, side, sub_bits_));
       a = g;
     }
   }
-  add(snap(a), snap(b));
+  add(snap(a, sub_bits_), snap(b, sub_bits_));
 }
 
 }  // namespace kage

@@ -19,7 +19,8 @@ struct NearCut {
 /// Clips one polygon after another; keeps its buffers.
 class Clipper {
  public:
-  Clipper(double near, double far) : near_(near), far_(far) {}
+  /// `sub_bits`: Look::sub_bits.
+  Clipper(double near, double far, int sub_bits) : near_(near), far_(far), sub_bits_(sub_bits) {}
 
   /// Clip in place. Near cuts are appended to `cuts` if given, even where nothing of the polygon is left. `at_far`: cut
   /// what lies past the far plane too. The outcome may be empty.
@@ -36,6 +37,7 @@ class Clipper {
  private:
   double near_;
   double far_;
+  int sub_bits_;
   std::vector<ClipPoint> buffer_;
 };
 

@@ -71,7 +71,7 @@ void FaceDrawer::add_fan(const ScreenPolygon& base) {
     triangle.assign({polygon_[0], polygon_[i], polygon_[i + 1]});
     ScreenPolygon piece = base;
     piece.color_planes = static_cast<std::int32_t>(out_->color_planes.size());
-    for (int c = 0; c < 3; ++c) out_->color_planes.push_back(ScreenFaces::color_plane(triangle, c));
+    for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_.color_plane(triangle, c));
     faces_.add(piece, triangle);
   }
 }

@@ -38,6 +38,7 @@ FrameGeometry empty_geometry(const Task& task, int width, int height, const Samp
   const auto& background = task.look.background;
   out.background = task.config.channels == 1 ? background[1] : packed_color(background);
   out.sample_light = lights.light_of;
+  out.sub_bits = task.look.sub_bits;
   if (lights.casting() > 0)
     out.shade =
         static_cast<std::uint32_t>(to_fixed(task.look.darkening / lights.samples_of[0], task.config.shade_frac));
@@ -122,13 +123,13 @@ void draw_translucent(const Task& task, const View& view, FaceDrawer& drawer, Tr
 
 FrameGeometry build(const Task& task, int width, int height, TranslucentOrder& order, ShadowCache& shadows) {
   const auto& [frame, config, look] = task;
-  const View view(frame.camera, width, height, config.z_bits, furthest(frame));
+  const View view(frame.camera, width, height, config.z_bits, furthest(frame), look.sub_bits);
   const SampledLights lights(frame, config, look, view);
   const Lighting lighting(frame.lights, frame.camera.up);
   LightTable table(config, look, frame.lights, lighting, lights.samples_of);
   FaceShading shading(frame, config, lights, lighting, table.exists());
   FrameGeometry out = empty_geometry(task, width, height, lights);
-  Clipper clipper(view.near(), view.volume_end());
+  Clipper clipper(view.near(), view.volume_end(), look.sub_bits);
   FaceDrawer drawer(frame, config, view, clipper, shading, out);
 
   const std::vector<std::uint32_t> turned_away = draw_all(task, drawer, out);

@@ -25,26 +25,64 @@ struct Direction {
   double sine;
 };
 
-/// From the light's middle to the sample at `along`, 0 .. 1, and `turn` of a full turn's 2^64.
-glm::dvec3 offset(const Light& light, double along, std::uint64_t turn) {
-  switch (light.shape) {
-    case LightShape::point:
-      break;
-    case LightShape::rectangle:
-      return light.axis_u * (2 * along - 1) + light.axis_v * (2 * share(turn) - 1);
-    case LightShape::disc: {
-      const Direction d(turn);
-      const double radius = std::sqrt(along);
-      return light.axis_u * (radius * d.cosine) + light.axis_v * (radius * d.sine);
-    }
-    case LightShape::sphere: {
-      const Direction d(turn);
-      const double z = 1 - 2 * along;
-      const double radius = std::sqrt(1 - z * z);
-      return glm::dvec3(radius * d.cosine, radius * d.sine, z) * light.axis_u.x;
-    }
+// How far consecutive samples of a ball are apart, of a turn and of half a turn, and where the half turns start. Found
+// by trying; `tools/bench light_points` holds them against others at random (docs/lights.md, "Samples").
+constexpr auto kBallTurn = static_cast<std::uint64_t>(0.29 * 0x1p64);
+constexpr auto kBallHalfTurn = static_cast<std::uint64_t>(0.187 * 0x1p64);
+constexpr auto kBallStart = static_cast<std::uint64_t>(0.99 * 0x1p64);
+
+/// Of each number its place in the order of all, from 0. No two may be equal.
+std::vector<int> places(const std::vector<std::uint64_t>& numbers) {
+  std::vector<std::uint64_t> sorted = numbers;
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<int> places;
+  for (const std::uint64_t n : numbers)
+    places.push_back(static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), n) - sorted.begin()));
+  return places;
+}
+
+// From the light's middle to each of its samples. Of every shape, `middle(i)` is the middle of the i-th of equal shares
+// of 0 .. 1.
+
+template <class Middle>
+std::vector<glm::dvec3> on_disc(const Light& light, int samples, std::uint64_t start, const Middle& middle) {
+  std::vector<glm::dvec3> offsets;
+  for (int i = 0; i < samples; ++i) {
+    const Direction d(start + kGoldenRatio * static_cast<std::uint64_t>(i));
+    const double radius = std::sqrt(middle(i));
+    offsets.push_back(light.axis_u * (radius * d.cosine) + light.axis_v * (radius * d.sine));
   }
-  return {0, 0, 0};
+  return offsets;
+}
+
+template <class Middle>
+std::vector<glm::dvec3> on_rectangle(const Light& light, int samples, std::uint64_t start, const Middle& middle) {
+  std::vector<std::uint64_t> across;
+  for (int i = 0; i < samples; ++i) across.push_back(start + kGoldenRatio * static_cast<std::uint64_t>(i));
+  const std::vector<int> place = places(across);
+  std::vector<glm::dvec3> offsets;
+  for (int i = 0; i < samples; ++i)
+    offsets.push_back(light.axis_u * (2 * middle(i) - 1) +
+                      light.axis_v * (2 * middle(place[static_cast<std::size_t>(i)]) - 1));
+  return offsets;
+}
+
+// From wherever it is seen, a ball is a disc. The density within the unit ball whose projection is even over the disc,
+// in every direction, is 1 / (pi^2 sqrt(1 - r^2)) (docs/lights.md has why). The unit sphere of four dimensions, seen in
+// three, has just that density; and its points are (sqrt(u) (cos a, sin a), sqrt(1 - u) (cos b, sin b)) with u, a and b
+// even over 0 .. 1 and a turn each. Left out of the four is sin b, so half a turn of b is all of it.
+template <class Middle>
+std::vector<glm::dvec3> in_ball(const Light& light, int samples, std::uint64_t start, const Middle& middle) {
+  std::vector<glm::dvec3> offsets;
+  for (int i = 0; i < samples; ++i) {
+    const auto n = static_cast<std::uint64_t>(i);
+    const Direction a(start + kBallTurn * n);
+    const Direction b((kBallStart + kBallHalfTurn * n) >> 1U);
+    const double radius = std::sqrt(middle(i));
+    const double height = std::sqrt(1 - middle(i));
+    offsets.push_back(glm::dvec3(radius * a.cosine, radius * a.sine, height * b.cosine) * light.axis_u.x);
+  }
+  return offsets;
 }
 
 }  // namespace
@@ -52,13 +90,15 @@ glm::dvec3 offset(const Light& light, double along, std::uint64_t turn) {
 std::vector<LightPoint> light_points(const Light& light, int samples, std::uint64_t seed) {
   const LightPoint& middle = light;
   if (light.shape == LightShape::point || light.directional || samples < 2) return {middle};
-  std::vector<LightPoint> points;
   const std::uint64_t start = mixed(seed);
-  for (int i = 0; i < samples; ++i) {
-    const double along = (i + 0.5) / samples;
-    const std::uint64_t turn = start + kGoldenRatio * static_cast<std::uint64_t>(i);
+  const auto part = [samples](int i) { return (i + 0.5) / samples; };
+  const auto offsets = light.shape == LightShape::disc        ? on_disc(light, samples, start, part)
+                       : light.shape == LightShape::rectangle ? on_rectangle(light, samples, start, part)
+                                                              : in_ball(light, samples, start, part);
+  std::vector<LightPoint> points;
+  for (const glm::dvec3& offset : offsets) {
     points.push_back(middle);
-    points.back().position += offset(light, along, turn);
+    points.back().position += offset;
   }
   return points;
 }

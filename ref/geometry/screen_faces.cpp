@@ -24,7 +24,7 @@ void ScreenFaces::add(const ScreenPolygon& p, std::span<const ScreenVertex> outl
 
 void ScreenFaces::add(const ScreenPolygon& p, const std::vector<ClipPoint>& outline) {
   snapped_.clear();
-  for (const ClipPoint& c : outline) snapped_.push_back(snap(c));
+  for (const ClipPoint& c : outline) snapped_.push_back(snap(c, view_->sub_bits()));
   add(p, snapped_);
 }
 
@@ -37,7 +37,7 @@ ScreenPlane ScreenFaces::unsnapped_plane(const EyePoint& a, const EyePoint& b, c
   return View::flat_plane(sum / static_cast<double>(clipped.size()));
 }
 
-ScreenPlane ScreenFaces::color_plane(const std::vector<ClipPoint>& p, int channel) {
+ScreenPlane ScreenFaces::color_plane(const std::vector<ClipPoint>& p, int channel) const {
   std::array<double, 3> x{};
   std::array<double, 3> y{};
   std::array<double, 3> v{};
@@ -53,8 +53,8 @@ ScreenPlane ScreenFaces::color_plane(const std::vector<ClipPoint>& p, int channe
   const double area = dx1 * dy2 - dx2 * dy1;
   const double a = ((v[1] - v[0]) * dy2 - (v[2] - v[0]) * dy1) / area;
   const double b = ((v[2] - v[0]) * dx1 - (v[1] - v[0]) * dx2) / area;
-  constexpr double kMaxSlope = 65536.0;  // all of the range within 1/256 pixel
-  if (!(std::abs(a) <= kMaxSlope && std::abs(b) <= kMaxSlope)) return View::flat_plane((v[0] + v[1] + v[2]) / 3.0);
+  const double max_slope = 256.0 * (1 << view_->sub_bits());  // all of the range within a step of the snap
+  if (!(std::abs(a) <= max_slope && std::abs(b) <= max_slope)) return View::flat_plane((v[0] + v[1] + v[2]) / 3.0);
   ScreenPlane plane;
   plane.x0 = static_cast<std::int32_t>(std::floor(x[0]));
   plane.y0 = static_cast<std::int32_t>(std::floor(y[0]));

@@ -39,7 +39,7 @@ class ScreenFaces {
   void add(const ScreenPolygon& p, const std::vector<ClipPoint>& outline);
 
   [[nodiscard]] DepthVertex depth_vertex(const ClipPoint& p) const {
-    return {snap(p), to_fixed(view_->depth(p.w), kVertexFrac)};
+    return {snap(p, view_->sub_bits()), to_fixed(view_->depth(p.w), kVertexFrac)};
   }
 
   /// The plane of three points of a polygon, which is `clipped` after clipping. A plane too steep is one seen edge-on:
@@ -49,7 +49,7 @@ class ScreenFaces {
 
   /// The plane of a colour channel of a clipped triangle, in units of an 8-bit colour. One too steep is the mean of its
   /// vertices' all over.
-  [[nodiscard]] static ScreenPlane color_plane(const std::vector<ClipPoint>& p, int channel);
+  [[nodiscard]] ScreenPlane color_plane(const std::vector<ClipPoint>& p, int channel) const;
 
  private:
   const View* view_;

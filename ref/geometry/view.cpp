@@ -12,7 +12,7 @@ double furthest(const SceneFrame& frame) {
   return std::max(far * (1 + 1e-6), frame.camera.near * (1 + 1e-3));
 }
 
-View::View(const Camera& camera, int width, int height, int z_bits, double far)
+View::View(const Camera& camera, int width, int height, int z_bits, double far, int sub_bits)
     : camera_(camera),
       near_(camera.near),
       far_(far),
@@ -21,7 +21,8 @@ View::View(const Camera& camera, int width, int height, int z_bits, double far)
       per_pixel_x_(camera.half_height / half_h_),
       per_pixel_y_(camera.half_height / half_h_),
       range_(static_cast<double>((std::int64_t{1} << z_bits) - 3)),
-      max_slope_(static_cast<double>(std::int64_t{1} << (z_bits + 8))) {
+      max_slope_(static_cast<double>(std::int64_t{1} << (z_bits + sub_bits))),
+      sub_bits_(sub_bits) {
   if (camera.perspective) {
     const double span = 1.0 - near_ / far_;
     z_base_ = 1.0 + range_ / span;
@@ -101,9 +102,12 @@ std::int64_t to_fixed(double v, int frac) {
   return static_cast<std::int64_t>(std::floor(v * static_cast<double>(std::int64_t{1} << frac) + 0.5));
 }
 
-ScreenVertex snap(const ClipPoint& p) {
-  return {static_cast<std::int32_t>(std::floor(p.sx / p.q * 256.0 + 0.5)),
-          static_cast<std::int32_t>(std::floor(p.sy / p.q * 256.0 + 0.5))};
+// The guard band ends at a whole pixel, so that a position within it is not rounded past it.
+ScreenVertex snap(const ClipPoint& p, int sub_bits) {
+  const double steps = 1 << sub_bits;  // of a pixel
+  const std::int32_t step = 1 << (8 - sub_bits);
+  return {static_cast<std::int32_t>(std::floor(p.sx / p.q * steps + 0.5)) * step,
+          static_cast<std::int32_t>(std::floor(p.sy / p.q * steps + 0.5)) * step};
 }
 
 }  // namespace kage

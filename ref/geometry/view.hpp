@@ -28,11 +28,13 @@ class View {
  public:
   /// `far`: distance of the furthest thing to draw, > the camera's near. The camera's own far is not used: nothing
   /// drawn is cut there.
-  View(const Camera& camera, int width, int height, int z_bits, double far);
+  /// `sub_bits`: Look::sub_bits.
+  View(const Camera& camera, int width, int height, int z_bits, double far, int sub_bits = kMostSubBits);
 
   [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const;
   [[nodiscard]] ClipPoint to_clip(const EyePoint& p) const;
   [[nodiscard]] double near() const { return near_; }
+  [[nodiscard]] int sub_bits() const { return sub_bits_; }
 
   /// The picture's corners on the near plane, in world space: everything seen lies between them and a surface.
   [[nodiscard]] std::array<glm::dvec3, 4> near_corners() const;
@@ -47,7 +49,7 @@ class View {
   [[nodiscard]] double steps_beyond(double w) const { return z_scale_ / w; }
 
   /// The depth plane of the plane through `normal` and `point`, both in eye space, anchored at `anchor`, a point of it
-  /// before the camera. Empty if it is too steep: more than 2^(Z_BITS + 8) LSB a pixel.
+  /// before the camera. Empty if it is too steep: more than 2^(Z_BITS + sub_bits) LSB a pixel.
   [[nodiscard]] std::optional<ScreenPlane> depth_plane(const glm::dvec3& normal, const EyePoint& point,
                                                        const ClipPoint& anchor) const;
 
@@ -75,6 +77,7 @@ class View {
   double z_base_;  // perspective: depth = z_base - z_scale / w; parallel: z_base + z_scale w
   double z_scale_;
   double max_slope_;
+  int sub_bits_;
 };
 
 /// To where depth reaches: a little past the frame's furthest vertex. Nothing is cut at the far end.
@@ -83,7 +86,7 @@ double furthest(const SceneFrame& frame);
 /// v * 2^frac, rounded half up. |v| 2^frac must be below 2^62.
 std::int64_t to_fixed(double v, int frac);
 
-/// Screen position, rounded half up to 1/256 pixel.
-ScreenVertex snap(const ClipPoint& p);
+/// Screen position, rounded half up to 2^-sub_bits pixel.
+ScreenVertex snap(const ClipPoint& p, int sub_bits);
 
 }  // namespace kage

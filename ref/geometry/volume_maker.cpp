@@ -187,7 +187,8 @@ std::optional<ScreenPlane> VolumeMaker::whole_plane(std::int64_t bound) const {
 // unsnapped plane; any other is parted into pieces, all with the first vertex, each with the plane of its own vertices
 // and only those that lie on it. Neighbours meet on the line that they share.
 void VolumeMaker::add_joined(std::int32_t w, const ScreenPlane& truth, std::span<const ScreenVertex> cap) {
-  const std::int64_t bound = (slope(truth) / 512 >> (kPlaneFrac - kVertexFrac)) + (std::int64_t{1} << kVertexFrac);
+  const std::int64_t bound =
+      ((slope(truth) >> (view_->sub_bits() + 1)) >> (kPlaneFrac - kVertexFrac)) + (std::int64_t{1} << kVertexFrac);
   if (const auto whole = whole_plane(bound)) return add_polygon(w, *whole, polygon_);
   const ScreenVertex& a = ring_.front().at;
   const ScreenVertex& b = ring_.back().at;

@@ -31,9 +31,8 @@ bool counts_in_vain(const Config& c, const Needs& needs) {
 /// The named configurations that come into question, in listed order.
 std::vector<NamedConfig> in_question(const Needs& needs) {
   std::vector<NamedConfig> list = named_configs();
-  std::erase_if(list, [&](const NamedConfig& n) {
-    return !for_anybody(n.config, needs) || !lacks(n.config, needs).empty();
-  });
+  std::erase_if(list,
+                [&](const NamedConfig& n) { return !for_anybody(n.config, needs) || !lacks(n.config, needs).empty(); });
   const auto vain = [&](const NamedConfig& n) { return counts_in_vain(n.config, needs); };
   if (!std::all_of(list.begin(), list.end(), vain)) std::erase_if(list, vain);
   return list;
@@ -41,8 +40,7 @@ std::vector<NamedConfig> in_question(const Needs& needs) {
 
 }  // namespace
 
-std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs,
-                                const DrawOptions& draw) {
+std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs, const DrawOptions& draw) {
   // The tokens of a frame depend on how shadows are drawn; their words only on widths.
   std::map<int, std::vector<ChoiceCost>> ways;
   std::vector<std::pair<int, std::size_t>> order;
@@ -61,14 +59,13 @@ std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs,
       std::vector<PhaseCounter> counters;
       for (const ChoiceCost& c : list) counters.emplace_back(c.named.config).start(draw.width);
       TokenPieces tokens(config);
-      make_frame(
-          geometry, config, 0,
-          [&](std::span<const std::uint32_t> words) {
-            tokens.feed(words, [&](const Token& token) {
-              for (PhaseCounter& counter : counters) counter.token(token);
-            });
-          },
-          {.threads = draw.threads});
+      make_frame(geometry, config, 0,
+                 [&](std::span<const std::uint32_t> words) {
+                   tokens.feed(words, [&](const Token& token) {
+                     for (PhaseCounter& counter : counters) counter.token(token);
+                   });
+                 },
+                 {.threads = draw.threads});
       for (std::size_t i = 0; i < list.size(); ++i) {
         const auto& lines = counters[i].lines();
         list[i].clocks = std::accumulate(lines.begin(), lines.end(), std::uint64_t{0});

@@ -23,7 +23,8 @@ struct ChoiceCost {
 /// All named configurations that have what the scene needs and are chosen without being asked for by name, in listed
 /// order. Cores with a processor for each pixel or with expansion units are not among them: which of these pays is a
 /// question of the design that they go into, not of a scene. Nor is a core without FSF where a later frame might have a
-/// second volume, nor one that counts light samples where there is one sample, unless no other serves. Throws as make_geometry() and make_frame() do.
+/// second volume, nor one that counts light samples where there is one sample, unless no other serves. Throws as
+/// make_geometry() and make_frame() do.
 std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs, const DrawOptions& draw);
 
 }  // namespace kage

@@ -16,8 +16,8 @@
 namespace kage::plan {
 namespace {
 
-/// Makes all frames of the scenes. Calls `of_parts` with what each was made of and `of_token` with each token, both with
-/// where that is.
+/// Makes all frames of the scenes. Calls `of_parts` with what each was made of and `of_token` with each token, both
+/// with where that is.
 template <class OfParts, class OfToken>
 void each_frame(std::span<const PlannedScene> scenes, const Config& config, const FrameStep& step, OfParts of_parts,
                 OfToken of_token) {

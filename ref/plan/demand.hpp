@@ -49,11 +49,11 @@ struct ShareGroup {
 /// What one way to draw shadows asks for.
 struct WayDemand {
   int dsf_bits = 0;
-  Most volumes;      ///< of a light sample
-  Most depth_span;   ///< pixels along which depth goes on by steps
-  Most color_span;   ///< pixels along which colour does
-  Most flat_off;     ///< steps of colour by which a corner differs from its polygon's one colour
-  Most classes;      ///< in use in a frame, of light tables
+  Most volumes;                    ///< of a light sample
+  Most depth_span;                 ///< pixels along which depth goes on by steps
+  Most color_span;                 ///< pixels along which colour does
+  Most flat_off;                   ///< steps of colour by which a corner differs from its polygon's one colour
+  Most classes;                    ///< in use in a frame, of light tables
   std::vector<ShareGroup> groups;  ///< what shadows take, without repetition
 };
 

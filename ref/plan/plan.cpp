@@ -89,6 +89,13 @@ class Planner {
   void add_way(const plan::WayDemand& demand, const plan::UnitDemand* units) {
     Way way;
     way.widths = plan::widths_of(scenes_, features_, demand, units, options_.limits);
+    if (options_.lower) {
+      options_.lower(way.widths.config, way.widths.reasons);
+      validate(way.widths.config, "plan");
+      way.widths.z_error =
+          plan::depth_error_share(demand.depth_span.value, way.widths.config.z_bits, way.widths.config.z_frac,
+                                  features_.needs.width, features_.needs.height);
+    }
     way.all = plan::costs_of(scenes_, way.widths.config, name_of(demand, units), [this] { step(); });
     if (options_.clock)
       for (PlanCandidate& c : way.all) c.cost.meets_clock = c.cost.needed_line <= line_clocks();
@@ -157,8 +164,8 @@ class Planner {
       const auto& given = way.widths.reasons;
       const auto r =
           std::find_if(given.begin(), given.end(), [&](const PlanReason& g) { return g.parameter == p.name; });
-      out_.reasons.push_back({p.name, out_.config.*(p.member),
-                              r != given.end() ? r->text : arrangement_reason(p, way, taken)});
+      out_.reasons.push_back(
+          {p.name, out_.config.*(p.member), r != given.end() ? r->text : arrangement_reason(p, way, taken)});
     }
   }
 
@@ -179,8 +186,8 @@ class Planner {
       text += fmt::format("; a display's line must have {:.0f} and has {:.0f}", cost.needed_line, line_clocks());
     Config less = taken.config;
     less.*(p.member) /= 2;
-    const auto half = std::find_if(way.all.begin(), way.all.end(),
-                                   [&](const PlanCandidate& c) { return c.config == less; });
+    const auto half =
+        std::find_if(way.all.begin(), way.all.end(), [&](const PlanCandidate& c) { return c.config == less; });
     if (half == way.all.end()) return text;
     const double more = static_cast<double>(half->cost.clocks) / static_cast<double>(cost.clocks) - 1;
     text += fmt::format("; {} take {:.0f} % more clocks and {:+.0f} LUTs", less.*(p.member), 100 * more,
@@ -214,7 +221,8 @@ Plan make_plan(std::span<const PlannedScene> scenes, const PlanOptions& options)
 
 std::string to_yaml(const Plan& plan) {
   std::string text;
-  for (const PlanReason& r : plan.reasons) text += fmt::format("{:<21} # {}\n", fmt::format("{}: {}", r.parameter, r.value), r.text);
+  for (const PlanReason& r : plan.reasons)
+    text += fmt::format("{:<21} # {}\n", fmt::format("{}: {}", r.parameter, r.value), r.text);
   return text;
 }
 

@@ -85,9 +85,10 @@ class Maker {
     int bits = z.min;
     while (bits <= z.max && share(bits, f.max) > limits_.z) ++bits;
     if (bits > z.max)
-      throw Error(fmt::format("--max-z {:.3g}: with {} bits of depth the bound is {:.3g} already (longest span {:.0f} "
-                              "pixels, {})",
-                              limits_.z, z.max, share(z.max, f.max), pixels, at(way_.depth_span)));
+      throw Error(
+          fmt::format("--max-z {:.3g}: with {} bits of depth the bound is {:.3g} already (longest span {:.0f} "
+                      "pixels, {})",
+                      limits_.z, z.max, share(z.max, f.max), pixels, at(way_.depth_span)));
     const int taken = four_step(bits);
     set(&Config::z_bits, taken,
         fmt::format("{} keep {:.3g} of the range, --max-z is {:.3g}{}{}", bits, share(bits, f.max), limits_.z,
@@ -97,8 +98,8 @@ class Maker {
     while (share(taken, frac) > limits_.z) ++frac;
     const int frac_taken = position_step(std::max(frac, 1));
     set(&Config::z_frac, frac_taken,
-        fmt::format("longest span {:.0f} pixels in {}: {} keep {:.3g} of the range{}{}", pixels, at(way_.depth_span), frac,
-                    share(taken, frac),
+        fmt::format("longest span {:.0f} pixels in {}: {} keep {:.3g} of the range{}{}", pixels, at(way_.depth_span),
+                    frac, share(taken, frac),
                     frac == f.min ? "" : fmt::format(", {} give {:.3g}", frac - 1, share(taken, frac - 1)),
                     step_text(frac, frac_taken)));
     out_.z_error = share(taken, frac_taken);
@@ -154,16 +155,16 @@ class Maker {
     const bool may_be_flat = !needs.smooth || way_.flat_off.value <= limits_.color;
     const double flat = needs.smooth ? way_.flat_off.value : 0;
     const auto feasible = [&] {
-      return may_be_flat ? shade_frac(flat) <= s.max
-                         : shade_frac(color_error(way_.color_span.value, c.max)) <= s.max;
+      return may_be_flat ? shade_frac(flat) <= s.max : shade_frac(color_error(way_.color_span.value, c.max)) <= s.max;
     };
     if (!feasible()) {
       const int asked = out_.color_limit;
       while (!feasible() && out_.color_limit < 255) ++out_.color_limit;
       if (limits_.color_given)
-        throw Error(fmt::format("--max-color {}: no widths keep it, because shares of {} bits fraction are off by more; "
-                                "--max-color {} can be kept",
-                                asked, s.max, out_.color_limit));
+        throw Error(
+            fmt::format("--max-color {}: no widths keep it, because shares of {} bits fraction are off by more; "
+                        "--max-color {} can be kept",
+                        asked, s.max, out_.color_limit));
     }
     set(&Config::channels, needs.color ? 3 : 1, needs.color ? "some colour is not grey" : "all colours are grey");
     if (!needs.smooth) {

@@ -23,8 +23,8 @@ int width_step(int least);
 int class_step(int least);
 
 /// Bound of a stored depth's error in steps of Z_BITS bits, after `pixels` pixels of a span, in a picture of this size:
-/// half a step of the start's and the slope's rounding, 2^-(Z_FRAC + 1) each and the slope's at every pixel; half a step
-/// for the integer part, if there is a fraction; the rounding of plane and vertices (docs/numbers.md, "Depth").
+/// half a step of the start's and the slope's rounding, 2^-(Z_FRAC + 1) each and the slope's at every pixel; half a
+/// step for the integer part, if there is a fraction; the rounding of plane and vertices (docs/numbers.md, "Depth").
 double depth_error(double pixels, int z_frac, int width, int height);
 
 /// The same as a share of the depth range, which has 2^Z_BITS - 3 steps.
@@ -33,8 +33,8 @@ double depth_error_share(double pixels, int z_bits, int z_frac, int width, int h
 /// Bound of a colour's error before its first rounding, in steps of 8 bits, after `pixels` pixels.
 double color_error(double pixels, int color_frac);
 
-/// Whole steps by which a pixel may differ from what a core without end of fractions shows, if colours differ by `drawn`
-/// before their first rounding and shares have `shade_frac` fraction bits.
+/// Whole steps by which a pixel may differ from what a core without end of fractions shows, if colours differ by
+/// `drawn` before their first rounding and shares have `shade_frac` fraction bits.
 double shown_error(double drawn, std::span<const ShareGroup> groups, int shade_frac);
 
 /// A configuration and why it has its values.

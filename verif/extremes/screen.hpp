@@ -9,6 +9,7 @@
 
 #include "frontend/scan.hpp"
 #include "kage/geometry.hpp"
+#include "stimulus/random.hpp"
 
 namespace kage::verif {
 
@@ -48,6 +49,30 @@ class Hits {
 /// Twice the signed area of a triangle.
 inline std::int64_t area2(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c) {
   return (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{b.y} - a.y) * (std::int64_t{c.x} - a.x);
+}
+
+/// Triangles that together are the rectangle from (x0, y0) to (x1, y1), in subpixels: points are strewn into triangles,
+/// which fall in three. All coordinates are multiples of `step`, a power of two up to 128, if the rectangle's are.
+inline std::vector<Outline> triangulate(Random& random, int x0, int y0, int x1, int y1, int points, int step = 1) {
+  std::vector<Outline> t{{{x0, y0}, {x0, y1}, {x1, y1}}, {{x0, y0}, {x1, y1}, {x1, y0}}};
+  for (int i = 0; i < points; ++i) {
+    const auto at = static_cast<std::size_t>(random.in(0, static_cast<int>(t.size()) - 1));
+    const Outline o = t[at];
+    ScreenVertex p;
+    if (random.chance(0.5)) {
+      p = {random.in(x0 / step, x1 / step) * step, random.in(y0 / step, y1 / step) * step};
+    } else {  // a pixel centre within the triangle's box
+      p = {random.in(x0 >> 8, x1 >> 8) * 256 + 128, random.in(y0 >> 8, y1 >> 8) * 256 + 128};
+    }
+    const auto s0 = area2(o[0], o[1], p);
+    const auto s1 = area2(o[1], o[2], p);
+    const auto s2 = area2(o[2], o[0], p);
+    if (!((s0 > 0 && s1 > 0 && s2 > 0) || (s0 < 0 && s1 < 0 && s2 < 0))) continue;  // outside or on an edge
+    t[at] = {o[0], o[1], p};
+    t.push_back({o[1], o[2], p});
+    t.push_back({o[2], o[0], p});
+  }
+  return t;
 }
 
 /// A frame of drawn polygons. Planes are in LSB.

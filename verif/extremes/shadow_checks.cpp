@@ -59,8 +59,8 @@ Outcome picture_is_the_oracles(const FrameGeometry& g, const Config& config) {
   return o;
 }
 
-Outcome volumes_are_closed(const SceneFrame& f, const Config& config, int width, int height, const Context& context) {
-  Look look;
+Outcome volumes_are_closed(const SceneFrame& f, const Config& config, int width, int height, const Context& context,
+                           Look look) {
   look.far_ends = true;
   look.leave_out = false;
   FrameGeometry g = make_geometry(f, config, width, height, {.look = look});

@@ -24,7 +24,7 @@ Outcome picture_is_the_oracles(const FrameGeometry& g, const Config& config);
 /// With near and far caps the toggles of every volume sum to zero at every pixel: volumes are closed. Its items are
 /// pixels of volumes.
 Outcome volumes_are_closed(const SceneFrame& f, const Config& config, int width, int height,
-                           const Context& context = {});
+                           const Context& context = {}, Look look = {});
 
 /// Whether a ray to the light says the same of each pixel, up to near ties.
 Outcome picture_is_the_rays(const SceneFrame& f, const FrameGeometry& g, const Config& config);

@@ -4,7 +4,7 @@
 // double precision, sorted by distance and blended. Nothing of kage's geometry, order or core goes in. The picture's
 // colours are numbers of faces, so that another order shows.
 //
-// Where the picture differs, rays a subpixel away decide: the snap moves what a pixel sees by less than that, so if
+// Where the picture differs, rays a step of the snap away decide: it moves what a pixel sees by less than that, so if
 // none of them sees what the picture shows, it is wrong.
 #pragma once
 
@@ -59,7 +59,9 @@ class LayerTruth {
     double t;
   };
 
-  LayerTruth(const SceneFrame& f, int width, int height) : f_(&f), width_(width), height_(height) {
+  /// `step`: snap_step() of the picture.
+  LayerTruth(const SceneFrame& f, int width, int height, int step = 1)
+      : f_(&f), width_(width), height_(height), step_(step) {
     for (std::uint32_t i = 0; i < f.polygons.size(); ++i) {
       const auto outline = f.outline(f.polygons[i]);
       for (std::size_t k = 1; k + 1 < outline.size(); ++k)
@@ -108,9 +110,9 @@ class LayerTruth {
     return static_cast<std::uint32_t>(color[0] | color[1] << 8 | color[2] << 16);
   }
 
-  /// Whether moving every vertex by half a subpixel can make pixel (x, y) show `shown`. Moved so, a face gains or loses
-  /// no more than what lies within a subpixel of its outline, each face for itself; and depths are those of a place
-  /// within a subpixel.
+  /// Whether moving every vertex by half a step can make pixel (x, y) show `shown`. Moved so, a face gains or loses no
+  /// more than what lies within a step of its outline, each face for itself; and depths are those of a place within a
+  /// step.
   [[nodiscard]] bool possible(int x, int y, std::uint32_t background, std::uint32_t shown) const {
     constexpr int kSide = 5;
     std::vector<std::uint32_t> some;  // faces that some of the rays meet
@@ -147,8 +149,8 @@ class LayerTruth {
     glm::dvec3 a, b, c;
   };
 
-  // One of five places across a subpixel to either side of the centre of pixel x.
-  static double place(int x, int i) { return x + 0.5 + (i - 2) / 512.0; }
+  // One of five places across a step to either side of the centre of pixel x.
+  [[nodiscard]] double place(int x, int i) const { return x + 0.5 + (i - 2) * step_ / 512.0; }
 
   static std::array<int, 3> number(std::uint32_t face) {
     const auto c = face_color(face);
@@ -171,6 +173,7 @@ class LayerTruth {
   const SceneFrame* f_;
   int width_;
   int height_;
+  int step_;  // 1/256 pixel
   std::vector<Piece> pieces_;
 };
 
@@ -186,7 +189,7 @@ inline std::vector<std::uint32_t> draw_numbers(FrameGeometry g, const Config& co
 /// every `step`th line.
 inline LayerCount compare_layers(const SceneFrame& f, const FrameGeometry& g, const Config& config, int step = 1) {
   const auto picture = draw_numbers(g, config);
-  const LayerTruth truth(f, g.width, g.height);
+  const LayerTruth truth(f, g.width, g.height, snap_step(g));
   LayerCount count;
   for (int y = 0; y < g.height; y += step)
     for (int x = 0; x < g.width; x += step) {

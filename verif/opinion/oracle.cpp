@@ -26,45 +26,45 @@ int edge_winding(const ScreenVertex& a, const ScreenVertex& b, std::int64_t px, 
   return area >= 0 ? -1 : 0;
 }
 
-// Whether a point lies within sqrt(1/2) subpixel of the edge from a to b: as far as its points go when both ends move
-// by up to half a subpixel in x and in y. While they stay further away, the winding number round the point cannot
-// change.
-bool near_edge(const ScreenVertex& a, const ScreenVertex& b, std::int64_t px, std::int64_t py) {
+// Whether a point lies within sqrt(1/2) `step` of the edge from a to b: as far as its points go when both ends move by
+// up to half a step in x and in y. While they stay further away, the winding number round the point cannot change.
+bool near_edge(const ScreenVertex& a, const ScreenVertex& b, std::int64_t px, std::int64_t py, std::int64_t step) {
   const std::int64_t ex = std::int64_t{b.x} - a.x;
   const std::int64_t ey = std::int64_t{b.y} - a.y;
   const std::int64_t dx = px - a.x;
   const std::int64_t dy = py - a.y;
   const std::int64_t length2 = ex * ex + ey * ey;
   const std::int64_t along = ex * dx + ey * dy;
-  if (along <= 0) return 2 * (dx * dx + dy * dy) <= 1;
+  const std::int64_t step2 = step * step;
+  if (along <= 0) return 2 * (dx * dx + dy * dy) <= step2;
   if (along >= length2) {
     const std::int64_t fx = px - b.x;
     const std::int64_t fy = py - b.y;
-    return 2 * (fx * fx + fy * fy) <= 1;
+    return 2 * (fx * fx + fy * fy) <= step2;
   }
   const Int128 area = static_cast<Int128>(ex) * dy - static_cast<Int128>(ey) * dx;
-  // The distance is area / sqrt(length2). |area| < 2^50 and length2 < 2^50, so nothing wraps.
-  return 2 * area * area <= length2;
+  // The distance is area / sqrt(length2). |area| < 2^50, length2 < 2^50 and step2 <= 2^8, so nothing wraps.
+  return 2 * area * area <= length2 * step2;
 }
 
-bool near_outline(std::span<const ScreenVertex> outline, int x, int y) {
+bool near_outline(std::span<const ScreenVertex> outline, int x, int y, std::int64_t step) {
   for (std::size_t i = 0; i < outline.size(); ++i)
     if (near_edge(outline[i], outline[(i + 1) % outline.size()], std::int64_t{256} * x + 128,
-                  std::int64_t{256} * y + 128))
+                  std::int64_t{256} * y + 128, step))
       return true;
   return false;
 }
 
 }  // namespace
 
-// A line further than a subpixel outside of an outline cannot meet it, however the snap moved it.
+// A line further than a step of the snap outside of an outline cannot meet it, however the snap moved it.
 bool Oracle::meets_line(std::span<const ScreenVertex> outline) const {
   const int centre = 256 * y_ + 128;
   bool above = false;
   bool below = false;
   for (const ScreenVertex& v : outline) {
-    above = above || v.y <= centre + 1;
-    below = below || v.y >= centre - 1;
+    above = above || v.y <= centre + step();
+    below = below || v.y >= centre - step();
   }
   return above && below;
 }
@@ -106,8 +106,8 @@ bool Oracle::nearer(const ScreenPlane& a, const ScreenPlane& b, int x) const {
 }
 
 // Each depth is off by (k + 1) 2^-(Z_FRAC+1) at most, k <= x, and is then rounded to a whole LSB, by 1/2 at most. If
-// vertices move, what a polygon shows at a pixel is what it showed at most half a subpixel away in x and in y, since
-// the same mix of vertices that now lies there lay there before: that changes its depth by up to (|a| + |b|) / 512.
+// vertices move, what a polygon shows at a pixel is what it showed at most half a step away in x and in y, since the
+// same mix of vertices that now lies there lay there before: that changes its depth by up to (|a| + |b|) step / 512.
 Oracle::Sure Oracle::surely_nearer(const ScreenPlane& a, const ScreenPlane& b, int x, Errors errors) const {
   const Int128 unit = static_cast<Int128>(1) << kPlaneFrac;
   Int128 bound = unit + 2 * (((static_cast<Int128>(x) + 1) << kPlaneFrac) >> (config_.z_frac + 1));
@@ -115,7 +115,7 @@ Oracle::Sure Oracle::surely_nearer(const ScreenPlane& a, const ScreenPlane& b, i
     const auto slope = [](const ScreenPlane& p) {
       return (p.a < 0 ? -Int128{p.a} : Int128{p.a}) + (p.b < 0 ? -Int128{p.b} : Int128{p.b});
     };
-    bound += (slope(a) + slope(b)) / 512 + 1;
+    bound += (slope(a) + slope(b)) * step() / 512 + 1;
   }
   const Int128 gap = depth(b, x, y_, config_.z_bits) - depth(a, x, y_, config_.z_bits);
   if (gap > bound) return Sure::yes;
@@ -124,7 +124,7 @@ Oracle::Sure Oracle::surely_nearer(const ScreenPlane& a, const ScreenPlane& b, i
 
 Oracle::Sure Oracle::surely_covers(std::uint32_t polygon, int x, Errors errors) const {
   const auto outline = g_->outline(g_->polygons[polygon]);
-  if (errors == Errors::depth_and_snap && near_outline(outline, x, y_)) return Sure::maybe;
+  if (errors == Errors::depth_and_snap && near_outline(outline, x, y_, step())) return Sure::maybe;
   return winding(outline, x, y_) != 0 ? Sure::yes : Sure::no;
 }
 
@@ -143,17 +143,23 @@ OraclePixel Oracle::at(int x) const {
       p.surface = static_cast<std::int32_t>(i);
   }
   if (p.surface < 0) return p;
-  const int mask = (1 << config_.dsf_bits) - 1;
-  for (const Volume& v : volumes_) {
-    int sum = near_cap(v, x);
-    for (const Face& f : v.faces) {
-      const ScreenPolygon& face = g_->polygons[f.polygon];
-      if (nearer(face.depth, g_->polygons[static_cast<std::uint32_t>(p.surface)].depth, x))
-        sum += f.w * winding(g_->outline(face), x, y_);
-    }
-    if ((sum & mask) != 0) p.shadowed = true;
-  }
+  for (const Volume& v : volumes_)
+    p.shadowed = p.shadowed || in_volume(v, x, static_cast<std::uint32_t>(p.surface));
   return p;
+}
+
+bool Oracle::in_volume(const Volume& v, int x, std::uint32_t surface) const {
+  const int mask = (1 << config_.dsf_bits) - 1;
+  int sum = near_cap(v, x);
+  for (const Face& f : v.faces) {
+    const ScreenPolygon& face = g_->polygons[f.polygon];
+    if (nearer(face.depth, g_->polygons[surface].depth, x)) sum += f.w * winding(g_->outline(face), x, y_);
+  }
+  return (sum & mask) != 0;
+}
+
+double Oracle::exact_depth(int x, std::uint32_t surface) const {
+  return static_cast<double>(depth(g_->polygons[surface].depth, x, y_, config_.z_bits)) * 0x1p-24;
 }
 
 Verdict Oracle::judge_surface(int x, const OraclePixel& truth, std::int32_t seen) const {
@@ -187,7 +193,7 @@ PossibleShadow Oracle::possible_shadow(int x, std::uint32_t surface, Errors erro
     bool sure = true;
     if (errors == Errors::depth_and_snap)
       for (const NearEdge& e : v.near)
-        if (near_edge(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128)) sure = false;
+        if (near_edge(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128, step())) sure = false;
     for (const Face& f : v.faces) {
       // The surface's own plane is the same numbers on both sides: no error can part them.
       if (f.polygon == surface) continue;

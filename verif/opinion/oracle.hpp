@@ -16,6 +16,9 @@
 
 namespace kage {
 
+/// How far apart the snapped coordinates of a frame are, in 1/256 pixel.
+inline int snap_step(const FrameGeometry& g) { return 1 << (8 - g.sub_bits); }
+
 /// What is true at a pixel.
 struct OraclePixel {
   std::int32_t surface = -1;  ///< nearest drawn polygon, the first in draw order among equals; -1: none
@@ -32,7 +35,7 @@ enum class Verdict : std::uint8_t {
 /// The errors that may part an answer from the truth.
 enum class Errors : std::uint8_t {
   depth,           ///< the core's: sums along a span, and the rounding to an integer
-  depth_and_snap,  ///< also the snap: every vertex moved by up to half a subpixel in x and in y
+  depth_and_snap,  ///< also the snap: every vertex moved by up to half a step of it in x and in y
 };
 
 /// What a pixel may show while every error stays within its bound.
@@ -57,6 +60,17 @@ class Oracle {
   [[nodiscard]] bool covers(std::uint32_t polygon, int x) const;
 
   [[nodiscard]] OraclePixel at(int x) const;
+
+  /// The light samples that volumes keep from `surface`, a drawn polygon that the pixel shows. A shadow is calls of
+  /// `shadowed` with the sample's number, more than one if several of its volumes hold the surface.
+  template <class Shadowed>
+  void shadows(int x, std::uint32_t surface, Shadowed&& shadowed) const {
+    for (const Volume& v : volumes_)
+      if (in_volume(v, x, surface)) shadowed(g_->volumes[v.index].sample);
+  }
+
+  /// The exact depth of a drawn polygon at the pixel, in steps of Z_BITS bits, clamped to what is drawn.
+  [[nodiscard]] double exact_depth(int x, std::uint32_t surface) const;
 
   /// Judge an answer: the surface that was seen, and, if it is the right one, its shadow. Errors of depth only.
   [[nodiscard]] Verdict judge_surface(int x, const OraclePixel& truth, std::int32_t seen) const;
@@ -86,10 +100,12 @@ class Oracle {
   // How an uncertain comparison or test comes out.
   enum class Sure : std::uint8_t { no, maybe, yes };
 
+  [[nodiscard]] bool in_volume(const Volume& v, int x, std::uint32_t surface) const;
   [[nodiscard]] bool nearer(const ScreenPlane& a, const ScreenPlane& b, int x) const;
   [[nodiscard]] Sure surely_nearer(const ScreenPlane& a, const ScreenPlane& b, int x, Errors errors) const;
   [[nodiscard]] Sure surely_covers(std::uint32_t polygon, int x, Errors errors) const;
   [[nodiscard]] int near_cap(const Volume& v, int x) const;
+  [[nodiscard]] int step() const { return snap_step(*g_); }
   [[nodiscard]] bool meets_line(std::span<const ScreenVertex> outline) const;
 
   const FrameGeometry* g_;

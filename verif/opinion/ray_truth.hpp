@@ -2,8 +2,8 @@
 //
 // What rays say of an unsnapped scene, in double precision and by brute force: the surface that a pixel's centre sees,
 // and whether a face other than its own stands between it and the light. Nothing of kage's geometry goes in. Where the
-// picture differs, the oracle says whether moving every snapped vertex by half a subpixel can make the rays' answer of
-// kage's geometry; if not, it is wrong.
+// picture differs, the oracle says whether moving every snapped vertex by half a step of the snap can make the rays'
+// answer of kage's geometry; if not, it is wrong.
 #pragma once
 
 #include <fmt/format.h>
@@ -154,9 +154,9 @@ class RayScene {
   std::vector<bool> opaque_;  // by polygon
 };
 
-/// Whether moving each vertex by half a subpixel in x and in y can change which way a polygon faces. A thin face of a
+/// Whether moving each vertex by half a `step` in x and in y can change which way a polygon faces. A thin face of a
 /// polyhedron that the snap alone turned away is not drawn, and may yet be what a ray sees.
-inline bool either_way(std::span<const ScreenVertex> outline) {
+inline bool either_way(std::span<const ScreenVertex> outline, std::int64_t step) {
   const std::size_t n = outline.size();
   std::int64_t area = 0;   // twice
   std::int64_t moves = 0;  // twice as far as it can change: by its corners one at a time, and by two that move at once
@@ -165,14 +165,14 @@ inline bool either_way(std::span<const ScreenVertex> outline) {
     const ScreenVertex& b = outline[(i + 1) % n];
     const ScreenVertex& c = outline[(i + 2) % n];
     area += std::int64_t{a.x} * b.y - std::int64_t{b.x} * a.y;
-    moves += std::abs(std::int64_t{c.x} - a.x) + std::abs(std::int64_t{c.y} - a.y) + 1;
+    moves += (std::abs(std::int64_t{c.x} - a.x) + std::abs(std::int64_t{c.y} - a.y) + step) * step;
   }
   return 2 * std::abs(area) <= moves;
 }
 
-/// Whether moving each vertex by half a subpixel can bring an edge of a polygon to the centre of pixel (x, y). Where a
+/// Whether moving each vertex by half a `step` can bring an edge of a polygon to the centre of pixel (x, y). Where a
 /// ray passes a closed body's outline it meets, at one depth, a face that is drawn and one that is turned away.
-inline bool at_outline(std::span<const ScreenVertex> outline, int x, int y) {
+inline bool at_outline(std::span<const ScreenVertex> outline, int x, int y, std::int64_t step) {
   const std::int64_t px = 256 * std::int64_t{x} + 128;
   const std::int64_t py = 256 * std::int64_t{y} + 128;
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -181,10 +181,11 @@ inline bool at_outline(std::span<const ScreenVertex> outline, int x, int y) {
     const std::int64_t bx = b.x - std::int64_t{a.x};
     const std::int64_t by = b.y - std::int64_t{a.y};
     const std::int64_t side = bx * (py - a.y) - by * (px - a.x);
-    // The edge's vector moves by a whole subpixel, its start by half of one; the last term is both at once.
-    const std::int64_t moves = 2 * (std::abs(px - a.x) + std::abs(py - a.y)) + (std::abs(bx) + std::abs(by)) + 2;
-    const auto within = [](std::int64_t p, std::int64_t u, std::int64_t v) {
-      return p >= std::min(u, v) - 1 && p <= std::max(u, v) + 1;
+    // The edge's vector moves by a whole step, its start by half of one; the last term is both at once.
+    const std::int64_t moves =
+        (2 * (std::abs(px - a.x) + std::abs(py - a.y)) + std::abs(bx) + std::abs(by) + 2 * step) * step;
+    const auto within = [step](std::int64_t p, std::int64_t u, std::int64_t v) {
+      return p >= std::min(u, v) - step && p <= std::max(u, v) + step;
     };
     if (2 * std::abs(side) <= moves && within(px, a.x, b.x) && within(py, a.y, b.y)) return true;
   }
@@ -197,7 +198,7 @@ inline bool possible_face(const Oracle& oracle, const FrameGeometry& g, int x, i
   for (std::uint32_t i = 0; i < g.polygons.size(); ++i) {
     if (g.polygons[i].source != face) continue;
     const auto outline = g.outline(g.polygons[i]);
-    if (i >= g.drawn && !either_way(outline) && !at_outline(outline, x, y)) continue;
+    if (i >= g.drawn && !either_way(outline, snap_step(g)) && !at_outline(outline, x, y, snap_step(g))) continue;
     if (oracle.possible_surface(x, static_cast<std::int32_t>(i), Errors::depth_and_snap)) return true;
   }
   return false;

@@ -20,8 +20,8 @@ struct CellCount {
 
 struct Synthesis {
   CellCount cells;
-  std::string yosys;    ///< as `yosys -V` says it
-  double seconds = 0;   ///< that it took; 0: the counts were kept
+  std::string yosys;   ///< as `yosys -V` says it
+  double seconds = 0;  ///< that it took; 0: the counts were kept
 };
 
 /// Counts the cells of a core on an ECP5 by `yosys` of PATH, or of $YOSYS. Counts are kept in

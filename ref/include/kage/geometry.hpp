@@ -26,6 +26,9 @@ namespace kage {
 inline constexpr int kMaxSize = 32766;
 /// Limit of a snapped coordinate, in pixels.
 inline constexpr int kGuard = 32767;
+/// Least and most bits of a snapped coordinate's fraction: Look::sub_bits.
+inline constexpr int kLeastSubBits = 4;
+inline constexpr int kMostSubBits = 8;  ///< all that a coordinate has
 /// D of a plane, as a power of two.
 inline constexpr int kPlaneFrac = 24;
 
@@ -156,6 +159,7 @@ struct FrameGeometry {
   /// The same by class and light: entry (class - 1) LIGHTS + light. Empty without table.
   std::vector<std::array<std::uint32_t, 3>> shares;
   std::vector<std::uint8_t> sample_light;  ///< of each light sample its light; samples of a light are consecutive
+  int sub_bits = kMostSubBits;             ///< Look::sub_bits: coordinates are multiples of 2^(8 - sub_bits)
   std::vector<ScreenVertex> vertices;      ///< of all outlines
   /// First the opaque drawn ones, in draw order, then other faces of volumes, then translucent ones.
   std::vector<ScreenPolygon> polygons;
@@ -208,6 +212,9 @@ struct Look {
   std::uint64_t seed = 1;                              ///< of the samples' pattern
   /// Normals that a light table tells apart, 1 .. kMaxClasses; fewer if it has no room for those in use.
   int classes = 1024;
+  /// Bits of a snapped coordinate's fraction, kLeastSubBits .. kMostSubBits: positions are rounded half up to
+  /// 2^-sub_bits pixel. They stay 16.8 fixed point; below 8, their last bits are 0.
+  int sub_bits = kMostSubBits;
 };
 
 /// Keeps the visibility order of a scene's translucent faces from frame to frame, so that what does not move is put in

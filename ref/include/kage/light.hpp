@@ -17,12 +17,14 @@ inline constexpr int kMaxSamples = 255;
 /// Most normals that a light table tells apart.
 inline constexpr int kMaxClasses = 2047;
 
-/// The points that stand for a light, spread evenly over its shape: the disc by a golden spiral, the rectangle by the
-/// lattice of the golden ratio, the ball's surface by a golden spiral from pole to pole. The same on every machine.
-/// [Matsumoto, section 6.]
+/// The points that stand for a light, so that the share of them which an edge keeps out, straight and anywhere, is
+/// nearly the share of the light that it keeps out. On a disc they lie on a golden spiral; on a rectangle on a lattice
+/// after the golden ratio, of which each of `samples` columns and rows of equal width has one; within a ball so that
+/// from every direction they are spread evenly over the disc that is seen. docs/lights.md, "Samples", says how near,
+/// and why. The same on every machine. [Matsumoto, section 6.]
 /// @param light any light
 /// @param samples 1 .. kMaxSamples
-/// @param seed turns or shifts the pattern
+/// @param seed turns the pattern of a disc or a ball, shifts that of a rectangle
 /// @return a point or directional light's own one; of another its middle if `samples` is 1, else that many
 std::vector<LightPoint> light_points(const Light& light, int samples, std::uint64_t seed);
 

@@ -64,14 +64,6 @@ struct PlannedScene {
   DrawOptions draw;                    ///< how; frames 0: as many as the scene has
 };
 
-/// How a plan is made.
-struct PlanOptions {
-  PlanLimits limits = {};                   ///< what may be wrong
-  Prefer prefer = Prefer::area;             ///< which of several is taken
-  std::optional<PlanClock> clock = {};      ///< what it has to keep up with
-  std::function<void(double)> progress{};   ///< called with the share that is done; what it throws ends the plan
-};
-
 /// Why a parameter has its value.
 struct PlanReason {
   std::string_view parameter;  ///< its name
@@ -79,22 +71,33 @@ struct PlanReason {
   std::string text;            ///< one line: what asks for it, where, and what one less would break
 };
 
+/// How a plan is made.
+struct PlanOptions {
+  PlanLimits limits = {};                  ///< what may be wrong
+  Prefer prefer = Prefer::area;            ///< which of several is taken
+  std::optional<PlanClock> clock = {};     ///< what it has to keep up with
+  std::function<void(double)> progress{};  ///< called with the share that is done; what it throws ends the plan
+  /// Called for each way to draw shadows with the widths that the inequalities give. It may put lesser ones in their
+  /// place, with their reasons (kage plan --guarantee measured), that are legal and draw the scenes.
+  std::function<void(Config& widths, std::vector<PlanReason>& reasons)> lower{};
+};
+
 /// What a configuration costs for the planned frames.
 struct PlanCost {
-  std::uint64_t words = 0;         ///< of all frames
-  std::uint64_t clocks = 0;        ///< of all frames, by design (docs/rtl.md, "Clocks")
-  std::uint64_t worst_line = 0;    ///< clocks of the line that takes most
-  PlanPlace worst_at;              ///< that line
-  double needed_line = 0;          ///< clocks that a line of a display must have, the two lines of the way out used
-  PlanPlace needed_at;             ///< the first of the lines that ask for it
-  int needed_lines = 0;            ///< how many those are
-  double luts = 0;                 ///< look-up tables of an ECP5, estimated
-  double flip_flops = 0;           ///< estimated
-  double luts_off = 0;             ///< how far the estimate of look-up tables is off, as a share, at most
-  std::uint64_t ram_bits = 0;      ///< of its memories
-  int bits_per_pixel = 0;          ///< of a pixel's state
-  double golden_seconds = 0;       ///< wall time that the golden core took for all frames; differs from run to run
-  std::optional<bool> meets_clock; ///< whether it keeps up with the display; none if no clock was given
+  std::uint64_t words = 0;          ///< of all frames
+  std::uint64_t clocks = 0;         ///< of all frames, by design (docs/rtl.md, "Clocks")
+  std::uint64_t worst_line = 0;     ///< clocks of the line that takes most
+  PlanPlace worst_at;               ///< that line
+  double needed_line = 0;           ///< clocks that a line of a display must have, the two lines of the way out used
+  PlanPlace needed_at;              ///< the first of the lines that ask for it
+  int needed_lines = 0;             ///< how many those are
+  double luts = 0;                  ///< look-up tables of an ECP5, estimated
+  double flip_flops = 0;            ///< estimated
+  double luts_off = 0;              ///< how far the estimate of look-up tables is off, as a share, at most
+  std::uint64_t ram_bits = 0;       ///< of its memories
+  int bits_per_pixel = 0;           ///< of a pixel's state
+  double golden_seconds = 0;        ///< wall time that the golden core took for all frames; differs from run to run
+  std::optional<bool> meets_clock;  ///< whether it keeps up with the display; none if no clock was given
 };
 
 /// A configuration that serves.
@@ -106,16 +109,16 @@ struct PlanCandidate {
 
 /// A plan.
 struct Plan {
-  Config config;                        ///< what was chosen
-  std::vector<PlanReason> reasons;      ///< of every parameter, in the order of the definition file
-  PlanCost cost;                        ///< of `config`
-  std::vector<PlanCandidate> others;    ///< of each other way the configuration that would have been taken
-  PlanCandidate smallest;               ///< the one that `area` takes: what speed costs more stands against it
-  std::uint64_t pixels = 0;             ///< of all planned frames
-  int frames = 0;                       ///< of all scenes
-  std::array<int, 2> size{};            ///< width and height of the largest picture
-  PlanLimits limits;                    ///< as kept
-  double z_error = 0;                   ///< bound of the depth's error with `config`, as a share of the range
+  Config config;                      ///< what was chosen
+  std::vector<PlanReason> reasons;    ///< of every parameter, in the order of the definition file
+  PlanCost cost;                      ///< of `config`
+  std::vector<PlanCandidate> others;  ///< of each other way the configuration that would have been taken
+  PlanCandidate smallest;             ///< the one that `area` takes: what speed costs more stands against it
+  std::uint64_t pixels = 0;           ///< of all planned frames
+  int frames = 0;                     ///< of all scenes
+  std::array<int, 2> size{};          ///< width and height of the largest picture
+  PlanLimits limits;                  ///< as kept
+  double z_error = 0;                 ///< bound of the depth's error with `config`, as a share of the range
 };
 
 /// Plans. Every frame is made once for each way to draw shadows, and once more to be costed; so the time is a few times

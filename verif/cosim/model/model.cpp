@@ -206,6 +206,14 @@ Model find_model(const Config& config, const ModelOptions& options) {
   return {.library = cache.library(key), .build_seconds = waiting.seconds(), .damage = damage};
 }
 
+bool has_model(const Config& config, const ModelOptions& options) {
+  const fs::path data = data_directory();
+  const ModelSources sources = model_sources(data, options);
+  const std::optional<std::string> found =
+      ModelCache().damage(model_key(data, sources, config, options, model_tool_versions(options)));
+  return found && found->empty();
+}
+
 std::vector<std::string> model_tools() {
   return lines_of({.verilator = verilator_version(), .cxx = {}, .compiler = compiler_version(), .yosys = {}});
 }

@@ -39,6 +39,9 @@ struct ModelOptions {
 /// same one build it once. Throws Error that names the log when the build fails.
 Model find_model(const Config& config, const ModelOptions& options = {});
 
+/// Whether find_model() would find it in the cache.
+bool has_model(const Config& config, const ModelOptions& options = {});
+
 /// The names that ModelOptions::fault takes, sorted.
 std::vector<std::string> fault_names();
 

@@ -32,6 +32,7 @@ void keys(V& v, Of<OptionsRecord>) {
   v("cull", &R::cull);
   v("samples", &R::samples);
   v("classes", &R::classes);
+  v("sub_bits", &R::sub_bits);
 }
 
 template <class V>

@@ -115,6 +115,14 @@ json j.json 'j["spans"]>0'
 expect 0 "$kage" stream plain.gltf "${small[@]}" --out plain.kage
 trouble "--cull" "$kage" render plain.kage --cull --out o
 
+# --sub-bits: fewer bits move edges, for the RTL as for the golden core; all of them are the default.
+for bits in 4 8; do
+  expect 0 "$kage" stream edges "${small[@]}" --sub-bits $bits --out bits$bits.kage
+done
+expect 0 "$kage" stream edges "${small[@]}" --out bits.kage
+cmp -s bits.kage bits8.kage || fail "8 bits of a subpixel are not the default"
+cmp -s bits.kage bits4.kage && fail "4 bits of a subpixel move no edge"
+
 # An unlit square shows its colour: sRGB of 0.5 and 0.25.
 quad unlit.gltf '{"materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1]}, "extensions": {"KHR_materials_unlit": {}}}]}'
 quad lamp.gltf '{"materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [0.5, 0.25, 1]}]}'

@@ -64,6 +64,15 @@ PY
 trouble 'later.json: no report of kage cosim: schema is "kage.cosim/2", and this kage reads kage.cosim/1' "$kage" merge later.json part2.json
 trouble 'none.json: no report of kage cosim: it names no schema' "$kage" merge none.json part2.json
 
+# Plans: bound, measured, for a display; areas, which are counted in cli/area.
+said 0 plan courtyard glass --size 64x48 --frames 1
+json "$last" 'j["meets_clock"] is None and j["limits"]["max_wrong"] is None'
+said 0 plan courtyard --size 64x48 --frames 1 --clock 50 --prefer speed
+json "$last" 'j["meets_clock"] is True and j["cost"]["worst_line_at"]["frame"] == 0'
+said 0 plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 5000
+json "$last" 'j["limits"]["max_wrong"] == 5000 and "measured: " in j["reasons"]["Z_BITS"]'
+said 0 area tiny default --estimate
+
 # Trouble has no JSON.
 expect 2 "$kage" cosim nowhere.obj --json trouble.json
 [ ! -e trouble.json ] || fail "trouble leaves JSON"

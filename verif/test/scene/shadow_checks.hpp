@@ -14,8 +14,8 @@ inline void judge_all(const SceneFrame& f, const Config& config, int width, int 
 }
 
 /// With near and far caps the toggles of every volume sum to zero at every pixel: volumes are closed.
-inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, int height) {
-  holds(volumes_are_closed(f, config, width, height));
+inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, int height, const Look& look = {}) {
+  holds(volumes_are_closed(f, config, width, height, Context{}, look));
 }
 
 /// Where the pictures of two geometries of a frame differ, one of them is a near tie. Returns how many pixels do.

@@ -70,7 +70,8 @@ report::SceneRecord some_scene(const std::string& name) {
                .order = "exact",
                .alpha = 1.0 / 3,
                .samples = 4,
-               .classes = 16};
+               .classes = 16,
+               .sub_bits = 6};
   s.config_name = "default";
   s.config.lanes = 4;
   s.seed = ~std::uint64_t{0};

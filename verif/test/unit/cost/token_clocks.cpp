@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clocks of a frame by design, line by line: the numbers are counted by hand from docs/rtl.md, "Clocks".
-#include "cosim/phases.hpp"
+#include "cost/token_clocks.hpp"
 
 #include <vector>
 
@@ -8,7 +8,6 @@
 #include "test/support/catch.hpp"
 
 using namespace kage;
-using namespace kage::cosim;
 
 namespace {
 

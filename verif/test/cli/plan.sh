@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage plan from outside: its file runs, its reasons are there, what cannot be is refused in one line; the choice without
+# --config depends on nothing but scene and look; --config plan and kage model --plan.
+. "$(dirname "$0")/common.bash"
+
+# The plan's file is a configuration, and the RTL draws what the golden core draws by it.
+"$kage" plan courtyard --size 64x48 --frames 2 >mine.yaml || fail "no plan"
+grep -q '^# kage plan courtyard: 2 frames of up to 64x48, --prefer area$' mine.yaml || fail "$(head -1 mine.yaml)"
+[ "$(grep -cE '^[A-Z_]+: [0-9]+ +# .' mine.yaml)" = "$(grep -cE '^[A-Z_]+:' mine.yaml)" ] || fail "a parameter without a reason"
+grep -qE '^Z_FRAC: 8 +# longest span [0-9]+ pixels in frame [01], line [0-9]+: [0-9]+ keep .* of the range, [0-9]+ give ' mine.yaml || fail "$(grep Z_FRAC mine.yaml)"
+grep -q '^# instead, parity' mine.yaml || fail "no other way: $(cat mine.yaml)"
+expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --config mine.yaml --no-report --out out
+grep -q '^same: 2 frames' stdout || fail "$(cat stdout)"
+
+# Twice the same words; and the same as --config plan, whose model is there by now.
+"$kage" plan courtyard --size 64x48 --frames 2 >again.yaml
+cmp mine.yaml again.yaml || fail "a plan differs from run to run"
+expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config mine.yaml --out a.kage
+expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config plan --out b.kage
+grep -q 'configuration: plan (LANES 1); its RTL model was there' stdout || fail "$(cat stdout)"
+expect 0 "$kage" diff a.kage b.kage
+expect 0 "$kage" model --plan courtyard --size 64x48 --frames 2
+grep -q '^plan of courtyard: .*(was there)$' stdout || fail "$(cat stdout)"
+expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --config plan --no-report --out out
+
+# Without --config: never by --frames, and what is looked for in the list.
+for frames in 1 2 8; do
+  expect 0 "$kage" render canopy --size 640x480 --frames $frames --out out
+  grep -q '^canopy: configuration: meshes$' stdout || fail "$(cat stdout)"
+done
+expect 0 "$kage" render courtyard --frames 1 --out out
+grep -q '^courtyard: configuration: default$' stdout || fail "$(cat stdout)"
+expect 0 "$kage" info canopy
+grep -qE '^  meshes takes [0-9]+ clocks for the first frame, and some [0-9]+ look-up tables$' stdout || fail "$(cat stdout)"
+for case in "three-lights --samples 64" "courtyard --size 4096x16" "glass --size 8192x8" "penumbra --size 32766x4"; do
+  # shellcheck disable=SC2086
+  expect 0 "$kage" render $case --frames 1 --out out
+  grep -q 'configuration: widest$' stdout || fail "$case: $(cat stdout)"
+done
+
+# A display: what is enough, what is not.
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50
+grep -q '^# a display of 60 frames a second and 51 lines each, blanking included, at 50 MHz: the core keeps up$' stdout || fail "$(cat stdout)"
+expect 0 "$kage" plan courtyard --size 640x480 --frames 1 --device ecp5-25f --fps 30
+grep -q ' and 525 lines each' stdout || fail "$(cat stdout)"
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 0.01
+grep -q 'no core keeps up, this one comes nearest$' stdout || fail "$(cat stdout)"
+
+# Measured: fewer bits for whom wrong pixels do not matter.
+"$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 3000 >few.yaml || fail "no measured plan"
+[ "$(sed -n 's/^Z_BITS: \([0-9]*\).*/\1/p' few.yaml)" -lt 24 ] || fail "$(grep Z_BITS few.yaml)"
+grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ give ' few.yaml || fail "$(grep Z_BITS few.yaml)"
+
+trouble "--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured" \
+  "$kage" plan courtyard --max-wrong 3
+trouble "--max-z 1e-09: with 28 bits of depth the bound is " "$kage" plan courtyard --size 64x48 --frames 1 --max-z 1e-9
+trouble "--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says how fast the core is" \
+  "$kage" plan courtyard --fps 30
+trouble "--device up9k: no core was placed there; there are ecp5-25f" "$kage" plan courtyard --device up9k
+trouble "nowhere.obj" "$kage" plan nowhere.obj
+trouble "random: random frames are for" "$kage" plan random
+trouble "a.kage: a stream has its configuration already" "$kage" plan a.kage
+trouble "--max-color 1: no widths keep it, because shares of 16 bits fraction are off by more; --max-color 2 can be kept" "$kage" plan three-lights --size 64x48 --frames 1 --max-color 1
+done_testing

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Plans of every built-in scene and of four meshes: what a bound promises holds against the oracle, and every width one
+// less breaks its inequality.
+#include "kage/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "contract/config_text.hpp"
+#include "cost/cells.hpp"
+#include "cost/line_clocks.hpp"
+#include "plan/demand.hpp"
+#include "plan/widths.hpp"
+#include "test/scene/planned_scenes.hpp"
+#include "test/support/catch.hpp"
+#include "trade/measured_plan.hpp"
+
+namespace kage::verif {
+namespace {
+
+/// The longest span of a plan's frames with another configuration's words, counted here once more.
+double longest(const PlannedScene& scene, const Config& config) {
+  double most = 0;
+  SceneFrames frames(scene.scene, config, scene.draw);
+  for (int i = 0; i < frames.frames(); ++i) {
+    const auto words = frames.words(i);
+    const Layout layout(config);
+    TokenWalk walk(layout, words);
+    for (auto at = walk.next(); !at.empty(); at = walk.next()) {
+      const Token t = decode(config, layout, at);
+      if (t.kind == Kind::OP || t.kind == Kind::SP || t.kind == Kind::TP)
+        most = std::max(most, static_cast<double>(t.span.xr - t.span.xl));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("a bound holds against the oracle, and one bit less breaks its inequality") {
+  for (const std::string& input : inputs()) {
+    CAPTURE(input);
+    const std::array scenes{small(input, 96, 72, 2)};
+    for (const double limit : {1.0 / ((1 << 24) - 3), 1e-4}) {
+      PlanOptions options;
+      options.limits.z = limit;
+      const Plan plan = make_plan(scenes, options);
+      CAPTURE(to_yaml(plan));
+      CHECK(plan.reasons.size() == kParams.size());
+      CHECK(plan.z_error <= limit);
+
+      // By the oracle: no depth off by more, no colour off by more.
+      trade::MeasuredPlan measured(scenes, {std::nullopt, limit, plan.limits.color}, [] {});
+      const auto accuracy = measured.measure(plan.config, true);
+      REQUIRE(accuracy);
+      CHECK(accuracy->z_max <= plan.z_error);
+      CHECK(accuracy->color_max <= plan.limits.color);
+
+      // One less breaks the inequality, with the longest span counted anew: fragments may have a longer parent.
+      const double pixels = std::max(longest(scenes[0], plan.config), 1.0);
+      const double room = std::ldexp(1.0, plan.config.z_bits) - 3;
+      const int frac = before(reason(plan, "Z_FRAC").text, " keep ");
+      const auto error = [&](int f, double p) { return p * std::ldexp(0.5, -f) + (f > 0 ? 0.5 : 0.0); };
+      CHECK(error(frac, pixels) / room <= limit);
+      if (frac > 0) {
+        const bool parents = plan.config.translucency > 0;
+        CHECK((error(frac - 1, parents ? 96 : pixels) + 2 * 0x1p-12) / room > limit);
+      }
+      const int bits = before(reason(plan, "Z_BITS").text, " keep ");
+      if (bits > 4) CHECK((0.5 + pixels * 0x1p-17 + 2 * 0x1p-12) / (std::ldexp(1.0, bits - 1) - 3) > limit);
+    }
+  }
+}
+
+TEST_CASE("a plan's file is read as what was planned, and its clocks are those of its stream") {
+  for (const char* input : {"courtyard", "glass", "three-lights"}) {
+    CAPTURE(input);
+    const std::array scenes{small(input, 80, 60, 2)};
+    const Plan plan = make_plan(scenes, {});
+    CHECK(config_from_text(to_yaml(plan), "plan") == plan.config);
+    LineClockCounter counter(plan.config);
+    SceneFrames frames(scenes[0].scene, plan.config, scenes[0].draw);
+    std::uint64_t words = 0;
+    for (int i = 0; i < frames.frames(); ++i) {
+      const auto all = frames.words(i);
+      words += all.size();
+      counter.add(i, all);
+    }
+    CHECK(plan.cost.words == words);
+    CHECK(plan.cost.clocks == counter.sums().clocks);
+    CHECK(plan.cost.worst_line == counter.sums().worst.clocks);
+    CHECK(plan.cost.needed_line == counter.sums().need.clocks);
+  }
+}
+
+TEST_CASE("preferences are kept: no other way or arrangement has fewer clocks, look-up tables or words") {
+  const std::array scenes{small("courtyard", 160, 120, 1)};
+  const auto of = [&](Prefer prefer) {
+    PlanOptions options;
+    options.prefer = prefer;
+    return make_plan(scenes, options);
+  };
+  const Plan speed = of(Prefer::speed);
+  const Plan area = of(Prefer::area);
+  const Plan words = of(Prefer::words);
+  CHECK(static_cast<double>(speed.cost.clocks) <=
+        1.01 * static_cast<double>(std::min(area.cost.clocks, words.cost.clocks)));
+  CHECK(area.cost.luts <= std::min(speed.cost.luts, words.cost.luts));
+  CHECK(words.cost.words <= std::min(area.cost.words, speed.cost.words));
+  CHECK(speed.smallest.config == area.config);
+  for (const Plan* p : {&speed, &area, &words})
+    for (const PlanCandidate& other : p->others) CHECK(other.cost.words > 0);
+}
+
+TEST_CASE("a plan takes no more of an FPGA than the named configuration of the same way") {
+  for (const std::string& input : inputs()) {
+    CAPTURE(input);
+    const std::array scenes{small(input, 96, 72, 1)};
+    const Plan plan = make_plan(scenes, {});
+    DrawOptions draw = scenes[0].draw;
+    const Config named = choose_config(*scenes[0].scene, draw).config;
+    const Cells cells = estimated_cells(named);
+    CHECK(plan.cost.flip_flops <= cells.flip_flops);
+    CHECK(plan.cost.ram_bits <= cells.ram_bits);
+    if (plan.config.dsf_bits <= named.dsf_bits) CHECK(plan.cost.bits_per_pixel <= cells.bits_per_pixel);
+  }
+}
+
+TEST_CASE("a display's pace decides the lanes") {
+  const std::array scenes{small("courtyard", 320, 240, 1)};
+  PlanOptions options;
+  options.clock = PlanClock{};
+  options.clock->mhz = 25;
+  options.clock->total_lines = 262;
+  const Plan slow = make_plan(scenes, options);
+  CHECK(slow.cost.meets_clock.value());
+  const double line = 25e6 / (60 * 262);
+  CHECK(slow.cost.needed_line <= line);
+  options.clock->mhz = 7;
+  const Plan fast = make_plan(scenes, options);
+  CHECK(fast.cost.meets_clock == (fast.cost.needed_line <= 7e6 / (60 * 262)));
+  CHECK(fast.cost.needed_line <= slow.cost.needed_line);
+  CHECK(fast.config.lanes >= slow.config.lanes);
+  options.clock->mhz = 0.1;
+  CHECK_FALSE(make_plan(scenes, options).cost.meets_clock.value());
+}
+
+TEST_CASE("a core for several scenes draws each of them") {
+  std::vector<PlannedScene> scenes;
+  for (const char* input : {"courtyard", "glass", "penumbra"}) scenes.push_back(small(input, 64, 48, 1));
+  const Plan plan = make_plan(scenes, {});
+  for (const PlannedScene& s : scenes) {
+    const SceneFrame frame = s.scene->frame(0, 1);
+    CHECK(lacks(plan.config, needs_of(*s.scene, frame, 64, 48)).empty());
+    SceneFrames frames(s.scene, plan.config, s.draw);
+    CHECK_NOTHROW(frames.words(0));
+  }
+  CHECK(plan.config.translucency == 1);
+  CHECK(plan.config.count_bits == 4);
+}
+
+}  // namespace kage::verif

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trade/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "contract/derived.hpp"
+#include "kage/core.hpp"
+#include "kage/frontend.hpp"
+
+namespace kage::trade {
+namespace {
+
+/// Takes the state of every pixel right before its line ends.
+class StateTaker : public CoreObserver {
+ public:
+  StateTaker(const Config& config, DrawnFrame& out) : config_(config), out_(&out) {}
+
+  void before(std::uint32_t /*index*/, const Token& token, std::span<const std::uint32_t> /*words*/,
+              const LineView& line) override {
+    // RESOLVE uses up a single flag or count; a line without it ends with what it has.
+    const bool resolves = token.kind == Kind::RESOLVE;
+    if (!resolves && token.kind != Kind::EOL) return;
+    const auto from = static_cast<std::size_t>(y_) * static_cast<std::size_t>(out_->width);
+    for (int x = 0; x < out_->width; ++x) {
+      const PixelState p = line.pixel(x);
+      const std::size_t at = from + static_cast<std::size_t>(x);
+      out_->z[at] = p.z;
+      if (resolves) out_->counts[at] = counts_of(p, line.bias());
+    }
+    if (!resolves) ++y_;
+  }
+
+ private:
+  [[nodiscard]] std::array<std::uint8_t, 8> counts_of(const PixelState& p, std::uint32_t bias) const {
+    std::array<std::uint8_t, 8> counts{};
+    if (p.normal_class == 0 || p.z == derived::clear_depth(config_)) return counts;
+    if (config_.count_bits > 0) {
+      for (std::size_t l = 0; l < counts.size(); ++l) counts[l] = static_cast<std::uint8_t>(p.counts[l]);
+    } else {
+      const bool dark = config_.fsf > 0 ? p.fsf != 0 : ((p.dsf + bias) & derived::most_dsf(config_)) != 0;
+      counts[0] = dark ? 1 : 0;
+    }
+    return counts;
+  }
+
+  Config config_;
+  DrawnFrame* out_;
+  int y_ = 0;  // the line at hand
+};
+
+/// The words of a geometry, and the golden core's picture of them.
+void run(const FrameGeometry& g, const Config& config, int threads, CoreObserver* observer, const LineSink& sink) {
+  GoldenCore core(config);
+  core.observe(observer);
+  make_frame(g, config, 0, [&](std::span<const std::uint32_t> words) { core.feed(words, sink); }, {.threads = threads});
+  if (core.finish(sink).error != ErrorCode::NONE)
+    throw std::logic_error("the golden core refuses what the front end made");
+}
+
+/// Which face each pixel shows: drawn again with the number of each face as its colour, without shadows and layers,
+/// which do not change what is in front. All else is the configuration's own, the order of drawing too, which decides
+/// between equal depths.
+void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions& options, DrawnFrame& out) {
+  Config plain = config;
+  plain.channels = 3;
+  FrameGeometry g = make_geometry(frame, plain, options.width, options.height, {.look = options.look});
+  g.background = 0xFFFFFF;
+  g.fragments.clear();
+  g.volumes.clear();
+  g.shares.clear();
+  for (std::uint32_t i = 0; i < g.drawn; ++i) {
+    ScreenPolygon& p = g.polygons[i];
+    p.lit = false;
+    p.normal_class = 0;
+    p.color_planes = -1;
+    for (unsigned c = 0; c < 3; ++c) p.color[c] = static_cast<std::uint8_t>(p.source >> (8 * c));
+  }
+  std::size_t at = 0;
+  run(g, plain, options.threads, nullptr, [&](int, std::span<const std::uint8_t> p) {
+    for (std::size_t i = 0; i + 2 < p.size(); i += 3, ++at) {
+      const std::uint32_t face =
+          p[i] | static_cast<std::uint32_t>(p[i + 1]) << 8 | static_cast<std::uint32_t>(p[i + 2]) << 16;
+      out.face[at] = face == 0xFFFFFF ? kNothing : face;
+    }
+  });
+}
+
+}  // namespace
+
+DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions& options) {
+  DrawnFrame out;
+  out.width = options.width;
+  out.height = options.height;
+  const std::size_t pixels = static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height);
+  out.face.resize(pixels, kNothing);
+  out.z.resize(pixels);
+  out.counts.resize(pixels);
+  out.color.resize(pixels);
+  take_faces(frame, config, options, out);
+  const FrameGeometry g = make_geometry(frame, config, options.width, options.height, {.look = options.look});
+  StateTaker taker(config, out);
+  const auto channels = static_cast<std::size_t>(config.channels);
+  std::size_t at = 0;
+  run(g, config, options.threads, &taker, [&](int, std::span<const std::uint8_t> p) {
+    for (std::size_t i = 0; i + channels <= p.size(); i += channels, ++at)
+      for (std::size_t c = 0; c < 3; ++c) out.color[at][c] = p[i + (channels == 3 ? c : 0)];
+  });
+  return out;
+}
+
+Accuracy& Accuracy::operator+=(const Accuracy& o) {
+  pixels += o.pixels;
+  visible_wrong += o.visible_wrong;
+  shadow_wrong += o.shadow_wrong;
+  z_max = std::max(z_max, o.z_max);
+  color_max = std::max(color_max, o.color_max);
+  return *this;
+}
+
+double Accuracy::wrong_ppm() const {
+  return pixels == 0 ? 0 : 1e6 * static_cast<double>(visible_wrong + shadow_wrong) / static_cast<double>(pixels);
+}
+
+Accuracy compare(const ScreenTruth& truth, const DrawnFrame& finest, const DrawnFrame& drawn, const Config& config) {
+  Accuracy out;
+  const double range = std::ldexp(1.0, config.z_bits) - 3;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const TruePixel& t = truth.pixels[i];
+    ++out.pixels;
+    if (drawn.face[i] != t.face) {
+      ++out.visible_wrong;
+      continue;
+    }
+    if (t.face != kNothing)
+      out.z_max = std::max(out.z_max, std::abs((static_cast<double>(drawn.z[i]) - 1) / range - t.depth));
+    if (t.lit && config.dsf_bits > 0 && drawn.counts[i] != t.counts) {
+      ++out.shadow_wrong;
+      continue;
+    }
+    if (finest.face[i] != t.face || finest.counts[i] != drawn.counts[i]) continue;
+    for (std::size_t c = 0; c < 3; ++c)
+      out.color_max = std::max(out.color_max, std::abs(int{drawn.color[i][c]} - int{finest.color[i][c]}));
+  }
+  return out;
+}
+
+}  // namespace kage::trade
