@@ -19,8 +19,9 @@ for line in pathlib.Path("docs/testing.md").read_text().splitlines():
 named = {}  # family: ctest names
 tests = pathlib.Path("verif/test")
 for path in sorted(tests.rglob("*.cpp")):
-    for n in re.findall(r'TEST_CASE\(\s*"family (\d+)', path.read_text()):
-        named.setdefault(int(n), set()).add(str(path.relative_to(tests).with_suffix("")))
+    for numbers in re.findall(r'TEST_CASE\(\s*"(?:family|families) ((?:\d+|, | and )+)', path.read_text()):
+        for n in re.findall(r"\d+", numbers):
+            named.setdefault(int(n), set()).add(str(path.relative_to(tests).with_suffix("")))
 for name in re.findall(r"core_test\((famil(?:y|ies)_[0-9_]+)", pathlib.Path("verif/test/rtl/CMakeLists.txt").read_text()):
     for n in re.findall(r"\d+", name):
         named.setdefault(int(n), set()).add("rtl/" + name + "*")
