@@ -67,7 +67,7 @@ class View {
 
   /// The line where l . (ex, ey, 1) = 0, (ex, ey) being a pixel's place in eye space at w = 1 (perspective) or anywhere
   /// (parallel), each coefficient rounded to nearest. Scaled so that the larger of a and b is 2^30: over a picture of
-  /// 2^15 pixels it is off by less than 2^-14 of one.
+  /// 2^15 pixels it is off by less than 2^-16 of one.
   [[nodiscard]] CutLine line(const glm::dvec3& l) const;
 
   /// Whether numbers of `l` that are off by `error` at most leave line(l) within 2^-16 of a pixel of where it belongs,

@@ -35,6 +35,7 @@ struct Errors {
 struct Hit {
   glm::dvec3 point;
   glm::dvec3 normal;
+  glm::dvec3 of_face;  ///< the mean of its corners' normals, by which it has its class
 };
 
 Hit hit(const SceneFrame& f, const Polygon& face, int x, int y) {
@@ -54,15 +55,18 @@ Hit hit(const SceneFrame& f, const Polygon& face, int x, int y) {
   const double s = glm::dot(glm::cross(p, v), n) / nn;
   const double r = glm::dot(glm::cross(u, p), n) / nn;
   glm::dvec3 normal = f.shading[t.shading[0]].normal;
-  if (f.outline(face).size() == 3)
+  glm::dvec3 mean = normal;
+  if (f.outline(face).size() == 3) {
+    mean = f.shading[t.shading[0]].normal + f.shading[t.shading[1]].normal + f.shading[t.shading[2]].normal;
     normal = f.shading[t.shading[0]].normal * (1 - s - r) + f.shading[t.shading[1]].normal * s +
              f.shading[t.shading[2]].normal * r;
-  normal = glm::normalize(normal);
-  return {point, glm::dot(n, direction) > 0 ? -normal : normal};
+  }
+  const double side = glm::dot(n, direction) > 0 ? -1 : 1;
+  return {point, side * glm::normalize(normal), side * glm::normalize(mean)};
 }
 
 /// What the picture of frame `f` is off by, were each light's intensity kept for every pixel.
-void measure(const SceneFrame& f, const Config& config, const Look& look, double radius, Errors& e) {
+void measure(const SceneFrame& f, const Config& config, const Look& look, Errors& e) {
   const FrameGeometry g = make_geometry(f, config, kWidth, kHeight, {.look = look});
   const auto picture = draw(g, config);
   const auto unshadowed = draw(only_sample(g, ~0U), for_one_sample(config));
@@ -71,6 +75,7 @@ void measure(const SceneFrame& f, const Config& config, const Look& look, double
   std::vector<double> samples(f.lights.size(), 0);
   for (const auto l : g.sample_light) ++samples[l];
   const Lighting lighting(f.lights, f.camera.up);
+  const NormalClasses classes(look.classes);
   const View view(f.camera, kWidth, kHeight, config.z_bits, {f.camera.near, 1e3});
   std::vector<ShadowCaster> casters;
   for (const Light& l : f.lights) casters.emplace_back(f, l, view.near_corners(), 1);
@@ -87,19 +92,24 @@ void measure(const SceneFrame& f, const Config& config, const Look& look, double
     const glm::dvec3 to_eye = f.camera.perspective ? f.camera.eye - a : -f.camera.forward;
     for (std::size_t l = 0; l < f.lights.size(); ++l) lit[l] = casters[l].facing(face) * glm::dot(n, to_eye) > 0;
     const auto shares = lighting.shares(at.point, at.normal, lit, false);
+    const glm::dvec3 off_class = at.normal - classes.normal(classes.nearest(at.of_face));
+    const double radius = std::sqrt(glm::dot(off_class, off_class));
     for (unsigned c = 0; c < 3; ++c) {
       double keep = 1;
       double weight = 0.04;
       for (std::size_t l = 0; l < f.lights.size(); ++l) {
         keep -= counts[i][l] / samples[l] * shares[l][static_cast<int>(c)];
-        weight += 0.8 * f.lights[l].color[static_cast<int>(c)] * (counts[i][l] > 0 ? 2 : 1);
+        weight += 0.8 * f.lights[l].color[static_cast<int>(c)];
       }
       const double color = unshadowed[i] >> (8 * c) & 255U;
       const double off = std::abs((picture[i] >> (8 * c) & 255U) - color * keep);
       e.sum += off;
       ++e.count;
       e.worst = std::max(e.worst, off);
-      if (directional) e.share_of_bound = std::max(e.share_of_bound, (off - 0.5) / (color * 2.32 * weight * radius));
+      if (directional)
+        e.share_of_bound = std::max(
+            e.share_of_bound,
+            (off - 0.5) / (color * (2.32 * weight * radius + 0x1p-17 * static_cast<double>(g.sample_light.size()))));
     }
   }
 }
@@ -131,7 +141,7 @@ void table_errors(const char* title, const Scene& scene, bool suns, bool flat) {
       c.class_bits = 11;
       Look look;
       look.classes = classes;
-      measure(f, c, look, 1.36 * 2 / std::sqrt(classes), e);
+      measure(f, c, look, e);
       used = std::max(used, make_geometry(f, c, kWidth, kHeight, {.look = look}).shares.size() /
                                 static_cast<std::size_t>(c.lights));
     }

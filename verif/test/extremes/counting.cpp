@@ -2,6 +2,7 @@
 // Families 21 - 28 with DSF_BITS > 1: casters of any shape as volumes that count.
 #include <cmath>
 
+#include "extremes/shadows.hpp"
 #include "kage/error.hpp"
 #include "opinion/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
@@ -29,52 +30,8 @@ void check(const SceneFrame& f, const Config& config) {
   sums_are_zero(f, config, kWidth, kHeight);
 }
 
-/// Open, inverted and torn casters about the origin, over a floor that is a caster too.
-SceneFrame torn_scene(Random& random) {
-  SceneFrame f;
-  add_solid(f, box_solid(), {0, -2.5, 0}, {5, 0.2, 5}, Turn{}, {1, 1, 1});
-  const int count = random.in(1, 3);
-  for (int i = 0; i < count; ++i) {
-    Solid open = random.chance(0.5) ? box_solid() : octahedron_solid();
-    open.faces.pop_back();
-    for (auto& face : open.faces)
-      if (random.chance(0.3)) std::swap(face[0], face[1]);        // inverted
-    if (random.chance(0.5)) open.faces.push_back({0, 3, 5});      // a fin: edges with three faces
-    if (random.chance(0.3)) open.faces.push_back(open.faces[0]);  // the same face twice
-    if (random.chance(0.3)) {
-      // A T-junction: a vertex within an edge of its neighbour.
-      const glm::dvec3 middle = (open.vertices[0] + open.vertices[1]) * 0.5;
-      open.vertices.push_back(middle);
-      open.faces.push_back({0, static_cast<std::uint32_t>(open.vertices.size() - 1), 3});
-    }
-    add_solid(f, open, {random.real(-1, 1), random.real(-0.5, 1), random.real(-1, 1)},
-              {random.real(0.4, 1.2), random.real(0.4, 1.2), random.real(0.4, 1.2)}, random_turn(random), {1, 1, 1},
-              false, false);
-  }
-  look_at(f.camera, {random.real(-4, 4), random.real(0, 4), random.real(2, 5)}, {0, -1, 0});
-  f.camera.near = random.real(0.02, 2.0);
-  f.lights[0].directional = random.chance(0.5);
-  f.lights[0].direction = glm::normalize(glm::dvec3(random.real(-1, 1), -1.5, random.real(-1, 1)));
-  f.lights[0].position = {random.real(-2, 2), random.real(0, 4), random.real(-2, 2)};
-  return f;
-}
-
-/// `n` parallel panes, one behind another as the light sees them, joined by strips to one mesh: a zigzag.
-SceneFrame zigzag_scene(int n) {
-  SceneFrame f;
-  add_solid(f, box_solid(), {0, -3, 0}, {6, 0.2, 6}, Turn{}, {1, 1, 1});
-  Solid s;
-  for (int i = 0; i <= n; ++i)
-    for (const double z : {-1.0, 1.0}) s.vertices.emplace_back(i % 2 == 0 ? -1 : 1, 2.0 * i / n, z);
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(n); ++i) {
-    s.faces.push_back({2 * i, 2 * i + 1, 2 * i + 3});
-    s.faces.push_back({2 * i, 2 * i + 3, 2 * i + 2});
-  }
-  add_solid(f, s, {0, -1, 0}, {1, 1, 1}, Turn{}, {1, 1, 1}, false, false);
-  look_at(f.camera, {4, 5, 6}, {0, -2, 0});
-  f.lights[0].direction = glm::normalize(glm::dvec3(0.05, -1, 0.04));
-  return f;
-}
+/// Open, inverted and torn casters, over a floor that is a caster too.
+SceneFrame torn_scene(Random& random) { return draw_case<TornCase>(random).frame(); }
 
 }  // namespace
 

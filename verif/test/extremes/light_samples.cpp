@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples of a light, at the edges of what a counter holds, in the golden core. rtl/family_29_* has the same for the
 // RTL.
+#include "extremes/lights.hpp"
 #include "kage/core.hpp"
-#include "stimulus/random.hpp"
-#include "test/support/catch.hpp"
-#include "test/support/light_frames.hpp"
+#include "test/extremes/hold.hpp"
 
 namespace kage::verif {
 namespace {
@@ -56,26 +55,7 @@ TEST_CASE("family 29: N equal samples count 0 or N, up to what the counter holds
 
 TEST_CASE(
     "family 29: samples in any order, lights among each other, give the same line, and each light its own count") {
-  Random random(test_seed(29));
-  CAPTURE(test_seed(29));
-  for (int round = 0; round < 200; ++round) {
-    Config c = soft(random.in(2, 8), random.in(0, 1));
-    c.class_bits = random.in(2, 11);
-    c.lights = random.in(1, 8);
-    const auto lights = static_cast<std::size_t>(c.lights);
-    std::vector<std::uint32_t> shares(lights);
-    for (auto& s : shares) s = static_cast<std::uint32_t>(random.in(0, 4000));
-    std::vector<LightSample> samples;
-    for (int light = 0; light < c.lights; ++light)
-      for (int n = random.in(0, (1 << c.count_bits) - 1); n > 0; --n) {
-        const int xl = random.in(0, kWidth);
-        samples.push_back({xl, random.in(xl, kWidth), light});
-      }
-    const auto pixels = line(c, samples, shares);
-    for (int x = 0; x < kWidth; ++x) REQUIRE(pixels[static_cast<std::size_t>(x)] == light_pixel(c, x, samples, shares));
-    random.shuffle(samples);
-    REQUIRE(line(c, samples, shares) == pixels);
-  }
+  cases_hold<SamplesCase>(200);
 }
 
 }  // namespace kage::verif

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <set>
 
+#include "extremes/order_checks.hpp"
+#include "extremes/orders.hpp"
 #include "geometry/order_mesh.hpp"
 #include "opinion/order_oracle.hpp"
 #include "stimulus/order_meshes.hpp"
 #include "stimulus/shapes.hpp"
-#include "test/support/catch.hpp"
+#include "test/extremes/hold.hpp"
 
 namespace kage::verif {
 namespace {
@@ -27,14 +29,7 @@ std::vector<Named> meshes(Random& random) {
           {"ball", bumpy_ball(random, 6, 8)},           {"soft ball", bumpy_ball(random, 5, 7, 1e-15)}};
 }
 
-/// n faces give at most so many fragments: each, cut by the others' planes, falls into at most 1 + k + k (k - 1) / 2
-/// pieces, k = n - 1.
-std::uint64_t bound(std::uint64_t n) { return n * (n * n - n + 2) / 2; }
-
-bool within_bound(const OrderTree& tree) {
-  const OrderBuildStats& s = tree.stats();
-  return s.fragments <= bound(s.faces) && s.nodes <= s.fragments;
-}
+bool within_bound(const OrderTree& tree) { return within_fragment_bound(tree.stats()); }
 
 OrderMesh joined(const std::vector<OrderMesh>& parts) {
   OrderMesh all;
@@ -116,6 +111,7 @@ TEST_CASE("family 14: fragments partition their face, in rational numbers") {
     }
   }
   CHECK(splits > 200);
+  cases_hold<PartitionCase>(20);
 }
 
 TEST_CASE("family 36: the eye on nodes' planes, on several at once", "[simd]") {
@@ -261,6 +257,7 @@ TEST_CASE("family 38: exact rays meet no two fragments in the wrong order") {
       pairs += count.pairs;
     }
   CHECK(pairs > 2000);
+  cases_hold<RaysCase>(10);
   const OrderTree both = OrderTree::build(joined({lattice_panes(random, 15), crossing_triangles(random, 8)}));
   CHECK(follow_rays(both, random, 20, 20).wrong == 0);
 }

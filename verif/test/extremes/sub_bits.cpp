@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <map>
 
+#include "extremes/screen.hpp"
 #include "kage/error.hpp"
 #include "opinion/layer_truth.hpp"
 #include "opinion/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/screen.hpp"
 
 namespace kage::verif {
 namespace {

@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "contract/derived.hpp"
-#include "core_model.hpp"
+#include "extremes/rtl_models.hpp"
 #include "kage/core.hpp"
+#include "kage/error.hpp"
 #include "kage/stream.hpp"
 
 namespace {
@@ -144,8 +145,8 @@ void hold_pixels(const Config& c, const Words& words, int frames, const std::vec
 }
 
 /// Clocks for the frames, from the first beat to the last pixel.
-double clocks(const rtl::CoreModel& model, const Work& w) {
-  const kage_rtl_table& api = model.api;
+double clocks(const verif::CoreModel& model, const Work& w) {
+  const kage_rtl_table& api = *model.api;
   const Words words = FrameWriter(model.config, w).write();
   kage_rtl* m = api.create(1);
   api.run(m, UINT64_MAX, 4 * static_cast<std::uint64_t>(model.config.max_width));  // past the sweep after reset
@@ -172,7 +173,7 @@ double clocks(const rtl::CoreModel& model, const Work& w) {
 /// Prints the clocks of a model, and whether they are as promised.
 class Measurement {
  public:
-  explicit Measurement(const rtl::CoreModel& model) : model_(model) {}
+  explicit Measurement(const verif::CoreModel& model) : model_(model) {}
 
   bool run() {
     spans();
@@ -278,7 +279,7 @@ class Measurement {
     report("TREE", with_few - line_ - few * c_.units * one_seg, groups(0, width_));
   }
 
-  const rtl::CoreModel& model_;
+  const verif::CoreModel& model_;
   const Config& c_ = model_.config;
   Layout layout_{c_};
   bool banked_ = c_.arrangement == 1;
@@ -292,10 +293,10 @@ class Measurement {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   bool good = argc > 1;
   for (int i = 1; i < argc; ++i) {
-    const rtl::CoreModel model = rtl::load_core("core_clocks", argv[i]);
+    const verif::CoreModel model = verif::load_core(argv[i]);
     std::printf("%s\n", argv[i]);
     try {
       good = Measurement(model).run() && good;
@@ -305,4 +306,7 @@ int main(int argc, char** argv) {
     }
   }
   return good ? 0 : 1;
+} catch (const kage::Error& e) {
+  std::fprintf(stderr, "core_clocks: %s\n", e.what());
+  return 2;
 }

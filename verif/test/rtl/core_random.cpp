@@ -6,243 +6,35 @@
 //
 // usage: core_random MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length. Exit 0: the same; 1: a
 // difference, with the seed that repeats it; 2: trouble.
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <random>
-#include <string>
-#include <vector>
 
-#include "core_model.hpp"
-#include "kage/config.hpp"
-#include "kage/core.hpp"
-#include "kage/registers.h"
-#include "kage/stream.hpp"
-#include "stimulus/random.hpp"
-#include "stimulus/random_frames.hpp"
+#include "extremes/core_trial.hpp"
+#include "kage/error.hpp"
 
-namespace {
-
-using namespace kage;
-using namespace kage::verif;
-using Words = std::vector<std::uint32_t>;
-
-/// Fill for the last beat: a core ignores it after END, so noise there must not matter; elsewhere zeros, as the golden
-/// core reads.
-void fill(Words& words, const Config& c, bool sound, Random& random) {
-  while (words.size() % static_cast<std::size_t>(c.beat_words) != 0)
-    words.push_back(sound ? static_cast<std::uint32_t>(random.integer(0, UINT32_MAX)) : 0U);
-}
-
-struct Trial {
-  const kage_rtl_table& api;
-  Config config;
-  std::uint64_t seed;
-  std::string text;  // what went wrong
-
-  bool fails(const std::string& what) {
-    text = what;
-    return false;
-  }
-
-  std::uint32_t reg(kage_rtl* m, std::uint32_t address) const {
-    std::uint32_t value = 0xDEAD;
-    api.reg_read(m, address, &value);
-    return value;
-  }
-
-  /// The model's driver counts every pixel that no announced frame has room for.
-  void announce(kage_rtl* m, const Words& words) const {
-    const FrameHeader h = FrameHeader::read(words);
-    api.expect(m, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
-  }
-
-  bool run() {
-    Random random(seed);
-    kage_rtl* m = api.create(seed);
-    kage_rtl* other = api.create(~seed);  // models do not know of each other, in whatever order they come and go
-    const bool good = frames(m, random);
-    if (random.chance(0.5)) std::swap(m, other);
-    api.destroy(other);
-    api.destroy(m);
-    return good;
-  }
-
-  /// A standstill is named: by the watchdog's interrupt, and in STATUS by what the core waits for.
-  bool standstill(kage_rtl* m, Random& random) {
-    api.stalls(m, 65536, 65536, 1);
-    api.reg_write(m, KAGE_REG_WATCHDOG, 300);
-    api.reg_write(m, KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
-    api.reg_write(m, KAGE_REG_IRQ, ~0U);
-    Words words = sound_frame(random, config, 5);
-    announce(m, words);
-    words.resize(words.size() - 1);  // no END, no TLAST
-    api.submit(m, words.data(), words.size(), 0);
-    if (api.run(m, UINT64_MAX, 50'000'000) == KAGE_RTL_ASSERT)
-      return fails("did not come to rest: standstill reason 4");
-    if (config.beat_words == 1) {  // else the fill is an error, and the core waits for TLAST: the same standstill
-      if (reg(m, KAGE_REG_STATUS) != (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK))
-        return fails("STATUS does not say that a frame waits for input");
-    } else if ((reg(m, KAGE_REG_STATUS) & ~KAGE_STATUS_DRAINING_MASK) !=
-               (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_INPUT_MASK)) {
-      return fails("STATUS does not say that the core waits for input");
-    }
-    if (api.irq(m) == 0 || (reg(m, KAGE_REG_IRQ) & KAGE_IRQ_WATCHDOG_MASK) == 0)
-      return fails("the watchdog does not bite when input stops");
-    api.reset(m, 1);
-    api.clear_pixels(m);
-    api.stalls(m, 65536, 0, 1);
-    api.reg_write(m, KAGE_REG_WATCHDOG, 300);
-    api.reg_write(m, KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
-    words = sound_frame(random, config, 6);
-    announce(m, words);
-    api.submit(m, words.data(), words.size(), 1);
-    api.run(m, UINT64_MAX, 8ULL * static_cast<std::uint64_t>(config.max_width) + 20'000);
-    constexpr std::uint32_t kWaits = KAGE_STATUS_OPEN_MASK | KAGE_STATUS_WAITING_OUTPUT_MASK;
-    if ((reg(m, KAGE_REG_STATUS) & kWaits) != kWaits)
-      return fails("STATUS does not say that the core waits for output");
-    if (api.irq(m) == 0) return fails("the watchdog does not bite when output stops");
-    api.reset(m, 1);
-    api.clear_pixels(m);
-    return true;
-  }
-
-  void stall(kage_rtl* m, Random& random) const {
-    static constexpr std::uint32_t chances[] = {65536, 65536, 60000, 32768, 9000, 2500};
-    const std::uint32_t input = chances[random.in(0, 5)];
-    const std::uint32_t output = chances[random.in(0, 5)];
-    api.stalls(m, input, output, static_cast<std::uint64_t>(random.integer(0, INT64_MAX - 1)));
-  }
-
-  /// A reset somewhere within a frame.
-  void reset(kage_rtl* m, Random& random) const {
-    const Words words = sound_frame(random, config, 99);
-    announce(m, words);
-    api.submit(m, words.data(), words.size(), 1);
-    api.run(m, UINT64_MAX, static_cast<std::uint64_t>(random.in(0, 1999)));
-    api.reset(m, static_cast<std::uint32_t>(random.in(1, 3)));
-    api.clear_pixels(m);
-  }
-
-  bool frames(kage_rtl* m, Random& random) {
-    GoldenCore golden(config);
-    if (random.chance(0.2) && !standstill(m, random)) return false;
-    stall(m, random);
-    if (reg(m, KAGE_REG_PARAM_HASH) != param_hash(config)) return fails("PARAM_HASH differs");
-    Counts counts;
-    for (int number = 0; number < 4; ++number) {
-      if (random.chance(0.3)) {
-        reset(m, random);
-        counts = {};
-      }
-      Group group;
-      if (!submit(m, random, golden, group, counts) || !same_pixels(m, group) || !same_registers(m, group, counts))
-        return false;
-      stall(m, random);
-    }
-    kage_rtl_stats stats;
-    api.stats(m, &stats);
-    if (stats.user_errors + stats.last_errors + stats.unstable != 0) return fails("TUSER, TLAST or stability");
-    if (stats.extra_pixels != 0) return fails(std::to_string(stats.extra_pixels) + " pixels past the frames' sizes");
-    return true;
-  }
-
-  /// Since the last reset.
-  struct Counts {
-    std::uint32_t ended = 0, errors = 0;
-  };
-
-  /// Frames one right after another, and what the golden core makes of them.
-  struct Group {
-    std::vector<std::uint8_t> expected;
-    FrameStatus newest;  // of those with an error
-    std::string story;
-  };
-
-  /// Frames, sound and damaged, go in and come to rest.
-  bool submit(kage_rtl* m, Random& random, GoldenCore& golden, Group& group, Counts& counts) {
-    for (int left = random.in(1, 3); left > 0; --left) {
-      const bool is_sound = random.chance(0.5);
-      const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
-      Words words = is_sound ? sound_frame(random, config, number) : damaged_frame(random, config, number);
-      fill(words, config, is_sound, random);
-      const FrameStatus s = golden.frame(words, [&](int, std::span<const std::uint8_t> line) {
-        group.expected.insert(group.expected.end(), line.begin(), line.end());
-      });
-      if (is_sound && s.error != ErrorCode::NONE) return fails("the golden core refuses a sound frame");
-      group.story += std::string(" ") + std::string(kErrorNames[static_cast<std::size_t>(s.error)]);
-      ++counts.ended;
-      if (s.error != ErrorCode::NONE) {
-        ++counts.errors;
-        group.newest = s;
-      }
-      api.submit(m, words.data(), words.size(), 1);
-      api.expect(m, static_cast<std::uint32_t>(s.width), static_cast<std::uint32_t>(s.height));
-    }
-    const int why = api.run(m, UINT64_MAX, 50'000'000);
-    group.story += " reason " + std::to_string(why);
-    return why == KAGE_RTL_IDLE || fails("did not come to rest:" + group.story);
-  }
-
-  bool same_pixels(kage_rtl* m, const Group& group) {
-    std::uint64_t got = 0;
-    const std::uint8_t* pixels = api.pixels(m, &got);
-    const std::vector<std::uint8_t>& expected = group.expected;
-    const std::uint64_t channels = static_cast<std::uint64_t>(config.channels);
-    for (std::uint64_t i = 0; i < std::min<std::uint64_t>(got * channels, expected.size()); ++i)
-      if (pixels[i] != expected[i])
-        return fails("pixel " + std::to_string(i / channels) + " channel " + std::to_string(i % channels) + " is " +
-                     std::to_string(pixels[i]) + ", not " + std::to_string(expected[i]) + ":" + group.story);
-    if (got * channels != expected.size())
-      return fails(std::to_string(got) + " pixels, not " + std::to_string(expected.size() / channels) + ":" +
-                   group.story);
-    api.clear_pixels(m);
-    return true;
-  }
-
-  bool same_registers(kage_rtl* m, const Group& group, const Counts& counts) {
-    if (reg(m, KAGE_REG_FRAMES) != counts.ended)
-      return fails("FRAMES is " + std::to_string(reg(m, KAGE_REG_FRAMES)) + ":" + group.story);
-    if (reg(m, KAGE_REG_ERRORS) != counts.errors)
-      return fails("ERRORS is " + std::to_string(reg(m, KAGE_REG_ERRORS)) + ":" + group.story);
-    const FrameStatus& newest = group.newest;
-    if (newest.error != ErrorCode::NONE) {
-      const std::uint32_t e = reg(m, KAGE_REG_ERROR);
-      if (KAGE_FIELD(e, KAGE_ERROR_CODE) != static_cast<std::uint32_t>(newest.error) ||
-          KAGE_FIELD(e, KAGE_ERROR_LINE) != newest.line || reg(m, KAGE_REG_ERROR_FRAME) != newest.frame ||
-          reg(m, KAGE_REG_ERROR_TOKEN) != newest.token || reg(m, KAGE_REG_ERROR_UNIT) != newest.unit)
-        return fails(
-            "error " + std::to_string(KAGE_FIELD(e, KAGE_ERROR_CODE)) + " line " +
-            std::to_string(KAGE_FIELD(e, KAGE_ERROR_LINE)) + " token " + std::to_string(reg(m, KAGE_REG_ERROR_TOKEN)) +
-            " unit " + std::to_string(reg(m, KAGE_REG_ERROR_UNIT)) + ", not " +
-            std::to_string(static_cast<int>(newest.error)) + " line " + std::to_string(newest.line) + " token " +
-            std::to_string(newest.token) + " unit " + std::to_string(newest.unit) + ":" + group.story);
-    }
-    if ((reg(m, KAGE_REG_STATUS) & (KAGE_STATUS_OPEN_MASK | KAGE_STATUS_DRAINING_MASK)) != 0)
-      return fails("STATUS says that a frame is open:" + group.story);
-    return true;
-  }
-};
-
-}  // namespace
-
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+  using namespace kage::verif;
   const char* fixed = std::getenv("KAGE_SEED");
   const char* length = std::getenv("KAGE_ROUNDS");
   const int rounds = length != nullptr ? std::atoi(length) : 20;
   std::random_device device;
   for (int i = 1; i < argc; ++i) {
-    const rtl::CoreModel model = rtl::load_core("core_random", argv[i]);
+    const CoreModel model = load_core(argv[i]);
     const std::uint64_t base = fixed != nullptr ? std::strtoull(fixed, nullptr, 0) : device();
     for (int round = 0; round < (fixed != nullptr && length == nullptr ? 1 : rounds); ++round) {
-      Trial trial{model.api, model.config, base + static_cast<std::uint64_t>(round), {}};
+      const std::uint64_t seed = base + static_cast<std::uint64_t>(round);
+      CoreTrial trial(model, seed, seed);
       if (!trial.run()) {
-        std::printf("%s: %s\nrepeat with KAGE_SEED=%llu\n", argv[i], trial.text.c_str(),
-                    static_cast<unsigned long long>(trial.seed));
+        std::printf("%s: %s\nrepeat with KAGE_SEED=%llu\n", argv[i], trial.text().c_str(),
+                    static_cast<unsigned long long>(seed));
         return 1;
       }
     }
     std::printf("%s: same, %d rounds from seed %llu\n", argv[i], rounds, static_cast<unsigned long long>(base));
   }
   return 0;
+} catch (const kage::Error& e) {
+  std::fprintf(stderr, "core_random: %s\n", e.what());
+  return 2;
 }

@@ -9,42 +9,18 @@
 #include <cstdio>
 #include <vector>
 
-#include "core_model.hpp"
+#include "extremes/rtl_cases.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
+#include "kage/error.hpp"
 #include "stimulus/frames.hpp"
 #include "stimulus/random.hpp"
 
-namespace {
-
-using namespace kage;
-using rtl::CoreModel;
-using rtl::load_core;
-
-std::vector<std::uint8_t> pixels_of(const CoreModel& l, const std::vector<std::uint32_t>& words, std::uint64_t seed) {
-  kage_rtl* m = l.api.create(seed);
-  verif::Random random(seed);
-  l.api.stalls(m, static_cast<std::uint32_t>(random.in(8000, 65536)),
-               static_cast<std::uint32_t>(random.in(8000, 65536)), seed);
-  const FrameHeader h = FrameHeader::read(words);
-  l.api.expect(m, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
-  l.api.submit(m, words.data(), words.size(), 1);
-  if (l.api.run(m, UINT64_MAX, 50'000'000) != KAGE_RTL_IDLE) {
-    std::printf("%s did not come to rest, seed %llu\n", l.path, static_cast<unsigned long long>(seed));
-    std::exit(1);
-  }
-  std::uint64_t count = 0;
-  const std::uint8_t* data = l.api.pixels(m, &count);
-  std::vector<std::uint8_t> pixels(data, data + count * static_cast<std::uint64_t>(l.config.channels));
-  l.api.destroy(m);
-  return pixels;
-}
-
-}  // namespace
-
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
+  using namespace kage;
+  using verif::CoreModel;
   std::vector<CoreModel> models;
-  for (int i = 1; i < argc; ++i) models.push_back(load_core("core_same", argv[i]));
+  for (int i = 1; i < argc; ++i) models.push_back(verif::load_core(argv[i]));
   if (models.size() < 2) {
     std::fprintf(stderr, "usage: core_same MODEL.so MODEL.so...\n");
     return 2;
@@ -53,8 +29,8 @@ int main(int argc, char** argv) {
   for (const CoreModel& l : models) {
     width = std::min(width, l.config.max_width);
     if (param_hash(l.config) != param_hash(models[0].config)) {
-      std::fprintf(stderr, "core_same: %s: parameters that affect pixels differ from those of %s\n", l.path,
-                   models[0].path);
+      std::fprintf(stderr, "core_same: %s: parameters that affect pixels differ from those of %s\n", l.path.c_str(),
+                   models[0].path.c_str());
       return 2;
     }
   }
@@ -68,8 +44,9 @@ int main(int argc, char** argv) {
       expected.insert(expected.end(), line.begin(), line.end());
     });
     for (std::size_t i = 0; i < models.size(); ++i) {
-      if (pixels_of(models[i], words, seed + i) != expected) {
-        std::printf("%s and the golden core differ, KAGE_SEED=%llu\n", models[i].path,
+      std::string wrong = "and the golden core differ";
+      if (verif::rtl_pixels(models[i], words, seed + i, wrong) != expected) {
+        std::printf("%s %s, KAGE_SEED=%llu\n", models[i].path.c_str(), wrong.c_str(),
                     static_cast<unsigned long long>(seed));
         return 1;
       }
@@ -78,4 +55,7 @@ int main(int argc, char** argv) {
   }
   std::printf("same: %zu models, %zu bytes of pixels compared\n", models.size(), compared);
   return compared > 0 ? 0 : 1;
+} catch (const kage::Error& e) {
+  std::fprintf(stderr, "core_same: %s\n", e.what());
+  return 2;
 }

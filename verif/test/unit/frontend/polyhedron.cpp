@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "extremes/screen.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/screen.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {

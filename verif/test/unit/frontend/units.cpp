@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
+#include "extremes/screen.hpp"
 #include "frontend/tree_plan.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/screen.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The line on which one plane cuts another on the picture, against rational numbers: whatever the planes, each pixel
-// lies on the side that the exact line has it on, unless it lies within 2^-13 of a pixel of that line.
+// lies on the side that the exact line has it on, unless it lies within 2^-15 of a pixel of that line.
 #include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
 #include "geometry/translucent.hpp"
+#include "opinion/cut_oracle.hpp"
 #include "stimulus/random.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
@@ -13,42 +13,14 @@
 namespace kage::verif {
 namespace {
 
-using Number = boost::multiprecision::cpp_rational;
-using Point = std::array<Number, 3>;
-using Face = std::array<glm::dvec3, 3>;
+using Number = CutOracle::Number;
+using Point = CutOracle::Point;
+using Face = CutOracle::Face;
 
-Point exact(const glm::dvec3& p) { return {Number(p.x), Number(p.y), Number(p.z)}; }
-Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-Number dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-Point normal(const Face& f) {
-  const Point d = minus(exact(f[1]), exact(f[0]));
-  const Point e = minus(exact(f[2]), exact(f[0]));
-  return {d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]};
-}
+Point normal(const Face& f) { return CutOracle::normal(f); }
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
-
-/// The value of the node's plane where the ray of pixel (x, y), in pixels from the first one's centre, meets the face's
-/// plane, times a positive factor that is the same for all pixels with `side`; linear in x and y.
-Number value_at(const Camera& c, const Face& face, const Face& node, int side, const Number& x, const Number& y) {
-  const Number unit(c.half_height / (kHeight / 2.0));
-  const Number ex = (x + Number(1) / 2 - kWidth / 2) * unit;
-  const Number ey = (Number(kHeight / 2) - y - Number(1) / 2) * unit;
-  const Point eye = exact(c.eye);
-  Point across{};
-  for (std::size_t i = 0; i < 3; ++i) across[i] = ex * exact(c.right)[i] + ey * exact(c.up)[i];
-  Point from = eye;
-  Point way = exact(c.forward);
-  for (std::size_t i = 0; i < 3; ++i) (c.perspective ? way : from)[i] += across[i];
-  const Point n = normal(node);
-  const Point m = normal(face);
-  // At from + t way, t = -(m . (from - face)) / (m . way).
-  const Number m_from = dot(m, minus(from, exact(face[0])));
-  const Number n_from = dot(n, minus(from, exact(node[0])));
-  // Times m . way, which against the view is negative where the eye is before the face.
-  return -side * (n_from * dot(m, way) - m_from * dot(n, way));
-}
 
 struct Judged {
   int pixels = 0;
@@ -62,18 +34,14 @@ void judge(const Camera& camera, const Face& face, const Face& node, Judged& sum
   if (side == 0 || normal(node) == Point{0, 0, 0}) return;  // no tree has a node without a plane
   const View view(camera, kWidth, kHeight, 24, {camera.near, 100});
   const CutLine line = cut_line(view, camera, face, side, node);
-  const auto at = [&](const Number& x, const Number& y) { return value_at(camera, face, node, side, x, y); };
-  const Number c = at(0, 0);
-  const Number a = at(1, 0) - c;
-  const Number b = at(0, 1) - c;
-  const Number slope = std::max<Number>(abs(a), abs(b));
+  const CutOracle truth(camera, face, node, side, kWidth, kHeight);
   bool front = false;
   bool back = false;
   for (int y = 0; y < kHeight; y += 5)
     for (int x = 0; x < kWidth; x += 5) {
-      const Number value = a * x + b * y + c;
+      const Number value = truth.value(x, y);
       ++sum.pixels;
-      if (abs(value) * 8192 <= slope) {
+      if (abs(value) * 32768 <= truth.slope()) {
         ++sum.near;
         continue;
       }

@@ -3,6 +3,7 @@
 // Frames made of screen polygons by hand, and hit counts.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -20,9 +21,10 @@ class Hits {
   Hits(int width, int height)
       : width_(width), height_(height), count_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
 
-  void add(const Outline& o) {
-    scanner_.scan(o, 0, height_, width_, [this](int y, int xl, int xr, int) {
-      for (int x = xl; x < xr; ++x)
+  /// `wider` pixels are added at the right end of each run of three pixels or more, for tests that must see it.
+  void add(const Outline& o, int wider = 0) {
+    scanner_.scan(o, 0, height_, width_, [&](int y, int xl, int xr, int) {
+      for (int x = xl; x < (xr - xl >= 3 ? std::min(width_, xr + wider) : xr); ++x)
         ++count_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
     });
   }

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A campaign: cases of many families for some time, each family with its share of it, on several threads.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "extremes/family.hpp"
+
+namespace kage::verif {
+
+struct CampaignOptions {
+  std::vector<const Family*> families;
+  std::uint64_t seed = 1;
+  double seconds = 0;           ///< for all families together
+  std::uint64_t starts = 0;     ///< of each family, instead of a time; 0: by time
+  int jobs = 2;                 ///< threads
+  double shrink_seconds = 60;   ///< at most, of each failure
+  std::filesystem::path found;  ///< where failures are kept
+  Context context;
+  std::function<bool()> stop;                                              ///< whether somebody wants it to end
+  std::function<void(double done, const struct CampaignState&)> progress;  ///< called now and then
+};
+
+/// What a family has come to.
+struct FamilyResult {
+  const Family* family = nullptr;
+  std::uint64_t starts = 0;  ///< that were run to their ends, or to a failure
+  std::uint64_t cases = 0;
+  Outcome sum;
+  double seconds = 0;          ///< of threads
+  std::string nearest_case;    ///< the name of the start that came nearest to the bound
+  std::string nearest;         ///< that case's text
+  std::string failed_case;     ///< the name of the start that failed
+  std::filesystem::path kept;  ///< where the failing case is
+};
+
+struct CampaignState {
+  std::vector<FamilyResult> families;
+  double seconds = 0;  ///< by the clock
+
+  [[nodiscard]] std::uint64_t pixels() const;
+  [[nodiscard]] std::size_t failed() const;
+};
+
+/// The name of a start, by which --case runs it again: FAMILY:SEED:INDEX.
+std::string case_name(const Family& family, std::uint64_t seed, std::uint64_t index);
+
+/// What the thread at hand is checking, for a message where the process ends within it.
+const char* case_at_hand();
+void set_case_at_hand(const std::string& name);
+
+CampaignState run_campaign(const CampaignOptions& options);
+
+}  // namespace kage::verif

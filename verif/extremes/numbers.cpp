@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "extremes/numbers.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <limits>
+
+#include "geometry/plane.hpp"
+#include "geometry/shade.hpp"
+#include "kage/error.hpp"
+#include "opinion/judge.hpp"
+
+namespace kage::verif {
+namespace {
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+SceneFrame plain_scene() {
+  SceneFrame f;
+  add_solid(f, box_solid(), {0, -2, 0}, {4, 0.2, 4}, Turn{}, {1, 1, 1});
+  add_solid(f, octahedron_solid(), {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1});
+  f.lights[0].direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
+  look_at(f.camera, {3, 2, 4}, {0, -1, 0});
+  return f;
+}
+
+}  // namespace
+
+void NotFiniteCase::fields(Fields& f) {
+  f.choice("value", value, std::array{"nan", "inf", "-inf"});
+  f.choice("place", place,
+           std::array{"vertex_x", "vertex_y", "vertex_z", "eye", "forward", "up", "half_height", "near",
+                      "light_direction", "light_colour", "light_position", "light_axis", "light_cone"});
+  f.number("index", index, 0, 13);
+}
+
+Outcome NotFiniteCase::check(const Context& /*context*/) const {
+  const double inf = std::numeric_limits<double>::infinity();
+  const double bad = value == 0 ? std::numeric_limits<double>::quiet_NaN() : value == 1 ? inf : -inf;
+  SceneFrame f = plain_scene();
+  std::string says = "camera";
+  f.lights.push_back({});
+  Light& l = f.lights[1];
+  if (place >= 10) {  // of a light at infinity these do not count
+    l.directional = false;
+    l.spot = true;
+    l.shape = LightShape::disc;
+    l.position = {1, 3, 2};
+    l.axis_u = l.axis_v = {1, 0, 0};
+  }
+  switch (place) {
+    case 0:
+    case 1:
+    case 2:
+      f.vertices[static_cast<std::size_t>(index)][place] = bad;
+      says = fmt::format("vertex {}", index);
+      break;
+    case 3:
+      f.camera.eye.x = bad;
+      break;
+    case 4:
+      f.camera.forward.z = bad;
+      break;
+    case 5:
+      f.camera.up.y = bad;
+      break;
+    case 6:
+      f.camera.half_height = bad;
+      break;
+    case 7:
+      f.camera.near = bad;
+      break;
+    default:
+      says = "light 1: ";
+      (place == 8    ? l.direction.z
+       : place == 9  ? l.color.y
+       : place == 10 ? l.position.x
+       : place == 11 ? l.axis_u.y
+                     : l.inner_cosine) = bad;
+  }
+  Outcome o;
+  o.items = 1;
+  try {
+    (void)make_geometry(f, Config{}, kWidth, kHeight);
+    o.fail("it is accepted");
+  } catch (const Error& e) {
+    if (std::string(e.what()).find(says) == std::string::npos)
+      o.fail(fmt::format("\"{}\" does not name \"{}\"", e.what(), says));
+  }
+  return o;
+}
+
+void ScaledCase::fields(Fields& f) {
+  f.number("exponent", exponent, -300, 30);
+  f.flag("denormal", denormal);
+  scene.fields(f);
+}
+
+Outcome ScaledCase::check(const Context& /*context*/) const {
+  const double scale = std::pow(10.0, exponent);
+  SceneCase at = scene;
+  at.lamp.placed = false;
+  SceneFrame f = at.frame();
+  for (glm::dvec3& p : f.vertices) p *= scale;
+  f.camera.eye *= scale;
+  f.camera.near *= scale;
+  if (!f.camera.perspective) f.camera.half_height *= scale;
+  if (denormal) f.vertices[0].x = std::numeric_limits<double>::denorm_min();
+  const Judgement j = judge(make_geometry(f, Config{}, kWidth, kHeight), Config{});
+  Outcome o;
+  o.pixels = j.pixels;
+  if (!j.good()) o.fail(j.text());
+  return o;
+}
+
+void CurveCase::fields(Fields& f) { f.real("linear", linear, 0, 1); }
+
+Outcome CurveCase::check(const Context& /*context*/) const {
+  const double exact = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+  Outcome o;
+  o.measure(std::abs(srgb_encode(linear) - exact) * 255, 0.017);
+  // Doubles may fall by their last place from one to the next, not over a step that is seen.
+  if (srgb_encode(linear) < srgb_encode(std::max(0.0, linear - 5e-6))) o.fail("it falls");
+  o.items = 1;
+  return o;
+}
+
+void PlaneCase::Corner::fields(Fields& f) {
+  f.number("x", x, -kGuard * 256, kGuard * 256);
+  f.number("y", y, -kGuard * 256, kGuard * 256);
+  f.number("z", z, 1 << 16, ((std::int64_t{1} << 28) - 2) << 16);
+}
+
+void PlaneCase::fields(Fields& f) {
+  a.fields(f);
+  b.fields(f);
+  c.fields(f);
+  f.number("pixel", x, 0, kMaxSize - 1);
+  f.number("line", y, 0, kMaxSize - 1);
+}
+
+Outcome PlaneCase::check(const Context& /*context*/) const {
+  using Number = boost::multiprecision::cpp_rational;
+  const std::array<DepthVertex, 3> v{DepthVertex{{a.x, a.y}, a.z}, DepthVertex{{b.x, b.y}, b.z},
+                                     DepthVertex{{c.x, c.y}, c.z}};
+  const auto plane = plane_through(v);
+  Outcome o;
+  if (!plane) return o;
+  o.items = 1;
+  // In subpixels from the first vertex, the exact plane has these slopes per subpixel, in 2^-16 LSB.
+  const Number bx = b.x - a.x;
+  const Number by = b.y - a.y;
+  const Number cx = c.x - a.x;
+  const Number cy = c.y - a.y;
+  const Number area = bx * cy - cx * by;
+  const Number slope_x = (Number(b.z - a.z) * cy - Number(c.z - a.z) * by) / area;
+  const Number slope_y = (Number(c.z - a.z) * bx - Number(b.z - a.z) * cx) / area;
+  const Number exact = Number(a.z) + slope_x * (256 * x + 128 - a.x) + slope_y * (256 * y + 128 - a.y);
+  const Number got =
+      (Number(plane->c) + Number(plane->a) * (x - plane->x0) + Number(plane->b) * (y - plane->y0)) / 256;  // in 2^-16
+  const Number off = abs(got - exact) / 65536;
+  // docs/numbers.md, "Depth": a unit for each column and line from the anchor, one from the vertex to the anchor's
+  // centre, and one for C.
+  const double pixels = std::abs(x - plane->x0) + std::abs(y - plane->y0) + 2;
+  o.measure(off.convert_to<double>() * 0x1p25, pixels);
+  return o;
+}
+
+void add_number_families(Families& to) {
+  add_family<NotFiniteCase>(to, {10, "10", "a number that is not finite is an error that names it", {}, 0, 0.1});
+  add_family<ScaledCase>(to, {10, "10 scale", "scenes next to nothing large, and huge"});
+  add_family<CurveCase>(to, {0, "curve", "the sRGB curve by square roots", "LSB", 60, 0.2});
+  add_family<PlaneCase>(to, {0, "plane", "a depth plane's coefficients rounded", "2^-25 LSB", 300, 0.5});
+}
+
+}  // namespace kage::verif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cases of family 10, numbers that are none or very large or small, and bounds of docs/numbers.md that are no family.
+#pragma once
+
+#include "extremes/scene_case.hpp"
+
+namespace kage::verif {
+
+/// Family 10: one number of a scene is not finite.
+struct NotFiniteCase {
+  int value = 0;
+  int place = 0;
+  int index = 0;  ///< of the vertex
+  void fields(Fields& f);
+  [[nodiscard]] Outcome check(const Context& context) const;
+};
+
+/// Family 10: a scene scaled by a power of ten, and one coordinate that is next to nothing.
+struct ScaledCase {
+  int exponent = 0;
+  bool denormal = false;
+  SceneCase scene;
+  void fields(Fields& f);
+  [[nodiscard]] Outcome check(const Context& context) const;
+};
+
+/// The sRGB curve by square roots.
+struct CurveCase {
+  double linear = 0;
+  void fields(Fields& f);
+  [[nodiscard]] Outcome check(const Context& context) const;
+};
+
+/// The depth plane through three snapped vertices, rounded.
+struct PlaneCase {
+  struct Corner {
+    int x = 0, y = 0;
+    std::int64_t z = 0;  ///< in 2^-16 LSB
+    void fields(Fields& f);
+  };
+  Corner a, b, c;
+  int x = 0, y = 0;  ///< the pixel at which it is held against the exact one
+  void fields(Fields& f);
+  [[nodiscard]] Outcome check(const Context& context) const;
+};
+
+void add_number_families(Families& to);
+
+}  // namespace kage::verif
