@@ -52,7 +52,6 @@ struct WayDemand {
   Most volumes;                    ///< of a light sample
   Most depth_span;                 ///< pixels along which depth goes on by steps
   Most color_span;                 ///< pixels along which colour does
-  Most flat_off;                   ///< steps of colour by which a corner differs from its polygon's one colour
   Most classes;                    ///< in use in a frame, of light tables
   std::vector<ShareGroup> groups;  ///< what shadows take, without repetition
 };
@@ -64,6 +63,7 @@ struct UnitDemand {
   Most dx;        ///< pixels of a segment
   Most segments;  ///< of a unit's line
   Most bodies;    ///< polyhedra in units
+  Most last_index;  ///< draw index of the last polyhedron in a unit
 };
 
 /// Called before each frame.
