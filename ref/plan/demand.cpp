@@ -16,6 +16,9 @@
 namespace kage::plan {
 namespace {
 
+// The least X_BITS that is legal (rtl/defs/kage.yaml), whatever the width.
+constexpr int kLeastXBits = 4;
+
 /// Makes all frames of the scenes. Calls `of_parts` with what each was made of and `of_token` with each token, both
 /// with where that is.
 template <class OfParts, class OfToken>
@@ -140,7 +143,7 @@ Features features_of(std::span<const PlannedScene> scenes) {
 Config finest(const Features& features, int dsf_bits, int units) {
   const Needs& needs = features.needs;
   Config c;
-  c.x_bits = std::bit_width(static_cast<unsigned>(needs.width));
+  c.x_bits = std::max(static_cast<int>(std::bit_width(static_cast<unsigned>(needs.width))), kLeastXBits);
   c.max_width = needs.width;
   c.z_bits = 24;
   c.z_frac = kGreatest.z_frac;
