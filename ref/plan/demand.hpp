@@ -58,11 +58,11 @@ struct WayDemand {
 
 /// What expansion units must have for all polyhedra that can go to one.
 struct UnitDemand {
-  Most units;     ///< 0: no frame has a polyhedron
-  Most faces;     ///< of a unit
-  Most dx;        ///< pixels of a segment
-  Most segments;  ///< of a unit's line
-  Most bodies;    ///< polyhedra in units
+  Most units;       ///< 0: no frame has a polyhedron
+  Most faces;       ///< of a unit
+  Most dx;          ///< pixels of a segment
+  Most segments;    ///< of a unit's line
+  Most bodies;      ///< polyhedra in units
   Most last_index;  ///< draw index of the last polyhedron in a unit
 };
 
