@@ -150,8 +150,9 @@ void print(const Options& o, const Json& j) {
   const Json& costs = j["costs"];
   if (costs.size() > 1)
     for (const Json& c : costs)
-      fmt::print("  {} takes {} clocks for the first frame, and some {:.0f} look-up tables\n",
-                 c["name"].get<std::string>(), number(c["clocks"]), c["luts"].get<double>());
+      fmt::print("  {} takes {} clocks for the first frame at {}x{}, and some {:.0f} look-up tables\n",
+                 c["name"].get<std::string>(), number(c["clocks"]), kJudgedWidth, kJudgedHeight,
+                 c["luts"].get<double>());
   for (const auto& [name, missing] : j["lacks"].items()) fmt::print("  {} lacks {}\n", name, names(missing));
 }
 

@@ -18,11 +18,6 @@ namespace {
 // list is what most people know, and the costs are of one frame.
 constexpr double kWorthMoving = 6.0 / 7;
 
-// The picture by which costs are judged, whatever size is asked for: so a scene has one configuration for all sizes
-// that it fits.
-constexpr int kJudgedWidth = 640;
-constexpr int kJudgedHeight = 480;
-
 /// Whether a configuration is ever chosen without its name.
 bool for_anybody(const Config& c, const Needs& needs) {
   const bool one_volume_only = c.dsf_bits > 0 && c.fsf == 0;

@@ -10,6 +10,11 @@
 
 namespace kage {
 
+// The picture by which costs are judged, whatever size is asked for: so a scene has one configuration for all sizes
+// that it fits.
+inline constexpr int kJudgedWidth = 640;
+inline constexpr int kJudgedHeight = 480;
+
 /// A named configuration that can draw a scene, with what the scene's first frame costs it at 640x480.
 struct ChoiceCost {
   NamedConfig named;

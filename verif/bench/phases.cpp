@@ -27,18 +27,19 @@ PhaseSums sums_of(const Config& c, std::span<const std::uint32_t> words) {
 }  // namespace
 
 int main() {
-  fmt::print("{:<13} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9}\n", "scene", "config",
+  fmt::print("{:<13} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9}\n", "scene", "config",
              "state", "opaque", "volumes", "EV", "ES", "TP", "line out", "video", "sum", "RTL clocks", "SP+NC/px");
   for (const std::string& name : builtin_scenes()) {
     const auto scene = std::make_shared<const Scene>(Scene::load(name));
-    const NamedConfig config = choose_config(needs_of(*scene, scene->frame(0, scene->frame_count()), 640, 480));
+    const DrawOptions draw{.width = 640, .height = 480, .threads = 1};
+    const NamedConfig config = choose_config(*scene, draw);
     const Config& c = config.config;
-    const auto words = SceneFrames(scene, c, {.width = 640, .height = 480, .threads = 1}).words(0);
+    const auto words = SceneFrames(scene, c, draw).words(0);
     const PhaseSums s = sums_of(c, words);
     const auto clocks = [&](Phase phase) { return s.of[static_cast<std::size_t>(phase)].clocks; };
     const auto rtl = cosim::make_rtl(cosim::find_model(c).library, c);
     const std::uint64_t cycles = rtl->frame(words, [](int, std::span<const std::uint8_t>) {}).cycles;
-    fmt::print("{:<13} {:<8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9.2f}\n", name,
+    fmt::print("{:<13} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9.2f}\n", name,
                config.name, clocks(Phase::state), clocks(Phase::opaque), clocks(Phase::volumes),
                clocks(Phase::volume_ends), clocks(Phase::samples), clocks(Phase::translucent), clocks(Phase::line_out),
                s.video, s.clocks(), cycles,

@@ -16,16 +16,16 @@ int main() {
   namespace fs = std::filesystem;
   const fs::path folder = fs::temp_directory_path() / fmt::format("kage-bench-report-{}", static_cast<long>(getpid()));
   fs::create_directory(folder);
-  fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10} {:>10} {:>12} {:>14}\n", "scene", "config", "frames", "words",
+  fmt::print("{:<13} {:<12} {:>6} {:>11} {:>10} {:>10} {:>12} {:>14}\n", "scene", "config", "frames", "words",
              "packing s", "writing s", "page bytes", "lines told %");
   for (const std::string& name : builtin_scenes()) {
     const auto scene = std::make_shared<const Scene>(Scene::load(name));
     const int frames = std::min(8, scene->frame_count());
     // No scene needs segments; the page is to show some.
-    const NamedConfig config =
-        name == "polyhedra" ? load_config(name) : choose_config(needs_of(*scene, scene->frame(0, frames), 640, 480));
+    const DrawOptions draw{.width = 640, .height = 480, .frames = frames, .threads = 1};
+    const NamedConfig config = name == "polyhedra" ? load_config(name) : choose_config(*scene, draw);
     const Config& c = config.config;
-    SceneFrames source(scene, c, {.width = 640, .height = 480, .frames = frames, .threads = 1});
+    SceneFrames source(scene, c, draw);
     report::TokenStore tokens(c, report::kPageBytes);
     double packing = 0;
     std::uint64_t count = 0;
@@ -63,7 +63,7 @@ int main() {
     const double writing = timer.seconds();
     int told = 0;
     for (const report::Band& b : tokens.bands()) told += b.line < 0 ? 0 : report::kBandLines;
-    fmt::print("{:<13} {:<9} {:>6} {:>11} {:>10.3f} {:>10.3f} {:>12} {:>14.1f}\n", name, config.name, frames, count,
+    fmt::print("{:<13} {:<12} {:>6} {:>11} {:>10.3f} {:>10.3f} {:>12} {:>14.1f}\n", name, config.name, frames, count,
                packing, writing, fs::file_size(folder / "report.html"), 100.0 * told / (480.0 * frames));
   }
   fs::remove_all(folder);

@@ -76,7 +76,8 @@ class SceneFrames : public FrameSource {
   /// @param options how it is drawn
   SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options = {});
 
-  /// Drawn with the first named configuration that has all that the first frame needs. Throws Error if none has.
+  /// Drawn with the named configuration that choose_config() takes for the first frame: the first that has all it
+  /// needs, or a later one that costs a seventh less. Throws Error if none has all.
   /// @param scene what is drawn
   /// @param options how it is drawn
   explicit SceneFrames(const std::shared_ptr<const Scene>& scene, const DrawOptions& options = {});

@@ -56,6 +56,13 @@ data_copy() {
   done
 }
 
+# list_without_widest FOLDER: a copy of the data whose list of configurations lacks widest. That one draws all that any core
+# can, so only without it there are scenes that no named configuration draws.
+list_without_widest() {
+  data_copy "$1"
+  sed -i '/^widest:/,/^$/d' "$1/rtl/defs/configs.yaml"
+}
+
 # rtl_with FOLDER STATEMENT: from now on the data are a copy whose kage_top has the statement, which gives what leaves the core:
 # `sent` and `sending` are its pixels and their valid, frames_q the frames that it has begun to send since its reset (255: or
 # more), u_control.frame_q the number of the frame it is at.

@@ -47,8 +47,15 @@ PY
 for n in 8 9 64 65; do many $n; done
 echo '{SMOOTH: 1, COLOR_FRAC: 8, COUNT_BITS: 2, LIGHTS: 8, CLASS_BITS: 8, SHADE_FRAC: 12, MAX_WIDTH: 160}' >eight.yaml
 expect 0 "$kage" render many8.gltf --config eight.yaml --samples 3 --size 64x48 --frames 1 --out x
-# What no named configuration has, the line that is offered has.
-trouble "many8.gltf: no named configuration (rtl/defs/configs.yaml) can draw this: the nearest, " "$kage" render many8.gltf --samples 31 --size 64x48 --out x
+# More samples than most configurations count are drawn by the one that counts all, and those that a list has none for by the
+# line that is offered.
+expect 0 "$kage" render three-lights --samples 64 --size 64x48 --frames 1 --out x --json wide.json
+json wide.json 'j["config"]["COUNT_BITS"]==8 and j["config"]["LIGHTS"]==8 and j["spans"] > 0'
+expect 0 "$kage" render many8.gltf --samples 31 --size 64x48 --frames 1 --out x --json wide.json
+json wide.json 'j["config"]["COUNT_BITS"]==8 and j["config"]["LIGHTS"]==8 and j["spans"] > 0'
+list_without_widest narrower
+KAGE_DATA_DIR=$PWD/narrower trouble "many8.gltf: no named configuration (rtl/defs/configs.yaml) can draw this: the nearest, " \
+  "$kage" render many8.gltf --samples 31 --size 64x48 --out x
 sed -n 's/.*with this line in it: //p' stderr >offered.yaml
 grep -q 'COUNT_BITS: 5, LIGHTS: 8' offered.yaml || fail "the line offered is another: $(cat offered.yaml)"
 expect 0 "$kage" render many8.gltf --config offered.yaml --samples 31 --size 64x48 --frames 1 --out x

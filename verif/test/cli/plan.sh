@@ -32,7 +32,7 @@ done
 expect 0 "$kage" render courtyard --frames 1 --out out
 grep -q '^courtyard: configuration: default$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" info canopy
-grep -qE '^  meshes takes [0-9]+ clocks for the first frame, and some [0-9]+ look-up tables$' stdout || fail "$(cat stdout)"
+grep -qE '^  meshes takes [0-9]+ clocks for the first frame at 640x480, and some [0-9]+ look-up tables$' stdout || fail "$(cat stdout)"
 for case in "three-lights --samples 64" "courtyard --size 4096x16" "glass --size 8192x8" "penumbra --size 32766x4"; do
   # shellcheck disable=SC2086
   expect 0 "$kage" render $case --frames 1 --out out

@@ -151,8 +151,11 @@ for scene in glass penumbra three-lights polyhedra; do
     fail "info and render of $scene name different configurations"
 done
 expect 0 "$kage" info courtyard --size 4096x48 --json j.json
+json j.json 'j["configurations"]==["widest"] and j["configuration"]=="widest" and j["widened"] is None'
+list_without_widest narrower
+KAGE_DATA_DIR=$PWD/narrower expect 0 "$kage" info courtyard --size 4096x48 --json j.json
 json j.json 'j["configurations"]==[] and j["configuration"] is None and "MAX_WIDTH: 4096" in j["widened"]'
-expect 0 "$kage" info courtyard --size 4096x48
+KAGE_DATA_DIR=$PWD/narrower expect 0 "$kage" info courtyard --size 4096x48
 grep -q 'none; --config FILE can' stdout || fail "info does not say how a wide picture can be drawn"
 trouble "--tokens: only a stream file has tokens" "$kage" info courtyard --tokens 0
 trouble "--size: a stream has its own size" "$kage" info plain.kage --size 32x24

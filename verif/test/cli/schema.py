@@ -69,8 +69,8 @@ def good(name, document):
     return validators[name].is_valid(document)
 
 
-# Keys that are not always there, some in one place only, and objects whose keys are names: of parameters, phases, kinds of tokens,
-# configurations, or of a model's manifest, which is shown as it is.
+# Keys that are not always there, some in one place only, and objects whose keys are names: of parameters (a plan's reasons are by
+# parameter, too), phases, kinds of tokens, configurations, terms of an estimate, or of a model's manifest, which is shown as it is.
 SOMETIMES = {"own_sizes", "ahead", "takes", "in_place", "coverage", "scenes", "configs", "faults", "left", "bytes"}
 SOMETIMES_IN = {
     ("", "clocks"),
@@ -92,6 +92,7 @@ SOMETIMES_IN = {
     ("*/runs/*", "right"),
 }
 NAMES = {"config", "stalled_by_phase", "about", "tokens", "lacks", "parameters", "board_parameters", "tools", "seconds"}
+NAMES |= {"reasons", "terms"}
 tried = set()
 
 

@@ -40,26 +40,38 @@ expect 0 "$kage" render courtyard --size 48x32 --frames 1 --config tiny --degrad
 json d.json 'len(j["degraded"])>0'
 trouble "MAX_WIDTH" "$kage" render courtyard --size 300x32 --frames 1 --config tiny --degrade --out lacking
 
-# Wider than all named configurations: the message shows the file to write, and that file does.
+# As wide as a picture may be: widest draws it.
 for size in 3841x4 32766x1; do
-  trouble "--config FILE can, with this line in it: {" "$kage" render courtyard --size $size --frames 1 --out lacking
+  expect 0 "$kage" render courtyard --size $size --frames 1 --out wide --json w.json
+  json w.json "'%dx%d' % (j['width'], j['height']) == '$size' and j['span_pixels'] > 0 and j['config']['MAX_WIDTH'] == 32767"
+done
+grep -qx 'courtyard: configuration: widest' stdout || fail "another configuration draws the widest picture: $(cat stdout)"
+
+# Wider than all of a list: the message shows the file to write, and that file does.
+list_without_widest narrower
+for size in 3841x4 32766x1; do
+  KAGE_DATA_DIR=$PWD/narrower trouble "--config FILE can, with this line in it: {" "$kage" render courtyard --size $size --frames 1 --out lacking
   sed 's/.*in it: //' stderr >wide.yaml
   expect 0 "$kage" render courtyard --size $size --frames 1 --config wide.yaml --out wide --json w.json
   json w.json "'%dx%d' % (j['width'], j['height']) == '$size' and j['span_pixels'] > 0 and j['config']['DSF_BITS'] == 1"
 done
-trouble "{X_BITS: 13, Z_FRAC: 12, LANES: 8, MAX_WIDTH: 4096}" "$kage" render courtyard --size 4096x4 --out lacking
+KAGE_DATA_DIR=$PWD/narrower trouble "{X_BITS: 13, Z_FRAC: 12, LANES: 8, MAX_WIDTH: 4096}" "$kage" render courtyard --size 4096x4 --out lacking
 
 # Pictures in which nothing is to be seen are said to be so.
 printf 'v 0 0 0\nv 1 2 3\nv 2 4 6\nf 1 2 3\n' >flat.obj
 trouble "flat.obj: no faces: no triangle has an area" "$kage" render flat.obj --out lacking
+printf 'v 0 0 0\nv 1e-6 0 0\nv 0 1e-6 0\nv 1 1 1\nv 1 1.000001 1\nv 1 1 1.000001\nf 1 2 3\nf 4 5 6\n' >specks.obj
+expect 0 "$kage" render specks.obj --size 32x24 --frames 2 --out specks --json f.json
+grep -q '^specks: nothing is to be seen: no face covers the centre of a pixel$' stdout || fail "an empty picture without a word: $(cat stdout)"
+json f.json 'any("nothing is to be seen" in n for n in j["notes"])'
+expect 0 "$kage" stream specks.obj --size 32x24 --frames 2 --out specks.kage
+expect 0 "$kage" render specks.kage --out specks
+grep -q '^specks: nothing is to be seen' stdout || fail "an empty stream without a word"
+# Far from the file's origin a triangle is seen, with a word about the file's numbers.
 printf 'v 1e17 0 0\nv 1e17 1 0\nv 1e17 0 1\nf 1 2 3\n' >far.obj
 expect 0 "$kage" render far.obj --size 32x24 --frames 2 --out far --json f.json
-grep -q '^far: nothing is to be seen: no face covers the centre of a pixel$' stdout || fail "an empty picture without a word: $(cat stdout)"
-grep -q '^far: the scene is so far from the origin' stdout || fail "no cause of an empty picture: $(cat stdout)"
-json f.json 'any("nothing is to be seen" in n for n in j["notes"])'
-expect 0 "$kage" stream far.obj --size 32x24 --frames 2 --out far.kage
-expect 0 "$kage" render far.kage --out far
-grep -q '^far: nothing is to be seen' stdout || fail "an empty stream without a word"
+grep -q '^far: the scene is so far from the origin' stdout || fail "no word about rounded numbers: $(cat stdout)"
+json f.json 'j["spans"] > 0 and not any("nothing is to be seen" in n for n in j["notes"])'
 expect 0 "$kage" render courtyard --size 32x24 --frames 1 --out seen
 ! grep -q 'nothing is to be seen' stdout || fail "the courtyard is not seen"
 

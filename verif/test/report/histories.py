@@ -31,7 +31,19 @@ def histories(b):
     seed = int(os.environ.get("KAGE_SEED", "1"))
     chance = random.Random(seed)
     kinds = set()
-    for folder in ("default", "inside", "soft", "lights", "glass", "polyhedra", "smooth", "tiny", "odd", "different"):
+    for folder in (
+        "default",
+        "inside",
+        "soft",
+        "lights",
+        "glass",
+        "polyhedra",
+        "smooth",
+        "tiny",
+        "odd",
+        "different",
+        "meshes",
+    ):
         b.open(f"{folder}/report.html")
         width, height, frames = b.run(
             "[Explain.data.frames[0].width, Explain.data.frames[0].height, Explain.data.frames.length]"

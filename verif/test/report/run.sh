@@ -39,7 +39,8 @@ scene() { # FOLDER SCENE OPTIONS...
   expect 0 "$kage" cosim "$@" --frames 2 --out "$folder"
 }
 scene default courtyard --size 160x120
-scene inside inside --size 160x120
+scene inside inside --config default --size 160x120  # by parity, where a volume that holds the eye is an IF
+scene meshes inside --config meshes --size 160x120
 scene soft penumbra --config soft --size 96x72
 scene lights three-lights --config lights --size 96x72
 scene glass glass --config glass --size 160x120
