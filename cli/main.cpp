@@ -142,7 +142,7 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-std::string build_name() { return "kage " KAGE_VERSION KAGE_COMMIT; }
+std::string kage::cli::build_name() { return "kage " KAGE_VERSION KAGE_COMMIT; }
 
 int main(int argc, char** argv) {
   try {
