@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "contract/kinds.hpp"
@@ -23,7 +25,6 @@
 #include "plan/widths.hpp"
 #include "stream/token_pieces.hpp"
 #include "trade/sweep_accuracy.hpp"
-#include "trade/synthesis.hpp"
 
 namespace kage::trade {
 namespace {
@@ -125,8 +126,7 @@ std::string SweepRunner::clocks_text(std::size_t index) const {
 }
 
 void SweepRunner::know_clocks(std::size_t point, const ClockSample& sample) {
-  const std::lock_guard lock(clocks_mutex_);
-  clocks_[point] = sample;
+  clocks_.get(std::to_string(point), [&] { return sample; });
 }
 
 ClockSample SweepRunner::simulate(const SweepPoint& point, const PointWords& words) {
@@ -158,24 +158,12 @@ ClockSample SweepRunner::simulate(const SweepPoint& point, const PointWords& wor
 }
 
 ClockSample SweepRunner::clocks_of(std::size_t index, const PointWords* words) {
-  std::shared_ptr<std::mutex> making;
-  {
-    const std::lock_guard lock(clocks_mutex_);
-    if (const auto found = clocks_.find(index); found != clocks_.end()) return found->second;
-    auto& place = making_[index];
-    if (!place) place = std::make_shared<std::mutex>();
-    making = place;
-  }
-  const std::lock_guard one(*making);
-  {
-    const std::lock_guard lock(clocks_mutex_);
-    if (const auto found = clocks_.find(index); found != clocks_.end()) return found->second;
-  }
-  const SweepPoint& point = points_[index];
-  const ClockSample sample = words != nullptr ? simulate(point, *words) : simulate(point, words_of(*scene_, point));
-  know_clocks(index, sample);
-  if (keep_clocks) keep_clocks(index, sample);
-  return sample;
+  return *clocks_.get(std::to_string(index), [&] {
+    const SweepPoint& point = points_[index];
+    const ClockSample sample = words != nullptr ? simulate(point, *words) : simulate(point, words_of(*scene_, point));
+    if (keep_clocks) keep_clocks(index, sample);
+    return sample;
+  });
 }
 
 Json SweepRunner::accuracy(const SweepPoint& point, const PointWords& words) {
@@ -222,7 +210,7 @@ Json SweepRunner::speed(std::size_t index, const PointWords& words) {
   if (how_.cosim && is_built(point.config)) {
     const std::size_t stands = stands_for_[index];
     const ClockSample of = clocks_of(stands, stands == index ? &words : nullptr);
-    if (stands == index || points_[stands].config == point.config || checked_[index])
+    if (stands == index || checked_[index])
       own = stands == index ? of : clocks_of(index, &words);
     cycles *= static_cast<double>(of.cycles) / static_cast<double>(of.foretold);
     from = "phases";
@@ -235,7 +223,7 @@ Json SweepRunner::speed(std::size_t index, const PointWords& words) {
   }
   j["rtl_cycles_per_pixel"] = (own ? static_cast<double>(own->cycles) : cycles) / pixels;
   j["rtl_cycles_from"] = own ? "cosim" : from;
-  j["phases_cycles_per_pixel"] = own ? Json(cycles / pixels) : Json(nullptr);
+  j["phases_cycles_per_pixel"] = own && stands_for_[index] != index ? Json(cycles / pixels) : Json(nullptr);
   j["design_cycles_per_pixel"] = static_cast<double>(words.foretold) / pixels;
   j["cosim_frames_per_second"] =
       own && own->seconds > 0 ? Json(frames / own->seconds) : optional_json(fps);
@@ -247,10 +235,12 @@ Json SweepRunner::area(const SweepPoint& point) {
   const Cells cells = estimated_cells(point.config);
   Json j;
   if (how_.area && is_built(point.config)) {
-    const std::shared_lock busy(alone_);
-    how_.doing(fmt::format("yosys counts the cells of {} {}", point.axis, point.value));
-    const Synthesis done = synthesize(point.config, how_.wait);
-    j = {{"luts", done.cells.luts}, {"ffs", done.cells.flip_flops}, {"brams", done.cells.rams}, {"counted", true}};
+    const std::shared_ptr<const CellCount> counted = counts_.get(to_yaml(point.config), [&] {
+      const std::shared_lock busy(alone_);
+      how_.doing(fmt::format("yosys counts the cells of {} {}", point.axis, point.value));
+      return synthesize(point.config, how_.wait).cells;
+    });
+    j = {{"luts", counted->luts}, {"ffs", counted->flip_flops}, {"brams", counted->rams}, {"counted", true}};
   } else {
     j = {{"luts", cells.luts}, {"ffs", cells.flip_flops}, {"brams", nullptr}, {"counted", false}};
   }

@@ -5,17 +5,16 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <shared_mutex>
 #include <string>
 #include <vector>
 
+#include "trade/kept.hpp"
 #include "trade/sweep_plan.hpp"
 #include "trade/sweep_scene.hpp"
+#include "trade/synthesis.hpp"
 
 namespace kage::trade {
 
@@ -76,12 +75,11 @@ class SweepRunner {
   std::vector<SweepPoint> points_;
   SweepHow how_;
   std::vector<std::size_t> stands_for_;
-  std::vector<bool> checked_;     // co-simulated besides
-  std::shared_mutex alone_;       // held alone where time is measured
-  std::mutex build_mutex_;        // one model at a time is built
-  std::mutex clocks_mutex_;
-  std::map<std::size_t, std::shared_ptr<std::mutex>> making_;
-  std::map<std::size_t, ClockSample> clocks_;
+  std::vector<bool> checked_;  // co-simulated besides
+  std::shared_mutex alone_;    // held alone where time is measured
+  std::mutex build_mutex_;     // one model at a time is built
+  Kept<ClockSample> clocks_;   // by the point's number
+  Kept<CellCount> counts_;     // by the configuration
 };
 
 /// The key under which a store keeps something: SHA-256 of all that decides it.

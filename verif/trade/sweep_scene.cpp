@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <utility>
 
 #include "arena/arena.hpp"
@@ -16,39 +14,13 @@
 #include "kage/light.hpp"
 #include "opinion/ray_truth.hpp"
 #include "plan/demand.hpp"
+#include "trade/kept.hpp"
 
 namespace kage::trade {
 namespace {
 
 // Tests of a ray with a face that a frame's rays may take, some 2 ns each: a few seconds on a processor.
 constexpr double kMostTests = 2e9;
-
-/// Values that are made once, whoever asks first; who asks meanwhile waits.
-template <class Value>
-class Kept {
- public:
-  template <class Make>
-  std::shared_ptr<const Value> get(const std::string& key, Make make) {
-    std::shared_ptr<Place> place;
-    {
-      const std::lock_guard lock(mutex_);
-      auto& entry = places_[key];
-      if (!entry) entry = std::make_shared<Place>();
-      place = entry;
-    }
-    const std::lock_guard lock(place->mutex);
-    if (!place->value) place->value = std::make_shared<const Value>(make());
-    return place->value;
-  }
-
- private:
-  struct Place {
-    std::mutex mutex;
-    std::shared_ptr<const Value> value;
-  };
-  std::mutex mutex_;
-  std::map<std::string, std::shared_ptr<Place>> places_;
-};
 
 template <class T>
 void add(cosim::Sha256& hash, const std::vector<T>& values) {
