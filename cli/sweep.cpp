@@ -287,6 +287,9 @@ int run(const SweepCommand& o) {
   refuse_twice({o.json, o.csv, o.store});
   check_json(o);
   check_output(o.csv);
+  refuse_inputs({o.json, o.csv, o.store}, o.take);
+  for (const std::string& other : o.take)
+    if (!std::filesystem::exists(other)) throw Error(fmt::format("{}: no such file", other));
   if (!o.list) refuse_store(o);
   Progress progress;
   std::vector<SweptScene> scenes;

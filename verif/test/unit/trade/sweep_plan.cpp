@@ -17,7 +17,10 @@ namespace {
 SweepPoint base() {
   SweepPoint p;
   p.look.fit = true;
-  return with(p, "SIZE", "320x240");
+  p = with(p, "SIZE", "320x240");
+  p.axis = "base";
+  p.value.clear();
+  return p;
 }
 
 std::string refused(const std::string& axis, const std::string& value) {
