@@ -184,10 +184,10 @@ void Source::load_scene(const Options& options) {
   }
   if (options.config == kPlanned) {
     config_ = planned_config(options_, scene_);
-    notes_.push_back(
-        fmt::format("configuration: plan ({}); its RTL model {}",
-                    config_.config.arrangement == 0 ? "systolic" : fmt::format("LANES {}", config_.config.lanes),
-                    cosim::has_model(config_.config) ? "was there" : "was not there (kage model --plan builds it ahead)"));
+    notes_.push_back(fmt::format(
+        "configuration: plan ({}); its RTL model {}",
+        config_.config.arrangement == 0 ? "systolic" : fmt::format("LANES {}", config_.config.lanes),
+        cosim::has_model(config_.config) ? "was there" : "was not there (kage model --plan builds it ahead)"));
     return;
   }
   config_ = load_config(options.config);

@@ -127,7 +127,8 @@ void draw_translucent(const Task& task, const View& view, FaceDrawer& drawer, Tr
 FrameGeometry build(const Task& task, int width, int height, TranslucentOrder& order, ShadowCache& shadows) {
   const auto& [frame, config, look] = task;
   std::vector<EyePoint> points = eye_points(frame);
-  const View view(frame.camera, width, height, config.z_bits, depth_range(frame, config, width, height, look, points), look.sub_bits);
+  const View view(frame.camera, width, height, config.z_bits, depth_range(frame, config, width, height, look, points),
+                  look.sub_bits);
   const SampledLights lights(frame, config, look, view);
   const Lighting lighting(frame.lights, frame.camera.up);
   LightTable table(config, look, frame.lights, lighting, lights.samples_of);

@@ -2,6 +2,7 @@
 #include "pipeline/choose.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <numeric>
 
@@ -16,6 +17,11 @@ namespace {
 // A later configuration of the list takes the place of an earlier one if it costs a seventh less. What is first in the
 // list is what most people know, and the costs are of one frame.
 constexpr double kWorthMoving = 6.0 / 7;
+
+// The picture by which costs are judged, whatever size is asked for: so a scene has one configuration for all sizes
+// that it fits.
+constexpr int kJudgedWidth = 640;
+constexpr int kJudgedHeight = 480;
 
 /// Whether a configuration is ever chosen without its name.
 bool for_anybody(const Config& c, const Needs& needs) {
@@ -51,13 +57,15 @@ std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs, con
   }
   if (order.size() > 1)
     for (auto& [way, list] : ways) {
-      const Config& config = list[0].named.config;
+      Config config = list[0].named.config;
+      config.max_width = std::max(config.max_width, kJudgedWidth);
+      config.x_bits = std::max(config.x_bits, static_cast<int>(std::bit_width(unsigned{kJudgedWidth})));
       // An exact order may take long, and hardly changes how many tokens there are: all ways have the same of it.
       Look look = draw.look;
       look.translucent = TranslucentWay::submission;
-      const FrameGeometry geometry = make_geometry(first, config, draw.width, draw.height, {.look = look});
+      const FrameGeometry geometry = make_geometry(first, config, kJudgedWidth, kJudgedHeight, {.look = look});
       std::vector<PhaseCounter> counters;
-      for (const ChoiceCost& c : list) counters.emplace_back(c.named.config).start(draw.width);
+      for (const ChoiceCost& c : list) counters.emplace_back(c.named.config).start(kJudgedWidth);
       TokenPieces tokens(config);
       make_frame(geometry, config, 0,
                  [&](std::span<const std::uint32_t> words) {

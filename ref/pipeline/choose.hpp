@@ -10,7 +10,7 @@
 
 namespace kage {
 
-/// A named configuration that can draw a scene, with what the scene's first frame costs it.
+/// A named configuration that can draw a scene, with what the scene's first frame costs it at 640x480.
 struct ChoiceCost {
   NamedConfig named;
   std::uint64_t clocks = 0;  ///< of the frame, by design (docs/rtl.md, "Clocks")

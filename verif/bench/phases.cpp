@@ -15,7 +15,6 @@ namespace {
 
 using namespace kage;
 
-
 PhaseSums sums_of(const Config& c, std::span<const std::uint32_t> words) {
   const Layout layout(c);
   PhaseCounter counter(c);

@@ -143,8 +143,7 @@ OraclePixel Oracle::at(int x) const {
       p.surface = static_cast<std::int32_t>(i);
   }
   if (p.surface < 0) return p;
-  for (const Volume& v : volumes_)
-    p.shadowed = p.shadowed || in_volume(v, x, static_cast<std::uint32_t>(p.surface));
+  for (const Volume& v : volumes_) p.shadowed = p.shadowed || in_volume(v, x, static_cast<std::uint32_t>(p.surface));
   return p;
 }
 

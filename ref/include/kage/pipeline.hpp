@@ -153,7 +153,8 @@ class StreamFrames : public FrameSource {
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples = Look{}.samples);
 
 /// Chooses among the named configurations by a scene's first frame: of those that have all it needs, the first in
-/// listed order, unless a later one costs a seventh less, in clocks of that frame times look-up tables of the core.
+/// listed order, unless a later one costs a seventh less, in clocks of that frame at 640x480 times look-up tables of
+/// the core; so the size that is asked for decides nothing but what has room for it.
 /// Configurations with UNITS, or with a processor for each pixel, are taken only where no other serves. Throws Error if
 /// none has all; it names the one that lacks the fewest things, and those.
 /// @param scene what is drawn
