@@ -37,7 +37,8 @@ void add_cache(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
 
-/// "kage 0.1.0 (1234abc)": the version, and the commit that was built, ", changed" where files differ from it, if known.
+/// "kage 0.1.0 (1234abc)": the version, and the commit that was built, ", changed" where files differ from it, if
+/// known.
 std::string build_name();
 
 /// Adds a subcommand whose help ends with `examples`.

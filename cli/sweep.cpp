@@ -25,6 +25,7 @@
 #include "results.hpp"
 #include "signals.hpp"
 #include "source.hpp"
+#include "standard_files.hpp"
 #include "sweep_print.hpp"
 #include "text.hpp"
 #include "trade/sweep_plan.hpp"
@@ -102,8 +103,8 @@ class Told {
       const double rest = seconds / static_cast<double>(made_) * static_cast<double>(runs_ - done_);
       left = rest < 90 ? fmt::format(", {:.0f} s left", rest) : fmt::format(", {:.0f} min left", rest / 60);
     }
-    progress_.show(fmt::format("sweep: {} of {}{}{}{}", done_, counted(runs_, "run"), left, what_.empty() ? "" : "; ",
-                               what_));
+    progress_.show(
+        fmt::format("sweep: {} of {}{}{}{}", done_, counted(runs_, "run"), left, what_.empty() ? "" : "; ", what_));
   }
 
   std::mutex mutex_;
@@ -226,20 +227,19 @@ class Sweep {
  private:
   /// All that decides the clocks of a point, but for the model, which is of the same build.
   std::string clocks_key(const SweptScene& s, std::size_t point) const {
-    return trade::key_of({build_, "clocks", s.scene->identity(), std::to_string(s.scene->frames()),
-                          trade::text_of(s.points[point])});
+    return trade::key_of(
+        {build_, "clocks", s.scene->identity(), std::to_string(s.scene->frames()), trade::text_of(s.points[point])});
   }
 
   void make(Entry& e) {
     check_interrupt();
     SweptScene& s = scenes_[e.scene];
     const SweepPoint& p = s.points[e.point];
-    const trade::PointWords words = trade::words_of(*s.scene, p);
+    const trade::PointWords words = s.runner->words(e.point);
     const std::string text = trade::text_of(p);
-    const std::string key = trade::key_of({kRows, build_, s.scene->name(), s.scene->identity(),
-                                           std::to_string(s.scene->frames()), text, words.hash,
-                                           s.runner->clocks_text(e.point), o_.no_area ? "estimated" : "counted",
-                                           o_.no_flip ? "no flip" : "flip"});
+    const std::string key = trade::key_of(
+        {kRows, build_, s.scene->name(), s.scene->identity(), std::to_string(s.scene->frames()), text, words.hash,
+         s.runner->clocks_text(e.point), o_.no_area ? "estimated" : "counted", o_.no_flip ? "no flip" : "flip"});
     if (const auto kept = store_.run(key)) {
       e.row = row_of(s, e.point, Json::parse(*kept));
       told_.done(false);
@@ -305,8 +305,8 @@ int run(const SweepCommand& o) {
   try {
     Sweep(o, scenes, store, told).run(entries);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "kage: {} kept in {}: --resume goes on from there\n", counted(told.made(), "run is", "runs are"),
-               o.store);
+    say(fmt::format("kage: {} kept in {}: --resume goes on from there\n", counted(told.made(), "run is", "runs are"),
+                    o.store));
     throw;
   }
   std::vector<Json> rows;
@@ -323,13 +323,14 @@ int run(const SweepCommand& o) {
 }  // namespace
 
 void add_sweep(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "sweep", "Measure accuracy, speed and area over configurations",
-                            "  kage sweep courtyard\n"
-                            "  kage sweep courtyard --no-area --no-cosim --csv trade.csv\n"
-                            "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
-                            "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
-                            "  kage sweep courtyard --resume\n"
-                            "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
+  CLI::App* c =
+      add_command(app, "sweep", "Measure accuracy, speed and area over configurations",
+                  "  kage sweep courtyard\n"
+                  "  kage sweep courtyard --no-area --no-cosim --csv trade.csv\n"
+                  "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
+                  "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
+                  "  kage sweep courtyard --resume\n"
+                  "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
   const auto o = std::make_shared<SweepCommand>();
   o->size = {320, 240};
   option_scenes(*c, o->inputs);

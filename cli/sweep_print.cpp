@@ -19,15 +19,14 @@ std::string line_of(const Json& row) {
   const Json& s = row.at("speed");
   const Json& area = row.at("area");
   const std::string name = fmt::format("{} {}", row.at("axis").get<std::string>(), row.at("value").get<std::string>());
-  return fmt::format("{}{:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}\n",
-                     row.at("pareto").get<bool>() ? "*" : " ", name, a.at("visible_wrong").dump(),
-                     a.at("shadow_wrong").dump(), a.at("gross_wrong").dump(),
-                     number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 1),
-                     number(a.at("psnr"), 1), number(a.at("flip"), 4), number(s.at("golden_ns_per_pixel"), 1),
-                     number(s.at("rtl_cycles_per_pixel"), 3), s.at("rtl_cycles_from") == "cosim" ? " " : "~",
-                     number(s.at("cosim_frames_per_second"), 2), number(s.at("words_per_frame"), 0),
-                     number(area.at("luts"), 0), area.at("counted").get<bool>() ? " " : "~",
-                     area.at("bits_per_pixel").dump());
+  return fmt::format(
+      "{}{:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}\n",
+      row.at("pareto").get<bool>() ? "*" : " ", name, a.at("visible_wrong").dump(), a.at("shadow_wrong").dump(),
+      a.at("gross_wrong").dump(), number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 1),
+      number(a.at("psnr"), 1), number(a.at("flip"), 4), number(s.at("golden_ns_per_pixel"), 1),
+      number(s.at("rtl_cycles_per_pixel"), 3), s.at("rtl_cycles_from") == "cosim" ? " " : "~",
+      number(s.at("cosim_frames_per_second"), 2), number(s.at("words_per_frame"), 0), number(area.at("luts"), 0),
+      area.at("counted").get<bool>() ? " " : "~", area.at("bits_per_pixel").dump());
 }
 
 using Column = std::function<void(const std::string& name, const Json& value)>;
@@ -56,8 +55,8 @@ std::string sweep_table(const std::vector<Json>& rows) {
       text += fmt::format("# {}: {} pixels in {} frames; * no other row beats it; ~ foretold or estimated\n", scene,
                           row.at("accuracy").at("pixels").dump(), row.at("frames").dump());
       text += fmt::format(" {:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}\n",
-                          "# axis value", "visible", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px", "clk/px",
-                          "sim fps", "words", "LUTs", "b/px");
+                          "# axis value", "visible", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
+                          "clk/px", "sim fps", "words", "LUTs", "b/px");
     }
     text += line_of(row);
   }

@@ -81,7 +81,7 @@ Cells estimated_cells(const Config& config) {
   bits(2 * groups, lanes * derived::exit_bits(config));
   if (derived::has_table(config)) bits(config.lights << config.class_bits, derived::entry_share_bits(config));
   if (config.units > 0) {
-    bits(config.units * (2 << config.seg_bits), segment_bits(config));
+    bits(config.units * 2 * derived::most_segments(config), segment_bits(config));
     bits(config.units * (2 << config.face_bits), derived::entry_bits(config));
     bits(groups, lanes * (config.z_bits + derived::rgb_bits(config) + derived::class_field_bits(config)));
   }

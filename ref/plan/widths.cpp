@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 
+#include "contract/derived.hpp"
 #include "kage/error.hpp"
 
 namespace kage::plan {
@@ -116,10 +117,12 @@ class Maker {
       return;
     }
     const bool several = way_.volumes.value > 1;
+    Config counting;
+    counting.dsf_bits = way_.dsf_bits;
     set(&Config::dsf_bits, way_.dsf_bits,
         way_.dsf_bits == 1
             ? fmt::format("parity: {:.0f} volumes for a light sample at most, {}", way_.volumes.value, at(way_.volumes))
-            : fmt::format("counting to {}: {:.0f} volumes for a light sample at most, {}", (1 << way_.dsf_bits) - 1,
+            : fmt::format("counting to {}: {:.0f} volumes for a light sample at most, {}", derived::most_dsf(counting),
                           way_.volumes.value, at(way_.volumes)));
     set(&Config::fsf, several ? 1 : 0,
         several ? "several volumes for a light sample" : "one volume for each light sample");

@@ -67,8 +67,7 @@ void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions
   Config plain = config;
   plain.channels = 3;
   TranslucentOrder order(options.order);
-  FrameGeometry g =
-      make_geometry(frame, plain, options.width, options.height, {.look = options.look, .order = &order});
+  FrameGeometry g = make_geometry(frame, plain, options.width, options.height, {.look = options.look, .order = &order});
   g.background = 0xFFFFFF;
   g.fragments.clear();
   g.volumes.clear();
@@ -91,6 +90,8 @@ void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions
 }
 
 }  // namespace
+
+double depth_steps(const Config& config) { return static_cast<double>(derived::most_depth(config)) - 1; }
 
 DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions& options) {
   DrawnFrame out;
@@ -130,7 +131,7 @@ double Accuracy::wrong_ppm() const {
 
 Accuracy compare(const ScreenTruth& truth, const DrawnFrame& finest, const DrawnFrame& drawn, const Config& config) {
   Accuracy out;
-  const double range = std::ldexp(1.0, config.z_bits) - 3;
+  const double range = depth_steps(config);
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     const TruePixel& t = truth.pixels[i];
     ++out.pixels;

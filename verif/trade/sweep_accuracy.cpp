@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "contract/derived.hpp"
 #include "image/flip_metric.hpp"
 #include "kage/light.hpp"
 #include "opinion/oracle.hpp"
@@ -91,8 +90,8 @@ void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const Drawn
   const bool hard = lights.size() == 1 && lights[0].shape == LightShape::point;
   const auto rays = scene.rays(frame, point);
   for (const RayPixel& ray : *rays) {
-    const std::size_t i = static_cast<std::size_t>(ray.y) * static_cast<std::size_t>(drawn.width) +
-                          static_cast<std::size_t>(ray.x);
+    const std::size_t i =
+        static_cast<std::size_t>(ray.y) * static_cast<std::size_t>(drawn.width) + static_cast<std::size_t>(ray.x);
     ++out.ray_pixels;
     if (drawn.face[i] != ray.face) {
       ++out.ray_visible_wrong;
@@ -130,14 +129,13 @@ PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point,
   out.pixels = against.pixels;
   out.visible_wrong = against.visible_wrong;
   out.shadow_wrong = against.shadow_wrong;
-  const double range = std::ldexp(1.0, point.config.z_bits) - 3;
-  out.z_error_max_lsb = compare(*own, *finest, drawn, point.config).z_max * range;
+  out.z_error_max_lsb = compare(*own, *finest, drawn, point.config).z_max * depth_steps(point.config);
   const FrameGeometry g =
       make_geometry(scene.frame(frame), point.config, point.width, point.height, {.look = point.look});
   out.gross_wrong = gross(g, point.config, *own, drawn);
   ask_rays(scene, frame, point, drawn, *truth, out);
-  out.all = picture_error(*finest, scene.light_samples(frame, scene.finest(point)), drawn,
-                          scene.light_samples(frame, point));
+  out.all =
+      picture_error(*finest, scene.light_samples(frame, scene.finest(point)), drawn, scene.light_samples(frame, point));
   if (flip) out.flip = flip_metric(image_of(*finest), image_of(drawn)).mean;
   return out;
 }

@@ -19,10 +19,10 @@
 namespace kage::trade {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, TranslucentWay>, 3> kOrders{{{"exact", TranslucentWay::exact},
-                                                                              {"centroid", TranslucentWay::centroid},
-                                                                              {"submission",
-                                                                               TranslucentWay::submission}}};
+constexpr std::array<std::pair<std::string_view, TranslucentWay>, 3> kOrders{
+    {{"exact", TranslucentWay::exact},
+     {"centroid", TranslucentWay::centroid},
+     {"submission", TranslucentWay::submission}}};
 
 /// An axis that is no parameter of the core.
 struct LookAxis {
@@ -53,8 +53,7 @@ std::optional<int> number(std::string_view text) {
 
 int number_of(std::string_view axis, std::string_view value, int least, int most) {
   const std::optional<int> n = number(value);
-  if (!n || *n < least || *n > most)
-    refuse(axis, value, fmt::format("no whole number from {} to {}", least, most));
+  if (!n || *n < least || *n > most) refuse(axis, value, fmt::format("no whole number from {} to {}", least, most));
   return *n;
 }
 
@@ -136,8 +135,8 @@ void add_corners(const SweepPoint& base, const Needs& needs, std::vector<SweepPo
   const bool soft = needs.samples > 1;
   const bool smooth = needs.smooth;
   SweepPoint coarse = with_all(base, "corner", "coarse", {{"SUB_BITS", 4}, {"Z_BITS", 12}, {"Z_FRAC", 4}});
-  SweepPoint fine = with_all(base, "corner", "fine",
-                             {{"SUB_BITS", 8}, {"Z_BITS", kGreatest.z_bits}, {"Z_FRAC", kGreatest.z_frac}});
+  SweepPoint fine =
+      with_all(base, "corner", "fine", {{"SUB_BITS", 8}, {"Z_BITS", kGreatest.z_bits}, {"Z_FRAC", kGreatest.z_frac}});
   if (needs.shadows) {
     coarse = with_all(coarse, "corner", "coarse", {{"SHADE_FRAC", 4}});
     fine = with_all(fine, "corner", "fine", {{"SHADE_FRAC", kGreatest.shade_frac}});
@@ -286,11 +285,14 @@ std::vector<SweepPoint> with_seeds(std::vector<SweepPoint> points, int seeds) {
 }
 
 std::string features_text(const Config& c) {
-  return fmt::format("arrangement {} lanes {} beat {} channels {} smooth {} shadows {} fsf {} counts {} lights {} table "
-                     "{} blend {} units {} classic {}",
-                     c.arrangement, c.arrangement == 0 ? 0 : c.lanes, c.beat_words, c.channels, c.smooth,
-                     c.dsf_bits == 0 ? 0 : c.dsf_bits == 1 ? 1 : 2, c.fsf, c.count_bits > 0 ? 1 : 0, c.lights,
-                     derived::has_table(c) ? 1 : 0, c.translucency, c.units, c.classic);
+  return fmt::format(
+      "arrangement {} lanes {} beat {} channels {} smooth {} shadows {} fsf {} counts {} lights {} table "
+      "{} blend {} units {} classic {}",
+      c.arrangement, c.arrangement == 0 ? 0 : c.lanes, c.beat_words, c.channels, c.smooth,
+      c.dsf_bits == 0   ? 0
+      : c.dsf_bits == 1 ? 1
+                        : 2,
+      c.fsf, c.count_bits > 0 ? 1 : 0, c.lights, derived::has_table(c) ? 1 : 0, c.translucency, c.units, c.classic);
 }
 
 }  // namespace kage::trade

@@ -112,12 +112,18 @@ SweepRunner::SweepRunner(SweepScene& scene, std::vector<SweepPoint> points, Swee
   std::map<std::string, std::size_t> first;
   std::vector<std::size_t> others;
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const std::size_t stands = first.emplace(features_text(points_[i].config), i).first->second;
+    const std::string features = features_text(points_[i].config) + (is_built(points_[i].config) ? "" : " unbuilt");
+    const std::size_t stands = first.emplace(features, i).first->second;
     stands_for_.push_back(stands);
     if (is_built(points_[i].config) && !(points_[i].config == points_[stands].config)) others.push_back(i);
   }
   for (std::size_t k = 0; k < std::min(kChecks, others.size()); ++k)
     checked_[others[(2 * k + 1) * others.size() / (2 * std::min(kChecks, others.size()))]] = true;
+}
+
+PointWords SweepRunner::words(std::size_t index) {
+  const std::shared_lock busy(alone_);
+  return words_of(*scene_, points_[index]);
 }
 
 std::string SweepRunner::clocks_text(std::size_t index) const {
@@ -134,11 +140,11 @@ ClockSample SweepRunner::simulate(const SweepPoint& point, const PointWords& wor
   {
     const std::lock_guard lock(build_mutex_);
     const std::shared_lock busy(alone_);
-    model = cosim::find_model(point.config, {.progress = [&](double seconds) {
-                                how_.wait();
-                                how_.doing(fmt::format("building the RTL model of {} {}: {:.0f} s", point.axis,
-                                                       point.value, seconds));
-                              }});
+    model = cosim::find_model(
+        point.config, {.progress = [&](double seconds) {
+          how_.wait();
+          how_.doing(fmt::format("building the RTL model of {} {}: {:.0f} s", point.axis, point.value, seconds));
+        }});
   }
   const std::unique_lock alone(alone_);
   const auto golden = cosim::make_golden(point.config);
@@ -157,10 +163,10 @@ ClockSample SweepRunner::simulate(const SweepPoint& point, const PointWords& wor
   return {.cycles = report.cycles, .foretold = words.foretold, .seconds = report.actual_seconds};
 }
 
-ClockSample SweepRunner::clocks_of(std::size_t index, const PointWords* words) {
+ClockSample SweepRunner::clocks_of(std::size_t index, const PointWords* given) {
   return *clocks_.get(std::to_string(index), [&] {
     const SweepPoint& point = points_[index];
-    const ClockSample sample = words != nullptr ? simulate(point, *words) : simulate(point, words_of(*scene_, point));
+    const ClockSample sample = given != nullptr ? simulate(point, *given) : simulate(point, words(index));
     if (keep_clocks) keep_clocks(index, sample);
     return sample;
   });
@@ -184,12 +190,11 @@ Json SweepRunner::accuracy(const SweepPoint& point, const PointWords& words) {
   j["z_error_bound_lsb"] = plan::depth_error(words.longest_depth, point.config.z_frac, point.width, point.height);
   j["psnr"] = optional_json(psnr(sum.all.squares, sum.all.pixels));
   j["flip"] = how_.flip ? Json(sum.flip / scene_->frames()) : Json(nullptr);
-  j["rays"] = sum.ray_pixels == 0
-                  ? Json(nullptr)
-                  : Json{{"pixels", sum.ray_pixels},
-                         {"visible_wrong", sum.ray_visible_wrong},
-                         {"shadow_pixels", sum.ray_shadow_pixels},
-                         {"shadow_wrong", sum.ray_shadow_wrong}};
+  j["rays"] = sum.ray_pixels == 0 ? Json(nullptr)
+                                  : Json{{"pixels", sum.ray_pixels},
+                                         {"visible_wrong", sum.ray_visible_wrong},
+                                         {"shadow_pixels", sum.ray_shadow_pixels},
+                                         {"shadow_wrong", sum.ray_shadow_wrong}};
   const std::optional<SoftShare> soft = soft_share(scene_->frame(0), point);
   j["soft_share"] = soft ? Json{{"rms", soft->rms}, {"worst", soft->worst}} : Json(nullptr);
   Json split;
@@ -210,8 +215,7 @@ Json SweepRunner::speed(std::size_t index, const PointWords& words) {
   if (how_.cosim && is_built(point.config)) {
     const std::size_t stands = stands_for_[index];
     const ClockSample of = clocks_of(stands, stands == index ? &words : nullptr);
-    if (stands == index || checked_[index])
-      own = stands == index ? of : clocks_of(index, &words);
+    if (stands == index || checked_[index]) own = stands == index ? of : clocks_of(index, &words);
     cycles *= static_cast<double>(of.cycles) / static_cast<double>(of.foretold);
     from = "phases";
     if (of.seconds > 0) fps = frames * static_cast<double>(of.cycles) / (of.seconds * cycles);
@@ -225,8 +229,7 @@ Json SweepRunner::speed(std::size_t index, const PointWords& words) {
   j["rtl_cycles_from"] = own ? "cosim" : from;
   j["phases_cycles_per_pixel"] = own && stands_for_[index] != index ? Json(cycles / pixels) : Json(nullptr);
   j["design_cycles_per_pixel"] = static_cast<double>(words.foretold) / pixels;
-  j["cosim_frames_per_second"] =
-      own && own->seconds > 0 ? Json(frames / own->seconds) : optional_json(fps);
+  j["cosim_frames_per_second"] = own && own->seconds > 0 ? Json(frames / own->seconds) : optional_json(fps);
   j["words_per_frame"] = static_cast<double>(words.words) / frames;
   return j;
 }
@@ -278,7 +281,8 @@ std::vector<bool> pareto(const std::vector<Json>& rows) {
   std::vector<std::string> groups;
   for (const Json& row : rows) {
     costs.push_back({wrong_share(row), row.at("accuracy").at("sources").at("all").at("mean_square").get<double>(),
-                     row.at("speed").at("rtl_cycles_per_pixel").get<double>(), row.at("area").at("luts").get<double>()});
+                     row.at("speed").at("rtl_cycles_per_pixel").get<double>(),
+                     row.at("area").at("luts").get<double>()});
     groups.push_back(row.at("scene").dump() + row.at("look").at("width").dump() + row.at("look").at("height").dump());
   }
   std::vector<bool> out;

@@ -50,6 +50,9 @@ class SweepRunner {
   /// and of the others three, to show that both ways to their clocks agree.
   SweepRunner(SweepScene& scene, std::vector<SweepPoint> points, SweepHow how);
 
+  /// The words of a point; the thread is not one that is alone.
+  PointWords words(std::size_t point);
+
   /// A point's figures by their names in docs/schema/sweep.json: accuracy, speed and area. For several threads at once;
   /// where time is measured, the thread waits until it is alone.
   nlohmann::ordered_json run(std::size_t point, const PointWords& words);
@@ -68,7 +71,7 @@ class SweepRunner {
   nlohmann::ordered_json accuracy(const SweepPoint& point, const PointWords& words);
   nlohmann::ordered_json speed(std::size_t index, const PointWords& words);
   nlohmann::ordered_json area(const SweepPoint& point);
-  ClockSample clocks_of(std::size_t index, const PointWords* words);
+  ClockSample clocks_of(std::size_t index, const PointWords* given);
   ClockSample simulate(const SweepPoint& point, const PointWords& words);
 
   SweepScene* scene_;
@@ -89,9 +92,9 @@ std::string key_of(const std::vector<std::string>& parts);
 /// then follow from it; else SHA-256 of the program's file besides.
 std::string build_identity(const std::string& name);
 
-/// Marks the rows that no other row of the same scene and size beats: none is at least as good in wrong pixels, error of
-/// colour, clocks a pixel and look-up tables, and better in one. Rows have `scene`, `config` (with `width`, `height` in
-/// `look`), `accuracy`, `speed` and `area`.
+/// Marks the rows that no other row of the same scene and size beats: none is at least as good in wrong pixels, error
+/// of colour, clocks a pixel and look-up tables, and better in one. Rows have `scene`, `config` (with `width`, `height`
+/// in `look`), `accuracy`, `speed` and `area`.
 std::vector<bool> pareto(const std::vector<nlohmann::ordered_json>& rows);
 
 }  // namespace kage::trade

@@ -165,7 +165,9 @@ SweepPoint SweepScene::alone(const SweepPoint& point, ErrorSource source) const 
   Config& c = out.config;
   const Config& of = point.config;
   switch (source) {
-    case ErrorSource::snapping: out.look.sub_bits = point.look.sub_bits; break;
+    case ErrorSource::snapping:
+      out.look.sub_bits = point.look.sub_bits;
+      break;
     case ErrorSource::depth:
       c.z_bits = of.z_bits;
       c.z_frac = of.z_frac;

@@ -114,7 +114,8 @@ struct SweepStore::Data {
       throw Error(fmt::format("{}: a store of version {}, and this kage has {}", file, version, kVersion));
     Statement s(db, file, "PRAGMA quick_check(1)");
     const std::string found = s.step() ? s.text(0) : "nothing";
-    if (found != "ok") throw Error(fmt::format("{}: the store is damaged: {}", file, found.substr(0, found.find('\n'))));
+    if (found != "ok")
+      throw Error(fmt::format("{}: the store is damaged: {}", file, found.substr(0, found.find('\n'))));
   }
 };
 
@@ -181,8 +182,9 @@ int SweepStore::absorb(const std::filesystem::path& other) {
   Data& d = *data_;
   Statement(d.db, d.file, "ATTACH ? AS other").bind(other.string()).step();
   d.at_once([&] {
-    d.execute("INSERT OR IGNORE INTO run SELECT * FROM other.run;"
-              "INSERT OR IGNORE INTO clocks SELECT * FROM other.clocks;");
+    d.execute(
+        "INSERT OR IGNORE INTO run SELECT * FROM other.run;"
+        "INSERT OR IGNORE INTO clocks SELECT * FROM other.clocks;");
   });
   d.execute("DETACH other");
   return static_cast<int>(d.number("SELECT count(*) FROM run")) - before;

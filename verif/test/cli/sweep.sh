@@ -4,7 +4,7 @@
 # killed goes on; shards are the whole; clocks by phases are those of the RTL; what is no axis is refused in one line.
 . "$(dirname "$0")/common.bash"
 quick=(--size 64x48 --frames 1 --config default --no-area --no-cosim)
-axes=(--axes Z_BITS=8,24 --axes SUB_BITS=4,5 --axes LANES=1,16 --axes SHADE_FRAC=3)
+axes=(--axes "Z_BITS=8,24" --axes "SUB_BITS=4,5" --axes "LANES=1,16" --axes SHADE_FRAC=3)
 
 # measured FILE: the rows without what differs from run to run.
 measured() {

@@ -144,7 +144,10 @@ TEST_CASE("a row that another beats is not marked") {
     return Json{{"scene", scene},
                 {"look", {{"width", 64}, {"height", 48}}},
                 {"accuracy",
-                 {{"pixels", 100}, {"visible_wrong", wrong}, {"shadow_wrong", 0}, {"sources", {{"all", {{"mean_square", square}}}}}}},
+                 {{"pixels", 100},
+                  {"visible_wrong", wrong},
+                  {"shadow_wrong", 0},
+                  {"sources", {{"all", {{"mean_square", square}}}}}}},
                 {"speed", {{"rtl_cycles_per_pixel", cycles}}},
                 {"area", {{"luts", luts}}}};
   };
