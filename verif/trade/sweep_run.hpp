@@ -51,11 +51,11 @@ class SweepRunner {
   SweepRunner(SweepScene& scene, std::vector<SweepPoint> points, SweepHow how);
 
   /// The words of a point; the thread is not one that is alone.
-  PointWords words(std::size_t point);
+  PointWords words(std::size_t index);
 
   /// A point's figures by their names in docs/schema/sweep.json: accuracy, speed and area. For several threads at once;
   /// where time is measured, the thread waits until it is alone.
-  nlohmann::ordered_json run(std::size_t point, const PointWords& words);
+  nlohmann::ordered_json run(std::size_t index, const PointWords& words);
 
   /// Clocks of a point that are known from an earlier run, so that it need not be co-simulated.
   void know_clocks(std::size_t point, const ClockSample& sample);
@@ -65,7 +65,7 @@ class SweepRunner {
   /// The point whose clocks stand for those of this one: itself, if it is the one that is co-simulated.
   [[nodiscard]] std::size_t representative(std::size_t point) const { return stands_for_[point]; }
   /// What a point's clocks are taken from: part of the key of its row.
-  [[nodiscard]] std::string clocks_text(std::size_t point) const;
+  [[nodiscard]] std::string clocks_text(std::size_t index) const;
 
  private:
   nlohmann::ordered_json accuracy(const SweepPoint& point, const PointWords& words);

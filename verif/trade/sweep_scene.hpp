@@ -72,15 +72,15 @@ class SweepScene {
   /// That, but for one source, which is as the point has it.
   [[nodiscard]] SweepPoint alone(const SweepPoint& point, ErrorSource source) const;
   /// How many samples each light of a frame has.
-  [[nodiscard]] std::vector<int> light_samples(int frame, const SweepPoint& point) const;
+  [[nodiscard]] std::vector<int> light_samples(int index, const SweepPoint& point) const;
 
   /// The oracle's answers for a snap of so many bits, with the samples of the point.
-  std::shared_ptr<const ScreenTruth> truth(int frame, const SweepPoint& point, int sub_bits);
-  std::shared_ptr<const DrawnFrame> finest_picture(int frame, const SweepPoint& point);
+  std::shared_ptr<const ScreenTruth> truth(int index, const SweepPoint& point, int sub_bits);
+  std::shared_ptr<const DrawnFrame> finest_picture(int index, const SweepPoint& point);
   /// Of pixels that are spread evenly over the picture: all of them, or as many as a minute allows.
-  std::shared_ptr<const std::vector<RayPixel>> rays(int frame, const SweepPoint& point);
+  std::shared_ptr<const std::vector<RayPixel>> rays(int index, const SweepPoint& point);
   /// The error of the picture of alone(point, source).
-  std::shared_ptr<const PictureError> error_of(int frame, const SweepPoint& point, ErrorSource source);
+  std::shared_ptr<const PictureError> error_of(int index, const SweepPoint& point, ErrorSource source);
 
  private:
   struct Data;
