@@ -38,7 +38,7 @@ LineClocks::Need needed_line(std::span<const std::uint64_t> lines) {
   const auto need_of = [&](const Neighbours& run) {
     const auto sum = std::accumulate(lines.begin() + static_cast<std::ptrdiff_t>(run.first),
                                      lines.begin() + static_cast<std::ptrdiff_t>(run.first + run.count), 0.0);
-    return sum / static_cast<double>(run.count + 1);
+    return (sum + kWayOutClocks) / static_cast<double>(run.count + 1);
   };
   // The run that exceeds T a line by most asks for more than T, or T is enough. Each step takes a run that asks for
   // more, and there are finitely many.

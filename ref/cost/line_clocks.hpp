@@ -45,11 +45,17 @@ struct LineClocks {
   }
 };
 
+/// What a run of lines takes beyond the clocks of its tokens and passes, once: from the clock in which a buffer of the
+/// way out is free to its line's first pixel at the port. rtl/core_display finds up to 2.
+inline constexpr double kWayOutClocks = 8;
+
 /// The least clocks T that a line of a display must have, so that a core which takes `lines` clocks for its lines is
 /// never late. The way out holds two lines (docs/rtl.md): while one leaves and one waits, the core works on the next.
-/// So m neighbouring lines have the time of m + 1 lines of the display, and T is the most of sum / (m + 1) over all
-/// runs of neighbours. The first line of a frame begins with the way out empty, behind the blanking of the frame
-/// before.
+/// So m neighbouring lines have the time of m + 1 lines of the display, and T is the most of
+/// (sum + kWayOutClocks) / (m + 1) over all runs of neighbours. The first line of a frame begins with the way out
+/// empty, behind the blanking of the frame before. A line whose colours come back before its TPs leaves the way out
+/// only once the line before has left: for such frames the two lines are those of a FIFO behind the core, as video_out
+/// has one (docs/video.md).
 /// @param lines clocks of each line of a frame, top to bottom
 /// @return T, and the lines that decide it; 0 without lines
 LineClocks::Need needed_line(std::span<const std::uint64_t> lines);

@@ -16,6 +16,9 @@
 namespace kage::plan {
 namespace {
 
+// The least X_BITS that is legal (rtl/defs/kage.yaml), whatever the width.
+constexpr int kLeastXBits = 4;
+
 /// Makes all frames of the scenes. Calls `of_parts` with what each was made of and `of_token` with each token, both
 /// with where that is.
 template <class OfParts, class OfToken>
@@ -56,23 +59,6 @@ int columns(const FrameGeometry& g, const ScreenPolygon& p) {
   return std::max(0, end - first);
 }
 
-double value_at(const ScreenPlane& p, const ScreenVertex& v) {
-  const double x = v.x / 256.0 - 0.5 - p.x0;
-  const double y = v.y / 256.0 - 0.5 - p.y0;
-  return (static_cast<double>(p.c) + static_cast<double>(p.a) * x + static_cast<double>(p.b) * y) * 0x1p-24;
-}
-
-/// How far the colours of a polygon's corners are from the one that it has without slopes.
-double off_flat(const FrameGeometry& g, const ScreenPolygon& p) {
-  double off = 0;
-  if (p.color_planes < 0) return off;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const ScreenPlane& plane = g.color_planes[static_cast<std::size_t>(p.color_planes) + c];
-    for (const ScreenVertex& v : g.outline(p)) off = std::max(off, std::abs(value_at(plane, v) - p.color[c]));
-  }
-  return off;
-}
-
 using GroupKey = std::vector<std::pair<std::uint32_t, int>>;
 
 /// Adds what shadows take in a frame, each group once.
@@ -104,7 +90,6 @@ void add_geometry(const FrameGeometry& g, const Config& config, const PlanPlace&
   std::map<std::uint32_t, int> volumes;
   for (const ShadowVolume& v : g.volumes) ++volumes[v.sample];
   for (const auto& [sample, count] : volumes) out.volumes.raise(count, at);
-  for (const ScreenPolygon& p : g.polygons) out.flat_off.raise(off_flat(g, p), at);
   // A fragment goes on where its face began, whatever lies before it.
   for (const ScreenFragment& f : g.fragments)
     for (std::uint32_t i = f.first_polygon; i < f.first_polygon + f.polygon_count; ++i) {
@@ -158,7 +143,7 @@ Features features_of(std::span<const PlannedScene> scenes) {
 Config finest(const Features& features, int dsf_bits, int units) {
   const Needs& needs = features.needs;
   Config c;
-  c.x_bits = std::bit_width(static_cast<unsigned>(needs.width));
+  c.x_bits = std::max(static_cast<int>(std::bit_width(static_cast<unsigned>(needs.width))), kLeastXBits);
   c.max_width = needs.width;
   c.z_bits = 24;
   c.z_frac = kGreatest.z_frac;
@@ -214,6 +199,9 @@ UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& 
         out.units.raise(parts.polyhedra.units, at);
         const auto& of = parts.polyhedra.unit_of;
         out.bodies.raise(static_cast<double>(std::count_if(of.begin(), of.end(), [](int u) { return u >= 0; })), at);
+        // A body's index is its place among all, those that are not to be seen too.
+        for (std::size_t i = 0; i < of.size(); ++i)
+          if (of[i] >= 0) out.last_index.raise(static_cast<double>(i), at);
       },
       [&](const Token& t, const PlanPlace& at) {
         if (t.kind == Kind::FACE) out.faces.raise(t.segment.face + 1.0, {at.scene, at.frame, -1});

@@ -52,18 +52,18 @@ struct WayDemand {
   Most volumes;                    ///< of a light sample
   Most depth_span;                 ///< pixels along which depth goes on by steps
   Most color_span;                 ///< pixels along which colour does
-  Most flat_off;                   ///< steps of colour by which a corner differs from its polygon's one colour
   Most classes;                    ///< in use in a frame, of light tables
   std::vector<ShareGroup> groups;  ///< what shadows take, without repetition
 };
 
 /// What expansion units must have for all polyhedra that can go to one.
 struct UnitDemand {
-  Most units;     ///< 0: no frame has a polyhedron
-  Most faces;     ///< of a unit
-  Most dx;        ///< pixels of a segment
-  Most segments;  ///< of a unit's line
-  Most bodies;    ///< polyhedra in units
+  Most units;       ///< 0: no frame has a polyhedron
+  Most faces;       ///< of a unit
+  Most dx;          ///< pixels of a segment
+  Most segments;    ///< of a unit's line
+  Most bodies;      ///< polyhedra in units
+  Most last_index;  ///< draw index of the last polyhedron in a unit
 };
 
 /// Called before each frame.

@@ -73,7 +73,8 @@ class Planner {
     std::string name = d.dsf_bits == 0   ? "no shadows"
                        : d.dsf_bits == 1 ? std::string("parity")
                                          : fmt::format("counting, {} bits", d.dsf_bits);
-    if (units != nullptr) name += fmt::format(", {:.0f} units", units->units.value);
+    if (units != nullptr)
+      name += fmt::format(", {:.0f} unit{}", units->units.value, units->units.value == 1 ? "" : "s");
     return name;
   }
 

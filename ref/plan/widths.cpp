@@ -155,10 +155,8 @@ class Maker {
     const Needs& needs = features_.needs;
     const ParamInfo& c = info_of(&Config::color_frac);
     const ParamInfo& s = info_of(&Config::shade_frac);
-    const bool may_be_flat = !needs.smooth || way_.flat_off.value <= limits_.color;
-    const double flat = needs.smooth ? way_.flat_off.value : 0;
     const auto feasible = [&] {
-      return may_be_flat ? shade_frac(flat) <= s.max : shade_frac(color_error(way_.color_span.value, c.max)) <= s.max;
+      return shade_frac(needs.smooth ? color_error(way_.color_span.value, c.max) : 0) <= s.max;
     };
     if (!feasible()) {
       const int asked = out_.color_limit;
@@ -173,18 +171,11 @@ class Maker {
     if (!needs.smooth) {
       set(&Config::smooth, 0, "each polygon has one colour");
       set(&Config::color_frac, 0, "no slopes of colour");
-    } else if (may_be_flat) {
-      set(&Config::smooth, 0,
-          fmt::format("colour varies within a polygon by {:.2g} steps at most ({}), --max-color is {}", flat,
-                      at(way_.flat_off), out_.color_limit));
-      set(&Config::color_frac, 0, "no slopes of colour");
     } else {
-      set(&Config::smooth, 1,
-          fmt::format("colour varies within a polygon by {:.2g} steps ({}), --max-color is {}", way_.flat_off.value,
-                      at(way_.flat_off), out_.color_limit));
+      set(&Config::smooth, 1, "colour varies within a face");
       color_frac(c, s);
     }
-    const double drawn = out_.config.smooth > 0 ? color_error(way_.color_span.value, out_.config.color_frac) : flat;
+    const double drawn = needs.smooth ? color_error(way_.color_span.value, out_.config.color_frac) : 0;
     if (!needs.shadows) {
       set(&Config::shade_frac, s.min, "no shadows");
       return;
@@ -230,8 +221,9 @@ class Maker {
         fmt::format("a segment of {:.0f} pixels, {}", units_->dx.value, at(units_->dx)));
     set(&Config::seg_bits, std::max(2, bits_for(units_->segments.value - 1)),
         fmt::format("{:.0f} segments of a unit on a line, {}", units_->segments.value, at(units_->segments)));
-    set(&Config::order_bits, std::max(1, bits_for(units_->bodies.value)),
-        fmt::format("{:.0f} bodies, {}", units_->bodies.value, at(units_->bodies)));
+    set(&Config::order_bits, std::max(1, bits_for(units_->last_index.value)),
+        fmt::format("the last body in a unit is number {:.0f}, from 0, {}", units_->last_index.value,
+                    at(units_->last_index)));
   }
 
   std::span<const PlannedScene> scenes_;

@@ -42,7 +42,6 @@ struct Width {
   int (*step)(int);
 };
 
-int same(int v) { return v; }
 int fraction_step(int v) { return plan::position_step(std::max(v, 1)); }
 int shade_step(int v) { return std::min(plan::four_step(v), kGreatest.shade_frac); }
 int class_step(int v) { return v <= 1 ? v : plan::class_step(v); }
@@ -128,7 +127,6 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
                               widths.z_bits, given, at.z_bits, text_of(now)));
   }
   std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
-  if (at.smooth > 0) list.push_back({&Config::smooth, 0, same});
   if (at.color_frac > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
   if (at.dsf_bits > 0) list.push_back({&Config::shade_frac, 1, shade_step});
   if (at.class_bits > 1) list.push_back({&Config::class_bits, 2, class_step});
@@ -141,7 +139,6 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
       while (at.*w.member > w.least) {
         Config less = at;
         less.*w.member -= 1;
-        if (less.smooth == 0) less.color_frac = 0;
         const std::optional<Accuracy> a = measure(less);
         if (!serves(a)) {
           one_less[k] = text_of(a ? measure(less, true) : a);
@@ -156,7 +153,9 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
   const std::string kept = text_of(measure(at, true));
   Config stepped = at;
   for (const Width& w : list) stepped.*w.member = w.step(at.*w.member);
-  if (stepped.smooth == 0) stepped.color_frac = 0;
+  // More bits are finer, but other roundings may move more pixels of these frames: then what was measured is taken.
+  const bool exact = !serves(measure(stepped));
+  if (exact) stepped = at;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Width& w = list[k];
     const auto name = name_of(w.member);
@@ -167,7 +166,9 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
     reason->value = stepped.*w.member;
     reason->text = fmt::format("measured: {} give {}{}{}", raw, kept,
                                one_less[k].empty() ? "" : fmt::format("; {} give {}", raw - 1, one_less[k]),
-                               reason->value == raw ? "" : fmt::format(" (the next step is {})", reason->value));
+                               exact && w.step(raw) != raw ? std::string(" (the next steps are over a limit)")
+                               : reason->value == raw      ? std::string()
+                                                           : fmt::format(" (the next step is {})", reason->value));
   }
   widths = stepped;
 }

@@ -88,7 +88,9 @@ struct PlanCost {
   std::uint64_t clocks = 0;         ///< of all frames, by design (docs/rtl.md, "Clocks")
   std::uint64_t worst_line = 0;     ///< clocks of the line that takes most
   PlanPlace worst_at;               ///< that line
-  double needed_line = 0;           ///< clocks that a line of a display must have, the two lines of the way out used
+  /// Clocks that a line of a display must have, the two lines of the way out used; with counters and translucency those
+  /// of a FIFO behind the core (docs/plan.md, "The clock").
+  double needed_line = 0;
   PlanPlace needed_at;              ///< the first of the lines that ask for it
   int needed_lines = 0;             ///< how many those are
   double luts = 0;                  ///< look-up tables of an ECP5, estimated

@@ -39,6 +39,16 @@ for case in "three-lights --samples 64" "courtyard --size 4096x16" "glass --size
   grep -q 'configuration: widest$' stdout || fail "$case: $(cat stdout)"
 done
 
+# The smallest pictures.
+for size in 1x1 2x3 7x1; do
+  "$kage" plan courtyard --size $size --frames 1 >least.yaml || fail "no plan for $size"
+  expect 0 "$kage" render courtyard --size $size --frames 1 --config least.yaml --out out
+done
+
+# Smooth colour is kept whatever --max-color allows, since no core without it draws the scene.
+"$kage" plan penumbra --size 64x48 --frames 1 --max-color 60 >rough.yaml || fail "no plan"
+expect 0 "$kage" render penumbra --size 64x48 --frames 1 --config rough.yaml --out out
+
 # A display: what is enough, what is not.
 expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50
 grep -q '^# a display of 60 frames a second and 51 lines each, blanking included, at 50 MHz: the core keeps up$' stdout || fail "$(cat stdout)"

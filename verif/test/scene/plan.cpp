@@ -5,9 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "contract/config_text.hpp"
@@ -147,6 +150,52 @@ TEST_CASE("a display's pace decides the lanes") {
   CHECK(fast.config.lanes >= slow.config.lanes);
   options.clock->mhz = 0.1;
   CHECK_FALSE(make_plan(scenes, options).cost.meets_clock.value());
+}
+
+TEST_CASE("whatever the limits, every configuration that a plan compares draws its scenes") {
+  for (const std::string& input : inputs())
+    for (const auto& [z, color] : {std::pair{1e-7, 255}, std::pair{0.5, 40}}) {
+      const std::array scenes{small(input, 64, 48, 2)};
+      PlanOptions options;
+      options.limits.z = z;
+      options.limits.color = color;
+      options.limits.color_given = true;
+      const Plan plan = make_plan(scenes, options);
+      std::vector<PlanCandidate> all = plan.others;
+      all.push_back(plan.smallest);
+      all.push_back({"chosen", plan.config, {}});
+      for (const PlanCandidate& c : all) {
+        CAPTURE(input, z, color, c.way);
+        SceneFrames frames(scenes[0].scene, c.config, scenes[0].draw);
+        for (int i = 0; i < frames.frames(); ++i) {
+          const SceneFrame frame = scenes[0].scene->frame(i, frames.frames());
+          CHECK(lacks(c.config, needs_of(*scenes[0].scene, frame, 64, 48)).empty());
+          CHECK_NOTHROW(frames.words(i));
+        }
+      }
+    }
+}
+
+TEST_CASE("as many bodies go to units as a core with all room would put there") {
+  for (const char* input : {"courtyard", "polyhedra", "fifteen", "depths"}) {
+    const std::array scenes{small(input, 160, 120, 4)};
+    PlanOptions options;
+    const Plan plan = make_plan(scenes, options);
+    for (const PlanCandidate& c : plan.others) {
+      if (c.config.units == 0) continue;
+      CAPTURE(input, c.way, c.config.order_bits);
+      const Config roomy = plan::finest(plan::features_of(scenes), c.config.dsf_bits, kGreatest.units);
+      const auto in_units = [&](const Config& config, int i) {
+        SceneFrames frames(scenes[0].scene, config, scenes[0].draw);
+        FrameParts parts;
+        frames.frame(
+            i, [](std::span<const std::uint32_t>) {}, parts);
+        const auto& of = parts.polyhedra.unit_of;
+        return std::count_if(of.begin(), of.end(), [](int unit) { return unit >= 0; });
+      };
+      for (int i = 0; i < 4; ++i) CHECK(in_units(c.config, i) >= in_units(roomy, i));
+    }
+  }
 }
 
 TEST_CASE("a core for several scenes draws each of them") {
