@@ -59,7 +59,7 @@ std::string text_of(const report::DifferenceRecord& difference) {
 
 }  // namespace
 
-void option_shard(CLI::App& command, Shard& shard) {
+void option_shard(CLI::App& command, Shard& shard, const std::string& what) {
   command
       .add_option_function<std::string>(
           "--shard",
@@ -75,9 +75,7 @@ void option_shard(CLI::App& command, Shard& shard) {
               throw CLI::ValidationError("--shard", text + " is not I/N with I from 1 to N, like 2/4");
             shard = s;
           },
-          "run the Ith of N parts of the frames of all scenes: frame I - 1 and every Nth after it. kage merge joins "
-          "the "
-          "reports")
+          what)
       ->type_name("I/N");
 }
 

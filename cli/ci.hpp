@@ -43,7 +43,11 @@ struct CiOptions {
   std::string annotate;  ///< "github", "none", or "": as the environment says
 };
 
-void option_shard(CLI::App& command, Shard& shard);
+/// --shard; `what` is its help: what of the command the Ith of N parts is.
+void option_shard(CLI::App& command, Shard& shard,
+                  const std::string& what =
+                      "run the Ith of N parts of the frames of all scenes: frame I - 1 and every "
+                      "Nth after it. kage merge joins the reports");
 void option_junit(CLI::App& command, std::string& path, const std::string& each = "frame");
 void option_annotate(CLI::App& command, std::string& annotate);
 

@@ -26,6 +26,7 @@ void add_board(CLI::App& app, Action& action);
 void add_info(CLI::App& app, Action& action);
 void add_plan(CLI::App& app, Action& action);
 void add_area(CLI::App& app, Action& action);
+void add_sweep(CLI::App& app, Action& action);
 void add_explain(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
@@ -35,6 +36,10 @@ void add_order(CLI::App& app, Action& action);
 void add_cache(CLI::App& app, Action& action);
 void add_list(CLI::App& app, Action& action);
 void add_help(CLI::App& app, Action& action);
+
+/// "kage 0.1.0 (1234abc)": the version, and the commit that was built, ", changed" where files differ from it, if
+/// known.
+std::string build_name();
 
 /// Adds a subcommand whose help ends with `examples`.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& what, const std::string& examples);

@@ -102,7 +102,7 @@ void find_data() {
 int run(int argc, char** argv) {
   CLI::App app("kage: a span-stream rendering core, its golden model and its co-simulation", "kage");
   app.formatter(help_formatter());
-  app.set_version_flag("-V,--version", "kage " KAGE_VERSION KAGE_COMMIT);
+  app.set_version_flag("-V,--version", build_name());
   app.footer(
       "kage cosim courtyard is a good start; kage help COMMAND explains a command, kage list lists scenes.\n"
       "After a change to the RTL kage regress says in five minutes whether it is still right.\n"
@@ -119,6 +119,7 @@ int run(int argc, char** argv) {
   add_info(app, action);
   add_plan(app, action);
   add_area(app, action);
+  add_sweep(app, action);
   add_explain(app, action);
   add_diff(app, action);
   add_merge(app, action);
@@ -140,6 +141,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+
+std::string kage::cli::build_name() { return "kage " KAGE_VERSION KAGE_COMMIT; }
 
 int main(int argc, char** argv) {
   try {

@@ -60,7 +60,7 @@ void option_size(CLI::App& command, Options& options) {
             options.size = size;
             options.size_given = true;
           },
-          "picture size, default 640x480")
+          fmt::format("picture size, default {}x{}", options.size.width, options.size.height))
       ->type_name("WxH");
 }
 

@@ -66,7 +66,8 @@ void run(const FrameGeometry& g, const Config& config, int threads, CoreObserver
 void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions& options, DrawnFrame& out) {
   Config plain = config;
   plain.channels = 3;
-  FrameGeometry g = make_geometry(frame, plain, options.width, options.height, {.look = options.look});
+  TranslucentOrder order(options.order);
+  FrameGeometry g = make_geometry(frame, plain, options.width, options.height, {.look = options.look, .order = &order});
   g.background = 0xFFFFFF;
   g.fragments.clear();
   g.volumes.clear();
@@ -90,6 +91,8 @@ void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions
 
 }  // namespace
 
+double depth_steps(const Config& config) { return static_cast<double>(derived::most_depth(config)) - 1; }
+
 DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions& options) {
   DrawnFrame out;
   out.width = options.width;
@@ -100,7 +103,9 @@ DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions
   out.counts.resize(pixels);
   out.color.resize(pixels);
   take_faces(frame, config, options, out);
-  const FrameGeometry g = make_geometry(frame, config, options.width, options.height, {.look = options.look});
+  TranslucentOrder order(options.order);
+  const FrameGeometry g =
+      make_geometry(frame, config, options.width, options.height, {.look = options.look, .order = &order});
   StateTaker taker(config, out);
   const auto channels = static_cast<std::size_t>(config.channels);
   std::size_t at = 0;
@@ -126,7 +131,7 @@ double Accuracy::wrong_ppm() const {
 
 Accuracy compare(const ScreenTruth& truth, const DrawnFrame& finest, const DrawnFrame& drawn, const Config& config) {
   Accuracy out;
-  const double range = std::ldexp(1.0, config.z_bits) - 3;
+  const double range = depth_steps(config);
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     const TruePixel& t = truth.pixels[i];
     ++out.pixels;
@@ -136,7 +141,7 @@ Accuracy compare(const ScreenTruth& truth, const DrawnFrame& finest, const Drawn
     }
     if (t.face != kNothing)
       out.z_max = std::max(out.z_max, std::abs((static_cast<double>(drawn.z[i]) - 1) / range - t.depth));
-    if (t.lit && config.dsf_bits > 0 && drawn.counts[i] != t.counts) {
+    if (t.lit && drawn.counts[i] != t.counts) {
       ++out.shadow_wrong;
       continue;
     }

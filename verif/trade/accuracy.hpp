@@ -15,6 +15,9 @@
 
 namespace kage::trade {
 
+/// Steps of the depth range: from the least depth that is drawn to the greatest.
+double depth_steps(const Config& config);
+
 /// A picture of opaque faces as a core draws it, with what the core knows of each pixel when its line ends.
 struct DrawnFrame {
   int width = 0;

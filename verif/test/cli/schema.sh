@@ -73,6 +73,11 @@ said 0 plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 5
 json "$last" 'j["limits"]["max_wrong"] == 5000 and "measured: " in j["reasons"]["Z_BITS"]'
 said 0 area tiny default --estimate
 
+# Sweeps: soft lights, and none; with the RTL, and without.
+said 0 sweep penumbra --size 32x24 --frames 1 --axes SAMPLES=1,4 --no-area --no-cosim --no-flip
+said 0 sweep courtyard --size 64x48 --frames 1 --config default --axes SIZE=32x24 --no-area --store second.sqlite
+json "$last" '[r["speed"]["rtl_cycles_from"] for r in j] == ["cosim", "phases"]'
+
 # Trouble has no JSON.
 expect 2 "$kage" cosim nowhere.obj --json trouble.json
 [ ! -e trouble.json ] || fail "trouble leaves JSON"

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep_print.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace kage::cli {
+namespace {
+
+/// A number with so many digits behind the point; "-" for null.
+std::string number(const Json& value, int digits) {
+  return value.is_null() ? "-" : fmt::format("{:.{}f}", value.get<double>(), digits);
+}
+
+std::string line_of(const Json& row) {
+  const Json& a = row.at("accuracy");
+  const Json& s = row.at("speed");
+  const Json& area = row.at("area");
+  const std::string name = fmt::format("{} {}", row.at("axis").get<std::string>(), row.at("value").get<std::string>());
+  return fmt::format(
+      "{}{:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}\n",
+      row.at("pareto").get<bool>() ? "*" : " ", name, a.at("visible_wrong").dump(), a.at("shadow_wrong").dump(),
+      a.at("gross_wrong").dump(), number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 1),
+      number(a.at("psnr"), 1), number(a.at("flip"), 4), number(s.at("golden_ns_per_pixel"), 1),
+      number(s.at("rtl_cycles_per_pixel"), 3), s.at("rtl_cycles_from") == "cosim" ? " " : "~",
+      number(s.at("cosim_frames_per_second"), 2), number(s.at("words_per_frame"), 0), number(area.at("luts"), 0),
+      area.at("counted").get<bool>() ? " " : "~", area.at("bits_per_pixel").dump());
+}
+
+using Column = std::function<void(const std::string& name, const Json& value)>;
+
+void columns(const std::string& name, const Json& value, const Column& use) {
+  if (!value.is_object()) return use(name, value);
+  for (const auto& [key, inner] : value.items()) columns(name.empty() ? key : name + "." + key, inner, use);
+}
+
+std::string quoted_csv(const Json& value) {
+  if (value.is_null()) return "";
+  if (!value.is_string()) return value.dump();
+  std::string out = "\"";
+  for (const char c : value.get<std::string>()) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+std::string sweep_table(const std::vector<Json>& rows) {
+  std::string text;
+  std::string scene;
+  for (const Json& row : rows) {
+    if (text.empty() || row.at("scene") != scene) {
+      scene = row.at("scene").get<std::string>();
+      text += fmt::format("# {}: {} pixels in {} frames; * no other row beats it; ~ foretold or estimated\n", scene,
+                          row.at("accuracy").at("pixels").dump(), row.at("frames").dump());
+      text += fmt::format(" {:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}\n",
+                          "# axis value", "visible", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
+                          "clk/px", "sim fps", "words", "LUTs", "b/px");
+    }
+    text += line_of(row);
+  }
+  return text;
+}
+
+std::string sweep_csv(const std::vector<Json>& rows) {
+  // A key may be null in one row and hold values in another, so the columns are those of all rows.
+  std::vector<std::string> names;
+  for (const Json& row : rows)
+    columns("", row, [&](const std::string& name, const Json& value) {
+      if (!value.is_null() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    });
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
+  text += "\n";
+  for (const Json& row : rows) {
+    std::vector<std::string> cells(names.size());
+    columns("", row, [&](const std::string& name, const Json& value) {
+      const auto at = std::find(names.begin(), names.end(), name);
+      if (at != names.end()) cells[static_cast<std::size_t>(at - names.begin())] = quoted_csv(value);
+    });
+    for (std::size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : ",") + cells[i];
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace kage::cli

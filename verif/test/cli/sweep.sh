@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage sweep from outside: table, JSON and CSV say the same; what is in the store is not measured again, and a sweep that is
+# killed goes on; shards are the whole; clocks by phases are those of the RTL; what is no axis is refused in one line.
+. "$(dirname "$0")/common.bash"
+quick=(--size 64x48 --frames 1 --config default --no-area --no-cosim)
+axes=(--axes "Z_BITS=8,24" --axes "SUB_BITS=4,5" --axes "LANES=1,16" --axes SHADE_FRAC=3)
+
+# measured FILE: the rows without what differs from run to run.
+measured() {
+  python3 -c 'import json, sys
+j = json.load(open(sys.argv[1]))
+for r in j: del r["speed"]["golden_ns_per_pixel"], r["speed"]["cosim_frames_per_second"]
+json.dump(j, sys.stdout, indent=1)' "$1"
+}
+
+# One sweep, told in three ways.
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --json a.json --csv a.csv
+cp stdout table
+json a.json 'len(j) == 7 and [r["axis"] for r in j] == ["base", "Z_BITS", "SUB_BITS", "SUB_BITS", "LANES", "LANES", "SHADE_FRAC"]'
+json a.json 'all(r["accuracy"]["gross_wrong"] == 0 and 0 < r["accuracy"]["z_error_max_lsb"] <= r["accuracy"]["z_error_bound_lsb"] for r in j)'
+json a.json 'j[1]["accuracy"]["visible_wrong"] + j[1]["accuracy"]["shadow_wrong"] > 0 and j[2]["accuracy"]["sources"]["snapping"]["visible_wrong"] > 0'
+json a.json 'j[0]["accuracy"]["visible_wrong"] == 0 and j[4]["speed"]["rtl_cycles_per_pixel"] > 3 * j[5]["speed"]["rtl_cycles_per_pixel"]'
+json a.json 'all(r["accuracy"]["sources"]["all"] == j[0]["accuracy"]["sources"]["all"] for r in j[4:6])'
+python3 - <<'PY' || fail "table, JSON and CSV differ"
+import csv, json
+rows, table = json.load(open("a.json")), [line for line in open("table") if not line.lstrip().startswith("#")]
+sheet = list(csv.DictReader(open("a.csv")))
+assert len(rows) == len(sheet) == len(table), (len(rows), len(sheet), len(table))
+def flat(value, name=""):
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from flat(inner, f"{name}.{key}" if name else key)
+    else:
+        yield name, value
+for row, cells, line in zip(rows, sheet, table):
+    for name, value in flat(row):
+        if name == "schema": continue
+        if value is None: assert cells.get(name, "") == "", name
+        elif isinstance(value, str): assert cells[name] == value, name
+        else: assert json.loads(cells[name]) == value, name
+    told = line.split()[-12:]
+    a, s, area = row["accuracy"], row["speed"], row["area"]
+    assert line.startswith("*") == row["pareto"], line
+    assert told[:3] == [str(a["visible_wrong"]), str(a["shadow_wrong"]), str(a["gross_wrong"])], line
+    assert f'{s["rtl_cycles_per_pixel"]:.3f}' in line and f'{area["luts"]:.0f}~' in line, line
+PY
+
+# What is kept is not measured again; without --resume a store is not touched.
+trouble "sweep.sqlite: there is a store already: --resume goes on with it" "$kage" sweep courtyard "${quick[@]}"
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --resume --json again.json
+tail -1 stdout | grep -qF '# 0 measured now' || fail "$(tail -1 stdout)"
+cmp a.json again.json || fail "a resumed sweep says something else"
+expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8,12 --resume
+tail -1 stdout | grep -qF '# 1 measured now' || fail "$(tail -1 stdout)"
+
+# Killed, as often as it takes, it goes on and ends with the same rows; what was measured is not lost.
+runs=0
+for _ in 1 2 3 4; do
+  "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --jobs 1 --store killed.sqlite --resume >/dev/null 2>&1 &
+  pid=$!
+  for _ in $(seq 200); do
+    now=$(python3 -c 'import sqlite3; print(sqlite3.connect("file:killed.sqlite?mode=ro", uri=True).execute("select count(*) from run").fetchone()[0])' 2>/dev/null || echo 0)
+    [ "$now" -gt "$runs" ] && break
+    sleep 0.02
+  done
+  kill -9 $pid 2>/dev/null
+  wait $pid 2>/dev/null
+  now=$(python3 -c 'import sqlite3; print(sqlite3.connect("killed.sqlite").execute("select count(*) from run").fetchone()[0])')
+  [ "$now" -ge "$runs" ] && [ "$now" -gt 0 ] || fail "a run is lost: $now of $runs"
+  runs=$now
+done
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --store killed.sqlite --resume --json killed.json
+grep -qF "# $((7 - runs)) measured now" stdout || fail "$runs were kept: $(tail -1 stdout)"
+[ "$(measured killed.json)" = "$(measured a.json)" ] || fail "a killed sweep ends with other rows"
+
+# Two shards are the whole.
+for i in 1 2; do
+  expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --shard $i/2 --store part$i.sqlite --json part$i.json
+done
+json part1.json 'len(j) == 4'
+json part2.json 'len(j) == 3'
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --take part1.sqlite --take part2.sqlite --store whole.sqlite --json whole.json
+grep -qF '# 0 measured now' stdout || fail "$(tail -1 stdout)"
+[ "$(measured whole.json)" = "$(measured a.json)" ] || fail "shards are not the whole"
+
+# A grid, seeds, and what would be measured.
+expect 0 "$kage" sweep penumbra --size 64x48 --axes SAMPLES=1,4 --axes Z_BITS=12,24 --grid --seeds 2 --list
+[ "$(wc -l <stdout)" = 6 ] || fail "$(cat stdout)"
+expect 0 "$kage" sweep courtyard --list
+[ "$(wc -l <stdout)" -gt 50 ] || fail "$(wc -l <stdout) configurations"
+
+# Clocks by phases are those of the RTL within a thousandth: the base's model stands for the other, which is built to check it.
+expect 0 "$kage" sweep courtyard --size 64x48 --frames 1 --config default --no-area --axes Z_BITS=20 --store rtl.sqlite --json rtl.json
+json rtl.json 'j[0]["speed"]["rtl_cycles_from"] == j[1]["speed"]["rtl_cycles_from"] == "cosim"'
+json rtl.json 'abs(j[1]["speed"]["phases_cycles_per_pixel"] / j[1]["speed"]["rtl_cycles_per_pixel"] - 1) < 1e-3'
+json rtl.json 'j[0]["speed"]["cosim_frames_per_second"] > 0'
+
+trouble "--axes DEPTH=3: there is no axis DEPTH; there are SUB_BITS, SAMPLES" "$kage" sweep courtyard "${quick[@]}" --axes DEPTH=3 --store no.sqlite
+trouble "--axes Z_BITS: 99 is no whole number from 4 to 28" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=99 --store no.sqlite
+trouble "--axes Z_BITS: an empty value is no whole number" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=12, --store no.sqlite
+trouble "--axes Z_BITS: it has no values" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS --store no.sqlite
+trouble "LANES is 3" "$kage" sweep courtyard "${quick[@]}" --axes LANES=3 --store no.sqlite
+trouble "--grid: of the axes that --axes names, and there is none" "$kage" sweep courtyard "${quick[@]}" --grid --store no.sqlite
+trouble "part3.sqlite: no such file" "$kage" sweep courtyard "${quick[@]}" --take part3.sqlite --store no.sqlite
+echo text >text.sqlite
+trouble "text.sqlite: no store of kage sweep" "$kage" sweep courtyard "${quick[@]}" --store text.sqlite --resume
+[ "$(cat text.sqlite)" = text ] || fail "a file that is no store was written to"
+trouble "random frames are for" "$kage" sweep random --store no.sqlite
+[ ! -e no.sqlite ] || fail "trouble leaves a store"
+no_leftovers
+done_testing

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The store of a sweep: what is kept stays, whenever its program is killed; what is no store is refused and left alone.
+#include "trade/sweep_store.hpp"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <string>
+
+#include "file/read_file.hpp"
+#include "kage/error.hpp"
+#include "test/support/catch.hpp"
+#include "test/support/pictures.hpp"
+
+using namespace kage;
+using namespace kage::trade;
+
+namespace {
+
+std::string refused(const std::filesystem::path& file) {
+  try {
+    const SweepStore store(file);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return {};
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// A row that shows whether it is whole.
+std::string row(int number) { return std::string(20000, static_cast<char>('a' + number % 26)); }
+
+}  // namespace
+
+TEST_CASE("what is kept is there when the store is opened again") {
+  const verif::TempFolder folder("sweep-store");
+  const auto file = folder.path / "a.sqlite";
+  {
+    SweepStore store(file);
+    CHECK_FALSE(store.run("1"));
+    store.keep_run("1", "courtyard", "point", "{}");
+    store.keep_clocks("1", {.cycles = 1ULL << 40, .foretold = 3, .seconds = 0.5});
+  }
+  SweepStore store(file);
+  CHECK(store.run("1") == "{}");
+  CHECK(store.clocks("1")->cycles == 1ULL << 40);
+  CHECK(store.clocks("1")->seconds == 0.5);
+  CHECK_FALSE(store.clocks("2"));
+  // Another store's rows; those that are here stay.
+  {
+    SweepStore other(folder.path / "b.sqlite");
+    other.keep_run("1", "courtyard", "point", "another");
+    other.keep_run("2", "courtyard", "point", "[]");
+  }
+  CHECK(store.absorb(folder.path / "b.sqlite") == 1);
+  CHECK(store.run("1") == "{}");
+  CHECK(store.run("2") == "[]");
+  CHECK(store.runs() == 2);
+  CHECK_THROWS_AS(store.absorb(folder.path / "none.sqlite"), Error);
+}
+
+TEST_CASE("a program that is killed loses at most the run under way") {
+  const verif::TempFolder folder("sweep-killed");
+  const auto file = folder.path / "a.sqlite";
+  for (int round = 0; round < 8; ++round) {
+    std::array<int, 2> told{};
+    REQUIRE(pipe(told.data()) == 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      // The child says each number once its row is kept.
+      SweepStore store(file);
+      for (int n = 1000 * round;; ++n) {
+        store.keep_run(std::to_string(n), "scene", "point", row(n));
+        if (::write(told[1], &n, sizeof n) != sizeof n) _exit(1);
+      }
+    }
+    int last = -1;
+    for (int i = 0; i < 5 + 3 * round; ++i) REQUIRE(::read(told[0], &last, sizeof last) == sizeof last);
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    close(told[1]);
+    for (int n = 0; ::read(told[0], &n, sizeof n) == sizeof n;) last = n;
+    close(told[0]);
+    SweepStore store(file);
+    for (int n = 1000 * round; n <= last; ++n) {
+      CAPTURE(round, n);
+      CHECK((store.run(std::to_string(n)) == row(n)));
+    }
+    const auto next = store.run(std::to_string(last + 1));
+    CHECK((!next || *next == row(last + 1)));
+    CHECK_FALSE(store.run(std::to_string(last + 2)));
+  }
+}
+
+TEST_CASE("what is no store is refused, and left as it is") {
+  using Catch::Matchers::ContainsSubstring;
+  const verif::TempFolder folder("sweep-refused");
+  const auto file = folder.path / "a.sqlite";
+  {
+    SweepStore store(file);
+    for (int n = 0; n < 20; ++n) store.keep_run(std::to_string(n), "scene", "point", row(n));
+  }
+  const std::string good = read_file(file);
+  REQUIRE(refused(file).empty());
+
+  const auto check = [&](const std::string& bytes, const std::string& text) {
+    write(file, bytes);
+    CHECK_THAT(refused(file), ContainsSubstring(file.string() + ": ") && ContainsSubstring(text));
+    CHECK((read_file(file) == bytes));
+  };
+  check(std::string(5000, 'x'), "no store of kage sweep: it is no SQLite file");
+  std::string other = good;
+  other[63] = 2;  // the version, in SQLite's header
+  check(other, "a store of version 2, and this kage has 1");
+  other = good;
+  other[68] = 0;  // the application
+  check(other, "no store of kage sweep, though an SQLite file");
+  std::string damaged = good;
+  for (std::size_t i = 4096; i < 3 * 4096; ++i) damaged[i] = static_cast<char>(i * 7);
+  check(damaged, "");
+  check(good.substr(0, good.size() / 2), "");
+  CHECK_THAT(refused(folder.path / "no/such/folder.sqlite"), ContainsSubstring("unable to open"));
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+namespace kage::trade {
+
+/// Values that are made once, by the thread that asks first; threads that ask for the same one meanwhile wait. If
+/// making it throws, the next thread makes it.
+template <class Value>
+class Kept {
+ public:
+  template <class Make>
+  std::shared_ptr<const Value> get(const std::string& key, Make make) {
+    std::shared_ptr<Place> place;
+    {
+      const std::lock_guard lock(mutex_);
+      auto& entry = places_[key];
+      if (!entry) entry = std::make_shared<Place>();
+      place = entry;
+    }
+    const std::lock_guard lock(place->mutex);
+    if (!place->value) place->value = std::make_shared<const Value>(make());
+    return place->value;
+  }
+
+ private:
+  struct Place {
+    std::mutex mutex;
+    std::shared_ptr<const Value> value;
+  };
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<Place>> places_;
+};
+
+}  // namespace kage::trade

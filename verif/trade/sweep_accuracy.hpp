@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wrong in the pictures of a sweep's point, by the oracle, by rays, and against the finest picture.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "trade/accuracy.hpp"
+#include "trade/sweep_scene.hpp"
+
+namespace kage::trade {
+
+/// Of all frames of a point.
+struct PointAccuracy {
+  std::uint64_t pixels = 0;
+  std::uint64_t visible_wrong = 0;  ///< pixels that show another face than the oracle of the finest snap
+  std::uint64_t shadow_wrong = 0;   ///< the right face, and another number of shadowed samples than that oracle
+  std::uint64_t gross_wrong = 0;    ///< wrong by the oracle of the point's own snap, and no stated error excuses it
+  double z_error_max_lsb = 0;       ///< of a stored depth against the exact one of the point's own snap
+  std::uint64_t ray_pixels = 0;     ///< that rays were asked about; 0: they cannot be (Look::cull)
+  std::uint64_t ray_visible_wrong = 0;
+  std::uint64_t ray_shadow_pixels = 0;  ///< of these, lit pixels of a scene with one point light
+  std::uint64_t ray_shadow_wrong = 0;
+  PictureError all;  ///< against the finest picture
+  double flip = 0;   ///< sum over the frames of the mean of FLIP; only if asked for
+
+  PointAccuracy& operator+=(const PointAccuracy& o);
+};
+
+/// Measures a frame of a point that was drawn as `drawn`.
+PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, bool flip);
+
+/// How far the share of a soft light's samples beyond a straight edge is from the share of the light's area, over edges
+/// at all places and of all directions: of the light of the frame that does worst. None: no light is soft.
+struct SoftShare {
+  double rms = 0;
+  double worst = 0;
+};
+std::optional<SoftShare> soft_share(const SceneFrame& frame, const SweepPoint& point);
+
+/// Of PictureError::squares, in dB; none if all colours are equal.
+std::optional<double> psnr(double squares, std::uint64_t pixels);
+
+}  // namespace kage::trade

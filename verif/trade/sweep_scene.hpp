@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The frames of a scene with what is true of them, each made once and kept for all configurations of a sweep: the
+// oracle's answers, those of exact rays, the picture with everything at its finest, and what each source of error does
+// alone. For several threads at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kage/pipeline.hpp"
+#include "trade/accuracy.hpp"
+#include "trade/screen_truth.hpp"
+#include "trade/sweep_plan.hpp"
+
+namespace kage::trade {
+
+/// What a picture's error comes from.
+enum class ErrorSource : std::uint8_t { snapping, depth, color, samples, classes, order };
+inline constexpr std::array kErrorSources{ErrorSource::snapping, ErrorSource::depth,   ErrorSource::color,
+                                          ErrorSource::samples,  ErrorSource::classes, ErrorSource::order};
+std::string_view name_of(ErrorSource source);
+
+/// How far a picture is from the one with everything at its finest.
+struct PictureError {
+  std::uint64_t pixels = 0;
+  std::uint64_t visible_wrong = 0;  ///< pixels that show another face
+  double shadow = 0;   ///< sum over pixels with the same face of how far the share of a light in shadow is off, at most
+  double squares = 0;  ///< sum of squared differences of colour, in steps of 255, over all channels
+  PictureError& operator+=(const PictureError& o);
+};
+
+/// A picture and how many samples each light had in it, against another.
+PictureError picture_error(const DrawnFrame& expected, const std::vector<int>& expected_samples,
+                           const DrawnFrame& drawn, const std::vector<int>& samples);
+
+/// What exact rays through the unsnapped scene say of a pixel.
+struct RayPixel {
+  int x = 0;
+  int y = 0;
+  std::uint32_t face = kNothing;
+  bool shadowed = false;  ///< something stands between it and the middle of the first light
+};
+
+class SweepScene {
+ public:
+  /// `draw` has the number of frames, at least 1, the threads that work on one, and the scene's name. `base` says
+  /// whether lights are looked up in a table. `step` is called now and then, by several threads, and what it throws
+  /// goes through.
+  SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& draw, const SweepPoint& base,
+             std::function<void()> step);
+  ~SweepScene();
+  SweepScene(const SweepScene&) = delete;
+  SweepScene& operator=(const SweepScene&) = delete;
+
+  [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] int frames() const;
+  [[nodiscard]] const SceneFrame& frame(int index) const;
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const;
+  /// SHA-256 of all frames' corners and cameras: another file of the same name is another scene.
+  [[nodiscard]] const std::string& identity() const;
+  [[nodiscard]] DrawOptions draw_options(const SweepPoint& point) const;
+
+  /// The point with everything that changes a picture at its finest: 8 bits of snapped positions, the widest depth,
+  /// colour and shares, the most samples and classes, exact order.
+  [[nodiscard]] SweepPoint finest(const SweepPoint& point) const;
+  /// That, but for one source, which is as the point has it.
+  [[nodiscard]] SweepPoint alone(const SweepPoint& point, ErrorSource source) const;
+  /// How many samples each light of a frame has.
+  [[nodiscard]] std::vector<int> light_samples(int index, const SweepPoint& point) const;
+
+  /// The oracle's answers for a snap of so many bits, with the samples of the point.
+  std::shared_ptr<const ScreenTruth> truth(int index, const SweepPoint& point, int sub_bits);
+  std::shared_ptr<const DrawnFrame> finest_picture(int index, const SweepPoint& point);
+  /// Of pixels that are spread evenly over the picture: all of them, or as many as a minute allows.
+  std::shared_ptr<const std::vector<RayPixel>> rays(int index, const SweepPoint& point);
+  /// The error of the picture of alone(point, source).
+  std::shared_ptr<const PictureError> error_of(int index, const SweepPoint& point, ErrorSource source);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace kage::trade

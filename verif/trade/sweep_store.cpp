@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trade/sweep_store.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <mutex>
+#include <string_view>
+
+#include "kage/error.hpp"
+
+namespace kage::trade {
+namespace {
+
+// "KAGE": what SQLite's header keeps of a store and of no other file.
+constexpr int kApplication = 0x4B414745;
+
+// Another program's transaction is waited for so long.
+constexpr int kBusyMilliseconds = 60000;
+
+constexpr const char* kSchema =
+    "CREATE TABLE run (key TEXT PRIMARY KEY, scene TEXT NOT NULL, point TEXT NOT NULL, row TEXT NOT NULL, "
+    "made TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP) WITHOUT ROWID;"
+    "CREATE TABLE clocks (key TEXT PRIMARY KEY, cycles INTEGER NOT NULL, foretold INTEGER NOT NULL, "
+    "seconds REAL NOT NULL) WITHOUT ROWID;";
+
+/// A statement that is stepped, and let go.
+class Statement {
+ public:
+  Statement(sqlite3* db, const std::string& file, std::string_view sql) : db_(db), file_(file) {
+    check(sqlite3_prepare_v2(db, sql.data(), static_cast<int>(sql.size()), &statement_, nullptr));
+  }
+  ~Statement() { sqlite3_finalize(statement_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(const std::string& text) {
+    check(sqlite3_bind_text(statement_, ++bound_, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
+    return *this;
+  }
+  Statement& bind(std::uint64_t number) {
+    check(sqlite3_bind_int64(statement_, ++bound_, static_cast<sqlite3_int64>(number)));
+    return *this;
+  }
+  Statement& bind(double number) {
+    check(sqlite3_bind_double(statement_, ++bound_, number));
+    return *this;
+  }
+
+  /// Whether there is a row.
+  bool step() {
+    const int code = sqlite3_step(statement_);
+    if (code != SQLITE_ROW && code != SQLITE_DONE) check(code);
+    return code == SQLITE_ROW;
+  }
+  [[nodiscard]] std::string text(int column) const {
+    const unsigned char* const text = sqlite3_column_text(statement_, column);
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, column));
+    return text == nullptr ? "" : std::string(reinterpret_cast<const char*>(text), size);
+  }
+  [[nodiscard]] std::int64_t number(int column) const { return sqlite3_column_int64(statement_, column); }
+  [[nodiscard]] double real(int column) const { return sqlite3_column_double(statement_, column); }
+
+ private:
+  void check(int code) const {
+    if (code == SQLITE_OK) return;
+    if ((code & 0xFF) == SQLITE_NOTADB)
+      throw Error(fmt::format("{}: no store of kage sweep: it is no SQLite file", file_));
+    throw Error(fmt::format("{}: {}", file_, sqlite3_errmsg(db_)));
+  }
+
+  sqlite3* db_;
+  const std::string& file_;
+  sqlite3_stmt* statement_ = nullptr;
+  int bound_ = 0;
+};
+
+}  // namespace
+
+struct SweepStore::Data {
+  std::string file;
+  sqlite3* db = nullptr;
+  std::mutex mutex;
+
+  ~Data() { sqlite3_close(db); }
+
+  Statement statement(std::string_view sql) { return {db, file, sql}; }
+  std::int64_t number(std::string_view sql) {
+    Statement s(db, file, sql);
+    return s.step() ? s.number(0) : 0;
+  }
+  void execute(const char* sql) {
+    if (sqlite3_exec(db, sql, nullptr, nullptr, nullptr) != SQLITE_OK)
+      throw Error(fmt::format("{}: {}", file, sqlite3_errmsg(db)));
+  }
+  /// All in one transaction.
+  template <class Work>
+  void at_once(Work work) {
+    execute("BEGIN IMMEDIATE");
+    try {
+      work();
+      execute("COMMIT");
+    } catch (...) {
+      sqlite3_exec(db, "ROLLBACK", nullptr, nullptr, nullptr);
+      throw;
+    }
+  }
+
+  void check_version() {
+    if (number("PRAGMA application_id") != kApplication)
+      throw Error(fmt::format("{}: no store of kage sweep, though an SQLite file", file));
+    const std::int64_t version = number("PRAGMA user_version");
+    if (version != kVersion)
+      throw Error(fmt::format("{}: a store of version {}, and this kage has {}", file, version, kVersion));
+    Statement s(db, file, "PRAGMA quick_check(1)");
+    const std::string found = s.step() ? s.text(0) : "nothing";
+    if (found != "ok")
+      throw Error(fmt::format("{}: the store is damaged: {}", file, found.substr(0, found.find('\n'))));
+  }
+};
+
+SweepStore::SweepStore(const std::filesystem::path& file) : data_(std::make_unique<Data>()) {
+  Data& d = *data_;
+  d.file = file.string();
+  if (sqlite3_open_v2(d.file.c_str(), &d.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX,
+                      nullptr) != SQLITE_OK)
+    throw Error(fmt::format("{}: {}", d.file, sqlite3_errmsg(d.db)));
+  sqlite3_busy_timeout(d.db, kBusyMilliseconds);
+  if (d.number("SELECT count(*) FROM sqlite_master") > 0 || d.number("PRAGMA application_id") != 0) {
+    d.check_version();
+  } else {
+    d.at_once([&] {
+      if (d.number("SELECT count(*) FROM sqlite_master") > 0) return;  // another program was first
+      d.execute(kSchema);
+      d.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplication, kVersion).c_str());
+    });
+    d.check_version();
+  }
+  // A row that is told to be kept is on the disk.
+  d.execute("PRAGMA synchronous = FULL");
+}
+
+SweepStore::~SweepStore() = default;
+
+std::optional<std::string> SweepStore::run(const std::string& key) {
+  const std::lock_guard lock(data_->mutex);
+  Statement s(data_->db, data_->file, "SELECT row FROM run WHERE key = ?");
+  if (!s.bind(key).step()) return std::nullopt;
+  return s.text(0);
+}
+
+void SweepStore::keep_run(const std::string& key, const std::string& scene, const std::string& point,
+                          const std::string& row) {
+  const std::lock_guard lock(data_->mutex);
+  data_->at_once([&] {
+    Statement s(data_->db, data_->file, "INSERT OR REPLACE INTO run (key, scene, point, row) VALUES (?, ?, ?, ?)");
+    s.bind(key).bind(scene).bind(point).bind(row).step();
+  });
+}
+
+std::optional<ClockSample> SweepStore::clocks(const std::string& key) {
+  const std::lock_guard lock(data_->mutex);
+  Statement s(data_->db, data_->file, "SELECT cycles, foretold, seconds FROM clocks WHERE key = ?");
+  if (!s.bind(key).step()) return std::nullopt;
+  return ClockSample{static_cast<std::uint64_t>(s.number(0)), static_cast<std::uint64_t>(s.number(1)), s.real(2)};
+}
+
+void SweepStore::keep_clocks(const std::string& key, const ClockSample& sample) {
+  const std::lock_guard lock(data_->mutex);
+  data_->at_once([&] {
+    Statement s(data_->db, data_->file,
+                "INSERT OR REPLACE INTO clocks (key, cycles, foretold, seconds) VALUES (?, ?, ?, ?)");
+    s.bind(key).bind(sample.cycles).bind(sample.foretold).bind(sample.seconds).step();
+  });
+}
+
+int SweepStore::absorb(const std::filesystem::path& other) {
+  if (!std::filesystem::exists(other)) throw Error(fmt::format("{}: no such file", other.string()));
+  { const SweepStore checked(other); }
+  const int before = runs();
+  const std::lock_guard lock(data_->mutex);
+  Data& d = *data_;
+  Statement(d.db, d.file, "ATTACH ? AS other").bind(other.string()).step();
+  d.at_once([&] {
+    d.execute(
+        "INSERT OR IGNORE INTO run SELECT * FROM other.run;"
+        "INSERT OR IGNORE INTO clocks SELECT * FROM other.clocks;");
+  });
+  d.execute("DETACH other");
+  return static_cast<int>(d.number("SELECT count(*) FROM run")) - before;
+}
+
+int SweepStore::runs() {
+  const std::lock_guard lock(data_->mutex);
+  return static_cast<int>(data_->number("SELECT count(*) FROM run"));
+}
+
+}  // namespace kage::trade
