@@ -9,6 +9,7 @@
 
 #include "contract/derived.hpp"
 #include "kage/error.hpp"
+#include "number/counted.hpp"
 
 namespace kage::plan {
 namespace {
@@ -117,13 +118,13 @@ class Maker {
       return;
     }
     const bool several = way_.volumes.value > 1;
+    const std::string volumes = counted(static_cast<int>(way_.volumes.value), "volume");
     Config of_way;
     of_way.dsf_bits = way_.dsf_bits;
     set(&Config::dsf_bits, way_.dsf_bits,
-        way_.dsf_bits == 1
-            ? fmt::format("parity: {:.0f} volumes for a light sample at most, {}", way_.volumes.value, at(way_.volumes))
-            : fmt::format("counting to {}: {:.0f} volumes for a light sample at most, {}", derived::most_dsf(of_way),
-                          way_.volumes.value, at(way_.volumes)));
+        way_.dsf_bits == 1 ? fmt::format("parity: {} for a light sample at most, {}", volumes, at(way_.volumes))
+                           : fmt::format("counting to {}: {} for a light sample at most, {}", derived::most_dsf(of_way),
+                                         volumes, at(way_.volumes)));
     set(&Config::fsf, several ? 1 : 0,
         several ? "several volumes for a light sample" : "one volume for each light sample");
     const bool counted = needs.samples > 1 || needs.lights > 1;

@@ -84,10 +84,10 @@ struct PlanOptions {
 
 /// What a configuration costs for the planned frames.
 struct PlanCost {
-  std::uint64_t words = 0;          ///< of all frames
-  std::uint64_t clocks = 0;         ///< of all frames, by design (docs/rtl.md, "Clocks")
-  std::uint64_t worst_line = 0;     ///< clocks of the line that takes most
-  PlanPlace worst_at;               ///< that line
+  std::uint64_t words = 0;       ///< of all frames
+  std::uint64_t clocks = 0;      ///< of all frames, by design (docs/rtl.md, "Clocks")
+  std::uint64_t worst_line = 0;  ///< clocks of the line that takes most
+  PlanPlace worst_at;            ///< that line
   /// Clocks that a line of a display must have, the two lines of the way out used; with counters and translucency those
   /// of a FIFO behind the core (docs/plan.md, "The clock").
   double needed_line = 0;
