@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "contract/derived.hpp"
 #include "device_clock.hpp"
 #include "kage/error.hpp"
 #include "planned.hpp"
@@ -79,15 +80,23 @@ PlanOptions options_of(const PlanCommand& o, Progress& progress) {
 double per_frame(const Plan& plan, std::uint64_t all) { return static_cast<double>(all) / plan.frames; }
 double per_pixel(const Plan& plan, double all) { return all / static_cast<double>(plan.pixels); }
 
+/// Colours of a line that come back wait until the line before has left, so nothing of the way out evens lines out.
+bool needs_fifo(const Config& config) { return derived::has_loads(config); }
+
+std::string keeps_up(const Config& config) {
+  return needs_fifo(config) ? "keeps up with a FIFO of two lines behind it" : "keeps up";
+}
+
 /// One line of what a configuration costs.
-std::string cost_text(const Plan& plan, const PlanCost& c) {
+std::string cost_text(const Plan& plan, const Config& config, const PlanCost& c) {
   std::string text = fmt::format(
       "{:.0f} words a frame, {:.2f} clocks a pixel, worst line {} clocks, {:.0f} LUTs (within {:.0f} %), {:.0f} "
       "flip-flops, {} bits of RAM, {} bits a pixel",
       per_frame(plan, c.words), per_pixel(plan, static_cast<double>(c.clocks)), c.worst_line, c.luts, 100 * c.luts_off,
       c.flip_flops, c.ram_bits, c.bits_per_pixel);
   if (c.meets_clock)
-    text += *c.meets_clock ? "; keeps up" : fmt::format("; does not keep up: {:.0f} clocks a line", c.needed_line);
+    text += *c.meets_clock ? "; " + keeps_up(config)
+                           : fmt::format("; does not keep up: {:.0f} clocks a line", c.needed_line);
   return text;
 }
 
@@ -103,17 +112,18 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
                       plan.z_error, plan.limits.color,
                       plan.limits.color > options.limits.color ? " (no core keeps less here)" : "");
   if (options.clock)
-    text += fmt::format("# a display of {:g} frames a second and {} lines each, blanking included, at {:g} MHz: {}\n",
-                        options.clock->fps,
-                        options.clock->total_lines > 0 ? options.clock->total_lines : usual_total_lines(plan.size[1]),
-                        options.clock->mhz,
-                        *plan.cost.meets_clock ? "the core keeps up" : "no core keeps up, this one comes nearest");
-  text += fmt::format("# costs {}\n", cost_text(plan, plan.cost));
+    text += fmt::format(
+        "# a display of {:g} frames a second and {} lines each, blanking included, at {:g} MHz: {}\n",
+        options.clock->fps,
+        options.clock->total_lines > 0 ? options.clock->total_lines : usual_total_lines(plan.size[1]),
+        options.clock->mhz,
+        *plan.cost.meets_clock ? "the core " + keeps_up(plan.config) : "no core keeps up, this one comes nearest");
+  text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
   for (const PlanCandidate& c : plan.others)
-    text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.cost));
+    text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.config, c.cost));
   if (o.plan.prefer == Prefer::speed && !(plan.smallest.config == plan.config))
     text += fmt::format("# the smallest, {} ({}): {}\n", plan.smallest.way, shape_text(plan.smallest.config),
-                        cost_text(plan, plan.smallest.cost));
+                        cost_text(plan, plan.smallest.config, plan.smallest.cost));
   return text + to_yaml(plan);
 }
 
@@ -122,7 +132,7 @@ Json place_json(const PlanPlace& at) {
   return {{"scene", at.scene}, {"frame", at.frame}, {"line", at.line >= 0 ? Json(at.line) : Json(nullptr)}};
 }
 
-Json cost_json(const Plan& plan, const PlanCost& c) {
+Json cost_json(const Plan& plan, const Config& config, const PlanCost& c) {
   Json j;
   j["words_per_frame"] = per_frame(plan, c.words);
   j["clocks_per_pixel"] = per_pixel(plan, static_cast<double>(c.clocks));
@@ -138,11 +148,12 @@ Json cost_json(const Plan& plan, const PlanCost& c) {
   j["bits_per_pixel"] = c.bits_per_pixel;
   j["golden_ns_per_pixel"] = per_pixel(plan, c.golden_seconds * 1e9);
   j["meets_clock"] = c.meets_clock ? Json(*c.meets_clock) : Json(nullptr);
+  j["needs_fifo"] = needs_fifo(config);
   return j;
 }
 
 Json candidate_json(const Plan& plan, const PlanCandidate& c) {
-  return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.cost)}};
+  return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.config, c.cost)}};
 }
 
 Json json_of(const PlanCommand& o, const Plan& plan) {
@@ -163,7 +174,7 @@ Json json_of(const PlanCommand& o, const Plan& plan) {
   j["reasons"] = reasons;
   j["worst_line_cycles"] = plan.cost.worst_line;
   j["meets_clock"] = plan.cost.meets_clock ? Json(*plan.cost.meets_clock) : Json(nullptr);
-  j["cost"] = cost_json(plan, plan.cost);
+  j["cost"] = cost_json(plan, plan.config, plan.cost);
   j["others"] = Json::array();
   for (const PlanCandidate& c : plan.others) j["others"].push_back(candidate_json(plan, c));
   j["smallest"] = candidate_json(plan, plan.smallest);

@@ -54,6 +54,10 @@ expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50
 grep -q '^# a display of 60 frames a second and 51 lines each, blanking included, at 50 MHz: the core keeps up$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" plan courtyard --size 640x480 --frames 1 --device ecp5-25f --fps 30
 grep -q ' and 525 lines each' stdout || fail "$(cat stdout)"
+# Translucent layers over counted samples: the way out evens nothing out.
+expect 0 "$kage" plan penumbra glass --size 64x48 --frames 1 --samples 3 --clock 500 --json loads.json
+grep -q ': the core keeps up with a FIFO of two lines behind it$' stdout || fail "$(cat stdout)"
+json loads.json 'j["cost"]["needs_fifo"] is True and j["meets_clock"] is True'
 expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 0.01
 grep -q 'no core keeps up, this one comes nearest$' stdout || fail "$(cat stdout)"
 
