@@ -52,6 +52,7 @@ std::string name_of(Prefer prefer) {
 PlannedScene open(const PlanCommand& o, const std::string& input, Progress& progress) {
   refuse_random(input);
   refuse_order_tree(input);
+  refuse_pack(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
   return planned_scene(
       o, std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt})), progress);

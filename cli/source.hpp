@@ -24,6 +24,9 @@ namespace kage::cli {
 /// Throws Error if a file is a visibility order's tree: no command but order takes one.
 void refuse_order_tree(const std::string& path);
 
+/// Throws Error if a folder is a pack of test vectors: kage board plays it.
+void refuse_pack(const std::string& input);
+
 /// Throws Error if `input` asks for random frames: only kage cosim and kage explain take them.
 void refuse_random(const std::string& input);
 

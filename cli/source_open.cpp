@@ -37,18 +37,17 @@ constexpr double kShapeTolerance = 0.01;
 // Random frames of a run that does not say how many.
 constexpr int kRandomFrames = 200;
 
-/// A pack is played by a board, and by the testbench in it.
+}  // namespace
+
+void refuse_order_tree(const std::string& path) {
+  if (is_order_file(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
+}
+
 void refuse_pack(const std::string& input) {
   const std::filesystem::path folder(input);
   std::error_code e;
   if (std::filesystem::is_directory(folder, e) && std::filesystem::exists(folder / vectors::kManifest, e))
     throw Error(fmt::format("{}: a folder of kage vectors is no scene: kage board plays it", input));
-}
-
-}  // namespace
-
-void refuse_order_tree(const std::string& path) {
-  if (is_order_file(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
 }
 
 void refuse_random(const std::string& input) {

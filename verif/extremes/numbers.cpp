@@ -18,6 +18,8 @@ namespace {
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
+}  // namespace
+
 SceneFrame plain_scene() {
   SceneFrame f;
   add_solid(f, box_solid(), {0, -2, 0}, {4, 0.2, 4}, Turn{}, {1, 1, 1});
@@ -26,8 +28,6 @@ SceneFrame plain_scene() {
   look_at(f.camera, {3, 2, 4}, {0, -1, 0});
   return f;
 }
-
-}  // namespace
 
 void NotFiniteCase::fields(Fields& f) {
   f.choice("value", value, std::array{"nan", "inf", "-inf"});

@@ -7,6 +7,9 @@
 
 namespace kage::verif {
 
+/// An octahedron over a plate, all its numbers sound.
+SceneFrame plain_scene();
+
 /// Family 10: one number of a scene is not finite.
 struct NotFiniteCase {
   int value = 0;

@@ -4,32 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "extremes/numbers.hpp"
 #include "kage/error.hpp"
 #include "opinion/judge.hpp"
-#include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 
 namespace kage::verif {
-namespace {
-
-SceneFrame scene() {
-  SceneFrame f;
-  add_solid(f, box_solid(), {0, -2, 0}, {4, 0.2, 4}, Turn{}, {1, 1, 1});
-  add_solid(f, octahedron_solid(), {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1});
-  f.lights[0].direction = glm::normalize(glm::dvec3(0.3, -1, 0.2));
-  look_at(f.camera, {3, 2, 4}, {0, -1, 0});
-  return f;
-}
-
-}  // namespace
-
 TEST_CASE("family 10: a position, camera or light that is not finite is an error that says which") {
   using Catch::Matchers::ContainsSubstring;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, inf, -inf}) {
     const auto said = [bad](auto spoil) {
-      SceneFrame f = scene();
+      SceneFrame f = plain_scene();
       spoil(f, bad);
       try {
         (void)make_geometry(f, Config{}, 64, 48);
@@ -74,8 +61,8 @@ TEST_CASE("family 10: a position, camera or light that is not finite is an error
     }
   }
   for (const int size : {0, -1, kMaxSize + 1, 1 << 30}) {
-    CHECK_THROWS_AS(make_geometry(scene(), Config{}, size, 48), Error);
-    CHECK_THROWS_AS(make_geometry(scene(), Config{}, 64, size), Error);
+    CHECK_THROWS_AS(make_geometry(plain_scene(), Config{}, size, 48), Error);
+    CHECK_THROWS_AS(make_geometry(plain_scene(), Config{}, 64, size), Error);
   }
   CHECK_THROWS_AS(make_geometry(SceneFrame{}, Config{}, 64, 48), Error);
 }
@@ -85,7 +72,7 @@ TEST_CASE("family 10: a light, or a look, beyond what can be drawn is an error t
   Config config;
   config.count_bits = 8;
   const auto light = [&](auto change) {
-    SceneFrame f = scene();
+    SceneFrame f = plain_scene();
     f.lights[0].directional = false;
     f.lights[0].position = {3, 5, 2};
     change(f.lights[0]);
@@ -118,7 +105,7 @@ TEST_CASE("family 10: a light, or a look, beyond what can be drawn is an error t
   const auto look = [](auto change) {
     Look l;
     change(l);
-    return make_geometry(scene(), Config{}, 64, 48, {.look = l});
+    return make_geometry(plain_scene(), Config{}, 64, 48, {.look = l});
   };
   CHECK_THROWS_AS(look([](Look& l) { l.samples = 0; }), Error);
   CHECK_THROWS_AS(look([](Look& l) { l.samples = 256; }), Error);
@@ -131,7 +118,7 @@ TEST_CASE("family 10: a light, or a look, beyond what can be drawn is an error t
 TEST_CASE("family 10: denormal, tiny and huge coordinates draw what the oracle says") {
   for (const double scale : {1e-300, 1e-30, 1e-6, 1e6, 1e15, 1e30}) {
     CAPTURE(scale);
-    SceneFrame f = scene();
+    SceneFrame f = plain_scene();
     for (glm::dvec3& p : f.vertices) p *= scale;
     f.camera.eye *= scale;
     f.camera.near *= scale;
@@ -139,7 +126,7 @@ TEST_CASE("family 10: denormal, tiny and huge coordinates draw what the oracle s
     INFO(j.text());
     CHECK(j.good());
   }
-  SceneFrame f = scene();
+  SceneFrame f = plain_scene();
   f.vertices[0].x = std::numeric_limits<double>::denorm_min();
   CHECK(judge(make_geometry(f, Config{}, 64, 48), Config{}).good());
 }
