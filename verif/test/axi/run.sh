@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # examples/cocotb with the pinned cocotb and cocotbext-axi (tools/deps axi): kage_axi under AXI models that are not kage's.
 #
-# usage: verif/test/axi/run.sh BUILD WORK CONFIG SIZE [FAULT]
+# usage: verif/test/axi/run.sh BUILD WORK CONFIG SCENE SIZE [FAULT]
 #   BUILD   the folder of a build: its program kage and its libkage_golden are used
 #   WORK    the folder of the simulation
 #   CONFIG  a name in rtl/defs/configs.yaml or constraints/cores.yaml
-#   SIZE    of the frame of the built-in scene courtyard, 64x48
+#   SCENE   a built-in scene, whose first frame is drawn
+#   SIZE    of the frame, such as 64x48
 #   FAULT   of verif/cosim/model/faults: the RTL with this defect, which must be found; polite_ready is none, and must pass
 # Exit code 0: as it should be. 1: not. 77: cocotb is not installed.
 set -euo pipefail
-build=$1 work=$2 config=$3 size=$4 fault=${5:-}
+build=$1 work=$2 config=$3 scene=$4 size=$5 fault=${6:-}
 top=$(cd "$(dirname "$0")/../../.." && pwd)
 . "$top/tools/pypi.sh"
 cocotb=$(pypi_folder cocotb)
@@ -27,7 +28,7 @@ if [ -n "$fault" ]; then
   patch --fuzz=0 --batch --quiet -p2 -d "$rtl" -i "$top/verif/cosim/model/faults/$fault.patch"
 fi
 rc=0
-make -C "$top/examples/cocotb" WORK="$work" RTL="$rtl" KAGE="$build/bin/kage" CONFIG="$work/config.yaml" SIZE="$size" >"$work/log" 2>&1 || rc=$?
+make -C "$top/examples/cocotb" WORK="$work" RTL="$rtl" KAGE="$build/bin/kage" CONFIG="$work/config.yaml" SCENE="$scene" SIZE="$size" >"$work/log" 2>&1 || rc=$?
 passed=0
 # Newer cocotbs end make with an error where a test fails, older ones tell it in results.xml alone.
 if [ $rc = 0 ] && [ -f "$work/results.xml" ] && ! grep -q '<failure\|<error' "$work/results.xml" &&
