@@ -93,6 +93,7 @@ struct SweepScene::Data {
   std::function<void()> step;
   plan::Features features;
   bool table = false;
+  int channels = 1;
   std::string identity;
   Kept<ScreenTruth> truths;
   Kept<DrawnFrame> pictures;
@@ -114,6 +115,7 @@ SweepScene::SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& dr
   planned.draw.look.samples = kMaxSamples;
   d.features = plan::features_of(std::span(&planned, 1));
   d.table = derived::has_table(base.config);
+  d.channels = base.config.channels;
   cosim::Sha256 hash;
   for (int i = 0; i < frames; ++i) {
     d.step();
@@ -149,6 +151,8 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   // Parity is right for any caster.
   out.config = plan::finest(features, features.needs.shadows ? 1 : 0, 0);
   out.config.z_bits = kGreatest.z_bits;
+  // A scene whose faces are all grey has a background that is not.
+  out.config.channels = std::max(out.config.channels, data_->channels);
   if (data_->table && out.config.dsf_bits > 0) {
     out.config.count_bits = kGreatest.count_bits;
     out.config.class_bits = kGreatest.class_bits;
