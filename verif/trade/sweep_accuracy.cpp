@@ -116,6 +116,7 @@ PointAccuracy& PointAccuracy::operator+=(const PointAccuracy& o) {
   ray_shadow_pixels += o.ray_shadow_pixels;
   ray_shadow_wrong += o.ray_shadow_wrong;
   all += o.all;
+  steps += o.steps;
   flip += o.flip;
   return *this;
 }
@@ -136,6 +137,7 @@ PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point,
   ask_rays(scene, frame, point, drawn, *truth, out);
   out.all =
       picture_error(*finest, scene.light_samples(frame, scene.finest(point)), drawn, scene.light_samples(frame, point));
+  out.steps = steps_of(*finest, drawn);
   if (flip) out.flip = flip_metric(image_of(*finest), image_of(drawn)).mean;
   return out;
 }

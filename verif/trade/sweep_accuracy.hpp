@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "trade/accuracy.hpp"
+#include "trade/steps.hpp"
 #include "trade/sweep_scene.hpp"
 
 namespace kage::trade {
@@ -23,6 +24,7 @@ struct PointAccuracy {
   std::uint64_t ray_shadow_pixels = 0;  ///< of these, lit pixels of a scene with one point light
   std::uint64_t ray_shadow_wrong = 0;
   PictureError all;  ///< against the finest picture
+  Steps steps;       ///< besides those of the finest picture
   double flip = 0;   ///< sum over the frames of the mean of FLIP; only if asked for
 
   PointAccuracy& operator+=(const PointAccuracy& o);

@@ -196,6 +196,7 @@ Json SweepRunner::accuracy(const SweepPoint& point, const PointWords& words) {
                                          {"shadow_pixels", sum.ray_shadow_pixels},
                                          {"shadow_wrong", sum.ray_shadow_wrong}};
   const std::optional<SoftShare> soft = soft_share(scene_->frame(0), point);
+  j["steps"] = {{"seen", sum.steps.seen}, {"most", sum.steps.most}};
   j["soft_share"] = soft ? Json{{"rms", soft->rms}, {"worst", soft->worst}} : Json(nullptr);
   Json split;
   for (const ErrorSource s : kErrorSources) split[std::string(name_of(s))] = source_json(sources[s]);

@@ -167,3 +167,27 @@ TEST_CASE("a row that another beats is not marked") {
   CHECK(pareto({row("a", 1, 1, 1, 1), row("a", 1, 1, 2, 1), row("a", 0, 1, 2, 1), row("b", 9, 9, 9, 9),
                 row("a", 1, 1, 1, 1)}) == std::vector<bool>{true, false, true, true, true});
 }
+
+TEST_CASE("steps are counted between neighbours of one face, beyond those of the finest picture") {
+  // Two rows of four pixels; the last column shows another face.
+  DrawnFrame finest;
+  finest.width = 4;
+  finest.height = 2;
+  finest.face = {0, 0, 0, 1, 0, 0, 0, 1};
+  finest.color = {{{10, 10, 10}}, {{20, 20, 20}}, {{30, 30, 30}}, {{200, 200, 200}},
+                  {{10, 10, 10}}, {{20, 20, 20}}, {{30, 30, 30}}, {{200, 200, 200}}};
+  DrawnFrame drawn = finest;
+  CHECK(steps_of(finest, drawn).seen == 0);
+  CHECK(steps_of(finest, drawn).most == 0);
+  drawn.color[1] = {22, 20, 20};  // 2 further from pixel 0 and from pixel 5
+  CHECK(steps_of(finest, drawn).seen == 0);
+  CHECK(steps_of(finest, drawn).most == 2);
+  drawn.color[1] = {23, 20, 20};
+  CHECK(steps_of(finest, drawn).seen == 2);
+  CHECK(steps_of(finest, drawn).most == 3);
+  drawn.color[2] = {30, 90, 30};  // 60 further from pixel 1 and from pixel 6; pixel 3 has another face
+  CHECK(steps_of(finest, drawn).seen == 4);
+  CHECK(steps_of(finest, drawn).most == 60);
+  drawn.face[2] = 1;  // other faces than in the finest picture are no step
+  CHECK(steps_of(finest, drawn).seen == 2);
+}
