@@ -5,8 +5,10 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "command.hpp"
+#include "error_maps.hpp"
 #include "kage/error.hpp"
 #include "kage/pipeline.hpp"
 #include "options.hpp"
@@ -22,13 +24,19 @@ namespace {
 
 struct RenderCommand : Options {
   bool exr = false;
+  bool error_map = false;
 };
 
 int run(const RenderCommand& o) {
   const OutFolder folder(o.out);
   check_json(o);
   refuse_random(o.input);
+  if (o.error_map && is_stream_file(o.input))
+    throw Error(
+        fmt::format("{}: --error-map: what is wrong is told from the scene, which a stream does not hold", o.input));
   Source source(o);
+  std::optional<ErrorMaps> errors;
+  if (o.error_map) errors.emplace(o, source);
   Renderer renderer(source);
   TokenCounts counts;
   TempFiles files;
@@ -55,6 +63,7 @@ int run(const RenderCommand& o) {
     picture.close();
     picture.hand_over(files);
     names.push_back(path.string());
+    if (errors) errors->frame(i, path, files);
   }
   progress.clear();
 
@@ -68,12 +77,13 @@ int run(const RenderCommand& o) {
   j["config"] = cli::to_json(source.config());
   j["degraded"] = source.degraded();
   j["files"] = names;
+  j["errors"] = errors ? errors->json() : Json(nullptr);
   j["notes"] = source.notes();
-  finish(
-      o, {"kage.render/1", j}, files,
-      notes_text(source) + fmt::format("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width,
-                                       size.height, counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
-                                       and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), o.out));
+  finish(o, {"kage.render/1", j}, files,
+         notes_text(source) + (errors ? errors->text() : "") +
+             fmt::format("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
+                         counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
+                         and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), o.out));
   if (json_only(o)) print_notes(source, o);
   return kSame;
 }
@@ -85,12 +95,17 @@ void add_render(CLI::App& app, Action& action) {
                             "  kage render courtyard --out pictures\n"
                             "  kage render horse.3ds --size 800x600 --frames 1\n"
                             "  kage render courtyard.kage --exr --json -\n"
+                            "  kage render courtyard --sub-bits 4 --frames 1 --error-map\n"
                             "The pictures appear together when the last one is drawn.");
   const auto o = std::make_shared<RenderCommand>();
   o->out = "out";
   option_scene(*c, *o);
   c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
   c->add_flag("--exr", o->exr, "write EXR instead of PNG");
+  c->add_flag(
+      "--error-map", o->error_map,
+      "show what is wrong in each picture of a scene, by the exact oracle and the finest picture: "
+      "NAME_error.png, and NAME_error_SOURCE.png for each source of error alone; docs/sweep.md has the colours");
   options_of_frames(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

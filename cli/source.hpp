@@ -68,6 +68,9 @@ class Source : public FrameSource {
   /// Adds a note.
   void note(std::string text) { notes_.push_back(std::move(text)); }
 
+  /// What is drawn; nothing if the frames are no scene's.
+  [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
+
   /// Whether the frames come from a stream file.
   [[nodiscard]] bool is_stream() const { return stream_ != nullptr; }
 

@@ -61,15 +61,14 @@ void paint(Image& heat, std::size_t pixel, PixelVerdict verdict, std::uint64_t s
   }
 }
 
-void frame_regions(Image& heat, const std::vector<DiffResult::Region>& regions) {
-  const auto dot = [&heat](int x, int y) {
+void frame_regions(Image& heat, const std::vector<DiffResult::Region>& regions,
+                   const std::array<std::uint8_t, 3>& color) {
+  const auto dot = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= heat.width || y >= heat.height) return;
     std::uint8_t* const out = &heat.data[heat.index(x, y)];
     const bool taken = out[0] != out[1] && out[0] > 100;  // a pixel that has something to say
     if (taken) return;
-    out[0] = 0;
-    out[1] = 160;
-    out[2] = 160;
+    std::copy(color.begin(), color.end(), out);
   };
   constexpr int kAway = 3;
   for (const DiffResult::Region& region : regions) {

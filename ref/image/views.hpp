@@ -27,7 +27,8 @@ enum class PixelVerdict : std::uint8_t { same, tolerated, different, nan, left_o
 void paint(Image& heat, std::size_t pixel, PixelVerdict verdict, std::uint64_t steps, int background);
 
 /// Draws a frame three pixels outside each region, so that a lone pixel in a large picture is found.
-void frame_regions(Image& heat, const std::vector<DiffResult::Region>& regions);
+void frame_regions(Image& heat, const std::vector<DiffResult::Region>& regions,
+                   const std::array<std::uint8_t, 3>& color = {0, 160, 160});
 
 /// Pixels that OpenImageIO's perceptual measure (Yee's, at its defaults for luminance and field of view) tells apart
 /// within `box`. Integers count as sRGB where the file says so, all else as linear. Nothing if there is a value that is

@@ -129,23 +129,32 @@ double Accuracy::wrong_ppm() const {
   return pixels == 0 ? 0 : 1e6 * static_cast<double>(visible_wrong + shadow_wrong) / static_cast<double>(pixels);
 }
 
+PixelFault fault_of(const TruePixel& truth, const DrawnFrame& drawn, std::size_t pixel) {
+  if (drawn.face[pixel] != truth.face) return PixelFault::face;
+  return truth.lit && drawn.counts[pixel] != truth.counts ? PixelFault::shadow : PixelFault::none;
+}
+
+double depth_error(const ScreenTruth& truth, const DrawnFrame& drawn, const Config& config) {
+  const double range = depth_steps(config);
+  double most = 0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    const TruePixel& t = truth.pixels[i];
+    if (t.face == kNothing || drawn.face[i] != t.face) continue;
+    most = std::max(most, std::abs((static_cast<double>(drawn.z[i]) - 1) / range - t.depth));
+  }
+  return most;
+}
+
 Accuracy compare(const ScreenTruth& truth, const DrawnFrame& finest, const DrawnFrame& drawn, const Config& config) {
   Accuracy out;
-  const double range = depth_steps(config);
+  out.z_max = depth_error(truth, drawn, config);
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     const TruePixel& t = truth.pixels[i];
     ++out.pixels;
-    if (drawn.face[i] != t.face) {
-      ++out.visible_wrong;
-      continue;
-    }
-    if (t.face != kNothing)
-      out.z_max = std::max(out.z_max, std::abs((static_cast<double>(drawn.z[i]) - 1) / range - t.depth));
-    if (t.lit && drawn.counts[i] != t.counts) {
-      ++out.shadow_wrong;
-      continue;
-    }
-    if (finest.face[i] != t.face || finest.counts[i] != drawn.counts[i]) continue;
+    const PixelFault fault = fault_of(t, drawn, i);
+    if (fault == PixelFault::face) ++out.visible_wrong;
+    if (fault == PixelFault::shadow) ++out.shadow_wrong;
+    if (fault != PixelFault::none || finest.face[i] != t.face || finest.counts[i] != drawn.counts[i]) continue;
     for (std::size_t c = 0; c < 3; ++c)
       out.color_max = std::max(out.color_max, std::abs(int{drawn.color[i][c]} - int{finest.color[i][c]}));
   }

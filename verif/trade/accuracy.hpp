@@ -4,6 +4,7 @@
 // picture.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -30,6 +31,17 @@ struct DrawnFrame {
 
 /// Draws a frame with a configuration.
 DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions& options);
+
+/// How a pixel's face and shadow compare with the truth.
+enum class PixelFault : std::uint8_t {
+  none,
+  face,    ///< it shows another face
+  shadow,  ///< the right face, with another number of shadowed samples
+};
+PixelFault fault_of(const TruePixel& truth, const DrawnFrame& drawn, std::size_t pixel);
+
+/// The greatest error of a stored depth where the face is right, as a share of the range.
+double depth_error(const ScreenTruth& truth, const DrawnFrame& drawn, const Config& config);
 
 /// What is wrong in a frame.
 struct Accuracy {

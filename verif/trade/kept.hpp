@@ -27,6 +27,13 @@ class Kept {
     return place->value;
   }
 
+  /// Drops the values whose keys begin with a text. Whoever has one keeps it.
+  void forget(const std::string& begin) {
+    const std::lock_guard lock(mutex_);
+    for (auto it = places_.lower_bound(begin); it != places_.end() && it->first.starts_with(begin);)
+      it = places_.erase(it);
+  }
+
  private:
   struct Place {
     std::mutex mutex;

@@ -65,9 +65,9 @@ class Excuses {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> by_face_;
 };
 
-/// Pixels that are wrong by the oracle of the point's own snap, and have no excuse.
-std::uint64_t gross(const FrameGeometry& g, const Config& config, const ScreenTruth& own, const DrawnFrame& drawn) {
-  std::uint64_t wrong = 0;
+/// Marks pixels that are wrong by the oracle of the point's own snap, and have no excuse.
+void mark_gross(const FrameGeometry& g, const Config& config, const ScreenTruth& own, const DrawnFrame& drawn,
+                ErrorMap& map) {
   Excuses excuses(g, config);
   int at_line = -1;
   for (std::size_t i = 0; i < own.pixels.size(); ++i) {
@@ -78,9 +78,8 @@ std::uint64_t gross(const FrameGeometry& g, const Config& config, const ScreenTr
     const int x = static_cast<int>(i % static_cast<std::size_t>(own.width));
     if (y != at_line) excuses.line(at_line = y);
     const bool excused = right_face ? excuses.shadow(x, t.face, any(drawn.counts[i])) : excuses.face(x, drawn.face[i]);
-    if (!excused) ++wrong;
+    map.pixels[i].gross = !excused;
   }
-  return wrong;
 }
 
 void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, const ScreenTruth& truth,
@@ -106,10 +105,7 @@ void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const Drawn
 }  // namespace
 
 PointAccuracy& PointAccuracy::operator+=(const PointAccuracy& o) {
-  pixels += o.pixels;
-  visible_wrong += o.visible_wrong;
-  shadow_wrong += o.shadow_wrong;
-  gross_wrong += o.gross_wrong;
+  by_truth += o.by_truth;
   z_error_max_lsb = std::max(z_error_max_lsb, o.z_error_max_lsb);
   ray_pixels += o.ray_pixels;
   ray_visible_wrong += o.ray_visible_wrong;
@@ -121,22 +117,26 @@ PointAccuracy& PointAccuracy::operator+=(const PointAccuracy& o) {
   return *this;
 }
 
+ErrorMap error_map(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn) {
+  const auto truth = scene.truth(frame, point, kMostSubBits);
+  const auto own = scene.truth(frame, point, point.look.sub_bits);
+  ErrorMap map = against_truth(*truth, *scene.finest_picture(frame, point), drawn, scene.light_samples(frame, point));
+  const FrameGeometry g =
+      make_geometry(scene.frame(frame), point.config, point.width, point.height, {.look = point.look});
+  mark_gross(g, point.config, *own, drawn, map);
+  return map;
+}
+
 PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, bool flip) {
   PointAccuracy out;
   const auto truth = scene.truth(frame, point, kMostSubBits);
   const auto own = scene.truth(frame, point, point.look.sub_bits);
   const auto finest = scene.finest_picture(frame, point);
-  const Accuracy against = compare(*truth, *finest, drawn, point.config);
-  out.pixels = against.pixels;
-  out.visible_wrong = against.visible_wrong;
-  out.shadow_wrong = against.shadow_wrong;
-  out.z_error_max_lsb = compare(*own, *finest, drawn, point.config).z_max * depth_steps(point.config);
-  const FrameGeometry g =
-      make_geometry(scene.frame(frame), point.config, point.width, point.height, {.look = point.look});
-  out.gross_wrong = gross(g, point.config, *own, drawn);
+  out.by_truth = sum_of(error_map(scene, frame, point, drawn));
+  out.z_error_max_lsb = depth_error(*own, drawn, point.config) * depth_steps(point.config);
   ask_rays(scene, frame, point, drawn, *truth, out);
-  out.all =
-      picture_error(*finest, scene.light_samples(frame, scene.finest(point)), drawn, scene.light_samples(frame, point));
+  out.all = sum_of(against_picture(*finest, scene.light_samples(frame, scene.finest(point)), drawn,
+                                   scene.light_samples(frame, point)));
   out.steps = steps_of(*finest, drawn);
   if (flip) out.flip = flip_metric(image_of(*finest), image_of(drawn)).mean;
   return out;

@@ -14,12 +14,9 @@ namespace kage::trade {
 
 /// Of all frames of a point.
 struct PointAccuracy {
-  std::uint64_t pixels = 0;
-  std::uint64_t visible_wrong = 0;  ///< pixels that show another face than the oracle of the finest snap
-  std::uint64_t shadow_wrong = 0;   ///< the right face, and another number of shadowed samples than that oracle
-  std::uint64_t gross_wrong = 0;    ///< wrong by the oracle of the point's own snap, and no stated error excuses it
-  double z_error_max_lsb = 0;       ///< of a stored depth against the exact one of the point's own snap
-  std::uint64_t ray_pixels = 0;     ///< that rays were asked about; 0: they cannot be (Look::cull)
+  PictureError by_truth;         ///< over error_map()
+  double z_error_max_lsb = 0;    ///< of a stored depth against the exact one of the point's own snap
+  std::uint64_t ray_pixels = 0;  ///< that rays were asked about; 0: they cannot be (Look::cull)
   std::uint64_t ray_visible_wrong = 0;
   std::uint64_t ray_shadow_pixels = 0;  ///< of these, lit pixels of a scene with one point light
   std::uint64_t ray_shadow_wrong = 0;
@@ -29,6 +26,10 @@ struct PointAccuracy {
 
   PointAccuracy& operator+=(const PointAccuracy& o);
 };
+
+/// What is wrong in a frame of a point that was drawn as `drawn`: faces and shadows by the oracle of the finest snap,
+/// of as many samples; colours against the finest picture; what is gross by the oracle of the point's own snap.
+ErrorMap error_map(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn);
 
 /// Measures a frame of a point that was drawn as `drawn`.
 PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, bool flip);

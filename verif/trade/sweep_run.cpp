@@ -65,20 +65,22 @@ double golden_seconds(const Config& config, const PointWords& words) {
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-Json source_json(const PictureError& e) {
-  const auto pixels = static_cast<double>(e.pixels);
-  return {{"visible_wrong", e.visible_wrong},
-          {"shadow_share", e.shadow / pixels},
-          {"mean_square", e.squares / (3 * pixels)},
-          {"psnr", optional_json(psnr(e.squares, e.pixels))}};
-}
-
 double wrong_share(const Json& row) {
   const Json& a = row.at("accuracy");
   return (a.at("visible_wrong").get<double>() + a.at("shadow_wrong").get<double>()) / a.at("pixels").get<double>();
 }
 
 }  // namespace
+
+Json error_json(const PictureError& e) {
+  const auto pixels = static_cast<double>(e.pixels);
+  return {{"visible_wrong", e.visible_wrong},
+          {"shadow_wrong", e.shadow_wrong},
+          {"color_wrong", e.color_wrong},
+          {"shadow_share", e.shadow / pixels},
+          {"mean_square", e.squares / (3 * pixels)},
+          {"psnr", optional_json(psnr(e.squares, e.pixels))}};
+}
 
 PointWords words_of(SweepScene& scene, const SweepPoint& point) {
   PointWords out;
@@ -182,10 +184,11 @@ Json SweepRunner::accuracy(const SweepPoint& point, const PointWords& words) {
     for (const ErrorSource s : kErrorSources) sources[s] += *scene_->error_of(i, point, s);
   }
   Json j;
-  j["pixels"] = sum.pixels;
-  j["visible_wrong"] = sum.visible_wrong;
-  j["shadow_wrong"] = sum.shadow_wrong;
-  j["gross_wrong"] = sum.gross_wrong;
+  j["pixels"] = sum.by_truth.pixels;
+  j["visible_wrong"] = sum.by_truth.visible_wrong;
+  j["shadow_wrong"] = sum.by_truth.shadow_wrong;
+  j["gross_wrong"] = sum.by_truth.gross_wrong;
+  j["color_wrong"] = sum.by_truth.color_wrong;
   j["z_error_max_lsb"] = sum.z_error_max_lsb;
   j["z_error_bound_lsb"] = plan::depth_error(words.longest_depth, point.config.z_frac, point.width, point.height);
   j["psnr"] = optional_json(psnr(sum.all.squares, sum.all.pixels));
@@ -199,8 +202,8 @@ Json SweepRunner::accuracy(const SweepPoint& point, const PointWords& words) {
   j["steps"] = {{"seen", sum.steps.seen}, {"most", sum.steps.most}};
   j["soft_share"] = soft ? Json{{"rms", soft->rms}, {"worst", soft->worst}} : Json(nullptr);
   Json split;
-  for (const ErrorSource s : kErrorSources) split[std::string(name_of(s))] = source_json(sources[s]);
-  split["all"] = source_json(sum.all);
+  for (const ErrorSource s : kErrorSources) split[std::string(name_of(s))] = error_json(sources[s]);
+  split["all"] = error_json(sum.all);
   j["sources"] = split;
   return j;
 }

@@ -27,6 +27,9 @@ struct SweepHow {
   std::function<void(const std::string&)> doing;  ///< called before and during what takes long
 };
 
+/// Sums over error maps, by their names in docs/schema/sweep.json.
+nlohmann::ordered_json error_json(const PictureError& e);
+
 /// The clocks of a co-simulation beside those that the design foretells for the same words (cost/token_clocks.hpp).
 struct ClockSample {
   std::uint64_t cycles = 0;

@@ -56,45 +56,15 @@ std::string_view name_of(ErrorSource source) {
   return kNames[static_cast<std::size_t>(source)];
 }
 
-PictureError& PictureError::operator+=(const PictureError& o) {
-  pixels += o.pixels;
-  visible_wrong += o.visible_wrong;
-  shadow += o.shadow;
-  squares += o.squares;
-  return *this;
-}
-
-PictureError picture_error(const DrawnFrame& expected, const std::vector<int>& expected_samples,
-                           const DrawnFrame& drawn, const std::vector<int>& samples) {
-  PictureError out;
-  for (std::size_t i = 0; i < expected.face.size(); ++i) {
-    ++out.pixels;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double off = double{static_cast<double>(expected.color[i][c])} - static_cast<double>(drawn.color[i][c]);
-      out.squares += off * off;
-    }
-    if (expected.face[i] != drawn.face[i]) {
-      ++out.visible_wrong;
-      continue;
-    }
-    double most = 0;
-    for (std::size_t l = 0; l < samples.size(); ++l)
-      most = std::max(most, std::abs(static_cast<double>(expected.counts[i][l]) / expected_samples[l] -
-                                     static_cast<double>(drawn.counts[i][l]) / samples[l]));
-    out.shadow += most;
-  }
-  return out;
-}
-
 struct SweepScene::Data {
   std::shared_ptr<const Scene> scene;
   DrawOptions draw;
-  std::vector<SceneFrame> frames;
   std::function<void()> step;
   plan::Features features;
   bool table = false;
   int channels = 1;
-  std::string identity;
+  Kept<SceneFrame> frames;
+  Kept<std::string> identity;
   Kept<ScreenTruth> truths;
   Kept<DrawnFrame> pictures;
   Kept<std::vector<RayPixel>> rays;
@@ -108,7 +78,6 @@ SweepScene::SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& dr
   d.scene = std::move(scene);
   d.draw = draw;
   d.step = std::move(step);
-  const int frames = draw.frames;
   PlannedScene planned{d.scene, draw};
   planned.draw.width = base.width;
   planned.draw.height = base.height;
@@ -116,25 +85,32 @@ SweepScene::SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& dr
   d.features = plan::features_of(std::span(&planned, 1));
   d.table = derived::has_table(base.config);
   d.channels = base.config.channels;
-  cosim::Sha256 hash;
-  for (int i = 0; i < frames; ++i) {
-    d.step();
-    const SceneFrame& f = d.frames.emplace_back(d.scene->frame(i, frames));
-    add(hash, f.vertices);
-    add(hash, f.corners);
-    const Camera& c = f.camera;
-    add(hash, std::vector<glm::dvec3>{c.eye, c.right, c.up, c.forward, {c.near, c.half_height, c.perspective}});
-  }
-  d.identity = hash.take();
 }
 
 SweepScene::~SweepScene() = default;
 
 const std::string& SweepScene::name() const { return data_->draw.name; }
-int SweepScene::frames() const { return static_cast<int>(data_->frames.size()); }
-const SceneFrame& SweepScene::frame(int index) const { return data_->frames[static_cast<std::size_t>(index)]; }
+int SweepScene::frames() const { return data_->draw.frames; }
+const SceneFrame& SweepScene::frame(int index) const {
+  return *data_->frames.get(fmt::format("{} ", index), [&] {
+    data_->step();
+    return data_->scene->frame(index, frames());
+  });
+}
 const std::shared_ptr<const Scene>& SweepScene::scene() const { return data_->scene; }
-const std::string& SweepScene::identity() const { return data_->identity; }
+const std::string& SweepScene::identity() const {
+  return *data_->identity.get("", [&] {
+    cosim::Sha256 hash;
+    for (int i = 0; i < frames(); ++i) {
+      const SceneFrame& f = frame(i);
+      add(hash, f.vertices);
+      add(hash, f.corners);
+      const Camera& c = f.camera;
+      add(hash, std::vector<glm::dvec3>{c.eye, c.right, c.up, c.forward, {c.near, c.half_height, c.perspective}});
+    }
+    return hash.take();
+  });
+}
 
 DrawOptions SweepScene::draw_options(const SweepPoint& point) const {
   DrawOptions draw = data_->draw;
@@ -255,18 +231,41 @@ std::shared_ptr<const std::vector<RayPixel>> SweepScene::rays(int index, const S
   });
 }
 
-std::shared_ptr<const PictureError> SweepScene::error_of(int index, const SweepPoint& point, ErrorSource source) {
-  SweepPoint p = alone(point, source);
+namespace {
+
+/// A point as its error by a source is measured: the finest picture has one pattern of samples.
+SweepPoint alone_in(const SweepScene& scene, const SweepPoint& point, ErrorSource source) {
+  SweepPoint p = scene.alone(point, source);
   if (source != ErrorSource::samples) p.look.seed = 1;
-  return data_->errors.get(fmt::format("{} {}", index, text_of(p)), [&] {
-    const auto expected = finest_picture(index, point);
-    SweepPoint best = finest(point);
-    best.look.seed = p.look.seed;
-    if (text_of(p) == text_of(best) && p.look.seed == 1) return PictureError{.pixels = expected->face.size()};
-    data_->step();
-    const DrawnFrame drawn = draw(frame(index), p.config, draw_options(p));
-    return picture_error(*expected, light_samples(index, finest(point)), drawn, light_samples(index, p));
-  });
+  return p;
+}
+
+}  // namespace
+
+ErrorMap SweepScene::map_of(int index, const SweepPoint& point, ErrorSource source) {
+  const SweepPoint p = alone_in(*this, point, source);
+  const auto expected = finest_picture(index, point);
+  SweepPoint best = finest(point);
+  best.look.seed = 1;
+  if (text_of(p) == text_of(best))
+    return {.width = p.width, .height = p.height, .pixels = std::vector<PixelError>(expected->face.size())};
+  data_->step();
+  const DrawnFrame drawn = draw(frame(index), p.config, draw_options(p));
+  return against_picture(*expected, light_samples(index, best), drawn, light_samples(index, p));
+}
+
+std::shared_ptr<const PictureError> SweepScene::error_of(int index, const SweepPoint& point, ErrorSource source) {
+  return data_->errors.get(fmt::format("{} {}", index, text_of(alone_in(*this, point, source))),
+                           [&] { return sum_of(map_of(index, point, source)); });
+}
+
+void SweepScene::forget(int index) {
+  const std::string begin = fmt::format("{} ", index);
+  data_->frames.forget(begin);
+  data_->truths.forget(begin);
+  data_->pictures.forget(begin);
+  data_->rays.forget(begin);
+  data_->errors.forget(begin);
 }
 
 }  // namespace kage::trade

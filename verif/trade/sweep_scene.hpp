@@ -15,6 +15,7 @@
 
 #include "kage/pipeline.hpp"
 #include "trade/accuracy.hpp"
+#include "trade/error_map.hpp"
 #include "trade/screen_truth.hpp"
 #include "trade/sweep_plan.hpp"
 
@@ -25,19 +26,6 @@ enum class ErrorSource : std::uint8_t { snapping, depth, color, samples, classes
 inline constexpr std::array kErrorSources{ErrorSource::snapping, ErrorSource::depth,   ErrorSource::color,
                                           ErrorSource::samples,  ErrorSource::classes, ErrorSource::order};
 std::string_view name_of(ErrorSource source);
-
-/// How far a picture is from the one with everything at its finest.
-struct PictureError {
-  std::uint64_t pixels = 0;
-  std::uint64_t visible_wrong = 0;  ///< pixels that show another face
-  double shadow = 0;   ///< sum over pixels with the same face of how far the share of a light in shadow is off, at most
-  double squares = 0;  ///< sum of squared differences of colour, in steps of 255, over all channels
-  PictureError& operator+=(const PictureError& o);
-};
-
-/// A picture and how many samples each light had in it, against another.
-PictureError picture_error(const DrawnFrame& expected, const std::vector<int>& expected_samples,
-                           const DrawnFrame& drawn, const std::vector<int>& samples);
 
 /// What exact rays through the unsnapped scene say of a pixel.
 struct RayPixel {
@@ -79,8 +67,13 @@ class SweepScene {
   std::shared_ptr<const DrawnFrame> finest_picture(int index, const SweepPoint& point);
   /// Of pixels that are spread evenly over the picture: all of them, or as many as a minute allows.
   std::shared_ptr<const std::vector<RayPixel>> rays(int index, const SweepPoint& point);
-  /// The error of the picture of alone(point, source).
+  /// What is wrong in the picture of alone(point, source) against the finest one. It is not kept.
+  ErrorMap map_of(int index, const SweepPoint& point, ErrorSource source);
+  /// The sums over that, kept.
   std::shared_ptr<const PictureError> error_of(int index, const SweepPoint& point, ErrorSource source);
+
+  /// Drops all that is kept of a frame, which no other thread works on.
+  void forget(int index);
 
  private:
   struct Data;

@@ -43,8 +43,8 @@ TEST_CASE("a wrong face is counted, and no error excuses it") {
   Swept s("courtyard");
   const DrawnFrame right = s.drawn(s.base);
   const PointAccuracy good = s.accuracy(s.base, right);
-  CHECK(good.visible_wrong == 0);
-  CHECK(good.gross_wrong == 0);
+  CHECK(good.by_truth.visible_wrong == 0);
+  CHECK(good.by_truth.gross_wrong == 0);
   CHECK(good.ray_pixels == 64 * 48);
   // A face that is elsewhere on the screen: the one of the first pixel that shows another than this one.
   DrawnFrame wrong = right;
@@ -56,8 +56,8 @@ TEST_CASE("a wrong face is counted, and no error excuses it") {
   }
   REQUIRE(changed == 7);
   const PointAccuracy bad = s.accuracy(s.base, wrong);
-  CHECK(bad.visible_wrong == 7);
-  CHECK(bad.gross_wrong == 7);
+  CHECK(bad.by_truth.visible_wrong == 7);
+  CHECK(bad.by_truth.gross_wrong == 7);
   CHECK(bad.ray_visible_wrong == good.ray_visible_wrong + 7);
 }
 
@@ -80,9 +80,9 @@ TEST_CASE("a wrong shadow, depth and colour are counted") {
   wrong.z[deep] += 1000;
   for (auto& c : wrong.color) c[0] = static_cast<std::uint8_t>(c[0] ^ 16U);
   const PointAccuracy bad = s.accuracy(s.base, wrong);
-  CHECK(bad.shadow_wrong == good.shadow_wrong + turned);
-  CHECK(bad.gross_wrong > turned / 2);  // near an edge of a shadow both may be possible
-  CHECK(bad.gross_wrong <= turned);
+  CHECK(bad.by_truth.shadow_wrong == good.by_truth.shadow_wrong + turned);
+  CHECK(bad.by_truth.gross_wrong > turned / 2);  // near an edge of a shadow both may be possible
+  CHECK(bad.by_truth.gross_wrong <= turned);
   CHECK(std::abs(bad.z_error_max_lsb - 1000) < 1);
   CHECK(*psnr(bad.all.squares, bad.all.pixels) < *psnr(good.all.squares, good.all.pixels));
   CHECK(bad.flip > good.flip);

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "error_maps.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string_view>
+#include <vector>
+
+#include "image/save.hpp"
+#include "order_build.hpp"
+#include "signals.hpp"
+#include "trade/sweep_accuracy.hpp"
+#include "trade/sweep_run.hpp"
+
+namespace kage::cli {
+namespace {
+
+std::filesystem::path beside(const std::filesystem::path& picture, std::string_view what) {
+  return picture.parent_path() / fmt::format("{}_error{}.png", picture.stem().string(), what);
+}
+
+}  // namespace
+
+ErrorMaps::ErrorMaps(const Options& options, const Source& source) {
+  DrawOptions draw = draw_options(options);
+  draw.frames = source.frames();
+  draw.name = source.name();
+  draw.order = order_build(options);
+  point_.config = source.config();
+  point_.width = draw.width;
+  point_.height = draw.height;
+  point_.look = draw.look;
+  point_.look.fit = true;
+  scene_ = std::make_unique<trade::SweepScene>(source.scene(), draw, point_, check_interrupt);
+}
+
+void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles& files) {
+  const trade::DrawnFrame drawn = trade::draw(scene_->frame(index), point_.config, scene_->draw_options(point_));
+  const trade::ErrorMap map = trade::error_map(*scene_, index, point_, drawn);
+  const trade::PictureError all = trade::sum_of(map);
+  const std::filesystem::path path = beside(picture, "");
+  save_image(files, path, trade::picture_of(map, drawn));
+  Json sources;
+  std::vector<std::string> told;
+  for (const trade::ErrorSource source : trade::kErrorSources) {
+    check_interrupt();
+    const std::string name(trade::name_of(source));
+    const trade::ErrorMap of_source = scene_->map_of(index, point_, source);
+    const trade::PictureError sum = trade::sum_of(of_source);
+    const std::filesystem::path own = beside(picture, "_" + name);
+    sources[name] = trade::error_json(sum);
+    sources[name]["file"] = nullptr;
+    if (sum.any()) {
+      save_image(files, own, trade::picture_of(of_source, drawn));
+      sources[name]["file"] = own.string();
+      told.push_back(fmt::format("{} {}/{}/{}", name, sum.visible_wrong, sum.shadow_wrong, sum.color_wrong));
+    } else if (std::filesystem::exists(own)) {
+      files.remove(own);
+    }
+  }
+  Json j;
+  j["frame"] = index;
+  j["pixels"] = all.pixels;
+  j["visible_wrong"] = all.visible_wrong;
+  j["shadow_wrong"] = all.shadow_wrong;
+  j["gross_wrong"] = all.gross_wrong;
+  j["color_wrong"] = all.color_wrong;
+  j["file"] = path.string();
+  j["sources"] = sources;
+  json_.push_back(j);
+  text_ += fmt::format("frame {}: wrong face {}, wrong shadow {}, other colour {}, gross {}; {}\n", index,
+                       all.visible_wrong, all.shadow_wrong, all.color_wrong, all.gross_wrong,
+                       told.empty() ? std::string("no source has an error of its own")
+                                    : fmt::format("face/shadow/colour by source: {}", fmt::join(told, ", ")));
+  scene_->forget(index);
+}
+
+}  // namespace kage::cli
