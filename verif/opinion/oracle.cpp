@@ -184,33 +184,47 @@ bool Oracle::possible_surface(int x, std::int32_t surface, Errors errors) const 
   return true;
 }
 
-PossibleShadow Oracle::possible_shadow(int x, std::uint32_t surface, Errors errors) const {
+Oracle::Sure Oracle::surely_in_volume(const Volume& v, int x, std::uint32_t surface, Errors errors) const {
   const int mask = (1 << config_.dsf_bits) - 1;
+  int sum = near_cap(v, x);
+  if (errors == Errors::depth_and_snap)
+    for (const NearEdge& e : v.near)
+      if (near_edge(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128, step()))
+        return Sure::maybe;
+  for (const Face& f : v.faces) {
+    // The surface's own plane is the same numbers on both sides: no error can part them.
+    if (f.polygon == surface) continue;
+    const ScreenPolygon& face = g_->polygons[f.polygon];
+    const Sure covers = surely_covers(f.polygon, x, errors);
+    const Sure nearer = surely_nearer(face.depth, g_->polygons[surface].depth, x, errors);
+    if (covers == Sure::no || nearer == Sure::no) continue;
+    if (covers == Sure::maybe || nearer == Sure::maybe) return Sure::maybe;
+    sum += f.w * winding(g_->outline(face), x, y_);
+  }
+  return (sum & mask) != 0 ? Sure::yes : Sure::no;
+}
+
+PossibleShadow Oracle::possible_shadow(int x, std::uint32_t surface, Errors errors) const {
   PossibleShadow possible{true, false};
   for (const Volume& v : volumes_) {
-    int sum = near_cap(v, x);
-    bool sure = true;
-    if (errors == Errors::depth_and_snap)
-      for (const NearEdge& e : v.near)
-        if (near_edge(e.from, e.to, std::int64_t{256} * x + 128, std::int64_t{256} * y_ + 128, step())) sure = false;
-    for (const Face& f : v.faces) {
-      // The surface's own plane is the same numbers on both sides: no error can part them.
-      if (f.polygon == surface) continue;
-      const ScreenPolygon& face = g_->polygons[f.polygon];
-      const Sure covers = surely_covers(f.polygon, x, errors);
-      const Sure nearer = surely_nearer(face.depth, g_->polygons[surface].depth, x, errors);
-      if (covers == Sure::no || nearer == Sure::no) continue;
-      if (covers == Sure::yes && nearer == Sure::yes)
-        sum += f.w * winding(g_->outline(face), x, y_);
-      else
-        sure = false;
-    }
-    if (!sure) {
-      possible.shadowed = true;
-    } else if ((sum & mask) != 0) {
-      possible.shadowed = true;
-      possible.lit = false;
-    }
+    const Sure in = surely_in_volume(v, x, surface, errors);
+    possible.shadowed = possible.shadowed || in != Sure::no;
+    possible.lit = possible.lit && in != Sure::yes;
+  }
+  return possible;
+}
+
+std::array<PossibleCount, 8> Oracle::possible_counts(int x, std::uint32_t surface, Errors errors) const {
+  std::array<PossibleCount, 8> possible{};
+  for (std::size_t i = 0; i < volumes_.size();) {
+    // Volumes come in the order of their samples, and any of a sample's keeps it out.
+    const std::uint32_t sample = g_->volumes[volumes_[i].index].sample;
+    Sure in = Sure::no;
+    for (; i < volumes_.size() && g_->volumes[volumes_[i].index].sample == sample; ++i)
+      in = std::max(in, surely_in_volume(volumes_[i], x, surface, errors));
+    PossibleCount& count = possible[g_->sample_light[sample]];
+    if (in == Sure::yes) ++count.least;
+    if (in != Sure::no) ++count.most;
   }
   return possible;
 }

@@ -8,6 +8,7 @@
 // every depth may err as far as its bound allows, each on its own.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -42,6 +43,12 @@ enum class Errors : std::uint8_t {
 struct PossibleShadow {
   bool lit = false;
   bool shadowed = false;
+};
+
+/// How many samples of a light may be in shadow while every error stays within its bound.
+struct PossibleCount {
+  int least = 0;
+  int most = 0;
 };
 
 class Oracle {
@@ -82,6 +89,9 @@ class Oracle {
   /// The shadows that `surface`, a drawn polygon that the pixel shows, may have there.
   [[nodiscard]] PossibleShadow possible_shadow(int x, std::uint32_t surface, Errors errors) const;
 
+  /// The same by light. Each sample's shadow may err on its own, so every count between the two is possible.
+  [[nodiscard]] std::array<PossibleCount, 8> possible_counts(int x, std::uint32_t surface, Errors errors) const;
+
   /// Sum over the volume of winding numbers with factor of all faces and the near cap at the pixel, whatever their
   /// depth; with the far end it is 0, so without it it is minus what the far end covers.
   [[nodiscard]] int sum_of_toggles(std::uint32_t volume, int x) const;
@@ -104,6 +114,7 @@ class Oracle {
   [[nodiscard]] bool nearer(const ScreenPlane& a, const ScreenPlane& b, int x) const;
   [[nodiscard]] Sure surely_nearer(const ScreenPlane& a, const ScreenPlane& b, int x, Errors errors) const;
   [[nodiscard]] Sure surely_covers(std::uint32_t polygon, int x, Errors errors) const;
+  [[nodiscard]] Sure surely_in_volume(const Volume& v, int x, std::uint32_t surface, Errors errors) const;
   [[nodiscard]] int near_cap(const Volume& v, int x) const;
   [[nodiscard]] int step() const { return snap_step(*g_); }
   [[nodiscard]] bool meets_line(std::span<const ScreenVertex> outline) const;

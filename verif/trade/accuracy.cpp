@@ -51,6 +51,28 @@ class StateTaker : public CoreObserver {
   int y_ = 0;  // the line at hand
 };
 
+/// Takes which translucent faces come to each pixel; their colours are their numbers.
+class LayerTaker : public CoreObserver {
+ public:
+  LayerTaker(int width, std::vector<std::vector<std::uint32_t>>& out) : width_(width), out_(&out) {}
+
+  void before(std::uint32_t /*index*/, const Token& token, std::span<const std::uint32_t> /*words*/,
+              const LineView& /*line*/) override {
+    if (token.kind == Kind::EOL) ++y_;
+    if (token.kind != Kind::TP) return;
+    const auto& c = token.span.color;
+    const auto face = static_cast<std::uint32_t>(c[0] | c[1] << 8 | c[2] << 16);
+    for (int x = token.span.xl; x < token.span.xr; ++x)
+      (*out_)[static_cast<std::size_t>(y_) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)].push_back(
+          face);
+  }
+
+ private:
+  int width_;
+  std::vector<std::vector<std::uint32_t>>* out_;
+  int y_ = 0;  // the line at hand
+};
+
 /// The words of a geometry, and the golden core's picture of them.
 void run(const FrameGeometry& g, const Config& config, int threads, CoreObserver* observer, const LineSink& sink) {
   GoldenCore core(config);
@@ -60,25 +82,29 @@ void run(const FrameGeometry& g, const Config& config, int threads, CoreObserver
     throw std::logic_error("the golden core refuses what the front end made");
 }
 
-/// Which face each pixel shows: drawn again with the number of each face as its colour, without shadows and layers,
-/// which do not change what is in front. All else is the configuration's own, the order of drawing too, which decides
-/// between equal depths.
-void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions& options, DrawnFrame& out) {
-  Config plain = config;
-  plain.channels = 3;
+/// A geometry without shadows, whose faces have their numbers as colours. All else is the configuration's own, the
+/// order of drawing too, which decides between equal depths.
+FrameGeometry numbered_faces(const SceneFrame& frame, const Config& plain, const DrawOptions& options) {
   TranslucentOrder order(options.order);
   FrameGeometry g = make_geometry(frame, plain, options.width, options.height, {.look = options.look, .order = &order});
   g.background = 0xFFFFFF;
-  g.fragments.clear();
   g.volumes.clear();
   g.shares.clear();
-  for (std::uint32_t i = 0; i < g.drawn; ++i) {
-    ScreenPolygon& p = g.polygons[i];
+  for (ScreenPolygon& p : g.polygons) {
     p.lit = false;
     p.normal_class = 0;
     p.color_planes = -1;
     for (unsigned c = 0; c < 3; ++c) p.color[c] = static_cast<std::uint8_t>(p.source >> (8 * c));
   }
+  return g;
+}
+
+/// Which face each pixel shows: drawn again without shadows and layers, which do not change what is in front.
+void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions& options, DrawnFrame& out) {
+  Config plain = config;
+  plain.channels = 3;
+  FrameGeometry g = numbered_faces(frame, plain, options);
+  g.fragments.clear();
   std::size_t at = 0;
   run(g, plain, options.threads, nullptr, [&](int, std::span<const std::uint8_t> p) {
     for (std::size_t i = 0; i + 2 < p.size(); i += 3, ++at) {
@@ -113,6 +139,19 @@ DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions
     for (std::size_t i = 0; i + channels <= p.size(); i += channels, ++at)
       for (std::size_t c = 0; c < 3; ++c) out.color[at][c] = p[i + (channels == 3 ? c : 0)];
   });
+  return out;
+}
+
+std::vector<std::vector<std::uint32_t>> draw_layers(const SceneFrame& frame, const Config& config,
+                                                    const DrawOptions& options) {
+  std::vector<std::vector<std::uint32_t>> out(static_cast<std::size_t>(options.width) *
+                                              static_cast<std::size_t>(options.height));
+  if (config.translucency == 0) return out;
+  Config plain = config;
+  plain.channels = 3;
+  plain.smooth = plain.color_frac = 0;
+  LayerTaker taker(options.width, out);
+  run(numbered_faces(frame, plain, options), plain, options.threads, &taker, [](int, std::span<const std::uint8_t>) {});
   return out;
 }
 

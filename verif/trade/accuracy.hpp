@@ -32,6 +32,11 @@ struct DrawnFrame {
 /// Draws a frame with a configuration.
 DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions& options);
 
+/// The translucent faces, into SceneFrame::polygons, that a configuration draws over each pixel, in their order: those
+/// too that are behind what is opaque. None without TRANSLUCENCY.
+std::vector<std::vector<std::uint32_t>> draw_layers(const SceneFrame& frame, const Config& config,
+                                                    const DrawOptions& options);
+
 /// How a pixel's face and shadow compare with the truth.
 enum class PixelFault : std::uint8_t {
   none,

@@ -21,6 +21,10 @@ constexpr Color kGrossFrame{255, 0, 255};
 // A region whose box is larger is seen without a frame.
 constexpr int kAlone = 16;
 
+// Pictures are enlarged towards this width, so that a pixel is seen, but no more than so many times.
+constexpr int kWide = 1280;
+constexpr int kMostEnlarged = 4;
+
 // How bright the picture under the map is at most.
 constexpr double kDimmed = 70;
 
@@ -54,6 +58,9 @@ Color color_of(const PixelError& e) {
   return e.shadow ? shadow_color(e.share) : color_color(e.color);
 }
 
+/// How bright a difference is painted, 0 .. 1: a step for each doubling.
+double level(int steps) { return (std::bit_width(static_cast<unsigned>(std::clamp(steps, 1, 255))) - 1) / 7.0; }
+
 /// Frames what of the map is `framed`, and lies alone.
 template <class Framed>
 void frame_alone(Image& image, const ErrorMap& map, const Color& color, int thick, Framed framed) {
@@ -64,10 +71,19 @@ void frame_alone(Image& image, const ErrorMap& map, const Color& color, int thic
       if (framed(map.pixels[i++])) finder.add(x, y);
   auto regions = finder.regions();
   std::erase_if(regions, [](const auto& r) { return std::max(r.box.width, r.box.height) > kAlone; });
+  const int side = enlargement(map.width);
+  for (auto& r : regions) r.box = {side * r.box.x, side * r.box.y, side * r.box.width, side * r.box.height};
   for (int t = 0; t < thick; ++t) {
     frame_regions(image, regions, color);
     for (auto& r : regions) r.box = {r.box.x - 1, r.box.y - 1, r.box.width + 2, r.box.height + 2};
   }
+}
+
+/// Paints a pixel of the map.
+void paint_square(Image& image, int side, int x, int y, const Color& color) {
+  for (int row = side * y; row < side * (y + 1); ++row)
+    for (int column = side * x; column < side * (x + 1); ++column)
+      std::copy(color.begin(), color.end(), &image.data[image.index(column, row)]);
 }
 
 }  // namespace
@@ -128,28 +144,33 @@ ErrorMap against_picture(const DrawnFrame& expected, const std::vector<int>& exp
 }
 
 std::array<std::uint8_t, 3> shadow_color(double share) {
-  return between({0, 90, 165}, {95, 190, 255}, std::clamp(share, 0.0, 1.0));
+  return between({0, 90, 165}, {95, 190, 255}, level(static_cast<int>(std::lround(share * 255))));
 }
 
-std::array<std::uint8_t, 3> color_color(int steps) {
-  const int bits = std::bit_width(static_cast<unsigned>(std::clamp(steps, 1, 255)));
-  return between({105, 40, 20}, {225, 85, 0}, (bits - 1) / 7.0);
-}
+std::array<std::uint8_t, 3> color_color(int steps) { return between({105, 40, 20}, {225, 85, 0}, level(steps)); }
+
+int enlargement(int width) { return std::clamp(kWide / width, 1, kMostEnlarged); }
 
 Image picture_of(const ErrorMap& map, const DrawnFrame& under) {
-  Image image(map.width, map.height, 3);
-  for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+  const int side = enlargement(map.width);
+  Image image(side * map.width, side * map.height, 3);
+  const auto each = [&map](auto paint) {
+    std::size_t i = 0;
+    for (int y = 0; y < map.height; ++y)
+      for (int x = 0; x < map.width; ++x) paint(x, y, i++);
+  };
+  each([&](int x, int y, std::size_t i) {
     const Color& c = under.color[i];
     const double grey = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
-    std::fill_n(&image.data[3 * i], 3, static_cast<std::uint8_t>(std::lround(grey * kDimmed / 255)));
-  }
-  frame_alone(image, map, kFrame, 1, [](const PixelError& e) { return e.any(); });
+    const auto dim = static_cast<std::uint8_t>(std::lround(grey * kDimmed / 255));
+    paint_square(image, side, x, y, {dim, dim, dim});
+  });
+  frame_alone(image, map, kFrame, 1, [](const PixelError& e) { return e.face || e.shadow; });
+  frame_alone(image, map, kFrame, 1, [](const PixelError& e) { return e.color_alone(); });
   frame_alone(image, map, kGrossFrame, 2, [](const PixelError& e) { return e.gross; });
-  for (std::size_t i = 0; i < map.pixels.size(); ++i) {
-    if (!map.pixels[i].any()) continue;
-    const Color color = color_of(map.pixels[i]);
-    std::copy(color.begin(), color.end(), &image.data[3 * i]);
-  }
+  each([&](int x, int y, std::size_t i) {
+    if (map.pixels[i].any()) paint_square(image, side, x, y, color_of(map.pixels[i]));
+  });
   return image;
 }
 

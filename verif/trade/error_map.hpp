@@ -61,13 +61,16 @@ ErrorMap against_picture(const DrawnFrame& expected, const std::vector<int>& exp
 // The colours of a map, for people of any colour vision: docs/sweep.md, "Error maps".
 inline constexpr std::array<std::uint8_t, 3> kFaceColor{255, 225, 0};
 inline constexpr std::array<std::uint8_t, 3> kGrossColor{255, 255, 255};
-/// A difference of the share in shadow of 0 .. 1.
+/// A difference of the share in shadow of 0 .. 1. Each doubling is a step brighter, from 1/255 on.
 std::array<std::uint8_t, 3> shadow_color(double share);
-/// A difference of colour of 1 .. 255 steps.
+/// A difference of colour of 1 .. 255 steps, likewise.
 std::array<std::uint8_t, 3> color_color(int steps);
 
-/// The map over the dimmed grey picture. Pixels that lie alone are framed, and pixels that are wrong grossly by a thick
-/// frame of its own colour.
+/// How many pixels high and wide a pixel of a map so wide is shown: a lone one is to be seen in a small picture.
+int enlargement(int width);
+
+/// The map over the dimmed grey picture, enlarged. Pixels that lie alone are framed, and what is wrong grossly by a
+/// thick frame of its own colour.
 Image picture_of(const ErrorMap& map, const DrawnFrame& under);
 
 }  // namespace kage::trade

@@ -32,7 +32,8 @@ TruePixel pixel(const Oracle& oracle, const FrameGeometry& g, const Config& conf
 
 }  // namespace
 
-ScreenTruth screen_truth(const FrameGeometry& geometry, const Config& config, int threads) {
+ScreenTruth screen_truth(const FrameGeometry& geometry, const Config& config, int threads,
+                         const std::function<void()>& step) {
   ScreenTruth out;
   out.width = geometry.width;
   out.height = geometry.height;
@@ -42,6 +43,7 @@ ScreenTruth screen_truth(const FrameGeometry& geometry, const Config& config, in
     tbb::parallel_for(tbb::blocked_range<int>(0, out.height, 4), [&](const tbb::blocked_range<int>& lines) {
       Oracle oracle(geometry, config);
       for (int y = lines.begin(); y < lines.end(); ++y) {
+        if (step) step();
         oracle.line(y);
         for (int x = 0; x < out.width; ++x)
           out.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) + static_cast<std::size_t>(x)] =

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "kage/config.hpp"
@@ -35,6 +36,8 @@ struct ScreenTruth {
 
 /// Asks the oracle about every pixel. `geometry` was made for `config`, which should be as fine as it can be; shadows
 /// are those of parity or of whatever DSF_BITS it has. Lines are shared out among `threads`, 0: one per processor.
-ScreenTruth screen_truth(const FrameGeometry& geometry, const Config& config, int threads = 0);
+/// `step` is called now and then, by several threads, and what it throws goes through.
+ScreenTruth screen_truth(const FrameGeometry& geometry, const Config& config, int threads = 0,
+                         const std::function<void()>& step = {});
 
 }  // namespace kage::trade

@@ -20,12 +20,7 @@ Image image_of(const DrawnFrame& f) {
   return image;
 }
 
-bool any(const std::array<std::uint8_t, 8>& counts) {
-  return std::any_of(counts.begin(), counts.end(), [](std::uint8_t n) { return n > 0; });
-}
-
-/// Whether the stated errors of depth excuse what a pixel shows. With several samples it is asked whether any shadow is
-/// possible, or none at all.
+/// Whether the stated errors of depth excuse what a pixel shows.
 class Excuses {
  public:
   Excuses(const FrameGeometry& g, const Config& config) : g_(&g), oracle_(g, config) {
@@ -42,12 +37,14 @@ class Excuses {
     });
   }
 
-  [[nodiscard]] bool shadow(int x, std::uint32_t shown, bool shadowed) const {
+  [[nodiscard]] bool shadow(int x, std::uint32_t shown, const std::array<std::uint8_t, 8>& counts) const {
     return any_polygon(shown, [&](std::uint32_t p) {
       if (!oracle_.covers(p, x)) return false;
-      if (!g_->polygons[p].lit) return !shadowed;
-      const PossibleShadow possible = oracle_.possible_shadow(x, p, Errors::depth);
-      return shadowed ? possible.shadowed : possible.lit;
+      if (!g_->polygons[p].lit) return counts == std::array<std::uint8_t, 8>{};
+      const auto possible = oracle_.possible_counts(x, p, Errors::depth);
+      for (std::size_t l = 0; l < counts.size(); ++l)
+        if (counts[l] < possible[l].least || counts[l] > possible[l].most) return false;
+      return true;
     });
   }
 
@@ -73,32 +70,62 @@ void mark_gross(const FrameGeometry& g, const Config& config, const ScreenTruth&
   for (std::size_t i = 0; i < own.pixels.size(); ++i) {
     const TruePixel& t = own.pixels[i];
     const bool right_face = drawn.face[i] == t.face;
-    if (right_face && (t.face == kNothing || any(drawn.counts[i]) == any(t.counts))) continue;
+    if (right_face && (t.face == kNothing || drawn.counts[i] == t.counts)) continue;
     const int y = static_cast<int>(i / static_cast<std::size_t>(own.width));
     const int x = static_cast<int>(i % static_cast<std::size_t>(own.width));
     if (y != at_line) excuses.line(at_line = y);
-    const bool excused = right_face ? excuses.shadow(x, t.face, any(drawn.counts[i])) : excuses.face(x, drawn.face[i]);
+    const bool excused = right_face ? excuses.shadow(x, t.face, drawn.counts[i]) : excuses.face(x, drawn.face[i]);
     map.pixels[i].gross = !excused;
   }
+}
+
+/// The faces of one list that the other has too, in their order.
+std::vector<std::uint32_t> common(const std::vector<std::uint32_t>& of, const std::vector<std::uint32_t>& with) {
+  std::vector<std::uint32_t> out;
+  for (const std::uint32_t face : of)
+    if (std::find(with.begin(), with.end(), face) != with.end()) out.push_back(face);
+  return out;
+}
+
+/// Shadows of a pixel that shows the right face, and is lit.
+void ask_shadows(const RayPixel& ray, const std::array<std::uint8_t, 8>& drawn, const std::vector<int>& samples,
+                 PointAccuracy& out) {
+  bool asked = false;
+  double most = 0;
+  for (std::size_t l = 0; l < drawn.size(); ++l) {
+    if (ray.counts[l] < 0) continue;
+    asked = true;
+    most = std::max(most, std::abs(int{drawn[l]} - ray.counts[l]) / static_cast<double>(samples[l]));
+  }
+  if (!asked) return;
+  ++out.ray_shadow_pixels;
+  if (most > 0) ++out.ray_shadow_wrong;
+  out.ray_shadow_share += most;
 }
 
 void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, const ScreenTruth& truth,
               PointAccuracy& out) {
   if (point.look.cull) return;
-  const auto& lights = scene.frame(frame).lights;
-  const bool hard = lights.size() == 1 && lights[0].shape == LightShape::point;
   const auto rays = scene.rays(frame, point);
+  const std::vector<int> samples = scene.light_samples(frame, point);
+  const bool layered = std::any_of(rays->begin(), rays->end(), [](const RayPixel& r) { return r.layers.size() > 1; });
+  const auto layers = layered ? draw_layers(scene.frame(frame), point.config, scene.draw_options(point))
+                              : std::vector<std::vector<std::uint32_t>>();
   for (const RayPixel& ray : *rays) {
     const std::size_t i =
         static_cast<std::size_t>(ray.y) * static_cast<std::size_t>(drawn.width) + static_cast<std::size_t>(ray.x);
     ++out.ray_pixels;
+    if (ray.layers.size() > 1) {
+      const auto shown = common(layers[i], ray.layers);
+      if (shown.size() > 1) ++out.ray_layer_pixels;
+      if (shown != common(ray.layers, layers[i])) ++out.ray_layers_wrong;
+    }
     if (drawn.face[i] != ray.face) {
       ++out.ray_visible_wrong;
       continue;
     }
-    if (!hard || ray.face == kNothing || truth.pixels[i].face != ray.face || !truth.pixels[i].lit) continue;
-    ++out.ray_shadow_pixels;
-    if ((drawn.counts[i][0] > 0) != ray.shadowed) ++out.ray_shadow_wrong;
+    if (ray.face == kNothing || truth.pixels[i].face != ray.face || !truth.pixels[i].lit) continue;
+    ask_shadows(ray, drawn.counts[i], samples, out);
   }
 }
 
@@ -111,6 +138,9 @@ PointAccuracy& PointAccuracy::operator+=(const PointAccuracy& o) {
   ray_visible_wrong += o.ray_visible_wrong;
   ray_shadow_pixels += o.ray_shadow_pixels;
   ray_shadow_wrong += o.ray_shadow_wrong;
+  ray_shadow_share += o.ray_shadow_share;
+  ray_layer_pixels += o.ray_layer_pixels;
+  ray_layers_wrong += o.ray_layers_wrong;
   all += o.all;
   steps += o.steps;
   flip += o.flip;

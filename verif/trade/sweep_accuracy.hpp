@@ -18,11 +18,14 @@ struct PointAccuracy {
   double z_error_max_lsb = 0;    ///< of a stored depth against the exact one of the point's own snap
   std::uint64_t ray_pixels = 0;  ///< that rays were asked about; 0: they cannot be (Look::cull)
   std::uint64_t ray_visible_wrong = 0;
-  std::uint64_t ray_shadow_pixels = 0;  ///< of these, lit pixels of a scene with one point light
-  std::uint64_t ray_shadow_wrong = 0;
-  PictureError all;  ///< against the finest picture
-  Steps steps;       ///< besides those of the finest picture
-  double flip = 0;   ///< sum over the frames of the mean of FLIP; only if asked for
+  std::uint64_t ray_shadow_pixels = 0;  ///< of these, lit pixels with a light that can be compared
+  std::uint64_t ray_shadow_wrong = 0;   ///< of these, with another number of shadowed samples of some light
+  double ray_shadow_share = 0;          ///< sum over them of how far a light's share in shadow is off, at most
+  std::uint64_t ray_layer_pixels = 0;   ///< pixels with two layers or more that picture and rays have
+  std::uint64_t ray_layers_wrong = 0;   ///< of these, whose order is another
+  PictureError all;                     ///< against the finest picture
+  Steps steps;                          ///< besides those of the finest picture
+  double flip = 0;                      ///< sum over the frames of the mean of FLIP; only if asked for
 
   PointAccuracy& operator+=(const PointAccuracy& o);
 };

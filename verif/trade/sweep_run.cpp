@@ -65,6 +65,8 @@ double golden_seconds(const Config& config, const PointWords& words) {
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+double mean(double sum, std::uint64_t of) { return of == 0 ? 0 : sum / static_cast<double>(of); }
+
 double wrong_share(const Json& row) {
   const Json& a = row.at("accuracy");
   return (a.at("visible_wrong").get<double>() + a.at("shadow_wrong").get<double>()) / a.at("pixels").get<double>();
@@ -197,7 +199,10 @@ Json SweepRunner::accuracy(const SweepPoint& point, const PointWords& words) {
                                   : Json{{"pixels", sum.ray_pixels},
                                          {"visible_wrong", sum.ray_visible_wrong},
                                          {"shadow_pixels", sum.ray_shadow_pixels},
-                                         {"shadow_wrong", sum.ray_shadow_wrong}};
+                                         {"shadow_wrong", sum.ray_shadow_wrong},
+                                         {"shadow_share", mean(sum.ray_shadow_share, sum.ray_shadow_pixels)},
+                                         {"layer_pixels", sum.ray_layer_pixels},
+                                         {"layers_wrong", sum.ray_layers_wrong}};
   const std::optional<SoftShare> soft = soft_share(scene_->frame(0), point);
   j["steps"] = {{"seen", sum.steps.seen}, {"most", sum.steps.most}};
   j["soft_share"] = soft ? Json{{"rms", soft->rms}, {"worst", soft->worst}} : Json(nullptr);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "arena/arena.hpp"
@@ -28,23 +29,91 @@ void add(cosim::Sha256& hash, const std::vector<T>& values) {
   hash.add_piece(std::span<const T>(values));
 }
 
-/// The frame without its translucent faces: rays are asked about what is behind them.
-SceneFrame opaque_only(SceneFrame f) {
+// Two faces are at one distance from the eye where rounding may decide.
+constexpr double kOneDistance = 1e-9;
+
+/// The frame without its translucent faces, or without the others.
+SceneFrame only(SceneFrame f, bool opaque) {
   for (Polygon& p : f.polygons)
-    if (f.triangles[p.triangle].alpha != 255) p.count = 0;
+    if ((f.triangles[p.triangle].alpha == 255) != opaque) p.count = 0;
   return f;
 }
 
-RayPixel ray_pixel(const SceneFrame& f, const verif::RayScene& rays, const SweepPoint& point, int x, int y) {
-  RayPixel out{.x = x, .y = y};
-  const auto [origin, direction] = verif::pixel_ray(f.camera, x, y, point.width, point.height);
-  const auto [t, face] = rays.nearest(origin, direction, f.camera.near);
+/// A frame for rays.
+struct RayFrame {
+  RayFrame(const SceneFrame& f, const SweepPoint& point)
+      : camera(f.camera),
+        opaque(only(f, true)),
+        behind(opaque),
+        before(only(f, false)),
+        width(point.width),
+        height(point.height) {
+    for (std::size_t l = 0; l < std::min(f.lights.size(), std::size_t{8}); ++l)
+      lights.push_back(light_points(f.lights[l], samples_of(point), point.look.seed + l));
+  }
+
+  /// Tests of rays with faces that a pixel's lights take.
+  [[nodiscard]] double light_tests() const {
+    std::size_t points = 0;
+    for (const auto& light : lights) points += light.size();
+    return static_cast<double>(points * opaque.triangles.size());
+  }
+
+  Camera camera;
+  SceneFrame opaque;
+  verif::RayScene behind;
+  verif::RayScene before;
+  int width;
+  int height;
+  std::vector<std::vector<LightPoint>> lights;
+};
+
+/// Twice the area of a face, along its normal.
+glm::dvec3 normal_of(const SceneFrame& f, std::uint32_t face) {
+  const auto outline = f.outline(f.polygons[face]);
+  glm::dvec3 sum{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+    sum += glm::cross(f.vertices[outline[i]] - f.vertices[outline[0]],
+                      f.vertices[outline[i + 1]] - f.vertices[outline[0]]);
+  return sum;
+}
+
+void ask_lights(const RayFrame& f, const glm::dvec3& at, const glm::dvec3& direction, RayPixel& out) {
+  const glm::dvec3 normal = normal_of(f.opaque, out.face);
+  const double eye = -glm::dot(normal, direction);
+  for (std::size_t l = 0; l < f.lights.size(); ++l) {
+    int count = 0;
+    for (const LightPoint& point : f.lights[l]) {
+      const glm::dvec3 to_light = point.directional ? -point.direction : point.position - at;
+      if (!(glm::dot(normal, to_light) * eye > 0)) {
+        count = -1;
+        break;
+      }
+      if (f.behind.blocked(at, to_light, point.directional ? INFINITY : 1, out.face)) ++count;
+    }
+    out.counts[l] = count;
+  }
+}
+
+void ask_layers(const RayFrame& f, const glm::dvec3& origin, const glm::dvec3& direction, double end, RayPixel& out) {
+  std::vector<std::pair<double, std::uint32_t>> met;
+  f.before.meet(origin, direction, [&](double t, std::uint32_t face) {
+    if (t >= f.camera.near && t < end && (met.empty() || met.back().second != face)) met.emplace_back(t, face);
+  });
+  std::sort(met.begin(), met.end(), std::greater<>());
+  for (std::size_t i = 0; i + 1 < met.size(); ++i)
+    if (met[i].first - met[i + 1].first < kOneDistance * met[i].first) return;
+  for (const auto& [t, face] : met) out.layers.push_back(face);
+}
+
+RayPixel ray_pixel(const RayFrame& f, int x, int y, bool lights) {
+  RayPixel out{.x = x, .y = y, .layers = {}};
+  const auto [origin, direction] = verif::pixel_ray(f.camera, x, y, f.width, f.height);
+  const auto [t, face] = f.behind.nearest(origin, direction, f.camera.near);
+  ask_layers(f, origin, direction, t, out);
   if (face == verif::kNothing) return out;
   out.face = face;
-  const Light& light = f.lights[0];
-  const glm::dvec3 at = origin + t * direction;
-  const glm::dvec3 to_light = light.directional ? -light.direction : light.position - at;
-  out.shadowed = rays.blocked(at, to_light, light.directional ? INFINITY : 1, face);
+  if (lights) ask_lights(f, origin + t * direction, direction, out);
   return out;
 }
 
@@ -191,12 +260,13 @@ std::vector<int> SweepScene::light_samples(int index, const SweepPoint& point) c
 std::shared_ptr<const ScreenTruth> SweepScene::truth(int index, const SweepPoint& point, int sub_bits) {
   SweepPoint p = finest(point);
   p.look.sub_bits = sub_bits;
+  p.look.translucent = TranslucentWay::submission;  // layers change no answer, and their order takes long
   p.look.samples = samples_of(point);
   p.look.seed = point.look.seed;
   return data_->truths.get(fmt::format("{} {}", index, text_of(p)), [&] {
     data_->step();
     const FrameGeometry g = make_geometry(frame(index), p.config, p.width, p.height, {.look = p.look});
-    return screen_truth(g, p.config, data_->draw.threads);
+    return screen_truth(g, p.config, data_->draw.threads, data_->step);
   });
 }
 
@@ -210,21 +280,29 @@ std::shared_ptr<const DrawnFrame> SweepScene::finest_picture(int index, const Sw
 }
 
 std::shared_ptr<const std::vector<RayPixel>> SweepScene::rays(int index, const SweepPoint& point) {
-  return data_->rays.get(fmt::format("{} {}x{}", index, point.width, point.height), [&] {
+  const std::vector<int> samples = light_samples(index, point);
+  const bool soft = std::any_of(samples.begin(), samples.end(), [](int n) { return n > 1; });
+  const std::string pattern = soft ? fmt::format("{} {}", samples_of(point), point.look.seed) : "hard";
+  return data_->rays.get(fmt::format("{} {}x{} {}", index, point.width, point.height, pattern), [&] {
     data_->step();
-    const SceneFrame f = opaque_only(frame(index));
-    const verif::RayScene scene(f);
+    const RayFrame f(frame(index), point);
+    // Every so many pixels and lines, and of these every so many for lights.
+    const double pixels = double{static_cast<double>(point.width)} * point.height;
     int step = 1;
-    while (2.0 * point.width * point.height * static_cast<double>(f.triangles.size()) / (step * step) > kMostTests)
-      ++step;
+    while (pixels * static_cast<double>(f.opaque.triangles.size()) / (step * step) > kMostTests / 2) ++step;
+    int lights = 1;
+    while (pixels * f.light_tests() / (step * step) / (lights * lights) > kMostTests / 2) ++lights;
     std::vector<RayPixel> out;
     for (int y = step / 2; y < point.height; y += step)
-      for (int x = step / 2; x < point.width; x += step) out.push_back({.x = x, .y = y});
+      for (int x = step / 2; x < point.width; x += step) out.push_back({.x = x, .y = y, .layers = {}});
     Arena arena(data_->draw.threads);
     arena.execute([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 256), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i)
-          out[i] = ray_pixel(f, scene, point, out[i].x, out[i].y);
+        data_->step();
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const bool ask = out[i].x / step % lights == 0 && out[i].y / step % lights == 0;
+          out[i] = ray_pixel(f, out[i].x, out[i].y, ask);
+        }
       });
     });
     return out;

@@ -31,8 +31,12 @@ std::string_view name_of(ErrorSource source);
 struct RayPixel {
   int x = 0;
   int y = 0;
-  std::uint32_t face = kNothing;
-  bool shadowed = false;  ///< something stands between it and the middle of the first light
+  std::uint32_t face = kNothing;  ///< opaque
+  /// By light, how many of its samples are kept from the pixel; -1: it is not to be compared, because nothing was
+  /// asked, there is no such light, or some of its samples are on the other side of the face than the eye.
+  std::array<int, 8> counts{-1, -1, -1, -1, -1, -1, -1, -1};
+  /// Translucent faces before it, back to front. None if two are at one distance, where either order is right.
+  std::vector<std::uint32_t> layers;
 };
 
 class SweepScene {
@@ -65,7 +69,8 @@ class SweepScene {
   /// The oracle's answers for a snap of so many bits, with the samples of the point.
   std::shared_ptr<const ScreenTruth> truth(int index, const SweepPoint& point, int sub_bits);
   std::shared_ptr<const DrawnFrame> finest_picture(int index, const SweepPoint& point);
-  /// Of pixels that are spread evenly over the picture: all of them, or as many as a minute allows.
+  /// Of pixels that are spread evenly over the picture: all of them, or as many as seconds allow; lights, with the
+  /// samples of the point, of fewer of them where there are many.
   std::shared_ptr<const std::vector<RayPixel>> rays(int index, const SweepPoint& point);
   /// What is wrong in the picture of alone(point, source) against the finest one. It is not kept.
   ErrorMap map_of(int index, const SweepPoint& point, ErrorSource source);

@@ -133,6 +133,8 @@ said 0 info courtyard
 said 0 info penumbra
 said 0 render courtyard "${small[@]}" --out a
 said 0 render inside "${small[@]}" --exr --out exr
+said 0 render glass --size 64x48 --frames 1 --order submission --error-map --out maps
+json "$last" 'j["errors"][0]["sources"]["order"]["file"] and j["errors"][0]["sources"]["classes"]["file"] is None'
 "$kage" render inside "${small[@]}" --out b >/dev/null
 "$kage" render courtyard --size 32x24 --frames 1 --config default --out tiny >/dev/null
 said 0 diff a/courtyard_0000.png a/courtyard_0000.png

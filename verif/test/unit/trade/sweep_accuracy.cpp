@@ -90,6 +90,75 @@ TEST_CASE("a wrong shadow, depth and colour are counted") {
   CHECK_FALSE(psnr(0, 100));
 }
 
+TEST_CASE("a soft shadow that is off by a sample more than its errors allow is gross") {
+  for (const char* name : {"penumbra", "three-lights"}) {
+    CAPTURE(name);
+    Swept s(name);
+    // A depth so coarse that shadows move is excused.
+    const SweepPoint coarse = with(s.base, "Z_BITS", "9");
+    const PointAccuracy moved = s.accuracy(coarse, s.drawn(coarse));
+    CHECK(moved.by_truth.shadow_wrong > 0);
+    CHECK(moved.by_truth.gross_wrong == 0);
+    const DrawnFrame right = s.drawn(s.base);
+    const auto truth = s.scene->truth(0, s.base, kMostSubBits);
+    DrawnFrame wrong = right;
+    std::uint64_t changed = 0;
+    const int samples = samples_of(s.base);
+    std::size_t soft = 0;
+    while (s.scene->light_samples(0, s.base)[soft] == 1) ++soft;
+    for (std::size_t i = 0; i < right.face.size(); ++i) {
+      if (!truth->pixels[i].lit || right.counts[i][soft] < 2 || right.counts[i][soft] >= samples) continue;
+      --wrong.counts[i][soft];  // some shadow, as before
+      ++changed;
+    }
+    REQUIRE(changed > 10);
+    const PointAccuracy bad = s.accuracy(s.base, wrong);
+    CHECK(bad.by_truth.gross_wrong > changed * 9 / 10);
+    CHECK(bad.by_truth.gross_wrong <= changed);
+  }
+}
+
+TEST_CASE("rays count the samples of every light") {
+  for (const char* name : {"courtyard", "penumbra", "three-lights"}) {
+    CAPTURE(name);
+    Swept s(name);
+    const DrawnFrame right = s.drawn(s.base);
+    const PointAccuracy good = s.accuracy(s.base, right);
+    CHECK(good.ray_shadow_pixels > 500);
+    // The snap moves edges, so that a soft shadow's samples change at some pixels of many.
+    CHECK(good.ray_shadow_wrong * 20 < good.ray_shadow_pixels);
+    CHECK(good.ray_shadow_share <= static_cast<double>(good.ray_shadow_wrong));
+    DrawnFrame wrong = right;
+    for (auto& counts : wrong.counts) ++counts.back();  // of no light
+    CHECK(s.accuracy(s.base, wrong).ray_shadow_wrong == good.ray_shadow_wrong);
+    const std::size_t lights = s.scene->frame(0).lights.size();
+    for (auto& counts : wrong.counts)
+      for (std::size_t l = 0; l < lights; ++l) counts[l] = static_cast<std::uint8_t>(counts[l] + 100);
+    const PointAccuracy bad = s.accuracy(s.base, wrong);
+    CHECK(bad.ray_shadow_wrong == good.ray_shadow_pixels);
+    CHECK(bad.ray_shadow_share > static_cast<double>(good.ray_shadow_pixels));
+  }
+}
+
+TEST_CASE("rays tell an order of layers that is wrong") {
+  Swept s("glass");
+  const auto layers = [&](const char* order) {
+    const SweepPoint p = with(s.base, "ORDER", order);
+    return s.accuracy(p, s.drawn(p));
+  };
+  const PointAccuracy exact = layers("exact");
+  const PointAccuracy centroid = layers("centroid");
+  const PointAccuracy submission = layers("submission");
+  CHECK(exact.ray_layer_pixels > 200);
+  CHECK(exact.ray_layers_wrong == 0);
+  CHECK(centroid.ray_layers_wrong > 0);
+  CHECK(submission.ray_layers_wrong > centroid.ray_layers_wrong);
+  CHECK(submission.ray_layers_wrong <= submission.ray_layer_pixels);
+  // A core that blends nothing has no layers.
+  const SweepPoint none = with(s.base, "TRANSLUCENCY", "0");
+  CHECK(s.accuracy(none, s.drawn(none)).ray_layer_pixels == 0);
+}
+
 TEST_CASE("the error of a point that differs from the finest in one source is that source's alone") {
   for (const char* name : {"courtyard", "penumbra", "glass"}) {
     Swept s(name);
