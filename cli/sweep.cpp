@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage sweep SCENE...: the trade between accuracy, speed and area, measured over configurations.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +18,7 @@
 
 #include "ci.hpp"
 #include "command.hpp"
+#include "cosim/model/model.hpp"
 #include "kage/error.hpp"
 #include "order_build.hpp"
 #include "plan/demand.hpp"
@@ -28,9 +30,11 @@
 #include "standard_files.hpp"
 #include "sweep_print.hpp"
 #include "text.hpp"
+#include "trade/placement.hpp"
 #include "trade/sweep_plan.hpp"
 #include "trade/sweep_run.hpp"
 #include "trade/sweep_store.hpp"
+#include "trade/synthesis.hpp"
 #include "workers.hpp"
 
 namespace kage::cli {
@@ -40,6 +44,10 @@ using trade::SweepPoint;
 
 // Raise it when what is measured, or how, changes a row.
 constexpr const char* kRows = "kage.sweep/1";
+
+// What --place is without a device, and the device that it means: of the family whose cells are counted.
+constexpr const char* kPlaceFlag = "true";
+constexpr const char* kPlaceDevice = "ecp5-85f";
 
 struct SweepCommand : Options {
   std::vector<std::string> inputs;
@@ -55,6 +63,7 @@ struct SweepCommand : Options {
   bool no_area = false;
   bool no_cosim = false;
   bool no_flip = false;
+  std::string place;  // a device; kPlaceFlag for the one of the counts
   bool list = false;
 };
 
@@ -141,7 +150,23 @@ std::vector<SweepPoint> points_of(const SweepCommand& o, const SweepPoint& given
   return trade::with_seeds(std::move(points), o.seeds);
 }
 
-SweptScene open(const SweepCommand& o, const std::string& input, Progress& progress, Told*& told) {
+/// The tools that measure, asked before anything is measured: one that is missing ends the sweep.
+struct Tools {
+  trade::SweepTools versions;
+  std::unique_ptr<trade::Placer> placer;
+};
+
+Tools tools_of(const SweepCommand& o) {
+  Tools tools;
+  if (o.list) return tools;
+  if (!o.no_area) tools.versions.yosys = trade::yosys_version(check_interrupt);
+  if (!o.no_cosim) tools.versions.model = fmt::format("{}", fmt::join(cosim::model_tools(), "\n"));
+  if (!o.place.empty())
+    tools.placer = std::make_unique<trade::Placer>(o.place == kPlaceFlag ? kPlaceDevice : o.place, check_interrupt);
+  return tools;
+}
+
+SweptScene open(const SweepCommand& o, const Tools& tools, const std::string& input, Progress& progress, Told*& told) {
   refuse_random(input);
   refuse_order_tree(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
@@ -161,6 +186,8 @@ SweptScene open(const SweepCommand& o, const std::string& input, Progress& progr
       trade::SweepHow{.area = !o.no_area,
                       .cosim = !o.no_cosim,
                       .flip = !o.no_flip,
+                      .tools = tools.versions,
+                      .placer = tools.placer.get(),
                       .wait = check_interrupt,
                       .doing = [&told](const std::string& what) { told->doing(what); }});
   return out;
@@ -193,8 +220,14 @@ Json row_of(const SweptScene& s, std::size_t point, const Json& measured) {
 /// Makes the rows of the list, several at a time, or takes them from the store.
 class Sweep {
  public:
-  Sweep(const SweepCommand& o, std::vector<SweptScene>& scenes, trade::SweepStore& store, Told& told)
-      : o_(o), scenes_(scenes), store_(store), told_(told), build_(trade::build_identity(build_name())) {
+  Sweep(const SweepCommand& o, const Tools& tools, std::vector<SweptScene>& scenes, trade::SweepStore& store,
+        Told& told)
+      : o_(o),
+        scenes_(scenes),
+        store_(store),
+        told_(told),
+        build_(trade::build_identity(build_name())),
+        model_tools_(tools.versions.model) {
     for (SweptScene& s : scenes_)
       s.runner->keep_clocks = [this, &s](std::size_t point, const trade::ClockSample& sample) {
         store_.keep_clocks(clocks_key(s, point), sample);
@@ -227,19 +260,22 @@ class Sweep {
  private:
   /// All that decides the clocks of a point, but for the model, which is of the same build.
   std::string clocks_key(const SweptScene& s, std::size_t point) const {
-    return trade::key_of(
-        {build_, "clocks", s.scene->identity(), std::to_string(s.scene->frames()), trade::text_of(s.points[point])});
+    return trade::key_of({build_, "clocks", s.scene->identity(), std::to_string(s.scene->frames()),
+                          trade::text_of(s.points[point]), model_tools_});
+  }
+
+  std::string row_key(const SweptScene& s, std::size_t point, const trade::PointWords& words) const {
+    return trade::key_of({kRows, build_, s.scene->name(), s.scene->identity(), std::to_string(s.scene->frames()),
+                          trade::text_of(s.points[point]), words.hash, s.runner->clocks_text(point),
+                          o_.no_area ? "estimated" : "counted", o_.no_flip ? "no flip" : "flip",
+                          s.runner->tools_text(point)});
   }
 
   void make(Entry& e) {
     check_interrupt();
     SweptScene& s = scenes_[e.scene];
-    const SweepPoint& p = s.points[e.point];
     const trade::PointWords words = s.runner->words(e.point);
-    const std::string text = trade::text_of(p);
-    const std::string key = trade::key_of(
-        {kRows, build_, s.scene->name(), s.scene->identity(), std::to_string(s.scene->frames()), text, words.hash,
-         s.runner->clocks_text(e.point), o_.no_area ? "estimated" : "counted", o_.no_flip ? "no flip" : "flip"});
+    const std::string key = row_key(s, e.point, words);
     if (const auto kept = store_.run(key)) {
       e.row = row_of(s, e.point, Json::parse(*kept));
       told_.done(false);
@@ -248,7 +284,7 @@ class Sweep {
     const std::size_t stands = s.runner->representative(e.point);
     if (const auto clocks = store_.clocks(clocks_key(s, stands))) s.runner->know_clocks(stands, *clocks);
     const Json measured = s.runner->run(e.point, words);
-    store_.keep_run(key, s.scene->name(), text, measured.dump());
+    store_.keep_run(key, s.scene->name(), trade::text_of(s.points[e.point]), measured.dump());
     e.row = row_of(s, e.point, measured);
     told_.done(true);
   }
@@ -258,6 +294,7 @@ class Sweep {
   trade::SweepStore& store_;
   Told& told_;
   std::string build_;
+  std::string model_tools_;
 };
 
 std::vector<Entry> entries_of(const SweepCommand& o, const std::vector<SweptScene>& scenes) {
@@ -277,6 +314,19 @@ int list(const std::vector<SweptScene>& scenes, const std::vector<Entry>& entrie
   return kSame;
 }
 
+/// Says how many cores are going to be placed, as that takes minutes a core.
+void announce_places(trade::Placer& placer, const std::vector<SweptScene>& scenes, const std::vector<Entry>& entries) {
+  std::vector<Config> cores;
+  for (const Entry& e : entries) {
+    const Config& config = scenes[e.scene].points[e.point].config;
+    if (trade::is_built(config)) cores.push_back(config);
+  }
+  const std::size_t missing = placer.expect(cores);
+  if (missing > 0)
+    say(fmt::format("kage: up to {} to be placed on {}, one after another, which takes a minute to some minutes each\n",
+                    counted(missing, "core is", "cores are"), placer.device()));
+}
+
 void refuse_store(const SweepCommand& o) {
   if (!o.resume && std::filesystem::exists(o.store))
     throw Error(fmt::format("{}: there is a store already: --resume goes on with it, --store names another", o.store));
@@ -294,16 +344,18 @@ int run(const SweepCommand& o) {
   Progress progress;
   std::vector<SweptScene> scenes;
   Told* telling = nullptr;
-  for (const std::string& input : o.inputs) scenes.push_back(open(o, input, progress, telling));
+  const Tools tools = tools_of(o);
+  for (const std::string& input : o.inputs) scenes.push_back(open(o, tools, input, progress, telling));
   progress.clear();
   std::vector<Entry> entries = entries_of(o, scenes);
   if (o.list) return list(scenes, entries);
+  if (tools.placer) announce_places(*tools.placer, scenes, entries);
   trade::SweepStore store(o.store);
   for (const std::string& other : o.take) store.absorb(other);
   Told told(entries.size());
   telling = &told;
   try {
-    Sweep(o, scenes, store, told).run(entries);
+    Sweep(o, tools, scenes, store, told).run(entries);
   } catch (const Interrupted&) {
     say(fmt::format("kage: {} kept in {}: --resume goes on from there\n", counted(told.made(), "run is", "runs are"),
                     o.store));
@@ -329,6 +381,7 @@ void add_sweep(CLI::App& app, Action& action) {
                   "  kage sweep courtyard --no-area --no-cosim --csv trade.csv\n"
                   "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
                   "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
+                  "  kage sweep courtyard --axes LANES=1,4,16 --place\n"
                   "  kage sweep courtyard --resume\n"
                   "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
   const auto o = std::make_shared<SweepCommand>();
@@ -358,6 +411,10 @@ void add_sweep(CLI::App& app, Action& action) {
   c->add_flag("--no-area", o->no_area, "estimate look-up tables and flip-flops: yosys takes half a minute for a core");
   c->add_flag("--no-cosim", o->no_cosim, "take clocks from the design: an RTL model takes a minute to build");
   c->add_flag("--no-flip", o->no_flip, "leave out FLIP");
+  c->add_flag("--place", o->place,
+              "place each core and tell its clock, a minute to some minutes each: on ecp5-85f, or --place=DEVICE of "
+              "constraints/devices.yaml")
+      ->type_name("[=DEVICE]");
   c->add_flag("--list", o->list, "print what would be measured, and measure nothing");
   c->add_option("--csv", o->csv, "write the rows as CSV")->type_name("FILE");
   options_of_pictures(*c, *o);

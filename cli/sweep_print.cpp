@@ -14,19 +14,27 @@ std::string number(const Json& value, int digits) {
   return value.is_null() ? "-" : fmt::format("{:.{}f}", value.get<double>(), digits);
 }
 
-std::string line_of(const Json& row) {
+/// Whether a device was asked for in any row.
+bool any_placed(const std::vector<Json>& rows) {
+  return std::any_of(rows.begin(), rows.end(),
+                     [](const Json& row) { return !row.at("area").at("placed_on").is_null(); });
+}
+
+std::string line_of(const Json& row, bool placed) {
   const Json& a = row.at("accuracy");
   const Json& s = row.at("speed");
   const Json& area = row.at("area");
   const std::string name = fmt::format("{} {}", row.at("axis").get<std::string>(), row.at("value").get<std::string>());
+  const std::string clock =
+      placed ? fmt::format(" {:>6} {:>7}", number(area.at("fmax_mhz"), 1), number(s.at("frames_per_second"), 1)) : "";
   return fmt::format(
-      "{}{:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}\n",
+      "{}{:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
       row.at("pareto").get<bool>() ? "*" : " ", name, a.at("visible_wrong").dump(), a.at("shadow_wrong").dump(),
       a.at("gross_wrong").dump(), number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 1),
       number(a.at("psnr"), 1), number(a.at("flip"), 4), number(s.at("golden_ns_per_pixel"), 1),
       number(s.at("rtl_cycles_per_pixel"), 3), s.at("rtl_cycles_from") == "cosim" ? " " : "~",
       number(s.at("cosim_frames_per_second"), 2), number(s.at("words_per_frame"), 0), number(area.at("luts"), 0),
-      area.at("counted").get<bool>() ? " " : "~", area.at("bits_per_pixel").dump());
+      area.at("counted").get<bool>() ? " " : "~", area.at("bits_per_pixel").dump(), clock);
 }
 
 using Column = std::function<void(const std::string& name, const Json& value)>;
@@ -49,16 +57,17 @@ std::string quoted_csv(const Json& value) {
 std::string sweep_table(const std::vector<Json>& rows) {
   std::string text;
   std::string scene;
+  const bool placed = any_placed(rows);
   for (const Json& row : rows) {
     if (text.empty() || row.at("scene") != scene) {
       scene = row.at("scene").get<std::string>();
       text += fmt::format("# {}: {} pixels in {} frames; * no other row beats it; ~ foretold or estimated\n", scene,
                           row.at("accuracy").at("pixels").dump(), row.at("frames").dump());
-      text += fmt::format(" {:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}\n",
+      text += fmt::format(" {:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
                           "# axis value", "visible", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
-                          "clk/px", "sim fps", "words", "LUTs", "b/px");
+                          "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
     }
-    text += line_of(row);
+    text += line_of(row, placed);
   }
   return text;
 }

@@ -59,6 +59,7 @@ void LineClockCounter::begin(int frame, const FrameHeader& header) {
     throw Error(fmt::format("frame {} is {} pixels wide; the configuration's MAX_WIDTH is {}", frame, header.width,
                             config_.max_width));
   frame_ = frame;
+  width_ = header.width;
   height_ = header.height;
   counter_.start(header.width);
 }
@@ -88,7 +89,10 @@ void LineClockCounter::end() {
     sums_.worst_window = mean;
     sums_.window = window;
   }
-  if (const LineClocks::Need need = needed_line(lines); need.clocks > sums_.need.clocks) {
+  LineClocks::Need need = needed_line(lines);
+  // The port sends a pixel a clock, so a display's line has its width at least.
+  if (need.clocks < width_) need = {.clocks = static_cast<double>(width_), .frame = 0, .first = need.first, .count = 1};
+  if (need.clocks > sums_.need.clocks) {
     sums_.need = need;
     sums_.need.frame = frame_;
   }

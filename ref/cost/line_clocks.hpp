@@ -37,7 +37,7 @@ struct LineClocks {
   double worst_window = 0;        ///< mean of a line in the neighbouring lines that take most
   std::size_t window = 0;         ///< how many those are: kLineWindow, or all of a picture that has fewer
   std::uint64_t worst_frame = 0;  ///< clocks of the frame with the most
-  Need need;                      ///< needed_line() of the frame that asks for most
+  Need need;                      ///< needed_line() of the frame that asks for most, or its width if that is more
 
   /// Of a line, over all frames; 0 without lines.
   [[nodiscard]] double mean() const {
@@ -83,6 +83,7 @@ class LineClockCounter {
   PhaseCounter counter_;
   LineClocks sums_;
   int frame_ = 0;
+  int width_ = 0;
   int height_ = 0;
 };
 

@@ -25,7 +25,16 @@ void PhaseCounter::token(const Token& t) {
     sum.pixels += static_cast<std::uint64_t>(t.span.xr - t.span.xl);
   }
   const auto width = static_cast<std::uint64_t>(width_);
+  const std::uint64_t waited = waits_;
   if (t.kind == Kind::RESOLVE) resolved_ = true;
+  if (t.kind == Kind::SEG) segments_ += clocks;
+  if (t.kind == Kind::TREE) {
+    // The tree begins a line once the one before has begun to leave its buffer; systolic there is no buffer, see below.
+    const std::uint64_t line = width + kBetweenTreeLines;
+    const std::uint64_t since = had_tree_ ? since_tree_ : 0;
+    if (config_.arrangement != 0 && since < line) waits_ += line - since;
+    had_tree_ = has_tree_ = true;
+  }
   if (t.kind == Kind::TP && !blends_) {
     blends_ = true;
     // docs/rtl.md, "Clocks": a line whose colours come back before its TPs.
@@ -37,11 +46,14 @@ void PhaseCounter::token(const Token& t) {
   ++sum.tokens;
   sum.clocks += clocks;
   line_ += clocks;
+  since_tree_ = t.kind == Kind::TREE ? clocks : since_tree_ + clocks + waits_ - waited;
   if (t.kind != Kind::EOL) return;
   if (line_ < width) sums_.video += width - line_;
-  lines_.push_back(std::max(line_ + waits_, width));
-  line_ = waits_ = 0;
-  resolved_ = blends_ = false;
+  // Systolic, a line's SEGs may all wait for the half of a unit's buffer that the line before is read from.
+  const bool waits_for_half = has_tree_ && config_.arrangement == 0;
+  lines_.push_back(std::max(line_ + waits_, width + (waits_for_half ? segments_ : 0)));
+  line_ = waits_ = segments_ = 0;
+  resolved_ = blends_ = has_tree_ = false;
 }
 
 std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count) {

@@ -13,6 +13,10 @@
 
 namespace kage {
 
+/// What passes in the banked core from the last pixel of a tree's line to the first of its next (docs/tree.md, "The
+/// clocks of a line").
+inline constexpr int kBetweenTreeLines = 4;
+
 struct PhaseSums {
   struct Sum {
     std::uint64_t tokens = 0;
@@ -29,8 +33,8 @@ struct PhaseSums {
   }
 };
 
-/// Adds up the tokens of a frame. Not counted: the header, waiting, and the pass that brings colours back before the
-/// TPs of a line.
+/// Adds up the tokens of a frame. Not counted: the header, waiting (as of a TREE for its line), and the pass that
+/// brings colours back before the TPs of a line.
 class PhaseCounter {
  public:
   explicit PhaseCounter(const Config& config) : config_(config), layout_(config) {}
@@ -42,7 +46,8 @@ class PhaseCounter {
     sums_ = {};
     lines_.clear();
     resolved_ = blends_ = false;
-    waits_ = 0;
+    waits_ = segments_ = since_tree_ = 0;
+    had_tree_ = has_tree_ = false;
   }
   void token(const Token& token);
 
@@ -50,7 +55,8 @@ class PhaseCounter {
 
   /// The clocks that each line takes at most, top to bottom: those of its tokens, or of its pixels on their way out if
   /// these take longer. Those before a line's first TP count too: the pass that paints the line, and with counters the
-  /// way out and back of its colours.
+  /// way out and back of its colours; and those in which a TREE waits for the tree, which makes a pixel a clock, a line
+  /// ahead.
   [[nodiscard]] const std::vector<std::uint64_t>& lines() const { return lines_; }
 
  private:
@@ -61,9 +67,14 @@ class PhaseCounter {
   PhaseSums sums_;
   std::vector<std::uint64_t> lines_;
   // Of the line at hand:
-  bool resolved_ = false;    // it has had a RESOLVE
-  bool blends_ = false;      // it has had a TP
-  std::uint64_t waits_ = 0;  // clocks before its first TP
+  bool resolved_ = false;       // it has had a RESOLVE
+  bool blends_ = false;         // it has had a TP
+  std::uint64_t waits_ = 0;     // clocks before its first TP, and before its TREE
+  bool has_tree_ = false;       // it has had a TREE
+  std::uint64_t segments_ = 0;  // clocks of its SEGs
+  // Of the frame:
+  bool had_tree_ = false;         // there was a TREE
+  std::uint64_t since_tree_ = 0;  // clocks since the last one began
 };
 
 /// The most clocks that `count` neighbouring lines of a frame take together. Of a frame with fewer lines: all of them.

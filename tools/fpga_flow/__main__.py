@@ -8,6 +8,7 @@ import pathlib
 import shutil
 import sys
 import time
+from functools import partial
 
 import board as boards
 import board_run
@@ -76,7 +77,7 @@ def figures_of(top, device, what, options, tools, folder):
         "device": device.name,
         "core": what.name,
         "parameters": what.parameters,
-        "tools": {n: tools.find(n).version for n in ("yosys", f"nextpnr-{device.family}")},
+        "tools": {p.name: p.version for p in core_programs(tools, device)},
         "cells": flow.cells_of(device, report, netlist),
         "clock_mhz": flow.spread(clocks),
         "least_loop_mhz": yardsticks["least_loop"],
@@ -89,6 +90,38 @@ def figures_of(top, device, what, options, tools, folder):
         "bitstream": bitstream,
         "seconds": progress.steps,
     }
+
+
+def core_figures_of(device, what, options, tools, folder):
+    """The clock of the core alone, without yardsticks and bitstream; or why it has none."""
+    design = flow.Design("kage", "kage_wrap", what.values)
+    clocks, why = None, None
+    try:
+        reports = measure(tools, device, design, options.seeds, folder, Progress(), "core")
+        clocks = flow.spread([flow.clock_of(r) for r in reports])
+    except flow.NotPlaced as e:
+        why = e.why
+    return {
+        "schema": "kage.fpga-core/1",  # docs/schema/fpga-core.json
+        "device": device.name,
+        "core": what.name,
+        "parameters": what.parameters,
+        "tools": {p.name: p.version for p in core_programs(tools, device)},
+        "clock_mhz": clocks,
+        "not_placed": why,
+    }
+
+
+def core_programs(tools, device):
+    """The programs that a core's clock is found by."""
+    return [tools.find(n) for n in ("yosys", f"nextpnr-{device.family}")]
+
+
+def tell_clock(f):
+    """The same for people."""
+    clock = f["clock_mhz"]
+    said = f"not placed: {f['not_placed']}" if clock is None else f"clock {clock['median']:.1f} MHz"
+    print(f"{f['device']}, {f['core']}; " + ", ".join(f"{k} {v}" for k, v in f["tools"].items()) + f"; {said}")
 
 
 def tell(f):
@@ -125,7 +158,13 @@ def check_board_options(options):
         core.find_device(options.top, options.device)
         if options.pack:
             raise Trouble(f"--pack: takes a board ({', '.join(boards.names(options.top))}), not {options.device}")
+        for name in ("stream", "gate", "record"):
+            if options.core_only and getattr(options, name) not in (None, False):
+                raise Trouble(f"--{name}: is of a run with yardsticks, and --core-only has none")
         return
+    for name in ("core_only", "versions"):
+        if getattr(options, name):
+            raise Trouble(f"--{name.replace('_', '-')}: is of a device, and {options.device} is a board")
     if options.core:
         raise Trouble(f"{options.core[0]}: a board's core stands in {boards.BOARDS}/boards.yaml")
     for name in ("gate", "fps", "total_lines"):
@@ -148,7 +187,9 @@ def options_of_line():
     parser.add_argument("--seeds", type=int)
     parser.add_argument("--out", type=pathlib.Path)
     parser.add_argument("--json")
-    parser.add_argument("--tools", choices=("wheels", "system"), default="wheels")
+    parser.add_argument("--tools", choices=("wheels", "system", "any"), default="wheels")
+    parser.add_argument("--core-only", action="store_true")
+    parser.add_argument("--versions", action="store_true")
     parser.add_argument("--kage", type=pathlib.Path)
     parser.add_argument("--stream", type=pathlib.Path)
     parser.add_argument("--fps", type=float)
@@ -236,17 +277,32 @@ def tell_core(figures, out):
     print(f"bitstream, netlist, logs: {out}")
 
 
+def tell_core_only(figures, out):
+    tell_clock(figures)
+    print(f"netlist, logs: {out}")
+
+
 def main():
     options = options_of_line()
     if options.board:
         return main_board(options)
     top = options.top
     device = core.find_device(top, options.device)
+    if options.versions:
+        for program in core_programs(programs.Programs(options.tools, options.wheels, top), device):
+            print(f"{program.name}: {program.said}")
+        return 0
     what = core.find_core(top, options.core)
     row = None if options.gate is None else kept.row_for(top, device.name, what.name, options.seeds)
     out = checked_out(options.out or top / "build/fpga" / f"{device.name}-{what.name}")
-    figures, text = run_into(out, top, options, lambda tools, work: figures_of(top, device, what, options, tools, work))
-    tell_or_print(options, figures, text, out, tell_core)
+    if options.core_only:
+        measured, told = partial(core_figures_of, device, what, options), tell_core_only
+    else:
+        measured, told = partial(figures_of, top, device, what, options), tell_core
+    figures, text = run_into(out, top, options, measured)
+    tell_or_print(options, figures, text, out, told)
+    if options.core_only:
+        return 0 if figures["not_placed"] is None else 1
     if options.record:
         kept.record(top, figures)
     lost = [] if row is None else kept.lost(row, figures, options.gate)

@@ -5,7 +5,16 @@ import dataclasses
 import json
 import statistics
 
+import programs as runs
 from trouble import Trouble
+
+
+class NotPlaced(Trouble):
+    """nextpnr found no place or no wires for a design; `why` is its own line."""
+
+    def __init__(self, failed):
+        super().__init__(str(failed))
+        self.why = failed.error.removeprefix("ERROR: ")
 
 
 @dataclasses.dataclass
@@ -37,27 +46,19 @@ def synthesize(programs, device, design, folder):
 
 
 def place(programs, device, design, folder, seed):
-    """Places and routes; gives nextpnr's report. Files are NAME-SEED.*"""
+    """Places and routes; gives nextpnr's report. Files are NAME-SEED.* Raises NotPlaced where the design does not fit."""
     name = f"{design.name}-{seed}"
     out = ["--textcfg", f"{name}.config"] if device.family == "ecp5" else ["--asc", f"{name}.asc"]
     pins = ["--lpf" if device.family == "ecp5" else "--pcf", design.pins] if design.pins else []
-    programs.run(
-        programs.find(f"nextpnr-{device.family}"),
-        [
-            "--quiet",
-            *device.nextpnr,
-            *pins,
-            *design.nextpnr,
-            "--json",
-            f"{design.name}.json",
-            "--seed",
-            seed,
-            "--timing-allow-fail",
-        ]
-        + ["--report", f"{name}-timing.json", "--detailed-timing-report", *out],
-        folder,
-        f"{name}-nextpnr.log",
-    )
+    arguments = ["--quiet", *device.nextpnr, *pins, *design.nextpnr, "--json", f"{design.name}.json", "--seed", seed]
+    arguments += ["--timing-allow-fail", "--report", f"{name}-timing.json", "--detailed-timing-report", *out]
+    try:
+        programs.run(programs.find(f"nextpnr-{device.family}"), arguments, folder, f"{name}-nextpnr.log")
+    except runs.Failed as failed:
+        # What nextpnr says of a design; a nextpnr that was killed, or broke, says no such line.
+        if failed.code > 0 and failed.error.startswith("ERROR: "):
+            raise NotPlaced(failed) from failed
+        raise
     try:
         return json.loads((folder / f"{name}-timing.json").read_text())
     except (OSError, ValueError) as e:

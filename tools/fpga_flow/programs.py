@@ -26,10 +26,24 @@ class Program:
     name: str
     command: tuple
     version: str
+    said: str = ""  # the line that has the version
+
+
+class Failed(Trouble):
+    """A program ended with an exit code that is not 0; `error` is its own line."""
+
+    def __init__(self, message, code, error):
+        super().__init__(message)
+        self.code, self.error = code, error
 
 
 class Programs:
+    """`which`: wheels, system, or any: the wheels where tools/deps has put them, else those of PATH."""
+
     def __init__(self, which, wheels, top):
+        self.asked = which
+        if which == "any":
+            which = "wheels" if wheels.is_dir() else "system"
         self.which, self.wheels, self.top = which, wheels, top
         self.environment = dict(os.environ)
         if which == "wheels":
@@ -48,9 +62,8 @@ class Programs:
         else:
             path = shutil.which(name)
             if not path:
-                raise Trouble(
-                    f"{name}: not found; Debian's package is {PROGRAMS[name][0]}, or leave --tools system out"
-                )
+                way = "tools/deps fpga installs it" if self.asked == "any" else "or leave --tools system out"
+                raise Trouble(f"{name}: not found; Debian's package is {PROGRAMS[name][0]}, {way}")
             command = (path,)
         program = Program(name, command, "")
         oldest = PROGRAMS[name][1]
@@ -60,6 +73,7 @@ class Programs:
             if not m:
                 raise Trouble(f"{name}: says no version: {text.strip()[:80]}")
             program.version = m.group(0)
+            program.said = next(line.strip() for line in text.splitlines() if m.group(0) in line)
             if (int(m.group(1)), int(m.group(2))) < oldest:
                 print(
                     f"tools/fpga: note: {name} {m.group(0)} is older than {oldest[0]}.{oldest[1]}, the oldest one tried",
@@ -93,5 +107,6 @@ class Programs:
             kept = self.top / "build/log" / f"fpga-{log}"
             kept.parent.mkdir(parents=True, exist_ok=True)
             kept.write_text(text)
-            raise Trouble(f"{program.name}: exit code {done.returncode}: {error.strip()} (log: {kept})")
+            message = f"{program.name}: exit code {done.returncode}: {error.strip()} (log: {kept})"
+            raise Failed(message, done.returncode, error.strip())
         return path.read_text(errors="replace")

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/counted_core.hpp"
+#include "cost/token_clocks.hpp"
 #include "kage/config.hpp"
 #include "kage/stream.hpp"
 
@@ -18,7 +19,6 @@ namespace {
 
 using namespace kage;
 
-constexpr int kBetweenLines = 4;  // from a buffered line's last pixel into the core to the next line's first
 constexpr int kBankedFrame = 31;  // header, pipelines, way out
 constexpr int kSystolicFrame = 28;
 
@@ -79,7 +79,7 @@ bool core(const char* name, Config c, int units, int width) {
     const int words = units * segments * seg_words;
     const int feeder = units * segments + 2;  // no token of these is wider than a beat; TREE and EOL
     const auto more = static_cast<double>(clocks(width, 108, segments) - clocks(width, 8, segments)) / 100;
-    const int least = std::max(banked ? width + kBetweenLines : width, feeder);
+    const int least = std::max(banked ? width + kBetweenTreeLines : width, feeder);
     row(fmt::format("line, {:>2} segments a unit", segments), words, feeder, more, least,
         banked ? least : width + feeder);
   }

@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <utility>
 
-#include "geometry/light_table.hpp"
 #include "kage/core.hpp"
 #include "kage/light.hpp"
 #include "opinion/light_truth.hpp"
@@ -168,11 +169,57 @@ void TableCase::fields(Fields& f) {
   f.list("sun", suns, 1, 8);
 }
 
+TableFrame::TableFrame(std::vector<Light> suns, int classes)
+    : lights_(std::move(suns)),
+      samples_(lights_.size(), 1),
+      lighting_(lights_, {0, 1, 0}),
+      count_(std::max<std::size_t>(2, lights_.size())) {
+  config_.count_bits = 1;
+  config_.lights = static_cast<int>(count_);
+  config_.class_bits = 11;
+  config_.shade_frac = 16;
+  look_.classes = classes;
+  table_.emplace(config_, look_, lights_, lighting_, samples_);
+}
+
+bool TableFrame::add(const glm::dvec3& normal) {
+  std::bitset<kMaxLights> reach;
+  for (std::size_t l = 0; l < lights_.size(); ++l) reach[l] = glm::dot(normal, lights_[l].direction) < 0;
+  if (reach.none()) return false;
+  g_.polygons.emplace_back().normal_class = table_->classify(normal, {}, 1, reach);
+  faces_.push_back({normal, reach});
+  return true;
+}
+
+void TableFrame::finish() { table_->finish(g_); }
+
 // docs/lights.md, "How far a table is off": what a class says that the shadowed lights take is off by at most
-// k (W + 0.04) r and a rounding for each light, W being the weight of all lights.
-Outcome TableCase::check(const Context& /*context*/) const {
+// k (W + 0.04) r and a rounding for each light, W being the weight of all lights and k the steepest slope of the loss.
+void TableFrame::measure(std::size_t face, double off_class, Outcome& o) const {
   const double steepest = (srgb_encode(0.2 + 1e-6) / srgb_encode(0.2) - 1) / 1e-6;
   constexpr double kAmbientWeight = 0.04;
+  const auto& [normal, reach] = faces_[face];
+  const auto exact = lighting_.shares({}, normal, reach, false);
+  const glm::dvec3 white = lighting_.displayed({}, normal, {1, 1, 1}, reach, false);
+  const std::size_t first = (g_.polygons[face].normal_class - 1) * count_;
+  for (unsigned state = 0; state < 1U << lights_.size(); ++state)
+    for (int c = 0; c < 3; ++c) {
+      double got = 0;
+      double right = 0;
+      double weight = 0;
+      for (std::size_t l = 0; l < lights_.size(); ++l) {
+        weight += 0.8 * lights_[l].color[c];
+        if ((state >> l & 1U) == 0) continue;
+        right += exact[l][c];
+        got += g_.shares[first + l][static_cast<std::size_t>(c)] / 65536.0;
+      }
+      o.measure(white[c] * std::abs(got - right), white[c] * (steepest * (weight + kAmbientWeight) * off_class +
+                                                              static_cast<double>(lights_.size()) * 0x1p-17));
+    }
+  o.items += std::uint64_t{3} << lights_.size();
+}
+
+Outcome TableCase::check(const Context& /*context*/) const {
   std::vector<Light> lights;
   for (const Sun& s : suns) {
     Light l;
@@ -180,45 +227,15 @@ Outcome TableCase::check(const Context& /*context*/) const {
     l.color = glm::dvec3(s.red, s.green, s.blue) / static_cast<double>(suns.size());
     lights.push_back(l);
   }
-  const std::vector<int> samples(lights.size(), 1);
-  const Lighting lighting(lights, {0, 1, 0});
-  Config config;
-  config.count_bits = 1;
-  config.lights = std::max(2, static_cast<int>(lights.size()));
-  config.class_bits = 11;
-  config.shade_frac = 16;
-  Look look;
-  look.classes = 1 << classes_log;
-  const glm::dvec3 n = direction_of(x, y, z, {0, 1, 0});
-  std::bitset<kMaxLights> reach;
-  for (std::size_t l = 0; l < lights.size(); ++l) reach[l] = glm::dot(n, lights[l].direction) < 0;
+  const int classes = 1 << classes_log;
+  TableFrame frame(std::move(lights), classes);
   Outcome o;
-  if (reach.none()) return o;
-  const NormalClasses& classes = classes_of(look.classes);
-  const glm::dvec3 off_class = n - classes.normal(classes.nearest(n));
-  const double r = std::sqrt(glm::dot(off_class, off_class));
-  LightTable table(config, look, lights, lighting, samples);
-  FrameGeometry g;
-  g.polygons.emplace_back().normal_class = table.classify(n, {}, 1, reach);
-  table.finish(g);
-  const auto exact = lighting.shares({}, n, reach, false);
-  const glm::dvec3 white = lighting.displayed({}, n, {1, 1, 1}, reach, false);
-  const std::size_t first = (g.polygons[0].normal_class - 1) * static_cast<std::size_t>(config.lights);
-  for (unsigned state = 0; state < 1U << lights.size(); ++state)
-    for (int c = 0; c < 3; ++c) {
-      double got = 0;
-      double right = 0;
-      double weight = 0;
-      for (std::size_t l = 0; l < lights.size(); ++l) {
-        weight += 0.8 * lights[l].color[c];
-        if ((state >> l & 1U) == 0) continue;
-        right += exact[l][c];
-        got += g.shares[first + l][static_cast<std::size_t>(c)] / 65536.0;
-      }
-      o.measure(white[c] * std::abs(got - right),
-                white[c] * (steepest * (weight + kAmbientWeight) * r + static_cast<double>(lights.size()) * 0x1p-17));
-    }
-  o.items = std::uint64_t{3} << lights.size();
+  const glm::dvec3 n = direction_of(x, y, z, {0, 1, 0});
+  if (!frame.add(n)) return o;
+  frame.finish();
+  const NormalClasses& of = classes_of(classes);
+  const glm::dvec3 off_class = n - of.normal(of.nearest(n));
+  frame.measure(0, std::sqrt(glm::dot(off_class, off_class)), o);
   return o;
 }
 

@@ -18,6 +18,13 @@ SceneFrame box_threes(std::span<const int> order, double aside);
 /// `n` parallel panes, one behind another as the light sees them, joined by strips to one mesh: a zigzag.
 SceneFrame zigzag_scene(int n);
 
+/// A core whose shadow volumes are counted in so many bits; 1: parity.
+inline Config counting(int bits) {
+  Config c;
+  c.dsf_bits = bits;
+  return c;
+}
+
 /// The golden core's picture is the oracle's.
 Outcome picture_is_the_oracles(const FrameGeometry& g, const Config& config);
 

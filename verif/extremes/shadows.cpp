@@ -15,12 +15,6 @@ namespace {
 constexpr int kWidth = 80;
 constexpr int kHeight = 60;
 
-Config counting(int bits) {
-  Config c;
-  c.dsf_bits = bits;
-  return c;
-}
-
 FrameGeometry geometry(const SceneFrame& f, const Config& config, const Look& look = {}) {
   return make_geometry(f, config, kWidth, kHeight, {.look = look});
 }

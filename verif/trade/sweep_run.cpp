@@ -41,8 +41,6 @@ constexpr double kGoldenSeconds = 0.1;
 // Points that are co-simulated besides those that stand for others.
 constexpr std::size_t kChecks = 3;
 
-bool is_built(const Config& c) { return c.arrangement != 0 || c.max_width <= kMostProcessors; }
-
 double golden_seconds(const Config& config, const PointWords& words) {
   GoldenCore core(config);
   const LineSink nobody = [](int, std::span<const std::uint8_t>) {};
@@ -83,6 +81,8 @@ Json error_json(const PictureError& e) {
           {"mean_square", e.squares / (3 * pixels)},
           {"psnr", optional_json(psnr(e.squares, e.pixels))}};
 }
+
+bool is_built(const Config& c) { return c.arrangement != 0 || c.max_width <= kMostProcessors; }
 
 PointWords words_of(SweepScene& scene, const SweepPoint& point) {
   PointWords out;
@@ -133,6 +133,15 @@ PointWords SweepRunner::words(std::size_t index) {
 std::string SweepRunner::clocks_text(std::size_t index) const {
   if (!how_.cosim || !is_built(points_[index].config)) return "design";
   return fmt::format("{}{}", text_of(points_[stands_for_[index]]), checked_[index] ? ", checked" : "");
+}
+
+std::string SweepRunner::tools_text(std::size_t index) const {
+  if (!is_built(points_[index].config)) return {};
+  std::string text;
+  if (how_.area) text += how_.tools.yosys + "\n";
+  if (how_.cosim) text += how_.tools.model + "\n";
+  if (how_.placer != nullptr) text += how_.placer->device() + "\n" + how_.placer->versions();
+  return text;
 }
 
 void SweepRunner::know_clocks(std::size_t point, const ClockSample& sample) {
@@ -258,8 +267,24 @@ Json SweepRunner::area(const SweepPoint& point) {
   }
   j["bits_per_pixel"] = cells.bits_per_pixel;
   j["ram_bits"] = cells.ram_bits;
-  j["fmax_mhz"] = nullptr;
+  const Placement placed = placement(point);
+  j["placed_on"] = how_.placer != nullptr ? Json(how_.placer->device()) : Json(nullptr);
+  j["fmax_mhz"] = optional_json(placed.mhz);
+  j["not_placed"] = placed.not_placed.empty() ? Json(nullptr) : Json(placed.not_placed);
   return j;
+}
+
+Placement SweepRunner::placement(const SweepPoint& point) {
+  if (how_.placer == nullptr) return {};
+  if (!is_built(point.config))
+    return {.mhz = {},
+            .not_placed = fmt::format("it has a processor for each of more than {} columns", kMostProcessors)};
+  return *placements_.get(to_yaml(point.config), [&] {
+    const std::shared_lock busy(alone_);
+    return how_.placer->place(point.config, [&](const std::string& how_far) {
+      how_.doing(fmt::format("placing {} {} on {}: {}", point.axis, point.value, how_.placer->device(), how_far));
+    });
+  });
 }
 
 Json SweepRunner::run(std::size_t index, const PointWords& words) {
@@ -271,6 +296,9 @@ Json SweepRunner::run(std::size_t index, const PointWords& words) {
   }
   j["speed"] = speed(index, words);
   j["area"] = area(point);
+  const Json& mhz = j["area"]["fmax_mhz"];
+  const double cycles = j["speed"]["rtl_cycles_per_pixel"].get<double>() * point.width * point.height;
+  j["speed"]["frames_per_second"] = mhz.is_null() ? Json(nullptr) : Json(1e6 * mhz.get<double>() / cycles);
   return j;
 }
 

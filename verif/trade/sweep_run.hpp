@@ -12,17 +12,26 @@
 #include <vector>
 
 #include "trade/kept.hpp"
+#include "trade/placement.hpp"
 #include "trade/sweep_plan.hpp"
 #include "trade/sweep_scene.hpp"
 #include "trade/synthesis.hpp"
 
 namespace kage::trade {
 
+/// Names and versions of the tools that figures come from, so far as a sweep uses them.
+struct SweepTools {
+  std::string yosys = {};  ///< counts cells
+  std::string model = {};  ///< Verilator and compiler, which make RTL models
+};
+
 /// What is measured, and who is told.
 struct SweepHow {
   bool area = true;   ///< yosys counts cells; else they are estimated
   bool cosim = true;  ///< clocks come from the RTL; else from the design
   bool flip = true;
+  SweepTools tools = {};
+  Placer* placer = nullptr;                       ///< places cores; null: none is placed
   std::function<void()> wait;                     ///< called often, by several threads; what it throws ends the run
   std::function<void(const std::string&)> doing;  ///< called before and during what takes long
 };
@@ -69,11 +78,14 @@ class SweepRunner {
   [[nodiscard]] std::size_t representative(std::size_t point) const { return stands_for_[point]; }
   /// What a point's clocks are taken from: part of the key of its row.
   [[nodiscard]] std::string clocks_text(std::size_t index) const;
+  /// The tools that a point's figures come from, with their versions: part of the key of its row.
+  [[nodiscard]] std::string tools_text(std::size_t index) const;
 
  private:
   nlohmann::ordered_json accuracy(const SweepPoint& point, const PointWords& words);
   nlohmann::ordered_json speed(std::size_t index, const PointWords& words);
   nlohmann::ordered_json area(const SweepPoint& point);
+  Placement placement(const SweepPoint& point);
   ClockSample clocks_of(std::size_t index, const PointWords* given);
   ClockSample simulate(const SweepPoint& point, const PointWords& words);
 
@@ -81,12 +93,17 @@ class SweepRunner {
   std::vector<SweepPoint> points_;
   SweepHow how_;
   std::vector<std::size_t> stands_for_;
-  std::vector<bool> checked_;  // co-simulated besides
-  std::shared_mutex alone_;    // held alone where time is measured
-  std::mutex build_mutex_;     // one model at a time is built
-  Kept<ClockSample> clocks_;   // by the point's number
-  Kept<CellCount> counts_;     // by the configuration
+  std::vector<bool> checked_;   // co-simulated besides
+  std::shared_mutex alone_;     // held alone where time is measured
+  std::mutex build_mutex_;      // one model at a time is built
+  Kept<ClockSample> clocks_;    // by the point's number
+  Kept<CellCount> counts_;      // by the configuration
+  Kept<Placement> placements_;  // likewise
 };
+
+/// Whether the core's model is built, its cells are counted and it is placed: one with a processor for each of more
+/// than 64 columns would take too long.
+bool is_built(const Config& config);
 
 /// The key under which a store keeps something: SHA-256 of all that decides it.
 std::string key_of(const std::vector<std::string>& parts);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -17,13 +16,11 @@
 #include <vector>
 
 #include "cosim/model/process.hpp"
-#include "cosim/model/sha256.hpp"
-#include "cosim/model/trust.hpp"
 #include "file/output_file.hpp"
-#include "file/read_file.hpp"
 #include "file/temp_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
+#include "trade/kept_core.hpp"
 
 namespace kage::trade {
 namespace {
@@ -57,26 +54,10 @@ std::optional<std::string> output_of(const std::vector<std::string>& command, co
   return std::nullopt;
 }
 
-std::string version(const std::function<void()>& wait) {
-  const auto said = output_of({program(), "-V"}, wait);
-  if (!said || said->empty())
-    throw Error(fmt::format("{}: not found, or `{} -V` fails, and counting cells needs it: tools/deps test installs it",
-                            program(), program()));
-  return said->substr(0, said->find('\n'));
-}
-
-std::vector<fs::path> sources(const char* folder, const char* extension) {
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(data_directory() / folder))
-    if (entry.path().extension() == extension) found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 std::string script(const Config& config, const fs::path& stat) {
   const fs::path rtl = data_directory() / "rtl";
   std::string read = fmt::format("read_verilog -defer -sv -I{}", (rtl / "include").string());
-  for (const fs::path& file : sources("rtl", ".sv")) read += " " + file.string();
+  for (const fs::path& file : data_files("rtl", ".sv")) read += " " + file.string();
   std::string set;
   for (const ParamInfo& p : kParams) set += fmt::format(" -chparam {} {}", p.name, config.*(p.member));
   return fmt::format("{}; hierarchy -top kage_top{}; synth_ecp5 -top kage_top; tee -q -o {} stat", read, set,
@@ -100,17 +81,7 @@ CellCount count(const fs::path& stat) {
 }
 
 fs::path kept_file(const Config& config, const std::string& yosys) {
-  cosim::Sha256 hash;
-  hash.add(static_cast<std::uint64_t>(kVersion));
-  hash.add(yosys);
-  for (const char* folder : {"rtl", "rtl/include", "rtl/include/generated"})
-    for (const char* extension : {".sv", ".svh"})
-      for (const fs::path& file : sources(folder, extension)) {
-        hash.add(file.filename().string());
-        hash.add(read_file(file));
-      }
-  for (const ParamInfo& p : kParams) hash.add(static_cast<std::uint64_t>(config.*(p.member)));
-  return cosim::cache_folder("cells") / (hash.take() + ".json");
+  return kept_core_file("cells", config, {std::to_string(kVersion), yosys});
 }
 
 std::optional<CellCount> kept(const fs::path& path) {
@@ -135,9 +106,17 @@ void keep(const fs::path& path, const CellCount& cells) {
 
 }  // namespace
 
+std::string yosys_version(const std::function<void()>& wait) {
+  const auto said = output_of({program(), "-V"}, wait);
+  if (!said || said->empty())
+    throw Error(fmt::format("{}: not found, or `{} -V` fails, and counting cells needs it: tools/deps test installs it",
+                            program(), program()));
+  return said->substr(0, said->find('\n'));
+}
+
 Synthesis synthesize(const Config& config, const std::function<void()>& wait, bool anew) {
   Synthesis out;
-  out.yosys = version(wait);
+  out.yosys = yosys_version(wait);
   const fs::path path = kept_file(config, out.yosys);
   if (const auto found = anew ? std::nullopt : kept(path)) {
     out.cells = *found;
@@ -168,7 +147,7 @@ Synthesis synthesize(const Config& config, const std::function<void()>& wait, bo
 
 bool is_synthesized(const Config& config) {
   try {
-    return kept(kept_file(config, version({}))).has_value();
+    return kept(kept_file(config, yosys_version({}))).has_value();
   } catch (const Error&) {
     return false;
   }

@@ -30,6 +30,9 @@ struct Synthesis {
 /// Throws Error if there is no yosys, or if it fails: then the message has its last line.
 Synthesis synthesize(const Config& config, const std::function<void()>& wait, bool anew = false);
 
+/// What `yosys -V` says. Throws Error if there is no yosys.
+std::string yosys_version(const std::function<void()>& wait);
+
 /// The counts of the same, if they are kept.
 bool is_synthesized(const Config& config);
 

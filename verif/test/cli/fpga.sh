@@ -30,6 +30,9 @@ refused "--pack: takes a board" hx8k --pack pack
 refused "--pack, --stream: one at a time" ulx3s_25f --pack pack --stream a.kage
 refused "--json: is of a placement" ulx3s_25f --pack pack --json -
 refused "--seeds: is of a placement" ulx3s_25f --pack pack --seeds 2
+refused "--core-only: is of a device" ulx3s_25f --core-only
+refused "--versions: is of a device" ulx3s_25f --versions
+refused "--gate: is of a run with yardsticks" hx8k tiny --core-only --gate 5
 refused "nowhere/manifest.json: No such file" ulx3s_25f --pack nowhere
 refused "nowhere.kage: No such file" ulx3s_25f --stream nowhere.kage
 mkdir broken other && echo '{"frames": 3}' >broken/manifest.json

@@ -18,6 +18,29 @@ print([m['name'] for m in yaml.safe_load(open(sys.argv[1]))].index(sys.argv[2]) 
   done
 }
 
+# has SCENE KIND... [--config NAME]: each kind of token is in the scene's frames, as they are drawn without further options but
+# for the size, or by another configuration.
+has() {
+  local scene=$1 kind kinds=()
+  shift
+  while [ $# != 0 ] && [ "$1" != --config ]; do kinds+=("$1"); shift; done
+  expect 0 "$kage" stream "$scene" --size 64x48 "$@" --out frames.kage
+  expect 0 "$kage" info frames.kage
+  for kind in "${kinds[@]}"; do
+    grep -qE "^tokens:.* $kind [1-9]" stdout || fail "$scene $*: no $kind: $(grep ^tokens: stdout)"
+  done
+}
+
+# Between them the scenes have every kind of token. Of the lines of inside none is whole within the one volume that its own
+# configuration counts in, so IF is what parity makes of them.
+has courtyard SHADE OP SP EV RESOLVE EOL END
+has inside NC
+has inside NC IF --config default
+has cutaway NC IF
+has three-lights TABLE ES IF
+has glass TP
+has polyhedra FACE SEG TREE --config polyhedra
+
 # Depths in both halves of the range, ties, and depths beyond both ends, from units, from spans in groups and in columns.
 reaches depths polyhedra 160x120 next_signed next_tie cell_signed unit_clamp unit_clamp_high
 reaches depths default 160x120 ramp_under ramp_over

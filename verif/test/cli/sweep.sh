@@ -96,6 +96,37 @@ json rtl.json 'j[0]["speed"]["rtl_cycles_from"] == j[1]["speed"]["rtl_cycles_fro
 json rtl.json 'abs(j[1]["speed"]["phases_cycles_per_pixel"] / j[1]["speed"]["rtl_cycles_per_pixel"] - 1) < 1e-3'
 json rtl.json 'j[0]["speed"]["cosim_frames_per_second"] > 0'
 
+# What another yosys has counted is counted anew; what an earlier one has counted is still in the store.
+cat >fake-yosys <<'SH'
+#!/bin/sh
+[ "$1" = -V ] && { echo "Yosys $FAKE"; exit 0; }
+echo "     LUT4   ${FAKE}000" >"$(echo "$3" | sed 's/.*tee -q -o \([^ ]*\) stat.*/\1/')"
+SH
+chmod +x fake-yosys
+# counted VERSION FILE: a sweep with a yosys of this version, whose cores have as many thousand look-up tables.
+counted() {
+  YOSYS=$PWD/fake-yosys FAKE=$1 XDG_CACHE_HOME=$PWD/cache expect 0 "$kage" sweep courtyard --size 64x48 --frames 1 \
+    --config tiny --no-cosim --axes SUB_BITS=4 --store tools.sqlite --resume --json "$2"
+}
+counted 7 seven.json
+json seven.json '[r["area"]["luts"] for r in j] == [7000, 7000]'
+counted 8 eight.json
+tail -1 stdout | grep -qF '# 2 measured now' || fail "$(tail -1 stdout)"
+json eight.json '[r["area"]["luts"] for r in j] == [8000, 8000]'
+counted 7 seven-again.json
+tail -1 stdout | grep -qF '# 0 measured now' || fail "$(tail -1 stdout)"
+cmp seven.json seven-again.json || fail "rows of an earlier yosys differ"
+
+# Tools that are missing, or a device that is not there, end a sweep before it measures.
+mkdir few
+for name in bash env dirname nproc sed grep wc; do ln -s "$(command -v $name)" few/; done
+ln -s /usr/bin/python3 few/
+PATH=$PWD/few XDG_CACHE_HOME=$PWD/nothing trouble "--place ecp5-85f: tools/fpga: yosys: not found; Debian's package is yosys, tools/deps fpga installs it" "$kage" sweep courtyard "${quick[@]}" --place --store no.sqlite
+trouble "--place nowhere: tools/fpga: nowhere: no such device or board; there are ecp5-25f" "$kage" sweep courtyard "${quick[@]}" --place=nowhere --store no.sqlite
+data_copy data
+KAGE_DATA_DIR=$PWD/data trouble "data/tools/fpga: cores are placed by a kage in its source tree" "$kage" sweep courtyard "${quick[@]}" --place --store no.sqlite
+YOSYS=/nonexistent trouble "/nonexistent: not found" "$kage" sweep courtyard --config tiny --no-cosim --store no.sqlite
+
 trouble "--axes DEPTH=3: there is no axis DEPTH; there are SUB_BITS, SAMPLES" "$kage" sweep courtyard "${quick[@]}" --axes DEPTH=3 --store no.sqlite
 trouble "--axes Z_BITS: 99 is no whole number from 4 to 28" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=99 --store no.sqlite
 trouble "--axes Z_BITS: an empty value is no whole number" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=12, --store no.sqlite

@@ -40,19 +40,8 @@ TEST_CASE("family 21: coverage, surface and shadow are the oracle's at every pix
 TEST_CASE("family 21: the shadow is what a ray to the light says") {
   Random random(test_seed(3));
   CAPTURE(test_seed(3));
-  RayCount count;
-  for (int i = 0; i < 60; ++i) {
-    CAPTURE(i);
-    const SceneFrame f = random_scene(random, random.in(1, 6), i % 2 == 0);
-    count += compare_with_rays(f, kWidth, kHeight);
-    INFO(count.text());
-    REQUIRE(count.good());
-  }
-  // The rays decided something: neither all shadow nor all light, and the snap excused few.
-  INFO(count.text());
-  CHECK(count.shadowed > 1000);
-  CHECK(count.lit > 1000);
-  CHECK((count.near_surface + count.near_shadow) * 100 < count.pixels);
+  rays_agree(
+      60, [&](int i) { return compare_with_rays(random_scene(random, random.in(1, 6), i % 2 == 0), kWidth, kHeight); });
 }
 
 TEST_CASE("rays tell a lost volume, a lost face of one, a lost polygon and a moved vertex from what the snap does") {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "extremes/shadow_checks.hpp"
+#include "opinion/ray_truth.hpp"
 #include "test/extremes/hold.hpp"
 
 namespace kage::verif {
@@ -16,6 +17,29 @@ inline void judge_all(const SceneFrame& f, const Config& config, int width, int 
 /// With near and far caps the toggles of every volume sum to zero at every pixel: volumes are closed.
 inline void sums_are_zero(const SceneFrame& f, const Config& config, int width, int height, const Look& look = {}) {
   holds(volumes_are_closed(f, config, width, height, Context{}, look));
+}
+
+/// The rays have decided something: neither all is shadow nor all light, and the snap excused no more than this share.
+inline void rays_decided(const RayCount& count, double excused = 0.01) {
+  INFO(count.text());
+  CHECK(count.shadowed > 1000);
+  CHECK(count.lit > 1000);
+  CHECK(static_cast<double>(count.near_surface + count.near_shadow) < excused * static_cast<double>(count.pixels));
+}
+
+/// Rays agree with each of so many scenes, of which `one(i)` gives the ith's count, and have decided something of all
+/// together. Returns what they came to.
+template <class One>
+RayCount rays_agree(int scenes, One one, double excused = 0.01) {
+  RayCount count;
+  for (int i = 0; i < scenes; ++i) {
+    CAPTURE(i);
+    count += one(i);
+    INFO(count.text());
+    REQUIRE(count.good());
+  }
+  rays_decided(count, excused);
+  return count;
 }
 
 /// Where the pictures of two geometries of a frame differ, one of them is a near tie. Returns how many pixels do.

@@ -92,3 +92,30 @@ TEST_CASE("the worst neighbours are those with the greatest sum", "[phases]") {
   CHECK(worst_window(lines, 100) == 23);
   CHECK(worst_window({}, 2) == 0);
 }
+
+TEST_CASE("a TREE waits until the tree has made its line, a line ahead and a pixel a clock", "[phases]") {
+  Config c = config_of(1, 4);
+  c.units = 2;
+  PhaseCounter counter(c);
+  counter.start(64);
+  const auto line = [&](int spans) {
+    counter.token(plain(Kind::SEG));
+    counter.token(plain(Kind::TREE));  // 16 groups
+    for (int i = 0; i < spans; ++i) counter.token(span(Kind::OP, 0, 64));
+    counter.token(plain(Kind::EOL));  // 16 groups
+  };
+  line(0);  // 1 + 68 + 16 + 16: the first line of a frame is begun with it
+  line(3);  // 1, and 68 since the last TREE, which were 33 so far; 16 + 3 * 16 + 16
+  line(5);  // 1, and nothing to wait for: 81 since the last TREE; 16 + 5 * 16 + 16
+  line(0);  // nothing to wait for
+  line(0);  // 33 since the last TREE
+  CHECK(counter.lines() == std::vector<std::uint64_t>{101, 116, 113, 64, 68});
+  // Without a buffer behind the tree a line's SEGs may all come before its pixels.
+  c.arrangement = 0;
+  PhaseCounter systolic(c);
+  systolic.start(64);
+  for (int i = 0; i < 5; ++i) systolic.token(plain(Kind::SEG));
+  systolic.token(plain(Kind::TREE));
+  systolic.token(plain(Kind::EOL));
+  CHECK(systolic.lines() == std::vector<std::uint64_t>{69});
+}

@@ -260,3 +260,21 @@ TEST_CASE("steps are counted between neighbours of one face, beyond those of the
   drawn.face[2] = 1;  // other faces than in the finest picture are no step
   CHECK(steps_of(finest, drawn).seen == 2);
 }
+
+TEST_CASE("a row names the tools that its figures come from, and no others") {
+  Swept s("courtyard");
+  std::vector<SweepPoint> points{s.base, with(s.base, "ARRANGEMENT", "systolic")};
+  points[1] = with(points[1], "SIZE", "65x48");  // too wide to be built
+  const auto text = [&](bool area, bool cosim, std::size_t index, const std::string& yosys, const std::string& model) {
+    SweepHow how;
+    how.area = area;
+    how.cosim = cosim;
+    how.tools = {.yosys = yosys, .model = model};
+    return SweepRunner(*s.scene, points, how).tools_text(index);
+  };
+  CHECK(text(true, true, 0, "Yosys 1", "Verilator 1") != text(true, true, 0, "Yosys 2", "Verilator 1"));
+  CHECK(text(true, true, 0, "Yosys 1", "Verilator 1") != text(true, true, 0, "Yosys 1", "Verilator 2"));
+  CHECK(text(false, true, 0, "Yosys 1", "Verilator 1") == text(false, true, 0, "Yosys 2", "Verilator 1"));
+  CHECK(text(true, false, 0, "Yosys 1", "Verilator 1") == text(true, false, 0, "Yosys 1", "Verilator 2"));
+  CHECK(text(true, true, 1, "Yosys 1", "Verilator 1").empty());
+}
