@@ -194,6 +194,7 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   // Parity is right for any caster.
   out.config = plan::finest(features, features.needs.shadows ? 1 : 0, 0);
   out.config.z_bits = kGreatest.z_bits;
+  out.config.channels = kGreatest.channels;  // a grey scene has a background of another colour
   if (data_->table && out.config.dsf_bits > 0) {
     out.config.count_bits = kGreatest.count_bits;
     out.config.class_bits = kGreatest.class_bits;
