@@ -131,7 +131,6 @@ struct SweepScene::Data {
   std::function<void()> step;
   plan::Features features;
   bool table = false;
-  int channels = 1;
   Kept<SceneFrame> frames;
   Kept<std::string> identity;
   Kept<ScreenTruth> truths;
@@ -153,7 +152,6 @@ SweepScene::SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& dr
   planned.draw.look.samples = kMaxSamples;
   d.features = plan::features_of(std::span(&planned, 1));
   d.table = derived::has_table(base.config);
-  d.channels = base.config.channels;
 }
 
 SweepScene::~SweepScene() = default;
@@ -196,8 +194,7 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   // Parity is right for any caster.
   out.config = plan::finest(features, features.needs.shadows ? 1 : 0, 0);
   out.config.z_bits = kGreatest.z_bits;
-  // A scene whose faces are all grey has a background that is not.
-  out.config.channels = std::max(out.config.channels, data_->channels);
+  out.config.channels = kGreatest.channels;  // a grey scene has a background of another colour
   if (data_->table && out.config.dsf_bits > 0) {
     out.config.count_bits = kGreatest.count_bits;
     out.config.class_bits = kGreatest.class_bits;

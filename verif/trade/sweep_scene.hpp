@@ -42,7 +42,7 @@ struct RayPixel {
 class SweepScene {
  public:
   /// `draw` has the number of frames, at least 1, the threads that work on one, and the scene's name. `base` says
-  /// whether lights are looked up in a table, and how many channels the finest picture has at least. `step` is called now and then, by several threads, and what it throws
+  /// whether lights are looked up in a table. `step` is called now and then, by several threads, and what it throws
   /// goes through.
   SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& draw, const SweepPoint& base,
              std::function<void()> step);

@@ -92,6 +92,11 @@ expect 0 "$kage" render glass --size 96x72 --frames 1 --order submission --error
 json glass.json 'j["errors"][0]["sources"]["order"]["color_wrong"] > 0 and j["errors"][0]["sources"]["order"]["visible_wrong"] == 0'
 [ -s glass/glass_0000_error_order.png ] || fail "no map of the order"
 
+# A grey scene before a background that is none: no error but what rounding of its own colours gives.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >grey.obj
+expect 0 "$kage" render grey.obj --size 64x48 --frames 1 --config full --error-map --out grey --json grey.json
+json grey.json 'j["errors"][0]["color_wrong"] == j["errors"][0]["sources"]["color"]["color_wrong"] < 64 * 48 / 4'
+
 # What has no scene.
 "$kage" stream courtyard --size 64x48 --frames 1 --config default --out small.kage >/dev/null
 trouble "small.kage: --error-map: what is wrong is told from the scene" "$kage" render small.kage --error-map --out none

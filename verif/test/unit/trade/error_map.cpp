@@ -19,6 +19,8 @@ namespace {
 
 using Color = std::array<std::uint8_t, 3>;
 
+constexpr std::size_t kPixels = std::size_t{64} * 48;
+
 Color pixel(const Image& image, int x, int y) {
   const std::size_t at = image.index(x, y);
   return {image.data[at], image.data[at + 1], image.data[at + 2]};
@@ -88,16 +90,18 @@ TEST_CASE("a picture of a map has each wrong pixel in its colour, and frames tho
   DrawnFrame under;
   under.width = 64;
   under.height = 48;
-  under.color.resize(64 * 48, {200, 100, 40});
-  ErrorMap map{.width = 64, .height = 48, .pixels = std::vector<PixelError>(64 * 48)};
-  const auto at = [&](int x, int y) -> PixelError& { return map.pixels[static_cast<std::size_t>(64 * y + x)]; };
+  under.color.resize(kPixels, {200, 100, 40});
+  ErrorMap map{.width = 64, .height = 48, .pixels = std::vector<PixelError>(kPixels)};
+  const auto at = [&](int x, int y) -> PixelError& {
+    return map.pixels[std::size_t{64} * static_cast<std::size_t>(y) + static_cast<std::size_t>(x)];
+  };
   at(10, 10) = {.face = true, .color = 90, .squares = 8100};
   at(11, 10) = {.shadow = true, .share = 0.5};
   at(40, 10) = {.color = 3, .squares = 9};
   at(40, 30) = {.face = true, .gross = true};
   for (int x = 0; x < 30; ++x) at(x, 40) = {.color = 1, .squares = 1};
   const PictureError sum = sum_of(map);
-  CHECK(sum.pixels == 64 * 48);
+  CHECK(sum.pixels == kPixels);
   CHECK(sum.visible_wrong == 2);
   CHECK(sum.shadow_wrong == 1);
   CHECK(sum.gross_wrong == 1);

@@ -45,11 +45,11 @@ TEST_CASE("a wrong face is counted, and no error excuses it") {
   const PointAccuracy good = s.accuracy(s.base, right);
   CHECK(good.by_truth.visible_wrong == 0);
   CHECK(good.by_truth.gross_wrong == 0);
-  CHECK(good.ray_pixels == 64 * 48);
+  CHECK(good.ray_pixels == std::uint64_t{64} * 48);
   // A face that is elsewhere on the screen: the one of the first pixel that shows another than this one.
   DrawnFrame wrong = right;
   int changed = 0;
-  for (std::size_t i = 5 * 64; i < right.face.size() && changed < 7; i += 97) {
+  for (std::size_t i = std::size_t{5} * 64; i < right.face.size() && changed < 7; i += 97) {
     if (right.face[i] == kNothing) continue;
     wrong.face[i] = kNothing;
     ++changed;
