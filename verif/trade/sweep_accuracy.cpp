@@ -13,13 +13,6 @@
 namespace kage::trade {
 namespace {
 
-Image image_of(const DrawnFrame& f) {
-  Image image(f.width, f.height, 3);
-  for (std::size_t i = 0; i < f.color.size(); ++i)
-    std::copy(f.color[i].begin(), f.color[i].end(), image.data.begin() + static_cast<std::ptrdiff_t>(3 * i));
-  return image;
-}
-
 bool any(const std::array<std::uint8_t, 8>& counts) {
   return std::any_of(counts.begin(), counts.end(), [](std::uint8_t n) { return n > 0; });
 }
@@ -103,6 +96,13 @@ void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const Drawn
 }
 
 }  // namespace
+
+Image image_of(const DrawnFrame& f) {
+  Image image(f.width, f.height, 3);
+  for (std::size_t i = 0; i < f.color.size(); ++i)
+    std::copy(f.color[i].begin(), f.color[i].end(), image.data.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  return image;
+}
 
 PointAccuracy& PointAccuracy::operator+=(const PointAccuracy& o) {
   by_truth += o.by_truth;
