@@ -99,10 +99,11 @@ expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --frames 2 --stor
 checked none none.json
 
 # Killed at any time it leaves a whole page or none, and the next one is whole.
-for wait in 0.05 0.1 0.2 0.3 0.4 0.5 0.6 0.8; do
+for wait in 0 0.02 0.05 0.1 0.15 0.2 0.3 0.4; do
   "$kage" sweep courtyard penumbra "${quick[@]}" "${axes[@]}" --frames 2 --resume --out killed --json killed.json >/dev/null 2>&1 &
   pid=$!
-  sleep $wait
+  until [ -n "$(find killed -name '*.png' -path '*/.kage-*' 2>/dev/null | head -1)" ] || ! kill -0 $pid 2>/dev/null; do sleep 0.01; done
+  sleep $wait  # from the first picture on
   kill -9 $pid 2>/dev/null
   wait $pid 2>/dev/null
   [ ! -e killed/sweep.html ] || python3 - <<'PY' || fail "killed after $wait s: the page lacks files"

@@ -163,7 +163,7 @@ def plot(b):
     check(sorted(row for row, _, _ in all_places) == first, "the plot lacks rows")
     reached = set()
     for row, x, y in all_places:
-        for _ in range(sum(math.hypot(x - a, y - c) < 0.5 for _, a, c in all_places)):
+        for _ in range(sum(math.hypot(x - a, y - c) < 6 for _, a, c in all_places)):
             b.click_at(x, y)
             reached.add(now(b)["shown"])
             if row in reached:

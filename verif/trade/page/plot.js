@@ -6,6 +6,7 @@ const Plot = (() => {
   const {$} = Parts;
   const box = $("plot");
   const kNear = 26;  // pixels of the screen from a point, within which it is meant
+  const kSame = 3;   // units of the drawing between points that a reader sees at one place
   let shown = null;  // {wide, narrow}
   let svg = null;
   let width = "";
@@ -40,10 +41,11 @@ const Plot = (() => {
     if (!svg) return;
     for (const old of svg.querySelectorAll(".ring")) old.remove();
     for (const p of points) p.mark.classList.toggle("beyond", !state.within(p.row));
-    if (state.cheapest !== null) ring(state.cheapest, "cheapest", 13);
-    if (state.chosen !== null) ring(state.chosen, "chosen", 9);
+    if (state.cheapest !== null) ring(state.cheapest, "cheapest", 11.5);
+    if (state.chosen !== null) ring(state.chosen, "chosen", 8);
   }
 
+  const around = (at) => points.filter((p) => Math.hypot(p.x - at.x, p.y - at.y) <= kSame);
   const choose = (row) => box.dispatchEvent(new CustomEvent("row", {detail: row}));
 
   // A point nearest to the pointer; of several at one place, at each click the next.
@@ -51,9 +53,9 @@ const Plot = (() => {
     if (!svg) return;
     const matrix = svg.getScreenCTM();
     const far = (p) => Math.hypot(p.x * matrix.a + matrix.e - e.clientX, p.y * matrix.d + matrix.f - e.clientY);
-    const least = Math.min(...points.map(far));
-    if (!(least <= kNear)) return;
-    const here = points.filter((p) => far(p) - least < 0.5);
+    const nearest = points.reduce((a, b) => far(b) < far(a) ? b : a);
+    if (far(nearest) > kNear) return;
+    const here = around(nearest);
     choose(here[(here.findIndex((p) => p.row === state.chosen) + 1) % here.length].row);
   });
 
@@ -84,7 +86,7 @@ const Plot = (() => {
     // The rows at the place of one.
     together(row) {
       const at = points.find((p) => p.row === row);
-      return at ? points.filter((p) => Math.hypot(p.x - at.x, p.y - at.y) < 0.5).map((p) => p.row) : [];
+      return at ? around(at).map((p) => p.row) : [];
     },
     box,
   };
