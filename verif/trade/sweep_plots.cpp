@@ -126,7 +126,7 @@ std::string name_of(const Json& row) {
   const auto axis = row.at("axis").get<std::string>();
   const auto value = row.at("value").get<std::string>();
   if (value.empty()) return axis;
-  return axis == "grid" || axis == "corner" ? value : axis + " " + value;
+  return axis == "grid" ? value : axis + " " + value;
 }
 
 std::vector<SweepPlot> plots_of(const std::vector<PageRow>& rows, const std::vector<std::size_t>& members) {

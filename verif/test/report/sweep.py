@@ -68,16 +68,16 @@ def choosing(b):
         cost = random.choice(list(COSTS))
         want = cheapest(some, limits, cost)
         members = list(range(len(some)))
-        got = b.run(
-            f"Choose.cheapest({json.dumps(some)}, {members}, {literal(limits)}, {json.dumps(cost)})"
-        )
+        got = b.run(f"Choose.cheapest({json.dumps(some)}, {members}, {literal(limits)}, {json.dumps(cost)})")
         check(got == want, f"choice {n}: {got} for {want}, {limits}, {cost}")
         found += want is not None
     check(60 < found < 380, f"a test of choices in which {found} of 400 find any")
 
 
 def now(b):
-    return b.run("({cheapest: Sweep.cheapest, chosen: Sweep.chosen, shown: Number(document.getElementById('row').dataset.row)})")
+    return b.run(
+        "({cheapest: Sweep.cheapest, chosen: Sweep.chosen, shown: Number(document.getElementById('row').dataset.row)})"
+    )
 
 
 def drag(b, name, share):
@@ -111,15 +111,21 @@ def limits(b):
         drag(b, "psnr", 1 - share)
         want = cheapest([rows[i] for i in first], numbers(b), "luts")
         got = now(b)
-        check(got["cheapest"] == (None if want is None else first[want]), f"after a drag: {got} for {want}, {numbers(b)}")
+        check(
+            got["cheapest"] == (None if want is None else first[want]), f"after a drag: {got} for {want}, {numbers(b)}"
+        )
         if want is not None:
             check(got["chosen"] == got["shown"] == got["cheapest"], f"the cheapest is not shown: {got}")
         seen.add(want)
     check(len(seen) >= 2, f"drags find {seen} only")
     # Figures that are typed, keys on a slider, another cost; what is no figure is marked and changes nothing.
-    b.run("(() => { const e = document.getElementById('wrong-text'); e.value = '1500.5'; e.dispatchEvent(new Event('input')); })()")
+    b.run(
+        "(() => { const e = document.getElementById('wrong-text'); e.value = '1500.5'; e.dispatchEvent(new Event('input')); })()"
+    )
     check(numbers(b)["wrong"] == 1500.5, f"a typed limit: {numbers(b)}")
-    b.run("(() => { const e = document.getElementById('wrong-text'); e.value = 'x'; e.dispatchEvent(new Event('input')); })()")
+    b.run(
+        "(() => { const e = document.getElementById('wrong-text'); e.value = 'x'; e.dispatchEvent(new Event('input')); })()"
+    )
     check(numbers(b)["wrong"] == 1500.5, "what is no figure is taken")
     check(b.run("document.getElementById('wrong-text').getAttribute('aria-invalid')") == "true", "it is not marked")
     b.run("document.getElementById('wrong').focus()")
@@ -170,13 +176,16 @@ def plot(b):
                 break
     check(reached == set(first), f"clicks reach {len(reached)} of {len(first)} rows")
     row = b.run("Sweep.chosen")
-    b.until("[...document.querySelectorAll('#row img')].length > 0 && [...document.querySelectorAll('#row img')].every(i => i.complete && i.naturalWidth === 96)")
+    b.until(
+        "[...document.querySelectorAll('#row img')].length > 0 && [...document.querySelectorAll('#row img')].every(i => i.complete && i.naturalWidth === 96)"
+    )
     files = b.run("[...document.querySelectorAll('#row img')].map(i => i.getAttribute('src'))")
     own = b.run(f"Parts.data.more[{row}].pictures[0]")
     check(files == [f for f in (own["picture"], own["map"]) if f], f"pictures of row {row}: {files}")
     b.click("#row .group button:nth-of-type(2)")
     check(
-        b.run("document.querySelector('#row img').getAttribute('src')") == b.run(f"Parts.data.more[{row}].pictures[1].picture"),
+        b.run("document.querySelector('#row img').getAttribute('src')")
+        == b.run(f"Parts.data.more[{row}].pictures[1].picture"),
         "the second frame is not shown",
     )
     b.run("document.getElementById('plot').focus()")
@@ -187,7 +196,9 @@ def plot(b):
     check(now(b)["shown"] == cheap, f"the left end of the plot by keys: {now(b)}, {cheap}")
     figures = b.run("document.querySelector('#row .figures').innerText")
     check(f"{rows[cheap]['speed']['rtl_cycles_per_pixel']:.3f}" in figures, "the panel lacks the clocks")
-    every = b.run("[...document.querySelectorAll('#row details:last-of-type tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+    every = b.run(
+        "[...document.querySelectorAll('#row details:last-of-type tbody tr')].map(r => [...r.cells].map(c => c.textContent))"
+    )
 
     def flat(value, name=""):
         if isinstance(value, dict):
@@ -201,7 +212,9 @@ def plot(b):
     # Another plot keeps the row.
     b.click("#tabs button:nth-of-type(2)")
     check(sorted(row for row, _, _ in places(b)) == first and now(b)["shown"] == cheap, "the second plot")
-    check(b.run("document.querySelectorAll('#plot .ring.chosen').length") == 1, "the row is not marked in the second plot")
+    check(
+        b.run("document.querySelectorAll('#plot .ring.chosen').length") == 1, "the row is not marked in the second plot"
+    )
     b.click("#tabs button:nth-of-type(1)")
 
 
@@ -211,12 +224,19 @@ def table(b):
 
     check(names() == list(range(len(rows))), "the table lacks rows")
     heads = b.run("[...document.querySelectorAll('#table thead th')].map(h => h.innerText.trim())")
-    for head, of in (("LUTs", COSTS["luts"]), ("wrong, ppm", wrong), ("PSNR, dB", psnr), ("clocks a pixel", COSTS["clocks"])):
+    for head, of in (
+        ("LUTs", COSTS["luts"]),
+        ("wrong, ppm", wrong),
+        ("PSNR, dB", psnr),
+        ("clocks a pixel", COSTS["clocks"]),
+    ):
         for down in (False, True):
             b.click(f"#table thead th:nth-child({heads.index(head) + 1}) button")
             want = sorted(range(len(rows)), key=lambda i: ((-1 if down else 1) * of(rows[i]), i))
             check(names() == want, f"sorted by {head}, {'down' if down else 'up'}: {names()}")
-            said = b.run(f"document.querySelector('#table thead th:nth-child({heads.index(head) + 1})').getAttribute('aria-sort')")
+            said = b.run(
+                f"document.querySelector('#table thead th:nth-child({heads.index(head) + 1})').getAttribute('aria-sort')"
+            )
             check(said == ("descending" if down else "ascending"), f"{head}: {said}")
     other = next(i for i in range(len(rows)) if i not in first)
     b.click(f"#table tr[data-row='{other}'] button")
