@@ -28,9 +28,15 @@ std::string line_of(const CLI::App& command, const std::string& name, const std:
   for (const std::string& input : inputs) line += " " + quoted(input);
   for (const CLI::Option* o : command.get_options()) {
     if (o->count() == 0 || o->get_positional() || !keep(*o)) continue;
-    line += " " + (o->get_lnames().empty() ? o->get_name() : "--" + o->get_lnames().front());
-    if (o->get_expected_max() == 0) continue;
-    line += " " + quoted(o->results().back());  // no option takes several, and the last one given counts
+    const std::string option = o->get_lnames().empty() ? o->get_name() : "--" + o->get_lnames().front();
+    // The last one that is given counts, but for those of which all do.
+    const bool all = o->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    const auto& values = o->results();
+    if (o->get_expected_max() == 0)
+      line += " " + option;
+    else
+      for (std::size_t i = all ? 0 : values.size() - 1; i < values.size(); ++i)
+        line += fmt::format(" {} {}", option, quoted(values[i]));
   }
   return line;
 }

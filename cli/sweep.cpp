@@ -19,11 +19,13 @@
 #include "ci.hpp"
 #include "command.hpp"
 #include "cosim/model/model.hpp"
+#include "cosim_print.hpp"
 #include "kage/error.hpp"
 #include "order_build.hpp"
 #include "plan/demand.hpp"
 #include "planned.hpp"
 #include "progress.hpp"
+#include "report.hpp"
 #include "results.hpp"
 #include "signals.hpp"
 #include "source.hpp"
@@ -31,6 +33,7 @@
 #include "sweep_print.hpp"
 #include "text.hpp"
 #include "trade/placement.hpp"
+#include "trade/sweep_page.hpp"
 #include "trade/sweep_plan.hpp"
 #include "trade/sweep_run.hpp"
 #include "trade/sweep_store.hpp"
@@ -65,10 +68,12 @@ struct SweepCommand : Options {
   bool no_flip = false;
   std::string place;  // a device; kPlaceFlag for the one of the counts
   bool list = false;
+  std::string line;  ///< the command line
 };
 
 /// A scene with its points.
 struct SweptScene {
+  std::string input;  ///< as the command line has it
   std::vector<SweepPoint> points;
   std::unique_ptr<trade::SweepScene> scene;
   std::unique_ptr<trade::SweepRunner> runner;
@@ -179,6 +184,7 @@ SweptScene open(const SweepCommand& o, const Tools& tools, const std::string& in
   planned.draw.order.progress = [](double) { check_interrupt(); };
   const SweepPoint base = base_of(o, *scene, planned.draw);
   SweptScene out;
+  out.input = input;
   out.points = points_of(o, base, planned);
   out.scene = std::make_unique<trade::SweepScene>(std::move(scene), planned.draw, base, check_interrupt);
   out.runner = std::make_unique<trade::SweepRunner>(
@@ -215,6 +221,51 @@ Json row_of(const SweptScene& s, std::size_t point, const Json& measured) {
   row["config"] = cli::to_json(p.config);
   for (const char* key : {"accuracy", "speed", "area"}) row[key] = measured.at(key);
   return row;
+}
+
+/// The command line that draws what a point's pictures are, with its parameters in a file.
+std::string render_line(const SweepCommand& o, const SweptScene& s, const SweepPoint& p) {
+  std::string line =
+      fmt::format("kage render {} --config {} --degrade --size {}x{} --frames {} --order {}", quoted(s.input),
+                  trade::kPageConfig, p.width, p.height, s.scene->frames(), name_of(p.look.translucent));
+  line += fmt::format(" --sub-bits {} --samples {} --classes {} --seed {}", p.look.sub_bits, p.look.samples,
+                      p.look.classes, p.look.seed);
+  if (o.alpha != 1) line += fmt::format(" --alpha {}", o.alpha);
+  if (o.cull) line += " --cull";
+  if (o.max_fragments) line += fmt::format(" --max-fragments {}", *o.max_fragments);
+  if (o.allow_outside) line += " --allow-outside";
+  return line;
+}
+
+/// The folder of --out, held for this run alone, with one for pictures in it, and what draws plots: made before the
+/// work, so that what cannot be is said before it.
+struct OutPlace {
+  explicit OutPlace(const std::string& path)
+      : folder(path), pictures(std::filesystem::path(path) / trade::kPicturesFolder), lock(path) {
+    plot::load();
+  }
+  OutFolder folder;
+  OutFolder pictures;
+  ReportLock lock;
+};
+
+/// What --out gets.
+void write_page(const SweepCommand& o, const std::vector<SweptScene>& scenes, const std::vector<Entry>& entries,
+                const std::vector<Json>& rows, TempFiles& files) {
+  Progress progress;
+  trade::SweepPage page;
+  page.command = o.line;
+  page.doing = [&progress](const std::string& what) {
+    check_interrupt();
+    progress.show("sweep: " + what);
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const SweptScene& s = scenes[entries[i].scene];
+    const SweepPoint& p = s.points[entries[i].point];
+    page.rows.push_back({rows[i], &p, s.scene.get(), render_line(o, s, p)});
+  }
+  trade::write_sweep_page(files, o.out, page);
+  progress.clear();
 }
 
 /// Makes the rows of the list, several at a time, or takes them from the store.
@@ -334,7 +385,8 @@ void refuse_store(const SweepCommand& o) {
 
 int run(const SweepCommand& o) {
   if (o.grid && o.axes.empty()) throw Error("--grid: of the axes that --axes names, and there is none");
-  refuse_twice({o.json, o.csv, o.store});
+  const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / trade::kPageName).string();
+  refuse_twice({o.json, o.csv, o.store, page});
   check_json(o);
   check_output(o.csv);
   refuse_inputs({o.json, o.csv, o.store}, o.take);
@@ -349,6 +401,8 @@ int run(const SweepCommand& o) {
   progress.clear();
   std::vector<Entry> entries = entries_of(o, scenes);
   if (o.list) return list(scenes, entries);
+  std::optional<OutPlace> place;
+  if (!o.out.empty()) place.emplace(o.out);
   if (tools.placer) announce_places(*tools.placer, scenes, entries);
   trade::SweepStore store(o.store);
   for (const std::string& other : o.take) store.absorb(other);
@@ -362,13 +416,15 @@ int run(const SweepCommand& o) {
     throw;
   }
   std::vector<Json> rows;
-  for (Entry& e : entries) rows.push_back(std::move(e.row));
+  for (const Entry& e : entries) rows.push_back(e.row);
   const std::vector<bool> best = trade::pareto(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i]["pareto"] = static_cast<bool>(best[i]);
   TempFiles files;
   if (!o.csv.empty()) write_text(files, o.csv, sweep_csv(rows));
+  if (!o.out.empty()) write_page(o, scenes, entries, rows, files);
   finish(o, {kRows, Json(rows)}, files,
-         sweep_table(rows) + fmt::format("# {} measured now, the others were in {}\n", told.made(), o.store));
+         sweep_table(rows) + fmt::format("# {} measured now, the others were in {}\n", told.made(), o.store) +
+             (page.empty() ? "" : fmt::format("# page: {}\n", page)));
   return kSame;
 }
 
@@ -382,7 +438,7 @@ void add_sweep(CLI::App& app, Action& action) {
                   "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
                   "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
                   "  kage sweep courtyard --axes LANES=1,4,16 --place\n"
-                  "  kage sweep courtyard --resume\n"
+                  "  kage sweep courtyard --resume --out trade\n"
                   "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
   const auto o = std::make_shared<SweepCommand>();
   o->size = {320, 240};
@@ -417,9 +473,17 @@ void add_sweep(CLI::App& app, Action& action) {
       ->type_name("[=DEVICE]");
   c->add_flag("--list", o->list, "print what would be measured, and measure nothing");
   c->add_option("--csv", o->csv, "write the rows as CSV")->type_name("FILE");
+  c->add_option("--out", o->out,
+                fmt::format("folder for {}, the page of all rows with their pictures, on which the cheapest "
+                            "configuration within limits is found, and for plots of error against cost as SVG and PNG",
+                            trade::kPageName))
+      ->type_name("DIR");
   options_of_pictures(*c, *o);
   option_json(*c, *o);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c->callback([o, &action, c] {
+    o->line = command_line(*c);
+    action = [o] { return run(*o); };
+  });
 }
 
 }  // namespace kage::cli

@@ -13,13 +13,6 @@
 namespace kage::trade {
 namespace {
 
-Image image_of(const DrawnFrame& f) {
-  Image image(f.width, f.height, 3);
-  for (std::size_t i = 0; i < f.color.size(); ++i)
-    std::copy(f.color[i].begin(), f.color[i].end(), image.data.begin() + static_cast<std::ptrdiff_t>(3 * i));
-  return image;
-}
-
 /// Whether the stated errors of depth excuse what a pixel shows.
 class Excuses {
  public:
@@ -130,6 +123,13 @@ void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const Drawn
 }
 
 }  // namespace
+
+Image image_of(const DrawnFrame& f) {
+  Image image(f.width, f.height, 3);
+  for (std::size_t i = 0; i < f.color.size(); ++i)
+    std::copy(f.color[i].begin(), f.color[i].end(), image.data.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  return image;
+}
 
 PointAccuracy& PointAccuracy::operator+=(const PointAccuracy& o) {
   by_truth += o.by_truth;

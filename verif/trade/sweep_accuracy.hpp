@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "kage/image.hpp"
 #include "trade/accuracy.hpp"
 #include "trade/steps.hpp"
 #include "trade/sweep_scene.hpp"
@@ -33,6 +34,9 @@ struct PointAccuracy {
 /// What is wrong in a frame of a point that was drawn as `drawn`: faces and shadows by the oracle of the finest snap,
 /// of as many samples; colours against the finest picture; what is gross by the oracle of the point's own snap.
 ErrorMap error_map(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn);
+
+/// The colours of a drawn frame.
+Image image_of(const DrawnFrame& drawn);
 
 /// Measures a frame of a point that was drawn as `drawn`.
 PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, bool flip);

@@ -77,7 +77,7 @@ Json meanings() {
 }
 
 Html::Html(std::string_view title, std::string_view plain, const std::string& body,
-           const std::vector<std::string>& scripts) {
+           const std::vector<std::string>& scripts, const OwnParts& own) {
   const fs::path source = data_directory() / "verif/cosim/report/page";
   std::string html = read_file(source / "page.html");
   const auto find = [&](std::string_view mark) {
@@ -86,13 +86,18 @@ Html::Html(std::string_view title, std::string_view plain, const std::string& bo
     return at;
   };
   const auto put = [&](std::string_view mark, const std::string& text) { html.replace(find(mark), mark.size(), text); };
+  const auto part = [&](const std::string& name) {
+    const fs::path first = data_directory() / own.folder / name;
+    return read_file(!own.folder.empty() && fs::exists(first) ? first : source / name);
+  };
   // The page's own parts first: what comes from outside is put where no mark is looked for any more, or is escaped,
   // and has none.
   std::string all;
-  for (const std::string& script : scripts) all += read_file(source / (script + ".js"));
+  for (const std::string& script : scripts) all += part(script + ".js");
   put("/* scripts */", all);
-  put("<!-- body -->", read_file(source / (body + ".html")));
-  put("/* style */", read_file(source / "page.css"));
+  put("<!-- body -->", part(body + ".html"));
+  put("/* style */", read_file(source / "page.css") + (own.style.empty() ? "" : part(own.style + ".css")));
+  put("/* pictures */", own.pictures_beside ? " 'self' file:" : "");
   put("<!-- noscript -->", escaped(plain));
   put("<!-- title -->", escaped(title));
   constexpr std::string_view kMark = "<!-- data -->";

@@ -26,13 +26,20 @@ std::string script_text(const Json& json);
 /// What each parameter of a configuration means.
 Json meanings();
 
+/// What a page has that the report pages lack.
+struct OwnParts {
+  std::string folder{};          ///< below that of the data: a body or a script is looked for here first
+  std::string style{};           ///< the name of a file there, without .css, which comes behind page.css
+  bool pictures_beside = false;  ///< pictures may be files beside the page
+};
+
 /// A page but for its data.
 class Html {
  public:
   /// `title` is any text, `plain` what is to be read without JavaScript; `body` and `scripts` are names of files in
   /// page/, without .html and .js. Throws Error that names a file.
-  Html(std::string_view title, std::string_view plain, const std::string& body,
-       const std::vector<std::string>& scripts);
+  Html(std::string_view title, std::string_view plain, const std::string& body, const std::vector<std::string>& scripts,
+       const OwnParts& own = {});
 
   [[nodiscard]] std::size_t bytes() const { return before_.size() + after_.size(); }
 

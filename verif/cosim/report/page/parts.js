@@ -94,5 +94,5 @@ const Parts = (() => {
     }
   }
 
-  return {data, $, make, count, plural, stalls, numbers, table, command, verdict, verdictWord, divergenceTerms, configTable, sideways};
+  return {data, $, make, count, plural, copy, stalls, numbers, table, command, verdict, verdictWord, divergenceTerms, configTable, sideways};
 })();
