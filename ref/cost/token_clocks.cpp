@@ -33,7 +33,7 @@ void PhaseCounter::token(const Token& t) {
     const std::uint64_t line = width + kBetweenTreeLines;
     const std::uint64_t since = had_tree_ ? since_tree_ : 0;
     if (config_.arrangement != 0 && since < line) waits_ += line - since;
-    had_tree_ = has_tree_ = true;
+    had_tree_ = tree_here_ = true;
   }
   if (t.kind == Kind::TP && !blends_) {
     blends_ = true;
@@ -50,10 +50,10 @@ void PhaseCounter::token(const Token& t) {
   if (t.kind != Kind::EOL) return;
   if (line_ < width) sums_.video += width - line_;
   // Systolic, a line's SEGs may all wait for the half of a unit's buffer that the line before is read from.
-  const bool waits_for_half = has_tree_ && config_.arrangement == 0;
+  const bool waits_for_half = tree_here_ && config_.arrangement == 0;
   lines_.push_back(std::max(line_ + waits_, width + (waits_for_half ? segments_ : 0)));
   line_ = waits_ = segments_ = 0;
-  resolved_ = blends_ = has_tree_ = false;
+  resolved_ = blends_ = tree_here_ = false;
 }
 
 std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count) {

@@ -47,7 +47,7 @@ class PhaseCounter {
     lines_.clear();
     resolved_ = blends_ = false;
     waits_ = segments_ = since_tree_ = 0;
-    had_tree_ = has_tree_ = false;
+    had_tree_ = tree_here_ = false;
   }
   void token(const Token& token);
 
@@ -70,7 +70,7 @@ class PhaseCounter {
   bool resolved_ = false;       // it has had a RESOLVE
   bool blends_ = false;         // it has had a TP
   std::uint64_t waits_ = 0;     // clocks before its first TP, and before its TREE
-  bool has_tree_ = false;       // it has had a TREE
+  bool tree_here_ = false;      // it has had a TREE
   std::uint64_t segments_ = 0;  // clocks of its SEGs
   // Of the frame:
   bool had_tree_ = false;         // there was a TREE
