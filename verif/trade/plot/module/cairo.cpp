@@ -38,19 +38,19 @@ class Canvas {
       if (status != CAIRO_STATUS_SUCCESS) throw Error(fmt::format("a plot: {}", cairo_status_to_string(status)));
   }
 
-  void font(double size, bool bold) {
+  void font(double size, bool bold) const {
     cairo_select_font_face(get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(get(), size);
   }
 
-  double width(const std::string& text) {
+  [[nodiscard]] double width(const std::string& text) const {
     cairo_text_extents_t extents;
     cairo_text_extents(get(), text.c_str(), &extents);
     return extents.x_advance;
   }
 
-  void ink(Ink ink) {
+  void ink(Ink ink) const {
     const std::uint32_t color = colors_of(ink).light;
     const auto part = [color](int shift) { return (color >> shift & 0xFFU) / 255.0; };
     cairo_set_source_rgb(get(), part(16), part(8), part(0));
