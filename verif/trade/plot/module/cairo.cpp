@@ -56,7 +56,7 @@ class Canvas {
     cairo_set_source_rgb(get(), part(16), part(8), part(0));
   }
 
-  void draw(const Line& line) {
+  void draw(const Line& line) const {
     ink(line.ink);
     for (const Place& p : line.places) cairo_line_to(get(), p.x, p.y);
     cairo_set_line_width(get(), line.width);
@@ -66,7 +66,7 @@ class Canvas {
     cairo_set_dash(get(), &dash, 0, 0);
   }
 
-  void draw(const Mark& mark) {
+  void draw(const Mark& mark) const {
     const auto [x, y] = mark.at;
     const double r = mark.radius;
     if (mark.diamond) {
@@ -83,7 +83,7 @@ class Canvas {
     cairo_stroke(get());
   }
 
-  void draw(const Text& text) {
+  void draw(const Text& text) const {
     font(text.size, text.bold);
     const double long_ = width(text.text);
     cairo_save(get());
