@@ -76,7 +76,9 @@ const ErrorKind kFlip{"flip",
                       flip_of};
 
 /// The base of the sweep, as far as there is one.
-bool is_base(const Json& row) { return row.at("axis") == "base" && row.at("value") == ""; }
+bool is_base(const Json& row) {
+  return row.at("axis") == "base" && row.at("value").get_ref<const std::string&>().empty();
+}
 
 plot::ParetoPlot plot_of(const std::vector<PageRow>& rows, const std::vector<std::size_t>& members,
                          const ErrorKind& error, const CostKind& cost) {
@@ -123,8 +125,8 @@ plot::ParetoPlot plot_of(const std::vector<PageRow>& rows, const std::vector<std
 }  // namespace
 
 std::string name_of(const Json& row) {
-  const auto axis = row.at("axis").get<std::string>();
-  const auto value = row.at("value").get<std::string>();
+  auto axis = row.at("axis").get<std::string>();
+  auto value = row.at("value").get<std::string>();
   if (value.empty()) return axis;
   return axis == "grid" ? value : axis + " " + value;
 }

@@ -76,7 +76,7 @@ class Plotter {
     for (std::size_t at = 0; at < words.size();) {
       const std::size_t space = std::min(words.find(' ', at), words.size());
       const std::string word = words.substr(at, space - at);
-      const std::string longer = line.empty() ? word : line + " " + word;
+      const std::string longer = line.empty() ? word : fmt::format("{} {}", line, word);
       if (!line.empty() && width_of(longer, size, bold) > room) {
         put_line(line, size, ink, bold);
         line = word;

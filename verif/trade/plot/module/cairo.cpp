@@ -38,25 +38,25 @@ class Canvas {
       if (status != CAIRO_STATUS_SUCCESS) throw Error(fmt::format("a plot: {}", cairo_status_to_string(status)));
   }
 
-  void font(double size, bool bold) {
+  void font(double size, bool bold) const {
     cairo_select_font_face(get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(get(), size);
   }
 
-  double width(const std::string& text) {
+  [[nodiscard]] double width(const std::string& text) const {
     cairo_text_extents_t extents;
     cairo_text_extents(get(), text.c_str(), &extents);
     return extents.x_advance;
   }
 
-  void ink(Ink ink) {
+  void ink(Ink ink) const {
     const std::uint32_t color = colors_of(ink).light;
     const auto part = [color](int shift) { return (color >> shift & 0xFFU) / 255.0; };
     cairo_set_source_rgb(get(), part(16), part(8), part(0));
   }
 
-  void draw(const Line& line) {
+  void draw(const Line& line) const {
     ink(line.ink);
     for (const Place& p : line.places) cairo_line_to(get(), p.x, p.y);
     cairo_set_line_width(get(), line.width);
@@ -66,7 +66,7 @@ class Canvas {
     cairo_set_dash(get(), &dash, 0, 0);
   }
 
-  void draw(const Mark& mark) {
+  void draw(const Mark& mark) const {
     const auto [x, y] = mark.at;
     const double r = mark.radius;
     if (mark.diamond) {
@@ -83,7 +83,7 @@ class Canvas {
     cairo_stroke(get());
   }
 
-  void draw(const Text& text) {
+  void draw(const Text& text) const {
     font(text.size, text.bold);
     const double long_ = width(text.text);
     cairo_save(get());
