@@ -123,6 +123,7 @@ def limits(b):
         "(() => { const e = document.getElementById('wrong-text'); e.value = '1500.5'; e.dispatchEvent(new Event('input')); })()"
     )
     check(numbers(b)["wrong"] == 1500.5, f"a typed limit: {numbers(b)}")
+    check(b.run("Sweep.limitOf('wrong', ' 17\\u202f253.5 ')") == 17253.5, "a figure as the page shows it is none")
     b.run(
         "(() => { const e = document.getElementById('wrong-text'); e.value = 'x'; e.dispatchEvent(new Event('input')); })()"
     )
