@@ -76,6 +76,13 @@ for scene in courtyard three-lights; do
 done
 grep -qF '# three-lights: 3072 pixels in 1 frame;' stdout || fail "$(head -1 stdout)"
 
+# A store is a file, whatever its name means to SQLite.
+for store in :memory: 'file:a?mode=memory'; do
+  expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --store "$store"
+  expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --store kept.sqlite --resume --take "$store"
+  grep -qF '# 0 measured now' stdout || fail "$store: $(tail -1 stdout)"
+done
+
 # A name that is no text: what is not UTF-8 of it is replaced, as in every JSON of kage.
 cp "$source/scenes/courtyard.gltf" "$(printf 'b\xffd.gltf')"
 expect 0 "$kage" sweep "$(printf 'b\xffd.gltf')" "${quick[@]}" --axes Z_BITS=8 --store name.sqlite --out name --json name.json
