@@ -58,7 +58,7 @@ tail -1 stdout | grep -qF '# 1 measured now' || fail "$(tail -1 stdout)"
 # --alpha is, and a core with a light table the same whether its base has one.
 printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 -1\nv 1 -1 -1\nv 0 1.5 -1\nf 1 2 3 4\nf 5 6 7\n' >panes.obj
 for alpha in 0.9 0.2; do
-  opaque=(panes.obj --size 64x48 --frames 1 --no-area --no-cosim --no-flip --alpha $alpha --axes TRANSLUCENCY=0)
+  opaque=(panes.obj --size 64x48 --frames 1 --no-area --no-cosim --no-flip --alpha "$alpha" --axes TRANSLUCENCY=0)
   expect 0 "$kage" sweep "${opaque[@]}" --store panes.sqlite --resume --json panes.$alpha.json
   tail -1 stdout | grep -qF '# 2 measured now' || fail "--alpha $alpha: $(tail -1 stdout)"
 done
