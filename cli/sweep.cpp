@@ -210,10 +210,15 @@ Json look_json(const SweepPoint& p) {
           {"seed", p.look.seed}};
 }
 
+/// A scene's name as rows, pages and plots have it: what of it is no UTF-8 is replaced, as in every JSON.
+std::string readable(const std::string& name) {
+  return Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
 Json row_of(const SweptScene& s, std::size_t point, const Json& measured) {
   const SweepPoint& p = s.points[point];
   Json row;
-  row["scene"] = s.scene->name();
+  row["scene"] = readable(s.scene->name());
   row["axis"] = p.axis;
   row["value"] = p.value;
   row["frames"] = s.scene->frames();
@@ -317,9 +322,9 @@ class Sweep {
 
   std::string row_key(const SweptScene& s, std::size_t point, const trade::PointWords& words) const {
     return trade::key_of({kRows, build_, s.scene->name(), s.scene->identity(), std::to_string(s.scene->frames()),
-                          trade::text_of(s.points[point]), words.hash, s.runner->clocks_text(point),
-                          o_.no_area ? "estimated" : "counted", o_.no_flip ? "no flip" : "flip",
-                          s.runner->tools_text(point)});
+                          trade::text_of(s.points[point]), trade::text_of(s.scene->finest(s.points[point])), words.hash,
+                          s.runner->clocks_text(point), o_.no_area ? "estimated" : "counted",
+                          o_.no_flip ? "no flip" : "flip", s.runner->tools_text(point)});
   }
 
   void make(Entry& e) {
@@ -402,7 +407,10 @@ int run(const SweepCommand& o) {
   std::vector<Entry> entries = entries_of(o, scenes);
   if (o.list) return list(scenes, entries);
   std::optional<OutPlace> place;
-  if (!o.out.empty()) place.emplace(o.out);
+  if (!o.out.empty()) {
+    place.emplace(o.out);
+    check_output(page);
+  }
   if (tools.placer) announce_places(*tools.placer, scenes, entries);
   trade::SweepStore store(o.store);
   for (const std::string& other : o.take) store.absorb(other);

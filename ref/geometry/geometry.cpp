@@ -76,13 +76,25 @@ std::vector<std::uint32_t> draw_all(const Task& task, FaceDrawer& drawer, FrameG
   return turned_away;
 }
 
-// Faces and edges of those that go stay where they are: nothing names them any more.
+// Faces and edges of those that go, go too: the front end draws all that there are.
 void keep_first_volumes(FrameGeometry& out) {
-  const std::size_t all = out.volumes.size();
-  const auto end = std::unique(out.volumes.begin(), out.volumes.end(),
-                               [](const ShadowVolume& a, const ShadowVolume& b) { return a.sample == b.sample; });
-  out.volumes.erase(end, out.volumes.end());
-  out.left_out = static_cast<std::uint32_t>(all - out.volumes.size());
+  std::vector<ShadowVolume> volumes;
+  std::vector<VolumeFace> faces;
+  std::vector<NearEdge> edges;
+  for (ShadowVolume v : out.volumes) {
+    if (!volumes.empty() && volumes.back().sample == v.sample) continue;
+    const auto own_faces = std::span(out.volume_faces).subspan(v.first_face, v.face_count);
+    const auto own_edges = std::span(out.near_edges).subspan(v.first_near, v.near_count);
+    v.first_face = static_cast<std::uint32_t>(faces.size());
+    v.first_near = static_cast<std::uint32_t>(edges.size());
+    faces.insert(faces.end(), own_faces.begin(), own_faces.end());
+    edges.insert(edges.end(), own_edges.begin(), own_edges.end());
+    volumes.push_back(v);
+  }
+  out.left_out = static_cast<std::uint32_t>(out.volumes.size() - volumes.size());
+  out.volumes = std::move(volumes);
+  out.volume_faces = std::move(faces);
+  out.near_edges = std::move(edges);
 }
 
 void make_volumes(const Task& task, const SampledLights& lights, double near, VolumeMaker& maker, ShadowCache& cache,

@@ -16,6 +16,7 @@
 #include "kage/pipeline.hpp"
 #include "number/counted.hpp"
 #include "trade/sweep_accuracy.hpp"
+#include "trade/sweep_run.hpp"
 
 namespace kage::trade {
 namespace {
@@ -79,6 +80,7 @@ Json pictures_of(const PageRow& r, Pictures& pictures) {
                    {"map", wrong.any() ? Json(pictures.add(picture_of(map, drawn))) : Json(nullptr)},
                    {"visible_wrong", wrong.visible_wrong},
                    {"shadow_wrong", wrong.shadow_wrong},
+                   {"gross_wrong", wrong.gross_wrong},
                    {"color_wrong", wrong.color_wrong}});
   }
   return out;
@@ -89,9 +91,7 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<PageRow>& rows
   std::vector<std::vector<std::size_t>> out;
   std::map<std::string, std::size_t> at;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Json& look = rows[i].row.at("look");
-    const std::string key = rows[i].row.at("scene").dump() + look.at("width").dump() + "x" + look.at("height").dump();
-    const auto [found, fresh] = at.emplace(key, out.size());
+    const auto [found, fresh] = at.emplace(group_of(rows[i].row), out.size());
     if (fresh) out.emplace_back();
     out[found->second].push_back(i);
   }
@@ -136,7 +136,10 @@ void write_sweep_page(TempFiles& files, const fs::path& folder, const SweepPage&
   data["command"] = page.command;
   data["config_file"] = kPageConfig;
   data["meanings"] = report::meanings();
-  data["map_colors"] = {{"face", css(kFaceColor)}, {"shadow", css(shadow_color(1))}, {"color", css(color_color(255))}};
+  data["map_colors"] = {{"face", css(kFaceColor)},
+                        {"shadow", css(shadow_color(1))},
+                        {"color", css(color_color(255))},
+                        {"gross", css(kGrossColor)}};
   data["rows"] = Json::array();
   data["more"] = Json::array();
   Pictures pictures(files, folder);

@@ -7,6 +7,7 @@
 
 #include "number/counted.hpp"
 #include "trade/sweep_page.hpp"
+#include "trade/sweep_run.hpp"
 
 namespace kage::trade {
 namespace {
@@ -84,9 +85,7 @@ plot::ParetoPlot plot_of(const std::vector<PageRow>& rows, const std::vector<std
                          const ErrorKind& error, const CostKind& cost) {
   const Json& first = rows[members.front()].row;
   plot::ParetoPlot out;
-  out.title =
-      fmt::format("{} at {}x{}: {} against {}", first.at("scene").get<std::string>(),
-                  first.at("look").at("width").dump(), first.at("look").at("height").dump(), error.words, cost.tab);
+  out.title = fmt::format("{}: {} against {}", group_of(first), error.words, cost.tab);
   out.cost.title = cost.title;
   out.error = error.axis;
   std::map<std::pair<double, std::optional<double>>, std::vector<std::size_t>> alike;

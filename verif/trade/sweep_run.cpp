@@ -313,6 +313,12 @@ std::string build_identity(const std::string& name) {
   return whole ? name : name + " " + key_of({read_file("/proc/self/exe")});
 }
 
+std::string group_of(const Json& row) {
+  const Json& look = row.at("look");
+  return fmt::format("{} at {}x{}", row.at("scene").get<std::string>(), look.at("width").get<int>(),
+                     look.at("height").get<int>());
+}
+
 std::vector<bool> pareto(const std::vector<Json>& rows) {
   std::vector<std::array<double, 4>> costs;
   std::vector<std::string> groups;
@@ -320,7 +326,7 @@ std::vector<bool> pareto(const std::vector<Json>& rows) {
     costs.push_back({wrong_share(row), row.at("accuracy").at("sources").at("all").at("mean_square").get<double>(),
                      row.at("speed").at("rtl_cycles_per_pixel").get<double>(),
                      row.at("area").at("luts").get<double>()});
-    groups.push_back(row.at("scene").dump() + row.at("look").at("width").dump() + row.at("look").at("height").dump());
+    groups.push_back(group_of(row));
   }
   std::vector<bool> out;
   for (std::size_t i = 0; i < rows.size(); ++i) {

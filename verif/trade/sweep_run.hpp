@@ -112,6 +112,9 @@ std::string key_of(const std::vector<std::string>& parts);
 /// then follow from it; else SHA-256 of the program's file besides.
 std::string build_identity(const std::string& name);
 
+/// The scene and size of a row, "courtyard at 320x240": rows are compared with those of the same.
+std::string group_of(const nlohmann::ordered_json& row);
+
 /// Marks the rows that no other row of the same scene and size beats: none is at least as good in wrong pixels, error
 /// of colour, clocks a pixel and look-up tables, and better in one. Rows have `scene`, `config` (with `width`, `height`
 /// in `look`), `accuracy`, `speed` and `area`.

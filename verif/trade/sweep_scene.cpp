@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <initializer_list>
 #include <utility>
 
 #include "arena/arena.hpp"
@@ -27,6 +28,46 @@ template <class T>
 void add(cosim::Sha256& hash, const std::vector<T>& values) {
   hash.add(static_cast<std::uint64_t>(values.size()));
   hash.add_piece(std::span<const T>(values));
+}
+
+void add(cosim::Sha256& hash, std::initializer_list<double> numbers) {
+  hash.add_piece(std::span<const double>(numbers.begin(), numbers.size()));
+}
+
+void add(cosim::Sha256& hash, const glm::dvec3& v) { add(hash, {v.x, v.y, v.z}); }
+
+/// All of a frame that pictures, shadows or rays depend on. What a core lacks is in no word of its own, and it shows in
+/// the finest picture: a translucent face's alpha, a light's size.
+void add(cosim::Sha256& hash, const SceneFrame& f) {
+  add(hash, f.vertices);
+  add(hash, f.corners);
+  const Camera& c = f.camera;
+  for (const glm::dvec3& v : {c.eye, c.right, c.up, c.forward}) add(hash, v);
+  add(hash, {c.near, c.half_height, c.perspective ? 1.0 : 0.0});
+  hash.add(static_cast<std::uint64_t>(f.lights.size()));
+  for (const Light& l : f.lights) {
+    for (const glm::dvec3& v : {l.direction, l.position, l.color, l.axis_u, l.axis_v}) add(hash, v);
+    add(hash, {l.directional ? 1.0 : 0.0, l.falls_off ? 1.0 : 0.0, l.range, l.spot ? 1.0 : 0.0, l.inner_cosine,
+               l.outer_cosine, static_cast<double>(l.shape)});
+  }
+  hash.add(static_cast<std::uint64_t>(f.shading.size()));
+  for (const ShadingVertex& v : f.shading) {
+    add(hash, v.normal);
+    add(hash, v.color);
+  }
+  hash.add(static_cast<std::uint64_t>(f.triangles.size()));
+  for (const Triangle& t : f.triangles) {
+    hash.add_piece(std::span<const std::uint32_t>(t.vertex));
+    hash.add_piece(std::span<const std::uint32_t>(t.shading));
+    const std::array<std::uint8_t, 3> look{t.alpha, static_cast<std::uint8_t>(t.unlit ? 1 : 0),
+                                           static_cast<std::uint8_t>(t.sides)};
+    hash.add_piece(std::span<const std::uint8_t>(look));
+  }
+  hash.add(static_cast<std::uint64_t>(f.polygons.size()));
+  for (const Polygon& p : f.polygons) {
+    const std::array<std::uint32_t, 3> polygon{p.first, p.count, p.triangle};
+    hash.add_piece(std::span<const std::uint32_t>(polygon));
+  }
 }
 
 // Two faces are at one distance from the eye where rounding may decide.
@@ -168,13 +209,7 @@ const std::shared_ptr<const Scene>& SweepScene::scene() const { return data_->sc
 const std::string& SweepScene::identity() const {
   return *data_->identity.get("", [&] {
     cosim::Sha256 hash;
-    for (int i = 0; i < frames(); ++i) {
-      const SceneFrame& f = frame(i);
-      add(hash, f.vertices);
-      add(hash, f.corners);
-      const Camera& c = f.camera;
-      add(hash, std::vector<glm::dvec3>{c.eye, c.right, c.up, c.forward, {c.near, c.half_height, c.perspective}});
-    }
+    for (int i = 0; i < frames(); ++i) add(hash, frame(i));
     return hash.take();
   });
 }
@@ -234,7 +269,10 @@ SweepPoint SweepScene::alone(const SweepPoint& point, ErrorSource source) const 
       out.look.seed = point.look.seed;
       break;
     case ErrorSource::classes:
-      c.class_bits = std::min(c.class_bits, of.class_bits);
+      if (c.dsf_bits == 0) break;
+      // A row may have a table where the finest picture has none: then what the table does is an error by classes.
+      if (derived::has_table(of)) c.count_bits = kGreatest.count_bits;
+      c.class_bits = of.class_bits;
       out.look.classes = point.look.classes;
       break;
     case ErrorSource::order:

@@ -54,7 +54,8 @@ class SweepScene {
   [[nodiscard]] int frames() const;
   [[nodiscard]] const SceneFrame& frame(int index) const;
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const;
-  /// SHA-256 of all frames' corners and cameras: another file of the same name is another scene.
+  /// SHA-256 of all that decides the frames' pictures: faces with their colours and alpha, lights, cameras. Another
+  /// file of the same name, or the same with another --alpha, is another scene.
   [[nodiscard]] const std::string& identity() const;
   [[nodiscard]] DrawOptions draw_options(const SweepPoint& point) const;
 

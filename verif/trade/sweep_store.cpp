@@ -24,6 +24,9 @@ constexpr const char* kSchema =
     "CREATE TABLE clocks (key TEXT PRIMARY KEY, cycles INTEGER NOT NULL, foretold INTEGER NOT NULL, "
     "seconds REAL NOT NULL) WITHOUT ROWID;";
 
+/// A file's name as SQLite takes it for one: ":memory:" would be none.
+std::string sqlite_name(const std::filesystem::path& file) { return std::filesystem::absolute(file).string(); }
+
 /// A statement that is stepped, and let go.
 class Statement {
  public:
@@ -122,8 +125,8 @@ struct SweepStore::Data {
 SweepStore::SweepStore(const std::filesystem::path& file) : data_(std::make_unique<Data>()) {
   Data& d = *data_;
   d.file = file.string();
-  if (sqlite3_open_v2(d.file.c_str(), &d.db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX,
-                      nullptr) != SQLITE_OK)
+  if (sqlite3_open_v2(sqlite_name(file).c_str(), &d.db,
+                      SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX, nullptr) != SQLITE_OK)
     throw Error(fmt::format("{}: {}", d.file, sqlite3_errmsg(d.db)));
   sqlite3_busy_timeout(d.db, kBusyMilliseconds);
   if (d.number("SELECT count(*) FROM sqlite_master") > 0 || d.number("PRAGMA application_id") != 0) {
@@ -180,7 +183,7 @@ int SweepStore::absorb(const std::filesystem::path& other) {
   const int before = runs();
   const std::lock_guard lock(data_->mutex);
   Data& d = *data_;
-  Statement(d.db, d.file, "ATTACH ? AS other").bind(other.string()).step();
+  Statement(d.db, d.file, "ATTACH ? AS other").bind(sqlite_name(other)).step();
   d.at_once([&] {
     d.execute(
         "INSERT OR IGNORE INTO run SELECT * FROM other.run;"

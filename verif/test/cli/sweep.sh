@@ -54,6 +54,40 @@ cmp a.json again.json || fail "a resumed sweep says something else"
 expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8,12 --resume
 tail -1 stdout | grep -qF '# 1 measured now' || fail "$(tail -1 stdout)"
 
+# A row is kept for its scene and its truth, not only for its words: a core without TRANSLUCENCY has the same words whatever
+# --alpha is, and a core with a light table the same whether its base has one.
+printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 -1\nv 1 -1 -1\nv 0 1.5 -1\nf 1 2 3 4\nf 5 6 7\n' >panes.obj
+for alpha in 0.9 0.2; do
+  opaque=(panes.obj --size 64x48 --frames 1 --no-area --no-cosim --no-flip --alpha "$alpha" --axes TRANSLUCENCY=0)
+  expect 0 "$kage" sweep "${opaque[@]}" --store panes.sqlite --resume --json panes.$alpha.json
+  tail -1 stdout | grep -qF '# 2 measured now' || fail "--alpha $alpha: $(tail -1 stdout)"
+done
+python3 -c 'import json; a, b = (json.load(open(f"panes.{alpha}.json"))[1]["accuracy"]["psnr"] for alpha in ("0.9", "0.2")); assert a > b + 10, (a, b)' || fail "--alpha changes no error"
+expect 0 "$kage" sweep penumbra --config soft --size 32x24 --frames 1 --no-area --no-cosim --no-flip --axes CLASS_BITS=8 --store table.sqlite --json table.json
+json table.json 'j[1]["accuracy"]["sources"]["classes"]["mean_square"] > 0'
+python3 -c 'import json; print("\n".join(f"{k}: {v}" for k, v in json.load(open("table.json"))[1]["config"].items()))' >table.yaml
+expect 0 "$kage" sweep penumbra --config table.yaml --size 32x24 --frames 1 --no-area --no-cosim --no-flip --axes Z_BITS=20 --store table.sqlite --resume
+tail -1 stdout | grep -qF '# 2 measured now' || fail "a row of another finest picture is taken: $(tail -1 stdout)"
+
+# Volumes that a core without FSF leaves out are wrong shadows, and none of them is a bug. One frame is no "frames".
+for scene in courtyard three-lights; do
+  expect 0 "$kage" sweep $scene --size 64x48 --frames 1 --no-area --no-cosim --no-flip --axes FSF=0 --store fsf.sqlite --resume --json fsf.json
+  json fsf.json 'j[1]["accuracy"]["shadow_wrong"] > 100 and j[1]["accuracy"]["gross_wrong"] == 0'
+done
+grep -qF '# three-lights: 3072 pixels in 1 frame;' stdout || fail "$(head -1 stdout)"
+
+# A store is a file, whatever its name means to SQLite.
+for store in :memory: 'file:a?mode=memory'; do
+  expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --store "$store"
+  expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --store kept.sqlite --resume --take "$store"
+  grep -qF '# 0 measured now' stdout || fail "$store: $(tail -1 stdout)"
+done
+
+# A name that is no text: what is not UTF-8 of it is replaced, as in every JSON of kage.
+cp "$source/scenes/courtyard.gltf" "$(printf 'b\xffd.gltf')"
+expect 0 "$kage" sweep "$(printf 'b\xffd.gltf')" "${quick[@]}" --axes Z_BITS=8 --store name.sqlite --out name --json name.json
+json name.json 'j[0]["scene"] == "b\ufffdd.gltf"'
+
 # Killed, as often as it takes, it goes on and ends with the same rows; what was measured is not lost.
 runs=0
 for _ in 1 2 3 4; do

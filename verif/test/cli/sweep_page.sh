@@ -40,12 +40,14 @@ for group in data["groups"]:
         plots |= {plot["file"] + ".svg", plot["file"] + ".png"}
 for row, more in zip(rows, data["more"]):
     assert [p["frame"] for p in more["pictures"]] == list(range(row["frames"]))
-    for what in ("visible_wrong", "shadow_wrong"):
+    for what in ("visible_wrong", "shadow_wrong", "gross_wrong", "color_wrong"):
         assert sum(p[what] for p in more["pictures"]) == row["accuracy"][what], what
     assert row["accuracy"]["psnr"] is None or any(p["map"] for p in more["pictures"]), "what is wrong is not shown"
     for p in more["pictures"]:
-        for name in filter(None, [p["picture"], p["map"]]):
-            assert png_size(f"{folder}/{name}") == (row["look"]["width"], row["look"]["height"]), name
+        # Maps of pictures so small are four times as wide and high.
+        for name, times in ((p["picture"], 1), (p["map"], 4)):
+            if name is None: continue
+            assert png_size(f"{folder}/{name}") == (times * row["look"]["width"], times * row["look"]["height"]), name
             named.add(name)
 there = {f"{at}/{name}"[len(folder) + 1:] for at, _, names in os.walk(folder) for name in names}
 assert there == named | plots | {"sweep.html"}, there ^ (named | plots | {"sweep.html"})
@@ -127,6 +129,8 @@ checked odd odd.json
 echo text >file
 trouble "file" "$kage" sweep courtyard "${quick[@]}" --store no.sqlite --out file
 trouble "/proc/none" "$kage" sweep courtyard "${quick[@]}" --store no.sqlite --out /proc/none
+mkdir -p taken/sweep.html
+trouble "taken/sweep.html: exists and is not a file" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --store no.sqlite --out taken
 trouble "two outputs have this name" "$kage" sweep courtyard "${quick[@]}" --store no.sqlite --out same --json same/sweep.html
 [ ! -e no.sqlite ] && [ ! -e same ] || fail "trouble leaves something"
 expect 0 "$kage" sweep courtyard "${quick[@]}" --list --store no.sqlite --out listed

@@ -123,6 +123,7 @@ def limits(b):
         "(() => { const e = document.getElementById('wrong-text'); e.value = '1500.5'; e.dispatchEvent(new Event('input')); })()"
     )
     check(numbers(b)["wrong"] == 1500.5, f"a typed limit: {numbers(b)}")
+    check(b.run("Sweep.limitOf('wrong', ' 17\\u202f253.5 ')") == 17253.5, "a figure as the page shows it is none")
     b.run(
         "(() => { const e = document.getElementById('wrong-text'); e.value = 'x'; e.dispatchEvent(new Event('input')); })()"
     )
@@ -176,8 +177,9 @@ def plot(b):
                 break
     check(reached == set(first), f"clicks reach {len(reached)} of {len(first)} rows")
     row = b.run("Sweep.chosen")
+    # The picture as it is, and the map four times as wide.
     b.until(
-        "[...document.querySelectorAll('#row img')].length > 0 && [...document.querySelectorAll('#row img')].every(i => i.complete && i.naturalWidth === 96)"
+        "[...document.querySelectorAll('#row img')].length > 0 && [...document.querySelectorAll('#row img')].every((i, n) => i.complete && i.naturalWidth === [96, 384][n])"
     )
     files = b.run("[...document.querySelectorAll('#row img')].map(i => i.getAttribute('src'))")
     own = b.run(f"Parts.data.more[{row}].pictures[0]")

@@ -30,7 +30,7 @@ const Sweep = (() => {
 
   // ---- limits: a slider over marked values beside a box for any
 
-  // 1, 2, 3, 5, 7, 10 and so on, from `least` to the first that is not below `most`.
+  // 1, 1.5, 2, 3, 5, 7, 10 and so on, from `least` to the first that is not below `most`.
   function series(least, most) {
     const out = [];
     for (let ten = 10 ** Math.floor(Math.log10(least)); ; ten *= 10) {
@@ -65,7 +65,7 @@ const Sweep = (() => {
 
   // The limit that a text means, or null.
   function limitOf(name, text) {
-    const t = text.trim().toLowerCase();
+    const t = text.replace(/\s/g, "").toLowerCase();  // figures of the page are parted by thin spaces
     if (t === "any" || t === "") return name === "psnr" ? -Infinity : Infinity;
     if (t === "equal" && name === "psnr") return Infinity;
     const value = Number(t.replace(",", "."));
@@ -192,9 +192,10 @@ const Sweep = (() => {
     const shown = [picture(now.picture, `Frame ${now.frame} as drawn`)];
     if (now.map) {
       const key = (color, text) => make("span", [make("i", "", {style: `background: ${color}`}), text], {class: "swatch"});
-      const {face, shadow, color} = data.map_colors;
+      const {face, shadow, color, gross} = data.map_colors;
       shown.push(picture(now.map, ["What is wrong: ", key(face, `face ${count(now.visible_wrong)}`), " ",
-        key(shadow, `shadow ${count(now.shadow_wrong)}`), " ", key(color, `colour alone ${count(now.color_wrong)}`)]));
+        key(shadow, `shadow ${count(now.shadow_wrong)}`), " ", key(color, `colour alone ${count(now.color_wrong)}`),
+        ...(now.gross_wrong ? [" ", key(gross, `gross ${count(now.gross_wrong)}, a bug`)] : [])]));
     }
     out.push(make("div", shown, {class: "pictures"}));
     if (!now.map) out.push(make("p", "No pixel of this frame is wrong, in face, shadow or colour.", {class: "note"}));
@@ -414,7 +415,7 @@ const Sweep = (() => {
   document.body.dataset.ready = "yes";
 
   return {
-    choose, setLimit,
+    choose, setLimit, limitOf,
     get cheapest() { return cheapest; },
     get chosen() { return chosen; },
     get limits() { return limits; },

@@ -109,7 +109,10 @@ TEST_CASE("a frame that a configuration cannot hold is refused by scene and fram
   fitted.frame(
       1, [](std::span<const std::uint32_t>) {}, parts);
   CHECK(parts.geometry.left_out > 0);
-  CHECK(parts.geometry.volumes.size() == 1);
+  REQUIRE(parts.geometry.volumes.size() == 1);
+  // Nothing is left of the others, which the front end would draw.
+  CHECK(parts.geometry.volumes[0].face_count == parts.geometry.volume_faces.size());
+  CHECK(parts.geometry.volumes[0].near_count == parts.geometry.near_edges.size());
 }
 
 }  // namespace kage::verif

@@ -3,8 +3,10 @@
 #include "trade/sweep_accuracy.hpp"
 
 #include <cmath>
+#include <functional>
 #include <memory>
 
+#include "contract/derived.hpp"
 #include "kage/light.hpp"
 #include "plan/widths.hpp"
 #include "test/support/catch.hpp"
@@ -185,6 +187,40 @@ TEST_CASE("the error of a point that differs from the finest in one source is th
   }
 }
 
+TEST_CASE("a light table over a base that has none is an error by classes") {
+  Swept s("penumbra");
+  REQUIRE_FALSE(derived::has_table(s.base.config));
+  const SweepPoint table = with(s.base, "CLASS_BITS", "8");
+  const auto classes = s.scene->error_of(0, table, ErrorSource::classes);
+  CHECK(classes->squares > 0);
+  CHECK(s.accuracy(table, s.drawn(table)).all.squares <
+        2 * (classes->squares + s.accuracy(s.base, s.drawn(s.base)).all.squares));
+}
+
+TEST_CASE("volumes that a core without FSF leaves out are wrong and not gross") {
+  for (const char* name : {"courtyard", "three-lights"}) {
+    CAPTURE(name);
+    Swept s(name);
+    const SweepPoint one = with(s.base, "FSF", "0");
+    const PointAccuracy a = s.accuracy(one, s.drawn(one));
+    CHECK(a.by_truth.shadow_wrong > 100);
+    CHECK(a.by_truth.gross_wrong == 0);
+  }
+}
+
+TEST_CASE("another scene has another identity") {
+  const auto identity = [](const std::function<void(SceneOptions&)>& change) {
+    SceneOptions options;
+    change(options);
+    const auto loaded = std::make_shared<const Scene>(Scene::load("courtyard", options));
+    return SweepScene(loaded, {.width = 64, .height = 48, .frames = 1, .name = "courtyard"}, {}, [] {}).identity();
+  };
+  const std::string plain = identity([](SceneOptions&) {});
+  CHECK(identity([](SceneOptions&) {}) == plain);
+  CHECK(identity([](SceneOptions& o) { o.alpha = 0.9; }) != plain);
+  CHECK(identity([](SceneOptions& o) { o.alpha = 0.9; }) != identity([](SceneOptions& o) { o.alpha = 0.2; }));
+}
+
 TEST_CASE("grey faces before a background that is not grey") {
   const std::string mesh = verif::glmark2("horse.3ds");
   if (!verif::present(mesh)) return;
@@ -222,9 +258,10 @@ TEST_CASE("more samples are nearer the area's share") {
 
 TEST_CASE("a row that another beats is not marked") {
   using Json = nlohmann::ordered_json;
-  const auto row = [](const char* scene, double wrong, double square, double cycles, double luts) {
+  const auto row = [](const char* scene, double wrong, double square, double cycles, double luts, int width = 64,
+                      int height = 48) {
     return Json{{"scene", scene},
-                {"look", {{"width", 64}, {"height", 48}}},
+                {"look", {{"width", width}, {"height", height}}},
                 {"accuracy",
                  {{"pixels", 100},
                   {"visible_wrong", wrong},
@@ -235,6 +272,8 @@ TEST_CASE("a row that another beats is not marked") {
   };
   CHECK(pareto({row("a", 1, 1, 1, 1), row("a", 1, 1, 2, 1), row("a", 0, 1, 2, 1), row("b", 9, 9, 9, 9),
                 row("a", 1, 1, 1, 1)}) == std::vector<bool>{true, false, true, true, true});
+  // 64x480 and 644x80 are two sizes, though their digits are the same.
+  CHECK(pareto({row("a", 1, 1, 1, 1, 64, 480), row("a", 2, 2, 2, 2, 644, 80)}) == std::vector<bool>{true, true});
 }
 
 TEST_CASE("steps are counted between neighbours of one face, beyond those of the finest picture") {
