@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
@@ -104,6 +105,22 @@ void keep(const fs::path& path, const CellCount& cells) {
   files.commit();
 }
 
+/// Two scenes of a sweep may ask for the same core at once: the second thread waits here and finds what is kept.
+std::unique_lock<std::mutex> turn_of(const fs::path& path, const std::function<void()>& wait) {
+  static std::mutex guard;
+  static std::map<fs::path, std::mutex> turns;
+  std::unique_lock<std::mutex> turn;
+  {
+    const std::lock_guard lock(guard);
+    turn = std::unique_lock(turns[path], std::defer_lock);
+  }
+  while (!turn.try_lock()) {
+    if (wait) wait();
+    std::this_thread::sleep_for(kLook);
+  }
+  return turn;
+}
+
 }  // namespace
 
 std::string yosys_version(const std::function<void()>& wait) {
@@ -118,6 +135,7 @@ Synthesis synthesize(const Config& config, const std::function<void()>& wait, bo
   Synthesis out;
   out.yosys = yosys_version(wait);
   const fs::path path = kept_file(config, out.yosys);
+  const auto turn = turn_of(path, wait);
   if (const auto found = anew ? std::nullopt : kept(path)) {
     out.cells = *found;
     return out;

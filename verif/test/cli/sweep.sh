@@ -151,6 +151,14 @@ counted 7 seven-again.json
 tail -1 stdout | grep -qF '# 0 measured now' || fail "$(tail -1 stdout)"
 cmp seven.json seven-again.json || fail "rows of an earlier yosys differ"
 
+# Two scenes that ask for one core at the same time: it is counted once, and both rows have it.
+sed '2a echo >>counts; sleep 1' fake-yosys >slow-yosys
+chmod +x slow-yosys
+YOSYS=$PWD/slow-yosys FAKE=9 XDG_CACHE_HOME=$PWD/cache-two expect 0 "$kage" sweep courtyard depths --size 64x48 --frames 1 \
+  --config tiny --no-cosim --no-flip --axes SUB_BITS=4 --jobs 4 --store two.sqlite --json two.json
+json two.json '[r["area"]["luts"] for r in j] == [9000] * 4'
+[ "$(wc -l <counts)" = 1 ] || fail "a core was counted $(wc -l <counts) times"
+
 # Tools that are missing, or a device that is not there, end a sweep before it measures.
 mkdir few
 for name in bash env dirname nproc sed grep wc; do ln -s "$(command -v $name)" few/; done
