@@ -402,6 +402,8 @@ int run(const SweepCommand& o) {
   std::vector<SweptScene> scenes;
   Told* telling = nullptr;
   const Tools tools = tools_of(o);
+  for (auto it = o.inputs.begin(); it != o.inputs.end(); ++it)
+    if (std::find(o.inputs.begin(), it, *it) != it) throw Error(fmt::format("{}: given twice", *it));
   for (const std::string& input : o.inputs) scenes.push_back(open(o, tools, input, progress, telling));
   progress.clear();
   std::vector<Entry> entries = entries_of(o, scenes);

@@ -179,6 +179,7 @@ trouble "part3.sqlite: no such file" "$kage" sweep courtyard "${quick[@]}" --tak
 echo text >text.sqlite
 trouble "text.sqlite: no store of kage sweep" "$kage" sweep courtyard "${quick[@]}" --store text.sqlite --resume
 [ "$(cat text.sqlite)" = text ] || fail "a file that is no store was written to"
+trouble "courtyard: given twice" "$kage" sweep courtyard glass courtyard "${quick[@]}" --store no.sqlite
 trouble "random frames are for" "$kage" sweep random --store no.sqlite
 [ ! -e no.sqlite ] || fail "trouble leaves a store"
 no_leftovers
