@@ -12,7 +12,7 @@ for command in order "render --frames 1" "info"; do
 done
 trouble "KAGE_SIMD=AVX2: " env KAGE_SIMD=AVX2 "$kage" order "$mesh" # names are in small letters
 names=$(sed -n 's/.*it can run \(.*\) here$/\1/p' stderr | tr -d ,)
-[[ " $names " == *" emu128 "* ]] || fail "a build with tests lacks emu128: $names"
+[[ " $names " == *" emu128 "* ]] || fail "the build lacks emu128: $names"
 for name in avx3_dl avx3 avx2 sse4 ssse3 sse2; do
   [[ " $names " == *" $name "* ]] || trouble "KAGE_SIMD=$name: this " env KAGE_SIMD=$name "$kage" order "$mesh"
 done
