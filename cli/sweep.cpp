@@ -8,6 +8,7 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -68,7 +69,7 @@ struct SweepCommand : Options {
   bool no_flip = false;
   std::string place;  // a device; kPlaceFlag for the one of the counts
   bool list = false;
-  std::string line;  ///< the command line
+  std::string again;  ///< the command line that makes the same page of the store
 };
 
 /// A scene with its points.
@@ -129,6 +130,9 @@ class Told {
   std::string what_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// Whether `--csv -` claims standard output for itself.
+bool csv_only(const SweepCommand& o) { return is_standard_output(o.csv); }
 
 int jobs_of(const SweepCommand& o) {
   return o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -259,7 +263,8 @@ void write_page(const SweepCommand& o, const std::vector<SweptScene>& scenes, co
                 const std::vector<Json>& rows, TempFiles& files) {
   Progress progress;
   trade::SweepPage page;
-  page.command = o.line;
+  page.command = o.again;
+  page.store = o.store;
   page.doing = [&progress](const std::string& what) {
     check_interrupt();
     progress.show("sweep: " + what);
@@ -288,6 +293,19 @@ class Sweep {
       s.runner->keep_clocks = [this, &s](std::size_t point, const trade::ClockSample& sample) {
         store_.keep_clocks(clocks_key(s, point), sample);
       };
+  }
+
+  /// Says how many rows the store has of another build, scene or tool alone, which are of no use now.
+  void announce_old(const std::vector<Entry>& entries) {
+    std::map<std::string, std::size_t> counts;
+    for (const Entry& e : entries) {
+      const SweptScene& s = scenes_[e.scene];
+      const std::string other = store_.old(s.scene->name(), trade::text_of(s.points[e.point]), made_of(s, e.point));
+      if (!other.empty()) ++counts[other];
+    }
+    for (const auto& [other, count] : counts)
+      say(fmt::format("kage: {} measured anew, because {} has {} of {}\n", counted(count, "row is", "rows are"),
+                      o_.store, count == 1 ? "it" : "them", other));
   }
 
   void run(std::vector<Entry>& entries) {
@@ -327,6 +345,11 @@ class Sweep {
                           o_.no_flip ? "no flip" : "flip", s.runner->tools_text(point)});
   }
 
+  /// What a row is made of, as a person tells one from another.
+  trade::MadeOf made_of(const SweptScene& s, std::size_t point) const {
+    return {.build = build_, .scene = s.scene->identity(), .tools = s.runner->tools_text(point)};
+  }
+
   void make(Entry& e) {
     check_interrupt();
     SweptScene& s = scenes_[e.scene];
@@ -340,7 +363,7 @@ class Sweep {
     const std::size_t stands = s.runner->representative(e.point);
     if (const auto clocks = store_.clocks(clocks_key(s, stands))) s.runner->know_clocks(stands, *clocks);
     const Json measured = s.runner->run(e.point, words);
-    store_.keep_run(key, s.scene->name(), trade::text_of(s.points[e.point]), measured.dump());
+    store_.keep_run(key, s.scene->name(), trade::text_of(s.points[e.point]), made_of(s, e.point), measured.dump());
     e.row = row_of(s, e.point, measured);
     told_.done(true);
   }
@@ -391,10 +414,11 @@ void refuse_store(const SweepCommand& o) {
 int run(const SweepCommand& o) {
   if (o.grid && o.axes.empty()) throw Error("--grid: of the axes that --axes names, and there is none");
   const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / trade::kPageName).string();
-  refuse_twice({o.json, o.csv, o.store, page});
+  if (csv_only(o) && json_only(o)) throw Error("--csv - and --json -: both are standard output");
+  refuse_twice({file_named(o.json), file_named(o.csv), o.store, page});
   check_json(o);
-  check_output(o.csv);
-  refuse_inputs({o.json, o.csv, o.store}, o.take);
+  check_output(file_named(o.csv));
+  refuse_inputs({file_named(o.json), file_named(o.csv), o.store}, o.take);
   for (const std::string& other : o.take)
     if (!std::filesystem::exists(other)) throw Error(fmt::format("{}: no such file", other));
   if (!o.list) refuse_store(o);
@@ -419,7 +443,9 @@ int run(const SweepCommand& o) {
   Told told(entries.size());
   telling = &told;
   try {
-    Sweep(o, tools, scenes, store, told).run(entries);
+    Sweep sweep(o, tools, scenes, store, told);
+    sweep.announce_old(entries);
+    sweep.run(entries);
   } catch (const Interrupted&) {
     say(fmt::format("kage: {} kept in {}: --resume goes on from there\n", counted(told.made(), "run is", "runs are"),
                     o.store));
@@ -430,11 +456,13 @@ int run(const SweepCommand& o) {
   const std::vector<bool> best = trade::pareto(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i]["pareto"] = static_cast<bool>(best[i]);
   TempFiles files;
-  if (!o.csv.empty()) write_text(files, o.csv, sweep_csv(rows));
+  if (!file_named(o.csv).empty()) write_text(files, o.csv, sweep_csv(rows));
   if (!o.out.empty()) write_page(o, scenes, entries, rows, files);
   finish(o, {kRows, Json(rows)}, files,
-         sweep_table(rows) + fmt::format("# {} measured now, the others were in {}\n", told.made(), o.store) +
-             (page.empty() ? "" : fmt::format("# page: {}\n", page)));
+         csv_only(o)
+             ? sweep_csv(rows)
+             : sweep_table(rows) + fmt::format("# {} measured now, the others were in {}\n", told.made(), o.store) +
+                   (page.empty() ? "" : fmt::format("# page: {}\n", page)));
   return kSame;
 }
 
@@ -482,7 +510,8 @@ void add_sweep(CLI::App& app, Action& action) {
               "constraints/devices.yaml")
       ->type_name("[=DEVICE]");
   c->add_flag("--list", o->list, "print what would be measured, and measure nothing");
-  c->add_option("--csv", o->csv, "write the rows as CSV")->type_name("FILE");
+  c->add_option("--csv", o->csv, "write the rows as CSV; - is standard output, with nothing else on it")
+      ->type_name(std::string("FILE") + kOrStandardOutput);
   c->add_option("--out", o->out,
                 fmt::format("folder for {}, the page of all rows with their pictures, on which the cheapest "
                             "configuration within limits is found, and for plots of error against cost as SVG and PNG",
@@ -491,7 +520,9 @@ void add_sweep(CLI::App& app, Action& action) {
   options_of_pictures(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action, c] {
-    o->line = command_line(*c);
+    // The store has all rows of the page, those that --take brought too.
+    o->again = fmt::format("{} --store {} --resume", command_line(*c, {"--store", "--resume", "--take"}),
+                           cli::quoted(o->store));
     action = [o] { return run(*o); };
   });
 }
