@@ -112,14 +112,14 @@ int run(const BoardCommand& o) {
   const vectors::Pack pack = vectors::checked_pack(o.input, vectors::Check::answers, check_interrupt);
   std::vector<std::string> inputs{(std::filesystem::path(o.input) / vectors::kManifest).string()};
   for (const vectors::PackFile& f : pack.files) inputs.push_back((std::filesystem::path(o.input) / f.name).string());
-  if (!json_only(o)) refuse_inputs({o.json}, inputs);
+  refuse_inputs({file_named(o.json)}, inputs);
   check_json(o);
   std::optional<OutFolder> folder;
   std::optional<ReportLock> lock;
   if (!o.out.empty()) {
     folder.emplace(o.out);
     lock.emplace(o.out);
-    refuse_twice({json_only(o) ? "" : o.json, (std::filesystem::path(o.out) / "report.html").string()});
+    refuse_twice({file_named(o.json), (std::filesystem::path(o.out) / "report.html").string()});
   }
   const board::PackVerdict verdict = play(o, pack);
   TempFiles files;

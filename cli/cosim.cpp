@@ -90,7 +90,7 @@ int run(const CosimCommand& o) {
   check_json(o);
   check_output(o.ci.junit);
   const std::vector<std::string> outputs{
-      o.json == "-" ? "" : o.json, o.ci.junit,
+      file_named(o.json), o.ci.junit,
       o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()};
   std::vector<std::string> inputs = o.inputs;
   inputs.push_back(o.config);

@@ -31,7 +31,7 @@ bool within(const std::string& path, const std::string& in) { return lies_in(rea
 void check_outputs(const DiffCommand& o) {
   std::vector<std::string> written;
   for (const std::string* path : {&o.out, &o.blink, &o.junit, &o.json}) {
-    if (path->empty() || (path == &o.json && json_only(o))) continue;
+    if (file_named(*path).empty()) continue;
     for (const std::string* read : {&o.a, &o.b, &o.mask})
       if (!read->empty() && within(*path, *read))
         throw Error(fmt::format("{}: this output would overwrite an input", *path));

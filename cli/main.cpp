@@ -135,7 +135,7 @@ int run(int argc, char** argv) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
     return trouble(explain(app, e));
   }
-  if (const std::string empty = empty_value(app); !empty.empty()) return trouble(empty);
+  if (const std::string value = senseless_value(app); !value.empty()) return trouble(value);
   if (!action) return trouble("no command given; see kage --help");
   return action();
 }

@@ -147,7 +147,7 @@ int run(const MergeCommand& o) {
   if (!o.out.empty()) folder.emplace(o.out);
   check_json(o);
   check_output(o.junit);
-  const std::vector<std::string> outputs{o.json == "-" ? "" : o.json, o.junit,
+  const std::vector<std::string> outputs{file_named(o.json), o.junit,
                                          o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()};
   refuse_inputs(outputs, o.inputs);
   refuse_twice(outputs);

@@ -15,6 +15,8 @@
 
 namespace kage::cli {
 
+bool is_standard_output(const std::string& value) { return value == "-"; }
+
 CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
   return {[least, most](const std::string& text) {
             std::uint64_t value = 0;
@@ -88,7 +90,7 @@ void option_seed(CLI::App& command, Options& options) {
 
 void option_json(CLI::App& command, Options& options) {
   command.add_option("--json", options.json, "write the result as JSON; - is standard output, with nothing else on it")
-      ->type_name("FILE");
+      ->type_name(std::string("FILE") + kOrStandardOutput);
 }
 
 static std::string what_a_scene_is() {

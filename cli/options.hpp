@@ -18,6 +18,12 @@ namespace kage::cli {
 /// many digits wrap round in an unsigned one.
 CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
+/// What the type of an option ends with whose value is a file, or - for standard output. Any other option that names a
+/// file refuses - before the command begins.
+inline constexpr const char* kOrStandardOutput = "|-";
+/// Whether a value of such an option is standard output.
+bool is_standard_output(const std::string& value);
+
 /// A number from `least` to `most`, written as people write it: strtod() would take nan, inf and hexadecimal. Messages
 /// call the least one `least_text`, where that is given.
 CLI::Validator real_number(double least, double most, const char* least_text = nullptr);

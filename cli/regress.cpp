@@ -117,7 +117,7 @@ int run(const RegressCommand& o) {
   check_json(o);
   check_output(o.ci.junit);
   const std::string page = (std::filesystem::path(o.out) / "report.html").string();
-  const std::vector<std::string> outputs{o.json == "-" ? "" : o.json, o.ci.junit, page};
+  const std::vector<std::string> outputs{file_named(o.json), o.ci.junit, page};
   refuse_inputs(outputs, o.configs);
   refuse_twice(outputs);
   Regress regress(o);

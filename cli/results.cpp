@@ -28,7 +28,9 @@ Document::Document(std::string_view schema, const Json& value) {
   for (const Json& entry : value) json_.push_back(named(entry));
 }
 
-bool json_only(const Options& options) { return options.json == "-"; }
+std::string file_named(const std::string& output) { return is_standard_output(output) ? "" : output; }
+
+bool json_only(const Options& options) { return is_standard_output(options.json); }
 
 void check_output(const std::string& path) {
   if (path.empty()) return;

@@ -29,6 +29,9 @@ class Document {
   Json json_;
 };
 
+/// The file that an output's name means: none, if that is empty or -, standard output.
+std::string file_named(const std::string& output);
+
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);
 

@@ -21,7 +21,7 @@ namespace kage::cli {
 namespace {
 
 /// Whether the stream goes to standard output.
-bool piped(const Options& o) { return o.out == "-"; }
+bool piped(const Options& o) { return is_standard_output(o.out); }
 
 int run(const Options& o) {
   if (piped(o) && isatty(STDOUT_FILENO) != 0)
@@ -99,7 +99,7 @@ void add_stream(CLI::App& app, Action& action) {
   option_scene(*c, *o);
   c->add_option("--out", o->out, "the stream file; - is standard output, which gets frame after frame, as a pipe does")
       ->required()
-      ->type_name("FILE");
+      ->type_name(std::string("FILE") + kOrStandardOutput);
   options_of_frames(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

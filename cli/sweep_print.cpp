@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 
 #include "number/counted.hpp"
@@ -30,9 +29,9 @@ std::string line_of(const Json& row, bool placed) {
   const std::string name = fmt::format("{} {}", row.at("axis").get<std::string>(), row.at("value").get<std::string>());
   const std::string clock =
       placed ? fmt::format(" {:>6} {:>7}", number(area.at("fmax_mhz"), 1), number(s.at("frames_per_second"), 1)) : "";
-  return fmt::format("{}{:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
-                     row.at("pareto").get<bool>() ? "*" : " ", name, a.at("visible_wrong").dump(),
-                     a.at("shadow_wrong").dump(), a.at("gross_wrong").dump(),
+  return fmt::format("{}{:<30} {:>8} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
+                     row.at("pareto").get<bool>() ? "*" : " ", name, a.at("pixels").dump(),
+                     a.at("visible_wrong").dump(), a.at("shadow_wrong").dump(), a.at("gross_wrong").dump(),
                      number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 1),
                      a.at("psnr").is_null() ? "equal" : number(a.at("psnr"), 1), number(a.at("flip"), 4),
                      number(s.at("golden_ns_per_pixel"), 1), number(s.at("rtl_cycles_per_pixel"), 3),
@@ -65,12 +64,12 @@ std::string sweep_table(const std::vector<Json>& rows) {
   for (const Json& row : rows) {
     if (text.empty() || row.at("scene") != scene) {
       scene = row.at("scene").get<std::string>();
-      text += fmt::format("# {}: {} in {}; * no other row beats it; ~ foretold or estimated\n", scene,
-                          counted(row.at("accuracy").at("pixels").get<std::uint64_t>(), "pixel"),
+      text += fmt::format("# {}: {}; * no other row of its size beats it; ~ foretold or estimated\n", scene,
                           counted(row.at("frames").get<int>(), "frame"));
-      text += fmt::format(" {:<30} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
-                          "# axis value", "visible", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
-                          "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
+      text +=
+          fmt::format(" {:<30} {:>8} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
+                      "# axis value", "pixels", "visible", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
+                      "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
     }
     text += line_of(row, placed);
   }

@@ -12,6 +12,8 @@
 #include <string_view>
 #include <vector>
 
+#include "options.hpp"
+
 namespace kage::cli {
 namespace {
 
@@ -98,18 +100,29 @@ class HelpFormatter : public CLI::Formatter {
 
 }  // namespace
 
+/// Whether the value of an option is a file or a folder, and never standard output.
+static bool names_file(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  const auto has = [&](std::string_view word) { return type.find(word) != std::string::npos; };
+  return !option.get_positional() && (has("FILE") || has("DIR")) && !has(kOrStandardOutput);
+}
+
 std::string no_such_command(const CLI::App& app, const std::string& name) {
   return fmt::format("{}: no such command{}", name, meant(nearest(name, commands(app))));
 }
 
 std::shared_ptr<CLI::Formatter> help_formatter() { return std::make_shared<HelpFormatter>(); }
 
-std::string empty_value(const CLI::App& app) {
+std::string senseless_value(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands())
     for (const CLI::Option* option : command->get_options())
-      for (const std::string& value : option->results())
+      for (const std::string& value : option->results()) {
         if (value.empty() && option->get_expected_max() > 0)
           return fmt::format("{}: its value is empty; see kage {} --help", option->get_name(), command->get_name());
+        if (is_standard_output(value) && names_file(*option))
+          return fmt::format("{}: - is no file's name here, ./- is one; see kage {} --help", option->get_name(),
+                             command->get_name());
+      }
   return {};
 }
 

@@ -16,8 +16,8 @@ std::shared_ptr<CLI::Formatter> help_formatter();
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 
 /// An argument or option of the command that was given as an empty text, as a script's variable that is not set makes
-/// it: one line that names it. Empty if there is none.
-std::string empty_value(const CLI::App& app);
+/// it, or an option that is given - where it means no standard output: one line that names it. Empty if there is none.
+std::string senseless_value(const CLI::App& app);
 
 /// "rendr: no such command (did you mean render?)".
 std::string no_such_command(const CLI::App& app, const std::string& name);

@@ -9,6 +9,7 @@
 #include "cosim/model/sha256.hpp"
 #include "cosim/model/trust.hpp"
 #include "file/read_file.hpp"
+#include "file/temp_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 
@@ -38,6 +39,12 @@ fs::path kept_core_file(const char* cache, const Config& config, const std::vect
       }
   for (const ParamInfo& p : kParams) hash.add(static_cast<std::uint64_t>(config.*(p.member)));
   return cosim::cache_folder(cache) / (hash.take() + ".json");
+}
+
+void keep_core(const fs::path& path, const nlohmann::ordered_json& found) {
+  TempFiles files;
+  write_text(files, path.string(), found.dump() + "\n");
+  files.commit();
 }
 
 }  // namespace kage::trade

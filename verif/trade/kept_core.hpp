@@ -4,7 +4,11 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "kage/config.hpp"
@@ -17,5 +21,21 @@ std::vector<std::filesystem::path> data_files(const char* folder, const char* ex
 /// A file of the folder `cache` of kage's cache, called by all that decides what is found of the core: the RTL's files,
 /// the parameters, and `besides`: tools, their versions and what they are asked.
 std::filesystem::path kept_core_file(const char* cache, const Config& config, const std::vector<std::string>& besides);
+
+/// Keeps in such a file what was found.
+void keep_core(const std::filesystem::path& path, const nlohmann::ordered_json& found);
+
+/// What such a file keeps, as `read` makes it of the JSON. None: it is not there, or damaged, and is to be found again.
+template <class Read>
+std::optional<std::invoke_result_t<Read, const nlohmann::ordered_json&>> kept_core(const std::filesystem::path& path,
+                                                                                   Read read) {
+  std::ifstream file(path);
+  if (!file) return std::nullopt;
+  try {
+    return read(nlohmann::ordered_json::parse(file));
+  } catch (const nlohmann::ordered_json::exception&) {
+    return std::nullopt;
+  }
+}
 
 }  // namespace kage::trade

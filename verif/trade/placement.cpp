@@ -16,9 +16,7 @@
 #include <utility>
 
 #include "cosim/model/process.hpp"
-#include "file/output_file.hpp"
 #include "file/read_file.hpp"
-#include "file/temp_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "trade/kept_core.hpp"
@@ -91,23 +89,8 @@ Placement placement_of(const Json& j) {
   return out;
 }
 
-std::optional<Placement> kept(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file) return std::nullopt;
-  try {
-    return placement_of(Json::parse(file));
-  } catch (const Json::exception&) {
-    return std::nullopt;  // damaged: it is placed again
-  }
-}
-
-void keep(const fs::path& path, const Placement& placement) {
-  TempFiles files;
-  OutputFile file(files, path);
-  file << Json{{"mhz", placement.mhz ? Json(*placement.mhz) : Json(nullptr)}, {"not_placed", placement.not_placed}}
-       << '\n';
-  file.close();
-  files.commit();
+Json to_json(const Placement& placement) {
+  return {{"mhz", placement.mhz ? Json(*placement.mhz) : Json(nullptr)}, {"not_placed", placement.not_placed}};
 }
 
 /// Reads what `tools/fpga --core-only --json` has written.
@@ -142,7 +125,7 @@ std::size_t Placer::expect(const std::vector<Config>& cores) {
   std::set<fs::path> missing;
   for (const Config& config : cores) {
     const fs::path path = kept_file(config, device_, versions_);
-    if (!kept(path)) missing.insert(path);
+    if (!kept_core(path, placement_of)) missing.insert(path);
   }
   expected_ = missing.size();
   return expected_;
@@ -160,7 +143,7 @@ std::string Placer::how_far(double seconds) const {
 Placement Placer::place(const Config& config, const std::function<void(const std::string&)>& progress) {
   const std::lock_guard lock(mutex_);
   const fs::path path = kept_file(config, device_, versions_);
-  if (const auto found = kept(path)) return *found;
+  if (const auto found = kept_core(path, placement_of)) return *found;
   const auto start = std::chrono::steady_clock::now();
   const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   fs::path folder = path;
@@ -177,7 +160,7 @@ Placement Placer::place(const Config& config, const std::function<void(const std
   std::error_code error;
   if (!ok && !fs::exists(figures, error)) throw Error(fmt::format("--place {}: {}", device_, trouble_of(said)));
   const Placement placement = read_figures(figures);
-  keep(path, placement);
+  keep_core(path, to_json(placement));
   ++placed_;
   seconds_ += seconds();
   return placement;

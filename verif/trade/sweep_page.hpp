@@ -4,12 +4,14 @@
 // that shows all of it (docs/sweep.md, "Page and plots").
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "cosim/report/html.hpp"
 #include "file/temp_file.hpp"
 #include "trade/plot/pareto_plot.hpp"
 #include "trade/sweep_plan.hpp"
@@ -40,8 +42,10 @@ std::vector<SweepPlot> plots_of(const std::vector<PageRow>& rows, const std::vec
 std::string name_of(const nlohmann::ordered_json& row);
 
 struct SweepPage {
-  std::vector<PageRow> rows;  ///< one at least
-  std::string command;        ///< the command line of the sweep
+  std::vector<PageRow> rows;                    ///< one at least
+  std::string command;                          ///< the command line that makes the same page of the store
+  std::string store;                            ///< the store's file
+  std::size_t most_bytes = report::kPageBytes;  ///< of kPageName
   /// Called before what takes long, with what it is; what it throws ends the work.
   std::function<void(const std::string&)> doing;
 };
@@ -51,7 +55,8 @@ inline constexpr const char* kPageName = "sweep.html";
 inline constexpr const char* kPicturesFolder = "pictures";
 
 /// Writes all of it to `folder`, in which there is a folder kPicturesFolder. Files get their names with the others of
-/// `files`; pictures there of an earlier page go. Throws Error that names a file.
+/// `files`; pictures there of an earlier page go. Where the page would have more than `most_bytes`, it has pictures of
+/// the first frame alone, and if that is too much, fewer rows, and says so. Throws Error that names a file.
 void write_sweep_page(TempFiles& files, const std::filesystem::path& folder, const SweepPage& page);
 
 }  // namespace kage::trade

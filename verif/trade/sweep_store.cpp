@@ -20,6 +20,7 @@ constexpr int kBusyMilliseconds = 60000;
 
 constexpr const char* kSchema =
     "CREATE TABLE run (key TEXT PRIMARY KEY, scene TEXT NOT NULL, point TEXT NOT NULL, row TEXT NOT NULL, "
+    "build TEXT NOT NULL, faces TEXT NOT NULL, tools TEXT NOT NULL, "
     "made TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP) WITHOUT ROWID;"
     "CREATE TABLE clocks (key TEXT PRIMARY KEY, cycles INTEGER NOT NULL, foretold INTEGER NOT NULL, "
     "seconds REAL NOT NULL) WITHOUT ROWID;";
@@ -152,13 +153,35 @@ std::optional<std::string> SweepStore::run(const std::string& key) {
   return s.text(0);
 }
 
-void SweepStore::keep_run(const std::string& key, const std::string& scene, const std::string& point,
+void SweepStore::keep_run(const std::string& key, const std::string& scene, const std::string& point, const MadeOf& of,
                           const std::string& row) {
   const std::lock_guard lock(data_->mutex);
   data_->at_once([&] {
-    Statement s(data_->db, data_->file, "INSERT OR REPLACE INTO run (key, scene, point, row) VALUES (?, ?, ?, ?)");
-    s.bind(key).bind(scene).bind(point).bind(row).step();
+    Statement s(
+        data_->db, data_->file,
+        "INSERT OR REPLACE INTO run (key, scene, point, row, build, faces, tools) VALUES (?, ?, ?, ?, ?, ?, ?)");
+    s.bind(key).bind(scene).bind(point).bind(row).bind(of.build).bind(of.scene).bind(of.tools).step();
   });
+}
+
+std::string SweepStore::old(const std::string& scene, const std::string& point, const MadeOf& of) {
+  const std::lock_guard lock(data_->mutex);
+  // A row counts for as far as it is the same: build, then scene, then tools.
+  Statement s(data_->db, data_->file,
+              "SELECT count(*), max((build = ?) * (1 + (faces = ?) * (1 + (tools = ?)))) FROM run "
+              "WHERE scene = ? AND point = ?");
+  s.bind(of.build).bind(of.scene).bind(of.tools).bind(scene).bind(point).step();
+  if (s.number(0) == 0) return "";
+  switch (s.number(1)) {
+    case 0:
+      return "another build of kage";
+    case 1:
+      return "another scene of this name";
+    case 2:
+      return "other tools, or of more or fewer of them";
+    default:
+      return "";
+  }
 }
 
 std::optional<ClockSample> SweepStore::clocks(const std::string& key) {

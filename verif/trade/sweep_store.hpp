@@ -13,11 +13,18 @@
 
 namespace kage::trade {
 
+/// What a row is made of, beyond its point: two rows of a point differ in one of these, or in what the sweep was asked.
+struct MadeOf {
+  std::string build;  ///< build_identity()
+  std::string scene;  ///< SweepScene::identity()
+  std::string tools;  ///< SweepRunner::tools_text()
+};
+
 /// For several threads, and several programs, at once. All functions throw Error that names the file.
 class SweepStore {
  public:
   /// The version of the schema below.
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;
 
   /// Opens a store, or makes one. Throws Error if the file is no store, or one of another version, or damaged; then it
   /// is left as it is.
@@ -29,7 +36,12 @@ class SweepStore {
   /// A run's row, JSON as it was kept.
   [[nodiscard]] std::optional<std::string> run(const std::string& key);
   /// Keeps a run in a transaction of its own: it is there whole, or not at all, whatever happens next.
-  void keep_run(const std::string& key, const std::string& scene, const std::string& point, const std::string& row);
+  void keep_run(const std::string& key, const std::string& scene, const std::string& point, const MadeOf& of,
+                const std::string& row);
+  /// What else the rows of a point are made of, if there are some, and none is made of this: "another build of kage",
+  /// "another scene of this name" or "other tools, or of more or fewer of them", as the row says that has most in
+  /// common. Empty otherwise.
+  [[nodiscard]] std::string old(const std::string& scene, const std::string& point, const MadeOf& of);
   [[nodiscard]] std::optional<ClockSample> clocks(const std::string& key);
   void keep_clocks(const std::string& key, const ClockSample& sample);
 

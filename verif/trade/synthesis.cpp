@@ -17,8 +17,6 @@
 #include <vector>
 
 #include "cosim/model/process.hpp"
-#include "file/output_file.hpp"
-#include "file/temp_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "trade/kept_core.hpp"
@@ -85,24 +83,10 @@ fs::path kept_file(const Config& config, const std::string& yosys) {
   return kept_core_file("cells", config, {std::to_string(kVersion), yosys});
 }
 
-std::optional<CellCount> kept(const fs::path& path) {
-  std::ifstream file(path);
-  if (!file) return std::nullopt;
-  try {
-    const Json j = Json::parse(file);
-    return CellCount{j.at("luts"), j.at("flip_flops"), j.at("rams"), j.at("dsps")};
-  } catch (const Json::exception&) {
-    return std::nullopt;  // damaged: it is counted again
-  }
-}
+CellCount cells_of(const Json& j) { return {j.at("luts"), j.at("flip_flops"), j.at("rams"), j.at("dsps")}; }
 
-void keep(const fs::path& path, const CellCount& cells) {
-  TempFiles files;
-  OutputFile file(files, path);
-  file << Json{{"luts", cells.luts}, {"flip_flops", cells.flip_flops}, {"rams", cells.rams}, {"dsps", cells.dsps}}
-       << '\n';
-  file.close();
-  files.commit();
+Json to_json(const CellCount& cells) {
+  return {{"luts", cells.luts}, {"flip_flops", cells.flip_flops}, {"rams", cells.rams}, {"dsps", cells.dsps}};
 }
 
 /// Two scenes of a sweep may ask for the same core at once: the second thread waits here and finds what is kept.
@@ -136,7 +120,7 @@ Synthesis synthesize(const Config& config, const std::function<void()>& wait, bo
   out.yosys = yosys_version(wait);
   const fs::path path = kept_file(config, out.yosys);
   const auto turn = turn_of(path, wait);
-  if (const auto found = anew ? std::nullopt : kept(path)) {
+  if (const auto found = anew ? std::nullopt : kept_core(path, cells_of)) {
     out.cells = *found;
     return out;
   }
@@ -159,13 +143,13 @@ Synthesis synthesize(const Config& config, const std::function<void()>& wait, bo
   fs::remove(stat, ec);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (out.cells.luts == 0) throw Error("yosys: its statistics have no LUT4: it may be too new for kage");
-  keep(path, out.cells);
+  keep_core(path, to_json(out.cells));
   return out;
 }
 
 bool is_synthesized(const Config& config) {
   try {
-    return kept(kept_file(config, yosys_version({}))).has_value();
+    return kept_core(kept_file(config, yosys_version({})), cells_of).has_value();
   } catch (const Error&) {
     return false;
   }

@@ -39,12 +39,21 @@ for row, cells, line in zip(rows, sheet, table):
         if value is None: assert cells.get(name, "") == "", name
         elif isinstance(value, str): assert cells[name] == value, name
         else: assert json.loads(cells[name]) == value, name
-    told = line.split()[-12:]
+    told = line.split()[-13:]
     a, s, area = row["accuracy"], row["speed"], row["area"]
     assert line.startswith("*") == row["pareto"], line
-    assert told[:3] == [str(a["visible_wrong"]), str(a["shadow_wrong"]), str(a["gross_wrong"])], line
+    assert told[:4] == [str(a[k]) for k in ("pixels", "visible_wrong", "shadow_wrong", "gross_wrong")], line
     assert f'{s["rtl_cycles_per_pixel"]:.3f}' in line and f'{area["luts"]:.0f}~' in line, line
 PY
+
+# Both go to standard output, alone on it.
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --resume --csv - --json b.json
+cmp stdout a.csv || fail "--csv - is not the CSV alone"
+cmp a.json b.json || fail "beside --csv - the JSON is another"
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --resume --json - --csv b.csv
+cmp stdout a.json || fail "--json - is not the JSON alone"
+cmp a.csv b.csv || fail "beside --json - the CSV is another"
+[ ! -e - ] || fail "a file is called -"
 
 # What is kept is not measured again; without --resume a store is not touched.
 trouble "sweep.sqlite: there is a store already: --resume goes on with it" "$kage" sweep courtyard "${quick[@]}"
@@ -74,7 +83,7 @@ for scene in courtyard three-lights; do
   expect 0 "$kage" sweep $scene --size 64x48 --frames 1 --no-area --no-cosim --no-flip --axes FSF=0 --store fsf.sqlite --resume --json fsf.json
   json fsf.json 'j[1]["accuracy"]["shadow_wrong"] > 100 and j[1]["accuracy"]["gross_wrong"] == 0'
 done
-grep -qF '# three-lights: 3072 pixels in 1 frame;' stdout || fail "$(head -1 stdout)"
+grep -qF '# three-lights: 1 frame;' stdout || fail "$(head -1 stdout)"
 
 # A store is a file, whatever its name means to SQLite.
 for store in :memory: 'file:a?mode=memory'; do
@@ -118,6 +127,32 @@ expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --take part1.sqlite 
 grep -qF '# 0 measured now' stdout || fail "$(tail -1 stdout)"
 [ "$(measured whole.json)" = "$(measured a.json)" ] || fail "shards are not the whole"
 
+# Rows that are in the store of another build, scene or tool are measured anew, and a line says how many and why.
+cp part1.sqlite old.sqlite
+python3 - <<'PY' || fail "the store is not what this test edits"
+import sqlite3
+db = sqlite3.connect("old.sqlite")
+points = [key for (key,) in db.execute("select key from run order by key")]
+assert len(points) == 4
+db.execute("update run set key = 'a' || key, build = 'kage 0.0.1' where key != ?", points[:1])
+db.execute("update run set key = 'b' || key, faces = 'others' where key = ?", points[:1])
+db.commit()
+PY
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --take old.sqlite --take part2.sqlite --store anew.sqlite
+grep -qF '# 4 measured now' stdout || fail "$(tail -1 stdout)"
+cat >want <<'EOF'
+kage: 3 rows are measured anew, because anew.sqlite has them of another build of kage
+kage: 1 row is measured anew, because anew.sqlite has it of another scene of this name
+EOF
+cmp stderr want || fail "$(cat stderr)"
+expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --store anew.sqlite --resume
+[ ! -s stderr ] || fail "rows that are there are said to be old: $(cat stderr)"
+
+# A row of another size has its own number of pixels.
+expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SIZE=32x24 --store size.sqlite
+[ "$(sed '/#/d; s/^[ *]//' stdout | awk '{print $1, $(NF - 12)}')" = "base 3072
+SIZE 768" ] || fail "pixels of rows: $(cat stdout)"
+
 # A grid, seeds, and what would be measured.
 expect 0 "$kage" sweep penumbra --size 64x48 --axes SAMPLES=1,4 --axes Z_BITS=12,24 --grid --seeds 2 --list
 [ "$(wc -l <stdout)" = 6 ] || fail "$(cat stdout)"
@@ -146,6 +181,7 @@ counted 7 seven.json
 json seven.json '[r["area"]["luts"] for r in j] == [7000, 7000]'
 counted 8 eight.json
 tail -1 stdout | grep -qF '# 2 measured now' || fail "$(tail -1 stdout)"
+grep -qF 'kage: 2 rows are measured anew, because tools.sqlite has them of other tools' stderr || fail "$(cat stderr)"
 json eight.json '[r["area"]["luts"] for r in j] == [8000, 8000]'
 counted 7 seven-again.json
 tail -1 stdout | grep -qF '# 0 measured now' || fail "$(tail -1 stdout)"

@@ -90,6 +90,30 @@ while read -r i picture line; do
   expect 0 "$kage" diff "page/$picture" drawn"$i"/*_0001.png
 done <lines
 
+# What the page says of a row's sources of error is what the maps show that its other command line draws.
+read -r i picture line <lines
+eval "expect 0 '$kage' $line --error-map --out maps --json maps.json"
+python3 - "$i" <<'PY' || fail "the maps of sources"
+import json, sys
+row, drawn = json.load(open("all.json"))[int(sys.argv[1])], json.load(open("maps.json"))
+for source, told in row["accuracy"]["sources"].items():
+    if source == "all": continue
+    for what in ("visible_wrong", "color_wrong"):
+        assert sum(e["sources"][source][what] for e in drawn["errors"]) == told[what], (source, what)
+PY
+
+# "Make it again" makes the same page, whatever the sweep was given, and measures nothing.
+python3 - page/sweep.html <<'PY' >again || fail "no line"
+import json, re, sys
+print(json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', open(sys.argv[1], encoding="utf-8").read(), re.S)[1])["command"].replace("kage ", "", 1))
+PY
+grep -qF -- '--store s.sqlite --resume' again || fail "$(cat again)"
+cp page/sweep.html before.html
+eval "expect 0 '$kage' $(cat again)"
+grep -qF '# 0 measured now' stdout || fail "$(tail -2 stdout)"
+cmp page/sweep.html before.html || fail "the page's own command line makes another page"
+[ "$(stat -c %s page/sweep.html)" -le 10000000 ] || fail "the page has $(stat -c %s page/sweep.html) bytes"
+
 # A command line with options that come several times is on the page as it was.
 grep -qF -- '--axes Z_BITS=8,24 --axes SUB_BITS=4,5 --axes LANES=1,16' page/sweep.html || fail "the page's command line"
 

@@ -35,6 +35,14 @@ line "kage: SCENE: its value is empty; see kage render --help" "$kage" render ""
 line "kage: --out: its value is empty; see kage render --help" "$kage" render courtyard --out ""
 line "kage: --json: its value is missing; see kage cosim --help" "$kage" cosim courtyard --json=
 line "kage: CONFIG: its value is empty; see kage model --help" "$kage" model ""
+# Standard output is a file for --json, for --csv and for a stream alone.
+line "kage: --junit: - is no file's name here, ./- is one; see kage cosim --help" "$kage" cosim courtyard --junit -
+line "kage: --out: - is no file's name here, ./- is one; see kage render --help" "$kage" render courtyard --out -
+line "kage: --plot: - is no file's name here, ./- is one; see kage order --help" "$kage" order courtyard --plot -
+line "kage: --store: - is no file's name here, ./- is one; see kage sweep --help" "$kage" sweep courtyard --store -
+line "kage: --config: - is no file's name here, ./- is one; see kage info --help" "$kage" info courtyard --config -
+line "kage: --csv - and --json -: both are standard output" "$kage" sweep courtyard --csv - --json -
+[ ! -e - ] || fail "a file is called -"
 line "kage: --size: options come after the command; see kage render --help" "$kage" --size 3x3 render courtyard
 line "kage: b: an argument too many; see kage render --help" "$kage" render courtyard b c
 line "kage: --frames: its value is missing; see kage render --help" "$kage" render courtyard --frames

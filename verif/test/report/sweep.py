@@ -29,16 +29,22 @@ def psnr(r):
     return math.inf if r["accuracy"]["psnr"] is None else r["accuracy"]["psnr"]
 
 
+def beyond(r, limits):
+    """What a row is beyond the limits in, as the table says it."""
+    flip = r["accuracy"]["flip"]
+    told = {
+        "gross": r["accuracy"]["gross_wrong"] > 0,
+        "wrong": wrong(r) > limits["wrong"],
+        "PSNR": psnr(r) < limits["psnr"],
+        "FLIP": (math.inf if flip is None else flip) > limits["flip"],
+        "clocks": COSTS["clocks"](r) > limits["clocks"],
+    }
+    return ", ".join(name for name, over in told.items() if over)
+
+
 def cheapest(some, limits, cost):
     """What docs/sweep.md says the page chooses, told a second time."""
-    within = [
-        i
-        for i, r in enumerate(some)
-        if r["accuracy"]["gross_wrong"] == 0
-        and wrong(r) <= limits["wrong"]
-        and psnr(r) >= limits["psnr"]
-        and COSTS["clocks"](r) <= limits["clocks"]
-    ]
+    within = [i for i, r in enumerate(some) if not beyond(r, limits)]
     order = [COSTS[cost], wrong, lambda r: -psnr(r), *COSTS.values()]
     return min(within, key=lambda i: ([of(some[i]) for of in order], i), default=None)
 
@@ -59,10 +65,13 @@ def choosing(b):
             r["accuracy"]["gross_wrong"] = random.choice([0, 0, 0, 1])
             if random.random() < 0.3:
                 r["area"]["luts"] = 5000
+            if random.random() < 0.1:
+                r["accuracy"]["flip"] = None
         one = random.choice(some)
         limits = {
             "wrong": random.choice([0, wrong(one), wrong(one) * 0.99, math.inf]),
             "psnr": random.choice([psnr(one), 40, math.inf, -math.inf]),
+            "flip": random.choice([math.inf, math.inf, one["accuracy"]["flip"] or 0]),
             "clocks": random.choice([math.inf, COSTS["clocks"](one)]),
         }
         cost = random.choice(list(COSTS))
@@ -101,10 +110,30 @@ def numbers(b):
     return {k: float(v.replace("Infinity", "inf")) for k, v in text.items()}
 
 
+def states(b):
+    """The table, and the panel, say in words how rows stand to the limits."""
+    at = numbers(b)
+    heads = b.run("[...document.querySelectorAll('#table thead th')].map(h => h.innerText.trim())")
+    told = dict(
+        b.run(
+            "[...document.querySelectorAll('#table tbody tr')].map(r => [Number(r.dataset.row), r.cells["
+            f"{heads.index('limits')}].innerText])"
+        )
+    )
+    for i, r in enumerate(rows):
+        over = beyond(r, at)
+        want = "\u2212" if i not in first else f"beyond: {over}" if over else "within"
+        if i == now(b)["cheapest"]:
+            want = "cheapest"
+        check(told[i] == want, f"row {i} is told to be {told[i]!r}, and is {want!r}")
+    shown = b.run("document.querySelector('#row .figures dd').innerText")
+    check(shown == told[now(b)["shown"]], f"the panel says {shown!r}")
+
+
 def limits(b):
     base = rows[0]
     at = numbers(b)
-    check(at["wrong"] >= wrong(base) and at["psnr"] <= psnr(base), f"the first limits forbid the base: {at}")
+    check(not beyond(base, at), f"the first limits forbid the base: {at}")
     seen = set()
     for share in (0, 0.2, 0.4, 0.6, 0.8, 1):
         drag(b, "wrong", share)
@@ -117,7 +146,19 @@ def limits(b):
         if want is not None:
             check(got["chosen"] == got["shown"] == got["cheapest"], f"the cheapest is not shown: {got}")
         seen.add(want)
+        states(b)
     check(len(seen) >= 2, f"drags find {seen} only")
+    # FLIP by its slider, from any to none.
+    b.run("Sweep.setLimit('wrong', Infinity), Sweep.setLimit('psnr', -Infinity)")
+    seen = set()
+    for share in (1, 0.7, 0.4, 0.2, 0):
+        drag(b, "flip", share)
+        want = cheapest([rows[i] for i in first], numbers(b), "luts")
+        check(now(b)["cheapest"] == (None if want is None else first[want]), f"FLIP at {numbers(b)}: {now(b)}")
+        states(b)
+        seen.add(want)
+    check(len(seen) >= 2 and numbers(b)["flip"] < 0.01, f"drags of FLIP find {seen} only, at {numbers(b)}")
+    b.run("Sweep.setLimit('flip', Infinity)")
     # Figures that are typed, keys on a slider, another cost; what is no figure is marked and changes nothing.
     b.run(
         "(() => { const e = document.getElementById('wrong-text'); e.value = '1500.5'; e.dispatchEvent(new Event('input')); })()"
@@ -141,6 +182,7 @@ def limits(b):
     b.run("Sweep.setLimit('clocks', 0.001)")
     check("None of these" in b.run("document.getElementById('found').innerText"), "none is found, and not said")
     check(b.run("document.querySelectorAll('#plot .beyond').length") == len(first), "not all points are pale")
+    states(b)
     b.run("Sweep.setLimit('clocks', Infinity)")
 
 
@@ -155,6 +197,16 @@ def yaml_works(b):
     line = b.run("document.querySelectorAll('#found .command')[1].querySelector('code').innerText")
     r = subprocess.run(["bash", "-c", line.replace("kage ", f"'{kage}' ", 1)], capture_output=True, text=True)
     check(r.returncode == 0, f"{line}: {r.stderr}")
+    # The line beside the row's sources of error draws a map of each.
+    row, line = b.run(
+        "(() => { Sweep.choose(Sweep.cheapest); const d = document.querySelector('#row details'); d.open = true;"
+        " return [Sweep.chosen, d.querySelector('.command code').innerText]; })()"
+    )
+    check(line == b.run(f"Parts.data.more[{row}].command") + " --error-map", f"the line of maps: {line}")
+    r = subprocess.run(
+        ["bash", "-c", line.replace("kage ", f"'{kage}' ", 1) + " --out maps"], capture_output=True, text=True
+    )
+    check(r.returncode == 0 and "by source" in r.stdout, f"{line}: {r.stdout}{r.stderr}")
 
 
 def places(b):
@@ -226,7 +278,9 @@ def table(b):
 
     check(names() == list(range(len(rows))), "the table lacks rows")
     heads = b.run("[...document.querySelectorAll('#table thead th')].map(h => h.innerText.trim())")
+    check(heads[1] == "limits" and "pixels" in heads, f"columns: {heads}")
     for head, of in (
+        ("pixels", lambda r: r["accuracy"]["pixels"]),
         ("LUTs", COSTS["luts"]),
         ("wrong, ppm", wrong),
         ("PSNR, dB", psnr),
@@ -276,6 +330,9 @@ def looks(b):
 
 def main():
     with Browser(chromium) as b:
+        b.open("flipless/sweep.html")
+        check(b.run("document.getElementById('flip-limit').checkVisibility()") is False, "a limit of FLIP without FLIP")
+        check(b.run("Sweep.cheapest") is not None, "without FLIP none is the cheapest")
         b.open(PAGE)
         choosing(b)
         limits(b)

@@ -14,9 +14,16 @@ const Choose = (() => {
   // In dB; colours that are all equal are better than any.
   const psnr = (r) => r.accuracy.psnr ?? Infinity;
 
-  // Whether a row keeps the limits {wrong, psnr, clocks}. One with a pixel that is wrong grossly keeps none: that is a bug.
-  const keeps = (r, limits) => r.accuracy.gross_wrong === 0 && wrong(r) <= limits.wrong && psnr(r) >= limits.psnr &&
-      costs.clocks.of(r) <= limits.clocks;
+  // 0 to 1; a row without FLIP keeps no limit of it.
+  const flip = (r) => r.accuracy.flip ?? Infinity;
+
+  // What a row is beyond the limits {wrong, psnr, flip, clocks} in. One with a pixel that is wrong grossly keeps none: that
+  // is a bug.
+  const beyond = (r, limits) => [
+    [r.accuracy.gross_wrong > 0, "gross"], [wrong(r) > limits.wrong, "wrong"], [psnr(r) < limits.psnr, "PSNR"],
+    [flip(r) > limits.flip, "FLIP"], [costs.clocks.of(r) > limits.clocks, "clocks"],
+  ].filter(([over]) => over).map(([, name]) => name);
+  const keeps = (r, limits) => beyond(r, limits).length === 0;
 
   // Of `members`, numbers of rows, the one that keeps the limits and costs least; of those that cost as much the one with
   // fewest wrong pixels, then the best colours, then the least of the other costs, then the first. None: null.
@@ -33,5 +40,5 @@ const Choose = (() => {
     return best;
   }
 
-  return {costs, wrong, psnr, keeps, cheapest};
+  return {costs, wrong, psnr, flip, beyond, keeps, cheapest};
 })();

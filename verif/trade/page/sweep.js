@@ -5,12 +5,12 @@
 const Sweep = (() => {
   const {data, $, make, count, plural, table, command, configTable} = Parts;
   const {rows, more, groups} = data;
-  const {costs, wrong, psnr} = Choose;
+  const {costs, wrong, psnr, flip} = Choose;
 
   let group = 0;
   let tab = 0;
   let cost = "luts";
-  let limits = {wrong: Infinity, psnr: -Infinity, clocks: Infinity};
+  let limits = {wrong: Infinity, psnr: -Infinity, flip: Infinity, clocks: Infinity};
   let cheapest = null;
   let chosen = null;
   let frame = 0;
@@ -43,7 +43,7 @@ const Sweep = (() => {
   }
 
   // What the sliders stand at, from the laxest to the strictest or the other way round; any and equal are infinite.
-  let stops = {wrong: [], psnr: [], clocks: []};
+  let stops = {wrong: [], psnr: [], flip: [], clocks: []};
 
   function makeStops() {
     const of = groups[group].rows.map((i) => rows[i]);
@@ -55,6 +55,10 @@ const Sweep = (() => {
     stops.psnr = [-Infinity];
     for (let v = low; v <= high; v += 0.5) stops.psnr.push(v);
     stops.psnr.push(Infinity);
+    const seen = of.map(flip);
+    const measured = seen.every(Number.isFinite);
+    stops.flip = measured ? [0, ...series(Math.max(1e-5, Math.min(1, ...seen.filter((v) => v > 0))), Math.max(1e-5, ...seen)), Infinity] : [Infinity];
+    $("flip-limit").hidden = !measured;
     const clocks = of.map(costs.clocks.of);
     stops.clocks = [...series(Math.min(...clocks), Math.max(...clocks)), Infinity];
     for (const [name, values] of Object.entries(stops)) $(name).max = values.length - 1;
@@ -88,6 +92,8 @@ const Sweep = (() => {
     $("psnr-note").textContent = limits.psnr === Infinity ? "all colours as in the finest picture" :
         limits.psnr === -Infinity ? "any colours" :
         `off by ${short(255 / 10 ** (limits.psnr / 20))} of 255 steps (root of the mean square)`;
+    $("flip-note").textContent = limits.flip === Infinity ? "any colours" : limits.flip === 0 ? "all colours as in the finest picture" :
+        "mean over pixels; 0: alike, 1: black on white";
     $("clocks-note").textContent = limits.clocks === Infinity ? "however long it takes" :
         `${short(100 / limits.clocks)} million pixels a second at 100 MHz`;
   }
@@ -96,7 +102,9 @@ const Sweep = (() => {
     limits[name] = value;
     showLimits(typed);
     find();
-    if (cheapest !== null) choose(cheapest); else paint();
+    if (cheapest !== null) { choose(cheapest); return; }
+    showRow();
+    paint();
   }
 
   // At first no worse than what the scene is drawn with by itself.
@@ -106,6 +114,7 @@ const Sweep = (() => {
     limits = {
       wrong: stops.wrong.find((v) => v >= wrong(base)),
       psnr: stops.psnr.findLast((v) => v <= psnr(base)),
+      flip: stops.flip.find((v) => v >= flip(base)),
       clocks: Infinity,
     };
   }
@@ -150,10 +159,15 @@ const Sweep = (() => {
 
   // ---- the row that is shown
 
-  function figures(row) {
+  // How a row stands to the limits, in words. They are those of the scene and size that is chosen.
+  const stateOf = (i) => !groups[group].rows.includes(i) ? "\u2212" : i === cheapest ? "cheapest" :
+      Choose.keeps(rows[i], limits) ? "within" : `beyond: ${Choose.beyond(rows[i], limits).join(", ")}`;
+
+  function figures(row, i) {
     const {accuracy: a, speed: s, area} = row;
     const share = (n) => `${count(n)} of ${count(a.pixels)}`;
     return [
+      ["Limits", stateOf(i)],
       ["Wrong faces", share(a.visible_wrong)],
       ["Wrong shadows", share(a.shadow_wrong)],
       ["Wrong grossly", a.gross_wrong === 0 ? "0" : `${count(a.gross_wrong)}: a bug`],
@@ -225,7 +239,7 @@ const Sweep = (() => {
           here.map((i) => more[i].name).join("; "), {class: "note"}));
     }
     parts.push(...pictures(chosen));
-    const list = make("dl", figures(row).flatMap(([name, value]) => [make("dt", name), make("dd", value)]), {class: "figures"});
+    const list = make("dl", figures(row, chosen).flatMap(([name, value]) => [make("dt", name), make("dd", value)]), {class: "figures"});
     const sources = make("table");
     table(sources, ["alone", "wrong faces", "shadow, share", "PSNR, dB"],
           Object.entries(row.accuracy.sources).map(([name, s]) => [
@@ -237,12 +251,14 @@ const Sweep = (() => {
     const every = make("table");
     table(every, ["figure", "value"], flat(rest));
     parts.push(list,
-               details("What each source of error does", [scroll(sources, "Sources of error")]),
+               details("What each source of error does", [scroll(sources, "Sources of error"),
+                 make("p", ["With the parameters saved as ", make("code", data.config_file), ", this draws a map of each source, and of all:"]),
+                 command(`${more[chosen].command} --error-map`)]),
                details("Use it", again(chosen)),
                details("Its parameters in words", [scroll(parameters, "Parameters")]),
                details("Every figure, as --json names it", [scroll(every, "Every figure")]));
     $("row").replaceChildren(...parts);
-    $("said").textContent = `${more[chosen].name}: ${costText(row, cost)}, ${short(wrong(row))} wrong pixels in a million`;
+    $("said").textContent = `${more[chosen].name}, ${stateOf(chosen)}: ${costText(row, cost)}, ${short(wrong(row))} wrong pixels in a million`;
     $("row").dataset.row = chosen;
   }
 
@@ -311,6 +327,7 @@ const Sweep = (() => {
     Plot.state({within: (i) => Choose.keeps(rows[i], limits), cheapest, chosen});
     for (const line of $("table").tBodies[0]?.rows ?? []) {
       const i = Number(line.dataset.row);
+      line.querySelector(".state").textContent = stateOf(i);
       line.classList.toggle("chosen", i === chosen);
       line.classList.toggle("cheapest", i === cheapest);
       line.classList.toggle("beyond", groups[group].rows.includes(i) && !Choose.keeps(rows[i], limits));
@@ -332,9 +349,11 @@ const Sweep = (() => {
 
   // ---- table
 
+  // A name; what is sorted by, if anything is; and how it is shown, if not as it is.
   const columns = [
     ["configuration", (r, i) => more[i].name],
-    ...(groups.length > 1 ? [["scene and size", (r, i) => groupName(groups[groupOf(i)])]] : []),
+    ["limits", null],  // filled by paint()
+    ...(groups.length > 1 ? [["scene and size", (r, i) => groupName(groups[groupOf(i)])], ["pixels", (r) => r.accuracy.pixels, count]] : []),
     ["wrong, ppm", wrong, (v) => short(v)],
     ["faces", (r) => r.accuracy.visible_wrong, count],
     ["shadows", (r) => r.accuracy.shadow_wrong, count],
@@ -351,7 +370,8 @@ const Sweep = (() => {
   ];
 
   function fillTable() {
-    const heads = columns.map(([name], c) => {
+    const heads = columns.map(([name, of], c) => {
+      if (!of) return make("th", name, {scope: "col", class: "state"});
       const on = sorted.column === c;
       const b = make("button", [name, make("span", on ? (sorted.down ? " \u2193" : " \u2191") : "", {"aria-hidden": "true"})], {type: "button"});
       b.addEventListener("click", () => {
@@ -371,7 +391,7 @@ const Sweep = (() => {
       const row = rows[i];
       const name = make("button", more[i].name, {type: "button", class: "row-name"});
       const cells = columns.map(([, of, text], c) => c === 0 ? make("th", [row.pareto ? "* " : "", name], {scope: "row"}) :
-          make("td", text ? text(of(row, i), row) : of(row, i)));
+          !of ? make("td", "", {class: "state"}) : make("td", text ? text(of(row, i), row) : of(row, i)));
       const line = make("tr", cells, {"data-row": i});
       line.addEventListener("click", () => choose(i));
       return line;
@@ -387,7 +407,9 @@ const Sweep = (() => {
   $("mark").hidden = true;
   $("word").textContent = plural(rows.length, "configuration");
   $("headline").textContent = groups.map((g) => `${groupName(g)}: ${g.rows.length}`).join("; ");
-  $("again").append(command(data.command));
+  $("again").append(make("p", data.again), command(data.command));
+  $("left-out").textContent = data.left_out;
+  $("left-out").hidden = !data.left_out;
 
   if (rows.length) {
     for (const name of Object.keys(stops)) {

@@ -33,6 +33,8 @@ void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
 }
 
+const MadeOf kMade{.build = "build", .scene = "faces", .tools = "tools"};
+
 /// A row that shows whether it is whole.
 std::string row(int number) { return std::string(20000, static_cast<char>('a' + number % 26)); }
 
@@ -44,7 +46,7 @@ TEST_CASE("what is kept is there when the store is opened again") {
   {
     SweepStore store(file);
     CHECK_FALSE(store.run("1"));
-    store.keep_run("1", "courtyard", "point", "{}");
+    store.keep_run("1", "courtyard", "point", kMade, "{}");
     store.keep_clocks("1", {.cycles = 1ULL << 40, .foretold = 3, .seconds = 0.5});
   }
   SweepStore store(file);
@@ -55,8 +57,8 @@ TEST_CASE("what is kept is there when the store is opened again") {
   // Another store's rows; those that are here stay.
   {
     SweepStore other(folder.path / "b.sqlite");
-    other.keep_run("1", "courtyard", "point", "another");
-    other.keep_run("2", "courtyard", "point", "[]");
+    other.keep_run("1", "courtyard", "point", kMade, "another");
+    other.keep_run("2", "courtyard", "point", kMade, "[]");
   }
   CHECK(store.absorb(folder.path / "b.sqlite") == 1);
   CHECK(store.run("1") == "{}");
@@ -76,7 +78,7 @@ TEST_CASE("a program that is killed loses at most the run under way") {
       // The child says each number once its row is kept.
       SweepStore store(file);
       for (int n = 1000 * round;; ++n) {
-        store.keep_run(std::to_string(n), "scene", "point", row(n));
+        store.keep_run(std::to_string(n), "scene", "point", kMade, row(n));
         if (::write(told[1], &n, sizeof n) != sizeof n) _exit(1);
       }
     }
@@ -104,7 +106,7 @@ TEST_CASE("what is no store is refused, and left as it is") {
   const auto file = folder.path / "a.sqlite";
   {
     SweepStore store(file);
-    for (int n = 0; n < 20; ++n) store.keep_run(std::to_string(n), "scene", "point", row(n));
+    for (int n = 0; n < 20; ++n) store.keep_run(std::to_string(n), "scene", "point", kMade, row(n));
   }
   const std::string good = read_file(file);
   REQUIRE(refused(file).empty());
@@ -116,8 +118,8 @@ TEST_CASE("what is no store is refused, and left as it is") {
   };
   check(std::string(5000, 'x'), "no store of kage sweep: it is no SQLite file");
   std::string other = good;
-  other[63] = 2;  // the version, in SQLite's header
-  check(other, "a store of version 2, and this kage has 1");
+  other[63] = 3;  // the version, in SQLite's header
+  check(other, "a store of version 3, and this kage has 2");
   other = good;
   other[68] = 0;  // the application
   check(other, "no store of kage sweep, though an SQLite file");
@@ -126,4 +128,20 @@ TEST_CASE("what is no store is refused, and left as it is") {
   check(damaged, "");
   check(good.substr(0, good.size() / 2), "");
   CHECK_THAT(refused(folder.path / "no/such/folder.sqlite"), ContainsSubstring("unable to open"));
+}
+
+TEST_CASE("a row that is of no use now says why, by what it has most in common") {
+  const verif::TempFolder folder("sweep-store-old");
+  SweepStore store(folder.path / "a.sqlite");
+  CHECK(store.old("courtyard", "point", kMade).empty());
+  store.keep_run("1", "courtyard", "point", {"earlier", "faces", "tools"}, "{}");
+  CHECK(store.old("courtyard", "point", kMade) == "another build of kage");
+  CHECK(store.old("courtyard", "another point", kMade).empty());
+  CHECK(store.old("glass", "point", kMade).empty());
+  store.keep_run("2", "courtyard", "point", {"build", "changed", "tools"}, "{}");
+  CHECK(store.old("courtyard", "point", kMade) == "another scene of this name");
+  store.keep_run("3", "courtyard", "point", {"build", "faces", "older"}, "{}");
+  CHECK_THAT(store.old("courtyard", "point", kMade), Catch::Matchers::ContainsSubstring("other tools"));
+  store.keep_run("4", "courtyard", "point", kMade, "{}");
+  CHECK(store.old("courtyard", "point", kMade).empty());
 }

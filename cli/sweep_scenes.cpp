@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep_scenes.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "cosim/model/model.hpp"
+#include "kage/error.hpp"
+#include "order_build.hpp"
+#include "plan/demand.hpp"
+#include "planned.hpp"
+#include "signals.hpp"
+#include "source.hpp"
+#include "trade/synthesis.hpp"
+
+namespace kage::cli {
+namespace {
+
+using trade::SweepPoint;
+
+// What --place is without a device, and the device that it means: of the family whose cells are counted.
+constexpr const char* kPlaceFlag = "true";
+constexpr const char* kPlaceDevice = "ecp5-85f";
+
+SweepPoint base_of(const SweepCommand& o, const Scene& scene, const DrawOptions& draw) {
+  SweepPoint base;
+  base.config = o.config.empty() ? choose_config(scene, draw).config : load_config(o.config).config;
+  base.look = draw.look;
+  base.look.fit = true;
+  return trade::with(base, "SIZE", fmt::format("{}x{}", draw.width, draw.height));
+}
+
+std::vector<SweepPoint> points_of(const SweepCommand& o, const SweepPoint& given, const PlannedScene& scene) {
+  SweepPoint base = given;
+  base.axis = "base";
+  base.value.clear();
+  std::vector<trade::SweepAxis> axes;
+  for (const std::string& text : o.axes) axes.push_back(trade::parse_axis(text));
+  std::vector<SweepPoint> points = !axes.empty() && o.grid ? trade::grid(base, axes)
+                                   : !axes.empty()
+                                       ? trade::alone(base, axes)
+                                       : trade::default_points(base, plan::features_of(std::span(&scene, 1)).needs);
+  return trade::with_seeds(std::move(points), o.seeds);
+}
+
+}  // namespace
+
+int jobs_of(const SweepCommand& o) {
+  return o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+Tools tools_of(const SweepCommand& o) {
+  Tools tools;
+  if (o.list) return tools;
+  if (!o.no_area) tools.versions.yosys = trade::yosys_version(check_interrupt);
+  if (!o.no_cosim) tools.versions.model = fmt::format("{}", fmt::join(cosim::model_tools(), "\n"));
+  if (!o.place.empty())
+    tools.placer = std::make_unique<trade::Placer>(o.place == kPlaceFlag ? kPlaceDevice : o.place, check_interrupt);
+  return tools;
+}
+
+SweptScene open_swept(const SweepCommand& o, const Tools& tools, const std::string& input, Progress& progress,
+                      std::function<void(const std::string&)> doing) {
+  refuse_random(input);
+  refuse_order_tree(input);
+  if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
+  auto scene = std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt}));
+  PlannedScene planned = planned_scene(o, scene, progress);
+  if (planned.draw.frames == 0) planned.draw.frames = std::min(2, scene->frame_count());
+  const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  planned.draw.threads = std::max(1, (o.threads > 0 ? o.threads : processors) / jobs_of(o));
+  planned.draw.name = input;
+  planned.draw.order.progress = [](double) { check_interrupt(); };
+  const SweepPoint base = base_of(o, *scene, planned.draw);
+  SweptScene out;
+  out.input = input;
+  out.points = points_of(o, base, planned);
+  out.scene = std::make_unique<trade::SweepScene>(std::move(scene), planned.draw, base, check_interrupt);
+  out.runner = std::make_unique<trade::SweepRunner>(*out.scene, out.points,
+                                                    trade::SweepHow{.area = !o.no_area,
+                                                                    .cosim = !o.no_cosim,
+                                                                    .flip = !o.no_flip,
+                                                                    .tools = tools.versions,
+                                                                    .placer = tools.placer.get(),
+                                                                    .wait = check_interrupt,
+                                                                    .doing = std::move(doing)});
+  return out;
+}
+
+}  // namespace kage::cli
