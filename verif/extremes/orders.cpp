@@ -188,6 +188,7 @@ void GlassCase::Piece::fields(Fields& f) {
 void GlassCase::fields(Fields& f) {
   f.list("piece", pieces, 1, 10);
   view.fields(f);
+  sub_bits_field(f, sub_bits);
 }
 
 SceneFrame GlassCase::frame() const {
@@ -217,9 +218,10 @@ Outcome CutFacesCase::check(const Context& /*context*/) const {
         s = static_cast<std::uint32_t>(f.shading.size()) - 1;
       }
   const Config config = glass_config(smooth);
-  Look whole;
+  const Look look = look_of(glass.sub_bits);
+  Look whole = look;
   whole.translucent = TranslucentWay::submission;
-  const FacePixels parts = pixels_of_faces(make_geometry(f, config, kWidth, kHeight), config);
+  const FacePixels parts = pixels_of_faces(make_geometry(f, config, kWidth, kHeight, {.look = look}), config);
   const FacePixels uncut = pixels_of_faces(make_geometry(f, config, kWidth, kHeight, {.look = whole}), config);
   Outcome o;
   if (parts != uncut) o.fail("faces in fragments have other pixels, depths or colours than uncut");
@@ -329,7 +331,8 @@ Outcome RaysCase::check(const Context& context) const {
 Outcome LayerRaysCase::check(const Context& /*context*/) const {
   const SceneFrame f = glass.frame();
   const Config config = glass_config(false);
-  const LayerCount count = compare_layers(f, make_geometry(f, config, kWidth, kHeight), config, 2);
+  const LayerCount count =
+      compare_layers(f, make_geometry(f, config, kWidth, kHeight, {.look = look_of(glass.sub_bits)}), config, 2);
   Outcome o;
   if (count.wrong > 0) o.fail(count.text());
   o.pixels = count.pixels;

@@ -49,6 +49,7 @@ struct GlassCase {
   };
   std::vector<Piece> pieces;
   ViewCase view;
+  int sub_bits = kMostSubBits;
   void fields(Fields& f);
   [[nodiscard]] SceneFrame frame() const;
 };
