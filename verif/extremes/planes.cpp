@@ -11,8 +11,9 @@ namespace kage::verif {
 // ---- plane
 
 void PlaneCase::Corner::fields(Fields& f) {
-  f.number("x", x, -kGuard * 256, kGuard * 256);
-  f.number("y", y, -kGuard * 256, kGuard * 256);
+  constexpr std::int64_t kLimit = std::int64_t{kGuard} * 256;
+  f.number("x", x, -kLimit, kLimit);
+  f.number("y", y, -kLimit, kLimit);
   f.number("z", z, 1 << 16, ((std::int64_t{1} << 28) - 2) << 16);
 }
 

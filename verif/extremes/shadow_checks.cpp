@@ -125,8 +125,7 @@ Outcome no_acne(const FrameGeometry& g, const Config& config) {
     for (int x = 0; x < g.width; ++x) {
       const OraclePixel p = oracle.at(x);
       // At the silhouette a side leaves the face in the same point; the snap may put it on either side there.
-      if (p.shadowed && g.polygons[static_cast<std::uint32_t>(p.surface)].lit &&
-          !near_volume_edge(g, x, y, 1.5 * snap_step(g)))
+      if (p.shadowed && g.polygons[static_cast<std::uint32_t>(p.surface)].lit && !near_volume_edge(g, x, y, 1.5))
         o.fail(fmt::format("pixel ({}, {}): a lit face shadows itself", x, y));
       ++o.items;
     }

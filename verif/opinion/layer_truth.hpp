@@ -4,8 +4,8 @@
 // double precision, sorted by distance and blended. Nothing of kage's geometry, order or core goes in. The picture's
 // colours are numbers of faces, so that another order shows.
 //
-// Where the picture differs, rays a step of the snap away decide, and the outlines that pass by that near: the snap
-// moves what a pixel sees by less than that, so if none of them sees what the picture shows, it is wrong.
+// Where the picture differs, rays a step of the snap away decide: it moves what a pixel sees by less than that, so if
+// none of them sees what the picture shows, it is wrong.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,9 +14,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "opinion/judge.hpp"
@@ -127,9 +125,6 @@ class LayerTruth {
       if (i == 0) all = faces;
       std::erase_if(all, [&](std::uint32_t f) { return std::find(faces.begin(), faces.end(), f) == faces.end(); });
     }
-    // One that is thinner than the rays are apart may lie between them.
-    for (std::uint32_t f = 0; f < f_->polygons.size(); ++f)
-      if (std::find(some.begin(), some.end(), f) == some.end() && outline_passes(f, x, y)) some.push_back(f);
     std::vector<std::uint32_t> unsure;
     for (const std::uint32_t f : some)
       if (std::find(all.begin(), all.end(), f) == all.end()) unsure.push_back(f);
@@ -156,36 +151,6 @@ class LayerTruth {
 
   // One of five places across a step to either side of the centre of pixel x.
   [[nodiscard]] double place(int x, int i) const { return x + 0.5 + (i - 2) * step_ / 512.0; }
-
-  // Whether an edge of a face comes within sqrt(1/2) step of the centre of pixel (x, y): as far as its points go when
-  // both ends move by half a step in x and in y.
-  [[nodiscard]] bool outline_passes(std::uint32_t face, int x, int y) const {
-    const Camera& c = f_->camera;
-    const double unit = 2 * c.half_height / height_;
-    const auto seen = [&c](const glm::dvec3& p) {
-      const glm::dvec3 d = p - c.eye;
-      return glm::dvec3(glm::dot(d, c.right), glm::dot(d, c.up), glm::dot(d, c.forward));
-    };
-    const auto from_centre = [&](const glm::dvec3& p) {
-      const double w = c.perspective ? p.z : 1;
-      return glm::dvec2(p.x / w / unit + width_ / 2.0 - x - 0.5, height_ / 2.0 - p.y / w / unit - y - 0.5);
-    };
-    const auto outline = f_->outline(f_->polygons[face]);
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      glm::dvec3 a = seen(f_->vertices[outline[i]]);
-      glm::dvec3 b = seen(f_->vertices[outline[(i + 1) % outline.size()]]);
-      if (a.z < b.z) std::swap(a, b);
-      if (a.z < c.near) continue;
-      if (b.z < c.near) b = a + (a.z - c.near) / (a.z - b.z) * (b - a);
-      const glm::dvec2 from = from_centre(a);
-      const glm::dvec2 way = from_centre(b) - from;
-      const double length2 = glm::dot(way, way);
-      const double t = length2 > 0 ? std::clamp(-glm::dot(from, way) / length2, 0.0, 1.0) : 0;
-      const glm::dvec2 nearest = from + t * way;
-      if (2 * glm::dot(nearest, nearest) <= step_ * step_ / 65536.0) return true;
-    }
-    return false;
-  }
 
   static std::array<int, 3> number(std::uint32_t face) {
     const auto c = face_color(face);
