@@ -8,7 +8,8 @@
 namespace kage::verif {
 namespace {
 
-constexpr std::array kPlants{"none", "wide_span", "steep_step", "lost_layer", "lost_face", "swapped_pair"};
+constexpr std::array kPlants{"none",      "wide_span",    "steep_step",   "lost_layer",
+                             "lost_face", "swapped_pair", "moved_corner", "tilted_plane"};
 
 }  // namespace
 

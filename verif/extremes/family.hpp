@@ -41,11 +41,13 @@ struct Outcome {
 /// it, not kage.
 enum class Plant : std::uint8_t {
   none,
-  wide_span,    ///< a span of three pixels or more is a pixel too wide
-  steep_step,   ///< the step of a depth ramp is one too large
-  lost_layer,   ///< the last translucent layer is missing
-  lost_face,    ///< the last face of a shadow volume is missing
-  swapped_pair  ///< two neighbours of a visibility order have changed places
+  wide_span,     ///< a span of three pixels or more is a pixel too wide
+  steep_step,    ///< the step of a depth ramp is one too large
+  lost_layer,    ///< the last translucent layer is missing
+  lost_face,     ///< the last face of a shadow volume is missing
+  swapped_pair,  ///< two neighbours of a visibility order have changed places
+  moved_corner,  ///< the last corner of a polygon is a step of the snap too far right
+  tilted_plane   ///< a depth plane's slope along x is a 64th too large
 };
 /// By its name, as --plant takes it.
 std::optional<Plant> plant_of(const std::string& name);

@@ -132,7 +132,7 @@ Outcome LitSceneCase::check(const Context& /*context*/) const {
     }
     f.lights.push_back(light);
   }
-  Look look;
+  Look look = scene.look();
   look.samples = samples;
   look.seed = static_cast<std::uint64_t>(seed);
   Config c;

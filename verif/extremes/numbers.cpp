@@ -3,11 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
 
-#include "geometry/plane.hpp"
 #include "geometry/shade.hpp"
 #include "kage/error.hpp"
 #include "opinion/judge.hpp"
@@ -109,7 +107,7 @@ Outcome ScaledCase::check(const Context& /*context*/) const {
   f.camera.near *= scale;
   if (!f.camera.perspective) f.camera.half_height *= scale;
   if (denormal) f.vertices[0].x = std::numeric_limits<double>::denorm_min();
-  const Judgement j = judge(make_geometry(f, Config{}, kWidth, kHeight), Config{});
+  const Judgement j = judge(make_geometry(f, Config{}, kWidth, kHeight, {.look = at.look()}), Config{});
   Outcome o;
   o.pixels = j.pixels;
   if (!j.good()) o.fail(j.text());
@@ -128,52 +126,10 @@ Outcome CurveCase::check(const Context& /*context*/) const {
   return o;
 }
 
-void PlaneCase::Corner::fields(Fields& f) {
-  f.number("x", x, -kGuard * 256, kGuard * 256);
-  f.number("y", y, -kGuard * 256, kGuard * 256);
-  f.number("z", z, 1 << 16, ((std::int64_t{1} << 28) - 2) << 16);
-}
-
-void PlaneCase::fields(Fields& f) {
-  a.fields(f);
-  b.fields(f);
-  c.fields(f);
-  f.number("pixel", x, 0, kMaxSize - 1);
-  f.number("line", y, 0, kMaxSize - 1);
-}
-
-Outcome PlaneCase::check(const Context& /*context*/) const {
-  using Number = boost::multiprecision::cpp_rational;
-  const std::array<DepthVertex, 3> v{DepthVertex{{a.x, a.y}, a.z}, DepthVertex{{b.x, b.y}, b.z},
-                                     DepthVertex{{c.x, c.y}, c.z}};
-  const auto plane = plane_through(v);
-  Outcome o;
-  if (!plane) return o;
-  o.items = 1;
-  // In subpixels from the first vertex, the exact plane has these slopes per subpixel, in 2^-16 LSB.
-  const Number bx = b.x - a.x;
-  const Number by = b.y - a.y;
-  const Number cx = c.x - a.x;
-  const Number cy = c.y - a.y;
-  const Number area = bx * cy - cx * by;
-  const Number slope_x = (Number(b.z - a.z) * cy - Number(c.z - a.z) * by) / area;
-  const Number slope_y = (Number(c.z - a.z) * bx - Number(b.z - a.z) * cx) / area;
-  const Number exact = Number(a.z) + slope_x * (256 * x + 128 - a.x) + slope_y * (256 * y + 128 - a.y);
-  const Number got =
-      (Number(plane->c) + Number(plane->a) * (x - plane->x0) + Number(plane->b) * (y - plane->y0)) / 256;  // in 2^-16
-  const Number off = abs(got - exact) / 65536;
-  // docs/numbers.md, "Depth": a unit for each column and line from the anchor, one from the vertex to the anchor's
-  // centre, and one for C.
-  const double pixels = std::abs(x - plane->x0) + std::abs(y - plane->y0) + 2;
-  o.measure(off.convert_to<double>() * 0x1p25, pixels);
-  return o;
-}
-
 void add_number_families(Families& to) {
   add_family<NotFiniteCase>(to, {10, "10", "a number that is not finite is an error that names it", {}, 0, 0.1});
   add_family<ScaledCase>(to, {10, "10 scale", "scenes next to nothing large, and huge"});
   add_family<CurveCase>(to, {0, "curve", "the sRGB curve by square roots", "LSB", 60, 0.2});
-  add_family<PlaneCase>(to, {0, "plane", "a depth plane's coefficients rounded", "2^-25 LSB", 300, 0.5});
 }
 
 }  // namespace kage::verif

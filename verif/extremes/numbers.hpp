@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cases of family 10, numbers that are none or very large or small, and bounds of docs/numbers.md that are no family.
+// Cases of family 10, numbers that are none or very large or small, and the sRGB curve.
 #pragma once
 
 #include "extremes/scene_case.hpp"
@@ -31,19 +31,6 @@ struct ScaledCase {
 /// The sRGB curve by square roots.
 struct CurveCase {
   double linear = 0;
-  void fields(Fields& f);
-  [[nodiscard]] Outcome check(const Context& context) const;
-};
-
-/// The depth plane through three snapped vertices, rounded.
-struct PlaneCase {
-  struct Corner {
-    int x = 0, y = 0;
-    std::int64_t z = 0;  ///< in 2^-16 LSB
-    void fields(Fields& f);
-  };
-  Corner a, b, c;
-  int x = 0, y = 0;  ///< the pixel at which it is held against the exact one
   void fields(Fields& f);
   [[nodiscard]] Outcome check(const Context& context) const;
 };

@@ -13,14 +13,14 @@ constexpr int kWidth = 96;
 constexpr int kHeight = 72;
 
 /// The frame's picture by spans is the oracle's, and by segments the same with any number of units.
-Outcome same_and_right(const SceneFrame& f, Config config, int width, int height) {
+Outcome same_and_right(const SceneFrame& f, Config config, int width, int height, const Look& look = {}) {
   Outcome o;
-  for (const SegmentCount& c : either_way_counts(f, config, width, height)) {
+  for (const SegmentCount& c : either_way_counts(f, config, width, height, look)) {
     if (!c.wrong.empty()) o.fail(c.wrong);
     o.items += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   }
   config.units = 8;
-  const Judgement j = judge(make_geometry(f, config, width, height), config);
+  const Judgement j = judge(make_geometry(f, config, width, height, {.look = look}), config);
   o.pixels = j.pixels;
   if (!j.good()) o.fail(j.text());
   return o;
@@ -137,7 +137,7 @@ Outcome UnitsCase::check(const Context& /*context*/) const {
   all.convex = true;
   SceneFrame f = all.frame();
   for (int i = 0; i < copies; ++i) scene.solids[0].add_to(f, static_cast<std::size_t>(i) + 3);
-  return same_and_right(f, Config{}, kWidth, kHeight);
+  return same_and_right(f, Config{}, kWidth, kHeight, scene.look());
 }
 
 // ---- 34

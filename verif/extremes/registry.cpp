@@ -6,6 +6,7 @@
 #include "extremes/lights.hpp"
 #include "extremes/numbers.hpp"
 #include "extremes/orders.hpp"
+#include "extremes/planes.hpp"
 #include "extremes/polyhedra.hpp"
 #include "extremes/rtl_cases.hpp"
 #include "extremes/shadows.hpp"
@@ -22,6 +23,7 @@ Families made() {
   add_order_families(all);
   add_light_families(all);
   add_number_families(all);
+  add_plane_families(all);
   add_rtl_families(all);
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     const auto key = [](const auto& f) { return f->info().number > 0 ? f->info().number : 1000; };

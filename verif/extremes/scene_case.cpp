@@ -73,12 +73,23 @@ void LampCase::apply_to(Light& light) const {
   light.direction = length > 1e-3 ? glm::dvec3(-x, -y, -z) / length : glm::dvec3(0, -1, 0);
 }
 
+void sub_bits_field(Fields& f, int& sub_bits) {
+  f.number("sub_bits", sub_bits, kLeastSubBits, kMostSubBits, kMostSubBits);
+}
+
+Look look_of(int sub_bits) {
+  Look look;
+  look.sub_bits = sub_bits;
+  return look;
+}
+
 void SceneCase::fields(Fields& f, std::size_t least, std::size_t most) {
   f.flag("floor", floor);
   f.flag("convex", convex);
   f.list("solid", solids, least, most);
   view.fields(f);
   lamp.fields(f);
+  sub_bits_field(f, sub_bits);
 }
 
 SceneFrame SceneCase::frame() const {

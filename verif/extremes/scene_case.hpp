@@ -4,6 +4,7 @@
 #pragma once
 
 #include "extremes/family.hpp"
+#include "kage/geometry.hpp"
 #include "stimulus/shapes.hpp"
 
 namespace kage::verif {
@@ -46,6 +47,10 @@ struct LampCase {
   void apply_to(Light& light) const;
 };
 
+/// The bits of a subpixel that positions have, and how geometry is made with them.
+void sub_bits_field(Fields& f, int& sub_bits);
+Look look_of(int sub_bits);
+
 /// Solids strewn about the origin, on a floor or not.
 struct SceneCase {
   bool floor = true;
@@ -53,9 +58,11 @@ struct SceneCase {
   std::vector<SolidCase> solids;
   ViewCase view;
   LampCase lamp;
+  int sub_bits = kMostSubBits;
   void fields(Fields& f) { fields(f, 1, 8); }
   void fields(Fields& f, std::size_t least, std::size_t most);
   [[nodiscard]] SceneFrame frame() const;
+  [[nodiscard]] Look look() const { return look_of(sub_bits); }
 };
 
 }  // namespace kage::verif

@@ -15,13 +15,13 @@ namespace {
 constexpr int kWidth = 80;
 constexpr int kHeight = 60;
 
-FrameGeometry geometry(const SceneFrame& f, const Config& config, const Look& look = {}) {
+FrameGeometry geometry(const SceneFrame& f, const Config& config, const Look& look) {
   return make_geometry(f, config, kWidth, kHeight, {.look = look});
 }
 
-Outcome closed_and_right(const SceneFrame& f, const Config& config, const Context& context) {
-  Outcome o = picture_is_the_oracles(geometry(f, config), config);
-  o.add(volumes_are_closed(f, config, kWidth, kHeight, context));
+Outcome closed_and_right(const SceneFrame& f, const Config& config, const Look& look, const Context& context) {
+  Outcome o = picture_is_the_oracles(geometry(f, config, look), config);
+  o.add(volumes_are_closed(f, config, kWidth, kHeight, context, look));
   return o;
 }
 
@@ -43,7 +43,7 @@ void ShadowsCase::fields(Fields& f) {
 }
 
 Outcome ShadowsCase::check(const Context& context) const {
-  return closed_and_right(scene.frame(), counting(bits), context);
+  return closed_and_right(scene.frame(), counting(bits), scene.look(), context);
 }
 
 void ShadowRaysCase::fields(Fields& f) {
@@ -53,7 +53,7 @@ void ShadowRaysCase::fields(Fields& f) {
 
 Outcome ShadowRaysCase::check(const Context& /*context*/) const {
   const SceneFrame f = scene.frame();
-  return picture_is_the_rays(f, geometry(f, counting(bits)), counting(bits));
+  return picture_is_the_rays(f, geometry(f, counting(bits), scene.look()), counting(bits));
 }
 
 // ---- 22
@@ -62,6 +62,7 @@ void NestedCase::Place::fields(Fields& f) { f.number("box", box, 0, 63); }
 
 void NestedCase::fields(Fields& f) {
   bits_field(f, bits);
+  sub_bits_field(f, sub_bits);
   f.real("aside", aside, 0, 1, 0.5);
   f.list("place", order, 0, 64);
 }
@@ -72,14 +73,16 @@ Outcome NestedCase::check(const Context& /*context*/) const {
   for (const Place& p : order)
     if (known.insert(p.box).second) boxes.push_back(p.box);
   const std::vector<int> sorted(known.begin(), known.end());
-  const FrameGeometry g = geometry(box_threes(boxes, aside), counting(bits));
+  const FrameGeometry g = geometry(box_threes(boxes, aside), counting(bits), look_of(sub_bits));
   Outcome o = picture_is_the_oracles(g, counting(bits));
-  if (draw(g, counting(bits)) != draw(geometry(box_threes(sorted, aside), counting(bits)), counting(bits)))
+  if (draw(g, counting(bits)) !=
+      draw(geometry(box_threes(sorted, aside), counting(bits), look_of(sub_bits)), counting(bits)))
     o.fail("another order of the casters is another picture");
   // One counting volume against a volume for each.
   if (bits > 1)
-    o.add(
-        same_but_near_ties_count(geometry(box_threes(boxes, aside), Config{}), Config{}, g, counting(bits)).outcome());
+    o.add(same_but_near_ties_count(geometry(box_threes(boxes, aside), Config{}, look_of(sub_bits)), Config{}, g,
+                                   counting(bits))
+              .outcome());
   return o;
 }
 
@@ -87,6 +90,7 @@ Outcome NestedCase::check(const Context& /*context*/) const {
 
 void CrossedCase::fields(Fields& f) {
   bits_field(f, bits);
+  sub_bits_field(f, sub_bits);
   const int limit = 1 << bits;
   f.number("crossed", crossed, 1, std::min(130, limit + 2), 1);
 }
@@ -94,7 +98,7 @@ void CrossedCase::fields(Fields& f) {
 Outcome CrossedCase::check(const Context& /*context*/) const {
   const SceneFrame f = zigzag_scene(crossed);
   const Config config = counting(bits);
-  const FrameGeometry g = geometry(f, config);
+  const FrameGeometry g = geometry(f, config, look_of(sub_bits));
   Outcome o = picture_is_the_oracles(g, config);
   // The zigzag and the floor below it. What fits in one volume is one.
   if (bits > 1 && (g.volumes.size() == 1) != (crossed + 1 <= (1 << bits) - 1))
@@ -102,7 +106,7 @@ Outcome CrossedCase::check(const Context& /*context*/) const {
   o.add(picture_is_the_rays(f, g, config));
   Config no_fsf = config;
   no_fsf.fsf = 0;
-  const FrameGeometry without = geometry(f, no_fsf);
+  const FrameGeometry without = geometry(f, no_fsf, look_of(sub_bits));
   if (without.volumes.size() == 1) {
     o.add(picture_is_the_oracles(without, no_fsf));
   } else {
@@ -122,6 +126,7 @@ Outcome CrossedCase::check(const Context& /*context*/) const {
 
 void EyeCase::fields(Fields& f) {
   bits_field(f, bits);
+  sub_bits_field(f, sub_bits);
   static constexpr std::array kPlanes{"free", "left", "right"};
   f.choice("on_x", on_x, kPlanes);
   f.number("ulps_x", ulps_x, -2, 2);
@@ -151,13 +156,14 @@ Outcome EyeCase::check(const Context& context) const {
   if (glm::dot(eye - at, eye - at) < 1e-6) at.z += 1;
   look_at(f.camera, eye, at);
   f.camera.near = near;
-  return closed_and_right(f, counting(bits), context);
+  return closed_and_right(f, counting(bits), look_of(sub_bits), context);
 }
 
 // ---- 25
 
 void LightPlaceCase::fields(Fields& f) {
   bits_field(f, bits);
+  sub_bits_field(f, sub_bits);
   f.flag("directional", directional);
   static constexpr std::array kPlaces{"free", "face", "other_face", "middle"};
   f.choice("on_x", on_x, kPlaces);
@@ -186,7 +192,7 @@ Outcome LightPlaceCase::check(const Context& context) const {
   light.position = at;
   const double length = std::sqrt(glm::dot(at, at));
   light.direction = length > 1e-9 ? -at / length : glm::dvec3(0, -1, 0);
-  return closed_and_right(f, counting(bits), context);
+  return closed_and_right(f, counting(bits), look_of(sub_bits), context);
 }
 
 // ---- 26
@@ -199,10 +205,11 @@ void ReachCase::fields(Fields& f) {
 
 Outcome ReachCase::check(const Context& /*context*/) const {
   const SceneFrame f = scene.frame();
-  Look further;
+  Look further = scene.look();
   further.extrusion = extrusion;
   const FrameGeometry g = geometry(f, counting(bits), further);
-  Outcome o = same_but_near_ties_count(geometry(f, counting(bits)), counting(bits), g, counting(bits)).outcome();
+  Outcome o =
+      same_but_near_ties_count(geometry(f, counting(bits), scene.look()), counting(bits), g, counting(bits)).outcome();
   o.add(picture_is_the_oracles(g, counting(bits)));
   return o;
 }
@@ -227,7 +234,7 @@ Outcome CapCase::check(const Context& /*context*/) const {
   LampCase sun = lamp;
   sun.placed = false;
   sun.apply_to(f.lights[0]);
-  const FrameGeometry g = geometry(f, counting(bits));
+  const FrameGeometry g = geometry(f, counting(bits), Look{});
   Outcome o = no_acne(g, counting(bits));
   o.add(picture_is_the_oracles(g, counting(bits)));
   return o;
@@ -245,6 +252,7 @@ void TornCase::Torn::fields(Fields& f) {
 
 void TornCase::fields(Fields& f) {
   bits_field(f, bits);
+  sub_bits_field(f, sub_bits);
   f.list("torn", torn, 1, 3);
   view.fields(f);
   lamp.fields(f);
@@ -274,10 +282,10 @@ SceneFrame TornCase::frame() const {
 
 Outcome TornCase::check(const Context& context) const {
   const SceneFrame f = frame();
-  const FrameGeometry g = geometry(f, counting(bits));
-  Outcome o = closed_and_right(f, counting(bits), context);
+  const FrameGeometry g = geometry(f, counting(bits), look_of(sub_bits));
+  Outcome o = closed_and_right(f, counting(bits), look_of(sub_bits), context);
   o.add(picture_is_the_rays(f, g, counting(bits)));
-  Look per_face;
+  Look per_face = look_of(sub_bits);
   per_face.volumes = VolumeWay::per_face;
   o.add(same_but_near_ties_count(g, counting(bits), geometry(f, Config{}, per_face), Config{}).outcome());
   return o;

@@ -30,6 +30,7 @@ struct NestedCase {
     void fields(Fields& f);
   };
   int bits = 1;
+  int sub_bits = kMostSubBits;
   double aside = 0.5;
   std::vector<Place> order;  ///< a box named twice is there once
   void fields(Fields& f);
@@ -39,6 +40,7 @@ struct NestedCase {
 /// Family 23: a caster that light crosses n times.
 struct CrossedCase {
   int bits = 1;
+  int sub_bits = kMostSubBits;
   int crossed = 1;
   void fields(Fields& f);
   [[nodiscard]] Outcome check(const Context& context) const;
@@ -47,6 +49,7 @@ struct CrossedCase {
 /// Family 24: the eye in, out and on shadow planes, near planes through volumes.
 struct EyeCase {
   int bits = 1;
+  int sub_bits = kMostSubBits;
   int on_x = 0, on_z = 0;      ///< the plane it is on
   int ulps_x = 0, ulps_z = 0;  ///< and how far off it, in units of the last place
   double x = 0, y = -0.5, z = 0;
@@ -59,6 +62,7 @@ struct EyeCase {
 /// Family 25: the light on planes of faces, at vertices, in a caster, behind the eye, far away.
 struct LightPlaceCase {
   int bits = 1;
+  int sub_bits = kMostSubBits;
   bool directional = false;
   int on_x = 0, on_y = 0, on_z = 0;
   int ulps = 0;
@@ -98,6 +102,7 @@ struct TornCase {
     void fields(Fields& f);
   };
   int bits = 1;
+  int sub_bits = kMostSubBits;
   std::vector<Torn> torn;
   ViewCase view;
   LampCase lamp;

@@ -179,13 +179,13 @@ inline constexpr std::array<int, 8> kUnitCounts{1, 2, 3, 4, 5, 8, 9, 64};
 /// The same frame by spans and with each of kUnitCounts units: the same pixels. What the segments were, in that order,
 /// and of each what is wrong.
 inline std::array<SegmentCount, kUnitCounts.size()> either_way_counts(const SceneFrame& f, Config config, int width,
-                                                                      int height) {
+                                                                      int height, const Look& look = {}) {
   config.units = 0;
-  const Picture spans = picture(make_geometry(f, config, width, height), config);
+  const Picture spans = picture(make_geometry(f, config, width, height, {.look = look}), config);
   std::array<SegmentCount, kUnitCounts.size()> counts;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     config.units = kUnitCounts[i];
-    const FrameGeometry g = make_geometry(f, config, width, height);
+    const FrameGeometry g = make_geometry(f, config, width, height, {.look = look});
     const Picture tree = picture(g, config);
     counts[i] = segment_count(tree, g, config);
     counts[i].must(tree.pixels == spans.pixels, "pixels are those of the frame by spans");

@@ -45,6 +45,10 @@ plant steep_step "15 long" 10
 plant lost_layer "20 deep" 7
 plant lost_face 21 22
 plant swapped_pair 35 8
+for error in moved_corner tilted_plane; do
+  plant $error "plane unsnapped" 18
+  plant $error "plane side" 22
+done
 
 # A start has a name by which it runs again.
 gives 0 "$extremes" --case 15:3:1

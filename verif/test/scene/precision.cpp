@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -15,116 +14,33 @@
 
 #include "geometry/seen.hpp"
 #include "kage/geometry.hpp"
+#include "opinion/exact_screen.hpp"
 #include "test/support/catch.hpp"
 
 namespace kage::verif {
 namespace {
 
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
-
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 
-// Positions are quotients of numbers with some 110 bits, those of corners that clipping makes with up to some 330. One
-// so close to half a subpixel is there exactly, and is rounded up.
-const Real kExact("1e-85");
+using Points = std::vector<ExactPoint>;
 
-/// A point from the eye: right, up and forward.
-struct Point {
-  Real x, y, w;
-};
-
-struct Mesh {
-  explicit Mesh(const SceneFrame& f) {
-    const Camera& c = f.camera;
-    points.reserve(f.vertices.size());
-    for (const glm::dvec3& v : f.vertices) {
-      const Real x = Real(v.x) - Real(c.eye.x);
-      const Real y = Real(v.y) - Real(c.eye.y);
-      const Real z = Real(v.z) - Real(c.eye.z);
-      const auto along = [&](const glm::dvec3& a) { return x * Real(a.x) + y * Real(a.y) + z * Real(a.z); };
-      points.push_back({along(c.right), along(c.up), along(c.forward)});
-    }
-  }
-
-  std::vector<Point> points;
-};
-
-/// Of a polygon what has inside(p) >= 0.
-template <class Inside>
-void cut(std::vector<Point>& polygon, Inside inside) {
-  std::vector<Point> kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[(i + 1) % polygon.size()];
-    const Real da = inside(a);
-    const Real db = inside(b);
-    if (da >= 0) kept.push_back(a);
-    if ((da >= 0) == (db >= 0)) continue;
-    const Real t = da / (da - db);
-    kept.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.w + t * (b.w - a.w)});
-  }
-  polygon = std::move(kept);
-}
-
-class Screen {
- public:
-  explicit Screen(const Camera& c) : perspective_(c.perspective), half_height_(c.half_height) {}
-
-  [[nodiscard]] Real scale(const Point& p) const { return perspective_ ? p.w : Real(1); }
-
-  /// The place on the screen, in pixels, times scale().
-  [[nodiscard]] Real x(const Point& p) const { return p.x * (kHeight / 2) / half_height_ + scale(p) * (kWidth / 2); }
-  [[nodiscard]] Real y(const Point& p) const { return scale(p) * (kHeight / 2) - p.y * (kHeight / 2) / half_height_; }
-
-  [[nodiscard]] ScreenVertex snap(const Point& p) const {
-    const auto rounded = [](const Real& v) {
-      const Real half_up = v * 256 + Real(0.5);
-      return static_cast<std::int32_t>(Real(floor(half_up + kExact)).convert_to<double>());
-    };
-    return {rounded(x(p) / scale(p)), rounded(y(p) / scale(p))};
-  }
-
-  /// What of a polygon lies within `limit` pixels of the screen's upper left corner and from `near` on.
-  void clip(std::vector<Point>& polygon, double near) const {
-    const Real limit = kGuard;
-    cut(polygon, [&](const Point& p) { return p.w - Real(near); });
-    cut(polygon, [&](const Point& p) { return y(p) + limit * scale(p); });
-    cut(polygon, [&](const Point& p) { return limit * scale(p) - y(p); });
-    cut(polygon, [&](const Point& p) { return x(p) + limit * scale(p); });
-    cut(polygon, [&](const Point& p) { return limit * scale(p) - x(p); });
-  }
-
-  /// What of it lies in the picture.
-  void to_picture(std::vector<Point>& polygon, double near) const {
-    cut(polygon, [&](const Point& p) { return p.w - Real(near); });
-    cut(polygon, [&](const Point& p) { return y(p); });
-    cut(polygon, [&](const Point& p) { return kHeight * scale(p) - y(p); });
-    cut(polygon, [&](const Point& p) { return x(p); });
-    cut(polygon, [&](const Point& p) { return kWidth * scale(p) - x(p); });
-  }
-
- private:
-  bool perspective_;
-  Real half_height_;
-};
-
-std::vector<Point> outline(const SceneFrame& f, const Mesh& mesh, std::uint32_t polygon) {
-  std::vector<Point> all;
-  for (const std::uint32_t v : f.outline(f.polygons[polygon])) all.push_back(mesh.points[v]);
+Points outline(const SceneFrame& f, const Points& points, std::uint32_t polygon) {
+  Points all;
+  for (const std::uint32_t v : f.outline(f.polygons[polygon])) all.push_back(points[v]);
   return all;
 }
 
 /// Where depth begins, by docs/numbers.md.
-double begin(const SceneFrame& f, const Mesh& mesh, const Screen& screen) {
+double begin(const SceneFrame& f, const Points& points, const ExactScreen& screen) {
   Real nearest = -1;
   Real far = 0;
-  for (const Point& p : mesh.points) far = std::max(far, p.w);
+  for (const ExactPoint& p : points) far = std::max(far, p.w);
   far *= 1 + Real(1e-6);
   for (std::uint32_t i = 0; i < f.polygons.size(); ++i) {
-    std::vector<Point> p = outline(f, mesh, i);
+    Points p = outline(f, points, i);
     screen.to_picture(p, f.camera.near);
-    for (const Point& c : p)
+    for (const ExactPoint& c : p)
       if (nearest < 0 || c.w < nearest) nearest = c.w;
   }
   if (nearest < 0) return f.camera.near;
@@ -147,16 +63,18 @@ struct Count {
 
   /// Compares exact arithmetic on `f` with what the golden model makes of `given`.
   void add(const SceneFrame& f, const SceneFrame& given) {
-    const Mesh mesh(f);
-    const Screen screen(f.camera);
+    const ExactScreen screen(f.camera, kWidth, kHeight);
+    Points points;
+    points.reserve(f.vertices.size());
+    for (const glm::dvec3& v : f.vertices) points.push_back(screen.point(v));
     Config config;
     config.max_width = 2047;
-    const double near = begin(f, mesh, screen);
+    const double near = begin(f, points, screen);
     CHECK(near == depth_range(given, config, kWidth, kHeight, {}, eye_points(given)).near);
     const FrameGeometry g = make_geometry(given, config, kWidth, kHeight);
     for (const ScreenPolygon& p : g.polygons) {
       if (p.source == ~0U) continue;
-      std::vector<Point> truth = outline(f, mesh, p.source);
+      Points truth = outline(f, points, p.source);
       const std::size_t whole = truth.size();
       const auto at = g.outline(p);
       screen.clip(truth, near);
