@@ -2,7 +2,11 @@
 #include "geometry/face_drawer.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <utility>
+
+#include "geometry/fan.hpp"
 
 namespace kage {
 
@@ -63,16 +67,30 @@ void FaceDrawer::undo(std::uint32_t index) {
 }
 
 // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one depth
-// plane.
+// plane. An outline that the snap has bent so far that no fan is without overlaps is drawn whole, with the colours of
+// its largest triangle: each pixel once comes before the colours of what is a few steps of the snap wide.
 void FaceDrawer::add_fan(const ScreenPolygon& base) {
-  std::vector<ClipPoint> triangle;
-  for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
-    triangle.assign({polygon_[0], polygon_[i], polygon_[i + 1]});
+  const std::size_t n = polygon_.size();
+  faces_.snap_outline(polygon_, snapped_);
+  const auto add_piece = [&](std::size_t apex, std::size_t i, bool whole) {
+    const std::vector<ClipPoint> triangle{polygon_[apex], polygon_[(apex + i) % n], polygon_[(apex + i + 1) % n]};
     ScreenPolygon piece = base;
     piece.color_planes = static_cast<std::int32_t>(out_->color_planes.size());
     for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_.color_plane(triangle, c));
-    faces_.add(piece, triangle);
+    if (whole)
+      faces_.add(piece, snapped_);
+    else
+      faces_.add(piece, std::array{snapped_[apex], snapped_[(apex + i) % n], snapped_[(apex + i + 1) % n]});
+  };
+  if (const auto apex = fan_corner(snapped_)) {
+    for (std::size_t i = 1; i + 1 < n; ++i) add_piece(*apex, i, false);
+    return;
   }
+  const auto area = [&](std::size_t i) { return std::abs(twice_area(snapped_[0], snapped_[i], snapped_[i + 1])); };
+  std::size_t largest = 1;
+  for (std::size_t i = 2; i + 1 < n; ++i)
+    if (area(i) > area(largest)) largest = i;
+  add_piece(0, largest, true);
 }
 
 // The plane of a drawn face, which is in polygon_ after clipping. A triangle's goes through its snapped vertices if it

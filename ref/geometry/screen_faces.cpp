@@ -23,9 +23,13 @@ void ScreenFaces::add(const ScreenPolygon& p, std::span<const ScreenVertex> outl
 }
 
 void ScreenFaces::add(const ScreenPolygon& p, const std::vector<ClipPoint>& outline) {
-  snapped_.clear();
-  for (const ClipPoint& c : outline) snapped_.push_back(snap(c, view_->sub_bits()));
+  snap_outline(outline, snapped_);
   add(p, snapped_);
+}
+
+void ScreenFaces::snap_outline(const std::vector<ClipPoint>& outline, std::vector<ScreenVertex>& snapped) const {
+  snapped.clear();
+  for (const ClipPoint& c : outline) snapped.push_back(snap(c, view_->sub_bits()));
 }
 
 ScreenPlane ScreenFaces::unsnapped_plane(const EyePoint& a, const EyePoint& b, const EyePoint& c,

@@ -38,6 +38,9 @@ class ScreenFaces {
   void add(const ScreenPolygon& p, std::span<const ScreenVertex> outline);
   void add(const ScreenPolygon& p, const std::vector<ClipPoint>& outline);
 
+  /// The outline with its corners snapped, in `snapped`.
+  void snap_outline(const std::vector<ClipPoint>& outline, std::vector<ScreenVertex>& snapped) const;
+
   [[nodiscard]] DepthVertex depth_vertex(const ClipPoint& p) const {
     return {snap(p, view_->sub_bits()), to_fixed(view_->depth(p.w), kVertexFrac)};
   }

@@ -56,7 +56,7 @@ struct GlassCase {
 /// Family 14: on the screen a cut face has each pixel once, with the depth and colour that it has uncut.
 struct CutFacesCase {
   bool smooth = false;
-  int sub_bits = kMostSubBits;  ///< where it is not smooth
+  int sub_bits = kMostSubBits;
   GlassCase glass;
   void fields(Fields& f);
   [[nodiscard]] Outcome check(const Context& context) const;

@@ -19,11 +19,11 @@
 namespace kage::verif {
 namespace {
 
-double length(const ExactPoint& p) { return sqrt(p.x * p.x + p.y * p.y + p.w * p.w).convert_to<double>(); }
+double length(const PrecisePoint& p) { return sqrt(p.x * p.x + p.y * p.y + p.w * p.w).convert_to<double>(); }
 
-ExactPoint minus(const ExactPoint& a, const ExactPoint& b) { return {a.x - b.x, a.y - b.y, a.w - b.w}; }
+PrecisePoint minus(const PrecisePoint& a, const PrecisePoint& b) { return {a.x - b.x, a.y - b.y, a.w - b.w}; }
 
-ExactPoint cross(const ExactPoint& a, const ExactPoint& b) {
+PrecisePoint cross(const PrecisePoint& a, const PrecisePoint& b) {
   return {a.y * b.w - a.w * b.y, a.w * b.x - a.x * b.w, a.x * b.y - a.y * b.x};
 }
 
@@ -52,9 +52,9 @@ class TrueFace {
   /// are.
   TrueFace(const Truth& truth, const std::array<glm::dvec3, 3>& plane, std::span<const glm::dvec3> outline, bool at_far)
       : truth_(&truth) {
-    std::vector<ExactPoint> points;
+    std::vector<PrecisePoint> points;
     for (const glm::dvec3& p : outline) points.push_back(truth.screen.point(p));
-    for (const ExactPoint& p : points) reach_ = std::max(reach_, length(p));
+    for (const PrecisePoint& p : points) reach_ = std::max(reach_, length(p));
     find_slopes(plane);
     const Real near(truth.range.near);
     // A hundredth of the depth's range past its end.
@@ -62,7 +62,7 @@ class TrueFace {
     find_doubt(points, near, end);
     truth.screen.clip(points, truth.range.near);
     if (at_far) ExactScreen::cut_behind(points, end);
-    for (const ExactPoint& p : points) {
+    for (const PrecisePoint& p : points) {
       nearest_ = std::min(nearest_, p.w.convert_to<double>());
       const Real scale = truth.screen.scale(p);
       corners_.push_back({Real(truth.screen.x(p) / scale).convert_to<double>(),
@@ -125,7 +125,7 @@ class TrueFace {
            (1 << kPlaneFrac);
   }
 
-  void find_doubt(std::span<const ExactPoint> points, const Real& near, const Real& end) {
+  void find_doubt(std::span<const PrecisePoint> points, const Real& near, const Real& end) {
     const auto look = [&](double size, const auto& distance) {
       for (std::size_t i = 0; i < points.size(); ++i) {
         const double a = Real(distance(points[i])).convert_to<double>();
@@ -136,19 +136,19 @@ class TrueFace {
     };
     const ExactScreen& s = truth_->screen;
     const double size = (1 + reach_) * kGuard;
-    look(reach_, [&](const ExactPoint& p) { return p.w - near; });
-    look(reach_, [&](const ExactPoint& p) { return p.w - end; });
-    look(size, [&](const ExactPoint& p) { return s.scale(p) * kGuard - s.x(p); });
-    look(size, [&](const ExactPoint& p) { return s.scale(p) * kGuard + s.x(p); });
-    look(size, [&](const ExactPoint& p) { return s.scale(p) * kGuard - s.y(p); });
-    look(size, [&](const ExactPoint& p) { return s.scale(p) * kGuard + s.y(p); });
+    look(reach_, [&](const PrecisePoint& p) { return p.w - near; });
+    look(reach_, [&](const PrecisePoint& p) { return p.w - end; });
+    look(size, [&](const PrecisePoint& p) { return s.scale(p) * kGuard - s.x(p); });
+    look(size, [&](const PrecisePoint& p) { return s.scale(p) * kGuard + s.x(p); });
+    look(size, [&](const PrecisePoint& p) { return s.scale(p) * kGuard - s.y(p); });
+    look(size, [&](const PrecisePoint& p) { return s.scale(p) * kGuard + s.y(p); });
   }
 
   void find_slopes(const std::array<glm::dvec3, 3>& plane) {
     const std::array at{truth_->screen.point(plane[0]), truth_->screen.point(plane[1]), truth_->screen.point(plane[2])};
-    const ExactPoint e = minus(at[1], at[0]);
-    const ExactPoint f = minus(at[2], at[0]);
-    const ExactPoint n = cross(e, f);
+    const PrecisePoint e = minus(at[1], at[0]);
+    const PrecisePoint f = minus(at[2], at[0]);
+    const PrecisePoint n = cross(e, f);
     const bool perspective = truth_->camera.perspective;
     const Real through = perspective ? n.x * at[0].x + n.y * at[0].y + n.w * at[0].w : n.w;
     if (through == 0) {

@@ -48,7 +48,8 @@ struct TwoPictures {
 TwoPictures same_but_near_ties_count(const FrameGeometry& a, const Config& ca, const FrameGeometry& b,
                                      const Config& cb);
 
-/// Pixels of lit faces in shadow, where no edge of a volume is near. A volume's own caps must have none.
-Outcome no_acne(const FrameGeometry& g, const Config& config);
+/// Pixels of lit faces in shadow, where no edge of a volume is near and which are no near ties. A volume's own caps
+/// must have none. The geometry's look has `sub_bits`.
+Outcome no_acne(const FrameGeometry& g, const Config& config, int sub_bits);
 
 }  // namespace kage::verif

@@ -218,6 +218,7 @@ Outcome ReachCase::check(const Context& /*context*/) const {
 
 void CapCase::fields(Fields& f) {
   bits_field(f, bits);
+  sub_bits_field(f, sub_bits);
   f.choice("kind", kind, std::array{"triangle", "octahedron", "box"});
   turn.fields(f);
   lamp.fields(f);
@@ -234,8 +235,8 @@ Outcome CapCase::check(const Context& /*context*/) const {
   LampCase sun = lamp;
   sun.placed = false;
   sun.apply_to(f.lights[0]);
-  const FrameGeometry g = geometry(f, counting(bits), Look{});
-  Outcome o = no_acne(g, counting(bits));
+  const FrameGeometry g = geometry(f, counting(bits), look_of(sub_bits));
+  Outcome o = no_acne(g, counting(bits), sub_bits);
   o.add(picture_is_the_oracles(g, counting(bits)));
   return o;
 }

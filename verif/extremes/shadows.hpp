@@ -84,6 +84,7 @@ struct ReachCase {
 /// Family 27: a face that is the cap of its own volume.
 struct CapCase {
   int bits = 1;
+  int sub_bits = kMostSubBits;
   int kind = 0;
   TurnCase turn;
   LampCase lamp;

@@ -15,7 +15,7 @@ namespace kage::verif {
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
 /// A point from the eye: right, up and forward.
-struct ExactPoint {
+struct PrecisePoint {
   Real x, y, w;
 };
 
@@ -23,7 +23,7 @@ class ExactScreen {
  public:
   ExactScreen(const Camera& c, int width, int height) : camera_(c), width_(width), height_(height) {}
 
-  [[nodiscard]] ExactPoint point(const glm::dvec3& world) const {
+  [[nodiscard]] PrecisePoint point(const glm::dvec3& world) const {
     const Real x = Real(world.x) - Real(camera_.eye.x);
     const Real y = Real(world.y) - Real(camera_.eye.y);
     const Real z = Real(world.z) - Real(camera_.eye.z);
@@ -31,24 +31,24 @@ class ExactScreen {
     return {along(camera_.right), along(camera_.up), along(camera_.forward)};
   }
 
-  [[nodiscard]] Real scale(const ExactPoint& p) const { return camera_.perspective ? p.w : Real(1); }
+  [[nodiscard]] Real scale(const PrecisePoint& p) const { return camera_.perspective ? p.w : Real(1); }
 
   /// The place on the screen, in pixels, times scale().
-  [[nodiscard]] Real x(const ExactPoint& p) const {
+  [[nodiscard]] Real x(const PrecisePoint& p) const {
     return p.x * half(height_) / half_height() + scale(p) * half(width_);
   }
-  [[nodiscard]] Real y(const ExactPoint& p) const {
+  [[nodiscard]] Real y(const PrecisePoint& p) const {
     return scale(p) * half(height_) - p.y * half(height_) / half_height();
   }
 
   /// Its depth in LSB of `z_bits` bits, which go from 1 at `near` to the last but one at `far`.
-  [[nodiscard]] Real depth(const ExactPoint& p, double near, double far, int z_bits) const {
+  [[nodiscard]] Real depth(const PrecisePoint& p, double near, double far, int z_bits) const {
     const Real range((std::int64_t{1} << z_bits) - 3);
     const Real linear = range * (p.w - Real(near)) / (Real(far) - Real(near));
     return 1 + (camera_.perspective ? linear * Real(far) / p.w : linear);
   }
 
-  [[nodiscard]] ScreenVertex snap(const ExactPoint& p) const {
+  [[nodiscard]] ScreenVertex snap(const PrecisePoint& p) const {
     const auto rounded = [](const Real& v) {
       const Real half_up = v * 256 + Real(0.5);
       return static_cast<std::int32_t>(Real(floor(half_up + kExact)).convert_to<double>());
@@ -57,27 +57,27 @@ class ExactScreen {
   }
 
   /// What of a polygon lies within the guard band and from `near` on.
-  void clip(std::vector<ExactPoint>& polygon, double near) const {
+  void clip(std::vector<PrecisePoint>& polygon, double near) const {
     const Real limit = kGuard;
-    cut(polygon, [&](const ExactPoint& p) { return p.w - Real(near); });
-    cut(polygon, [&](const ExactPoint& p) { return y(p) + limit * scale(p); });
-    cut(polygon, [&](const ExactPoint& p) { return limit * scale(p) - y(p); });
-    cut(polygon, [&](const ExactPoint& p) { return x(p) + limit * scale(p); });
-    cut(polygon, [&](const ExactPoint& p) { return limit * scale(p) - x(p); });
+    cut(polygon, [&](const PrecisePoint& p) { return p.w - Real(near); });
+    cut(polygon, [&](const PrecisePoint& p) { return y(p) + limit * scale(p); });
+    cut(polygon, [&](const PrecisePoint& p) { return limit * scale(p) - y(p); });
+    cut(polygon, [&](const PrecisePoint& p) { return x(p) + limit * scale(p); });
+    cut(polygon, [&](const PrecisePoint& p) { return limit * scale(p) - x(p); });
   }
 
   /// What of it lies no further than `end`.
-  static void cut_behind(std::vector<ExactPoint>& polygon, const Real& end) {
-    cut(polygon, [&](const ExactPoint& p) { return end - p.w; });
+  static void cut_behind(std::vector<PrecisePoint>& polygon, const Real& end) {
+    cut(polygon, [&](const PrecisePoint& p) { return end - p.w; });
   }
 
   /// What of it lies in the picture and from `near` on.
-  void to_picture(std::vector<ExactPoint>& polygon, double near) const {
-    cut(polygon, [&](const ExactPoint& p) { return p.w - Real(near); });
-    cut(polygon, [&](const ExactPoint& p) { return y(p); });
-    cut(polygon, [&](const ExactPoint& p) { return height_ * scale(p) - y(p); });
-    cut(polygon, [&](const ExactPoint& p) { return x(p); });
-    cut(polygon, [&](const ExactPoint& p) { return width_ * scale(p) - x(p); });
+  void to_picture(std::vector<PrecisePoint>& polygon, double near) const {
+    cut(polygon, [&](const PrecisePoint& p) { return p.w - Real(near); });
+    cut(polygon, [&](const PrecisePoint& p) { return y(p); });
+    cut(polygon, [&](const PrecisePoint& p) { return height_ * scale(p) - y(p); });
+    cut(polygon, [&](const PrecisePoint& p) { return x(p); });
+    cut(polygon, [&](const PrecisePoint& p) { return width_ * scale(p) - x(p); });
   }
 
  private:
@@ -90,11 +90,11 @@ class ExactScreen {
 
   // Of a polygon what has inside(p) >= 0.
   template <class Inside>
-  static void cut(std::vector<ExactPoint>& polygon, Inside inside) {
-    std::vector<ExactPoint> kept;
+  static void cut(std::vector<PrecisePoint>& polygon, Inside inside) {
+    std::vector<PrecisePoint> kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const ExactPoint& a = polygon[i];
-      const ExactPoint& b = polygon[(i + 1) % polygon.size()];
+      const PrecisePoint& a = polygon[i];
+      const PrecisePoint& b = polygon[(i + 1) % polygon.size()];
       const Real da = inside(a);
       const Real db = inside(b);
       if (da >= 0) kept.push_back(a);

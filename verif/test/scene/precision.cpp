@@ -23,7 +23,7 @@ namespace {
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 
-using Points = std::vector<ExactPoint>;
+using Points = std::vector<PrecisePoint>;
 
 Points outline(const SceneFrame& f, const Points& points, std::uint32_t polygon) {
   Points all;
@@ -35,12 +35,12 @@ Points outline(const SceneFrame& f, const Points& points, std::uint32_t polygon)
 double begin(const SceneFrame& f, const Points& points, const ExactScreen& screen) {
   Real nearest = -1;
   Real far = 0;
-  for (const ExactPoint& p : points) far = std::max(far, p.w);
+  for (const PrecisePoint& p : points) far = std::max(far, p.w);
   far *= 1 + Real(1e-6);
   for (std::uint32_t i = 0; i < f.polygons.size(); ++i) {
     Points p = outline(f, points, i);
     screen.to_picture(p, f.camera.near);
-    for (const ExactPoint& c : p)
+    for (const PrecisePoint& c : p)
       if (nearest < 0 || c.w < nearest) nearest = c.w;
   }
   if (nearest < 0) return f.camera.near;
