@@ -132,10 +132,13 @@ std::string name_of(const Json& row) {
 
 std::vector<SweepPlot> plots_of(const std::vector<PageRow>& rows, const std::vector<std::size_t>& members) {
   std::vector<std::pair<const ErrorKind*, const CostKind*>> kinds{
-      {&kWrong, &kLuts}, {&kWrong, &kClocks}, {&kPsnr, &kLuts}};
+      {&kWrong, &kLuts}, {&kWrong, &kClocks}, {&kPsnr, &kLuts}, {&kPsnr, &kClocks}};
   const bool seen = std::none_of(members.begin(), members.end(),
                                  [&](std::size_t i) { return rows[i].row.at("accuracy").at("flip").is_null(); });
-  if (seen) kinds.emplace_back(&kFlip, &kLuts);
+  if (seen) {
+    kinds.emplace_back(&kFlip, &kLuts);
+    kinds.emplace_back(&kFlip, &kClocks);
+  }
   std::vector<SweepPlot> out;
   for (const auto& [error, cost] : kinds)
     out.push_back({fmt::format("{}_{}", error->kind, cost->kind), fmt::format("{}, {}", error->tab, cost->tab),
