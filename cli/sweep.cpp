@@ -110,9 +110,14 @@ void announce_places(trade::Placer& placer, const std::vector<SweptScene>& scene
                     counted(missing, "core is", "cores are"), placer.device()));
 }
 
-void refuse_store(const SweepCommand& o) {
-  if (!o.resume && std::filesystem::exists(o.store))
-    throw Error(fmt::format("{}: there is a store already: --resume goes on with it, --store names another", o.store));
+/// Throws Error where a store cannot be used: before the work, and before one is made.
+void check_stores(const SweepCommand& o) {
+  for (const std::string& other : o.take) trade::SweepStore::check(other);
+  if (o.list) return;
+  check_output(o.store);
+  if (o.resume || !std::filesystem::exists(o.store)) return;
+  trade::SweepStore::check(o.store);
+  throw Error(fmt::format("{}: there is a store already: --resume goes on with it, --store names another", o.store));
 }
 
 int run(const SweepCommand& o) {
@@ -123,9 +128,7 @@ int run(const SweepCommand& o) {
   check_json(o);
   check_output(file_named(o.csv));
   refuse_inputs({file_named(o.json), file_named(o.csv), o.store}, o.take);
-  for (const std::string& other : o.take)
-    if (!std::filesystem::exists(other)) throw Error(fmt::format("{}: no such file", other));
-  if (!o.list) refuse_store(o);
+  check_stores(o);
   Progress progress;
   std::vector<SweptScene> scenes;
   Told* telling = nullptr;
@@ -181,6 +184,7 @@ void add_sweep(CLI::App& app, Action& action) {
                   "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
                   "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
                   "  kage sweep courtyard --axes LANES=1,4,16 --place\n"
+                  "  kage sweep courtyard --config plan --axes Z_BITS=16,18,20 --store plan.sqlite\n"
                   "  kage sweep courtyard --resume --out trade\n"
                   "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
   const auto o = std::make_shared<SweepCommand>();

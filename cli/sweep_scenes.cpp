@@ -27,9 +27,17 @@ using trade::SweepPoint;
 constexpr const char* kPlaceFlag = "true";
 constexpr const char* kPlaceDevice = "ecp5-85f";
 
-SweepPoint base_of(const SweepCommand& o, const Scene& scene, const DrawOptions& draw) {
+Config config_of(const SweepCommand& o, const std::shared_ptr<const Scene>& scene, const DrawOptions& draw) {
+  if (o.config.empty()) return choose_config(*scene, draw).config;
+  if (o.config != kPlanned) return load_config(o.config).config;
+  Options of = o;
+  of.frames = draw.frames;
+  return planned_config(of, scene).config;
+}
+
+SweepPoint base_of(const SweepCommand& o, const std::shared_ptr<const Scene>& scene, const DrawOptions& draw) {
   SweepPoint base;
-  base.config = o.config.empty() ? choose_config(scene, draw).config : load_config(o.config).config;
+  base.config = config_of(o, scene, draw);
   base.look = draw.look;
   base.look.fit = true;
   return trade::with(base, "SIZE", fmt::format("{}x{}", draw.width, draw.height));
@@ -76,7 +84,7 @@ SweptScene open_swept(const SweepCommand& o, const Tools& tools, const std::stri
   planned.draw.threads = std::max(1, (o.threads > 0 ? o.threads : processors) / jobs_of(o));
   planned.draw.name = input;
   planned.draw.order.progress = [](double) { check_interrupt(); };
-  const SweepPoint base = base_of(o, *scene, planned.draw);
+  const SweepPoint base = base_of(o, scene, planned.draw);
   SweptScene out;
   out.input = input;
   out.points = points_of(o, base, planned);

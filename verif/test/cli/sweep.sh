@@ -153,6 +153,18 @@ expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SIZE=32x24 --store size.sq
 [ "$(sed '/#/d; s/^[ *]//' stdout | awk '{print $1, $(NF - 12)}')" = "base 3072
 SIZE 768" ] || fail "pixels of rows: $(cat stdout)"
 
+# About a plan of the scene for the sweep's size and frames: what kage plan prints for them.
+expect 0 "$kage" sweep courtyard --config plan --size 64x48 --no-area --no-cosim --axes Z_BITS=20 --store plan.sqlite --json plan.json
+expect 0 "$kage" plan courtyard --size 64x48 --frames 2 --json planned.json
+python3 - <<'PY' || fail "the base of --config plan is not what kage plan prints"
+import json
+rows, plan = json.load(open("plan.json")), json.load(open("planned.json"))["config"]
+assert [r["axis"] for r in rows] == ["base", "Z_BITS"] and rows[0]["frames"] == 2, rows
+assert rows[0]["config"] == plan, (rows[0]["config"], plan)
+assert rows[1]["config"] == {**plan, "Z_BITS": 20}, rows[1]["config"]
+assert rows[0]["accuracy"]["gross_wrong"] == 0
+PY
+
 # A grid, seeds, and what would be measured.
 expect 0 "$kage" sweep penumbra --size 64x48 --axes SAMPLES=1,4 --axes Z_BITS=12,24 --grid --seeds 2 --list
 [ "$(wc -l <stdout)" = 6 ] || fail "$(cat stdout)"
@@ -215,6 +227,15 @@ trouble "part3.sqlite: no such file" "$kage" sweep courtyard "${quick[@]}" --tak
 echo text >text.sqlite
 trouble "text.sqlite: no store of kage sweep" "$kage" sweep courtyard "${quick[@]}" --store text.sqlite --resume
 [ "$(cat text.sqlite)" = text ] || fail "a file that is no store was written to"
+# A store that cannot be used says why; --resume is named where it would help. A store to take from is asked before one is made.
+trouble "text.sqlite: no store of kage sweep: it is no SQLite file" "$kage" sweep courtyard "${quick[@]}" --store text.sqlite
+trouble "text.sqlite: no store of kage sweep: it is no SQLite file" "$kage" sweep courtyard "${quick[@]}" --take text.sqlite --store no.sqlite
+[ "$(cat text.sqlite)" = text ] || fail "a file that is no store was written to"
+trouble "none/a.sqlite: cannot be written: no such folder" "$kage" sweep courtyard "${quick[@]}" --store none/a.sqlite
+trouble "few: exists and is not a file" "$kage" sweep courtyard "${quick[@]}" --store few --resume
+trouble "few: a folder, and no store" "$kage" sweep courtyard "${quick[@]}" --take few --store no.sqlite
+head -c 5000 sweep.sqlite >half.sqlite
+trouble "half.sqlite: the store is damaged, so begin another: " "$kage" sweep courtyard "${quick[@]}" --store half.sqlite --resume
 trouble "courtyard: given twice" "$kage" sweep courtyard glass courtyard "${quick[@]}" --store no.sqlite
 trouble "random frames are for" "$kage" sweep random --store no.sqlite
 [ ! -e no.sqlite ] || fail "trouble leaves a store"
