@@ -13,6 +13,7 @@
 #include "command.hpp"
 #include "cosim_print.hpp"
 #include "kage/error.hpp"
+#include "kage/light.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "results.hpp"
@@ -92,7 +93,7 @@ std::vector<Entry> entries_of(const SweepCommand& o, const std::vector<SweptScen
 int list(const std::vector<SweptScene>& scenes, const std::vector<Entry>& entries) {
   for (const Entry& e : entries) {
     const SweepPoint& p = scenes[e.scene].points[e.point];
-    fmt::print("{}: {} {}\n", scenes[e.scene].scene->name(), p.axis, p.value);
+    fmt::print("{}: {}{}{}\n", scenes[e.scene].scene->name(), p.axis, p.value.empty() ? "" : " ", p.value);
   }
   return kSame;
 }
@@ -108,6 +109,33 @@ void announce_places(trade::Placer& placer, const std::vector<SweptScene>& scene
   if (missing > 0)
     say(fmt::format("kage: up to {} to be placed on {}, one after another, which takes a minute to some minutes each\n",
                     counted(missing, "core is", "cores are"), placer.device()));
+}
+
+/// Says of scenes without a soft light that an axis of samples only costs.
+void announce_samples(const SweepCommand& o, const std::vector<SweptScene>& scenes) {
+  const bool asked = std::any_of(o.axes.begin(), o.axes.end(),
+                                 [](const std::string& axis) { return trade::parse_axis(axis).name == "SAMPLES"; });
+  if (!asked) return;
+  for (const SweptScene& s : scenes) {
+    bool soft = false;
+    for (int i = 0; i < s.scene->frames(); ++i)
+      for (const Light& light : s.scene->frame(i).lights) soft = soft || light.shape != LightShape::point;
+    if (!soft)
+      say(
+          fmt::format("kage: {}: no light is soft, so SAMPLES changes no picture: what it adds to COUNT_BITS only "
+                      "costs\n",
+                      s.scene->name()));
+  }
+}
+
+/// What was measured, what was taken from the store, and which files there are.
+std::string closing(const SweepCommand& o, std::size_t made, std::size_t rows, const std::string& page) {
+  std::string text = fmt::format("# {} measured now, ", made);
+  text += made == rows
+              ? fmt::format("kept in {}\n", o.store)
+              : fmt::format("{} {} in {}\n", counted(rows - made, "other"), rows - made == 1 ? "was" : "were", o.store);
+  if (!file_named(o.csv).empty()) text += fmt::format("# csv: {}\n", o.csv);
+  return page.empty() ? text : text + fmt::format("# page: {}\n", page);
 }
 
 /// Throws Error where a store cannot be used: before the work, and before one is made.
@@ -145,6 +173,7 @@ int run(const SweepCommand& o) {
     place.emplace(o.out);
     check_output(page);
   }
+  announce_samples(o, scenes);
   if (tools.placer) announce_places(*tools.placer, scenes, entries);
   trade::SweepStore store(o.store);
   for (const std::string& other : o.take) store.absorb(other);
@@ -167,10 +196,7 @@ int run(const SweepCommand& o) {
   if (!file_named(o.csv).empty()) write_text(files, o.csv, sweep_csv(rows));
   if (!o.out.empty()) write_page(o, scenes, entries, rows, files);
   finish(o, {kRows, Json(rows)}, files,
-         csv_only(o)
-             ? sweep_csv(rows)
-             : sweep_table(rows) + fmt::format("# {} measured now, the others were in {}\n", told.made(), o.store) +
-                   (page.empty() ? "" : fmt::format("# page: {}\n", page)));
+         csv_only(o) ? sweep_csv(rows) : sweep_table(rows) + closing(o, told.made(), rows.size(), page));
   return kSame;
 }
 
@@ -226,7 +252,7 @@ void add_sweep(CLI::App& app, Action& action) {
                             "configuration within limits is found, and for plots of error against cost as SVG and PNG",
                             trade::kPageName))
       ->type_name("DIR");
-  options_of_pictures(*c, *o);
+  options_of_pictures(*c, *o, "two, or the scene's one");
   option_json(*c, *o);
   c->callback([o, &action, c] {
     // The store has all rows of the page, those that --take brought too.

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <span>
 #include <thread>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "signals.hpp"
 #include "source.hpp"
 #include "trade/synthesis.hpp"
+#include "usage.hpp"
 
 namespace kage::cli {
 namespace {
@@ -43,12 +45,24 @@ SweepPoint base_of(const SweepCommand& o, const std::shared_ptr<const Scene>& sc
   return trade::with(base, "SIZE", fmt::format("{}x{}", draw.width, draw.height));
 }
 
+/// An axis as --axes has it. A slip in its name is told before all names are.
+trade::SweepAxis axis_of(const std::string& text) {
+  const std::string name = text.substr(0, text.find('='));
+  const std::vector<std::string> names = trade::axis_names();
+  std::string upper = name;
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::string near = nearest(upper, names);
+  if (!near.empty() && near != name)
+    throw Error(fmt::format("--axes {}: there is no axis {}{}", text, name, meant(near)));
+  return trade::parse_axis(text);
+}
+
 std::vector<SweepPoint> points_of(const SweepCommand& o, const SweepPoint& given, const PlannedScene& scene) {
   SweepPoint base = given;
   base.axis = "base";
   base.value.clear();
   std::vector<trade::SweepAxis> axes;
-  for (const std::string& text : o.axes) axes.push_back(trade::parse_axis(text));
+  for (const std::string& text : o.axes) axes.push_back(axis_of(text));
   std::vector<SweepPoint> points = !axes.empty() && o.grid ? trade::grid(base, axes)
                                    : !axes.empty()
                                        ? trade::alone(base, axes)
