@@ -158,7 +158,7 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
       "each has its own folder in DIR, and DIR/report.html is over all; a difference ends its scene, not the others.\n"
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   o.out = "out";
-  option_scenes(*c, o.inputs);
+  option_scenes(*c, o.inputs, Taken::random);
   c->add_option("--out", o.out, "folder for pictures and report.html, default out")->type_name("DIR");
   options_of_frames(*c, o);
   option_json(*c, o);

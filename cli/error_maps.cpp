@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,12 @@ namespace {
 
 std::filesystem::path beside(const std::filesystem::path& picture, std::string_view what) {
   return picture.parent_path() / fmt::format("{}_error{}.png", picture.stem().string(), what);
+}
+
+/// What a number of shadowed samples is of, if a light is soft.
+std::string samples_text(const std::vector<int>& samples) {
+  const int most = samples.empty() ? 1 : *std::max_element(samples.begin(), samples.end());
+  return most > 1 ? fmt::format(" (of {} samples a light)", most) : "";
 }
 
 }  // namespace
@@ -69,10 +76,14 @@ void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles
   j["file"] = path.string();
   j["sources"] = sources;
   json_.push_back(j);
-  text_ += fmt::format("frame {}: wrong face {}, wrong shadow {}, other colour {}, gross {}; {}\n", index,
-                       all.visible_wrong, all.shadow_wrong, all.color_wrong, all.gross_wrong,
-                       told.empty() ? std::string("no source has an error of its own")
-                                    : fmt::format("face/shadow/colour by source: {}", fmt::join(told, ", ")));
+  text_ += fmt::format(
+      "frame {}: wrong face {}, wrong shadow {}{}, other colour {}, gross (beyond any stated error) {}: {}\n", index,
+      all.visible_wrong, all.shadow_wrong, samples_text(scene_->light_samples(index, point_)), all.color_wrong,
+      all.gross_wrong, path.string());
+  const std::string finest = samples_text(scene_->light_samples(index, scene_->finest(point_)));
+  text_ += told.empty() ? "  no source has an error of its own\n"
+                        : fmt::format("  each source alone against the finest picture{}, face/shadow/colour: {}: {}\n",
+                                      finest, fmt::join(told, ", "), beside(picture, "_SOURCE").string());
   scene_->forget(index);
 }
 

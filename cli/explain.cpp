@@ -229,7 +229,7 @@ void add_explain(CLI::App& app, Action& action) {
                             "  kage explain penumbra --pixel 320,300 --changes   (soft shadows take many tokens)\n"
                             "docs/architecture.md says what the words mean, docs/stream.md what each token does.");
   const auto o = std::make_shared<ExplainCommand>();
-  option_scene(*c, *o);
+  option_scene(*c, *o, Taken::random);
   c->add_option("--frame", o->frame, "number of the frame, from 0, default 0")
       ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N");

@@ -66,10 +66,10 @@ void option_size(CLI::App& command, Options& options) {
       ->type_name("WxH");
 }
 
-static void option_frames(CLI::App& command, Options& options) {
+static void option_frames(CLI::App& command, Options& options, const char* usual) {
   command
       .add_option("--frames", options.frames,
-                  "number of frames, spread over the animation or the camera path, default: the scene's own")
+                  fmt::format("number of frames, spread over the animation or the camera path, default: {}", usual))
       ->check(whole_number(1, kMostFrames))
       ->type_name("N");
 }
@@ -93,19 +93,21 @@ void option_json(CLI::App& command, Options& options) {
       ->type_name(std::string("FILE") + kOrStandardOutput);
 }
 
-static std::string what_a_scene_is() {
-  return fmt::format(
-      "a built-in scene ({}), a mesh or scene file (glTF, or what else Assimp reads), a stream file, or, "
-      "for cosim, explain and vectors, random frames (random, random:damaged, random:mixed)",
-      fmt::join(builtin_scenes(), ", "));
+static std::string what_is_taken(Taken taken) {
+  return fmt::format("a built-in scene ({}){} a mesh or scene file (glTF, or what else Assimp reads){}",
+                     fmt::join(builtin_scenes(), ", "), taken == Taken::scenes ? " or" : ",",
+                     taken == Taken::scenes    ? ""
+                     : taken == Taken::streams ? ", or a stream file"
+                                               : ", a stream file, or random frames (random, random:damaged, "
+                                                 "random:mixed)");
 }
 
-void option_scene(CLI::App& command, Options& options) {
-  command.add_option("SCENE", options.input, what_a_scene_is())->required();
+void option_scene(CLI::App& command, Options& options, Taken taken) {
+  command.add_option("SCENE", options.input, what_is_taken(taken))->required();
 }
 
-void option_scenes(CLI::App& command, std::vector<std::string>& inputs) {
-  command.add_option("SCENE", inputs, "one or more, each " + what_a_scene_is())->required();
+void option_scenes(CLI::App& command, std::vector<std::string>& inputs, Taken taken) {
+  command.add_option("SCENE", inputs, "one or more, each " + what_is_taken(taken))->required();
 }
 
 static void option_degrade(CLI::App& command, Options& options) {
@@ -212,9 +214,9 @@ void option_fault(CLI::App& command, std::string& fault) {
       ->type_name("NAME");
 }
 
-void options_of_pictures(CLI::App& command, Options& options) {
+void options_of_pictures(CLI::App& command, Options& options, const char* frames) {
   option_size(command, options);
-  option_frames(command, options);
+  option_frames(command, options, frames);
   option_translucent(command, options);
   option_cull(command, options);
   option_max_fragments(command, options);

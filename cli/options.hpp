@@ -67,15 +67,20 @@ std::string name_of(TranslucentWay way);
 void option_config(CLI::App& command, Options& options);
 
 /// What decides the pictures of a scene: --size, --frames, --order, --alpha, --cull, --max-fragments, --samples,
-/// --classes, --sub-bits, --seed; and --threads, --allow-outside.
-void options_of_pictures(CLI::App& command, Options& options);
+/// --classes, --sub-bits, --seed; and --threads, --allow-outside. `frames` says how many are made without --frames.
+void options_of_pictures(CLI::App& command, Options& options, const char* frames = "the scene's own");
 /// What every command that makes frames for a core takes: those, and --config, --degrade, --units-only.
 void options_of_frames(CLI::App& command, Options& options);
 void option_max_fragments(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
-void option_scene(CLI::App& command, Options& options);                   // SCENE, a positional
-void option_scenes(CLI::App& command, std::vector<std::string>& inputs);  // one or more of them
+
+/// What a command takes frames from: scenes; stream files, too; random frames, too.
+enum class Taken : std::uint8_t { scenes, streams, random };
+/// SCENE, a positional.
+void option_scene(CLI::App& command, Options& options, Taken taken = Taken::streams);
+/// One or more of them.
+void option_scenes(CLI::App& command, std::vector<std::string>& inputs, Taken taken = Taken::scenes);
 void option_threads(CLI::App& command, Options& options);
 void option_size(CLI::App& command, Options& options);
 void option_outside(CLI::App& command, Options& options);  // --allow-outside

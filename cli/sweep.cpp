@@ -13,6 +13,7 @@
 #include "command.hpp"
 #include "cosim_print.hpp"
 #include "kage/error.hpp"
+#include "kage/light.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "results.hpp"
@@ -92,7 +93,7 @@ std::vector<Entry> entries_of(const SweepCommand& o, const std::vector<SweptScen
 int list(const std::vector<SweptScene>& scenes, const std::vector<Entry>& entries) {
   for (const Entry& e : entries) {
     const SweepPoint& p = scenes[e.scene].points[e.point];
-    fmt::print("{}: {} {}\n", scenes[e.scene].scene->name(), p.axis, p.value);
+    fmt::print("{}: {}{}{}\n", scenes[e.scene].scene->name(), p.axis, p.value.empty() ? "" : " ", p.value);
   }
   return kSame;
 }
@@ -110,9 +111,41 @@ void announce_places(trade::Placer& placer, const std::vector<SweptScene>& scene
                     counted(missing, "core is", "cores are"), placer.device()));
 }
 
-void refuse_store(const SweepCommand& o) {
-  if (!o.resume && std::filesystem::exists(o.store))
-    throw Error(fmt::format("{}: there is a store already: --resume goes on with it, --store names another", o.store));
+/// Says of scenes without a soft light that an axis of samples only costs.
+void announce_samples(const SweepCommand& o, const std::vector<SweptScene>& scenes) {
+  const bool asked = std::any_of(o.axes.begin(), o.axes.end(),
+                                 [](const std::string& axis) { return trade::parse_axis(axis).name == "SAMPLES"; });
+  if (!asked) return;
+  for (const SweptScene& s : scenes) {
+    bool soft = false;
+    for (int i = 0; i < s.scene->frames(); ++i)
+      for (const Light& light : s.scene->frame(i).lights) soft = soft || light.shape != LightShape::point;
+    if (!soft)
+      say(
+          fmt::format("kage: {}: no light is soft, so SAMPLES changes no picture: what it adds to COUNT_BITS only "
+                      "costs\n",
+                      s.scene->name()));
+  }
+}
+
+/// What was measured, what was taken from the store, and which files there are.
+std::string closing(const SweepCommand& o, std::size_t made, std::size_t rows, const std::string& page) {
+  std::string text = fmt::format("# {} measured now, ", made);
+  text += made == rows
+              ? fmt::format("kept in {}\n", o.store)
+              : fmt::format("{} {} in {}\n", counted(rows - made, "other"), rows - made == 1 ? "was" : "were", o.store);
+  if (!file_named(o.csv).empty()) text += fmt::format("# csv: {}\n", o.csv);
+  return page.empty() ? text : text + fmt::format("# page: {}\n", page);
+}
+
+/// Throws Error where a store cannot be used: before the work, and before one is made.
+void check_stores(const SweepCommand& o) {
+  for (const std::string& other : o.take) trade::SweepStore::check(other);
+  if (o.list) return;
+  check_output(o.store);
+  if (o.resume || !std::filesystem::exists(o.store)) return;
+  trade::SweepStore::check(o.store);
+  throw Error(fmt::format("{}: there is a store already: --resume goes on with it, --store names another", o.store));
 }
 
 int run(const SweepCommand& o) {
@@ -123,9 +156,7 @@ int run(const SweepCommand& o) {
   check_json(o);
   check_output(file_named(o.csv));
   refuse_inputs({file_named(o.json), file_named(o.csv), o.store}, o.take);
-  for (const std::string& other : o.take)
-    if (!std::filesystem::exists(other)) throw Error(fmt::format("{}: no such file", other));
-  if (!o.list) refuse_store(o);
+  check_stores(o);
   Progress progress;
   std::vector<SweptScene> scenes;
   Told* telling = nullptr;
@@ -142,6 +173,7 @@ int run(const SweepCommand& o) {
     place.emplace(o.out);
     check_output(page);
   }
+  announce_samples(o, scenes);
   if (tools.placer) announce_places(*tools.placer, scenes, entries);
   trade::SweepStore store(o.store);
   for (const std::string& other : o.take) store.absorb(other);
@@ -164,10 +196,7 @@ int run(const SweepCommand& o) {
   if (!file_named(o.csv).empty()) write_text(files, o.csv, sweep_csv(rows));
   if (!o.out.empty()) write_page(o, scenes, entries, rows, files);
   finish(o, {kRows, Json(rows)}, files,
-         csv_only(o)
-             ? sweep_csv(rows)
-             : sweep_table(rows) + fmt::format("# {} measured now, the others were in {}\n", told.made(), o.store) +
-                   (page.empty() ? "" : fmt::format("# page: {}\n", page)));
+         csv_only(o) ? sweep_csv(rows) : sweep_table(rows) + closing(o, told.made(), rows.size(), page));
   return kSame;
 }
 
@@ -181,6 +210,7 @@ void add_sweep(CLI::App& app, Action& action) {
                   "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
                   "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
                   "  kage sweep courtyard --axes LANES=1,4,16 --place\n"
+                  "  kage sweep courtyard --config plan --axes Z_BITS=16,18,20 --store plan.sqlite\n"
                   "  kage sweep courtyard --resume --out trade\n"
                   "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
   const auto o = std::make_shared<SweepCommand>();
@@ -222,7 +252,7 @@ void add_sweep(CLI::App& app, Action& action) {
                             "configuration within limits is found, and for plots of error against cost as SVG and PNG",
                             trade::kPageName))
       ->type_name("DIR");
-  options_of_pictures(*c, *o);
+  options_of_pictures(*c, *o, "two, or the scene's one");
   option_json(*c, *o);
   c->callback([o, &action, c] {
     // The store has all rows of the page, those that --take brought too.

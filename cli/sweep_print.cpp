@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "number/counted.hpp"
@@ -11,15 +12,31 @@
 namespace kage::cli {
 namespace {
 
-/// A number with so many digits behind the point; "-" for null.
+/// A number with so many digits behind the point; "-" for null. A half is rounded up, as the page does.
 std::string number(const Json& value, int digits) {
-  return value.is_null() ? "-" : fmt::format("{:.{}f}", value.get<double>(), digits);
+  if (value.is_null()) return "-";
+  const auto v = value.get<double>();
+  return fmt::format("{:.{}f}", digits == 0 ? std::round(v) : v, digits);
 }
 
 /// Whether a device was asked for in any row.
 bool any_placed(const std::vector<Json>& rows) {
   return std::any_of(rows.begin(), rows.end(),
                      [](const Json& row) { return !row.at("area").at("placed_on").is_null(); });
+}
+
+/// What the columns' names mean.
+std::string legend(bool placed) {
+  return fmt::format(
+      "# face, shadow: pixels with another face than the oracle's, another number of shadowed samples; gross: by more "
+      "than any stated error gives\n"
+      "# z LSB/bound: the depth that is furthest off, in units of its last bit, and the bound; PSNR (dB), FLIP: "
+      "colours "
+      "against the finest picture\n"
+      "# ns/px: of the golden core; clk/px: clocks of the RTL; sim fps: frames a second of its model; words: of the "
+      "stream, a frame; b/px: bits a pixel\n"
+      "{}# docs/sweep.md says how each is measured; --json and --csv have all figures\n",
+      placed ? "# MHz: the clock of the placed core; fps: its frames a second\n" : "");
 }
 
 std::string line_of(const Json& row, bool placed) {
@@ -29,10 +46,10 @@ std::string line_of(const Json& row, bool placed) {
   const std::string name = fmt::format("{} {}", row.at("axis").get<std::string>(), row.at("value").get<std::string>());
   const std::string clock =
       placed ? fmt::format(" {:>6} {:>7}", number(area.at("fmax_mhz"), 1), number(s.at("frames_per_second"), 1)) : "";
-  return fmt::format("{}{:<30} {:>8} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
+  return fmt::format("{}{:<30} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
                      row.at("pareto").get<bool>() ? "*" : " ", name, a.at("pixels").dump(),
                      a.at("visible_wrong").dump(), a.at("shadow_wrong").dump(), a.at("gross_wrong").dump(),
-                     number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 1),
+                     number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 2),
                      a.at("psnr").is_null() ? "equal" : number(a.at("psnr"), 1), number(a.at("flip"), 4),
                      number(s.at("golden_ns_per_pixel"), 1), number(s.at("rtl_cycles_per_pixel"), 3),
                      s.at("rtl_cycles_from") == "cosim" ? " " : "~", number(s.at("cosim_frames_per_second"), 2),
@@ -58,17 +75,17 @@ std::string quoted_csv(const Json& value) {
 }  // namespace
 
 std::string sweep_table(const std::vector<Json>& rows) {
-  std::string text;
-  std::string scene;
   const bool placed = any_placed(rows);
+  std::string text = legend(placed);
+  std::string scene;
   for (const Json& row : rows) {
-    if (text.empty() || row.at("scene") != scene) {
+    if (scene.empty() || row.at("scene") != scene) {
       scene = row.at("scene").get<std::string>();
       text += fmt::format("# {}: {}; * no other row of its size beats it; ~ foretold or estimated\n", scene,
                           counted(row.at("frames").get<int>(), "frame"));
       text +=
-          fmt::format(" {:<30} {:>8} {:>7} {:>7} {:>5} {:>11} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
-                      "# axis value", "pixels", "visible", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
+          fmt::format(" {:<30} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
+                      "# axis value", "pixels", "face", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
                       "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
     }
     text += line_of(row, placed);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <span>
 #include <thread>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "signals.hpp"
 #include "source.hpp"
 #include "trade/synthesis.hpp"
+#include "usage.hpp"
 
 namespace kage::cli {
 namespace {
@@ -27,12 +29,32 @@ using trade::SweepPoint;
 constexpr const char* kPlaceFlag = "true";
 constexpr const char* kPlaceDevice = "ecp5-85f";
 
-SweepPoint base_of(const SweepCommand& o, const Scene& scene, const DrawOptions& draw) {
+Config config_of(const SweepCommand& o, const std::shared_ptr<const Scene>& scene, const DrawOptions& draw) {
+  if (o.config.empty()) return choose_config(*scene, draw).config;
+  if (o.config != kPlanned) return load_config(o.config).config;
+  Options of = o;
+  of.frames = draw.frames;
+  return planned_config(of, scene).config;
+}
+
+SweepPoint base_of(const SweepCommand& o, const std::shared_ptr<const Scene>& scene, const DrawOptions& draw) {
   SweepPoint base;
-  base.config = o.config.empty() ? choose_config(scene, draw).config : load_config(o.config).config;
+  base.config = config_of(o, scene, draw);
   base.look = draw.look;
   base.look.fit = true;
   return trade::with(base, "SIZE", fmt::format("{}x{}", draw.width, draw.height));
+}
+
+/// An axis as --axes has it. A slip in its name is told before all names are.
+trade::SweepAxis axis_of(const std::string& text) {
+  const std::string name = text.substr(0, text.find('='));
+  const std::vector<std::string> names = trade::axis_names();
+  std::string upper = name;
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  const std::string near = nearest(upper, names);
+  if (!near.empty() && near != name)
+    throw Error(fmt::format("--axes {}: there is no axis {}{}", text, name, meant(near)));
+  return trade::parse_axis(text);
 }
 
 std::vector<SweepPoint> points_of(const SweepCommand& o, const SweepPoint& given, const PlannedScene& scene) {
@@ -40,7 +62,7 @@ std::vector<SweepPoint> points_of(const SweepCommand& o, const SweepPoint& given
   base.axis = "base";
   base.value.clear();
   std::vector<trade::SweepAxis> axes;
-  for (const std::string& text : o.axes) axes.push_back(trade::parse_axis(text));
+  for (const std::string& text : o.axes) axes.push_back(axis_of(text));
   std::vector<SweepPoint> points = !axes.empty() && o.grid ? trade::grid(base, axes)
                                    : !axes.empty()
                                        ? trade::alone(base, axes)
@@ -76,7 +98,7 @@ SweptScene open_swept(const SweepCommand& o, const Tools& tools, const std::stri
   planned.draw.threads = std::max(1, (o.threads > 0 ? o.threads : processors) / jobs_of(o));
   planned.draw.name = input;
   planned.draw.order.progress = [](double) { check_interrupt(); };
-  const SweepPoint base = base_of(o, *scene, planned.draw);
+  const SweepPoint base = base_of(o, scene, planned.draw);
   SweptScene out;
   out.input = input;
   out.points = points_of(o, base, planned);

@@ -31,20 +31,24 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-/// The name that was probably meant, or "": a beginning, or a name that two slips of the finger or one in a short word
-/// turn into `text`.
+}  // namespace
+
 std::string nearest(const std::string& text, const std::vector<std::string>& names) {
   std::string best;
   std::size_t least = text.size() < 5 ? 2 : 3;
   for (const std::string& name : names) {
     const bool beginning = text.size() >= 3 && name.rfind(text, 0) == 0;
-    const std::size_t d = beginning ? 1 : distance(text, name);
+    const std::size_t d = text == name ? 0 : beginning ? 1 : distance(text, name);
     if (d >= least) continue;
     least = d;
     best = name;
   }
   return best;
 }
+
+std::string meant(const std::string& name) { return name.empty() ? "" : fmt::format(" (did you mean {}?)", name); }
+
+namespace {
 
 std::vector<std::string> commands(const CLI::App& app) {
   std::vector<std::string> names;
@@ -59,8 +63,6 @@ std::vector<std::string> options(const CLI::App& command) {
     for (const std::string& name : option->get_lnames()) names.push_back(name);
   return names;
 }
-
-std::string meant(const std::string& name) { return name.empty() ? "" : fmt::format(" (did you mean {}?)", name); }
 
 /// What nobody asked for: a mistyped command or option, or an argument too many.
 std::string unexpected(const CLI::App& app, const CLI::App* command) {

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace kage::cli {
 
@@ -18,6 +19,13 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error);
 /// An argument or option of the command that was given as an empty text, as a script's variable that is not set makes
 /// it, or an option that is given - where it means no standard output: one line that names it. Empty if there is none.
 std::string senseless_value(const CLI::App& app);
+
+/// The one of `names` that was probably meant, or "": a beginning, or a name that two slips of the finger or one in a
+/// short word turn into `text`.
+std::string nearest(const std::string& text, const std::vector<std::string>& names);
+
+/// " (did you mean NAME?)", or "" where nearest() has found none.
+std::string meant(const std::string& name);
 
 /// "rendr: no such command (did you mean render?)".
 std::string no_such_command(const CLI::App& app, const std::string& name);

@@ -433,7 +433,7 @@ void add_vectors(CLI::App& app, Action& action) {
       "A pack has stimulus, pixels, signatures and register values, a testbench in plain Verilog and a\n"
       "README.md that says how to run it. docs/vectors.md has the form of each file.");
   const auto o = std::make_shared<VectorsCommand>();
-  option_scene(*c, *o);
+  option_scene(*c, *o, Taken::random);
   c->get_option("SCENE")->required(false);
   c->add_option("--out", o->out, "the pack's folder")->type_name("DIR");
   c->add_option("--module", o->module,

@@ -28,6 +28,22 @@ constexpr const char* kSchema =
 /// A file's name as SQLite takes it for one: ":memory:" would be none.
 std::string sqlite_name(const std::filesystem::path& file) { return std::filesystem::absolute(file).string(); }
 
+[[noreturn]] void damaged(const std::string& file, const std::string& how) {
+  throw Error(fmt::format("{}: the store is damaged, so begin another: {}", file, how));
+}
+
+/// Throws what has just gone wrong.
+[[noreturn]] void fail(const std::string& file, sqlite3* db) {
+  switch (sqlite3_errcode(db)) {
+    case SQLITE_NOTADB:
+      throw Error(fmt::format("{}: no store of kage sweep: it is no SQLite file", file));
+    case SQLITE_CORRUPT:
+      damaged(file, sqlite3_errmsg(db));
+    default:
+      throw Error(fmt::format("{}: {}", file, sqlite3_errmsg(db)));
+  }
+}
+
 /// A statement that is stepped, and let go.
 class Statement {
  public:
@@ -67,10 +83,7 @@ class Statement {
 
  private:
   void check(int code) const {
-    if (code == SQLITE_OK) return;
-    if ((code & 0xFF) == SQLITE_NOTADB)
-      throw Error(fmt::format("{}: no store of kage sweep: it is no SQLite file", file_));
-    throw Error(fmt::format("{}: {}", file_, sqlite3_errmsg(db_)));
+    if (code != SQLITE_OK) fail(file_, db_);
   }
 
   sqlite3* db_;
@@ -88,14 +101,28 @@ struct SweepStore::Data {
 
   ~Data() { sqlite3_close(db); }
 
-  Statement statement(std::string_view sql) { return {db, file, sql}; }
+  explicit Data(const std::filesystem::path& path) : file(path.string()) {}
+  Data(const Data&) = delete;
+  Data& operator=(const Data&) = delete;
+
+  /// `create`: SQLITE_OPEN_CREATE, or 0 for a file that must be there.
+  void open(int create) {
+    std::error_code ec;
+    if (std::filesystem::is_directory(file, ec)) throw Error(fmt::format("{}: a folder, and no store", file));
+    const std::string name = sqlite_name(file);
+    if (!std::filesystem::is_directory(std::filesystem::path(name).parent_path(), ec))
+      throw Error(fmt::format("{}: no such folder", file));
+    if (sqlite3_open_v2(name.c_str(), &db, SQLITE_OPEN_READWRITE | create | SQLITE_OPEN_FULLMUTEX, nullptr) !=
+        SQLITE_OK)
+      fail(file, db);
+    sqlite3_busy_timeout(db, kBusyMilliseconds);
+  }
   std::int64_t number(std::string_view sql) {
     Statement s(db, file, sql);
     return s.step() ? s.number(0) : 0;
   }
   void execute(const char* sql) {
-    if (sqlite3_exec(db, sql, nullptr, nullptr, nullptr) != SQLITE_OK)
-      throw Error(fmt::format("{}: {}", file, sqlite3_errmsg(db)));
+    if (sqlite3_exec(db, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(file, db);
   }
   /// All in one transaction.
   template <class Work>
@@ -118,18 +145,13 @@ struct SweepStore::Data {
       throw Error(fmt::format("{}: a store of version {}, and this kage has {}", file, version, kVersion));
     Statement s(db, file, "PRAGMA quick_check(1)");
     const std::string found = s.step() ? s.text(0) : "nothing";
-    if (found != "ok")
-      throw Error(fmt::format("{}: the store is damaged: {}", file, found.substr(0, found.find('\n'))));
+    if (found != "ok") damaged(file, found.substr(0, found.find('\n')));
   }
 };
 
-SweepStore::SweepStore(const std::filesystem::path& file) : data_(std::make_unique<Data>()) {
+SweepStore::SweepStore(const std::filesystem::path& file) : data_(std::make_unique<Data>(file)) {
   Data& d = *data_;
-  d.file = file.string();
-  if (sqlite3_open_v2(sqlite_name(file).c_str(), &d.db,
-                      SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_FULLMUTEX, nullptr) != SQLITE_OK)
-    throw Error(fmt::format("{}: {}", d.file, sqlite3_errmsg(d.db)));
-  sqlite3_busy_timeout(d.db, kBusyMilliseconds);
+  d.open(SQLITE_OPEN_CREATE);
   if (d.number("SELECT count(*) FROM sqlite_master") > 0 || d.number("PRAGMA application_id") != 0) {
     d.check_version();
   } else {
@@ -200,9 +222,18 @@ void SweepStore::keep_clocks(const std::string& key, const ClockSample& sample) 
   });
 }
 
+void SweepStore::check(const std::filesystem::path& file) {
+  std::error_code ec;
+  if (!std::filesystem::exists(file, ec)) throw Error(fmt::format("{}: no such file", file.string()));
+  if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) == 0)
+    throw Error(fmt::format("{}: no store of kage sweep: it is empty", file.string()));
+  Data d(file);
+  d.open(0);
+  d.check_version();
+}
+
 int SweepStore::absorb(const std::filesystem::path& other) {
-  if (!std::filesystem::exists(other)) throw Error(fmt::format("{}: no such file", other.string()));
-  { const SweepStore checked(other); }
+  check(other);
   const int before = runs();
   const std::lock_guard lock(data_->mutex);
   Data& d = *data_;

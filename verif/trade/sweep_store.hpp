@@ -45,6 +45,9 @@ class SweepStore {
   [[nodiscard]] std::optional<ClockSample> clocks(const std::string& key);
   void keep_clocks(const std::string& key, const ClockSample& sample);
 
+  /// Throws Error if a file that is there is no store, or one of another version, or damaged. It is left as it is.
+  static void check(const std::filesystem::path& file);
+
   /// Takes all rows of another store that are not here. Returns how many runs those were.
   int absorb(const std::filesystem::path& other);
   [[nodiscard]] int runs();

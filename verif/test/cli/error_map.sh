@@ -34,8 +34,9 @@ expect 0 "$kage" sweep courtyard "${coarse[@]}" --axes SUB_BITS=4 --no-area --no
 python3 - <<'PY' || fail "maps and the row differ"
 import json, re
 j, row = json.load(open("coarse.json")), json.load(open("sweep.json"))[1]["accuracy"]
-errors, lines = j["errors"], [l for l in open("line") if l.startswith("frame ")]
-assert len(errors) == len(lines) == 2
+errors, said = j["errors"], open("line").read().splitlines()
+lines, alone = ([l for l in said if l.startswith(begin)] for begin in ("frame ", "  each source alone against the finest picture, "))
+assert len(errors) == len(lines) == len(alone) == 2
 for key in "pixels", "visible_wrong", "shadow_wrong", "gross_wrong", "color_wrong":
     assert sum(e[key] for e in errors) == row[key], key
 for name, of_row in row["sources"].items():
@@ -43,11 +44,12 @@ for name, of_row in row["sources"].items():
     for key in "visible_wrong", "shadow_wrong", "color_wrong":
         assert sum(e["sources"][name][key] for e in errors) == of_row[key], (name, key)
     assert abs(sum(e["sources"][name]["mean_square"] for e in errors) / 2 - of_row["mean_square"]) < 1e-9, name
-for e, line in zip(errors, lines):
-    told = re.match(r"frame (\d+): wrong face (\d+), wrong shadow (\d+), other colour (\d+), gross (\d+); (.*)", line)
+for e, line, of_sources in zip(errors, lines, alone):
+    told = re.match(r"frame (\d+): wrong face (\d+), wrong shadow (\d+), other colour (\d+), gross \(beyond any stated error\) (\d+): (.*)", line)
     assert told and [int(told[k]) for k in range(1, 6)] == [e[k] for k in ("frame", "visible_wrong", "shadow_wrong", "color_wrong", "gross_wrong")], line
     s = e["sources"]["snapping"]
-    assert f'snapping {s["visible_wrong"]}/{s["shadow_wrong"]}/{s["color_wrong"]}' in told[6], line
+    assert f'snapping {s["visible_wrong"]}/{s["shadow_wrong"]}/{s["color_wrong"]}' in of_sources, of_sources
+    assert told[6] == e["file"] and of_sources.endswith(e["file"].replace("_error", "_error_SOURCE")), (line, of_sources)
 assert row["visible_wrong"] > 0 and row["color_wrong"] > 0 and row["sources"]["snapping"]["visible_wrong"] > 0
 PY
 for kind in face:visible_wrong shadow:shadow_wrong colour:color_wrong; do
@@ -87,6 +89,8 @@ cmp exr/courtyard_0000_error.png <(cat again/courtyard_0000_error.png) || fail "
 
 # Soft shadows, layers and lights: each source where it is.
 expect 0 "$kage" render penumbra --size 96x72 --frames 1 --samples 3 --error-map --out soft --json soft.json
+grep -qE 'wrong shadow [0-9]+ \(of 3 samples a light\), ' stdout || fail "$(cat stdout)"
+grep -qF 'alone against the finest picture (of 255 samples a light), face/shadow/colour: ' stdout || fail "$(cat stdout)"
 json soft.json 'j["errors"][0]["sources"]["samples"]["shadow_wrong"] > 0 and j["errors"][0]["gross_wrong"] == 0'
 expect 0 "$kage" render glass --size 96x72 --frames 1 --order submission --error-map --out glass --json glass.json
 json glass.json 'j["errors"][0]["sources"]["order"]["color_wrong"] > 0 and j["errors"][0]["sources"]["order"]["visible_wrong"] == 0'

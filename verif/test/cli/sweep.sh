@@ -17,14 +17,20 @@ json.dump(j, sys.stdout, indent=1)' "$1"
 # One sweep, told in three ways.
 expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --json a.json --csv a.csv
 cp stdout table
+[ "$(tail -2 stdout)" = "# 7 measured now, kept in sweep.sqlite
+# csv: a.csv" ] || fail "$(tail -2 stdout)"
 json a.json 'len(j) == 7 and [r["axis"] for r in j] == ["base", "Z_BITS", "SUB_BITS", "SUB_BITS", "LANES", "LANES", "SHADE_FRAC"]'
 json a.json 'all(r["accuracy"]["gross_wrong"] == 0 and 0 < r["accuracy"]["z_error_max_lsb"] <= r["accuracy"]["z_error_bound_lsb"] for r in j)'
 json a.json 'j[1]["accuracy"]["visible_wrong"] + j[1]["accuracy"]["shadow_wrong"] > 0 and j[2]["accuracy"]["sources"]["snapping"]["visible_wrong"] > 0'
 json a.json 'j[0]["accuracy"]["visible_wrong"] == 0 and j[4]["speed"]["rtl_cycles_per_pixel"] > 3 * j[5]["speed"]["rtl_cycles_per_pixel"]'
 json a.json 'all(r["accuracy"]["sources"]["all"] == j[0]["accuracy"]["sources"]["all"] for r in j[4:6])'
 python3 - <<'PY' || fail "table, JSON and CSV differ"
-import csv, json
+import csv, json, math, re
 rows, table = json.load(open("a.json")), [line for line in open("table") if not line.lstrip().startswith("#")]
+head = next(line for line in open("table") if line.startswith(" # axis value"))
+for name in head.replace("z LSB", "z_LSB").replace("sim fps", "sim_fps").split()[3:]:
+    column = re.escape(name.replace("_", " "))
+    assert name in ("pixels", "LUTs") or any(re.search(rf"(^# |[,;] ){column}[,: ]", line) for line in open("table")), f"no word on {name}"
 sheet = list(csv.DictReader(open("a.csv")))
 assert len(rows) == len(sheet) == len(table), (len(rows), len(sheet), len(table))
 def flat(value, name=""):
@@ -44,6 +50,8 @@ for row, cells, line in zip(rows, sheet, table):
     assert line.startswith("*") == row["pareto"], line
     assert told[:4] == [str(a[k]) for k in ("pixels", "visible_wrong", "shadow_wrong", "gross_wrong")], line
     assert f'{s["rtl_cycles_per_pixel"]:.3f}' in line and f'{area["luts"]:.0f}~' in line, line
+    assert f'{a["z_error_max_lsb"]:.2f}/{a["z_error_bound_lsb"]:.2f}' in told, line
+    assert str(math.floor(s["words_per_frame"] + 0.5)) in told, line
 PY
 
 # Both go to standard output, alone on it.
@@ -58,10 +66,10 @@ cmp a.csv b.csv || fail "beside --json - the CSV is another"
 # What is kept is not measured again; without --resume a store is not touched.
 trouble "sweep.sqlite: there is a store already: --resume goes on with it" "$kage" sweep courtyard "${quick[@]}"
 expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --resume --json again.json
-tail -1 stdout | grep -qF '# 0 measured now' || fail "$(tail -1 stdout)"
+tail -1 stdout | grep -qxF '# 0 measured now, 7 others were in sweep.sqlite' || fail "$(tail -1 stdout)"
 cmp a.json again.json || fail "a resumed sweep says something else"
 expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8,12 --resume
-tail -1 stdout | grep -qF '# 1 measured now' || fail "$(tail -1 stdout)"
+tail -1 stdout | grep -qxF '# 1 measured now, 2 others were in sweep.sqlite' || fail "$(tail -1 stdout)"
 
 # A row is kept for its scene and its truth, not only for its words: a core without TRANSLUCENCY has the same words whatever
 # --alpha is, and a core with a light table the same whether its base has one.
@@ -148,15 +156,34 @@ cmp stderr want || fail "$(cat stderr)"
 expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --store anew.sqlite --resume
 [ ! -s stderr ] || fail "rows that are there are said to be old: $(cat stderr)"
 
+# Samples that no light of a scene has are told of that scene. A half of words is rounded up.
+expect 0 "$kage" sweep courtyard penumbra --size 32x24 --frames 2 --no-area --no-cosim --no-flip --samples 1 --axes SAMPLES=3 --store soft.sqlite --json soft.json
+[ "$(cat stderr)" = "kage: courtyard: no light is soft, so SAMPLES changes no picture: what it adds to COUNT_BITS only costs" ] || fail "$(cat stderr)"
+json soft.json 'j[0]["config"]["COUNT_BITS"] < j[1]["config"]["COUNT_BITS"] and j[0]["accuracy"]["sources"] == j[1]["accuracy"]["sources"]'
+
 # A row of another size has its own number of pixels.
 expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SIZE=32x24 --store size.sqlite
 [ "$(sed '/#/d; s/^[ *]//' stdout | awk '{print $1, $(NF - 12)}')" = "base 3072
 SIZE 768" ] || fail "pixels of rows: $(cat stdout)"
 
+# About a plan of the scene for the sweep's size and frames: what kage plan prints for them.
+expect 0 "$kage" sweep courtyard --config plan --size 64x48 --no-area --no-cosim --axes Z_BITS=20 --store plan.sqlite --json plan.json
+expect 0 "$kage" plan courtyard --size 64x48 --frames 2 --json planned.json
+python3 - <<'PY' || fail "the base of --config plan is not what kage plan prints"
+import json
+rows, plan = json.load(open("plan.json")), json.load(open("planned.json"))["config"]
+assert [r["axis"] for r in rows] == ["base", "Z_BITS"] and rows[0]["frames"] == 2, rows
+assert rows[0]["config"] == plan, (rows[0]["config"], plan)
+assert rows[1]["config"] == {**plan, "Z_BITS": 20}, rows[1]["config"]
+assert rows[0]["accuracy"]["gross_wrong"] == 0
+PY
+
 # A grid, seeds, and what would be measured.
 expect 0 "$kage" sweep penumbra --size 64x48 --axes SAMPLES=1,4 --axes Z_BITS=12,24 --grid --seeds 2 --list
 [ "$(wc -l <stdout)" = 6 ] || fail "$(cat stdout)"
+! grep -q ' $' stdout || fail "--list: a line ends with a blank"
 expect 0 "$kage" sweep courtyard --list
+grep -qx 'courtyard: base' stdout || fail "$(head -1 stdout)"
 [ "$(wc -l <stdout)" -gt 50 ] || fail "$(wc -l <stdout) configurations"
 
 # Clocks by phases are those of the RTL within a thousandth: the base's model stands for the other, which is built to check it.
@@ -206,6 +233,8 @@ KAGE_DATA_DIR=$PWD/data trouble "data/tools/fpga: cores are placed by a kage in 
 YOSYS=/nonexistent trouble "/nonexistent: not found" "$kage" sweep courtyard --config tiny --no-cosim --store no.sqlite
 
 trouble "--axes DEPTH=3: there is no axis DEPTH; there are SUB_BITS, SAMPLES" "$kage" sweep courtyard "${quick[@]}" --axes DEPTH=3 --store no.sqlite
+trouble "--axes z_bits=3: there is no axis z_bits (did you mean Z_BITS?)" "$kage" sweep courtyard "${quick[@]}" --axes z_bits=3 --store no.sqlite
+trouble "--axes ZBITS=3: there is no axis ZBITS (did you mean Z_BITS?)" "$kage" sweep courtyard "${quick[@]}" --axes ZBITS=3 --store no.sqlite
 trouble "--axes Z_BITS: 99 is no whole number from 4 to 28" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=99 --store no.sqlite
 trouble "--axes Z_BITS: an empty value is no whole number" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=12, --store no.sqlite
 trouble "--axes Z_BITS: it has no values" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS --store no.sqlite
@@ -215,6 +244,15 @@ trouble "part3.sqlite: no such file" "$kage" sweep courtyard "${quick[@]}" --tak
 echo text >text.sqlite
 trouble "text.sqlite: no store of kage sweep" "$kage" sweep courtyard "${quick[@]}" --store text.sqlite --resume
 [ "$(cat text.sqlite)" = text ] || fail "a file that is no store was written to"
+# A store that cannot be used says why; --resume is named where it would help. A store to take from is asked before one is made.
+trouble "text.sqlite: no store of kage sweep: it is no SQLite file" "$kage" sweep courtyard "${quick[@]}" --store text.sqlite
+trouble "text.sqlite: no store of kage sweep: it is no SQLite file" "$kage" sweep courtyard "${quick[@]}" --take text.sqlite --store no.sqlite
+[ "$(cat text.sqlite)" = text ] || fail "a file that is no store was written to"
+trouble "none/a.sqlite: cannot be written: no such folder" "$kage" sweep courtyard "${quick[@]}" --store none/a.sqlite
+trouble "few: exists and is not a file" "$kage" sweep courtyard "${quick[@]}" --store few --resume
+trouble "few: a folder, and no store" "$kage" sweep courtyard "${quick[@]}" --take few --store no.sqlite
+head -c 5000 sweep.sqlite >half.sqlite
+trouble "half.sqlite: the store is damaged, so begin another: " "$kage" sweep courtyard "${quick[@]}" --store half.sqlite --resume
 trouble "courtyard: given twice" "$kage" sweep courtyard glass courtyard "${quick[@]}" --store no.sqlite
 trouble "random frames are for" "$kage" sweep random --store no.sqlite
 [ ! -e no.sqlite ] || fail "trouble leaves a store"

@@ -126,8 +126,32 @@ TEST_CASE("what is no store is refused, and left as it is") {
   std::string damaged = good;
   for (std::size_t i = 4096; i < 3 * 4096; ++i) damaged[i] = static_cast<char>(i * 7);
   check(damaged, "");
-  check(good.substr(0, good.size() / 2), "");
-  CHECK_THAT(refused(folder.path / "no/such/folder.sqlite"), ContainsSubstring("unable to open"));
+  check(good.substr(0, good.size() / 2), "the store is damaged, so begin another: ");
+  CHECK(refused(folder.path / "no/such/a.sqlite") == (folder.path / "no/such/a.sqlite: no such folder").string());
+  CHECK(refused(folder.path) == folder.path.string() + ": a folder, and no store");
+}
+
+TEST_CASE("a file that rows are to be taken of is asked whether it is a store, and none is made of it") {
+  const verif::TempFolder folder("sweep-check");
+  const auto file = folder.path / "a.sqlite";
+  const auto checked = [&] {
+    try {
+      SweepStore::check(file);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  CHECK(checked() == file.string() + ": no such file");
+  CHECK_FALSE(std::filesystem::exists(file));
+  write(file, "");
+  CHECK(checked() == file.string() + ": no store of kage sweep: it is empty");
+  CHECK(std::filesystem::file_size(file) == 0);
+  write(file, "text");
+  CHECK(checked() == file.string() + ": no store of kage sweep: it is no SQLite file");
+  std::filesystem::remove(file);
+  { const SweepStore store(file); }
+  CHECK(checked().empty());
 }
 
 TEST_CASE("a row that is of no use now says why, by what it has most in common") {
