@@ -5,8 +5,8 @@
 // the one that the environment variable KAGE_SIMD names. No result depends on it; tests and speed measurements do.
 //
 // A file with kernels includes this before any header of Highway, because the macros below decide which targets exist,
-// and must be the same in all files. HWY_COMPILE_ALL_ATTAINABLE, which the build defines, adds the targets that a better
-// one makes superfluous, EMU128 among them: plain C++ in the place of vectors, which any machine can run.
+// and must be the same in all files. HWY_COMPILE_ALL_ATTAINABLE, which the build defines, adds the targets that a
+// better one makes superfluous, EMU128 among them: plain C++ in the place of vectors, which any machine can run.
 #pragma once
 
 // EMU128 knows every operation, HWY_SCALAR does not.
