@@ -61,6 +61,20 @@ json loads.json 'j["cost"]["needs_fifo"] is True and j["meets_clock"] is True'
 expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 0.01
 grep -q 'no core keeps up, this one comes nearest$' stdout || fail "$(cat stdout)"
 
+# One per cent more decides nothing: neither look-up tables by area nor clocks by speed; and what decided is told.
+expect 0 "$kage" plan knot --size 96x72 --frames 1 --json area.json
+grep -qE '^# LUTs within 1 % of the fewest count as equal: [0-9.]+ LUTs more than parity \(LANES 1, BEAT_WORDS 1\) buy [0-9]+ % fewer clocks$' stdout || fail "$(cat stdout)"
+grep -q '^DSF_BITS: [2-9] ' stdout || fail "$(grep DSF_BITS stdout)"
+json area.json 'j["least"]["way"] == "parity" and j["least"]["cost"]["luts"] < j["cost"]["luts"] <= 1.01 * j["least"]["cost"]["luts"] and j["cost"]["clocks_per_pixel"] < j["least"]["cost"]["clocks_per_pixel"]'
+expect 0 "$kage" plan canopy --size 96x72 --frames 1 --prefer speed
+grep -qE '^# clocks within 1 % of the fewest count as equal: 0\.[0-9] % more than .* save [0-9]+ LUTs$' stdout || fail "$(cat stdout)"
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 500 --json -
+json stdout 'j["least"] is None'
+# A reason says by words what goes up and what down.
+expect 0 "$kage" plan courtyard --size 160x120 --frames 1 --prefer speed
+grep -qE '^LANES: .*; [0-9]+ would take [0-9]+ % more clocks and [0-9]+ LUTs fewer$' stdout || fail "$(grep LANES stdout)"
+! grep -qE ' 1 (lines|lights|steps) ' stdout || fail "$(cat stdout)"
+
 # Measured: fewer bits for whom wrong pixels do not matter.
 "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 3000 >few.yaml || fail "no measured plan"
 [ "$(sed -n 's/^Z_BITS: \([0-9]*\).*/\1/p' few.yaml)" -lt 24 ] || fail "$(grep Z_BITS few.yaml)"
@@ -71,6 +85,8 @@ trouble "--max-wrong: how many pixels a bit moves is a property of the scene: it
 trouble "--max-z 1e-09: with 28 bits of depth the bound is " "$kage" plan courtyard --size 64x48 --frames 1 --max-z 1e-9
 trouble "--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says how fast the core is" \
   "$kage" plan courtyard --fps 30
+trouble "--total-lines 100: a frame's time holds the picture's 480 lines at least" "$kage" plan courtyard --clock 50 --total-lines 100
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50 --total-lines 48
 trouble "--device up9k: no core was placed there; there are ecp5-25f" "$kage" plan courtyard --device up9k
 trouble "nowhere.obj" "$kage" plan nowhere.obj
 trouble "random: random frames are for" "$kage" plan random
