@@ -17,6 +17,7 @@
 #include "kage/error.hpp"
 #include "planned.hpp"
 #include "progress.hpp"
+#include "remarks.hpp"
 #include "results.hpp"
 #include "signals.hpp"
 #include "source.hpp"
@@ -130,9 +131,29 @@ std::string least_text(const Plan& plan, Prefer prefer) {
                      clocks < 0 ? "clocks" : "words");
 }
 
-std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options) {
+/// What render says of the scenes, a line each: what was ignored or added, and what is to be seen with the plan's
+/// depth.
+std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const std::vector<PlannedScene>& scenes) {
+  std::vector<std::string> lines;
+  for (const PlannedScene& s : scenes) {
+    const int frames = s.draw.frames > 0 ? s.draw.frames : s.scene->frame_count();
+    FrameRemarks remarks(plan.config, o.size, o.cull);
+    std::vector<std::string> notes = scene_notes(*s.scene, s.scene->frame(0, frames), o);
+    for (int i = 0; i < frames; ++i) {
+      check_interrupt();
+      remarks.add(*s.scene, s.scene->frame(i, frames));
+    }
+    for (std::string& note : remarks.notes()) notes.push_back(std::move(note));
+    for (const std::string& note : notes) lines.push_back(fmt::format("{}: {}", plain_name(s.scene->name()), note));
+  }
+  return lines;
+}
+
+std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options,
+                    const std::vector<std::string>& notes) {
   std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n", fmt::join(o.inputs, " "),
                                  counted(plan.frames, "frame"), plan.size[0], plan.size[1], name_of(o.plan.prefer));
+  for (const std::string& note : notes) text += fmt::format("# {}\n", note);
   text += fmt::format(
       "# depth within {:.3g} of its range, colour within {} of 255 of a core whose fractions are without "
       "end{}\n",
@@ -144,6 +165,10 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
         counted(options.clock->total_lines > 0 ? options.clock->total_lines : usual_total_lines(plan.size[1]), "line"),
         options.clock->mhz,
         *plan.cost.meets_clock ? "the core " + keeps_up(plan.config) : "no core keeps up, this one comes nearest");
+  if (!o.device.empty())
+    text += fmt::format(
+        "# {:g} MHz is what the slowest core placed on {} reached, {}; others are faster (docs/timing.md)\n",
+        options.clock->mhz, o.device, device_clock(o.device).core);
   text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
   text += least_text(plan, o.plan.prefer);
   for (const PlanCandidate& c : plan.others)
@@ -183,9 +208,10 @@ Json candidate_json(const Plan& plan, const PlanCandidate& c) {
   return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.config, c.cost)}};
 }
 
-Json json_of(const PlanCommand& o, const Plan& plan) {
+Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::string>& notes) {
   Json j;
   j["scenes"] = o.inputs;
+  j["notes"] = notes;
   j["frames"] = plan.frames;
   j["width"] = plan.size[0];
   j["height"] = plan.size[1];
@@ -229,7 +255,10 @@ int run(const PlanCommand& o) {
   const Plan plan = make_plan(scenes, options);
   progress.clear();
   TempFiles files;
-  finish(o, {"kage.plan/1", json_of(o, plan)}, files, text_of(o, plan, options));
+  const std::vector<std::string> notes = notes_of(o, plan, scenes);
+  finish(o, {"kage.plan/1", json_of(o, plan, notes)}, files, text_of(o, plan, options, notes));
+  if (json_only(o))
+    for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
   return kSame;
 }
 
@@ -286,7 +315,8 @@ void add_plan(CLI::App& app, Action& action) {
   auto* clock = c->add_option("--clock", o->clock, "the core's clock in MHz, to keep up with a display")
                     ->check(real_number(0.001, 10000))
                     ->type_name("MHZ");
-  c->add_option("--device", o->device, "the same: the clock that cores reached on a device of constraints/figures.json")
+  c->add_option("--device", o->device,
+                "the same: the clock of the slowest core that was placed on a device of constraints/figures.json")
       ->excludes(clock)
       ->type_name("NAME");
   c->add_option("--fps", o->fps, "frames a second of the display, default 60")

@@ -18,7 +18,7 @@ grep -q '^same: 2 frames' stdout || fail "$(cat stdout)"
 cmp mine.yaml again.yaml || fail "a plan differs from run to run"
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config mine.yaml --out a.kage
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config plan --out b.kage
-grep -q 'configuration: plan (LANES 1); its RTL model was there' stdout || fail "$(cat stdout)"
+grep -q 'configuration: plan (LANES 1)$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" diff a.kage b.kage
 expect 0 "$kage" model --plan courtyard --size 64x48 --frames 2
 grep -q '^plan of courtyard: .*(was there)$' stdout || fail "$(cat stdout)"
@@ -54,6 +54,7 @@ expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50
 grep -q '^# a display of 60 frames a second and 51 lines each, blanking included, at 50 MHz: the core keeps up$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" plan courtyard --size 640x480 --frames 1 --device ecp5-25f --fps 30
 grep -q ' and 525 lines each' stdout || fail "$(cat stdout)"
+grep -qE '^# [0-9.]+ MHz is what the slowest core placed on ecp5-25f reached, [a-z0-9-]+; ' stdout || fail "$(cat stdout)"
 # Translucent layers over counted samples: the way out evens nothing out.
 expect 0 "$kage" plan penumbra glass --size 64x48 --frames 1 --samples 3 --clock 500 --json loads.json
 grep -q ': the core keeps up with a FIFO of two lines behind it$' stdout || fail "$(cat stdout)"
@@ -75,10 +76,20 @@ expect 0 "$kage" plan courtyard --size 160x120 --frames 1 --prefer speed
 grep -qE '^LANES: .*; [0-9]+ would take [0-9]+ % more clocks and [0-9]+ LUTs fewer$' stdout || fail "$(grep LANES stdout)"
 ! grep -qE ' 1 (lines|lights|steps) ' stdout || fail "$(cat stdout)"
 
+# What render says of a mesh, plan says as well, in comments.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >mesh.obj
+expect 0 "$kage" plan mesh.obj --size 64x48 --frames 1 --json notes.json
+grep -q '^# mesh: no light: a directional one is added$' stdout || fail "$(cat stdout)"
+json notes.json '"mesh: no camera: an orbit round the scene is added" in j["notes"]'
+expect 0 "$kage" render mesh.obj --size 64x48 --frames 1 --out out
+for note in "mesh: no light" "mesh: no camera"; do grep -q "^$note" stdout || fail "render does not say: $note"; done
+
 # Measured: fewer bits for whom wrong pixels do not matter.
 "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 3000 >few.yaml || fail "no measured plan"
 [ "$(sed -n 's/^Z_BITS: \([0-9]*\).*/\1/p' few.yaml)" -lt 24 ] || fail "$(grep Z_BITS few.yaml)"
-grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ give ' few.yaml || fail "$(grep Z_BITS few.yaml)"
+grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ give .*: over --max-wrong 3000' few.yaml || fail "$(grep Z_BITS few.yaml)"
+"$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured >measured.yaml || fail "no measured plan"
+grep -qE '^Z_BITS: .*; [0-9]+ give .*: over --max-z 5.96e-08' measured.yaml || fail "$(grep Z_BITS measured.yaml)"
 
 trouble "--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured" \
   "$kage" plan courtyard --max-wrong 3
