@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +17,7 @@
 #include "kage/error.hpp"
 #include "planned.hpp"
 #include "progress.hpp"
+#include "remarks.hpp"
 #include "results.hpp"
 #include "signals.hpp"
 #include "source.hpp"
@@ -106,20 +108,69 @@ std::string shape_text(const Config& c) {
                             : fmt::format("LANES {}, BEAT_WORDS {}", c.lanes, c.beat_words);
 }
 
-std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options) {
+/// A share as per cent: 26, 0.7.
+std::string per_cent(double share) { return fmt::format("{:.{}f} %", 100 * share, share < 0.0995 ? 1 : 0); }
+
+/// Why another than the one with the fewest clocks or look-up tables was taken; nothing if it is that one.
+std::string least_text(const Plan& plan, Prefer prefer) {
+  if (!plan.least) return {};
+  const PlanCost& least = plan.least->cost;
+  const double luts = plan.cost.luts - least.luts;
+  const auto change = [](std::uint64_t now, std::uint64_t then) {
+    return static_cast<double>(now) / static_cast<double>(then) - 1;
+  };
+  const double clocks = change(plan.cost.clocks, least.clocks);
+  const std::string than = fmt::format("{} ({})", plan.least->way, shape_text(plan.least->config));
+  const std::string luts_text = fmt::format("{:.{}f} LUTs", std::abs(luts), std::abs(luts) < 9.5 ? 1 : 0);
+  if (prefer == Prefer::speed)
+    return fmt::format("# clocks within {:.0f} % of the fewest count as equal: {} more than {} save {}\n",
+                       100 * kAsGood, per_cent(clocks), than, luts_text);
+  return fmt::format("# LUTs within {:.0f} % of the fewest count as equal: {} more than {} buy {} fewer {}\n",
+                     100 * kAsGood, luts_text, than,
+                     per_cent(clocks < 0 ? -clocks : -change(plan.cost.words, least.words)),
+                     clocks < 0 ? "clocks" : "words");
+}
+
+/// What render says of the scenes, a line each: what was ignored or added, and what is to be seen with the plan's
+/// depth.
+std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const std::vector<PlannedScene>& scenes) {
+  std::vector<std::string> lines;
+  for (const PlannedScene& s : scenes) {
+    const int frames = s.draw.frames > 0 ? s.draw.frames : s.scene->frame_count();
+    FrameRemarks remarks(plan.config, o.size, o.cull);
+    std::vector<std::string> notes = scene_notes(*s.scene, s.scene->frame(0, frames), o);
+    for (int i = 0; i < frames; ++i) {
+      check_interrupt();
+      remarks.add(*s.scene, s.scene->frame(i, frames));
+    }
+    for (std::string& note : remarks.notes()) notes.push_back(std::move(note));
+    for (const std::string& note : notes) lines.push_back(fmt::format("{}: {}", plain_name(s.scene->name()), note));
+  }
+  return lines;
+}
+
+std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options,
+                    const std::vector<std::string>& notes) {
   std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n", fmt::join(o.inputs, " "),
                                  counted(plan.frames, "frame"), plan.size[0], plan.size[1], name_of(o.plan.prefer));
-  text += fmt::format("# depth within {:.3g} of its range, colour within {} of 255 of fractions without end{}\n",
-                      plan.z_error, plan.limits.color,
-                      plan.limits.color > options.limits.color ? " (no core keeps less here)" : "");
+  for (const std::string& note : notes) text += fmt::format("# {}\n", note);
+  text += fmt::format(
+      "# depth within {:.3g} of its range, colour within {} of 255 of a core whose fractions are without "
+      "end{}\n",
+      plan.z_error, counted(plan.limits.color, "step"),
+      plan.limits.color > options.limits.color ? " (no core keeps less here)" : "");
   if (options.clock)
     text += fmt::format(
-        "# a display of {:g} frames a second and {} lines each, blanking included, at {:g} MHz: {}\n",
-        options.clock->fps,
-        options.clock->total_lines > 0 ? options.clock->total_lines : usual_total_lines(plan.size[1]),
+        "# a display of {:g} frames a second and {} each, blanking included, at {:g} MHz: {}\n", options.clock->fps,
+        counted(options.clock->total_lines > 0 ? options.clock->total_lines : usual_total_lines(plan.size[1]), "line"),
         options.clock->mhz,
         *plan.cost.meets_clock ? "the core " + keeps_up(plan.config) : "no core keeps up, this one comes nearest");
+  if (!o.device.empty())
+    text += fmt::format(
+        "# {:g} MHz is what the slowest core placed on {} reached, {}; others are faster (docs/timing.md)\n",
+        options.clock->mhz, o.device, device_clock(o.device).core);
   text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
+  text += least_text(plan, o.plan.prefer);
   for (const PlanCandidate& c : plan.others)
     text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.config, c.cost));
   if (o.plan.prefer == Prefer::speed && !(plan.smallest.config == plan.config))
@@ -157,9 +208,10 @@ Json candidate_json(const Plan& plan, const PlanCandidate& c) {
   return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.config, c.cost)}};
 }
 
-Json json_of(const PlanCommand& o, const Plan& plan) {
+Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::string>& notes) {
   Json j;
   j["scenes"] = o.inputs;
+  j["notes"] = notes;
   j["frames"] = plan.frames;
   j["width"] = plan.size[0];
   j["height"] = plan.size[1];
@@ -179,6 +231,7 @@ Json json_of(const PlanCommand& o, const Plan& plan) {
   j["others"] = Json::array();
   for (const PlanCandidate& c : plan.others) j["others"].push_back(candidate_json(plan, c));
   j["smallest"] = candidate_json(plan, plan.smallest);
+  j["least"] = plan.least ? candidate_json(plan, *plan.least) : Json(nullptr);
   return j;
 }
 
@@ -202,7 +255,10 @@ int run(const PlanCommand& o) {
   const Plan plan = make_plan(scenes, options);
   progress.clear();
   TempFiles files;
-  finish(o, {"kage.plan/1", json_of(o, plan)}, files, text_of(o, plan, options));
+  const std::vector<std::string> notes = notes_of(o, plan, scenes);
+  finish(o, {"kage.plan/1", json_of(o, plan, notes)}, files, text_of(o, plan, options, notes));
+  if (json_only(o))
+    for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
   return kSame;
 }
 
@@ -247,15 +303,20 @@ void add_plan(CLI::App& app, Action& action) {
       ->type_name("HOW");
   c->add_option_function<std::string>(
        "--prefer", [plan = &o->plan](const std::string& name) { plan->prefer = preferences().at(name); },
-       "which of several that serve: speed has the fewest clocks, area the fewest look-up tables, words the shortest "
-       "stream; default area")
+       fmt::format(
+           "which of several that serve: speed has the fewest clocks, and of those within {0:.0f} % of them the fewest "
+           "look-up tables; area has the fewest look-up tables, and of those within {0:.0f} % of them the fewest "
+           "clocks; "
+           "words has the shortest stream; default area",
+           100 * kAsGood))
       ->option_text("speed|area|words")
       ->check(CLI::IsMember({"speed", "area", "words"}))
       ->type_name("WHAT");
   auto* clock = c->add_option("--clock", o->clock, "the core's clock in MHz, to keep up with a display")
                     ->check(real_number(0.001, 10000))
                     ->type_name("MHZ");
-  c->add_option("--device", o->device, "the same: the clock that cores reached on a device of constraints/figures.json")
+  c->add_option("--device", o->device,
+                "the same: the clock of the slowest core that was placed on a device of constraints/figures.json")
       ->excludes(clock)
       ->type_name("NAME");
   c->add_option("--fps", o->fps, "frames a second of the display, default 60")
@@ -263,7 +324,7 @@ void add_plan(CLI::App& app, Action& action) {
       ->type_name("F");
   c->add_option("--total-lines", o->total_lines,
                 "lines in a frame's time of the display, blanking included; default 525 for 480, 750 for 720, 1125 for "
-                "1080, 2250 for 2160, else a sixteenth more than the picture's")
+                "1080, 2250 for 2160, else a sixteenth more than the picture's; at least the picture's")
       ->check(whole_number(1, 100000))
       ->type_name("N");
   options_of_pictures(*c, *o);

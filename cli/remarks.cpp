@@ -11,6 +11,9 @@
 namespace kage::cli {
 namespace {
 
+// Shapes of pictures that differ by less are the same to the eye.
+constexpr double kShapeTolerance = 0.01;
+
 std::string coarse_text(const Remarks& r, int z_bits, int exponent) {
   const std::string would_do = r.z_bits_needed > 0 ? fmt::format("Z_BITS {} would do", r.z_bits_needed)
                                                    : fmt::format("no Z_BITS up to {} would do", kGreatest.z_bits);
@@ -24,6 +27,18 @@ std::string coarse_text(const Remarks& r, int z_bits, int exponent) {
 
 std::string in_frames(int some, int all) {
   return some == all ? std::string() : fmt::format(" in {} of {} frames", some, all);
+}
+
+std::vector<std::string> scene_notes(const Scene& scene, const SceneFrame& first, const Options& options) {
+  std::vector<std::string> all = scene.notes();
+  const double shape = static_cast<double>(options.size.width) / options.size.height;
+  const double asked = first.camera.aspect;
+  if (!options.size_given && asked > 0 && std::abs(shape / asked - 1) > kShapeTolerance)
+    all.push_back(
+        fmt::format("the camera's own pictures are {:.3g} times as wide as high, these {:.3g}: --size is "
+                    "to be had in its shape",
+                    asked, shape));
+  return all;
 }
 
 void FrameRemarks::add(const Scene& scene, const SceneFrame& frame) {

@@ -36,6 +36,10 @@ class FrameRemarks {
   std::string coarse_why_;  // as in the first of these
 };
 
+/// Sentences of a scene before it is drawn: what was ignored or added, and whether its camera asks for pictures of
+/// another shape than the default. `first`: its first frame.
+std::vector<std::string> scene_notes(const Scene& scene, const SceneFrame& first, const Options& options);
+
 /// " in 2 of 8 frames", or nothing if it is all.
 std::string in_frames(int some, int all);
 

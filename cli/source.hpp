@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,6 +21,9 @@
 #include "stimulus/random_frames.hpp"
 
 namespace kage::cli {
+
+/// What pictures and lines of output are called by: a line break in a file's name would begin a line of its own.
+std::string plain_name(const std::filesystem::path& path);
 
 /// Throws Error if a file is a visibility order's tree: no command but order takes one.
 void refuse_order_tree(const std::string& path);

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "cosim/model/model.hpp"
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
 #include "mapped.hpp"
@@ -23,21 +22,17 @@
 namespace kage::cli {
 namespace {
 
-/// What pictures and lines of output are called by: a line break in a file's name would begin a line of its own.
+// Random frames of a run that does not say how many.
+constexpr int kRandomFrames = 200;
+
+}  // namespace
+
 std::string plain_name(const std::filesystem::path& path) {
   std::string name = path.stem().string();
   for (char& c : name)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '_';
   return name;
 }
-
-// Shapes of pictures that differ by less are the same to the eye.
-constexpr double kShapeTolerance = 0.01;
-
-// Random frames of a run that does not say how many.
-constexpr int kRandomFrames = 200;
-
-}  // namespace
 
 void refuse_order_tree(const std::string& path) {
   if (is_order_file(path)) throw Error(fmt::format("{}: a visibility order's tree; kage order takes it", path));
@@ -153,20 +148,13 @@ void Source::load_scene(const Options& options) {
   scene_ = std::make_shared<const Scene>(
       Scene::load(options.input, {options.alpha, options.allow_outside, check_interrupt}));
   name_ = plain_name(scene_->name());
-  notes_ = scene_->notes();
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
   progress_ = std::make_unique<Progress>();
   if (options_.size.width > kMaxSize || options_.size.height > kMaxSize)
     throw Error(
         fmt::format("--size: {}x{}: at most {}x{}", options_.size.width, options_.size.height, kMaxSize, kMaxSize));
   const SceneFrame first = scene_->frame(0, frames_);
-  const double shape = static_cast<double>(options_.size.width) / options_.size.height;
-  const double asked = first.camera.aspect;
-  if (!options.size_given && asked > 0 && std::abs(shape / asked - 1) > kShapeTolerance)
-    notes_.push_back(
-        fmt::format("the camera's own pictures are {:.3g} times as wide as high, these {:.3g}: --size is "
-                    "to be had in its shape",
-                    asked, shape));
+  notes_ = scene_notes(*scene_, first, options);
   Needs needs = needs_of(*scene_, first, options.size.width, options.size.height, options.samples);
   if (options.config.empty()) {
     try {
@@ -183,10 +171,9 @@ void Source::load_scene(const Options& options) {
   }
   if (options.config == kPlanned) {
     config_ = planned_config(options_, scene_);
-    notes_.push_back(fmt::format(
-        "configuration: plan ({}); its RTL model {}",
-        config_.config.arrangement == 0 ? "systolic" : fmt::format("LANES {}", config_.config.lanes),
-        cosim::has_model(config_.config) ? "was there" : "was not there (kage model --plan builds it ahead)"));
+    notes_.push_back(fmt::format("configuration: plan ({})", config_.config.arrangement == 0
+                                                                 ? "systolic"
+                                                                 : fmt::format("LANES {}", config_.config.lanes)));
     return;
   }
   config_ = load_config(options.config);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "kage/error.hpp"
@@ -13,9 +14,6 @@
 
 namespace kage {
 namespace {
-
-// With Prefer::speed, configurations that take this much more clocks than the fastest are as fast.
-constexpr double kAsFast = 0.01;
 
 // Passes over the frames that a plan usually takes: parity and counting looked at and costed, and one for units.
 constexpr double kUsualPasses = 6;
@@ -51,6 +49,10 @@ class Planner {
     const int lights = features_.needs.lights;
     if (features_.needs.shadows && lights > kGreatest.lights)
       throw Error(fmt::format("{} lights cast shadows, and a core tells at most {} apart", lights, kGreatest.lights));
+    const int height = features_.needs.height;
+    if (options_.clock && total_lines() < height)
+      throw Error(
+          fmt::format("--total-lines {}: a frame's time holds the picture's {} lines at least", total_lines(), height));
   }
 
   void step() {
@@ -113,51 +115,78 @@ class Planner {
     return given > 0 ? given : usual_total_lines(features_.needs.height);
   }
 
-  /// What is compared; less is better. Where a display sets the pace, what keeps up comes first, and what comes nearest
-  /// to it where nothing does.
-  using Key = std::tuple<double, double, double, double>;
-  [[nodiscard]] Key key_of(const PlanCandidate& c, Prefer prefer) const {
-    const auto words = static_cast<double>(c.cost.words);
-    auto clocks = static_cast<double>(c.cost.clocks);
-    if (prefer == Prefer::speed && clocks <= fewest_ * (1 + kAsFast)) clocks = fewest_;
-    const double late = c.cost.meets_clock.value_or(true) ? 0 : c.cost.needed_line;
+  /// Where a display sets the pace, what keeps up is not late; what does not is as late as it is slow.
+  static double late_of(const PlanCandidate& c) { return c.cost.meets_clock.value_or(true) ? 0 : c.cost.needed_line; }
+
+  /// What is preferred; less is better.
+  static double wanted_of(const PlanCandidate& c, Prefer prefer) {
     switch (prefer) {
       case Prefer::speed:
-        return {late, clocks, c.cost.luts, words};
+        return static_cast<double>(c.cost.clocks);
       case Prefer::words:
-        return {late, words, c.cost.luts, clocks};
+        return static_cast<double>(c.cost.words);
       default:
-        return {late, c.cost.luts, clocks, words};
+        return c.cost.luts;
     }
   }
 
-  [[nodiscard]] const PlanCandidate& best_of(const std::vector<PlanCandidate>& list, Prefer prefer) const {
-    return *std::min_element(list.begin(), list.end(), [&](const PlanCandidate& a, const PlanCandidate& b) {
-      return key_of(a, prefer) < key_of(b, prefer);
-    });
+  /// The one with the least of what is preferred. What keeps up comes first, and what comes nearest to it where nothing
+  /// does.
+  static const PlanCandidate& least_of(const std::vector<const PlanCandidate*>& list, Prefer prefer) {
+    const auto key = [&](const PlanCandidate* c) {
+      return std::tuple(late_of(*c), wanted_of(*c, prefer), rest_of(*c, prefer));
+    };
+    return **std::min_element(list.begin(), list.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
+  }
+
+  /// What decides among those that are equal in what is preferred.
+  static std::tuple<double, double, double> rest_of(const PlanCandidate& c, Prefer prefer) {
+    const auto clocks = static_cast<double>(c.cost.clocks);
+    const auto words = static_cast<double>(c.cost.words);
+    switch (prefer) {
+      case Prefer::speed:
+        return {c.cost.luts, words, clocks};
+      case Prefer::words:
+        return {c.cost.luts, clocks, words};
+      default:
+        return {clocks, words, c.cost.luts};
+    }
+  }
+
+  /// The one that is taken: of those that are as good as the least, by what decides among equals.
+  static const PlanCandidate& best_of(const std::vector<const PlanCandidate*>& list, Prefer prefer) {
+    const PlanCandidate& least = least_of(list, prefer);
+    const double most = wanted_of(least, prefer) * (prefer == Prefer::words ? 1 : 1 + kAsGood);
+    const PlanCandidate* best = &least;
+    for (const PlanCandidate* c : list)
+      if (late_of(*c) == late_of(least) && wanted_of(*c, prefer) <= most &&
+          rest_of(*c, prefer) < rest_of(*best, prefer))
+        best = c;
+    return *best;
   }
 
   void choose() {
-    fewest_ = static_cast<double>(ways_[0].all[0].cost.clocks);
+    std::vector<const PlanCandidate*> all;
     for (const Way& w : ways_)
-      for (const PlanCandidate& c : w.all) fewest_ = std::min(fewest_, static_cast<double>(c.cost.clocks));
-    std::vector<PlanCandidate> best;
-    std::vector<PlanCandidate> small;
+      for (const PlanCandidate& c : w.all) all.push_back(&c);
+    const PlanCandidate& taken = best_of(all, options_.prefer);
+    const Way* way = nullptr;
     for (const Way& w : ways_) {
-      best.push_back(best_of(w.all, options_.prefer));
-      small.push_back(best_of(w.all, Prefer::area));
+      std::vector<const PlanCandidate*> of_way;
+      for (const PlanCandidate& c : w.all) of_way.push_back(&c);
+      if (std::find(of_way.begin(), of_way.end(), &taken) != of_way.end())
+        way = &w;
+      else
+        out_.others.push_back(best_of(of_way, options_.prefer));
     }
-    const PlanCandidate& taken = best_of(best, options_.prefer);
-    const Way& way = ways_[static_cast<std::size_t>(&taken - best.data())];
     out_.config = taken.config;
     out_.cost = taken.cost;
-    out_.smallest = best_of(small, Prefer::area);
-    for (const PlanCandidate& c : best)
-      if (&c != &taken) out_.others.push_back(c);
+    out_.smallest = best_of(all, Prefer::area);
+    if (const PlanCandidate& least = least_of(all, options_.prefer); &least != &taken) out_.least = least;
     out_.limits = options_.limits;
-    out_.limits.color = way.widths.color_limit;
-    out_.z_error = way.widths.z_error;
-    give_reasons(way, taken);
+    out_.limits.color = way->widths.color_limit;
+    out_.z_error = way->widths.z_error;
+    give_reasons(*way, taken);
   }
 
   void give_reasons(const Way& way, const PlanCandidate& taken) {
@@ -184,16 +213,18 @@ class Planner {
     const PlanCost& cost = taken.cost;
     std::string text = fmt::format("worst line {} clocks ({})", cost.worst_line, plan::text_of(scenes_, cost.worst_at));
     if (options_.clock)
-      text += fmt::format("; a display's line must have {:.0f} and has {:.0f}", cost.needed_line, line_clocks());
+      text += fmt::format("; it needs {:.0f} clocks of a display's line, which has {:.0f}", cost.needed_line,
+                          line_clocks());
     Config less = taken.config;
     less.*(p.member) /= 2;
     const auto half =
         std::find_if(way.all.begin(), way.all.end(), [&](const PlanCandidate& c) { return c.config == less; });
     if (half == way.all.end()) return text;
     const double more = static_cast<double>(half->cost.clocks) / static_cast<double>(cost.clocks) - 1;
-    text += fmt::format("; {} take {:.0f} % more clocks and {:+.0f} LUTs", less.*(p.member), 100 * more,
-                        half->cost.luts - cost.luts);
-    if (options_.clock) text += fmt::format(", and must have {:.0f}", half->cost.needed_line);
+    const double luts = half->cost.luts - cost.luts;
+    text += fmt::format("; {} would take {:.0f} % more clocks and {:.0f} LUTs {}", less.*(p.member), 100 * more,
+                        std::abs(luts), luts < 0 ? "fewer" : "more");
+    if (options_.clock) text += fmt::format(", and need {:.0f}", half->cost.needed_line);
     return text;
   }
 
@@ -204,7 +235,6 @@ class Planner {
   plan::UnitDemand units_;
   bool looked_for_units_ = false;
   std::vector<Way> ways_;
-  double fewest_ = 0;
   int steps_ = 0;
 };
 

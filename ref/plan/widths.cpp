@@ -127,11 +127,11 @@ class Maker {
                                          volumes, at(way_.volumes)));
     set(&Config::fsf, several ? 1 : 0,
         several ? "several volumes for a light sample" : "one volume for each light sample");
-    const bool counted = needs.samples > 1 || needs.lights > 1;
-    const int count = counted ? bits_for(needs.samples) : 0;
+    const bool counts = needs.samples > 1 || needs.lights > 1;
+    const int count = counts ? bits_for(needs.samples) : 0;
     set(&Config::count_bits, count,
-        counted ? fmt::format("{} samples for a light, {} lights", needs.samples, needs.lights)
-                : "one light, a point or at infinity");
+        counts ? fmt::format("{} for a light, {}", counted(needs.samples, "sample"), counted(needs.lights, "light"))
+               : "one light, a point or at infinity");
     set(&Config::lights, needs.lights, needs.lights == 1 ? "one light" : fmt::format("{} lights", needs.lights));
     if (needs.lights > 1) {
       const int least = std::max(2, bits_for(way_.classes.value));

@@ -30,9 +30,27 @@ Config finest_depth(Config c) {
   return c;
 }
 
+/// Of all pixels, however many of them were compared.
+double wrong_ppm(const Accuracy& a, std::uint64_t pixels) {
+  return 1e6 * static_cast<double>(a.visible_wrong + a.shadow_wrong) / static_cast<double>(pixels);
+}
+
 std::string text_of(const std::optional<Accuracy>& a) {
   if (!a) return "cannot represent the scene";
   return fmt::format("{:.3g} ppm wrong, depth off by {:.3g}, colour by {}", a->wrong_ppm(), a->z_max, a->color_max);
+}
+
+/// ": over --max-z 5.96e-08", with each limit that is passed; nothing where none is.
+std::string over_text(const std::optional<Accuracy>& a, const MeasuredLimits& limits, std::uint64_t pixels) {
+  if (!a) return {};
+  std::string text;
+  const auto add = [&](bool passed, const std::string& limit) {
+    if (passed) text += (text.empty() ? ": over " : ", ") + limit;
+  };
+  add(a->z_max > limits.z, fmt::format("--max-z {:.3g}", limits.z));
+  add(a->color_max > limits.color, fmt::format("--max-color {}", limits.color));
+  if (limits.wrong) add(wrong_ppm(*a, pixels) > *limits.wrong, fmt::format("--max-wrong {:g}", *limits.wrong));
+  return text;
 }
 
 /// A width that may be lowered, and its steps.
@@ -95,8 +113,7 @@ MeasuredPlan::~MeasuredPlan() = default;
 
 bool MeasuredPlan::within(const Accuracy& a) const {
   const MeasuredLimits& l = data_->limits;
-  const double wrong = 1e6 * static_cast<double>(a.visible_wrong + a.shadow_wrong) / static_cast<double>(data_->pixels);
-  return a.z_max <= l.z && a.color_max <= l.color && (!l.wrong || wrong <= *l.wrong);
+  return a.z_max <= l.z && a.color_max <= l.color && (!l.wrong || wrong_ppm(a, data_->pixels) <= *l.wrong);
 }
 
 std::optional<Accuracy> MeasuredPlan::measure(const Config& config, bool whole) {
@@ -141,7 +158,8 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
         less.*w.member -= 1;
         const std::optional<Accuracy> a = measure(less);
         if (!serves(a)) {
-          one_less[k] = text_of(a ? measure(less, true) : a);
+          const std::optional<Accuracy> all = a ? measure(less, true) : a;
+          one_less[k] = text_of(all) + over_text(all, data_->limits, data_->pixels);
           break;
         }
         at = less;

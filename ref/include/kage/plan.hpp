@@ -40,16 +40,21 @@ struct PlanLimits {
 
 /// Which of several configurations that serve is taken.
 enum class Prefer : std::uint8_t {
-  speed,  ///< fewest clocks for all frames
-  area,   ///< fewest look-up tables, by the estimate
+  speed,  ///< fewest clocks for all frames; of those within 1 % of the fewest, the fewest look-up tables
+  area,   ///< fewest look-up tables, by the estimate; of those within 1 % of the fewest, the fewest clocks
   words,  ///< fewest words for all frames
 };
+
+/// How much more than the least counts as equal, as a share: of clocks with Prefer::speed, of look-up tables with
+/// Prefer::area. Of measured cores whose estimates are nearer than that, the one that is estimated smaller is counted
+/// larger as often as smaller (`tools/area`, docs/plan.md).
+inline constexpr double kAsGood = 0.01;
 
 /// A display that the core has to keep up with.
 struct PlanClock {
   double mhz = 0;       ///< the core's clock
   double fps = 60;      ///< frames a second
-  int total_lines = 0;  ///< lines in a frame's time, blanking included; 0: as usual_total_lines()
+  int total_lines = 0;  ///< lines in a frame's time, blanking included, the picture's at least; 0: usual_total_lines()
 };
 
 /// Lines in a frame's time of a display, blanking included: 525 for 480 lines, 750 for 720, 1125 for 1080, 2250 for
@@ -116,11 +121,13 @@ struct Plan {
   PlanCost cost;                      ///< of `config`
   std::vector<PlanCandidate> others;  ///< of each other way the configuration that would have been taken
   PlanCandidate smallest;             ///< the one that `area` takes: what speed costs more stands against it
-  std::uint64_t pixels = 0;           ///< of all planned frames
-  int frames = 0;                     ///< of all scenes
-  std::array<int, 2> size{};          ///< width and height of the largest picture
-  PlanLimits limits;                  ///< as kept
-  double z_error = 0;                 ///< bound of the depth's error with `config`, as a share of the range
+  /// The one with the fewest clocks (`speed`) or look-up tables (`area`), if another one, within 1 % of it, was taken.
+  std::optional<PlanCandidate> least;
+  std::uint64_t pixels = 0;   ///< of all planned frames
+  int frames = 0;             ///< of all scenes
+  std::array<int, 2> size{};  ///< width and height of the largest picture
+  PlanLimits limits;          ///< as kept
+  double z_error = 0;         ///< bound of the depth's error with `config`, as a share of the range
 };
 
 /// Plans. Every frame is made once for each way to draw shadows, and once more to be costed; so the time is a few times

@@ -18,7 +18,7 @@ grep -q '^same: 2 frames' stdout || fail "$(cat stdout)"
 cmp mine.yaml again.yaml || fail "a plan differs from run to run"
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config mine.yaml --out a.kage
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config plan --out b.kage
-grep -q 'configuration: plan (LANES 1); its RTL model was there' stdout || fail "$(cat stdout)"
+grep -q 'configuration: plan (LANES 1)$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" diff a.kage b.kage
 expect 0 "$kage" model --plan courtyard --size 64x48 --frames 2
 grep -q '^plan of courtyard: .*(was there)$' stdout || fail "$(cat stdout)"
@@ -54,6 +54,7 @@ expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50
 grep -q '^# a display of 60 frames a second and 51 lines each, blanking included, at 50 MHz: the core keeps up$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" plan courtyard --size 640x480 --frames 1 --device ecp5-25f --fps 30
 grep -q ' and 525 lines each' stdout || fail "$(cat stdout)"
+grep -qE '^# [0-9.]+ MHz is what the slowest core placed on ecp5-25f reached, [a-z0-9-]+; ' stdout || fail "$(cat stdout)"
 # Translucent layers over counted samples: the way out evens nothing out.
 expect 0 "$kage" plan penumbra glass --size 64x48 --frames 1 --samples 3 --clock 500 --json loads.json
 grep -q ': the core keeps up with a FIFO of two lines behind it$' stdout || fail "$(cat stdout)"
@@ -61,16 +62,42 @@ json loads.json 'j["cost"]["needs_fifo"] is True and j["meets_clock"] is True'
 expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 0.01
 grep -q 'no core keeps up, this one comes nearest$' stdout || fail "$(cat stdout)"
 
+# One per cent more decides nothing: neither look-up tables by area nor clocks by speed; and what decided is told.
+expect 0 "$kage" plan knot --size 96x72 --frames 1 --json area.json
+grep -qE '^# LUTs within 1 % of the fewest count as equal: [0-9.]+ LUTs more than parity \(LANES 1, BEAT_WORDS 1\) buy [0-9]+ % fewer clocks$' stdout || fail "$(cat stdout)"
+grep -q '^DSF_BITS: [2-9] ' stdout || fail "$(grep DSF_BITS stdout)"
+json area.json 'j["least"]["way"] == "parity" and j["least"]["cost"]["luts"] < j["cost"]["luts"] <= 1.01 * j["least"]["cost"]["luts"] and j["cost"]["clocks_per_pixel"] < j["least"]["cost"]["clocks_per_pixel"]'
+expect 0 "$kage" plan canopy --size 96x72 --frames 1 --prefer speed
+grep -qE '^# clocks within 1 % of the fewest count as equal: 0\.[0-9] % more than .* save [0-9]+ LUTs$' stdout || fail "$(cat stdout)"
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 500 --json -
+json stdout 'j["least"] is None'
+# A reason says by words what goes up and what down.
+expect 0 "$kage" plan courtyard --size 160x120 --frames 1 --prefer speed
+grep -qE '^LANES: .*; [0-9]+ would take [0-9]+ % more clocks and [0-9]+ LUTs fewer$' stdout || fail "$(grep LANES stdout)"
+! grep -qE ' 1 (lines|lights|steps) ' stdout || fail "$(cat stdout)"
+
+# What render says of a mesh, plan says as well, in comments.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >mesh.obj
+expect 0 "$kage" plan mesh.obj --size 64x48 --frames 1 --json notes.json
+grep -q '^# mesh: no light: a directional one is added$' stdout || fail "$(cat stdout)"
+json notes.json '"mesh: no camera: an orbit round the scene is added" in j["notes"]'
+expect 0 "$kage" render mesh.obj --size 64x48 --frames 1 --out out
+for note in "mesh: no light" "mesh: no camera"; do grep -q "^$note" stdout || fail "render does not say: $note"; done
+
 # Measured: fewer bits for whom wrong pixels do not matter.
 "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 3000 >few.yaml || fail "no measured plan"
 [ "$(sed -n 's/^Z_BITS: \([0-9]*\).*/\1/p' few.yaml)" -lt 24 ] || fail "$(grep Z_BITS few.yaml)"
-grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ give ' few.yaml || fail "$(grep Z_BITS few.yaml)"
+grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ give .*: over --max-wrong 3000' few.yaml || fail "$(grep Z_BITS few.yaml)"
+"$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured >measured.yaml || fail "no measured plan"
+grep -qE '^Z_BITS: .*; [0-9]+ give .*: over --max-z 5.96e-08' measured.yaml || fail "$(grep Z_BITS measured.yaml)"
 
 trouble "--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured" \
   "$kage" plan courtyard --max-wrong 3
 trouble "--max-z 1e-09: with 28 bits of depth the bound is " "$kage" plan courtyard --size 64x48 --frames 1 --max-z 1e-9
 trouble "--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says how fast the core is" \
   "$kage" plan courtyard --fps 30
+trouble "--total-lines 100: a frame's time holds the picture's 480 lines at least" "$kage" plan courtyard --clock 50 --total-lines 100
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50 --total-lines 48
 trouble "--device up9k: no core was placed there; there are ecp5-25f" "$kage" plan courtyard --device up9k
 trouble "nowhere.obj" "$kage" plan nowhere.obj
 trouble "random: random frames are for" "$kage" plan random
