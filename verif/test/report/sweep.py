@@ -206,7 +206,7 @@ def yaml_works(b):
     r = subprocess.run(
         ["bash", "-c", line.replace("kage ", f"'{kage}' ", 1) + " --out maps"], capture_output=True, text=True
     )
-    check(r.returncode == 0 and "by source" in r.stdout, f"{line}: {r.stdout}{r.stderr}")
+    check(r.returncode == 0 and "each source alone" in r.stdout, f"{line}: {r.stdout}{r.stderr}")
 
 
 def places(b):
