@@ -117,7 +117,9 @@ class Maker {
       set(&Config::class_bits, 1, "no shadows");
       return;
     }
+    // Commands refuse a core of parity without FSF where casters may have several volumes, whatever these frames have.
     const bool several = way_.volumes.value > 1;
+    const bool possible = way_.dsf_bits == 1 && needs.several_volumes;
     const std::string volumes = counted(static_cast<int>(way_.volumes.value), "volume");
     Config of_way;
     of_way.dsf_bits = way_.dsf_bits;
@@ -125,8 +127,10 @@ class Maker {
         way_.dsf_bits == 1 ? fmt::format("parity: {} for a light sample at most, {}", volumes, at(way_.volumes))
                            : fmt::format("counting to {}: {} for a light sample at most, {}", derived::most_dsf(of_way),
                                          volumes, at(way_.volumes)));
-    set(&Config::fsf, several ? 1 : 0,
-        several ? "several volumes for a light sample" : "one volume for each light sample");
+    set(&Config::fsf, several || possible ? 1 : 0,
+        several    ? "several volumes for a light sample"
+        : possible ? "one volume for each light sample here; several casters, or one that is not convex, may have more"
+                   : "one volume for each light sample");
     const bool counts = needs.samples > 1 || needs.lights > 1;
     const int count = counts ? bits_for(needs.samples) : 0;
     set(&Config::count_bits, count,

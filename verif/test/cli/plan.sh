@@ -83,6 +83,11 @@ grep -q '^# mesh: no light: a directional one is added$' stdout || fail "$(cat s
 json notes.json '"mesh: no camera: an orbit round the scene is added" in j["notes"]'
 expect 0 "$kage" render mesh.obj --size 64x48 --frames 1 --out out
 for note in "mesh: no light" "mesh: no camera"; do grep -q "^$note" stdout || fail "render does not say: $note"; done
+# Its caster is open, so parity may have several volumes for it, though this frame has one: commands take the plan's file.
+expect 0 "$kage" plan mesh.obj --size 64x48 --frames 1
+cp stdout mesh.yaml
+grep -q '^DSF_BITS: 1 ' mesh.yaml && grep -q '^FSF: 1 ' mesh.yaml || fail "$(cat mesh.yaml)"
+expect 0 "$kage" render mesh.obj --size 64x48 --frames 1 --config mesh.yaml --out out
 
 # Measured: fewer bits for whom wrong pixels do not matter.
 "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 3000 >few.yaml || fail "no measured plan"
