@@ -61,7 +61,8 @@ using Column = std::function<void(const std::string& name, const Json& value)>;
 
 void columns(const std::string& name, const Json& value, const Column& use) {
   if (!value.is_object()) return use(name, value);
-  for (const auto& [key, inner] : value.items()) columns(name.empty() ? key : name + "." + key, inner, use);
+  for (const auto& [key, inner] : value.items())
+    columns(name.empty() ? key : fmt::format("{}.{}", name, key), inner, use);
 }
 
 std::string quoted_csv(const Json& value) {
@@ -102,7 +103,7 @@ std::string sweep_csv(const std::vector<Json>& rows) {
     });
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  text += "\n";
+  text += '\n';
   for (const Json& row : rows) {
     std::vector<std::string> cells(names.size());
     columns("", row, [&](const std::string& name, const Json& value) {
@@ -110,7 +111,7 @@ std::string sweep_csv(const std::vector<Json>& rows) {
       if (at != names.end()) cells[static_cast<std::size_t>(at - names.begin())] = quoted_csv(value);
     });
     for (std::size_t i = 0; i < cells.size(); ++i) text += (i == 0 ? "" : ",") + cells[i];
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

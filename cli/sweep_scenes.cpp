@@ -32,7 +32,7 @@ constexpr const char* kPlaceDevice = "ecp5-85f";
 Config config_of(const SweepCommand& o, const std::shared_ptr<const Scene>& scene, const DrawOptions& draw) {
   if (o.config.empty()) return choose_config(*scene, draw).config;
   if (o.config != kPlanned) return load_config(o.config).config;
-  Options of = o;
+  Options of = static_cast<const Options&>(o);
   of.frames = draw.frames;
   return planned_config(of, scene).config;
 }

@@ -35,8 +35,8 @@ void BlockCase::fields(Fields& f) {
   f.number("top", top, -20, kHeight + 4, 20);
   f.number("left_part", left_part, 0, 255);
   f.number("top_part", top_part, 0, 255);
-  f.number("width", width, 1, 256 * 140, 256);
-  f.number("height", height, 1, 256 * 110, 256);
+  f.number("width", width, 1, std::int64_t{256} * 140, 256);
+  f.number("height", height, 1, std::int64_t{256} * 110, 256);
   f.number("side", side, 0, 10);
   f.flag("turned", turned);
   turn.fields(f);

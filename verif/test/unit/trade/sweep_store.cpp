@@ -124,7 +124,7 @@ TEST_CASE("what is no store is refused, and left as it is") {
   other[68] = 0;  // the application
   check(other, "no store of kage sweep, though an SQLite file");
   std::string damaged = good;
-  for (std::size_t i = 4096; i < 3 * 4096; ++i) damaged[i] = static_cast<char>(i * 7);
+  for (std::size_t i = 4096; i < std::size_t{3} * 4096; ++i) damaged[i] = static_cast<char>(i * 7);
   check(damaged, "");
   check(good.substr(0, good.size() / 2), "the store is damaged, so begin another: ");
   CHECK(refused(folder.path / "no/such/a.sqlite") == (folder.path / "no/such/a.sqlite: no such folder").string());
