@@ -113,9 +113,10 @@ cosim::Model model_of(const NamedConfig& config, const RtlRun& rtl, ModelFor wha
                                       check_interrupt();
                                       progress.show(fmt::format("building {}: {:.0f} s", name, seconds));
                                     }};
-  // What a person has not named may be new: the minute that a model takes is told before it passes.
-  if (config.name == kPlanned && !cosim::has_model(config.config, options))
-    say(fmt::format("kage: {} is not there, and is built first\n", name));
+  // What a person has not named may be new: whether its model takes a minute is told before the minute passes.
+  if (config.name == kPlanned)
+    say(fmt::format("kage: {} {}\n", name,
+                    cosim::has_model(config.config, options) ? "is there" : "is not there, and is built first"));
   cosim::Model model = cosim::find_model(config.config, options);
   progress.clear();
   if (!model.damage.empty())

@@ -23,6 +23,10 @@ expect 0 "$kage" diff a.kage b.kage
 expect 0 "$kage" model --plan courtyard --size 64x48 --frames 2
 grep -q '^plan of courtyard: .*(was there)$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --config plan --no-report --out out
+grep -q '^kage: the RTL model of .* is there$' stderr || fail "$(cat stderr)"
+# With no models kept, that one is to be built is told first.
+expect 0 env XDG_CACHE_HOME="$PWD/no-models" "$kage" cosim courtyard --size 64x48 --frames 1 --config plan --no-report --out out
+grep -q '^kage: the RTL model of .* is not there, and is built first$' stderr || fail "$(cat stderr)"
 
 # Without --config: never by --frames, and what is looked for in the list.
 for frames in 1 2 8; do
