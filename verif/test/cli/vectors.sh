@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage vectors: a pack is written, verified and played by Icarus Verilog and Verilator; a core that is wrong fails it by name, a
-# pack that was changed is refused by name, and captures are judged.
+# kage vectors: a pack is written and verified, a pack that was changed is refused by name, and captures are judged. Packs are
+# played by simulators in cli/vectors_played.
 . "$(dirname "$0")/common.bash"
 pack() { "$kage" vectors "$@" --json pack.json; }
 make() { # FOLDER SCENE ARGUMENT...
@@ -52,70 +52,10 @@ for f in m["frames"]:
 assert at == len(pixels) and number == len(lines)
 PY
 
-# ---- played: by Icarus Verilog, at both tops, with stalls and without ----
-played() { # FOLDER RTL TEXT ARGUMENT...: by Icarus Verilog; the last line has TEXT
-  local folder=$1 rtl=$2 text=$3 last
-  shift 3
-  (cd "$folder" && iverilog -g2012 ${define:+-D$define} -I "$rtl/include" -o pack.vvp kage_pack_tb.v "$rtl"/*.sv "$rtl/kage_axi.v" >build 2>&1 &&
-    vvp -N pack.vvp "$@" >said 2>&1)
-  last=$(grep '^kage_pack_tb: ' "$folder/said" | tail -n1)
-  [[ $last == "kage_pack_tb: $text"* ]] || { fail "$folder $*: not '$text': $last"; tail -n5 "$folder/build" "$folder/said"; }
-}
-played p "$source/rtl" "passed: "
-played p "$source/rtl" "passed: " +seed=3 +stall=40 +capture=captured.hex
-expect 0 "$kage" vectors --compare p p/captured.hex
-define=KAGE_PACK_TOP played p "$source/rtl" "passed: " +seed=4 +stall=10
-# The very lines of the pack's README and of docs/vectors.md, by both simulators; Verilator's program is slow, but soon made.
-lines_of() { sed -n '/^iverilog .*kage_pack_tb/p; /^verilator /p; /^obj_dir/p' "$1"; }
-lines_of p/README.md >lines
-[ "$(wc -l <lines)" = 3 ] || fail "the pack's README does not say how to run it: $(cat lines)"
-lines_of "$source/docs/vectors.md" | cmp -s - lines || fail "docs/vectors.md and the pack's README say different lines"
-sed -i "s,RTL/,$source/rtl/,g; s/--binary/& -CFLAGS -O0/" lines
-(cd p && bash -e ../lines >said 2>build)
-[ "$(grep -c '^kage_pack_tb: passed: ' p/said)" = 2 ] || { fail "the README's lines: $(grep '^kage_pack_tb' p/said)"; tail -n5 p/build; }
-# A netlist of the least core, whose file takes the RTL's place. The bench itself is Verilog-2005, where slang is.
-make t random:mixed --frames 3 --config tiny --seed 5 --no-rtl
-sets=$(python3 -c 'import yaml; print(*(f"-chparam {k} {v}" for k, v in yaml.safe_load(open("'"$source"'/rtl/defs/configs.yaml"))["tiny"].items()))')
-yosys -q -p "read_verilog -defer -sv -I$source/rtl/include $source/rtl/*.sv; hierarchy -top kage_top $sets; proc; flatten; opt; rename -top kage_top; write_verilog -noattr t/net.v" >t/build 2>&1
-(cd t && iverilog -g2005 -DKAGE_PACK_NETLIST -o pack.vvp kage_pack_tb.v net.v >>build 2>&1 && vvp -N pack.vvp +seed=2 +stall=20 >said 2>&1)
-grep -q '^kage_pack_tb: passed: ' t/said || { fail "a netlist: $(tail -n3 t/said)"; tail -n5 t/build; }
-# Where files are missing nothing passes.
-mkdir bare
-(cd bare && vvp -N ../p/pack.vvp) >said 2>&1
-grep -q '^kage_pack_tb: FAILED: a .hex file is missing or short' said || fail "a bench without its files: $(tail -n1 said)"
-rm -rf b && cp -r p b && head -n 4 p/registers.hex >b/registers.hex
-played b "$source/rtl" "FAILED: a .hex file is missing or short"
-# In C the tables compile as they are.
-echo '#include "p/kage_pack.h"
-int main(void) { return kage_pack_frames[0].width == 16 && kage_pack_signatures[0] && kage_pack_registers[0].address ? 0 : 1; }' >c.c
-${CC:-cc} -std=c99 -Wall -Wextra -Werror -o c c.c && ./c || fail "kage_pack.h does not serve C"
-
-# ---- a wrong core is found by name ----
-cp -r "$source/rtl" wrong
-sed -i 's/in_front = z < /in_front = z <= /' wrong/include/kage_pixel_next.svh
-make w courtyard --size 64x48 --frames 1 --config default --sound-only
-played w "$PWD/wrong" "FAILED: frame 0, line "
-[ "$(grep -c '^kage_pack_tb: ' w/said)" = 1 ] || fail "more than one line tells of failures: $(cat w/said)"
-grep -q 'channel 0: expected [0-9]*, got [0-9]*, clock [0-9]*$' w/said || fail "the pixel is not told: $(cat w/said)"
-cp -r "$source/rtl" wrong5
-sed -i 's/\.m_axis_tdata_o(m_axis_tdata)/.m_axis_tdata_o(sent)/; s/^  kage_top #(/  wire [CHANNELS*8-1:0] sent;\n  assign m_axis_tdata = m_axis_tready ? sent : ~sent;\n&/' wrong5/kage_axi.v
-played w "$PWD/wrong5" "FAILED: frame 0, line 0, x " +seed=1 +stall=50
-grep -q 'a pixel that waits changes or goes, clock' w/said || fail "a pixel that changes while it waits is not told: $(cat w/said)"
-cp -r "$source/rtl" wrong2
-sed -i 's/RegErrorToken: value = error_token_q/RegErrorToken: value = error_frame_q/' wrong2/registers.sv
-played p "$PWD/wrong2" "FAILED: behind frame "
-cp -r "$source/rtl" wrong3
-sed -i "s/first_q <= line\.first;/first_q <= 1;/" wrong3/line_out.sv
-played p "$PWD/wrong3" "FAILED: frame 0, line 1, x 0: expected TUSER 0 TLAST 0, got 1 0"
-cp -r "$source/rtl" wrong4
-sed -i 's/assign next_begun = .*/assign next_begun = 1'"'"'b0;/' wrong4/line_out.sv
-played p "$PWD/wrong4" "FAILED: nothing moves: frame 0, line 0, x 0 is missing"
-
 # ---- other configurations, a stream file, random frames ----
 make u polyhedra --size 32x24 --frames 1 --config polyhedra
 json pack.json 'j["malformed"]==24'
 make r random:mixed --frames 6 --config tiny --seed 5
-played r "$source/rtl" "passed: " +seed=1 +stall=30
 expect 0 "$kage" stream courtyard --size 16x12 --frames 1 --config default --out s.kage
 make s s.kage --no-rtl
 json pack.json 'j["clocks"] is None'
@@ -135,7 +75,6 @@ sound = all(len(f["source_lines"]) == f["height"] and f["source_lines"] == sorte
 sys.exit(used > budget or used < 0.8 * budget or not sound or not scene or sum(f["error"] != "NONE" for f in m["frames"]) != 18)
 PY
 done
-played b "$source/rtl" "passed: " +seed=2 +stall=20
 # A line's pixels are those of the whole frame.
 expect 0 pack courtyard --size 64x48 --frames 2 --config default --sound-only --no-rtl --out whole
 python3 - <<'PY' || fail "a chosen line has other pixels than in its frame"
@@ -247,11 +186,6 @@ broken 'the golden core ends it with' sed -i '0,/"error": "ORDER"/s//"error": "R
 # ---- bad requests ----
 trouble 'give a SCENE, or --check PACK, or --compare PACK CAPTURE' "$kage" vectors
 trouble '--out: needed' "$kage" vectors courtyard
-# ---- frames that reach what all reach: fewer than all, and each reaches something ----
-expect 0 "$kage" vectors random:mixed --frames 40 --config tiny --cover --out cover --json cover.json
-json cover.json 'j["frames"] < 25 and j["malformed"] > 3 and len(j["lines_of_rtl"]["reached"]) > 300'
-json cover.json 'any("registers.sv" in p for p in j["lines_of_rtl"]["unreached"]) and not set(j["lines_of_rtl"]["reached"]) & set(j["lines_of_rtl"]["unreached"])'
-expect 0 "$kage" vectors --check cover
 trouble '--cover: the RTL must run' "$kage" vectors random --cover --no-rtl --out none
 trouble 'no --budget' "$kage" vectors courtyard --cover --budget 5000 --out none
 

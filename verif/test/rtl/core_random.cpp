@@ -17,7 +17,7 @@ int main(int argc, char** argv) try {
   using namespace kage::verif;
   const char* fixed = std::getenv("KAGE_SEED");
   const char* length = std::getenv("KAGE_ROUNDS");
-  const int rounds = length != nullptr ? std::atoi(length) : 10;
+  const int rounds = length != nullptr ? std::atoi(length) : 6;
   std::random_device device;
   for (int i = 1; i < argc; ++i) {
     const CoreModel model = load_core(argv[i]);

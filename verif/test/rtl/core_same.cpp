@@ -3,10 +3,11 @@
 // Family 12: models that share all parameters which affect pixels, and nothing else, give the same pixels for the same
 // words, the golden core's, whatever their arrangement, LANES, BEAT_WORDS and stalls.
 //
-// usage: core_same MODEL.so MODEL.so... ; KAGE_SEED repeats a run. Exit 0: the same; 1: a difference, with the seed; 2:
+// usage: core_same MODEL.so MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length, five frames a round. Exit 0: the same; 1: a difference, with the seed; 2:
 // trouble.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 #include "extremes/rtl_cases.hpp"
@@ -34,8 +35,10 @@ int main(int argc, char** argv) try {
       return 2;
     }
   }
+  const char* length = std::getenv("KAGE_ROUNDS");
+  const std::uint64_t frames = 5 * static_cast<std::uint64_t>(length != nullptr ? std::atoi(length) : 10);
   std::size_t compared = 0;
-  for (std::uint64_t seed = verif::test_seed(); seed < verif::test_seed() + 150; ++seed) {
+  for (std::uint64_t seed = verif::test_seed(); seed < verif::test_seed() + frames; ++seed) {
     verif::Random random(seed);
     std::vector<std::uint32_t> words;
     verif::random_frame(random, models[0].config, random.in(1, width), random.in(1, 6), words);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in scenes: the golden core's pictures against the oracle, and the bytes of their streams.
-#include <algorithm>
+// The built-in scenes: shadows and layers against rays, ways to volumes against each other, and the bytes of their streams.
+// Every frame's surfaces: builtin_truth.cpp.
 #include <array>
 #include <map>
 #include <utility>
@@ -10,66 +10,13 @@
 #include "opinion/layer_truth.hpp"
 #include "opinion/light_truth.hpp"
 #include "opinion/ray_truth.hpp"
+#include "test/scene/scene_configs.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/checksum.hpp"
 #include "test/support/tree_frames.hpp"
 
 namespace kage::verif {
-namespace {
-
-Config wide_enough() {
-  Config c;
-  c.max_width = 2047;
-  return c;
-}
-
-bool translucent(const Scene& scene) {
-  const SceneFrame f = scene.frame(0, scene.frame_count());
-  return std::any_of(f.components.begin(), f.components.end(), [](const Component& c) { return c.translucent; });
-}
-
-}  // namespace
-
-TEST_CASE("built-in scenes: coverage, surfaces and shadows are the oracle's in every frame") {
-  for (const std::string& name : builtin_scenes()) {
-    const Scene scene = Scene::load(name);
-    Judgement sum;
-    for (int i = 0; i < scene.frame_count(); ++i) {
-      CAPTURE(name, i);
-      const Judgement j =
-          judge(make_geometry(scene.frame(i, scene.frame_count()), wide_enough(), 128, 96), wide_enough());
-      INFO(j.text());
-      CHECK(j.good());
-      CHECK(j.shadowed > 0);
-      sum.pixels += j.pixels;
-      sum.surface_near += j.surface_near;
-      sum.shadow_near += j.shadow_near;
-    }
-    // Near ties are pixels, not areas.
-    CAPTURE(name, sum.surface_near, sum.shadow_near, sum.pixels);
-    CHECK((sum.surface_near + sum.shadow_near) * 500 < sum.pixels);
-  }
-}
-
-TEST_CASE("built-in scenes: surfaces and shadows are what rays say of the unsnapped scene") {
-  for (const std::string& name : builtin_scenes()) {
-    const Scene scene = Scene::load(name);
-    RayCount count;
-    for (int i = 0; i < scene.frame_count(); ++i) {
-      Config c;
-      c.dsf_bits = i % 2 == 0 ? 1 : 2 + i / 2 % 3;  // parity, and counting of several widths
-      count += compare_with_rays(scene.frame(i, scene.frame_count()), 160, 120, 1, c);
-    }
-    CAPTURE(name);
-    UNSCOPED_INFO(name << ": " << count.text());
-    CHECK(count.good());
-    CHECK(count.lit > 1000);
-    CHECK(count.shadowed > 1000);
-    // What the snap alone changes: little, but in `edges`, whose edges run through pixel centres.
-    CHECK((count.near_surface + count.near_shadow) * 50 < count.pixels);
-  }
-}
 
 TEST_CASE("built-in scenes: the shadows of every light, and of samples of it, are what rays say") {
   int samples = 0;
@@ -165,30 +112,6 @@ TEST_CASE("built-in scenes: layers of translucent faces are what rays say of the
   CHECK(count.layered > 5000);
   CHECK(count.most >= 6);
   CHECK(count.near * 100 < count.pixels);
-}
-
-TEST_CASE("built-in scenes: polyhedra by segments and by spans give the same bits in every frame") {
-  int with_polyhedra = 0;
-  for (const std::string& name : builtin_scenes()) {
-    const Scene scene = Scene::load(name);
-    int by_segments = 0;
-    std::size_t polyhedra = 0;
-    for (int i = 0; i < scene.frame_count(); ++i) {
-      CAPTURE(name, i);
-      Config c;
-      c.smooth = i % 2;
-      c.color_frac = 8 * c.smooth;
-      c.translucency = translucent(scene) ? 1 : 0;
-      const SceneFrame f = scene.frame(i, scene.frame_count());
-      for (const SegmentCount& n : same_either_way(f, c, 128, 96)) by_segments += n.by_segments;
-      polyhedra += make_geometry(f, c, 128, 96).polyhedra.size();
-    }
-    CAPTURE(name);
-    CHECK((by_segments > 0) == (polyhedra > 0));
-    with_polyhedra += polyhedra > 0 ? 1 : 0;
-  }
-  // The only convex body of `knot` is its floor, which w0 cuts in every frame.
-  CHECK(with_polyhedra == static_cast<int>(builtin_scenes().size()) - 1);
 }
 
 TEST_CASE("built-in scenes: streams have the same bytes with every compiler, number of threads and Debian") {
