@@ -35,22 +35,25 @@ std::string values_of(const Config& config, const RuleInfo& rule) {
   return text + ")";
 }
 
-Config from_yaml(const YAML::Node& node, const std::string& where) {
+// `lines`: errors name the entry's line, for what a person wrote in a file.
+Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = false) {
   if (!node.IsMap()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
   Config config;
   std::set<std::string> seen;
   for (const auto& entry : node) {
     if (!entry.first.IsScalar()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
     const auto name = entry.first.as<std::string>();
+    const std::string place = lines ? fmt::format("{}: line {}: {}", where, entry.first.Mark().line + 1, name)
+                                    : fmt::format("{}: {}", where, name);
     const auto* p = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& i) { return i.name == name; });
     if (p == kParams.end())
       throw Error(fmt::format(
-          "{}: {}: no such parameter{}", where, name,
+          "{}: no such parameter{}", place,
           entry.second.IsScalar() ? "" : "; a file has the parameters of one configuration, with no name over them"));
-    if (!seen.insert(name).second) throw Error(fmt::format("{}: {}: given twice", where, name));
+    if (!seen.insert(name).second) throw Error(fmt::format("{}: given twice", place));
     int value = 0;
     if (!entry.second.IsScalar() || !YAML::convert<int>::decode(entry.second, value))
-      throw Error(fmt::format("{}: {}: not a whole number", where, name));
+      throw Error(fmt::format("{}: not a whole number", place));
     config.*(p->member) = value;
   }
   validate(config, where);
@@ -119,7 +122,7 @@ NamedConfig load_config(const std::string& name_or_file) {
     for (const NamedConfig& n : named) names += (names.empty() ? "" : ", ") + n.name;
     throw Error(fmt::format("{}: no such file, and no configuration of that name (there are {})", name_or_file, names));
   }
-  return {name_or_file, from_yaml(read_yaml(name_or_file), name_or_file)};
+  return {name_or_file, from_yaml(read_yaml(name_or_file), name_or_file, true)};
 }
 
 std::string to_yaml(const Config& config) {

@@ -83,9 +83,9 @@ printf 'Z_BITS: [\n' >broken.yaml
 trouble "broken.yaml" "$kage" model broken.yaml
 printf 'DEPTH: 4\n' >unknown.yaml
 trouble "DEPTH" "$kage" model unknown.yaml
-line "kage: unknown.yaml: DEPTH: no such parameter" "$kage" model unknown.yaml
+line "kage: unknown.yaml: line 1: DEPTH: no such parameter" "$kage" model unknown.yaml
 printf 'mine:\n  LANES: 4\n' >named.yaml
-line "kage: named.yaml: mine: no such parameter; a file has the parameters of one configuration, with no name over them" "$kage" model named.yaml
+line "kage: named.yaml: line 1: mine: no such parameter; a file has the parameters of one configuration, with no name over them" "$kage" model named.yaml
 line "kage: courtyard: configuration systolic64 lacks MAX_WIDTH >= 640; --size up to 64 wide fits" \
   "$kage" render courtyard --config systolic64 --out none
 expect 0 "$kage" render courtyard --config systolic64 --size 64x48 --frames 1 --out fits

@@ -3,8 +3,8 @@
 // Family 12: models that share all parameters which affect pixels, and nothing else, give the same pixels for the same
 // words, the golden core's, whatever their arrangement, LANES, BEAT_WORDS and stalls.
 //
-// usage: core_same MODEL.so MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length, five frames a round. Exit 0: the same; 1: a difference, with the seed; 2:
-// trouble.
+// usage: core_same MODEL.so MODEL.so... ; KAGE_SEED repeats a run, KAGE_ROUNDS sets its length, five frames a round.
+// Exit 0: the same; 1: a difference, with the seed; 2: trouble.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

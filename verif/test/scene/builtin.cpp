@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in scenes: shadows and layers against rays, ways to volumes against each other, and the bytes of their streams.
-// Every frame's surfaces: builtin_truth.cpp.
+// The built-in scenes: shadows and layers against rays, ways to volumes against each other, and the bytes of their
+// streams. Every frame's surfaces: builtin_truth.cpp.
 #include <array>
 #include <map>
 #include <utility>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in scenes: every frame's coverage, surfaces and shadows against the oracle and against rays, and polyhedra by
-// segments against spans.
+// The built-in scenes: every frame's coverage, surfaces and shadows against the oracle and against rays, and polyhedra
+// by segments against spans.
 #include <string>
 
 #include "opinion/judge.hpp"
