@@ -250,9 +250,9 @@ int position_step(int least) {
 int four_step(int least) { return (least + 3) / 4 * 4; }
 
 int class_step(int least) {
-  for (const int step : {4, 8, 11})
+  for (const int step : {4, 8})
     if (step >= least) return step;
-  return least;
+  return least;  // each bit more doubles the table's RAM
 }
 
 int width_step(int least) {

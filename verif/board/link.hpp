@@ -58,6 +58,10 @@ class Link {
   /// forgotten, and what this link had not sent is, too.
   void hello();
 
+  /// The session's number, 0 .. 255, made of the time at which it began. Two hosts' sessions have the same number once
+  /// in 251 times; the first host then hears no answer in place of being told of the other.
+  [[nodiscard]] std::uint8_t session() const { return session_; }
+
   /// Writes words to `address`, address + 4, ..., or, with `same`, all to `address`; a multiple of four, less than
   /// 65536. Returns when all have been sent once: flush() says whether they have been written.
   void write(std::uint32_t address, std::span<const std::uint32_t> words, bool same = false);

@@ -77,7 +77,8 @@ class Sdram {
 /// What a word may be that is written while its run goes on: as it was when the run was accepted, or any since.
 template <class Memory>
 void runs_test(int rounds, int clocks) {
-  each_seed(rounds, [clocks](Dice& dice) {
+  int checked = 0;  // of all rounds: in one that writes seldom no run may meet what was written
+  each_seed(rounds, [clocks, &checked](Dice& dice) {
     Memory top(dice, dice.between(3, 40), dice.between(3, 40));
     Offer write(stall_percent(dice));
     Offer run(stall_percent(dice));
@@ -94,7 +95,7 @@ void runs_test(int rounds, int clocks) {
     std::uint32_t address = place(), value = static_cast<std::uint32_t>(dice.bits(32)), from = place();
     int words = dice.between(1, dice.percent(50) ? 3 : 90);
     std::uint32_t next = 0;
-    int left = 0, checked = 0;
+    int left = 0;
     bool waited = false;
     std::uint32_t waits = 0;
     for (int clock = 0; clock < clocks; ++clock) {
@@ -143,8 +144,8 @@ void runs_test(int rounds, int clocks) {
       }
       top.edge();
     }
-    REQUIRE(checked > 0);
   });
+  if (std::getenv("KAGE_SEED") == nullptr) REQUIRE(checked > 0);  // which repeats one round
 }
 
 /// Clocks of the core in which a long run comes, for each of its words.
