@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // block_memory and sdram_memory, which have the same ports: runs bring what was written before, however the clocks lie.
 #include <cstdio>
+#include <cstdlib>
 #include <deque>
 #include <unordered_map>
 
