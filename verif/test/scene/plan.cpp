@@ -160,8 +160,8 @@ TEST_CASE("a plan takes no more of an FPGA than the named configurations of the 
     const Config& p = plan.config;
     for (const NamedConfig& row : named_configs()) {
       Config n = row.config;
-      const bool same_way = n.dsf_bits == p.dsf_bits && n.fsf >= p.fsf && n.arrangement == p.arrangement &&
-                            (n.units > 0) == (p.units > 0) && n.classic == p.classic;
+      const bool same_way = (n.dsf_bits > 1) == (p.dsf_bits > 1) && n.dsf_bits >= p.dsf_bits && n.fsf >= p.fsf &&
+                            n.arrangement == p.arrangement && (n.units > 0) == (p.units > 0) && n.classic == p.classic;
       const bool draws = n.max_width >= p.max_width && n.z_bits >= p.z_bits && n.z_frac >= p.z_frac &&
                          n.smooth >= p.smooth && n.color_frac >= p.color_frac && n.channels >= p.channels &&
                          n.translucency >= p.translucency && n.count_bits >= p.count_bits && n.lights >= p.lights &&
