@@ -39,7 +39,7 @@ bool in_time(const std::vector<Lines>& frames, double each, int blank) {
   return true;
 }
 
-bool in_time(const Lines& lines, double each) { return in_time(std::vector{lines}, each, 0); }
+bool in_time(const Lines& lines, double each) { return in_time(std::vector<Lines>{lines}, each, 0); }
 
 }  // namespace
 
