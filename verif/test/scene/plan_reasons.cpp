@@ -28,7 +28,7 @@ TEST_CASE("what a reason says of one less holds of the scene, for every paramete
 }
 
 TEST_CASE("the share that is done rises from nothing to all, and with every frame once all passes are known") {
-  // Two ways with units and without, one way, no shadows.
+  // A way more than was expected first (penumbra) holds the share for a pass; from there on it rises.
   for (const char* input : {"courtyard", "penumbra", "depths"}) {
     CAPTURE(input);
     const std::array scenes{small(input, 32, 24, 3)};
@@ -40,7 +40,7 @@ TEST_CASE("the share that is done rises from nothing to all, and with every fram
     CHECK(std::is_sorted(told.begin(), told.end()));
     const auto all = static_cast<double>(told.size());
     CHECK(told.back() == (all - 1) / all);
-    for (std::size_t i = told.size() / 2; i + 1 < told.size(); ++i) CHECK(told[i] < told[i + 1]);
+    for (std::size_t i = 2 * told.size() / 3; i + 1 < told.size(); ++i) CHECK(told[i] < told[i + 1]);
   }
 }
 
