@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,18 @@ PlanOptions options_of(const PlanCommand& o, Progress& progress) {
   return options;
 }
 
+/// The limit of depth: who allows wrong pixels asks for none besides, unless it is given.
+double measured_z(const PlanCommand& o, double given) { return o.max_wrong && !o.max_z ? 1.0 : given; }
+
+/// A display's lines hold the picture's, and one at least that is blank.
+void check_total_lines(const PlanCommand& o, const std::vector<PlannedScene>& scenes) {
+  if (!o.total_lines) return;
+  for (const PlannedScene& s : scenes)
+    if (*o.total_lines <= s.draw.height)
+      throw Error(fmt::format("--total-lines {}: a frame's time holds the picture's {} and a blank one at least",
+                              *o.total_lines, counted(s.draw.height, "line")));
+}
+
 double per_frame(const Plan& plan, std::uint64_t all) { return static_cast<double>(all) / plan.frames; }
 double per_pixel(const Plan& plan, double all) { return all / static_cast<double>(plan.pixels); }
 
@@ -87,7 +100,7 @@ double per_pixel(const Plan& plan, double all) { return all / static_cast<double
 bool needs_fifo(const Config& config) { return derived::has_loads(config); }
 
 std::string keeps_up(const Config& config) {
-  return needs_fifo(config) ? "keeps up with a FIFO of two lines behind it" : "keeps up";
+  return needs_fifo(config) ? "keeps up if a FIFO of two lines follows" : "keeps up";
 }
 
 /// One line of what a configuration costs.
@@ -99,7 +112,8 @@ std::string cost_text(const Plan& plan, const Config& config, const PlanCost& c)
       c.flip_flops, c.ram_bits, c.bits_per_pixel);
   if (c.meets_clock)
     text += *c.meets_clock ? "; " + keeps_up(config)
-                           : fmt::format("; does not keep up: {:.0f} clocks a line", c.needed_line);
+                           : fmt::format("; does not keep up: needs {:.0f} clocks a line, the display has {:.0f}",
+                                         std::ceil(c.needed_line), std::floor(*plan.display_line));
   return text;
 }
 
@@ -131,6 +145,38 @@ std::string least_text(const Plan& plan, Prefer prefer) {
                      clocks < 0 ? "clocks" : "words");
 }
 
+/// What speed costs beside the clocks it saves, against the smallest configuration; nothing if that was taken.
+std::string speed_text(const Plan& plan) {
+  const PlanCost& c = plan.cost;
+  const PlanCost& least = plan.smallest.cost;
+  if (plan.smallest.config == plan.config) return {};
+  const auto of = [](auto a, auto b) { return static_cast<double>(a) - static_cast<double>(b); };
+  return fmt::format(
+      "# the smallest, {} ({}): {}\n"
+      "# speed against the smallest: {} fewer clocks ({:.2f} a pixel, not {:.2f}) for {:+.0f} LUTs, "
+      "{:+.0f} flip-flops, {:+.0f} bits of RAM, {:+.0f} bits a pixel\n",
+      plan.smallest.way, shape_text(plan.smallest.config), cost_text(plan, plan.smallest.config, least),
+      per_cent(of(least.clocks, c.clocks) / static_cast<double>(least.clocks)),
+      per_pixel(plan, static_cast<double>(c.clocks)), per_pixel(plan, static_cast<double>(least.clocks)),
+      c.luts - least.luts, c.flip_flops - least.flip_flops, of(c.ram_bits, least.ram_bits),
+      of(c.bits_per_pixel, least.bits_per_pixel));
+}
+
+/// What the plan's pictures may be off by, as its inequalities bound it or as it was measured.
+std::string error_text(const Plan& plan, const PlanOptions& options, const trade::MeasuredPlan* measured) {
+  if (measured == nullptr)
+    return fmt::format("# depth within {:.3g} of its range, colour at most {}/255 from exact arithmetic{}\n",
+                       plan.z_error, plan.limits.color,
+                       plan.limits.color > options.limits.color ? " (no core is bound to keep less here)" : "");
+  const trade::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);
+  std::string text = fmt::format("# measured in these frames: {}; allowed: {}\n", measured->text(l.taken_gives),
+                                 measured->limits_text());
+  if (!(l.least == l.taken))
+    text += fmt::format("# measured before the next steps were taken, with {}: {}\n",
+                        trade::MeasuredPlan::widths_text(l.least), measured->text(l.least_gives));
+  return text;
+}
+
 /// What render says of the scenes, a line each: what was ignored or added, and what is to be seen with the plan's
 /// depth.
 std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const std::vector<PlannedScene>& scenes) {
@@ -150,15 +196,11 @@ std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const 
 }
 
 std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options,
-                    const std::vector<std::string>& notes) {
+                    const std::vector<std::string>& notes, const trade::MeasuredPlan* measured) {
   std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n", fmt::join(o.inputs, " "),
                                  counted(plan.frames, "frame"), plan.size[0], plan.size[1], name_of(o.plan.prefer));
   for (const std::string& note : notes) text += fmt::format("# {}\n", note);
-  text += fmt::format(
-      "# depth within {:.3g} of its range, colour within {} of 255 of a core whose fractions are without "
-      "end{}\n",
-      plan.z_error, counted(plan.limits.color, "step"),
-      plan.limits.color > options.limits.color ? " (no core keeps less here)" : "");
+  text += error_text(plan, options, measured);
   if (options.clock)
     text += fmt::format(
         "# a display of {:g} frames a second and {} each, blanking included, at {:g} MHz: {}\n", options.clock->fps,
@@ -173,9 +215,7 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
   text += least_text(plan, o.plan.prefer);
   for (const PlanCandidate& c : plan.others)
     text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.config, c.cost));
-  if (o.plan.prefer == Prefer::speed && !(plan.smallest.config == plan.config))
-    text += fmt::format("# the smallest, {} ({}): {}\n", plan.smallest.way, shape_text(plan.smallest.config),
-                        cost_text(plan, plan.smallest.config, plan.smallest.cost));
+  if (o.plan.prefer == Prefer::speed) text += speed_text(plan);
   return text + to_yaml(plan);
 }
 
@@ -208,7 +248,22 @@ Json candidate_json(const Plan& plan, const PlanCandidate& c) {
   return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.config, c.cost)}};
 }
 
-Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::string>& notes) {
+Json accuracy_json(const trade::Accuracy& a) {
+  return {{"wrong_ppm", a.wrong_ppm()}, {"z_error", a.z_max}, {"color_steps", a.color_max}};
+}
+
+/// What pictures with the plan's widths were off by, and with those before they were rounded up to steps.
+Json measured_json(const Plan& plan, const trade::MeasuredPlan* measured) {
+  if (measured == nullptr) return nullptr;
+  const trade::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);
+  Json j = accuracy_json(l.taken_gives);
+  j["before_steps"] = accuracy_json(l.least_gives);
+  j["before_steps"]["config"] = cli::to_json(l.least);
+  return j;
+}
+
+Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::string>& notes,
+             const trade::MeasuredPlan* measured) {
   Json j;
   j["scenes"] = o.inputs;
   j["notes"] = notes;
@@ -217,16 +272,18 @@ Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::stri
   j["height"] = plan.size[1];
   j["prefer"] = name_of(o.plan.prefer);
   j["guarantee"] = o.measured ? "measured" : "bound";
-  j["limits"] = {{"max_z", plan.limits.z},
+  j["limits"] = {{"max_z", measured_z(o, plan.limits.z)},
                  {"max_color", plan.limits.color},
                  {"max_wrong", o.max_wrong ? Json(*o.max_wrong) : Json(nullptr)}};
   j["z_error_bound"] = plan.z_error;
+  j["measured"] = measured_json(plan, measured);
   j["config"] = cli::to_json(plan.config);
   Json reasons = Json::object();
   for (const PlanReason& r : plan.reasons) reasons[std::string(r.parameter)] = r.text;
   j["reasons"] = reasons;
   j["worst_line_cycles"] = plan.cost.worst_line;
   j["meets_clock"] = plan.cost.meets_clock ? Json(*plan.cost.meets_clock) : Json(nullptr);
+  j["display_line_cycles"] = plan.display_line ? Json(*plan.display_line) : Json(nullptr);
   j["cost"] = cost_json(plan, plan.config, plan.cost);
   j["others"] = Json::array();
   for (const PlanCandidate& c : plan.others) j["others"].push_back(candidate_json(plan, c));
@@ -239,14 +296,15 @@ int run(const PlanCommand& o) {
   check_json(o);
   Progress progress;
   std::vector<PlannedScene> scenes;
-  for (const std::string& input : o.inputs) scenes.push_back(open(o, input, progress));
+  refuse_repeated(o.inputs);
   PlanOptions options = options_of(o, progress);
+  for (const std::string& input : o.inputs) scenes.push_back(open(o, input, progress));
+  check_total_lines(o, scenes);
   std::optional<trade::MeasuredPlan> measured;
   if (o.measured) {
     int drawn = 0;
-    // Who allows wrong pixels asks for no depth besides, unless it is given.
-    const double z = o.max_wrong && !o.max_z ? 1.0 : options.limits.z;
-    measured.emplace(scenes, trade::MeasuredLimits{o.max_wrong, z, options.limits.color}, [&progress, drawn]() mutable {
+    const trade::MeasuredLimits limits{o.max_wrong, measured_z(o, options.limits.z), options.limits.color};
+    measured.emplace(scenes, limits, [&progress, drawn]() mutable {
       check_interrupt();
       progress.show(fmt::format("plan: {} drawn", counted(++drawn, "frame")));
     });
@@ -256,7 +314,8 @@ int run(const PlanCommand& o) {
   progress.clear();
   TempFiles files;
   const std::vector<std::string> notes = notes_of(o, plan, scenes);
-  finish(o, {"kage.plan/1", json_of(o, plan, notes)}, files, text_of(o, plan, options, notes));
+  const trade::MeasuredPlan* pictures = measured ? &*measured : nullptr;
+  finish(o, {"kage.plan/1", json_of(o, plan, notes, pictures)}, files, text_of(o, plan, options, notes, pictures));
   if (json_only(o))
     for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
   return kSame;
@@ -284,8 +343,8 @@ void add_plan(CLI::App& app, Action& action) {
          limits->color = steps;
          limits->color_given = true;
        },
-       "how many steps of 255 a colour may differ from that of a core whose fractions are without end; default 1, or "
-       "the least that any core keeps")
+       "how many steps of 255 a colour may be from exact arithmetic; default 1, or the least that any core is bound to "
+       "keep")
       ->check(whole_number(1, 255))
       ->type_name("STEPS");
   c->add_option(
@@ -324,7 +383,7 @@ void add_plan(CLI::App& app, Action& action) {
       ->type_name("F");
   c->add_option("--total-lines", o->total_lines,
                 "lines in a frame's time of the display, blanking included; default 525 for 480, 750 for 720, 1125 for "
-                "1080, 2250 for 2160, else a sixteenth more than the picture's; at least the picture's")
+                "1080, 2250 for 2160, else a sixteenth more than the picture's; at least one more than the picture's")
       ->check(whole_number(1, 100000))
       ->type_name("N");
   options_of_pictures(*c, *o);

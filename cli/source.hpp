@@ -34,6 +34,9 @@ void refuse_pack(const std::string& input);
 /// Throws Error if `input` asks for random frames: only kage cosim and kage explain take them.
 void refuse_random(const std::string& input);
 
+/// Throws Error if a scene is named twice, where scenes are told apart by their names or counted together.
+void refuse_repeated(const std::vector<std::string>& inputs);
+
 /// How a scene is drawn, as the options say. Building an order of translucent faces says nothing and asks for no
 /// interruption: DrawOptions::order is for the caller to set.
 DrawOptions draw_options(const Options& options);

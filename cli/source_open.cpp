@@ -45,6 +45,11 @@ void refuse_pack(const std::string& input) {
     throw Error(fmt::format("{}: a folder of kage vectors is no scene: kage board plays it", input));
 }
 
+void refuse_repeated(const std::vector<std::string>& inputs) {
+  for (auto it = inputs.begin(); it != inputs.end(); ++it)
+    if (std::find(inputs.begin(), it, *it) != it) throw Error(fmt::format("{}: given twice", *it));
+}
+
 void refuse_random(const std::string& input) {
   if (verif::random_manner(input))
     throw Error(fmt::format("{}: random frames are for kage cosim, kage explain and kage vectors", input));

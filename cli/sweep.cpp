@@ -18,6 +18,7 @@
 #include "report.hpp"
 #include "results.hpp"
 #include "signals.hpp"
+#include "source.hpp"
 #include "standard_files.hpp"
 #include "sweep_print.hpp"
 #include "sweep_rows.hpp"
@@ -161,8 +162,7 @@ int run(const SweepCommand& o) {
   std::vector<SweptScene> scenes;
   Told* telling = nullptr;
   const Tools tools = tools_of(o);
-  for (auto it = o.inputs.begin(); it != o.inputs.end(); ++it)
-    if (std::find(o.inputs.begin(), it, *it) != it) throw Error(fmt::format("{}: given twice", *it));
+  refuse_repeated(o.inputs);
   const auto doing = [&telling](const std::string& what) { telling->doing(what); };
   for (const std::string& input : o.inputs) scenes.push_back(open_swept(o, tools, input, progress, doing));
   progress.clear();

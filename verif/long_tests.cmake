@@ -89,6 +89,7 @@ set(long_tests
     scene/meshes
     scene/plan
     scene/plan_measured
+    scene/plan_reasons
     scene/precision
     tools/dead-cores
     tools/lint-verilator)

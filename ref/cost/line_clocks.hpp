@@ -52,10 +52,12 @@ inline constexpr double kWayOutClocks = 8;
 /// The least clocks T that a line of a display must have, so that a core which takes `lines` clocks for its lines is
 /// never late. The way out holds two lines (docs/rtl.md): while one leaves and one waits, the core works on the next.
 /// So m neighbouring lines have the time of m + 1 lines of the display, and T is the most of
-/// (sum + kWayOutClocks) / (m + 1) over all runs of neighbours. The first line of a frame begins with the way out
-/// empty, behind the blanking of the frame before. A line whose colours come back before its TPs leaves the way out
-/// only once the line before has left: for such frames the two lines are those of a FIFO behind the core, as video_out
-/// has one (docs/video.md).
+/// (sum + kWayOutClocks) / (m + 1) over all runs of neighbours in a frame. Runs do not go on into the next frame where
+/// the display has a blank line between them: m lines at a frame's end and n at the next one's begin take up to
+/// (m + 1) T and (n + 1) T, less kWayOutClocks each, and have the time of their m + n + 1 lines and the blank one.
+/// Without a blank line the core may be late by what both take. A line whose colours come back before its TPs leaves
+/// the way out only once the line before has left: for such frames the two lines are those of a FIFO behind the core,
+/// as video_out has one (docs/video.md).
 /// @param lines clocks of each line of a frame, top to bottom
 /// @return T, and the lines that decide it; 0 without lines
 LineClocks::Need needed_line(std::span<const std::uint64_t> lines);

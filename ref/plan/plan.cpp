@@ -8,15 +8,13 @@
 #include <tuple>
 
 #include "kage/error.hpp"
+#include "number/counted.hpp"
 #include "plan/costs.hpp"
 #include "plan/demand.hpp"
 #include "plan/widths.hpp"
 
 namespace kage {
 namespace {
-
-// Passes over the frames that a plan usually takes: parity and counting looked at and costed, and one for units.
-constexpr double kUsualPasses = 6;
 
 /// All configurations with the widths of one way.
 struct Way {
@@ -39,7 +37,8 @@ class Planner {
     features_ = plan::features_of(scenes_);
     out_.size = {features_.needs.width, features_.needs.height};
     check();
-    for (const plan::WayDemand& demand : demands()) add_ways(demand);
+    look();
+    for (const plan::WayDemand& demand : demands_) add_ways(demand);
     choose();
     return std::move(out_);
   }
@@ -50,50 +49,58 @@ class Planner {
     if (features_.needs.shadows && lights > kGreatest.lights)
       throw Error(fmt::format("{} lights cast shadows, and a core tells at most {} apart", lights, kGreatest.lights));
     const int height = features_.needs.height;
-    if (options_.clock && total_lines() < height)
+    if (options_.clock && total_lines() <= height)
       throw Error(
-          fmt::format("--total-lines {}: a frame's time holds the picture's {} lines at least", total_lines(), height));
+          fmt::format("a frame's time of {} lines leaves none blank beside the picture's {}, and a display has one "
+                      "at least",
+                      total_lines(), height));
   }
 
-  void step() {
-    ++steps_;
-    if (options_.progress) options_.progress(std::min(steps_ / (kUsualPasses * out_.frames), 0.99));
-  }
-
-  /// Parity, then counting with more and more bits, until there is one volume for each light sample.
-  std::vector<plan::WayDemand> demands() {
-    std::vector<plan::WayDemand> list;
+  /// What the frames ask for: units, and each way to draw shadows.
+  void look() {
     const bool shadows = features_.needs.shadows;
+    // One pass looks for units. Each way is looked at once, and costed by spans and, if anything goes to units, with
+    // units. Until it is known better there are units, and with shadows two ways: parity and one that counts.
+    passes_ = 1 + 3 * (shadows ? 2 : 1);
+    units_ = plan::unit_demand_of(scenes_, features_, [this] { step(); });
+    const int of_way = units_.units.value >= 1 ? 3 : 2;
+    passes_ = 1 + of_way * (shadows ? 2 : 1);
+    // Parity, then counting with more and more bits, until there is one volume for each light sample.
     for (int bits = shadows ? 1 : 0; bits <= (shadows ? kGreatest.dsf_bits : 0); ++bits) {
-      list.push_back(plan::demand_of(scenes_, features_, bits, [this] { step(); }));
-      if (list.back().volumes.value <= 1) break;
+      passes_ = std::max(passes_, 1 + of_way * static_cast<int>(demands_.size() + 1));
+      demands_.push_back(plan::demand_of(scenes_, features_, bits, [this] { step(); }));
+      if (demands_.back().volumes.value <= 1) break;
     }
-    return list;
+    passes_ = 1 + of_way * static_cast<int>(demands_.size());
+  }
+
+  /// A frame begins. What is told never goes back, even where there are more passes than were known of.
+  void step() {
+    told_ = std::max(told_, static_cast<double>(steps_) / (static_cast<double>(passes_) * out_.frames));
+    ++steps_;
+    if (options_.progress) options_.progress(told_);
   }
 
   static std::string name_of(const plan::WayDemand& d, const plan::UnitDemand* units) {
     std::string name = d.dsf_bits == 0   ? "no shadows"
                        : d.dsf_bits == 1 ? std::string("parity")
                                          : fmt::format("counting, {} bits", d.dsf_bits);
-    if (units != nullptr)
-      name += fmt::format(", {:.0f} unit{}", units->units.value, units->units.value == 1 ? "" : "s");
+    if (units != nullptr) name += ", " + counted(static_cast<int>(units->units.value), "unit");
     return name;
   }
 
   void add_ways(const plan::WayDemand& demand) {
-    if (!looked_for_units_) {
-      units_ = plan::unit_demand_of(scenes_, features_, [this] { step(); });
-      looked_for_units_ = true;
-    }
     add_way(demand, nullptr);
     if (units_.units.value >= 1) add_way(demand, &units_);
   }
 
   void add_way(const plan::WayDemand& demand, const plan::UnitDemand* units) {
     Way way;
-    way.widths = plan::widths_of(scenes_, features_, demand, units, options_.limits);
+    way.widths = plan::widths_of(scenes_, features_, demand, units, options_.limits,
+                                 options_.lower ? plan::Unkept::finest : plan::Unkept::refuse);
     if (options_.lower) {
       options_.lower(way.widths.config, way.widths.reasons);
+      way.widths.color_limit = options_.limits.color;
       validate(way.widths.config, "plan");
       way.widths.z_error =
           plan::depth_error_share(demand.depth_span.value, way.widths.config.z_bits, way.widths.config.z_frac,
@@ -181,6 +188,7 @@ class Planner {
     }
     out_.config = taken.config;
     out_.cost = taken.cost;
+    if (options_.clock) out_.display_line = line_clocks();
     out_.smallest = best_of(all, Prefer::area);
     if (const PlanCandidate& least = least_of(all, options_.prefer); &least != &taken) out_.least = least;
     out_.limits = options_.limits;
@@ -201,7 +209,9 @@ class Planner {
 
   [[nodiscard]] std::string arrangement_reason(const ParamInfo& p, const Way& way, const PlanCandidate& taken) const {
     if (p.member == &Config::arrangement)
-      return taken.config.arrangement != 0 ? "lanes over a line in block RAM" : "a processor for each pixel";
+      return std::string(taken.config.arrangement != 0 ? "lanes over a line in block RAM"
+                                                       : "a processor for each pixel") +
+             "; both arrangements show the same pixels";
     if (p.member == &Config::lanes && taken.config.arrangement == 0) return "systolic: without effect";
     if (p.member == &Config::lanes || p.member == &Config::beat_words) return pace_reason(p, way, taken);
     if (p.member == &Config::classic) return "the paper's segments are never asked for";
@@ -233,9 +243,11 @@ class Planner {
   Plan out_;
   plan::Features features_;
   plan::UnitDemand units_;
-  bool looked_for_units_ = false;
+  std::vector<plan::WayDemand> demands_;
   std::vector<Way> ways_;
-  int steps_ = 0;
+  int passes_ = 1;   // over all frames: those that are known of
+  int steps_ = 0;    // frames that were begun, of all passes
+  double told_ = 0;  // share that is done
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "contract/derived.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
+#include "plan/figures.hpp"
 
 namespace kage::plan {
 namespace {
@@ -24,6 +25,19 @@ int bits_for(double greatest) { return static_cast<int>(std::bit_width(static_ca
 std::string step_text(int least, int taken) {
   return taken == least ? std::string() : fmt::format(" ({} would do; the next step is {})", least, taken);
 }
+
+/// "; 9 cannot represent the scene": what one less than `least` would break. Nothing where no core has less.
+std::string one_less_text(int least, const ParamInfo& p) {
+  return least <= p.min ? std::string() : fmt::format("; {} cannot represent the scene", least - 1);
+}
+
+/// "12 pixels", of a whole number that was searched for as the greatest.
+std::string counted_most(const Most& most, std::string_view singular, std::string_view plural) {
+  return counted(static_cast<int>(most.value), singular, plural);
+}
+
+/// "0.8 steps", "1 step".
+std::string steps_text(const std::string& figure) { return figure + (figure == "1" ? " step" : " steps"); }
 
 /// How many of a group's samples make a pixel differ by most, and by how much: each sample of a light adds what its
 /// share is off of a full colour, less what it takes of the difference that the colour has already.
@@ -43,8 +57,8 @@ double group_error(const ShareGroup& group, double before, int shade_frac) {
 class Maker {
  public:
   Maker(std::span<const PlannedScene> scenes, const Features& features, const WayDemand& way, const UnitDemand* units,
-        const PlanLimits& limits)
-      : scenes_(scenes), features_(features), way_(way), units_(units), limits_(limits) {
+        const PlanLimits& limits, Unkept unkept)
+      : scenes_(scenes), features_(features), way_(way), units_(units), limits_(limits), unkept_(unkept) {
     out_.color_limit = limits.color;
   }
 
@@ -70,11 +84,12 @@ class Maker {
     const int least = bits_for(width);
     const int taken = position_step(least);
     set(&Config::x_bits, taken,
-        fmt::format("positions reach {}, which {} bits hold{}", width, least, step_text(least, taken)));
+        fmt::format("positions reach {}, which {}{}{}", width, counted(least, "bit holds", "bits hold"),
+                    one_less_text(least, info_of(&Config::x_bits)), step_text(least, taken)));
     const int max_width = std::min(width_step(width), (1 << taken) - 1);
     set(&Config::max_width, max_width,
-        max_width == width ? fmt::format("lines of {} pixels", width)
-                           : fmt::format("lines of {} pixels; the next named width is {}", width, max_width));
+        fmt::format("lines of {}{}{}", counted(width, "pixel"), one_less_text(width, info_of(&Config::max_width)),
+                    max_width == width ? std::string() : fmt::format("; the next named width is {}", max_width)));
   }
 
   void depth() {
@@ -84,27 +99,36 @@ class Maker {
     const auto share = [&](int bits, int frac) { return depth_error_share(pixels, bits, frac, width, height); };
     const ParamInfo& z = info_of(&Config::z_bits);
     const ParamInfo& f = info_of(&Config::z_frac);
+    const std::string span = counted(static_cast<int>(pixels), "pixel");
     int bits = z.min;
     while (bits <= z.max && share(bits, f.max) > limits_.z) ++bits;
-    if (bits > z.max)
-      throw Error(
-          fmt::format("--max-z {:.3g}: with {} bits of depth the bound is {:.3g} already (longest span {:.0f} "
-                      "pixels, {})",
-                      limits_.z, z.max, share(z.max, f.max), pixels, at(way_.depth_span)));
+    if (bits > z.max && unkept_ == Unkept::refuse)
+      throw Error(fmt::format("--max-z {:.3g}: with {} bits of depth the bound is {:.3g} already (longest span {}, {})",
+                              limits_.z, z.max, share(z.max, f.max), span, at(way_.depth_span)));
+    bits = std::min(bits, z.max);
     const int taken = four_step(bits);
     set(&Config::z_bits, taken,
-        fmt::format("{} keep {:.3g} of the range, --max-z is {:.3g}{}{}", bits, share(bits, f.max), limits_.z,
-                    bits == z.min ? "" : fmt::format("; {} give {:.3g}", bits - 1, share(bits - 1, f.max)),
+        fmt::format("with {} {}, {} keep {} of the range{}{}", f.name, f.max, bits, share_text(share(bits, f.max)),
+                    bits == z.min ? "" : fmt::format(", {} give {}", bits - 1, over_text(share(bits - 1, f.max))),
                     step_text(bits, taken)));
     int frac = f.min;
-    while (share(taken, frac) > limits_.z) ++frac;
+    while (frac < f.max && share(taken, frac) > limits_.z) ++frac;
     const int frac_taken = position_step(std::max(frac, 1));
     set(&Config::z_frac, frac_taken,
-        fmt::format("longest span {:.0f} pixels in {}: {} keep {:.3g} of the range{}{}", pixels, at(way_.depth_span),
-                    frac, share(taken, frac),
-                    frac == f.min ? "" : fmt::format(", {} give {:.3g}", frac - 1, share(taken, frac - 1)),
-                    step_text(frac, frac_taken)));
+        fmt::format("longest span {} in {}: {} keep {} of the range{}{}", span, at(way_.depth_span), frac,
+                    share_text(share(taken, frac)),
+                    frac == f.min ? "" : fmt::format(", {} give {}", frac - 1, over_text(share(taken, frac - 1))),
+                    frac == frac_taken ? ""
+                                       : fmt::format(" ({} would do; the next step, {}, keeps {})", frac, frac_taken,
+                                                     share_text(share(taken, frac_taken)))));
     out_.z_error = share(taken, frac_taken);
+  }
+
+  /// A share of the range beside --max-z, in as many digits as show that it is within.
+  [[nodiscard]] std::string share_text(double share) const { return told_apart(share, limits_.z).value; }
+  [[nodiscard]] std::string over_text(double share) const {
+    const FigureText text = told_apart(share, limits_.z);
+    return fmt::format("{}, more than --max-z {}", text.value, text.limit);
   }
 
   void shadows() {
@@ -124,24 +148,35 @@ class Maker {
     Config of_way;
     of_way.dsf_bits = way_.dsf_bits;
     set(&Config::dsf_bits, way_.dsf_bits,
-        way_.dsf_bits == 1 ? fmt::format("parity: {} for a light sample at most, {}", volumes, at(way_.volumes))
-                           : fmt::format("counting to {}: {} for a light sample at most, {}", derived::most_dsf(of_way),
-                                         volumes, at(way_.volumes)));
+        way_.dsf_bits == 1
+            ? fmt::format("parity: {} for a light sample at most, {}{}", volumes, at(way_.volumes),
+                          one_less_text(1, info_of(&Config::dsf_bits)))
+            : fmt::format("counting to {}: {} for a light sample at most, {}; {} is another way, and costed too",
+                          derived::most_dsf(of_way), volumes, at(way_.volumes), way_.dsf_bits - 1));
     set(&Config::fsf, several || possible ? 1 : 0,
-        several    ? "several volumes for a light sample"
-        : possible ? "one volume for each light sample here; several casters, or one that is not convex, may have more"
+        several    ? "several volumes for a light sample; 0 cannot represent the scene"
+        : possible ? "one volume for each light sample here; several casters, or one that is not convex, may have "
+                     "more, and 0 cannot represent the scene then"
                    : "one volume for each light sample");
     const bool counts = needs.samples > 1 || needs.lights > 1;
     const int count = counts ? bits_for(needs.samples) : 0;
     set(&Config::count_bits, count,
-        counts ? fmt::format("{} for a light, {}", counted(needs.samples, "sample"), counted(needs.lights, "light"))
+        counts ? fmt::format("{} for a light, {}{}", counted(needs.samples, "sample"), counted(needs.lights, "light"),
+                             one_less_text(count, info_of(&Config::count_bits)))
                : "one light, a point or at infinity");
-    set(&Config::lights, needs.lights, needs.lights == 1 ? "one light" : fmt::format("{} lights", needs.lights));
+    set(&Config::lights, needs.lights,
+        needs.lights == 1
+            ? "one light"
+            : fmt::format("{} lights{}", needs.lights, one_less_text(needs.lights, info_of(&Config::lights))));
     if (needs.lights > 1) {
       const int least = std::max(2, bits_for(way_.classes.value));
       const int taken = class_step(least);
       set(&Config::class_bits, taken,
-          fmt::format("{:.0f} classes of normals and lights in {}{}", way_.classes.value, at(way_.classes),
+          fmt::format("{} in {}; {}{}",
+                      counted_most(way_.classes, "class of normals and lights", "classes of normals and lights"),
+                      at(way_.classes),
+                      least == 2 ? std::string("1 cannot represent the scene")
+                                 : fmt::format("{} would put classes together", least - 1),
                       step_text(least, taken)));
     } else {
       set(&Config::class_bits, 1, "one light, so no table");
@@ -166,18 +201,19 @@ class Maker {
     if (!feasible()) {
       const int asked = out_.color_limit;
       while (!feasible() && out_.color_limit < 255) ++out_.color_limit;
-      if (limits_.color_given)
+      if (limits_.color_given && unkept_ == Unkept::refuse)
         throw Error(
             fmt::format("--max-color {}: no widths keep it, because shares of {} bits fraction are off by more; "
                         "--max-color {} can be kept",
                         asked, s.max, out_.color_limit));
     }
-    set(&Config::channels, needs.color ? 3 : 1, needs.color ? "some colour is not grey" : "all colours are grey");
+    set(&Config::channels, needs.color ? 3 : 1,
+        needs.color ? "some colour is not grey; 1 cannot represent the scene" : "all colours are grey");
     if (!needs.smooth) {
       set(&Config::smooth, 0, "each polygon has one colour");
       set(&Config::color_frac, 0, "no slopes of colour");
     } else {
-      set(&Config::smooth, 1, "colour varies within a face");
+      set(&Config::smooth, 1, "colour varies within a face; 0 cannot represent the scene");
       color_frac(c, s);
     }
     const double drawn = needs.smooth ? color_error(way_.color_span.value, out_.config.color_frac) : 0;
@@ -185,12 +221,14 @@ class Maker {
       set(&Config::shade_frac, s.min, "no shadows");
       return;
     }
-    const int frac = shade_frac(drawn);
+    const int frac = std::min(shade_frac(drawn), s.max);
     const int taken = std::min(four_step(frac), s.max);
-    const auto shown = [&](int f) { return shown_error(drawn, way_.groups, f); };
+    const auto shown = [&](int f) { return told_apart(shown_error(drawn, way_.groups, f), out_.color_limit, 2).value; };
     set(&Config::shade_frac, taken,
-        fmt::format("{} show colours within {:.2g} steps, --max-color is {}{}{}", frac, shown(frac), out_.color_limit,
-                    frac == s.min ? "" : fmt::format("; {} give {:.2g}", frac - 1, shown(frac - 1)),
+        fmt::format("{} show colours within {}{}{}", frac, steps_text(shown(frac)),
+                    frac == s.min ? ""
+                                  : fmt::format(", {} within {}, more than --max-color {}", frac - 1, shown(frac - 1),
+                                                out_.color_limit),
                     step_text(frac, taken)));
   }
 
@@ -204,31 +242,52 @@ class Maker {
     while (frac < c.max && !serves(frac)) ++frac;
     const int taken = std::min(four_step(frac), c.max);
     set(&Config::color_frac, taken,
-        fmt::format("longest span that changes colour {:.0f} pixels in {}: {} are off by {:.3g} steps, --max-color is "
-                    "{}{}{}",
-                    pixels, at(way_.color_span), frac, color_error(pixels, frac), out_.color_limit,
-                    frac == c.min ? "" : fmt::format("; {} by {:.3g}", frac - 1, color_error(pixels, frac - 1)),
-                    step_text(frac, taken)));
+        fmt::format("longest span that changes colour {} in {}: {} are off by {}{}{}",
+                    counted(static_cast<int>(pixels), "pixel"), at(way_.color_span), frac,
+                    steps_text(told_apart(color_error(pixels, frac), out_.color_limit).value),
+                    frac == c.min ? "" : ", " + coarser_color_text(pixels, frac - 1), step_text(frac, taken)));
+  }
+
+  /// Why a COLOR_FRAC does not do: by itself, or because no share is fine enough for what it leaves.
+  [[nodiscard]] std::string coarser_color_text(double pixels, int frac) const {
+    const double off = color_error(pixels, frac);
+    const FigureText text = told_apart(off, out_.color_limit);
+    return std::ceil(off) > out_.color_limit
+               ? fmt::format("{} by {}, more than --max-color {}", frac, text.value, text.limit)
+               : fmt::format("{} by {}, and then no SHADE_FRAC keeps --max-color {}", frac, text.value, text.limit);
   }
 
   void rest() {
     set(&Config::translucency, features_.needs.translucency ? 1 : 0,
-        features_.needs.translucency ? "something is translucent" : "all is opaque");
+        features_.needs.translucency ? "something is translucent; 0 cannot represent the scene" : "all is opaque");
     if (units_ == nullptr || units_->units.value < 1) {
       set(&Config::units, 0, units_ == nullptr ? "convex bodies go by spans" : "no convex body can go to a unit");
       return;
     }
-    set(&Config::units, static_cast<int>(units_->units.value),
-        fmt::format("{:.0f} bodies at a time, sharing units, {}", units_->bodies.value, at(units_->units)));
-    set(&Config::face_bits, std::max(2, bits_for(units_->faces.value)),
-        fmt::format("{:.0f} faces in a unit, {}; all ones is blank", units_->faces.value, at(units_->faces)));
-    set(&Config::dx_bits, std::max(2, bits_for(units_->dx.value)),
-        fmt::format("a segment of {:.0f} pixels, {}", units_->dx.value, at(units_->dx)));
-    set(&Config::seg_bits, std::max(2, bits_for(units_->segments.value - 1)),
-        fmt::format("{:.0f} segments of a unit on a line, {}", units_->segments.value, at(units_->segments)));
-    set(&Config::order_bits, std::max(1, bits_for(units_->last_index.value)),
-        fmt::format("the last body in a unit is number {:.0f}, from 0, {}", units_->last_index.value,
-                    at(units_->last_index)));
+    const int units = static_cast<int>(units_->units.value);
+    set(&Config::units, units,
+        fmt::format("{}, sharing units, {}; {}", counted_most(units_->bodies, "body at a time", "bodies at a time"),
+                    at(units_->units),
+                    units == 1 ? std::string("0 is another way, and costed too")
+                               : fmt::format("{} have no room for that", units - 1)));
+    set_room(&Config::face_bits, bits_for(units_->faces.value),
+             fmt::format("{}, {}; all ones is blank", counted_most(units_->faces, "face in a unit", "faces in a unit"),
+                         at(units_->faces)));
+    set_room(&Config::dx_bits, bits_for(units_->dx.value),
+             fmt::format("a segment of {}, {}", counted_most(units_->dx, "pixel", "pixels"), at(units_->dx)));
+    set_room(&Config::seg_bits, bits_for(units_->segments.value - 1),
+             fmt::format("{} of a unit on a line, {}", counted_most(units_->segments, "segment", "segments"),
+                         at(units_->segments)));
+    set_room(&Config::order_bits, bits_for(units_->last_index.value),
+             fmt::format("the last body in a unit is number {:.0f}, from 0, {}", units_->last_index.value,
+                         at(units_->last_index)));
+  }
+
+  /// What has room for the bodies that go to units.
+  void set_room(int Config::*member, int least, const std::string& text) {
+    const ParamInfo& p = info_of(member);
+    const int value = std::max(p.min, least);
+    set(member, value, value == p.min ? text : fmt::format("{}; {} have no room for that", text, value - 1));
   }
 
   std::span<const PlannedScene> scenes_;
@@ -236,6 +295,7 @@ class Maker {
   const WayDemand& way_;
   const UnitDemand* units_;
   const PlanLimits& limits_;
+  Unkept unkept_;
   Widths out_;
 };
 
@@ -281,8 +341,8 @@ double shown_error(double drawn, std::span<const ShareGroup> groups, int shade_f
 }
 
 Widths widths_of(std::span<const PlannedScene> scenes, const Features& features, const WayDemand& way,
-                 const UnitDemand* units, const PlanLimits& limits) {
-  return Maker(scenes, features, way, units, limits).run();
+                 const UnitDemand* units, const PlanLimits& limits, Unkept unkept) {
+  return Maker(scenes, features, way, units, limits, unkept).run();
 }
 
 }  // namespace kage::plan

@@ -4,6 +4,7 @@
 // docs/numbers.md). Widths are rounded up to steps, so that plans of scenes that are much alike share an RTL model.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,8 +34,8 @@ double depth_error_share(double pixels, int z_bits, int z_frac, int width, int h
 /// Bound of a colour's error before its first rounding, in steps of 8 bits, after `pixels` pixels.
 double color_error(double pixels, int color_frac);
 
-/// Whole steps by which a pixel may differ from what a core without end of fractions shows, if colours differ by
-/// `drawn` before their first rounding and shares have `shade_frac` fraction bits.
+/// Whole steps by which a pixel may differ from exact arithmetic, if colours differ by `drawn` before their first
+/// rounding and shares have `shade_frac` fraction bits.
 double shown_error(double drawn, std::span<const ShareGroup> groups, int shade_frac);
 
 /// A configuration and why it has its values.
@@ -45,8 +46,14 @@ struct Widths {
   double z_error = 0;               ///< bound of the depth's error, as a share of the range
 };
 
-/// What an arrangement and a way to draw shadows do not decide. Throws Error if no width keeps the limits.
+/// What becomes of a limit that no width is bound to keep.
+enum class Unkept : std::uint8_t {
+  refuse,  ///< Error
+  finest,  ///< the finest width is taken: the limit may be kept all the same, which pictures show
+};
+
+/// What an arrangement and a way to draw shadows do not decide.
 Widths widths_of(std::span<const PlannedScene> scenes, const Features& features, const WayDemand& way,
-                 const UnitDemand* units, const PlanLimits& limits);
+                 const UnitDemand* units, const PlanLimits& limits, Unkept unkept);
 
 }  // namespace kage::plan

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "kage/plan.hpp"
@@ -31,10 +32,27 @@ class MeasuredPlan {
   MeasuredPlan(const MeasuredPlan&) = delete;
   MeasuredPlan& operator=(const MeasuredPlan&) = delete;
 
-  /// Lowers Z_BITS, Z_FRAC, SMOOTH, COLOR_FRAC, SHADE_FRAC and CLASS_BITS as far as the limits allow and rounds each up
-  /// to its step: PlanOptions::lower. Each reason says what the width gives, and what one less gave. Where the widths
-  /// it is given are not enough, the finest depth is tried; Error if that is not enough either.
+  /// Lowers Z_BITS, Z_FRAC, COLOR_FRAC, SHADE_FRAC and CLASS_BITS as far as the limits allow and rounds each up to its
+  /// step: PlanOptions::lower. Each reason says what the width gives, and what one less gave. Where the widths it is
+  /// given are not enough, it begins at the finest; Error, which names the limit, if those are not enough either.
   void lower(Config& widths, std::vector<PlanReason>& reasons);
+
+  /// What lower() found.
+  struct Lowered {
+    Config least;  ///< before widths are rounded up to steps: what the reasons tell of
+    Accuracy least_gives;
+    Config taken;  ///< what it put in their place
+    Accuracy taken_gives;
+  };
+  /// That of a configuration with widths that lower() gave, in any arrangement; null: it gave none such.
+  [[nodiscard]] const Lowered* lowered(const Config& config) const;
+
+  /// "0 ppm wrong, depth off by 6.02e-08 (over --max-z 5.96e-08), colour by 1 step", all frames being counted.
+  [[nodiscard]] std::string text(const Accuracy& accuracy) const;
+  /// "--max-z 5.96e-08, --max-color 1".
+  [[nodiscard]] std::string limits_text() const;
+  /// "Z_BITS 22, Z_FRAC 9": the widths that lower() may lower.
+  static std::string widths_text(const Config& config);
 
   /// Draws all frames with a configuration and holds them against the truth. Ends early, with what it has, once a limit
   /// is passed, unless `whole`. None: the configuration cannot represent a frame.

@@ -32,8 +32,8 @@ struct PlanLimits {
   /// Of a pixel's stored depth against the exact depth of its polygon's plane, as a share of the depth range. Default:
   /// a step of 24 bits.
   double z = 1.0 / ((1 << 24) - 3);
-  /// Of a pixel's colour against that of a core whose fractions are without end, in steps of 8 bits: a whole number, at
-  /// least 1, because a colour next to the middle between two steps may fall to either side however small the error.
+  /// Of a pixel's colour against exact arithmetic, in steps of 8 bits: a whole number, at least 1, because a colour
+  /// next to the middle between two steps may fall to either side however small the error.
   int color = 1;
   bool color_given = false;  ///< `color` is refused where no width keeps it; else the least that can be kept is taken
 };
@@ -52,9 +52,10 @@ inline constexpr double kAsGood = 0.01;
 
 /// A display that the core has to keep up with.
 struct PlanClock {
-  double mhz = 0;       ///< the core's clock
-  double fps = 60;      ///< frames a second
-  int total_lines = 0;  ///< lines in a frame's time, blanking included, the picture's at least; 0: usual_total_lines()
+  double mhz = 0;   ///< the core's clock
+  double fps = 60;  ///< frames a second
+  /// Lines in a frame's time, blanking included, of which there is a line at least; 0: usual_total_lines().
+  int total_lines = 0;
 };
 
 /// Lines in a frame's time of a display, blanking included: 525 for 480 lines, 750 for 720, 1125 for 1080, 2250 for
@@ -82,8 +83,9 @@ struct PlanOptions {
   Prefer prefer = Prefer::area;            ///< which of several is taken
   std::optional<PlanClock> clock = {};     ///< what it has to keep up with
   std::function<void(double)> progress{};  ///< called with the share that is done; what it throws ends the plan
-  /// Called for each way to draw shadows with the widths that the inequalities give. It may put lesser ones in their
-  /// place, with their reasons (kage plan --guarantee measured), that are legal and draw the scenes.
+  /// Called for each way to draw shadows with the widths that the inequalities give, the finest where none satisfies
+  /// them. It may put others in their place, with their reasons (kage plan --guarantee measured), that are legal and
+  /// draw the scenes; that `limits` are kept is then up to it.
   std::function<void(Config& widths, std::vector<PlanReason>& reasons)> lower{};
 };
 
@@ -109,7 +111,7 @@ struct PlanCost {
 
 /// A configuration that serves.
 struct PlanCandidate {
-  std::string way;  ///< "parity, 12 volumes", "counting, 4 bits", with units
+  std::string way;  ///< "parity", "counting, 4 bits", "parity, 5 units"
   Config config;    ///< legal
   PlanCost cost;    ///< of the planned frames
 };
@@ -123,11 +125,12 @@ struct Plan {
   PlanCandidate smallest;             ///< the one that `area` takes: what speed costs more stands against it
   /// The one with the fewest clocks (`speed`) or look-up tables (`area`), if another one, within 1 % of it, was taken.
   std::optional<PlanCandidate> least;
-  std::uint64_t pixels = 0;   ///< of all planned frames
-  int frames = 0;             ///< of all scenes
-  std::array<int, 2> size{};  ///< width and height of the largest picture
-  PlanLimits limits;          ///< as kept
-  double z_error = 0;         ///< bound of the depth's error with `config`, as a share of the range
+  std::uint64_t pixels = 0;            ///< of all planned frames
+  int frames = 0;                      ///< of all scenes
+  std::array<int, 2> size{};           ///< width and height of the largest picture
+  PlanLimits limits;                   ///< as kept
+  double z_error = 0;                  ///< bound of the depth's error with `config`, as a share of the range
+  std::optional<double> display_line;  ///< clocks that a line of the display has; none if no clock was given
 };
 
 /// Plans. Every frame is made once for each way to draw shadows, and once more to be costed; so the time is a few times

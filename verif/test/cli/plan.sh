@@ -12,6 +12,13 @@ grep -qE '^Z_FRAC: 8 +# longest span [0-9]+ pixels in frame [01], line [0-9]+: [
 grep -q '^# instead, parity' mine.yaml || fail "no other way: $(cat mine.yaml)"
 expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --config mine.yaml --no-report --out out
 grep -q '^same: 2 frames' stdout || fail "$(cat stdout)"
+# An inequality's figures show that it is broken, and with which other width.
+grep -qE '^Z_BITS: 24 +# with Z_FRAC 16, 24 keep [0-9.e-]+ of the range, 23 give [0-9.e-]+, more than --max-z [0-9.e-]+$' mine.yaml || fail "$(grep Z_BITS mine.yaml)"
+python3 - mine.yaml <<'PY' || fail "figures that are equal to their limits: $(cat mine.yaml)"
+import re, sys
+pairs = re.findall(r"(?:give|by|within) ([0-9.e-]+), more than --max-[a-z]+ ([0-9.e-]+)", open(sys.argv[1]).read())
+sys.exit(not (len(pairs) >= 3 and all(float(value) > float(limit) for value, limit in pairs)))
+PY
 
 # Twice the same words; and the same as --config plan, whose model is there by now.
 "$kage" plan courtyard --size 64x48 --frames 2 >again.yaml
@@ -61,10 +68,11 @@ grep -q ' and 525 lines each' stdout || fail "$(cat stdout)"
 grep -qE '^# [0-9.]+ MHz is what the slowest core placed on ecp5-25f reached, [a-z0-9-]+; ' stdout || fail "$(cat stdout)"
 # Translucent layers over counted samples: the way out evens nothing out.
 expect 0 "$kage" plan penumbra glass --size 64x48 --frames 1 --samples 3 --clock 500 --json loads.json
-grep -q ': the core keeps up with a FIFO of two lines behind it$' stdout || fail "$(cat stdout)"
+grep -q ': the core keeps up if a FIFO of two lines follows$' stdout || fail "$(cat stdout)"
 json loads.json 'j["cost"]["needs_fifo"] is True and j["meets_clock"] is True'
 expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 0.01
 grep -q 'no core keeps up, this one comes nearest$' stdout || fail "$(cat stdout)"
+grep -qE '^# costs .*; does not keep up: needs [0-9]+ clocks a line, the display has 3$' stdout || fail "$(cat stdout)"
 
 # One per cent more decides nothing: neither look-up tables by area nor clocks by speed; and what decided is told.
 expect 0 "$kage" plan knot --size 96x72 --frames 1 --json area.json
@@ -76,9 +84,16 @@ grep -qE '^# clocks within 1 % of the fewest count as equal: 0\.[0-9] % more tha
 expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 500 --json -
 json stdout 'j["least"] is None'
 # A reason says by words what goes up and what down.
-expect 0 "$kage" plan courtyard --size 160x120 --frames 1 --prefer speed
+expect 0 "$kage" plan courtyard --size 160x120 --frames 1 --prefer speed --json speed.json
+grep -qE '^# speed against the smallest: [0-9]+ % fewer clocks \([0-9.]+ a pixel, not [0-9.]+\) for \+[0-9]+ LUTs, [+-][0-9]+ flip-flops, [+-][0-9]+ bits of RAM, [+-][0-9]+ bits a pixel$' stdout || fail "$(cat stdout)"
+luts=$(sed -n 's/^# speed against the smallest: .* for +\([0-9]*\) LUTs, .*/\1/p' stdout)
+json speed.json "abs(j['cost']['luts'] - j['smallest']['cost']['luts'] - $luts) <= 0.5"
 grep -qE '^LANES: .*; [0-9]+ would take [0-9]+ % more clocks and [0-9]+ LUTs fewer$' stdout || fail "$(grep LANES stdout)"
-! grep -qE ' 1 (lines|lights|steps) ' stdout || fail "$(cat stdout)"
+for case in "courtyard --size 160x120" "courtyard --size 1x1" "knot --size 1x1 --max-color 3" "three-lights --size 2x2 --samples 1"; do
+  # shellcheck disable=SC2086
+  expect 0 "$kage" plan $case --frames 1
+  ! grep -qE '(^|[^0-9.])1 (lines|lights|steps|bits hold|pixels|samples|classes|volumes)' stdout || fail "$case: $(cat stdout)"
+done
 
 # What render says of a mesh, plan says as well, in comments.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >mesh.obj
@@ -96,17 +111,38 @@ expect 0 "$kage" render mesh.obj --size 64x48 --frames 1 --config mesh.yaml --ou
 # Measured: fewer bits for whom wrong pixels do not matter.
 "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 3000 >few.yaml || fail "no measured plan"
 [ "$(sed -n 's/^Z_BITS: \([0-9]*\).*/\1/p' few.yaml)" -lt 24 ] || fail "$(grep Z_BITS few.yaml)"
-grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ give .*: over --max-wrong 3000' few.yaml || fail "$(grep Z_BITS few.yaml)"
-"$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured >measured.yaml || fail "no measured plan"
-grep -qE '^Z_BITS: .*; [0-9]+ give .*: over --max-z 5.96e-08' measured.yaml || fail "$(grep Z_BITS measured.yaml)"
+grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ give [0-9.e+-]+ ppm wrong \(over --max-wrong 3000\)' few.yaml || fail "$(grep Z_BITS few.yaml)"
+# The head tells of the widths that are printed, and what the reasons tell of where that is another.
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --json measured.json
+grep -qE '^Z_BITS: .*; [0-9]+ give .* \(over --max-z 5.9[0-9.e-]+\)' stdout || fail "$(grep Z_BITS stdout)"
+grep -qE '^# measured in these frames: 0 ppm wrong, depth off by [0-9.e-]+, colour by [01] steps?; allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
+grep -qE '^# measured before the next steps were taken, with Z_BITS [0-9]+, Z_FRAC [0-9]+, SHADE_FRAC [0-9]+: ' stdout || fail "$(cat stdout)"
+json measured.json 'j["measured"]["z_error"] <= j["limits"]["max_z"] and j["measured"]["color_steps"] <= 1 and j["measured"]["before_steps"]["config"]["Z_FRAC"] < j["config"]["Z_FRAC"]'
+z=$(sed -n 's/^# measured in these frames: .*depth off by \([0-9.e-]*\),.*/\1/p' stdout)
+json measured.json "abs(j['measured']['z_error'] / $z - 1) < 0.01"
+
+# Where the bound ends, pictures go on: finer widths are tried, and what fails is named with what was measured.
+expect 0 "$kage" plan three-lights --size 48x36 --frames 2 --samples 31 --guarantee measured --json wider.json
+grep -qE '^# measured in these frames: .*, colour by [01] steps?; allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
+grep -qE '^SHADE_FRAC: .*; [0-9]+ give .* \(over --max-color 1\)' stdout || fail "$(grep SHADE_FRAC stdout)"
+json wider.json 'j["limits"]["max_color"] == 1 and j["measured"]["color_steps"] <= 1'
+expect 0 "$kage" plan three-lights --size 64x48 --frames 1 --guarantee measured
+grep -v '^# kage' stdout >default_color
+expect 0 "$kage" plan three-lights --size 64x48 --frames 1 --guarantee measured --max-color 1
+grep -v '^# kage' stdout | cmp - default_color || fail "--max-color 1 is not the default"
+trouble "the finest widths (Z_BITS 28, Z_FRAC 16, SHADE_FRAC 16) give 0 ppm wrong, depth off by " \
+  "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-z 1e-9
+grep -q ' (over --max-z 1e-09), colour by [01] steps*$' stderr || fail "$(cat stderr)"
 
 trouble "--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured" \
   "$kage" plan courtyard --max-wrong 3
 trouble "--max-z 1e-09: with 28 bits of depth the bound is " "$kage" plan courtyard --size 64x48 --frames 1 --max-z 1e-9
 trouble "--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says how fast the core is" \
   "$kage" plan courtyard --fps 30
-trouble "--total-lines 100: a frame's time holds the picture's 480 lines at least" "$kage" plan courtyard --clock 50 --total-lines 100
-expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50 --total-lines 48
+trouble "--total-lines 48: a frame's time holds the picture's 48 lines and a blank one at least" \
+  "$kage" plan courtyard --size 64x48 --frames 1 --clock 50 --total-lines 48
+expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 50 --total-lines 49
+trouble "courtyard: given twice" "$kage" plan courtyard glass courtyard
 trouble "--device up9k: no core was placed there; there are ecp5-25f" "$kage" plan courtyard --device up9k
 trouble "nowhere.obj" "$kage" plan nowhere.obj
 trouble "random: random frames are for" "$kage" plan random

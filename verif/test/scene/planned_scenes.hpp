@@ -3,11 +3,14 @@
 // What tests of plans share: the scenes, and how a reason is read.
 #pragma once
 
+#include <algorithm>
 #include <cctype>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "kage/error.hpp"
 #include "kage/plan.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/installed.hpp"
@@ -48,6 +51,55 @@ inline int before(const std::string& text, const std::string& phrase) {
   while (from > 0 && std::isdigit(static_cast<unsigned char>(text[from - 1])) != 0) --from;
   REQUIRE(from < at);
   return std::stoi(text.substr(from, at - from));
+}
+
+/// Whether a scene cannot be drawn with a parameter's value, what else there is being as it is, or less where the rules
+/// between parameters ask for that.
+inline bool refused(const PlannedScene& scene, Config config, int Config::*member, int value) {
+  config.*member = value;
+  config.max_width = std::min(config.max_width, (1 << config.x_bits) - 1);
+  for (const RuleInfo& rule : kRules)
+    if (!rule.holds(config)) rule.repair(config);
+  try {
+    validate(config, "one less");
+    SceneFrames frames(scene.scene, config, scene.draw);
+    for (int i = 0; i < frames.frames(); ++i) {
+      const SceneFrame frame = scene.scene->frame(i, frames.frames());
+      if (!lacks(config, needs_of(*scene.scene, frame, scene.draw.width, scene.draw.height, scene.draw.look.samples))
+               .empty())
+        return true;
+      frames.words(i);
+    }
+  } catch (const Error&) {
+    return true;
+  }
+  return false;
+}
+
+/// Whether a reason says what stands against one less of its parameter: a limit that was passed, in a picture or by an
+/// inequality; the scene, which is then tried; the costs; or that there is none less.
+inline void check_one_less(const Plan& plan, const PlanReason& r, const PlannedScene& scene) {
+  const ParamInfo& p =
+      *std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& q) { return q.name == r.parameter; });
+  CAPTURE(p.name, r.value, r.text);
+  const auto says = [&](const char* phrase) { return r.text.find(phrase) != std::string::npos; };
+  const char* cannot = " cannot represent the scene";
+  if (says(cannot)) {
+    const int less = before(r.text, cannot);
+    CHECK(less < r.value);
+    CHECK(refused(scene, plan.config, p.member, less));
+    return;
+  }
+  bool said = r.value == p.min;
+  for (const char* phrase :
+       {" (over --max-", ", more than --max-", "no SHADE_FRAC keeps --max-color", "would put classes together",
+        "have no room for that", "is another way, and costed too", " would take ", "both arrangements show the same",
+        "systolic: without effect", "no units", "no core has fewer"})
+    said = said || says(phrase);
+  // Rounded up to a step from the least that is legal.
+  for (const char* phrase : {" bits hold", " bit holds", " keep ", " are off by ", " show colours"})
+    said = said || (says(phrase) && before(r.text, phrase) <= p.min);
+  CHECK(said);
 }
 
 }  // namespace kage::verif

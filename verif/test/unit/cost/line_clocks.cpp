@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "test/support/catch.hpp"
@@ -14,24 +15,31 @@ using namespace kage;
 
 namespace {
 
-/// Whether a core that takes `lines` clocks for its lines is ready for each line of a display, `each` clocks a line,
-/// that begins as late as two line buffers let it: when both are full, or when there is no third line to work on. One
-/// buffer leaves, one waits, and a line can be handed to a buffer once that is free.
-bool in_time(const std::vector<std::uint64_t>& lines, double each) {
-  std::vector<double> ready(lines.size());
-  std::vector<double> gone(lines.size());
+using Lines = std::vector<std::uint64_t>;
+
+/// Whether a core that takes `frames` clocks for the lines of its frames is ready for each line of a display, `each`
+/// clocks a line and `blank` lines behind each frame, that begins as late as two line buffers let it: when both are
+/// full, or when there is no third line to work on. One buffer leaves, one waits, and a line can be handed to a buffer
+/// once that is free.
+bool in_time(const std::vector<Lines>& frames, double each, int blank) {
+  std::vector<double> gone;
   double core = 0;
-  const double start = static_cast<double>(lines[0] + (lines.size() > 1 ? lines[1] : 0));
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    core += static_cast<double>(lines[i]);
-    if (i >= 2) core = std::max(core, gone[i - 2]);
-    ready[i] = core;
-    const double due = start + static_cast<double>(i) * each;
-    if (ready[i] > due + 1e-6) return false;
-    gone[i] = due + each;
+  const Lines& head = frames[0];
+  double due = static_cast<double>(head[0] + (head.size() > 1 ? head[1] : 0));
+  for (const Lines& frame : frames) {
+    for (const std::uint64_t clocks : frame) {
+      core += static_cast<double>(clocks);
+      if (gone.size() >= 2) core = std::max(core, gone[gone.size() - 2]);
+      if (core > due + 1e-6) return false;
+      due += each;
+      gone.push_back(due);
+    }
+    due += blank * each;
   }
   return true;
 }
+
+bool in_time(const Lines& lines, double each) { return in_time(std::vector<Lines>{lines}, each, 0); }
 
 }  // namespace
 
@@ -74,4 +82,33 @@ TEST_CASE("a line a clock shorter than the need is waited for") {
   const double need = needed_line(lines).clocks;
   CHECK(in_time(lines, need));
   CHECK_FALSE(in_time(lines, need - 1));
+}
+
+TEST_CASE("heavy lines at a frame's end and at the next one's begin are late without a blank line between them") {
+  // Each heavy line alone has the time of two lines; both together, of three where no line is blank.
+  const std::vector<Lines> frames{{10, 10, 10, 900}, {900, 10, 10, 10}};
+  const double need = std::max(needed_line(frames[0]).clocks, needed_line(frames[1]).clocks);
+  CHECK(need == (900 + kWayOutClocks) / 2);
+  CHECK_FALSE(in_time(frames, need, 0));
+  CHECK(in_time(frames, need, 1));
+  // A frame that is shown again and again: 1,000 clocks a line, where a display's line has 802.
+  const std::vector<Lines> same(8, Lines(4, 1000));
+  CHECK_FALSE(in_time(same, needed_line(same[0]).clocks, 0));
+  CHECK(in_time(same, needed_line(same[0]).clocks, 1));
+}
+
+TEST_CASE("with a blank line behind each frame, what each frame needs is enough for all") {
+  rc::check("frames one behind the other", [] {
+    const auto height = *rc::gen::inRange(1, 8);
+    const auto count = *rc::gen::inRange(1, 12);
+    std::vector<Lines> frames;
+    double need = 0;
+    for (int f = 0; f < count; ++f) {
+      Lines lines;
+      for (int i = 0; i < height; ++i) lines.push_back(*rc::gen::elementOf(Lines{1, 10, 400, 1000}));
+      need = std::max(need, needed_line(lines).clocks);
+      frames.push_back(std::move(lines));
+    }
+    RC_ASSERT(in_time(frames, need, *rc::gen::inRange(1, 4)));
+  });
 }
