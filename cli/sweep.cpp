@@ -13,7 +13,6 @@
 #include "command.hpp"
 #include "cosim_print.hpp"
 #include "kage/error.hpp"
-#include "kage/light.hpp"
 #include "progress.hpp"
 #include "report.hpp"
 #include "results.hpp"
@@ -117,16 +116,18 @@ void announce_samples(const SweepCommand& o, const std::vector<SweptScene>& scen
   const bool asked = std::any_of(o.axes.begin(), o.axes.end(),
                                  [](const std::string& axis) { return trade::parse_axis(axis).name == "SAMPLES"; });
   if (!asked) return;
-  for (const SweptScene& s : scenes) {
-    bool soft = false;
-    for (int i = 0; i < s.scene->frames(); ++i)
-      for (const Light& light : s.scene->frame(i).lights) soft = soft || light.shape != LightShape::point;
-    if (!soft)
+  for (const SweptScene& s : scenes)
+    if (!is_soft(s))
       say(
           fmt::format("kage: {}: no light is soft, so SAMPLES changes no picture: what it adds to COUNT_BITS only "
                       "costs\n",
                       s.scene->name()));
-  }
+}
+
+/// Says which combinations of a grid there are none of.
+void announce_left_out(const std::vector<SweptScene>& scenes) {
+  for (const SweptScene& s : scenes)
+    if (!s.left_out.empty()) say(fmt::format("kage: {}: {}\n", s.scene->name(), s.left_out));
 }
 
 /// What was measured, what was taken from the store, and which files there are.
@@ -167,6 +168,7 @@ int run(const SweepCommand& o) {
   for (const std::string& input : o.inputs) scenes.push_back(open_swept(o, tools, input, progress, doing));
   progress.clear();
   std::vector<Entry> entries = entries_of(o, scenes);
+  announce_left_out(scenes);
   if (o.list) return list(scenes, entries);
   std::optional<OutPlace> place;
   if (!o.out.empty()) {

@@ -84,10 +84,9 @@ std::string sweep_table(const std::vector<Json>& rows) {
       scene = row.at("scene").get<std::string>();
       text += fmt::format("# {}: {}; * no other row of its size beats it; ~ foretold or estimated\n", scene,
                           counted(row.at("frames").get<int>(), "frame"));
-      text +=
-          fmt::format(" {:<30} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
-                      "# axis value", "pixels", "face", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
-                      "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
+      text += fmt::format("{:<31} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
+                          "# axis value", "pixels", "face", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
+                          "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
     }
     text += line_of(row, placed);
   }

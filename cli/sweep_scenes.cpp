@@ -6,17 +6,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <span>
 #include <thread>
 #include <utility>
 
 #include "cosim/model/model.hpp"
 #include "kage/error.hpp"
 #include "order_build.hpp"
-#include "plan/demand.hpp"
 #include "planned.hpp"
 #include "signals.hpp"
 #include "source.hpp"
+#include "text.hpp"
 #include "trade/synthesis.hpp"
 #include "usage.hpp"
 
@@ -57,20 +56,30 @@ trade::SweepAxis axis_of(const std::string& text) {
   return trade::parse_axis(text);
 }
 
-std::vector<SweepPoint> points_of(const SweepCommand& o, const SweepPoint& given, const PlannedScene& scene) {
+void find_points(const SweepCommand& o, const SweepPoint& given, SweptScene& out) {
   SweepPoint base = given;
   base.axis = "base";
   base.value.clear();
   std::vector<trade::SweepAxis> axes;
-  for (const std::string& text : o.axes) axes.push_back(axis_of(text));
-  std::vector<SweepPoint> points = !axes.empty() && o.grid ? trade::grid(base, axes)
-                                   : !axes.empty()
-                                       ? trade::alone(base, axes)
-                                       : trade::default_points(base, plan::features_of(std::span(&scene, 1)).needs);
-  return trade::with_seeds(std::move(points), o.seeds);
+  for (const std::string& text : o.axes) trade::add_axis(axes, axis_of(text));
+  if (axes.empty()) {
+    out.points = trade::default_points(base, out.scene->needs());
+  } else if (!o.grid) {
+    out.points = trade::alone(base, axes);
+  } else {
+    trade::Grid grid = trade::grid(base, axes);
+    out.points = std::move(grid.points);
+    if (grid.left_out > 0)
+      out.left_out =
+          fmt::format("{} left out, because values exclude each other: {}",
+                      counted(grid.left_out, "combination of --grid is", "combinations of --grid are"), grid.example);
+  }
+  if (is_soft(out)) out.points = trade::with_seeds(std::move(out.points), o.seeds);
 }
 
 }  // namespace
+
+bool is_soft(const SweptScene& s) { return s.scene->needs().samples > 1; }
 
 int jobs_of(const SweepCommand& o) {
   return o.jobs > 0 ? o.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -101,8 +110,8 @@ SweptScene open_swept(const SweepCommand& o, const Tools& tools, const std::stri
   const SweepPoint base = base_of(o, scene, planned.draw);
   SweptScene out;
   out.input = input;
-  out.points = points_of(o, base, planned);
   out.scene = std::make_unique<trade::SweepScene>(std::move(scene), planned.draw, base, check_interrupt);
+  find_points(o, base, out);
   out.runner = std::make_unique<trade::SweepRunner>(*out.scene, out.points,
                                                     trade::SweepHow{.area = !o.no_area,
                                                                     .cosim = !o.no_cosim,

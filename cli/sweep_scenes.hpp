@@ -52,9 +52,13 @@ Tools tools_of(const SweepCommand& o);
 struct SweptScene {
   std::string input;  ///< as the command line has it
   std::vector<trade::SweepPoint> points;
+  std::string left_out;  ///< of --grid, in words: how many combinations are none of them, and why
   std::unique_ptr<trade::SweepScene> scene;
   std::unique_ptr<trade::SweepRunner> runner;
 };
+
+/// Whether some light of a scene is soft, so that samples and their seeds change pictures.
+bool is_soft(const SweptScene& s);
 
 /// Opens a scene of the command line. `doing` is told, by several threads, what takes long while its points are
 /// measured.

@@ -3,17 +3,12 @@
 
 #include "cost/cells.hpp"
 #include "cost/line_clocks.hpp"
+#include "cost/processors.hpp"
 #include "kage/core.hpp"
 #include "pipeline/stopwatch.hpp"
 #include "stream/token_pieces.hpp"
 
 namespace kage::plan {
-namespace {
-
-// The widest line that a processor a pixel is planned for.
-constexpr int kMostProcessors = 64;
-
-}  // namespace
 
 std::vector<Config> arrangements_of(const Config& base) {
   std::vector<Config> list;

@@ -168,7 +168,12 @@ std::uint64_t CampaignState::pixels() const {
 
 std::size_t CampaignState::failed() const {
   return static_cast<std::size_t>(
-      std::count_if(families.begin(), families.end(), [](const FamilyResult& r) { return !r.sum.wrong.empty(); }));
+      std::count_if(families.begin(), families.end(), [](const FamilyResult& r) { return r.failed(); }));
+}
+
+std::size_t CampaignState::without_case() const {
+  return static_cast<std::size_t>(
+      std::count_if(families.begin(), families.end(), [](const FamilyResult& r) { return r.without_case(); }));
 }
 
 std::string case_name(const Family& family, std::uint64_t seed, std::uint64_t index) {

@@ -38,6 +38,9 @@ struct FamilyResult {
   std::string nearest;         ///< that case's text
   std::string failed_case;     ///< the name of the start that failed
   std::filesystem::path kept;  ///< where the failing case is
+
+  [[nodiscard]] bool failed() const { return !sum.wrong.empty(); }
+  [[nodiscard]] bool without_case() const { return !failed() && cases == 0; }
 };
 
 struct CampaignState {
@@ -46,6 +49,9 @@ struct CampaignState {
 
   [[nodiscard]] std::uint64_t pixels() const;
   [[nodiscard]] std::size_t failed() const;
+  /// Families of which no case was run: they neither hold nor fail.
+  [[nodiscard]] std::size_t without_case() const;
+  [[nodiscard]] std::size_t holding() const { return families.size() - failed() - without_case(); }
 };
 
 /// The name of a start, by which --case runs it again: FAMILY:SEED:INDEX.

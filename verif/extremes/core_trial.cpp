@@ -137,6 +137,10 @@ bool CoreTrial::submit(kage_rtl* m, Random& random, GoldenCore& golden, Group& g
       ++counts.errors;
       group.newest = s;
     }
+    if (plan_.lost_word) {
+      words.erase(words.begin() + std::ssize(words) / 2);
+      words.push_back(0);
+    }
     api_.submit(m, words.data(), words.size(), 1);
     api_.expect(m, static_cast<std::uint32_t>(s.width), static_cast<std::uint32_t>(s.height));
   }

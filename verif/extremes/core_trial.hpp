@@ -19,6 +19,7 @@ struct TrialPlan {
   double sound = 0.5;       ///< that a frame is sound, not damaged
   double reset = 0.3;       ///< that a group begins with a reset amid a frame
   double standstill = 0.2;  ///< that input and output stop first, which the core must name
+  bool lost_word = false;   ///< a word of each frame is lost on its way, for tests that must see it
 };
 
 /// One model through some groups of frames.

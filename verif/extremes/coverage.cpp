@@ -299,7 +299,7 @@ void MovedCase::fields(Fields& f) {
   f.list("face", faces, 1, 20);
 }
 
-Outcome MovedCase::check(const Context& /*context*/) const {
+Outcome MovedCase::check(const Context& context) const {
   FrameBuilder here(kWidth, kHeight);
   FrameBuilder there(kWidth, kHeight);
   for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -315,7 +315,8 @@ Outcome MovedCase::check(const Context& /*context*/) const {
     there.add(moved, p, color);
   }
   const auto a = draw(here.frame(), Config{});
-  const auto b = draw(there.frame(), Config{});
+  auto b = draw(there.frame(), Config{});
+  context.spoil(b);
   Outcome o;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {

@@ -8,8 +8,9 @@
 namespace kage::verif {
 namespace {
 
-constexpr std::array kPlants{"none",      "wide_span",    "steep_step",   "lost_layer",
-                             "lost_face", "swapped_pair", "moved_corner", "tilted_plane"};
+constexpr std::array kPlants{"none",        "wide_span",    "steep_step",    "lost_layer",   "lost_face",
+                             "near_cap",    "swapped_pair", "moved_corner",  "tilted_plane", "wrong_pixel",
+                             "large_share", "finite_value", "lost_fragment", "lost_word"};
 
 }  // namespace
 

@@ -41,13 +41,19 @@ struct Outcome {
 /// it, not kage.
 enum class Plant : std::uint8_t {
   none,
-  wide_span,     ///< a span of three pixels or more is a pixel too wide
-  steep_step,    ///< the step of a depth ramp is one too large
-  lost_layer,    ///< the last translucent layer is missing
-  lost_face,     ///< the last face of a shadow volume is missing
-  swapped_pair,  ///< two neighbours of a visibility order have changed places
-  moved_corner,  ///< the last corner of a polygon is a step of the snap too far right
-  tilted_plane   ///< a depth plane's slope along x is a 64th too large
+  wide_span,      ///< a span of three pixels or more is a pixel too wide
+  steep_step,     ///< the step of a depth ramp is one too large
+  lost_layer,     ///< the last translucent layer is missing
+  lost_face,      ///< the last face of a shadow volume is missing
+  near_cap,       ///< caps of shadow volumes lie a thousand LSB nearer than the faces that cast them
+  swapped_pair,   ///< two neighbours of a visibility order have changed places
+  moved_corner,   ///< the last corner of a polygon is a step of the snap too far right
+  tilted_plane,   ///< the slope along x of a depth plane, or of a line that cuts, is a 64th too large
+  wrong_pixel,    ///< a pixel near the middle of a picture or line is a step of its colour off
+  large_share,    ///< what a light gives, or the sRGB curve, is a 64th too large
+  finite_value,   ///< a number that is not finite has become 0 on its way
+  lost_fragment,  ///< the last fragment of a face, or its last pixel, is missing
+  lost_word       ///< a word in the middle of a frame is missing at the port
 };
 /// By its name, as --plant takes it.
 std::optional<Plant> plant_of(const std::string& name);
@@ -62,6 +68,11 @@ struct Context {
   RtlModels* models = nullptr;  ///< none: families of the RTL have no cases
 
   [[nodiscard]] bool planted(Plant p) const { return plant == p; }
+  /// Where it is planted, a pixel is wrong.
+  template <class Pixels>
+  void spoil(Pixels& pixels) const {
+    if (planted(Plant::wrong_pixel) && !pixels.empty()) pixels[pixels.size() * 17 / 33] ^= 1;
+  }
 };
 
 struct FamilyInfo {

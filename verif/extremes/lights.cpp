@@ -73,7 +73,7 @@ std::vector<std::uint32_t> SamplesCase::shares(const Config& config) const {
   return shares;
 }
 
-Outcome SamplesCase::check(const Context& /*context*/) const {
+Outcome SamplesCase::check(const Context& context) const {
   Config c;
   c.channels = 1;
   c.shade_frac = 16;
@@ -85,7 +85,8 @@ Outcome SamplesCase::check(const Context& /*context*/) const {
   std::vector<LightSample> order = all();
   const auto parts = shares(c);
   Outcome o;
-  const auto pixels = golden_line(c, light_frame(c, kLine, order, parts));
+  auto pixels = golden_line(c, light_frame(c, kLine, order, parts));
+  context.spoil(pixels);
   for (int x = 0; x < kLine; ++x)
     if (pixels[static_cast<std::size_t>(x)] != light_pixel(c, x, order, parts))
       o.fail(fmt::format("pixel {} is {}, not {}", x, pixels[static_cast<std::size_t>(x)],
@@ -113,7 +114,7 @@ void LitSceneCase::fields(Fields& f) {
   scene.fields(f);
 }
 
-Outcome LitSceneCase::check(const Context& /*context*/) const {
+Outcome LitSceneCase::check(const Context& context) const {
   constexpr int kWidth = 48;
   constexpr int kHeight = 36;
   SceneFrame f = scene.frame();
@@ -141,7 +142,8 @@ Outcome LitSceneCase::check(const Context& /*context*/) const {
   c = config_for_lights(f, samples, c);
   const FrameGeometry g = make_geometry(f, c, kWidth, kHeight, {.look = look});
   const auto expected = expected_picture(g, c);
-  const auto got = draw(g, c);
+  auto got = draw(g, c);
+  context.spoil(got);
   Outcome o;
   for (std::size_t i = 0; i < got.size(); ++i)
     if (got[i] != expected[i])
@@ -195,7 +197,7 @@ void TableFrame::finish() { table_->finish(g_); }
 
 // docs/lights.md, "How far a table is off": what a class says that the shadowed lights take is off by at most
 // k (W + 0.04) r and a rounding for each light, W being the weight of all lights and k the steepest slope of the loss.
-void TableFrame::measure(std::size_t face, double off_class, Outcome& o) const {
+void TableFrame::measure(std::size_t face, double off_class, Outcome& o, const Context& context) const {
   const double steepest = (srgb_encode(0.2 + 1e-6) / srgb_encode(0.2) - 1) / 1e-6;
   constexpr double kAmbientWeight = 0.04;
   const auto& [normal, reach] = faces_[face];
@@ -213,13 +215,14 @@ void TableFrame::measure(std::size_t face, double off_class, Outcome& o) const {
         right += exact[l][c];
         got += g_.shares[first + l][static_cast<std::size_t>(c)] / 65536.0;
       }
+      if (context.planted(Plant::large_share)) got *= 65.0 / 64;
       o.measure(white[c] * std::abs(got - right), white[c] * (steepest * (weight + kAmbientWeight) * off_class +
                                                               static_cast<double>(lights_.size()) * 0x1p-17));
     }
   o.items += std::uint64_t{3} << lights_.size();
 }
 
-Outcome TableCase::check(const Context& /*context*/) const {
+Outcome TableCase::check(const Context& context) const {
   std::vector<Light> lights;
   for (const Sun& s : suns) {
     Light l;
@@ -235,7 +238,7 @@ Outcome TableCase::check(const Context& /*context*/) const {
   frame.finish();
   const NormalClasses& of = classes_of(classes);
   const glm::dvec3 off_class = n - of.normal(of.nearest(n));
-  frame.measure(0, std::sqrt(glm::dot(off_class, off_class)), o);
+  frame.measure(0, std::sqrt(glm::dot(off_class, off_class)), o, context);
   return o;
 }
 

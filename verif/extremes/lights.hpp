@@ -64,7 +64,7 @@ class TableFrame {
   [[nodiscard]] std::size_t faces() const { return faces_.size(); }
   /// Measures, in every state of shadow, how far the shares of a face's class are off its own, against their bound,
   /// which goes with the distance from the face's normal to its class's: `off_class`, or less.
-  void measure(std::size_t face, double off_class, Outcome& o) const;
+  void measure(std::size_t face, double off_class, Outcome& o, const Context& context = {}) const;
 
  private:
   struct Face {

@@ -12,6 +12,7 @@
 
 #include "extremes/campaign.hpp"
 #include "extremes/found.hpp"
+#include "extremes/plants.hpp"
 #include "extremes/rtl_models.hpp"
 #include "extremes/table.hpp"
 #include "file/temp_file.hpp"
@@ -37,18 +38,25 @@ Runs cases of extreme inputs against oracles for some time and prints how near e
   --case NAME       only this one, as "FAMILY:SEED:INDEX" names it: prints its text and what it comes to
   --check PATH...   cases from files, or from all files of a folder; each must hold
   --list            all families, a line each
-  --plant NAME      a deliberate error, to see one found: )";
+  --plants          put a deliberate error into each family, one that its check must see, and print in which start it
+                    was seen; of --starts, or 200
+  --plant NAME      put a deliberate error into all families: )";
 
 constexpr const char* kEnd = R"(
-Exit code: 0 all families hold; 1 one does not; 2 trouble; 130 after Ctrl-C, with the table so far.
+Exit code: 0 all families hold; 1 one does not; 2 trouble, or a family had no case in the time; 130 after Ctrl-C, with
+the table so far.
 
 examples:
   kage_extremes --seed 1 --minutes 10
   kage_extremes --family 15,18,19 --minutes 2 --json depth.json
   kage_extremes --case 15:1:42
   kage_extremes --check verif/extremes/found
+  kage_extremes --plants
   kage_extremes --plant wide_span --family 6 --minutes 0.1 --found /tmp
 )";
+
+// Starts in which a check must have seen its family's error.
+constexpr std::uint64_t kPlantStarts = 200;
 
 volatile std::sig_atomic_t signalled = 0;
 
@@ -73,6 +81,7 @@ struct Arguments {
   std::string one_case;
   std::vector<std::string> files;
   bool list = false;
+  bool plants = false;
 };
 
 [[noreturn]] void usage(const std::string& cause) { throw Error("kage_extremes: " + cause + " (--help tells more)"); }
@@ -138,6 +147,8 @@ Arguments arguments(int argc, char** argv) {
       if (a.files.empty()) usage("--check needs a file or a folder");
     } else if (option == "--list") {
       a.list = true;
+    } else if (option == "--plants") {
+      a.plants = true;
     } else if (option == "--plant") {
       const std::string name = value();
       const auto plant = plant_of(name);
@@ -197,16 +208,38 @@ int run_case(const Arguments& a) {
   return run.sum.wrong.empty() ? 0 : 1;
 }
 
+/// Leaves out what needs models where there are none.
+void leave_out(Arguments& a) {
+  CampaignOptions& o = a.campaign;
+  if (!o.context.models->empty()) return;
+  const std::size_t before = o.families.size();
+  std::erase_if(o.families, [](const Family* f) { return f->info().rtl; });
+  if (o.families.size() < before)
+    fmt::print(stderr, "kage_extremes: {}: no models of the RTL there: {} families are left out\n", a.models,
+               before - o.families.size());
+  if (o.families.empty()) usage("no family is left");
+}
+
+int try_plants(Arguments& a) {
+  leave_out(a);
+  const CampaignOptions& o = a.campaign;
+  const std::uint64_t starts = o.starts > 0 ? o.starts : kPlantStarts;
+  std::size_t unseen = 0;
+  fmt::print("| family | error | seen in start |\n|---|---|---|\n");
+  for (const Family* f : o.families) {
+    const PlantTrial t = try_plant(*f, o.seed, starts, o.context, [] { return signalled != 0; });
+    if (signalled != 0) return 128 + signalled;
+    fmt::print("| {} | {} | {} |\n", f->info().name, name_of(t.plant), t.seen ? std::to_string(*t.seen) : "none");
+    unseen += t.seen ? 0 : 1;
+  }
+  fmt::print("\n{} of {} families see their error in {} starts\n", o.families.size() - unseen, o.families.size(),
+             starts);
+  return unseen == 0 ? 0 : 1;
+}
+
 int campaign(Arguments& a) {
   CampaignOptions& o = a.campaign;
-  if (o.context.models->empty()) {
-    const std::size_t before = o.families.size();
-    std::erase_if(o.families, [](const Family* f) { return f->info().rtl; });
-    if (o.families.size() < before)
-      fmt::print(stderr, "kage_extremes: {}: no models of the RTL there: {} families are left out\n", a.models,
-                 before - o.families.size());
-    if (o.families.empty()) usage("no family is left");
-  }
+  leave_out(a);
   if (!std::filesystem::is_directory(o.found)) usage(fmt::format("--found {}: no such folder", o.found.string()));
   o.stop = [] { return signalled != 0; };
   if (isatty(STDERR_FILENO) != 0)
@@ -225,7 +258,12 @@ int campaign(Arguments& a) {
     out.commit();
   }
   if (state.failed() > 0) return 1;
-  return signalled != 0 ? 128 + signalled : 0;
+  if (signalled != 0) return 128 + signalled;
+  if (state.without_case() == 0) return 0;
+  std::fflush(stdout);
+  fmt::print(stderr, "kage_extremes: {} of {} families had no case: --minutes {:g} is too short for them\n",
+             state.without_case(), state.families.size(), o.seconds / 60);
+  return 2;
 }
 
 }  // namespace
@@ -248,6 +286,7 @@ int main(int argc, char** argv) {
     a.campaign.context.models = &models;
     if (!a.files.empty()) return check_files(a);
     if (!a.one_case.empty()) return run_case(a);
+    if (a.plants) return try_plants(a);
     return campaign(a);
   } catch (const std::exception& e) {
     fmt::print(stderr, "{}\n", e.what());

@@ -22,6 +22,6 @@ Outcome ways_agree(const OrderTree& tree, const std::vector<Eye>& eyes, const Co
 /// How far the line where the plane of `node` cuts the one of `face` is from where rational numbers have it, wherever
 /// it crosses the picture. In units of 2^-15 pixel, which is the bound.
 Outcome cut_line_is_exact(const Camera& camera, const std::array<glm::dvec3, 3>& face,
-                          const std::array<glm::dvec3, 3>& node, int width, int height);
+                          const std::array<glm::dvec3, 3>& node, int width, int height, const Context& context = {});
 
 }  // namespace kage::verif

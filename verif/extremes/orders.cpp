@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "extremes/order_checks.hpp"
 #include "geometry/translucent.hpp"
@@ -163,11 +165,12 @@ std::vector<Eye> eyes_of(const std::vector<EyeStep>& steps, const OrderTree& tre
 
 // ---- 14
 
-Outcome PartitionCase::check(const Context& /*context*/) const {
+Outcome PartitionCase::check(const Context& context) const {
   const OrderTree tree = OrderTree::build(mesh.mesh());
-  const OrderOracle oracle(tree);
+  OrderOracle oracle(tree);
   Outcome o;
   for (std::uint32_t face = 0; face < tree.face_count(); ++face) {
+    if (context.planted(Plant::lost_fragment)) oracle.lose_fragment(face);
     const OrderOracle::Areas a = oracle.areas(face);
     if (a.face != a.fragments) o.fail(fmt::format("the fragments of face {} have another area than it has", face));
     if (!(a.vertex_error < 1e-9)) o.fail(fmt::format("a vertex of face {} is off by {}", face, a.vertex_error));
@@ -207,7 +210,7 @@ void CutFacesCase::fields(Fields& f) {
   glass.fields(f);
 }
 
-Outcome CutFacesCase::check(const Context& /*context*/) const {
+Outcome CutFacesCase::check(const Context& context) const {
   SceneFrame f = glass.frame();
   if (smooth)  // every corner a colour of its own
     for (Triangle& t : f.triangles)
@@ -221,8 +224,9 @@ Outcome CutFacesCase::check(const Context& /*context*/) const {
   const Look look = look_of(sub_bits);
   Look whole = look;
   whole.translucent = TranslucentWay::submission;
-  const FacePixels parts = pixels_of_faces(make_geometry(f, config, kWidth, kHeight, {.look = look}), config);
+  FacePixels parts = pixels_of_faces(make_geometry(f, config, kWidth, kHeight, {.look = look}), config);
   const FacePixels uncut = pixels_of_faces(make_geometry(f, config, kWidth, kHeight, {.look = whole}), config);
+  if (context.planted(Plant::lost_fragment) && !parts.empty()) parts.erase(std::prev(parts.end()));
   Outcome o;
   if (parts != uncut) o.fail("faces in fragments have other pixels, depths or colours than uncut");
   for (const auto& [place, pixel] : parts)
@@ -250,7 +254,7 @@ void CutLineCase::fields(Fields& f) {
   view.fields(f);
 }
 
-Outcome CutLineCase::check(const Context& /*context*/) const {
+Outcome CutLineCase::check(const Context& context) const {
   using Corners = std::array<glm::dvec3, 3>;
   const auto corners = [](const MeshCase::Face& p) {
     return Corners{glm::dvec3(p.ax, p.ay, p.az) / 3.0, glm::dvec3(p.bx, p.by, p.bz) / 3.0,
@@ -266,7 +270,7 @@ Outcome CutLineCase::check(const Context& /*context*/) const {
   if (manner == 2)
     for (std::size_t i = 0; i < 3; ++i) by[i] = cut[i] + tiny * by[i];
   if (manner == 3) camera.eye = by[0] + 2.0 * (by[1] - by[0]) + tiny * by[2];
-  return cut_line_is_exact(camera, cut, by, width, height);
+  return cut_line_is_exact(camera, cut, by, width, height, context);
 }
 
 // ---- 35 - 38
@@ -335,10 +339,12 @@ Outcome RaysCase::check(const Context& context) const {
   return o;
 }
 
-Outcome LayerRaysCase::check(const Context& /*context*/) const {
+Outcome LayerRaysCase::check(const Context& context) const {
   const SceneFrame f = glass.frame();
   const Config config = glass_config(false);
-  const LayerCount count = compare_layers(f, make_geometry(f, config, kWidth, kHeight), config, 2);
+  FrameGeometry g = make_geometry(f, config, kWidth, kHeight);
+  if (context.planted(Plant::swapped_pair) && g.fragments.size() > 1) std::swap(g.fragments[0], g.fragments[1]);
+  const LayerCount count = compare_layers(f, g, config, 2);
   Outcome o;
   if (count.wrong > 0) o.fail(count.text());
   o.pixels = count.pixels;

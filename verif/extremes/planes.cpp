@@ -25,13 +25,14 @@ void PlaneCase::fields(Fields& f) {
   f.number("line", y, 0, kMaxSize - 1);
 }
 
-Outcome PlaneCase::check(const Context& /*context*/) const {
+Outcome PlaneCase::check(const Context& context) const {
   using Number = boost::multiprecision::cpp_rational;
   const std::array<DepthVertex, 3> v{DepthVertex{{a.x, a.y}, a.z}, DepthVertex{{b.x, b.y}, b.z},
                                      DepthVertex{{c.x, c.y}, c.z}};
-  const auto plane = plane_through(v);
+  auto plane = plane_through(v);
   Outcome o;
   if (!plane) return o;
+  if (context.planted(Plant::tilted_plane)) plane->a += plane->a / 64;
   o.items = 1;
   // In subpixels from the first vertex, the exact plane has these slopes per subpixel, in 2^-16 LSB.
   const Number bx = b.x - a.x;

@@ -13,9 +13,11 @@ constexpr int kWidth = 96;
 constexpr int kHeight = 72;
 
 /// The frame's picture by spans is the oracle's, and by segments the same with any number of units.
-Outcome same_and_right(const SceneFrame& f, Config config, int width, int height, const Look& look = {}) {
+Outcome same_and_right(const SceneFrame& f, Config config, int width, int height, const Context& context,
+                       const Look& look = {}) {
   Outcome o;
-  for (const SegmentCount& c : either_way_counts(f, config, width, height, look)) {
+  for (const SegmentCount& c :
+       either_way_counts(f, config, width, height, look, [&](auto& pixels) { context.spoil(pixels); })) {
     if (!c.wrong.empty()) o.fail(c.wrong);
     o.items += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   }
@@ -42,7 +44,7 @@ void BlockCase::fields(Fields& f) {
   turn.fields(f);
 }
 
-Outcome BlockCase::check(const Context& /*context*/) const {
+Outcome BlockCase::check(const Context& context) const {
   const double x0 = left + left_part / 256.0;
   const double y0 = top + top_part / 256.0;
   const double x1 = x0 + width / 256.0;
@@ -61,7 +63,7 @@ Outcome BlockCase::check(const Context& /*context*/) const {
   look_at(f.camera, {0, 0, 300}, {0, 0, 0});
   f.camera.perspective = false;
   f.camera.half_height = kHeight / 2.0;
-  Outcome o = same_and_right(f, Config{}, kWidth, kHeight);
+  Outcome o = same_and_right(f, Config{}, kWidth, kHeight, context);
   if (turned || side > 0) return o;
   // Upright and facing the eye it shows the pixels whose centres it holds: the upper and left edges count.
   const auto centres = [](double from, double to, int size) {
@@ -87,7 +89,7 @@ void CapacityCase::fields(Fields& f) {
   view.fields(f);
 }
 
-Outcome CapacityCase::check(const Context& /*context*/) const {
+Outcome CapacityCase::check(const Context& context) const {
   Config c;
   c.max_width = 2047;
   c.face_bits = face_bits;
@@ -98,7 +100,7 @@ Outcome CapacityCase::check(const Context& /*context*/) const {
             {1, 0.5, 0.2});
   view.apply_to(f.camera);
   constexpr int kLines = 24;
-  Outcome o = same_and_right(f, c, width, kLines);
+  Outcome o = same_and_right(f, c, width, kLines, context);
   if (!o.wrong.empty()) return o;
   c.units = 1;
   const FrameGeometry g = make_geometry(f, c, width, kLines);
@@ -132,12 +134,12 @@ void UnitsCase::fields(Fields& f) {
   scene.fields(f, 1, 12);
 }
 
-Outcome UnitsCase::check(const Context& /*context*/) const {
+Outcome UnitsCase::check(const Context& context) const {
   SceneCase all = scene;
   all.convex = true;
   SceneFrame f = all.frame();
   for (int i = 0; i < copies; ++i) scene.solids[0].add_to(f, static_cast<std::size_t>(i) + 3);
-  return same_and_right(f, Config{}, kWidth, kHeight, scene.look());
+  return same_and_right(f, Config{}, kWidth, kHeight, context, scene.look());
 }
 
 // ---- 34
@@ -150,7 +152,7 @@ void ManyCase::fields(Fields& f) {
   f.real("apart_z", apart_z, -0.5, 0.5, -0.25);
 }
 
-Outcome ManyCase::check(const Context& /*context*/) const {
+Outcome ManyCase::check(const Context& context) const {
   SceneFrame f;
   for (int i = 0; i < count; ++i) {
     const double at = i - (count - 1) / 2.0;
@@ -159,7 +161,7 @@ Outcome ManyCase::check(const Context& /*context*/) const {
   look_at(f.camera, {0, 0, 12}, {0, 0, 0});
   Config c;
   c.order_bits = order_bits;
-  Outcome o = same_and_right(f, c, kWidth, kHeight);
+  Outcome o = same_and_right(f, c, kWidth, kHeight, context);
   for (const SegmentCount& n : either_way_counts(f, c, kWidth, kHeight))
     if (n.by_segments > 1 << order_bits) o.fail("more polyhedra by segments than ORDER_BITS can number");
   return o;

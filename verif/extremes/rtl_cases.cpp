@@ -53,7 +53,8 @@ std::vector<std::uint8_t> rtl_pixels(const CoreModel& model, const std::vector<s
 }
 
 std::string light_line_wrong(const CoreModel& model, std::uint64_t seed, int width,
-                             const std::vector<LightSample>& samples, const std::vector<std::uint32_t>& shares) {
+                             const std::vector<LightSample>& samples, const std::vector<std::uint32_t>& shares,
+                             const Context& context) {
   constexpr int kFrames = 2;
   const kage_rtl_table& api = *model.api;
   const Config& c = model.config;
@@ -66,14 +67,17 @@ std::string light_line_wrong(const CoreModel& model, std::uint64_t seed, int wid
   }
   const int why = api.run(m, UINT64_MAX, kClocks);
   std::uint64_t count = 0;
-  const std::uint8_t* pixels = api.pixels(m, &count);
+  const std::uint8_t* const made = api.pixels(m, &count);
+  std::vector<std::uint8_t> pixels(made, made + count * static_cast<std::uint64_t>(c.channels));
+  context.spoil(pixels);
   std::string wrong;
   if (why != KAGE_RTL_IDLE || count != static_cast<std::uint64_t>(kFrames) * static_cast<std::uint64_t>(width))
     wrong = "did not come to rest, or lost pixels";
   for (int i = 0; wrong.empty() && i < kFrames * width * c.channels; ++i) {
     const int expected = light_pixel(c, i / c.channels % width, samples, shares);
-    if (pixels[i] != expected)
-      wrong = fmt::format("pixel {} channel {} is {}, not {}", i / c.channels, i % c.channels, pixels[i], expected);
+    const int got = pixels[static_cast<std::size_t>(i)];
+    if (got != expected)
+      wrong = fmt::format("pixel {} channel {} is {}, not {}", i / c.channels, i % c.channels, got, expected);
   }
   api.destroy(m);
   return wrong;
@@ -104,7 +108,8 @@ Outcome SamePixelsCase::check(const Context& context) const {
       });
     }
     std::string wrong;
-    const auto pixels = rtl_pixels(model, frame, static_cast<std::uint64_t>(stalls), wrong);
+    auto pixels = rtl_pixels(model, frame, static_cast<std::uint64_t>(stalls), wrong);
+    context.spoil(pixels);
     if (!wrong.empty()) o.fail(fmt::format("{} {}", name, wrong));
     if (pixels != expected) o.fail(fmt::format("{} and the golden core differ", name));
     o.pixels += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
@@ -126,7 +131,8 @@ Outcome RtlSamplesCase::check(const Context& context) const {
   fit.lights = model.config.lights;
   constexpr int kWidth = 40;
   Outcome o;
-  o.fail(light_line_wrong(model, static_cast<std::uint64_t>(stalls), kWidth, fit.all(), fit.shares(model.config)));
+  o.fail(light_line_wrong(model, static_cast<std::uint64_t>(stalls), kWidth, fit.all(), fit.shares(model.config),
+                          context));
   o.pixels = 2 * kWidth;
   return o;
 }
@@ -142,7 +148,8 @@ void TrialCase::fields(Fields& f) {
 
 Outcome TrialCase::run(const Context& context, double sound, double reset, double standstill) const {
   CoreTrial trial(model_of(context, kModels[static_cast<std::size_t>(model)]), static_cast<std::uint64_t>(frames),
-                  static_cast<std::uint64_t>(initial), {groups, sound, reset, standstill});
+                  static_cast<std::uint64_t>(initial),
+                  {groups, sound, reset, standstill, context.planted(Plant::lost_word)});
   Outcome o;
   if (!trial.run()) o.fail(trial.text());
   o.pixels = trial.pixels();

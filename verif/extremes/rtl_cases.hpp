@@ -21,7 +21,8 @@ std::vector<std::uint8_t> rtl_pixels(const CoreModel& model, const std::vector<s
 /// Whether a model's lines of samples of lights are what light_pixel() says; it draws the line twice, and the second
 /// finds what the first has left. What is wrong, or an empty text.
 std::string light_line_wrong(const CoreModel& model, std::uint64_t seed, int width,
-                             const std::vector<LightSample>& samples, const std::vector<std::uint32_t>& shares);
+                             const std::vector<LightSample>& samples, const std::vector<std::uint32_t>& shares,
+                             const Context& context = {});
 
 /// Family 12: the same words on models that differ in what must not show.
 struct SamePixelsCase {

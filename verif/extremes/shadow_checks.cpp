@@ -16,6 +16,11 @@ bool open_to_errors(const FrameGeometry& g, const Config& config, int x, int y) 
   return p.lit && p.shadowed;
 }
 
+/// Where it is planted, the last volume has lost its last face.
+void lose_face(FrameGeometry& g, const Context& context) {
+  if (context.planted(Plant::lost_face) && !g.volumes.empty()) --g.volumes.back().face_count;
+}
+
 }  // namespace
 
 SceneFrame box_threes(std::span<const int> order, double aside) {
@@ -51,8 +56,8 @@ SceneFrame zigzag_scene(int n) {
   return f;
 }
 
-Outcome picture_is_the_oracles(const FrameGeometry& g, const Config& config) {
-  const Judgement j = judge(g, config);
+Outcome picture_is_the_oracles(const FrameGeometry& g, const Config& config, const Context& context) {
+  const Judgement j = judge(g, config, [&](FrameGeometry& drawn) { lose_face(drawn, context); });
   Outcome o;
   o.pixels = j.pixels;
   if (!j.good()) o.fail(j.text());
@@ -64,7 +69,7 @@ Outcome volumes_are_closed(const SceneFrame& f, const Config& config, int width,
   look.far_ends = true;
   look.leave_out = false;
   FrameGeometry g = make_geometry(f, config, width, height, {.look = look});
-  if (context.planted(Plant::lost_face) && !g.volumes.empty()) --g.volumes.back().face_count;
+  lose_face(g, context);
   Oracle oracle(g, config);
   Outcome o;
   for (int y = 0; y < height; ++y) {
@@ -79,8 +84,10 @@ Outcome volumes_are_closed(const SceneFrame& f, const Config& config, int width,
   return o;
 }
 
-Outcome picture_is_the_rays(const SceneFrame& f, const FrameGeometry& g, const Config& config) {
-  const RayCount count = compare_with_rays(f, g, config);
+Outcome picture_is_the_rays(const SceneFrame& f, const FrameGeometry& g, const Config& config, const Context& context) {
+  FrameGeometry given = g;
+  lose_face(given, context);
+  const RayCount count = compare_with_rays(f, given, config);
   Outcome o;
   o.pixels = count.pixels;
   if (!count.good()) o.fail(count.text());

@@ -26,7 +26,7 @@ inline Config counting(int bits) {
 }
 
 /// The golden core's picture is the oracle's.
-Outcome picture_is_the_oracles(const FrameGeometry& g, const Config& config);
+Outcome picture_is_the_oracles(const FrameGeometry& g, const Config& config, const Context& context = {});
 
 /// With near and far caps the toggles of every volume sum to zero at every pixel: volumes are closed. Its items are
 /// pixels of volumes.
@@ -34,7 +34,8 @@ Outcome volumes_are_closed(const SceneFrame& f, const Config& config, int width,
                            const Context& context = {}, Look look = {});
 
 /// Whether a ray to the light says the same of each pixel, up to near ties.
-Outcome picture_is_the_rays(const SceneFrame& f, const FrameGeometry& g, const Config& config);
+Outcome picture_is_the_rays(const SceneFrame& f, const FrameGeometry& g, const Config& config,
+                            const Context& context = {});
 
 /// Two geometries of a frame: how many pixels of their pictures differ. Where one does, one of them must be a near tie.
 struct TwoPictures {

@@ -20,7 +20,7 @@ FrameGeometry geometry(const SceneFrame& f, const Config& config, const Look& lo
 }
 
 Outcome closed_and_right(const SceneFrame& f, const Config& config, const Look& look, const Context& context) {
-  Outcome o = picture_is_the_oracles(geometry(f, config, look), config);
+  Outcome o = picture_is_the_oracles(geometry(f, config, look), config, context);
   o.add(volumes_are_closed(f, config, kWidth, kHeight, context, look));
   return o;
 }
@@ -29,6 +29,17 @@ double moved_by_ulps(double v, int ulps) {
   for (; ulps > 0; --ulps) v = std::nextafter(v, 1e9);
   for (; ulps < 0; ++ulps) v = std::nextafter(v, -1e9);
   return v;
+}
+
+/// Gives each cap a polygon of its own, nearer than that of the face.
+void bring_caps_nearer(FrameGeometry& g) {
+  for (VolumeFace& face : g.volume_faces) {
+    ScreenPolygon cap = g.polygons[face.polygon];
+    if (cap.source == ~0U) continue;  // a side
+    cap.depth.c -= std::int64_t{1000} << kPlaneFrac;
+    face.polygon = static_cast<std::uint32_t>(g.polygons.size());
+    g.polygons.push_back(cap);
+  }
 }
 
 void bits_field(Fields& f, int& bits) { f.number("bits", bits, 1, 8, 1); }
@@ -51,9 +62,9 @@ void ShadowRaysCase::fields(Fields& f) {
   scene.fields(f);
 }
 
-Outcome ShadowRaysCase::check(const Context& /*context*/) const {
+Outcome ShadowRaysCase::check(const Context& context) const {
   const SceneFrame f = scene.frame();
-  return picture_is_the_rays(f, geometry(f, counting(bits), scene.look()), counting(bits));
+  return picture_is_the_rays(f, geometry(f, counting(bits), scene.look()), counting(bits), context);
 }
 
 // ---- 22
@@ -67,14 +78,14 @@ void NestedCase::fields(Fields& f) {
   f.list("place", order, 0, 64);
 }
 
-Outcome NestedCase::check(const Context& /*context*/) const {
+Outcome NestedCase::check(const Context& context) const {
   std::vector<int> boxes;
   std::set<int> known;
   for (const Place& p : order)
     if (known.insert(p.box).second) boxes.push_back(p.box);
   const std::vector<int> sorted(known.begin(), known.end());
   const FrameGeometry g = geometry(box_threes(boxes, aside), counting(bits), look_of(sub_bits));
-  Outcome o = picture_is_the_oracles(g, counting(bits));
+  Outcome o = picture_is_the_oracles(g, counting(bits), context);
   if (draw(g, counting(bits)) !=
       draw(geometry(box_threes(sorted, aside), counting(bits), look_of(sub_bits)), counting(bits)))
     o.fail("another order of the casters is another picture");
@@ -95,20 +106,20 @@ void CrossedCase::fields(Fields& f) {
   f.number("crossed", crossed, 1, std::min(130, limit + 2), 1);
 }
 
-Outcome CrossedCase::check(const Context& /*context*/) const {
+Outcome CrossedCase::check(const Context& context) const {
   const SceneFrame f = zigzag_scene(crossed);
   const Config config = counting(bits);
   const FrameGeometry g = geometry(f, config, look_of(sub_bits));
-  Outcome o = picture_is_the_oracles(g, config);
+  Outcome o = picture_is_the_oracles(g, config, context);
   // The zigzag and the floor below it. What fits in one volume is one.
   if (bits > 1 && (g.volumes.size() == 1) != (crossed + 1 <= (1 << bits) - 1))
     o.fail(fmt::format("{} volumes for {} crossings", g.volumes.size(), crossed + 1));
-  o.add(picture_is_the_rays(f, g, config));
+  o.add(picture_is_the_rays(f, g, config, context));
   Config no_fsf = config;
   no_fsf.fsf = 0;
   const FrameGeometry without = geometry(f, no_fsf, look_of(sub_bits));
   if (without.volumes.size() == 1) {
-    o.add(picture_is_the_oracles(without, no_fsf));
+    o.add(picture_is_the_oracles(without, no_fsf, context));
   } else {
     std::vector<std::uint32_t> words;
     bool refused = false;
@@ -203,14 +214,14 @@ void ReachCase::fields(Fields& f) {
   scene.fields(f);
 }
 
-Outcome ReachCase::check(const Context& /*context*/) const {
+Outcome ReachCase::check(const Context& context) const {
   const SceneFrame f = scene.frame();
   Look further = scene.look();
   further.extrusion = extrusion;
   const FrameGeometry g = geometry(f, counting(bits), further);
   Outcome o =
       same_but_near_ties_count(geometry(f, counting(bits), scene.look()), counting(bits), g, counting(bits)).outcome();
-  o.add(picture_is_the_oracles(g, counting(bits)));
+  o.add(picture_is_the_oracles(g, counting(bits), context));
   return o;
 }
 
@@ -224,7 +235,7 @@ void CapCase::fields(Fields& f) {
   lamp.fields(f);
 }
 
-Outcome CapCase::check(const Context& /*context*/) const {
+Outcome CapCase::check(const Context& context) const {
   SceneFrame f;
   if (kind == 0)
     add_solid(f, Solid{{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}, {{0, 1, 2}}}, {0, 0, 0}, {1, 1, 1}, turn.turn(), {1, 1, 1},
@@ -235,9 +246,10 @@ Outcome CapCase::check(const Context& /*context*/) const {
   LampCase sun = lamp;
   sun.placed = false;
   sun.apply_to(f.lights[0]);
-  const FrameGeometry g = geometry(f, counting(bits), look_of(sub_bits));
+  FrameGeometry g = geometry(f, counting(bits), look_of(sub_bits));
+  if (context.planted(Plant::near_cap)) bring_caps_nearer(g);
   Outcome o = no_acne(g, counting(bits), sub_bits);
-  o.add(picture_is_the_oracles(g, counting(bits)));
+  o.add(picture_is_the_oracles(g, counting(bits), context));
   return o;
 }
 
@@ -285,7 +297,7 @@ Outcome TornCase::check(const Context& context) const {
   const SceneFrame f = frame();
   const FrameGeometry g = geometry(f, counting(bits), look_of(sub_bits));
   Outcome o = closed_and_right(f, counting(bits), look_of(sub_bits), context);
-  o.add(picture_is_the_rays(f, g, counting(bits)));
+  o.add(picture_is_the_rays(f, g, counting(bits), context));
   Look per_face = look_of(sub_bits);
   per_face.volumes = VolumeWay::per_face;
   o.add(same_but_near_ties_count(g, counting(bits), geometry(f, Config{}, per_face), Config{}).outcome());

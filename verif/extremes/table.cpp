@@ -17,7 +17,7 @@ std::array<std::string, 9> cells(const FamilyResult& r) {
   const FamilyInfo& info = r.family->info();
   const Outcome& o = r.sum;
   const std::string what = info.what + (info.rtl ? " (RTL)" : "");
-  const std::string verdict = !o.wrong.empty() ? "FAILED" : r.cases == 0 ? "no case" : "holds";
+  const std::string verdict = r.failed() ? "FAILED" : r.without_case() ? "no case" : "holds";
   if (info.unit.empty())
     return {info.name, what,   std::to_string(r.cases), std::to_string(o.pixels), std::to_string(o.items), "exact", "",
             "",        verdict};
@@ -51,11 +51,13 @@ std::string table_text(const CampaignState& state, int jobs) {
     for (const std::size_t w : widths) text += "|" + std::string(w + 2, '-');
     text += "|\n";
   }
-  text += fmt::format("\n{} of {} families hold; {} oracle-checked pixels in {:.0f} s on {} threads: {:.2e} an hour\n",
-                      state.families.size() - state.failed(), state.families.size(), state.pixels(), state.seconds,
-                      jobs, per_hour(state));
+  text +=
+      fmt::format("\n{} of {} families hold{}; {} oracle-checked pixels in {:.0f} s on {} threads: {:.2e} an hour\n",
+                  state.holding(), state.families.size(),
+                  state.without_case() > 0 ? fmt::format(", {} had no case", state.without_case()) : "", state.pixels(),
+                  state.seconds, jobs, per_hour(state));
   for (const FamilyResult& r : state.families) {
-    if (r.sum.wrong.empty()) continue;
+    if (!r.failed()) continue;
     text += fmt::format("\nfamily {}, case {}: {}\n", r.family->info().name,
                         r.failed_case.empty() ? "unknown" : r.failed_case, r.sum.wrong);
     if (!r.kept.empty()) text += fmt::format("shrunk, it is {}\n", r.kept.string());
@@ -73,24 +75,25 @@ std::string table_json(const CampaignState& state, const CampaignOptions& option
   all["pixels_per_hour"] = per_hour(state);
   for (const FamilyResult& r : state.families) {
     const FamilyInfo& info = r.family->info();
-    all["families"].push_back({{"family", info.name},
-                               {"number", info.number},
-                               {"what", info.what},
-                               {"rtl", info.rtl},
-                               {"cases", r.cases},
-                               {"pixels", r.sum.pixels},
-                               {"items", r.sum.items},
-                               {"thread_seconds", r.seconds},
-                               {"unit", info.unit},
-                               {"worst", r.sum.worst},
-                               {"bound", r.sum.bound},
-                               {"share", r.sum.share()},
-                               {"nearest_case", r.nearest_case},
-                               {"nearest", r.nearest},
-                               {"holds", r.sum.wrong.empty()},
-                               {"wrong", r.sum.wrong},
-                               {"failed_case", r.failed_case},
-                               {"found", r.kept.string()}});
+    all["families"].push_back(
+        {{"family", info.name},
+         {"number", info.number},
+         {"what", info.what},
+         {"rtl", info.rtl},
+         {"cases", r.cases},
+         {"pixels", r.sum.pixels},
+         {"items", r.sum.items},
+         {"thread_seconds", r.seconds},
+         {"unit", info.unit},
+         {"worst", r.sum.worst},
+         {"bound", r.sum.bound},
+         {"share", r.sum.share()},
+         {"nearest_case", r.nearest_case},
+         {"nearest", r.nearest},
+         {"holds", r.without_case() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(!r.failed())},
+         {"wrong", r.sum.wrong},
+         {"failed_case", r.failed_case},
+         {"found", r.kept.string()}});
   }
   return all.dump(2) + "\n";
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -174,19 +175,23 @@ inline RunCount count_runs(const FrameGeometry& g, const Config& config) {
   return c;
 }
 
+using PixelSpoil = std::function<void(std::vector<std::uint32_t>& pixels)>;
+
 inline constexpr std::array<int, 8> kUnitCounts{1, 2, 3, 4, 5, 8, 9, 64};
 
 /// The same frame by spans and with each of kUnitCounts units: the same pixels. What the segments were, in that order,
-/// and of each what is wrong.
+/// and of each what is wrong. `spoil` changes pixels by segments, for tests that must see it.
 inline std::array<SegmentCount, kUnitCounts.size()> either_way_counts(const SceneFrame& f, Config config, int width,
-                                                                      int height, const Look& look = {}) {
+                                                                      int height, const Look& look = {},
+                                                                      const PixelSpoil& spoil = {}) {
   config.units = 0;
   const Picture spans = picture(make_geometry(f, config, width, height, {.look = look}), config);
   std::array<SegmentCount, kUnitCounts.size()> counts;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     config.units = kUnitCounts[i];
     const FrameGeometry g = make_geometry(f, config, width, height, {.look = look});
-    const Picture tree = picture(g, config);
+    Picture tree = picture(g, config);
+    if (spoil) spoil(tree.pixels);
     counts[i] = segment_count(tree, g, config);
     counts[i].must(tree.pixels == spans.pixels, "pixels are those of the frame by spans");
     counts[i].must(spans.count(Kind::SEG) == 0, "a frame without units has no segments");

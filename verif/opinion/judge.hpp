@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <string>
 
 #include "kage/core.hpp"
@@ -52,8 +53,14 @@ inline std::vector<std::uint32_t> draw(const FrameGeometry& g, const Config& con
   return pixels;
 }
 
-/// `config` must be flat and of three channels and hold the frame.
-inline Judgement judge(FrameGeometry g, const Config& config) {
+/// `config` must be flat and of three channels and hold the frame. `spoil` changes what is drawn and not what the
+/// oracle is asked, for tests that must see a difference.
+inline Judgement judge(FrameGeometry g, const Config& config, const std::function<void(FrameGeometry&)>& spoil = {}) {
+  const auto drawn = [&] {
+    FrameGeometry given = g;
+    if (spoil) spoil(given);
+    return draw(given, config);
+  };
   constexpr std::uint32_t kNothing = 0xFFFFFF;
   g.background = kNothing;
   g.shade = 0;
@@ -61,11 +68,11 @@ inline Judgement judge(FrameGeometry g, const Config& config) {
     g.polygons[i].lit = true;
     for (unsigned c = 0; c < 3; ++c) g.polygons[i].color[c] = static_cast<std::uint8_t>(i >> (8 * c));
   }
-  const auto surfaces = draw(g, config);
+  const auto surfaces = drawn();
   g.shade = 1U << config.shade_frac;
   g.background = 0x808080;
   for (std::uint32_t i = 0; i < g.drawn; ++i) g.polygons[i].color = {255, 255, 255};
-  const auto shadows = draw(g, config);
+  const auto shadows = drawn();
 
   Judgement j;
   Oracle oracle(g, config);

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "opinion/judge.hpp"
@@ -112,7 +113,9 @@ class LayerTruth {
 
   /// Whether moving every vertex by half a step can make pixel (x, y) show `shown`. Moved so, a face gains or loses no
   /// more than what lies within a step of its outline, each face for itself; and depths are those of a place within a
-  /// step.
+  /// step. Rays at some places meet all faces but those that are thinner than the rays are apart, as one that is seen
+  /// nearly edge-on: snapped, it may be a step wide. What of such a face lies within a step has its depths, as its
+  /// plane may have any there.
   [[nodiscard]] bool possible(int x, int y, std::uint32_t background, std::uint32_t shown) const {
     constexpr int kSide = 5;
     std::vector<std::uint32_t> some;  // faces that some of the rays meet
@@ -128,21 +131,88 @@ class LayerTruth {
     std::vector<std::uint32_t> unsure;
     for (const std::uint32_t f : some)
       if (std::find(all.begin(), all.end(), f) == all.end()) unsure.push_back(f);
-    if (unsure.size() > 12) return true;
+    std::vector<Thin> thin = within_a_step(x, y);
+    std::erase_if(thin, [&](const Thin& t) { return std::find(some.begin(), some.end(), t.face) != some.end(); });
+    if (unsure.size() + 2 * thin.size() > 12) return true;
     for (int i = 0; i < kSide * kSide; ++i) {
       const std::vector<Hit> everything = hits(place(x, i % kSide), place(y, i / kSide), unsure);
       for (std::uint32_t without = 0; without < 1U << unsure.size(); ++without) {
         std::vector<Hit> left = everything;
         for (std::size_t k = 0; k < unsure.size(); ++k)
           if ((without >> k & 1U) != 0) std::erase_if(left, [&](const Hit& h) { return h.face == unsure[k]; });
-        std::size_t layers = 0;
-        if (color(left, background, layers) == shown) return true;
+        // Each thin face is not there, or at one of its depths: digits to the base of 4.
+        for (std::uint32_t way = 0; way < 1U << 2 * thin.size(); ++way) {
+          std::vector<Hit> met = left;
+          for (std::size_t k = 0; k < thin.size(); ++k)
+            if (const std::uint32_t at = way >> 2 * k & 3U; at > 0)
+              met.push_back({thin[k].face, thin[k].alpha, std::lerp(thin[k].least, thin[k].most, (at - 1) / 2.0)});
+          std::size_t layers = 0;
+          if (color(met, background, layers) == shown) return true;
+        }
       }
     }
     return false;
   }
 
  private:
+  /// A face within a step of a pixel's centre, and the distances of what of it lies there.
+  struct Thin {
+    std::uint32_t face;
+    std::uint8_t alpha;
+    double least;
+    double most;
+  };
+
+  [[nodiscard]] std::vector<Thin> within_a_step(int x, int y) const {
+    const Camera& c = f_->camera;
+    const double unit = 2 * c.half_height / height_;
+    const double step = step_ / 256.0;
+    // What lies between these sides, to the right of the first and so on, is seen within a step.
+    const double left = (x + 0.5 - step - width_ / 2.0) * unit;
+    const double right = left + 2 * step * unit;
+    const double top = (height_ / 2.0 - (y + 0.5 - step)) * unit;
+    const double bottom = top - 2 * step * unit;
+    const auto scale = [&c](const glm::dvec3& p) { return c.perspective ? p.z : 1; };
+    std::vector<Thin> found;
+    for (const Piece& piece : pieces_) {
+      std::vector<glm::dvec3> part;
+      for (const glm::dvec3& v : {piece.a, piece.b, piece.c}) {
+        const glm::dvec3 d = v - c.eye;
+        part.emplace_back(glm::dot(d, c.right), glm::dot(d, c.up), glm::dot(d, c.forward));
+      }
+      cut(part, [&](const glm::dvec3& p) { return p.z - c.near; });
+      cut(part, [&](const glm::dvec3& p) { return p.x - left * scale(p); });
+      cut(part, [&](const glm::dvec3& p) { return right * scale(p) - p.x; });
+      cut(part, [&](const glm::dvec3& p) { return top * scale(p) - p.y; });
+      cut(part, [&](const glm::dvec3& p) { return p.y - bottom * scale(p); });
+      if (part.empty()) continue;
+      const auto [least, most] =
+          std::minmax_element(part.begin(), part.end(), [](const auto& p, const auto& q) { return p.z < q.z; });
+      if (!found.empty() && found.back().face == piece.face) {
+        found.back().least = std::min(found.back().least, least->z);
+        found.back().most = std::max(found.back().most, most->z);
+      } else {
+        found.push_back({piece.face, piece.alpha, least->z, most->z});
+      }
+    }
+    return found;
+  }
+
+  /// What of a convex outline is not below 0.
+  template <class Distance>
+  static void cut(std::vector<glm::dvec3>& part, const Distance& distance) {
+    std::vector<glm::dvec3> rest;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const glm::dvec3& p = part[i];
+      const glm::dvec3& q = part[(i + 1) % part.size()];
+      const double a = distance(p);
+      const double b = distance(q);
+      if (a >= 0) rest.push_back(p);
+      if ((a >= 0) != (b >= 0)) rest.push_back(p + (q - p) * (a / (a - b)));
+    }
+    part = std::move(rest);
+  }
+
   struct Piece {
     std::uint32_t face;
     std::uint8_t alpha;

@@ -30,6 +30,9 @@ class OrderOracle {
       }
   }
 
+  /// Forgets the last fragment of a face, for tests that must see it missing.
+  void lose_fragment(std::uint32_t face) { fragments_of_[face].pop_back(); }
+
   static Point exact(const OrderPoint& p) { return {Number(p[0]), Number(p[1]), Number(p[2])}; }
 
   /// A point of a face, not on its outline: its corners' mean by the weights that `weight` gives one after another,

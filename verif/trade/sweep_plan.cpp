@@ -47,9 +47,18 @@ std::optional<int> number(std::string_view text) {
   return value;
 }
 
-[[noreturn]] void refuse(std::string_view axis, std::string_view value, const std::string& why) {
-  throw Error(fmt::format("--axes {}: {} is {}", axis, value.empty() ? "an empty value" : value, why));
+std::string refusal(std::string_view axis, std::string_view value, const std::string& why) {
+  return fmt::format("--axes {}: {} is {}", axis, value.empty() ? "an empty value" : value, why);
 }
+
+[[noreturn]] void refuse(std::string_view axis, std::string_view value, const std::string& why) {
+  throw Error(refusal(axis, value, why));
+}
+
+/// A value that is one of its axis, and not possible with those of the others.
+struct NotTogether : Error {
+  using Error::Error;
+};
 
 int number_of(std::string_view axis, std::string_view value, int least, int most) {
   const std::optional<int> n = number(value);
@@ -105,8 +114,69 @@ void set_parameter(SweepPoint& p, const ParamInfo& info, const std::string& valu
   for (const RuleInfo& rule : kRules)
     if (!rule.holds(p.config)) rule.repair(p.config);
   if (p.config.*info.member != n || p.config.max_width < p.width)
-    refuse(info.name, value, "not possible with the other parameters: docs/stream.md, Parameters, has the rules");
+    throw NotTogether(
+        refusal(info.name, value, "not possible with the other parameters: docs/stream.md, Parameters, has the rules"));
   validate(p.config, fmt::format("--axes {}={}", info.name, value));
+}
+
+/// The value that a point has on an axis, as its picture and core show it: one sample where a counter holds no more.
+std::string value_of(const SweepPoint& p, std::string_view axis) {
+  if (axis == "SIZE") return fmt::format("{}x{}", p.width, p.height);
+  if (axis == "ORDER")
+    return std::string(std::find_if(kOrders.begin(), kOrders.end(), [&](const auto& o) {
+                         return o.second == p.look.translucent;
+                       })->first);
+  if (axis == "SAMPLES") return std::to_string(samples_of(p));
+  // A table tells as many classes apart as its bits do; without one there are none.
+  if (axis == "CLASSES")
+    return std::to_string(derived::has_table(p.config) ? std::min(p.look.classes, derived::most_class(p.config)) : 0);
+  if (axis == "SUB_BITS") return std::to_string(p.look.sub_bits);
+  return std::to_string(p.config.*parameter(axis)->member);
+}
+
+/// A point of a grid, and why it is none: a value that it names is not there. Empty: it is one.
+struct Combination {
+  SweepPoint point;
+  std::string why;
+};
+
+/// Sets the values in this order, and looks whether all of them are there in the end.
+void set_all(Combination& c, std::span<const SweepAxis> axes, std::span<const std::size_t> chosen,
+             std::span<const std::size_t> order) {
+  c.why.clear();
+  std::vector<std::string> given(axes.size());
+  for (const std::size_t i : order) {
+    try {
+      c.point = with(c.point, axes[i].name, axes[i].values[chosen[i]]);
+    } catch (const NotTogether&) {
+      if (c.why.empty()) c.why = fmt::format("{} is not possible with the others", axes[i].name);
+    }
+    given[i] = value_of(c.point, axes[i].name);
+  }
+  for (std::size_t i = 0; i < axes.size() && c.why.empty(); ++i) {
+    const std::string has = value_of(c.point, axes[i].name);
+    if (has != given[i]) c.why = fmt::format("{} becomes {}", axes[i].name, has);
+  }
+}
+
+Combination combination(const SweepPoint& base, std::span<const SweepAxis> axes, std::span<const std::size_t> chosen) {
+  Combination c{base, {}};
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < axes.size(); ++i) order.push_back(i);
+  // A processor for each column: the columns come first.
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return axes[i].name == "SIZE"; });
+  set_all(c, axes, chosen, order);
+  // What a value takes with it may be another named value, which in the other order stays: COLOR_FRAC 0 and SMOOTH.
+  if (const std::string why = c.why; !why.empty()) {
+    std::reverse(order.begin(), order.end());
+    set_all(c, axes, chosen, order);
+    if (!c.why.empty()) c.why = why;
+  }
+  c.point.axis = "grid";
+  c.point.value.clear();
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    c.point.value += fmt::format("{}{}={}", i == 0 ? "" : " ", axes[i].name, axes[i].values[chosen[i]]);
+  return c;
 }
 
 /// What is legal of a list, as axes take it.
@@ -220,21 +290,34 @@ std::vector<SweepPoint> alone(const SweepPoint& base, std::span<const SweepAxis>
   return each_once(std::move(out));
 }
 
-std::vector<SweepPoint> grid(const SweepPoint& base, std::span<const SweepAxis> axes) {
-  std::vector<SweepPoint> out{base};
-  out[0].axis = "grid";
-  for (const SweepAxis& axis : axes) {
-    std::vector<SweepPoint> next;
-    for (const SweepPoint& p : out)
-      for (const std::string& value : axis.values) {
-        SweepPoint q = with(p, axis.name, value);
-        q.axis = "grid";
-        q.value = fmt::format("{}{}{}={}", p.value, p.value.empty() ? "" : " ", axis.name, value);
-        next.push_back(std::move(q));
-      }
-    out = std::move(next);
+void add_axis(std::vector<SweepAxis>& axes, SweepAxis axis) {
+  const auto found =
+      std::find_if(axes.begin(), axes.end(), [&](const SweepAxis& known) { return known.name == axis.name; });
+  if (found == axes.end())
+    axes.push_back(std::move(axis));
+  else
+    found->values.insert(found->values.end(), axis.values.begin(), axis.values.end());
+}
+
+Grid grid(const SweepPoint& base, std::span<const SweepAxis> axes) {
+  Grid out;
+  std::vector<std::size_t> chosen(axes.size(), 0);
+  std::size_t count = 1;
+  for (const SweepAxis& axis : axes) count *= axis.values.size();
+  for (std::size_t n = 0; n < count; ++n) {
+    // The last axis goes first, as digits of a number do.
+    for (std::size_t i = axes.size(), rest = n; i-- > 0; rest /= axes[i].values.size())
+      chosen[i] = rest % axes[i].values.size();
+    Combination c = combination(base, axes, chosen);
+    if (c.why.empty())
+      out.points.push_back(std::move(c.point));
+    else if (out.left_out++ == 0)
+      out.example = fmt::format("{}: {}", c.point.value, c.why);
   }
-  return each_once(std::move(out));
+  if (out.points.empty())
+    throw Error(fmt::format("--grid: no combination can have all the values that it names, as {}", out.example));
+  out.points = each_once(std::move(out.points));
+  return out;
 }
 
 std::vector<SweepPoint> default_points(const SweepPoint& base, const Needs& needs) {
@@ -278,7 +361,7 @@ std::vector<SweepPoint> with_seeds(std::vector<SweepPoint> points, int seeds) {
       if (samples_of(out[i]) == 1) continue;
       SweepPoint p = out[i];
       p.look.seed += static_cast<std::uint64_t>(s);
-      p.value += fmt::format("{}seed {}", p.value.empty() ? "" : ", ", p.look.seed);
+      p.value += fmt::format("{}seed {}", p.value.empty() ? "" : " ", p.look.seed);
       out.push_back(std::move(p));
     }
   return out;

@@ -51,13 +51,25 @@ SweepPoint with(const SweepPoint& base, std::string_view axis, const std::string
 /// Each value of each axis alone about the base, which is the first.
 std::vector<SweepPoint> alone(const SweepPoint& base, std::span<const SweepAxis> axes);
 
-/// Every combination of values.
-std::vector<SweepPoint> grid(const SweepPoint& base, std::span<const SweepAxis> axes);
+/// Adds an axis; the values of one that is there already go to it.
+void add_axis(std::vector<SweepAxis>& axes, SweepAxis axis);
+
+/// Combinations of values.
+struct Grid {
+  std::vector<SweepPoint> points;
+  std::size_t left_out = 0;  ///< combinations whose values exclude each other: a later one changed an earlier one
+  std::string example = {};  ///< the first of those, and why
+};
+
+/// Every combination of values of axes, each named once, that has all the values it names. Throws Error where none has,
+/// and where a value is none of its axis.
+Grid grid(const SweepPoint& base, std::span<const SweepAxis> axes);
 
 /// Some 60 points: each axis alone about the base as far as a scene with these needs shows it, and the corners.
 std::vector<SweepPoint> default_points(const SweepPoint& base, const Needs& needs);
 
-/// Points with soft lights once more for each of `seeds` - 1 further seeds of the samples' pattern.
+/// Points with several samples once more for each of `seeds` - 1 further seeds of the samples' pattern. Of a scene
+/// without soft lights, which has no pattern, it is the same picture again.
 std::vector<SweepPoint> with_seeds(std::vector<SweepPoint> points, int seeds);
 
 /// What two points have in common whose clocks differ only as their words and groups of lanes do: the core's features

@@ -17,6 +17,7 @@
 #include "cosim/model/sha256.hpp"
 #include "cosim/run.hpp"
 #include "cost/cells.hpp"
+#include "cost/processors.hpp"
 #include "cost/token_clocks.hpp"
 #include "file/read_file.hpp"
 #include "kage/core.hpp"
@@ -30,9 +31,6 @@ namespace kage::trade {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// The widest core with a processor for each pixel that is built and counted: beyond it a model takes many minutes.
-constexpr int kMostProcessors = 64;
 
 // The golden core draws all frames so many times at least, and for so long, and the least time counts.
 constexpr int kGoldenRuns = 3;
@@ -261,9 +259,13 @@ Json SweepRunner::area(const SweepPoint& point) {
       how_.doing(fmt::format("yosys counts the cells of {} {}", point.axis, point.value));
       return synthesize(point.config, how_.wait).cells;
     });
-    j = {{"luts", counted->luts}, {"ffs", counted->flip_flops}, {"brams", counted->rams}, {"counted", true}};
+    j = {{"luts", counted->luts},
+         {"ffs", counted->flip_flops},
+         {"brams", counted->rams},
+         {"dsps", counted->dsps},
+         {"counted", true}};
   } else {
-    j = {{"luts", cells.luts}, {"ffs", cells.flip_flops}, {"brams", nullptr}, {"counted", false}};
+    j = {{"luts", cells.luts}, {"ffs", cells.flip_flops}, {"brams", nullptr}, {"dsps", nullptr}, {"counted", false}};
   }
   j["bits_per_pixel"] = cells.bits_per_pixel;
   j["ram_bits"] = cells.ram_bits;

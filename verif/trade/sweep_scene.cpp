@@ -214,6 +214,8 @@ const std::string& SweepScene::identity() const {
   });
 }
 
+const Needs& SweepScene::needs() const { return data_->features.needs; }
+
 DrawOptions SweepScene::draw_options(const SweepPoint& point) const {
   DrawOptions draw = data_->draw;
   draw.width = point.width;
@@ -322,7 +324,7 @@ std::shared_ptr<const std::vector<RayPixel>> SweepScene::rays(int index, const S
     data_->step();
     const RayFrame f(frame(index), point);
     // Every so many pixels and lines, and of these every so many for lights.
-    const double pixels = double{static_cast<double>(point.width)} * point.height;
+    const double pixels = static_cast<double>(point.width) * point.height;
     int step = 1;
     while (pixels * static_cast<double>(f.opaque.triangles.size()) / (step * step) > kMostTests / 2) ++step;
     int lights = 1;

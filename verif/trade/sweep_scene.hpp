@@ -57,6 +57,8 @@ class SweepScene {
   /// SHA-256 of all that decides the frames' pictures: faces with their colours and alpha, lights, cameras. Another
   /// file of the same name, or the same with another --alpha, is another scene.
   [[nodiscard]] const std::string& identity() const;
+  /// What its frames ask for. More than one sample: some light is soft.
+  [[nodiscard]] const Needs& needs() const;
   [[nodiscard]] DrawOptions draw_options(const SweepPoint& point) const;
 
   /// The point with everything that changes a picture at its finest: 8 bits of snapped positions, the widest depth,

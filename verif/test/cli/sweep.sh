@@ -26,8 +26,8 @@ json a.json 'j[0]["accuracy"]["visible_wrong"] == 0 and j[4]["speed"]["rtl_cycle
 json a.json 'all(r["accuracy"]["sources"]["all"] == j[0]["accuracy"]["sources"]["all"] for r in j[4:6])'
 python3 - <<'PY' || fail "table, JSON and CSV differ"
 import csv, json, math, re
-rows, table = json.load(open("a.json")), [line for line in open("table") if not line.lstrip().startswith("#")]
-head = next(line for line in open("table") if line.startswith(" # axis value"))
+rows, table = json.load(open("a.json")), [line for line in open("table") if not line.startswith("#")]
+head = next(line for line in open("table") if line.startswith("# axis value"))
 for name in head.replace("z LSB", "z_LSB").replace("sim fps", "sim_fps").split()[3:]:
     column = re.escape(name.replace("_", " "))
     assert name in ("pixels", "LUTs") or any(re.search(rf"(^# |[,;] ){column}[,: ]", line) for line in open("table")), f"no word on {name}"
@@ -163,7 +163,7 @@ json soft.json 'j[0]["config"]["COUNT_BITS"] < j[1]["config"]["COUNT_BITS"] and 
 
 # A row of another size has its own number of pixels.
 expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SIZE=32x24 --store size.sqlite
-[ "$(sed '/#/d; s/^[ *]//' stdout | awk '{print $1, $(NF - 12)}')" = "base 3072
+[ "$(sed '/^#/d; s/^[ *]//' stdout | awk '{print $1, $(NF - 12)}')" = "base 3072
 SIZE 768" ] || fail "pixels of rows: $(cat stdout)"
 
 # About a plan of the scene for the sweep's size and frames: what kage plan prints for them.
@@ -182,6 +182,37 @@ PY
 expect 0 "$kage" sweep penumbra --size 64x48 --axes SAMPLES=1,4 --axes Z_BITS=12,24 --grid --seeds 2 --list
 [ "$(wc -l <stdout)" = 6 ] || fail "$(cat stdout)"
 ! grep -q ' $' stdout || fail "--list: a line ends with a blank"
+# Values that exclude each other are no row under a name that is not theirs: they are left out, and a line says so.
+grid() { expect 0 "$kage" sweep courtyard --size 64x48 --frames 1 "$@" --grid --list; }
+grid --axes SMOOTH=0,1 --axes COLOR_FRAC=0,8
+[ "$(cat stdout)" = "courtyard: grid SMOOTH=0 COLOR_FRAC=0
+courtyard: grid SMOOTH=1 COLOR_FRAC=0
+courtyard: grid SMOOTH=1 COLOR_FRAC=8" ] || fail "$(cat stdout)"
+[ "$(cat stderr)" = "kage: courtyard: 1 combination of --grid is left out, because values exclude each other: SMOOTH=0 COLOR_FRAC=8: SMOOTH becomes 1" ] || fail "$(cat stderr)"
+expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SMOOTH=0,1 --axes COLOR_FRAC=0,8 --axes DSF_BITS=0,1 --axes COUNT_BITS=0,4 --grid --store grid.sqlite --json grid.json
+json grid.json 'len(j) == 9 and all(r["value"] == " ".join("%s=%d" % (k, r["config"][k]) for k in ("SMOOTH", "COLOR_FRAC", "DSF_BITS", "COUNT_BITS")) for r in j)'
+grep -qF 'kage: courtyard: 7 combinations of --grid are left out' stderr || fail "$(cat stderr)"
+grid --axes SAMPLES=1,64 --axes COUNT_BITS=2
+[ "$(cat stdout)" = "courtyard: grid SAMPLES=1 COUNT_BITS=2" ] || fail "$(cat stdout)"
+trouble "--grid: no combination can have all the values that it names, as SAMPLES=64 COUNT_BITS=2: SAMPLES becomes 1" "$kage" sweep courtyard "${quick[@]}" --axes SAMPLES=64 --axes COUNT_BITS=2 --grid --store no.sqlite
+# An axis that is named again has all of its values.
+grid --axes Z_BITS=8 --axes LANES=1 --axes Z_BITS=9
+[ "$(cat stdout)" = "courtyard: grid Z_BITS=8 LANES=1
+courtyard: grid Z_BITS=9 LANES=1" ] || fail "$(cat stdout)"
+
+# Seeds: of scenes with a soft light alone, each row with its seed behind its name. --samples 1 is where a sweep begins, and
+# no reason to leave samples out.
+expect 0 "$kage" sweep courtyard --seeds 3 --axes SAMPLES=4 --list
+[ "$(cat stdout)" = "courtyard: base
+courtyard: SAMPLES 4" ] || fail "$(cat stdout)"
+expect 0 "$kage" sweep penumbra --seeds 2 --axes SAMPLES=4 --list
+[ "$(cat stdout)" = "penumbra: base
+penumbra: SAMPLES 4
+penumbra: base seed 2
+penumbra: SAMPLES 4 seed 2" ] || fail "$(cat stdout)"
+expect 0 "$kage" sweep penumbra --samples 1 --list
+grep -qx 'penumbra: SAMPLES 255' stdout || fail "$(cat stdout)"
+
 expect 0 "$kage" sweep courtyard --list
 grep -qx 'courtyard: base' stdout || fail "$(head -1 stdout)"
 [ "$(wc -l <stdout)" -gt 50 ] || fail "$(wc -l <stdout) configurations"
@@ -196,7 +227,7 @@ json rtl.json 'j[0]["speed"]["cosim_frames_per_second"] > 0'
 cat >fake-yosys <<'SH'
 #!/bin/sh
 [ "$1" = -V ] && { echo "Yosys $FAKE"; exit 0; }
-echo "     LUT4   ${FAKE}000" >"$(echo "$3" | sed 's/.*tee -q -o \([^ ]*\) stat.*/\1/')"
+printf '     LUT4   %s000\n     MULT18X18D   %s\n' "$FAKE" "$FAKE" >"$(echo "$3" | sed 's/.*tee -q -o \([^ ]*\) stat.*/\1/')"
 SH
 chmod +x fake-yosys
 # counted VERSION FILE: a sweep with a yosys of this version, whose cores have as many thousand look-up tables.
@@ -205,7 +236,7 @@ counted() {
     --config tiny --no-cosim --axes SUB_BITS=4 --store tools.sqlite --resume --json "$2"
 }
 counted 7 seven.json
-json seven.json '[r["area"]["luts"] for r in j] == [7000, 7000]'
+json seven.json '[(r["area"]["luts"], r["area"]["dsps"]) for r in j] == [(7000, 7)] * 2'
 counted 8 eight.json
 tail -1 stdout | grep -qF '# 2 measured now' || fail "$(tail -1 stdout)"
 grep -qF 'kage: 2 rows are measured anew, because tools.sqlite has them of other tools' stderr || fail "$(cat stderr)"

@@ -22,8 +22,8 @@ python3 - <<'PY' || fail "table and CSV differ from JSON"
 import csv, json
 rows, sheet = json.load(open("a.json")), list(csv.DictReader(open("a.csv")))
 lines = list(open("stdout"))
-table = [line for line in lines if not line.lstrip().startswith("#")]
-head = [line for line in lines if line.lstrip().startswith("#") and "MHz" in line.split()]
+table = [line for line in lines if not line.startswith("#")]
+head = [line for line in lines if line.startswith("# axis value")]
 assert len(head) == 1 and head[0].split()[-2:] == ["MHz", "fps"], head
 assert len(rows) == len(sheet) == len(table)
 for row, cells, line in zip(rows, sheet, table):

@@ -43,12 +43,25 @@ plant wide_span 6 7
 plant wide_span 13 3
 plant steep_step "15 long" 10
 plant lost_layer "20 deep" 7
-plant lost_face 21 22
+plant lost_face 25 22
 plant swapped_pair 35 8
 for error in moved_corner tilted_plane; do
   plant $error "plane unsnapped" 18
   plant $error "plane side" 22
 done
+
+# Each family sees an error that is planted in it; docs/extremes.md has which.
+gives 0 "$extremes" --plants
+python3 - "$work/out" "$source/docs/extremes.md" <<'PY' || fail "docs/extremes.md has other planted errors than kage_extremes --plants"
+import pathlib, re, sys
+said = {row[1]: row[2] for row in map(re.compile(r"\| (.+) \| (\w+) \| \d+ \|").fullmatch, open(sys.argv[1]).read().splitlines()) if row}
+assert len(said) >= 50, said
+told = {}
+for row in re.finditer(r"^\| `(\w+)` \| [^|]+ \| ([^|]+) \|$", pathlib.Path(sys.argv[2]).read_text(), re.M):
+    told |= {family.strip(): row[1] for family in row[2].split(",")}
+missing = {family: plant for family, plant in said.items() if told.get(family) != plant}
+assert not missing, missing
+PY
 
 # A start has a name by which it runs again.
 gives 0 "$extremes" --case 15:3:1
@@ -70,10 +83,24 @@ assert rows[0] == rows[1], rows
 assert one["pixels"] > 0 and all(row["holds"] for row in one["families"])
 PY
 
-# JSON is what docs/schema says, of a failure too.
+# JSON is what docs/schema says, of a failure and of families without a case too.
 mkdir "$work/json"
 cp "$work/1.json" "$work/json/extremes.1.json"
 gives 1 "$extremes" --plant wide_span --family 2 --starts 50 --found "$work" --json "$work/json/extremes.2.json"
+# A time too short for a case of each family: those without one neither hold nor fail, and the campaign is none.
+gives 2 "$extremes" --minutes 0.001 --jobs 1 --found "$work" --json "$work/json/extremes.3.json"
+said "families had no case: --minutes 0.001 is too short for them"
+python3 - "$work/json/extremes.3.json" "$work/out" <<'PY'
+import json, re, sys
+rows = json.load(open(sys.argv[1]))["families"]
+text = open(sys.argv[2]).read()
+none = [row for row in rows if row["cases"] == 0]
+assert none and all(row["holds"] is None for row in none), none
+assert all(row["holds"] is True for row in rows if row["cases"] > 0)
+assert text.count("| no case") == len(none), text
+assert f"{len(rows) - len(none)} of {len(rows)} families hold, {len(none)} had no case; " in text, text
+PY
+
 /usr/bin/python3 "$source/verif/test/cli/schema.py" "$source/docs/schema" "$work/json" || fail "JSON is not what its schema says"
 
 # Bad input gets one line and exit code 2.

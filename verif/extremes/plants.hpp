@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which deliberate error each family's check must see, and whether it does: a check that cannot fail is none.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "extremes/family.hpp"
+
+namespace kage::verif {
+
+/// The error that a family's check must see; Plant::none: there is none for it.
+Plant plant_for(const Family& family);
+/// Its name, as --plant takes it; "none".
+const char* name_of(Plant plant);
+
+/// How a check that must see its family's error fared.
+struct PlantTrial {
+  Plant plant = Plant::none;
+  std::optional<std::uint64_t> seen;  ///< the first start in which the case with the error fails
+};
+
+/// Runs up to `starts` starts of a family with its error, until one fails.
+PlantTrial try_plant(const Family& family, std::uint64_t seed, std::uint64_t starts, Context context,
+                     const std::function<bool()>& stop);
+
+}  // namespace kage::verif
