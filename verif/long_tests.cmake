@@ -76,13 +76,13 @@ set(long_tests
     rtl/family_12_glass
     rtl/family_12_lights
     rtl/family_12_trees
-    rtl/parameters
     rtl/fault_count_wraps
     rtl/fault_early_refill
     rtl/fault_early_table
     rtl/fault_resolve_leaves_flags
     rtl/fault_sample_leaks
     rtl/fault_swallowed_toggle
+    rtl/parameters
     rtl/tree_clocks
     scene/builtin_truth
     scene/depth_begin

@@ -3,11 +3,7 @@
 # kage vectors: a pack is written and verified, a pack that was changed is refused by name, and captures are judged. Packs are
 # played by simulators in cli/vectors_played.
 . "$(dirname "$0")/common.bash"
-pack() { "$kage" vectors "$@" --json pack.json; }
-make() { # FOLDER SCENE ARGUMENT...
-  expect 0 pack "${@:2}" --out "$1"
-  expect 0 "$kage" vectors --check "$1"
-}
+. "$source/verif/test/cli/packs.bash"
 make p courtyard --size 16x12 --frames 2 --config default
 json pack.json 'j["frames"]==20 and j["malformed"]==18 and j["pixels"]>=2*16*12 and j["clocks"]>0'
 no_leftovers

@@ -3,11 +3,7 @@
 # A pack of kage vectors is played by Icarus Verilog and Verilator, and a core that is wrong fails it by name; --cover takes the
 # frames that reach most of the RTL's lines.
 . "$(dirname "$0")/common.bash"
-pack() { "$kage" vectors "$@" --json pack.json; }
-make() { # FOLDER SCENE ARGUMENT...
-  expect 0 pack "${@:2}" --out "$1"
-  expect 0 "$kage" vectors --check "$1"
-}
+. "$source/verif/test/cli/packs.bash"
 make p courtyard --size 16x12 --frames 2 --config default
 
 # ---- played: by Icarus Verilog, at both tops, with stalls and without ----
