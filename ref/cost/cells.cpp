@@ -48,6 +48,7 @@ const std::array<CellTerm, kCellTerms> kCellTermInfo{{
     {"lanes_pixel_bits", [](const Config& c) { return whole(lanes_of(c) * derived::pixel_bits(c)); }},
     {"lanes_depth_bits", [](const Config& c) { return whole(lanes_of(c) * derived::depth_bits(c)); }},
     {"lanes_slope_bits", [](const Config& c) { return whole(lanes_of(c) * c.smooth * derived::color_bits(c)); }},
+    {"lanes_counting", [](const Config& c) { return whole(lanes_of(c) * static_cast<int>(c.dsf_bits > 1)); }},
     {"lanes_blended", [](const Config& c) { return whole(lanes_of(c) * c.translucency * c.channels); }},
     {"exit_lanes_bits", [](const Config& c) { return whole(exit_lanes(c) * derived::exit_bits(c)); }},
     {"share_bits",

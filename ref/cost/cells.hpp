@@ -38,7 +38,7 @@ struct CellTerm {
   std::string_view name;
   double (*value)(const Config&);
 };
-inline constexpr std::size_t kCellTerms = 16;
+inline constexpr std::size_t kCellTerms = 17;
 extern const std::array<CellTerm, kCellTerms> kCellTermInfo;
 
 }  // namespace kage

@@ -8,16 +8,13 @@
 #include <cmath>
 
 #include "contract/derived.hpp"
+#include "contract/params.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "plan/figures.hpp"
 
 namespace kage::plan {
 namespace {
-
-const ParamInfo& info_of(int Config::*member) {
-  return *std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& p) { return p.member == member; });
-}
 
 int bits_for(double greatest) { return static_cast<int>(std::bit_width(static_cast<unsigned>(greatest))); }
 

@@ -164,8 +164,8 @@ Accuracy& Accuracy::operator+=(const Accuracy& o) {
   return *this;
 }
 
-double Accuracy::wrong_ppm() const {
-  return pixels == 0 ? 0 : 1e6 * static_cast<double>(visible_wrong + shadow_wrong) / static_cast<double>(pixels);
+double Accuracy::wrong_ppm(std::uint64_t of) const {
+  return of == 0 ? 0 : 1e6 * static_cast<double>(visible_wrong + shadow_wrong) / static_cast<double>(of);
 }
 
 PixelFault fault_of(const TruePixel& truth, const DrawnFrame& drawn, std::size_t pixel) {

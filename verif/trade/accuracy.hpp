@@ -57,8 +57,10 @@ struct Accuracy {
   int color_max = 0;  ///< greatest difference of colour from the finest picture, where face and shadow are right
 
   Accuracy& operator+=(const Accuracy& o);
-  /// Wrong pixels in a million.
-  [[nodiscard]] double wrong_ppm() const;
+  /// Wrong pixels in a million of those compared.
+  [[nodiscard]] double wrong_ppm() const { return wrong_ppm(pixels); }
+  /// Wrong pixels in a million of `of`, where the comparison ended before it had all of them.
+  [[nodiscard]] double wrong_ppm(std::uint64_t of) const;
 };
 
 /// Holds a drawn frame against the truth, and its colours against those of `finest`, drawn with the finest fractions.

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "contract/params.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "plan/demand.hpp"
@@ -37,11 +38,6 @@ Config finest_of(Config c) {
   return c;
 }
 
-/// Of all pixels, however many of them were compared.
-double wrong_ppm(const Accuracy& a, std::uint64_t pixels) {
-  return 1e6 * static_cast<double>(a.visible_wrong + a.shadow_wrong) / static_cast<double>(pixels);
-}
-
 /// A width that may be lowered, and its steps.
 struct Width {
   int Config::*member;
@@ -60,10 +56,6 @@ std::vector<Width> widths_of(const Config& c) {
   // With one bit there is no table, which several lights need.
   if (c.class_bits > 1) list.push_back({&Config::class_bits, 2, plan::class_step});
   return list;
-}
-
-const ParamInfo& info_of(int Config::*member) {
-  return *std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& p) { return p.member == member; });
 }
 
 }  // namespace
@@ -112,7 +104,7 @@ MeasuredPlan::~MeasuredPlan() = default;
 
 bool MeasuredPlan::within(const Accuracy& a) const {
   const MeasuredLimits& l = data_->limits;
-  return a.z_max <= l.z && a.color_max <= l.color && (!l.wrong || wrong_ppm(a, data_->pixels) <= *l.wrong);
+  return a.z_max <= l.z && a.color_max <= l.color && (!l.wrong || a.wrong_ppm(data_->pixels) <= *l.wrong);
 }
 
 std::optional<Accuracy> MeasuredPlan::measure(const Config& config, bool whole) {
@@ -136,7 +128,7 @@ std::string MeasuredPlan::text(const Accuracy& a) const {
     const plan::FigureText t = plan::told_apart(value, limit, digits);
     return std::pair(t.value, value > limit ? fmt::format(" (over {} {})", name, t.limit) : std::string());
   };
-  const double ppm = wrong_ppm(a, data_->pixels);
+  const double ppm = a.wrong_ppm(data_->pixels);
   const auto [wrong, over_wrong] = figure(ppm, l.wrong.value_or(ppm), "--max-wrong", 6);
   const auto [z, over_z] = figure(a.z_max, l.z, "--max-z", 3);
   const std::string over_color = a.color_max > l.color ? fmt::format(" (over --max-color {})", l.color) : std::string();

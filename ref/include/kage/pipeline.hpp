@@ -77,7 +77,7 @@ class SceneFrames : public FrameSource {
   SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options = {});
 
   /// Drawn with the named configuration that choose_config() takes for the first frame: the first that has all it
-  /// needs, or a later one that costs a seventh less. Throws Error if none has all.
+  /// needs, or a later one that costs a tenth less. Throws Error if none has all.
   /// @param scene what is drawn
   /// @param options how it is drawn
   explicit SceneFrames(const std::shared_ptr<const Scene>& scene, const DrawOptions& options = {});
@@ -154,7 +154,7 @@ class StreamFrames : public FrameSource {
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples = Look{}.samples);
 
 /// Chooses among the named configurations by a scene's first frame: of those that have all it needs, the first in
-/// listed order, unless a later one costs a seventh less, in clocks of that frame at 640x480 times look-up tables of
+/// listed order, unless a later one costs a tenth less, in clocks of that frame at 640x480 times look-up tables of
 /// the core; so the size that is asked for decides nothing but what has room for it.
 /// Configurations with UNITS, or with a processor for each pixel, are taken only where no other serves. Throws Error if
 /// none has all; it names the one that lacks the fewest things, and those.

@@ -81,7 +81,7 @@ grep -q '^DSF_BITS: [2-9] ' stdout || fail "$(grep DSF_BITS stdout)"
 json area.json 'j["least"]["way"] == "parity" and j["least"]["cost"]["luts"] < j["cost"]["luts"] <= 1.01 * j["least"]["cost"]["luts"] and j["cost"]["clocks_per_pixel"] < j["least"]["cost"]["clocks_per_pixel"]'
 expect 0 "$kage" plan canopy --size 96x72 --frames 1 --prefer speed
 grep -qE '^# clocks within 1 % of the fewest count as equal: 0\.[0-9] % more than .* save [0-9]+ LUTs$' stdout || fail "$(cat stdout)"
-expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --clock 500 --json -
+expect 0 "$kage" plan depths --size 64x48 --frames 1 --json -
 json stdout 'j["least"] is None'
 # A reason says by words what goes up and what down.
 expect 0 "$kage" plan courtyard --size 160x120 --frames 1 --prefer speed --json speed.json

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contract/params.hpp"
 #include "kage/error.hpp"
 #include "kage/plan.hpp"
 #include "test/scene/planned_scenes.hpp"
@@ -50,8 +51,7 @@ TEST_CASE("measured: what is kept is within the limits, and every width one less
       CHECK(measured.within(*kept));
       for (int Config::*member :
            {&Config::z_bits, &Config::z_frac, &Config::color_frac, &Config::shade_frac, &Config::class_bits}) {
-        const ParamInfo& p =
-            *std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& q) { return q.member == member; });
+        const ParamInfo& p = info_of(member);
         Config less = least;
         less.*member -= 1;
         if (less.*member < p.min || (member == &Config::color_frac && least.smooth == 0) ||
