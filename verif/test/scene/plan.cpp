@@ -133,18 +133,26 @@ TEST_CASE("preferences are kept: no other way or arrangement has fewer clocks, l
 }
 
 TEST_CASE("a difference in look-up tables that the estimate cannot tell does not decide") {
+  // Counting is within one per cent of parity in colour, and further from it in grey, as the cat is.
+  int decided = 0;
   for (const std::string& input : inputs()) {
-    if (input != "knot" && input.find("cat.3ds") == std::string::npos) continue;
     CAPTURE(input);
     const std::array scenes{small(input, 96, 72, 1)};
     const Plan plan = make_plan(scenes, {});
+    if (input == "knot") CHECK(plan.least);
+    if (input.find("cat.3ds") != std::string::npos) CHECK(plan.config.dsf_bits == 1);
+    if (!plan.least) {
+      for (const PlanCandidate& other : plan.others) CHECK(other.cost.luts >= plan.cost.luts);
+      continue;
+    }
+    ++decided;
     CHECK(plan.config.dsf_bits > 1);
-    REQUIRE(plan.least);
     CHECK(plan.least->config.dsf_bits == 1);
     CHECK(plan.least->cost.luts < plan.cost.luts);
     CHECK(plan.cost.luts <= 1.01 * plan.least->cost.luts);
     CHECK(plan.cost.clocks < plan.least->cost.clocks);
   }
+  CHECK(decided >= 3);
 }
 
 TEST_CASE("a plan takes no more of an FPGA than the named configurations of the same way that can draw its scenes") {
