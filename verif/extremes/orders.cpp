@@ -339,10 +339,15 @@ Outcome RaysCase::check(const Context& context) const {
   return o;
 }
 
+void LayerRaysCase::fields(Fields& f) {
+  sub_bits_field(f, sub_bits);
+  glass.fields(f);
+}
+
 Outcome LayerRaysCase::check(const Context& context) const {
   const SceneFrame f = glass.frame();
   const Config config = glass_config(false);
-  FrameGeometry g = make_geometry(f, config, kWidth, kHeight);
+  FrameGeometry g = make_geometry(f, config, kWidth, kHeight, {.look = look_of(sub_bits)});
   if (context.planted(Plant::swapped_pair) && g.fragments.size() > 1) std::swap(g.fragments[0], g.fragments[1]);
   const LayerCount count = compare_layers(f, g, config, 2);
   Outcome o;

@@ -107,8 +107,9 @@ struct RaysCase {
 
 /// Family 38: layers at every pixel are those that a ray meets.
 struct LayerRaysCase {
+  int sub_bits = kMostSubBits;
   GlassCase glass;
-  void fields(Fields& f) { glass.fields(f); }
+  void fields(Fields& f);
   [[nodiscard]] Outcome check(const Context& context) const;
 };
 

@@ -13,7 +13,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,14 +118,17 @@ class LayerTruth {
   /// more than what lies within a step of its outline, each face for itself; and depths are those of a place within a
   /// step. Rays at some places meet all faces but those that are thinner than the rays are apart, as one that is seen
   /// nearly edge-on: snapped, it may be a step wide. What of such a face lies within a step has its depths, as its
-  /// plane may have any there.
+  /// plane may have any there. Where a face is steep, its order among others changes between two such rays; those
+  /// through the corners of what lies within a step see it at its nearest and its furthest.
   [[nodiscard]] bool possible(int x, int y, std::uint32_t background, std::uint32_t shown) const {
     constexpr int kSide = 5;
+    std::vector<glm::dvec2> places;
+    for (int i = 0; i < kSide * kSide; ++i) places.emplace_back(place(x, i % kSide), place(y, i / kSide));
     std::vector<std::uint32_t> some;  // faces that some of the rays meet
     std::vector<std::uint32_t> all;
-    for (int i = 0; i < kSide * kSide; ++i) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
       std::vector<std::uint32_t> faces;
-      for (const Hit& h : hits(place(x, i % kSide), place(y, i / kSide))) faces.push_back(h.face);
+      for (const Hit& h : hits(places[i].x, places[i].y)) faces.push_back(h.face);
       for (const std::uint32_t f : faces)
         if (std::find(some.begin(), some.end(), f) == some.end()) some.push_back(f);
       if (i == 0) all = faces;
@@ -131,11 +137,12 @@ class LayerTruth {
     std::vector<std::uint32_t> unsure;
     for (const std::uint32_t f : some)
       if (std::find(all.begin(), all.end(), f) == all.end()) unsure.push_back(f);
-    std::vector<Thin> thin = within_a_step(x, y);
-    std::erase_if(thin, [&](const Thin& t) { return std::find(some.begin(), some.end(), t.face) != some.end(); });
+    std::vector<Near> thin = within_a_step(x, y);
+    for (const Near& n : thin) places.insert(places.end(), n.corners.begin(), n.corners.end());
+    std::erase_if(thin, [&](const Near& n) { return std::find(some.begin(), some.end(), n.face) != some.end(); });
     if (unsure.size() + 2 * thin.size() > 12) return true;
-    for (int i = 0; i < kSide * kSide; ++i) {
-      const std::vector<Hit> everything = hits(place(x, i % kSide), place(y, i / kSide), unsure);
+    for (const glm::dvec2& at : places) {
+      const std::vector<Hit> everything = hits(at.x, at.y, unsure);
       for (std::uint32_t without = 0; without < 1U << unsure.size(); ++without) {
         std::vector<Hit> left = everything;
         for (std::size_t k = 0; k < unsure.size(); ++k)
@@ -144,8 +151,8 @@ class LayerTruth {
         for (std::uint32_t way = 0; way < 1U << 2 * thin.size(); ++way) {
           std::vector<Hit> met = left;
           for (std::size_t k = 0; k < thin.size(); ++k)
-            if (const std::uint32_t at = way >> 2 * k & 3U; at > 0)
-              met.push_back({thin[k].face, thin[k].alpha, std::lerp(thin[k].least, thin[k].most, (at - 1) / 2.0)});
+            if (const std::uint32_t digit = way >> 2 * k & 3U; digit > 0)
+              met.push_back({thin[k].face, thin[k].alpha, std::lerp(thin[k].least, thin[k].most, (digit - 1) / 2.0)});
           std::size_t layers = 0;
           if (color(met, background, layers) == shown) return true;
         }
@@ -155,15 +162,17 @@ class LayerTruth {
   }
 
  private:
-  /// A face within a step of a pixel's centre, and the distances of what of it lies there.
-  struct Thin {
+  /// A face within a step of a pixel's centre, the distances of what of it lies there, and, in pixels, the corners of
+  /// what lies there, a thousandth of the way to its middle, so that a ray there meets the face.
+  struct Near {
     std::uint32_t face;
     std::uint8_t alpha;
     double least;
     double most;
+    std::vector<glm::dvec2> corners;
   };
 
-  [[nodiscard]] std::vector<Thin> within_a_step(int x, int y) const {
+  [[nodiscard]] std::vector<Near> within_a_step(int x, int y) const {
     const Camera& c = f_->camera;
     const double unit = 2 * c.half_height / height_;
     const double step = step_ / 256.0;
@@ -173,7 +182,7 @@ class LayerTruth {
     const double top = (height_ / 2.0 - (y + 0.5 - step)) * unit;
     const double bottom = top - 2 * step * unit;
     const auto scale = [&c](const glm::dvec3& p) { return c.perspective ? p.z : 1; };
-    std::vector<Thin> found;
+    std::vector<Near> found;
     for (const Piece& piece : pieces_) {
       std::vector<glm::dvec3> part;
       for (const glm::dvec3& v : {piece.a, piece.b, piece.c}) {
@@ -192,8 +201,16 @@ class LayerTruth {
         found.back().least = std::min(found.back().least, least->z);
         found.back().most = std::max(found.back().most, most->z);
       } else {
-        found.push_back({piece.face, piece.alpha, least->z, most->z});
+        found.push_back({piece.face, piece.alpha, least->z, most->z, {}});
       }
+      std::vector<glm::dvec2> seen;
+      glm::dvec2 sum(0);
+      for (const glm::dvec3& p : part) {
+        seen.emplace_back(width_ / 2.0 + p.x / scale(p) / unit, height_ / 2.0 - p.y / scale(p) / unit);
+        sum += seen.back();
+      }
+      const glm::dvec2 middle = sum / static_cast<double>(seen.size());
+      for (const glm::dvec2& p : seen) found.back().corners.push_back(glm::mix(p, middle, 0.001));
     }
     return found;
   }
