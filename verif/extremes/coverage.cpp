@@ -47,8 +47,8 @@ void NearPoint::fields(Fields& f) {
 // ---- 1
 
 void TriangulationCase::fields(Fields& f) {
-  f.number("x0", x0, -5000, kWidth * 256);
-  f.number("y0", y0, -5000, kHeight * 256);
+  f.number("x0", x0, -5000, std::int64_t{256} * kWidth);
+  f.number("y0", y0, -5000, std::int64_t{256} * kHeight);
   f.number("width", width, 1, kWidth * 256 + 10'000, 256);
   f.number("height", height, 1, kHeight * 256 + 10'000, 256);
   f.list("point", points, 0, 400);
@@ -178,10 +178,10 @@ Outcome FanCase::check(const Context& context) const {
 void SliverCase::fields(Fields& f) {
   f.flag("upright", upright);
   f.flag("four", four);
-  f.number("near_end", near_end, 0, 256 * 700);
-  f.number("far_end", far_end, 0, 256 * 700);
-  f.number("from", from, 0, (upright ? kWidth : kHeight) * 256);
-  f.number("to", to, 0, (upright ? kWidth : kHeight) * 256);
+  f.number("near_end", near_end, 0, std::int64_t{256} * 700);
+  f.number("far_end", far_end, 0, std::int64_t{256} * 700);
+  f.number("from", from, 0, std::int64_t{256} * (upright ? kWidth : kHeight));
+  f.number("to", to, 0, std::int64_t{256} * (upright ? kWidth : kHeight));
 }
 
 Outcome SliverCase::check(const Context& context) const {
@@ -201,8 +201,8 @@ Outcome SliverCase::check(const Context& context) const {
 void FlatCase::Along::fields(Fields& f) { f.number("at", at, -100, 100); }
 
 void FlatCase::fields(Fields& f) {
-  f.number("x", x, 0, kWidth * 256);
-  f.number("y", y, 0, kHeight * 256);
+  f.number("x", x, 0, std::int64_t{256} * kWidth);
+  f.number("y", y, 0, std::int64_t{256} * kHeight);
   f.number("dx", dx, -256, 256, 1);
   f.number("dy", dy, -256, 256);
   f.list("corner", corners, 3, 8);
@@ -286,8 +286,10 @@ Outcome GuardCase::check(const Context& context) const {
 // ---- 11
 
 void MovedCase::Face::fields(Fields& f) {
-  for (int* x : {&ax, &bx, &cx}) f.number(x == &ax ? "ax" : x == &bx ? "bx" : "cx", *x, 16 * 256, 64 * 256);
-  for (int* y : {&ay, &by, &cy}) f.number(y == &ay ? "ay" : y == &by ? "by" : "cy", *y, 11 * 256, 49 * 256);
+  for (int* x : {&ax, &bx, &cx})
+    f.number(x == &ax ? "ax" : x == &bx ? "bx" : "cx", *x, std::int64_t{256} * 16, std::int64_t{256} * 64);
+  for (int* y : {&ay, &by, &cy})
+    f.number(y == &ay ? "ay" : y == &by ? "by" : "cy", *y, std::int64_t{256} * 11, std::int64_t{256} * 49);
   f.real("z", z, 1e5, 1.6e7);
   f.real("a", a, -1e4, 1e4);
   f.real("b", b, -1e4, 1e4);
@@ -323,10 +325,9 @@ Outcome MovedCase::check(const Context& context) const {
       const int fx = x - dx;
       const int fy = y - dy;
       const bool inside = fx >= 0 && fx < kWidth && fy >= 0 && fy < kHeight;
-      const std::uint32_t expected = inside ? a[static_cast<std::size_t>(fy * kWidth + fx)] : 0U;
-      if (b[static_cast<std::size_t>(y * kWidth + x)] != expected)
-        o.fail(fmt::format("pixel ({}, {}) is {:06x}, not {:06x}", x, y, b[static_cast<std::size_t>(y * kWidth + x)],
-                           expected));
+      const std::uint32_t expected = inside ? a[pixel_index(fx, fy, kWidth)] : 0U;
+      if (b[pixel_index(x, y, kWidth)] != expected)
+        o.fail(fmt::format("pixel ({}, {}) is {:06x}, not {:06x}", x, y, b[pixel_index(x, y, kWidth)], expected));
     }
   o.items = b.size();
   const Judgement j = judge(there.frame(), Config{});

@@ -46,7 +46,7 @@ std::vector<int> owners(const std::vector<Outline>& outlines, int width, int hei
     const Box b = box_of(o, width, height);
     for (int y = b.y0; y < b.y1; ++y)
       for (int x = b.x0; x < b.x1; ++x)
-        if (Oracle::winding(o, x, y) != 0) ++count[static_cast<std::size_t>(y * width + x)];
+        if (Oracle::winding(o, x, y) != 0) ++count[pixel_index(x, y, width)];
   }
   return count;
 }
@@ -62,7 +62,7 @@ Outcome parts_are_whole(const std::vector<Outline>& parts, const Outline& whole,
   const auto of_whole = owners({whole}, width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const auto i = static_cast<std::size_t>(y * width + x);
+      const std::size_t i = pixel_index(x, y, width);
       if (of_whole[i] != of_parts[i])
         o.fail(fmt::format("pixel ({}, {}): the oracle has it in {} parts and in {} wholes", x, y, of_parts[i],
                            of_whole[i]));

@@ -16,6 +16,6 @@ Outcome parts_are_whole(const std::vector<Outline>& parts, const Outline& whole,
 Outcome covers_what_the_oracle_says(const Outline& o, int width, int height, const Context& context = {});
 
 /// Whether a polygon without area has no pixel and changes no word of a frame.
-Outcome draws_nothing(const Outline& flat, int width, int height, const Context& context = {});
+Outcome draws_nothing(const Outline& given, int width, int height, const Context& context = {});
 
 }  // namespace kage::verif

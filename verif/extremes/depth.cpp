@@ -17,6 +17,7 @@ namespace kage::verif {
 namespace {
 
 constexpr int kWidth = 96;
+constexpr int kMiddle = kWidth / 2;
 constexpr int kHeight = 40;
 
 /// What a plane says at a pixel, in 2^-24, in 128 bits: the definition, without anything of the front end.
@@ -39,7 +40,7 @@ std::vector<std::uint8_t> line_of(const Config& config, const std::vector<std::u
 
 // ---- 15
 
-void RampCase::fields(Fields& f, int least) {
+void Ramp::set_fields(Fields& f, int least) {
   f.number("z_bits", z_bits, 4, 28, 24);
   f.number("frac", frac, 0, 16);
   f.number("count", count, least, 2000);
@@ -51,7 +52,7 @@ void RampCase::fields(Fields& f, int least) {
   f.number("c_low", c_low, -(1 << 24), 1 << 24);
 }
 
-Outcome RampCase::check(const Context& context, int first) const {
+Outcome Ramp::errors(const Context& context, int first) const {
   const int bits = z_bits + frac + 2;
   const double top = std::ldexp(1.0, z_bits) - 2;
   const double begin = 1 + from * (top - 1);
@@ -89,13 +90,13 @@ Outcome PastEndCase::check(const Context& context) const {
   config.z_frac = frac;
   FrameBuilder b(kWidth, kHeight);
   b.add(rectangle(0, 0, kWidth, kHeight), plane(at), {1, 1, 1});
-  b.add(rectangle(0, 0, kWidth, kHeight), plane(at, slope, 0, kWidth / 2, 0), {2, 2, 2});
+  b.add(rectangle(0, 0, kWidth, kHeight), plane(at, slope, 0, kMiddle, 0), {2, 2, 2});
   auto p = draw(b.frame(), config);
   context.spoil(p);
   Outcome o;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const int x = static_cast<int>(i) % kWidth;
-    const double gap = (x - kWidth / 2) * slope;
+    const double gap = (x - kMiddle) * slope;
     if (std::abs(gap) < 2 + (x + 1) * std::ldexp(1.0, -frac)) continue;  // the order is open
     const std::uint32_t expected = gap < 0 ? 0x020202U : 0x010101U;
     if (p[i] != expected) o.fail(fmt::format("pixel ({}, {}) shows {:06x}, not {:06x}", x, i / kWidth, p[i], expected));
@@ -158,7 +159,7 @@ Outcome CoplanarCase::check(const Context& context) const {
   Outcome o;
   for (int y = 5; y < 30; ++y)
     for (int x = 10; x < 80; ++x)
-      if ((picture[static_cast<std::size_t>(y * kWidth + x)] & 255U) != static_cast<unsigned>(faces[0].color))
+      if ((picture[pixel_index(x, y, kWidth)] & 255U) != static_cast<unsigned>(faces[0].color))
         o.fail(fmt::format("pixel ({}, {}) does not show the first polygon", x, y));
   o.pixels = std::uint64_t{25} * 70;
   return o;
@@ -204,7 +205,7 @@ Outcome ClosePlanesCase::check(const Context& context) const {
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x) {
       // The nearest of those that cover the pixel, against the one that is shown.
-      const auto seen = static_cast<std::size_t>(p[static_cast<std::size_t>(y * kWidth + x)] & 255U);
+      const auto seen = static_cast<std::size_t>(p[pixel_index(x, y, kWidth)] & 255U);
       // A pixel stores no depth but those of 1 .. 2^Z_BITS - 2.
       const auto held = [&](std::size_t i) {
         const Int128 unit = Int128{1} << kPlaneFrac;
@@ -260,9 +261,9 @@ Outcome ColourCase::check(const Context& context) const {
   Outcome o;
   int before = 0;
   for (int x = 0; x < width; ++x) {
-    const int got = line[static_cast<std::size_t>(x * config.channels)];
+    const int got = line[pixel_index(0, x, config.channels)];
     for (int c = 1; c < config.channels; ++c)
-      if (line[static_cast<std::size_t>(x * config.channels + c)] != got) o.fail("channels of one plane differ");
+      if (line[pixel_index(c, x, config.channels)] != got) o.fail("channels of one plane differ");
     if (x > 0 && (to >= from ? got < before : got > before)) o.fail(fmt::format("it turns round at pixel {}", x));
     if (x == 0 && from == std::round(from) && got != static_cast<int>(from)) o.fail("a whole colour is not its own");
     before = got;
@@ -275,9 +276,9 @@ Outcome ColourCase::check(const Context& context) const {
 
 // ---- 20
 
-void LayersCase::Layer::fields(Fields& f) { f.number("color", color, 0, 255); }
+void Layers::Layer::fields(Fields& f) { f.number("color", color, 0, 255); }
 
-void LayersCase::fields(Fields& f, int least) {
+void Layers::set_fields(Fields& f, int least) {
   f.number("alpha", alpha, 0, least > 0 ? 8 : 255);
   f.number("under", under, 0, 255);
   f.number("first_count", first_count, least, 900);
@@ -285,7 +286,7 @@ void LayersCase::fields(Fields& f, int least) {
   f.list("layer", layers, 1, 100);
 }
 
-Outcome LayersCase::check(const Context& context) const {
+Outcome Layers::check(const Context& context) const {
   Config config;
   config.translucency = 1;
   std::vector<std::uint32_t> words;

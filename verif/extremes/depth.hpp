@@ -7,27 +7,32 @@
 
 namespace kage::verif {
 
-/// Family 15: a depth plane along a span, as steep as can be.
-struct RampCase {
+/// A depth plane along a span, as steep as can be.
+struct Ramp {
   int z_bits = 24, frac = 11;
   int count = 1;             ///< pixels
   int x = 0;                 ///< of the first
   int anchor = 0;            ///< how far left of it the plane's anchor is
   double from = 1, to = 1;   ///< depth at the ends, as a share of all of it
   int a_low = 0, c_low = 0;  ///< added to slope and start, in 2^-24
-  void fields(Fields& f) { fields(f, 1); }
-  void fields(Fields& f, int least);
-  [[nodiscard]] Outcome check(const Context& context) const { return check(context, 0); }
 
  protected:
+  /// With `least` pixels at least.
+  void set_fields(Fields& f, int least);
   /// Errors are measured from pixel `first` on.
-  [[nodiscard]] Outcome check(const Context& context, int first) const;
+  [[nodiscard]] Outcome errors(const Context& context, int first) const;
+};
+
+/// Family 15: errors along a span.
+struct RampCase : Ramp {
+  void fields(Fields& f) { set_fields(f, 1); }
+  [[nodiscard]] Outcome check(const Context& context) const { return errors(context, 0); }
 };
 
 /// Family 15: errors at the end of long spans, where the slope's rounding adds up.
-struct LongRampCase : RampCase {
-  void fields(Fields& f) { RampCase::fields(f, 600); }
-  [[nodiscard]] Outcome check(const Context& context) const { return RampCase::check(context, 500); }
+struct LongRampCase : Ramp {
+  void fields(Fields& f) { set_fields(f, 600); }
+  [[nodiscard]] Outcome check(const Context& context) const { return errors(context, 500); }
 };
 
 /// Family 15: a plane that leaves depth's range within the picture is clamped there.
@@ -87,8 +92,8 @@ struct ColourCase {
   [[nodiscard]] Outcome check(const Context& context) const;
 };
 
-/// Family 20: translucent layers over a colour.
-struct LayersCase {
+/// Translucent layers over a colour.
+struct Layers {
   struct Layer {
     int color = 0;
     void fields(Fields& f);
@@ -97,14 +102,21 @@ struct LayersCase {
   int under = 0;
   int first = 0, first_count = 0;  ///< so many layers of one colour go ahead
   std::vector<Layer> layers;
-  void fields(Fields& f) { fields(f, 0); }
-  void fields(Fields& f, int least);
   [[nodiscard]] Outcome check(const Context& context) const;
+
+ protected:
+  /// With `least` layers at least.
+  void set_fields(Fields& f, int least);
+};
+
+/// Family 20: a few layers.
+struct LayersCase : Layers {
+  void fields(Fields& f) { set_fields(f, 0); }
 };
 
 /// Family 20: hundreds of layers.
-struct DeepLayersCase : LayersCase {
-  void fields(Fields& f) { LayersCase::fields(f, 300); }
+struct DeepLayersCase : Layers {
+  void fields(Fields& f) { set_fields(f, 300); }
 };
 
 void add_depth_families(Families& to);

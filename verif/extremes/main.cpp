@@ -124,7 +124,8 @@ Arguments arguments(int argc, char** argv) {
       for (const std::string& p : plant_names()) plants += (plants.empty() ? "" : ", ") + p;
       fmt::print("{}\n                    {}\n{}", kHelp, plants, kEnd);
       std::exit(0);
-    } else if (option == "--seed") {
+    }
+    if (option == "--seed") {
       a.campaign.seed = parsed<std::uint64_t>("--seed", value(), 0, UINT64_MAX);
     } else if (option == "--minutes") {
       a.campaign.seconds = 60 * parsed<double>("--minutes", value(), 0.001, 100'000);

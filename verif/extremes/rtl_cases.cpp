@@ -133,7 +133,7 @@ Outcome RtlSamplesCase::check(const Context& context) const {
   Outcome o;
   o.fail(light_line_wrong(model, static_cast<std::uint64_t>(stalls), kWidth, fit.all(), fit.shares(model.config),
                           context));
-  o.pixels = 2 * kWidth;
+  o.pixels = std::uint64_t{2} * kWidth;
   return o;
 }
 

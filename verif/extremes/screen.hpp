@@ -15,6 +15,11 @@ namespace kage::verif {
 
 using Outline = std::vector<ScreenVertex>;
 
+/// Where a pixel is among those of a picture, line by line.
+constexpr std::size_t pixel_index(int x, int y, int width) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 /// How often each pixel of a width x height screen is hit.
 class Hits {
  public:
@@ -24,14 +29,11 @@ class Hits {
   /// `wider` pixels are added at the right end of each run of three pixels or more, for tests that must see it.
   void add(const Outline& o, int wider = 0) {
     scanner_.scan(o, 0, height_, width_, [&](int y, int xl, int xr, int) {
-      for (int x = xl; x < (xr - xl >= 3 ? std::min(width_, xr + wider) : xr); ++x)
-        ++count_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+      for (int x = xl; x < (xr - xl >= 3 ? std::min(width_, xr + wider) : xr); ++x) ++count_[pixel_index(x, y, width_)];
     });
   }
 
-  [[nodiscard]] int at(int x, int y) const {
-    return count_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-  }
+  [[nodiscard]] int at(int x, int y) const { return count_[pixel_index(x, y, width_)]; }
   [[nodiscard]] const std::vector<int>& all() const { return count_; }
   [[nodiscard]] std::size_t unlike(int expected) const {
     std::size_t n = 0;

@@ -44,7 +44,7 @@ bool near_edge(const ScreenVertex& a, const ScreenVertex& b, std::int64_t px, st
   }
   const Int128 area = static_cast<Int128>(ex) * dy - static_cast<Int128>(ey) * dx;
   // The distance is area / sqrt(length2). |area| < 2^50, length2 < 2^50 and step2 <= 2^8, so nothing wraps.
-  return 2 * area * area <= length2 * step2;
+  return 2 * area * area <= Int128{length2} * step2;
 }
 
 bool near_outline(std::span<const ScreenVertex> outline, int x, int y, std::int64_t step) {

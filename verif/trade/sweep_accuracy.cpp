@@ -124,10 +124,10 @@ void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const Drawn
 
 }  // namespace
 
-Image image_of(const DrawnFrame& f) {
-  Image image(f.width, f.height, 3);
-  for (std::size_t i = 0; i < f.color.size(); ++i)
-    std::copy(f.color[i].begin(), f.color[i].end(), image.data.begin() + static_cast<std::ptrdiff_t>(3 * i));
+Image image_of(const DrawnFrame& drawn) {
+  Image image(drawn.width, drawn.height, 3);
+  for (std::size_t i = 0; i < drawn.color.size(); ++i)
+    std::copy(drawn.color[i].begin(), drawn.color[i].end(), image.data.begin() + static_cast<std::ptrdiff_t>(3 * i));
   return image;
 }
 

@@ -117,11 +117,11 @@ struct SweepStore::Data {
       fail(file, db);
     sqlite3_busy_timeout(db, kBusyMilliseconds);
   }
-  std::int64_t number(std::string_view sql) {
+  [[nodiscard]] std::int64_t number(std::string_view sql) const {
     Statement s(db, file, sql);
     return s.step() ? s.number(0) : 0;
   }
-  void execute(const char* sql) {
+  void execute(const char* sql) const {
     if (sqlite3_exec(db, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(file, db);
   }
   /// All in one transaction.

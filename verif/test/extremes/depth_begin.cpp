@@ -20,7 +20,7 @@ SceneFrame town() {
   add_solid(f, box_solid(), {0, -2.2, 0}, {5, 0.2, 5}, Turn{}, {1, 1, 1});
   for (int i = 0; i < 12; ++i) {
     const double x = -3.3 + 2.2 * (i % 4);
-    const double z = -2.2 + 2.2 * (i / 4);
+    const double z = -2.2 + 2.2 * std::floor(i / 4.0);
     add_solid(f, box_solid(), {x, -1.5, z}, {0.4, 0.5 + 0.1 * i, 0.5}, Turn{}, {1, 1, 1});
     add_solid(f, octahedron_solid(), {x + 0.3, -1 + 0.1 * i, z + 0.2}, {0.6, 0.6, 0.6}, Turn{}, {1, 1, 1});
   }
@@ -141,7 +141,6 @@ TEST_CASE("family 18: panes a few steps apart keep their order, however near the
       set(f, lens);
       Config config;
       config.dsf_bits = 0;
-      Config parity;
       const FrameGeometry g = geometry(f, config);
       const RayPictures p = ray_pictures(g, config);
       const RayScene rays(f);

@@ -117,8 +117,7 @@ TEST_CASE("family 2, each SUB_BITS: every vertex order and winding gives the sam
       if (area2(o[0], o[1], o[2]) == 0) continue;
       std::vector<int> first(static_cast<std::size_t>(kWidth) * kHeight);
       for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
-          first[static_cast<std::size_t>(y * kWidth + x)] = Oracle::winding(o, x, y) != 0 ? 1 : 0;
+        for (int x = 0; x < kWidth; ++x) first[pixel_index(x, y, kWidth)] = Oracle::winding(o, x, y) != 0 ? 1 : 0;
       for (int turn = 0; turn < 6; ++turn) {
         std::rotate(o.begin(), o.begin() + 1, o.end());
         if (turn == 2) std::reverse(o.begin(), o.end());

@@ -76,8 +76,8 @@ void random_ratios() {
   constexpr int kDepth = parameter<Model>("DEPTH");
   each_seed(60, [](Dice& dice) {
     // From 1 : 30 to 30 : 1, among them equal periods, where edges fall together or always at the same distance.
-    const long in_period = dice.percent(20) ? 10000 : 2 * dice.between(500, 15000);
-    const long out_period = dice.percent(20) ? in_period : 2 * dice.between(500, 15000);
+    const long in_period = dice.percent(20) ? 10000 : 2L * dice.between(500, 15000);
+    const long out_period = dice.percent(20) ? in_period : 2L * dice.between(500, 15000);
     TwoClocks<Model> top(dice, in_period, out_period);
     Offer offer(stall_percent(dice));
     const int out_stall = stall_percent(dice);

@@ -455,8 +455,8 @@ TEST_CASE("stream_player reads frames longer than a run of 2^15 words", "[stream
     for (auto& word : frames.back()) word = static_cast<std::uint32_t>(dice.bits(32));
   }
   const Words list = words_of(frames, dice, true);
-  const std::size_t address = stage.kPlaces - 100;  // the memory's end lies within the list
-  for (std::size_t i = 0; i < list.size(); ++i) stage.memory[(address + i) % stage.kPlaces] = list[i];
+  const std::size_t address = stage.memory.size() - 100;  // the memory's end lies within the list
+  for (std::size_t i = 0; i < list.size(); ++i) stage.memory[(address + i) % stage.memory.size()] = list[i];
   stage.top->direct_i = 0;
   stage.top->loop_i = 0;
   stage.top->paced_i = 0;

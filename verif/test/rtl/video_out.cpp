@@ -59,7 +59,9 @@ struct Frame {
   std::vector<std::pair<int, long>> holds;  // word, and the clock before which it does not come
   int stall = 0;
 
-  std::uint32_t at(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
+  std::uint32_t at(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
   std::uint32_t expected(int x, int y) const { return x < width && y < height ? at(x, y) : kBorder; }
 };
 
@@ -360,8 +362,8 @@ void random_test(int rounds) {
       if (!smooth) {
         frame.stall = stall_percent(dice);
         if (dice.percent(30))
-          frame.holds.push_back(
-              {dice.below(frame.width * frame.height), beam(i + 1, dice.between(-4, kHigh + 1), dice.below(kWide))});
+          frame.holds.emplace_back(dice.below(frame.width * frame.height),
+                                   beam(i + 1, dice.between(-4, kHigh + 1), dice.below(kWide)));
         if (dice.percent(10)) frame.sent = dice.between(1, frame.height);
       }
       board.frames.push_back(frame);

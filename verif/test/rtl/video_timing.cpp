@@ -11,7 +11,6 @@
 using namespace kage::rtl;
 using kage::board::Screen;
 using kage::board::VideoMode;
-using kage::board::VideoPixel;
 
 namespace {
 

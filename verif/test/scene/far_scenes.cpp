@@ -54,7 +54,8 @@ std::string file(const Made& m) {
   };
   add_box(place(0, -2.25, 0), 5, 0.25, 5, 0);
   for (int i = 0; i < 12; ++i)
-    add_box(place(-3.25 + 2.25 * (i % 4), -1.5 + 0.125 * i, -2.25 + 2.25 * (i / 4)), 0.375, 0.5 + 0.125 * i, 0.5, i);
+    add_box(place(-3.25 + 2.25 * (i % 4), -1.5 + 0.125 * i, -2.25 + 2.25 * std::floor(i / 4.0)), 0.375, 0.5 + 0.125 * i,
+            0.5, i);
   const double down = -0.2;
   const double aside = 0.16;
   nodes.push_back({{"camera", 0},

@@ -532,7 +532,7 @@ TEST_CASE("a screen's counts are told, and a run has frames of one height") {
       fixture().pack.frames.begin(), fixture().pack.frames.end(), [](const auto& f) { return f.pixels() > 0; }));
   CHECK(v.screen.shown == shown);
   CHECK(v.screen.underrun_frames == shown);
-  CHECK(v.screen.underrun_lines == 2 * shown);
+  CHECK(v.screen.underrun_lines == std::uint64_t{2} * shown);
   CHECK(v.link_good > 50);
   CHECK(v.link_good < 5000);
   CHECK(v.link_bad == 0);

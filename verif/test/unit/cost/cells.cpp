@@ -50,7 +50,7 @@ TEST_CASE("RAM and bits of a pixel, counted by hand") {
   c.max_width = 641;  // 161 groups of 4
   CHECK(estimated_cells(c).ram_bits == 644 * 51 + 2 * 644 * 26);
   c.arrangement = 0;  // pixels keep themselves
-  CHECK(estimated_cells(c).ram_bits == 2 * 641 * 26);
+  CHECK(estimated_cells(c).ram_bits == std::uint64_t{2} * 641 * 26);
   c = {};
   c.count_bits = 4;
   c.lights = 2;

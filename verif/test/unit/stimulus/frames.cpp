@@ -265,7 +265,7 @@ TEST_CASE("random frames reach all that a configuration has") {
     Coverage coverage(c);
     const RandomFrames frames(c, Manner::mixed, test_seed());
     const auto all_reached = [&] {
-      const auto points = coverage.points();
+      const auto& points = coverage.points();
       return std::all_of(points.begin(), points.end(), [](const CoveragePoint& p) { return p.frames > 0; });
     };
     int drawn = 0;

@@ -2,11 +2,11 @@
 // The store of a sweep: what is kept stays, whenever its program is killed; what is no store is refused and left alone.
 #include "trade/sweep_store.hpp"
 
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <fstream>
 #include <string>
 
