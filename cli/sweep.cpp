@@ -179,15 +179,15 @@ int run(const SweepCommand& o) {
   if (tools.placer) announce_places(*tools.placer, scenes, entries);
   trade::SweepStore store(o.store);
   for (const std::string& other : o.take) store.absorb(other);
-  Told told(entries.size());
+  Told told;
   telling = &told;
+  Sweep sweep(o, tools, scenes, store, told);
   try {
-    Sweep sweep(o, tools, scenes, store, told);
     sweep.announce_old(entries);
     sweep.run(entries);
   } catch (const Interrupted&) {
-    say(fmt::format("kage: {} kept in {}: --resume goes on from there\n", counted(told.made(), "run is", "runs are"),
-                    o.store));
+    say(fmt::format("kage: {} kept in {}: --resume goes on from there\n",
+                    counted(sweep.measured(), "run is", "runs are"), o.store));
     throw;
   }
   std::vector<Json> rows;
@@ -198,7 +198,7 @@ int run(const SweepCommand& o) {
   if (!file_named(o.csv).empty()) write_text(files, o.csv, sweep_csv(rows));
   if (!o.out.empty()) write_page(o, scenes, entries, rows, files);
   finish(o, {kRows, Json(rows)}, files,
-         csv_only(o) ? sweep_csv(rows) : sweep_table(rows) + closing(o, told.made(), rows.size(), page));
+         csv_only(o) ? sweep_csv(rows) : sweep_table(rows) + closing(o, sweep.measured(), rows.size(), page));
   return kSame;
 }
 

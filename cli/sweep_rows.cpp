@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
 #include <map>
 
@@ -48,6 +47,14 @@ Json row_of(const SweptScene& s, std::size_t point, const Json& measured) {
 
 }  // namespace
 
+void Told::begin(std::size_t steps, const std::string& one, const std::string& more) {
+  const std::lock_guard lock(mutex_);
+  steps_name_ = counted(steps, one, more);
+  steps_ = steps;
+  done_ = made_ = 0;
+  start_ = std::chrono::steady_clock::now();
+}
+
 void Told::doing(const std::string& what) {
   const std::lock_guard lock(mutex_);
   what_ = what;
@@ -70,11 +77,10 @@ void Told::show() {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::string left;
   if (made_ > 0) {
-    const double rest = seconds / static_cast<double>(made_) * static_cast<double>(runs_ - done_);
+    const double rest = seconds / static_cast<double>(made_) * static_cast<double>(steps_ - done_);
     left = rest < 90 ? fmt::format(", {:.0f} s left", rest) : fmt::format(", {:.0f} min left", rest / 60);
   }
-  progress_.show(
-      fmt::format("sweep: {} of {}{}{}{}", done_, counted(runs_, "run"), left, what_.empty() ? "" : "; ", what_));
+  progress_.show(fmt::format("sweep: {} of {}{}{}{}", done_, steps_name_, left, what_.empty() ? "" : "; ", what_));
 }
 
 Sweep::Sweep(const SweepCommand& o, const Tools& tools, std::vector<SweptScene>& scenes, trade::SweepStore& store,
@@ -104,6 +110,20 @@ void Sweep::announce_old(const std::vector<Entry>& entries) {
 }
 
 void Sweep::run(std::vector<Entry>& entries) {
+  // Cores take minutes of all processors, and a run that measures time wants the machine for itself: so the cores are
+  // made first, or each run would wait for the core of another.
+  const bool cores = std::any_of(entries.begin(), entries.end(),
+                                 [&](const Entry& e) { return scenes_[e.scene].runner->needs_core(e.point); });
+  if (cores) {
+    told_.begin(entries.size(), "run's core", "runs' cores");
+    each(entries, [this](Entry& e) { prepare(e); });
+  }
+  told_.begin(entries.size(), "run", "runs");
+  each(entries, [this](Entry& e) { make(e); });
+  told_.clear();
+}
+
+void Sweep::each(std::vector<Entry>& entries, const std::function<void(Entry&)>& work) const {
   std::atomic<std::size_t> next{0};
   std::exception_ptr error;
   std::mutex error_mutex;
@@ -111,7 +131,7 @@ void Sweep::run(std::vector<Entry>& entries) {
     const Workers workers(std::min(jobs_of(o_), static_cast<int>(entries.size())), [&] {
       for (std::size_t i = next++; i < entries.size(); i = next++) {
         try {
-          make(entries[i]);
+          work(entries[i]);
         } catch (...) {
           const std::lock_guard lock(error_mutex);
           if (!error) error = std::current_exception();
@@ -120,10 +140,11 @@ void Sweep::run(std::vector<Entry>& entries) {
       }
     });
     if (workers.count() == 0)
-      for (std::size_t i = next++; i < entries.size(); i = next++) make(entries[i]);
+      for (std::size_t i = next++; i < entries.size(); i = next++) work(entries[i]);
   }
+  if (!error) return;
   told_.clear();
-  if (error) std::rethrow_exception(error);
+  std::rethrow_exception(error);
 }
 
 std::string Sweep::clocks_key(const SweptScene& s, std::size_t point) const {
@@ -142,20 +163,44 @@ trade::MadeOf Sweep::made_of(const SweptScene& s, std::size_t point) const {
   return {.build = build_, .scene = s.scene->identity(), .tools = s.runner->tools_text(point)};
 }
 
-void Sweep::make(Entry& e) {
+Sweep::Place Sweep::place_of(const Entry& e) {
   check_interrupt();
   SweptScene& s = scenes_[e.scene];
-  const trade::PointWords words = s.runner->words(e.point);
-  const std::string key = row_key(s, e.point, words);
-  if (const auto kept = store_.run(key)) {
-    e.row = row_of(s, e.point, Json::parse(*kept));
+  Place place;
+  place.words = s.runner->words(e.point);
+  place.key = row_key(s, e.point, place.words);
+  place.kept = store_.run(place.key);
+  const std::size_t stands = s.runner->representative(e.point);
+  if (!place.kept)
+    if (const auto clocks = store_.clocks(clocks_key(s, stands))) s.runner->know_clocks(stands, *clocks);
+  return place;
+}
+
+bool Sweep::take_kept(Entry& e, const Place& place) const {
+  if (place.kept) e.row = row_of(scenes_[e.scene], e.point, Json::parse(*place.kept));
+  return place.kept.has_value();
+}
+
+void Sweep::prepare(Entry& e) {
+  const bool kept = take_kept(e, place_of(e));
+  if (!kept) scenes_[e.scene].runner->prepare(e.point);
+  told_.done(!kept);
+}
+
+void Sweep::make(Entry& e) {
+  if (!e.row.is_null()) {  // prepare() found it in the store
     told_.done(false);
     return;
   }
-  const std::size_t stands = s.runner->representative(e.point);
-  if (const auto clocks = store_.clocks(clocks_key(s, stands))) s.runner->know_clocks(stands, *clocks);
-  const Json measured = s.runner->run(e.point, words);
-  store_.keep_run(key, s.scene->name(), trade::text_of(s.points[e.point]), made_of(s, e.point), measured.dump());
+  SweptScene& s = scenes_[e.scene];
+  const Place place = place_of(e);
+  if (take_kept(e, place)) {
+    told_.done(false);
+    return;
+  }
+  const Json measured = s.runner->run(e.point, place.words);
+  store_.keep_run(place.key, s.scene->name(), trade::text_of(s.points[e.point]), made_of(s, e.point), measured.dump());
+  ++measured_;
   e.row = row_of(s, e.point, measured);
   told_.done(true);
 }

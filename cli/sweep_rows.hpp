@@ -3,9 +3,12 @@
 // The rows of a sweep: made, several at a time, or taken from the store.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,23 +29,23 @@ struct Entry {
   Json row;
 };
 
-/// How far it has come, told by several threads.
+/// How far it has come, told by several threads: first the cores of the runs are made, then the runs.
 class Told {
  public:
-  explicit Told(std::size_t runs) : runs_(runs) {}
-
+  /// A stage of so many steps begins, "run" and "runs".
+  void begin(std::size_t steps, const std::string& one, const std::string& more);
   void doing(const std::string& what);
-  /// A run has ended; `made`: it was not taken from the store.
+  /// A step has ended; `made`: it took work, and was not taken from the store.
   void done(bool made);
   void clear();
-  [[nodiscard]] std::size_t made() const { return made_; }
 
  private:
   void show();
 
   std::mutex mutex_;
   Progress progress_;
-  std::size_t runs_;
+  std::string steps_name_;
+  std::size_t steps_ = 0;
   std::size_t done_ = 0;
   std::size_t made_ = 0;
   std::string what_;
@@ -59,6 +62,8 @@ class Sweep {
   void announce_old(const std::vector<Entry>& entries);
   /// Gives each entry its row.
   void run(std::vector<Entry>& entries);
+  /// Rows that were measured, and not taken from the store.
+  [[nodiscard]] std::size_t measured() const { return measured_; }
 
  private:
   /// All that decides the clocks of a point, but for the model, which is of the same build.
@@ -66,12 +71,26 @@ class Sweep {
   [[nodiscard]] std::string row_key(const SweptScene& s, std::size_t point, const trade::PointWords& words) const;
   /// What a row is made of, as a person tells one from another.
   [[nodiscard]] trade::MadeOf made_of(const SweptScene& s, std::size_t point) const;
+  /// What the store has of an entry's row; its key, and its words where they are wanted.
+  struct Place {
+    trade::PointWords words;
+    std::string key;
+    std::optional<std::string> kept;
+  };
+  Place place_of(const Entry& e);
+  /// Gives an entry the row that the store has, if it has one.
+  bool take_kept(Entry& e, const Place& place) const;
+  /// Has the core of an entry's row made, unless the store has the row.
+  void prepare(Entry& e);
   void make(Entry& e);
+  /// Calls `work` for each entry, several at a time. The first error ends it and is thrown.
+  void each(std::vector<Entry>& entries, const std::function<void(Entry&)>& work) const;
 
   const SweepCommand& o_;
   std::vector<SweptScene>& scenes_;
   trade::SweepStore& store_;
   Told& told_;
+  std::atomic<std::size_t> measured_{0};
   std::string build_;
   std::string model_tools_;
 };

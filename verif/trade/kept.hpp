@@ -27,6 +27,19 @@ class Kept {
     return place->value;
   }
 
+  /// Whether a value is made already.
+  [[nodiscard]] bool has(const std::string& key) {
+    std::shared_ptr<Place> place;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto it = places_.find(key);
+      if (it == places_.end()) return false;
+      place = it->second;
+    }
+    const std::lock_guard lock(place->mutex);
+    return place->value != nullptr;
+  }
+
   /// Drops the values whose keys begin with a text. Whoever has one keeps it.
   void forget(const std::string& begin) {
     const std::lock_guard lock(mutex_);

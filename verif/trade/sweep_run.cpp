@@ -146,17 +146,42 @@ void SweepRunner::know_clocks(std::size_t point, const ClockSample& sample) {
   clocks_.get(std::to_string(point), [&] { return sample; });
 }
 
-ClockSample SweepRunner::simulate(const SweepPoint& point, const PointWords& words) {
-  cosim::Model model;
-  {
-    const std::lock_guard lock(build_mutex_);
-    const std::shared_lock busy(alone_);
-    model = cosim::find_model(
-        point.config, {.progress = [&](double seconds) {
-          how_.wait();
-          how_.doing(fmt::format("building the RTL model of {} {}: {:.0f} s", point.axis, point.value, seconds));
-        }});
+bool SweepRunner::needs_core(std::size_t index) const {
+  return is_built(points_[index].config) && (how_.cosim || how_.area || how_.placer != nullptr);
+}
+
+void SweepRunner::prepare(std::size_t index) {
+  const SweepPoint& point = points_[index];
+  if (!needs_core(index)) return;
+  if (how_.cosim) {
+    const std::size_t stands = stands_for_[index];
+    if (!clocks_.has(std::to_string(stands))) model_of(points_[stands]);
+    if (checked_[index] && stands != index) model_of(point);
   }
+  if (how_.area) cells_of(point);
+  placement(point);
+}
+
+cosim::Model SweepRunner::model_of(const SweepPoint& point) {
+  const std::lock_guard lock(build_mutex_);
+  const std::shared_lock busy(alone_);
+  return cosim::find_model(
+      point.config, {.progress = [&](double seconds) {
+        how_.wait();
+        how_.doing(fmt::format("building the RTL model of {} {}: {:.0f} s", point.axis, point.value, seconds));
+      }});
+}
+
+CellCount SweepRunner::cells_of(const SweepPoint& point) {
+  return *counts_.get(to_yaml(point.config), [&] {
+    const std::shared_lock busy(alone_);
+    how_.doing(fmt::format("yosys counts the cells of {} {}", point.axis, point.value));
+    return synthesize(point.config, how_.wait).cells;
+  });
+}
+
+ClockSample SweepRunner::simulate(const SweepPoint& point, const PointWords& words) {
+  const cosim::Model model = model_of(point);
   const std::unique_lock alone(alone_);
   const auto golden = cosim::make_golden(point.config);
   const auto rtl = cosim::make_rtl(model.library, point.config);
@@ -254,15 +279,11 @@ Json SweepRunner::area(const SweepPoint& point) {
   const Cells cells = estimated_cells(point.config);
   Json j;
   if (how_.area && is_built(point.config)) {
-    const std::shared_ptr<const CellCount> counted = counts_.get(to_yaml(point.config), [&] {
-      const std::shared_lock busy(alone_);
-      how_.doing(fmt::format("yosys counts the cells of {} {}", point.axis, point.value));
-      return synthesize(point.config, how_.wait).cells;
-    });
-    j = {{"luts", counted->luts},
-         {"ffs", counted->flip_flops},
-         {"brams", counted->rams},
-         {"dsps", counted->dsps},
+    const CellCount counted = cells_of(point);
+    j = {{"luts", counted.luts},
+         {"ffs", counted.flip_flops},
+         {"brams", counted.rams},
+         {"dsps", counted.dsps},
          {"counted", true}};
   } else {
     j = {{"luts", cells.luts}, {"ffs", cells.flip_flops}, {"brams", nullptr}, {"dsps", nullptr}, {"counted", false}};

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "cosim/model/model.hpp"
 #include "trade/kept.hpp"
 #include "trade/placement.hpp"
 #include "trade/sweep_plan.hpp"
@@ -65,6 +66,12 @@ class SweepRunner {
   /// The words of a point; the thread is not one that is alone.
   PointWords words(std::size_t index);
 
+  /// Whether a point's figures need something of its core that prepare() makes.
+  [[nodiscard]] bool needs_core(std::size_t index) const;
+  /// Has all that run() needs of a point's core made and kept: its RTL model, its cells, its placement. For several
+  /// threads at once: where every core is made before the first run(), no thread that measures time waits for one.
+  void prepare(std::size_t index);
+
   /// A point's figures by their names in docs/schema/sweep.json: accuracy, speed and area. For several threads at once;
   /// where time is measured, the thread waits until it is alone.
   nlohmann::ordered_json run(std::size_t index, const PointWords& words);
@@ -85,6 +92,8 @@ class SweepRunner {
   nlohmann::ordered_json accuracy(const SweepPoint& point, const PointWords& words);
   nlohmann::ordered_json speed(std::size_t index, const PointWords& words);
   nlohmann::ordered_json area(const SweepPoint& point);
+  cosim::Model model_of(const SweepPoint& point);
+  CellCount cells_of(const SweepPoint& point);
   Placement placement(const SweepPoint& point);
   ClockSample clocks_of(std::size_t index, const PointWords* given);
   ClockSample simulate(const SweepPoint& point, const PointWords& words);
