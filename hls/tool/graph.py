@@ -115,7 +115,7 @@ class Graph:
             case "mul":
                 low = min(n.width, low_run(a[0].zeros, a[0].width) + low_run(a[1].zeros, a[1].width))
                 n.zeros = mask(low)
-        n.signs = max(n.signs, top_run(n.zeros, n.width), top_run(n.ones, n.width))
+        n.signs = min(n.width, max(n.signs, top_run(n.zeros, n.width), top_run(n.ones, n.width)))
 
     def const(self, width: int, value: int) -> Node:
         return self._make("const", width, (), value & mask(width))

@@ -65,7 +65,7 @@ _GEP = re.compile(r"getelementptr (?:inbounds )?.*?\* (%[\w.]+)((?:, i\d+ \d+)+)
 _BITCAST = re.compile(r"bitcast .*?\* (%[\w.]+) to i(\d+)\*$")
 _LOAD = re.compile(r"load i(\d+), i\d+\* (%[\w.]+)")
 _STORE = re.compile(rf"store i(\d+) ({_VALUE}), i\d+\* (%[\w.]+)")
-_CALL = re.compile(r"(?:tail )?call (?:noundef )?(?:i(\d+)|void) @([\w.]+)\((.*)\)")
+_CALL = re.compile(r"(?:tail )?call (?:[a-z]+ )*(?:i(\d+)|void) @([\w.]+)\((.*)\)")
 _FREEZE = re.compile(rf"freeze i(\d+) ({_VALUE})$")
 _BR = re.compile(r"br label %([\w.]+)$")
 _BR_IF = re.compile(rf"br i1 ({_VALUE}), label %([\w.]+), label %([\w.]+)$")
@@ -208,8 +208,11 @@ class Reader:
 
     # ---- values ----
 
-    def _get(self, text: str, width: int) -> Node:
+    def _get(self, text: str, width: int, chosen: bool = False) -> Node:
+        """A value. `chosen`: by a choice, where clang leaves open what is not used."""
         if text in ("undef", "poison"):
+            if not chosen:
+                raise self._refuse("a value that is never set is used")
             return self.graph.const(width, 0)
         if text in ("true", "false"):
             return self.graph.const(1, int(text == "true"))
@@ -274,6 +277,8 @@ class Reader:
         return g.mux(choose, one, zero)
 
     def _call(self, name: str, width: int, arguments: str) -> Node:
+        if not name.startswith("llvm."):
+            raise self._refuse(f"a call of {name}: kernels are inlined whole")
         values = [self._get(a.split()[-1], width) for a in self._split(arguments)]
         g = self.graph
         stem = name.removeprefix("llvm.").rsplit(".", 1)[0]
@@ -290,7 +295,7 @@ class Reader:
                 return g.mux(g.less(values[1], values[0], False), *values)
             case "umin":
                 return g.mux(g.less(values[0], values[1], False), *values)
-        raise self._refuse(f"a call of {name}: kernels are inlined whole")
+        raise self._refuse(f"{name} is none of the functions that become hardware here")
 
     # ---- control flow ----
 
@@ -332,9 +337,9 @@ class Reader:
 
     def _phi(self, label: str, width: int, text: str) -> Node:
         ways = self._ways(label, text)
-        result = self._get(ways[-1][0], width)
+        result = self._get(ways[-1][0], width, chosen=True)
         for value, source in reversed(ways[:-1]):
-            result = self._select(self._edges[source, label], self._get(value, width), result)
+            result = self._select(self._edges[source, label], self._get(value, width, chosen=True), result)
         return result
 
     def _branch(self, block: Block, line: str) -> None:
@@ -444,7 +449,8 @@ class Reader:
             self._value[name] = self._compare(m[1], self._get(m[3], width), self._get(m[4], width))
         elif m := _SELECT.match(text):
             width = int(m[2])
-            self._value[name] = self._select(self._get(m[1], 1), self._get(m[3], width), self._get(m[4], width))
+            one, zero = self._get(m[3], width, chosen=True), self._get(m[4], width, chosen=True)
+            self._value[name] = self._select(self._get(m[1], 1), one, zero)
         elif m := _CAST.match(text):
             value, width = self._get(m[3], int(m[2])), int(m[4])
             g = self.graph
@@ -455,6 +461,8 @@ class Reader:
             self._value[name] = self._get(m[2], int(m[1]))
         elif m := _CALL.match(text):
             self._value[name] = self._call(m[2], int(m[1] or 0), m[3])
+        elif text.startswith(("getelementptr", "alloca", "bitcast")):
+            raise self._refuse(f"memory that is no port: {line}")
         else:
             raise self._refuse(f"instruction {text.split()[0]} is none of those that become hardware here: {line}")
 
