@@ -92,7 +92,7 @@ SceneFrame UnsnappedPlaneCase::frame() const {
   f.vertices = {p, q, r, p + (r - q)};
   f.shading.push_back({{0, 0, 1}, {1, 1, 1}});
   for (const std::uint32_t second : {1U, 2U}) {
-    Triangle t;
+    Triangle t{};  // all of one look
     t.vertex = {0, second, second + 1};
     f.triangles.push_back(t);
   }

@@ -89,6 +89,8 @@ FrameGeometry numbered_faces(const SceneFrame& frame, const Config& plain, const
   FrameGeometry g = make_geometry(frame, plain, options.width, options.height, {.look = options.look, .order = &order});
   g.background = 0xFFFFFF;
   g.volumes.clear();
+  g.volume_faces.clear();
+  g.near_edges.clear();
   g.shares.clear();
   for (ScreenPolygon& p : g.polygons) {
     p.lit = false;
