@@ -52,6 +52,7 @@ void Told::begin(std::size_t steps, const std::string& one, const std::string& m
   steps_name_ = counted(steps, one, more);
   steps_ = steps;
   done_ = made_ = 0;
+  what_.clear();
   start_ = std::chrono::steady_clock::now();
 }
 

@@ -52,15 +52,13 @@ std::uint64_t number(Dice& dice) {
 /// makes of it as an array; `result(model)` reads the output ports as the same array.
 template <class Model, class Offer_, class Result>
 void same(std::uint64_t stages, Offer_ offer, Result result) {
-  each_seed(4, [&](Dice& dice) {
-    const int in_stall = stall_percent(dice);
-    const int out_stall = stall_percent(dice);
+  const auto run = [&](Dice& dice, int in_stall, int out_stall) {
     Bench<Model> top(dice);
     std::deque<std::pair<decltype(result(*top)), std::uint64_t>> wanted;
     auto next = offer(dice, *top);
     bool offered = false;
     long got = 0;
-    while (got < vectors() / 4) {
+    while (got < vectors() / 8) {
       if (!offered && !dice.percent(in_stall)) offered = true;
       top->in_valid_i = offered ? 1 : 0;
       top->out_ready_i = dice.percent(out_stall) ? 0 : 1;
@@ -82,6 +80,10 @@ void same(std::uint64_t stages, Offer_ offer, Result result) {
       }
       REQUIRE(wanted.size() <= stages);
     }
+  };
+  each_seed(4, [&](Dice& dice) {
+    run(dice, 0, 0);
+    run(dice, stall_percent(dice), stall_percent(dice));
   });
 }
 
