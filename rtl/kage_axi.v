@@ -29,7 +29,8 @@ module kage_axi #(
     parameter ARRANGEMENT = 1,
     parameter LANES = 4,
     parameter MAX_WIDTH = 640,
-    parameter BEAT_WORDS = 4
+    parameter BEAT_WORDS = 4,
+    parameter ACTIVE = 0
 ) (
     (* X_INTERFACE_INFO = "xilinx.com:signal:clock:1.0 aclk CLK" *)
     (* X_INTERFACE_PARAMETER = "ASSOCIATED_BUSIF s_axis:m_axis:s_axil, ASSOCIATED_RESET aresetn" *)
@@ -124,7 +125,8 @@ module kage_axi #(
       .ARRANGEMENT(ARRANGEMENT),
       .LANES(LANES),
       .MAX_WIDTH(MAX_WIDTH),
-      .BEAT_WORDS(BEAT_WORDS)
+      .BEAT_WORDS(BEAT_WORDS),
+      .ACTIVE(ACTIVE)
   ) u_kage (
       .clk_i(aclk),
       .rst_ni(aresetn),

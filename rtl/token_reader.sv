@@ -7,6 +7,7 @@
 //   of another frame is to come first. drop_i may be high only with token_ready_i, and only for a token without the
 //   flag `ends`: the rest of the frame is then dropped up to and with TLAST. The reader drops the rest by itself
 //   after a token that ends it (END, or one that TLAST cut).
+// Levels: with POLYGONS a frame's header says by its version which tokens it has (docs/stream.md, "The polygon level").
 // Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks
 //   is passed on as soon as its first word is there. A cut token is passed on with the flag `cut` and whatever words
 //   there are.
@@ -21,7 +22,8 @@ module token_reader #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
     parameter int BEAT_WORDS  = 4,
-    parameter int TOKEN_WORDS = 5   // the longest of all tokens and the header
+    parameter int TOKEN_WORDS = 5,  // the longest of all tokens and the header
+    parameter bit POLYGONS    = 0   // frames at the polygon level come too
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -58,7 +60,7 @@ module token_reader #(
   // Places in the stream, counted in beats or words, modulo 4 times what there is room for: so a difference
   // of two has a sign.
   localparam int BeatAtBits = AddrBits + 2;
-  localparam int AtBits = BeatAtBits + OffBits;
+  localparam int WordAtBits = BeatAtBits + OffBits;
 
   // ---- beats that came ---------------------------------------------------------------------------------------------
   logic [BeatBits-1:0] mem[Depth];
@@ -73,7 +75,7 @@ module token_reader #(
   logic full_q;  // beats_held is Depth
   logic dropping_q, flushed_q;
 
-  logic [AtBits-1:0] front_at_q, next_at_q;  // first words: the front's, before which none is needed; the next's
+  logic [WordAtBits-1:0] front_at_q, next_at_q;  // first words: the front's, before which none is needed; the next's
   logic [BeatAtBits-1:0] front_beat, next_beat, beats_held, next_end_beat;
   logic full_here, full_behind;  // in the next clock, if the front stays, and if what is behind it becomes the front
   logic push;
@@ -83,6 +85,21 @@ module token_reader #(
   assign beats_held = end_beat_q - front_beat;
   assign s_axis_tready_o = rst_ni && !full_q && !last_q;
   assign push = s_axis_tvalid_i && s_axis_tready_o;
+
+  // The level of the frame that a beat is of, which its header has in the first word of the first beat.
+  logic polygons;
+  if (POLYGONS) begin : gen_levels
+    logic begins_q, polygons_q;
+    assign polygons = begins_q ? s_axis_tdata_i[HeaderVersionLsb+:HeaderVersionBits] ==
+        HeaderVersionBits'(PolygonVersion) : polygons_q;
+    always_ff @(posedge clk_i) begin
+      if (!rst_ni) begins_q <= 1'b1;
+      else if (push) begins_q <= s_axis_tlast_i;
+      if (push) polygons_q <= polygons;
+    end
+  end else begin : gen_spans
+    assign polygons = 1'b0;
+  end
   assign next_end_beat = end_beat_q + BeatAtBits'(push);
   assign full_here = next_end_beat - front_beat == BeatAtBits'(Depth);
   assign full_behind = next_end_beat - next_beat == BeatAtBits'(Depth);
@@ -91,21 +108,21 @@ module token_reader #(
     logic [4:0] words;
     logic [WordsBits-1:0] behind;  // yosys 0.23 takes no ?: with a cast in a concatenation
     assign kind = s_axis_tdata_i[32*w+:KindBits];
-    assign words = token_words(kind);
+    assign words = polygons ? polygon_token_words(kind) : token_words(kind);
     assign behind = words == 5'd0 ? WordsBits'(0) : WordsBits'(words - 5'd1);
     assign said_in[SaidBits*w+:SaidBits] = {kind == KindEnd, words == 5'd0, behind};
   end
 
   // ---- looking ahead: where the token behind the front begins, of what kind it is, and where it ends ---------------
   // So the token's length, found by an address, is not in one path with what taking a token depends on.
-  logic [AtBits-1:0] next_rest, next_end_at, words_ahead;
+  logic [WordAtBits-1:0] next_rest, next_end_at, words_ahead;
   logic header_q;  // the next one is the frame's header
   logic next_there, look;
   logic [SaidBits*BEAT_WORDS-1:0] next_said;
   logic next_is_end, next_lacking;
   logic [WordsBits-1:0] body_behind, next_behind;
-  assign words_ahead = (AtBits'(end_beat_q) << OffBits) - next_at_q;
-  assign next_there  = !words_ahead[AtBits-1] && words_ahead != '0;
+  assign words_ahead = (WordAtBits'(end_beat_q) << OffBits) - next_at_q;
+  assign next_there  = !words_ahead[WordAtBits-1] && words_ahead != '0;
   assign next_said   = said[AddrBits'(next_at_q>>OffBits)];
   if (BEAT_WORDS > 1) begin : gen_next_said
     assign {next_is_end, next_lacking, body_behind} = next_said[SaidBits*next_at_q[OffBits-1:0]+:SaidBits];
@@ -113,15 +130,15 @@ module token_reader #(
     assign {next_is_end, next_lacking, body_behind} = next_said;
   end
   assign next_behind = header_q ? WordsBits'(HeaderWords - 1) : body_behind;
-  assign next_rest   = AtBits'(next_behind);
+  assign next_rest   = WordAtBits'(next_behind);
   assign next_end_at = next_at_q - ~next_rest;  // next_at_q + next_rest + 1, in one carry chain
 
   // ---- the token at the front --------------------------------------------------------------------------------------
   logic front_valid_q, front_header_q, front_lacking_q, front_is_end_q;
-  logic [AtBits-1:0] front_end_at_q, words_over;
+  logic [WordAtBits-1:0] front_end_at_q, words_over;
   logic whole, cut, take, out_free;
-  assign words_over = (AtBits'(end_beat_q) << OffBits) - front_end_at_q;
-  assign whole = !words_over[AtBits-1];
+  assign words_over = (WordAtBits'(end_beat_q) << OffBits) - front_end_at_q;
+  assign whole = !words_over[WordAtBits-1];
   assign cut = last_q && !whole;
   assign take = front_valid_q && (whole || cut) && out_free && !dropping_q;
   // Behind the last word of a frame that was not ended a token of no words is looked at, which is cut.
@@ -199,8 +216,8 @@ module token_reader #(
       flushed_q <= dropping_q;
       if (dropping_q) begin
         // What is held goes; the next frame begins with a beat.
-        next_at_q <= AtBits'(next_end_beat) << OffBits;
-        front_at_q <= AtBits'(next_end_beat) << OffBits;
+        next_at_q <= WordAtBits'(next_end_beat) << OffBits;
+        front_at_q <= WordAtBits'(next_end_beat) << OffBits;
         front_valid_q <= 1'b0;
         if (last_q || (push && s_axis_tlast_i)) begin
           last_q <= 1'b0;

@@ -17,6 +17,7 @@ import struct
 import zlib
 
 VERSION = 1
+POLYGON_VERSION = 2  # of a frame at the polygon level
 MAGIC = 0x4B47
 MAX_HEIGHT = 32767
 KIND_BITS = 4
@@ -47,6 +48,7 @@ PARAMETERS = {
     "LANES": (4, 1, 32, [1, 2, 4, 8, 16, 32], False, "banked: pixels worked on per clock"),
     "MAX_WIDTH": (640, 1, 32767, None, False, "pixels of the longest line; systolic: the number of processors"),
     "BEAT_WORDS": (4, 1, 8, [1, 2, 4, 8], False, "32-bit words in a beat of the input port"),
+    "ACTIVE": (0, 0, 4096, None, False, "polygons that the front end keeps at once; 0 is a core without front end, which takes spans alone"),
 }
 
 # (what it says, whether a configuration keeps it)
@@ -76,6 +78,9 @@ DERIVED = {
     "whole_share": lambda c: 1 << c.SHADE_FRAC,  # all of a colour
     "half_share": lambda c: 1 << (c.SHADE_FRAC - 1),  # a half of it, which rounds a product with a share
     "depth_bits": lambda c: c.Z_BITS + c.Z_FRAC + 2,  # depth accumulator
+    "plane_bits": lambda c: c.Z_BITS + 26,  # a polygon's depth plane in 2^-24, modulo 2^(Z_BITS + 2)
+    "weight_field_bits": lambda c: c.DSF_BITS + 1 if c.DSF_BITS > 0 else 0,  # the weight of a polygon
+    "alpha_field_bits": lambda c: 8 if c.TRANSLUCENCY > 0 else 0,  # a polygon's alpha
     "segment_depth_bits": lambda c: 15 if c.CLASSIC > 0 else DERIVED["depth_bits"](c),  # a segment's depth; the paper's is unsigned
     "smooth_bits": lambda c: 10 + c.COLOR_FRAC,  # one channel of a colour that changes along its span, and of its slope
     "ramp_bits": lambda c: DERIVED["smooth_bits"](c) if c.SMOOTH > 0 else 8,  # one channel of a span's colour
@@ -113,17 +118,17 @@ HEADER = [
     [("frame", 32)],
 ]
 
-# name: (kind, whether a configuration has it, its fields in a configuration: [(name, bits, signed, channels or 0), ...])
+# name: (kind in its words, level that it is of or "", whether a configuration has it, its fields in a configuration: [(name, bits, signed, channels or 0), ...])
 TOKENS = {
-    "SHADE": (1, lambda c: 0 if c.CLASS_BITS > 1 else c.DSF_BITS > 0, lambda c: [
+    "SHADE": (1, "", lambda c: 0 if c.CLASS_BITS > 1 else c.DSF_BITS > 0, lambda c: [
         ("shade", DERIVED["factor_bits"](c), False, 0),
     ]),
-    "TABLE": (2, lambda c: c.CLASS_BITS > 1, lambda c: [
+    "TABLE": (2, "", lambda c: c.CLASS_BITS > 1, lambda c: [
         ("class", c.CLASS_BITS, False, 0),
         ("light", DERIVED["light_bits"](c), False, 0),
         ("share", DERIVED["factor_bits"](c), False, c.CHANNELS),
     ]),
-    "FACE": (3, lambda c: c.UNITS > 0, lambda c: [
+    "FACE": (3, "", lambda c: c.UNITS > 0, lambda c: [
         ("unit", DERIVED["unit_bits"](c), False, 0),
         ("face", c.FACE_BITS, False, 0),
         ("index", c.ORDER_BITS, False, 0),
@@ -131,7 +136,7 @@ TOKENS = {
         ("dz", DERIVED["depth_bits"](c), True, 0),
         ("color", 8, False, c.CHANNELS),
     ]),
-    "SEG": (4, lambda c: c.UNITS > 0, lambda c: [
+    "SEG": (4, "", lambda c: c.UNITS > 0, lambda c: [
         ("unit", DERIVED["unit_bits"](c), False, 0),
         ("pad", 28 - DERIVED["unit_bits"](c) if c.CLASSIC > 0 else 0, False, 0),
         ("z", DERIVED["segment_depth_bits"](c), c.CLASSIC == 0, 0),
@@ -139,8 +144,8 @@ TOKENS = {
         ("dx", c.DX_BITS, False, 0),
         ("face", c.FACE_BITS, False, 0),
     ]),
-    "TREE": (5, lambda c: c.UNITS > 0, lambda c: []),
-    "OP": (6, lambda c: 1, lambda c: [
+    "TREE": (5, "", lambda c: c.UNITS > 0, lambda c: []),
+    "OP": (6, "", lambda c: 1, lambda c: [
         ("xl", c.X_BITS, False, 0),
         ("xr", c.X_BITS, False, 0),
         ("class", DERIVED["class_field_bits"](c), False, 0),
@@ -149,32 +154,32 @@ TOKENS = {
         ("color", DERIVED["ramp_bits"](c), c.SMOOTH, c.CHANNELS),
         ("dcolor", DERIVED["slope_field_bits"](c), True, c.CHANNELS),
     ]),
-    "SP": (7, lambda c: c.DSF_BITS > 0, lambda c: [
+    "SP": (7, "", lambda c: c.DSF_BITS > 0, lambda c: [
         ("xl", c.X_BITS, False, 0),
         ("xr", c.X_BITS, False, 0),
         ("w", c.DSF_BITS + 1, True, 0),
         ("z", DERIVED["depth_bits"](c), True, 0),
         ("dz", DERIVED["depth_bits"](c), True, 0),
     ]),
-    "NC": (8, lambda c: c.DSF_BITS > 0, lambda c: [
+    "NC": (8, "", lambda c: c.DSF_BITS > 0, lambda c: [
         ("xl", c.X_BITS, False, 0),
         ("xr", c.X_BITS, False, 0),
         ("w", c.DSF_BITS + 1, True, 0),
     ]),
-    "IF": (9, lambda c: c.DSF_BITS > 0, lambda c: [
+    "IF": (9, "spans", lambda c: c.DSF_BITS > 0, lambda c: [
         ("w", c.DSF_BITS + 1, True, 0),
     ]),
-    "EV": (10, lambda c: c.FSF > 0, lambda c: [
+    "EV": (10, "spans", lambda c: c.FSF > 0, lambda c: [
         ("xl", c.X_BITS, False, 0),
         ("xr", c.X_BITS, False, 0),
     ]),
-    "ES": (11, lambda c: c.COUNT_BITS > 0, lambda c: [
+    "ES": (11, "spans", lambda c: c.COUNT_BITS > 0, lambda c: [
         ("xl", c.X_BITS, False, 0),
         ("xr", c.X_BITS, False, 0),
         ("light", DERIVED["light_bits"](c), False, 0),
     ]),
-    "RESOLVE": (12, lambda c: c.DSF_BITS > 0, lambda c: []),
-    "TP": (13, lambda c: c.TRANSLUCENCY > 0, lambda c: [
+    "RESOLVE": (12, "spans", lambda c: c.DSF_BITS > 0, lambda c: []),
+    "TP": (13, "", lambda c: c.TRANSLUCENCY > 0, lambda c: [
         ("xl", c.X_BITS, False, 0),
         ("xr", c.X_BITS, False, 0),
         ("alpha", 8, False, 0),
@@ -183,10 +188,40 @@ TOKENS = {
         ("color", DERIVED["ramp_bits"](c), c.SMOOTH, c.CHANNELS),
         ("dcolor", DERIVED["slope_field_bits"](c), True, c.CHANNELS),
     ]),
-    "EOL": (14, lambda c: 1, lambda c: [
+    "EOL": (14, "", lambda c: 1, lambda c: [
         ("y", 16, False, 0),
     ]),
-    "END": (15, lambda c: 1, lambda c: []),
+    "END": (15, "", lambda c: 1, lambda c: []),
+    "GRADIENT": (9, "polygons", lambda c: c.ACTIVE > 0 and c.SMOOTH > 0, lambda c: [
+        ("channel", 2, False, 0),
+        ("value", DERIVED["color_plane_bits"](c), True, 0),
+        ("right", DERIVED["color_plane_bits"](c), True, 0),
+        ("down", DERIVED["color_plane_bits"](c), True, 0),
+    ]),
+    "POLYGON": (10, "polygons", lambda c: c.ACTIVE > 0, lambda c: [
+        ("class", DERIVED["class_field_bits"](c), False, 0),
+        ("w", DERIVED["weight_field_bits"](c), True, 0),
+        ("alpha", DERIVED["alpha_field_bits"](c), False, 0),
+        ("color", 8, False, c.CHANNELS),
+        ("value", DERIVED["plane_bits"](c), True, 0),
+        ("right", DERIVED["plane_bits"](c), True, 0),
+        ("down", DERIVED["plane_bits"](c), True, 0),
+    ]),
+    "EDGE": (11, "polygons", lambda c: c.ACTIVE > 0, lambda c: [
+        ("side", 1, False, 0),
+        ("last", 1, False, 0),
+        ("top_x", DERIVED["subpixel_bits"](c), True, 0),
+        ("top_y", DERIVED["subpixel_bits"](c), True, 0),
+        ("bottom_x", DERIVED["subpixel_bits"](c), True, 0),
+        ("bottom_y", DERIVED["subpixel_bits"](c), True, 0),
+    ]),
+    "AT": (12, "polygons", lambda c: c.ACTIVE > 0, lambda c: [
+        ("rank", DERIVED["rank_bits"](c), False, 0),
+        ("volume", DERIVED["volume_bits"](c), False, 0),
+        ("light", 3, False, 0),
+        ("sample", DERIVED["sample_bits"](c), False, 0),
+        ("layer", DERIVED["layer_bits"](c), False, 0),
+    ]),
 }
 
 # name: pieces of its text: a text, or a form and the fields that it is of.
@@ -206,6 +241,10 @@ TEXTS = {
     "TP": ["TP [", ("plain", "xl"), ", ", ("plain", "xr"), ") z ", ("depth", "z"), " dz ", ("depth", "dz"), " color ", ("ramp", "color", "dcolor"), " alpha ", ("plain", "alpha")],
     "EOL": ["EOL ", ("plain", "y")],
     "END": ["END"],
+    "GRADIENT": ["GRADIENT channel ", ("plain", "channel"), " value ", ("plane", "value"), " right ", ("plane", "right"), " down ", ("plane", "down")],
+    "POLYGON": ["POLYGON value ", ("plane", "value"), " right ", ("plane", "right"), " down ", ("plane", "down"), " color ", ("plain", "color"), " w ", ("sign", "w"), " alpha ", ("plain", "alpha"), ("class", "class")],
+    "EDGE": ["EDGE side ", ("plain", "side"), ("flag", "last"), " (", ("subpixel", "top_x"), ", ", ("subpixel", "top_y"), ") to (", ("subpixel", "bottom_x"), ", ", ("subpixel", "bottom_y"), ")"],
+    "AT": ["AT layer ", ("plain", "layer"), " sample ", ("plain", "sample"), " light ", ("plain", "light"), " volume ", ("plain", "volume"), " rank ", ("plain", "rank")],
 }
 
 # name: (code, meaning)
@@ -223,6 +262,8 @@ ERRORS = {
     "SEGMENT": (10, "a segment of length 0, with SYNC out of place, or of a face that the frame has not defined"),
     "UNIT_LONG": (11, "a unit with more pixels than the line, or more segments than it buffers"),
     "UNIT_SHORT": (12, "a unit with fewer pixels than the line"),
+    "PLACE": (13, "a place before that of the token before, a span or polygon not of its layer, or an edge or gradient without its polygon, or a polygon without edges"),
+    "ACTIVE_FULL": (14, "more polygons at once than the front end keeps"),
 }
 
 # name: (byte address, access, meaning)
@@ -287,6 +328,7 @@ class Config:
     LANES: int = 4
     MAX_WIDTH: int = 640
     BEAT_WORDS: int = 4
+    ACTIVE: int = 0
 # fmt: on
 
     @classmethod
@@ -328,8 +370,8 @@ class Codec:
     def __init__(self, config):
         self.config = config
         self.layout = {}  # kind's name: [(field, channel or -1, lsb, bits, signed), ...], and the words
-        self.names = {}
-        for name, (kind, present, fields) in TOKENS.items():
+        self.names = {"spans": {}, "polygons": {}}  # by a frame's level and the kind in a word
+        for name, (kind, of_level, present, fields) in TOKENS.items():
             places, lsb = [], KIND_BITS
             for field, bits, signed, channels in fields(config):
                 for i in range(max(channels, 1)):
@@ -337,7 +379,9 @@ class Codec:
                         places.append((field, i if channels else -1, lsb, int(bits), bool(signed)))
                     lsb += bits
             if present(config):
-                self.names[kind] = name
+                for level, names in self.names.items():
+                    if of_level in ("", level):
+                        names[kind] = name
                 self.layout[name] = places, (lsb + 31) // 32
 
     def read_header(self, words):
@@ -362,14 +406,14 @@ class Codec:
             words.append(word)
         return words
 
-    def unpack(self, words, at=0):
-        """The token whose words begin there, and how many they are."""
+    def unpack(self, words, at=0, level="spans"):
+        """The token whose words begin there, in a frame at that level, and how many they are."""
         if at >= len(words):
             raise ValueError("the words end where a token should begin")
         kind = words[at] % 2**KIND_BITS
-        if kind not in self.names:
+        if kind not in self.names[level]:
             raise ValueError(f"kind {kind}, which is no token here")
-        name = self.names[kind]
+        name = self.names[level][kind]
         places, count = self.layout[name]
         if at + count > len(words):
             raise ValueError(f"{name} of {count} words, cut after {len(words) - at}")
@@ -410,9 +454,10 @@ class Codec:
     def tokens(self, words):
         """The tokens of a frame, behind its header, up to END, which is the last. An error names the token."""
         at, index = len(HEADER), 1
+        level = "polygons" if self.read_header(words)["version"] == POLYGON_VERSION else "spans"
         while True:
             try:
-                token, count = self.unpack(words, at)
+                token, count = self.unpack(words, at, level)
             except ValueError as e:
                 raise ValueError(f"token {index}, word {at}: {e}") from None
             yield token
@@ -438,6 +483,12 @@ class Codec:
 
     def _sign(self, _, value):
         return with_sign(value)
+
+    def _plane(self, _, value):
+        return number(value / 2**24)
+
+    def _subpixel(self, _, value):
+        return number(value / 256)
 
     def _depth(self, _, value):
         return number(value / 2**self.config.Z_FRAC)

@@ -41,6 +41,20 @@ inline constexpr std::array<GoldenField, KAGE_TOKEN_FIELDS> kGoldenFields{{
     {"index", -1},
     {"dx", -1},
     {"sync", -1},
+    {"layer", -1},
+    {"sample", -1},
+    {"volume", -1},
+    {"rank", -1},
+    {"value", -1},
+    {"right", -1},
+    {"down", -1},
+    {"channel", -1},
+    {"side", -1},
+    {"last", -1},
+    {"top_x", -1},
+    {"top_y", -1},
+    {"bottom_x", -1},
+    {"bottom_y", -1},
 }};
 
 /// By KAGE_PIXEL_...

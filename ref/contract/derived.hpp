@@ -40,6 +40,12 @@ constexpr std::uint32_t whole_share(const Config& c) { return static_cast<std::u
 constexpr std::uint32_t half_share(const Config& c) { return static_cast<std::uint32_t>(1 << (c.shade_frac - 1)); }
 /// depth accumulator
 constexpr int depth_bits(const Config& c) { return c.z_bits + c.z_frac + 2; }
+/// a polygon's depth plane in 2^-24, modulo 2^(Z_BITS + 2)
+constexpr int plane_bits(const Config& c) { return c.z_bits + 26; }
+/// the weight of a polygon
+constexpr int weight_field_bits(const Config& c) { return c.dsf_bits > 0 ? c.dsf_bits + 1 : 0; }
+/// a polygon's alpha
+constexpr int alpha_field_bits(const Config& c) { return c.translucency > 0 ? 8 : 0; }
 /// a segment's depth; the paper's is unsigned
 constexpr int segment_depth_bits(const Config& c) { return c.classic > 0 ? 15 : depth_bits(c); }
 /// one channel of a colour that changes along its span, and of its slope

@@ -29,6 +29,10 @@ constexpr void with_kind(Kind kind, F&& f) {
     case Kind::TP: return f.template operator()<Kind::TP>();
     case Kind::EOL: return f.template operator()<Kind::EOL>();
     case Kind::END: return f.template operator()<Kind::END>();
+    case Kind::GRADIENT: return f.template operator()<Kind::GRADIENT>();
+    case Kind::POLYGON: return f.template operator()<Kind::POLYGON>();
+    case Kind::EDGE: return f.template operator()<Kind::EDGE>();
+    case Kind::AT: return f.template operator()<Kind::AT>();
   }
 }
 
@@ -113,6 +117,37 @@ constexpr void visit_fields([[maybe_unused]] const Config& config, [[maybe_unuse
   }
   if constexpr (K == Kind::EOL) {
     f("y", -1, token.y, layout.eol_y);
+  }
+  if constexpr (K == Kind::GRADIENT) {
+    f("channel", -1, token.polygon.channel, layout.gradient_channel);
+    f("value", -1, token.polygon.value, layout.gradient_value);
+    f("right", -1, token.polygon.right, layout.gradient_right);
+    f("down", -1, token.polygon.down, layout.gradient_down);
+  }
+  if constexpr (K == Kind::POLYGON) {
+    if (layout.polygon_class.bits != 0) f("class", -1, token.span.normal_class, layout.polygon_class);
+    if (layout.polygon_w.bits != 0) f("w", -1, token.span.w, layout.polygon_w);
+    if (layout.polygon_alpha.bits != 0) f("alpha", -1, token.span.alpha, layout.polygon_alpha);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
+      f("color", static_cast<int>(c), token.span.color[c], layout.polygon_color[c]);
+    f("value", -1, token.polygon.value, layout.polygon_value);
+    f("right", -1, token.polygon.right, layout.polygon_right);
+    f("down", -1, token.polygon.down, layout.polygon_down);
+  }
+  if constexpr (K == Kind::EDGE) {
+    f("side", -1, token.polygon.side, layout.edge_side);
+    f("last", -1, token.polygon.last, layout.edge_last);
+    f("top_x", -1, token.polygon.top_x, layout.edge_top_x);
+    f("top_y", -1, token.polygon.top_y, layout.edge_top_y);
+    f("bottom_x", -1, token.polygon.bottom_x, layout.edge_bottom_x);
+    f("bottom_y", -1, token.polygon.bottom_y, layout.edge_bottom_y);
+  }
+  if constexpr (K == Kind::AT) {
+    f("rank", -1, token.polygon.rank, layout.at_rank);
+    f("volume", -1, token.polygon.volume, layout.at_volume);
+    f("light", -1, token.table.light, layout.at_light);
+    f("sample", -1, token.polygon.sample, layout.at_sample);
+    f("layer", -1, token.polygon.layer, layout.at_layer);
   }
 }
 

@@ -28,7 +28,7 @@ struct KindInfo {
 };
 
 /// By kind; what is no kind has nothing.
-inline constexpr std::array<KindInfo, 16> kKindInfo{{
+inline constexpr std::array<KindInfo, kKinds> kKindInfo{{
     {},
     {true, false, false, false, false, false, false, false, false, false, false, false, false},  // SHADE
     {true, false, false, false, false, false, false, false, false, false, false, false, false},  // TABLE
@@ -45,6 +45,19 @@ inline constexpr std::array<KindInfo, 16> kKindInfo{{
     {false, true, true, false, false, true, false, false, true, true, false, false, false},  // TP
     {false, false, false, false, false, false, true, true, false, false, false, false, false},  // EOL
     {false, false, false, false, false, false, false, false, false, false, false, false, false},  // END
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {false, false, false, false, false, false, false, false, false, false, false, false, false},  // GRADIENT
+    {false, false, false, false, false, false, false, false, false, false, true, false, false},  // POLYGON
+    {false, false, false, false, false, false, false, false, false, false, false, false, false},  // EDGE
+    {false, false, false, false, false, false, false, false, false, false, false, false, false},  // AT
 }};
 constexpr const KindInfo& info_of(Kind kind) { return kKindInfo[static_cast<std::size_t>(kind)]; }
 

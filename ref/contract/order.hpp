@@ -51,7 +51,7 @@ struct Rule {
 };
 
 /// By kind; what is no kind may stand nowhere.
-inline constexpr std::array<Rule, 16> kRules{{
+inline constexpr std::array<Rule, kKinds> kRules{{
     {},
     {0b0000001, 0, kShade, kShade, 0, false, {}},  // SHADE
     {0b0000001, 0, 0, 0, 0, false, {}},  // TABLE
@@ -68,6 +68,19 @@ inline constexpr std::array<Rule, 16> kRules{{
     {0b0110101, 0, 0, 0, 0, true, Phase::translucent},  // TP
     {0b0110101, 0, 0, 0, kVolume | kSample, true, Phase::ahead},  // EOL
     {0b1111111, 0, 0, 0, 0, false, {}},  // END
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
+    {},
 }};
 
 /// What a phase is where these marks are set.

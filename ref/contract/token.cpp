@@ -37,6 +37,8 @@ class TokenText {
   void as_plain(const std::array<V, 3>& channels) {
     each_channel([&](std::size_t c) { add("{}", channels[c]); });
   }
+  void as_plane(std::int64_t value) { add("{}", std::ldexp(static_cast<double>(value), -kPlaneFrac)); }
+  void as_subpixel(int value) { add("{}", value / 256.0); }
   void as_sign(int value) { add("{:+}", value); }
   void as_depth(std::int64_t value) { add("{}", static_cast<double>(value) * z_unit_); }
   void as_share(const auto& value) {
@@ -112,7 +114,7 @@ template <Kind K, class T>
 void TokenWriter::pack(const T& t) {
   std::array<std::uint32_t, kMostTokenWords> words;  // only those written are read
   BitPacker p(words.data());
-  p.put(code(K), kKindField);
+  p.put(code_of(K), kKindField);
   visit_fields<K>(config_, layout_, t, [&p](const char*, int, const auto& value, Field f) { p.put(value, f); });
   const std::uint32_t* end = p.close();
   if (!p.whole()) [[unlikely]]
@@ -135,6 +137,9 @@ struct OfSegment {
 };
 struct OfTable {
   const TableToken& table;
+};
+struct OfPolygon {
+  const PolygonToken& polygon;
 };
 struct OfRange {
   struct {
@@ -175,9 +180,30 @@ void TokenWriter::eol(int y) {
   pack<Kind::EOL>(t);
 }
 void TokenWriter::end() { pack<Kind::END>(0); }
+void TokenWriter::at(const PolygonToken& place, int light) {
+  const struct {
+    const PolygonToken& polygon;
+    struct {
+      int light;
+    } table;
+  } t{place, {light}};
+  pack<Kind::AT>(t);
+}
+void TokenWriter::polygon(const PolygonToken& plane, const SpanToken& look) {
+  const struct {
+    const PolygonToken& polygon;
+    const SpanToken& span;
+  } t{plane, look};
+  pack<Kind::POLYGON>(t);
+}
+void TokenWriter::edge(const PolygonToken& edge) { pack<Kind::EDGE>(OfPolygon{edge}); }
+void TokenWriter::gradient(const PolygonToken& plane) { pack<Kind::GRADIENT>(OfPolygon{plane}); }
+void TokenWriter::token(const Token& token) {
+  with_kind(token.kind, [&]<Kind K>() { pack<K>(token); });
+}
 
-void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& t) {
-  t.kind = kind_of(words[0]);
+void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& t, Level level) {
+  t.kind = kind_of(words[0], level);
   BitUnpacker in(words);
   static_cast<void>(in.take(kKindField));
   with_kind(t.kind, [&]<Kind K>() {
@@ -187,9 +213,9 @@ void decode(const Config& config, const Layout& layout, std::span<const std::uin
   });
 }
 
-Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words) {
+Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Level level) {
   Token t;
-  decode(config, layout, words, t);
+  decode(config, layout, words, t, level);
   return t;
 }
 

@@ -124,6 +124,57 @@ void tell_token(Out& out, const Token& t) {
     case Kind::END:
       out.text("END");
       break;
+    case Kind::GRADIENT:
+      out.text("GRADIENT channel ");
+      out.as_plain(t.polygon.channel);
+      out.text(" value ");
+      out.as_plane(t.polygon.value);
+      out.text(" right ");
+      out.as_plane(t.polygon.right);
+      out.text(" down ");
+      out.as_plane(t.polygon.down);
+      break;
+    case Kind::POLYGON:
+      out.text("POLYGON value ");
+      out.as_plane(t.polygon.value);
+      out.text(" right ");
+      out.as_plane(t.polygon.right);
+      out.text(" down ");
+      out.as_plane(t.polygon.down);
+      out.text(" color ");
+      out.as_plain(t.span.color);
+      out.text(" w ");
+      out.as_sign(t.span.w);
+      out.text(" alpha ");
+      out.as_plain(t.span.alpha);
+      out.as_class(t.span.normal_class);
+      break;
+    case Kind::EDGE:
+      out.text("EDGE side ");
+      out.as_plain(t.polygon.side);
+      out.as_flag("last", t.polygon.last);
+      out.text(" (");
+      out.as_subpixel(t.polygon.top_x);
+      out.text(", ");
+      out.as_subpixel(t.polygon.top_y);
+      out.text(") to (");
+      out.as_subpixel(t.polygon.bottom_x);
+      out.text(", ");
+      out.as_subpixel(t.polygon.bottom_y);
+      out.text(")");
+      break;
+    case Kind::AT:
+      out.text("AT layer ");
+      out.as_plain(t.polygon.layer);
+      out.text(" sample ");
+      out.as_plain(t.polygon.sample);
+      out.text(" light ");
+      out.as_plain(t.table.light);
+      out.text(" volume ");
+      out.as_plain(t.polygon.volume);
+      out.text(" rank ");
+      out.as_plain(t.polygon.rank);
+      break;
   }
 }
 

@@ -9,12 +9,13 @@
 
 #include "core/line_parts.hpp"
 #include "kage/token.hpp"
+#include "polygon/front_end.hpp"
 #include "stream/cutter.hpp"
 
 namespace kage {
 
 struct GoldenCore::Data {
-  explicit Data(const Config& c) : config(c), layout(c), parts(c) {}
+  explicit Data(const Config& c) : config(c), layout(c), parts(c), front_end(c), writer(c, made_words) {}
 
   /// Where in a frame the core is.
   enum class At { header, lines, ended, failed };
@@ -24,12 +25,16 @@ struct GoldenCore::Data {
   LineView::Parts parts;
   WordCutter cutter;
   std::vector<std::uint8_t> out;
-  Token t;  // the one at hand
+  Token t;             // the one at hand
+  FrontEnd front_end;  // of frames at the polygon level
+  std::vector<std::uint32_t> made_words;
+  TokenWriter writer;  // of what it makes, for the observer
   CoreObserver* observer = nullptr;
 
   // Of the frame at hand:
   FrameStatus status;
   At at = At::header;
+  Level level = Level::spans;
   std::uint32_t number = 0;
   std::uint32_t token = 0;  // the next one
   std::uint64_t taken = 0;  // words of tokens that came whole
@@ -37,48 +42,48 @@ struct GoldenCore::Data {
 
   /// The error of a header that arrived whole.
   [[nodiscard]] ErrorCode check_header(const FrameHeader& h) const {
-    if (!h.known()) return ErrorCode::HEADER;
+    if (!h.known() || (h.level() == Level::polygons && config.active == 0)) return ErrorCode::HEADER;
     if (h.width < 1 || h.width > config.max_width || h.height < 1 || h.height > kMaxHeight) return ErrorCode::SIZE;
     return h.param_hash == param_hash(config) ? ErrorCode::NONE : ErrorCode::PARAMS;
   }
 
-  void apply() {
-    switch (t.kind) {
+  void apply(const Token& done) {
+    switch (done.kind) {
       case Kind::SHADE:
-        parts.pixels.set_shade(t.shade);
+        parts.pixels.set_shade(done.shade);
         break;
       case Kind::TABLE:
-        parts.pixels.add_share(t.table);
+        parts.pixels.add_share(done.table);
         break;
       case Kind::FACE:
-        parts.tree.add_face(t.segment);
+        parts.tree.add_face(done.segment);
         break;
       case Kind::SEG:
-        if (parts.rules.outcome().taken) parts.tree.add_segment(t.segment);
+        if (parts.rules.outcome().taken) parts.tree.add_segment(done.segment);
         break;
       case Kind::TREE:
         parts.pixels.tree(parts.tree.take_line(observer != nullptr));
         break;
       case Kind::OP:
-        parts.pixels.op(t.span);
+        parts.pixels.op(done.span);
         break;
       case Kind::SP:
-        parts.pixels.sp(t.span);
+        parts.pixels.sp(done.span);
         break;
       case Kind::TP:
-        parts.pixels.tp(t.span);
+        parts.pixels.tp(done.span);
         break;
       case Kind::NC:
-        parts.pixels.nc(t.span.xl, t.span.xr, t.span.w);
+        parts.pixels.nc(done.span.xl, done.span.xr, done.span.w);
         break;
       case Kind::IF:
-        parts.pixels.inside(t.span.w);
+        parts.pixels.inside(done.span.w);
         break;
       case Kind::EV:
-        parts.pixels.ev(t.span.xl, t.span.xr);
+        parts.pixels.ev(done.span.xl, done.span.xr);
         break;
       case Kind::ES:
-        parts.pixels.es(t.span.xl, t.span.xr, t.table.light);
+        parts.pixels.es(done.span.xl, done.span.xr, done.table.light);
         break;
       case Kind::RESOLVE:
         parts.pixels.resolve();
@@ -123,6 +128,8 @@ struct GoldenCore::Data {
     parts.rules.start(config, status.width, status.height);
     parts.pixels.start(status.width, read.background);
     parts.tree.start(status.width);
+    level = read.level();
+    if (level == Level::polygons) front_end.start(status.width);
     out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(config.channels));
     taken = kHeaderWords;
     token = 1;
@@ -142,31 +149,49 @@ struct GoldenCore::Data {
     while (at == At::lines) {
       const std::uint32_t* first = cutter.peek();
       if (first == nullptr) return;
-      const std::size_t n = layout.words_of(*first);
+      const std::size_t n = layout.words_of(*first, level);
       if (n == 0) return fail(ErrorCode::KIND, sink, std::span(first, 1));
       const auto body = cutter.take(n);
       if (body.empty()) return;
-      decode(config, layout, body, t);
-      if (const ErrorCode e = parts.rules.accept(t, token); e != ErrorCode::NONE) {
+      decode(config, layout, body, t, level);
+      const ErrorCode e = level == Level::spans ? take(t, body, sink) : take_polygons(body, sink);
+      if (e != ErrorCode::NONE) {
         if (parts.rules.fault().code != ErrorCode::NONE) {
           status.unit = parts.rules.fault().unit;
           token = parts.rules.fault().token;
         }
         return fail(e, sink, body);
       }
-      if (observer != nullptr) observer->before(token, t, body, view());
-      if (t.kind == Kind::END) {
-        at = At::ended;
-        return;
-      }
-      if (t.kind == Kind::EOL)
-        emit(t.y, false, sink);
-      else
-        apply();
-      if (observer != nullptr) observer->after(token, t, view());
+      if (at == At::ended) return;
       taken += n;
       ++token;
     }
+  }
+
+  /// A token of the span level: what is wrong with it, or it has done what it does.
+  ErrorCode take(const Token& next, std::span<const std::uint32_t> words, const LineSink& sink) {
+    if (const ErrorCode e = parts.rules.accept(next, token); e != ErrorCode::NONE) return e;
+    if (observer != nullptr) observer->before(token, next, words, view());
+    if (next.kind == Kind::END) {
+      at = At::ended;
+      return ErrorCode::NONE;
+    }
+    if (next.kind == Kind::EOL)
+      emit(next.y, false, sink);
+    else
+      apply(next);
+    if (observer != nullptr) observer->after(token, next, view());
+    return ErrorCode::NONE;
+  }
+
+  /// The token at hand, of the polygon level: what the front end makes of it.
+  ErrorCode take_polygons(std::span<const std::uint32_t> body, const LineSink& sink) {
+    return front_end.accept(t, [&](const Token& token_of_spans, bool made) {
+      if (observer == nullptr || (!made && token_of_spans.kind == t.kind)) return take(token_of_spans, body, sink);
+      made_words.clear();
+      writer.token(token_of_spans);
+      return take(token_of_spans, made_words, sink);
+    });
   }
 
   [[nodiscard]] LineView view() const { return LineView(parts); }

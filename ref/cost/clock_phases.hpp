@@ -20,11 +20,11 @@ inline constexpr std::array<std::string_view, kPhases> kPhaseNames{
 
 /// What belongs to each: "SP, NC, IF".
 inline constexpr std::array<std::string_view, kPhases> kPhaseTokens{
-    "SHADE, TABLE, FACE, SEG, RESOLVE, END", "TREE, OP", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
+    "SHADE, TABLE, FACE, SEG, RESOLVE, END, GRADIENT, POLYGON, EDGE, AT", "TREE, OP", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
 
 /// By kind; what is no kind counts as state.
-inline constexpr std::array<Phase, 16> kPhaseOfKind{
-    Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::opaque, Phase::opaque, Phase::volumes, Phase::volumes, Phase::volumes, Phase::volume_ends, Phase::samples, Phase::state, Phase::translucent, Phase::line_out, Phase::state};
+inline constexpr std::array<Phase, kKinds> kPhaseOfKind{
+    Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::opaque, Phase::opaque, Phase::volumes, Phase::volumes, Phase::volumes, Phase::volume_ends, Phase::samples, Phase::state, Phase::translucent, Phase::line_out, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state};
 constexpr Phase phase_of(Kind kind) { return kPhaseOfKind[static_cast<std::size_t>(kind)]; }
 
 }  // namespace kage

@@ -9,11 +9,9 @@
 #include <cstdint>
 
 #include "kage/geometry.hpp"
+#include "number/first_centre.hpp"
 
 namespace kage {
-
-/// First line (or pixel) whose centre is at or past a 16.8 coordinate: ceil(v / 256 - 1/2).
-constexpr int first_centre(std::int32_t v) { return (v + 127) >> 8; }
 
 /// Quotient rounded down and remainder 0 .. b - 1, for b > 0.
 template <class Int>

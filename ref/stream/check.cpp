@@ -10,7 +10,9 @@
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
+#include "number/first_centre.hpp"
 #include "number/packed_color.hpp"
+#include "polygon/front_end.hpp"
 #include "stream/count.hpp"
 #include "stream/cutter.hpp"
 
@@ -35,6 +37,7 @@ bool padding_is_zero(std::span<const std::uint32_t> words, unsigned bits) {
 
 TokenCounts& TokenCounts::operator+=(const TokenCounts& other) {
   for (std::size_t k = 0; k < of_kind.size(); ++k) of_kind[k] += other.of_kind[k];
+  made += other.made;
   words += other.words;
   spans += other.spans;
   span_pixels += other.span_pixels;
@@ -43,13 +46,16 @@ TokenCounts& TokenCounts::operator+=(const TokenCounts& other) {
 }
 
 struct FrameChecker::Data {
-  Data(const Config& c, std::string w, std::uint64_t o) : config(c), layout(c), where(std::move(w)), offset(o) {}
+  Data(const Config& c, std::string w, std::uint64_t o)
+      : config(c), layout(c), where(std::move(w)), offset(o), front_end(c) {}
 
   Config config;
   Layout layout;
   std::string where;
   std::uint64_t offset;
   TokenRules rules;
+  FrontEnd front_end;
+  Level level = Level::spans;
   WordCutter cutter;
   TokenCounts counts;
   std::vector<std::vector<std::int64_t>> faces;  // dz, of each unit
@@ -69,13 +75,15 @@ struct FrameChecker::Data {
 
   void check_header(std::span<const std::uint32_t> words) {
     header = FrameHeader::read(words);
-    if (!header.known()) fail(ErrorCode::HEADER);
+    if (!header.known() || (header.level() == Level::polygons && config.active == 0)) fail(ErrorCode::HEADER);
     if (header.width < 1 || header.height < 1 || header.width > config.max_width || header.height > kMaxHeight)
       fail(ErrorCode::SIZE);
     if (header.param_hash != param_hash(config)) fail(ErrorCode::PARAMS);
     if (header.background >> kPackedBits != 0) fail("background has bits past its channels");
     header_seen = true;
     rules.start(config, header.width, header.height);
+    level = header.level();
+    if (level == Level::polygons) front_end.start(header.width);
     faces.assign(static_cast<std::size_t>(config.units), {});
     at = kHeaderWords;
     token = 1;
@@ -96,11 +104,33 @@ struct FrameChecker::Data {
   }
 
   void check_token(std::span<const std::uint32_t> body) {
-    const Token t = decode(config, layout, body);
-    if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) fail(e);
-    const KindInfo& info = info_of(t.kind);
+    const Token t = decode(config, layout, body, level);
     if (!padding_is_zero(body, layout.bits[static_cast<std::size_t>(t.kind)]))
       fail("bits past the last field are not zero");
+    check_pads(t.kind, body);
+    ++counts.of_kind[static_cast<std::size_t>(t.kind)];
+    if (t.kind == Kind::EDGE) check_edge(t.polygon);
+    const auto check = [this](const Token& of_spans, bool made) { return check_spans(of_spans, made); };
+    const ErrorCode e = level == Level::polygons ? front_end.accept(t, check) : check(t, false);
+    if (e != ErrorCode::NONE) fail(e);
+    at += body.size();
+    if (t.kind == Kind::END)
+      ended = true;
+    else
+      ++token;
+  }
+
+  /// The front end divides by an edge's height and walks it from the line at hand on.
+  void check_edge(const PolygonToken& t) const {
+    const int y = rules.line();
+    if (t.top_y >= t.bottom_y || first_centre(t.top_y) > y || first_centre(t.bottom_y) <= y)
+      fail("the edge does not go down through the centre of the line");
+  }
+
+  /// A token of the span level, made by the front end or not.
+  ErrorCode check_spans(const Token& t, bool made) {
+    if (const ErrorCode e = rules.accept(t, token); e != ErrorCode::NONE) return e;
+    const KindInfo& info = info_of(t.kind);
     if (!info.state && rules.class_cut()) fail("the light table ends within a class");
     if (t.kind == Kind::FACE) {
       auto& of_unit = faces[static_cast<std::size_t>(t.segment.unit)];
@@ -108,20 +138,16 @@ struct FrameChecker::Data {
       of_unit.push_back(t.segment.dz);
     }
     if (t.kind == Kind::SEG && !rules.outcome().taken) fail(rules.outcome().fault);
-    check_pads(t.kind, body);
     if (t.kind == Kind::SEG) check_segment(t.segment);
-    count_token(counts, t);
+    count_span(counts, t);
+    counts.made += made && info.span ? 1 : 0;
     const SpanToken& s = t.span;
     const int count = s.xr - s.xl;
     if (info.depth && !span_fits(s.z, s.dz, count, layout.op_z.bits)) fail("the span's depth overflows");
     if (info.color && config.smooth != 0)
       for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c)
         if (!span_fits(s.color[c], s.dcolor[c], count, layout.op_color[c].bits)) fail("the span's colour overflows");
-    at += body.size();
-    if (t.kind == Kind::END)
-      ended = true;
-    else
-      ++token;
+    return ErrorCode::NONE;
   }
 };
 
@@ -140,7 +166,7 @@ void FrameChecker::feed(std::span<const std::uint32_t> words) {
   }
   while (const std::uint32_t* first = d.cutter.peek()) {
     if (d.ended) d.fail("words after END");
-    const std::size_t n = d.layout.words_of(*first);
+    const std::size_t n = d.layout.words_of(*first, d.level);
     if (n == 0) d.fail(ErrorCode::KIND);
     const auto body = d.cutter.take(n);
     if (body.empty()) return;

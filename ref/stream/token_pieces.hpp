@@ -26,13 +26,15 @@ class TokenPieces {
   void feed(std::span<const std::uint32_t> words, Use use) {
     cutter_.feed(words);
     if (in_header_) {
-      if (cutter_.take(kHeaderWords).empty()) return;
+      const auto header = cutter_.take(kHeaderWords);
+      if (header.empty()) return;
+      level_ = FrameHeader::read(header).level();
       in_header_ = false;
     }
     while (const std::uint32_t* first = cutter_.peek()) {
-      const auto body = cutter_.take(layout_.words_of(*first));
+      const auto body = cutter_.take(layout_.words_of(*first, level_));
       if (body.empty()) return;
-      decode(config_, layout_, body, token_);
+      decode(config_, layout_, body, token_, level_);
       use(static_cast<const Token&>(token_));
     }
   }
@@ -43,6 +45,7 @@ class TokenPieces {
   WordCutter cutter_;
   Token token_;
   bool in_header_ = true;
+  Level level_ = Level::spans;
 };
 
 }  // namespace kage

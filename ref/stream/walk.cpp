@@ -12,11 +12,13 @@
 namespace kage {
 
 TokenWalk::TokenWalk(const Layout& layout, std::span<const std::uint32_t> words)
-    : layout_(&layout), rest_(words.subspan(std::min<std::size_t>(words.size(), kHeaderWords))) {}
+    : layout_(&layout),
+      level_(FrameHeader::read(words).level()),
+      rest_(words.subspan(std::min<std::size_t>(words.size(), kHeaderWords))) {}
 
 std::span<const std::uint32_t> TokenWalk::peek() const {
   if (ended_ || rest_.empty()) return {};
-  const auto length = layout_->words_of(rest_[0]);
+  const auto length = layout_->words_of(rest_[0], level_);
   return length > rest_.size() ? std::span<const std::uint32_t>() : rest_.first(length);
 }
 
@@ -31,8 +33,8 @@ std::span<const std::uint32_t> TokenWalk::next() {
 std::string TokenWalk::rest_text() const {
   if (rest_.empty()) return "";
   if (ended_) return counted(rest_.size(), "word") + " behind END";
-  const auto kind = static_cast<std::size_t>(kind_of(rest_[0]));
-  const std::size_t length = layout_->words_of(rest_[0]);
+  const auto kind = static_cast<std::size_t>(kind_of(rest_[0], level_));
+  const std::size_t length = layout_->words_of(rest_[0], level_);
   if (length == 0) return fmt::format("kind {}, which is no token here", kind);
   return fmt::format("{} of {} words, cut after {}", kKindNames[kind], length, rest_.size());
 }
@@ -45,7 +47,7 @@ TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> wo
   counts.words = words.size();
   TokenWalk walk(layout, words);
   for (auto token = walk.next(); !token.empty(); token = walk.next()) {
-    const Token t = decode(config, layout, token);
+    const Token t = decode(config, layout, token, walk.level());
     count_token(counts, t);
     if (t.kind == Kind::FACE) counts.units = std::max(counts.units, t.segment.unit + 1);
   }

@@ -14,10 +14,12 @@ def constants_hold(d, params):
         "line_number_bits": (d["max_height"], "lines of a frame"),
         "unit_number_bits": (max(p["max"] for p in params if p["name"] == "UNITS") - 1, "UNITS"),
         "code_bits": (max(e["code"] for e in d["errors"]), "errors"),
-        "kind_bits": (len(d["tokens"]), "kinds"),
+        "kind_bits": (max(t["code"] for t in d["tokens"]), "kinds"),
     }
-    if sorted(t["kind"] for t in d["tokens"]) != list(range(1, len(d["tokens"]) + 1)):
-        refuse("tokens: kinds are not numbered from 1 without a gap")
+    for level in ("spans", "polygons"):
+        codes = sorted(t["code"] for t in d["tokens"] if t["level"] in ("", level))
+        if codes != list(range(1, len(codes) + 1)):
+            refuse(f"tokens: kinds of the level {level} are not numbered from 1 without a gap")
     for name, (value, what) in most.items():
         if value >> d[name]:
             refuse(f"constants: {name}: {what} do not fit")

@@ -52,10 +52,16 @@ def numbers(defs):
     d = defs.d
     return [
         f"inline constexpr std::uint32_t kStreamVersion = {d['version']};  ///< of the stream",
+        f"inline constexpr std::uint32_t kPolygonVersion = {d['polygon_version']};  ///< of a frame at the polygon level",
         f"inline constexpr std::uint32_t kStreamMagic = {d['magic']:#x};  ///< in a header's first word",
         f"inline constexpr std::uint32_t kHeaderWords = {len(d['header'])};  ///< words of a header",
         "/// Words of a header by name, in their order.",
         f"inline constexpr std::array<std::string_view, {len(d['header'])}> kHeaderWordNames{{{{{', '.join(quoted(h['name']) for h in d['header'])}}}}};",
+        "/// What the tokens of a frame may be.",
+        "enum class Level : std::uint8_t {",
+        "  spans,     ///< spans and what ends them",
+        "  polygons,  ///< polygons too, which the front end makes spans of",
+        "};",
         *(f"inline constexpr int k{camel(c['name'])} = {c['value']};  ///< {c['doc']}" for c in d["constants"]),
         f"inline constexpr std::size_t kMostTokenWords = {defs.most_token_words()};  ///< words of the longest token of any configuration",
         "",
@@ -151,21 +157,35 @@ def param_hash(fnv):
 
 def kinds(d):
     tokens = d["tokens"]
-    names = ", ".join(f'"{t["name"]}"' for t in sorted(tokens, key=lambda t: t["kind"]))
+    names = ", ".join(f'"{t["name"]}"' if t else '"-"' for t in d["by_kind"])
+    reused = sum(1 << t["code"] for t in tokens if t["level"] == "polygons")
     return [
         "/// Kinds of tokens, by the names of docs/stream.md.",
         "enum class Kind : std::uint8_t {",
         *(f"  {t['name']} = {t['kind']},  ///< {t['doc']}" for t in tokens),
         "};",
         "",
+        "/// How many numbers kinds have; not each of them is a kind.",
+        f"inline constexpr std::size_t kKinds = {d['kinds']};",
+        "",
         "/// The kind of a token.",
         "/// @param word the token's first",
+        "/// @param level of its frame",
         "/// @return its kind; 0 is none",
-        "constexpr Kind kind_of(std::uint32_t word) { return static_cast<Kind>(word & ((1u << kKindBits) - 1u)); }",
+        "constexpr Kind kind_of(std::uint32_t word, Level level = Level::spans) {",
+        "  const std::uint32_t code = word & ((1u << kKindBits) - 1u);",
+        f"  const bool moved = level == Level::polygons && ({reused:#x}u >> code & 1u) != 0;  // a code that both levels use",
+        "  return static_cast<Kind>(moved ? code + (1u << kKindBits) : code);",
+        "}",
+        "",
+        "/// What a token's first word has for its kind.",
+        "/// @param kind any",
+        "/// @return the lowest bits of the word",
+        "constexpr std::uint32_t code_of(Kind kind) { return static_cast<std::uint32_t>(kind) & ((1u << kKindBits) - 1u); }",
         "",
         "/// The names of the kinds, by their numbers.",
-        f"inline constexpr std::array<std::string_view, {2 ** d['kind_bits']}> kKindNames{{",
-        f'    "-", {names}}};',
+        "inline constexpr std::array<std::string_view, kKinds> kKindNames{",
+        f"    {names}}};",
         "",
     ]
 

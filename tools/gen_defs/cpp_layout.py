@@ -29,7 +29,6 @@ def kind_field():
 
 
 def members(d):
-    numbers = 2 ** d["kind_bits"]
     o = ["/// Places of all fields for one configuration. An absent field has no bits.", "struct Layout {"]
     for t in d["tokens"]:
         for f in t["fields"]:
@@ -37,14 +36,15 @@ def members(d):
             o.append(f"  Field {t['name'].lower()}_{n};  ///< {t['name']}'s {f['name']}")
     return [
         *o,
-        f"  std::array<std::uint8_t, {numbers}> words{{}};   ///< words of a token of each kind; 0: the configuration lacks the kind",
-        f"  std::array<std::uint16_t, {numbers}> bits{{}};   ///< bits in use of a token of each kind",
+        "  std::array<std::uint8_t, kKinds> words{};   ///< words of a token of each kind; 0: the configuration lacks the kind",
+        "  std::array<std::uint16_t, kKinds> bits{};   ///< bits in use of a token of each kind",
         "",
         "  /// How long a token is.",
         "  /// @param word the token's first",
+        "  /// @param level of its frame",
         "  /// @return its words; 0: the configuration lacks its kind, or there is no such kind",
-        "  [[nodiscard]] constexpr std::size_t words_of(std::uint32_t word) const {",
-        "    return words[static_cast<std::size_t>(kind_of(word))];",
+        "  [[nodiscard]] constexpr std::size_t words_of(std::uint32_t word, Level level = Level::spans) const {",
+        "    return words[static_cast<std::size_t>(kind_of(word, level))];",
         "  }",
         "",
     ]

@@ -33,7 +33,16 @@ class Defs:
         self.derived |= {c["name"]: {**c, "value": str(c["value"])} for c in self.d["constants"]}
         for number in self.d["derived"]:
             number.setdefault("is", "")
+        # A token's `code` is what its words begin with. Its kind is a number that no other has: those of the polygon level
+        # come behind all that a word can hold.
         for token in self.d["tokens"]:
+            token.setdefault("level", "")
+            token["code"] = token["kind"]
+            token["sv_needs"] = token["needs"]  # of modules, which know pixel parameters: those that ask are of a front end
+            if token["level"] == "polygons":
+                token["needs"] = "ACTIVE > 0" + ("" if token["needs"] == "1" else f" && {token['needs']}")
+                token["kind"] += 2 ** constants["kind_bits"]
+                token["order"] = {"in": []}
             for field in token["fields"]:
                 field["named_bits"] = field["bits"]
                 field["bits"] = self.expanded(field["bits"])
@@ -49,9 +58,14 @@ class Defs:
                 phase.setdefault(absent, "")
         for mark in self.d["order_marks"]:
             mark.setdefault("line", "")
+        self.d["kinds"] = max(t["kind"] for t in self.d["tokens"]) + 1
+        of_kind = {t["kind"]: t for t in self.d["tokens"]}
+        self.d["by_kind"] = [of_kind.get(kind) for kind in range(self.d["kinds"])]  # None: no kind
         self.header_fields = []
         for at, word in enumerate(self.d["header"]):
             word["doc"] = word["doc"].format(**self.d["hash"], **constants)
+            for field in word["fields"]:
+                field["doc"] = field["doc"].format(**self.d)
             lsb = 0
             for field in word["fields"]:
                 self.header_fields.append({**field, "word": at, "lsb": lsb})
@@ -114,6 +128,10 @@ class Defs:
         owner = field.get("of", token.get("of"))
         return (f"{owner}." if owner else "") + field.get("member", field["name"])
 
+    def at_level(self, level):
+        """Tokens of frames at a level, `spans` or `polygons`."""
+        return [t for t in self.d["tokens"] if t["level"] in ("", level)]
+
     def stands_in(self, token, phase):
         """Whether the token may stand in that phase, marks permitting."""
         return phase["name"] in token["order"]["in"] or phase["also"] in token["order"]["in"]
@@ -154,7 +172,7 @@ class Defs:
             return "1'b1" if t["needs"] == "1" else t["needs"]
 
         groups = {}
-        for t in self.d["tokens"]:
+        for t in self.at_level("spans"):
             if value(t):
                 groups.setdefault(value(t), []).append("Kind" + camel(t["name"]))
         return list(groups.items())

@@ -12,7 +12,8 @@ def layout(defs):
         *numbers(defs.d),
         places(defs.d),
         shared_places(defs),
-        token_words(defs.d["tokens"]),
+        token_words("", defs.at_level("spans")),
+        token_words("Polygon", defs.at_level("polygons")),
         param_hash(defs),
         words_function(defs),
         ["/* verilator lint_on UNUSEDPARAM */", "// verilog_lint: waive-stop line-length", ""],
@@ -33,6 +34,7 @@ def opening():
 def header(defs):
     return [
         f"localparam int StreamVersion = {defs.d['version']};",
+        f"localparam int PolygonVersion = {defs.d['polygon_version']};  // at the polygon level",
         f"localparam int StreamMagic = 'h{defs.d['magic']:x};",
         f"localparam int HeaderWords = {len(defs.d['header'])};",
         "",
@@ -46,7 +48,7 @@ def numbers(d):
     def numbered(prefix, bits, entries, number):
         return (f"localparam logic [{bits - 1}:0] {prefix}{camel(e['name'])} = {bits}'d{e[number]};" for e in entries)
 
-    kinds = numbered("Kind", d["kind_bits"], d["tokens"], "kind")
+    kinds = numbered("Kind", d["kind_bits"], d["tokens"], "code")
     errors = numbered("Err", d["code_bits"], d["errors"], "code")
     return [*kinds, ""], [*errors, ""]
 
@@ -63,7 +65,7 @@ def places(d):
             o.append(f"localparam int {field}Bits = {f['bits']};")
             at = f"{field}Lsb + {field}Bits" + (f" * {f['repeat']}" if f["repeat"] else "")
         o.append(f"localparam int {token}Bits = {at};")
-        o.append(f"localparam int {token}Words = ({t['needs']}) != 0 ? ({token}Bits + 31) / 32 : 0;")
+        o.append(f"localparam int {token}Words = ({t['sv_needs']}) != 0 ? ({token}Bits + 31) / 32 : 0;")
     return [*o, ""]
 
 
@@ -76,13 +78,13 @@ def shared_places(defs):
     ]
 
 
-def token_words(tokens):
+def token_words(level, tokens):
     o, most = [], "1"
     for i, t in enumerate(tokens):
         words = f"{camel(t['name'])}Words"
-        o.append(f"localparam int TokenMax{i} = {words} > {most} ? {words} : {most};")
-        most = f"TokenMax{i}"
-    return [*o, f"localparam int TokenWords = {most};  // words of the longest token", ""]
+        o.append(f"localparam int {level}TokenMax{i} = {words} > {most} ? {words} : {most};")
+        most = f"{level}TokenMax{i}"
+    return [*o, f"localparam int {level}TokenWords = {most};  // words of the longest token", ""]
 
 
 def param_hash(defs):
@@ -94,14 +96,18 @@ def param_hash(defs):
 
 
 def words_function(defs):
-    tokens = defs.d["tokens"]
     assert defs.most_token_words() < 32, "token_words() has 5 bits"
-    return [
-        "// Words of a token of this kind; 0: the configuration lacks it.",
-        f"function automatic logic [4:0] token_words(input logic [{defs.d['kind_bits'] - 1}:0] kind);",
-        "  unique case (kind)",
-        *(f"    Kind{camel(t['name'])}: token_words = 5'({camel(t['name'])}Words);" for t in tokens),
-        "    default: token_words = 5'd0;",
-        "  endcase",
-        "endfunction",
-    ]
+
+    def function(name, level, of):
+        return [
+            f"// Words of a token of this kind{of}; 0: the configuration lacks it.",
+            f"function automatic logic [4:0] {name}(input logic [{defs.d['kind_bits'] - 1}:0] kind);",
+            "  unique case (kind)",
+            *(f"    Kind{camel(t['name'])}: {name} = 5'({camel(t['name'])}Words);" for t in defs.at_level(level)),
+            f"    default: {name} = 5'd0;",
+            "  endcase",
+            "endfunction",
+        ]
+
+    polygons = function("polygon_token_words", "polygons", " in a frame at the polygon level")
+    return [*function("token_words", "spans", ""), *polygons]

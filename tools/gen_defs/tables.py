@@ -50,17 +50,25 @@ def header(defs):
     return md(("word", "name", "meaning"), rows)
 
 
-def tokens(defs):
+def token_rows(of_tokens):
     def field(f):
         times = f" x {f['repeat']}" if f["repeat"] else ""
         signed = ", signed" if f["signed"] is True else f", signed if {f['signed']}" if f["signed"] else ""
         return f"`{f['name']}`{times} ({plain(f['named_bits'])}{signed})"
 
     rows = []
-    for t in defs.d["tokens"]:
+    for t in of_tokens:
         needs = "always" if t["needs"] == "1" else t["needs"]
-        rows.append((t["kind"], f"`{t['name']}`", needs, ", ".join(map(field, t["fields"])) or "-", t["doc"]))
+        rows.append((t["code"], f"`{t['name']}`", needs, ", ".join(map(field, t["fields"])) or "-", t["doc"]))
     return md(("kind", "token", "present if", "fields (bits)", "meaning"), rows)
+
+
+def tokens(defs):
+    return token_rows(defs.at_level("spans"))
+
+
+def polygon_tokens(defs):
+    return token_rows(t for t in defs.d["tokens"] if t["level"] == "polygons")
 
 
 def widths(defs):
@@ -101,7 +109,7 @@ def order(defs):
             marks(t["order"]["sets"]),
             marks(t["order"]["clears"]),
         )
-        for t in defs.d["tokens"]
+        for t in defs.at_level("spans")
     ]
     return md(("token", "may stand in", "with", "without", "leads to", "sets", "clears"), rows)
 
@@ -223,6 +231,7 @@ TABLES = {
         rules,
         header,
         tokens,
+        polygon_tokens,
         widths,
         order_phases,
         order_marks,

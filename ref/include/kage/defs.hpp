@@ -16,15 +16,29 @@
 namespace kage {
 
 inline constexpr std::uint32_t kStreamVersion = 1;  ///< of the stream
+inline constexpr std::uint32_t kPolygonVersion = 2;  ///< of a frame at the polygon level
 inline constexpr std::uint32_t kStreamMagic = 0x4b47;  ///< in a header's first word
 inline constexpr std::uint32_t kHeaderWords = 5;  ///< words of a header
 /// Words of a header by name, in their order.
 inline constexpr std::array<std::string_view, 5> kHeaderWordNames{{"magic_version", "size", "param_hash", "background", "frame"}};
+/// What the tokens of a frame may be.
+enum class Level : std::uint8_t {
+  spans,     ///< spans and what ends them
+  polygons,  ///< polygons too, which the front end makes spans of
+};
 inline constexpr int kMaxHeight = 32767;  ///< lines of a frame
 inline constexpr int kKindBits = 4;  ///< of a token's kind, the lowest bits of its first word
 inline constexpr int kCodeBits = 4;  ///< of an error's code
 inline constexpr int kLineNumberBits = 15;  ///< of a line's number, and of how many lines are left
 inline constexpr int kUnitNumberBits = 6;  ///< of a unit's number in a register, in any configuration
+inline constexpr int kSubpixelBits = 24;  ///< of a snapped coordinate, 16.8, within +-(2^15 - 1) pixels
+inline constexpr int kPlaneFrac = 24;  ///< fraction bits of a plane
+inline constexpr int kColorPlaneBits = 34;  ///< of a colour's plane: 10 and its fraction, modulo 2^10
+inline constexpr int kPlaceBits = 48;  ///< of a place in a frame's order: AT's fields together
+inline constexpr int kRankBits = 14;  ///< of a place: the face in its volume
+inline constexpr int kVolumeBits = 18;  ///< of a place: the volume in its sample
+inline constexpr int kSampleBits = 11;  ///< of a place: the light sample
+inline constexpr int kLayerBits = 2;  ///< of a place: 0 opaque, 1 volumes, 2 translucent
 inline constexpr std::size_t kMostTokenWords = 10;  ///< words of the longest token of any configuration
 
 /// Place of a field in its token or header: `bits` from bit `lsb` of its words, the first word lowest.
@@ -48,7 +62,7 @@ struct FrameHeader {
   int height = 0;  ///< lines
   std::uint32_t background = 0;  ///< channel c in bits 8c .. 8c + 7
   std::uint32_t frame = 0;  ///< its number, for messages
-  std::uint32_t version = kStreamVersion;  ///< of the stream
+  std::uint32_t version = kStreamVersion;  ///< of the stream: 1, or 2 at the polygon level
   std::uint32_t magic = kStreamMagic;  ///< KG
   std::uint32_t param_hash = 0;  ///< that of the core's configuration
 
@@ -80,8 +94,15 @@ struct FrameHeader {
     for (std::size_t i = 0; i < all.size() && i < words.size(); ++i) words[i] = all[i];
   }
 
-  /// @return whether magic and version are this stream's
-  [[nodiscard]] constexpr bool known() const { return magic == kStreamMagic && version == kStreamVersion; }
+  /// @return whether magic and version are this stream's, at either level
+  [[nodiscard]] constexpr bool known() const {
+    return magic == kStreamMagic && (version == kStreamVersion || version == kPolygonVersion);
+  }
+
+  /// @return what the frame's tokens are, of a header that is known
+  [[nodiscard]] constexpr Level level() const {
+    return version == kPolygonVersion ? Level::polygons : Level::spans;
+  }
 };
 
 /// A configuration of the core. Members keep the lower-case names of the parameters in the definition file.
@@ -109,6 +130,7 @@ struct Config {
   int lanes = 4;  ///< banked: pixels worked on per clock
   int max_width = 640;  ///< pixels of the longest line; systolic: the number of processors
   int beat_words = 4;  ///< 32-bit words in a beat of the input port
+  int active = 0;  ///< polygons that the front end keeps at once; 0 is a core without front end, which takes spans alone
 
   bool operator==(const Config&) const = default;
 };
@@ -138,6 +160,7 @@ inline constexpr Config kGreatest{
     .lanes = 32,
     .max_width = 32767,
     .beat_words = 8,
+    .active = 4096,
 };
 
 /// A parameter's name, member, legal range and whether it changes pixels.
@@ -153,7 +176,7 @@ struct ParamInfo {
 };
 
 /// All parameters, in the order of the definition file.
-inline constexpr std::array<ParamInfo, 23> kParams{{
+inline constexpr std::array<ParamInfo, 24> kParams{{
     {"X_BITS", &Config::x_bits, 11, 4, 15, true, 0x0, "bits of a pixel position; a line holds at most 2^X_BITS - 1 pixels"},
     {"Z_BITS", &Config::z_bits, 24, 4, 28, true, 0x0, "bits of stored depth; all ones is clear, drawn depth lies in 1 .. 2^Z_BITS - 2"},
     {"Z_FRAC", &Config::z_frac, 11, 0, 16, true, 0x0, "fraction bits of a span's depth; at least ceil(log2 width) keeps the error near half an LSB"},
@@ -177,6 +200,7 @@ inline constexpr std::array<ParamInfo, 23> kParams{{
     {"LANES", &Config::lanes, 4, 1, 32, false, 0x100010116, "banked: pixels worked on per clock"},
     {"MAX_WIDTH", &Config::max_width, 640, 1, 32767, false, 0x0, "pixels of the longest line; systolic: the number of processors"},
     {"BEAT_WORDS", &Config::beat_words, 4, 1, 8, false, 0x116, "32-bit words in a beat of the input port"},
+    {"ACTIVE", &Config::active, 0, 0, 4096, false, 0x0, "polygons that the front end keeps at once; 0 is a core without front end, which takes spans alone"},
 }};
 
 /// A rule that binds parameters together. `text` says it, and why; `legal` is it as an expression of parameters.
@@ -232,16 +256,33 @@ enum class Kind : std::uint8_t {
   TP = 13,  ///< translucent span, back to front
   EOL = 14,  ///< end of the line with number y
   END = 15,  ///< end of the frame
+  GRADIENT = 25,  ///< the plane of a polygon's colour in one channel
+  POLYGON = 26,  ///< a polygon begins: its look, and the plane of its depth
+  EDGE = 27,  ///< an edge of the polygon at this place begins
+  AT = 28,  ///< the place in the frame's order of what follows
 };
+
+/// How many numbers kinds have; not each of them is a kind.
+inline constexpr std::size_t kKinds = 29;
 
 /// The kind of a token.
 /// @param word the token's first
+/// @param level of its frame
 /// @return its kind; 0 is none
-constexpr Kind kind_of(std::uint32_t word) { return static_cast<Kind>(word & ((1u << kKindBits) - 1u)); }
+constexpr Kind kind_of(std::uint32_t word, Level level = Level::spans) {
+  const std::uint32_t code = word & ((1u << kKindBits) - 1u);
+  const bool moved = level == Level::polygons && (0x1e00u >> code & 1u) != 0;  // a code that both levels use
+  return static_cast<Kind>(moved ? code + (1u << kKindBits) : code);
+}
+
+/// What a token's first word has for its kind.
+/// @param kind any
+/// @return the lowest bits of the word
+constexpr std::uint32_t code_of(Kind kind) { return static_cast<std::uint32_t>(kind) & ((1u << kKindBits) - 1u); }
 
 /// The names of the kinds, by their numbers.
-inline constexpr std::array<std::string_view, 16> kKindNames{
-    "-", "SHADE", "TABLE", "FACE", "SEG", "TREE", "OP", "SP", "NC", "IF", "EV", "ES", "RESOLVE", "TP", "EOL", "END"};
+inline constexpr std::array<std::string_view, kKinds> kKindNames{
+    "-", "SHADE", "TABLE", "FACE", "SEG", "TREE", "OP", "SP", "NC", "IF", "EV", "ES", "RESOLVE", "TP", "EOL", "END", "-", "-", "-", "-", "-", "-", "-", "-", "-", "GRADIENT", "POLYGON", "EDGE", "AT"};
 
 /// Errors of a core, the same in golden model and RTL, by the names of docs/stream.md.
 enum class ErrorCode : std::uint8_t {
@@ -258,14 +299,16 @@ enum class ErrorCode : std::uint8_t {
   SEGMENT = 10,  ///< a segment of length 0, with SYNC out of place, or of a face that the frame has not defined
   UNIT_LONG = 11,  ///< a unit with more pixels than the line, or more segments than it buffers
   UNIT_SHORT = 12,  ///< a unit with fewer pixels than the line
+  PLACE = 13,  ///< a place before that of the token before, a span or polygon not of its layer, or an edge or gradient without its polygon, or a polygon without edges
+  ACTIVE_FULL = 14,  ///< more polygons at once than the front end keeps
 };
 
 /// The names of the errors, by their codes.
-inline constexpr std::array<std::string_view, 13> kErrorNames{
-    "NONE", "HEADER", "SIZE", "PARAMS", "KIND", "ORDER", "RANGE", "LINE", "LAST_EARLY", "LAST_LATE", "SEGMENT", "UNIT_LONG", "UNIT_SHORT"};
+inline constexpr std::array<std::string_view, 15> kErrorNames{
+    "NONE", "HEADER", "SIZE", "PARAMS", "KIND", "ORDER", "RANGE", "LINE", "LAST_EARLY", "LAST_LATE", "SEGMENT", "UNIT_LONG", "UNIT_SHORT", "PLACE", "ACTIVE_FULL"};
 
 /// What the errors mean, by their codes.
-inline constexpr std::array<std::string_view, 13> kErrorTexts{
+inline constexpr std::array<std::string_view, 15> kErrorTexts{
     "no error",
     "magic or version is not this core's",
     "width or height is 0, or more than the core has",
@@ -279,6 +322,8 @@ inline constexpr std::array<std::string_view, 13> kErrorTexts{
     "a segment of length 0, with SYNC out of place, or of a face that the frame has not defined",
     "a unit with more pixels than the line, or more segments than it buffers",
     "a unit with fewer pixels than the line",
+    "a place before that of the token before, a span or polygon not of its layer, or an edge or gradient without its polygon, or a polygon without edges",
+    "more polygons at once than the front end keeps",
 };
 
 /// Whether an error is an expansion unit's, which FrameStatus and the register ERROR_UNIT name.
@@ -338,14 +383,37 @@ struct Layout {
   Field tp_color[3];  ///< TP's color
   Field tp_dcolor[3];  ///< TP's dcolor
   Field eol_y;  ///< EOL's y
-  std::array<std::uint8_t, 16> words{};   ///< words of a token of each kind; 0: the configuration lacks the kind
-  std::array<std::uint16_t, 16> bits{};   ///< bits in use of a token of each kind
+  Field gradient_channel;  ///< GRADIENT's channel
+  Field gradient_value;  ///< GRADIENT's value
+  Field gradient_right;  ///< GRADIENT's right
+  Field gradient_down;  ///< GRADIENT's down
+  Field polygon_class;  ///< POLYGON's class
+  Field polygon_w;  ///< POLYGON's w
+  Field polygon_alpha;  ///< POLYGON's alpha
+  Field polygon_color[3];  ///< POLYGON's color
+  Field polygon_value;  ///< POLYGON's value
+  Field polygon_right;  ///< POLYGON's right
+  Field polygon_down;  ///< POLYGON's down
+  Field edge_side;  ///< EDGE's side
+  Field edge_last;  ///< EDGE's last
+  Field edge_top_x;  ///< EDGE's top_x
+  Field edge_top_y;  ///< EDGE's top_y
+  Field edge_bottom_x;  ///< EDGE's bottom_x
+  Field edge_bottom_y;  ///< EDGE's bottom_y
+  Field at_rank;  ///< AT's rank
+  Field at_volume;  ///< AT's volume
+  Field at_light;  ///< AT's light
+  Field at_sample;  ///< AT's sample
+  Field at_layer;  ///< AT's layer
+  std::array<std::uint8_t, kKinds> words{};   ///< words of a token of each kind; 0: the configuration lacks the kind
+  std::array<std::uint16_t, kKinds> bits{};   ///< bits in use of a token of each kind
 
   /// How long a token is.
   /// @param word the token's first
+  /// @param level of its frame
   /// @return its words; 0: the configuration lacks its kind, or there is no such kind
-  [[nodiscard]] constexpr std::size_t words_of(std::uint32_t word) const {
-    return words[static_cast<std::size_t>(kind_of(word))];
+  [[nodiscard]] constexpr std::size_t words_of(std::uint32_t word, Level level = Level::spans) const {
+    return words[static_cast<std::size_t>(kind_of(word, level))];
   }
 
   /// Where the fields are.
@@ -446,6 +514,40 @@ struct Layout {
     at = kKindBits;  // END
     bits[15] = static_cast<std::uint16_t>(at);
     words[15] = static_cast<std::uint8_t>((1) ? (at + 31) / 32 : 0);
+    at = kKindBits;  // GRADIENT
+    put(gradient_channel, 2, false);
+    put(gradient_value, 34, true);
+    put(gradient_right, 34, true);
+    put(gradient_down, 34, true);
+    bits[25] = static_cast<std::uint16_t>(at);
+    words[25] = static_cast<std::uint8_t>((c.active > 0 && c.smooth > 0) ? (at + 31) / 32 : 0);
+    at = kKindBits;  // POLYGON
+    put(polygon_class, c.dsf_bits > 0 ? c.class_bits : 0, false);
+    put(polygon_w, c.dsf_bits > 0 ? c.dsf_bits + 1 : 0, true);
+    put(polygon_alpha, c.translucency > 0 ? 8 : 0, false);
+    for (int i = 0; i < c.channels; ++i) put(polygon_color[i], 8, false);
+    put(polygon_value, c.z_bits + 26, true);
+    put(polygon_right, c.z_bits + 26, true);
+    put(polygon_down, c.z_bits + 26, true);
+    bits[26] = static_cast<std::uint16_t>(at);
+    words[26] = static_cast<std::uint8_t>((c.active > 0) ? (at + 31) / 32 : 0);
+    at = kKindBits;  // EDGE
+    put(edge_side, 1, false);
+    put(edge_last, 1, false);
+    put(edge_top_x, 24, true);
+    put(edge_top_y, 24, true);
+    put(edge_bottom_x, 24, true);
+    put(edge_bottom_y, 24, true);
+    bits[27] = static_cast<std::uint16_t>(at);
+    words[27] = static_cast<std::uint8_t>((c.active > 0) ? (at + 31) / 32 : 0);
+    at = kKindBits;  // AT
+    put(at_rank, 14, false);
+    put(at_volume, 18, false);
+    put(at_light, 3, false);
+    put(at_sample, 11, false);
+    put(at_layer, 2, false);
+    bits[28] = static_cast<std::uint16_t>(at);
+    words[28] = static_cast<std::uint8_t>((c.active > 0) ? (at + 31) / 32 : 0);
   }
 };
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "kage/config.hpp"
+#include "kage/defs.hpp"
 #include "kage/order.hpp"
 #include "kage/scene.hpp"
 #include "kage/shadow.hpp"
@@ -31,8 +32,6 @@ inline constexpr int kGuard = 32767;
 /// Least and most bits of a snapped coordinate's fraction: Look::sub_bits.
 inline constexpr int kLeastSubBits = 4;
 inline constexpr int kMostSubBits = 8;  ///< all that a coordinate has
-/// D of a plane, as a power of two.
-inline constexpr int kPlaneFrac = 24;
 
 /// A vertex after the snap, 16.8.
 struct ScreenVertex {

@@ -27,7 +27,21 @@ enum {
   KAGE_TOKEN_INDEX = 21, /**< draw index of a polyhedron */
   KAGE_TOKEN_DX = 22, /**< pixels */
   KAGE_TOKEN_SYNC = 23, /**< 0 or 1 */
-  KAGE_TOKEN_FIELDS = 24 /**< how many there are */
+  KAGE_TOKEN_LAYER = 24, /**< 0 opaque, 1 volumes, 2 translucent */
+  KAGE_TOKEN_SAMPLE = 25, /**< of light, from 0 */
+  KAGE_TOKEN_VOLUME = 26, /**< in its sample, from 0 */
+  KAGE_TOKEN_RANK = 27, /**< in its volume or layer, from 0 */
+  KAGE_TOKEN_VALUE = 28, /**< of a plane, signed, 24 fraction bits */
+  KAGE_TOKEN_RIGHT = 29, /**< its slope a pixel, likewise */
+  KAGE_TOKEN_DOWN = 30, /**< its slope a line, likewise */
+  KAGE_TOKEN_CHANNEL = 31, /**< of a colour */
+  KAGE_TOKEN_SIDE = 32, /**< of an edge: 0 goes down as the outline goes round, 1 goes up */
+  KAGE_TOKEN_LAST = 33, /**< 1: the polygon ends with the edge */
+  KAGE_TOKEN_TOP_X = 34, /**< of an edge, in 1/256 pixel, signed */
+  KAGE_TOKEN_TOP_Y = 35, /**< likewise */
+  KAGE_TOKEN_BOTTOM_X = 36, /**< likewise */
+  KAGE_TOKEN_BOTTOM_Y = 37, /**< likewise */
+  KAGE_TOKEN_FIELDS = 38 /**< how many there are */
 };
 
 /** Fields of a pixel's state. */
@@ -58,7 +72,11 @@ enum {
   KAGE_KIND_RESOLVE = 12, /**< darken what is in shadow */
   KAGE_KIND_TP = 13, /**< translucent span, back to front */
   KAGE_KIND_EOL = 14, /**< end of the line with number y */
-  KAGE_KIND_END = 15 /**< end of the frame */
+  KAGE_KIND_END = 15, /**< end of the frame */
+  KAGE_KIND_GRADIENT = 25, /**< the plane of a polygon's colour in one channel */
+  KAGE_KIND_POLYGON = 26, /**< a polygon begins: its look, and the plane of its depth */
+  KAGE_KIND_EDGE = 27, /**< an edge of the polygon at this place begins */
+  KAGE_KIND_AT = 28 /**< the place in the frame's order of what follows */
 };
 
 #endif

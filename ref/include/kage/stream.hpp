@@ -22,11 +22,12 @@ namespace kage {
 
 /// Count of each kind of token, and words.
 struct TokenCounts {
-  std::array<std::uint64_t, 16> of_kind{};  ///< tokens, by Kind
-  std::uint64_t words = 0;                  ///< of 32 bits, the header's among them
-  std::uint64_t spans = 0;                  ///< OP, SP, NC, TP
-  std::uint64_t span_pixels = 0;            ///< pixels in them
-  int units = 0;                            ///< units with faces; of several frames, the most
+  std::array<std::uint64_t, kKinds> of_kind{};  ///< tokens, by Kind
+  std::uint64_t words = 0;                      ///< of 32 bits, the header's among them
+  std::uint64_t spans = 0;                      ///< OP, SP, NC, TP, and those that the front end makes
+  std::uint64_t made = 0;                       ///< of `spans` those that the front end makes of polygons
+  std::uint64_t span_pixels = 0;                ///< pixels in them
+  int units = 0;                                ///< units with faces; of several frames, the most
 
   /// Adds those of another frame.
   /// @param other its counts
@@ -191,6 +192,9 @@ class TokenWalk {
   /// @return its words; none where the walk has ended
   std::span<const std::uint32_t> next();
 
+  /// @return what the frame's tokens are, by its header
+  [[nodiscard]] Level level() const { return level_; }
+
   /// @return what has not been walked over
   [[nodiscard]] std::span<const std::uint32_t> rest() const { return rest_; }
 
@@ -201,6 +205,7 @@ class TokenWalk {
 
  private:
   const Layout* layout_;
+  Level level_;
   std::span<const std::uint32_t> rest_;
   bool ended_ = false;  // by END
 };

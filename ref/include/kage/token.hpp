@@ -52,6 +52,29 @@ struct TableToken {
   std::array<std::uint32_t, 3> share{};  ///< of each channel, in 2^-SHADE_FRAC, at most 2^SHADE_FRAC
 };
 
+/// POLYGON, EDGE, GRADIENT and AT (docs/stream.md, "The polygon level"). The look of a POLYGON, its weight and its alpha
+/// are those of Token::span, the light of an AT that of Token::table.
+struct PolygonToken {
+  /// POLYGON: depth at pixel 0 of the line above its first, in 2^-24 LSB, modulo 2^(Z_BITS + 2) LSB. GRADIENT: colour
+  /// likewise, modulo 2^10.
+  std::int64_t value = 0;
+  std::int64_t right = 0;  ///< its slope a pixel, in the unit and the range of `value`
+  std::int64_t down = 0;   ///< its slope a line, likewise
+  int channel = 0;         ///< GRADIENT: 0 .. CHANNELS - 1
+  int side = 0;            ///< EDGE: 0 goes down as the polygon's outline goes round, 1 goes up
+  bool last = false;       ///< EDGE: the polygon ends where the edge ends
+  int top_x = 0;           ///< EDGE: its upper end, in 1/256 pixel, -2^23 .. 2^23 - 1
+  int top_y = 0;           ///< EDGE: likewise
+  int bottom_x = 0;        ///< EDGE: its lower end, likewise
+  int bottom_y = 0;        ///< EDGE: likewise
+  int layer = 0;           ///< AT: 0 opaque, 1 volumes, 2 translucent
+  int sample = 0;          ///< AT: of light, 0 .. 2^11 - 1
+  int volume = 0;          ///< AT: in its sample, 0 .. 2^18 - 1
+  int rank = 0;            ///< AT: in its volume, 0 .. 2^14 - 1
+};
+
+struct Token;
+
 /// Writes tokens of one configuration to the end of a vector of words. The caller sees to order and to what the
 /// fields mean (check_frame() judges both). A value that its field cannot hold is never cut: Error names token, field
 /// and value, and the words are as they were. The class is left out where the configuration has no shadows.
@@ -113,6 +136,23 @@ class TokenWriter {
   /// @param y number of the line, from 0
   void eol(int y);
   void end();  ///< END
+  /// AT.
+  /// @param place what it says
+  /// @param light of the place
+  void at(const PolygonToken& place, int light);
+  /// POLYGON.
+  /// @param plane value, right and down
+  /// @param look colour by channel, 0 .. 255; class, w and alpha, which are left out where the configuration has none
+  void polygon(const PolygonToken& plane, const SpanToken& look);
+  /// EDGE.
+  /// @param edge what it says
+  void edge(const PolygonToken& edge);
+  /// GRADIENT.
+  /// @param plane what it says
+  void gradient(const PolygonToken& plane);
+  /// A token of any kind.
+  /// @param token what it says
+  void token(const Token& token);
 
  private:
   template <Kind K, class T>
@@ -126,9 +166,10 @@ class TokenWriter {
 /// Any token, decoded. `span.xl`, `span.xr` and `span.w` are also those of NC, IF, EV and ES.
 struct Token {
   Kind kind{};              ///< which token it is
-  SpanToken span;           ///< OP, SP, NC, IF, EV, ES and TP
+  SpanToken span;           ///< OP, SP, NC, IF, EV, ES and TP; of a POLYGON the look
   SegmentToken segment;     ///< FACE and SEG
-  TableToken table;         ///< TABLE; its light is also that of ES
+  TableToken table;         ///< TABLE; its light is also that of ES and AT
+  PolygonToken polygon;     ///< POLYGON, EDGE, GRADIENT and AT
   std::uint32_t shade = 0;  ///< SHADE: 0 .. 2^SHADE_FRAC
   int y = 0;                ///< EOL
 };
@@ -137,15 +178,19 @@ struct Token {
 /// @param config that of the words
 /// @param layout of the same configuration
 /// @param words hold the token whole, from `words[0]` on
+/// @param level of its frame
 /// @return the token
-Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words);
+Token decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words,
+             Level level = Level::spans);
 
 /// The same for one token after the other: fields that its kind does not have in this configuration stay as they are.
 /// @param config that of the words
 /// @param layout of the same configuration
 /// @param words hold the token whole, from `words[0]` on
 /// @param token gets what they say
-void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& token);
+/// @param level of its frame
+void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& token,
+            Level level = Level::spans);
 
 /// Says in one line what the token is.
 /// @param config that of the token

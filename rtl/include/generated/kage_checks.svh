@@ -71,6 +71,9 @@ end
 if (BEAT_WORDS != 1 && BEAT_WORDS != 2 && BEAT_WORDS != 4 && BEAT_WORDS != 8) begin : gen_bad_beat_words
   `KAGE_ILLEGAL("BEAT_WORDS must be one of 1 2 4 8")
 end
+if (ACTIVE < 0 || ACTIVE > 4096) begin : gen_bad_active
+  `KAGE_ILLEGAL("ACTIVE must be 0 .. 4096")
+end
 if (!(FSF == 0 || DSF_BITS > 0)) begin : gen_bad_fsf_alone
   `KAGE_ILLEGAL("FSF needs DSF_BITS > 0: it collects what DSF counts")
 end

@@ -5,5 +5,6 @@
 parameter int ARRANGEMENT = 1,
 parameter int LANES = 4,
 parameter int MAX_WIDTH = 640,
-parameter int BEAT_WORDS = 4
+parameter int BEAT_WORDS = 4,
+parameter int ACTIVE = 0
 /* verilator lint_on UNUSEDPARAM */

@@ -4,6 +4,7 @@
 // verilog_lint: waive-start line-length
 /* verilator lint_off UNUSEDPARAM */
 localparam int StreamVersion = 1;
+localparam int PolygonVersion = 2;  // at the polygon level
 localparam int StreamMagic = 'h4b47;
 localparam int HeaderWords = 5;
 
@@ -37,6 +38,10 @@ localparam logic [3:0] KindResolve = 4'd12;
 localparam logic [3:0] KindTp = 4'd13;
 localparam logic [3:0] KindEol = 4'd14;
 localparam logic [3:0] KindEnd = 4'd15;
+localparam logic [3:0] KindGradient = 4'd9;
+localparam logic [3:0] KindPolygon = 4'd10;
+localparam logic [3:0] KindEdge = 4'd11;
+localparam logic [3:0] KindAt = 4'd12;
 
 localparam logic [3:0] ErrNone = 4'd0;
 localparam logic [3:0] ErrHeader = 4'd1;
@@ -51,6 +56,8 @@ localparam logic [3:0] ErrLastLate = 4'd9;
 localparam logic [3:0] ErrSegment = 4'd10;
 localparam logic [3:0] ErrUnitLong = 4'd11;
 localparam logic [3:0] ErrUnitShort = 4'd12;
+localparam logic [3:0] ErrPlace = 4'd13;
+localparam logic [3:0] ErrActiveFull = 4'd14;
 
 localparam int ShadeShadeLsb = 4;
 localparam int ShadeShadeBits = SHADE_FRAC + 1;
@@ -172,6 +179,58 @@ localparam int EolBits = EolYLsb + EolYBits;
 localparam int EolWords = (1) != 0 ? (EolBits + 31) / 32 : 0;
 localparam int EndBits = 4;
 localparam int EndWords = (1) != 0 ? (EndBits + 31) / 32 : 0;
+localparam int GradientChannelLsb = 4;
+localparam int GradientChannelBits = 2;
+localparam int GradientValueLsb = GradientChannelLsb + GradientChannelBits;
+localparam int GradientValueBits = 34;
+localparam int GradientRightLsb = GradientValueLsb + GradientValueBits;
+localparam int GradientRightBits = 34;
+localparam int GradientDownLsb = GradientRightLsb + GradientRightBits;
+localparam int GradientDownBits = 34;
+localparam int GradientBits = GradientDownLsb + GradientDownBits;
+localparam int GradientWords = (SMOOTH > 0) != 0 ? (GradientBits + 31) / 32 : 0;
+localparam int PolygonClassLsb = 4;
+localparam int PolygonClassBits = DSF_BITS > 0 ? CLASS_BITS : 0;
+localparam int PolygonWLsb = PolygonClassLsb + PolygonClassBits;
+localparam int PolygonWBits = DSF_BITS > 0 ? DSF_BITS + 1 : 0;
+localparam int PolygonAlphaLsb = PolygonWLsb + PolygonWBits;
+localparam int PolygonAlphaBits = TRANSLUCENCY > 0 ? 8 : 0;
+localparam int PolygonColorLsb = PolygonAlphaLsb + PolygonAlphaBits;
+localparam int PolygonColorBits = 8;
+localparam int PolygonValueLsb = PolygonColorLsb + PolygonColorBits * CHANNELS;
+localparam int PolygonValueBits = Z_BITS + 26;
+localparam int PolygonRightLsb = PolygonValueLsb + PolygonValueBits;
+localparam int PolygonRightBits = Z_BITS + 26;
+localparam int PolygonDownLsb = PolygonRightLsb + PolygonRightBits;
+localparam int PolygonDownBits = Z_BITS + 26;
+localparam int PolygonBits = PolygonDownLsb + PolygonDownBits;
+localparam int PolygonWords = (1) != 0 ? (PolygonBits + 31) / 32 : 0;
+localparam int EdgeSideLsb = 4;
+localparam int EdgeSideBits = 1;
+localparam int EdgeLastLsb = EdgeSideLsb + EdgeSideBits;
+localparam int EdgeLastBits = 1;
+localparam int EdgeTopXLsb = EdgeLastLsb + EdgeLastBits;
+localparam int EdgeTopXBits = 24;
+localparam int EdgeTopYLsb = EdgeTopXLsb + EdgeTopXBits;
+localparam int EdgeTopYBits = 24;
+localparam int EdgeBottomXLsb = EdgeTopYLsb + EdgeTopYBits;
+localparam int EdgeBottomXBits = 24;
+localparam int EdgeBottomYLsb = EdgeBottomXLsb + EdgeBottomXBits;
+localparam int EdgeBottomYBits = 24;
+localparam int EdgeBits = EdgeBottomYLsb + EdgeBottomYBits;
+localparam int EdgeWords = (1) != 0 ? (EdgeBits + 31) / 32 : 0;
+localparam int AtRankLsb = 4;
+localparam int AtRankBits = 14;
+localparam int AtVolumeLsb = AtRankLsb + AtRankBits;
+localparam int AtVolumeBits = 18;
+localparam int AtLightLsb = AtVolumeLsb + AtVolumeBits;
+localparam int AtLightBits = 3;
+localparam int AtSampleLsb = AtLightLsb + AtLightBits;
+localparam int AtSampleBits = 11;
+localparam int AtLayerLsb = AtSampleLsb + AtSampleBits;
+localparam int AtLayerBits = 2;
+localparam int AtBits = AtLayerLsb + AtLayerBits;
+localparam int AtWords = (1) != 0 ? (AtBits + 31) / 32 : 0;
 
 // In all tokens with a range that have it.
 localparam int RangeXlLsb = OpXlLsb;
@@ -194,6 +253,23 @@ localparam int TokenMax12 = TpWords > TokenMax11 ? TpWords : TokenMax11;
 localparam int TokenMax13 = EolWords > TokenMax12 ? EolWords : TokenMax12;
 localparam int TokenMax14 = EndWords > TokenMax13 ? EndWords : TokenMax13;
 localparam int TokenWords = TokenMax14;  // words of the longest token
+
+localparam int PolygonTokenMax0 = ShadeWords > 1 ? ShadeWords : 1;
+localparam int PolygonTokenMax1 = TableWords > PolygonTokenMax0 ? TableWords : PolygonTokenMax0;
+localparam int PolygonTokenMax2 = FaceWords > PolygonTokenMax1 ? FaceWords : PolygonTokenMax1;
+localparam int PolygonTokenMax3 = SegWords > PolygonTokenMax2 ? SegWords : PolygonTokenMax2;
+localparam int PolygonTokenMax4 = TreeWords > PolygonTokenMax3 ? TreeWords : PolygonTokenMax3;
+localparam int PolygonTokenMax5 = OpWords > PolygonTokenMax4 ? OpWords : PolygonTokenMax4;
+localparam int PolygonTokenMax6 = SpWords > PolygonTokenMax5 ? SpWords : PolygonTokenMax5;
+localparam int PolygonTokenMax7 = NcWords > PolygonTokenMax6 ? NcWords : PolygonTokenMax6;
+localparam int PolygonTokenMax8 = TpWords > PolygonTokenMax7 ? TpWords : PolygonTokenMax7;
+localparam int PolygonTokenMax9 = EolWords > PolygonTokenMax8 ? EolWords : PolygonTokenMax8;
+localparam int PolygonTokenMax10 = EndWords > PolygonTokenMax9 ? EndWords : PolygonTokenMax9;
+localparam int PolygonTokenMax11 = GradientWords > PolygonTokenMax10 ? GradientWords : PolygonTokenMax10;
+localparam int PolygonTokenMax12 = PolygonWords > PolygonTokenMax11 ? PolygonWords : PolygonTokenMax11;
+localparam int PolygonTokenMax13 = EdgeWords > PolygonTokenMax12 ? EdgeWords : PolygonTokenMax12;
+localparam int PolygonTokenMax14 = AtWords > PolygonTokenMax13 ? AtWords : PolygonTokenMax13;
+localparam int PolygonTokenWords = PolygonTokenMax14;  // words of the longest token
 
 localparam logic [31:0] ParamHash0 = 32'd2166136261;
 localparam logic [31:0] ParamHash1 = (ParamHash0 ^ 32'(X_BITS)) * 32'd16777619;
@@ -236,6 +312,27 @@ function automatic logic [4:0] token_words(input logic [3:0] kind);
     KindEol: token_words = 5'(EolWords);
     KindEnd: token_words = 5'(EndWords);
     default: token_words = 5'd0;
+  endcase
+endfunction
+// Words of a token of this kind in a frame at the polygon level; 0: the configuration lacks it.
+function automatic logic [4:0] polygon_token_words(input logic [3:0] kind);
+  unique case (kind)
+    KindShade: polygon_token_words = 5'(ShadeWords);
+    KindTable: polygon_token_words = 5'(TableWords);
+    KindFace: polygon_token_words = 5'(FaceWords);
+    KindSeg: polygon_token_words = 5'(SegWords);
+    KindTree: polygon_token_words = 5'(TreeWords);
+    KindOp: polygon_token_words = 5'(OpWords);
+    KindSp: polygon_token_words = 5'(SpWords);
+    KindNc: polygon_token_words = 5'(NcWords);
+    KindTp: polygon_token_words = 5'(TpWords);
+    KindEol: polygon_token_words = 5'(EolWords);
+    KindEnd: polygon_token_words = 5'(EndWords);
+    KindGradient: polygon_token_words = 5'(GradientWords);
+    KindPolygon: polygon_token_words = 5'(PolygonWords);
+    KindEdge: polygon_token_words = 5'(EdgeWords);
+    KindAt: polygon_token_words = 5'(AtWords);
+    default: polygon_token_words = 5'd0;
   endcase
 endfunction
 /* verilator lint_on UNUSEDPARAM */

@@ -9,6 +9,9 @@ const Stream = (() => {
   const derived = {
     factor_bits: (c) => c.SHADE_FRAC + 1,  // a share of colour, and what it leaves
     depth_bits: (c) => c.Z_BITS + c.Z_FRAC + 2,  // depth accumulator
+    plane_bits: (c) => c.Z_BITS + 26,  // a polygon's depth plane in 2^-24, modulo 2^(Z_BITS + 2)
+    weight_field_bits: (c) => c.DSF_BITS > 0 ? c.DSF_BITS + 1 : 0,  // the weight of a polygon
+    alpha_field_bits: (c) => c.TRANSLUCENCY > 0 ? 8 : 0,  // a polygon's alpha
     segment_depth_bits: (c) => c.CLASSIC > 0 ? 15 : derived.depth_bits(c),  // a segment's depth; the paper's is unsigned
     smooth_bits: (c) => 10 + c.COLOR_FRAC,  // one channel of a colour that changes along its span, and of its slope
     ramp_bits: (c) => c.SMOOTH > 0 ? derived.smooth_bits(c) : 8,  // one channel of a span's colour
@@ -20,9 +23,10 @@ const Stream = (() => {
 
   const kindBits = 4;
 
-  // By kind: the name, whether the configuration has it, and its fields: [name, bits, signed, channels or 0].
+  // By level and kind: the name, whether the configuration has it, and its fields: [name, bits, signed, channels or 0].
+  const none = {name: "-", present: () => false, fields: () => []};
   const kinds = [
-    {name: "-", present: () => false, fields: () => []},
+    none,
     {name: "SHADE", present: (c) => c.CLASS_BITS > 1 ? 0 : c.DSF_BITS > 0, fields: (c) => [
       ["shade", derived.factor_bits(c), false, 0],
     ]},
@@ -95,7 +99,48 @@ const Stream = (() => {
       ["y", 16, false, 0],
     ]},
     {name: "END", present: (c) => true, fields: (c) => []},
+    none,
+    none,
+    none,
+    none,
+    none,
+    none,
+    none,
+    none,
+    none,
+    {name: "GRADIENT", present: (c) => c.ACTIVE > 0 && c.SMOOTH > 0, fields: (c) => [
+      ["channel", 2, false, 0],
+      ["value", derived.color_plane_bits(c), true, 0],
+      ["right", derived.color_plane_bits(c), true, 0],
+      ["down", derived.color_plane_bits(c), true, 0],
+    ]},
+    {name: "POLYGON", present: (c) => c.ACTIVE > 0, fields: (c) => [
+      ["class", derived.class_field_bits(c), false, 0],
+      ["w", derived.weight_field_bits(c), true, 0],
+      ["alpha", derived.alpha_field_bits(c), false, 0],
+      ["color", 8, false, c.CHANNELS],
+      ["value", derived.plane_bits(c), true, 0],
+      ["right", derived.plane_bits(c), true, 0],
+      ["down", derived.plane_bits(c), true, 0],
+    ]},
+    {name: "EDGE", present: (c) => c.ACTIVE > 0, fields: (c) => [
+      ["side", 1, false, 0],
+      ["last", 1, false, 0],
+      ["top_x", derived.subpixel_bits(c), true, 0],
+      ["top_y", derived.subpixel_bits(c), true, 0],
+      ["bottom_x", derived.subpixel_bits(c), true, 0],
+      ["bottom_y", derived.subpixel_bits(c), true, 0],
+    ]},
+    {name: "AT", present: (c) => c.ACTIVE > 0, fields: (c) => [
+      ["rank", derived.rank_bits(c), false, 0],
+      ["volume", derived.volume_bits(c), false, 0],
+      ["light", 3, false, 0],
+      ["sample", derived.sample_bits(c), false, 0],
+      ["layer", derived.layer_bits(c), false, 0],
+    ]},
   ];
+  // Kinds that frames at the polygon level have of their own stand behind all that a word can hold.
+  const atPolygons = (code) => kinds[2 ** kindBits + code] && kinds[2 ** kindBits + code] !== none ? 2 ** kindBits + code : code;
 
   // Where the fields of each kind are: [name, channel or -1, lsb, bits, signed]. One that the configuration lacks is left out.
   function layout(c) {
@@ -112,17 +157,19 @@ const Stream = (() => {
     });
   }
 
-  // Fields are 46 bits at most in every configuration, so a Number holds them.
+  // Fields are 54 bits at most in every configuration, and signed ones that long, so a Number holds them. The
+  // sign goes into the uppermost part, for without it such a value would be too long.
   function field(words, at, lsb, bits, signed) {
     let value = 0;
     for (let done = 0; done < bits;) {
       const bit = lsb + done;
       const take = Math.min(32 - bit % 32, bits - done);
       const part = Math.floor(words[at + Math.floor(bit / 32)] / 2 ** (bit % 32)) % 2 ** take;
-      value += part * 2 ** done;
+      const negative = signed && done + take === bits && part >= 2 ** (take - 1);
+      value += (negative ? part - 2 ** take : part) * 2 ** done;
       done += take;
     }
-    return signed && value >= 2 ** (bits - 1) ? value - 2 ** bits : value;
+    return value;
   }
 
   // As the program prints a double: the shortest text that gives it back.
@@ -137,9 +184,11 @@ const Stream = (() => {
     const places = layout(c);
     const width = Object.fromEntries(Object.entries(derived).map(([name, value]) => [name, Number(value(c))]));
 
-    // The token whose words begin there: its fields by name, an array for several channels; `words`, their number.
-    function decode(words, at) {
-      const kind = places[words[at] % 2 ** kindBits];
+    // The token whose words begin there, of a frame at the polygon level or not: its fields by name, an array for several
+    // channels; `words`, their number.
+    function decode(words, at, polygons = false) {
+      const code = words[at] % 2 ** kindBits;
+      const kind = places[polygons ? atPolygons(code) : code];
       const token = {kind: kind.name, words: kind.words};
       for (const [name, channel, lsb, bits, signed] of kind.fields) {
         const value = field(words, at, lsb, bits, signed);
@@ -153,6 +202,8 @@ const Stream = (() => {
     const as = {
       plain: (v) => String(v),
       sign: withSign,
+      plane: (v) => number(v / 2 ** 24),
+      subpixel: (v) => number(v / 256),
       depth: (v) => number(v / 2 ** c.Z_FRAC),
       share: (v) => `${v}/${2 ** c.SHADE_FRAC}`,
       ramp: (color, slope) => color.map((v, i) => number(v / 2 ** c.COLOR_FRAC) +
@@ -189,6 +240,14 @@ const Stream = (() => {
           return "TP [" + as.plain(t.xl) + ", " + as.plain(t.xr) + ") z " + as.depth(t.z) + " dz " + as.depth(t.dz) + " color " + as.ramp(t.color, t.dcolor) + " alpha " + as.plain(t.alpha);
         case "EOL":
           return "EOL " + as.plain(t.y);
+        case "GRADIENT":
+          return "GRADIENT channel " + as.plain(t.channel) + " value " + as.plane(t.value) + " right " + as.plane(t.right) + " down " + as.plane(t.down);
+        case "POLYGON":
+          return "POLYGON value " + as.plane(t.value) + " right " + as.plane(t.right) + " down " + as.plane(t.down) + " color " + as.plain(t.color) + " w " + as.sign(t.w) + " alpha " + as.plain(t.alpha) + as.class(t.class);
+        case "EDGE":
+          return "EDGE side " + as.plain(t.side) + as.flag("last", t.last) + " (" + as.subpixel(t.top_x) + ", " + as.subpixel(t.top_y) + ") to (" + as.subpixel(t.bottom_x) + ", " + as.subpixel(t.bottom_y) + ")";
+        case "AT":
+          return "AT layer " + as.plain(t.layer) + " sample " + as.plain(t.sample) + " light " + as.plain(t.light) + " volume " + as.plain(t.volume) + " rank " + as.plain(t.rank);
         default:
           return t.kind;
       }

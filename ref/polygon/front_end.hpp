@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The front end: tokens of a frame at the polygon level in, tokens of the span level out (docs/stream.md, "The polygon
+// level"; rtl/front_end.sv). It keeps the polygons that cross the line at hand in the order of their places and merges
+// with them what the line brings.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "polygon/active_polygon.hpp"
+#include "polygon/place.hpp"
+#include "polygon/volume_ends.hpp"
+
+namespace kage {
+
+class FrontEnd {
+ public:
+  explicit FrontEnd(const Config& config) : config_(config), ends_(config) {}
+
+  /// A frame begins whose header has been accepted.
+  void start(int width) {
+    width_ = width;
+    line_ = 0;
+    active_.clear();
+    next_.clear();
+    start_line();
+  }
+
+  /// Takes the frame's next token, of a kind that the configuration has, and calls emit(token, made) for each token of
+  /// the span level that comes of it, in order: `made` by the front end, or as it came. What emit() returns, if it is
+  /// not NONE, or what is wrong with the token, is the answer; nothing but start() may follow it.
+  template <class Emit>
+  ErrorCode accept(const Token& t, Emit emit) {
+    const auto make = [&emit](const Token& token) { return emit(token, true); };
+    // Nothing may come between a POLYGON and its edges.
+    if (begun_ && t.kind != Kind::EDGE && t.kind != Kind::GRADIENT) return ErrorCode::PLACE;
+    switch (t.kind) {
+      case Kind::AT:
+        return go_to(t);
+      case Kind::POLYGON:
+        return begin(t, make);
+      case Kind::GRADIENT:
+        return gradient(t.polygon);
+      case Kind::EDGE:
+        return edge(t.polygon, make);
+      case Kind::OP:
+      case Kind::SP:
+      case Kind::NC:
+      case Kind::TP:
+        return span(t, make, emit);
+      case Kind::EOL:
+        return end_line(t, make, emit);
+      default:
+        return emit(t, false);
+    }
+  }
+
+ private:
+  void start_line() {
+    placed_ = begun_ = false;
+    at_ = 0;
+    have_ = {};
+    ends_.start();
+  }
+
+  [[nodiscard]] static constexpr Layer layer_of(Kind kind) {
+    return kind == Kind::OP ? Layer::opaque : kind == Kind::TP ? Layer::translucent : Layer::volumes;
+  }
+  [[nodiscard]] bool has(int layer) const {
+    return layer == 0 || (layer == 1 && config_.dsf_bits > 0) || (layer == 2 && config_.translucency > 0);
+  }
+
+  ErrorCode go_to(const Token& t) {
+    const Place to(t.polygon, t.table.light);
+    if (!has(to.layer()) || (placed_ && to < place_)) return ErrorCode::PLACE;
+    place_ = to;
+    placed_ = true;
+    return ErrorCode::NONE;
+  }
+
+  template <class Make>
+  ErrorCode begin(const Token& t, Make make) {
+    if (!placed_) return ErrorCode::PLACE;
+    if (const ErrorCode e = make_before(place_, make); e != ErrorCode::NONE) return e;
+    begun_ = true;
+    have_ = {};
+    fresh_ = ActivePolygon(config_, place_, t);
+    return ErrorCode::NONE;
+  }
+
+  ErrorCode gradient(const PolygonToken& t) {
+    if (!begun_ || t.channel >= config_.channels) return ErrorCode::PLACE;
+    fresh_.color[static_cast<std::size_t>(t.channel)] = WalkedPlane(t);
+    return ErrorCode::NONE;
+  }
+
+  template <class Make>
+  ErrorCode edge(const PolygonToken& t, Make make) {
+    if (!begun_) {
+      if (!placed_) return ErrorCode::PLACE;
+      if (const ErrorCode e = make_before(place_, make); e != ErrorCode::NONE) return e;
+      if (at_ == active_.size() || active_[at_].place != place_) return ErrorCode::PLACE;
+      active_[at_].set_edge(t, ActivePolygon::edge_at(t, line_));
+      return ErrorCode::NONE;
+    }
+    fresh_.set_edge(t, ActivePolygon::edge_at(t, line_));
+    have_[static_cast<std::size_t>(t.side)] = true;
+    if (!have_[0] || !have_[1]) return ErrorCode::NONE;
+    if (next_.size() + (active_.size() - at_) >= static_cast<std::size_t>(config_.active))
+      return ErrorCode::ACTIVE_FULL;
+    begun_ = false;
+    return make_span(fresh_, make);
+  }
+
+  template <class Make, class Emit>
+  ErrorCode span(const Token& t, Make make, Emit emit) {
+    if (!placed_ || place_.layer() != static_cast<int>(layer_of(t.kind))) return ErrorCode::PLACE;
+    if (const ErrorCode e = make_before(place_, make); e != ErrorCode::NONE) return e;
+    if (const ErrorCode e = before(place_, t.span, make); e != ErrorCode::NONE) return e;
+    if (t.kind != Kind::NC || t.span.xl != 0 || t.span.xr != width_) return emit(t, false);
+    Token whole = t;
+    whole.kind = Kind::IF;
+    return emit(whole, false);
+  }
+
+  template <class Make, class Emit>
+  ErrorCode end_line(const Token& t, Make make, Emit emit) {
+    while (at_ < active_.size())
+      if (const ErrorCode e = make_span(active_[at_++], make); e != ErrorCode::NONE) return e;
+    if (const ErrorCode e = ends_.end(make); e != ErrorCode::NONE) return e;
+    active_.swap(next_);
+    next_.clear();
+    start_line();
+    ++line_;
+    return emit(t, false);
+  }
+
+  /// Make the spans of the polygons that come before a place.
+  template <class Make>
+  ErrorCode make_before(Place place, Make make) {
+    while (at_ < active_.size() && active_[at_].place < place)
+      if (const ErrorCode e = make_span(active_[at_++], make); e != ErrorCode::NONE) return e;
+    return ErrorCode::NONE;
+  }
+
+  template <class Make>
+  ErrorCode make_span(ActivePolygon& p, Make make) {
+    Token t;
+    t.span = p.span(config_, width_);
+    t.kind = p.place.layer() == 0 ? Kind::OP : p.place.layer() == 1 ? Kind::SP : Kind::TP;
+    const Place place = p.place;
+    if (p.end > line_ + 1) {
+      p.next();
+      next_.push_back(p);
+    }
+    const auto weight = static_cast<unsigned>(t.span.w) & derived::most_dsf(config_);
+    if (t.span.xl == t.span.xr || (t.kind == Kind::SP && weight == 0)) return ErrorCode::NONE;
+    if (const ErrorCode e = before(place, t.span, make); e != ErrorCode::NONE) return e;
+    return make(t);
+  }
+
+  /// What ends before a span at this place.
+  template <class Make>
+  ErrorCode before(Place place, const SpanToken& s, Make make) {
+    if (place.layer() == static_cast<int>(Layer::volumes)) return ends_.token(place, s.xl, s.xr, make);
+    return place.layer() == static_cast<int>(Layer::translucent) ? ends_.end(make) : ErrorCode::NONE;
+  }
+
+  Config config_;
+  VolumeEnds ends_;
+  int width_ = 0;
+  int line_ = 0;
+  std::vector<ActivePolygon> active_;  // that cross the line, by place
+  std::vector<ActivePolygon> next_;    // that cross the next one
+  std::size_t at_ = 0;                 // the first of active_ whose span is still to be made
+  bool placed_ = false;                // the line has had an AT
+  Place place_;                        // of its last
+  bool begun_ = false;                 // a POLYGON waits for its edges
+  std::array<bool, 2> have_{};
+  ActivePolygon fresh_;
+};
+
+}  // namespace kage

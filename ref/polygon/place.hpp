@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A place in a frame's order (docs/stream.md, "The polygon level"): one number of 48 bits, whose fields AT has.
+#pragma once
+
+#include <cstdint>
+
+#include "kage/token.hpp"
+
+namespace kage {
+
+/// What a place is of: AT's layer.
+enum class Layer : std::uint8_t { opaque = 0, volumes = 1, translucent = 2 };
+
+/// Compared by its number, which has the layer highest.
+class Place {
+ public:
+  constexpr Place() = default;
+  constexpr Place(const PolygonToken& at, int light)
+      : number_(put(at.layer, kLayerLsb) | put(at.sample, kSampleLsb) | put(light, kLightLsb) |
+                put(at.volume, kVolumeLsb) | put(at.rank, 0)) {}
+
+  [[nodiscard]] constexpr std::uint64_t number() const { return number_; }
+  [[nodiscard]] constexpr int layer() const { return field(kLayerLsb, kLayerBits); }
+  [[nodiscard]] constexpr int light() const { return field(kLightLsb, 3); }
+  /// The same for all faces of a volume, and for nothing else.
+  [[nodiscard]] constexpr std::uint64_t volume() const { return number_ >> kVolumeLsb; }
+  /// The same for all volumes of a light's sample, and for nothing else.
+  [[nodiscard]] constexpr std::uint64_t sample() const { return number_ >> kLightLsb; }
+
+  constexpr auto operator<=>(const Place&) const = default;
+
+ private:
+  static constexpr int kVolumeLsb = kRankBits;
+  static constexpr int kLightLsb = kVolumeLsb + kVolumeBits;
+  static constexpr int kSampleLsb = kLightLsb + 3;
+  static constexpr int kLayerLsb = kSampleLsb + kSampleBits;
+  static_assert(kLayerLsb + kLayerBits == kPlaceBits);
+
+  static constexpr std::uint64_t put(int value, int lsb) { return static_cast<std::uint64_t>(value) << lsb; }
+  [[nodiscard]] constexpr int field(int lsb, int bits) const {
+    return static_cast<int>(number_ >> lsb & ((std::uint64_t{1} << bits) - 1));
+  }
+
+  std::uint64_t number_ = 0;
+};
+
+}  // namespace kage

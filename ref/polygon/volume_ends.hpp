@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Where volumes and light samples end on a line, and what range they have: the EV, ES and RESOLVE that frames at the
+// polygon level do without.
+#pragma once
+
+#include <algorithm>
+
+#include "kage/token.hpp"
+#include "polygon/place.hpp"
+
+namespace kage {
+
+class VolumeEnds {
+ public:
+  explicit VolumeEnds(const Config& config) : fsf_(config.fsf != 0), counts_(config.count_bits > 0) {}
+
+  /// A line begins.
+  void start() { any_ = volume_open_ = sample_open_ = false; }
+
+  /// A token of a volume at this place comes, over pixels [xl, xr); emit(token) what ends before it.
+  template <class Emit>
+  ErrorCode token(Place place, int xl, int xr, Emit emit) {
+    if (volume_open_ && place.volume() != place_.volume())
+      if (const ErrorCode e = end_volume(emit); e != ErrorCode::NONE) return e;
+    if (sample_open_ && place.sample() != place_.sample())
+      if (const ErrorCode e = end_sample(emit); e != ErrorCode::NONE) return e;
+    volume_.add(volume_open_, xl, xr);
+    any_ = volume_open_ = true;
+    place_ = place;
+    return ErrorCode::NONE;
+  }
+
+  /// No more volumes on this line: emit(token) their ends and RESOLVE, if there were any.
+  template <class Emit>
+  ErrorCode end(Emit emit) {
+    if (!any_) return ErrorCode::NONE;
+    if (const ErrorCode e = end_volume(emit); e != ErrorCode::NONE) return e;
+    if (const ErrorCode e = end_sample(emit); e != ErrorCode::NONE) return e;
+    any_ = false;
+    Token t;
+    t.kind = Kind::RESOLVE;
+    return emit(t);
+  }
+
+ private:
+  struct Range {
+    int xl = 0;
+    int xr = 0;
+    void add(bool open, int from, int to) {
+      xl = open ? std::min(xl, from) : from;
+      xr = open ? std::max(xr, to) : to;
+    }
+  };
+
+  template <class Emit>
+  ErrorCode end_volume(Emit emit) {
+    sample_.add(sample_open_, volume_.xl, volume_.xr);
+    sample_open_ = true;
+    volume_open_ = false;
+    return fsf_ ? emit(made(Kind::EV, volume_)) : ErrorCode::NONE;
+  }
+
+  template <class Emit>
+  ErrorCode end_sample(Emit emit) {
+    sample_open_ = false;
+    return counts_ ? emit(made(Kind::ES, sample_)) : ErrorCode::NONE;
+  }
+
+  [[nodiscard]] Token made(Kind kind, const Range& range) const {
+    Token t;
+    t.kind = kind;
+    t.span.xl = range.xl;
+    t.span.xr = range.xr;
+    t.table.light = place_.light();
+    return t;
+  }
+
+  bool fsf_;
+  bool counts_;
+  bool any_ = false;
+  bool volume_open_ = false;
+  bool sample_open_ = false;
+  Place place_;  // of the open ones
+  Range volume_;
+  Range sample_;
+};
+
+}  // namespace kage
