@@ -97,33 +97,34 @@ def configurations(names: list[str]) -> dict[str, dict[str, int]]:
     return found
 
 
-def modules(device: str, stages: int | None) -> dict[str, str]:
-    """All generated files."""
+def modules(device: str, stages: int | None) -> dict[pathlib.Path, str]:
+    """All generated files. Those that the core has lie with its modules."""
     delays = Delays.read(HLS / "tool/delays" / f"{device}.json")
     made = {}
     for name, entry in yaml.safe_load((HLS / "kernels.yaml").read_text()).items():
         source = HLS / "tops" / entry.get("top", "kernels.cpp")
         clocks = entry["stages"] if stages is None else stages
         if "parameters" not in entry:
-            made[name] = module(intermediate(source), name, name, entry, delays, clocks)
+            folder = TOP / "rtl" if entry.get("core") else HLS / "generated"
+            made[folder / f"{name}.sv"] = module(intermediate(source), name, name, entry, delays, clocks)
             continue
         for config, values in configurations(entry["parameters"]).items():
             text = intermediate(source, values)
-            made[f"{name}_{config}"] = module(text, name, f"{name}_{config}", entry, delays, clocks)
+            path = HLS / "generated" / f"{name}_{config}.sv"
+            made[path] = module(text, name, f"{name}_{config}", entry, delays, clocks)
     return made
 
 
 def generate(arguments: argparse.Namespace) -> int:
     changed = []
-    for name, text in modules(arguments.device, arguments.stages).items():
-        path = HLS / "generated" / f"{name}.sv"
+    for path, text in modules(arguments.device, arguments.stages).items():
         if not path.is_file() or path.read_text() != text:
-            changed.append(path.name)
+            changed.append(path.relative_to(TOP))
             if not arguments.check:
                 path.parent.mkdir(exist_ok=True)
                 path.write_text(text)
-    for name in changed:
-        print(f"hls/generated/{name}: {'not what the kernel gives' if arguments.check else 'written'}")
+    for path in changed:
+        print(f"{path}: {'not what the kernel gives' if arguments.check else 'written'}")
     return 1 if changed and arguments.check else 0
 
 
