@@ -380,10 +380,10 @@ module front_end #(
   logic [FamilyBits-1:0] family;
   always_comb begin
     item_flags = head_flags;
-    item_flags.fault = fault ? code : ErrNone;
+    item_flags.fault = gives_token && fault ? code : ErrNone;
   end
   assign family  = gives_list ? list[ActivePlaceAt+RankBits+:FamilyBits] : place_q[RankBits+:FamilyBits];
-  assign item_in = {at_once || fault, family, index, item_flags, head[OutBits-1:0]};
+  assign item_in = {gives_token && (at_once || fault), family, index, item_flags, head[OutBits-1:0]};
   stream_fifo #(
       .BITS (ItemBits),
       .DEPTH(8)
