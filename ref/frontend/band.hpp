@@ -6,15 +6,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "contract/derived.hpp"
 #include "frontend/cut.hpp"
+#include "frontend/polygon_plan.hpp"
+#include "frontend/polygon_shape.hpp"
+#include "frontend/polygon_spans.hpp"
 #include "frontend/scan.hpp"
-#include "frontend/span_setup.hpp"
 #include "frontend/sweep.hpp"
 #include "frontend/tree_plan.hpp"
+#include "frontend/weight.hpp"
 #include "kage/frontend.hpp"
 #include "kage/token.hpp"
 
@@ -32,6 +35,7 @@ struct FramePlan {
   Sweep edges;
   Sweep tree_edges;
   Sweep fragments;
+  std::optional<PolygonPlan> plan;  // at the polygon level
 };
 
 /// What a band touches.
@@ -51,10 +55,9 @@ class Band {
       : f_(&frame),
         keeps_origins_(origins),
         g_(frame.geometry),
+        plan_(frame.plan ? &*frame.plan : nullptr),
         writer_(*frame.config, words_),
-        depth_(SpanSetup::depth(*frame.config)),
-        color_(frame.config->color_frac, 10 + frame.config->color_frac),
-        most_weight_(static_cast<int>(derived::most_dsf(*frame.config))) {}
+        spans_(*frame.geometry, *frame.config) {}
 
   /// What the next band touches, to be filled in before make().
   BandWork& work() { return work_; }
@@ -73,10 +76,16 @@ class Band {
     }
   }
 
+  /// Add the spans that the band has as such, after make().
+  void add_spans(PolygonReport& to) const {
+    for (std::size_t i = 0; i < to.ways.size(); ++i) to.ways[i] += written_.ways[i];
+  }
+
   void make(int band) {
     y0_ = band * kBandLines;
     y1_ = std::min(y0_ + kBandLines, g_->height);
     words_.clear();
+    written_ = {};
     for (Line& line : lines_) line.clear();
     opaque();
     if (f_->config->dsf_bits > 0) volumes();
@@ -95,7 +104,7 @@ class Band {
       words_.insert(words_.end(), line.opaque.begin(), line.opaque.end());
       words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
       writer_.write_to(words_);
-      if (!line.shadow.empty()) writer_.resolve();
+      if (!line.shadow.empty() && plan_ == nullptr) writer_.resolve();
       words_.insert(words_.end(), line.translucent.begin(), line.translucent.end());
       writer_.eol(y);
     }
@@ -122,6 +131,7 @@ class Band {
     Touched volume;
     Touched sample;  // of light
     FrameOrigins origins;
+    std::optional<Place> place;  // of the last AT
 
     void clear() {
       origins.opaque.clear();
@@ -133,58 +143,88 @@ class Band {
       near.clear();
       volume = {};
       sample = {};
+      place.reset();
     }
   };
 
   Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
 
-  /// Call emit(y, span, winding) for every span of the polygon in the band; what a drawn polygon and a cap emit is the
-  /// same.
-  template <class Emit>
-  void spans(const ScreenPolygon& p, Emit emit) {
-    spans(p, y0_, y1_, emit);
+  /// What a polygon is in one of its roles: where its tokens go, and what all of them have.
+  struct Role {
+    PolygonWay way;
+    Place place;
+    std::vector<std::uint32_t> Line::* words;
+    SpanToken look;  // of its POLYGON
+  };
+
+  [[nodiscard]] bool made(PolygonWay way) const { return plan_ != nullptr && way == PolygonWay::polygon; }
+
+  /// Of a drawn polygon, opaque or translucent; use() is asked at the polygon level.
+  template <class Use>
+  Role drawn_role(const ScreenPolygon& p, Layer layer, Use use) const {
+    const bool opaque = layer == Layer::opaque;
+    Role role{PolygonWay::polygon, {}, opaque ? &Line::opaque : &Line::translucent, {}};
+    if (opaque) role.look.normal_class = span_class(p, *f_->config);
+    if (plan_ == nullptr) return role;
+    const PolygonPlan::Use as = use();
+    role.way = as.way;
+    role.place = Place(layer, as.before);
+    if (!opaque) role.look.alpha = p.alpha;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(f_->config->channels); ++c)
+      role.look.color[c] = p.color[c];
+    return role;
   }
 
-  template <class Emit>
-  void spans(const ScreenPolygon& p, int y0, int y1, Emit emit) {
-    scanner_.scan(g_->outline(p), y0, y1, g_->width, [&](int y, int xl, int xr, int winding) {
-      depth_.each(p.depth, xl, xr, y, [&](int from, int to, SpanSetup::Ramp z) {
-        SpanToken s;
-        s.xl = from;
-        s.xr = to;
-        s.z = z.start;
-        s.dz = z.step;
-        emit(y, s, winding);
-      });
+  /// What comes next on a line has this place.
+  void go_to(Line& line, const Place& place) {
+    if (line.place == place) return;
+    line.place = place;
+    writer_.at(place.token(), place.light());
+  }
+
+  /// The tokens of a polygon, on the lines where its edges begin.
+  void polygon(std::uint32_t number, const Role& role) {
+    const ScreenPolygon& p = g_->polygons[number];
+    const PolygonShape& shape = plan_->shape(number);
+    bool begun = false;
+    each_edge(g_->outline(p), shape, y0_, y1_, [&](int y, const PolygonToken& edge) {
+      writer_.write_to(at(y).*role.words);
+      go_to(at(y), role.place);
+      if (y == shape.first && !begun) {
+        begun = true;
+        writer_.polygon(depth_of(*f_->config, p, y), role.look);
+        const bool varies = f_->config->smooth != 0 && p.color_planes >= 0 && role.words != &Line::shadow;
+        for (int c = 0; varies && c < f_->config->channels; ++c) writer_.gradient(gradient_of(*g_, p, y, c));
+      }
+      writer_.edge(edge);
     });
   }
 
-  /// The colour of a span of the polygon on line y.
-  void paint(const ScreenPolygon& p, int y, SpanToken& s) {
-    const auto channels = static_cast<std::size_t>(f_->config->channels);
-    for (std::size_t c = 0; c < channels; ++c) {
-      if (f_->config->smooth == 0) {
-        s.color[c] = p.color[c];
-        continue;
-      }
-      const ScreenPlane plane = p.color_planes < 0 ? ScreenPlane{0, 0, std::int64_t{p.color[c]} << kPlaneFrac, 0, 0}
-                                                   : g_->color_planes[static_cast<std::size_t>(p.color_planes) + c];
-      const SpanSetup::Ramp r = color_.at(plane, s.xl, y, s.xr - s.xl);
-      s.color[c] = static_cast<std::int32_t>(r.start);
-      s.dcolor[c] = static_cast<std::int32_t>(r.step);
-    }
+  /// A line is to have a span of a polygon that does not go as such.
+  void before_span(Line& line, std::uint32_t number, const Role& role) {
+    writer_.write_to(line.*role.words);
+    if (plan_ == nullptr) return;
+    go_to(line, role.place);
+    auto& of = written_.ways[static_cast<std::size_t>(role.way)];
+    ++of.spans;
+    of.tall_spans += plan_->shape(number).lines() >= kTallLines ? 1 : 0;
   }
 
   void opaque() {
     for (const std::uint32_t i : work_.polygons) {
       if (i < f_->tree.first_span_polygon()) continue;
       const ScreenPolygon& p = g_->polygons[i];
-      spans(p, [&](int y, SpanToken& s, int) {
-        s.normal_class = span_class(p, *f_->config);
-        paint(p, y, s);
-        writer_.write_to(at(y).opaque);
-        writer_.op(s);
+      const Role role = drawn_role(p, Layer::opaque, [&] { return plan_->opaque(i); });
+      const bool as_polygon = made(role.way);
+      if (as_polygon) polygon(i, role);
+      if (as_polygon && !keeps_origins_) continue;
+      spans_.each(p, y0_, y1_, [&](int y, SpanToken& s, int) {
         if (keeps_origins_) at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
+        if (as_polygon) return;
+        s.normal_class = role.look.normal_class;
+        spans_.paint(p, y, s);
+        before_span(at(y), i, role);
+        writer_.op(s);
       });
     }
   }
@@ -198,19 +238,28 @@ class Band {
       const int y1 = std::min(y1_, f.end_line);
       for (std::uint32_t k = f.first_polygon; k < f.first_polygon + f.polygon_count; ++k) {
         const ScreenPolygon& p = g_->polygons[k];
-        spans(p, y0, y1, [&](int y, SpanToken& s, int) {
+        const Role role =
+            drawn_role(p, Layer::translucent, [&] { return plan_->translucent(i, k - f.first_polygon); });
+        const bool as_polygon = made(role.way);
+        if (as_polygon) polygon(k, role);
+        if (as_polygon && !keeps_origins_) continue;
+        spans_.each(p, y0, y1, [&](int y, SpanToken& s, int) {
+          if (as_polygon) {
+            at(y).origins.translucent.push_back({k, TokenOrigin::kNone});
+            return;
+          }
           int xl = s.xl;
           int xr = s.xr;
           for (const FragmentCut& cut : cuts) restrict_to(g_->cut_lines[cut.line], cut.front, y, xl, xr);
           if (xl >= xr) return;
           s.alpha = p.alpha;
-          paint(p, y, s);
+          spans_.paint(p, y, s);
           const std::int64_t on = xl - s.xl;
           s.z += on * s.dz;
           for (std::size_t c = 0; c < 3; ++c) s.color[c] += static_cast<std::int32_t>(on) * s.dcolor[c];
           s.xl = xl;
           s.xr = xr;
-          writer_.write_to(at(y).translucent);
+          before_span(at(y), k, role);
           writer_.tp(s);
           if (keeps_origins_) at(y).origins.translucent.push_back({k, TokenOrigin::kNone});
         });
@@ -231,7 +280,7 @@ class Band {
       if (g_->volumes[v].sample != sample) close_sample(sample);
       sample = g_->volumes[v].sample;
       for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face)
-        volume_face(g_->volume_faces[faces[face]], v);
+        volume_face(faces[face], v);
       for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge)
         near_edge(g_->near_edges[edges[edge]]);
       close_volume(v);
@@ -239,16 +288,26 @@ class Band {
     close_sample(sample);
   }
 
-  // w modulo 2^DSF_BITS, its sign kept where it fits; 0 if it has no effect.
-  [[nodiscard]] int weight(int w) const { return w < 0 ? -(-w & most_weight_) : w & most_weight_; }
-
-  void volume_face(const VolumeFace& face, std::uint32_t volume) {
-    spans(g_->polygons[face.polygon], [&](int y, SpanToken& s, int winding) {
-      s.w = weight(winding * face.w);
+  void volume_face(std::uint32_t number, std::uint32_t volume) {
+    const VolumeFace& face = g_->volume_faces[number];
+    Role role{PolygonWay::polygon, {}, &Line::shadow, {}};
+    if (plan_ != nullptr) {
+      const PolygonPlan::Use use = plan_->face(number);
+      role.way = use.way;
+      role.place = plan_->place(volume, use.before);
+      role.look.w = weight(*f_->config, face.w);
+    }
+    const bool as_polygon = made(role.way);
+    if (as_polygon) polygon(face.polygon, role);
+    if (as_polygon && !keeps_origins_) return;
+    spans_.each(g_->polygons[face.polygon], y0_, y1_, [&](int y, SpanToken& s, int winding) {
+      s.w = weight(*f_->config, winding * face.w);
       if (s.w == 0) return;
       Line& line = at(y);
-      writer_.write_to(line.shadow);
-      writer_.sp(s);
+      if (!as_polygon) {
+        before_span(line, face.polygon, role);
+        writer_.sp(s);
+      }
       if (keeps_origins_) line.origins.shadow.push_back({face.polygon, volume});
       line.volume.add(s.xl, s.xr);
     });
@@ -269,8 +328,10 @@ class Band {
       if (!line.near.empty()) near_cap(line, volume);
       if (line.volume.none()) continue;
       if (f_->config->fsf != 0) {
-        writer_.write_to(line.shadow);
-        writer_.ev(line.volume.from, line.volume.to);
+        if (plan_ == nullptr) {
+          writer_.write_to(line.shadow);
+          writer_.ev(line.volume.from, line.volume.to);
+        }
         if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
       }
       line.sample.add(line.volume.from, line.volume.to);
@@ -279,7 +340,7 @@ class Band {
   }
 
   void close_sample(std::uint32_t sample) {
-    if (f_->config->count_bits == 0) return;
+    if (f_->config->count_bits == 0 || plan_ != nullptr) return;
     for (int y = y0_; y < y1_; ++y) {
       Line& line = at(y);
       if (line.sample.none()) continue;
@@ -294,9 +355,10 @@ class Band {
                      [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
     writer_.write_to(line.shadow);
     fill_between(line.near, g_->width, [&](int xl, int xr, int winding) {
-      const int w = weight(winding);
+      const int w = weight(*f_->config, winding);
       if (w == 0) return;
-      if (xl == 0 && xr == g_->width)
+      if (plan_ != nullptr) go_to(line, plan_->place(volume, plan_->made_of(volume)));
+      if (xl == 0 && xr == g_->width && plan_ == nullptr)
         writer_.inside(w);
       else
         writer_.nc(xl, xr, w);
@@ -309,15 +371,14 @@ class Band {
   const FramePlan* f_;
   bool keeps_origins_;
   const FrameGeometry* g_;
+  const PolygonPlan* plan_;  // at the polygon level
   BandWork work_;
   int y0_ = 0;
   int y1_ = 0;
   std::vector<std::uint32_t> words_;
   TokenWriter writer_;
-  SpanSetup depth_;
-  SpanSetup color_;
-  int most_weight_;
-  Scanner scanner_;
+  PolygonSpans spans_;
+  PolygonReport written_;  // spans alone
   std::array<Line, kBandLines> lines_;
 };
 

@@ -47,7 +47,8 @@ FramePlan prepare(const FrameGeometry& g, const Config& config) {
               {bands, g.height, faces},
               {bands, g.height, edges},
               {bands, g.height, ahead},
-              {bands, g.height, fragments}};
+              {bands, g.height, fragments},
+              std::nullopt};
   f.volume_of_face.resize(g.volume_faces.size());
   f.volume_of_edge.resize(g.near_edges.size());
   for (std::uint32_t v = 0; v < g.volumes.size(); ++v) {
@@ -107,14 +108,28 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
                 const FrameOptions& options) {
   FrameOrigins* const origins = options.origins;
   check_fits(g, config);
+  if (options.level == Level::polygons && config.active == 0)
+    throw Error("the polygon level needs ACTIVE, which the configuration lacks");
+  const bool polygons = options.level == Level::polygons && PolygonPlan::fits(g);
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
-  writer.header({g.width, g.height, g.background, number});
+  FrameHeader header{g.width, g.height, g.background, number};
+  if (polygons) header.version = kPolygonVersion;
+  writer.header(header);
   if (derived::has_table(config))
     write_table(g, config, writer);
   else if (config.dsf_bits > 0 && !g.volumes.empty())
     writer.shade(g.shade);
   FramePlan frame = prepare(g, config);
+  Arena arena(options.threads);
+  if (polygons) frame.plan.emplace(g, config, frame.tree.first_span_polygon(), arena);
+  PolygonReport report;
+  report.polygons = polygons;
+  if (polygons) frame.plan->add_to(report);
+  const auto pass_on = [&](std::span<const std::uint32_t> some) {
+    report.words += some.size();
+    sink(some);
+  };
   if (options.report != nullptr) *options.report = frame.tree.report();
   if (origins != nullptr) *origins = {};
   if (frame.tree.any()) {
@@ -124,14 +139,13 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
     frame.tree.segments(0, 1, Sweep(1, 1, lines).next(), first);
     words.insert(words.end(), first[0].begin(), first[0].end());
   }
-  sink(words);
+  pass_on(words);
 
   const int bands = (g.height + kBandLines - 1) / kBandLines;
   // A few bands at a time, handed on in order: memory holds no more than those.
   const int wave = options.threads == 1 ? 1 : 8;
   std::deque<Band> made;
   for (int i = 0; i < wave; ++i) made.emplace_back(frame, origins != nullptr);
-  Arena arena(options.threads);
   for (int first = 0; first < bands; first += wave) {
     const int end = std::min(first + wave, bands);
     const auto of = [&](int b) -> Band& { return made[static_cast<std::size_t>(b - first)]; };
@@ -149,13 +163,15 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
       arena.execute([&] { tbb::parallel_for(first, end, [&](int b) { of(b).make(b); }); });
     for (int b = first; b < end; ++b) {
       if (origins != nullptr) of(b).add_origins(*origins);
-      sink(of(b).words());
+      if (polygons) of(b).add_spans(report);
+      pass_on(of(b).words());
     }
   }
 
   words.clear();
   writer.end();
-  sink(words);
+  pass_on(words);
+  if (options.polygons != nullptr) *options.polygons = report;
 }
 
 void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t number, std::vector<std::uint32_t>& out,

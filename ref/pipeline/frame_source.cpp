@@ -81,7 +81,11 @@ TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts
                  if (origins == nullptr) checker.feed(words);  // with origins the frame was checked before
                  sink(words);
                },
-               {.threads = options_.threads, .report = &parts.polyhedra, .origins = origins});
+               {.threads = options_.threads,
+                .report = &parts.polyhedra,
+                .origins = origins,
+                .level = options_.level,
+                .polygons = &parts.polygons});
   } catch (const TooManyFragments& e) {
     throw TooManyFragments(e.limit(), where);
   } catch (const Error& e) {

@@ -19,6 +19,19 @@ class Place {
   constexpr Place(const PolygonToken& at, int light)
       : number_(put(at.layer, kLayerLsb) | put(at.sample, kSampleLsb) | put(light, kLightLsb) |
                 put(at.volume, kVolumeLsb) | put(at.rank, 0)) {}
+  /// In the layers of drawn polygons, which have one number for all of them.
+  constexpr Place(Layer layer, std::uint32_t order)
+      : number_(put(static_cast<int>(layer), kLayerLsb) | std::uint64_t{order}) {}
+
+  /// What its AT says, but for the light.
+  [[nodiscard]] constexpr PolygonToken token() const {
+    PolygonToken t;
+    t.layer = layer();
+    t.sample = field(kSampleLsb, kSampleBits);
+    t.volume = field(kVolumeLsb, kVolumeBits);
+    t.rank = field(0, kRankBits);
+    return t;
+  }
 
   [[nodiscard]] constexpr std::uint64_t number() const { return number_; }
   [[nodiscard]] constexpr int layer() const { return field(kLayerLsb, kLayerBits); }
@@ -36,6 +49,7 @@ class Place {
   static constexpr int kSampleLsb = kLightLsb + 3;
   static constexpr int kLayerLsb = kSampleLsb + kSampleBits;
   static_assert(kLayerLsb + kLayerBits == kPlaceBits);
+  static_assert(kLightLsb == 32);  // what a layer's one number has
 
   static constexpr std::uint64_t put(int value, int lsb) { return static_cast<std::uint64_t>(value) << lsb; }
   [[nodiscard]] constexpr int field(int lsb, int bits) const {

@@ -4,6 +4,7 @@
 /// The front end: scan conversion of a frame's geometry into the words of a frame. Integers only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -51,16 +52,68 @@ struct FrameOrigins {
   std::vector<TokenOrigin> translucent;  ///< of each TP
 };
 
+/// How a polygon goes in a frame at the polygon level. All but the first say why it goes as spans, on all its lines.
+enum class PolygonWay : std::uint8_t {
+  polygon,    ///< the front end makes its spans
+  crossings,  ///< a line crosses its outline more than twice, or has several spans of it
+  wide,       ///< a slope of its depth or colour has more bits than its field
+  rounded,    ///< the front end would make other spans: start or step of some are clamped
+  cut,        ///< of a translucent fragment that lines part from others
+  words,      ///< its spans are no more words
+  active,     ///< more polygons at once than ACTIVE
+  place,      ///< more polygons of its volume than a place can count
+};
+/// How many ways there are.
+inline constexpr std::size_t kPolygonWays = 8;
+
+/// What a frame at the polygon level is made of. A drawn polygon and each face of a volume count by themselves; those
+/// that have no span do not count.
+struct PolygonReport {
+  /// Polygons that go one way.
+  struct Way {
+    std::uint64_t polygons = 0;       ///< all
+    std::uint64_t spans = 0;          ///< theirs: OP, SP and TP
+    std::uint64_t tall_polygons = 0;  ///< from the first line with a span to the last, three or more
+    std::uint64_t tall_spans = 0;     ///< spans of those
+
+    /// Adds others.
+    /// @param other those
+    /// @return the sum
+    Way& operator+=(const Way& other);
+  };
+
+  /// Whether the frame is at the polygon level. One with more light samples, or volumes of one, than places can count
+  /// is not, and nothing here is filled but its words.
+  bool polygons = false;
+  std::array<Way, kPolygonWays> ways{};  ///< by PolygonWay
+  int active = 0;                        ///< most polygons at once on a line that the front end makes spans of
+  std::uint64_t words = 0;               ///< of the frame
+
+  /// @return all polygons
+  [[nodiscard]] Way all() const;
+  /// @return those that the front end makes spans of
+  [[nodiscard]] const Way& made() const { return ways[static_cast<std::size_t>(PolygonWay::polygon)]; }
+
+  /// Adds those of another frame.
+  /// @param other its report
+  /// @return the sum; `active` is the most of both, and it has polygons if either has
+  PolygonReport& operator+=(const PolygonReport& other);
+};
+
 /// How a frame's words are made, and what is to be told of them.
 struct FrameOptions {
   int threads = 0;                    ///< at most; 0: one per processor. The words do not depend on it
   PolyhedraReport* report = nullptr;  ///< filled before the first words
-  FrameOrigins* origins = nullptr;    ///< filled with the words
+  FrameOrigins* origins = nullptr;    ///< filled with the words, and the same at both levels
+  /// With polygons, for a configuration with ACTIVE > 0: polygons go as such where that is fewer words and gives the
+  /// very same spans; the front end makes these of them (docs/stream.md, "The polygon level").
+  Level level = Level::spans;
+  PolygonReport* polygons = nullptr;  ///< filled with the words; at the polygon level
 };
 
 /// Makes the frame's words from first to last. Lines are made in bands and handed on band by band. Cost is linear in
 /// the spans. With UNITS > 0 polyhedra go to units, in draw order up to the first that finds none; the rest become
-/// spans, which changes no pixel. Throws Error if the configuration cannot hold the frame (width, volumes). [Matsumoto]
+/// spans, which changes no pixel. Throws Error if the configuration cannot hold the frame (width, volumes, level). [Matsumoto]
 /// has the spans, [Ohno 1985] the units; docs/numbers.md every rounding.
 /// @param geometry made for this configuration (make_geometry())
 /// @param config a legal configuration

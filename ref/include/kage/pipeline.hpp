@@ -56,6 +56,7 @@ struct DrawOptions {
   Look look = {};                ///< what the picture's maker decides
   OrderBuildOptions order = {};  ///< of translucent faces
   int threads = 0;               ///< 0: one per processor. The words do not depend on it
+  Level level = Level::spans;    ///< FrameOptions::level: with polygons, the configuration has ACTIVE > 0
   std::string name = {};         ///< what messages call the scene; empty: Scene::name()
 };
 
@@ -64,6 +65,7 @@ struct FrameParts {
   SceneFrame scene;           ///< what is drawn
   FrameGeometry geometry;     ///< the same on the screen
   PolyhedraReport polyhedra;  ///< how polyhedra went to units
+  PolygonReport polygons;     ///< how polygons went at the polygon level; filled when the frame has been made
 };
 
 /// The frames of a scene. Order and shadows that do not change are kept from frame to frame, which changes no word.
