@@ -147,6 +147,7 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
       "  kage cosim courtyard\n"
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
+      "  kage cosim courtyard --front-end rtl\n"
       "  kage cosim courtyard --fault wrong_compare\n"
       "  kage cosim courtyard --degrade --netlist ice40 --config tiny --size 64x48   (an FPGA's cells for the RTL)\n"
       "  kage cosim courtyard penumbra glass --size 160x120\n"
@@ -162,6 +163,7 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
   c->add_option("--out", o.out, "folder for pictures and report.html, default out")->type_name("DIR");
   options_of_frames(*c, o);
   option_json(*c, o);
+  option_front_end(*c, o);
   option_rtl(*c, o.rtl);
   c->add_option(
        "--jobs", o.jobs,

@@ -195,6 +195,18 @@ void option_max_fragments(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
+void option_front_end(CLI::App& command, Options& options) {
+  static const std::map<std::string, Level> kWho{{"host", Level::spans}, {"rtl", Level::polygons}};
+  command
+      .add_option_function<std::string>(
+          "--front-end", [&options](const std::string& who) { options.level = kWho.at(who); },
+          fmt::format("who makes spans of a scene's polygons, default host: rtl sends frames at the polygon level, and the "
+                      "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
+                      kUsualActive))
+      ->check(CLI::IsMember({"host", "rtl"}))
+      ->type_name("host|rtl");
+}
+
 void option_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
       ->check(whole_number(1, 1024))

@@ -58,6 +58,7 @@ struct Options {
   int samples = Look{}.samples;                ///< of a light that is no point
   int classes = Look{}.classes;                ///< of normals
   int sub_bits = Look{}.sub_bits;              ///< of snapped positions
+  Level level = Level::spans;                  ///< of the frames that are made
 };
 
 /// As --order has it.
@@ -85,5 +86,7 @@ void option_threads(CLI::App& command, Options& options);
 void option_size(CLI::App& command, Options& options);
 void option_outside(CLI::App& command, Options& options);  // --allow-outside
 void option_fault(CLI::App& command, std::string& fault);
+/// --front-end: who makes spans of polygons.
+void option_front_end(CLI::App& command, Options& options);
 
 }  // namespace kage::cli

@@ -67,6 +67,7 @@ DrawOptions draw_options(const Options& options) {
   draw.look.sub_bits = options.sub_bits;
   draw.look.cull = options.cull;
   draw.look.fit = options.degrade;
+  draw.level = options.level;
   draw.threads = options.threads;
   return draw;
 }
@@ -119,6 +120,8 @@ void Source::open_stream(const Options& options) {
   if (options.sub_bits != Options{}.sub_bits)
     throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
+  if (options.level != Level::spans)
+    throw Error(fmt::format("{}: --front-end: only a scene takes it, and this is a stream", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
@@ -145,6 +148,7 @@ NamedConfig stream_config(const Options& options, const StreamFile& stream) {
 
 void Source::open_scene(const Options& options) {
   load_scene(options);
+  if (options.level == Level::polygons && config_.config.active == 0) config_.config.active = kUsualActive;
   open_frames();
   remarks_.emplace(config_.config, options.size, options.cull);
 }

@@ -344,7 +344,7 @@ module front_end #(
       .swap_write_i   (swap_write)
   );
 
-  logic walk_valid, walk_made, walk_busy, item_ready;
+  logic walk_valid, walk_made, walk_busy, item_ready, ending;
   logic [MadeSpanBits-1:0] span;
   assign go = !walk_valid || item_ready;
   polygon_walk #(
@@ -411,6 +411,7 @@ module front_end #(
       .item_made_i  (walk_made),
       .item_i       (item_out),
       .span_i       (span),
+      .moving_o     (ending),
       .token_valid_o(made_valid),
       .token_ready_i(made_ready),
       .token_o      (made),
@@ -435,7 +436,8 @@ module front_end #(
   assign out_ready = token_ready_i;
 
   assign busy_o = head_valid || walk_busy || out_valid || dropping_q;
-  assign moving_o = head_ready || (go && walk_busy) || list_pop || dropping_q || edges_q != '0 || !swap_ready;
+  assign moving_o = push || head_ready || list_pop || (list_left && !list_valid) || (go && walk_busy) || ending || dropping_q ||
+      edges_q != '0 || !swap_ready;
 
   logic unused_bits;
   assign unused_bits = ^{head, token_i, in_flags, past_bottom};

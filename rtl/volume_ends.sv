@@ -32,6 +32,7 @@ module volume_ends #(
     input  wire logic [    ItemBits-1:0] item_i,
     input  wire logic [MadeSpanBits-1:0] span_i,
 
+    output logic                           moving_o,       // an item, or an end before it, is done with
     output logic                           token_valid_o,
     input  wire logic                      token_ready_i,
     output logic      [TOKEN_WORDS*32-1:0] token_o,
@@ -130,6 +131,7 @@ module volume_ends #(
   assign passes = !none && !ends_volume && !ends_sample && !resolves;
   assign gives = passes || resolves || (ends_volume && FSF > 0) || (ends_sample && COUNT_BITS > 0);
   assign done = item_valid_i && (token_ready_i || !gives);
+  assign moving_o = done;
   assign token_valid_o = item_valid_i && gives;
   assign item_ready_o = done && (passes || none);
 
