@@ -2,8 +2,9 @@
 // The kernels of hls/ against ref/, bit by bit: random vectors and corners. Compiled three times, with kage's own
 // types, with Algorithmic C's and with AMD's (hls/types.hpp).
 //
-// usage: hls_kernels_TYPES [VECTORS]: so many vectors a kernel, default 100000. Exit code 1: a kernel gives another
-// bit.
+// usage: hls_kernels_TYPES [VECTORS [KERNEL]]: so many vectors a kernel, default 100000, of all kernels or of edge,
+// span, plane, segment, cell or pixel alone. From 10000000 on more widths of edges are tried whole. Exit code 1: a
+// kernel gives another bit; 2: no such kernel.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include <initializer_list>
 #include <random>
 #include <span>
+#include <string_view>
 #include <type_traits>
 
 #include "core/pixel_line.hpp"
@@ -142,6 +144,50 @@ void edges() {
       walker.next();
     }
   }
+}
+
+/// The same for every edge that there is with narrow coordinates, from each of its lines on. EdgeWalker has them as the
+/// multiples of 2^(8 - FRAC) that they are in 16.8.
+template <int WHOLE, int FRAC>
+void every_edge() {
+  constexpr int kBits = WHOLE + FRAC;
+  constexpr int kMost = (1 << (kBits - 1)) - 1;
+  constexpr int kScale = 1 << (8 - FRAC);
+  using kage::hls::SubpixelOf;
+  const auto setup = [](int ax, int ay, int bx, int by, int y) {
+    kage::hls::EdgeSetupInOf<WHOLE, FRAC> in;
+    in.top_x = SubpixelOf<WHOLE, FRAC>(ax);
+    in.top_y = SubpixelOf<WHOLE, FRAC>(ay);
+    in.bottom_x = SubpixelOf<WHOLE, FRAC>(bx);
+    in.bottom_y = SubpixelOf<WHOLE, FRAC>(by);
+    in.line = kage::hls::LineOf<WHOLE>(y);
+    kage::hls::EdgeOf<WHOLE, FRAC> edge;
+    kage::hls::edge_setup(in, edge);
+    return edge;
+  };
+  long lines = 0;
+  for (int ay = -kMost - 1; ay < kMost; ++ay)
+    for (int by = ay + 1; by <= kMost; ++by)
+      for (int ax = -kMost - 1; ax <= kMost; ++ax)
+        for (int bx = -kMost - 1; bx <= kMost; ++bx) {
+          EdgeWalker walker({ax * kScale, ay * kScale}, {bx * kScale, by * kScale});
+          const int first = std::max(walker.first(), 0);
+          if (first >= walker.end()) continue;
+          walker.start(first);
+          auto edge = setup(ax, ay, bx, by, first);
+          for (int y = first; y < walker.end(); ++y, ++lines) {
+            const auto begun = setup(ax, ay, bx, by, y);
+            if (hw::value(edge.x) != walker.x() || hw::value(begun.x) != walker.x() ||
+                hw::value(begun.rest) != hw::value(edge.rest) ||
+                hw::value(begun.rest_step) != hw::value(edge.rest_step))
+              return differs("edge", {WHOLE, FRAC, ax, ay, bx, by, y, walker.x()});
+            kage::hls::EdgeOf<WHOLE, FRAC> next;
+            kage::hls::edge_step(edge, next);
+            edge = next;
+            walker.next();
+          }
+        }
+  std::printf("edges of %d.%d, every one: %ld lines\n", WHOLE, FRAC, lines);
 }
 
 /// The value of a plane's spans in an accumulator of BITS bits with FRAC of them a fraction.
@@ -414,14 +460,36 @@ void pixels() {
 
 int main(int argc, char** argv) {
   if (argc > 1) vectors = std::strtol(argv[1], nullptr, 10);
-  edges();
-  spans();
-  planes();
-  segments();
-  cells();
-  pixels<Soft>();
-  pixels<Glass>();
-  pixels<Grey>();
+  const std::string_view kernel = argc > 2 ? argv[2] : "";
+  bool tried = false;
+  const auto wanted = [&](std::string_view name) {
+    const bool is = kernel.empty() || kernel == name;
+    tried |= is;
+    return is;
+  };
+  if (wanted("edge")) {
+    edges();
+    every_edge<3, 2>();
+    every_edge<2, 3>();
+    if (vectors >= 10000000) {
+      every_edge<4, 1>();
+      every_edge<4, 2>();
+      every_edge<3, 3>();
+    }
+  }
+  if (wanted("span")) spans();
+  if (wanted("plane")) planes();
+  if (wanted("segment")) segments();
+  if (wanted("cell")) cells();
+  if (wanted("pixel")) {
+    pixels<Soft>();
+    pixels<Glass>();
+    pixels<Grey>();
+  }
+  if (!tried) {
+    std::fprintf(stderr, "hls_kernels: %s: not edge, span, plane, segment, cell or pixel\n", argv[2]);
+    return 2;
+  }
   std::printf("%ld vectors a kernel: %s\n", vectors, bad ? "not the same" : "the same");
   return bad ? 1 : 0;
 }
