@@ -97,9 +97,16 @@ def configurations(names: list[str]) -> dict[str, dict[str, int]]:
     return found
 
 
+def delays_of(device: str) -> Delays:
+    path = HLS / "tool/delays" / f"{device}.json"
+    if not path.is_file():
+        raise Trouble(f"{device}: no delays of it: hls/tool/characterise {device} measures them")
+    return Delays.read(path)
+
+
 def modules(device: str, stages: int | None) -> dict[str, str]:
     """All generated files."""
-    delays = Delays.read(HLS / "tool/delays" / f"{device}.json")
+    delays = delays_of(device)
     made = {}
     for name, entry in yaml.safe_load((HLS / "kernels.yaml").read_text()).items():
         source = HLS / "tops" / entry.get("top", "kernels.cpp")
@@ -131,8 +138,8 @@ def show_figures(arguments: argparse.Namespace) -> int:
     """Prints cells and clock of each kernel, at several numbers of stages or at the chosen one."""
     from . import figures
 
-    delays = Delays.read(HLS / "tool/delays/ecp5-85f.json")
     for device in arguments.devices or ["ecp5-85f"]:
+        delays = delays_of(device)
         placer = figures.Placer(device, arguments.wheels)
         rows = []
         for name, entry in yaml.safe_load((HLS / "kernels.yaml").read_text()).items():
@@ -145,7 +152,8 @@ def show_figures(arguments: argparse.Namespace) -> int:
                 text = Emitter(name, graph, schedule, ports, []).text()
                 row = placer.place(text, name, ports, stages, arguments.seeds)
                 rows.append(row | {"kernel": name, "stages": stages, "foretold": 1000 / schedule.period})
-                print(f"{name} {stages}: {row['mhz']:.0f} MHz", file=sys.stderr, flush=True)
+                said = f"{row['mhz']:.0f} MHz" if row["mhz"] else row["why"]
+                print(f"{name} {stages}: {said}", file=sys.stderr, flush=True)
         print(figures.table(rows, device, placer.least_loop))
     return 0
 
