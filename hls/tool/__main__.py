@@ -134,6 +134,33 @@ def generate(arguments: argparse.Namespace) -> int:
     return 1 if changed and arguments.check else 0
 
 
+def show_steps(arguments: argparse.Namespace) -> int:
+    """Prints what becomes of a kernel at each step, or at one."""
+    from . import steps
+
+    kernels = yaml.safe_load((HLS / "kernels.yaml").read_text())
+    names = {e["kernel"]: name for name, e in kernels.items() if "parameters" not in e}
+    if arguments.kernel not in names:
+        raise Trouble(f"{arguments.kernel}: none of the kernels {', '.join(names)}")
+    name = names[arguments.kernel]
+    entry = kernels[name]
+    stages = entry["stages"] if arguments.stages is None else arguments.stages
+    delays = delays_of(arguments.device)
+    text = intermediate(HLS / "tops" / entry.get("top", "kernels.cpp"))
+    read = Reader(text, name).read()
+    small, _ = built(text, name, delays.tile)
+    shown = {
+        "ir": lambda: steps.ir_of(text, name),
+        "graph": lambda: steps.graph_of(read),
+        "small": lambda: steps.graph_of(small),
+        "schedule": lambda: steps.schedule_of(small, scheduled(small, delays, stages), delays),
+        "verilog": lambda: module(text, name, name, entry, delays, stages).rstrip("\n"),
+    }
+    wanted = [arguments.step] if arguments.step else steps.STEPS
+    print("\n\n".join((f"== {s}\n" if len(wanted) > 1 else "") + shown[s]() for s in wanted))
+    return 0
+
+
 def show_figures(arguments: argparse.Namespace) -> int:
     """Prints cells and clock of each kernel, at several numbers of stages or at the chosen one."""
     from . import figures
@@ -166,6 +193,12 @@ def main() -> int:
     command.add_argument("--device", default="ecp5-85f")
     command.add_argument("--stages", type=int)
     command.set_defaults(run=generate)
+    command = commands.add_parser("steps")
+    command.add_argument("kernel")
+    command.add_argument("step", nargs="?", choices=("ir", "graph", "small", "schedule", "verilog"))
+    command.add_argument("--device", default="ecp5-85f")
+    command.add_argument("--stages", type=int)
+    command.set_defaults(run=show_steps)
     command = commands.add_parser("figures")
     command.add_argument("devices", nargs="*")
     command.add_argument(
