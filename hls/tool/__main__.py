@@ -161,6 +161,14 @@ def show_steps(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def show_mutants(arguments: argparse.Namespace) -> int:
+    """Prints how many mutants of the generated modules the vectors and the proofs find."""
+    from . import mutants_run
+
+    a = arguments
+    return mutants_run.run(a.kernels, a.seed, a.count, a.vectors, a.equivalent)
+
+
 def show_figures(arguments: argparse.Namespace) -> int:
     """Prints cells and clock of each kernel, at several numbers of stages or at the chosen one."""
     from . import figures
@@ -199,6 +207,13 @@ def main() -> int:
     command.add_argument("--device", default="ecp5-85f")
     command.add_argument("--stages", type=int)
     command.set_defaults(run=show_steps)
+    command = commands.add_parser("mutate")
+    command.add_argument("kernels", nargs="*", help="or modules of hls/generated; default: all")
+    command.add_argument("--seed", type=int, default=1)
+    command.add_argument("--count", type=int, default=0, help="so many mutants of each module, by chance; 0: all")
+    command.add_argument("--vectors", type=int, default=100000)
+    command.add_argument("--equivalent", action="store_true", help="print each mutant that changes nothing")
+    command.set_defaults(run=show_mutants)
     command = commands.add_parser("figures")
     command.add_argument("devices", nargs="*")
     command.add_argument(

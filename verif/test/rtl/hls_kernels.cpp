@@ -22,13 +22,11 @@ long vectors() {
 
 template <class Ports, class Model>
 void same(std::uint64_t stages) {
-  const auto run = [&](Dice& dice, int in_stall, int out_stall) {
-    Bench<Model> top(dice);
-    REQUIRE(wrong_in<Ports>(top, dice, stages, vectors() / 8, in_stall, out_stall) == std::string());
-  };
   each_seed(4, [&](Dice& dice) {
-    run(dice, 0, 0);
-    run(dice, stall_percent(dice), stall_percent(dice));
+    for (const Stalls& stalls : all_stalls(dice)) {
+      Bench<Model> top(dice);
+      REQUIRE(wrong_in<Ports>(top, dice, stages, vectors() / 12, stalls) == std::string());
+    }
   });
 }
 

@@ -124,23 +124,37 @@ struct SegmentMakePorts {
   }
 };
 
+/// How the sides of a pipeline stand still.
+struct Stalls {
+  int in = 0, out = 0;  ///< percent of the clocks
+  bool waits = false;   ///< the sink is not ready before a result is there
+
+  [[nodiscard]] bool none() const { return in + out == 0 && !waits; }
+};
+
+/// What each round of a test goes through: no stalls, some, and some with a sink that waits.
+inline std::array<Stalls, 3> all_stalls(Dice& dice) {
+  const auto some = [&dice](bool waits) { return Stalls{stall_percent(dice), stall_percent(dice), waits}; };
+  return {Stalls{}, some(false), some(true)};
+}
+
 /// Sends `count` inputs through a pipeline of `stages` stages: the same results in the same order whatever stalls, and
 /// a result a clock, `stages` clocks behind its input, where nothing does. Gives what is wrong, or nothing.
 template <class Ports, class Model>
-std::string wrong_in(Bench<Model>& top, Dice& dice, std::uint64_t stages, long count, int in_stall, int out_stall) {
+std::string wrong_in(Bench<Model>& top, Dice& dice, std::uint64_t stages, long count, const Stalls& stalls) {
   std::deque<std::pair<decltype(Ports::result(*top)), std::uint64_t>> wanted;
   auto next = Ports::offer(dice, *top);
   bool offered = false;
   for (long got = 0; got < count;) {
-    if (!offered && !dice.percent(in_stall)) offered = true;
+    if (!offered && !dice.percent(stalls.in)) offered = true;
     top->in_valid_i = offered ? 1 : 0;
-    top->out_ready_i = dice.percent(out_stall) ? 0 : 1;
+    top->out_ready_i = dice.percent(stalls.out) || (stalls.waits && top->out_valid_o == 0) ? 0 : 1;
     top.settle();
     if (top->out_valid_o != 0 && top->out_ready_i != 0) {
       if (wanted.empty()) return "result " + std::to_string(got) + " has no input";
       if (Ports::result(*top) != wanted.front().first) return "result " + std::to_string(got) + " is another";
       const std::uint64_t clocks = top.clocks - wanted.front().second;
-      if (in_stall + out_stall == 0 && clocks != stages)
+      if (stalls.none() && clocks != stages)
         return "result " + std::to_string(got) + " comes after " + std::to_string(clocks) + " clocks";
       wanted.pop_front();
       ++got;
