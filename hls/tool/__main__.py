@@ -55,7 +55,8 @@ def intermediate(source: pathlib.Path, defines: dict[str, int] | None = None) ->
         check=False,
     )
     if done.returncode:
-        raise Trouble(done.stderr.strip().splitlines()[0])
+        said = done.stderr.strip().splitlines()
+        raise Trouble(next((line for line in said if " error: " in line), said[0]))
     return done.stdout
 
 

@@ -3,8 +3,8 @@
 // types, with Algorithmic C's and with AMD's (hls/types.hpp).
 //
 // usage: hls_kernels_TYPES [VECTORS [KERNEL]]: so many vectors a kernel, default 100000, of all kernels or of edge,
-// span, plane, segment, cell or pixel alone. From 10000000 on more widths of edges are tried whole. Exit code 1: a
-// kernel gives another bit; 2: no such kernel.
+// span, plane, segment, cell, blend or pixel alone. From 10000000 on more widths of edges are tried whole. Exit code 1:
+// a kernel gives another bit; 2: no such kernel.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -15,13 +15,16 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "core/pixel_line.hpp"
+#include "core/span_kernels.hpp"
 #include "frontend/edge_walker.hpp"
 #include "frontend/span_setup.hpp"
 #include "kernels/compare_cell.hpp"
 #include "kernels/edge_setup.hpp"
 #include "kernels/edge_step.hpp"
+#include "kernels/pixel_blend.hpp"
 #include "kernels/pixel_next.hpp"
 #include "kernels/plane_step.hpp"
 #include "kernels/segment_make.hpp"
@@ -320,6 +323,75 @@ void cells() {
   }
 }
 
+template <int FRAC>
+std::int64_t blended(int under, int over, int share, bool darkens) {
+  kage::hls::PixelBlendIn<FRAC> in;
+  in.under = hw::u<8>(under);
+  in.over = hw::u<8>(over);
+  in.share = hw::u<kage::hls::share_bits(FRAC)>(share);
+  in.darkens = hw::u<1>(darkens);
+  kage::hls::PixelBlendOut out;
+  kage::hls::pixel_blend(in, out);
+  return hw::value(out.color);
+}
+
+/// pixel_blend darkens as a line of the golden core, every colour with `shades` of the shades, evenly spread.
+template <int FRAC>
+void darkens(int shades) {
+  kage::Config config;
+  config.shade_frac = FRAC;
+  config.z_frac = 0;
+  config.channels = 1;
+  config.translucency = 1;
+  kage::PixelLine line(config);
+  const int step = std::max(1, (1 << FRAC) / shades);
+  for (int shade = 0; shade <= 1 << FRAC; shade += step) {
+    line.start(256, 0);
+    line.set_shade(static_cast<std::uint32_t>(shade));
+    kage::SpanToken span;
+    span.normal_class = 1;
+    for (int c = 0; c < 256; ++c) {
+      span.xl = c;
+      span.xr = c + 1;
+      span.z = 9;
+      span.color[0] = c;
+      line.op(span);
+    }
+    span.xl = 0;
+    span.z = 5;
+    span.w = 1;
+    line.sp(span);
+    line.ev(0, 256);
+    line.resolve();
+    for (int c = 0; c < 256; ++c)
+      if (const int wanted = line.state(c).color[0]; blended<FRAC>(c, shade * 7 % 256, shade, true) != wanted)
+        return differs("pixel_blend", {FRAC, c, shade, wanted});
+    std::array<std::uint8_t, 256> out{};
+    line.finish(false, out);
+  }
+}
+
+/// pixel_blend blends as the golden core, for all colours and alphas, and darkens as it.
+void blends() {
+  const kage::DepthRamp ramp{0, 0, 0, 1};
+  std::vector<std::int32_t> zb(256 + kage::kKernelSlack, 9);
+  std::vector<std::uint32_t> colors(256 + kage::kKernelSlack);
+  for (int alpha = 0; alpha < 256; ++alpha)
+    for (int over = 0; over < 256; ++over) {
+      for (std::uint32_t c = 0; c < 256; ++c) colors[c] = c;
+      const kage::ColorRamp color{over << 22, 0};
+      kage::span_tp(ramp, 256, zb.data(), colors.data(), &color, 1, alpha);
+      for (int c = 0; c < 256; ++c)
+        if (const std::int64_t wanted = colors[static_cast<std::size_t>(c)];
+            blended<8>(c, over, alpha, false) != wanted)
+          return differs("pixel_blend", {c, over, alpha, wanted});
+    }
+  const bool all = vectors >= 10000000;
+  darkens<8>(256);
+  darkens<12>(all ? 1 << 12 : 256);
+  darkens<16>(all ? 1 << 16 : 256);
+}
+
 struct Soft {
   static constexpr int kZBits = 24, kChannels = 3, kDsfBits = 4, kFsf = 1, kCountBits = 4, kLights = 3, kClassBits = 8,
                        kTranslucency = 0, kUnits = 4;
@@ -481,13 +553,14 @@ int main(int argc, char** argv) {
   if (wanted("plane")) planes();
   if (wanted("segment")) segments();
   if (wanted("cell")) cells();
+  if (wanted("blend")) blends();
   if (wanted("pixel")) {
     pixels<Soft>();
     pixels<Glass>();
     pixels<Grey>();
   }
   if (!tried) {
-    std::fprintf(stderr, "hls_kernels: %s: not edge, span, plane, segment, cell or pixel\n", argv[2]);
+    std::fprintf(stderr, "hls_kernels: %s: not edge, span, plane, segment, cell, blend or pixel\n", argv[2]);
     return 2;
   }
   std::printf("%ld vectors a kernel: %s\n", vectors, bad ? "not the same" : "the same");
