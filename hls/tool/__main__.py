@@ -179,7 +179,7 @@ def show_figures(arguments: argparse.Namespace) -> int:
         placer = figures.Placer(device, arguments.wheels)
         rows = []
         for name, entry in yaml.safe_load((HLS / "kernels.yaml").read_text()).items():
-            if "parameters" in entry or entry["stages"] == 0:
+            if "parameters" in entry or entry["stages"] == 0 or arguments.kernel not in (None, entry["kernel"]):
                 continue
             graph, ports = built(intermediate(HLS / "tops/kernels.cpp"), name, delays.tile)
             chosen = [entry["stages"]]
@@ -197,6 +197,8 @@ def show_figures(arguments: argparse.Namespace) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/hls", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
+    entries = yaml.safe_load((HLS / "kernels.yaml").read_text()).values()
+    kernels = [e["kernel"] for e in entries if "parameters" not in e and e["stages"]]
     command = commands.add_parser("generate")
     command.add_argument("--check", action="store_true")
     command.add_argument("--device", default="ecp5-85f")
@@ -221,6 +223,7 @@ def main() -> int:
         "--chosen", action="store_true", help="at the number of stages that hls/kernels.yaml has alone"
     )
     command.add_argument("--seeds", type=int, default=3)
+    command.add_argument("--kernel", choices=kernels, help="this one alone")
     command.add_argument("--wheels", type=pathlib.Path, required=True)
     command.set_defaults(run=show_figures)
     arguments = parser.parse_args()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tries mutants of the generated modules (mutate.py), by vectors or by proofs, and says what became of them."""
+"""Tries mutants of the generated modules (mutate.py), by vectors, by all inputs or by proofs, and says what became of them."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from .trouble import Trouble
 TOP = pathlib.Path(__file__).resolve().parent.parent.parent
 GENERATED = TOP / "hls/generated"
 HARNESS = TOP / "verif/test/hls/mutants.cpp"
+BENCH = TOP / "verif/test/rtl/hls_blend_bench.sv"
+BLEND = "hls_pixel_blend_"
 PROOFS = TOP / "verif/test/hls/proofs.sh"
 WORK = TOP / "build/hls-mutants"
 
@@ -44,7 +46,7 @@ def _run(command: list, what: str, cwd: pathlib.Path | None = None) -> str:
 
 
 class Vectors:
-    """A pipeline with its mutants as a program, which is kept in build/ as long as nothing of it changes."""
+    """A pipeline, or the blender, with its mutants as a program, which is kept in build/ as long as nothing of it changes."""
 
     def __init__(self) -> None:
         self._verilator = os.environ.get("VERILATOR") or "verilator"
@@ -55,7 +57,7 @@ class Vectors:
             self._cxx.insert(0, "ccache")
         self._include = pathlib.Path(_run([self._verilator, "--getenv", "VERILATOR_ROOT"], "verilator").strip()) / "include"
         versions = _run([self._verilator, "--version"], "verilator") + _run([*self._cxx, "--version"], self._cxx[0])
-        sources = [HARNESS, *sorted((TOP / "verif/test/rtl").glob("*.hpp")), *sorted((TOP / "hls/kernels").glob("*.hpp"))]
+        sources = [HARNESS, BENCH, *sorted((TOP / "rtl/include").rglob("*.svh")), *sorted((TOP / "verif/test/rtl").glob("*.hpp")), *sorted((TOP / "hls/kernels").glob("*.hpp"))]
         self._key = versions + "".join(p.read_text() for p in [*sources, TOP / "hls/types.hpp", TOP / "hls/pragmas.hpp"])
         self._flags = ["-std=c++20", "-O1", "-g0", "-w", "-I.", f"-I{self._include}", f"-I{self._include}/vltstd"]
         self._flags += [f"-I{TOP}/verif/test/rtl", f"-I{TOP}/hls"]
@@ -69,6 +71,18 @@ class Vectors:
                 _run([*self._cxx, *self._flags, "-c", self._include / f"{o.stem}.cpp", "-o", o], f"{o.stem}.cpp", folder)
         return objects
 
+    def _ways(self, module: Module) -> tuple[list, list]:
+        """What Verilator and the compiler are told: a pipeline is a model of its own, the blender stands in a bench."""
+        if not module.name.startswith(BLEND):
+            ports = "".join(part.capitalize() for part in module.name.removeprefix("hls_").split("_")) + "Ports"
+            stages = re.search(r"^// Latency: (\d+) clock", "\n".join(module.lines), re.M)[1]
+            return ["--top-module", module.name], [f"-DPORTS={ports}", f"-DSTAGES={stages}"]
+        from .__main__ import configurations
+
+        frac = configurations(["SHADE_FRAC"])[module.name.removeprefix(BLEND)]["SHADE_FRAC"]
+        way = ["--top-module", BENCH.stem, f"-DKERNEL={module.name}", "-DMUTANTS", f"-I{TOP}/rtl/include", BENCH]
+        return [*way, f"-GSHADE_FRAC={frac}", "-GTRANSLUCENCY=1", "-GCHANNELS=1"], [f"-DBLEND_FRAC={frac}"]
+
     def program(self, module: Module, mutants: list[Mutant]) -> pathlib.Path:
         text = module.with_mutants(mutants, has_port=True)
         folder = WORK / hashlib.sha256(f"{module.name} {text} {self._key}".encode()).hexdigest()[:16]
@@ -78,21 +92,21 @@ class Vectors:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         (folder / f"{module.name}.sv").write_text(text)
-        command = [self._verilator, "--cc", "--prefix", "Vmutants", "--top-module", module.name, "--Mdir", folder]
-        command += ["--x-initial", "unique", "-Wno-lint", "-Wno-style", "-Wno-fatal", f"{module.name}.sv"]
+        options, defines = self._ways(module)
+        command = [self._verilator, "--cc", "--prefix", "Vmutants", "--Mdir", folder, "--x-initial", "unique", *options]
+        command += ["-Wno-lint", "-Wno-style", "-Wno-fatal", f"{module.name}.sv"]
         _run(command, f"verilator: {module.name}", folder)
-        ports = "".join(part.capitalize() for part in module.name.removeprefix("hls_").split("_")) + "Ports"
-        stages = re.search(r"^// Latency: (\d+) clock", "\n".join(module.lines), re.M)[1]
         lines = ["#define VL_INCLUDE_OPT include", '#include "Vmutants.h"']
         lines += [f'#include "{p.name}"' for p in sorted(folder.glob("Vmutants*.cpp"))] + [f'#include "{HARNESS}"']
         (folder / "all.cpp").write_text("\n".join(lines) + "\n")
-        defines = ["-DMODEL=Vmutants", f"-DPORTS={ports}", f"-DSTAGES={stages}"]
+        defines.append("-DMODEL=Vmutants")
         _run([*self._cxx, *self._flags, *defines, "-c", "all.cpp", "-o", "all.o"], f"{module.name}: its program", folder)
         _run([*self._cxx, "all.o", *self._runtime(), "-pthread", "-o", program], f"{module.name}: its program", folder)
         return program
 
     def try_all(self, module: Module, mutants: list[Mutant], vectors: int, seed: int) -> Verdicts:
-        verdicts = Verdicts(module.name, f"{vectors} vectors", mutants)
+        exhausted = module.name.startswith(BLEND)
+        verdicts = Verdicts(module.name, "all inputs" if exhausted else f"{vectors} vectors", mutants)
         program = self.program(module, mutants)
         numbers = [str(m.number) for m in mutants]
         done = subprocess.run([program, str(vectors), str(seed), *numbers], capture_output=True, text=True, check=False)
@@ -102,7 +116,7 @@ class Vectors:
         for m in mutants:
             if said[str(m.number)] != "lives":
                 verdicts.found.append(m)
-            elif m.terms and same_terms(module, m.terms):
+            elif exhausted or (m.terms and same_terms(module, m.terms)):
                 verdicts.equivalent.append(m)
             else:
                 verdicts.lived.append(m)
@@ -155,7 +169,7 @@ def chosen(names: list[str]) -> list[Module]:
     found = []
     for name in names:
         stem = name if name.startswith("hls_") else f"hls_{name}"
-        some = [m for m in modules if m.name == stem or (stem == "hls_pixel_next" and m.name.startswith(stem))]
+        some = [m for m in modules if m.name == stem or (stem.startswith("hls_pixel_") and m.name.startswith(f"{stem}_"))]
         if not some:
             raise Trouble(f"{name}: neither a kernel nor a module of hls/generated")
         found += [m for m in some if m not in found]
@@ -171,7 +185,7 @@ def run(names: list[str], seed: int, count: int, vectors: int, shows: bool) -> i
         mutants = module.mutants()
         if 0 < count < len(mutants):
             mutants = sorted(random.Random(f"{seed} {module.name}").sample(mutants, count), key=lambda m: m.number)
-        if any("always_ff" in line for line in module.lines):
+        if module.name.startswith(BLEND) or any("always_ff" in line for line in module.lines):
             harness = harness or Vectors()
             tried.append(harness.try_all(module, mutants, vectors, seed))
         else:

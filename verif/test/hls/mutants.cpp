@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tries mutants of a generated pipeline by the vectors of rtl/hls_kernels. hls/tool/mutants_run.py compiles it, once
-// for each kernel: MODEL is Verilator's class, whose input mutant_i chooses the mutant, PORTS the struct of
-// hls_pipelines.hpp, STAGES the pipeline's stages.
+// Tries mutants of a generated pipeline by the vectors of rtl/hls_kernels, and of the blender by all inputs, as
+// rtl/hls_blend. hls/tool/mutants_run.py compiles it, once for each module: MODEL is Verilator's class, whose input
+// mutant_i chooses the mutant; PORTS the struct of hls_pipelines.hpp and STAGES the pipeline's stages, or BLEND_FRAC
+// the blender's SHADE_FRAC.
 //
 // usage: mutants VECTORS SEED NUMBER...     prints a line for each: NUMBER, and what is wrong with it, or "lives"
 // Exit code 1: the module without a mutant, number 0, has something wrong; 2: usage.
@@ -9,10 +10,21 @@
 #include <cstdlib>
 #include <string>
 
+#ifdef BLEND_FRAC
+#include "hls_blend.hpp"
+#else
 #include "hls_pipelines.hpp"
+#endif
 
 namespace {
 
+#ifdef BLEND_FRAC
+std::string wrong_with(unsigned mutant, long /*vectors*/, std::uint64_t /*seed*/) {
+  MODEL model;
+  model.mutant_i = static_cast<SData>(mutant);
+  return kage::rtl::wrong_in_blend(model, BLEND_FRAC);
+}
+#else
 using kage::rtl::Bench;
 using kage::rtl::Dice;
 
@@ -27,6 +39,7 @@ std::string wrong_with(unsigned mutant, long vectors, std::uint64_t seed) {
   }
   return {};
 }
+#endif
 
 }  // namespace
 
