@@ -153,7 +153,7 @@ class Band {
   struct Role {
     PolygonWay way;
     Place place;
-    std::vector<std::uint32_t> Line::* words;
+    std::vector<std::uint32_t> Line::*words;
     SpanToken look;  // of its POLYGON
   };
 
@@ -170,8 +170,7 @@ class Band {
     role.way = as.way;
     role.place = Place(layer, as.before);
     if (!opaque) role.look.alpha = p.alpha;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(f_->config->channels); ++c)
-      role.look.color[c] = p.color[c];
+    for (std::size_t c = 0; c < static_cast<std::size_t>(f_->config->channels); ++c) role.look.color[c] = p.color[c];
     return role;
   }
 
@@ -238,8 +237,7 @@ class Band {
       const int y1 = std::min(y1_, f.end_line);
       for (std::uint32_t k = f.first_polygon; k < f.first_polygon + f.polygon_count; ++k) {
         const ScreenPolygon& p = g_->polygons[k];
-        const Role role =
-            drawn_role(p, Layer::translucent, [&] { return plan_->translucent(i, k - f.first_polygon); });
+        const Role role = drawn_role(p, Layer::translucent, [&] { return plan_->translucent(i, k - f.first_polygon); });
         const bool as_polygon = made(role.way);
         if (as_polygon) polygon(k, role);
         if (as_polygon && !keeps_origins_) continue;
@@ -279,8 +277,7 @@ class Band {
       if (edge < edges.size()) v = std::min(v, f_->volume_of_edge[edges[edge]]);
       if (g_->volumes[v].sample != sample) close_sample(sample);
       sample = g_->volumes[v].sample;
-      for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face)
-        volume_face(faces[face], v);
+      for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face) volume_face(faces[face], v);
       for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge)
         near_edge(g_->near_edges[edges[edge]]);
       close_volume(v);

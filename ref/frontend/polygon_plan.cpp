@@ -5,7 +5,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <queue>
+#include <limits>
+#include <numeric>
 
 #include "frontend/weight.hpp"
 
@@ -16,34 +17,35 @@ constexpr std::uint32_t kMostRank = (1U << kRankBits) - 1;
 constexpr std::uint32_t kMostVolumes = 1U << kVolumeBits;
 constexpr std::size_t kMostSamples = std::size_t{1} << kSampleBits;
 
-/// Words of spans of a kind, and of a polygon's first tokens.
+}  // namespace
+
+/// Words that polygons take.
 class Prices {
  public:
-  Prices(const Config& config, Kind span_kind) : layout_(config), span_(words(span_kind)) {
-    if (config.smooth != 0) gradients_ = static_cast<std::uint64_t>(config.channels) * words(Kind::GRADIENT);
+  explicit Prices(const Config& config) : layout_(config) {
+    gradients_ = config.smooth != 0 ? config.channels * words(Kind::GRADIENT) : 0;
   }
 
-  /// Whether it is fewer words as a polygon. As spans it needs an AT on each of its lines.
-  [[nodiscard]] bool worth(const PolygonShape& s, bool gradients) const {
-    const std::uint64_t at = words(Kind::AT);
-    const std::uint64_t polygon = at + words(Kind::POLYGON) + (gradients ? gradients_ : 0) + 2 * words(Kind::EDGE);
-    return polygon + s.words < s.spans * span_ + static_cast<std::uint64_t>(s.lines()) * at;
+  /// How many fewer it takes as a polygon. As spans it needs an AT on each of its lines.
+  [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span) const {
+    const std::int64_t at = words(Kind::AT);
+    const bool varies = p.color_planes >= 0 && span != Kind::SP;
+    const std::int64_t polygon = at + words(Kind::POLYGON) + (varies ? gradients_ : 0) + 2 * words(Kind::EDGE);
+    return s.spans * words(span) + s.lines() * at - polygon - s.words;
   }
 
  private:
-  [[nodiscard]] std::uint64_t words(Kind k) const { return layout_.words[static_cast<std::size_t>(k)]; }
+  [[nodiscard]] std::int64_t words(Kind k) const { return layout_.words[static_cast<std::size_t>(k)]; }
 
   Layout layout_;
-  std::uint64_t span_;
-  std::uint64_t gradients_ = 0;
+  std::int64_t gradients_;
 };
-
-}  // namespace
 
 PolygonPlan::PolygonPlan(const FrameGeometry& geometry, const Config& config, std::uint32_t first_span_polygon,
                          Arena& arena)
     : g_(&geometry), first_opaque_(std::min(first_span_polygon, geometry.drawn)), shapes_(geometry.polygons.size()) {
   find_shapes(config, arena);
+  number_uses(config);
   choose(config);
   keep_active(config);
   count();
@@ -74,117 +76,167 @@ void PolygonPlan::find_shapes(const Config& config, Arena& arena) {
   });
 }
 
-void PolygonPlan::choose(const Config& config) {
-  const auto way = [](const Prices& prices, const PolygonShape& s, PolygonWay possible, bool gradients) {
-    if (s.spans == 0) return kUnseen;
-    return possible == PolygonWay::polygon && !prices.worth(s, gradients) ? PolygonWay::words : possible;
-  };
-  const auto has_gradients = [this](std::size_t polygon) { return g_->polygons[polygon].color_planes >= 0; };
-  opaque_.resize(g_->drawn);
-  const Prices op(config, Kind::OP);
-  for (std::size_t i = 0; i < g_->drawn; ++i)
-    opaque_.way[i] = i < first_opaque_ ? kUnseen : way(op, shapes_[i], shapes_[i].as_drawn, has_gradients(i));
-  number_.resize(g_->volumes.size());
+void PolygonPlan::number_uses(const Config& config) {
+  first_face_ = g_->drawn;
+  first_translucent_ = first_face_ + (config.dsf_bits > 0 ? g_->volume_faces.size() : 0);
+  if (config.translucency > 0)
+    for (std::uint32_t f = 0; f < g_->fragments.size(); ++f) {
+      first_of_fragment_.push_back(first_translucent_ + fragment_of_.size());
+      fragment_of_.resize(fragment_of_.size() + g_->fragments[f].polygon_count, f);
+    }
+  ways_.resize(first_translucent_ + fragment_of_.size());
+  before_.resize(ways_.size());
   made_of_.resize(g_->volumes.size());
-  if (config.dsf_bits > 0) {
-    faces_.resize(g_->volume_faces.size());
-    const Prices sp(config, Kind::SP);
-    for (std::size_t i = 0; i < g_->volume_faces.size(); ++i) {
-      const VolumeFace& f = g_->volume_faces[i];
-      const PolygonShape& s = shapes_[f.polygon];
-      faces_.way[i] = weight(config, f.w) == 0 ? kUnseen : way(sp, s, s.as_face, false);
-    }
-    for (std::size_t v = 1; v < g_->volumes.size(); ++v)
-      if (g_->volumes[v].sample == g_->volumes[v - 1].sample) number_[v] = number_[v - 1] + 1;
-  }
-  if (config.translucency == 0) return;
-  std::size_t uses = 0;
-  for (const ScreenFragment& f : g_->fragments) {
-    first_translucent_.push_back(uses);
-    uses += f.polygon_count;
-  }
-  translucent_.resize(uses);
-  const Prices tp(config, Kind::TP);
-  for (std::size_t i = 0; i < g_->fragments.size(); ++i) {
-    const ScreenFragment& f = g_->fragments[i];
-    for (std::uint32_t n = 0; n < f.polygon_count; ++n) {
-      const PolygonShape& s = shapes_[f.first_polygon + n];
-      const bool whole = f.cut_count == 0 && f.first_line <= s.first && s.last < f.end_line;
-      translucent_.way[first_translucent_[i] + n] =
-          way(tp, s, whole ? s.as_drawn : PolygonWay::cut, has_gradients(f.first_polygon + n));
-    }
-  }
+  number_.resize(g_->volumes.size());
+  for (std::size_t v = 1; v < g_->volumes.size(); ++v)
+    if (g_->volumes[v].sample == g_->volumes[v - 1].sample) number_[v] = number_[v - 1] + 1;
 }
 
-template <class Plan, class Each>
-void PolygonPlan::each(Plan& plan, Each use) {
-  const FrameGeometry& g = *plan.g_;
-  for (std::size_t i = 0; i < plan.opaque_.way.size(); ++i) use(plan.opaque_.way[i], plan.shapes_[i]);
-  for (std::size_t i = 0; i < plan.faces_.way.size(); ++i)
-    use(plan.faces_.way[i], plan.shapes_[g.volume_faces[i].polygon]);
-  for (std::size_t i = 0; i < plan.first_translucent_.size(); ++i)
-    for (std::uint32_t n = 0; n < g.fragments[i].polygon_count; ++n)
-      use(plan.translucent_.way[plan.first_translucent_[i] + n], plan.shapes_[g.fragments[i].first_polygon + n]);
+Kind PolygonPlan::span_of(std::size_t use) const {
+  return use < first_face_ ? Kind::OP : use < first_translucent_ ? Kind::SP : Kind::TP;
 }
 
-// Line by line from the top: of too many the one that ends last goes as spans, which leaves as many as can be.
+std::uint32_t PolygonPlan::polygon_of(std::size_t use) const {
+  if (use < first_face_) return static_cast<std::uint32_t>(use);
+  if (use < first_translucent_) return g_->volume_faces[use - first_face_].polygon;
+  const std::uint32_t fragment = fragment_of_[use - first_translucent_];
+  return g_->fragments[fragment].first_polygon + static_cast<std::uint32_t>(use - first_of_fragment_[fragment]);
+}
+
+void PolygonPlan::choose(const Config& config) {
+  const Prices prices(config);
+  for (std::size_t i = 0; i < ways_.size(); ++i) ways_[i] = choice(config, prices, i);
+}
+
+PolygonWay PolygonPlan::choice(const Config& config, const Prices& prices, std::size_t use) const {
+  const std::uint32_t polygon = polygon_of(use);
+  const PolygonShape& s = shapes_[polygon];
+  const Kind span = span_of(use);
+  if (s.spans == 0 || (span == Kind::OP && use < first_opaque_)) return kUnseen;
+  if (span == Kind::SP && weight(config, g_->volume_faces[use - first_face_].w) == 0) return kUnseen;
+  if (span == Kind::TP) {
+    const ScreenFragment& f = g_->fragments[fragment_of_[use - first_translucent_]];
+    if (f.cut_count > 0 || s.first < f.first_line || s.last >= f.end_line) return PolygonWay::cut;
+  }
+  const PolygonWay way = span == Kind::SP ? s.as_face : s.as_drawn;
+  if (way != PolygonWay::polygon) return way;
+  return prices.saved(g_->polygons[polygon], s, span) > 0 ? way : PolygonWay::words;
+}
+
+namespace {
+
+/// A polygon that goes as such, on a line.
+struct Active {
+  std::uint32_t use;
+  int end;
+  std::int64_t saved;     // words
+  std::int64_t relieved;  // lines with too many, from the one at hand on
+};
+
+/// How many polygons are there at once, on each line.
+class Crowd {
+ public:
+  Crowd(int height, int most) : most_(most), count_(static_cast<std::size_t>(height) + 1, 0), before_(count_) {}
+
+  void add(int first, int end) {
+    ++at(first);
+    --at(end);
+  }
+  /// All have been added.
+  int sum() {
+    for (std::size_t y = 1; y < count_.size(); ++y) count_[y] += count_[y - 1];
+    int most = 0;
+    for (const int n : count_) most = std::max(most, n);
+    return most;
+  }
+  void drop(int y, int end) {
+    for (; y < end; ++y) --at(y);
+  }
+
+  /// Find what dropping each relieves.
+  void relieve(int y, std::vector<Active>& active) {
+    int last = y;
+    for (const Active& a : active) last = std::max(last, a.end);
+    int sum = 0;
+    for (int l = y; l <= last; ++l) {
+      before_[static_cast<std::size_t>(l)] = sum;
+      sum += at(l) > most_ ? 1 : 0;
+    }
+    for (Active& a : active) a.relieved = before_[static_cast<std::size_t>(a.end)];
+  }
+
+ private:
+  int& at(int y) { return count_[static_cast<std::size_t>(y)]; }
+
+  int most_;
+  std::vector<int> count_;
+  std::vector<int> before_;  // lines with too many
+};
+
+}  // namespace
+
+// Line by line from the top: of too many, those go as spans that save the fewest words for each line that is relieved.
 void PolygonPlan::keep_active(const Config& config) {
-  std::vector<std::uint32_t> start(static_cast<std::size_t>(g_->height) + 1, 0);
-  each(*this, [&](PolygonWay way, const PolygonShape& s) {
-    if (way == PolygonWay::polygon) ++start[s.first + std::size_t{1}];
-  });
-  for (std::size_t y = 1; y < start.size(); ++y) start[y] += start[y - 1];
-  struct Item {
-    PolygonWay* way;
-    int end;
+  const auto end_of = [this](const PolygonShape& s) { return std::min<int>(s.end, g_->height); };
+  const auto each_made = [this](auto made) {
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (ways_[i] == PolygonWay::polygon) made(static_cast<std::uint32_t>(i), shapes_[polygon_of(i)]);
   };
-  std::vector<Item> items(start.back());
-  std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
-  each(*this, [&](PolygonWay& way, const PolygonShape& s) {
-    if (way == PolygonWay::polygon) items[at[s.first]++] = {&way, s.end};
+  Crowd crowd(g_->height, config.active);
+  std::vector<std::uint32_t> start(static_cast<std::size_t>(g_->height) + 1, 0);  // in uses, by first line
+  each_made([&](std::uint32_t, const PolygonShape& s) {
+    ++start[s.first + std::size_t{1}];
+    crowd.add(s.first, end_of(s));
   });
-  // Those that are kept, by their ends; of one end, the newest is dropped first.
-  std::vector<std::vector<std::uint32_t>> by_end(static_cast<std::size_t>(kGuard) + 2);
-  int count = 0;
-  int latest = 0;
+  active_ = crowd.sum();
+  if (active_ <= config.active) return;
+  active_ = config.active;
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<std::uint32_t> uses(start.back());
+  std::vector<std::uint32_t> at(start.begin(), start.end() - 1);
+  each_made([&](std::uint32_t i, const PolygonShape& s) { uses[at[s.first]++] = i; });
+  const Prices prices(config);
+  std::vector<Active> active;
   for (int y = 0; y < g_->height; ++y) {
-    count -= static_cast<int>(by_end[static_cast<std::size_t>(y)].size());
+    std::erase_if(active, [y](const Active& a) { return a.end <= y; });
     for (std::uint32_t i = start[static_cast<std::size_t>(y)]; i < start[static_cast<std::size_t>(y) + 1]; ++i) {
-      by_end[static_cast<std::size_t>(items[i].end)].push_back(i);
-      latest = std::max(latest, items[i].end);
-      ++count;
+      const std::uint32_t polygon = polygon_of(uses[i]);
+      const PolygonShape& s = shapes_[polygon];
+      active.push_back({uses[i], end_of(s), prices.saved(g_->polygons[polygon], s, span_of(uses[i])), 0});
     }
-    for (; count > config.active; --count) {
-      while (by_end[static_cast<std::size_t>(latest)].empty()) --latest;
-      auto& last = by_end[static_cast<std::size_t>(latest)];
-      *items[last.back()].way = PolygonWay::active;
-      last.pop_back();
+    if (static_cast<int>(active.size()) <= config.active) continue;
+    crowd.relieve(y, active);
+    const auto keep = active.begin() + config.active;
+    std::nth_element(active.begin(), keep, active.end(), [](const Active& a, const Active& b) {
+      const std::int64_t of_a = a.saved * b.relieved;
+      const std::int64_t of_b = b.saved * a.relieved;
+      return of_a != of_b ? of_a > of_b : a.use < b.use;
+    });
+    for (auto a = keep; a != active.end(); ++a) {
+      ways_[a->use] = PolygonWay::active;
+      crowd.drop(y, a->end);
     }
-    active_ = std::max(active_, count);
+    active.erase(keep, active.end());
   }
 }
 
 void PolygonPlan::count() {
-  const auto count_all = [](Uses& uses) {
+  const auto count_some = [this](std::size_t first, std::size_t end, std::uint32_t most) {
     std::uint32_t made = 0;
-    for (std::size_t i = 0; i < uses.way.size(); ++i) {
-      uses.before[i] = made;
-      made += uses.way[i] == PolygonWay::polygon ? 1 : 0;
+    for (std::size_t i = first; i < end; ++i) {
+      if (ways_[i] == PolygonWay::polygon && made == most) ways_[i] = PolygonWay::place;
+      before_[i] = made;
+      made += ways_[i] == PolygonWay::polygon ? 1 : 0;
     }
+    return made;
   };
-  count_all(opaque_);
-  count_all(translucent_);
-  if (faces_.way.empty()) return;
+  constexpr std::uint32_t kAny = std::numeric_limits<std::uint32_t>::max();
+  count_some(0, first_face_, kAny);
+  count_some(first_translucent_, ways_.size(), kAny);
+  if (first_translucent_ == first_face_) return;
   for (std::size_t v = 0; v < g_->volumes.size(); ++v) {
-    const ShadowVolume& volume = g_->volumes[v];
-    std::uint32_t made = 0;
-    for (std::size_t i = volume.first_face; i < volume.first_face + volume.face_count; ++i) {
-      PolygonWay& way = faces_.way[i];
-      if (way == PolygonWay::polygon && made == kMostRank) way = PolygonWay::place;
-      faces_.before[i] = made;
-      made += way == PolygonWay::polygon ? 1 : 0;
-    }
-    made_of_[v] = made;
+    const std::size_t first = first_face_ + g_->volumes[v].first_face;
+    made_of_[v] = count_some(first, first + g_->volumes[v].face_count, kMostRank);
   }
 }
 
@@ -200,16 +252,17 @@ Place PolygonPlan::place(std::uint32_t volume, std::uint32_t before) const {
 
 void PolygonPlan::add_to(PolygonReport& report) const {
   report.active = active_;
-  each(*this, [&](PolygonWay way, const PolygonShape& s) {
-    if (way == kUnseen) return;
-    auto& of = report.ways[static_cast<std::size_t>(way)];
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    if (ways_[i] == kUnseen) continue;
+    const PolygonShape& s = shapes_[polygon_of(i)];
+    auto& of = report.ways[static_cast<std::size_t>(ways_[i])];
     const bool tall = s.lines() >= kTallLines;
     ++of.polygons;
     of.tall_polygons += tall ? 1 : 0;
-    if (way != PolygonWay::polygon) return;
+    if (ways_[i] != PolygonWay::polygon) continue;
     of.spans += s.spans;
     of.tall_spans += tall ? s.spans : 0;
-  });
+  }
 }
 
 PolygonReport::Way& PolygonReport::Way::operator+=(const Way& other) {

@@ -20,6 +20,8 @@ inline constexpr auto kUnseen = static_cast<PolygonWay>(kPolygonWays);
 /// Polygons of so many lines are tall (PolygonReport).
 inline constexpr int kTallLines = 3;
 
+class Prices;
+
 /// Of a frame at the polygon level.
 class PolygonPlan {
  public:
@@ -37,11 +39,11 @@ class PolygonPlan {
   /// Whether places can count the frame's samples and volumes.
   static bool fits(const FrameGeometry& geometry);
 
-  [[nodiscard]] Use opaque(std::size_t polygon) const { return opaque_.use(polygon); }
-  [[nodiscard]] Use face(std::size_t volume_face) const { return faces_.use(volume_face); }
+  [[nodiscard]] Use opaque(std::size_t polygon) const { return use(polygon); }
+  [[nodiscard]] Use face(std::size_t volume_face) const { return use(first_face_ + volume_face); }
   /// The n-th polygon of a fragment.
   [[nodiscard]] Use translucent(std::size_t fragment, std::uint32_t n) const {
-    return translucent_.use(first_translucent_[fragment] + n);
+    return use(first_of_fragment_[fragment] + n);
   }
   [[nodiscard]] const PolygonShape& shape(std::size_t polygon) const { return shapes_[polygon]; }
 
@@ -54,35 +56,29 @@ class PolygonPlan {
   void add_to(PolygonReport& report) const;
 
  private:
-  struct Uses {
-    std::vector<PolygonWay> way;
-    std::vector<std::uint32_t> before;
-
-    [[nodiscard]] Use use(std::size_t i) const { return {way[i], before[i]}; }
-    void resize(std::size_t n) {
-      way.resize(n);
-      before.resize(n);
-    }
-  };
+  [[nodiscard]] Use use(std::size_t i) const { return {ways_[i], before_[i]}; }
+  [[nodiscard]] Kind span_of(std::size_t use) const;
+  [[nodiscard]] std::uint32_t polygon_of(std::size_t use) const;
 
   void find_shapes(const Config& config, Arena& arena);
+  void number_uses(const Config& config);
   void choose(const Config& config);
+  [[nodiscard]] PolygonWay choice(const Config& config, const Prices& prices, std::size_t use) const;
   void keep_active(const Config& config);
   void count();
-
-  /// Call use(way, shape) for all uses of a plan, in the order of their places.
-  template <class Plan, class Each>
-  static void each(Plan& plan, Each use);
 
   const FrameGeometry* g_;
   std::uint32_t first_opaque_;
   std::vector<PolygonShape> shapes_;
-  Uses opaque_;
-  Uses faces_;
-  Uses translucent_;
-  std::vector<std::size_t> first_translucent_;  // of each fragment, into translucent_
-  std::vector<std::uint32_t> made_of_;          // of each volume
-  std::vector<std::uint32_t> number_;           // of each volume in its sample
+  // Of uses: first the drawn ones, then faces of volumes, then those of fragments.
+  std::vector<PolygonWay> ways_;
+  std::vector<std::uint32_t> before_;
+  std::size_t first_face_ = 0;
+  std::size_t first_translucent_ = 0;
+  std::vector<std::size_t> first_of_fragment_;
+  std::vector<std::uint32_t> fragment_of_;  // from first_translucent_ on
+  std::vector<std::uint32_t> made_of_;      // of each volume
+  std::vector<std::uint32_t> number_;       // of each volume in its sample
   int active_ = 0;
 };
 

@@ -87,8 +87,9 @@ bool ShapeFinder::fits(const ScreenPlane& plane, int bits) const {
 
 void ShapeFinder::compare(const ScreenPolygon& p, PolygonShape& shape, bool color) {
   edges_.clear();
-  each_edge(g_->outline(p), shape, shape.first, shape.last + 1,
-            [&](int y, const PolygonToken& edge) { edges_.push_back({y, edge}); });
+  each_edge(g_->outline(p), shape, shape.first, shape.last + 1, [&](int y, const PolygonToken& edge) {
+    edges_.push_back({y, edge});
+  });
   std::stable_sort(edges_.begin(), edges_.end(), [](const Begin& a, const Begin& b) { return a.y < b.y; });
   const auto words = [this](Kind k) { return std::size_t{layout_.words[static_cast<std::size_t>(k)]}; };
   std::size_t more = 0;

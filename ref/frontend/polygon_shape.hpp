@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A polygon as the front end takes it (docs/stream.md, "The polygon level"): its planes at the line where it begins, its
-// edges where they begin, and whether the front end makes the very spans of it that scan conversion makes.
+// A polygon as the front end takes it (docs/stream.md, "The polygon level"): its planes at the line where it begins,
+// its edges where they begin, and whether the front end makes the very spans of it that scan conversion makes.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace kage {
 
 /// Where a polygon lies, and what the front end makes of it.
 struct PolygonShape {
-  std::uint16_t first = 0;    ///< first line on which it has a span
-  std::uint16_t last = 0;     ///< last line
-  std::uint16_t end = 0;      ///< one past the line where the earliest of its last edges ends
-  std::uint16_t words = 0;    ///< of the AT and EDGE tokens behind its first line
-  std::uint32_t spans = 0;    ///< on all lines; 0: it is not to be seen, and nothing else here counts
-  PolygonWay as_face{};       ///< by its range and depth: how it can go as the face of a volume
-  PolygonWay as_drawn{};      ///< by its colour, too
+  std::uint16_t first = 0;  ///< first line on which it has a span
+  std::uint16_t last = 0;   ///< last line
+  std::uint16_t end = 0;    ///< one past the line where the earliest of its last edges ends
+  std::uint16_t words = 0;  ///< of the AT and EDGE tokens behind its first line
+  std::uint32_t spans = 0;  ///< on all lines; 0: it is not to be seen, and nothing else here counts
+  PolygonWay as_face{};     ///< by its range and depth: how it can go as the face of a volume
+  PolygonWay as_drawn{};    ///< by its colour, too
   bool operator==(const PolygonShape&) const = default;
 
   [[nodiscard]] int lines() const { return spans == 0 ? 0 : last - first + 1; }

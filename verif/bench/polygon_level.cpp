@@ -31,7 +31,8 @@ void print(const std::string& path) {
   draw.level = Level::polygons;
   SceneFrames frames(scene, config, draw);
   FrameParts parts;
-  (void)frames.frame(0, [](std::span<const std::uint32_t>) {}, parts);
+  (void)frames.frame(
+      0, [](std::span<const std::uint32_t>) {}, parts);
   const PolygonReport& r = parts.polygons;
   const PolygonReport::Way all = r.all();
   fmt::print("{:<18} {:<11} {:>9} {:>9} {:>5.1f} {:>8} {:>8} {:>6.1f} {:>6.1f} {:>6}",

@@ -116,8 +116,8 @@ struct FrameOptions {
 
 /// Makes the frame's words from first to last. Lines are made in bands and handed on band by band. Cost is linear in
 /// the spans. With UNITS > 0 polyhedra go to units, in draw order up to the first that finds none; the rest become
-/// spans, which changes no pixel. Throws Error if the configuration cannot hold the frame (width, volumes, level). [Matsumoto]
-/// has the spans, [Ohno 1985] the units; docs/numbers.md every rounding.
+/// spans, which changes no pixel. Throws Error if the configuration cannot hold the frame (width, volumes, level).
+/// [Matsumoto] has the spans, [Ohno 1985] the units; docs/numbers.md every rounding.
 /// @param geometry made for this configuration (make_geometry())
 /// @param config a legal configuration
 /// @param frame_number goes into the header, for messages

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Built-in scenes at the polygon level: the front end makes the very tokens of the span level of them, and the core the
 // same pixels.
+#include "test/support/polygon_level.hpp"
+
 #include <array>
 
 #include "kage/geometry.hpp"
 #include "opinion/light_truth.hpp"
 #include "test/scene/scene_configs.hpp"
 #include "test/support/catch.hpp"
-#include "test/support/polygon_level.hpp"
 
 namespace kage::verif {
 namespace {

@@ -30,11 +30,10 @@ inline std::vector<std::uint32_t> expanded(const Config& c, std::span<const std:
   const Layout layout(c);
   TokenWalk walk(layout, words);
   for (auto token = walk.next(); !token.empty(); token = walk.next()) {
-    const ErrorCode e =
-        front_end.accept(decode(c, layout, token, Level::polygons), [&](const Token& of_spans, bool) {
-          writer.token(of_spans);
-          return ErrorCode::NONE;
-        });
+    const ErrorCode e = front_end.accept(decode(c, layout, token, Level::polygons), [&](const Token& of_spans, bool) {
+      writer.token(of_spans);
+      return ErrorCode::NONE;
+    });
     if (e != ErrorCode::NONE) return {};
   }
   return out;
