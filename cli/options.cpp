@@ -219,6 +219,28 @@ void option_outside(CLI::App& command, Options& options) {
                    "those outside its folder");
 }
 
+static const std::map<std::string, Level>& levels() {
+  static const std::map<std::string, Level> kLevels{{"spans", Level::spans}, {"polygons", Level::polygons}};
+  return kLevels;
+}
+
+void option_level(CLI::App& command, Options& options) {
+  command
+      .add_option_function<std::string>(
+          "--level", [&options](const std::string& name) { options.level = levels().at(name); },
+          "of random frames: what their tokens are, spans or polygons (a core with ACTIVE > 0 makes spans of them); "
+          "default spans")
+      ->option_text("spans|polygons")
+      ->check(CLI::IsMember({"spans", "polygons"}))
+      ->type_name("LEVEL");
+}
+
+std::string name_of(Level level) {
+  for (const auto& [name, value] : levels())
+    if (value == level) return name;
+  return {};
+}
+
 void option_fault(CLI::App& command, std::string& fault) {
   command
       .add_option("--fault", fault,

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "kage/defs.hpp"
 #include "kage/geometry.hpp"
 
 namespace kage::cli {
@@ -75,6 +76,10 @@ void options_of_frames(CLI::App& command, Options& options);
 void option_max_fragments(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
+/// --level: of random frames.
+void option_level(CLI::App& command, Options& options);
+/// As --level has it.
+std::string name_of(Level level);
 
 /// What a command takes frames from: scenes; stream files, too; random frames, too.
 enum class Taken : std::uint8_t { scenes, streams, random };
