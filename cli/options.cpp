@@ -200,8 +200,8 @@ void option_front_end(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--front-end", [&options](const std::string& who) { options.level = kWho.at(who); },
-          fmt::format("who makes spans of a scene's polygons, default host: rtl sends frames at the polygon level, and the "
-                      "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
+          fmt::format("who makes spans of polygons, default host: rtl sends frames at the polygon level, and the core "
+                      "gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
                       kUsualActive))
       ->check(CLI::IsMember({"host", "rtl"}))
       ->type_name("host|rtl");
@@ -228,8 +228,7 @@ void option_level(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--level", [&options](const std::string& name) { options.level = levels().at(name); },
-          "of random frames: what their tokens are, spans or polygons (a core with ACTIVE > 0 makes spans of them); "
-          "default spans")
+          "what the frames' tokens are: spans, or polygons, of which a core with ACTIVE > 0 makes spans; default spans")
       ->option_text("spans|polygons")
       ->check(CLI::IsMember({"spans", "polygons"}))
       ->type_name("LEVEL");

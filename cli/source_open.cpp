@@ -102,9 +102,7 @@ void Source::open_random(const Options& options, verif::Manner manner) {
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
   refuse(options.allow_outside, "--allow-outside", "need no files");
   config_ = load_config(options.config.empty() ? "default" : options.config);
-  if (options.level == Level::polygons && config_.config.active == 0)
-    throw Error(fmt::format("{}: --level polygons: configuration {} has ACTIVE 0, so its core takes spans alone",
-                            options.input, config_.name));
+  if (options.level == Level::polygons && config_.config.active == 0) config_.config.active = kUsualActive;
   if (options.config.empty()) notes_.push_back(fmt::format("configuration: {}", config_.name));
   name_ = options.input;
   std::replace(name_.begin(), name_.end(), ':', '_');
@@ -124,9 +122,8 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
   if (options.level != Level::spans)
-    throw Error(fmt::format("{}: --front-end: only a scene takes it, and this is a stream", options.input));
+    throw Error(fmt::format("{}: --front-end: a stream has its own level", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
-  if (options.level != Level::spans) throw Error(fmt::format("{}: --level: a stream has its own level", options.input));
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);
@@ -151,8 +148,6 @@ NamedConfig stream_config(const Options& options, const StreamFile& stream) {
 }
 
 void Source::open_scene(const Options& options) {
-  if (options.level != Level::spans)
-    throw Error(fmt::format("{}: --level: only random frames take it, and this is a scene", options.input));
   load_scene(options);
   if (options.level == Level::polygons && config_.config.active == 0) config_.config.active = kUsualActive;
   open_frames();
