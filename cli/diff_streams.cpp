@@ -40,6 +40,7 @@ Json to_json(const StreamDiff& d) {
   }
   j["frames_a"] = d.frames_a;
   j["frames_b"] = d.frames_b;
+  j["expanded_frames"] = d.expanded_frames;
   j["different_frames"] = number(d.different_frames);
   j["different_lines"] = number(d.different_lines);
   j["different_tokens"] = number(d.different_tokens);
@@ -58,6 +59,10 @@ std::string describe(const StreamDiff& d) {
     text +=
         fmt::format(", {} and {} in them", counted(d.different_lines, "line"), counted(d.different_tokens, "token"));
   text += '\n';
+  if (d.expanded_frames != 0)
+    text +=
+        fmt::format("{} at the polygon level in one stream alone: compared by the spans that its polygons come to\n",
+                    counted(d.expanded_frames, "frame"));
   if (!d.tokens_compared) text += "tokens are not compared: the same words mean others in the two configurations\n";
   for (const StreamDiff::Parameter& p : d.parameters)
     text += fmt::format("configuration: {} is {} in A, {} in B\n", p.name, p.a, p.b);

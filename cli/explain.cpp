@@ -140,6 +140,7 @@ Json to_json(const PixelTouch& t, const Explained& e, const Config& config) {
   j["token"] = t.token;
   j["kind"] = kKindNames[static_cast<std::size_t>(t.what.kind)];
   j["text"] = t.text;
+  j["made"] = t.made;
   j["z"] = t.z ? Json(*t.z) : Json(nullptr);
   j["effect"] = t.effect;
   j["source"] = from != e.sources.end() ? to_json(from->second) : Json(nullptr);

@@ -56,6 +56,7 @@ std::string header_text(const Config& config, std::span<const std::uint32_t> wor
                                  color_text(config, unpacked_color(h.background)), h.frame);
   std::array<std::uint32_t, 1> ours{};
   FrameHeader{}.write(ours);
+  if (h.level() == Level::polygons) text += ", at the polygon level";
   if (!h.known()) text += fmt::format(", magic_version {:#010x} and not {:#010x}", words[0], ours[0]);
   if (h.param_hash != param_hash(config))
     text += fmt::format(", param_hash {:#010x} and not {:#010x}", h.param_hash, param_hash(config));
@@ -90,6 +91,7 @@ void print_tokens(const StreamFile& file, int frame) {
 struct Counted {
   TokenCounts tokens;
   int unchecked = 0;  // frames
+  int polygons = 0;   // frames at the polygon level
 };
 
 /// Checks all frames, and counts their tokens, and what `clocks` counts.
@@ -102,6 +104,7 @@ Counted count_tokens(const InfoCommand& o, const StreamFile& file, std::optional
     frame_progress.next();
     const auto words = file.frame(i, &all.tokens);
     if (file.is_port_frame(i)) ++all.unchecked;
+    if (FrameHeader::read(words).level() == Level::polygons) ++all.polygons;
     if (!clocks || file.is_port_frame(i)) continue;
     try {
       clocks->add(i, words);
@@ -144,19 +147,22 @@ int describe_stream(const InfoCommand& o) {
         fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
   std::optional<LineClockCounter> clocks;
   if (o.clocks) clocks.emplace(stream_config(o, file).config);
-  const auto [counts, unchecked] = count_tokens(o, file, clocks);
+  const auto [counts, unchecked, polygons] = count_tokens(o, file, clocks);
   Json tokens = Json::object();
   for (std::size_t k = 0; k < counts.of_kind.size(); ++k)
     if (counts.of_kind[k] != 0) tokens[std::string(kKindNames[k])] = counts.of_kind[k];
   const std::uint64_t lines = counts.of_kind[static_cast<std::size_t>(Kind::EOL)];
   Json j;
-  j["version"] = kStreamVersion;
+  j["version"] = polygons > 0 ? kPolygonVersion : kStreamVersion;
   j["config"] = cli::to_json(file.config());
   j["frames"] = file.frame_count();
   j["unchecked_frames"] = unchecked;
+  j["polygon_frames"] = polygons;
   j["lines"] = lines;
   j["tokens"] = tokens;
   j["spans"] = counts.spans;
+  j["made_spans"] = counts.made;
+  j["active"] = counts.active;
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
   j["units"] = counts.units;
@@ -175,6 +181,9 @@ int describe_stream(const InfoCommand& o) {
                counted(file.bytes(), "byte"));
     fmt::print("tokens:");
     for (const auto& [name, n] : tokens.items()) fmt::print(" {} {}", name, n.get<std::uint64_t>());
+    if (polygons > 0)
+      fmt::print("\nlevel: {} at the polygon level, {} of the spans made of polygons, {} at once at most",
+                 counted(polygons, "frame"), counts.made, counted(counts.active, "polygon"));
     for (const report::WayRecord& w : ways.value_or(std::vector<report::WayRecord>()))
       fmt::print("\n{}", describe_way(w));
     fmt::print("\nconfiguration:");

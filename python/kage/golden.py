@@ -82,6 +82,9 @@ class Step:
     kind: str  #: "OP", "EOL", ...; "HEADER" for token 0
     text: str
     line: int  #: lines that have ended
+    made: tuple[
+        str, ...
+    ] = ()  #: at the polygon level the texts of the spans and ends that it has come to, in their order
 
 
 def _candidates() -> Iterator[str]:
@@ -120,6 +123,8 @@ def library() -> ctypes.CDLL:
         ("token_kind", number, [core]),
         ("token_index", number, [core]),
         ("token_text", text, [core]),
+        ("made", number, [core]),
+        ("choose_made", number, [core, number]),
         ("line", number, [core]),
         ("pixel", number, [core, number, number]),
         ("on_line", None, [core, _TAKER, core]),
@@ -186,9 +191,16 @@ class Golden:
                     KINDS[self._lib.kage_golden_token_kind(self._core)],
                     self._lib.kage_golden_token_text(self._core).decode(),
                     self._lib.kage_golden_line(self._core),
+                    tuple(self._made()),
                 )
             going = going and what not in (_END, _FAILED)
         self.finished = self._finish()
+
+    def _made(self) -> Iterator[str]:
+        for i in range(self._lib.kage_golden_made(self._core)):
+            self._lib.kage_golden_choose_made(self._core, i)
+            yield self._lib.kage_golden_token_text(self._core).decode()
+        self._lib.kage_golden_choose_made(self._core, -1)
 
     def pixel(self, x: int) -> Pixel:
         """The state of a pixel of the line at hand, behind the last step. Raises IndexError where the line has no such

@@ -197,9 +197,9 @@ TOKENS = {
     "END": (15, "", lambda c: 1, lambda c: []),
     "GRADIENT": (9, "polygons", lambda c: c.ACTIVE > 0 and c.SMOOTH > 0, lambda c: [
         ("channel", 2, False, 0),
-        ("value", DERIVED["color_plane_bits"](c), True, 0),
-        ("right", DERIVED["color_plane_bits"](c), True, 0),
-        ("down", DERIVED["color_plane_bits"](c), True, 0),
+        ("value", 34, True, 0),
+        ("right", 34, True, 0),
+        ("down", 34, True, 0),
     ]),
     "POLYGON": (10, "polygons", lambda c: c.ACTIVE > 0, lambda c: [
         ("class", DERIVED["class_field_bits"](c), False, 0),
@@ -213,17 +213,17 @@ TOKENS = {
     "EDGE": (11, "polygons", lambda c: c.ACTIVE > 0, lambda c: [
         ("side", 1, False, 0),
         ("last", 1, False, 0),
-        ("top_x", DERIVED["subpixel_bits"](c), True, 0),
-        ("top_y", DERIVED["subpixel_bits"](c), True, 0),
-        ("bottom_x", DERIVED["subpixel_bits"](c), True, 0),
-        ("bottom_y", DERIVED["subpixel_bits"](c), True, 0),
+        ("top_x", 24, True, 0),
+        ("top_y", 24, True, 0),
+        ("bottom_x", 24, True, 0),
+        ("bottom_y", 24, True, 0),
     ]),
     "AT": (12, "polygons", lambda c: c.ACTIVE > 0, lambda c: [
-        ("rank", DERIVED["rank_bits"](c), False, 0),
-        ("volume", DERIVED["volume_bits"](c), False, 0),
+        ("rank", 14, False, 0),
+        ("volume", 18, False, 0),
         ("light", 3, False, 0),
-        ("sample", DERIVED["sample_bits"](c), False, 0),
-        ("layer", DERIVED["layer_bits"](c), False, 0),
+        ("sample", 11, False, 0),
+        ("layer", 2, False, 0),
     ]),
 }
 

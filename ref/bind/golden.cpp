@@ -166,20 +166,31 @@ int kage_golden_next(kage_golden* core) {
   });
 }
 
-int kage_golden_token_kind(kage_golden* core) { return core == nullptr ? int{KAGE_GOLDEN_ERROR} : core->kind; }
+int kage_golden_token_kind(kage_golden* core) { return core == nullptr ? int{KAGE_GOLDEN_ERROR} : core->shown().kind; }
 int kage_golden_token_index(kage_golden* core) { return core == nullptr ? -1 : core->index; }
 int kage_golden_token_words(kage_golden* core) {
-  return core == nullptr || core->index < 0 ? 0 : static_cast<int>(core->words.size());
+  return core == nullptr || core->index < 0 ? 0 : static_cast<int>(core->shown().words.size());
+}
+
+int kage_golden_made(kage_golden* core) { return core == nullptr ? 0 : static_cast<int>(core->made.size()); }
+
+int kage_golden_choose_made(kage_golden* core, int i) {
+  return guarded(core, [&] {
+    if (i < -1 || i >= static_cast<int>(core->made.size()))
+      throw Error(fmt::format("{}: {} made of the token at hand", i, core->made.size()));
+    core->chosen = i;
+    return 0;
+  });
 }
 
 unsigned int kage_golden_token_word(kage_golden* core, int i) {
-  return i >= 0 && i < kage_golden_token_words(core) ? core->words[static_cast<std::size_t>(i)] : 0;
+  return i >= 0 && i < kage_golden_token_words(core) ? core->shown().words[static_cast<std::size_t>(i)] : 0;
 }
 
 long long kage_golden_token_field(kage_golden* core, int field) {
-  return core == nullptr || core->kind == KAGE_KIND_HEADER
+  return core == nullptr || core->shown().kind == KAGE_KIND_HEADER
              ? 0
-             : token_field(core->config, core->layout, core->token, field);
+             : token_field(core->config, core->layout, core->shown().token, field);
 }
 
 const char* kage_golden_token_text(kage_golden* core) {
@@ -187,11 +198,11 @@ const char* kage_golden_token_text(kage_golden* core) {
   (void)guarded(core, [&] {
     if (core->index < 0)
       core->text.clear();
-    else if (core->kind == KAGE_KIND_HEADER) {
-      const kage::FrameHeader h = kage::FrameHeader::read(core->words);
+    else if (core->shown().kind == KAGE_KIND_HEADER) {
+      const kage::FrameHeader h = kage::FrameHeader::read(core->shown().words);
       core->text = fmt::format("header {}x{}", h.width, h.height);
     } else
-      core->text = kage::to_string(core->config, core->token);
+      core->text = kage::to_string(core->config, core->shown().token);
     return 0;
   });
   return core->text.c_str();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kage/core.hpp"
@@ -25,10 +26,19 @@ struct kage_golden final : kage::CoreObserver {
   bool line = false;             // there is one at hand
   int height = 0;
 
-  int kind = KAGE_KIND_HEADER;
+  /// A token, and its words.
+  struct Whole {
+    int kind = KAGE_KIND_HEADER;
+    kage::Token token;
+    std::vector<std::uint32_t> words;
+  };
   int index = -1;
-  kage::Token token;
-  std::vector<std::uint32_t> words;
+  Whole at_hand;            // of the stream
+  bool polygons = false;    // the frame is at that level
+  std::vector<Whole> made;  // what the front end made of it, or handed on
+  int chosen = -1;          // of those; -1: the stream's own
+
+  [[nodiscard]] const Whole& shown() const { return chosen < 0 ? at_hand : made[static_cast<std::size_t>(chosen)]; }
 
   kage_golden_taker taker = nullptr;
   void* user = nullptr;
@@ -39,25 +49,31 @@ struct kage_golden final : kage::CoreObserver {
   std::string error, text;
 
   void header(std::span<const std::uint32_t> w, const kage::LineView& /*view*/) override {
-    kind = KAGE_KIND_HEADER;
-    index = 0;
-    words.assign(w.begin(), w.end());
-    token = {};
-    height = kage::FrameHeader::read(w).height;
+    take(0, {KAGE_KIND_HEADER, {}, {w.begin(), w.end()}});
+    const kage::FrameHeader h = kage::FrameHeader::read(w);
+    height = h.height;
+    polygons = h.level() == kage::Level::polygons;
     line = accepted = true;
   }
 
   void before(std::uint32_t i, const kage::Token& t, std::span<const std::uint32_t> w,
               const kage::LineView& /*view*/) override {
-    kind = static_cast<int>(t.kind);
-    index = static_cast<int>(i);
-    words.assign(w.begin(), w.end());
     // The core's own token keeps fields of those before it.
-    token = kage::decode(config, layout, w);
+    Whole whole{static_cast<int>(t.kind), kage::decode(config, layout, w), {w.begin(), w.end()}};
+    if (polygons)
+      made.push_back(std::move(whole));
+    else
+      take(static_cast<int>(i), std::move(whole));
     if (t.kind == kage::Kind::END) {
       state = KAGE_GOLDEN_END;
       line = false;
     }
+  }
+
+  void came(std::uint32_t i, const kage::Token& t, std::span<const std::uint32_t> w) override {
+    take(static_cast<int>(i),
+         {static_cast<int>(t.kind), kage::decode(config, layout, w, kage::Level::polygons), {w.begin(), w.end()}});
+    accepted = true;  // unless failed() follows
   }
 
   void after(std::uint32_t /*index*/, const kage::Token& /*token*/, const kage::LineView& /*view*/) override {
@@ -93,7 +109,16 @@ struct kage_golden final : kage::CoreObserver {
     return static_cast<int>(status.error);
   }
 
+  void take(int i, Whole whole) {
+    index = i;
+    at_hand = std::move(whole);
+    made.clear();
+    chosen = -1;
+  }
+
   void fresh() {
+    made.clear();
+    chosen = -1;
     state = KAGE_GOLDEN_MORE;
     line = false;
     index = out_line = -1;

@@ -23,7 +23,11 @@ class History : public CoreObserver {
   History(const Config& config, int x, int y, PixelHistory& history)
       : config_(config), clear_(derived::clear_depth(config)), x_(x), y_(y), history_(&history) {}
 
-  void before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> /*words*/,
+  void came(std::uint32_t /*index*/, const Token& /*token*/, std::span<const std::uint32_t> words) override {
+    came_ = words;
+  }
+
+  void before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> words,
               const LineView& line) override {
     if (t.kind == Kind::SHADE) shade_ = t.shade;
     // An EOL that was accepted counts as a line that has ended.
@@ -32,7 +36,9 @@ class History : public CoreObserver {
     touch_ = {};
     touch_.token = index;
     touch_.what = t;
+    touch_.made = !came_.empty() && words.data() != came_.data();
     touch_.text = to_string(config_, t);
+    if (touch_.made) touch_.text += ", made by the front end";
     touch_.before = line.pixel(x_);
     touch_.bias_before = line.bias();
     background_ = line.background();
@@ -185,6 +191,7 @@ class History : public CoreObserver {
   PixelHistory* history_;
   std::uint32_t shade_ = 0;
   bool here_ = false;
+  std::span<const std::uint32_t> came_;  // at the polygon level the words of the stream's token
   PixelTouch touch_;
   std::uint32_t background_ = 0;
   bool painted_ = false;

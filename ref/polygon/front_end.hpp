@@ -5,6 +5,7 @@
 // with them what the line brings.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -25,8 +26,12 @@ class FrontEnd {
     line_ = 0;
     active_.clear();
     next_.clear();
+    most_ = 0;
     start_line();
   }
+
+  /// The most polygons that the frame has had at once: the least ACTIVE that takes it.
+  [[nodiscard]] std::size_t most() const { return most_; }
 
   /// Takes the frame's next token, of a kind that the configuration has, and calls emit(token, made) for each token of
   /// the span level that comes of it, in order: `made` by the front end, or as it came. What emit() returns, if it is
@@ -116,8 +121,9 @@ class FrontEnd {
     fresh_.set_edge(t, ActivePolygon::edge_at(t, line_));
     have_[static_cast<std::size_t>(t.side)] = true;
     if (!have_[0] || !have_[1]) return ErrorCode::NONE;
-    if (next_.size() + (active_.size() - at_) >= static_cast<std::size_t>(config_.active))
-      return ErrorCode::ACTIVE_FULL;
+    const std::size_t kept = next_.size() + (active_.size() - at_);
+    if (kept >= static_cast<std::size_t>(config_.active)) return ErrorCode::ACTIVE_FULL;
+    most_ = std::max(most_, kept + 1);
     begun_ = false;
     return make_span(fresh_, make);
   }
@@ -189,6 +195,7 @@ class FrontEnd {
   std::vector<ActivePolygon> active_;  // that cross the line, by place
   std::vector<ActivePolygon> next_;    // that cross the next one
   std::size_t at_ = 0;                 // the first of active_ whose span is still to be made
+  std::size_t most_ = 0;               // of both together, in the frame
   bool placed_ = false;                // the line has had an AT
   Place place_;                        // of its last
   bool begun_ = false;                 // a POLYGON waits for its edges

@@ -42,6 +42,7 @@ TokenCounts& TokenCounts::operator+=(const TokenCounts& other) {
   spans += other.spans;
   span_pixels += other.span_pixels;
   units = std::max(units, other.units);
+  active = std::max(active, other.active);
   return *this;
 }
 
@@ -114,6 +115,7 @@ struct FrameChecker::Data {
     const ErrorCode e = level == Level::polygons ? front_end.accept(t, check) : check(t, false);
     if (e != ErrorCode::NONE) fail(e);
     at += body.size();
+    counts.active = static_cast<int>(front_end.most());
     if (t.kind == Kind::END)
       ended = true;
     else

@@ -9,6 +9,7 @@
 #include "kage/stream_diff.hpp"
 #include "number/counted.hpp"
 #include "stream/field_diff.hpp"
+#include "stream/span_frame.hpp"
 
 namespace kage {
 namespace {
@@ -76,8 +77,16 @@ bool equal(Words a, Words b) { return std::equal(a.begin(), a.end(), b.begin(), 
 
 class FrameComparer {
  public:
+  /// `config` is that of the frame at the polygon level, if one of them is at the other level.
   FrameComparer(const Config& config, int frame, Words a, Words b) : config_(config), a_(a), b_(b) {
     diff_.frame = frame;
+    if (level(a) == level(b)) return;
+    const bool expand_a = level(a) == Level::polygons;
+    const auto spans = span_frame(config, expand_a ? a : b);
+    if (!spans) return;
+    spans_ = *spans;
+    (expand_a ? a_ : b_) = spans_;
+    diff_.expanded = true;
   }
 
   FrameDiff run() {
@@ -136,7 +145,7 @@ class FrameComparer {
     diff_.different_tokens += static_cast<std::uint64_t>(std::max(left_a, left_b));
     const Words ta = at_a == a.tokens.end() ? Words() : *at_a;
     const Words tb = at_b == b.tokens.end() ? Words() : *at_b;
-    if (!diff_.first) found(line, a.first + same_before, field(ta, tb), words(ta), words(tb));
+    if (!diff_.first) found(line, a.first + same_before, field(ta, tb), words(ta, level(a_)), words(tb, level(b_)));
     return true;
   }
 
@@ -145,14 +154,16 @@ class FrameComparer {
   }
 
   /// Whether words are one token whole. Those behind END may be by chance, and are told as that token then.
-  [[nodiscard]] bool is_token(Words words) const {
-    return !words.empty() && layout_.words_of(words[0]) == words.size();
+  [[nodiscard]] bool is_token(Words words, Level level) const {
+    return !words.empty() && layout_.words_of(words[0], level) == words.size();
   }
 
-  [[nodiscard]] std::string words(Words token) const {
+  [[nodiscard]] static Level level(Words frame) { return FrameHeader::read(frame).level(); }
+
+  [[nodiscard]] std::string words(Words token, Level level) const {
     constexpr std::size_t kTold = 8;
     if (token.empty()) return "nothing";
-    if (is_token(token)) return to_string(config_, decode(config_, layout_, token));
+    if (is_token(token, level)) return to_string(config_, decode(config_, layout_, token, level));
     return fmt::format("{} no token: {}{}", counted(token.size(), "word that is", "words that are"),
                        words_text(token.first(std::min(token.size(), kTold))), token.size() > kTold ? " ..." : "");
   }
@@ -160,13 +171,17 @@ class FrameComparer {
   /// The first field in which two unequal tokens differ.
   [[nodiscard]] std::string field(Words a, Words b) const {
     if (a.empty() || b.empty()) return "token";
-    if (!is_token(a) || !is_token(b)) return "words";
-    const std::optional<FieldDiff> in_field = first_field_diff(config_, layout_, a, b);
+    const Level of_a = level(a_);
+    const Level of_b = level(b_);
+    if (!is_token(a, of_a) || !is_token(b, of_b)) return "words";
+    if (of_a != of_b && kind_of(a[0], of_a) != kind_of(b[0], of_b)) return "kind";
+    const std::optional<FieldDiff> in_field = first_field_diff(config_, layout_, a, b, of_a);
     return in_field ? in_field->name : "bits behind the last field";  // which are zero in checked frames
   }
 
   const Config& config_;
   Layout layout_{config_};
+  std::vector<std::uint32_t> spans_;  // what polygons come to, where the other frame has none
   Words a_;
   Words b_;
   FrameDiff diff_;
@@ -237,6 +252,8 @@ std::string reason_of(const StreamDiff& d) {
 
 }  // namespace
 
+constexpr std::string_view kActiveName = "ACTIVE";
+
 StreamDiff diff_streams(const StreamFile& a, const StreamFile& b, const std::function<void(const FrameDiff&)>& each) {
   StreamDiff d;
   d.frames_a = a.frame_count();
@@ -258,10 +275,11 @@ StreamDiff diff_streams(const StreamFile& a, const StreamFile& b, const std::fun
     if (!both)
       frame = lone_frame(i, counts, i < d.frames_a);
     else if (d.tokens_compared)
-      frame = FrameComparer(a.config(), i, in_a, in_b).run();
+      frame = FrameComparer(b.config().active > a.config().active ? b.config() : a.config(), i, in_a, in_b).run();
     if (both && d.tokens_compared && frame.same && a.is_port_frame(i) != b.is_port_frame(i))
       frame = unlike_sections(i, a.is_port_frame(i));
     frame.compared = !both || d.tokens_compared;
+    if (frame.expanded) ++d.expanded_frames;
     if (!frame.same) ++d.different_frames;
     d.different_lines += frame.different_lines;
     d.different_tokens += frame.different_tokens;
@@ -270,6 +288,9 @@ StreamDiff diff_streams(const StreamFile& a, const StreamFile& b, const std::fun
     if (i < d.frames_a) a.leave(i);
     if (i < d.frames_b) b.leave(i);
   }
+  // Spans that polygons come to are the same whatever ACTIVE is.
+  if (d.expanded_frames > 0)
+    std::erase_if(d.parameters, [](const StreamDiff::Parameter& p) { return p.name == kActiveName; });
   d.sections = diff_sections(a.sections(), b.sections());
   d.reason = reason_of(d);
   d.same = d.reason.empty();

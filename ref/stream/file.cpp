@@ -36,6 +36,15 @@
 namespace kage {
 namespace {
 
+/// What CONF has: ACTIVE only of a core with a front end, so that other files have the bytes that they had before there
+/// was one.
+std::string conf_text(const Config& config) {
+  std::string text;
+  for (const ParamInfo& p : kParams)
+    if (p.member != &Config::active || config.active > 0) text += fmt::format("{}: {}\n", p.name, config.*(p.member));
+  return text;
+}
+
 constexpr char kFileMagic[9] = "KAGESTRM";
 constexpr std::size_t kSectionHeader = 16;
 
@@ -126,7 +135,7 @@ struct StreamFileWriter::Data {
 
 StreamFileWriter::StreamFileWriter(std::unique_ptr<Data> data, const Config& config) : data_(std::move(data)) {
   data_->write(kFileMagic, 8);
-  const std::string text = to_yaml(config);
+  const std::string text = conf_text(config);
   data_->section("CONF", text.data(), text.size());
   // A full disk is found here, before the work on the first frame, and not when a buffer has filled up.
   data_->out->flush();

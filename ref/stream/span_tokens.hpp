@@ -11,7 +11,7 @@ namespace kage {
 /// For frames of either level: those at the polygon level go through the front end.
 class SpanTokens {
  public:
-  explicit SpanTokens(const Config& config) : front_end_(config) {}
+  explicit SpanTokens(const Config& config) : lights_(config.lights), front_end_(config) {}
 
   /// A frame begins whose header has been accepted.
   void start(const FrameHeader& header) {
@@ -22,17 +22,24 @@ class SpanTokens {
   [[nodiscard]] Level level() const { return level_; }
 
   /// Calls use(token, made) for each that the frame's next token comes to; `made` by the front end, or as it came. The
-  /// answer is what the front end has against the token: nothing but start() may follow it.
+  /// answer is what is wrong with the token, as far as no rule of the span level is broken: nothing but start() may
+  /// follow it.
   template <class Use>
   ErrorCode add(const Token& t, Use use) {
-    const auto each = [&use](const Token& token, bool made) {
+    if (level_ == Level::spans) {
+      use(t, false);
+      return ErrorCode::NONE;
+    }
+    return front_end_.accept(t, [this, &use](const Token& token, bool made) {
+      // A place may have a light that the core lacks, which no ES can name.
+      if (token.kind == Kind::ES && token.table.light >= lights_) return ErrorCode::RANGE;
       use(token, made);
       return ErrorCode::NONE;
-    };
-    return level_ == Level::polygons ? front_end_.accept(t, each) : each(t, false);
+    });
   }
 
  private:
+  int lights_;
   FrontEnd front_end_;
   Level level_ = Level::spans;
 };

@@ -38,13 +38,15 @@ class Defs:
         for token in self.d["tokens"]:
             token.setdefault("level", "")
             token["code"] = token["kind"]
-            token["sv_needs"] = token["needs"]  # of modules, which know pixel parameters: those that ask are of a front end
+            token["sv_needs"] = token["needs"]  # of modules that know pixel parameters alone: those of a front end ask
             if token["level"] == "polygons":
                 token["needs"] = "ACTIVE > 0" + ("" if token["needs"] == "1" else f" && {token['needs']}")
                 token["kind"] += 2 ** constants["kind_bits"]
                 token["order"] = {"in": []}
             for field in token["fields"]:
-                field["named_bits"] = field["bits"]
+                # A constant is a number; a width that a configuration decides keeps its name.
+                constant = constants.get(str(field["bits"]).strip("<>")) if str(field["bits"]).startswith("<") else None
+                field["named_bits"] = field["bits"] if constant is None else constant
                 field["bits"] = self.expanded(field["bits"])
                 field["cpp"] = self.cpp_member(token, field)
                 for absent in ("repeat", "left_out", "signed"):

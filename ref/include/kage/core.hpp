@@ -117,7 +117,7 @@ class CoreObserver {
   /// of it in the front end follows: before() and after() are called for each token of the span level, with this index.
   /// @param index of the token in the frame, from 1
   /// @param token what it says
-  /// @param words the token's
+  /// @param words the token's; before() has these very words, and not a copy, if the token goes on as it came
   virtual void came([[maybe_unused]] std::uint32_t index, [[maybe_unused]] const Token& token,
                     [[maybe_unused]] std::span<const std::uint32_t> words) {}
   /// The token has taken effect; not called for END. After an EOL the line is cleared already.

@@ -18,9 +18,10 @@ namespace kage {
 
 /// What a token did to the pixel.
 struct PixelTouch {
-  std::uint32_t token = 0;                  ///< index in its frame; the header is 0
-  Token what;                               ///< the token
-  std::string text;                         ///< as `kage info --tokens` prints it
+  std::uint32_t token = 0;  ///< index in its frame; the header is 0
+  Token what;               ///< the token
+  bool made = false;        ///< by the front end, of the stream's token of that index
+  std::string text;         ///< as `kage info --tokens` prints it; of one that is made with ", made by the front end"
   std::optional<std::uint32_t> z;           ///< the depth that was compared with the pixel's; none where no depth is
   std::optional<std::uint32_t> polyhedron;  ///< TREE: the draw index of the one that has the pixel in the tree
   std::string effect;                       ///< in words: "drawn: Z 812 is nearer than 4031"

@@ -148,6 +148,18 @@ int kage_golden_token_index(kage_golden* core);
  * @return how many words it has */
 int kage_golden_token_words(kage_golden* core);
 
+/** How many tokens of the span level it has come to: those that the front end makes of it, and itself if it goes on.
+ * @param core that accepted it
+ * @return their number; 0 of a frame at the span level, whose tokens are themselves */
+int kage_golden_made(kage_golden* core);
+
+/** Have the functions of this part tell of one of those, until words are given to the core. Its index is still that of
+ * the stream's token.
+ * @param core that accepted the stream's token
+ * @param i from 0, in their order; -1: the stream's token again
+ * @return 0, or KAGE_GOLDEN_ERROR if there is none of that number */
+int kage_golden_choose_made(kage_golden* core, int i);
+
 /** A word of it.
  * @param core that accepted it
  * @param i from 0

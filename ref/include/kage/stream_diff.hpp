@@ -30,11 +30,14 @@ struct StreamPlace {
 /// How a frame of two streams compares.
 struct FrameDiff {
   int frame = 0;                       ///< from 0
-  bool same = false;                   ///< in every word
+  bool same = false;                   ///< in every word; if `expanded`, in what polygons come to
   bool compared = true;                ///< false: the streams' configurations are unlike, and it is in both
   std::uint64_t different_lines = 0;   ///< those that one stream lacks included
   std::uint64_t different_tokens = 0;  ///< see StreamDiff
-  std::optional<StreamPlace> first;    ///< where the frames first differ
+  /// One is at the polygon level and the other is not: it is compared as the spans that the front end makes of it,
+  /// token by token. The tokens are numbered as in the frame at the span level.
+  bool expanded = false;
+  std::optional<StreamPlace> first;  ///< where the frames first differ
 };
 
 /// Outcome. Lines are matched by their number, and in a line all tokens are different from the first to the last one
@@ -57,6 +60,7 @@ struct StreamDiff {
   int frames_b = 0;                   ///< in the second one
   std::vector<Parameter> parameters;  ///< of the configurations, those that are unlike
   bool tokens_compared = false;  ///< not where a parameter that affects pixels is unlike: the same words mean others
+  int expanded_frames = 0;       ///< frames of unlike levels, see FrameDiff::expanded; ACTIVE may be unlike then
   std::uint64_t different_frames = 0;  ///< those that one stream lacks included
   std::uint64_t different_lines = 0;   ///< of all frames
   std::uint64_t different_tokens = 0;  ///< likewise

@@ -114,8 +114,8 @@ void write_bands(std::ostream& out, const Page& page, std::size_t room) {
     if (store == nullptr) continue;
     for (const Band& b : store->bands()) {
       if (b.frame > last || there.count({b.frame, b.line}) != 0) continue;
-      const std::string text = fmt::format("{}[{},{},{},{},\"{}\"]", there.empty() ? "" : ",", b.frame, b.line, b.token,
-                                           b.ahead, store->text(b));
+      const std::string text = fmt::format("{}[{},{},{},{},\"{}\"{}]", there.empty() ? "" : ",", b.frame, b.line,
+                                           b.token, b.ahead, store->text(b), b.indexed ? ",true" : "");
       if (text.size() > room) return;
       room -= text.size();
       there.insert({b.frame, b.line});

@@ -27,7 +27,13 @@ std::string base64(std::span<const std::uint8_t> data) {
 }
 
 TokenStore::TokenStore(const Config& config, std::size_t budget)
-    : config_(config), layout_(config), spans_(config), counter_(config), budget_(budget), file_(std::tmpfile(), std::fclose) {
+    : config_(config),
+      layout_(config),
+      spans_(config),
+      counter_(config),
+      budget_(budget),
+      file_(std::tmpfile(), std::fclose),
+      writer_(config, raw_) {
   if (!file_)
     throw Error(
         fmt::format("the report: no temporary file can be made: {}; --no-report goes without", std::strerror(errno)));
@@ -44,7 +50,7 @@ std::string TokenStore::text(const Band& band) const {
 void TokenStore::begin(int frame) {
   cutter_.start();
   header_ = true;
-  broken_ = refused_ = false;
+  broken_ = false;
   line_ = 0;
   ahead_.assign(static_cast<std::size_t>(config_.units), {});
   band_.frame = frame;
@@ -63,6 +69,7 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
     header_ = false;
     width_ = h.width;
     level_ = h.level();
+    band_.indexed = level_ == Level::polygons;
     spans_.start(h);
     counter_.start(width_);
     frames_.back().background = h.background;
@@ -82,25 +89,33 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
 
 void TokenStore::token(std::span<const std::uint32_t> words) {
   decode(config_, layout_, words, t_, level_);
-  if (!refused_) refused_ = spans_.add(t_, [this](const Token& t, bool) { counter_.token(t); }) != ErrorCode::NONE;
   const std::uint32_t index = frames_.back().tokens++;
-  // The state ends with the first token that is of a line.
-  if (band_.line < 0 && !info_of(t_.kind).state) {
-    close_band();
-    open_band(0, index);
-  }
-  if (!full_) raw_.insert(raw_.end(), words.begin(), words.end());
-  if (t_.kind == Kind::SEG) segment(words);
+  const ErrorCode error =
+      spans_.add(t_, [&](const Token& t, bool made) { span_token(index, t, made || t.kind != t_.kind); });
+  if (t_.kind == Kind::SEG) segment(index, words);
   if (t_.kind == Kind::TREE) tree();
-  broken_ = t_.kind == Kind::END;
+  broken_ = t_.kind == Kind::END || error != ErrorCode::NONE;
   if (t_.kind != Kind::EOL || ++line_ % kBandLines != 0) return;
   close_band();
   open_band(line_, index + 1);
 }
 
-void TokenStore::segment(std::span<const std::uint32_t> words) {
+// A token of the span level, of which the page tells a pixel's history.
+void TokenStore::span_token(std::uint32_t index, const Token& t, bool made) {
+  counter_.token(t);
+  // The state ends with the first token that is of a line.
+  if (band_.line < 0 && !info_of(t.kind).state) {
+    close_band();
+    open_band(0, index);
+  }
+  if (full_) return;
+  if (band_.indexed) raw_.push_back(index | (made ? kMade : 0));
+  writer_.token(t);
+}
+
+void TokenStore::segment(std::uint32_t index, std::span<const std::uint32_t> words) {
   const auto unit = static_cast<std::size_t>(t_.segment.unit);
-  if (unit < ahead_.size()) ahead_[unit].push_back({{words.begin(), words.end()}, t_.segment.dx});
+  if (unit < ahead_.size()) ahead_[unit].push_back({index, {words.begin(), words.end()}, t_.segment.dx});
 }
 
 // A unit's SEGs of a line sum to the width.
@@ -113,9 +128,11 @@ void TokenStore::open_band(int line, std::uint32_t token) {
   band_.line = line;
   band_.token = token;
   band_.ahead = 0;
+  band_.indexed = level_ == Level::polygons;
   raw_.clear();
   for (const auto& unit : ahead_)
     for (const Segment& s : unit) {
+      if (band_.indexed) raw_.push_back(s.index);
       raw_.insert(raw_.end(), s.words.begin(), s.words.end());
       ++band_.ahead;
     }

@@ -21,13 +21,19 @@ namespace kage::report {
 /// Lines that are packed together.
 inline constexpr int kBandLines = 16;
 
+/// In the word ahead of a token: the front end made it.
+inline constexpr std::uint32_t kMade = 1U << 31;
+
 /// The tokens of kBandLines lines, or of the frame state. SEGs run a line ahead, so a band begins with those that
 /// came before it and that its lines need.
 struct Band {
   int frame = 0;
-  int line = -1;             ///< the first; -1: the frame state
-  std::uint32_t token = 0;   ///< index of its first token
-  std::uint32_t ahead = 0;   ///< so many SEGs of earlier tokens stand before that one
+  int line = -1;            ///< the first; -1: the frame state
+  std::uint32_t token = 0;  ///< index of its first token
+  std::uint32_t ahead = 0;  ///< so many SEGs of earlier tokens stand before that one
+  /// Of a frame at the polygon level: tokens of the span level, each behind a word that has the index of the stream's
+  /// token in its lower bits and kMade if the front end made it, as IF of an NC.
+  bool indexed = false;
   std::uint64_t offset = 0;  ///< of its text in the store
   std::size_t bytes = 0;     ///< of the text
 };
@@ -65,10 +71,11 @@ class TokenStore {
 
  private:
   void token(std::span<const std::uint32_t> words);
+  void span_token(std::uint32_t index, const Token& t, bool made);
   void close_band();
   void keep(Band band, const std::string& text);
   void open_band(int line, std::uint32_t token);
-  void segment(std::span<const std::uint32_t> words);
+  void segment(std::uint32_t index, std::span<const std::uint32_t> words);
   void tree();
 
   Config config_;
@@ -87,14 +94,15 @@ class TokenStore {
   WordCutter cutter_;
   bool header_ = true;  // it has yet to come
   bool broken_ = false;
-  bool refused_ = false;  // a token by the front end
   Level level_ = Level::spans;
   int line_ = 0;  // the one at hand
   Token t_;
   Band band_;
   int width_ = 0;
   std::vector<std::uint32_t> raw_;  // of the band
+  TokenWriter writer_;              // into it
   struct Segment {
+    std::uint32_t index = 0;
     std::vector<std::uint32_t> words;
     int dx = 0;
   };

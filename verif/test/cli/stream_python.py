@@ -38,7 +38,7 @@ for file in files:
         if tag == "FRAM":
             words = ks.words_of(payload)
             header = codec.read_header(words)
-            if header["magic"] != ks.MAGIC or header["version"] != ks.VERSION or header["param_hash"] != config.hash():
+            if header["magic"] != ks.MAGIC or header["version"] not in (ks.VERSION, ks.POLYGON_VERSION) or header["param_hash"] != config.hash():
                 fail(f"{file}: frame {frame}: header {header}")
             tokens = list(codec.tokens(words))
             size = f"header: {header['width']}x{header['height']}, "
@@ -48,7 +48,7 @@ for file in files:
             for index, (token, text) in enumerate(zip(tokens, said[1:], strict=True), 1):
                 if codec.text(token) != text:
                     fail(f"{file}: frame {frame}, token {index}: {codec.text(token)} and not {text}")
-            fields = ("width", "height", "background", "frame")
+            fields = ("version", "width", "height", "background", "frame")
             words = codec.write_header(**{name: header[name] for name in fields})
             for token in tokens:
                 words += codec.pack(token)

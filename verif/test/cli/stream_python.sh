@@ -17,6 +17,10 @@ stream soft penumbra --size 32x24
 stream lights three-lights --size 48x32
 stream counting courtyard --size 48x32
 stream glasslights glass --size 48x32
+KAGE_GOLDEN=$(dirname "$kage")/../lib/libkage_golden.so
+export KAGE_GOLDEN
+expect 0 python3 "$source/verif/test/cli/polygons.py" "$source"
+files+=(polygons.kage)
 expect 0 python3 "$source/verif/test/cli/stream_python.py" "$kage" "$source" "${files[@]}"
-grep -qx 'END EOL ES EV FACE IF NC OP RESOLVE SEG SHADE SP TABLE TP TREE' stdout || fail "kinds: $(cat stdout)"
+grep -qx 'AT EDGE END EOL ES EV FACE IF NC OP POLYGON RESOLVE SEG SHADE SP TABLE TP TREE' stdout || fail "kinds: $(cat stdout)"
 done_testing

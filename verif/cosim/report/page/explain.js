@@ -14,7 +14,7 @@ const Explain = (() => {
   // ---- words and tokens
 
   const bands = new Map();
-  for (const [frame, line, token, ahead, packed] of data.bands) bands.set(`${frame}/${line}`, {token, ahead, packed});
+  for (const [frame, line, token, ahead, packed, indexed] of data.bands) bands.set(`${frame}/${line}`, {token, ahead, packed, indexed});
 
   async function unpack(band) {
     if (band.words) return band.words;
@@ -246,6 +246,7 @@ const Explain = (() => {
     if (band.state) return band.state;
     const words = await unpack(band);
     for (let at = 0; at < words.length;) {
+      if (band.indexed) ++at;
       const t = stream.decode(words, at);
       at += t.words;
       if (t.kind === "SHADE") state.shade = t.shade;
@@ -279,6 +280,11 @@ const Explain = (() => {
     let index = band.token - band.ahead;
     let text = "";
     for (let at = 0; at < words.length && line <= y; ++index) {
+      let made = false;  // by the front end, of the stream's token that a word ahead of it names
+      if (band.indexed) {
+        index = words[at] % 2 ** 31;
+        made = words[at++] >= 2 ** 31;
+      }
       const t = stream.decode(words, at);
       at += t.words;
       if (failed && index >= frame.error.token) break;
@@ -296,7 +302,7 @@ const Explain = (() => {
       const done = t.kind === "TREE" ? tree(pixel, units, frame) : {effect: pixel.does(t)};
       if (done.effect === "") continue;
       const after = pixel.text();
-      pixel.touches.push({token: index, text: stream.text(t), ...done, ...(after === before ? {} : {now: after})});
+      pixel.touches.push({token: index, text: stream.text(t) + (made ? ", made by the front end" : ""), ...done, ...(after === before ? {} : {now: after})});
     }
     if (failed) return {touches: pixel.touches, color_text: "background: the frame has an error on this line or before", color: pixel.background};
     const drawn = pixel.z !== clear || pixel.painted;

@@ -110,9 +110,9 @@ const Stream = (() => {
     none,
     {name: "GRADIENT", present: (c) => c.ACTIVE > 0 && c.SMOOTH > 0, fields: (c) => [
       ["channel", 2, false, 0],
-      ["value", derived.color_plane_bits(c), true, 0],
-      ["right", derived.color_plane_bits(c), true, 0],
-      ["down", derived.color_plane_bits(c), true, 0],
+      ["value", 34, true, 0],
+      ["right", 34, true, 0],
+      ["down", 34, true, 0],
     ]},
     {name: "POLYGON", present: (c) => c.ACTIVE > 0, fields: (c) => [
       ["class", derived.class_field_bits(c), false, 0],
@@ -126,17 +126,17 @@ const Stream = (() => {
     {name: "EDGE", present: (c) => c.ACTIVE > 0, fields: (c) => [
       ["side", 1, false, 0],
       ["last", 1, false, 0],
-      ["top_x", derived.subpixel_bits(c), true, 0],
-      ["top_y", derived.subpixel_bits(c), true, 0],
-      ["bottom_x", derived.subpixel_bits(c), true, 0],
-      ["bottom_y", derived.subpixel_bits(c), true, 0],
+      ["top_x", 24, true, 0],
+      ["top_y", 24, true, 0],
+      ["bottom_x", 24, true, 0],
+      ["bottom_y", 24, true, 0],
     ]},
     {name: "AT", present: (c) => c.ACTIVE > 0, fields: (c) => [
-      ["rank", derived.rank_bits(c), false, 0],
-      ["volume", derived.volume_bits(c), false, 0],
+      ["rank", 14, false, 0],
+      ["volume", 18, false, 0],
       ["light", 3, false, 0],
-      ["sample", derived.sample_bits(c), false, 0],
-      ["layer", derived.layer_bits(c), false, 0],
+      ["sample", 11, false, 0],
+      ["layer", 2, false, 0],
     ]},
   ];
   // Kinds that frames at the polygon level have of their own stand behind all that a word can hold.
@@ -200,8 +200,8 @@ const Stream = (() => {
 
     // The forms of `text`.
     const as = {
-      plain: (v) => String(v),
-      sign: withSign,
+      plain: (v) => String(v ?? 0),  // a field that the configuration lacks is 0
+      sign: (v) => withSign(v ?? 0),
       plane: (v) => number(v / 2 ** 24),
       subpixel: (v) => number(v / 256),
       depth: (v) => number(v / 2 ** c.Z_FRAC),

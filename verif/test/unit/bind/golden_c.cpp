@@ -3,6 +3,7 @@
 // and of frames.
 #include <cstdint>
 #include <cstdio>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "kage/stream.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
+#include "stimulus/polygon_frames.hpp"
 #include "test/support/catch.hpp"
 
 namespace {
@@ -139,6 +141,68 @@ TEST_CASE("a pixel's state after each token") {
   REQUIRE(kage_golden_token_kind(core) == KAGE_KIND_END);
   REQUIRE(kage_golden_word(core, 0) == KAGE_GOLDEN_END);  // fill
   REQUIRE(kage_golden_pixel(core, 0, KAGE_PIXEL_Z) == KAGE_PIXEL_ABSENT);
+}
+
+TEST_CASE("at the polygon level the stream's tokens are at hand, and what each has come to") {
+  /// What comes of each token, by GoldenCore itself.
+  struct Observer : kage::CoreObserver {
+    explicit Observer(const kage::Config& c) : config(c) {}
+    void came(std::uint32_t index, const kage::Token& t, std::span<const std::uint32_t>) override {
+      REQUIRE(index == texts.size() + 1);
+      texts.push_back({kage::to_string(config, t)});
+    }
+    void before(std::uint32_t index, const kage::Token& t, std::span<const std::uint32_t>,
+                const kage::LineView&) override {
+      REQUIRE(index == texts.size());
+      texts.back().push_back(kage::to_string(config, t));
+    }
+    kage::Config config;
+    std::vector<std::vector<std::string>> texts;
+  };
+  kage::verif::Random random(kage::verif::test_seed(7));
+  CAPTURE(kage::verif::test_seed(7));
+  std::size_t made = 0;
+  for (int round = 0; round < 30; ++round) {
+    kage::Config config;
+    config.active = random.in(1, 9);
+    config.translucency = config.smooth = round % 2;
+    config.max_width = 60;
+    Words words;
+    kage::verif::random_polygon_frame(random, config, random.in(1, 60), random.in(1, 8), words);
+    kage::GoldenCore golden(config);
+    Observer observer(config);
+    golden.observe(&observer);
+    REQUIRE(golden.frame(words, [](int, std::span<const std::uint8_t>) {}).error == kage::ErrorCode::NONE);
+    const Core core(kage::to_yaml(config).c_str());
+    std::size_t index = 0;
+    for (const std::uint32_t word : words) {
+      const int result = kage_golden_word(core, word);
+      REQUIRE(result != KAGE_GOLDEN_FAILED);
+      if (result == KAGE_GOLDEN_MORE || kage_golden_token_index(core) == 0) continue;
+      REQUIRE(index < observer.texts.size());
+      const std::vector<std::string>& expected = observer.texts[index++];
+      REQUIRE(kage_golden_token_index(core) == static_cast<int>(index));
+      REQUIRE(kage_golden_token_text(core) == expected[0]);
+      const int kind = kage_golden_token_kind(core);
+      REQUIRE(kage_golden_made(core) == static_cast<int>(expected.size()) - 1);
+      for (int i = 0; i < kage_golden_made(core); ++i) {
+        REQUIRE(kage_golden_choose_made(core, i) == 0);
+        REQUIRE(kage_golden_token_text(core) == expected[static_cast<std::size_t>(i) + 1]);
+        REQUIRE(kage_golden_token_kind(core) < KAGE_KIND_GRADIENT);
+        REQUIRE(kage_golden_token_words(core) > 0);
+        ++made;
+      }
+      REQUIRE(kage_golden_choose_made(core, kage_golden_made(core)) == KAGE_GOLDEN_ERROR);
+      REQUIRE(kage_golden_choose_made(core, -2) == KAGE_GOLDEN_ERROR);
+      REQUIRE(kage_golden_choose_made(core, -1) == 0);
+      REQUIRE(kage_golden_token_kind(core) == kind);
+    }
+    REQUIRE(index == observer.texts.size());
+    REQUIRE(kage_golden_finish(core) == 0);
+  }
+  CHECK(made > 100);
+  CHECK(kage_golden_made(nullptr) == 0);
+  CHECK(kage_golden_choose_made(nullptr, 0) == KAGE_GOLDEN_ERROR);
 }
 
 TEST_CASE("lines, words in one piece, and the status are GoldenCore's, of damaged frames too") {

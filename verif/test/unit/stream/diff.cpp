@@ -9,9 +9,12 @@
 #include "kage/error.hpp"
 #include "kage/stream_diff.hpp"
 #include "number/bits.hpp"
+#include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
+#include "stimulus/polygon_frames.hpp"
 #include "stimulus/random.hpp"
 #include "stimulus/random_frames.hpp"
+#include "stream/span_frame.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/configs.hpp"
 #include "test/support/pictures.hpp"
@@ -92,6 +95,54 @@ Words plain_frame(const Config& c, int second_xr = 9, std::uint32_t number = 0, 
 }
 
 }  // namespace
+
+TEST_CASE(
+    "a frame at the polygon level is compared by its spans with one that is not, and by its tokens with another") {
+  const TempFolder folder("stream-levels");
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  int changed = 0;
+  for (int round = 0; round < 60; ++round) {
+    Config c = random_config(random, 60);
+    c.active = random.in(1, 8);
+    Words polygons;
+    random_polygon_frame(random, c, random.in(1, 60), random.in(1, 8), polygons, 5);
+    const auto spans = span_frame(c, polygons);
+    REQUIRE(spans);
+    CAPTURE(round, to_yaml(c));
+    Config without = c;  // a core without front end takes the spans
+    without.active = round % 2 == 0 ? 0 : c.active;
+    const fs::path a = write(folder.path / "a.kage", c, {polygons});
+    const fs::path b = write(folder.path / "b.kage", without, {*spans});
+    for (const auto& [x, y] : {std::pair(a, b), std::pair(b, a)}) {
+      const StreamDiff d = diff(x, y);
+      CHECK(d.same);
+      CHECK(d.reason.empty());
+      CHECK(d.expanded_frames == 1);
+      CHECK(d.parameters.empty());
+    }
+    CHECK(diff(a, a).expanded_frames == 0);
+    CHECK(diff(a, a).same);
+
+    // Another depth of the first polygon is one token at the level; where it has a span, the spans tell it too.
+    TokenPlaces places(c, polygons);
+    if (places.of(Kind::POLYGON).empty()) continue;
+    const auto at = places.of(Kind::POLYGON).front();
+    const Field value = places.layout().polygon_value;
+    places.put(at, value, places.get(at, value) ^ 1U << kPlaneFrac);
+    const fs::path other = write(folder.path / "c.kage", c, {polygons});
+    const StreamDiff of_tokens = diff(a, other);
+    CHECK(of_tokens.different_tokens == 1);
+    REQUIRE(of_tokens.first);
+    CHECK(of_tokens.first->field == "value");
+    CHECK(of_tokens.first->a.starts_with("POLYGON value "));
+    const auto other_spans = span_frame(c, polygons);
+    REQUIRE(other_spans);
+    CHECK(diff(other, b).same == (*other_spans == *spans));
+    changed += *other_spans == *spans ? 0 : 1;
+  }
+  CHECK(changed > 10);
+}
 
 TEST_CASE("random streams: the same as themselves, symmetric, and one changed bit is one difference at its place") {
   const TempFolder folder("stream-diff");

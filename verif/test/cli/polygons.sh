@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Frames at the polygon level from outside: what info, diff and explain say of a stream whose frame is made by hand, and
+# --level of random frames.
+. "$(dirname "$0")/common.bash"
+
+KAGE_GOLDEN=$(dirname "$kage")/../lib/libkage_golden.so
+export KAGE_GOLDEN
+expect 0 python3 "$source/verif/test/cli/polygons.py" "$source"
+
+expect 0 "$kage" info polygons.kage --tokens 0
+for line in 'tokens: SHADE 1 NC 1 EOL 6 END 1 POLYGON 2 EDGE 4 AT 3' \
+  'level: 1 frame at the polygon level, 5 of the spans made of polygons, 2 polygons at once at most' \
+  '       0  header: 16x6, background 0,0,0, frame number 0, at the polygon level' \
+  '       3  AT layer 0 sample 0 light 0 volume 0 rank 0' \
+  '       4  POLYGON value 1000 right 2 down 3 color 200,100,50 w +0 alpha 0 lit' \
+  '       5  EDGE side 0 last (2, 1) to (2, 4)' '      12  AT layer 1 sample 0 light 0 volume 6 rank 0'; do
+  grep -qxF "$line" stdout || fail "info lacks: $line"
+done
+expect 0 "$kage" info polygons.kage --json info.json
+json info.json '[j[k] for k in ("version", "polygon_frames", "made_spans", "active", "spans")] == [2, 1, 5, 2, 5]'
+expect 0 "$kage" info spans.kage --json info.json
+json info.json '[j[k] for k in ("version", "polygon_frames", "made_spans", "active", "spans")] == [1, 0, 0, 0, 5]'
+
+# A frame of each level: compared are the spans.
+expect 0 "$kage" diff polygons.kage spans.kage --json diff.json
+grep -q '^1 frame at the polygon level in one stream alone: compared by the spans' stdout || fail "diff: $(cat stdout)"
+json diff.json 'j["same"] and j["expanded_frames"] == 1'
+expect 0 "$kage" diff spans.kage polygons.kage
+expect 1 "$kage" diff spans.kage other.kage
+grep -q 'first difference: frame 0, line 1, token 3, field z' stdout || fail "diff: $(cat stdout)"
+# Both at the polygon level: token by token.
+expect 1 "$kage" diff polygons.kage other.kage --json diff.json
+grep -q 'first difference: frame 0, line 1, token 4, field value' stdout || fail "diff: $(cat stdout)"
+grep -q 'A: POLYGON value 1000 right 2' stdout || fail "diff: $(cat stdout)"
+json diff.json 'not j["same"] and j["expanded_frames"] == 0 and j["different_tokens"] == 1'
+# What the front end refuses has no spans to be compared by.
+expect 1 "$kage" diff broken.kage spans.kage
+grep -q 'field magic_version' stdout || fail "diff: $(cat stdout)"
+
+expect 0 "$kage" explain polygons.kage --pixel 5,2 --json explain.json
+for line in '      13  OP [2, 10) z 1010.5 dz 2 color 200,100,50 lit, made by the front end' \
+  '      13  IF w +1, made by the front end' '      14  EV [0, 16), made by the front end' \
+  '      14  RESOLVE, made by the front end'; do
+  grep -qxF "$line" stdout || fail "explain lacks: $line: $(cat stdout)"
+done
+json explain.json 'all(t["made"] for t in j["touches"] if t["kind"] in ("OP", "SP", "EV", "IF", "RESOLVE"))'
+expect 0 "$kage" explain spans.kage --pixel 5,2 --json explain.json
+json explain.json 'len(j["touches"]) > 3 and not any(t["made"] for t in j["touches"])'
+
+# Random frames at the level.
+echo 'ACTIVE: 6' >front.yaml
+expect 0 "$kage" explain random --level polygons --config front.yaml --frame 3 --pixel 0,0
+expect 0 "$kage" explain random:damaged --level polygons --config front.yaml --frame 8 --pixel 0,0
+trouble '--level polygons: configuration default has ACTIVE 0, so its core takes spans alone' \
+  "$kage" cosim random --level polygons
+trouble '--level: only random frames take it, and this is a scene' "$kage" cosim edges --level polygons
+trouble '--level: a stream has its own level' "$kage" cosim polygons.kage --level polygons
+expect 2 "$kage" cosim random --level lines
+done_testing
