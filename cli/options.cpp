@@ -207,6 +207,20 @@ void option_outside(CLI::App& command, Options& options) {
                    "those outside its folder");
 }
 
+void option_level(CLI::App& command, Options& options) {
+  command
+      .add_option_function<std::string>(
+          "--level",
+          [&options](const std::string& name) { options.level = name == "spans" ? Level::spans : Level::polygons; },
+          fmt::format("what the frames are made of, default spans; with polygons the core's front end makes most spans "
+                      "itself, from fewer words (docs/stream.md), which takes a core with ACTIVE: {} where the "
+                      "configuration has none",
+                      kUsualActive))
+      ->option_text("spans|polygons")
+      ->check(CLI::IsMember({"spans", "polygons"}))
+      ->type_name("LEVEL");
+}
+
 void option_fault(CLI::App& command, std::string& fault) {
   command
       .add_option("--fault", fault,

@@ -58,7 +58,11 @@ struct Options {
   int samples = Look{}.samples;                ///< of a light that is no point
   int classes = Look{}.classes;                ///< of normals
   int sub_bits = Look{}.sub_bits;              ///< of snapped positions
+  Level level = Level::spans;                  ///< of the frames
 };
+
+/// ACTIVE at the polygon level, where the configuration has none.
+inline constexpr int kUsualActive = 512;
 
 /// As --order has it.
 std::string name_of(TranslucentWay way);
@@ -84,6 +88,7 @@ void option_scenes(CLI::App& command, std::vector<std::string>& inputs, Taken ta
 void option_threads(CLI::App& command, Options& options);
 void option_size(CLI::App& command, Options& options);
 void option_outside(CLI::App& command, Options& options);  // --allow-outside
+void option_level(CLI::App& command, Options& options);    // --level
 void option_fault(CLI::App& command, std::string& fault);
 
 }  // namespace kage::cli

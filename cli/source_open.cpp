@@ -68,6 +68,7 @@ DrawOptions draw_options(const Options& options) {
   draw.look.cull = options.cull;
   draw.look.fit = options.degrade;
   draw.threads = options.threads;
+  draw.level = options.level;
   return draw;
 }
 
@@ -122,6 +123,8 @@ void Source::open_stream(const Options& options) {
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
+  if (options.level != Level::spans)
+    throw Error(fmt::format("{}: --level: only a scene takes it, and this is a stream", options.input));
   guard_mapped(options.input);
   stream_ = std::make_shared<const StreamFile>(options.input);
   open_frames();
@@ -145,6 +148,10 @@ NamedConfig stream_config(const Options& options, const StreamFile& stream) {
 
 void Source::open_scene(const Options& options) {
   load_scene(options);
+  if (options.level == Level::polygons && config_.config.active == 0) {
+    config_.config.active = kUsualActive;
+    notes_.push_back(fmt::format("ACTIVE: {}: the polygon level needs a front end", kUsualActive));
+  }
   open_frames();
   remarks_.emplace(config_.config, options.size, options.cull);
 }
