@@ -123,7 +123,7 @@ cosim::RunOptions SceneRun::run_options(const cosim::FrameRange& range, TempFile
 cosim::Feed SceneRun::heard_feed(Part& part) {
   Source& source = source_of(part);
   Listener* const ear = !report_ ? nullptr : part.ear ? part.ear.get() : &report_->listener();
-  if (o_.coverage) part.coverage = std::make_unique<verif::Coverage>(source_->config());
+  if (o_.coverage) part.coverage = std::make_unique<verif::Coverage>(source_->config(), source_->level());
   return [&part, &source, ear, first = part.range.steps.first](int i, const WordSink& sink) {
     if (i < first) return source.frame(i, sink);
     ++part.begun;
@@ -143,7 +143,7 @@ void SceneRun::count_again(Part& part) {
   const cosim::FrameSteps steps = part.range.steps;
   Source& source = source_of(part);
   source.count_anew(steps.first - steps.step);
-  if (part.coverage) part.coverage = std::make_unique<verif::Coverage>(source.config());
+  if (part.coverage) part.coverage = std::make_unique<verif::Coverage>(source.config(), source.level());
   for (int i = 0; i < part.report.frames; ++i) {
     (void)source.frame(steps.first + i * steps.step, [&](std::span<const std::uint32_t> words) {
       if (part.coverage) part.coverage->words(words);

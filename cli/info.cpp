@@ -74,7 +74,7 @@ void print_tokens(const StreamFile& file, int frame) {
   std::uint64_t index = 1;
   for (auto token = walk.next(); !token.empty(); token = walk.next(), ++index) {
     if (index % 4096 == 0) check_interrupt();
-    fmt::print("{:>8}  {}\n", index, to_string(config, decode(config, layout, token)));
+    fmt::print("{:>8}  {}\n", index, to_string(config, decode(config, layout, token, walk.level())));
   }
   auto rest = walk.rest();
   if (!rest.empty()) fmt::print("{:>8}  {}; the words from here on:\n", index, walk.rest_text());

@@ -195,6 +195,19 @@ void option_max_fragments(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
+void option_front_end(CLI::App& command, Options& options) {
+  static const std::map<std::string, Level> kWho{{"host", Level::spans}, {"rtl", Level::polygons}};
+  command
+      .add_option_function<std::string>(
+          "--front-end", [&options](const std::string& who) { options.level = kWho.at(who); },
+          fmt::format(
+              "who makes spans of a scene's polygons, default host: rtl sends frames at the polygon level, and the "
+              "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
+              kUsualActive))
+      ->check(CLI::IsMember({"host", "rtl"}))
+      ->type_name("host|rtl");
+}
+
 void option_threads(CLI::App& command, Options& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
       ->check(whole_number(1, 1024))
@@ -207,18 +220,29 @@ void option_outside(CLI::App& command, Options& options) {
                    "those outside its folder");
 }
 
+static const std::map<std::string, Level>& levels() {
+  static const std::map<std::string, Level> kLevels{{"spans", Level::spans}, {"polygons", Level::polygons}};
+  return kLevels;
+}
+
 void option_level(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
-          "--level",
-          [&options](const std::string& name) { options.level = name == "spans" ? Level::spans : Level::polygons; },
-          fmt::format("what the frames are made of, default spans; with polygons the core's front end makes most spans "
-                      "itself, from fewer words (docs/stream.md), which takes a core with ACTIVE: {} where the "
-                      "configuration has none",
-                      kUsualActive))
+          "--level", [&options](const std::string& name) { options.level = levels().at(name); },
+          fmt::format(
+              "what the tokens of frames are, default spans; polygons are fewer words, and the core's front end "
+              "makes the spans (docs/stream.md): a core with ACTIVE, which is {} for a scene whose configuration "
+              "has none",
+              kUsualActive))
       ->option_text("spans|polygons")
       ->check(CLI::IsMember({"spans", "polygons"}))
       ->type_name("LEVEL");
+}
+
+std::string name_of(Level level) {
+  for (const auto& [name, value] : levels())
+    if (value == level) return name;
+  return {};
 }
 
 void option_fault(CLI::App& command, std::string& fault) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "kage/defs.hpp"
 #include "kage/geometry.hpp"
 
 namespace kage::cli {
@@ -58,11 +59,8 @@ struct Options {
   int samples = Look{}.samples;                ///< of a light that is no point
   int classes = Look{}.classes;                ///< of normals
   int sub_bits = Look{}.sub_bits;              ///< of snapped positions
-  Level level = Level::spans;                  ///< of the frames
+  Level level = Level::spans;                  ///< of the frames that are made
 };
-
-/// ACTIVE at the polygon level, where the configuration has none.
-inline constexpr int kUsualActive = 512;
 
 /// As --order has it.
 std::string name_of(TranslucentWay way);
@@ -78,6 +76,9 @@ void options_of_frames(CLI::App& command, Options& options);
 void option_max_fragments(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
+/// --level: of a scene's frames, or random ones.
+void option_level(CLI::App& command, Options& options);
+std::string name_of(Level level);  // as --level has it
 
 /// What a command takes frames from: scenes; stream files, too; random frames, too.
 enum class Taken : std::uint8_t { scenes, streams, random };
@@ -88,7 +89,8 @@ void option_scenes(CLI::App& command, std::vector<std::string>& inputs, Taken ta
 void option_threads(CLI::App& command, Options& options);
 void option_size(CLI::App& command, Options& options);
 void option_outside(CLI::App& command, Options& options);  // --allow-outside
-void option_level(CLI::App& command, Options& options);    // --level
 void option_fault(CLI::App& command, std::string& fault);
+/// --front-end: who makes spans of polygons.
+void option_front_end(CLI::App& command, Options& options);
 
 }  // namespace kage::cli

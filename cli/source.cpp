@@ -54,6 +54,11 @@ std::function<std::vector<std::uint32_t>(int)> Source::prelude() const {
   return random_ ? random_->prelude() : nullptr;
 }
 
+Level Source::level() const {
+  if (!stream_) return options_.level;
+  return stream_->frame_count() > 0 ? FrameHeader::read(stream_->frame(0)).level() : Level::spans;
+}
+
 bool Source::is_unchecked(int index) const { return random_ || (stream_ && stream_->is_port_frame(index)); }
 
 bool Source::may_be_refused() const {
@@ -84,7 +89,7 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   if (again_) return counts;
   ++made_;
   units_ = std::max(units_, counts.units);
-  bool drawn = false;
+  bool drawn = counts.made > 0;
   for (std::size_t kind = 0; kind < kKindInfo.size(); ++kind)
     drawn = drawn || (kKindInfo[kind].draws && counts.of_kind[kind] > 0);
   // What a core may refuse for its header or its order says nothing of faces.

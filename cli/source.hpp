@@ -94,6 +94,9 @@ class Source : public FrameSource {
   /// Whether they are random.
   [[nodiscard]] bool is_random() const { return random_.has_value(); }
 
+  /// What the frames' tokens are; of a stream those of its first frame.
+  [[nodiscard]] Level level() const;
+
   /// What --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 

@@ -102,11 +102,14 @@ void Source::open_random(const Options& options, verif::Manner manner) {
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
   refuse(options.allow_outside, "--allow-outside", "need no files");
   config_ = load_config(options.config.empty() ? "default" : options.config);
+  if (options.level == Level::polygons && config_.config.active == 0)
+    throw Error(fmt::format("{}: --level polygons: configuration {} has ACTIVE 0, so its core takes spans alone",
+                            options.input, config_.name));
   if (options.config.empty()) notes_.push_back(fmt::format("configuration: {}", config_.name));
   name_ = options.input;
   std::replace(name_.begin(), name_.end(), ':', '_');
   frames_ = options.frames > 0 ? options.frames : kRandomFrames;
-  random_.emplace(config_.config, manner, options.seed);
+  random_.emplace(config_.config, manner, options.seed, options.level);
 }
 
 void Source::open_stream(const Options& options) {
@@ -121,10 +124,10 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
+  if (options.level != Level::spans)
+    throw Error(fmt::format("{}: --level, --front-end: a stream has its own level", options.input));
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
-  if (options.level != Level::spans)
-    throw Error(fmt::format("{}: --level: only a scene takes it, and this is a stream", options.input));
   guard_mapped(options.input);
   stream_ = std::make_shared<const StreamFile>(options.input);
   open_frames();
@@ -148,10 +151,7 @@ NamedConfig stream_config(const Options& options, const StreamFile& stream) {
 
 void Source::open_scene(const Options& options) {
   load_scene(options);
-  if (options.level == Level::polygons && config_.config.active == 0) {
-    config_.config.active = kUsualActive;
-    notes_.push_back(fmt::format("ACTIVE: {}: the polygon level needs a front end", kUsualActive));
-  }
+  if (options.level == Level::polygons && config_.config.active == 0) config_.config.active = kUsualActive;
   open_frames();
   remarks_.emplace(config_.config, options.size, options.cull);
 }

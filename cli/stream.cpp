@@ -66,7 +66,7 @@ int run(const Options& o) {
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
   j["words"] = counts.words;
-  j["level"] = source.is_stream() ? Json(nullptr) : Json(o.level == Level::polygons ? "polygons" : "spans");
+  j["level"] = name_of(source.level());
   j["polygons"] = o.level == Level::polygons ? source.polygons().json() : Json(nullptr);
   j["config"] = to_json(config);
   j["degraded"] = source.degraded();

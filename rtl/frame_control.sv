@@ -29,16 +29,18 @@ module frame_control #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
     parameter int MAX_WIDTH   = 640,
-    parameter int TOKEN_WORDS = 5
+    parameter int TOKEN_WORDS = 5,
+    parameter bit POLYGONS    = 0   // front_end makes tokens, and numbers them
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
 
-    // from token_reader
+    // from token_reader, or front_end
     input  wire logic                      token_valid_i,
     output logic                           token_ready_o,
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
     input  wire logic [     FlagsBits-1:0] token_flags_i,
+    input  wire logic [              31:0] token_index_i,  // with POLYGONS
     output logic                           drop_o,
     input  wire logic                      dropping_i,
 
@@ -105,6 +107,7 @@ module frame_control #(
   token_stage #(
       .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(TOKEN_WORDS),
+      .POLYGONS   (POLYGONS),
       `include "generated/kage_pixel_param_map.svh"
   ) u_stage (
       .clk_i,
@@ -113,6 +116,7 @@ module frame_control #(
       .token_ready_o,
       .token_i,
       .token_flags_i,
+      .token_index_i,
       .drop_o,
       .held_valid_o (held_valid),
       .held_ready_i (held_ready),

@@ -3,6 +3,7 @@
 // guide.
 //
 //   s_axis -> token_reader -> frame_control -> pixel_loads -> pixel_core -> line_out -> m_axis
+//   token_reader -> front_end -> frame_control     polygons to spans                                    (ACTIVE > 0)
 //   frame_control -> tree_core -> pixel_core       faces and segments, and lines of the tree        (UNITS > 0)
 //   frame_control -> line_queue -> line_out        what a line is, in order
 //   frame_control -> line_out                      the light table                                  (CLASS_BITS > 1)
@@ -51,31 +52,76 @@ module kage_top #(
   // ---- legal parameters --------------------------------------------------------------------------------------------
   `include "generated/kage_checks.svh"
 
+  localparam bit Polygons = ACTIVE > 0;
   localparam int FrontWords = TokenWords > HeaderWords ? TokenWords : HeaderWords;
+  localparam int ReaderWords = Polygons && PolygonTokenWords > FrontWords ? PolygonTokenWords : FrontWords;
   localparam int ExitLanes = ARRANGEMENT == 1 ? LANES : 1;
 
   // ---- words to tokens ---------------------------------------------------------------------------------------------
   // `.*` connects clock, reset, and the ports of kage_top that the comment behind it names.
-  logic token_valid, token_ready;
-  logic [FrontWords*32-1:0] token;
-  flags_t flags;
-  logic drop, dropping, reader_busy, reader_moving;
+  logic read_valid, read_ready;
+  logic [ReaderWords*32-1:0] read;
+  flags_t read_flags;
+  logic reader_drop, reader_dropping, reader_busy, reader_moving;
 
   token_reader #(
       .BEAT_WORDS (BEAT_WORDS),
-      .TOKEN_WORDS(FrontWords),
+      .TOKEN_WORDS(ReaderWords),
+      .POLYGONS   (Polygons),
       `include "generated/kage_pixel_param_map.svh"
   ) u_reader (
-      .token_valid_o(token_valid),
-      .token_ready_i(token_ready),
-      .token_o      (token),
-      .token_flags_o(flags),
-      .drop_i       (drop),
-      .dropping_o   (dropping),
+      .token_valid_o(read_valid),
+      .token_ready_i(read_ready),
+      .token_o      (read),
+      .token_flags_o(read_flags),
+      .drop_i       (reader_drop),
+      .dropping_o   (reader_dropping),
       .busy_o       (reader_busy),
       .moving_o     (reader_moving),
       .*  // s_axis_*
   );
+
+  // ---- polygons to spans -------------------------------------------------------------------------------------------
+  logic token_valid, token_ready;
+  logic [FrontWords*32-1:0] token;
+  logic [31:0] token_index;
+  flags_t flags;
+  logic drop, dropping, front_busy, front_moving;
+  if (Polygons) begin : gen_front_end
+    front_end #(
+        .ACTIVE   (ACTIVE),
+        .IN_WORDS (ReaderWords),
+        .OUT_WORDS(FrontWords),
+        `include "generated/kage_pixel_param_map.svh"
+    ) u_front_end (
+        .clk_i,
+        .rst_ni,
+        .token_valid_i(read_valid),
+        .token_ready_o(read_ready),
+        .token_i      (read),
+        .token_flags_i(read_flags),
+        .drop_o       (reader_drop),
+        .dropping_i   (reader_dropping),
+        .token_valid_o(token_valid),
+        .token_ready_i(token_ready),
+        .token_o      (token),
+        .token_flags_o(flags),
+        .token_index_o(token_index),
+        .drop_i       (drop),
+        .dropping_o   (dropping),
+        .busy_o       (front_busy),
+        .moving_o     (front_moving)
+    );
+  end else begin : gen_no_front_end
+    assign token_valid = read_valid;
+    assign read_ready = token_ready;
+    assign token = read;
+    assign flags = read_flags;
+    assign token_index = '0;
+    assign reader_drop = drop;
+    assign dropping = reader_dropping;
+    assign {front_busy, front_moving} = '0;
+  end
 
   // ---- tokens to commands and lines --------------------------------------------------------------------------------
   logic cmd_valid, cmd_ready;
@@ -105,6 +151,7 @@ module kage_top #(
   frame_control #(
       .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(FrontWords),
+      .POLYGONS   (Polygons),
       `include "generated/kage_pixel_param_map.svh"
   ) u_control (
       .clk_i,
@@ -113,6 +160,7 @@ module kage_top #(
       .token_ready_o     (token_ready),
       .token_i           (token),
       .token_flags_i     (flags),
+      .token_index_i     (token_index),
       .drop_o            (drop),
       .dropping_i        (dropping),
       .cmd_valid_o       (cmd_valid),
@@ -256,18 +304,19 @@ module kage_top #(
     if (!rst_ni) lines_q <= '0;
     else lines_q <= lines_q + LinesBits'(line_valid) - LinesBits'(line_gone) - LinesBits'(loads_done);
   end
-  assign in_frame = reader_busy || frame_open;
+  assign in_frame = reader_busy || front_busy || frame_open;
   assign frame_here = in_frame || lines_q != '0;
-  assign waiting_input = in_frame && hungry && !token_valid && s_axis_tready_o && !s_axis_tvalid_i;
+  assign waiting_input = in_frame && hungry && !token_valid && !front_moving && s_axis_tready_o && !s_axis_tvalid_i;
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
   // only if one of them does.
-  localparam int Parts = 9;
+  localparam int Parts = 10;
   logic [Parts-1:0] progress;
   assign progress = {
     s_axis_tvalid_i && s_axis_tready_o,
     m_axis_tvalid_o && m_axis_tready_i,
     reader_moving,
+    front_moving,
     control_moving,
     lines_moving,
     pixel_valid && pixel_ready,

@@ -30,6 +30,7 @@ module token_check #(
     input wire logic                      token_lacking_i,
     input wire logic                      token_cut_i,
     input wire logic                      token_at_last_i,
+    input wire logic [      CodeBits-1:0] token_fault_i,
     input wire logic [        X_BITS-1:0] width_i,
     input wire logic [LineNumberBits-1:0] line_i,
     input wire logic [LineNumberBits-1:0] lines_left_i,
@@ -89,6 +90,7 @@ module token_check #(
     in_line  = !(is_eol && token_i[EolYLsb+:EolYBits] != EolYBits'(line_i)) && !(is_end && !lines_done_i);
     if (token_cut_i) code_o = ErrLastEarly;
     else if (token_lacking_i) code_o = ErrKind;
+    else if (token_fault_i != ErrNone) code_o = token_fault_i;
     else if (!in_order) code_o = ErrOrder;
     else if (!in_range) code_o = ErrRange;
     else if (!in_line) code_o = ErrLine;
@@ -97,7 +99,8 @@ module token_check #(
     else code_o = ErrNone;
   end
   // code_o == ErrNone, without the priority chain, which is slower.
-  assign good   = !token_cut_i && !token_lacking_i && in_order && in_range && in_line && !tree_error && !last_late;
+  assign good = !token_cut_i && !token_lacking_i && token_fault_i == ErrNone && in_order && in_range && in_line &&
+      !tree_error && !last_late;
   assign good_o = good;
 
   line_phase #(

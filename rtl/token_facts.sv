@@ -12,7 +12,8 @@ module token_facts #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
     parameter int MAX_WIDTH   = 640,
-    parameter int TOKEN_WORDS = 5
+    parameter int TOKEN_WORDS = 5,
+    parameter bit POLYGONS    = 0   // frames at the polygon level are good too
 ) (
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
     output logic      [     FactsBits-1:0] facts_o
@@ -42,8 +43,10 @@ facts_t facts;
   assign xr = token_i[RangeXrLsb+:X_BITS];
   always_comb begin
     // a header
-    if (head_version != HeaderVersionBits'(StreamVersion) || head_magic != HeaderMagicBits'(StreamMagic))
+    if (head_version != HeaderVersionBits'(StreamVersion) &&
+        !(POLYGONS && head_version == HeaderVersionBits'(PolygonVersion)))
       facts.head_error = ErrHeader;
+    else if (head_magic != HeaderMagicBits'(StreamMagic)) facts.head_error = ErrHeader;
     else if (head_width == '0 || head_width > HeaderWidthBits'(MAX_WIDTH)) facts.head_error = ErrSize;
     else if (head_height == '0 || head_height > HeaderHeightBits'(MaxHeight)) facts.head_error = ErrSize;
     else if (token_i[HeaderParamHashLsb+:32] != ParamHash) facts.head_error = ErrParams;

@@ -181,6 +181,7 @@ module token_reader #(
       flags_q.lacking <= front_lacking_q && !cut;
       flags_q.cut <= cut;
       flags_q.ends <= cut || front_is_end_q;
+      flags_q.fault <= ErrNone;
       flags_q.at_last <= last_q && beats_held == BeatAtBits'(1);
     end
     if (!rst_ni) token_valid_q <= 1'b0;

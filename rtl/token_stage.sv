@@ -24,16 +24,18 @@ module token_stage #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
     parameter int MAX_WIDTH   = 640,
-    parameter int TOKEN_WORDS = 5
+    parameter int TOKEN_WORDS = 5,
+    parameter bit POLYGONS    = 0   // front_end makes tokens, and numbers them
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
 
-    // from token_reader
+    // from token_reader, or front_end
     input  wire logic                      token_valid_i,
     output logic                           token_ready_o,
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
     input  wire logic [     FlagsBits-1:0] token_flags_i,
+    input  wire logic [              31:0] token_index_i,  // with POLYGONS
     output logic                           drop_o,
 
     // to frame_control
@@ -112,7 +114,13 @@ flags_t flags;
   logic lines_done_q;  // left_q is 0
   logic first_q;  // the header was the last token
   logic [31:0] index_q, index;  // of the newest token, and of the one that comes in
-  assign index = index_q + 32'd1;
+  if (POLYGONS) begin : gen_index
+    assign index = token_index_i;
+  end else begin : gen_count
+    logic unused_index;
+    assign unused_index = ^token_index_i;
+    assign index = index_q + 32'd1;
+  end
 
   // A header's words are taken whenever token_reader has one, even if it has not come whole, as nothing of the frame
   // before is judged any more. So these flip-flops wait for no handshake; with units until a token at fault has
@@ -137,6 +145,7 @@ flags_t flags;
   token_facts #(
       .MAX_WIDTH  (MAX_WIDTH),
       .TOKEN_WORDS(TOKEN_WORDS),
+      .POLYGONS   (POLYGONS),
       `include "generated/kage_pixel_param_map.svh"
   ) u_facts (
       .token_i,
@@ -162,6 +171,7 @@ flags_t flags;
       .token_lacking_i(flags.lacking),
       .token_cut_i    (flags.cut),
       .token_at_last_i(flags.at_last),
+      .token_fault_i  (flags.fault),
       .width_i        (width_q),
       .line_i         (line_q),
       .lines_left_i   (left_q),

@@ -6,13 +6,16 @@
 namespace kage::hls {
 
 /// The edge on the next line: quotient and remainder one step on, with a carry where the remainder reaches the height.
-inline void edge_step(const Edge& in, Edge& out) {
-  using Wide = hw::u<kRestBits + 2>;
+template <int WHOLE, int FRAC>
+void edge_step(const EdgeOf<WHOLE, FRAC>& in, EdgeOf<WHOLE, FRAC>& out) {
+  using Pixels = typename EdgeOf<WHOLE, FRAC>::Pixels;
+  using Rest = RestOf<WHOLE, FRAC>;
+  using Wide = hw::u<WHOLE + FRAC + 2>;
   const Wide sum = Wide(in.rest) + Wide(in.rest_step);
   const Wide less = sum - Wide(in.dy);
-  const bool carry = hw::slice<1>(less, kRestBits + 1) == hw::u<1>(0);
-  const Edge::Pixels on = in.x + in.step;
-  out.x = on + Edge::Pixels(carry);
+  const bool carry = hw::slice<1>(less, WHOLE + FRAC + 1) == hw::u<1>(0);
+  const Pixels on = in.x + in.step;
+  out.x = on + Pixels(carry);
   out.step = in.step;
   out.rest = carry ? Rest(less) : Rest(sum);
   out.rest_step = in.rest_step;

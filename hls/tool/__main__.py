@@ -55,7 +55,8 @@ def intermediate(source: pathlib.Path, defines: dict[str, int] | None = None) ->
         check=False,
     )
     if done.returncode:
-        raise Trouble(done.stderr.strip().splitlines()[0])
+        said = done.stderr.strip().splitlines()
+        raise Trouble(next((line for line in said if " error: " in line), said[0]))
     return done.stdout
 
 
@@ -97,46 +98,89 @@ def configurations(names: list[str]) -> dict[str, dict[str, int]]:
     return found
 
 
-def modules(device: str, stages: int | None) -> dict[str, str]:
-    """All generated files."""
-    delays = Delays.read(HLS / "tool/delays" / f"{device}.json")
+def delays_of(device: str) -> Delays:
+    path = HLS / "tool/delays" / f"{device}.json"
+    if not path.is_file():
+        raise Trouble(f"{device}: no delays of it: hls/tool/characterise {device} measures them")
+    return Delays.read(path)
+
+
+def modules(device: str, stages: int | None) -> dict[pathlib.Path, str]:
+    """All generated files. Those that the core has lie with its modules."""
+    delays = delays_of(device)
     made = {}
     for name, entry in yaml.safe_load((HLS / "kernels.yaml").read_text()).items():
         source = HLS / "tops" / entry.get("top", "kernels.cpp")
         clocks = entry["stages"] if stages is None else stages
         if "parameters" not in entry:
-            made[name] = module(intermediate(source), name, name, entry, delays, clocks)
+            folder = TOP / "rtl" if entry.get("core") else HLS / "generated"
+            made[folder / f"{name}.sv"] = module(intermediate(source), name, name, entry, delays, clocks)
             continue
         for config, values in configurations(entry["parameters"]).items():
             text = intermediate(source, values)
-            made[f"{name}_{config}"] = module(text, name, f"{name}_{config}", entry, delays, clocks)
+            path = HLS / "generated" / f"{name}_{config}.sv"
+            made[path] = module(text, name, f"{name}_{config}", entry, delays, clocks)
     return made
 
 
 def generate(arguments: argparse.Namespace) -> int:
     changed = []
-    for name, text in modules(arguments.device, arguments.stages).items():
-        path = HLS / "generated" / f"{name}.sv"
+    for path, text in modules(arguments.device, arguments.stages).items():
         if not path.is_file() or path.read_text() != text:
-            changed.append(path.name)
+            changed.append(path.relative_to(TOP))
             if not arguments.check:
                 path.parent.mkdir(exist_ok=True)
                 path.write_text(text)
-    for name in changed:
-        print(f"hls/generated/{name}: {'not what the kernel gives' if arguments.check else 'written'}")
+    for path in changed:
+        print(f"{path}: {'not what the kernel gives' if arguments.check else 'written'}")
     return 1 if changed and arguments.check else 0
+
+
+def show_steps(arguments: argparse.Namespace) -> int:
+    """Prints what becomes of a kernel at each step, or at one."""
+    from . import steps
+
+    kernels = yaml.safe_load((HLS / "kernels.yaml").read_text())
+    names = {e["kernel"]: name for name, e in kernels.items() if "parameters" not in e}
+    if arguments.kernel not in names:
+        raise Trouble(f"{arguments.kernel}: none of the kernels {', '.join(names)}")
+    name = names[arguments.kernel]
+    entry = kernels[name]
+    stages = entry["stages"] if arguments.stages is None else arguments.stages
+    delays = delays_of(arguments.device)
+    text = intermediate(HLS / "tops" / entry.get("top", "kernels.cpp"))
+    read = Reader(text, name).read()
+    small, _ = built(text, name, delays.tile)
+    shown = {
+        "ir": lambda: steps.ir_of(text, name),
+        "graph": lambda: steps.graph_of(read),
+        "small": lambda: steps.graph_of(small),
+        "schedule": lambda: steps.schedule_of(small, scheduled(small, delays, stages), delays),
+        "verilog": lambda: module(text, name, name, entry, delays, stages).rstrip("\n"),
+    }
+    wanted = [arguments.step] if arguments.step else steps.STEPS
+    print("\n\n".join((f"== {s}\n" if len(wanted) > 1 else "") + shown[s]() for s in wanted))
+    return 0
+
+
+def show_mutants(arguments: argparse.Namespace) -> int:
+    """Prints how many mutants of the generated modules the vectors and the proofs find."""
+    from . import mutants_run
+
+    a = arguments
+    return mutants_run.run(a.kernels, a.seed, a.count, a.vectors, a.equivalent)
 
 
 def show_figures(arguments: argparse.Namespace) -> int:
     """Prints cells and clock of each kernel, at several numbers of stages or at the chosen one."""
     from . import figures
 
-    delays = Delays.read(HLS / "tool/delays/ecp5-85f.json")
     for device in arguments.devices or ["ecp5-85f"]:
+        delays = delays_of(device)
         placer = figures.Placer(device, arguments.wheels)
         rows = []
         for name, entry in yaml.safe_load((HLS / "kernels.yaml").read_text()).items():
-            if "parameters" in entry or entry["stages"] == 0:
+            if "parameters" in entry or entry["stages"] == 0 or arguments.kernel not in (None, entry["kernel"]):
                 continue
             graph, ports = built(intermediate(HLS / "tops/kernels.cpp"), name, delays.tile)
             chosen = [entry["stages"]]
@@ -145,7 +189,8 @@ def show_figures(arguments: argparse.Namespace) -> int:
                 text = Emitter(name, graph, schedule, ports, []).text()
                 row = placer.place(text, name, ports, stages, arguments.seeds)
                 rows.append(row | {"kernel": name, "stages": stages, "foretold": 1000 / schedule.period})
-                print(f"{name} {stages}: {row['mhz']:.0f} MHz", file=sys.stderr, flush=True)
+                said = f"{row['mhz']:.0f} MHz" if row["mhz"] else row["why"]
+                print(f"{name} {stages}: {said}", file=sys.stderr, flush=True)
         print(figures.table(rows, device, placer.least_loop))
     return 0
 
@@ -153,17 +198,33 @@ def show_figures(arguments: argparse.Namespace) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/hls", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
+    entries = yaml.safe_load((HLS / "kernels.yaml").read_text()).values()
+    kernels = [e["kernel"] for e in entries if "parameters" not in e and e["stages"]]
     command = commands.add_parser("generate")
     command.add_argument("--check", action="store_true")
     command.add_argument("--device", default="ecp5-85f")
     command.add_argument("--stages", type=int)
     command.set_defaults(run=generate)
+    command = commands.add_parser("steps")
+    command.add_argument("kernel")
+    command.add_argument("step", nargs="?", choices=("ir", "graph", "small", "schedule", "verilog"))
+    command.add_argument("--device", default="ecp5-85f")
+    command.add_argument("--stages", type=int)
+    command.set_defaults(run=show_steps)
+    command = commands.add_parser("mutate")
+    command.add_argument("kernels", nargs="*", help="or modules of hls/generated; default: all")
+    command.add_argument("--seed", type=int, default=1)
+    command.add_argument("--count", type=int, default=0, help="so many mutants of each module, by chance; 0: all")
+    command.add_argument("--vectors", type=int, default=100000)
+    command.add_argument("--equivalent", action="store_true", help="print each mutant that changes nothing")
+    command.set_defaults(run=show_mutants)
     command = commands.add_parser("figures")
     command.add_argument("devices", nargs="*")
     command.add_argument(
         "--chosen", action="store_true", help="at the number of stages that hls/kernels.yaml has alone"
     )
     command.add_argument("--seeds", type=int, default=3)
+    command.add_argument("--kernel", choices=kernels, help="this one alone")
     command.add_argument("--wheels", type=pathlib.Path, required=True)
     command.set_defaults(run=show_figures)
     arguments = parser.parse_args()

@@ -96,8 +96,11 @@ class Placer:
             (folder / "design.sv").write_text(text + wrapped(name, ports, stages))
             design = flow.Design("placed", "placed", {}, sources="design.sv", includes=())
             flow.synthesize(self.tools, self.device, design, folder)
-            reports = [flow.place(self.tools, self.device, design, folder, seed) for seed in range(1, seeds + 1)]
             cells = cells_alone(folder, self.tools, self.device, name)
+            try:
+                reports = [flow.place(self.tools, self.device, design, folder, seed) for seed in range(1, seeds + 1)]
+            except flow.NotPlaced as e:
+                return cells | {"mhz": None, "why": e.why}
         return cells | {"mhz": flow.spread([flow.clock_of(r) for r in reports])["median"]}
 
 
@@ -107,8 +110,8 @@ def table(rows: list[dict], device: str, least_loop: float) -> str:
         "|---|---|---|---|---|---|---|---|",
     ]
     for r in rows:
+        placed = f"{r['mhz']:.0f} | {100 * r['mhz'] / least_loop:.0f} %" if r["mhz"] else "does not fit | "
         lines.append(
-            f"| `{r['kernel']}` | {r['stages']} | {r['lut']} | {r['ff']} | {r['dsp']} | {r['mhz']:.0f} |"
-            f" {100 * r['mhz'] / least_loop:.0f} % | {r['foretold']:.0f} |"
+            f"| `{r['kernel']}` | {r['stages']} | {r['lut']} | {r['ff']} | {r['dsp']} | {placed} | {r['foretold']:.0f} |"
         )
     return f"{device}, whose least loop has {least_loop:.1f} MHz\n\n" + "\n".join(lines)

@@ -34,6 +34,14 @@ class Node:
         return f"%{self.number} = {self.op}<{self.width}>({', '.join(f'%{a.number}' for a in self.args)}) {self.value}"
 
 
+def give_name(n: Node, name: str) -> None:
+    """Names the operation whose value a C++ variable has, or has with bits above it that follow from it."""
+    while n.op == "sext" or (n.op == "cat" and len(n.args) == 2 and n.args[1].op == "const"):
+        n = n.args[0]
+    if n.op not in WIRING:
+        n.name = n.name or name
+
+
 def mask(width: int) -> int:
     return (1 << width) - 1
 

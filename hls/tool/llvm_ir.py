@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass, field
 
 from .debug_names import DebugNames
-from .graph import Graph, Node, always
+from .graph import Graph, Node, always, give_name
 from .trouble import Trouble
 
 CLANG_MAJOR = 14
@@ -411,8 +411,7 @@ class Reader:
     def _instruction(self, block: Block, line: str) -> None:
         if line.startswith("call void @llvm.dbg.value"):
             if (m := _DEBUG_VALUE.search(line)) and m[2] in self._value:
-                node = self._value[m[2]]
-                node.name = node.name or self._names.variable(m[3])
+                give_name(self._value[m[2]], self._names.variable(m[3]))
             return
         if (
             re.match(r"(tail )?call void @llvm\.(dbg\.|lifetime|assume|experimental\.noalias)", line)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .graph import Graph, Node, live
+from .graph import Graph, Node, give_name, live
 
 
 def rebuilt(graph: Graph, make: Callable[[Graph, Node, list[Node]], Node]) -> Graph:
@@ -16,8 +16,7 @@ def rebuilt(graph: Graph, make: Callable[[Graph, Node, list[Node]], Node]) -> Gr
     of: dict[int, Node] = {}
     for n in live(graph.outputs.values()):
         node = make(new, n, [of[a.number] for a in n.args])
-        if n.name and not node.name and node.width == n.width:
-            node.name = n.name
+        give_name(node, n.name)
         of[n.number] = node
     new.outputs = {name: of[n.number] for name, n in graph.outputs.items()}
     return new
@@ -79,7 +78,7 @@ def narrowed(graph: Graph) -> Graph:
                         "or": new.or_,
                         "xor": new.xor,
                     }[n.op](*cut)
-            low.name = low.name or n.name
+            give_name(low, n.name)
             return new.zext(low, n.width)  # the bits above are never looked at
         return new.made(n, args)
 

@@ -92,6 +92,19 @@ def _move_later(
             return
 
 
+def begins_and_ends(graph: Graph, schedule: Schedule, delays: Delays) -> dict[int, tuple[float, float]]:
+    """When each operation begins and ends, in ns from the edge that its stage begins with."""
+    times: dict[int, tuple[float, float]] = {}
+    for n in live(graph.outputs.values()):
+        if n.op == "const":
+            continue
+        stage = schedule.end(n)
+        ready = (times[a.number][1] for a in n.args if a.op != "const" and schedule.end(a) == stage)
+        begin = max(ready, default=delays.register)
+        times[n.number] = begin, begin + (0.0 if n.op in WIRING else delays.of(n))
+    return times
+
+
 def _fits(nodes: list[Node], delays: Delays, period: float, stage: dict[int, int]) -> bool:
     ready: dict[int, float] = {}
     for n in nodes:

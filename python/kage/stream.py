@@ -96,6 +96,8 @@ DERIVED = {
     "command_count_bits": lambda c: DERIVED["plain_count_bits"](c) if DERIVED["plain_count_bits"](c) > DERIVED["sample_end_bits"](c) else DERIVED["sample_end_bits"](c),  # a command's count: w, bias, class, or of ES {light, bias}
     "share_bits": lambda c: 1 if c.TRANSLUCENCY == 0 else (DERIVED["factor_bits"](c) if c.COUNT_BITS == 0 and c.SHADE_FRAC > 7 else 8),  # TP's alpha, or RESOLVE's shade
     "rgb_bits": lambda c: 8 * c.CHANNELS,  # one pixel's colour
+    "look_bits": lambda c: DERIVED["class_field_bits"](c) + DERIVED["weight_field_bits"](c) + DERIVED["alpha_field_bits"](c) + DERIVED["rgb_bits"](c),  # a polygon's class, weight, alpha and flat colour, as POLYGON has them
+    "gradients_bits": lambda c: c.CHANNELS * 3 * DERIVED["color_plane_bits"](c) if c.SMOOTH > 0 else 0,  # the planes of a polygon's colour: of each channel value, right and down
     "tally_bits": lambda c: c.LIGHTS * c.COUNT_BITS,  # a pixel's counters
     "exit_class_bits": lambda c: c.CLASS_BITS if DERIVED["has_table"](c) else 0,  # the class of a pixel that leaves
     "dark_bits": lambda c: 1 if c.COUNT_BITS == 0 and c.DSF_BITS > 0 else 0,  # whether a pixel that leaves is in shadow, where no counts say it
@@ -106,6 +108,7 @@ DERIVED = {
     "pixel_bits": lambda c: c.Z_BITS + DERIVED["rgb_bits"](c) + DERIVED["class_field_bits"](c) + c.DSF_BITS + c.FSF + DERIVED["tally_bits"](c),  # a pixel's state
     "exit_bits": lambda c: DERIVED["rgb_bits"](c) + 1 + DERIVED["exit_class_bits"](c) + DERIVED["tally_bits"](c) + DERIVED["dark_bits"](c),  # a pixel that leaves
     "entry_bits": lambda c: c.ORDER_BITS + DERIVED["class_field_bits"](c) + DERIVED["depth_bits"](c) + DERIVED["rgb_bits"](c),  # a face in its unit's table, as FACE has it from index on
+    "active_bits": lambda c: DERIVED["place_bits"](c) + 17 + DERIVED["walked_edge_bits"](c) + DERIVED["walked_edge_bits"](c) + DERIVED["look_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["gradients_bits"](c),  # a polygon that the front end keeps from line to line
     "point_bits": lambda c: DERIVED["class_field_bits"](c) + DERIVED["rgb_bits"](c) + c.ORDER_BITS + c.Z_BITS,  # a pixel in the compare tree, with its key highest
 }
 

@@ -76,6 +76,10 @@ constexpr int command_count_bits(const Config& c) { return plain_count_bits(c) >
 constexpr int share_bits(const Config& c) { return c.translucency == 0 ? 1 : (c.count_bits == 0 && c.shade_frac > 7 ? factor_bits(c) : 8); }
 /// one pixel's colour
 constexpr int rgb_bits(const Config& c) { return 8 * c.channels; }
+/// a polygon's class, weight, alpha and flat colour, as POLYGON has them
+constexpr int look_bits(const Config& c) { return class_field_bits(c) + weight_field_bits(c) + alpha_field_bits(c) + rgb_bits(c); }
+/// the planes of a polygon's colour: of each channel value, right and down
+constexpr int gradients_bits(const Config& c) { return c.smooth > 0 ? c.channels * 3 * kColorPlaneBits : 0; }
 /// a pixel's counters
 constexpr int tally_bits(const Config& c) { return c.lights * c.count_bits; }
 /// the class of a pixel that leaves
@@ -96,6 +100,8 @@ constexpr int pixel_bits(const Config& c) { return c.z_bits + rgb_bits(c) + clas
 constexpr int exit_bits(const Config& c) { return rgb_bits(c) + 1 + exit_class_bits(c) + tally_bits(c) + dark_bits(c); }
 /// a face in its unit's table, as FACE has it from index on
 constexpr int entry_bits(const Config& c) { return c.order_bits + class_field_bits(c) + depth_bits(c) + rgb_bits(c); }
+/// a polygon that the front end keeps from line to line
+constexpr int active_bits(const Config& c) { return kPlaceBits + 17 + kWalkedEdgeBits + kWalkedEdgeBits + look_bits(c) + plane_bits(c) + plane_bits(c) + plane_bits(c) + gradients_bits(c); }
 /// a pixel in the compare tree, with its key highest
 constexpr int point_bits(const Config& c) { return class_field_bits(c) + rgb_bits(c) + c.order_bits + c.z_bits; }
 

@@ -168,10 +168,11 @@ struct GoldenCore::Data {
     }
   }
 
-  /// A token of the span level: what is wrong with it, or it has done what it does.
+  /// A token of the span level: what is wrong with it, or it has done what it does. One that the front end makes has no
+  /// words of the stream.
   ErrorCode take(const Token& next, std::span<const std::uint32_t> words, const LineSink& sink) {
     if (const ErrorCode e = parts.rules.accept(next, token); e != ErrorCode::NONE) return e;
-    if (observer != nullptr) observer->before(token, next, words, view());
+    if (observer != nullptr) observer->before(token, next, words.empty() ? words_of(next) : words, view());
     if (next.kind == Kind::END) {
       at = At::ended;
       return ErrorCode::NONE;
@@ -186,12 +187,18 @@ struct GoldenCore::Data {
 
   /// The token at hand, of the polygon level: what the front end makes of it.
   ErrorCode take_polygons(std::span<const std::uint32_t> body, const LineSink& sink) {
-    return front_end.accept(t, [&](const Token& token_of_spans, bool made) {
-      if (observer == nullptr || (!made && token_of_spans.kind == t.kind)) return take(token_of_spans, body, sink);
-      made_words.clear();
-      writer.token(token_of_spans);
-      return take(token_of_spans, made_words, sink);
+    if (observer != nullptr) observer->came(token, t, body);
+    return front_end.accept(t, [&](const Token& of_spans, bool made) {
+      const bool as_it_came = !made && of_spans.kind == t.kind;
+      return take(of_spans, as_it_came ? body : std::span<const std::uint32_t>(), sink);
     });
+  }
+
+  /// The words of a token that the front end has made and the rules have taken.
+  std::span<const std::uint32_t> words_of(const Token& made) {
+    made_words.clear();
+    writer.token(made);
+    return made_words;
   }
 
   [[nodiscard]] LineView view() const { return LineView(parts); }

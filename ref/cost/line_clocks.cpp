@@ -61,13 +61,14 @@ void LineClockCounter::begin(int frame, const FrameHeader& header) {
   frame_ = frame;
   width_ = header.width;
   height_ = header.height;
+  spans_.start(header);
   counter_.start(header.width);
 }
 
 void LineClockCounter::add(int frame, std::span<const std::uint32_t> words) {
   begin(frame, FrameHeader::read(words));
   TokenWalk walk(layout_, words);
-  for (auto token = walk.next(); !token.empty(); token = walk.next()) counter_.token(decode(config_, layout_, token));
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) this->token(decode(config_, layout_, token, walk.level()));
   end();
 }
 

@@ -10,6 +10,7 @@
 
 #include "cost/token_clocks.hpp"
 #include "kage/config.hpp"
+#include "stream/span_tokens.hpp"
 
 namespace kage {
 
@@ -62,10 +63,12 @@ inline constexpr double kWayOutClocks = 8;
 /// @return T, and the lines that decide it; 0 without lines
 LineClocks::Need needed_line(std::span<const std::uint64_t> lines);
 
-/// Adds frames up, for a core of one configuration.
+/// Adds frames up, for a core of one configuration. Of a frame at the polygon level the clocks are those of the core
+/// behind the front end: of the tokens that it makes or hands on.
 class LineClockCounter {
  public:
-  explicit LineClockCounter(const Config& config) : config_(config), layout_(config), counter_(config) {}
+  explicit LineClockCounter(const Config& config)
+      : config_(config), layout_(config), spans_(config), counter_(config) {}
 
   /// A sound frame with its number. Throws Error if it is wider than MAX_WIDTH.
   void add(int frame, std::span<const std::uint32_t> words);
@@ -73,7 +76,9 @@ class LineClockCounter {
   /// The same token by token, for several counters that share a frame's decoded tokens: begin(), token() of each,
   /// end().
   void begin(int frame, const FrameHeader& header);
-  void token(const Token& t) { counter_.token(t); }
+  void token(const Token& t) {
+    (void)spans_.add(t, [this](const Token& of_spans, bool) { counter_.token(of_spans); });
+  }
   void end();
 
   [[nodiscard]] const LineClocks& sums() const { return sums_; }
@@ -82,6 +87,7 @@ class LineClockCounter {
  private:
   Config config_;
   Layout layout_;
+  SpanTokens spans_;
   PhaseCounter counter_;
   LineClocks sums_;
   int frame_ = 0;

@@ -74,7 +74,7 @@ std::map<std::uint32_t, TokenSource> Provenance::of_tokens(const Config& config,
   std::size_t shadow = 0;
   std::size_t translucent = 0;
   for (std::uint32_t token = 1; !walk.peek().empty(); ++token) {
-    const auto kind = kind_of(walk.next()[0]);
+    const auto kind = kind_of(walk.next()[0], walk.level());
     const bool is_wanted = wanted.count(token) != 0;
     switch (kind) {
       case Kind::OP:

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "contract/kinds.hpp"
 #include "polygon/active_polygon.hpp"
 #include "polygon/place.hpp"
 #include "polygon/volume_ends.hpp"
@@ -34,7 +35,8 @@ class FrontEnd {
   ErrorCode accept(const Token& t, Emit emit) {
     const auto make = [&emit](const Token& token) { return emit(token, true); };
     // Nothing may come between a POLYGON and its edges.
-    if (begun_ && t.kind != Kind::EDGE && t.kind != Kind::GRADIENT) return ErrorCode::PLACE;
+    if (begun_ && !completes(t.kind)) return ErrorCode::PLACE;
+    if (info_of(t.kind).span) return span(t, make, emit);
     switch (t.kind) {
       case Kind::AT:
         return go_to(t);
@@ -44,11 +46,6 @@ class FrontEnd {
         return gradient(t.polygon);
       case Kind::EDGE:
         return edge(t.polygon, make);
-      case Kind::OP:
-      case Kind::SP:
-      case Kind::NC:
-      case Kind::TP:
-        return span(t, make, emit);
       case Kind::EOL:
         return end_line(t, make, emit);
       default:
@@ -62,6 +59,17 @@ class FrontEnd {
     at_ = 0;
     have_ = {};
     ends_.start();
+  }
+
+  /// Whether a POLYGON waits for it.
+  [[nodiscard]] static constexpr bool completes(Kind kind) {
+    switch (kind) {
+      case Kind::EDGE:
+      case Kind::GRADIENT:
+        return true;
+      default:
+        return false;
+    }
   }
 
   [[nodiscard]] static constexpr Layer layer_of(Kind kind) {

@@ -16,17 +16,17 @@ class VolumeEnds {
   explicit VolumeEnds(const Config& config) : fsf_(config.fsf != 0), counts_(config.count_bits > 0) {}
 
   /// A line begins.
-  void start() { any_ = volume_open_ = sample_open_ = false; }
+  void start() { any_ = in_volume_ = in_sample_ = false; }
 
   /// A token of a volume at this place comes, over pixels [xl, xr); emit(token) what ends before it.
   template <class Emit>
   ErrorCode token(Place place, int xl, int xr, Emit emit) {
-    if (volume_open_ && place.volume() != place_.volume())
+    if (in_volume_ && place.volume() != place_.volume())
       if (const ErrorCode e = end_volume(emit); e != ErrorCode::NONE) return e;
-    if (sample_open_ && place.sample() != place_.sample())
+    if (in_sample_ && place.sample() != place_.sample())
       if (const ErrorCode e = end_sample(emit); e != ErrorCode::NONE) return e;
-    volume_.add(volume_open_, xl, xr);
-    any_ = volume_open_ = true;
+    volume_.add(in_volume_, xl, xr);
+    any_ = in_volume_ = true;
     place_ = place;
     return ErrorCode::NONE;
   }
@@ -55,15 +55,15 @@ class VolumeEnds {
 
   template <class Emit>
   ErrorCode end_volume(Emit emit) {
-    sample_.add(sample_open_, volume_.xl, volume_.xr);
-    sample_open_ = true;
-    volume_open_ = false;
+    sample_.add(in_sample_, volume_.xl, volume_.xr);
+    in_sample_ = true;
+    in_volume_ = false;
     return fsf_ ? emit(made(Kind::EV, volume_)) : ErrorCode::NONE;
   }
 
   template <class Emit>
   ErrorCode end_sample(Emit emit) {
-    sample_open_ = false;
+    in_sample_ = false;
     return counts_ ? emit(made(Kind::ES, sample_)) : ErrorCode::NONE;
   }
 
@@ -79,8 +79,8 @@ class VolumeEnds {
   bool fsf_;
   bool counts_;
   bool any_ = false;
-  bool volume_open_ = false;
-  bool sample_open_ = false;
+  bool in_volume_ = false;
+  bool in_sample_ = false;
   Place place_;  // of the open ones
   Range volume_;
   Range sample_;

@@ -139,8 +139,7 @@ struct FrameChecker::Data {
     }
     if (t.kind == Kind::SEG && !rules.outcome().taken) fail(rules.outcome().fault);
     if (t.kind == Kind::SEG) check_segment(t.segment);
-    count_span(counts, t);
-    counts.made += made && info.span ? 1 : 0;
+    count_span(counts, t, made);
     const SpanToken& s = t.span;
     const int count = s.xr - s.xl;
     if (info.depth && !span_fits(s.z, s.dz, count, layout.op_z.bits)) fail("the span's depth overflows");

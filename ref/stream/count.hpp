@@ -9,17 +9,12 @@
 
 namespace kage {
 
-/// Adds a token to the counts of spans, if it is one.
-inline void count_span(TokenCounts& counts, const Token& t) {
+/// Adds a token of the span level to the counts of spans, if it is one; `made` by the front end, or as it came.
+inline void count_span(TokenCounts& counts, const Token& t, bool made = false) {
   if (!info_of(t.kind).span) return;
   ++counts.spans;
+  if (made) ++counts.made;
   counts.span_pixels += static_cast<std::uint64_t>(std::max(0, t.span.xr - t.span.xl));
-}
-
-/// Adds a token to its kind's count and, if it is a span, to those of spans. Words and units are the caller's.
-inline void count_token(TokenCounts& counts, const Token& t) {
-  ++counts.of_kind[static_cast<std::size_t>(t.kind)];
-  count_span(counts, t);
 }
 
 }  // namespace kage

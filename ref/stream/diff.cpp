@@ -55,7 +55,7 @@ class GroupReader {
   /// Of the next token; 0, which is no kind, where there is none.
   [[nodiscard]] Kind kind() const {
     const Words token = walk_.peek();
-    return token.empty() ? Kind{} : kind_of(token[0]);
+    return token.empty() ? Kind{} : kind_of(token[0], walk_.level());
   }
 
   void start(Group& group) const {

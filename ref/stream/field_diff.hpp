@@ -23,12 +23,13 @@ struct FieldDiff {
 /// The first field in which two tokens differ; nothing if they are equal up to their last field. Tokens of two kinds
 /// differ in their kind and need not be of one length.
 inline std::optional<FieldDiff> first_field_diff(const Config& config, const Layout& layout,
-                                                 std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) {
+                                                 std::span<const std::uint32_t> a, std::span<const std::uint32_t> b,
+                                                 Level level = Level::spans) {
   BitUnpacker of_a(a);
   BitUnpacker of_b(b);
   std::optional<FieldDiff> found = FieldDiff{"kind", of_a.take(kKindField), of_b.take(kKindField)};
   if (found->a != found->b) return found;
-  const auto of = static_cast<Kind>(found->a);
+  const Kind of = kind_of(static_cast<std::uint32_t>(found->a), level);
   found.reset();
   each_field(config, layout, of, [&](const char* name, int channel, Field f) {
     if (found) return;

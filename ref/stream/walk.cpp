@@ -8,6 +8,7 @@
 #include "kage/stream.hpp"
 #include "number/counted.hpp"
 #include "stream/count.hpp"
+#include "stream/span_tokens.hpp"
 
 namespace kage {
 
@@ -33,10 +34,10 @@ std::span<const std::uint32_t> TokenWalk::next() {
 std::string TokenWalk::rest_text() const {
   if (rest_.empty()) return "";
   if (ended_) return counted(rest_.size(), "word") + " behind END";
-  const auto kind = static_cast<std::size_t>(kind_of(rest_[0], level_));
+  const Kind kind = kind_of(rest_[0], level_);
   const std::size_t length = layout_->words_of(rest_[0], level_);
-  if (length == 0) return fmt::format("kind {}, which is no token here", kind);
-  return fmt::format("{} of {} words, cut after {}", kKindNames[kind], length, rest_.size());
+  if (length == 0) return fmt::format("kind {}, which is no token here", code_of(kind));
+  return fmt::format("{} of {} words, cut after {}", kKindNames[static_cast<std::size_t>(kind)], length, rest_.size());
 }
 
 std::string words_text(std::span<const std::uint32_t> words) { return fmt::format("{:#010x}", fmt::join(words, " ")); }
@@ -46,9 +47,14 @@ TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> wo
   TokenCounts counts;
   counts.words = words.size();
   TokenWalk walk(layout, words);
+  SpanTokens spans(config);
+  spans.start(FrameHeader::read(words));
+  bool refused = false;  // by the front end
   for (auto token = walk.next(); !token.empty(); token = walk.next()) {
     const Token t = decode(config, layout, token, walk.level());
-    count_token(counts, t);
+    ++counts.of_kind[static_cast<std::size_t>(t.kind)];
+    const auto count = [&](const Token& of_spans, bool made) { count_span(counts, of_spans, made); };
+    refused = refused || spans.add(t, count) != ErrorCode::NONE;
     if (t.kind == Kind::FACE) counts.units = std::max(counts.units, t.segment.unit + 1);
   }
   return counts;

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """ref/contract/derived.hpp: numbers that follow from the parameters."""
 
-from expressions import camel, cpp_expr, linked
+from expressions import camel
 from files import NOTE
 
 
@@ -23,7 +23,7 @@ def derived(defs):
         "",
     ]
     for n in defs.d["derived"]:
-        value = cpp_expr(linked(n["value"], r"\1(c)"), defs.names)
+        value = defs.cpp_derived(n["value"]).replace("derived::", "")
         kind = {"flag": "bool", "unsigned": "std::uint32_t"}.get(n["is"], "int")
         if n["is"] == "unsigned":
             value = f"static_cast<std::uint32_t>({value})"

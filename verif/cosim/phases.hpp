@@ -33,6 +33,7 @@ class PhaseMarker {
   void start() {
     phase_ = Phase::state;
     left_ = kHeaderWords;
+    first_ = true;
   }
 
   /// The next of its words: a mark each is added to `marks`.
@@ -42,6 +43,8 @@ class PhaseMarker {
   Layout layout_;
   Phase phase_ = Phase::state;
   std::uint64_t left_ = kHeaderWords;  // words of the token at hand
+  bool first_ = true;                  // the next word is the frame's first
+  Level level_ = Level::spans;
 };
 
 }  // namespace kage::cosim

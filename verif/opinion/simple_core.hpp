@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "kage/core.hpp"
 #include "kage/defs.hpp"
 #include "opinion/simple_frame.hpp"
+#include "opinion/simple_polygons.hpp"
 
 namespace kage::verif {
 
@@ -24,12 +26,14 @@ class SimpleCore : private SimpleFrame {
     if (words_.size() < 5) return fail(ErrorCode::LAST_EARLY);
     const int width = static_cast<int>(words_[1] & 0xFFFFU);
     const int height = static_cast<int>(words_[1] >> 16);
-    if (words_[0] != (kStreamMagic << 16 | kStreamVersion)) return fail(ErrorCode::HEADER);
+    const bool polygons = words_[0] == (kStreamMagic << 16 | 2) && c_.active > 0;
+    if (words_[0] != (kStreamMagic << 16 | 1) && !polygons) return fail(ErrorCode::HEADER);
     if (width == 0 || height == 0 || width > c_.max_width || height > 32767) return fail(ErrorCode::SIZE);
     if (words_[2] != param_hash(c_)) return fail(ErrorCode::PARAMS);
     status_.width = width;
     status_.height = height;
     units_.resize(static_cast<std::size_t>(c_.units));
+    if (polygons) polygons_.emplace(c_, width);
     clear();
     at_ = 5;
     token_ = 1;
@@ -42,24 +46,112 @@ class SimpleCore : private SimpleFrame {
     return status_;
   }
 
+  /// SimplePolygons::loose() of the frame that has been run.
+  [[nodiscard]] bool loose() const { return polygons_ && polygons_->loose(); }
+
  private:
   // One token; false at the end of the frame or at an error.
   bool step() {
     if (at_ >= words_.size()) return refuse(ErrorCode::LAST_EARLY);
-    const Kind kind = kind_of(words_[at_]);
-    const std::size_t length = l_.words_of(words_[at_]);
+    const Kind kind = kind_here();
+    const std::size_t length = l_.words[static_cast<std::size_t>(kind)];
     if (length == 0) return refuse(ErrorCode::KIND);
     if (at_ + length > words_.size()) return refuse(ErrorCode::LAST_EARLY);
-    if (due_ && kind != Kind::SEG && kind != Kind::TREE && kind != Kind::END) return refuse(ErrorCode::ORDER);
-    if (!take(kind)) return false;
+    if (!(polygons_ ? take_polygons(kind) : take(kind))) return false;
     at_ += length;
     return true;
   }
 
+  // The kind of the stream's next token: at the polygon level four codes are of other tokens.
+  [[nodiscard]] Kind kind_here() const {
+    const std::uint32_t code = words_[at_] & 15U;
+    if (polygons_ && code == 9) return Kind::GRADIENT;
+    if (polygons_ && code == 10) return Kind::POLYGON;
+    if (polygons_ && code == 11) return Kind::EDGE;
+    if (polygons_ && code == 12) return Kind::AT;
+    return static_cast<Kind>(code);
+  }
+
+  // A token of a frame at the polygon level; false as step().
+  bool take_polygons(Kind kind) {
+    using Verdict = SimplePolygons::Verdict;
+    const auto verdict = polygons_->take(
+        kind, [this](Field f) { return field(f); }, [this](const PlainSpan& s) { return take_made(s); });
+    switch (verdict) {
+      case Verdict::done:
+        return true;
+      case Verdict::itself:
+        return take(kind);
+      case Verdict::stopped:
+        return false;
+      case Verdict::place:
+        return refuse(ErrorCode::PLACE);
+      default:
+        return refuse(ErrorCode::ACTIVE_FULL);
+    }
+  }
+
+  // A token that is made; false as step().
+  bool take_made(const PlainSpan& s) {
+    made_.assign(kMostTokenWords, 0);
+    const auto range = [&](Field xl, Field xr) {
+      put(xl, s.xl);
+      put(xr, s.xr);
+    };
+    const auto depth_and_color = [&](Field z, Field dz, const auto& color, const auto& dcolor) {
+      put(z, s.z);
+      put(dz, s.dz);
+      for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch) {
+        put(color[ch], s.color[ch]);
+        put(dcolor[ch], s.dcolor[ch]);
+      }
+    };
+    switch (s.kind) {
+      case Kind::OP:
+        range(l_.op_xl, l_.op_xr);
+        put(l_.op_class, s.normal_class);
+        depth_and_color(l_.op_z, l_.op_dz, l_.op_color, l_.op_dcolor);
+        break;
+      case Kind::TP:
+        range(l_.tp_xl, l_.tp_xr);
+        put(l_.tp_alpha, s.alpha);
+        depth_and_color(l_.tp_z, l_.tp_dz, l_.tp_color, l_.tp_dcolor);
+        break;
+      case Kind::SP:
+        range(l_.sp_xl, l_.sp_xr);
+        put(l_.sp_w, s.w);
+        put(l_.sp_z, s.z);
+        put(l_.sp_dz, s.dz);
+        break;
+      case Kind::IF:
+        put(l_.if_w, s.w);
+        break;
+      case Kind::EV:
+        range(l_.ev_xl, l_.ev_xr);
+        break;
+      case Kind::ES:
+        range(l_.es_xl, l_.es_xr);
+        put(l_.es_light, s.light);
+        // A light that the field cannot hold is none that the core has.
+        if (s.light >= c_.lights && !all_lines() && phase_ == 1 && sample_ && !(c_.fsf != 0 && open_)) {
+          made_.clear();
+          return refuse(ErrorCode::RANGE);
+        }
+        break;
+      default:
+        break;
+    }
+    const bool good = take(s.kind);
+    made_.clear();
+    return good;
+  }
+
   // What a token of each kind does; false as step().
   bool take(Kind kind) {
+    if (due_ && kind != Kind::SEG && kind != Kind::TREE && kind != Kind::END) return refuse(ErrorCode::ORDER);
     using Take = bool (SimpleCore::*)();
     constexpr std::array<Take, 16> kTakes{
+        // of the span level
         nullptr,           &SimpleCore::shade, &SimpleCore::table,   &SimpleCore::face, &SimpleCore::seg,
         &SimpleCore::tree, &SimpleCore::op,    &SimpleCore::sp,      &SimpleCore::nc,   &SimpleCore::inside,
         &SimpleCore::ev,   &SimpleCore::es,    &SimpleCore::resolve, &SimpleCore::tp,   &SimpleCore::eol,
@@ -278,11 +370,17 @@ class SimpleCore : private SimpleFrame {
     const auto beat = static_cast<std::size_t>(c_.beat_words);
     return (at_ / beat + 1) * beat == words_.size() ? false : refuse(ErrorCode::LAST_LATE);
   }
+
+  std::optional<SimplePolygons> polygons_;  // of a frame at the polygon level
 };
 
-inline FrameStatus simple_core(const Config& c, const std::vector<std::uint32_t>& words,
-                               std::vector<std::uint8_t>& out) {
-  return SimpleCore(c, words, out).run();
+/// @param loose gets whether the contract leaves open what the frame shows, if given
+inline FrameStatus simple_core(const Config& c, const std::vector<std::uint32_t>& words, std::vector<std::uint8_t>& out,
+                               bool* loose = nullptr) {
+  SimpleCore core(c, words, out);
+  const FrameStatus status = core.run();
+  if (loose != nullptr) *loose = core.loose();
+  return status;
 }
 
 }  // namespace kage::verif

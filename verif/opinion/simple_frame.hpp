@@ -41,10 +41,17 @@ class SimpleFrame {
     std::int64_t v = 0;
     for (unsigned i = 0; i < f.bits; ++i) {
       const unsigned bit = f.lsb + i;
-      if ((words_[at_ + bit / 32] >> (bit % 32)) & 1U) v |= std::int64_t{1} << i;
+      const std::uint32_t word = made_.empty() ? words_[at_ + bit / 32] : made_[bit / 32];
+      if ((word >> (bit % 32)) & 1U) v |= std::int64_t{1} << i;
     }
     if (f.is_signed && f.bits > 0 && ((v >> (f.bits - 1)) & 1) != 0) v -= std::int64_t{1} << f.bits;
     return v;
+  }
+
+  /// Puts a value into a field of made_.
+  void put(Field f, std::int64_t value) {
+    for (unsigned i = 0; i < f.bits; ++i)
+      if (((value >> i) & 1) != 0) made_[(f.lsb + i) / 32] |= 1U << ((f.lsb + i) % 32);
   }
 
   // The value of an accumulator of so many bits: what two's complement leaves of it.
@@ -192,6 +199,7 @@ class SimpleFrame {
   Config c_;
   Layout l_;
   std::vector<std::uint32_t> words_;
+  std::vector<std::uint32_t> made_;  // the token at hand, if it is none of the stream
   std::vector<std::uint8_t>* out_;
   FrameStatus status_;
   std::vector<Pixel> pixels_;

@@ -39,20 +39,25 @@ Coverage::Ramp Coverage::add_ramp(bool there, const std::string& group, const st
   return r;
 }
 
-Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
+Coverage::Coverage(const Config& config, Level level) : config_(config), golden_(config) {
   const Config& c = config_;
   const Layout layout(c);
-  const auto has = [&](Kind k) { return layout.words[static_cast<std::size_t>(k)] != 0; };
+  const bool polygons = level == Level::polygons;
+  // Whether frames at this level bring it, or the front end makes it.
+  const auto comes = [&](std::size_t k) {
+    const auto kind = static_cast<Kind>(k);
+    return layout.words[k] != 0 && (polygons || kind_of(code_of(kind)) == kind);
+  };
+  const auto has = [&](Kind k) { return comes(static_cast<std::size_t>(k)); };
   const bool shadows = c.dsf_bits > 0;
   const bool table = derived::has_table(c);
-  for (std::size_t k = 0; k < kind_.size(); ++k)
-    kind_[k] = add(layout.words[k] != 0, "token", std::string(kKindNames[k]));
+  for (std::size_t k = 0; k < kind_.size(); ++k) kind_[k] = add(comes(k), "token", std::string(kKindNames[k]));
   one_wide_ = add(true, "frame", "one pixel wide");
   widest_ = add(true, "frame", "as wide as can be");
   one_line_ = add(true, "frame", "of one line");
   bare_line_ = add(true, "frame", "a line with nothing on it");
   for (std::size_t k = 0; k < span_.size(); ++k)
-    if (kKindInfo[k].range) span_[k] = add_span(layout.words[k] != 0, std::string(kKindNames[k]));
+    if (kKindInfo[k].range) span_[k] = add_span(comes(k), std::string(kKindNames[k]));
   depth_ = add_ramp(true, "depth", "a span's depth");
   tie_ = add(true, "depth", "OP as deep as what it meets");
   behind_ = add(true, "depth", "OP behind what it meets");
@@ -90,9 +95,21 @@ Coverage::Coverage(const Config& config) : config_(config), golden_(config) {
   unit_full_ = add(c.units > 0 && derived::most_segments(c) <= c.max_width, "tree",
                    "a line of as many segments as a unit holds");
   last_face_ = add(c.units > 0, "tree", "a face of the last number but the blank one");
+  edge_later_ = add(polygons, "polygon", "a later edge");
+  edge_last_ = add(polygons, "polygon", "an edge that ends its polygon");
+  edge_left_ = add(polygons, "polygon", "an edge left of the line");
+  edge_right_ = add(polygons, "polygon", "an edge right of the line");
+  plain_ = add(polygons && c.smooth != 0, "polygon", "one colour without GRADIENT");
+  whole_cap_ = add(polygons && has(Kind::NC), "polygon", "NC over the whole line becomes IF");
+  made_at_polygon_ = add(polygons, "polygon", "a span made before POLYGON");
+  made_at_edge_ = add(polygons, "polygon", "a span made at its second EDGE");
+  made_at_span_ = add(polygons, "polygon", "a span made before one that comes");
+  made_at_eol_ = add(polygons, "polygon", "a span made before EOL");
   for (std::size_t e = 1; e < error_.size(); ++e) {
     const auto code = static_cast<ErrorCode>(e);
-    error_[e] = add(!is_of_unit(code) || c.units > 0, "error", std::string(kErrorNames[e]));
+    const bool of_polygons = code == ErrorCode::PLACE || code == ErrorCode::ACTIVE_FULL;
+    error_[e] =
+        add((!is_of_unit(code) || c.units > 0) && (!of_polygons || polygons), "error", std::string(kErrorNames[e]));
   }
   seen_.resize(points_.size());
   golden_.observe(this);
@@ -149,6 +166,8 @@ void Coverage::header(std::span<const std::uint32_t> words, const LineView& line
   hit(widest_, line.width() == config_.max_width);
   hit(one_line_, FrameHeader::read(words).height == 1);
   state_told_ = shade_ = has_spans_ = false;
+  waits_ = 0;
+  came_ = {};
   table_.clear();
   faces_.assign(static_cast<std::size_t>(config_.units), {});
   segments_.assign(static_cast<std::size_t>(config_.units), 0);
@@ -166,9 +185,39 @@ void Coverage::frame_state() {
                                                           static_cast<std::size_t>(config_.lights));
 }
 
+void Coverage::came(std::uint32_t /*index*/, const Token& t, std::span<const std::uint32_t> /*words*/) {
+  came_ = t.kind;
+  if (kind_of(code_of(t.kind)) == t.kind) return;  // before() has it, or what it becomes
+  hit(kind_[static_cast<std::size_t>(t.kind)]);
+  if (t.kind == Kind::POLYGON) {
+    waits_ = 2;
+    gradient_ = false;
+  }
+  if (t.kind == Kind::GRADIENT) gradient_ = true;
+  if (t.kind != Kind::EDGE) return;
+  hit(edge_later_, waits_ == 0);
+  hit(plain_, waits_ == 1 && !gradient_);
+  if (waits_ > 0) --waits_;
+  hit(edge_last_, t.polygon.last);
+  hit(edge_left_, t.polygon.top_x < 0 && t.polygon.bottom_x < 0);
+  const int right = golden_.line().width() * 256;
+  hit(edge_right_, t.polygon.top_x > right && t.polygon.bottom_x > right);
+}
+
+// At the polygon level: the front end makes this token, or makes IF of an NC.
+void Coverage::made(Kind kind) {
+  hit(whole_cap_, kind == Kind::IF);
+  if (!info_of(kind).span) return;
+  hit(made_at_polygon_, came_ == Kind::POLYGON);
+  hit(made_at_edge_, came_ == Kind::EDGE);
+  hit(made_at_span_, info_of(came_).span && came_ != kind);
+  hit(made_at_eol_, came_ == Kind::EOL);
+}
+
 void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const std::uint32_t> /*words*/,
                       const LineView& line) {
   hit(kind_[static_cast<std::size_t>(t.kind)]);
+  if (came_ != Kind{} && came_ != t.kind) made(t.kind);
   const std::uint32_t all = derived::whole_share(config_);
   switch (t.kind) {
     case Kind::SHADE:

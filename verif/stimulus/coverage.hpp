@@ -26,7 +26,8 @@ struct CoveragePoint {
 /// Counts, by what the golden core does with the frames' words.
 class Coverage : private CoreObserver {
  public:
-  explicit Coverage(const Config& config);
+  /// Of frames at that level.
+  explicit Coverage(const Config& config, Level level = Level::spans);
 
   /// A frame, its words in pieces.
   void words(std::span<const std::uint32_t> piece);
@@ -71,8 +72,10 @@ class Coverage : private CoreObserver {
   void header(std::span<const std::uint32_t> words, const LineView& line) override;
   void before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,
               const LineView& line) override;
+  void came(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words) override;
   void after(std::uint32_t index, const Token& token, const LineView& line) override;
   void failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) override;
+  void made(Kind kind);
   void ramps(const SpanToken& s, bool colored);
   void opaque(const SpanToken& s, const LineView& line);
   void volume(const Token& t, const LineView& line);
@@ -98,10 +101,13 @@ class Coverage : private CoreObserver {
   std::vector<std::vector<std::int64_t>> faces_;  // dz, of each unit
   std::vector<int> segments_;                     // of the unit's line at hand
   bool has_spans_ = false;                        // the line at hand
+  int waits_ = 0;                                 // edges that a POLYGON waits for
+  bool gradient_ = false;                         // it has had a GRADIENT
+  Kind came_{};                                   // at the polygon level the stream's token
 
-  std::array<Point, 16> kind_{};
-  std::array<Span, 16> span_{};
-  std::array<Point, 13> error_{};
+  std::array<Point, kKinds> kind_{};
+  std::array<Span, kKinds> span_{};
+  std::array<Point, kErrorNames.size()> error_{};
   Ramp depth_{}, face_depth_{}, color_{};
   Point tie_{}, behind_{}, unlit_{}, last_class_{};
   Point one_wide_{}, widest_{}, one_line_{}, bare_line_{};
@@ -109,6 +115,8 @@ class Coverage : private CoreObserver {
   Point table_none_{}, table_whole_{}, table_cut_{}, share_most_{}, black_{}, counter_full_{};
   Point weight_plus_{}, weight_minus_{}, weight_other_{}, inside_at_ev_{}, bias_at_ev_{}, dark_{};
   Point alpha_none_{}, alpha_some_{}, alpha_all_{}, over_clear_{}, over_surface_{}, hidden_{};
+  Point edge_later_{}, edge_last_{}, edge_left_{}, edge_right_{}, whole_cap_{}, plain_{};
+  Point made_at_polygon_{}, made_at_edge_{}, made_at_span_{}, made_at_eol_{};
   Point unit_tie_{}, index_tie_{}, blank_{}, dx_one_{}, dx_most_{}, unit_full_{}, last_face_{};
 };
 

@@ -183,4 +183,88 @@ void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& wo
   }
 }
 
+namespace {
+
+/// An edge that does not go down through its line.
+void damage_edge(Random& random, TokenPlaces& places, At edge) {
+  const Layout& layout = places.layout();
+  const std::uint64_t top = places.get(edge, layout.edge_top_y);
+  const std::uint64_t bottom = places.get(edge, layout.edge_bottom_y);
+  switch (random.in(0, 3)) {
+    case 0:  // it goes up
+      places.put(edge, layout.edge_top_y, bottom);
+      places.put(edge, layout.edge_bottom_y, top);
+      break;
+    case 1:  // it has no height
+      places.put(edge, layout.edge_bottom_y, top);
+      break;
+    case 2:  // it begins later
+      places.put(edge, layout.edge_top_y, top + static_cast<std::uint64_t>(random.in(1, 600)));
+      break;
+    default:  // it ends earlier
+      places.put(edge, layout.edge_bottom_y, bottom - static_cast<std::uint64_t>(random.in(1, 600)));
+  }
+}
+
+/// More polygons at one place than the core keeps: what follows a POLYGON up to its second edge, again and again, and
+/// none of them ends.
+void crowd(const Config& c, TokenPlaces& places, At polygon, std::vector<std::uint32_t>& words) {
+  const Layout& layout = places.layout();
+  const auto& all = places.all();
+  std::size_t end = static_cast<std::size_t>(std::find(all.begin(), all.end(), polygon) - all.begin()) + 1;
+  while (end < all.size() && words[static_cast<std::size_t>(all[end])] % 16 != code_of(Kind::AT)) ++end;
+  if (end == all.size()) return;
+  for (const At edge : places.of(Kind::EDGE))
+    if (edge > polygon && edge < all[end]) places.put(edge, layout.edge_last, 0);
+  const std::vector<std::uint32_t> whole(words.begin() + polygon, words.begin() + all[end]);
+  for (int i = 0; i < std::min(c.active, 40); ++i) words.insert(words.begin() + all[end], whole.begin(), whole.end());
+}
+
+}  // namespace
+
+void damage_polygons(Random& random, const Config& c, std::vector<std::uint32_t>& words) {
+  constexpr std::array<Kind, 4> kKinds{Kind::AT, Kind::POLYGON, Kind::EDGE, Kind::GRADIENT};
+  for (int round = random.chance(0.7) ? 1 : random.in(2, 3); round > 0; --round) {
+    TokenPlaces places(c, words);
+    if (!places.whole() || places.level() != Level::polygons) return;
+    const Kind kind = kKinds[static_cast<std::size_t>(random.in(0, 3))];
+    const auto& of = places.of(kind);
+    if (of.empty()) continue;
+    const Layout& layout = places.layout();
+    const At at = any(random, of);
+    const At length = places.length(kind);
+    switch (random.in(0, 6)) {
+      case 0:  // lost
+        places.erase(at, length);
+        break;
+      case 1:  // doubled, here or anywhere
+        places.copy(at, length, random.chance(0.3) ? at : any(random, places.all()));
+        break;
+      case 2: {  // a bit of it flipped
+        const auto bit = static_cast<std::uint32_t>(random.integer(0, 32 * length - 1));
+        words[static_cast<std::size_t>(at) + bit / 32] ^= 1U << bit % 32;
+        break;
+      }
+      default:
+        if (kind == Kind::EDGE) damage_edge(random, places, at);
+        if (kind == Kind::POLYGON) crowd(c, places, at, words);
+        if (kind == Kind::GRADIENT) places.put(at, layout.gradient_channel, static_cast<std::uint64_t>(c.channels));
+        if (kind != Kind::AT) break;
+        switch (random.in(0, 3)) {
+          case 0:
+            places.put(at, layout.at_layer, static_cast<std::uint64_t>(random.in(0, 3)));
+            break;
+          case 1:
+            places.put(at, layout.at_light, static_cast<std::uint64_t>(random.in(0, 7)));
+            break;
+          case 2:
+            places.put(at, layout.at_volume, places.get(at, layout.at_volume) - 1);
+            break;
+          default:
+            places.put(at, layout.at_rank, places.get(at, layout.at_rank) - 1);
+        }
+    }
+  }
+}
+
 }  // namespace kage::verif

@@ -19,11 +19,12 @@ class TokenPlaces {
  public:
   using At = std::vector<std::uint32_t>::difference_type;
 
-  TokenPlaces(const Config& c, std::vector<std::uint32_t>& words) : layout_(c), words_(&words) {
+  TokenPlaces(const Config& c, std::vector<std::uint32_t>& words)
+      : layout_(c), words_(&words), level_(FrameHeader::read(words).level()) {
     for (std::size_t at = kHeaderWords; at < words.size();) {
-      const std::size_t length = layout_.words_of(words[at]);
+      const std::size_t length = layout_.words_of(words[at], level_);
       if (length == 0 || length > words.size() - at) return;
-      places_[static_cast<std::size_t>(kind_of(words[at]))].push_back(static_cast<At>(at));
+      places_[static_cast<std::size_t>(kind_of(words[at], level_))].push_back(static_cast<At>(at));
       all_.push_back(static_cast<At>(at));
       at += length;
     }
@@ -33,6 +34,7 @@ class TokenPlaces {
   /// False if an earlier damage has left a word that is no token, or has cut the last token.
   [[nodiscard]] bool whole() const { return whole_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] Level level() const { return level_; }
   [[nodiscard]] const std::vector<At>& all() const { return all_; }
   [[nodiscard]] const std::vector<At>& of(Kind k) const { return places_[static_cast<std::size_t>(k)]; }
   [[nodiscard]] At length(Kind k) const { return layout_.words[static_cast<std::size_t>(k)]; }
@@ -51,7 +53,8 @@ class TokenPlaces {
 
   Layout layout_;
   std::vector<std::uint32_t>* words_;
-  std::array<std::vector<At>, 16> places_;
+  Level level_;
+  std::array<std::vector<At>, kKinds> places_;
   std::vector<At> all_;
   bool whole_ = false;
 };
@@ -68,5 +71,9 @@ void damage_light(Random& random, const Config& c, std::vector<std::uint32_t>& w
 /// Damage that a frame with a tree is made for: one to three faces, segments or TREEs that are not what they should be.
 /// The words must be a valid frame; one without units or tree stays as it is.
 void damage_tree(Random& random, const Config& c, std::vector<std::uint32_t>& words);
+
+/// Damage that frames at the polygon level are made for: one to three places, polygons, edges or planes that are not
+/// what they should be. The words must be a valid frame; one at the span level stays as it is.
+void damage_polygons(Random& random, const Config& c, std::vector<std::uint32_t>& words);
 
 }  // namespace kage::verif

@@ -27,8 +27,8 @@ struct FrameStyle {
 };
 
 /// Append a valid frame; returns how many tokens of each kind it has.
-std::array<std::uint64_t, 16> random_frame(Random& random, const Config& c, int width, int height,
-                                           std::vector<std::uint32_t>& words, std::uint32_t number = 0,
-                                           const FrameStyle& style = {});
+std::array<std::uint64_t, kKinds> random_frame(Random& random, const Config& c, int width, int height,
+                                               std::vector<std::uint32_t>& words, std::uint32_t number = 0,
+                                               const FrameStyle& style = {});
 
 }  // namespace kage::verif

@@ -10,6 +10,7 @@
 #include "number/mixed.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
+#include "stimulus/polygon_frames.hpp"
 
 namespace kage::verif {
 namespace {
@@ -29,7 +30,7 @@ void misplace(Random& random, const Config& c, Words& words) {
     return places.all()[static_cast<std::size_t>(random.in(0, static_cast<int>(places.all().size()) - 1))];
   };
   const TokenPlaces::At at = any();
-  const TokenPlaces::At length = change.length(kind_of(words[static_cast<std::size_t>(at)]));
+  const TokenPlaces::At length = change.length(kind_of(words[static_cast<std::size_t>(at)], places.level()));
   if (random.chance(0.3))
     change.erase(at, length);
   else
@@ -79,6 +80,8 @@ void header_or_end(Random& random, const Config& c, Words& words) {
 
 void make_wrong(Random& random, const Config& c, Words& words) {
   if (words.size() < kHeaderWords) return damage(random, words);
+  if (FrameHeader::read(words).level() == Level::polygons && random.chance(0.6))
+    return damage_polygons(random, c, words);
   if (c.units > 0 && random.chance(0.4)) return damage_tree(random, c, words);
   if (c.count_bits > 0 && random.chance(0.3)) return damage_light(random, c, words);
   switch (random.in(0, 3)) {
@@ -95,7 +98,40 @@ void make_wrong(Random& random, const Config& c, Words& words) {
 
 }  // namespace
 
-Words sound_frame(Random& random, const Config& c, std::uint32_t number) {
+namespace {
+
+Words polygon_frame(Random& random, const Config& c, std::uint32_t number, int width, int height,
+                    const PolygonStyle& style) {
+  Words words;
+  random_polygon_frame(random, c, width, height, words, number, style);
+  return words;
+}
+
+/// What sound_frame() makes at the polygon level.
+Words sound_polygons(Random& random, const Config& c, std::uint32_t number, int width) {
+  PolygonStyle style;
+  style.spans.port = random.chance(0.8);
+  style.spans.trees = 0.3;
+  int height = random.in(1, random.chance(0.3) ? 30 : 8);
+  if (random.chance(0.2)) style.most_polygons = style.most_lines = 40;  // as many at once as the core keeps
+  if (random.chance(0.15)) style.most_tokens = 0;
+  if (random.chance(0.1)) style.most_lines = 1;
+  if (random.chance(0.05)) {  // lines with nothing on them
+    style.most_polygons = style.most_tokens = 0;
+    height = random.in(10, 20);
+  }
+  return polygon_frame(random, c, number, width, height, style);
+}
+
+}  // namespace
+
+Words sound_frame(Random& random, const Config& c, std::uint32_t number, Level level) {
+  const auto any_width = [&] {
+    return random.chance(0.2)   ? random.in(1, std::min(c.max_width, 4))
+           : random.chance(0.3) ? c.max_width
+                                : random.in(1, std::min(c.max_width, 70));
+  };
+  if (level == Level::polygons) return sound_polygons(random, c, number, any_width());
   FrameStyle style{.most_opaque = 12, .most_volumes = 4, .most_in_volume = 8, .port = random.chance(0.8)};
   int height = random.in(1, random.chance(0.1) ? 12 : 4);
   if (random.chance(0.2)) style.most_opaque = style.most_in_volume = 60;
@@ -109,36 +145,39 @@ Words sound_frame(Random& random, const Config& c, std::uint32_t number) {
     style.trees = 0;
     height = random.in(10, 20);
   }
-  const int width = random.chance(0.2)   ? random.in(1, std::min(c.max_width, 4))
-                    : random.chance(0.3) ? c.max_width
-                                         : random.in(1, std::min(c.max_width, 70));
   Words words;
-  random_frame(random, c, width, height, words, number, style);
+  random_frame(random, c, any_width(), height, words, number, style);
   return words;
 }
 
-Words tall_frame(Random& random, const Config& c, std::uint32_t number) {
+Words tall_frame(Random& random, const Config& c, std::uint32_t number, Level level) {
   FrameStyle style{
       .most_opaque = 1, .most_volumes = 1, .most_in_volume = 2, .most_translucent = 1, .most_samples = 2, .port = true};
   style.trees = 0.2;
   // A little above a power of two, so that a counter of lines that lacks bits wraps within the frame.
   const int height = random.chance(0.3) ? kMaxHeight : (1 << random.in(7, 12)) + random.in(-1, 40);
+  const int width = random.in(1, std::min(c.max_width, 4));
+  if (level == Level::polygons) {
+    style.port = random.chance(0.8);
+    return polygon_frame(random, c, number, width, height, {style, 1, 1, 200});
+  }
   Words words;
-  random_frame(random, c, random.in(1, std::min(c.max_width, 4)), height, words, number, style);
+  random_frame(random, c, width, height, words, number, style);
   return words;
 }
 
-Words wide_frame(Random& random, const Config& c, std::uint32_t number) {
+Words wide_frame(Random& random, const Config& c, std::uint32_t number, Level level) {
   const int groups = random.in(1, std::max(1, c.max_width / c.lanes));
   const int width = std::clamp(groups * c.lanes + random.in(-1, 1), 1, c.max_width);
+  if (level == Level::polygons) return sound_polygons(random, c, number, width);
   Words words;
   random_frame(random, c, width, random.in(1, 3), words, number, {.most_opaque = 12, .port = random.chance(0.8)});
   return words;
 }
 
-Words damaged_frame(Random& random, const Config& c, std::uint32_t number) {
+Words damaged_frame(Random& random, const Config& c, std::uint32_t number, Level level) {
   for (;;) {
-    const Words sound = sound_frame(random, c, number);
+    const Words sound = sound_frame(random, c, number, level);
     Words words = sound;
     make_wrong(random, c, words);
     if (random.chance(0.1)) make_wrong(random, c, words);
@@ -162,16 +201,16 @@ Words RandomFrames::words(int index) const {
   Random random(mixed(seed_, static_cast<std::uint64_t>(index)));
   const bool wrong = manner_ == Manner::damaged || (manner_ == Manner::mixed && random.chance(0.5));
   const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
-  if (wrong) return damaged_frame(random, config_, number);
-  if (index % kSizes == kTall) return tall_frame(random, config_, number);
-  if (index % kSizes == kWide) return wide_frame(random, config_, number);
-  return sound_frame(random, config_, number);
+  if (wrong) return damaged_frame(random, config_, number, level_);
+  if (index % kSizes == kTall) return tall_frame(random, config_, number, level_);
+  if (index % kSizes == kWide) return wide_frame(random, config_, number, level_);
+  return sound_frame(random, config_, number, level_);
 }
 
 std::function<Words(int)> RandomFrames::prelude() const {
   if (manner_ != Manner::mixed) return nullptr;
-  return [config = config_, seed = mixed(~seed_)](int index) {
-    return RandomFrames(config, Manner::sound, seed).words(index);
+  return [config = config_, seed = mixed(~seed_), level = level_](int index) {
+    return RandomFrames(config, Manner::sound, seed, level).words(index);
   };
 }
 

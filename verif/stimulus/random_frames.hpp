@@ -16,20 +16,25 @@
 namespace kage::verif {
 
 /// A frame that obeys every rule of a port: of any size that the configuration takes, mostly small, so that many are
-/// run; crowded or bare, with spans that meet at few pixels and depths, with accumulators that wrap.
-std::vector<std::uint32_t> sound_frame(Random& random, const Config& c, std::uint32_t number);
+/// run; crowded or bare, with spans that meet at few pixels and depths, with accumulators that wrap. At the polygon
+/// level a configuration with ACTIVE > 0 is needed.
+std::vector<std::uint32_t> sound_frame(Random& random, const Config& c, std::uint32_t number,
+                                       Level level = Level::spans);
 
 /// A sound frame of 1 .. 4 pixels a line, and of 127 to 4136 lines, or of kMaxHeight. It takes as long as
 /// hundreds of others.
-std::vector<std::uint32_t> tall_frame(Random& random, const Config& c, std::uint32_t number);
+std::vector<std::uint32_t> tall_frame(Random& random, const Config& c, std::uint32_t number,
+                                      Level level = Level::spans);
 
 /// A sound frame of any width up to MAX_WIDTH, at a border of a group of LANES pixels, or a pixel off it.
-std::vector<std::uint32_t> wide_frame(Random& random, const Config& c, std::uint32_t number);
+std::vector<std::uint32_t> wide_frame(Random& random, const Config& c, std::uint32_t number,
+                                      Level level = Level::spans);
 
 /// Something is wrong with it, or perhaps not: what the golden core says is right. Bits flipped anywhere, tokens lost,
 /// doubled or misplaced, fields just past what they may be, a header or an end that is not one. At least a word, and
 /// never so high that it takes long.
-std::vector<std::uint32_t> damaged_frame(Random& random, const Config& c, std::uint32_t number);
+std::vector<std::uint32_t> damaged_frame(Random& random, const Config& c, std::uint32_t number,
+                                         Level level = Level::spans);
 
 /// What random frames are like.
 enum class Manner {
@@ -54,8 +59,9 @@ std::optional<Manner> random_manner(const std::string& name);
 /// Frames that follow from configuration, manner, seed and their number alone: no frame depends on another.
 class RandomFrames {
  public:
-  RandomFrames(const Config& config, Manner manner, std::uint64_t seed)
-      : config_(config), manner_(manner), seed_(seed) {}
+  /// Frames at the polygon level need a configuration with ACTIVE > 0.
+  RandomFrames(const Config& config, Manner manner, std::uint64_t seed, Level level = Level::spans)
+      : config_(config), manner_(manner), seed_(seed), level_(level) {}
 
   /// Of each kSizes frames one is tall and one is wide, unless it is to be damaged. A short run has none, so that it is
   /// quick.
@@ -73,6 +79,7 @@ class RandomFrames {
   Config config_;
   Manner manner_;
   std::uint64_t seed_;
+  Level level_;
 };
 
 }  // namespace kage::verif

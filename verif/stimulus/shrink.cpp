@@ -177,7 +177,7 @@ class Shrinker {
     };
     TokenPlaces places(config_, words);
     for (const TokenPlaces::At at : places.all()) {
-      const auto kind = kind_of(words[static_cast<std::size_t>(at)]);
+      const auto kind = kind_of(words[static_cast<std::size_t>(at)], places.level());
       std::uint64_t cut = 0;  // pixels that a span loses at its left: it goes on with the depth and colour behind them
       each_field(config_, layout_, kind, [&](std::string_view name, int, Field field) {
         if (field.bits == 0 || (name != "xl" && name != "xr")) return;
@@ -195,7 +195,7 @@ class Shrinker {
     SegmentCutter cutter(config_, layout_, p.header, step, left);
     std::vector<Words> tokens;
     for (Words& t : p.tokens) {
-      const bool of_unit = info_of(kind_of(t[0])).unit;
+      const bool of_unit = info_of(kind_of(t[0])).unit;  // of both levels
       if (std::optional<Words> cut = of_unit ? cutter.cut(t) : std::move(t)) tokens.push_back(std::move(*cut));
     }
     p.tokens = std::move(tokens);

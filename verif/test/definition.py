@@ -42,7 +42,7 @@ PLANTED = [
         "{name: kind_bits, value: 3,",
         "constants: kind_bits: kinds do not fit",
     ),
-    ("name: TREE,", "kind: 5,", "kind: 4,", "tokens: kinds are not numbered"),
+    ("name: TREE,", "kind: 5,", "kind: 4,", "tokens: kinds of the level spans are not numbered"),
     (
         "constants:",
         "{name: code_bits,        value: 4,",

@@ -113,6 +113,13 @@ class CoreObserver {
   /// @param line as the token finds it
   virtual void before([[maybe_unused]] std::uint32_t index, [[maybe_unused]] const Token& token,
                       [[maybe_unused]] std::span<const std::uint32_t> words, [[maybe_unused]] const LineView& line) {}
+  /// A token of a frame at the polygon level is there whole, and its kind is one that the configuration has. What comes
+  /// of it in the front end follows: before() and after() are called for each token of the span level, with this index.
+  /// @param index of the token in the frame, from 1
+  /// @param token what it says
+  /// @param words the token's
+  virtual void came([[maybe_unused]] std::uint32_t index, [[maybe_unused]] const Token& token,
+                    [[maybe_unused]] std::span<const std::uint32_t> words) {}
   /// The token has taken effect; not called for END. After an EOL the line is cleared already.
   /// @param index of the token in the frame, from 1
   /// @param token what it says

@@ -39,6 +39,8 @@ inline constexpr int kRankBits = 14;  ///< of a place: the face in its volume
 inline constexpr int kVolumeBits = 18;  ///< of a place: the volume in its sample
 inline constexpr int kSampleBits = 11;  ///< of a place: the light sample
 inline constexpr int kLayerBits = 2;  ///< of a place: 0 opaque, 1 volumes, 2 translucent
+inline constexpr int kFamilyBits = 34;  ///< of a place but for its rank: the same for all of a volume
+inline constexpr int kWalkedEdgeBits = 106;  ///< of an edge on its way down, as hls/kernels/edge.hpp has it: x, step, rest, rest_step, dy
 inline constexpr std::size_t kMostTokenWords = 10;  ///< words of the longest token of any configuration
 
 /// Place of a field in its token or header: `bits` from bit `lsb` of its words, the first word lowest.

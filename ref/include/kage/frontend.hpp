@@ -63,6 +63,9 @@ enum class PolygonWay : std::uint8_t {
   active,     ///< more polygons at once than ACTIVE
   place,      ///< more polygons of its volume than a place can count
 };
+/// ACTIVE of a core that is to have a front end, where nobody says otherwise.
+inline constexpr int kUsualActive = 512;
+
 /// How many ways there are.
 inline constexpr std::size_t kPolygonWays = 8;
 

@@ -74,13 +74,13 @@ enum class Sides : std::uint8_t {
 
 /// A triangle, counter-clockwise seen from outside.
 struct Triangle {
-  std::array<std::uint32_t, 3> vertex;   ///< into SceneFrame::vertices
-  std::array<std::uint32_t, 3> shading;  ///< into SceneFrame::shading
-  std::uint32_t object = 0;              ///< into Scene::objects()
-  std::uint32_t face = 0;                ///< number of the face within its object, as in the file
-  std::uint8_t alpha = 255;              ///< 255 is opaque, 0 not to be seen
-  bool unlit = false;                    ///< it shows its colour whatever light or shadow falls on it
-  Sides sides = Sides::both;             ///< all are drawn unless Look::cull is set
+  std::array<std::uint32_t, 3> vertex{};   ///< into SceneFrame::vertices
+  std::array<std::uint32_t, 3> shading{};  ///< into SceneFrame::shading
+  std::uint32_t object = 0;                ///< into Scene::objects()
+  std::uint32_t face = 0;                  ///< number of the face within its object, as in the file
+  std::uint8_t alpha = 255;                ///< 255 is opaque, 0 not to be seen
+  bool unlit = false;                      ///< it shows its colour whatever light or shadow falls on it
+  Sides sides = Sides::both;               ///< all are drawn unless Look::cull is set
 };
 
 /// A face as it is drawn, counter-clockwise seen from outside: a triangle, or, of convex bodies, triangles in one plane

@@ -17,7 +17,21 @@ typedef struct packed {
   logic cut;  // TLAST came before its last word
   logic ends;  // nothing of the frame follows: END, or cut
   logic at_last;  // its first word is in TLAST's beat
+  logic [CodeBits-1:0] fault;  // what front_end has against it
 } flags_t;
+
+// A polygon's span on a line: from polygon_walk to front_end.
+typedef struct packed {
+  logic empty;  // nothing is to be drawn
+  logic [X_BITS-1:0] xl;  // first pixel
+  logic [X_BITS-1:0] xr;  // past the last pixel
+  logic turned;  // its left edge goes up: the weight changes its sign
+  logic [LookBits-1:0] look;  // the polygon's
+  logic [DepthBits-1:0] z;  // at xl
+  logic [DepthBits-1:0] dz;  // a pixel
+  logic [ColorBits-1:0] color;  // at xl
+  logic [SlopeBits-1:0] dcolor;  // a pixel
+} made_span_t;
 
 // What a token is and finds, judged before it is acted on: from token_stage to frame_control.
 typedef struct packed {

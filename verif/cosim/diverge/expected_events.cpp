@@ -76,7 +76,8 @@ void ExpectedEvents::wrong_token(ErrorCode code, bool header, std::span<const st
   const bool cut = code == ErrorCode::LAST_EARLY;
   const bool end = !header && !words.empty() && kind_of(words[0]) == Kind::END;
   e.expect(at::token::flags, (header ? flag::header : 0) | (code == ErrorCode::KIND ? flag::lacking : 0) |
-                                 (cut ? flag::cut : 0) | (cut || end ? flag::final_word : 0));
+                                 (cut ? flag::cut : 0) | (cut || end ? flag::final_word : 0) |
+                                 (code == ErrorCode::PLACE || code == ErrorCode::ACTIVE_FULL ? flag::fault : 0));
   put(e);
 }
 

@@ -96,6 +96,7 @@ inline constexpr std::uint64_t final_word = 1;
 inline constexpr std::uint64_t cut = 2;
 inline constexpr std::uint64_t lacking = 4;
 inline constexpr std::uint64_t header = 8;
+inline constexpr std::uint64_t fault = 16;
 }  // namespace flag
 
 /// Ports between modules, from the way in to the way out.

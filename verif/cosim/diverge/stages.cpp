@@ -18,7 +18,7 @@ const ValueInfo& info(Stage stage, int index) {
 }
 
 std::string kind_text(std::uint64_t kind) {
-  const std::uint64_t number = kind % kKindNames.size();
+  const std::uint64_t number = kind & ((1U << kKindBits) - 1U);  // of a command
   const std::string_view command = derived::command_name(static_cast<Kind>(number));
   return std::string(command.empty() ? kKindNames[number] : command);
 }

@@ -27,7 +27,7 @@ std::string base64(std::span<const std::uint8_t> data) {
 }
 
 TokenStore::TokenStore(const Config& config, std::size_t budget)
-    : config_(config), layout_(config), counter_(config), budget_(budget), file_(std::tmpfile(), std::fclose) {
+    : config_(config), layout_(config), spans_(config), counter_(config), budget_(budget), file_(std::tmpfile(), std::fclose) {
   if (!file_)
     throw Error(
         fmt::format("the report: no temporary file can be made: {}; --no-report goes without", std::strerror(errno)));
@@ -44,7 +44,7 @@ std::string TokenStore::text(const Band& band) const {
 void TokenStore::begin(int frame) {
   cutter_.start();
   header_ = true;
-  broken_ = false;
+  broken_ = refused_ = false;
   line_ = 0;
   ahead_.assign(static_cast<std::size_t>(config_.units), {});
   band_.frame = frame;
@@ -62,12 +62,14 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
     const FrameHeader h = FrameHeader::read(words_of_header);
     header_ = false;
     width_ = h.width;
+    level_ = h.level();
+    spans_.start(h);
     counter_.start(width_);
     frames_.back().background = h.background;
     frames_.back().tokens = 1;
   }
   while (const std::uint32_t* first = cutter_.peek()) {
-    const std::size_t n = layout_.words_of(*first);
+    const std::size_t n = layout_.words_of(*first, level_);
     // What is no token ends the frame for a core; the page has what came before.
     broken_ = n == 0;
     if (broken_) return;
@@ -79,8 +81,8 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
 }
 
 void TokenStore::token(std::span<const std::uint32_t> words) {
-  decode(config_, layout_, words, t_);
-  counter_.token(t_);
+  decode(config_, layout_, words, t_, level_);
+  if (!refused_) refused_ = spans_.add(t_, [this](const Token& t, bool) { counter_.token(t); }) != ErrorCode::NONE;
   const std::uint32_t index = frames_.back().tokens++;
   // The state ends with the first token that is of a line.
   if (band_.line < 0 && !info_of(t_.kind).state) {

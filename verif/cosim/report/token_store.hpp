@@ -14,6 +14,7 @@
 #include "cosim/phases.hpp"
 #include "kage/stream.hpp"
 #include "stream/cutter.hpp"
+#include "stream/span_tokens.hpp"
 
 namespace kage::report {
 
@@ -72,6 +73,7 @@ class TokenStore {
 
   Config config_;
   Layout layout_;
+  SpanTokens spans_;
   PhaseCounter counter_;
   std::size_t budget_;
   std::function<bool(int, int)> wanted_;
@@ -85,6 +87,8 @@ class TokenStore {
   WordCutter cutter_;
   bool header_ = true;  // it has yet to come
   bool broken_ = false;
+  bool refused_ = false;  // a token by the front end
+  Level level_ = Level::spans;
   int line_ = 0;  // the one at hand
   Token t_;
   Band band_;

@@ -41,7 +41,7 @@ module compare_cell_proof #(
 
   logic [ KeyBits-1:0] key;
   logic [RestBits-1:0] rest;
-  hls_compare_cell cell_hls (
+  hls_compare_cell dut (
       .left_key_i,
       .left_rest_i,
       .right_key_i,

@@ -2,8 +2,9 @@
 // The kernels of hls/ against ref/, bit by bit: random vectors and corners. Compiled three times, with kage's own
 // types, with Algorithmic C's and with AMD's (hls/types.hpp).
 //
-// usage: hls_kernels_TYPES [VECTORS]: so many vectors a kernel, default 100000. Exit code 1: a kernel gives another
-// bit.
+// usage: hls_kernels_TYPES [VECTORS [KERNEL]]: so many vectors a kernel, default 100000, of all kernels or of edge,
+// span, plane, segment, cell, blend or pixel alone. From 10000000 on more widths of edges are tried whole. Exit code 1:
+// a kernel gives another bit; 2: no such kernel.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -12,14 +13,18 @@
 #include <initializer_list>
 #include <random>
 #include <span>
+#include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "core/pixel_line.hpp"
+#include "core/span_kernels.hpp"
 #include "frontend/edge_walker.hpp"
 #include "frontend/span_setup.hpp"
 #include "kernels/compare_cell.hpp"
 #include "kernels/edge_setup.hpp"
 #include "kernels/edge_step.hpp"
+#include "kernels/pixel_blend.hpp"
 #include "kernels/pixel_next.hpp"
 #include "kernels/plane_step.hpp"
 #include "kernels/segment_make.hpp"
@@ -142,6 +147,50 @@ void edges() {
       walker.next();
     }
   }
+}
+
+/// The same for every edge that there is with narrow coordinates, from each of its lines on. EdgeWalker has them as the
+/// multiples of 2^(8 - FRAC) that they are in 16.8.
+template <int WHOLE, int FRAC>
+void every_edge() {
+  constexpr int kBits = WHOLE + FRAC;
+  constexpr int kMost = (1 << (kBits - 1)) - 1;
+  constexpr int kScale = 1 << (8 - FRAC);
+  using kage::hls::SubpixelOf;
+  const auto setup = [](int ax, int ay, int bx, int by, int y) {
+    kage::hls::EdgeSetupInOf<WHOLE, FRAC> in;
+    in.top_x = SubpixelOf<WHOLE, FRAC>(ax);
+    in.top_y = SubpixelOf<WHOLE, FRAC>(ay);
+    in.bottom_x = SubpixelOf<WHOLE, FRAC>(bx);
+    in.bottom_y = SubpixelOf<WHOLE, FRAC>(by);
+    in.line = kage::hls::LineOf<WHOLE>(y);
+    kage::hls::EdgeOf<WHOLE, FRAC> edge;
+    kage::hls::edge_setup(in, edge);
+    return edge;
+  };
+  long lines = 0;
+  for (int ay = -kMost - 1; ay < kMost; ++ay)
+    for (int by = ay + 1; by <= kMost; ++by)
+      for (int ax = -kMost - 1; ax <= kMost; ++ax)
+        for (int bx = -kMost - 1; bx <= kMost; ++bx) {
+          EdgeWalker walker({ax * kScale, ay * kScale}, {bx * kScale, by * kScale});
+          const int first = std::max(walker.first(), 0);
+          if (first >= walker.end()) continue;
+          walker.start(first);
+          auto edge = setup(ax, ay, bx, by, first);
+          for (int y = first; y < walker.end(); ++y, ++lines) {
+            const auto begun = setup(ax, ay, bx, by, y);
+            if (hw::value(edge.x) != walker.x() || hw::value(begun.x) != walker.x() ||
+                hw::value(begun.rest) != hw::value(edge.rest) ||
+                hw::value(begun.rest_step) != hw::value(edge.rest_step))
+              return differs("edge", {WHOLE, FRAC, ax, ay, bx, by, y, walker.x()});
+            kage::hls::EdgeOf<WHOLE, FRAC> next;
+            kage::hls::edge_step(edge, next);
+            edge = next;
+            walker.next();
+          }
+        }
+  std::printf("edges of %d.%d, every one: %ld lines\n", WHOLE, FRAC, lines);
 }
 
 /// The value of a plane's spans in an accumulator of BITS bits with FRAC of them a fraction.
@@ -272,6 +321,75 @@ void cells() {
     if (hw::value(out.key) != std::min(left, right) || hw::value(out.rest) != (right < left ? 2 : 1))
       return differs("compare_cell", {left, right});
   }
+}
+
+template <int FRAC>
+std::int64_t blended(int under, int over, int share, bool darkens) {
+  kage::hls::PixelBlendIn<FRAC> in;
+  in.under = hw::u<8>(under);
+  in.over = hw::u<8>(over);
+  in.share = hw::u<kage::hls::share_bits(FRAC)>(share);
+  in.darkens = hw::u<1>(darkens);
+  kage::hls::PixelBlendOut out;
+  kage::hls::pixel_blend(in, out);
+  return hw::value(out.color);
+}
+
+/// pixel_blend darkens as a line of the golden core, every colour with `shades` of the shades, evenly spread.
+template <int FRAC>
+void darkens(int shades) {
+  kage::Config config;
+  config.shade_frac = FRAC;
+  config.z_frac = 0;
+  config.channels = 1;
+  config.translucency = 1;
+  kage::PixelLine line(config);
+  const int step = std::max(1, (1 << FRAC) / shades);
+  for (int shade = 0; shade <= 1 << FRAC; shade += step) {
+    line.start(256, 0);
+    line.set_shade(static_cast<std::uint32_t>(shade));
+    kage::SpanToken span;
+    span.normal_class = 1;
+    for (int c = 0; c < 256; ++c) {
+      span.xl = c;
+      span.xr = c + 1;
+      span.z = 9;
+      span.color[0] = c;
+      line.op(span);
+    }
+    span.xl = 0;
+    span.z = 5;
+    span.w = 1;
+    line.sp(span);
+    line.ev(0, 256);
+    line.resolve();
+    for (int c = 0; c < 256; ++c)
+      if (const int wanted = line.state(c).color[0]; blended<FRAC>(c, shade * 7 % 256, shade, true) != wanted)
+        return differs("pixel_blend", {FRAC, c, shade, wanted});
+    std::array<std::uint8_t, 256> out{};
+    line.finish(false, out);
+  }
+}
+
+/// pixel_blend blends as the golden core, for all colours and alphas, and darkens as it.
+void blends() {
+  const kage::DepthRamp ramp{0, 0, 0, 1};
+  std::vector<std::int32_t> zb(256 + kage::kKernelSlack, 9);
+  std::vector<std::uint32_t> colors(256 + kage::kKernelSlack);
+  for (int alpha = 0; alpha < 256; ++alpha)
+    for (int over = 0; over < 256; ++over) {
+      for (std::uint32_t c = 0; c < 256; ++c) colors[c] = c;
+      const kage::ColorRamp color{over << 22, 0};
+      kage::span_tp(ramp, 256, zb.data(), colors.data(), &color, 1, alpha);
+      for (int c = 0; c < 256; ++c)
+        if (const std::int64_t wanted = colors[static_cast<std::size_t>(c)];
+            blended<8>(c, over, alpha, false) != wanted)
+          return differs("pixel_blend", {c, over, alpha, wanted});
+    }
+  const bool all = vectors >= 10000000;
+  darkens<8>(256);
+  darkens<12>(all ? 1 << 12 : 256);
+  darkens<16>(all ? 1 << 16 : 256);
 }
 
 struct Soft {
@@ -414,14 +532,37 @@ void pixels() {
 
 int main(int argc, char** argv) {
   if (argc > 1) vectors = std::strtol(argv[1], nullptr, 10);
-  edges();
-  spans();
-  planes();
-  segments();
-  cells();
-  pixels<Soft>();
-  pixels<Glass>();
-  pixels<Grey>();
+  const std::string_view kernel = argc > 2 ? argv[2] : "";
+  bool tried = false;
+  const auto wanted = [&](std::string_view name) {
+    const bool is = kernel.empty() || kernel == name;
+    tried |= is;
+    return is;
+  };
+  if (wanted("edge")) {
+    edges();
+    every_edge<3, 2>();
+    every_edge<2, 3>();
+    if (vectors >= 10000000) {
+      every_edge<4, 1>();
+      every_edge<4, 2>();
+      every_edge<3, 3>();
+    }
+  }
+  if (wanted("span")) spans();
+  if (wanted("plane")) planes();
+  if (wanted("segment")) segments();
+  if (wanted("cell")) cells();
+  if (wanted("blend")) blends();
+  if (wanted("pixel")) {
+    pixels<Soft>();
+    pixels<Glass>();
+    pixels<Grey>();
+  }
+  if (!tried) {
+    std::fprintf(stderr, "hls_kernels: %s: not edge, span, plane, segment, cell, blend or pixel\n", argv[2]);
+    return 2;
+  }
   std::printf("%ld vectors a kernel: %s\n", vectors, bad ? "not the same" : "the same");
   return bad ? 1 : 0;
 }

@@ -4,10 +4,11 @@
 # named configuration whose pixels differ, and compare_cell the choice of the compare tree's cell. Then each proof is
 # shown to fail where the generated module has a defect.
 #
-# usage: verif/test/hls/proofs.sh [MODULE...]      default: all of hls/generated that have a proof
+# usage: verif/test/hls/proofs.sh [MODULE...]           default: all of hls/generated that have a proof
+#        verif/test/hls/proofs.sh --script MODULE FILE  prints yosys' commands that read the module in FILE and its proof
 # Needs yosys. Exit 0: all is proved, and every defect is found; 1: not so; 2: a tool or a file is not as it should be.
 set -euo pipefail
-[ "${1:-}" != --help ] || { sed -n '3,8s/^# \{0,1\}//p' "$0"; exit 0; }
+[ "${1:-}" != --help ] || { sed -n '3,9s/^# \{0,1\}//p' "$0"; exit 0; }
 cd "$(dirname "$0")/../../.."
 command -v yosys >/dev/null || { echo "proofs.sh: yosys is missing (tools/deps test)" >&2; exit 2; }
 work=$(mktemp -d)
@@ -27,19 +28,26 @@ print(*(f"-set {name} {given.get(name, value)}" for name, value in pixel.items()
 PY
 }
 
-prove() { # MODULE FILE: whether the module in FILE is the RTL's; its proof in $work/said
+script() { # MODULE FILE: yosys' commands that make the module in FILE and the RTL to the design `proof`
   local module=$1 file=$2 top rtl=() sets=''
   case $module in
     hls_compare_cell) top=compare_cell_proof rtl=(rtl/compare_cell.sv) ;;
     *) top=pixel_next_proof sets="chparam $(parameters_of "${module#hls_pixel_next_}") pixel_next_proof;" ;;
   esac
+  echo "read_verilog -sv -Irtl/include $file ${rtl[*]}; read_verilog -sv -formal -DKERNEL=$module -Irtl/include $here/$top.sv;
+    $sets hierarchy -check -top $top; rename -top proof; proc; flatten; opt -full; async2sync"
+}
+
+prove() { # MODULE FILE: whether the module in FILE is the RTL's; its proof in $work/said
   # A step of induction from any state that keeps the assertions, which for what has no state is a proof at once.
-  yosys -q -p "read_verilog -sv -Irtl/include $file ${rtl[*]}; read_verilog -sv -formal -DKERNEL=$module -Irtl/include $here/$top.sv;
-    $sets hierarchy -check -top $top; rename -top proof; proc; flatten; opt -full; async2sync;
-    sat -verify -tempinduct -prove-asserts proof" >"$work/said" 2>&1
+  yosys -q -p "$(script "$@"); sat -verify -tempinduct -prove-asserts proof" >"$work/said" 2>&1
 }
 refuted() { grep -q "proof did fail" "$work/said"; }
 
+if [ "${1:-}" = --script ]; then
+  script "$2" "$3"
+  exit
+fi
 modules=("$@")
 if [ $# = 0 ]; then
   modules=(hls_compare_cell)

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of RTL modules share: a seed that is printed and can be repeated (KAGE_SEED), a clock, valid/ready
-// sources and sinks that stall at random, and access to ports of any width.
-//
-// A clock of a test: set inputs, settle(), look at outputs, edge(). Registers and memories start at random values.
+// What the tests of RTL modules share: what drives a module (drive.hpp), a seed that is printed and can be repeated
+// (KAGE_SEED), and access to the fields of buses.
 #pragma once
 
 #include <cstdint>
 #include <cstdlib>
-#include <memory>
 #include <random>
 #include <vector>
 
 #include "buses.hpp"
+#include "drive.hpp"
 #include "given.hpp"
 #include "test/support/catch.hpp"
-#include "verilated.h"
 
 namespace kage::rtl {
 
@@ -23,18 +20,6 @@ inline std::uint64_t new_seed() {
   if (const char* fixed = std::getenv("KAGE_SEED")) return std::strtoull(fixed, nullptr, 0);
   return std::random_device{}();
 }
-
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
-  std::uint64_t bits(int n = 64) { return engine_() >> (64 - n); }
-  int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
-  int between(int low, int high) { return low + below(high - low + 1); }
-  bool percent(int p) { return below(100) < p; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// Runs `body(dice)` for several seeds; a failure names the seed that repeats it.
 template <class Body>
@@ -48,49 +33,6 @@ void each_seed(int rounds, Body body) {
   }
 }
 
-/// A chance of standing still per clock, from never to nearly always.
-inline int stall_percent(Dice& dice) {
-  static constexpr int kChoices[] = {0, 0, 10, 50, 90};
-  return kChoices[dice.below(5)];
-}
-
-template <class Port>
-void put(Port& port, std::uint64_t value) {
-  port = static_cast<Port>(value);
-}
-template <std::size_t N>
-void put(VlWide<N>& port, std::uint64_t value) {
-  for (std::size_t i = 0; i < N; ++i)
-    port[i] = i == 0 ? static_cast<EData>(value) : i == 1 ? static_cast<EData>(value >> 32) : 0;
-}
-
-/// Set `bits` bits of a port from bit `lsb`.
-template <class Port>
-void put(Port& port, int lsb, int bits, std::uint64_t value) {
-  const std::uint64_t mask = bits == 64 ? ~0ULL : (1ULL << bits) - 1;
-  port = static_cast<Port>((static_cast<std::uint64_t>(port) & ~(mask << lsb)) | (value & mask) << lsb);
-}
-template <std::size_t N>
-void put(VlWide<N>& port, int lsb, int bits, std::uint64_t value) {
-  for (int i = 0; i < bits; ++i) {
-    const auto word = static_cast<std::size_t>((lsb + i) / 32);
-    const EData bit = EData{1} << ((lsb + i) % 32);
-    port[word] = (value >> i & 1) != 0 ? port[word] | bit : port[word] & ~bit;
-  }
-}
-
-template <class Port>
-std::uint64_t get(const Port& port, int lsb, int bits) {
-  return static_cast<std::uint64_t>(port) >> lsb & (bits == 64 ? ~0ULL : (1ULL << bits) - 1);
-}
-template <std::size_t N>
-std::uint64_t get(const VlWide<N>& port, int lsb, int bits) {
-  std::uint64_t value = 0;
-  for (int i = 0; i < bits; ++i)
-    value |= static_cast<std::uint64_t>(port[static_cast<std::size_t>((lsb + i) / 32)] >> ((lsb + i) % 32) & 1) << i;
-  return value;
-}
-
 /// A field of a bus, of 64 bits at most.
 template <class Port>
 void put(Port& port, const Place& field, std::uint64_t value) {
@@ -100,63 +42,5 @@ template <class Port>
 std::uint64_t get(const Port& port, const Place& field) {
   return get(port, field.lsb, field.bits);
 }
-
-/// A module alone, out of reset.
-template <class Model>
-class Bench {
- public:
-  explicit Bench(Dice& dice) {
-    context_.randReset(2);
-    context_.randSeed(static_cast<int>(dice.bits(30)) + 1);
-    top_ = std::make_unique<Model>(&context_, "top");
-    top_->clk_i = 0;
-    if constexpr (requires(Model & m) { m.rst_ni; }) {
-      top_->rst_ni = 0;
-      settle();
-      for (int i = 0; i < 2; ++i) edge();
-      top_->rst_ni = 1;
-    }
-    settle();
-  }
-  ~Bench() {
-    Verilated::threadContextp(&context_);  // a model is taken off its thread's context, which may be another bench's
-    top_->final();
-    top_.reset();
-  }
-  Bench(const Bench&) = delete;
-  Bench& operator=(const Bench&) = delete;
-
-  Model* operator->() { return top_.get(); }
-  Model& operator*() { return *top_; }
-  void settle() { top_->eval(); }
-  void edge() {
-    top_->clk_i = 1;
-    top_->eval();
-    top_->clk_i = 0;
-    top_->eval();
-    ++clocks;
-  }
-
-  std::uint64_t clocks = 0;
-
- private:
-  VerilatedContext context_;
-  std::unique_ptr<Model> top_;
-};
-
-/// Whether a source offers: once it does, it goes on until it was taken.
-class Offer {
- public:
-  explicit Offer(int stall) : stall_(stall) {}
-  bool operator()(Dice& dice, bool has) {
-    if (has && !on_) on_ = !dice.percent(stall_);
-    return on_ && has;
-  }
-  void taken() { on_ = false; }
-
- private:
-  int stall_;
-  bool on_ = false;
-};
 
 }  // namespace kage::rtl

@@ -39,9 +39,12 @@ struct FlagsBus {
   Place cut;  ///< TLAST came before its last word
   Place ends;  ///< nothing of the frame follows: END, or cut
   Place at_last;  ///< its first word is in TLAST's beat
+  Place fault;  ///< what front_end has against it
 
   explicit constexpr FlagsBus([[maybe_unused]] const Config& c) {
     int at = 0;
+    fault = {at, kCodeBits};
+    at += fault.bits;
     at_last = {at, 1};
     at += at_last.bits;
     ends = {at, 1};
@@ -51,6 +54,40 @@ struct FlagsBus {
     lacking = {at, 1};
     at += lacking.bits;
     header = {at, 1};
+  }
+};
+
+/// A polygon's span on a line: from polygon_walk to front_end.
+struct MadeSpanBus {
+  Place empty;  ///< nothing is to be drawn
+  Place xl;  ///< first pixel
+  Place xr;  ///< past the last pixel
+  Place turned;  ///< its left edge goes up: the weight changes its sign
+  Place look;  ///< the polygon's
+  Place z;  ///< at xl
+  Place dz;  ///< a pixel
+  Place color;  ///< at xl
+  Place dcolor;  ///< a pixel
+
+  explicit constexpr MadeSpanBus([[maybe_unused]] const Config& c) {
+    int at = 0;
+    dcolor = {at, derived::slope_bits(c)};
+    at += dcolor.bits;
+    color = {at, derived::color_bits(c)};
+    at += color.bits;
+    dz = {at, derived::depth_bits(c)};
+    at += dz.bits;
+    z = {at, derived::depth_bits(c)};
+    at += z.bits;
+    look = {at, derived::look_bits(c)};
+    at += look.bits;
+    turned = {at, 1};
+    at += turned.bits;
+    xr = {at, c.x_bits};
+    at += xr.bits;
+    xl = {at, c.x_bits};
+    at += xl.bits;
+    empty = {at, 1};
   }
 };
 
@@ -364,6 +401,40 @@ struct EntryWord {
     dz = {at, derived::depth_bits(c)};
     at += dz.bits;
     color = {at, derived::rgb_bits(c)};
+  }
+};
+
+/// A polygon that the front end keeps from line to line.
+struct ActiveWord {
+  Place place;  ///< in the frame's order
+  Place end;  ///< one past its last line, signed
+  Place down_edge;  ///< side 0
+  Place up_edge;  ///< side 1
+  Place look;  ///< as POLYGON has it
+  Place value;  ///< of its depth, at pixel 0 of the line above
+  Place right;  ///< a pixel
+  Place down;  ///< a line
+  Place gradients;  ///< of its colour, channel 0 lowest
+
+  explicit constexpr ActiveWord(const Config& c) {
+    int at = 0;
+    place = {at, kPlaceBits};
+    at += place.bits;
+    end = {at, 17};
+    at += end.bits;
+    down_edge = {at, kWalkedEdgeBits};
+    at += down_edge.bits;
+    up_edge = {at, kWalkedEdgeBits};
+    at += up_edge.bits;
+    look = {at, derived::look_bits(c)};
+    at += look.bits;
+    value = {at, derived::plane_bits(c)};
+    at += value.bits;
+    right = {at, derived::plane_bits(c)};
+    at += right.bits;
+    down = {at, derived::plane_bits(c)};
+    at += down.bits;
+    gradients = {at, derived::gradients_bits(c)};
   }
 };
 

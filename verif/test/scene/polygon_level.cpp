@@ -19,7 +19,7 @@ std::vector<Config> configs_for(const Scene& scene) {
   std::vector<Config> all;
   for (int way = 0; way < 4; ++way) {
     Config c = wide_enough();
-    c.active = 512;
+    c.active = kUsualActive;
     c.smooth = way == 1 ? 1 : 0;
     c.color_frac = 8 * c.smooth;
     c.units = way == 2 ? 16 : 0;
@@ -52,7 +52,7 @@ TEST_CASE("built-in scenes at the polygon level: bytes, and the share that the f
   for (const auto& [name, least_share] : {std::pair{"courtyard", 95.0}, {"knot", 95.0}}) {
     const Scene scene = Scene::load(name);
     Config c = wide_enough();
-    c.active = 512;
+    c.active = kUsualActive;
     std::vector<std::uint32_t> words;
     PolygonReport r;
     const FrameGeometry g = make_geometry(scene.frame(0, scene.frame_count()), c, 640, 480);
@@ -66,7 +66,7 @@ TEST_CASE("built-in scenes at the polygon level: bytes, and the share that the f
 TEST_CASE("the front end's table of polygons may be small: what it does not hold goes as spans") {
   const Scene scene = Scene::load("courtyard");
   std::uint64_t before = ~std::uint64_t{0};
-  for (const int active : {1, 4, 32, 512}) {
+  for (const int active : {1, 4, 32, kUsualActive}) {
     Config c = wide_enough();
     c.active = active;
     const FrameGeometry g = make_geometry(scene.frame(0, scene.frame_count()), c, 160, 120);

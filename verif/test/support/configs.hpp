@@ -18,6 +18,7 @@ inline Config random_config(Random& random, int width = 4096) {
   }
   if (random.chance(0.4)) c.count_bits = 0;
   if (random.chance(0.4)) c.class_bits = 1;
+  if (random.chance(0.4)) c.active = random.in(0, 6);
   c.max_width = width;
   for (const RuleInfo& rule : kRules)
     if (!rule.holds(c)) rule.repair(c);

@@ -22,6 +22,7 @@ module kage_top_tokens_monitor #(
     input wire logic [     ErrorBits-1:0] error
 );
   `include "kage_trace.svh"
+  `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
 
   // The buses by their fields.
@@ -30,7 +31,7 @@ module kage_top_tokens_monitor #(
   assign entry = table_entry;
   assign found = error;
 
-  // The token that token_stage holds, as token_reader gave it. It is told of in the first clock in which it may be
+  // The token that token_stage holds, as token_reader or front_end gave it. It is told of in the first clock in which it may be
   // acted on: ahead of what it does, and behind what the token before it did.
   logic new_q;
   logic [FRONT_WORDS*32-1:0] held_q;
@@ -51,8 +52,8 @@ module kage_top_tokens_monitor #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       if (new_q) begin
-        trace_token(0, 704'(held_q), 64'(told_q.at_last), 64'({told_q.header, told_q.lacking, told_q.cut, told_q.ends
-                    }));
+        trace_token(0, 704'(held_q), 64'(told_q.at_last), 64'({told_q.fault != ErrNone, told_q.header, told_q.lacking, told_q.cut,
+                    told_q.ends}));
       end
       if (table_valid) begin
         trace_table(0, 64'(entry.normal_class), 64'(entry.light), {

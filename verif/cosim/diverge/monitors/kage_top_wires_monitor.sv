@@ -3,7 +3,8 @@
 `default_nettype none
 
 module kage_top_wires_monitor #(
-    parameter int UNITS = 0
+    parameter int UNITS  = 0,
+    parameter int ACTIVE = 0
 ) (
     input wire logic clk_i,
     input wire logic rst_ni
@@ -11,19 +12,20 @@ module kage_top_wires_monitor #(
   `include "kage_trace.svh"
 
   // A bit for each module: its inputs are the nets.
-  logic reader, control, lines, loads, pixels, out, given, tree;
+  logic reader, front, control, lines, loads, pixels, out, given, tree;
   assign reader = {
-    kage_top.s_axis_tvalid_i, kage_top.s_axis_tdata_i, kage_top.s_axis_tlast_i, kage_top.token_ready, kage_top.drop
+    kage_top.s_axis_tvalid_i, kage_top.s_axis_tdata_i, kage_top.s_axis_tlast_i, kage_top.read_ready,
+    kage_top.reader_drop
   } == {
     kage_top.u_reader.s_axis_tvalid_i, kage_top.u_reader.s_axis_tdata_i, kage_top.u_reader.s_axis_tlast_i,
     kage_top.u_reader.token_ready_i, kage_top.u_reader.drop_i
   };
   assign control = {
-    kage_top.token_valid, kage_top.token, kage_top.flags, kage_top.dropping, kage_top.cmd_ready,
+    kage_top.token_valid, kage_top.token, kage_top.flags, kage_top.token_index, kage_top.dropping, kage_top.cmd_ready,
     kage_top.loads_done, kage_top.line_ready, kage_top.table_free, kage_top.tree_frame_ready, kage_top.tree_seg_ready
   } == {
     kage_top.u_control.token_valid_i, kage_top.u_control.token_i,
-    kage_top.u_control.token_flags_i, kage_top.u_control.dropping_i, kage_top.u_control.cmd_ready_i,
+    kage_top.u_control.token_flags_i, kage_top.u_control.token_index_i, kage_top.u_control.dropping_i, kage_top.u_control.cmd_ready_i,
     kage_top.u_control.loads_done_i, kage_top.u_control.line_ready_i, kage_top.u_control.table_free_i,
     kage_top.u_control.tree_frame_ready_i, kage_top.u_control.tree_seg_ready_i
   };
@@ -59,6 +61,18 @@ module kage_top_wires_monitor #(
     kage_top.u_registers.draining_i, kage_top.u_registers.error_valid_i, kage_top.u_registers.error_i,
     kage_top.u_registers.behind_valid_i, kage_top.u_registers.behind_i
   };
+  if (ACTIVE > 0) begin : gen_front
+    assign front = {
+      kage_top.read_valid, kage_top.read, kage_top.read_flags, kage_top.reader_dropping, kage_top.token_ready,
+      kage_top.drop
+    } == {
+      kage_top.gen_front_end.u_front_end.token_valid_i, kage_top.gen_front_end.u_front_end.token_i,
+      kage_top.gen_front_end.u_front_end.token_flags_i, kage_top.gen_front_end.u_front_end.dropping_i,
+      kage_top.gen_front_end.u_front_end.token_ready_i, kage_top.gen_front_end.u_front_end.drop_i
+    };
+  end else begin : gen_no_front
+    assign front = 1'b1;
+  end
   if (UNITS > 0) begin : gen_tree
     assign tree = {
       kage_top.tree_call, kage_top.tree_seg_valid, kage_top.tree_piece, kage_top.tree_ready
@@ -72,12 +86,15 @@ module kage_top_wires_monitor #(
 
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
-      trace_module(PartTop, 512'hff, 512'({reader, control, lines, loads, pixels, out, given, tree}));
+      trace_module(PartTop, 512'h1ff, 512'({reader, front, control, lines, loads, pixels, out, given, tree}));
     end
   end
 
 endmodule
 
-bind kage_top kage_top_wires_monitor #(.UNITS(UNITS)) u_wires_monitor (.*);
+bind kage_top kage_top_wires_monitor #(
+    .UNITS (UNITS),
+    .ACTIVE(ACTIVE)
+) u_wires_monitor (.*);
 
 `default_nettype wire

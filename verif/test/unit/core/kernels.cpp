@@ -9,6 +9,7 @@
 #include "opinion/simple_core.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
+#include "stimulus/polygon_frames.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/configs.hpp"
@@ -20,8 +21,8 @@ namespace {
 
 /// What took part in all frames.
 struct Taken {
-  std::array<int, 16> errors{};
-  std::array<std::uint64_t, 16> tokens{};
+  std::array<int, kErrorNames.size()> errors{};
+  std::array<std::uint64_t, kKinds> tokens{};
 };
 
 /// A random frame of up to `width` pixels a line, sound or damaged, through the golden core and SimpleCore. With
@@ -29,11 +30,16 @@ struct Taken {
 void check_frame(Random& random, int width, int round, const Edge* guarded, Taken& taken) {
   const Config c = random_config(random, std::max(width, 1));
   std::vector<std::uint32_t> words;
-  const auto count = random_frame(random, c, guarded != nullptr ? width : random.in(1, 150), random.in(1, 5), words,
-                                  static_cast<std::uint32_t>(round));
+  const bool polygons = c.active > 0 && random.chance(0.5);
+  const int of_width = guarded != nullptr ? width : random.in(1, 150);
+  const int height = random.in(1, 5);
+  const auto number = static_cast<std::uint32_t>(round);
+  const auto count = polygons ? random_polygon_frame(random, c, of_width, height, words, number)
+                              : random_frame(random, c, of_width, height, words, number);
   for (std::size_t k = 0; k < taken.tokens.size(); ++k) taken.tokens[k] += count[k];
   if (round % 4 == 1) damage_tree(random, c, words);
   if (round % 8 == 2) damage_light(random, c, words);
+  if (polygons && round % 8 == 5) damage_polygons(random, c, words);
   if (round % 4 == 3 || (round % 4 == 1 && c.units == 0)) damage(random, words);
   CAPTURE(round, to_yaml(c));
   std::vector<std::uint8_t> fast;
@@ -48,7 +54,9 @@ void check_frame(Random& random, int width, int round, const Edge* guarded, Take
     });
   }();
   std::vector<std::uint8_t> slow;
-  const FrameStatus b = simple_core(c, words, slow);
+  bool loose = false;
+  const FrameStatus b = simple_core(c, words, slow, &loose);
+  if (loose) return;  // docs/stream.md leaves open what a damaged edge shows
   REQUIRE(a.error == b.error);
   REQUIRE(a == b);
   REQUIRE(lines == a.height);
@@ -58,6 +66,7 @@ void check_frame(Random& random, int width, int round, const Edge* guarded, Take
 
 void check_every_kind_of_token(const Taken& taken) {
   for (std::size_t k = 1; k < kKindNames.size(); ++k) {
+    if (kKindNames[k] == "-") continue;
     CAPTURE(kKindNames[k]);
     CHECK(taken.tokens[k] > 0);
   }

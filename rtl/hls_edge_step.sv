@@ -38,12 +38,12 @@ module hls_edge_step (
   end
 
   // stage 0
-  wire [24:0] add_10 = {1'd0, rest_i} + {1'd0, rest_step_i};
-  wire [25:0] less = {1'd0, add_10} - {2'd0, dy_i};
+  wire [24:0] sum = {1'd0, rest_i} + {1'd0, rest_step_i};
+  wire [25:0] less = {1'd0, sum} - {2'd0, dy_i};
   wire [16:0] on = x_i + step_i;
   wire xor_17 = ~less[25];
   wire [16:0] add_19 = on + {16'd0, xor_17};
-  wire [23:0] mux_22 = less[25] ? add_10[23:0] : less[23:0];
+  wire [23:0] mux_22 = less[25] ? sum[23:0] : less[23:0];
   logic [16:0] add_19_s1;
   logic [16:0] step_i_s1;
   logic [23:0] mux_22_s1;

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// A polygon on a line: the span between its edges, and the polygon as it is on the next line.
+//
+// Handshake: a pipeline that moves by go_i. in_valid_i: something enters; with in_made_i it is a polygon, polygon_i,
+//   that goes on to the next line if in_keep_i; without, something that has no span and passes at the same pace, a
+//   line's end if in_swap_i. It leaves by out_valid_o with out_made_o and, of a polygon, span_o. flush_i: nothing is
+//   in here.
+// Next line: write_o, one clock, for each polygon that goes on, in the order in which they came; next_o is the polygon;
+//   swap_write_o, one clock, for each line's end.
+// Latency: 6 moves to the span, 2 to the next line. Throughput: a polygon a move.
+// Cost: the kernels edge_step (twice), plane_step and span_setup, with SMOOTH the latter two for each channel as well;
+//   two registers of a polygon and four of what a span needs of it.
+`default_nettype none
+
+module polygon_walk #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    localparam int Stages = 6
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic flush_i,
+    input wire logic go_i,
+
+    input wire logic [    X_BITS-1:0] width_i,
+    input wire logic                  in_valid_i,
+    input wire logic                  in_made_i,
+    input wire logic                  in_keep_i,
+    input wire logic                  in_swap_i,
+    input wire logic [ActiveBits-1:0] polygon_i,
+
+    output logic                    write_o,
+    output logic [  ActiveBits-1:0] next_o,
+    output logic                    swap_write_o,
+    output logic                    early_o,       // something is before the point where it is written
+    output logic                    out_valid_o,
+    output logic                    out_made_o,
+    output logic [MadeSpanBits-1:0] span_o,
+    output logic                    busy_o         // something is in here
+);
+  `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
+
+  localparam int CrossBits = 17;  // of a crossing, as hls_edge_step has it
+  localparam int RestBits = 24;
+  localparam int SpanBits = X_BITS + 1;
+
+  // ---- what is where -----------------------------------------------------------------------------------------------
+  logic [Stages-1:0] valid_q, made_q;
+  logic [1:0] keep_q, swap_q;
+  assign out_valid_o = valid_q[Stages-1];
+  assign out_made_o = made_q[Stages-1];
+  assign busy_o = valid_q != '0;
+  assign early_o = valid_q[1:0] != 2'b00;
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || flush_i) valid_q <= '0;
+    else if (go_i) valid_q <= {valid_q[Stages-2:0], in_valid_i};
+    if (go_i) begin
+      made_q <= {made_q[Stages-2:0], in_made_i};
+      keep_q <= {keep_q[0], in_made_i && in_keep_i};
+      swap_q <= {swap_q[0], in_swap_i};
+    end
+  end
+
+  // ---- 0: the polygon, registered ----------------------------------------------------------------------------------
+  logic [ActiveBits-1:0] polygon_q;
+  always_ff @(posedge clk_i) if (go_i) polygon_q <= polygon_i;
+
+  // ---- 1: crossings within the line, and edges one line further down -----------------------------------------------
+  // The kernels' pipelines are always full, so that all of them move by go_i alone.
+  function automatic logic [SpanBits-1:0] in_line(input logic [CrossBits-1:0] x, input logic [X_BITS-1:0] width);
+    if (x[CrossBits-1]) in_line = '0;
+    else if (x > CrossBits'(width)) in_line = SpanBits'(width);
+    else in_line = SpanBits'(x);
+  endfunction
+
+  logic [WalkedEdgeBits-1:0] edges[2];
+  logic [WalkedEdgeBits-1:0] stepped[2];
+  logic [SpanBits-1:0] crossing[2];
+  assign edges[0] = polygon_q[ActiveDownEdgeAt+:WalkedEdgeBits];
+  assign edges[1] = polygon_q[ActiveUpEdgeAt+:WalkedEdgeBits];
+  for (genvar side = 0; side < 2; side++) begin : gen_edges
+    logic unused_ready, unused_valid;
+    assign crossing[side] = in_line(edges[side][CrossBits-1:0], width_i);
+    hls_edge_step u_step (
+        .clk_i,
+        .rst_ni,
+        .in_valid_i (1'b1),
+        .in_ready_o (unused_ready),
+        .out_valid_o(unused_valid),
+        .out_ready_i(go_i),
+        .x_i        (edges[side][0+:CrossBits]),
+        .step_i     (edges[side][CrossBits+:CrossBits]),
+        .rest_i     (edges[side][2*CrossBits+:RestBits]),
+        .rest_step_i(edges[side][2*CrossBits+RestBits+:RestBits]),
+        .dy_i       (edges[side][2*CrossBits+2*RestBits+:RestBits]),
+        .x_o        (stepped[side][0+:CrossBits]),
+        .step_o     (stepped[side][CrossBits+:CrossBits]),
+        .rest_o     (stepped[side][2*CrossBits+:RestBits]),
+        .rest_step_o(stepped[side][2*CrossBits+RestBits+:RestBits]),
+        .dy_o       (stepped[side][2*CrossBits+2*RestBits+:RestBits])
+    );
+  end
+
+  logic [ActiveBits-1:0] walked_q;  // but for its edges
+  logic [X_BITS-1:0] xl_q, xr_q;
+  logic turned_q, empty_q, single_q;
+  logic turned;
+  logic [SpanBits-1:0] pixels;
+  assign turned = crossing[1] < crossing[0];
+  assign pixels = turned ? crossing[0] - crossing[1] : crossing[1] - crossing[0];
+  always_ff @(posedge clk_i) begin
+    if (go_i) begin
+      walked_q <= polygon_q;
+      xl_q <= X_BITS'(turned ? crossing[1] : crossing[0]);
+      xr_q <= X_BITS'(turned ? crossing[0] : crossing[1]);
+      turned_q <= turned;
+      empty_q <= pixels == '0;
+      single_q <= pixels == SpanBits'(1);
+    end
+  end
+
+  // ---- the next line -----------------------------------------------------------------------------------------------
+  assign write_o = go_i && valid_q[1] && made_q[1] && keep_q[1];
+  assign swap_write_o = go_i && valid_q[1] && swap_q[1];
+  always_comb begin
+    next_o = walked_q;
+    next_o[ActiveDownEdgeAt+:WalkedEdgeBits] = stepped[0];
+    next_o[ActiveUpEdgeAt+:WalkedEdgeBits] = stepped[1];
+    next_o[ActiveValueAt+:PlaneBits] = walked_q[ActiveValueAt+:PlaneBits] + walked_q[ActiveDownAt+:PlaneBits];
+    if (SMOOTH > 0) begin
+      for (int c = 0; c < CHANNELS; c++) begin
+        next_o[ActiveGradientsAt+3*c*ColorPlaneBits+:ColorPlaneBits] =
+            walked_q[ActiveGradientsAt+3*c*ColorPlaneBits+:ColorPlaneBits] +
+            walked_q[ActiveGradientsAt+(3*c+2)*ColorPlaneBits+:ColorPlaneBits];
+      end
+    end
+  end
+
+  // ---- 2 to 5: planes at the span's first pixel, rounded -----------------------------------------------------------
+  // What a span has of its polygon but its planes goes along.
+  localparam int AlongBits = LookBits + 2 * X_BITS + 3;
+  logic [AlongBits-1:0] along_q  [4];
+  logic [ LookBits-1:0] out_look;
+  logic [X_BITS-1:0] out_xl, out_xr;
+  logic out_turned, out_empty, out_single;
+  assign {out_look, out_xl, out_xr, out_turned, out_empty, out_single} = along_q[3];
+  always_ff @(posedge clk_i) begin
+    if (go_i) begin
+      along_q[0] <= {walked_q[ActiveLookAt+:LookBits], xl_q, xr_q, turned_q, empty_q, single_q};
+      for (int i = 1; i < 4; i++) along_q[i] <= along_q[i-1];
+    end
+  end
+
+  logic [DepthBits-1:0] z, dz;
+  plane_at #(
+      .BITS (PlaneBits),
+      .SHIFT(PlaneFrac - Z_FRAC),
+      .FRAC (Z_FRAC),
+      .FIELD(DepthBits)
+  ) u_depth (
+      .clk_i,
+      .rst_ni,
+      .go_i,
+      .value_i (walked_q[ActiveValueAt+:PlaneBits]),
+      .right_i (walked_q[ActiveRightAt+:PlaneBits]),
+      .down_i  (walked_q[ActiveDownAt+:PlaneBits]),
+      .xl_i    (CrossBits'(xl_q)),
+      .single_i(single_q),
+      .start_o (z),
+      .step_o  (dz)
+  );
+
+  logic [ColorBits-1:0] color;
+  logic [SlopeBits-1:0] dcolor;
+  if (SMOOTH > 0) begin : gen_smooth
+    for (genvar c = 0; c < CHANNELS; c++) begin : gen_channels
+      localparam int At = ActiveGradientsAt + 3 * c * ColorPlaneBits;
+      plane_at #(
+          .BITS (ColorPlaneBits),
+          .SHIFT(PlaneFrac - COLOR_FRAC),
+          .FRAC (COLOR_FRAC),
+          .FIELD(SmoothBits)
+      ) u_color (
+          .clk_i,
+          .rst_ni,
+          .go_i,
+          .value_i (walked_q[At+:ColorPlaneBits]),
+          .right_i (walked_q[At+ColorPlaneBits+:ColorPlaneBits]),
+          .down_i  (walked_q[At+2*ColorPlaneBits+:ColorPlaneBits]),
+          .xl_i    (CrossBits'(xl_q)),
+          .single_i(single_q),
+          .start_o (color[c*SmoothBits+:SmoothBits]),
+          .step_o  (dcolor[c*SmoothBits+:SmoothBits])
+      );
+    end
+  end else begin : gen_flat
+    assign color  = out_look[LookBits-1-:RgbBits];
+    assign dcolor = '0;
+  end
+
+  made_span_t span;
+  assign span_o = span;
+  assign span.empty = out_empty;
+  assign span.xl = out_xl;
+  assign span.xr = out_xr;
+  assign span.turned = out_turned;
+  assign span.look = out_look;
+  assign span.z = z;
+  assign span.dz = dz;
+  assign span.color = color;
+  assign span.dcolor = dcolor;
+
+  logic unused_span;
+  assign unused_span = out_single;
+
+endmodule
+
+`default_nettype wire

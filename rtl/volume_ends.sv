@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way out of front_end: its items as tokens of the span level, and between them the EV, ES and RESOLVE that frames
+// at the polygon level do without. A volume ends where a token of another one comes, or one that is of no volume; its
+// range is the union of its spans.
+//
+// Handshake: item_valid_i with item_i and, of a polygon (item_made_i), span_i; item_ready_o takes it. Items are those
+//   of polygon_walk, which has no ready, so item_ready_o may depend on all of the inputs. token_* is valid/ready;
+//   token_ready_i comes from a register.
+// Item: {plain: a token that passes as it is, whatever volumes are open; family: the place but for its rank; index: in
+//   the frame, of the token at hand; flags, token: of one that is not a polygon's}.
+// flush_i: nothing is open, as after reset and behind a header.
+// Latency: 0. Throughput: a token a clock; an end of a volume, of a sample, and RESOLVE are tokens like others. A
+//   polygon without pixels, or whose weight is 0, takes a clock and gives none; without FSF so does a volume's end.
+// Cost: four numbers of X_BITS, the family, comparators of X_BITS and of the family.
+`default_nettype none
+
+module volume_ends #(
+    `include "generated/kage_pixel_params.svh"
+    `include "generated/kage_widths.svh"
+    parameter int TOKEN_WORDS = 5,
+    localparam int ItemBits = 1 + FamilyBits + 32 + FlagsBits + TOKEN_WORDS * 32
+) (
+    input wire logic clk_i,
+    input wire logic rst_ni,
+    input wire logic flush_i,
+
+    input wire logic [X_BITS-1:0] width_i,
+
+    input  wire logic                    item_valid_i,
+    output logic                         item_ready_o,
+    input  wire logic                    item_made_i,
+    input  wire logic [    ItemBits-1:0] item_i,
+    input  wire logic [MadeSpanBits-1:0] span_i,
+
+    output logic                           moving_o,       // an item, or an end before it, is done with
+    output logic                           token_valid_o,
+    input  wire logic                      token_ready_i,
+    output logic      [TOKEN_WORDS*32-1:0] token_o,
+    output logic      [     FlagsBits-1:0] token_flags_o,
+    output logic      [              31:0] token_index_o
+);
+  `include "generated/kage_layout.svh"
+  `include "generated/kage_buses.svh"
+
+  localparam int TokenBits = TOKEN_WORDS * 32;
+  localparam int SampleAt = VolumeBits;  // in the family: the light, the sample, the layer
+  localparam int SampleFamilyBits = FamilyBits - SampleAt;
+  localparam int SomeClassBits = ClassBits > 0 ? ClassBits : 1;
+
+  // ---- the item ----------------------------------------------------------------------------------------------------
+  logic plain;
+  logic [FamilyBits-1:0] family;
+  logic [31:0] index;
+  flags_t flags;
+  logic [TokenBits-1:0] token;
+  made_span_t span;
+  logic [1:0] layer;
+  logic [KindBits-1:0] kind;
+  assign {plain, family, index, flags, token} = item_i;
+  assign span = span_i;
+  assign layer = family[FamilyBits-1-:2];
+  assign kind = token[KindBits-1:0];
+
+  // ---- a polygon's span as a token ---------------------------------------------------------------------------------
+  logic [TokenBits-1:0] made_op, made_sp, made_tp;
+  logic no_weight;
+  always_comb begin
+    made_op = '0;
+    made_op[KindBits-1:0] = KindOp;
+    made_op[OpXlLsb+:X_BITS] = span.xl;
+    made_op[OpXrLsb+:X_BITS] = span.xr;
+    if (ClassBits > 0) made_op[OpClassLsb+:SomeClassBits] = span.look[0+:SomeClassBits];
+    made_op[OpZLsb+:DepthBits] = span.z;
+    made_op[OpDzLsb+:DepthBits] = span.dz;
+    made_op[OpColorLsb+:ColorBits] = span.color;
+    if (SMOOTH > 0) made_op[OpDcolorLsb+:SlopeBits] = span.dcolor;
+  end
+  if (DSF_BITS > 0) begin : gen_sp
+    logic [DSF_BITS:0] w, turned_w;
+    assign w = span.look[PolygonWLsb-KindBits+:DSF_BITS+1];
+    assign turned_w = span.turned ? -w : w;
+    assign no_weight = w[DSF_BITS-1:0] == '0;
+    always_comb begin
+      made_sp = '0;
+      made_sp[KindBits-1:0] = KindSp;
+      made_sp[SpXlLsb+:X_BITS] = span.xl;
+      made_sp[SpXrLsb+:X_BITS] = span.xr;
+      made_sp[SpWLsb+:DSF_BITS+1] = turned_w;
+      made_sp[SpZLsb+:DepthBits] = span.z;
+      made_sp[SpDzLsb+:DepthBits] = span.dz;
+    end
+  end else begin : gen_no_sp
+    logic unused_turned;
+    assign unused_turned = span.turned;
+    assign made_sp = '0;
+    assign no_weight = 1'b1;
+  end
+  if (TRANSLUCENCY > 0) begin : gen_tp
+    always_comb begin
+      made_tp = '0;
+      made_tp[KindBits-1:0] = KindTp;
+      made_tp[TpXlLsb+:X_BITS] = span.xl;
+      made_tp[TpXrLsb+:X_BITS] = span.xr;
+      made_tp[TpAlphaLsb+:8] = span.look[PolygonAlphaLsb-KindBits+:8];
+      made_tp[TpZLsb+:DepthBits] = span.z;
+      made_tp[TpDzLsb+:DepthBits] = span.dz;
+      made_tp[TpColorLsb+:ColorBits] = span.color;
+      if (SMOOTH > 0) made_tp[TpDcolorLsb+:SlopeBits] = span.dcolor;
+    end
+  end else begin : gen_no_tp
+    assign made_tp = '0;
+  end
+
+  // ---- what it is to volumes ---------------------------------------------------------------------------------------
+  logic none, of_volume, behind_volumes;
+  logic [X_BITS-1:0] xl, xr;
+  logic any_q, volume_open_q, sample_open_q;
+  logic [FamilyBits-1:0] family_q;
+  logic [X_BITS-1:0] volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
+  logic other_volume, other_sample, ends_volume, ends_sample, resolves, passes, gives, done;
+  assign none = item_made_i && (span.empty || (layer == 2'd1 && no_weight));
+  assign of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 : kind == KindSp || kind == KindNc);
+  assign behind_volumes = !plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
+  assign xl = item_made_i ? span.xl : token[RangeXlLsb+:X_BITS];
+  assign xr = item_made_i ? span.xr : token[RangeXrLsb+:X_BITS];
+  assign other_volume = family != family_q;
+  assign other_sample = family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
+  assign ends_volume = !none && volume_open_q && (behind_volumes || (of_volume && other_volume));
+  assign ends_sample = !none && !volume_open_q && sample_open_q && (behind_volumes || (of_volume && other_sample));
+  assign resolves = !none && !volume_open_q && !sample_open_q && any_q && behind_volumes;
+  assign passes = !none && !ends_volume && !ends_sample && !resolves;
+  assign gives = passes || resolves || (ends_volume && FSF > 0) || (ends_sample && COUNT_BITS > 0);
+  assign done = item_valid_i && (token_ready_i || !gives);
+  assign moving_o = done;
+  assign token_valid_o = item_valid_i && gives;
+  assign item_ready_o = done && (passes || none);
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || flush_i || (item_valid_i && flags.header)) begin
+      any_q <= 1'b0;
+      volume_open_q <= 1'b0;
+      sample_open_q <= 1'b0;
+    end else if (done) begin
+      if (passes && of_volume) begin
+        any_q <= 1'b1;
+        volume_open_q <= 1'b1;
+      end
+      if (ends_volume) begin
+        volume_open_q <= 1'b0;
+        sample_open_q <= 1'b1;
+      end
+      if (ends_sample) sample_open_q <= 1'b0;
+      if (resolves) any_q <= 1'b0;
+    end
+    if (done && passes && of_volume) begin
+      family_q <= family;
+      if (!volume_open_q || xl < volume_xl_q) volume_xl_q <= xl;
+      if (!volume_open_q || xr > volume_xr_q) volume_xr_q <= xr;
+    end
+    if (done && ends_volume) begin
+      if (!sample_open_q || volume_xl_q < sample_xl_q) sample_xl_q <= volume_xl_q;
+      if (!sample_open_q || volume_xr_q > sample_xr_q) sample_xr_q <= volume_xr_q;
+    end
+  end
+
+  // ---- the token ---------------------------------------------------------------------------------------------------
+  // A near cap over the whole line is what IF says.
+  logic whole_cap;
+  logic [TokenBits-1:0] passing, ending;
+  assign whole_cap = !plain && DSF_BITS > 0 && kind == KindNc && xl == '0 && xr == width_i;
+  always_comb begin
+    passing = token;
+    if (whole_cap) begin
+      passing = '0;
+      passing[KindBits-1:0] = KindIf;
+      passing[IfWLsb+:DSF_BITS+1] = token[NcWLsb+:DSF_BITS+1];
+    end
+    if (item_made_i) passing = layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
+    ending = '0;
+    ending[KindBits-1:0] = ends_volume ? KindEv : ends_sample ? KindEs : KindResolve;
+    if (ends_volume || ends_sample) begin
+      ending[EvXlLsb+:X_BITS] = ends_volume ? volume_xl_q : sample_xl_q;
+      ending[EvXrLsb+:X_BITS] = ends_volume ? volume_xr_q : sample_xr_q;
+    end
+    if (ends_sample) ending[EsLightLsb+:LightBits] = family_q[SampleAt+:LightBits];
+    token_o = passes ? passing : ending;
+    token_flags_o = passes && !item_made_i ? flags : '0;
+  end
+  assign token_index_o = index;
+
+endmodule
+
+`default_nettype wire
