@@ -9,6 +9,7 @@
 #include <map>
 
 #include "kage/error.hpp"
+#include "kage/frontend.hpp"
 #include "kage/light.hpp"
 #include "kage/order.hpp"
 #include "kage/scene.hpp"
