@@ -152,7 +152,7 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
       "  kage cosim courtyard --degrade --netlist ice40 --config tiny --size 64x48   (an FPGA's cells for the RTL)\n"
       "  kage cosim courtyard penumbra glass --size 160x120\n"
       "  kage cosim random:mixed --frames 1000 --seed 5 --config glass --coverage\n"
-      "  kage cosim random --level polygons --config front.yaml   (front.yaml: ACTIVE: 64)\n"
+      "  kage cosim random:mixed --front-end rtl --frames 100\n"
       "  kage cosim courtyard --shard 2/4 --junit cosim-2.xml --json cosim-2.json   (then kage merge)\n"
       "The RTL model of a configuration is built on first use, and anew when the RTL has changed; it is kept in\n"
       "~/.cache/kage/models. All files of a run appear together at its end: the pictures and DIR/report.html, which\n"
@@ -163,7 +163,6 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
   option_scenes(*c, o.inputs, Taken::random);
   c->add_option("--out", o.out, "folder for pictures and report.html, default out")->type_name("DIR");
   options_of_frames(*c, o);
-  option_level(*c, o);
   option_json(*c, o);
   option_front_end(*c, o);
   option_rtl(*c, o.rtl);

@@ -239,7 +239,7 @@ void add_explain(CLI::App& app, Action& action) {
   auto* const rtl = c->add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
   c->add_flag("--check", o->check, "exit code 1 if the RTL differs somewhere in the pixel's history")->needs(rtl);
   options_of_frames(*c, *o);
-  option_level(*c, *o);
+  option_front_end(*c, *o);
   option_json(*c, *o);
   option_rtl(*c, o->run);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

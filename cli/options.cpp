@@ -202,7 +202,7 @@ void option_front_end(CLI::App& command, Options& options) {
       .add_option_function<std::string>(
           "--front-end", [&options](const std::string& who) { options.level = kWho.at(who); },
           fmt::format(
-              "who makes spans of a scene's polygons, default host: rtl sends frames at the polygon level, and the "
+              "who makes spans of polygons, default host: rtl sends frames at the polygon level, and the "
               "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
               kUsualActive))
       ->check(CLI::IsMember({"host", "rtl"}))

@@ -76,7 +76,7 @@ void options_of_frames(CLI::App& command, Options& options);
 void option_max_fragments(CLI::App& command, Options& options);
 void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
-/// --level: of a scene's frames, or random ones.
+/// --level: of frames that are written.
 void option_level(CLI::App& command, Options& options);
 std::string name_of(Level level);  // as --level has it
 

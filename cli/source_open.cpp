@@ -102,9 +102,7 @@ void Source::open_random(const Options& options, verif::Manner manner) {
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
   refuse(options.allow_outside, "--allow-outside", "need no files");
   config_ = load_config(options.config.empty() ? "default" : options.config);
-  if (options.level == Level::polygons && config_.config.active == 0)
-    throw Error(fmt::format("{}: --level polygons: configuration {} has ACTIVE 0, so its core takes spans alone",
-                            options.input, config_.name));
+  if (options.level == Level::polygons && config_.config.active == 0) config_.config.active = kUsualActive;
   if (options.config.empty()) notes_.push_back(fmt::format("configuration: {}", config_.name));
   name_ = options.input;
   std::replace(name_.begin(), name_.end(), ':', '_');

@@ -90,7 +90,8 @@ class FrontEnd {
   template <class Make>
   ErrorCode begin(const Token& t, Make make) {
     if (!placed_) return ErrorCode::PLACE;
-    if (const ErrorCode e = make_before(place_, make); e != ErrorCode::NONE) return e;
+    // One that is there at this very place comes first.
+    if (const ErrorCode e = make_while([this](Place p) { return p <= place_; }, make); e != ErrorCode::NONE) return e;
     begun_ = true;
     have_ = {};
     fresh_ = ActivePolygon(config_, place_, t);
@@ -147,7 +148,13 @@ class FrontEnd {
   /// Make the spans of the polygons that come before a place.
   template <class Make>
   ErrorCode make_before(Place place, Make make) {
-    while (at_ < active_.size() && active_[at_].place < place)
+    return make_while([place](Place p) { return p < place; }, make);
+  }
+
+  /// Make the spans of the next polygons as long as their places are sooner().
+  template <class Sooner, class Make>
+  ErrorCode make_while(Sooner sooner, Make make) {
+    while (at_ < active_.size() && sooner(active_[at_].place))
       if (const ErrorCode e = make_span(active_[at_++], make); e != ErrorCode::NONE) return e;
     return ErrorCode::NONE;
   }
