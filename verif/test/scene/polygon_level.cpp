@@ -40,7 +40,8 @@ TEST_CASE("the front end's table of polygons may be small: what it does not hold
     const FrameGeometry g = make_geometry(scene.frame(0, scene.frame_count()), c, 160, 120);
     const BothLevels both = both_levels(g, c);
     CAPTURE(active);
-    CHECK(both.fault == "");
+    INFO(both.fault);
+    CHECK(both.fault.empty());
     CHECK(both.report.active <= active);
     CHECK(both.report.words < before);
     CHECK((both.report.ways[static_cast<std::size_t>(PolygonWay::active)].spans > 0) == (active < kUsualActive));
