@@ -9,6 +9,7 @@
 #include <map>
 
 #include "kage/error.hpp"
+#include "kage/frontend.hpp"
 #include "kage/light.hpp"
 #include "kage/order.hpp"
 #include "kage/scene.hpp"
@@ -200,9 +201,10 @@ void option_front_end(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--front-end", [&options](const std::string& who) { options.level = kWho.at(who); },
-          fmt::format("who makes spans of polygons, default host: rtl sends frames at the polygon level, and the core "
-                      "gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
-                      kUsualActive))
+          fmt::format(
+              "who makes spans of polygons, default host: rtl sends frames at the polygon level, and the "
+              "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
+              kUsualActive))
       ->check(CLI::IsMember({"host", "rtl"}))
       ->type_name("host|rtl");
 }
@@ -228,7 +230,11 @@ void option_level(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--level", [&options](const std::string& name) { options.level = levels().at(name); },
-          "what the frames' tokens are: spans, or polygons, of which a core with ACTIVE > 0 makes spans; default spans")
+          fmt::format(
+              "what the tokens of frames are, default spans; polygons are fewer words, and the core's front end "
+              "makes the spans (docs/stream.md): a core with ACTIVE, which is {} for a scene whose configuration "
+              "has none",
+              kUsualActive))
       ->option_text("spans|polygons")
       ->check(CLI::IsMember({"spans", "polygons"}))
       ->type_name("LEVEL");

@@ -78,8 +78,7 @@ void option_seed(CLI::App& command, Options& options);
 void option_json(CLI::App& command, Options& options);
 /// --level: of frames that are written.
 void option_level(CLI::App& command, Options& options);
-/// As --level has it.
-std::string name_of(Level level);
+std::string name_of(Level level);  // as --level has it
 
 /// What a command takes frames from: scenes; stream files, too; random frames, too.
 enum class Taken : std::uint8_t { scenes, streams, random };

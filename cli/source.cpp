@@ -35,6 +35,7 @@ void Source::count_anew(int last) {
   last_ = last;
   made_ = blank_ = unfit_ = units_ = 0;
   ways_.clear();
+  polygons_.clear();
   if (scene_) remarks_.emplace(config_.config, options_.size, options_.cull);
 }
 
@@ -46,6 +47,7 @@ void Source::absorb(const Source& share) {
   units_ = std::max(units_, share.units_);
   if (remarks_) remarks_->absorb(*share.remarks_);
   ways_.absorb(share.ways_);
+  polygons_.absorb(share.polygons_);
 }
 
 std::function<std::vector<std::uint32_t>(int)> Source::prelude() const {
@@ -115,7 +117,7 @@ TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
   FrameParts parts;
   bool recorded = false;
   try {
-    return scene_frames_->frame(
+    const TokenCounts counts = scene_frames_->frame(
         index,
         [&](std::span<const std::uint32_t> words) {
           check_interrupt();
@@ -124,6 +126,8 @@ TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
           sink(words);
         },
         parts);
+    if (!again_ && options_.level == Level::polygons) polygons_.add(parts.polygons);
+    return counts;
   } catch (const TooManyFragments& e) {
     refuse_fragments(fmt::format("{}: frame {}", options_.input, index), e);
   }

@@ -15,6 +15,7 @@
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
 #include "options.hpp"
+#include "polygon_ways.hpp"
 #include "progress.hpp"
 #include "remarks.hpp"
 #include "results.hpp"
@@ -105,6 +106,9 @@ class Source : public FrameSource {
   /// triangles has as many components as faces. Of a stream: as the file has it, if it has.
   [[nodiscard]] report::WayRecords ways() const;
 
+  /// How polygons went in the frames of a scene made so far, at the polygon level.
+  [[nodiscard]] const PolygonWays& polygons() const { return polygons_; }
+
   /// Most units in use in a frame.
   [[nodiscard]] int units() const { return units_; }
 
@@ -147,6 +151,7 @@ class Source : public FrameSource {
   int unfit_ = 0;                        // of those, with fewer shadow volumes than the scene has
   std::optional<FrameRemarks> remarks_;  // of a scene
   ComponentWays ways_;
+  PolygonWays polygons_;
   int units_ = 0;
 };
 

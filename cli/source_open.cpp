@@ -67,8 +67,8 @@ DrawOptions draw_options(const Options& options) {
   draw.look.sub_bits = options.sub_bits;
   draw.look.cull = options.cull;
   draw.look.fit = options.degrade;
-  draw.level = options.level;
   draw.threads = options.threads;
+  draw.level = options.level;
   return draw;
 }
 
@@ -121,9 +121,9 @@ void Source::open_stream(const Options& options) {
   if (options.sub_bits != Options{}.sub_bits)
     throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
-  if (options.level != Level::spans)
-    throw Error(fmt::format("{}: --front-end: a stream has its own level", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
+  if (options.level != Level::spans)
+    throw Error(fmt::format("{}: --level, --front-end: a stream has its own level", options.input));
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);

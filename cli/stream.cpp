@@ -66,14 +66,19 @@ int run(const Options& o) {
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
   j["words"] = counts.words;
+  j["level"] = name_of(source.level());
+  j["polygons"] = o.level == Level::polygons ? source.polygons().json() : Json(nullptr);
   j["config"] = to_json(config);
   j["degraded"] = source.degraded();
   j["notes"] = source.notes();
   const Document document("kage.stream/1", j);
-  const std::string text = fmt::format(
-      "{}{}: {}, {} over {}{}, {}\n", notes_text(source), piped(o) ? "standard output" : o.out,
+  std::string text = fmt::format(
+      "{}{}: {}, {} over {}{}, {}", notes_text(source), piped(o) ? "standard output" : o.out,
       counted(source.frames(), "frame"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
       and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), counted(counts.words, "word"));
+  text += o.level == Level::polygons
+              ? fmt::format(" ({})\n{}", counted(counts.words * 4, "byte"), source.polygons().text())
+              : "\n";
   if (piped(o)) {
     finish(o, document, files, "");
     say(text);
@@ -93,6 +98,7 @@ void add_stream(CLI::App& app, Action& action) {
                   "  kage stream model.glb --size 320x240 --frames 4 --config full --out model.kage\n"
                   "  kage stream courtyard.kage --frames 2 --out short.kage\n"
                   "  kage stream courtyard --out - | gzip >courtyard.kage.gz\n"
+                  "  kage stream courtyard --level polygons --out small.kage\n"
                   "A stream file is checked and copied: --frames takes its first ones, and --config may change\n"
                   "what affects no pixel. Frames that are kept unchecked (PORT) stay so.");
   const auto o = std::make_shared<Options>();
@@ -101,6 +107,7 @@ void add_stream(CLI::App& app, Action& action) {
       ->required()
       ->type_name(std::string("FILE") + kOrStandardOutput);
   options_of_frames(*c, *o);
+  option_level(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

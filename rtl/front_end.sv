@@ -436,7 +436,8 @@ module front_end #(
   assign out_ready = token_ready_i;
 
   assign busy_o = head_valid || walk_busy || out_valid || dropping_q;
-  assign moving_o = push || head_ready || list_pop || (list_left && !list_valid) || (go && walk_busy) || ending || dropping_q ||
+  assign moving_o = push || head_ready || list_pop || (list_left && !list_valid) || (go && walk_busy) || ending ||
+      (dropping_q && (!owed_q || token_valid_i)) ||
       edges_q != '0 || !swap_ready;
 
   logic unused_bits;

@@ -90,6 +90,7 @@ set(long_tests
     scene/plan
     scene/plan_measured
     scene/plan_reasons
+    scene/polygon_level_large
     scene/precision
     tools/dead-cores
     tools/lint-verilator)

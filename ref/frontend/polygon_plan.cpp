@@ -26,12 +26,16 @@ class Prices {
     gradients_ = config.smooth != 0 ? config.channels * words(Kind::GRADIENT) : 0;
   }
 
-  /// How many fewer it takes as a polygon. As spans it needs an AT on each of its lines.
-  [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span) const {
-    const std::int64_t at = words(Kind::AT);
+  /// How many fewer it takes as a polygon than as spans with `ats` ATs.
+  [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span, int ats) const {
     const bool varies = p.color_planes >= 0 && span != Kind::SP;
-    const std::int64_t polygon = at + words(Kind::POLYGON) + (varies ? gradients_ : 0) + 2 * words(Kind::EDGE);
-    return s.spans * words(span) + s.lines() * at - polygon - s.words;
+    const std::int64_t polygon =
+        words(Kind::AT) + words(Kind::POLYGON) + (varies ? gradients_ : 0) + 2 * words(Kind::EDGE);
+    return s.spans * words(span) + ats * words(Kind::AT) - polygon - s.words;
+  }
+  /// The same with an AT on each of its lines, as it needs it where none of its neighbours is spans.
+  [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span) const {
+    return saved(p, s, span, s.lines());
   }
 
  private:
@@ -48,6 +52,7 @@ PolygonPlan::PolygonPlan(const FrameGeometry& geometry, const Config& config, st
   number_uses(config);
   choose(config);
   keep_active(config);
+  join_spans(config);
   count();
 }
 
@@ -124,6 +129,14 @@ PolygonWay PolygonPlan::choice(const Config& config, const Prices& prices, std::
 }
 
 namespace {
+
+int length(const LineRange& r) { return r.end - r.first; }
+
+LineRange hull(const LineRange& a, const LineRange& b) {
+  if (length(a) == 0) return b;
+  if (length(b) == 0) return a;
+  return {std::min(a.first, b.first), std::max(a.end, b.end)};
+}
 
 /// A polygon that goes as such, on a line.
 struct Active {
@@ -218,6 +231,41 @@ void PolygonPlan::keep_active(const Config& config) {
     }
     active.erase(keep, active.end());
   }
+}
+
+template <class Each>
+void PolygonPlan::each_order(Each order) const {
+  order(std::size_t{0}, first_face_);
+  if (first_translucent_ > first_face_)
+    for (const ShadowVolume& v : g_->volumes)
+      order(first_face_ + v.first_face, first_face_ + v.first_face + v.face_count);
+  order(first_translucent_, ways_.size());
+}
+
+// Spans that stand between the same two polygons share the AT of a line, and a polygon parts those before it from those
+// behind it. So one goes as spans, too, where that saves more than it costs.
+void PolygonPlan::join_spans(const Config& config) {
+  const Prices prices(config);
+  each_order([&](std::size_t first, std::size_t end) {
+    LineRange before;  // lines of the spans right before the polygon at hand, and what lies between them
+    for (std::size_t i = first; i < end; ++i) {
+      const PolygonShape& s = shapes_[polygon_of(i)];
+      if (ways_[i] == kUnseen) continue;
+      const LineRange here{s.first, s.last + 1};
+      if (ways_[i] != PolygonWay::polygon) {
+        before = hull(before, here);
+        continue;
+      }
+      LineRange behind;
+      for (std::size_t k = i + 1; k < end && ways_[k] != PolygonWay::polygon; ++k)
+        if (ways_[k] != kUnseen) behind = hull(behind, {shapes_[polygon_of(k)].first, shapes_[polygon_of(k)].last + 1});
+      const LineRange all = hull(hull(before, here), behind);
+      const int ats = std::min(length(all) - length(before) - length(behind), s.lines());
+      const bool joins = prices.saved(g_->polygons[polygon_of(i)], s, span_of(i), ats) <= 0;
+      if (joins) ways_[i] = PolygonWay::words;
+      before = joins ? hull(before, here) : LineRange{};
+    }
+  });
 }
 
 void PolygonPlan::count() {

@@ -65,7 +65,12 @@ class PolygonPlan {
   void choose(const Config& config);
   [[nodiscard]] PolygonWay choice(const Config& config, const Prices& prices, std::size_t use) const;
   void keep_active(const Config& config);
+  void join_spans(const Config& config);
   void count();
+
+  /// Call order(first, end) for the uses [first, end) of each layer, or volume, among which places count.
+  template <class Each>
+  void each_order(Each order) const;
 
   const FrameGeometry* g_;
   std::uint32_t first_opaque_;

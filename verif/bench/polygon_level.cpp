@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame takes at the polygon level beside the span level, how many of its spans the front end makes, and why not
-// the others: the first frame of all built-in scenes and of four meshes at 640x480, ACTIVE 512. `bench_polygon_level
-// SCENE...` prints those.
+// the others: the first frame of all built-in scenes and of four meshes at 640x480, ACTIVE as usual.
+// `bench_polygon_level SCENE...` prints those.
 #include <fmt/format.h>
 
 #include <array>
@@ -26,7 +26,7 @@ void print(const std::string& path) {
   DrawOptions draw{.width = 640, .height = 480, .threads = 1};
   const NamedConfig named = choose_config(*scene, draw);
   Config config = named.config;
-  config.active = 512;
+  config.active = kUsualActive;
   const std::uint64_t spans = SceneFrames(scene, config, draw).words(0).size() * 4;
   draw.level = Level::polygons;
   SceneFrames frames(scene, config, draw);

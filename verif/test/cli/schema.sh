@@ -95,6 +95,7 @@ json json/regress.0.json 'j["interrupted"] is True'
 
 # Streams and pictures.
 said 0 stream courtyard "${small[@]}" --out a.kage
+said 0 stream courtyard "${small[@]}" --level polygons --out l.kage
 said 0 stream polyhedra --size 64x48 --frames 1 --config polyhedra --out p.kage
 "$kage" stream courtyard "${small[@]}" --out - --json json/stream.0.json >piped.kage 2>stderr || fail "a stream into a pipe"
 "$kage" stream glass --size 64x48 --frames 1 --config glass --out g.kage >/dev/null

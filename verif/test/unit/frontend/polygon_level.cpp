@@ -216,7 +216,8 @@ TEST_CASE("random polygons at the polygon level give the tokens of the span leve
     const FrameGeometry g = FrameMaker(random, c, width, height).make();
     const BothLevels both = both_levels(g, c);
     CAPTURE(round, width, height, c.active);
-    REQUIRE(both.fault == "");
+    INFO(both.fault);
+    REQUIRE(both.fault.empty());
     sum += both.report;
     const Layout layout(c);
     TokenWalk walk(layout, both.polygons);
@@ -258,7 +259,8 @@ TEST_CASE("a volume with more faces than places count has the rest as spans") {
   FrameGeometry g = frame_with_faces(20'000, 60);
   g.volumes.push_back({.first_face = 0, .face_count = 20'000});
   const BothLevels both = both_levels(g, c);
-  CHECK(both.fault == "");
+  INFO(both.fault);
+  CHECK(both.fault.empty());
   CHECK(both.report.made().polygons == (1U << kRankBits) - 1);
   CHECK(both.report.ways[static_cast<std::size_t>(PolygonWay::place)].polygons == 20'000 - (1U << kRankBits) + 1);
 }
