@@ -210,14 +210,15 @@ module front_end #(
   logic [ActiveBits-1:0] list;
   logic [ PlaceBits-1:0] list_place;
   logic misplaced, sooner, up_to, flushing, completes, fault, act, item, go, early;
-  logic gives_list, gives_fresh, gives_token, has_layer;
+  logic gives_list, gives_fresh, gives_token, has_layer, has_light;
   logic [CodeBits-1:0] code;
   assign list_place = list[ActivePlaceAt+:PlaceBits];
   assign has_layer  = layer == 2'd0 || (layer == 2'd1 && DSF_BITS > 0) || (layer == 2'd2 && TRANSLUCENCY > 0);
+  assign has_light = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:3]} < 4'(LIGHTS);
   // Known before the list is asked.
   always_comb begin
     misplaced = of_level && begun_q && !is_edge && !is_gradient;
-    if (is_at && (!has_layer || (placed_q && place < place_q))) misplaced = 1'b1;
+    if (is_at && (!has_layer || !has_light || (placed_q && place < place_q))) misplaced = 1'b1;
     if ((is_polygon || is_edge || is_span) && !placed_q) misplaced = 1'b1;
     if (is_span && place_q[PlaceBits-1-:2] != layer_of_span) misplaced = 1'b1;
     if (is_gradient && (!begun_q || head[GradientChannelLsb+:2] >= 2'(CHANNELS))) misplaced = 1'b1;

@@ -86,7 +86,8 @@ class FrontEnd {
 
   ErrorCode go_to(const Token& t) {
     const Place to(t.polygon, t.table.light);
-    if (!has(to.layer()) || (placed_ && to < place_)) return ErrorCode::PLACE;
+    const bool has_light = to.layer() != static_cast<int>(Layer::volumes) || to.light() < config_.lights;
+    if (!has(to.layer()) || !has_light || (placed_ && to < place_)) return ErrorCode::PLACE;
     place_ = to;
     placed_ = true;
     return ErrorCode::NONE;

@@ -47,14 +47,15 @@ class SimplePolygons {
       case Kind::AT: {
         const Place to{field(l_.at_layer), field(l_.at_sample), field(l_.at_light), field(l_.at_volume),
                        field(l_.at_rank)};
-        const bool layer = to[0] == 0 || (to[0] == 1 && c_.dsf_bits > 0) || (to[0] == 2 && c_.translucency > 0);
+        const bool layer = to[0] == 0 || (to[0] == 1 && c_.dsf_bits > 0 && to[2] < c_.lights) ||
+                           (to[0] == 2 && c_.translucency > 0);
         if (!layer || (!place_.empty() && to < place_.back())) return Verdict::place;
         place_.push_back(to);
         return Verdict::done;
       }
       case Kind::POLYGON:
         if (place_.empty()) return Verdict::place;
-        if (!before(place_.back(), make)) return Verdict::stopped;
+        if (!before(place_.back(), make, true)) return Verdict::stopped;
         begin(field);
         return Verdict::done;
       case Kind::GRADIENT: {
@@ -192,14 +193,15 @@ class SimplePolygons {
     for (Polygon& p : polygons_)
       if (!p.made && want(p)) due.push_back(&p);
     std::stable_sort(due.begin(), due.end(), [](const Polygon* a, const Polygon* b) {
-      return a->place != b->place ? a->place < b->place : a->first > b->first;
+      return a->place != b->place ? a->place < b->place : a->first < b->first;
     });
     return due;
   }
 
-  /// The spans of all polygons at places before this one.
-  bool before(const Place& place, const Make& make) {
-    const std::vector<Polygon*> due = in_order([&](const Polygon& p) { return p.place < place; });
+  /// The spans of all polygons at places before this one, and of those at it.
+  bool before(const Place& place, const Make& make, bool at_it = false) {
+    const std::vector<Polygon*> due =
+        in_order([&](const Polygon& p) { return p.place < place || (at_it && p.place == place); });
     return std::all_of(due.begin(), due.end(), [&](Polygon* p) { return made(*p, make); });
   }
 

@@ -117,7 +117,7 @@ class RandomPolygons {
     at.fields.sample = number(2, kSampleBits);
     at.fields.volume = number(2, kVolumeBits);
     at.fields.rank = number(40, kRankBits);
-    at.light = c_.count_bits > 0 ? random_->in(0, c_.lights - 1) : random_->in(0, 7);
+    at.light = random_->in(0, c_.lights - 1);
     return at;
   }
 

@@ -301,7 +301,7 @@ enum class ErrorCode : std::uint8_t {
   SEGMENT = 10,  ///< a segment of length 0, with SYNC out of place, or of a face that the frame has not defined
   UNIT_LONG = 11,  ///< a unit with more pixels than the line, or more segments than it buffers
   UNIT_SHORT = 12,  ///< a unit with fewer pixels than the line
-  PLACE = 13,  ///< a place before that of the token before, a span or polygon not of its layer, or an edge or gradient without its polygon, or a polygon without edges
+  PLACE = 13,  ///< a place before that of the token before, a layer or light that the core lacks, a span not of its layer, or an edge or gradient without its polygon, or a polygon without edges
   ACTIVE_FULL = 14,  ///< more polygons at once than the front end keeps
 };
 
@@ -324,7 +324,7 @@ inline constexpr std::array<std::string_view, 15> kErrorTexts{
     "a segment of length 0, with SYNC out of place, or of a face that the frame has not defined",
     "a unit with more pixels than the line, or more segments than it buffers",
     "a unit with fewer pixels than the line",
-    "a place before that of the token before, a span or polygon not of its layer, or an edge or gradient without its polygon, or a polygon without edges",
+    "a place before that of the token before, a layer or light that the core lacks, a span not of its layer, or an edge or gradient without its polygon, or a polygon without edges",
     "more polygons at once than the front end keeps",
 };
 

@@ -96,7 +96,7 @@
 #define KAGE_ERR_SEGMENT 10u /**< a segment of length 0, with SYNC out of place, or of a face that the frame has not defined */
 #define KAGE_ERR_UNIT_LONG 11u /**< a unit with more pixels than the line, or more segments than it buffers */
 #define KAGE_ERR_UNIT_SHORT 12u /**< a unit with fewer pixels than the line */
-#define KAGE_ERR_PLACE 13u /**< a place before that of the token before, a span or polygon not of its layer, or an edge or gradient without its polygon, or a polygon without edges */
+#define KAGE_ERR_PLACE 13u /**< a place before that of the token before, a layer or light that the core lacks, a span not of its layer, or an edge or gradient without its polygon, or a polygon without edges */
 #define KAGE_ERR_ACTIVE_FULL 14u /**< more polygons at once than the front end keeps */
 
 #endif

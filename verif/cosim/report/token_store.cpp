@@ -74,6 +74,9 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
     counter_.start(width_);
     frames_.back().background = h.background;
     frames_.back().tokens = 1;
+    // A core refuses such a frame, and a front end has no spans of that width.
+    broken_ = width_ > config_.max_width;
+    if (broken_) return;
   }
   while (const std::uint32_t* first = cutter_.peek()) {
     const std::size_t n = layout_.words_of(*first, level_);
