@@ -214,7 +214,7 @@ module front_end #(
   logic [CodeBits-1:0] code;
   assign list_place = list[ActivePlaceAt+:PlaceBits];
   assign has_layer  = layer == 2'd0 || (layer == 2'd1 && DSF_BITS > 0) || (layer == 2'd2 && TRANSLUCENCY > 0);
-  assign has_light = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:3]} < 4'(LIGHTS);
+  assign has_light  = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:3]} < 4'(LIGHTS);
   // Known before the list is asked.
   always_comb begin
     misplaced = of_level && begun_q && !is_edge && !is_gradient;

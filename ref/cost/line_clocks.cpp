@@ -68,7 +68,8 @@ void LineClockCounter::begin(int frame, const FrameHeader& header) {
 void LineClockCounter::add(int frame, std::span<const std::uint32_t> words) {
   begin(frame, FrameHeader::read(words));
   TokenWalk walk(layout_, words);
-  for (auto token = walk.next(); !token.empty(); token = walk.next()) this->token(decode(config_, layout_, token, walk.level()));
+  for (auto token = walk.next(); !token.empty(); token = walk.next())
+    this->token(decode(config_, layout_, token, walk.level()));
   end();
 }
 

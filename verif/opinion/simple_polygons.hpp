@@ -47,8 +47,8 @@ class SimplePolygons {
       case Kind::AT: {
         const Place to{field(l_.at_layer), field(l_.at_sample), field(l_.at_light), field(l_.at_volume),
                        field(l_.at_rank)};
-        const bool layer = to[0] == 0 || (to[0] == 1 && c_.dsf_bits > 0 && to[2] < c_.lights) ||
-                           (to[0] == 2 && c_.translucency > 0);
+        const bool layer =
+            to[0] == 0 || (to[0] == 1 && c_.dsf_bits > 0 && to[2] < c_.lights) || (to[0] == 2 && c_.translucency > 0);
         if (!layer || (!place_.empty() && to < place_.back())) return Verdict::place;
         place_.push_back(to);
         return Verdict::done;

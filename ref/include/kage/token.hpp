@@ -52,8 +52,8 @@ struct TableToken {
   std::array<std::uint32_t, 3> share{};  ///< of each channel, in 2^-SHADE_FRAC, at most 2^SHADE_FRAC
 };
 
-/// POLYGON, EDGE, GRADIENT and AT (docs/stream.md, "The polygon level"). The look of a POLYGON, its weight and its alpha
-/// are those of Token::span, the light of an AT that of Token::table.
+/// POLYGON, EDGE, GRADIENT and AT (docs/stream.md, "The polygon level"). The look of a POLYGON, its weight and its
+/// alpha are those of Token::span, the light of an AT that of Token::table.
 struct PolygonToken {
   /// POLYGON: depth at pixel 0 of the line above its first, in 2^-24 LSB, modulo 2^(Z_BITS + 2) LSB. GRADIENT: colour
   /// likewise, modulo 2^10.

@@ -38,7 +38,11 @@ for file in files:
         if tag == "FRAM":
             words = ks.words_of(payload)
             header = codec.read_header(words)
-            if header["magic"] != ks.MAGIC or header["version"] not in (ks.VERSION, ks.POLYGON_VERSION) or header["param_hash"] != config.hash():
+            if (
+                header["magic"] != ks.MAGIC
+                or header["version"] not in (ks.VERSION, ks.POLYGON_VERSION)
+                or header["param_hash"] != config.hash()
+            ):
                 fail(f"{file}: frame {frame}: header {header}")
             tokens = list(codec.tokens(words))
             size = f"header: {header['width']}x{header['height']}, "

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // front_end against the golden front end, token by token: frames of both levels, sound and damaged, with stalls on both
 // sides, and dropped by what is behind it at a fault or at any other token.
+#include "polygon/front_end.hpp"
+
 #include <algorithm>
 #include <array>
 #include <span>
@@ -12,7 +14,6 @@
 #include "Vfront_end_lights.h"
 #include "bench.hpp"
 #include "kage/stream.hpp"
-#include "polygon/front_end.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/polygon_frames.hpp"
 

@@ -52,8 +52,8 @@ module kage_top_tokens_monitor #(
   always_ff @(posedge clk_i) begin
     if (rst_ni) begin
       if (new_q) begin
-        trace_token(0, 704'(held_q), 64'(told_q.at_last), 64'({told_q.fault != ErrNone, told_q.header, told_q.lacking, told_q.cut,
-                    told_q.ends}));
+        trace_token(0, 704'(held_q), 64'(told_q.at_last), 64'({
+                    told_q.fault != ErrNone, told_q.header, told_q.lacking, told_q.cut, told_q.ends}));
       end
       if (table_valid) begin
         trace_table(0, 64'(entry.normal_class), 64'(entry.light), {
