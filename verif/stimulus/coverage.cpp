@@ -16,13 +16,13 @@ Coverage::Point Coverage::add(bool there, const std::string& group, const std::s
   return {points_.size() - 1};
 }
 
-Coverage::Span Coverage::add_span(bool there, const std::string& kind) {
+Coverage::Span Coverage::add_span(bool there, const std::string& kind, bool whole) {
   const bool groups = there && config_.arrangement == 1 && config_.lanes > 1;
   const bool several = groups && config_.max_width > config_.lanes;  // groups in a line
   Span s{};
   s.none = add(there, "span", kind + " of no pixel");
   s.one = add(there, "span", kind + " of one pixel");
-  s.whole = add(there, "span", kind + " over the whole line");
+  s.whole = add(there && whole, "span", kind + " over the whole line");
   s.at_border = add(several, "span", kind + " begins at a group's border");
   s.in_group = add(groups && config_.max_width > 1, "span", kind + " begins within a group");
   s.ends_at_border = add(several, "span", kind + " ends at a group's border");
@@ -57,7 +57,8 @@ Coverage::Coverage(const Config& config, Level level) : config_(config), golden_
   one_line_ = add(true, "frame", "of one line");
   bare_line_ = add(true, "frame", "a line with nothing on it");
   for (std::size_t k = 0; k < span_.size(); ++k)
-    if (kKindInfo[k].range) span_[k] = add_span(comes(k), std::string(kKindNames[k]));
+    if (kKindInfo[k].range)  // the front end makes IF of an NC over the whole line
+      span_[k] = add_span(comes(k), std::string(kKindNames[k]), !polygons || static_cast<Kind>(k) != Kind::NC);
   depth_ = add_ramp(true, "depth", "a span's depth");
   tie_ = add(true, "depth", "OP as deep as what it meets");
   behind_ = add(true, "depth", "OP behind what it meets");

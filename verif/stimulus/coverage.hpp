@@ -53,7 +53,7 @@ class Coverage : private CoreObserver {
   };
 
   Point add(bool there, const std::string& group, const std::string& name);
-  Span add_span(bool there, const std::string& kind);
+  Span add_span(bool there, const std::string& kind, bool whole);
   Ramp add_ramp(bool there, const std::string& group, const std::string& what);
   void hit(Point point, bool is = true) {
     if (is && point.index < seen_.size()) seen_[point.index] = true;

@@ -183,7 +183,7 @@ class RandomPolygons {
     t.side = side;
     t.top_x = s.x;
     t.top_y = s.y;
-    const int farthest = std::min(p.end, first_centre(kMostCoordinate));
+    const int farthest = std::min(p.end, kMostCoordinate / 256);
     const int bottom =
         random_->chance(0.5) ? farthest : random_->in(y + 1, std::min(farthest, y + 1 + style_.most_lines));
     t.bottom_x = across();

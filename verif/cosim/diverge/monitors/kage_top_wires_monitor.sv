@@ -25,7 +25,8 @@ module kage_top_wires_monitor #(
     kage_top.loads_done, kage_top.line_ready, kage_top.table_free, kage_top.tree_frame_ready, kage_top.tree_seg_ready
   } == {
     kage_top.u_control.token_valid_i, kage_top.u_control.token_i,
-    kage_top.u_control.token_flags_i, kage_top.u_control.token_index_i, kage_top.u_control.dropping_i, kage_top.u_control.cmd_ready_i,
+    kage_top.u_control.token_flags_i, kage_top.u_control.token_index_i, kage_top.u_control.dropping_i,
+    kage_top.u_control.cmd_ready_i,
     kage_top.u_control.loads_done_i, kage_top.u_control.line_ready_i, kage_top.u_control.table_free_i,
     kage_top.u_control.tree_frame_ready_i, kage_top.u_control.tree_seg_ready_i
   };

@@ -261,9 +261,14 @@ TEST_CASE("random frames reach all that a configuration has") {
   configs.push_back(
       small_config("one pixel, many lanes", [](Config& c) { c.max_width = 1, c.lanes = 4, c.smooth = 1; }));
   configs.push_back(small_config("one group", [](Config& c) { c.max_width = 4, c.lanes = 4, c.units = 2; }));
+  configs.push_back(small_config("front end", [](Config& c) { c.active = 6, c.smooth = 1, c.translucency = 1; }));
+  configs.push_back(small_config("front end, lights", [](Config& c) {
+    c.active = 3, c.count_bits = 2, c.lights = 3, c.class_bits = 3, c.units = 2;
+  }));
   for (const auto& [name, c] : configs) {
-    Coverage coverage(c);
-    const RandomFrames frames(c, Manner::mixed, test_seed());
+    const Level level = c.active > 0 ? Level::polygons : Level::spans;
+    Coverage coverage(c, level);
+    const RandomFrames frames(c, Manner::mixed, test_seed(), level);
     const auto all_reached = [&] {
       const auto& points = coverage.points();
       return std::all_of(points.begin(), points.end(), [](const CoveragePoint& p) { return p.frames > 0; });
