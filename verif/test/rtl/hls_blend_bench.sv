@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blender of kage_pixel_next.svh and the kernel pixel_blend, as hls/tool makes it for KERNEL's configuration, of the
-// same pixel, span and share: one channel.
+// The blender of kage_pixel_next.svh and the module KERNEL that hls/tool makes of the kernel pixel_blend, given the same
+// pixel, span and share: one channel.
 `default_nettype none
 
 module hls_blend_bench #(
@@ -21,11 +21,11 @@ module hls_blend_bench #(
   `include "generated/kage_layout.svh"
   `include "kage_pixel_next.svh"
 
-  logic [KindBits-1:0] kind;
+  logic [ KindBits-1:0] kind;
   logic [ShareBits-1:0] weight;
-  assign kind = darkens_i ? KindResolve : KindTp;
+  assign kind   = darkens_i ? KindResolve : KindTp;
   assign weight = pixel_weight(kind, share_i);
-  assign rtl_o = pixel_blend(under_i, pixel_keep(kind, weight), pixel_added(kind, 8'(weight), over_i));
+  assign rtl_o  = pixel_blend(under_i, pixel_keep(kind, weight), pixel_added(kind, 8'(weight), over_i));
 
   `KERNEL dut (
 `ifdef MUTANTS
