@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blender of kage_pixel_next.svh and the module KERNEL that hls/tool makes of the kernel pixel_blend, given the same
-// pixel, span and share: one channel.
+// The blender of kage_pixel_next.svh and the module KERNEL that hls/tool makes of the kernel pixel_blend, given the
+// same pixel, span and share: one channel.
 `default_nettype none
 
 module hls_blend_bench #(
