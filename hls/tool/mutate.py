@@ -44,7 +44,9 @@ class Mutant:
     line: int  # of the module's file, from 0
     kind: str
     text: str  # what stands in the place of the right side, or of a register's way
-    terms: tuple[str, str] | None  # equivalent where these two are always the same; None: not to be seen by values alone
+    terms: (
+        tuple[str, str] | None
+    )  # equivalent where these two are always the same; None: not to be seen by values alone
     number: int
 
     def __str__(self) -> str:
@@ -170,7 +172,9 @@ class Module:
         for i, line in enumerate(self.lines):
             some = by_line.get(i, [])
             if line == f"module {self.name} (":
-                out.append(f"module {self.name} (" + (f"input wire logic [{SELECT_BITS - 1}:0] mutant_i," if has_port else ""))
+                out.append(
+                    f"module {self.name} (" + (f"input wire logic [{SELECT_BITS - 1}:0] mutant_i," if has_port else "")
+                )
             elif line == ");" and not has_port:
                 out += [line, f"  wire [{SELECT_BITS - 1}:0] mutant_i;"]
             elif m := some and _REGISTER.match(line):

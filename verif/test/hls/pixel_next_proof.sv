@@ -71,13 +71,14 @@ module pixel_next_proof #(
       .count_o(count_o)
   );
 
+  // A field that the configuration lacks has a bit that stays 0.
   always_comb begin
     same_z : assert (z_o == next[PixelZAt+:Z_BITS]);
     same_color : assert (color_o == next[PixelColorAt+:RgbBits]);
-    if (DSF_BITS > 0) same_class : assert (class_o == next[PixelClassAt+:CLASS_BITS]);
-    if (DSF_BITS > 0) same_dsf : assert (dsf_o == next[PixelDsfAt+:DsfBits]);
-    if (FSF > 0) same_fsf : assert (fsf_o == next[PixelFsfAt]);
-    if (COUNT_BITS > 0) same_count : assert (count_o == next[PixelCountsAt+:LIGHTS*CountOne]);
+    same_class : assert (class_o == (DSF_BITS > 0 ? next[PixelClassAt+:CLASS_BITS] : '0));
+    same_dsf : assert (dsf_o == (DSF_BITS > 0 ? next[PixelDsfAt+:DsfBits] : '0));
+    same_fsf : assert (fsf_o == (FSF > 0 ? next[PixelFsfAt] : '0));
+    same_count : assert (count_o == (COUNT_BITS > 0 ? next[PixelCountsAt+:LIGHTS*CountOne] : '0));
   end
 endmodule
 

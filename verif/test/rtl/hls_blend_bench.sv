@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blender of kage_pixel_next.svh and the kernel pixel_blend, as hls/tool makes it for KERNEL's configuration, of the
-// same pixel, span and share: one channel.
+// The blender of kage_pixel_next.svh and the kernel pixel_blend, as hls/tool makes it for KERNEL's configuration, of
+// the same pixel, span and share: one channel.
 `default_nettype none
 
 module hls_blend_bench #(
