@@ -53,6 +53,7 @@ module front_end #(
 );
   `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
+  `include "generated/kage_order.svh"
 
   if (ACTIVE < 1) begin : gen_bad_active
     `KAGE_ILLEGAL("ACTIVE must be at least 1 where there is a front end")
@@ -190,7 +191,7 @@ module front_end #(
   assign is_gradient = of_level && SMOOTH > 0 && kind == KindGradient;
   assign is_edge = of_level && kind == KindEdge;
   assign is_eol = of_level && kind == KindEol;
-  assign is_span = of_level && (kind == KindOp || kind == KindSp || kind == KindNc || kind == KindTp);
+  assign is_span = of_level && kind_has_range(kind) && !is_polygon && !is_edge;
   assign at_once = !is_at && !is_polygon && !is_gradient && !is_edge && !is_eol && !is_span;
   assign place = head[AtRankLsb+:PlaceBits];
   assign layer = place[PlaceBits-1-:2];

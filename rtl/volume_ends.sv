@@ -41,6 +41,7 @@ module volume_ends #(
 );
   `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
+  `include "generated/kage_order.svh"
 
   localparam int TokenBits = TOKEN_WORDS * 32;
   localparam int SampleAt = VolumeBits;  // in the family: the light, the sample, the layer
@@ -114,20 +115,23 @@ module volume_ends #(
   // ---- what it is to volumes ---------------------------------------------------------------------------------------
   logic none, of_volume, behind_volumes;
   logic [X_BITS-1:0] xl, xr;
-  logic any_q, volume_open_q, sample_open_q;
+  logic any_q, volume_here_q, sample_here_q;
   logic [FamilyBits-1:0] family_q;
   logic [X_BITS-1:0] volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
   logic other_volume, other_sample, ends_volume, ends_sample, resolves, passes, gives, done;
   assign none = item_made_i && (span.empty || (layer == 2'd1 && no_weight));
-  assign of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 : kind == KindSp || kind == KindNc);
+  // What is not plain has a range, or is an EOL.
+  assign of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 : kind_has_range(
+      kind
+  ) && kind != KindOp && kind != KindTp);
   assign behind_volumes = !plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
   assign xl = item_made_i ? span.xl : token[RangeXlLsb+:X_BITS];
   assign xr = item_made_i ? span.xr : token[RangeXrLsb+:X_BITS];
   assign other_volume = family != family_q;
   assign other_sample = family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
-  assign ends_volume = !none && volume_open_q && (behind_volumes || (of_volume && other_volume));
-  assign ends_sample = !none && !volume_open_q && sample_open_q && (behind_volumes || (of_volume && other_sample));
-  assign resolves = !none && !volume_open_q && !sample_open_q && any_q && behind_volumes;
+  assign ends_volume = !none && volume_here_q && (behind_volumes || (of_volume && other_volume));
+  assign ends_sample = !none && !volume_here_q && sample_here_q && (behind_volumes || (of_volume && other_sample));
+  assign resolves = !none && !volume_here_q && !sample_here_q && any_q && behind_volumes;
   assign passes = !none && !ends_volume && !ends_sample && !resolves;
   assign gives = passes || resolves || (ends_volume && FSF > 0) || (ends_sample && COUNT_BITS > 0);
   assign done = item_valid_i && (token_ready_i || !gives);
@@ -138,28 +142,28 @@ module volume_ends #(
   always_ff @(posedge clk_i) begin
     if (!rst_ni || flush_i || (item_valid_i && flags.header)) begin
       any_q <= 1'b0;
-      volume_open_q <= 1'b0;
-      sample_open_q <= 1'b0;
+      volume_here_q <= 1'b0;
+      sample_here_q <= 1'b0;
     end else if (done) begin
       if (passes && of_volume) begin
         any_q <= 1'b1;
-        volume_open_q <= 1'b1;
+        volume_here_q <= 1'b1;
       end
       if (ends_volume) begin
-        volume_open_q <= 1'b0;
-        sample_open_q <= 1'b1;
+        volume_here_q <= 1'b0;
+        sample_here_q <= 1'b1;
       end
-      if (ends_sample) sample_open_q <= 1'b0;
+      if (ends_sample) sample_here_q <= 1'b0;
       if (resolves) any_q <= 1'b0;
     end
     if (done && passes && of_volume) begin
       family_q <= family;
-      if (!volume_open_q || xl < volume_xl_q) volume_xl_q <= xl;
-      if (!volume_open_q || xr > volume_xr_q) volume_xr_q <= xr;
+      if (!volume_here_q || xl < volume_xl_q) volume_xl_q <= xl;
+      if (!volume_here_q || xr > volume_xr_q) volume_xr_q <= xr;
     end
     if (done && ends_volume) begin
-      if (!sample_open_q || volume_xl_q < sample_xl_q) sample_xl_q <= volume_xl_q;
-      if (!sample_open_q || volume_xr_q > sample_xr_q) sample_xr_q <= volume_xr_q;
+      if (!sample_here_q || volume_xl_q < sample_xl_q) sample_xl_q <= volume_xl_q;
+      if (!sample_here_q || volume_xr_q > sample_xr_q) sample_xr_q <= volume_xr_q;
     end
   end
 
