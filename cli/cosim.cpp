@@ -147,7 +147,7 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
       "  kage cosim courtyard\n"
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
-      "  kage cosim courtyard --front-end rtl\n"
+      "  kage cosim courtyard --front-end rtl --stages   (the spans that the front end makes, token by token)\n"
       "  kage cosim courtyard --fault wrong_compare\n"
       "  kage cosim courtyard --degrade --netlist ice40 --config tiny --size 64x48   (an FPGA's cells for the RTL)\n"
       "  kage cosim courtyard penumbra glass --size 160x120\n"
@@ -176,6 +176,9 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
   option_cache_verdicts(*c, o.cache_verdicts);
   c->add_flag("--no-divergence", o.no_divergence,
               "after a difference do not run the frame again to find the stage that differs first");
+  c->add_flag("--stages", o.stages,
+              "run each frame that came out the same again with monitors, and hold what passes between the RTL's "
+              "modules against the golden core, token by token and pixel by pixel; slow");
   option_shard(*c, o.ci.shard);
   option_junit(*c, o.ci.junit);
   option_annotate(*c, o.ci.annotate);

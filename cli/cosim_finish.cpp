@@ -64,6 +64,33 @@ std::optional<cosim::Divergence> SceneRun::find_divergence(int frame) {
   return d;
 }
 
+/// With --stages: the first frame of which the pixels are right and a stage is not. Each goes to a core that has seen
+/// no other.
+void SceneRun::check_stages(cosim::Report& report, Search& search) {
+  if (!o_.stages || !report.same) return;
+  Source& source = *source_;
+  cosim::ReplayOptions options = replay(ModelFor::kMonitors);
+  const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
+  for (int i = 0; i < report.frames; ++i) {
+    check_interrupt();
+    const int frame = steps_.first + i * steps_.step;
+    progress_.show(fmt::format("{}: stages of frame {}/{}", source.name(), i + 1, report.frames));
+    options.steps = {frame, 1};
+    search.divergence = cosim::find_divergence(frame, feed, source.config(), options);
+    search.made = true;
+    if (!search.divergence) continue;
+    cosim::Difference d;
+    d.frame = frame;
+    d.line = search.divergence->line;
+    d.field = "stage";
+    d.remark = fmt::format("the pixels are the same, and a stage is not: {}", search.divergence->what);
+    report.first_difference = d;
+    report.same = false;
+    break;
+  }
+  progress_.clear();
+}
+
 /// Writes the waveform round a divergence that was found in the run's frame `frame`, or one before it.
 void SceneRun::write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame) {
   Source& source = *source_;
@@ -97,6 +124,10 @@ bool SceneRun::after_verdict(const std::function<void()>& say) {
 /// Looks for the stage that differs first, unless that is not wanted, and writes the waveform round it.
 void SceneRun::look_into(TempFiles& files, const cosim::Report& r, Search& search) {
   if (!r.first_difference || r.first_difference->of_registers() || o_.no_divergence) return;
+  if (search.divergence) {
+    if (!o_.out.empty()) write_waveform(files, *search.divergence, r.first_difference->frame);
+    return;
+  }
   try {
     search.divergence = find_divergence(r.first_difference->frame);
     search.made = true;
@@ -124,11 +155,12 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
   }
   cosim::Report r = join(files);
   check_registers(r);
+  Search search;
+  check_stages(r, search);
   progress_.clear();
   remove_old_evidence(files, o_.out, source.name(), source.is_random(), steps_, r);
   if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;
   report::SceneRecord record = record_of(r);
-  Search search;
   const bool whole = after_verdict([&] {
     look_into(files, r, search);
     if (r.first_difference && source.is_random() && !o_.out.empty() && !r.first_difference->of_registers())

@@ -38,6 +38,7 @@ struct CosimCommand : Options {
   std::vector<std::string> inputs;  // of which `input` is the one at hand
   int jobs = 0;                     // 0: default_jobs()
   bool no_divergence = false;
+  bool stages = false;  // of frames that come out the same, hold what passes between the RTL's modules too
   RtlRun rtl;
   CiOptions ci;
   bool no_report = false;
@@ -146,6 +147,7 @@ class SceneRun {
   bool after_verdict(const std::function<void()>& say);
   void look_into(TempFiles& files, const cosim::Report& r, Search& search);
   std::optional<cosim::Divergence> find_divergence(int frame);
+  void check_stages(cosim::Report& report, Search& search);
   void write_waveform(TempFiles& files, cosim::Divergence& divergence, int frame);
   void write_page(TempFiles& files, const cosim::Report& r, const Search& search, report::SceneRecord& record);
   [[nodiscard]] bool differs_alone(const std::vector<std::uint32_t>& words, int number, bool prelude) const;

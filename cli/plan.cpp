@@ -63,6 +63,7 @@ PlannedScene open(const PlanCommand& o, const std::string& input, Progress& prog
 
 PlanOptions options_of(const PlanCommand& o, Progress& progress) {
   PlanOptions options = o.plan;
+  options.front_end = o.level == Level::polygons;
   if (o.max_z) options.limits.z = *o.max_z;
   if (o.max_wrong && !o.measured)
     throw Error("--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured");
@@ -212,6 +213,10 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
         "# {:g} MHz is what the slowest core placed on {} reached, {}; others are faster (docs/timing.md)\n",
         options.clock->mhz, o.device, device_clock(o.device).core);
   text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
+  if (plan.polygon_words > 0)
+    text += fmt::format("# at the polygon level the frames take {:.1f} times fewer words, {}\n",
+                        static_cast<double>(plan.cost.words) / static_cast<double>(plan.polygon_words),
+                        counted(plan.polygon_words, "word"));
   text += least_text(plan, o.plan.prefer);
   for (const PlanCandidate& c : plan.others)
     text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.config, c.cost));
@@ -276,6 +281,7 @@ Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::stri
                  {"max_color", plan.limits.color},
                  {"max_wrong", o.max_wrong ? Json(*o.max_wrong) : Json(nullptr)}};
   j["z_error_bound"] = plan.z_error;
+  j["polygon_words"] = plan.polygon_words > 0 ? Json(plan.polygon_words) : Json(nullptr);
   j["measured"] = measured_json(plan, measured);
   j["config"] = cli::to_json(plan.config);
   Json reasons = Json::object();
@@ -330,6 +336,7 @@ void add_plan(CLI::App& app, Action& action) {
                             "  kage plan courtyard glass --device ecp5-25f --fps 60\n"
                             "  kage plan penumbra --samples 64 --max-z 1e-4 --max-color 2\n"
                             "  kage plan courtyard --guarantee measured --max-wrong 20\n"
+                            "  kage plan courtyard --front-end rtl\n"
                             "Each parameter comes with its reason; docs/plan.md has the inequalities.");
   const auto o = std::make_shared<PlanCommand>();
   option_scenes(*c, o->inputs);
@@ -386,6 +393,7 @@ void add_plan(CLI::App& app, Action& action) {
                 "1080, 2250 for 2160, else a sixteenth more than the picture's; at least one more than the picture's")
       ->check(whole_number(1, 100000))
       ->type_name("N");
+  option_front_end(*c, *o);
   options_of_pictures(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

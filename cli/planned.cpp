@@ -14,6 +14,7 @@ namespace kage::cli {
 PlannedScene planned_scene(const Options& options, std::shared_ptr<const Scene> scene, Progress& progress) {
   PlannedScene out;
   out.draw = draw_options(options);
+  out.draw.level = Level::spans;  // which all that is costed is; PlanOptions::front_end asks for the other
   out.draw.order = order_build(options, progress, scene->name() + ": order of translucent faces");
   out.scene = std::move(scene);
   return out;
@@ -31,6 +32,7 @@ NamedConfig planned_config(const Options& options, std::shared_ptr<const Scene> 
   const std::array scenes{planned_scene(options, std::move(scene), progress)};
   PlanOptions plan;
   plan.progress = plan_progress(progress);
+  plan.front_end = options.level == Level::polygons;
   NamedConfig named{kPlanned, make_plan(scenes, plan).config};
   progress.clear();
   return named;

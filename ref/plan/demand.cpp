@@ -214,6 +214,25 @@ UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& 
   return out;
 }
 
+FrontEndDemand front_end_demand_of(std::span<const PlannedScene> scenes, Config config, const FrameStep& step) {
+  config.active = kGreatest.active;
+  FrontEndDemand demand;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    DrawOptions draw = scenes[s].draw;
+    draw.level = Level::polygons;
+    SceneFrames frames(scenes[s].scene, config, draw);
+    for (int i = 0; i < frames.frames(); ++i) {
+      step();
+      FrameParts parts;
+      frames.frame(
+          i, [](std::span<const std::uint32_t>) {}, parts);
+      demand.active.raise(parts.polygons.active, {.scene = static_cast<int>(s), .frame = i, .line = -1});
+      demand.words += parts.polygons.words;
+    }
+  }
+  return demand;
+}
+
 std::string text_of(std::span<const PlannedScene> scenes, const PlanPlace& place) {
   if (place.scene < 0) return "nowhere";
   const PlannedScene& scene = scenes[static_cast<std::size_t>(place.scene)];

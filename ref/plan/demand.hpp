@@ -66,6 +66,12 @@ struct UnitDemand {
   Most last_index;  ///< draw index of the last polyhedron in a unit
 };
 
+/// What a front end must have for all polygons that can go as such.
+struct FrontEndDemand {
+  Most active;              ///< polygons at once on a line
+  std::uint64_t words = 0;  ///< of all frames
+};
+
 /// Called before each frame.
 using FrameStep = std::function<void()>;
 
@@ -81,6 +87,9 @@ WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& featur
                     const FrameStep& step);
 
 UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& features, const FrameStep& step);
+
+/// Of a core of this configuration, whatever its ACTIVE.
+FrontEndDemand front_end_demand_of(std::span<const PlannedScene> scenes, Config config, const FrameStep& step);
 
 /// "frame 3, line 211", with the scene's name if there are several.
 std::string text_of(std::span<const PlannedScene> scenes, const PlanPlace& place);

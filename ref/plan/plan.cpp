@@ -40,6 +40,7 @@ class Planner {
     look();
     for (const plan::WayDemand& demand : demands_) add_ways(demand);
     choose();
+    if (options_.front_end) add_front_end();
     return std::move(out_);
   }
 
@@ -71,7 +72,22 @@ class Planner {
       demands_.push_back(plan::demand_of(scenes_, features_, bits, [this] { step(); }));
       if (demands_.back().volumes.value <= 1) break;
     }
-    passes_ = 1 + of_way * static_cast<int>(demands_.size());
+    passes_ = (options_.front_end ? 2 : 1) + of_way * static_cast<int>(demands_.size());
+  }
+
+  /// ACTIVE changes no pixel and no other parameter, so the core that is chosen gets what its frames ask for.
+  void add_front_end() {
+    const plan::FrontEndDemand demand = plan::front_end_demand_of(scenes_, out_.config, [this] { step(); });
+    out_.polygon_words = demand.words;
+    const int active = std::max(1, static_cast<int>(demand.active.value));
+    out_.config.active = std::min(active, kGreatest.active);
+    for (PlanReason& r : out_.reasons) {
+      if (r.parameter != "ACTIVE") continue;
+      r.value = out_.config.active;
+      r.text = fmt::format("{} polygons at once in {}; with one less, some go as spans", active,
+                           plan::text_of(scenes_, demand.active.at));
+      if (active >= kGreatest.active) r.text = fmt::format("the most that a front end keeps; others go as spans");
+    }
   }
 
   /// A frame begins. What is told never goes back, even where there are more passes than were known of.
@@ -214,6 +230,7 @@ class Planner {
              "; both arrangements show the same pixels";
     if (p.member == &Config::lanes && taken.config.arrangement == 0) return "systolic: without effect";
     if (p.member == &Config::lanes || p.member == &Config::beat_words) return pace_reason(p, way, taken);
+    if (p.member == &Config::active) return "spans come from the host; --front-end rtl plans a front end";
     if (p.member == &Config::classic) return "the paper's segments are never asked for";
     return "no units";
   }

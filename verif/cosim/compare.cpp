@@ -133,7 +133,8 @@ std::string describe(const Difference& d) {
   } else if (d.field == "error") {
     text += fmt::format(": expected {}, got {}", kErrorNames[static_cast<std::size_t>(d.expected) % kErrorNames.size()],
                         kErrorNames[static_cast<std::size_t>(d.actual) % kErrorNames.size()]);
-  } else if (d.field != "port" && d.field != "assertion" && d.field != "finish" && d.field != "register") {
+  } else if (d.field != "port" && d.field != "assertion" && d.field != "finish" && d.field != "register" &&
+             d.field != "stage") {
     text += fmt::format(", {}: expected {}, got {}", d.field, d.expected, d.actual);
   }
   if (!d.remark.empty()) text += ": " + d.remark;

@@ -24,7 +24,7 @@ struct Difference {
   std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
                       ///< "register" (a remark says which); "signature" (of a line on a board);
                       ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion", "finish" (of
-                      ///< the RTL)
+                      ///< the RTL); "stage" (between the RTL's modules: --stages)
   std::int64_t expected = 0;
   std::int64_t actual = 0;
   std::string remark;               ///< more in words, or empty

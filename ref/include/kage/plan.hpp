@@ -82,6 +82,7 @@ struct PlanOptions {
   PlanLimits limits = {};                  ///< what may be wrong
   Prefer prefer = Prefer::area;            ///< which of several is taken
   std::optional<PlanClock> clock = {};     ///< what it has to keep up with
+  bool front_end = false;                  ///< the core makes spans of polygons: ACTIVE has room for all at once
   std::function<void(double)> progress{};  ///< called with the share that is done; what it throws ends the plan
   /// Called for each way to draw shadows with the widths that the inequalities give, the finest where none satisfies
   /// them. It may put others in their place, with their reasons (kage plan --guarantee measured), that are legal and
@@ -91,7 +92,7 @@ struct PlanOptions {
 
 /// What a configuration costs for the planned frames.
 struct PlanCost {
-  std::uint64_t words = 0;       ///< of all frames
+  std::uint64_t words = 0;       ///< of all frames, at the span level
   std::uint64_t clocks = 0;      ///< of all frames, by design (docs/rtl.md, "Clocks")
   std::uint64_t worst_line = 0;  ///< clocks of the line that takes most
   PlanPlace worst_at;            ///< that line
@@ -130,6 +131,7 @@ struct Plan {
   std::array<int, 2> size{};           ///< width and height of the largest picture
   PlanLimits limits;                   ///< as kept
   double z_error = 0;                  ///< bound of the depth's error with `config`, as a share of the range
+  std::uint64_t polygon_words = 0;     ///< with a front end: of all frames, at the polygon level
   std::optional<double> display_line;  ///< clocks that a line of the display has; none if no clock was given
 };
 
