@@ -58,6 +58,9 @@ class FrontEnd {
     }
   }
 
+  /// Polygons that have begun on lines above and cross the one at hand.
+  [[nodiscard]] std::size_t crossing() const { return active_.size(); }
+
  private:
   void start_line() {
     placed_ = begun_ = false;

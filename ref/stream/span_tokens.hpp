@@ -11,7 +11,7 @@ namespace kage {
 /// For frames of either level: those at the polygon level go through the front end.
 class SpanTokens {
  public:
-  explicit SpanTokens(const Config& config) : lights_(config.lights), front_end_(config) {}
+  explicit SpanTokens(const Config& config) : front_end_(config) {}
 
   /// A frame begins whose header has been accepted.
   void start(const FrameHeader& header) {
@@ -30,16 +30,13 @@ class SpanTokens {
       use(t, false);
       return ErrorCode::NONE;
     }
-    return front_end_.accept(t, [this, &use](const Token& token, bool made) {
-      // A place may have a light that the core lacks, which no ES can name.
-      if (token.kind == Kind::ES && token.table.light >= lights_) return ErrorCode::RANGE;
+    return front_end_.accept(t, [&use](const Token& token, bool made) {
       use(token, made);
       return ErrorCode::NONE;
     });
   }
 
  private:
-  int lights_;
   FrontEnd front_end_;
   Level level_ = Level::spans;
 };
