@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the front end in hardware takes beside the core behind it, by design (docs/rtl.md, "The front end"): clocks of the
-// first frame of all built-in scenes at 640x480, ACTIVE 512, of front_end and of banked cores of 1, 4 and 8 lanes, and of
-// the port at both levels. `front_end SCENE...` prints those.
+// What the front end in hardware takes beside the core behind it, by design (docs/rtl.md, "The front end"): clocks of
+// the first frame of all built-in scenes at 640x480, ACTIVE 512, of front_end and of banked cores of 1, 4 and 8 lanes,
+// and of the port at both levels. `front_end SCENE...` prints those.
+#include "polygon/front_end.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 #include "kage/config.hpp"
 #include "kage/frontend.hpp"
 #include "kage/pipeline.hpp"
-#include "polygon/front_end.hpp"
 
 namespace {
 
@@ -82,8 +83,9 @@ void print(const std::string& name) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  fmt::print("{:<13} {:<13} {:>8} {:>8} {:>9} {:>6} {:>9} {:>9} {:>9} {:>5} {:>9} {:>5} {:>9} {:>5}\n", "scene", "config",
-             "spans", "polygons", "front end", "clocks", "port", "port", "1 lane", "", "4 lanes", "", "8 lanes", "");
+  fmt::print("{:<13} {:<13} {:>8} {:>8} {:>9} {:>6} {:>9} {:>9} {:>9} {:>5} {:>9} {:>5} {:>9} {:>5}\n", "scene",
+             "config", "spans", "polygons", "front end", "clocks", "port", "port", "1 lane", "", "4 lanes", "",
+             "8 lanes", "");
   fmt::print("{:<13} {:<13} {:>8} {:>8} {:>9} {:>6} {:>9} {:>9} {:>9} {:>5} {:>9} {:>5} {:>9} {:>5}\n", "", "", "",
              "x lines", "clocks", "a span", "spans", "polygons", "clocks", "%", "clocks", "%", "clocks", "%");
   std::vector<std::string> scenes(argv + 1, argv + argc);

@@ -37,6 +37,11 @@ std::vector<Inputs> trial_configurations() {
     c.fsf = 0, c.dsf_bits = 2, c.count_bits = 2, c.lights = 2, c.class_bits = 2, c.translucency = 1, c.arrangement = 0;
   });
   add("units_systolic", [](Config& c) { c.units = 2, c.dx_bits = 6, c.face_bits = 4, c.arrangement = 0; });
+  add("polygons", [](Config& c) { c.active = 6; });
+  add("polygons_lights", [](Config& c) {
+    c.active = 12, c.smooth = 1, c.color_frac = 6, c.dsf_bits = 3, c.count_bits = 2, c.lights = 3, c.class_bits = 3;
+    c.translucency = 1, c.beat_words = 2;
+  });
   return all;
 }
 
@@ -50,10 +55,12 @@ void make_frames(Inputs& inputs, std::uint64_t seed) {
     s.rtl.backpressure_percent = backpressure;
     for (int i = 0; i < kValid + kDamaged; ++i) {
       auto& lines = s.lines.emplace_back();
+      // A core with a front end takes both levels.
+      const Level level = inputs.config.active > 0 && i % 4 != 3 ? Level::polygons : Level::spans;
       s.frames.push_back(cosim::known_frame(
           inputs.config,
-          i < kValid ? sound_frame(random, inputs.config, static_cast<std::uint32_t>(i))
-                     : damaged_frame(random, inputs.config, static_cast<std::uint32_t>(i)),
+          i < kValid ? sound_frame(random, inputs.config, static_cast<std::uint32_t>(i), level)
+                     : damaged_frame(random, inputs.config, static_cast<std::uint32_t>(i), level),
           [&](int, std::span<const std::uint8_t> line) { lines.emplace_back(line.begin(), line.end()); }));
     }
     inputs.sequences.push_back(std::move(s));

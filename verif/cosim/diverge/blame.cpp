@@ -22,12 +22,14 @@ std::string blame_error(const Clue& clue) {
   if (clue.again) return "token_stage";  // which lets no token in behind the first error
   if (clue.actual && clue.value == at::error::code && clue.actual->value[at::error::line] != clue.lines)
     return "frame_control";
-  if (clue.value >= at::error::token) return is_of_unit(expected) ? "segment_check" : "token_stage";
+  if (clue.value >= at::error::token)
+    return is_of_unit(expected) ? "segment_check" : clue.polygons ? "front_end" : "token_stage";
   if (clue.value > at::error::code) return "frame_control";
   if (either(ErrorCode::HEADER) || either(ErrorCode::SIZE) || either(ErrorCode::PARAMS)) return "token_stage";
   if (either(ErrorCode::LAST_LATE) &&
       (expected == ErrorCode::NONE || expected == ErrorCode::LAST_LATE))  // the flag that it comes of is token_reader's
     return clue.at_last == (expected == ErrorCode::LAST_LATE) ? "token_reader" : "token_check";
+  if (either(ErrorCode::PLACE) || either(ErrorCode::ACTIVE_FULL)) return "front_end";
   if (any(is_of_unit)) return "segment_check";
   if (!clue.kind) return "token_check";
   const bool table = *clue.kind == Kind::TABLE;
@@ -75,7 +77,7 @@ std::string blame(const Config& config, const Clue& clue) {
   const Stage stage = clue.expected ? clue.expected->stage : static_cast<Stage>(clue.actual->stage);
   switch (stage) {
     case Stage::token:
-      return "token_reader";
+      return clue.polygons ? "front_end" : "token_reader";
     case Stage::unit:
       return "expansion_unit";
     case Stage::tree:

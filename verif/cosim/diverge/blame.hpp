@@ -21,6 +21,7 @@ struct Clue {
   bool lines_done = false;                ///< and those were all
   bool again = false;                     ///< an error of a frame that has had its own
   bool of_token = false;                  ///< of a segment: it came as the token has it
+  bool polygons = false;                  ///< of a frame at the polygon level
   bool dropping = false;                  ///< all input is in, and token_reader still drops it
 };
 

@@ -49,14 +49,20 @@ LineSink EventSearch::sink() {
 }
 
 void EventSearch::header(std::span<const std::uint32_t> words, const LineView& line) {
-  height_ = static_cast<std::uint32_t>(FrameHeader::read(words).height);
+  const FrameHeader header = FrameHeader::read(words);
+  height_ = static_cast<std::uint32_t>(header.height);
+  polygons_ = header.level() == Level::polygons;
   expected_.header(words, line);
 }
 
 void EventSearch::before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,
                          const LineView& line) {
-  kinds_.push_back(token.kind);
+  if (!polygons_) kinds_.push_back(token.kind);
   expected_.before(index, token, words, line);
+}
+
+void EventSearch::came(std::uint32_t, const Token& token, std::span<const std::uint32_t>) {
+  kinds_.push_back(token.kind);
 }
 
 void EventSearch::after(std::uint32_t index, const Token& token, const LineView& line) {
@@ -64,7 +70,9 @@ void EventSearch::after(std::uint32_t index, const Token& token, const LineView&
 }
 
 void EventSearch::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& line) {
-  if (!words.empty() && status.width != 0) kinds_.push_back(kind_of(words[0]));
+  // At the polygon level a token at fault has come, but for one whose kind the core lacks.
+  if (!words.empty() && status.width != 0 && (!polygons_ || kinds_.size() < status.token))
+    kinds_.push_back(kind_of(words[0]));
   expected_.failed(status, words, line);
 }
 
@@ -244,6 +252,7 @@ Clue EventSearch::clue() const {
   }
   c.again = again_;
   c.of_token = of_token_;
+  c.polygons = polygons_;
   const std::uint32_t token = mismatch ? mismatch->expected.token : 0;
   for (std::uint32_t i = 1; i < token && i <= kinds_.size(); ++i) c.lines += kinds_[i - 1] == Kind::EOL ? 1U : 0U;
   c.lines_done = c.lines == height_;

@@ -55,6 +55,7 @@ class EventSearch : private CoreObserver {
  private:
   // What the golden core does.
   void header(std::span<const std::uint32_t> words, const LineView& line) override;
+  void came(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words) override;
   void before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,
               const LineView& line) override;
   void after(std::uint32_t index, const Token& token, const LineView& line) override;
@@ -77,6 +78,7 @@ class EventSearch : private CoreObserver {
   bool tokens_watched_;
   GoldenCore golden_;
   std::vector<Kind> kinds_;  // of each token but the header, the one that is wrong included
+  bool polygons_ = false;    // the frame is at the polygon level: those are the tokens that came in
   std::array<bool, kStages> stopped_{};
   std::vector<bool> stopped_columns_;
   std::optional<Mismatch> first_;
