@@ -20,6 +20,7 @@ set(long_tests
     cli/cosim_verdicts
     cli/degrade
     cli/faults
+    cli/front_end_scenes
     cli/full_disk
     cli/hang
     cli/killed

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Frames at the polygon level from outside: what info, diff and explain say of a stream whose frame is made by hand, and
-# --level of random frames.
+# --front-end of random frames.
 . "$(dirname "$0")/common.bash"
 
 KAGE_GOLDEN=$(dirname "$kage")/../lib/libkage_golden.so
@@ -50,11 +50,9 @@ json explain.json 'len(j["touches"]) > 3 and not any(t["made"] for t in j["touch
 
 # Random frames at the level.
 echo 'ACTIVE: 6' >front.yaml
-expect 0 "$kage" explain random --level polygons --config front.yaml --frame 3 --pixel 0,0
-expect 0 "$kage" explain random:damaged --level polygons --config front.yaml --frame 8 --pixel 0,0
-trouble '--level polygons: configuration default has ACTIVE 0, so its core takes spans alone' \
-  "$kage" cosim random --level polygons
-trouble '--level: only random frames take it, and this is a scene' "$kage" cosim edges --level polygons
-trouble '--level: a stream has its own level' "$kage" cosim polygons.kage --level polygons
-expect 2 "$kage" cosim random --level lines
+expect 0 "$kage" explain random --front-end rtl --config front.yaml --frame 3 --pixel 0,0
+expect 0 "$kage" explain random:damaged --front-end rtl --config front.yaml --frame 8 --pixel 0,0
+expect 0 "$kage" explain random --front-end rtl --frame 3 --pixel 0,0
+trouble 'a stream has its own level' "$kage" cosim polygons.kage --front-end rtl
+expect 2 "$kage" cosim random --front-end card
 done_testing

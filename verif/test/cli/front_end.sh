@@ -1,0 +1,15 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# kage cosim --front-end rtl: a core that makes spans of polygons, with random frames of both levels, sound and damaged, and
+# with a scene, of which every stage is held against the golden core: the front end's spans token by token.
+. "$(dirname "$0")/common.bash"
+
+echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 6}' >small.yaml
+expect 0 "$kage" cosim random:mixed --front-end rtl --config small.yaml --frames 120 --seed 5 --out random --json r.json
+json r.json 'j["same"] and j["frames"] == 120'
+expect 0 "$kage" cosim courtyard --front-end rtl --stages --config small.yaml --size 40x30 --frames 1 --out scene --json s.json
+json s.json 'j["same"] and j["config"]["ACTIVE"] == 6'
+# The fields of the first stage that differs name the front end.
+expect 1 "$kage" cosim courtyard --front-end rtl --config small.yaml --size 40x30 --frames 1 --out wrong --fault front_end_edge
+grep -q 'first divergence: .*rtl/front_end.sv' stdout || fail "no divergence of front_end: $(cat stdout)"
+done_testing
