@@ -6,6 +6,7 @@
 
 expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --out courtyard.kage
 expect 0 "$kage" stream glass --size 160x120 --frames 2 --out glass.kage
+expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --level polygons --out polygons.kage
 echo '{SMOOTH: 1, COLOR_FRAC: 8, COUNT_BITS: 2, LIGHTS: 3, CLASS_BITS: 8, SHADE_FRAC: 12, MAX_WIDTH: 160}' >three.yaml
 expect 0 "$kage" stream three-lights --size 160x120 --frames 2 --samples 3 --config three.yaml --out lights.kage
 count=0
@@ -18,7 +19,11 @@ for patch in "$source"/verif/cosim/model/faults/*.patch; do
   # Every scene says its shade: ctest unit/cosim/faults. Registers are read at the end of frames: ctest cli/register_answers.
   case $name in count_wraps | early_table | unreset_shade | silent_registers) continue ;; esac
   frames=courtyard.kage
-  case $name in blend_* | resolve_*) frames=glass.kage ;; sample_* | *_light) frames=lights.kage ;; esac
+  case $name in
+    blend_* | resolve_*) frames=glass.kage ;;
+    sample_* | *_light) frames=lights.kage ;;
+    front_end_*) frames=polygons.kage ;;
+  esac
   if grep -q '^Not a fault' "$patch"; then
     expect 0 "$kage" cosim "$frames" --fault "$name" --idle 30 --backpressure 30 --out "$name"
     continue
