@@ -212,7 +212,7 @@ def main() -> int:
     command.add_argument("--stages", type=int)
     command.set_defaults(run=show_steps)
     command = commands.add_parser("mutate")
-    command.add_argument("kernels", nargs="*", help="or modules of hls/generated; default: all")
+    command.add_argument("kernels", nargs="*", help="or generated modules; default: all")
     command.add_argument("--seed", type=int, default=1)
     command.add_argument("--count", type=int, default=0, help="so many mutants of each module, by chance; 0: all")
     command.add_argument("--vectors", type=int, default=100000)

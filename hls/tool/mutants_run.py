@@ -19,7 +19,7 @@ from .mutate import Module, Mutant
 from .trouble import Trouble
 
 TOP = pathlib.Path(__file__).resolve().parent.parent.parent
-GENERATED = TOP / "hls/generated"
+GENERATED = [TOP / "hls/generated", TOP / "rtl"]  # the latter has the core's
 HARNESS = TOP / "verif/test/hls/mutants.cpp"
 BENCH = TOP / "verif/test/rtl/hls_blend_bench.sv"
 BLEND = "hls_pixel_blend_"
@@ -179,7 +179,8 @@ def try_by_proof(module: Module, mutants: list[Mutant]) -> Verdicts:
 
 def chosen(names: list[str]) -> list[Module]:
     """The modules of that name, or of kernels of that name; all, if none is named."""
-    modules = [Module.read(p) for p in sorted(GENERATED.glob("*.sv"))]
+    paths = (p for folder in GENERATED for p in folder.glob("hls_*.sv"))
+    modules = [Module.read(p) for p in sorted(paths, key=lambda p: p.name)]
     if not names:
         return modules
     found = []
@@ -189,7 +190,7 @@ def chosen(names: list[str]) -> list[Module]:
             m for m in modules if m.name == stem or (stem.startswith("hls_pixel_") and m.name.startswith(f"{stem}_"))
         ]
         if not some:
-            raise Trouble(f"{name}: neither a kernel nor a module of hls/generated")
+            raise Trouble(f"{name}: neither a kernel nor a generated module")
         found += [m for m in some if m not in found]
     return found
 

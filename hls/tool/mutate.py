@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mutants of the generated modules: which of them do the vectors, or the proofs, notice? tools/hls mutate.
 
-A mutant is one change of one line of hls/generated. All mutants of a module stand in one copy of it, behind the input
+A mutant is one change of one line of a generated module. All mutants of a module stand in one copy of it, behind the input
 `mutant_i`, so that one Verilator model, or one reading by yosys, serves them all. A pipeline's mutants are tried by the
 vectors of rtl/hls_kernels; those of a module that has a proof, by that proof. A mutant that lives is equivalent where a
 proof says so, else it is a gap of the vectors.
