@@ -51,7 +51,7 @@ LineSink EventSearch::sink() {
 void EventSearch::header(std::span<const std::uint32_t> words, const LineView& line) {
   const FrameHeader header = FrameHeader::read(words);
   height_ = static_cast<std::uint32_t>(header.height);
-  polygons_ = header.level() == Level::polygons;
+  polygons_ = header.level() == kage::Level::polygons;
   expected_.header(words, line);
 }
 
