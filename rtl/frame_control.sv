@@ -30,7 +30,7 @@ module frame_control #(
     `include "generated/kage_widths.svh"
     parameter int MAX_WIDTH   = 640,
     parameter int TOKEN_WORDS = 5,
-    parameter bit POLYGONS    = 0   // front_end makes tokens, and numbers them
+    parameter int POLYGONS    = 0   // front_end makes tokens, and numbers them
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,

@@ -52,9 +52,9 @@ module kage_top #(
   // ---- legal parameters --------------------------------------------------------------------------------------------
   `include "generated/kage_checks.svh"
 
-  localparam bit Polygons = ACTIVE > 0;
+  localparam int Polygons = ACTIVE > 0 ? 1 : 0;  // frames at the polygon level come too
   localparam int FrontWords = TokenWords > HeaderWords ? TokenWords : HeaderWords;
-  localparam int ReaderWords = Polygons && PolygonTokenWords > FrontWords ? PolygonTokenWords : FrontWords;
+  localparam int ReaderWords = Polygons > 0 && PolygonTokenWords > FrontWords ? PolygonTokenWords : FrontWords;
   localparam int ExitLanes = ARRANGEMENT == 1 ? LANES : 1;
 
   // ---- words to tokens ---------------------------------------------------------------------------------------------
@@ -87,7 +87,7 @@ module kage_top #(
   logic [31:0] token_index;
   flags_t flags;
   logic drop, dropping, front_busy, front_moving;
-  if (Polygons) begin : gen_front_end
+  if (Polygons > 0) begin : gen_front_end
     front_end #(
         .ACTIVE   (ACTIVE),
         .IN_WORDS (ReaderWords),

@@ -13,7 +13,7 @@ module token_facts #(
     `include "generated/kage_widths.svh"
     parameter int MAX_WIDTH   = 640,
     parameter int TOKEN_WORDS = 5,
-    parameter bit POLYGONS    = 0   // frames at the polygon level are good too
+    parameter int POLYGONS    = 0   // frames at the polygon level are good too
 ) (
     input  wire logic [TOKEN_WORDS*32-1:0] token_i,
     output logic      [     FactsBits-1:0] facts_o
@@ -44,7 +44,7 @@ facts_t facts;
   always_comb begin
     // a header
     if (head_version != HeaderVersionBits'(StreamVersion) &&
-        !(POLYGONS && head_version == HeaderVersionBits'(PolygonVersion)))
+        !(POLYGONS > 0 && head_version == HeaderVersionBits'(PolygonVersion)))
       facts.head_error = ErrHeader;
     else if (head_magic != HeaderMagicBits'(StreamMagic)) facts.head_error = ErrHeader;
     else if (head_width == '0 || head_width > HeaderWidthBits'(MAX_WIDTH)) facts.head_error = ErrSize;

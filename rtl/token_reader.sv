@@ -23,7 +23,7 @@ module token_reader #(
     `include "generated/kage_widths.svh"
     parameter int BEAT_WORDS  = 4,
     parameter int TOKEN_WORDS = 5,  // the longest of all tokens and the header
-    parameter bit POLYGONS    = 0   // frames at the polygon level come too
+    parameter int POLYGONS    = 0   // frames at the polygon level come too
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -88,7 +88,7 @@ module token_reader #(
 
   // The level of the frame that a beat is of, which its header has in the first word of the first beat.
   logic polygons;
-  if (POLYGONS) begin : gen_levels
+  if (POLYGONS > 0) begin : gen_levels
     logic begins_q, polygons_q;
     assign polygons = begins_q ? s_axis_tdata_i[HeaderVersionLsb+:HeaderVersionBits] ==
         HeaderVersionBits'(PolygonVersion) : polygons_q;

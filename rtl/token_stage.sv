@@ -25,7 +25,7 @@ module token_stage #(
     `include "generated/kage_widths.svh"
     parameter int MAX_WIDTH   = 640,
     parameter int TOKEN_WORDS = 5,
-    parameter bit POLYGONS    = 0   // front_end makes tokens, and numbers them
+    parameter int POLYGONS    = 0   // front_end makes tokens, and numbers them
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -114,7 +114,7 @@ flags_t flags;
   logic lines_done_q;  // left_q is 0
   logic first_q;  // the header was the last token
   logic [31:0] index_q, index;  // of the newest token, and of the one that comes in
-  if (POLYGONS) begin : gen_index
+  if (POLYGONS > 0) begin : gen_index
     assign index = token_index_i;
   end else begin : gen_count
     logic unused_index;
