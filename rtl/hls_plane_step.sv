@@ -5,6 +5,7 @@
 // Handshake: valid/ready on both sides. The whole pipeline stands while out_valid_o waits for out_ready_i, on
 //   which in_ready_o depends.
 // Latency: 3 clocks. Throughput: a result a clock. rst_ni low empties the pipeline.
+// Cost: docs/hls.md has the cells of it.
 /* verilator lint_off UNUSEDSIGNAL */
 `default_nettype none
 

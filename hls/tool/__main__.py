@@ -80,6 +80,7 @@ def module(text: str, function: str, name: str, entry: dict, delays: Delays, sta
             "// Handshake: valid/ready on both sides. The whole pipeline stands while out_valid_o waits for out_ready_i, on",
             "//   which in_ready_o depends.",
             f"// Latency: {stages} clocks. Throughput: a result a clock. rst_ni low empties the pipeline.",
+            "// Cost: docs/hls.md has the cells of it.",
         ]
     else:
         head += ["// No clock: outputs follow from inputs alone."]

@@ -171,6 +171,7 @@ class Run {
       put(top_->token_flags_i, kFlags.cut, t.cut ? 1 : 0);
       put(top_->token_flags_i, kFlags.ends, t.final ? 1 : 0);
       put(top_->token_flags_i, kFlags.at_last, t.at_last ? 1 : 0);
+      put(top_->token_flags_i, kFlags.fault, 0);
     }
     top_->dropping_i = dropping_ > 0 ? 1 : 0;
     top_->cmd_ready_i = dice_.percent(cmd_stall_) ? 0 : 1;
