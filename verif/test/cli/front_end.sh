@@ -5,11 +5,12 @@
 . "$(dirname "$0")/common.bash"
 
 echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 6}' >small.yaml
+echo '{LANES: 4, X_BITS: 7, MAX_WIDTH: 80, ACTIVE: 48}' >front.yaml
 expect 0 "$kage" cosim random:mixed --front-end rtl --config small.yaml --frames 120 --seed 5 --out random --json r.json
 json r.json 'j["same"] and j["frames"] == 120'
-expect 0 "$kage" cosim courtyard --front-end rtl --stages --config small.yaml --size 40x30 --frames 1 --out scene --json s.json
-json s.json 'j["same"] and j["config"]["ACTIVE"] == 6'
+expect 0 "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --out scene --json s.json
+json s.json 'j["same"] and j["config"]["ACTIVE"] == 48'
 # The fields of the first stage that differs name the front end.
-expect 1 "$kage" cosim courtyard --front-end rtl --config small.yaml --size 40x30 --frames 1 --out wrong --fault front_end_edge
+expect 1 "$kage" cosim courtyard --front-end rtl --config front.yaml --size 80x60 --frames 1 --out wrong --fault front_end_edge
 grep -q 'first divergence: .*rtl/front_end.sv' stdout || fail "no divergence of front_end: $(cat stdout)"
 done_testing
