@@ -19,6 +19,7 @@ std::string blame_error(const Clue& clue) {
   const ErrorCode actual = clue.actual ? code(clue.actual->value[at::error::code]) : ErrorCode::NONE;
   const auto any = [&](auto is) { return is(expected) || is(actual); };
   const auto either = [&](ErrorCode e) { return expected == e || actual == e; };
+  if (either(ErrorCode::PLACE) || either(ErrorCode::ACTIVE_FULL)) return "front_end";
   if (clue.again) return "token_stage";  // which lets no token in behind the first error
   if (clue.actual && clue.value == at::error::code && clue.actual->value[at::error::line] != clue.lines)
     return "frame_control";
@@ -29,7 +30,6 @@ std::string blame_error(const Clue& clue) {
   if (either(ErrorCode::LAST_LATE) &&
       (expected == ErrorCode::NONE || expected == ErrorCode::LAST_LATE))  // the flag that it comes of is token_reader's
     return clue.at_last == (expected == ErrorCode::LAST_LATE) ? "token_reader" : "token_check";
-  if (either(ErrorCode::PLACE) || either(ErrorCode::ACTIVE_FULL)) return "front_end";
   if (any(is_of_unit)) return "segment_check";
   if (!clue.kind) return "token_check";
   const bool table = *clue.kind == Kind::TABLE;

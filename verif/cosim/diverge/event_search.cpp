@@ -162,10 +162,10 @@ void EventSearch::take_error(std::deque<ExpectedEvent>& q, const kage_rtl_event&
     ahead_.push_back(a);  // the golden core says so with the frame's end
     return;
   }
-  if (q.empty() || token < q.front().token) {
+  if (q.empty() || token < q.front().nth) {
     again_ = expected_.failed() && q.empty();
     offer({ExpectedEvents::no_error(static_cast<int>(a.value[at::error::line]), token), a, at::error::code, a.clock});
-  } else if (token > q.front().token) {
+  } else if (token > q.front().nth) {
     offer({q.front(), std::nullopt, -1, a.clock});
   } else {
     const int value = first_difference(q.front(), a);

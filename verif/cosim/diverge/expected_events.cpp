@@ -57,6 +57,7 @@ ExpectedEvent& ExpectedEvents::newest(Stage stage, int unit) {
 // Two words a value, the first in the lower half.
 void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool final) {
   ExpectedEvent e = event(Stage::token, of_token);
+  ++token_events_;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::size_t place = at::token::words + i / 2;
     e.expect(static_cast<int>(place), e.value[place] | std::uint64_t{words[i]} << (i % 2 * 32));
@@ -72,6 +73,7 @@ void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool fina
 // A token that is refused: its words may not be there, but what token_reader says of them is known.
 void ExpectedEvents::wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words) {
   ExpectedEvent e = event(Stage::token, of_token);
+  ++token_events_;
   e.token = header ? 0 : token_ + 1;
   const bool cut = code == ErrorCode::LAST_EARLY;
   const bool end = !header && !words.empty() && kind_of(words[0]) == Kind::END;
@@ -89,7 +91,7 @@ void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView
   const FrameHeader h = FrameHeader::read(words);
   height_ = h.height;
   y_ = 0;
-  token_ = 0;
+  token_ = token_events_ = 0;
   eol_token_.clear();
   background_ = low(h.background, derived::rgb_bits(config_));
   shade_ = 0;
@@ -305,14 +307,14 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
 void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& /*line*/) {
   failed_ = true;
   if (status.width == 0) {  // nothing of the frame before is left
-    token_ = 0;
+    token_ = token_events_ = 0;
     y_ = 0;
   }
   if (status.error != ErrorCode::LAST_LATE) wrong_token(status.error, status.width == 0, words);
   ExpectedEvent e = event(Stage::error, of_control);
   // Where it shows: the token that is to blame may have come before.
   e.token = status.width == 0 ? 0 : status.error == ErrorCode::LAST_LATE ? token_ : token_ + 1;
-  failed_at_ = e.token;
+  e.nth = failed_at_ = token_events_ - 1;
   e.expect(at::error::code, static_cast<std::uint64_t>(status.error));
   e.expect(at::error::frame, status.frame);
   e.expect(at::error::line, status.line);
@@ -320,7 +322,7 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
   e.expect(at::error::unit, status.unit);
   put(e);
   if (status.width == 0) return;
-  token_ = failed_at_;
+  token_ = e.token;
   // The line at hand and all others leave as background.
   while (y_ < height_) end_line(nullptr);
 }

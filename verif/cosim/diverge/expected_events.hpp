@@ -23,9 +23,11 @@ struct ExpectedEvent {
   int unit = 0;             ///< an expansion unit's number, a pixel's x; of a pixel that leaves, 1: its line's last
   int line = 0;             ///< lines that had ended
   std::uint32_t token = 0;  ///< index of the token it comes of
-  int step = 0;             ///< order among the events of a token: those of a later step follow from earlier ones
-  int x = -1;               ///< the pixel, where it is of one
-  bool load = false;        ///< a command, or what it does, that brings a colour back
+  std::uint32_t nth =
+      0;              ///< of an error: the token that shows it, as frame_control counts them; a front end makes some
+  int step = 0;       ///< order among the events of a token: those of a later step follow from earlier ones
+  int x = -1;         ///< the pixel, where it is of one
+  bool load = false;  ///< a command, or what it does, that brings a colour back
   std::uint32_t cares = 0;  ///< bit i: value i matters
   std::array<std::uint64_t, KAGE_RTL_EVENT_VALUES> value{};
   /// Value i is to be this, or matters as it is, or does not matter.
@@ -64,7 +66,7 @@ class ExpectedEvents : public CoreObserver {
   /// Whether the frame has an error. From it on the dropped tokens and the lost line are not compared.
   [[nodiscard]] bool failed() const { return failed_; }
 
-  /// The token at which the error shows; none before it is dropped.
+  /// The token at which the error shows, as frame_control counts them; none before it is dropped.
   [[nodiscard]] std::uint32_t failed_at() const { return failed_at_; }
 
   /// The golden core has ended the frame.
@@ -150,6 +152,7 @@ class ExpectedEvents : public CoreObserver {
   // Of the frame:
   bool failed_ = false;
   std::uint32_t failed_at_ = 0;
+  std::uint32_t token_events_ = 0;  // of the frame so far, the header's among them
   int width_ = 0;
   int height_ = 0;
   int y_ = 0;                // lines that have ended
