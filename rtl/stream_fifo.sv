@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small first-in first-out buffer for a valid/ready stream, in registers.
+// A first-in first-out buffer for a valid/ready stream: of up to four words in registers, of more in LUT RAM.
 //
 // Handshake: valid/ready on both sides; in_ready_o and out_valid_o depend on registers only.
 // Capacity: DEPTH words, a power of two, at least 2. Latency: 1 clock. Throughput: a word a clock.
-// Cost: DEPTH x BITS flip-flops (or LUT RAM) and a DEPTH to 1 multiplexer.
+// Cost: DEPTH x BITS flip-flops and a DEPTH to 1 multiplexer; of more than four words LUT RAM, where the device has it.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -28,9 +28,6 @@ module stream_fifo #(
     `KAGE_ILLEGAL("DEPTH must be a power of two and at least 2")
   end
 
-  // In yosys, AMD's and Intel's words: two places take less of flip-flops than of LUT RAM.
-  (* ram_style = "registers", ramstyle = "logic" *)
-  logic [BITS-1:0] mem[DEPTH];
   // Words that have left and that have come, modulo 2 DEPTH. Nothing is written but the pointer that moves, because a
   // count of both would lengthen the paths of push and pop.
   logic [PtrBits:0] rd_q, wr_q, count;
@@ -42,13 +39,23 @@ module stream_fifo #(
   assign wr_at       = wr_q[PtrBits-1:0];
   assign in_ready_o  = !count[PtrBits];
   assign out_valid_o = count != '0;
-  assign out_data_o  = mem[rd_at];
   assign push        = in_valid_i && in_ready_o;
   assign pop         = out_valid_o && out_ready_i;
 
+  // A free place may be written to no end: so the data wait for nothing but registers.
+  if (DEPTH > 4) begin : gen_ram
+    logic [BITS-1:0] mem[DEPTH];
+    assign out_data_o = mem[rd_at];
+    always_ff @(posedge clk_i) if (in_ready_o) mem[wr_at] <= in_data_i;
+  end else begin : gen_registers
+    // In yosys, AMD's and Intel's words: few places take less of flip-flops than of LUT RAM.
+    (* ram_style = "registers", ramstyle = "logic" *)
+    logic [BITS-1:0] mem[DEPTH];
+    assign out_data_o = mem[rd_at];
+    always_ff @(posedge clk_i) if (in_ready_o) mem[wr_at] <= in_data_i;
+  end
+
   always_ff @(posedge clk_i) begin
-    // A free place may be written to no end: so the data wait for nothing but registers.
-    if (in_ready_o) mem[wr_at] <= in_data_i;
     if (!rst_ni) begin
       rd_q <= '0;
       wr_q <= '0;
