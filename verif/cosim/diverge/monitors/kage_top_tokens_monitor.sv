@@ -31,8 +31,8 @@ module kage_top_tokens_monitor #(
   assign entry = table_entry;
   assign found = error;
 
-  // The token that token_stage holds, as token_reader or front_end gave it. It is told of in the first clock in which it
-  // may be acted on: ahead of what it does, and behind what the token before it did.
+  // The token that token_stage holds, as token_reader or front_end gave it. It is told of in the first clock in which
+  // it may be acted on: ahead of what it does, and behind what the token before it did.
   logic new_q;
   logic [FRONT_WORDS*32-1:0] held_q;
   flags_t told_q;
