@@ -22,12 +22,18 @@ module skid_buffer_monitor #(
   assign push = in_valid_i && held_q != 2'd2;
   assign pop  = out_ready_i && held_q != '0;
 
+  // An event has 512 bits: of longer words those that lie on one another there are added modulo 2.
+  function automatic logic [511:0] folded(input logic [BITS-1:0] word);
+    folded = '0;
+    for (int i = 0; i < BITS; i++) folded[i%512] = folded[i%512] ^ word[i];
+  endfunction
+
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       held_q <= '0;
     end else begin
       trace_module(PartSkidBuffer, {510'd0, held_q != 2'd2, held_q != '0}, {510'd0, in_ready_o, out_valid_o});
-      if (held_q != '0) trace_module(PartSkidBuffer, 512'(first_q), 512'(out_data_o));
+      if (held_q != '0) trace_module(PartSkidBuffer, folded(first_q), folded(out_data_o));
       held_q <= held_q + 2'(push) - 2'(pop);
       if (pop) first_q <= held_q == 2'd2 ? second_q : in_data_i;
       else if (push && held_q == '0) first_q <= in_data_i;

@@ -171,7 +171,8 @@ class Build:
             missing = [m for m in monitors if m not in files("port_monitors")]
             monitors = [m for m in monitors if m not in missing]
         while not run("verilator", command + monitors, self.log, lambda text: leave_out(monitors, missing, text)):
-            pass
+            # What a Verilator that failed has left would be compiled, too.
+            shutil.rmtree(self.obj, ignore_errors=True)
         name_initial_state(self.obj)
         return missing
 
