@@ -9,12 +9,12 @@
 //   two heads by their places, so that neither is ever searched.
 // Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. drop_i, from behind, is
 //   high only in a clock in which a token is taken that does not end its frame: all that is here of the frame is
-//   forgotten, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet. in_ready depends on
+//   forgotten, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet. token_ready_o depends on
 //   registers only.
 // Index: token_index_o is that of the token in the stream; what is made of a polygon has that of the token at hand.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull). After a
 //   token at fault what comes does not matter.
-// Latency: 9 clocks for a token; 30 for an EDGE, whose crossing takes EdgeClocks. Throughput: a token a clock, a
+// Latency: 8 clocks for a token; 28 from a polygon's second EDGE to its span. Throughput: a token a clock, a
 //   polygon of the line a clock, each once a line; a polygon's tokens come on the line where it begins, and where one
 //   of its edges does. A line costs 3 clocks at least.
 // Cost: docs/rtl.md; the lists' block RAM, the queues of Depth tokens and edges, the kernels.
@@ -59,7 +59,7 @@ module front_end #(
     `KAGE_ILLEGAL("ACTIVE must be at least 1 where there is a front end")
   end
 
-  localparam int Depth = 32;  // of the queues: more than EdgeClocks, so that edges do not hold up tokens
+  localparam int Depth = 32;  // of the queues: more than hls_edge_setup has stages, so that edges do not hold up tokens
   localparam int InBits = IN_WORDS * 32;
   localparam int OutBits = OUT_WORDS * 32;
   localparam int EndLineBits = 17;
@@ -67,7 +67,7 @@ module front_end #(
 
   // ---- dropping ----------------------------------------------------------------------------------------------------
   // From drop_i until the reader drops too and the edges on their way have come, everything here is empty.
-  logic dropping_q, owed_q, flush, ended_q, closed_q, push, edge_in, edge_out;
+  logic dropping_q, owed_q, flush, ended_q, push, edge_in, edge_out;
   logic [4:0] edges_q;  // on their way
   flags_t in_flags;
   assign in_flags = token_flags_i;
@@ -100,9 +100,8 @@ module front_end #(
   logic [LineNumberBits-1:0] line_in_q;
   logic out_valid, out_ready;
   flags_t out_flags;
-  assign token_ready_o = dropping_q ? owed_q : queue_ready && !closed_q;
-  assign push = token_valid_i && queue_ready && !closed_q && !dropping_q;
-  assign closed_q = ended_q;
+  assign token_ready_o = dropping_q ? owed_q : queue_ready && !ended_q;
+  assign push = token_valid_i && queue_ready && !ended_q && !dropping_q;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) ended_q <= 1'b0;
     else if (push) ended_q <= in_flags.ends;

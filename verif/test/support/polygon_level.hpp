@@ -13,30 +13,14 @@
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
-#include "polygon/front_end.hpp"
+#include "stream/span_frame.hpp"
 
 namespace kage::verif {
 
 /// A frame's words at the span level: what the front end makes of a frame at the polygon level, in words again. Empty
 /// if it finds an error.
 inline std::vector<std::uint32_t> expanded(const Config& c, std::span<const std::uint32_t> words) {
-  std::vector<std::uint32_t> out;
-  TokenWriter writer(c, out);
-  FrameHeader header = FrameHeader::read(words);
-  header.version = kStreamVersion;
-  writer.header(header);
-  FrontEnd front_end(c);
-  front_end.start(header.width);
-  const Layout layout(c);
-  TokenWalk walk(layout, words);
-  for (auto token = walk.next(); !token.empty(); token = walk.next()) {
-    const ErrorCode e = front_end.accept(decode(c, layout, token, Level::polygons), [&](const Token& of_spans, bool) {
-      writer.token(of_spans);
-      return ErrorCode::NONE;
-    });
-    if (e != ErrorCode::NONE) return {};
-  }
-  return out;
+  return span_frame(c, words).value_or(std::vector<std::uint32_t>{});
 }
 
 /// A frame at both levels.
