@@ -60,12 +60,14 @@ defect skid_valid_falls skid_buffer skid_buffer.sv 's/assign out_free = .*/assig
 defect skid_ready_by_output skid_buffer skid_buffer.sv 's/assign in_ready_o = .*/assign in_ready_o = !out_valid_q;/'
 defect skid_standstill skid_buffer skid_buffer.sv 's/assign out_valid_o = .*/assign out_valid_o = out_valid_q \&\& !in_valid_i;/'
 defect skid_kept_in_reset skid_buffer skid_buffer.sv 's/out_valid_q   <= 1.b0;/out_valid_q   <= out_valid_q;/'
-for depth in 2 4; do
-  fifo_memory= block=gen_registers
-  [ "$depth" -le 4 ] || block=gen_ram
-  for ((word = 0; word < depth; word++)); do fifo_memory+=" inside_memory[$((2 * word + 1)):$((2 * word))]=\\dut.$block.mem[$word]"; done
+fifo_memories=([2]=gen_registers [4]=gen_registers [8]=gen_ram) fifo_cover=([2]=14 [4]=14 [8]=24)
+for depth in 2 4 8; do
+  fifo_memory=
+  for ((word = 0; word < depth; word++)); do
+    fifo_memory+=" inside_memory[$((2 * word + 1)):$((2 * word))]=\\dut.${fifo_memories[depth]}.mem[$word]"
+  done
   proof stream_fifo_$depth module=stream_fifo rtl=stream_fifo rules="queue_rules stream_rules" set="DEPTH=$depth" \
-    inside="inside_count=dut.count inside_oldest=dut.rd_at inside_next=dut.wr_at$fifo_memory" steps=9 induction=2 cover=14
+    inside="inside_count=dut.count inside_oldest=dut.rd_at inside_next=dut.wr_at$fifo_memory" steps=9 induction=2 cover="${fifo_cover[depth]}"
 done
 defect fifo_full_unseen stream_fifo_2 stream_fifo.sv 's/assign in_ready_o  = .*/assign in_ready_o = 1;/'
 defect fifo_empty_unseen stream_fifo_2 stream_fifo.sv 's/assign out_valid_o = .*/assign out_valid_o = 1;/'
@@ -80,9 +82,8 @@ defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/wr_q <= '0;/;/"
 # ---- async_fifo ------------------------------------------------------------------------------------------------------
 async_cover=([4]=48 [8]=72)
 for depth in 4 8 16; do
-  fifo_memory= block=gen_registers
-  [ "$depth" -le 4 ] || block=gen_ram
-  for ((word = 0; word < depth; word++)); do fifo_memory+=" inside_memory[$word]=\\dut.$block.mem[$word]"; done
+  fifo_memory=
+  for ((word = 0; word < depth; word++)); do fifo_memory+=" inside_memory[$word]=\\dut.mem[$word]"; done
   proof async_fifo_$depth module=async_fifo rtl=board/async_fifo rules=undecided_synchronizer clocks=several set="DEPTH=$depth" \
     inside="inside_wr=dut.wr_q inside_rd=dut.rd_q inside_wr_gray=dut.wr_gray_q inside_rd_gray=dut.rd_gray_q
     inside_wr_meta=dut.u_wr_seen.meta_q inside_wr_seen=dut.wr_seen inside_rd_meta=dut.u_rd_seen.meta_q

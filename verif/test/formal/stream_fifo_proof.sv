@@ -9,7 +9,8 @@
 // the place of the oldest word and that of the next; the lemmas say that the words of the queue lie between them.
 //
 // Why small widths say it for all: no bit of a word is looked at, all are copied alike. BITS bits are free in each
-// word. DEPTH is 2, the least there is and the one that kage_top has, and 4: pointers of one bit and of more.
+// word. DEPTH is 2, the least there is and the one that kage_top has, 4, and 8: pointers of one bit and of more,
+// words in flip-flops and in LUT RAM.
 `default_nettype none
 module stream_fifo_proof #(
     parameter int BITS = 2,
