@@ -3,25 +3,40 @@
 // are written to the other, in the same order. So nothing is ever searched.
 //
 // Reading: polygon_valid_o and polygon_o, the line's next one, which pop_i takes; left_o: there are more of the line,
-//   ready or not. keep_i, one clock: one that is taken, or a new one, goes on to the next line; it comes to be written
-//   by write_i later, in the same order. room_o: the line and the next one have fewer than ACTIVE.
+//   ready or not. before_o, same_o: its place is less than place_i, or is place_i; goes_on_o: its end is behind line_i.
+//   These are registers, so in the clock in which renew_i says that place_i is new they are of the place before, and
+//   nothing is taken.
+// Writing: keep_i, one clock: one that is taken, or a new one, goes on to the next line; it comes to be written by
+//   write_i later, in the same order. room_o: the line and the next one have fewer than ACTIVE.
 // A line ends by swap_i, one clock, when nothing is left and swap_ready_o is high; swap_write_i, one clock, when all
 //   that the line keeps has been written. clear_i: as after reset, while nothing is to be written.
-// Latency: from swap_i 3 clocks to the next line's first polygon; one that is still to be written comes 3 clocks after
+// Latency: from swap_i 4 clocks to the next line's first polygon; one that is still to be written comes 4 clocks after
 //   that. Throughput: a polygon a clock, read and written.
-// Cost: 2 x ACTIVE words of block RAM, rounded up to a power of two; 2 x BITS flip-flops; five counters.
+// Cost: 2 x ACTIVE words of block RAM, rounded up to a power of two; 2 x BITS flip-flops; five counters, a comparator
+//   of places and one of lines.
 `default_nettype none
 
 module active_list #(
-    parameter int BITS   = 8,
+    parameter int BITS = 8,
+    parameter int PLACE_AT = 0,  // where in a polygon its place lies
+    parameter int PLACE_BITS = 2,
+    parameter int END_AT = 2,  // and the line behind its last, signed
+    parameter int END_BITS = 2,
     parameter int ACTIVE = 512
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic clear_i,
 
+    input wire logic [PLACE_BITS-1:0] place_i,
+    input wire logic                  renew_i,
+    input wire logic [  END_BITS-1:0] line_i,
+
     output logic                 polygon_valid_o,
     output logic      [BITS-1:0] polygon_o,
+    output logic                 before_o,
+    output logic                 same_o,
+    output logic                 goes_on_o,
     input  wire logic            pop_i,
     output logic                 left_o,
     input  wire logic            keep_i,
@@ -52,7 +67,8 @@ module active_list #(
       all_q <= '0;
     end else begin
       left_q <= swap_i ? kept_q : left_q - TallyBits'(pop_i);
-      left_any_q <= swap_i ? kept_q != '0 : left_q != TallyBits'(pop_i);
+      // The counters decide before it is known what happens.
+      left_any_q <= swap_i ? kept_q != '0 : pop_i ? left_q != TallyBits'(1) : left_any_q;
       kept_q <= swap_i ? '0 : kept_q + TallyBits'(keep_i);
       all_q <= all_q + TallyBits'(keep_i) - TallyBits'(pop_i);
     end
@@ -63,11 +79,11 @@ module active_list #(
   // been written.
   logic read_bank_q, write_bank_q;
   logic [AddrBits:0] read_at_q, write_at_q, there_q, there;
-  logic read, loaded_q, out_ready;
+  logic read, loaded_q, next_free;
   logic [BITS-1:0] word;
   assign swap_ready_o = read_bank_q != write_bank_q;
   assign there = swap_ready_o ? there_q : write_at_q;
-  assign read = read_at_q != there && (!loaded_q || out_ready);
+  assign read = read_at_q != there && (!loaded_q || next_free);
   always_ff @(posedge clk_i) begin
     if (clear) begin
       read_bank_q <= 1'b0;
@@ -82,7 +98,7 @@ module active_list #(
       read_at_q  <= swap_i ? '0 : read_at_q + (AddrBits + 1)'(read);
       write_at_q <= swap_write_i ? '0 : write_at_q + (AddrBits + 1)'(write_i);
       if (swap_write_i) there_q <= write_at_q;
-      loaded_q <= read || (loaded_q && !out_ready);
+      loaded_q <= read || (loaded_q && !next_free);
     end
   end
 
@@ -99,26 +115,44 @@ module active_list #(
       .rd_data_o(word)
   );
 
-  skid_buffer #(
-      .BITS(BITS)
-  ) u_out (
-      .clk_i,
-      .rst_ni     (!clear),
-      .in_valid_i (loaded_q),
-      .in_ready_o (out_ready),
-      .in_data_i  (word),
-      .out_valid_o(polygon_valid_o),
-      .out_ready_i(pop_i),
-      .out_data_o (polygon_o)
-  );
+  // ---- the next polygon, compared on its way to be the first ---------------------------------------------------------
+  logic next_valid_q, first_valid_q, first_free, before_q, same_q, goes_on_q;
+  logic [BITS-1:0] next_q, first_q;
+  logic [PLACE_BITS-1:0] compared;
+  assign polygon_valid_o = first_valid_q;
+  assign polygon_o = first_q;
+  assign before_o = before_q;
+  assign same_o = same_q;
+  assign goes_on_o = goes_on_q;
+  assign first_free = !renew_i && (!first_valid_q || pop_i);
+  assign next_free = !next_valid_q || first_free;
+  assign compared = renew_i ? first_q[PLACE_AT+:PLACE_BITS] : next_q[PLACE_AT+:PLACE_BITS];
+  always_ff @(posedge clk_i) begin
+    if (clear) begin
+      next_valid_q  <= 1'b0;
+      first_valid_q <= 1'b0;
+    end else begin
+      next_valid_q  <= loaded_q || !next_free;
+      first_valid_q <= (next_valid_q && first_free) || (first_valid_q && !pop_i);
+    end
+    if (next_free) next_q <= word;
+    if (first_free) begin
+      first_q   <= next_q;
+      goes_on_q <= $signed(next_q[END_AT+:END_BITS]) > $signed(line_i);
+    end
+    if (first_free || renew_i) begin
+      before_q <= compared < place_i;
+      same_q   <= compared == place_i;
+    end
+  end
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
   always @(posedge clk_i) begin
     if (!clear) begin
       // 1. What is taken is there; a line ends behind its last.
-      assert (!pop_i || (polygon_valid_o && left_any_q));
-      assert (!swap_i || (swap_ready_o && !left_any_q && !polygon_valid_o && !loaded_q));
+      assert (!pop_i || (polygon_valid_o && left_any_q && !renew_i));
+      assert (!swap_i || (swap_ready_o && !left_any_q && !first_valid_q && !next_valid_q && !loaded_q));
       // 2. Counts are of each other.
       assert (left_any_q == (left_q != '0) && all_q == left_q + kept_q);
       assert (32'(all_q) <= ACTIVE);

@@ -2,11 +2,12 @@
 // Polygons to spans: tokens of a frame at the polygon level in, tokens of the span level out (docs/stream.md, "The
 // polygon level"). Frames at the span level pass as they are.
 //
-//   token_* -> queue, and of EDGE -> hls_edge_setup -> merge -> polygon_walk -> volume_ends -> token_*
+//   token_* -> queue, and of EDGE -> hls_edge_setup -> head -> merge -> polygon_walk -> queue -> volume_ends -> token_*
 //   active_list -> merge, polygon_walk -> active_list         polygons that cross the line, by place
 //
 // How: the line's polygons lie in active_list by place, and so do the tokens that the line brings. merge compares the
-//   two heads by their places, so that neither is ever searched.
+//   two heads by their places, so that neither is ever searched. What is compared is a register: a token is judged on
+//   its way to be the head, a polygon on its way to be the list's first, and again when an AT has a new place.
 // Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. drop_i, from behind, is
 //   high only in a clock in which a token is taken that does not end its frame: all that is here of the frame is
 //   forgotten, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet. token_ready_o depends on
@@ -14,10 +15,11 @@
 // Index: token_index_o is that of the token in the stream; what is made of a polygon has that of the token at hand.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull). After a
 //   token at fault what comes does not matter.
-// Latency: 8 clocks for a token; 28 from a polygon's second EDGE to its span. Throughput: a token a clock, a
+// Latency: 11 clocks for a token; 31 from a polygon's second EDGE to its span. Throughput: a token a clock, a
 //   polygon of the line a clock, each once a line; a polygon's tokens come on the line where it begins, and where one
-//   of its edges does. A line costs 3 clocks at least.
-// Cost: docs/rtl.md; the lists' block RAM, the queues of Depth tokens and edges, the kernels.
+//   of its edges does. A line's EOL is one of its tokens. A line that is crossed by polygons from above waits 3 clocks
+//   for the first and costs 6 at least, another one 3.
+// Cost: docs/rtl.md; the lists' block RAM, the queues of Depth tokens and edges and of Under spans, the kernels.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -60,18 +62,20 @@ module front_end #(
   end
 
   localparam int Depth = 32;  // of the queues: more than hls_edge_setup has stages, so that edges do not hold up tokens
+  localparam int Under = 16;  // items between merge and volume_ends: more than that takes clocks
   localparam int InBits = IN_WORDS * 32;
   localparam int OutBits = OUT_WORDS * 32;
   localparam int EndLineBits = 17;
   localparam logic [EndLineBits-1:0] NoEnd = 17'h0FFFF;
 
   // ---- dropping ----------------------------------------------------------------------------------------------------
-  // From drop_i until the reader drops too and the edges on their way have come, everything here is empty.
+  // From the clock behind drop_i until the reader drops too and the edges on their way have come, everything here is
+  // emptied.
   logic dropping_q, owed_q, flush, ended_q, push, edge_in, edge_out;
   logic [4:0] edges_q;  // on their way
   flags_t in_flags;
   assign in_flags = token_flags_i;
-  assign flush = drop_i || dropping_q;
+  assign flush = dropping_q;
   assign drop_o = dropping_q && owed_q && token_valid_i && !in_flags.ends;
   assign dropping_o = dropping_q || dropping_i;
   always_ff @(posedge clk_i) begin
@@ -93,9 +97,9 @@ module front_end #(
 
   // ---- the queue of tokens, and of edges ---------------------------------------------------------------------------
   // Behind a token that ends its frame none comes in until it has left, so all that is here is of one frame.
-  logic queue_ready, head_valid, head_ready;
-  logic [InBits-1:0] head;
-  flags_t head_flags;
+  logic queue_ready, next_valid, next_ready;
+  logic [InBits-1:0] next;
+  flags_t next_flags;
   logic polygons_in_q;  // the frame that comes in is at the polygon level
   logic [LineNumberBits-1:0] line_in_q;
   logic out_valid, out_ready;
@@ -123,13 +127,14 @@ module front_end #(
       .in_valid_i (push),
       .in_ready_o (queue_ready),
       .in_data_i  ({token_flags_i, token_i}),
-      .out_valid_o(head_valid),
-      .out_ready_i(head_ready),
-      .out_data_o ({head_flags, head})
+      .out_valid_o(next_valid),
+      .out_ready_i(next_ready),
+      .out_data_o ({next_flags, next})
   );
 
-  logic edge_room, edge_valid, edge_ready, unused_edge;
-  logic [WalkedEdgeBits-1:0] edge_made, edge_at_head;
+  logic edge_room, edge_there, edge_ready, unused_edge;
+  logic edge_q;  // walked_edge_q is the edge of the next EDGE
+  logic [WalkedEdgeBits-1:0] edge_made, edge_next, walked_edge_q;
   assign edge_in = push && polygons_in_q && !in_flags.header && !in_flags.cut && token_i[KindBits-1:0] == KindEdge;
   hls_edge_setup u_edge (
       .clk_i,
@@ -159,165 +164,203 @@ module front_end #(
       .in_valid_i (edge_out),
       .in_ready_o (edge_room),
       .in_data_i  (edge_made),
-      .out_valid_o(edge_valid),
-      .out_ready_i(edge_ready),
-      .out_data_o (edge_at_head)
+      .out_valid_o(edge_there),
+      .out_ready_i(!edge_q || edge_ready),
+      .out_data_o (edge_next)
   );
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || flush) edge_q <= 1'b0;
+    else edge_q <= edge_there || (edge_q && !edge_ready);
+    if (!edge_q || edge_ready) walked_edge_q <= edge_next;
+  end
 
-  // ---- the frame and the line, as the token at the head finds them -------------------------------------------------
-  logic polygons_q;
+  // ---- a token on its way to be the head ---------------------------------------------------------------------------
+  // What is told of a token by itself and by those before it.
+  typedef struct packed {
+    logic at;
+    logic polygon;
+    logic gradient;
+    logic an_edge;
+    logic eol;
+    logic span;
+    logic at_once;  // it is none of these
+    logic of_level;
+    logic misplaced;  // whether a polygon waits for its edges or not
+    logic side;
+    logic last;
+    logic [EndLineBits-1:0] end_line;  // of an EDGE: the line behind its last
+    logic goes_on;  // that is behind the next line
+  } judged_t;
+  judged_t coming, is_q;
+  logic head_q, head_ready;
+  logic [InBits-1:0] token_q;
+  flags_t flags_q;
+  logic placed_q;  // the line has had an AT, up to the head
+  logic [PlaceBits-1:0] place_q;  // the last one's
+  logic [EndLineBits-1:0] line_below_q;  // the one behind that of the token that comes next
+  logic [KindBits-1:0] kind;
+  logic has_layer, has_light;
+  logic [PlaceBits-1:0] place;
+  logic [1:0] layer, layer_of_span;
+  logic [SubpixelBits:0] past_bottom;
+  assign next_ready = !head_q || head_ready;
+  assign kind = next[KindBits-1:0];
+  assign place = next[AtRankLsb+:PlaceBits];
+  assign layer = place[PlaceBits-1-:2];
+  assign has_layer = layer == 2'd0 || (layer == 2'd1 && DSF_BITS > 0) || (layer == 2'd2 && TRANSLUCENCY > 0);
+  assign has_light = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:3]} < 4'(LIGHTS);
+  assign layer_of_span = kind == KindOp ? 2'd0 : kind == KindTp ? 2'd2 : 2'd1;
+  assign past_bottom = {next[EdgeBottomYLsb+SubpixelBits-1], next[EdgeBottomYLsb+:SubpixelBits]} + 25'd127;
+  always_comb begin
+    coming.of_level = polygons_in_q && !next_flags.header && !next_flags.cut && !next_flags.lacking;
+    coming.at = coming.of_level && kind == KindAt;
+    coming.polygon = coming.of_level && kind == KindPolygon;
+    coming.gradient = coming.of_level && SMOOTH > 0 && kind == KindGradient;
+    coming.an_edge = coming.of_level && kind == KindEdge;
+    coming.eol = coming.of_level && kind == KindEol;
+    coming.span = coming.of_level && kind_has_range(kind) && kind != KindPolygon && kind != KindEdge;
+    coming.at_once = !coming.at && !coming.polygon && !coming.gradient && !coming.an_edge && !coming.eol && !coming.span;
+    coming.misplaced = 1'b0;
+    if (coming.at && (!has_layer || !has_light || (placed_q && place < place_q))) coming.misplaced = 1'b1;
+    if ((coming.polygon || coming.an_edge || coming.span) && !placed_q) coming.misplaced = 1'b1;
+    if (coming.span && place_q[PlaceBits-1-:2] != layer_of_span) coming.misplaced = 1'b1;
+    if (coming.gradient && next[GradientChannelLsb+:2] >= 2'(CHANNELS)) coming.misplaced = 1'b1;
+    coming.side = next[EdgeSideLsb];
+    coming.last = next[EdgeLastLsb];
+    coming.end_line = past_bottom[SubpixelBits-:EndLineBits];
+    coming.goes_on = $signed(coming.end_line) > $signed(line_below_q);
+  end
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || flush) head_q <= 1'b0;
+    else if (next_ready) head_q <= next_valid;
+    if (next_ready) begin
+      token_q <= next;
+      flags_q <= next_flags;
+      is_q <= coming;
+      if (next_valid) begin
+        if (next_flags.header || coming.eol) placed_q <= 1'b0;
+        else if (coming.at) placed_q <= 1'b1;
+        if (coming.at) place_q <= place;
+        if (next_flags.header) line_below_q <= EndLineBits'(1);
+        else if (coming.eol) line_below_q <= line_below_q + 1'b1;
+      end
+    end
+  end
+
+  // ---- the frame and the line, as the head finds them --------------------------------------------------------------
   logic [X_BITS-1:0] width_q;
-  logic [LineNumberBits-1:0] line_q;
+  logic [EndLineBits-1:0] next_line_q;
   logic [31:0] index_q, index;
-  logic placed_q;  // the line has had an AT
-  logic [PlaceBits-1:0] place_q;
   logic begun_q;  // a POLYGON waits for its edges
   logic [1:0] have_q;  // sides that have come of it, or of the list's first
   logic [WalkedEdgeBits-1:0] side_q[2];
-  logic end_have_q;
+  logic end_have_q, end_goes_on_q;
   logic [EndLineBits-1:0] end_q;
-  logic [ActiveBits-1:0] fresh_q;  // the POLYGON's look and planes
-
-  // ---- the token at the head ---------------------------------------------------------------------------------------
-  logic [KindBits-1:0] kind;
-  logic of_level, is_at, is_polygon, is_gradient, is_edge, is_eol, is_span, at_once;
-  logic [PlaceBits-1:0] place;
-  logic [1:0] layer, layer_of_span;
-  assign kind = head[KindBits-1:0];
-  assign of_level = polygons_q && !head_flags.header && !head_flags.cut && !head_flags.lacking;
-  assign is_at = of_level && kind == KindAt;
-  assign is_polygon = of_level && kind == KindPolygon;
-  assign is_gradient = of_level && SMOOTH > 0 && kind == KindGradient;
-  assign is_edge = of_level && kind == KindEdge;
-  assign is_eol = of_level && kind == KindEol;
-  assign is_span = of_level && kind_has_range(kind) && !is_polygon && !is_edge;
-  assign at_once = !is_at && !is_polygon && !is_gradient && !is_edge && !is_eol && !is_span;
-  assign place = head[AtRankLsb+:PlaceBits];
-  assign layer = place[PlaceBits-1-:2];
-  assign layer_of_span = kind == KindOp ? 2'd0 : kind == KindTp ? 2'd2 : 2'd1;
-  assign index = head_flags.header ? '0 : index_q + 32'd1;
-
-  logic side, last;
-  logic [EndLineBits-1:0] end_here;
-  logic [ SubpixelBits:0] past_bottom;
-  assign side = head[EdgeSideLsb];
-  assign last = head[EdgeLastLsb];
-  assign past_bottom = {head[EdgeBottomYLsb+SubpixelBits-1], head[EdgeBottomYLsb+:SubpixelBits]} + 25'd127;
-  assign end_here = past_bottom[SubpixelBits-:EndLineBits];
+  logic [ ActiveBits-1:0] fresh_q;  // the POLYGON's look and planes
+  assign index = flags_q.header ? '0 : index_q + 32'd1;
 
   // ---- merge -------------------------------------------------------------------------------------------------------
-  logic list_valid, list_left, list_room, swap_ready, list_pop, keep, swap, clear;
+  logic list_valid, list_left, list_room, list_before, list_same, list_goes_on, swap_ready, list_pop, keep, swap, clear;
   logic [ActiveBits-1:0] list;
-  logic [ PlaceBits-1:0] list_place;
-  logic misplaced, sooner, up_to, flushing, completes, fault, act, item, go, early;
-  logic gives_list, gives_fresh, gives_token, has_layer, has_light;
+  logic misplaced, flushing, completes, fault, act, item, room_q, early;
+  logic gives_fresh, gives_token;
   logic [CodeBits-1:0] code;
-  assign list_place = list[ActivePlaceAt+:PlaceBits];
-  assign has_layer  = layer == 2'd0 || (layer == 2'd1 && DSF_BITS > 0) || (layer == 2'd2 && TRANSLUCENCY > 0);
-  assign has_light  = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:3]} < 4'(LIGHTS);
-  // Known before the list is asked.
-  always_comb begin
-    misplaced = of_level && begun_q && !is_edge && !is_gradient;
-    if (is_at && (!has_layer || !has_light || (placed_q && place < place_q))) misplaced = 1'b1;
-    if ((is_polygon || is_edge || is_span) && !placed_q) misplaced = 1'b1;
-    if (is_span && place_q[PlaceBits-1-:2] != layer_of_span) misplaced = 1'b1;
-    if (is_gradient && (!begun_q || head[GradientChannelLsb+:2] >= 2'(CHANNELS))) misplaced = 1'b1;
-  end
-  assign sooner = list_place < place_q;
-  assign up_to = is_polygon && list_place == place_q;
+  assign misplaced = is_q.misplaced || (is_q.of_level && begun_q && !is_q.an_edge && !is_q.gradient) ||
+      (is_q.gradient && !begun_q);
   // The list's polygons that come before the token are given first.
-  assign flushing = !misplaced && (is_polygon || is_span || is_eol || (is_edge && !begun_q)) && list_left &&
-      (!list_valid || is_eol || sooner || up_to);
-  assign completes = is_edge && begun_q && have_q[!side];
+  assign flushing = head_q && !misplaced && list_left &&
+      (is_q.polygon || is_q.span || is_q.eol || (is_q.an_edge && !begun_q)) && (!list_valid || is_q.eol || list_before || (is_q.polygon && list_same));
+  assign completes = is_q.an_edge && begun_q && have_q[!is_q.side];
   always_comb begin
     fault = misplaced;
     code  = ErrPlace;
-    if (is_edge && !begun_q && (!list_valid || !list_left || list_place != place_q)) fault = 1'b1;
+    if (is_q.an_edge && !begun_q && (!list_valid || !list_left || !list_same)) fault = 1'b1;
     if (completes && !list_room) begin
       fault = 1'b1;
       code  = ErrActiveFull;
     end
   end
-  assign act = head_valid && !flushing && (!is_edge || edge_valid) && (!is_eol || swap_ready) &&
-      (!head_flags.header || !early);
-  assign gives_list = head_valid && flushing && list_valid;
+  assign act = head_q && !flushing && (!is_q.an_edge || edge_q) && (!is_q.eol || swap_ready) &&
+      (!flags_q.header || !early);
   assign gives_fresh = act && completes && !fault;
-  assign gives_token = act && (at_once || is_eol || is_span || fault);
-  assign item = gives_list || gives_fresh || gives_token;
-  assign head_ready = act && (!item || go);
-  assign edge_ready = head_ready && is_edge;
-  assign list_pop = gives_list && go;
-  assign swap = head_ready && is_eol && !fault;
-  assign clear = flush || (head_ready && head_flags.header);
+  assign gives_token = act && (is_q.at_once || is_q.eol || is_q.span || fault);
+  assign list_pop = flushing && list_valid && room_q;
+  assign item = list_pop || ((gives_fresh || gives_token) && room_q);
+  assign head_ready = act && (room_q || (!gives_fresh && !gives_token));
+  assign edge_ready = head_ready && is_q.an_edge;
+  assign swap = head_ready && is_q.eol && !fault;
+  assign clear = flush || (head_ready && flags_q.header);
 
   // The polygon that goes to the walk.
+  logic fresh, goes_on;
   logic [ActiveBits-1:0] polygon;
-  logic [EndLineBits-1:0] polygon_end;
-  logic goes_on;
-  assign polygon_end = gives_list ? (end_have_q ? end_q : list[ActiveEndAt+:EndLineBits]) :
-      last ? end_here : end_have_q ? end_q : NoEnd;
-  assign goes_on = $signed(polygon_end) > $signed(EndLineBits'(line_q) + EndLineBits'(1));
-  assign keep = (gives_list || gives_fresh) && goes_on && go;
+  assign fresh   = is_q.an_edge && begun_q;
+  assign goes_on = fresh && is_q.last ? is_q.goes_on : end_have_q ? end_goes_on_q : fresh || list_goes_on;
+  assign keep    = goes_on && (list_pop || (gives_fresh && room_q));
   always_comb begin
-    polygon = gives_list ? list : fresh_q;
-    polygon[ActiveEndAt+:EndLineBits] = polygon_end;
-    if (have_q[0] || !gives_list) polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = side_q[0];
-    if (have_q[1] || !gives_list) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = side_q[1];
-    if (!gives_list) begin
+    polygon = fresh ? fresh_q : list;
+    if (fresh && is_q.last) polygon[ActiveEndAt+:EndLineBits] = is_q.end_line;
+    else if (end_have_q) polygon[ActiveEndAt+:EndLineBits] = end_q;
+    else if (fresh) polygon[ActiveEndAt+:EndLineBits] = NoEnd;
+    if (have_q[0] || fresh) polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = side_q[0];
+    if (have_q[1] || fresh) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = side_q[1];
+    if (fresh) begin
       polygon[ActivePlaceAt+:PlaceBits] = place_q;
-      if (side) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = edge_at_head;
-      else polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = edge_at_head;
+      if (is_q.side) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = walked_edge_q;
+      else polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = walked_edge_q;
     end
   end
 
   always_ff @(posedge clk_i) begin
     if (head_ready) index_q <= index;
-    if (head_ready && head_flags.header) begin
-      polygons_q <= head[HeaderVersionLsb+:HeaderVersionBits] == HeaderVersionBits'(PolygonVersion);
-      width_q <= head[HeaderWidthLsb+:X_BITS];
-      line_q <= '0;
+    if (head_ready && flags_q.header) begin
+      width_q <= token_q[HeaderWidthLsb+:X_BITS];
+      next_line_q <= EndLineBits'(1);
     end else if (swap) begin
-      line_q <= line_q + 1'b1;
+      next_line_q <= next_line_q + 1'b1;
     end
     if (clear || swap) begin
-      placed_q <= 1'b0;
       begun_q <= 1'b0;
       have_q <= 2'b00;
       end_have_q <= 1'b0;
     end else begin
-      if (head_ready && is_at) placed_q <= 1'b1;
-      if (head_ready && is_polygon) begun_q <= 1'b1;
+      if (head_ready && is_q.polygon) begun_q <= 1'b1;
       else if (head_ready && completes) begun_q <= 1'b0;
-      if (list_pop || (head_ready && (is_polygon || completes))) begin
+      if (list_pop || (head_ready && (is_q.polygon || completes))) begin
         have_q <= 2'b00;
         end_have_q <= 1'b0;
-      end else if (head_ready && is_edge) begin
-        have_q[side] <= 1'b1;
-        if (last) end_have_q <= 1'b1;
+      end else if (head_ready && is_q.an_edge) begin
+        have_q[is_q.side] <= 1'b1;
+        if (is_q.last) end_have_q <= 1'b1;
       end
     end
-    if (head_ready && is_at) place_q <= place;
-    if (head_ready && is_edge) begin
-      side_q[side] <= edge_at_head;
-      if (last) end_q <= end_here;
+    // Written as long as the token waits: whether it leaves is known late. The polygon that needs what is there has left
+    // when the polygon of an EDGE is the list's first.
+    if (head_q && is_q.an_edge && (begun_q || (list_valid && list_same))) begin
+      side_q[is_q.side] <= walked_edge_q;
+      if (is_q.last) begin
+        end_q <= is_q.end_line;
+        end_goes_on_q <= is_q.goes_on;
+      end
     end
-    if (head_ready && is_polygon) begin
-      fresh_q[ActiveLookAt+:LookBits]   <= head[PolygonClassLsb+:LookBits];
-      fresh_q[ActiveValueAt+:PlaneBits] <= head[PolygonValueLsb+:PlaneBits];
-      fresh_q[ActiveRightAt+:PlaneBits] <= head[PolygonRightLsb+:PlaneBits];
-      fresh_q[ActiveDownAt+:PlaneBits]  <= head[PolygonDownLsb+:PlaneBits];
+    if (head_q && is_q.polygon) begin
+      fresh_q[ActiveLookAt+:LookBits]   <= token_q[PolygonClassLsb+:LookBits];
+      fresh_q[ActiveValueAt+:PlaneBits] <= token_q[PolygonValueLsb+:PlaneBits];
+      fresh_q[ActiveRightAt+:PlaneBits] <= token_q[PolygonRightLsb+:PlaneBits];
+      fresh_q[ActiveDownAt+:PlaneBits]  <= token_q[PolygonDownLsb+:PlaneBits];
       if (SMOOTH > 0) begin
         for (int c = 0; c < CHANNELS; c++) begin
           fresh_q[ActiveGradientsAt+3*c*ColorPlaneBits+:ColorPlaneBits] <=
-              ColorPlaneBits'(head[PolygonColorLsb+8*c+:8]) << PlaneFrac;
+              ColorPlaneBits'(token_q[PolygonColorLsb+8*c+:8]) << PlaneFrac;
           fresh_q[ActiveGradientsAt+(3*c+1)*ColorPlaneBits+:2*ColorPlaneBits] <= '0;
         end
       end
     end
-    if (head_ready && is_gradient) begin
+    if (head_q && is_q.gradient) begin
       for (int c = 0; c < CHANNELS; c++) begin
-        if (head[GradientChannelLsb+:2] == 2'(c))
-          fresh_q[ActiveGradientsAt+3*c*ColorPlaneBits+:3*ColorPlaneBits] <= head[GradientValueLsb+:3*ColorPlaneBits];
+        if (token_q[GradientChannelLsb+:2] == 2'(c))
+          fresh_q[ActiveGradientsAt+3*c*ColorPlaneBits+:3*ColorPlaneBits] <=
+              token_q[GradientValueLsb+:3*ColorPlaneBits];
       end
     end
   end
@@ -326,14 +369,24 @@ module front_end #(
   logic list_write, swap_write;
   logic [ActiveBits-1:0] next_polygon;
   active_list #(
-      .BITS  (ActiveBits),
-      .ACTIVE(ACTIVE)
+      .BITS      (ActiveBits),
+      .PLACE_AT  (ActivePlaceAt),
+      .PLACE_BITS(PlaceBits),
+      .END_AT    (ActiveEndAt),
+      .END_BITS  (EndLineBits),
+      .ACTIVE    (ACTIVE)
   ) u_list (
       .clk_i,
       .rst_ni,
       .clear_i        (clear),
+      .place_i        (place_q),
+      .renew_i        (head_q && is_q.at),
+      .line_i         (next_line_q),
       .polygon_valid_o(list_valid),
       .polygon_o      (list),
+      .before_o       (list_before),
+      .same_o         (list_same),
+      .goes_on_o      (list_goes_on),
       .pop_i          (list_pop),
       .left_o         (list_left),
       .keep_i         (keep),
@@ -345,59 +398,93 @@ module front_end #(
       .swap_write_i   (swap_write)
   );
 
-  logic walk_valid, walk_made, walk_busy, item_ready, ending;
-  logic [MadeSpanBits-1:0] span;
-  assign go = !walk_valid || item_ready;
+  logic walk_valid, walk_busy;
+  logic [MadeSpanBits-1:0] walked;
   polygon_walk #(
       `include "generated/kage_pixel_param_map.svh"
   ) u_walk (
       .clk_i,
       .rst_ni,
       .flush_i     (flush),
-      .go_i        (go),
       .width_i     (width_q),
       .in_valid_i  (item),
-      .in_made_i   (gives_list || gives_fresh),
+      .in_made_i   (list_pop || gives_fresh),
       .in_keep_i   (goes_on),
-      .in_swap_i   (gives_token && is_eol && !fault),
+      .in_swap_i   (gives_token && is_q.eol && !fault),
       .polygon_i   (polygon),
       .write_o     (list_write),
       .next_o      (next_polygon),
       .swap_write_o(swap_write),
       .early_o     (early),
       .out_valid_o (walk_valid),
-      .out_made_o  (walk_made),
-      .span_o      (span),
+      .span_o      (walked),
       .busy_o      (walk_busy)
   );
 
-  // ---- what goes beside the walk, and the way out ------------------------------------------------------------------
+  // ---- what goes beside the walk, the queue behind it, and the way out ---------------------------------------------
+  // The walk never waits: an item enters when there is room for it in the queue behind.
   localparam int ItemBits = 1 + FamilyBits + 32 + FlagsBits + OutBits;
-  logic [ItemBits-1:0] item_in, item_out;
-  logic item_room, item_there, made_valid, made_ready;
+  logic [ItemBits-1:0] item_in, item_next, item_q;
+  logic [MadeSpanBits-1:0] span_next, span_q;
+  logic item_room, item_there, made_room, made_there, made_in, made_next, made_q;
+  logic out_next, leaves_q, item_ready, ending, made_valid, made_ready;
   logic [OutBits-1:0] made;
   flags_t item_flags, made_flags;
   logic [31:0] made_index;
   logic [FamilyBits-1:0] family;
+  localparam int UnderBits = $clog2(Under + 1);
+  logic [UnderBits-1:0] under_q;
   always_comb begin
-    item_flags = head_flags;
+    item_flags = flags_q;
     item_flags.fault = gives_token && fault ? code : ErrNone;
   end
-  assign family  = gives_list ? list[ActivePlaceAt+RankBits+:FamilyBits] : place_q[RankBits+:FamilyBits];
-  assign item_in = {gives_token && (at_once || fault), family, index, item_flags, head[OutBits-1:0]};
+  assign made_in = list_pop || gives_fresh;
+  assign family  = flushing ? list[ActivePlaceAt+RankBits+:FamilyBits] : place_q[RankBits+:FamilyBits];
+  assign item_in = {gives_token && (is_q.at_once || fault), family, index, item_flags, token_q[OutBits-1:0]};
   stream_fifo #(
-      .BITS (ItemBits),
-      .DEPTH(8)
+      .BITS (1 + ItemBits),
+      .DEPTH(Under)
   ) u_items (
       .clk_i,
       .rst_ni     (rst_ni && !flush),
-      .in_valid_i (item && go),
+      .in_valid_i (item),
       .in_ready_o (item_room),
-      .in_data_i  (item_in),
+      .in_data_i  ({made_in, item_in}),
       .out_valid_o(item_there),
-      .out_ready_i(walk_valid && item_ready),
-      .out_data_o (item_out)
+      .out_ready_i(out_next),
+      .out_data_o ({made_next, item_next})
   );
+  stream_fifo #(
+      .BITS (MadeSpanBits),
+      .DEPTH(Under)
+  ) u_spans (
+      .clk_i,
+      .rst_ni     (rst_ni && !flush),
+      .in_valid_i (walk_valid),
+      .in_ready_o (made_room),
+      .in_data_i  (walked),
+      .out_valid_o(made_there),
+      .out_ready_i(out_next),
+      .out_data_o (span_next)
+  );
+  assign out_next = made_there && (!leaves_q || item_ready);
+  always_ff @(posedge clk_i) begin
+    if (!rst_ni || flush) begin
+      leaves_q <= 1'b0;
+      under_q  <= '0;
+      room_q   <= 1'b1;
+    end else begin
+      leaves_q <= made_there || (leaves_q && !item_ready);
+      under_q  <= under_q + UnderBits'(item) - UnderBits'(out_next);
+      // What leaves now makes room a clock later.
+      room_q   <= under_q < UnderBits'(Under - 1) || (under_q == UnderBits'(Under - 1) && !item);
+    end
+    if (!leaves_q || item_ready) begin
+      made_q <= made_next;
+      item_q <= item_next;
+      span_q <= span_next;
+    end
+  end
 
   volume_ends #(
       .TOKEN_WORDS(OUT_WORDS),
@@ -407,11 +494,11 @@ module front_end #(
       .rst_ni,
       .flush_i      (flush),
       .width_i      (width_q),
-      .item_valid_i (walk_valid),
+      .item_valid_i (leaves_q),
       .item_ready_o (item_ready),
-      .item_made_i  (walk_made),
-      .item_i       (item_out),
-      .span_i       (span),
+      .item_made_i  (made_q),
+      .item_i       (item_q),
+      .span_i       (span_q),
       .moving_o     (ending),
       .token_valid_o(made_valid),
       .token_ready_i(made_ready),
@@ -420,6 +507,7 @@ module front_end #(
       .token_index_o(made_index)
   );
 
+  logic out_waits;
   skid_buffer #(
       .BITS(OutBits + FlagsBits + 32)
   ) u_out (
@@ -428,21 +516,21 @@ module front_end #(
       .in_valid_i (made_valid),
       .in_ready_o (made_ready),
       .in_data_i  ({made_flags, made_index, made}),
-      .out_valid_o(out_valid),
+      .out_valid_o(out_waits),
       .out_ready_i(out_ready),
       .out_data_o ({out_flags, token_index_o, token_o})
   );
+  assign out_valid = out_waits && !flush;
   assign token_valid_o = out_valid;
   assign token_flags_o = out_flags;
   assign out_ready = token_ready_i;
 
-  assign busy_o = head_valid || walk_busy || out_valid || dropping_q;
-  assign moving_o = push || head_ready || list_pop || (list_left && !list_valid) || (go && walk_busy) || ending ||
-      (dropping_q && (!owed_q || token_valid_i)) ||
-      edges_q != '0 || !swap_ready;
+  assign busy_o = next_valid || head_q || under_q != '0 || leaves_q || out_valid || dropping_q;
+  assign moving_o = push || next_ready && next_valid || head_ready || list_pop || (list_left && !list_valid) || walk_busy ||
+      out_next || ending || (dropping_q && (!owed_q || token_valid_i)) || edges_q != '0 || !swap_ready;
 
   logic unused_bits;
-  assign unused_bits = ^{head, token_i, in_flags, past_bottom};
+  assign unused_bits = ^{token_q, token_i, in_flags, past_bottom};
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
@@ -452,8 +540,10 @@ module front_end #(
       assert (!drop_i || (out_valid && out_ready && !out_flags.ends));
       // 2. There is room for what goes beside.
       assert (!edge_out || edge_room || flush);
-      assert (!item || !go || item_room);
-      assert (walk_valid == (item_there && walk_valid));
+      assert (!room_q || flush || under_q < UnderBits'(Under));
+      assert (!item || item_room);
+      assert (!walk_valid || made_room);
+      assert (!made_there || item_there);
     end
   end
 `endif

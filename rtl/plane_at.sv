@@ -2,10 +2,10 @@
 // A plane at a span's first pixel, rounded to the start and the step of the span's token: the kernels plane_step and
 // span_setup, one behind the other.
 //
-// Handshake: a pipeline that moves by go_i and is always full: what comes in leaves, valid or not.
+// Handshake: a pipeline that moves each clock: what comes in leaves, of use or not.
 // In: the plane at pixel 0 of the line above, SHIFT + FRAC of its BITS a fraction, modulo 2^BITS, and the span's first
 //   pixel. Out: fields of FIELD bits, FRAC of them a fraction.
-// Latency: 4 moves. Throughput: a span a move.
+// Latency: 4 clocks. Throughput: a span a clock.
 // Cost: a product of BITS x 17 bits, four registers of BITS bits, an adder each for start and step.
 `default_nettype none
 
@@ -17,7 +17,6 @@ module plane_at #(
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
-    input wire logic go_i,
 
     input wire logic [BITS-1:0] value_i,
     input wire logic [BITS-1:0] right_i,
@@ -40,12 +39,10 @@ module plane_at #(
   logic [2:0] single_q;
   logic [3:0] unused_handshake;
   always_ff @(posedge clk_i) begin
-    if (go_i) begin
-      right_q[0] <= right_i;
-      right_q[1] <= right_q[0];
-      right_q[2] <= right_q[1];
-      single_q   <= {single_q[1:0], single_i};
-    end
+    right_q[0] <= right_i;
+    right_q[1] <= right_q[0];
+    right_q[2] <= right_q[1];
+    single_q   <= {single_q[1:0], single_i};
   end
 
   hls_plane_step u_step (
@@ -54,7 +51,7 @@ module plane_at #(
       .in_valid_i (1'b1),
       .in_ready_o (unused_handshake[0]),
       .out_valid_o(unused_handshake[1]),
-      .out_ready_i(go_i),
+      .out_ready_i(1'b1),
       .value_i    (KernelBits'(value_i)),
       .right_i    (KernelBits'(right_i)),
       .down_i     (KernelBits'(down_i)),
@@ -68,7 +65,7 @@ module plane_at #(
       .in_valid_i      (1'b1),
       .in_ready_o      (unused_handshake[2]),
       .out_valid_o     (unused_handshake[3]),
-      .out_ready_i     (go_i),
+      .out_ready_i     (1'b1),
       .value_i         (here),
       .slope_i         (KernelBits'(right_q[2])),
       .single_i        (single_q[2]),

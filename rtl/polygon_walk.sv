@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A polygon on a line: the span between its edges, and the polygon as it is on the next line.
 //
-// Handshake: a pipeline that moves by go_i. in_valid_i: something enters; with in_made_i it is a polygon, polygon_i,
+// Handshake: a pipeline that moves each clock. in_valid_i: something enters; with in_made_i it is a polygon, polygon_i,
 //   that goes on to the next line if in_keep_i; without, something that has no span and passes at the same pace, a
-//   line's end if in_swap_i. It leaves by out_valid_o with out_made_o and, of a polygon, span_o. flush_i: nothing is
-//   in here.
+//   line's end if in_swap_i. It leaves by out_valid_o with, of a polygon, span_o. flush_i: nothing is in here.
 // Next line: write_o, one clock, for each polygon that goes on, in the order in which they came; next_o is the polygon;
 //   swap_write_o, one clock, for each line's end.
-// Latency: 6 moves to the span, 2 to the next line. Throughput: a polygon a move.
+// Latency: 6 clocks to the span, 2 to the next line. Throughput: a polygon a clock.
 // Cost: the kernels edge_step (twice), plane_step and span_setup, with SMOOTH the latter two for each channel as well;
 //   two registers of a polygon and four of what a span needs of it.
 `default_nettype none
@@ -20,7 +19,6 @@ module polygon_walk #(
     input wire logic clk_i,
     input wire logic rst_ni,
     input wire logic flush_i,
-    input wire logic go_i,
 
     input wire logic [    X_BITS-1:0] width_i,
     input wire logic                  in_valid_i,
@@ -34,7 +32,6 @@ module polygon_walk #(
     output logic                    swap_write_o,
     output logic                    early_o,       // something is before the point where it is written
     output logic                    out_valid_o,
-    output logic                    out_made_o,
     output logic [MadeSpanBits-1:0] span_o,
     output logic                    busy_o         // something is in here
 );
@@ -46,28 +43,24 @@ module polygon_walk #(
   localparam int SpanBits = X_BITS + 1;
 
   // ---- what is where -----------------------------------------------------------------------------------------------
-  logic [Stages-1:0] valid_q, made_q;
+  logic [Stages-1:0] valid_q;
   logic [1:0] keep_q, swap_q;
   assign out_valid_o = valid_q[Stages-1];
-  assign out_made_o = made_q[Stages-1];
   assign busy_o = valid_q != '0;
   assign early_o = valid_q[1:0] != 2'b00;
   always_ff @(posedge clk_i) begin
     if (!rst_ni || flush_i) valid_q <= '0;
-    else if (go_i) valid_q <= {valid_q[Stages-2:0], in_valid_i};
-    if (go_i) begin
-      made_q <= {made_q[Stages-2:0], in_made_i};
-      keep_q <= {keep_q[0], in_made_i && in_keep_i};
-      swap_q <= {swap_q[0], in_swap_i};
-    end
+    else valid_q <= {valid_q[Stages-2:0], in_valid_i};
+    keep_q <= {keep_q[0], in_made_i && in_keep_i};
+    swap_q <= {swap_q[0], in_swap_i};
   end
 
   // ---- 0: the polygon, registered ----------------------------------------------------------------------------------
   logic [ActiveBits-1:0] polygon_q;
-  always_ff @(posedge clk_i) if (go_i) polygon_q <= polygon_i;
+  always_ff @(posedge clk_i) polygon_q <= polygon_i;
 
   // ---- 1: crossings within the line, and edges one line further down -----------------------------------------------
-  // The kernels' pipelines are always full, so that all of them move by go_i alone.
+  // The kernels' pipelines are always full and move each clock, so that they need no valid.
   function automatic logic [SpanBits-1:0] in_line(input logic [CrossBits-1:0] x, input logic [X_BITS-1:0] width);
     if (x[CrossBits-1]) in_line = '0;
     else if (x > CrossBits'(width)) in_line = SpanBits'(width);
@@ -88,7 +81,7 @@ module polygon_walk #(
         .in_valid_i (1'b1),
         .in_ready_o (unused_ready),
         .out_valid_o(unused_valid),
-        .out_ready_i(go_i),
+        .out_ready_i(1'b1),
         .x_i        (edges[side][0+:CrossBits]),
         .step_i     (edges[side][CrossBits+:CrossBits]),
         .rest_i     (edges[side][2*CrossBits+:RestBits]),
@@ -110,19 +103,17 @@ module polygon_walk #(
   assign turned = crossing[1] < crossing[0];
   assign pixels = turned ? crossing[0] - crossing[1] : crossing[1] - crossing[0];
   always_ff @(posedge clk_i) begin
-    if (go_i) begin
-      walked_q <= polygon_q;
-      xl_q <= X_BITS'(turned ? crossing[1] : crossing[0]);
-      xr_q <= X_BITS'(turned ? crossing[0] : crossing[1]);
-      turned_q <= turned;
-      empty_q <= pixels == '0;
-      single_q <= pixels == SpanBits'(1);
-    end
+    walked_q <= polygon_q;
+    xl_q <= X_BITS'(turned ? crossing[1] : crossing[0]);
+    xr_q <= X_BITS'(turned ? crossing[0] : crossing[1]);
+    turned_q <= turned;
+    empty_q <= pixels == '0;
+    single_q <= pixels == SpanBits'(1);
   end
 
   // ---- the next line -----------------------------------------------------------------------------------------------
-  assign write_o = go_i && valid_q[1] && made_q[1] && keep_q[1];
-  assign swap_write_o = go_i && valid_q[1] && swap_q[1];
+  assign write_o = valid_q[1] && keep_q[1];
+  assign swap_write_o = valid_q[1] && swap_q[1];
   always_comb begin
     next_o = walked_q;
     next_o[ActiveDownEdgeAt+:WalkedEdgeBits] = stepped[0];
@@ -139,17 +130,15 @@ module polygon_walk #(
 
   // ---- 2 to 5: planes at the span's first pixel, rounded -----------------------------------------------------------
   // What a span has of its polygon but its planes goes along.
-  localparam int AlongBits = LookBits + 2 * X_BITS + 3;
+  localparam int AlongBits = LookBits + 2 * X_BITS + 2;
   logic [AlongBits-1:0] along_q  [4];
   logic [ LookBits-1:0] out_look;
   logic [X_BITS-1:0] out_xl, out_xr;
-  logic out_turned, out_empty, out_single;
-  assign {out_look, out_xl, out_xr, out_turned, out_empty, out_single} = along_q[3];
+  logic out_turned, out_empty;
+  assign {out_look, out_xl, out_xr, out_turned, out_empty} = along_q[3];
   always_ff @(posedge clk_i) begin
-    if (go_i) begin
-      along_q[0] <= {walked_q[ActiveLookAt+:LookBits], xl_q, xr_q, turned_q, empty_q, single_q};
-      for (int i = 1; i < 4; i++) along_q[i] <= along_q[i-1];
-    end
+    along_q[0] <= {walked_q[ActiveLookAt+:LookBits], xl_q, xr_q, turned_q, empty_q};
+    for (int i = 1; i < 4; i++) along_q[i] <= along_q[i-1];
   end
 
   logic [DepthBits-1:0] z, dz;
@@ -161,7 +150,6 @@ module polygon_walk #(
   ) u_depth (
       .clk_i,
       .rst_ni,
-      .go_i,
       .value_i (walked_q[ActiveValueAt+:PlaneBits]),
       .right_i (walked_q[ActiveRightAt+:PlaneBits]),
       .down_i  (walked_q[ActiveDownAt+:PlaneBits]),
@@ -184,7 +172,6 @@ module polygon_walk #(
       ) u_color (
           .clk_i,
           .rst_ni,
-          .go_i,
           .value_i (walked_q[At+:ColorPlaneBits]),
           .right_i (walked_q[At+ColorPlaneBits+:ColorPlaneBits]),
           .down_i  (walked_q[At+2*ColorPlaneBits+:ColorPlaneBits]),
@@ -210,9 +197,6 @@ module polygon_walk #(
   assign span.dz = dz;
   assign span.color = color;
   assign span.dcolor = dcolor;
-
-  logic unused_span;
-  assign unused_span = out_single;
 
 endmodule
 

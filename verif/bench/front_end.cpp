@@ -19,7 +19,9 @@ namespace {
 
 using namespace kage;
 
-constexpr std::uint64_t kLeastLine = 3;  // clocks of a line in front_end
+// Of a line in front_end, held by rtl/front_end: clocks until the first polygon that crosses it from the line above is
+// there, and the fewest clocks of a line that is crossed by one, and by none.
+constexpr std::uint64_t kFirst = 3, kLeastCrossed = 6, kLeastLine = 3;
 
 struct FrontEndClocks {
   std::uint64_t clocks = 0;
@@ -38,9 +40,10 @@ FrontEndClocks clocks_of(const Config& config, std::span<const std::uint32_t> wo
   for (auto token = walk.next(); !token.empty(); token = walk.next()) {
     const Token t = decode(config, layout, token, walk.level());
     line += 1;
+    const auto crossing = front_end.crossing();
     if (t.kind == Kind::EOL) {
-      line += front_end.crossing();
-      sums.polygon_lines += front_end.crossing();
+      line += crossing + (crossing > 0 ? kFirst : 0);
+      sums.polygon_lines += crossing;
     }
     (void)front_end.accept(t, [&](const Token& of_spans, bool made) {
       const bool span = of_spans.kind == Kind::OP || of_spans.kind == Kind::SP || of_spans.kind == Kind::TP;
@@ -49,7 +52,7 @@ FrontEndClocks clocks_of(const Config& config, std::span<const std::uint32_t> wo
       return ErrorCode::NONE;
     });
     if (t.kind != Kind::EOL) continue;
-    sums.clocks += std::max(line, kLeastLine);
+    sums.clocks += std::max(line, crossing > 0 ? kLeastCrossed : kLeastLine);
     line = 0;
   }
   return sums;

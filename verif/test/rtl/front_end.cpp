@@ -204,6 +204,89 @@ void front_end_test() {
   });
 }
 
+// ---- clocks ----------------------------------------------------------------------------------------------------------
+// Frames of a few polygons, with no stall on either side.
+
+constexpr Config kTimed = config_of<Vfront_end>();
+constexpr int kLines = 40;
+
+/// A frame of kLines lines, with so many polygons that cross all of its lines from line `first` on.
+Words timed_frame(int polygons, int first) {
+  Words words;
+  kage::TokenWriter writer(kTimed, words);
+  kage::FrameHeader header;
+  header.width = 50;
+  header.height = kLines;
+  header.version = kage::kPolygonVersion;
+  writer.header(header);
+  for (int y = 0; y < kLines; ++y) {
+    for (int i = 0; y == first && i < polygons; ++i) {
+      kage::PolygonToken t;
+      t.rank = i;
+      writer.at(t, 0);
+      writer.polygon({}, {});
+      for (t.side = 0; t.side < 2; ++t.side) {
+        t.last = true;
+        t.top_x = t.bottom_x = 256 * (3 + 9 * t.side);
+        t.top_y = 256 * first;
+        t.bottom_y = 256 * kLines;
+        writer.edge(t);
+      }
+    }
+    writer.eol(y);
+  }
+  writer.end();
+  return words;
+}
+
+/// A token, and the clock in which it was taken, or is first there.
+struct Timed {
+  Kind kind = Kind::END;
+  bool header = false;
+  int clock = 0;
+};
+struct Run {
+  std::vector<Timed> in, out;
+};
+
+Run run(const Words& frame) {
+  constexpr FlagsBus kFlags(kTimed);
+  const std::vector<Passed> in = read(kTimed, frame);
+  Dice dice(1);
+  Bench<Vfront_end> top(dice);
+  Run r;
+  for (int clock = 0; r.out.empty() || r.out.back().kind != Kind::END || r.out.back().header; ++clock) {
+    REQUIRE(clock < 10000);
+    const std::size_t at = r.in.size();
+    top->token_valid_i = at < in.size() ? 1 : 0;
+    top->drop_i = top->dropping_i = 0;
+    top->token_ready_i = 1;
+    if (at < in.size()) {
+      put(top->token_flags_i, 0);
+      put(top->token_flags_i, kFlags.header, in[at].header);
+      put(top->token_flags_i, kFlags.ends, in[at].ends);
+      for (std::size_t i = 0; i < in[at].words.size(); ++i)
+        put(top->token_i, static_cast<int>(32 * i), 32, in[at].words[i]);
+    }
+    top.settle();
+    if (top->token_valid_i && top->token_ready_o)
+      r.in.push_back({kage::kind_of(in[at].words[0], Level::polygons), in[at].header, clock});
+    if (top->token_valid_o) {
+      const auto word = static_cast<std::uint32_t>(get(top->token_o, 0, 32));
+      r.out.push_back({kage::kind_of(word), get(top->token_flags_o, kFlags.header) != 0, clock});
+    }
+    top.edge();
+  }
+  return r;
+}
+
+/// The first token of a kind.
+int clock_of(const std::vector<Timed>& tokens, Kind kind) {
+  const auto it = std::ranges::find_if(tokens, [&](const Timed& t) { return t.kind == kind && !t.header; });
+  REQUIRE(it != tokens.end());
+  return it->clock;
+}
+
 }  // namespace
 
 TEST_CASE("front_end makes the golden front end's tokens", "[front_end]") { front_end_test<Vfront_end>(); }
@@ -220,60 +303,30 @@ TEST_CASE("front_end makes the golden front end's tokens without shadows", "[fro
   front_end_test<Vfront_end_grey>();
 }
 
+TEST_CASE("front_end's latencies are those of its contract", "[front_end]") {
+  const Run r = run(timed_frame(1, 3));
+  REQUIRE(r.in[0].header);
+  REQUIRE(r.out[0].header);
+  CHECK(r.out[0].clock - r.in[0].clock == 11);
+  const auto edges = std::ranges::find_if(r.in, [](const Timed& t) { return t.kind == Kind::EDGE; });
+  REQUIRE(std::next(edges)->kind == Kind::EDGE);
+  CHECK(clock_of(r.out, Kind::OP) - std::next(edges)->clock == 31);
+}
+
 TEST_CASE("a polygon costs front_end a clock a line", "[front_end]") {
-  // Polygons that cross all lines of a picture, and nothing else.
-  constexpr Config c = config_of<Vfront_end>();
-  constexpr FlagsBus kFlags(c);
-  constexpr int kLines = 40;
-  Dice dice(1);
-  const auto clocks = [&](int polygons) {
-    Words words;
-    kage::TokenWriter writer(c, words);
-    kage::FrameHeader header;
-    header.width = 50;
-    header.height = kLines;
-    header.version = kage::kPolygonVersion;
-    writer.header(header);
-    for (int y = 0; y < kLines; ++y) {
-      for (int i = 0; y == 0 && i < polygons; ++i) {
-        kage::PolygonToken t;
-        t.rank = i;
-        writer.at(t, 0);
-        writer.polygon({}, {});
-        for (t.side = 0; t.side < 2; ++t.side) {
-          t.last = true;
-          t.top_x = t.bottom_x = 256 * (3 + 9 * t.side);
-          t.top_y = 0;
-          t.bottom_y = 256 * kLines;
-          writer.edge(t);
-        }
-      }
-      writer.eol(y);
-    }
-    writer.end();
-    const auto in = read(c, words);
-    Bench<Vfront_end> top(dice);
-    int clock = 0;
-    for (std::size_t at = 0; !(top->token_valid_o && get(top->token_flags_o, kFlags.ends) != 0); ++clock) {
-      REQUIRE(clock < 10000);
-      top->token_valid_i = at < in.size() ? 1 : 0;
-      top->drop_i = top->dropping_i = 0;
-      top->token_ready_i = 1;
-      if (at < in.size()) {
-        put(top->token_flags_i, 0);
-        put(top->token_flags_i, kFlags.header, in[at].header);
-        put(top->token_flags_i, kFlags.ends, in[at].ends);
-        for (std::size_t i = 0; i < in[at].words.size(); ++i)
-          put(top->token_i, static_cast<int>(32 * i), 32, in[at].words[i]);
-      }
-      top.settle();
-      const bool taken = top->token_valid_i && top->token_ready_o;
-      top.edge();
-      top.settle();
-      at += taken ? 1 : 0;
-    }
-    return clock;
-  };
+  const auto clocks = [](int polygons) { return run(timed_frame(polygons, 0)).out.back().clock; };
   // One clock more a line for each polygon more; those of the line on which it begins are its tokens'.
   CHECK(clocks(6) - clocks(5) == kLines - 1 + 4);
+}
+
+TEST_CASE("a line costs front_end four clocks and its polygons, six at least, or three", "[front_end]") {
+  for (const int polygons : {0, 1, 2, 3, 6}) {
+    std::vector<int> ends;
+    for (const Timed& t : run(timed_frame(polygons, 0)).out)
+      if (t.kind == Kind::EOL && !t.header) ends.push_back(t.clock);
+    REQUIRE(ends.size() == kLines);
+    // From where the queue of tokens no longer waits for the first edges.
+    for (std::size_t line = kLines / 2; line < ends.size(); ++line)
+      CHECK(ends[line] - ends[line - 1] == (polygons > 0 ? std::max(6, 4 + polygons) : 3));
+  }
 }
