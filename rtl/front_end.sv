@@ -15,7 +15,7 @@
 // Index: token_index_o is that of the token in the stream; what is made of a polygon has that of the token at hand.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull). After a
 //   token at fault what comes does not matter.
-// Latency: 11 clocks for a token; 31 from a polygon's second EDGE to its span. Throughput: a token a clock, a
+// Latency: 12 clocks for a token; 31 from a polygon's second EDGE to its span. Throughput: a token a clock, a
 //   polygon of the line a clock, each once a line; a polygon's tokens come on the line where it begins, and where one
 //   of its edges does. A line's EOL is one of its tokens. A line that is crossed by polygons from above waits 3 clocks
 //   for the first and costs 6 at least, another one 3.
@@ -97,7 +97,8 @@ module front_end #(
 
   // ---- the queue of tokens, and of edges ---------------------------------------------------------------------------
   // Behind a token that ends its frame none comes in until it has left, so all that is here is of one frame.
-  logic queue_ready, next_valid, next_ready;
+  logic queue_ready, queue_there, queue_taken, next_valid, next_ready;
+  logic [InBits+FlagsBits-1:0] queue_first;
   logic [InBits-1:0] next;
   flags_t next_flags;
   logic polygons_in_q;  // the frame that comes in is at the polygon level
@@ -127,14 +128,25 @@ module front_end #(
       .in_valid_i (push),
       .in_ready_o (queue_ready),
       .in_data_i  ({token_flags_i, token_i}),
+      .out_valid_o(queue_there),
+      .out_ready_i(queue_taken),
+      .out_data_o (queue_first)
+  );
+  stream_register #(
+      .BITS(InBits + FlagsBits)
+  ) u_next (
+      .clk_i,
+      .rst_ni     (rst_ni && !flush),
+      .in_valid_i (queue_there),
+      .in_ready_o (queue_taken),
+      .in_data_i  (queue_first),
       .out_valid_o(next_valid),
       .out_ready_i(next_ready),
       .out_data_o ({next_flags, next})
   );
 
-  logic edge_room, edge_there, edge_ready, unused_edge;
-  logic edge_q;  // walked_edge_q is the edge of the next EDGE
-  logic [WalkedEdgeBits-1:0] edge_made, edge_next, walked_edge_q;
+  logic edge_room, edge_there, edge_taken, edge_valid, edge_ready, unused_edge;
+  logic [WalkedEdgeBits-1:0] edge_made, edge_first, walked_edge;  // the last: of the next EDGE
   assign edge_in = push && polygons_in_q && !in_flags.header && !in_flags.cut && token_i[KindBits-1:0] == KindEdge;
   hls_edge_setup u_edge (
       .clk_i,
@@ -165,14 +177,21 @@ module front_end #(
       .in_ready_o (edge_room),
       .in_data_i  (edge_made),
       .out_valid_o(edge_there),
-      .out_ready_i(!edge_q || edge_ready),
-      .out_data_o (edge_next)
+      .out_ready_i(edge_taken),
+      .out_data_o (edge_first)
   );
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni || flush) edge_q <= 1'b0;
-    else edge_q <= edge_there || (edge_q && !edge_ready);
-    if (!edge_q || edge_ready) walked_edge_q <= edge_next;
-  end
+  stream_register #(
+      .BITS(WalkedEdgeBits)
+  ) u_edge_next (
+      .clk_i,
+      .rst_ni     (rst_ni && !flush),
+      .in_valid_i (edge_there),
+      .in_ready_o (edge_taken),
+      .in_data_i  (edge_first),
+      .out_valid_o(edge_valid),
+      .out_ready_i(edge_ready),
+      .out_data_o (walked_edge)
+  );
 
   // ---- a token on its way to be the head ---------------------------------------------------------------------------
   // What is told of a token by itself and by those before it.
@@ -280,7 +299,7 @@ module front_end #(
       code  = ErrActiveFull;
     end
   end
-  assign act = head_q && !flushing && (!is_q.an_edge || edge_q) && (!is_q.eol || swap_ready) &&
+  assign act = head_q && !flushing && (!is_q.an_edge || edge_valid) && (!is_q.eol || swap_ready) &&
       (!flags_q.header || !early);
   assign gives_fresh = act && completes && !fault;
   assign gives_token = act && (is_q.at_once || is_q.eol || is_q.span || fault);
@@ -306,8 +325,8 @@ module front_end #(
     if (have_q[1] || fresh) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = side_q[1];
     if (fresh) begin
       polygon[ActivePlaceAt+:PlaceBits] = place_q;
-      if (is_q.side) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = walked_edge_q;
-      else polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = walked_edge_q;
+      if (is_q.side) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = walked_edge;
+      else polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = walked_edge;
     end
   end
 
@@ -337,7 +356,7 @@ module front_end #(
     // Written as long as the token waits: whether it leaves is known late. The polygon that needs what is there has left
     // when the polygon of an EDGE is the list's first.
     if (head_q && is_q.an_edge && (begun_q || (list_valid && list_same))) begin
-      side_q[is_q.side] <= walked_edge_q;
+      side_q[is_q.side] <= walked_edge;
       if (is_q.last) begin
         end_q <= is_q.end_line;
         end_goes_on_q <= is_q.goes_on;
@@ -424,10 +443,10 @@ module front_end #(
   // ---- what goes beside the walk, the queue behind it, and the way out ---------------------------------------------
   // The walk never waits: an item enters when there is room for it in the queue behind.
   localparam int ItemBits = 1 + FamilyBits + 32 + FlagsBits + OutBits;
-  logic [ItemBits-1:0] item_in, item_next, item_q;
-  logic [MadeSpanBits-1:0] span_next, span_q;
-  logic item_room, item_there, made_room, made_there, made_in, made_next, made_q;
-  logic out_next, leaves_q, item_ready, ending, made_valid, made_ready;
+  logic [ItemBits-1:0] item_in, item_next;
+  logic [MadeSpanBits-1:0] span_next;
+  logic item_room, item_there, made_room, made_there, made_in, made_next;
+  logic out_next, item_ready, ending, made_valid, made_ready;
   logic [OutBits-1:0] made;
   flags_t item_flags, made_flags;
   logic [31:0] made_index;
@@ -467,22 +486,15 @@ module front_end #(
       .out_ready_i(out_next),
       .out_data_o (span_next)
   );
-  assign out_next = made_there && (!leaves_q || item_ready);
+  assign out_next = made_there && item_ready;
   always_ff @(posedge clk_i) begin
     if (!rst_ni || flush) begin
-      leaves_q <= 1'b0;
-      under_q  <= '0;
-      room_q   <= 1'b1;
+      under_q <= '0;
+      room_q  <= 1'b1;
     end else begin
-      leaves_q <= made_there || (leaves_q && !item_ready);
-      under_q  <= under_q + UnderBits'(item) - UnderBits'(out_next);
+      under_q <= under_q + UnderBits'(item) - UnderBits'(out_next);
       // What leaves now makes room a clock later.
-      room_q   <= under_q < UnderBits'(Under - 1) || (under_q == UnderBits'(Under - 1) && !item);
-    end
-    if (!leaves_q || item_ready) begin
-      made_q <= made_next;
-      item_q <= item_next;
-      span_q <= span_next;
+      room_q  <= under_q < UnderBits'(Under - 1) || (under_q == UnderBits'(Under - 1) && !item);
     end
   end
 
@@ -494,11 +506,11 @@ module front_end #(
       .rst_ni,
       .flush_i      (flush),
       .width_i      (width_q),
-      .item_valid_i (leaves_q),
+      .item_valid_i (made_there),
       .item_ready_o (item_ready),
-      .item_made_i  (made_q),
-      .item_i       (item_q),
-      .span_i       (span_q),
+      .item_made_i  (made_next),
+      .item_i       (item_next),
+      .span_i       (span_next),
       .moving_o     (ending),
       .token_valid_o(made_valid),
       .token_ready_i(made_ready),
@@ -525,9 +537,10 @@ module front_end #(
   assign token_flags_o = out_flags;
   assign out_ready = token_ready_i;
 
-  assign busy_o = next_valid || head_q || under_q != '0 || leaves_q || out_valid || dropping_q;
-  assign moving_o = push || next_ready && next_valid || head_ready || list_pop || (list_left && !list_valid) || walk_busy ||
-      out_next || ending || (dropping_q && (!owed_q || token_valid_i)) || edges_q != '0 || !swap_ready;
+  assign busy_o = queue_there || next_valid || head_q || under_q != '0 || ending || made_valid || out_valid || dropping_q;
+  assign moving_o = push || (queue_there && queue_taken) || (next_valid && next_ready) || head_ready || list_pop ||
+      (list_left && !list_valid) || walk_busy || ending || (dropping_q && (!owed_q || token_valid_i)) ||
+      edges_q != '0 || !swap_ready;
 
   logic unused_bits;
   assign unused_bits = ^{token_q, token_i, in_flags, past_bottom};

@@ -28,6 +28,7 @@ rtl/registers.sv
 rtl/segment_check.sv
 rtl/skid_buffer.sv
 rtl/stream_fifo.sv
+rtl/stream_register.sv
 rtl/table_check.sv
 rtl/token_check.sv
 rtl/token_command.sv

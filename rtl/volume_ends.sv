@@ -3,15 +3,14 @@
 // at the polygon level do without. A volume ends where a token of another one comes, or one that is of no volume; its
 // range is the union of its spans.
 //
-// Handshake: item_valid_i with item_i and, of a polygon (item_made_i), span_i; item_ready_o takes it. Items are those
-//   of polygon_walk, which has no ready, so item_ready_o may depend on all of the inputs. token_* is valid/ready;
-//   token_ready_i comes from a register.
+// Handshake: valid/ready on both sides, item_* with span_i where the item is a polygon's (item_made_i). item_ready_o
+//   depends on token_ready_i, which comes from a register.
 // Item: {plain: a token that passes as it is, whatever volumes are open; family: the place but for its rank; index: in
 //   the frame, of the token at hand; flags, token: of one that is not a polygon's}.
 // flush_i: nothing is open, as after reset and behind a header.
-// Latency: 0. Throughput: a token a clock; an end of a volume, of a sample, and RESOLVE are tokens like others. A
+// Latency: 1 clock. Throughput: a token a clock; an end of a volume, of a sample, and RESOLVE are tokens like others. A
 //   polygon without pixels, or whose weight is 0, takes a clock and gives none; without FSF so does a volume's end.
-// Cost: four numbers of X_BITS, the family, comparators of X_BITS and of the family.
+// Cost: a register of an item, four numbers of X_BITS, the family, comparators of X_BITS and of the family.
 `default_nettype none
 
 module volume_ends #(
@@ -48,19 +47,60 @@ module volume_ends #(
   localparam int SampleFamilyBits = FamilyBits - SampleAt;
   localparam int SomeClassBits = ClassBits > 0 ? ClassBits : 1;
 
-  // ---- the item ----------------------------------------------------------------------------------------------------
-  logic plain;
-  logic [FamilyBits-1:0] family;
-  logic [31:0] index;
-  flags_t flags;
-  logic [TokenBits-1:0] token;
-  made_span_t span;
-  logic [1:0] layer;
-  logic [KindBits-1:0] kind;
-  assign {plain, family, index, flags, token} = item_i;
-  assign span = span_i;
-  assign layer = family[FamilyBits-1-:2];
-  assign kind = token[KindBits-1:0];
+  // ---- an item, judged on its way into the register ----------------------------------------------------------------
+  // What it is to the volumes that are open is told by the last item of a volume before it.
+  typedef struct packed {
+    logic plain;
+    logic [FamilyBits-1:0] family;
+    logic [31:0] index;
+    flags_t flags;
+    logic [TokenBits-1:0] token;
+  } item_t;
+  typedef struct packed {
+    logic none;  // it gives no token
+    logic of_volume;
+    logic behind_volumes;
+    logic other_volume;
+    logic other_sample;
+  } judged_t;
+  item_t coming, at_hand;
+  judged_t judged, is_q;
+  made_span_t coming_span, span;
+  logic item_valid, made, leaves, come;
+  logic [1:0] coming_layer, layer;
+  logic [KindBits-1:0] coming_kind, kind;
+  logic [FamilyBits-1:0] family_q;  // of the last item of a volume
+  assign coming = item_i;
+  assign coming_span = span_i;
+  assign coming_layer = coming.family[FamilyBits-1-:2];
+  assign coming_kind = coming.token[KindBits-1:0];
+  assign judged.none = item_made_i && (coming_span.empty || (coming_layer == 2'd1 && no_weight));
+  // What is not plain has a range, or is an EOL.
+  assign judged.of_volume = !coming.plain && DSF_BITS > 0 && (item_made_i ? coming_layer == 2'd1 : kind_has_range(
+      coming_kind
+  ) && coming_kind != KindOp && coming_kind != KindTp);
+  assign judged.behind_volumes = !coming.plain &&
+      (item_made_i ? coming_layer == 2'd2 : coming_kind == KindTp || coming_kind == KindEol);
+  assign judged.other_volume = coming.family != family_q;
+  assign judged.other_sample =
+      coming.family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
+  assign come = item_valid_i && item_ready_o;
+  always_ff @(posedge clk_i) if (come && judged.of_volume && !judged.none) family_q <= coming.family;
+
+  stream_register #(
+      .BITS(1 + $bits(judged_t) + ItemBits + MadeSpanBits)
+  ) u_item (
+      .clk_i,
+      .rst_ni     (rst_ni && !flush_i),
+      .in_valid_i (item_valid_i),
+      .in_ready_o (item_ready_o),
+      .in_data_i  ({item_made_i, judged, item_i, span_i}),
+      .out_valid_o(item_valid),
+      .out_ready_i(leaves),
+      .out_data_o ({made, is_q, at_hand, span})
+  );
+  assign layer = at_hand.family[FamilyBits-1-:2];
+  assign kind  = at_hand.token[KindBits-1:0];
 
   // ---- a polygon's span as a token ---------------------------------------------------------------------------------
   logic [TokenBits-1:0] made_op, made_sp, made_tp;
@@ -80,7 +120,7 @@ module volume_ends #(
     logic [DSF_BITS:0] w, turned_w;
     assign w = span.look[PolygonWLsb-KindBits+:DSF_BITS+1];
     assign turned_w = span.turned ? -w : w;
-    assign no_weight = w[DSF_BITS-1:0] == '0;
+    assign no_weight = coming_span.look[PolygonWLsb-KindBits+:DSF_BITS] == '0;
     always_comb begin
       made_sp = '0;
       made_sp[KindBits-1:0] = KindSp;
@@ -112,40 +152,32 @@ module volume_ends #(
     assign made_tp = '0;
   end
 
-  // ---- what it is to volumes ---------------------------------------------------------------------------------------
-  logic none, of_volume, behind_volumes;
+  // ---- what it does to volumes -------------------------------------------------------------------------------------
   logic [X_BITS-1:0] xl, xr;
   logic any_q, volume_here_q, sample_here_q;
-  logic [FamilyBits-1:0] family_q;
+  logic [LightBits-1:0] light_q;
   logic [X_BITS-1:0] volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
-  logic other_volume, other_sample, ends_volume, ends_sample, resolves, passes, gives, done;
-  assign none = item_made_i && (span.empty || (layer == 2'd1 && no_weight));
-  // What is not plain has a range, or is an EOL.
-  assign of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 : kind_has_range(
-      kind
-  ) && kind != KindOp && kind != KindTp);
-  assign behind_volumes = !plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
-  assign xl = item_made_i ? span.xl : token[RangeXlLsb+:X_BITS];
-  assign xr = item_made_i ? span.xr : token[RangeXrLsb+:X_BITS];
-  assign other_volume = family != family_q;
-  assign other_sample = family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
-  assign ends_volume = !none && volume_here_q && (behind_volumes || (of_volume && other_volume));
-  assign ends_sample = !none && !volume_here_q && sample_here_q && (behind_volumes || (of_volume && other_sample));
-  assign resolves = !none && !volume_here_q && !sample_here_q && any_q && behind_volumes;
-  assign passes = !none && !ends_volume && !ends_sample && !resolves;
+  logic ends_volume, ends_sample, resolves, passes, gives, done;
+  assign xl = made ? span.xl : at_hand.token[RangeXlLsb+:X_BITS];
+  assign xr = made ? span.xr : at_hand.token[RangeXrLsb+:X_BITS];
+  assign ends_volume = !is_q.none && volume_here_q && (is_q.behind_volumes || (is_q.of_volume && is_q.other_volume));
+  assign ends_sample = !is_q.none && !volume_here_q && sample_here_q &&
+      (is_q.behind_volumes || (is_q.of_volume && is_q.other_sample));
+  assign resolves = !is_q.none && !volume_here_q && !sample_here_q && any_q && is_q.behind_volumes;
+  assign passes = !is_q.none && !ends_volume && !ends_sample && !resolves;
   assign gives = passes || resolves || (ends_volume && FSF > 0) || (ends_sample && COUNT_BITS > 0);
-  assign done = item_valid_i && (token_ready_i || !gives);
-  assign moving_o = done;
-  assign token_valid_o = item_valid_i && gives;
-  assign item_ready_o = done && (passes || none);
+  assign done = item_valid && (token_ready_i || !gives);
+  assign moving_o = done || come;
+  assign token_valid_o = item_valid && gives;
+  assign leaves = done && (passes || is_q.none);
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni || flush_i || (item_valid_i && flags.header)) begin
+    if (!rst_ni || flush_i || (item_valid && at_hand.flags.header)) begin
       any_q <= 1'b0;
       volume_here_q <= 1'b0;
       sample_here_q <= 1'b0;
     end else if (done) begin
-      if (passes && of_volume) begin
+      if (passes && is_q.of_volume) begin
         any_q <= 1'b1;
         volume_here_q <= 1'b1;
       end
@@ -156,8 +188,8 @@ module volume_ends #(
       if (ends_sample) sample_here_q <= 1'b0;
       if (resolves) any_q <= 1'b0;
     end
-    if (done && passes && of_volume) begin
-      family_q <= family;
+    if (done && passes && is_q.of_volume) begin
+      light_q <= at_hand.family[SampleAt+:LightBits];
       if (!volume_here_q || xl < volume_xl_q) volume_xl_q <= xl;
       if (!volume_here_q || xr > volume_xr_q) volume_xr_q <= xr;
     end
@@ -171,26 +203,29 @@ module volume_ends #(
   // A near cap over the whole line is what IF says.
   logic whole_cap;
   logic [TokenBits-1:0] passing, ending;
-  assign whole_cap = !plain && DSF_BITS > 0 && kind == KindNc && xl == '0 && xr == width_i;
+  assign whole_cap = !at_hand.plain && DSF_BITS > 0 && kind == KindNc && xl == '0 && xr == width_i;
   always_comb begin
-    passing = token;
+    passing = at_hand.token;
     if (whole_cap) begin
       passing = '0;
       passing[KindBits-1:0] = KindIf;
-      passing[IfWLsb+:DSF_BITS+1] = token[NcWLsb+:DSF_BITS+1];
+      passing[IfWLsb+:DSF_BITS+1] = at_hand.token[NcWLsb+:DSF_BITS+1];
     end
-    if (item_made_i) passing = layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
+    if (made) passing = layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
     ending = '0;
     ending[KindBits-1:0] = ends_volume ? KindEv : ends_sample ? KindEs : KindResolve;
     if (ends_volume || ends_sample) begin
       ending[EvXlLsb+:X_BITS] = ends_volume ? volume_xl_q : sample_xl_q;
       ending[EvXrLsb+:X_BITS] = ends_volume ? volume_xr_q : sample_xr_q;
     end
-    if (ends_sample) ending[EsLightLsb+:LightBits] = family_q[SampleAt+:LightBits];
+    if (ends_sample) ending[EsLightLsb+:LightBits] = light_q;
     token_o = passes ? passing : ending;
-    token_flags_o = passes && !item_made_i ? flags : '0;
+    token_flags_o = passes && !made ? at_hand.flags : '0;
   end
-  assign token_index_o = index;
+  assign token_index_o = at_hand.index;
+
+  logic unused_bits;
+  assign unused_bits = ^{coming, coming_span, span};
 
 endmodule
 

@@ -9,13 +9,13 @@
 
 #include "core/line_parts.hpp"
 #include "kage/token.hpp"
-#include "polygon/front_end.hpp"
+#include "polygon/span_tokens.hpp"
 #include "stream/cutter.hpp"
 
 namespace kage {
 
 struct GoldenCore::Data {
-  explicit Data(const Config& c) : config(c), layout(c), parts(c), front_end(c), writer(c, made_words) {}
+  explicit Data(const Config& c) : config(c), layout(c), parts(c), spans(c), writer(c, made_words) {}
 
   /// Where in a frame the core is.
   enum class At { header, lines, ended, failed };
@@ -25,16 +25,15 @@ struct GoldenCore::Data {
   LineView::Parts parts;
   WordCutter cutter;
   std::vector<std::uint8_t> out;
-  Token t;             // the one at hand
-  FrontEnd front_end;  // of frames at the polygon level
+  Token t;           // the one at hand
+  SpanTokens spans;  // that tokens come to
   std::vector<std::uint32_t> made_words;
-  TokenWriter writer;  // of what it makes, for the observer
+  TokenWriter writer;  // of what the front end makes, for the observer
   CoreObserver* observer = nullptr;
 
   // Of the frame at hand:
   FrameStatus status;
   At at = At::header;
-  Level level = Level::spans;
   std::uint32_t number = 0;
   std::uint32_t token = 0;  // the next one
   std::uint64_t taken = 0;  // words of tokens that came whole
@@ -128,8 +127,7 @@ struct GoldenCore::Data {
     parts.rules.start(config, status.width, status.height);
     parts.pixels.start(status.width, read.background);
     parts.tree.start(status.width);
-    level = read.level();
-    if (level == Level::polygons) front_end.start(status.width);
+    spans.start(read);
     out.resize(static_cast<std::size_t>(status.width) * static_cast<std::size_t>(config.channels));
     taken = kHeaderWords;
     token = 1;
@@ -149,12 +147,16 @@ struct GoldenCore::Data {
     while (at == At::lines) {
       const std::uint32_t* first = cutter.peek();
       if (first == nullptr) return;
-      const std::size_t n = layout.words_of(*first, level);
+      const std::size_t n = layout.words_of(*first, spans.level());
       if (n == 0) return fail(ErrorCode::KIND, sink, std::span(first, 1));
       const auto body = cutter.take(n);
       if (body.empty()) return;
-      decode(config, layout, body, t, level);
-      const ErrorCode e = level == Level::spans ? take(t, body, sink) : take_polygons(body, sink);
+      decode(config, layout, body, t, spans.level());
+      if (observer != nullptr && spans.level() == Level::polygons) observer->came(token, t, body);
+      const ErrorCode e = spans.add(t, [&](const Token& of_spans, bool made) {
+        const bool as_it_came = !made && of_spans.kind == t.kind;
+        return take(of_spans, as_it_came ? body : std::span<const std::uint32_t>(), sink);
+      });
       if (e != ErrorCode::NONE) {
         if (parts.rules.fault().code != ErrorCode::NONE) {
           status.unit = parts.rules.fault().unit;
@@ -183,15 +185,6 @@ struct GoldenCore::Data {
       apply(next);
     if (observer != nullptr) observer->after(token, next, view());
     return ErrorCode::NONE;
-  }
-
-  /// The token at hand, of the polygon level: what the front end makes of it.
-  ErrorCode take_polygons(std::span<const std::uint32_t> body, const LineSink& sink) {
-    if (observer != nullptr) observer->came(token, t, body);
-    return front_end.accept(t, [&](const Token& of_spans, bool made) {
-      const bool as_it_came = !made && of_spans.kind == t.kind;
-      return take(of_spans, as_it_came ? body : std::span<const std::uint32_t>(), sink);
-    });
   }
 
   /// The words of a token that the front end has made and the rules have taken.

@@ -10,7 +10,7 @@
 
 #include "cost/token_clocks.hpp"
 #include "kage/config.hpp"
-#include "stream/span_tokens.hpp"
+#include "polygon/span_tokens.hpp"
 
 namespace kage {
 

@@ -12,7 +12,7 @@
 #include "number/bits.hpp"
 #include "number/first_centre.hpp"
 #include "number/packed_color.hpp"
-#include "polygon/front_end.hpp"
+#include "polygon/span_tokens.hpp"
 #include "stream/count.hpp"
 #include "stream/cutter.hpp"
 
@@ -48,15 +48,14 @@ TokenCounts& TokenCounts::operator+=(const TokenCounts& other) {
 
 struct FrameChecker::Data {
   Data(const Config& c, std::string w, std::uint64_t o)
-      : config(c), layout(c), where(std::move(w)), offset(o), front_end(c) {}
+      : config(c), layout(c), where(std::move(w)), offset(o), spans(c) {}
 
   Config config;
   Layout layout;
   std::string where;
   std::uint64_t offset;
   TokenRules rules;
-  FrontEnd front_end;
-  Level level = Level::spans;
+  SpanTokens spans;  // that tokens come to
   WordCutter cutter;
   TokenCounts counts;
   std::vector<std::vector<std::int64_t>> faces;  // dz, of each unit
@@ -83,8 +82,7 @@ struct FrameChecker::Data {
     if (header.background >> kPackedBits != 0) fail("background has bits past its channels");
     header_seen = true;
     rules.start(config, header.width, header.height);
-    level = header.level();
-    if (level == Level::polygons) front_end.start(header.width);
+    spans.start(header);
     faces.assign(static_cast<std::size_t>(config.units), {});
     at = kHeaderWords;
     token = 1;
@@ -105,17 +103,16 @@ struct FrameChecker::Data {
   }
 
   void check_token(std::span<const std::uint32_t> body) {
-    const Token t = decode(config, layout, body, level);
+    const Token t = decode(config, layout, body, spans.level());
     if (!padding_is_zero(body, layout.bits[static_cast<std::size_t>(t.kind)]))
       fail("bits past the last field are not zero");
     check_pads(t.kind, body);
     ++counts.of_kind[static_cast<std::size_t>(t.kind)];
     if (t.kind == Kind::EDGE) check_edge(t.polygon);
-    const auto check = [this](const Token& of_spans, bool made) { return check_spans(of_spans, made); };
-    const ErrorCode e = level == Level::polygons ? front_end.accept(t, check) : check(t, false);
+    const ErrorCode e = spans.add(t, [this](const Token& of_spans, bool made) { return check_spans(of_spans, made); });
     if (e != ErrorCode::NONE) fail(e);
     at += body.size();
-    counts.active = static_cast<int>(front_end.most());
+    counts.active = static_cast<int>(spans.most());
     if (t.kind == Kind::END)
       ended = true;
     else
@@ -167,7 +164,7 @@ void FrameChecker::feed(std::span<const std::uint32_t> words) {
   }
   while (const std::uint32_t* first = d.cutter.peek()) {
     if (d.ended) d.fail("words after END");
-    const std::size_t n = d.layout.words_of(*first, d.level);
+    const std::size_t n = d.layout.words_of(*first, d.spans.level());
     if (n == 0) d.fail(ErrorCode::KIND);
     const auto body = d.cutter.take(n);
     if (body.empty()) return;

@@ -10,7 +10,7 @@
 
 #include "kage/stream.hpp"
 #include "kage/token.hpp"
-#include "stream/span_tokens.hpp"
+#include "polygon/span_tokens.hpp"
 
 namespace kage {
 

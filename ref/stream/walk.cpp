@@ -8,7 +8,7 @@
 #include "kage/stream.hpp"
 #include "number/counted.hpp"
 #include "stream/count.hpp"
-#include "stream/span_tokens.hpp"
+#include "polygon/span_tokens.hpp"
 
 namespace kage {
 

@@ -141,6 +141,7 @@ enum class Part : std::uint8_t {
   ram_1r1w,
   stream_fifo,
   skid_buffer,
+  stream_register,
   compare_cell,
   light_resolve,
   pixel_loads,
@@ -161,10 +162,11 @@ struct PartInfo {
   std::string_view module;
   Level level;
 };
-inline constexpr std::array<PartInfo, 16> kParts{{
+inline constexpr std::array<PartInfo, 17> kParts{{
     {"ram_1r1w", Level::leaf},
     {"stream_fifo", Level::leaf},
     {"skid_buffer", Level::leaf},
+    {"stream_register", Level::leaf},
     {"compare_cell", Level::leaf},
     {"light_resolve", Level::leaf},
     {"pixel_loads", Level::leaf},

@@ -14,7 +14,7 @@
 #include "cosim/phases.hpp"
 #include "kage/stream.hpp"
 #include "stream/cutter.hpp"
-#include "stream/span_tokens.hpp"
+#include "polygon/span_tokens.hpp"
 
 namespace kage::report {
 

@@ -307,7 +307,7 @@ TEST_CASE("front_end's latencies are those of its contract", "[front_end]") {
   const Run r = run(timed_frame(1, 3));
   REQUIRE(r.in[0].header);
   REQUIRE(r.out[0].header);
-  CHECK(r.out[0].clock - r.in[0].clock == 11);
+  CHECK(r.out[0].clock - r.in[0].clock == 12);
   const auto edges = std::ranges::find_if(r.in, [](const Timed& t) { return t.kind == Kind::EDGE; });
   REQUIRE(std::next(edges)->kind == Kind::EDGE);
   CHECK(clock_of(r.out, Kind::OP) - std::next(edges)->clock == 31);

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// skid_buffer and stream_fifo: order, capacity, stability, speed. ram_1r1w: what was written is read, and held.
+// skid_buffer, stream_fifo and stream_register: order, capacity, stability, speed. ram_1r1w: what was written is read, and held.
 #include <deque>
 
 #include "Vram.h"
 #include "Vskid.h"
 #include "Vstream_fifo.h"
+#include "Vstream_register.h"
 #include "bench.hpp"
 
 using namespace kage::rtl;
 
 namespace {
 
+/// `through`: a place that becomes free is offered in the same clock.
 template <class Model>
-void stream_test(std::size_t capacity) {
+void stream_test(std::size_t capacity, bool through = false) {
   each_seed(20, [&](Dice& dice) {
     Bench<Model> top(dice);
     Offer offer(stall_percent(dice));
@@ -28,7 +30,8 @@ void stream_test(std::size_t capacity) {
       top.settle();
       REQUIRE(top->out_valid_o == (inside.empty() ? 0 : 1));  // latency is one clock: what is inside is offered
       if (top->out_valid_o) REQUIRE(top->out_data_o == inside.front());
-      REQUIRE(top->in_ready_o == (inside.size() < capacity ? 1 : 0));  // all of the capacity, no more
+      const bool freed = through && top->out_ready_i;
+      REQUIRE(top->in_ready_o == (inside.size() < capacity || freed ? 1 : 0));  // all of the capacity, no more
       if (waited) REQUIRE(top->out_valid_o);
       waited = top->out_valid_o && !top->out_ready_i;
       const bool push = top->in_valid_i && top->in_ready_o;
@@ -74,6 +77,8 @@ TEST_CASE("stream_fifo keeps order and holds four", "[stream_cells]") {
   stream_test<Vstream_fifo>(parameter<Vstream_fifo>("DEPTH"));
 }
 TEST_CASE("stream_fifo passes a word a clock", "[stream_cells]") { full_speed_test<Vstream_fifo>(); }
+TEST_CASE("stream_register keeps order and holds one", "[stream_cells]") { stream_test<Vstream_register>(1, true); }
+TEST_CASE("stream_register passes a word a clock", "[stream_cells]") { full_speed_test<Vstream_register>(); }
 
 TEST_CASE("ram_1r1w reads what was written, and holds it", "[stream_cells]") {
   each_seed(10, [](Dice& dice) {

@@ -15,18 +15,13 @@ module skid_buffer_monitor #(
     input wire logic [BITS-1:0] out_data_o
 );
   `include "kage_trace.svh"
+  `include "kage_trace_word.svh"
 
   logic [1:0] held_q;
   logic [BITS-1:0] first_q, second_q;
   logic push, pop;
   assign push = in_valid_i && held_q != 2'd2;
   assign pop  = out_ready_i && held_q != '0;
-
-  // An event has 512 bits: of longer words those that lie on one another there are added modulo 2.
-  function automatic logic [511:0] folded(input logic [BITS-1:0] word);
-    folded = '0;
-    for (int i = 0; i < BITS; i++) folded[i%512] = folded[i%512] ^ word[i];
-  endfunction
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin

@@ -16,6 +16,7 @@ module stream_fifo_monitor #(
     input wire logic [BITS-1:0] out_data_o
 );
   `include "kage_trace.svh"
+  `include "kage_trace_word.svh"
 
   int held_q, at_q;
   logic [BITS-1:0] words[DEPTH];
@@ -29,7 +30,7 @@ module stream_fifo_monitor #(
       at_q   <= 0;
     end else begin
       trace_module(PartStreamFifo, {510'd0, held_q != DEPTH, held_q != 0}, {510'd0, in_ready_o, out_valid_o});
-      if (held_q != 0) trace_module(PartStreamFifo, 512'(words[at_q]), 512'(out_data_o));
+      if (held_q != 0) trace_module(PartStreamFifo, folded(words[at_q]), folded(out_data_o));
       if (push) words[(at_q+held_q)%DEPTH] <= in_data_i;
       if (pop) at_q <= (at_q + 1) % DEPTH;
       held_q <= held_q + 32'(push) - 32'(pop);

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+// A word of BITS bits in an event, for the monitors of cells that pass words. An event has 512 bits: of longer words those
+// that lie on one another there are added modulo 2.
+function automatic logic [511:0] folded(input logic [BITS-1:0] word);
+  folded = '0;
+  for (int i = 0; i < BITS; i++) folded[i%512] = folded[i%512] ^ word[i];
+endfunction
