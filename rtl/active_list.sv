@@ -56,19 +56,21 @@ module active_list #(
 
   // ---- how many ----------------------------------------------------------------------------------------------------
   logic [TallyBits-1:0] left_q, kept_q, all_q;  // of this line, of the next, together
-  logic left_any_q;  // left_q is not 0
+  logic left_any_q, full_q;  // left_q is not 0, all_q is ACTIVE
   assign left_o = left_any_q;
-  assign room_o = all_q != TallyBits'(ACTIVE);
+  assign room_o = !full_q;
   always_ff @(posedge clk_i) begin
     if (clear) begin
       left_q <= '0;
       left_any_q <= 1'b0;
+      full_q <= 1'b0;
       kept_q <= '0;
       all_q <= '0;
     end else begin
       left_q <= swap_i ? kept_q : left_q - TallyBits'(pop_i);
       // The counters decide before it is known what happens.
       left_any_q <= swap_i ? kept_q != '0 : pop_i ? left_q != TallyBits'(1) : left_any_q;
+      full_q <= pop_i == keep_i ? full_q : keep_i && all_q == TallyBits'(ACTIVE - 1);
       kept_q <= swap_i ? '0 : kept_q + TallyBits'(keep_i);
       all_q <= all_q + TallyBits'(keep_i) - TallyBits'(pop_i);
     end
@@ -154,7 +156,7 @@ module active_list #(
       assert (!pop_i || (polygon_valid_o && left_any_q && !renew_i));
       assert (!swap_i || (swap_ready_o && !left_any_q && !first_valid_q && !next_valid_q && !loaded_q));
       // 2. Counts are of each other.
-      assert (left_any_q == (left_q != '0) && all_q == left_q + kept_q);
+      assert (left_any_q == (left_q != '0) && full_q == (32'(all_q) == ACTIVE) && all_q == left_q + kept_q);
       assert (32'(all_q) <= ACTIVE);
       // 3. Nothing is written past a bank.
       assert (!write_i || write_at_q < (AddrBits + 1)'(ACTIVE));

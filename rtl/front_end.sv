@@ -281,7 +281,7 @@ module front_end #(
   // ---- merge -------------------------------------------------------------------------------------------------------
   logic list_valid, list_left, list_room, list_before, list_same, list_goes_on, swap_ready, list_pop, keep, swap, clear;
   logic [ActiveBits-1:0] list;
-  logic misplaced, flushing, completes, fault, act, item, room_q, early;
+  logic misplaced, flushing, completes, fault, item, room_q, early;
   logic gives_fresh, gives_token;
   logic [CodeBits-1:0] code;
   assign misplaced = is_q.misplaced || (is_q.of_level && begun_q && !is_q.an_edge && !is_q.gradient) ||
@@ -299,13 +299,13 @@ module front_end #(
       code  = ErrActiveFull;
     end
   end
-  assign act = head_q && !flushing && (!is_q.an_edge || edge_valid) && (!is_q.eol || swap_ready) &&
+  // All tokens wait for room, though some need none: whether one is at fault is known late.
+  assign head_ready = head_q && room_q && !flushing && (!is_q.an_edge || edge_valid) && (!is_q.eol || swap_ready) &&
       (!flags_q.header || !early);
-  assign gives_fresh = act && completes && !fault;
-  assign gives_token = act && (is_q.at_once || is_q.eol || is_q.span || fault);
+  assign gives_fresh = head_ready && completes && !fault;
+  assign gives_token = head_ready && (is_q.at_once || is_q.eol || is_q.span || fault);
   assign list_pop = flushing && list_valid && room_q;
-  assign item = list_pop || ((gives_fresh || gives_token) && room_q);
-  assign head_ready = act && (room_q || (!gives_fresh && !gives_token));
+  assign item = list_pop || gives_fresh || gives_token;
   assign edge_ready = head_ready && is_q.an_edge;
   assign swap = head_ready && is_q.eol && !fault;
   assign clear = flush || (head_ready && flags_q.header);
@@ -315,7 +315,7 @@ module front_end #(
   logic [ActiveBits-1:0] polygon;
   assign fresh   = is_q.an_edge && begun_q;
   assign goes_on = fresh && is_q.last ? is_q.goes_on : end_have_q ? end_goes_on_q : fresh || list_goes_on;
-  assign keep    = goes_on && (list_pop || (gives_fresh && room_q));
+  assign keep    = goes_on && (list_pop || gives_fresh);
   always_comb begin
     polygon = fresh ? fresh_q : list;
     if (fresh && is_q.last) polygon[ActiveEndAt+:EndLineBits] = is_q.end_line;

@@ -47,8 +47,7 @@ module volume_ends #(
   localparam int SampleFamilyBits = FamilyBits - SampleAt;
   localparam int SomeClassBits = ClassBits > 0 ? ClassBits : 1;
 
-  // ---- an item, judged on its way into the register ----------------------------------------------------------------
-  // What it is to the volumes that are open is told by the last item of a volume before it.
+  // ---- an item on its way into the register ------------------------------------------------------------------------
   typedef struct packed {
     logic plain;
     logic [FamilyBits-1:0] family;
@@ -56,51 +55,14 @@ module volume_ends #(
     flags_t flags;
     logic [TokenBits-1:0] token;
   } item_t;
-  typedef struct packed {
-    logic none;  // it gives no token
-    logic of_volume;
-    logic behind_volumes;
-    logic other_volume;
-    logic other_sample;
-  } judged_t;
-  item_t coming, at_hand;
-  judged_t judged, is_q;
-  made_span_t coming_span, span;
-  logic item_valid, made, leaves, come;
-  logic [1:0] coming_layer, layer;
-  logic [KindBits-1:0] coming_kind, kind;
-  logic [FamilyBits-1:0] family_q;  // of the last item of a volume
+  item_t coming;
+  made_span_t coming_span;
+  logic [1:0] layer;
+  logic [KindBits-1:0] kind;
   assign coming = item_i;
   assign coming_span = span_i;
-  assign coming_layer = coming.family[FamilyBits-1-:2];
-  assign coming_kind = coming.token[KindBits-1:0];
-  assign judged.none = item_made_i && (coming_span.empty || (coming_layer == 2'd1 && no_weight));
-  // What is not plain has a range, or is an EOL.
-  assign judged.of_volume = !coming.plain && DSF_BITS > 0 && (item_made_i ? coming_layer == 2'd1 : kind_has_range(
-      coming_kind
-  ) && coming_kind != KindOp && coming_kind != KindTp);
-  assign judged.behind_volumes = !coming.plain &&
-      (item_made_i ? coming_layer == 2'd2 : coming_kind == KindTp || coming_kind == KindEol);
-  assign judged.other_volume = coming.family != family_q;
-  assign judged.other_sample =
-      coming.family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
-  assign come = item_valid_i && item_ready_o;
-  always_ff @(posedge clk_i) if (come && judged.of_volume && !judged.none) family_q <= coming.family;
-
-  stream_register #(
-      .BITS(1 + $bits(judged_t) + ItemBits + MadeSpanBits)
-  ) u_item (
-      .clk_i,
-      .rst_ni     (rst_ni && !flush_i),
-      .in_valid_i (item_valid_i),
-      .in_ready_o (item_ready_o),
-      .in_data_i  ({item_made_i, judged, item_i, span_i}),
-      .out_valid_o(item_valid),
-      .out_ready_i(leaves),
-      .out_data_o ({made, is_q, at_hand, span})
-  );
-  assign layer = at_hand.family[FamilyBits-1-:2];
-  assign kind  = at_hand.token[KindBits-1:0];
+  assign layer = coming.family[FamilyBits-1-:2];
+  assign kind = coming.token[KindBits-1:0];
 
   // ---- a polygon's span as a token ---------------------------------------------------------------------------------
   logic [TokenBits-1:0] made_op, made_sp, made_tp;
@@ -108,31 +70,31 @@ module volume_ends #(
   always_comb begin
     made_op = '0;
     made_op[KindBits-1:0] = KindOp;
-    made_op[OpXlLsb+:X_BITS] = span.xl;
-    made_op[OpXrLsb+:X_BITS] = span.xr;
-    if (ClassBits > 0) made_op[OpClassLsb+:SomeClassBits] = span.look[0+:SomeClassBits];
-    made_op[OpZLsb+:DepthBits] = span.z;
-    made_op[OpDzLsb+:DepthBits] = span.dz;
-    made_op[OpColorLsb+:ColorBits] = span.color;
-    if (SMOOTH > 0) made_op[OpDcolorLsb+:SlopeBits] = span.dcolor;
+    made_op[OpXlLsb+:X_BITS] = coming_span.xl;
+    made_op[OpXrLsb+:X_BITS] = coming_span.xr;
+    if (ClassBits > 0) made_op[OpClassLsb+:SomeClassBits] = coming_span.look[0+:SomeClassBits];
+    made_op[OpZLsb+:DepthBits] = coming_span.z;
+    made_op[OpDzLsb+:DepthBits] = coming_span.dz;
+    made_op[OpColorLsb+:ColorBits] = coming_span.color;
+    if (SMOOTH > 0) made_op[OpDcolorLsb+:SlopeBits] = coming_span.dcolor;
   end
   if (DSF_BITS > 0) begin : gen_sp
     logic [DSF_BITS:0] w, turned_w;
-    assign w = span.look[PolygonWLsb-KindBits+:DSF_BITS+1];
-    assign turned_w = span.turned ? -w : w;
+    assign w = coming_span.look[PolygonWLsb-KindBits+:DSF_BITS+1];
+    assign turned_w = coming_span.turned ? -w : w;
     assign no_weight = coming_span.look[PolygonWLsb-KindBits+:DSF_BITS] == '0;
     always_comb begin
       made_sp = '0;
       made_sp[KindBits-1:0] = KindSp;
-      made_sp[SpXlLsb+:X_BITS] = span.xl;
-      made_sp[SpXrLsb+:X_BITS] = span.xr;
+      made_sp[SpXlLsb+:X_BITS] = coming_span.xl;
+      made_sp[SpXrLsb+:X_BITS] = coming_span.xr;
       made_sp[SpWLsb+:DSF_BITS+1] = turned_w;
-      made_sp[SpZLsb+:DepthBits] = span.z;
-      made_sp[SpDzLsb+:DepthBits] = span.dz;
+      made_sp[SpZLsb+:DepthBits] = coming_span.z;
+      made_sp[SpDzLsb+:DepthBits] = coming_span.dz;
     end
   end else begin : gen_no_sp
     logic unused_turned;
-    assign unused_turned = span.turned;
+    assign unused_turned = coming_span.turned;
     assign made_sp = '0;
     assign no_weight = 1'b1;
   end
@@ -140,17 +102,72 @@ module volume_ends #(
     always_comb begin
       made_tp = '0;
       made_tp[KindBits-1:0] = KindTp;
-      made_tp[TpXlLsb+:X_BITS] = span.xl;
-      made_tp[TpXrLsb+:X_BITS] = span.xr;
-      made_tp[TpAlphaLsb+:8] = span.look[PolygonAlphaLsb-KindBits+:8];
-      made_tp[TpZLsb+:DepthBits] = span.z;
-      made_tp[TpDzLsb+:DepthBits] = span.dz;
-      made_tp[TpColorLsb+:ColorBits] = span.color;
-      if (SMOOTH > 0) made_tp[TpDcolorLsb+:SlopeBits] = span.dcolor;
+      made_tp[TpXlLsb+:X_BITS] = coming_span.xl;
+      made_tp[TpXrLsb+:X_BITS] = coming_span.xr;
+      made_tp[TpAlphaLsb+:8] = coming_span.look[PolygonAlphaLsb-KindBits+:8];
+      made_tp[TpZLsb+:DepthBits] = coming_span.z;
+      made_tp[TpDzLsb+:DepthBits] = coming_span.dz;
+      made_tp[TpColorLsb+:ColorBits] = coming_span.color;
+      if (SMOOTH > 0) made_tp[TpDcolorLsb+:SlopeBits] = coming_span.dcolor;
     end
   end else begin : gen_no_tp
     assign made_tp = '0;
   end
+
+  // ---- the token that it is, and what it is to volumes -------------------------------------------------------------
+  // Which volume was open is told by the last item before it that was of one.
+  typedef struct packed {
+    logic none;  // it gives no token
+    logic of_volume;
+    logic behind_volumes;
+    logic other_volume;
+    logic other_sample;
+    logic whole;  // a near cap over the whole line, which is what IF says
+    logic [LightBits-1:0] light;
+    logic [31:0] index;
+    flags_t flags;
+    logic [TokenBits-1:0] token;
+  } judged_t;
+  localparam int JudgedBits = 6 + LightBits + 32 + FlagsBits + TokenBits;
+  judged_t judged, is_q;
+  logic come, item_valid, leaves;
+  logic [FamilyBits-1:0] family_q;
+  always_comb begin
+    judged.none = item_made_i && (coming_span.empty || (layer == 2'd1 && no_weight));
+    // What is not plain has a range, or is an EOL.
+    judged.of_volume = !coming.plain && DSF_BITS > 0 &&
+        (item_made_i ? layer == 2'd1 : kind_has_range(kind) && kind != KindOp && kind != KindTp);
+    judged.behind_volumes = !coming.plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
+    judged.other_volume = coming.family != family_q;
+    judged.other_sample = coming.family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
+    judged.whole = !item_made_i && !coming.plain && DSF_BITS > 0 && kind == KindNc &&
+        coming.token[RangeXlLsb+:X_BITS] == '0 && coming.token[RangeXrLsb+:X_BITS] == width_i;
+    judged.light = coming.family[SampleAt+:LightBits];
+    judged.index = coming.index;
+    judged.flags = item_made_i ? '0 : coming.flags;
+    judged.token = coming.token;
+    if (judged.whole) begin
+      judged.token = '0;
+      judged.token[KindBits-1:0] = KindIf;
+      judged.token[IfWLsb+:DSF_BITS+1] = coming.token[NcWLsb+:DSF_BITS+1];
+    end
+    if (item_made_i) judged.token = layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
+  end
+  assign come = item_valid_i && item_ready_o;
+  always_ff @(posedge clk_i) if (come && judged.of_volume && !judged.none) family_q <= coming.family;
+
+  stream_register #(
+      .BITS(JudgedBits)
+  ) u_item (
+      .clk_i,
+      .rst_ni     (rst_ni && !flush_i),
+      .in_valid_i (item_valid_i),
+      .in_ready_o (item_ready_o),
+      .in_data_i  (judged),
+      .out_valid_o(item_valid),
+      .out_ready_i(leaves),
+      .out_data_o (is_q)
+  );
 
   // ---- what it does to volumes -------------------------------------------------------------------------------------
   logic [X_BITS-1:0] xl, xr;
@@ -158,8 +175,8 @@ module volume_ends #(
   logic [LightBits-1:0] light_q;
   logic [X_BITS-1:0] volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
   logic ends_volume, ends_sample, resolves, passes, gives, done;
-  assign xl = made ? span.xl : at_hand.token[RangeXlLsb+:X_BITS];
-  assign xr = made ? span.xr : at_hand.token[RangeXrLsb+:X_BITS];
+  assign xl = is_q.whole ? '0 : is_q.token[RangeXlLsb+:X_BITS];
+  assign xr = is_q.whole ? width_i : is_q.token[RangeXrLsb+:X_BITS];
   assign ends_volume = !is_q.none && volume_here_q && (is_q.behind_volumes || (is_q.of_volume && is_q.other_volume));
   assign ends_sample = !is_q.none && !volume_here_q && sample_here_q &&
       (is_q.behind_volumes || (is_q.of_volume && is_q.other_sample));
@@ -172,7 +189,7 @@ module volume_ends #(
   assign leaves = done && (passes || is_q.none);
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni || flush_i || (item_valid && at_hand.flags.header)) begin
+    if (!rst_ni || flush_i || (item_valid && is_q.flags.header)) begin
       any_q <= 1'b0;
       volume_here_q <= 1'b0;
       sample_here_q <= 1'b0;
@@ -189,7 +206,7 @@ module volume_ends #(
       if (resolves) any_q <= 1'b0;
     end
     if (done && passes && is_q.of_volume) begin
-      light_q <= at_hand.family[SampleAt+:LightBits];
+      light_q <= is_q.light;
       if (!volume_here_q || xl < volume_xl_q) volume_xl_q <= xl;
       if (!volume_here_q || xr > volume_xr_q) volume_xr_q <= xr;
     end
@@ -200,18 +217,8 @@ module volume_ends #(
   end
 
   // ---- the token ---------------------------------------------------------------------------------------------------
-  // A near cap over the whole line is what IF says.
-  logic whole_cap;
-  logic [TokenBits-1:0] passing, ending;
-  assign whole_cap = !at_hand.plain && DSF_BITS > 0 && kind == KindNc && xl == '0 && xr == width_i;
+  logic [TokenBits-1:0] ending;
   always_comb begin
-    passing = at_hand.token;
-    if (whole_cap) begin
-      passing = '0;
-      passing[KindBits-1:0] = KindIf;
-      passing[IfWLsb+:DSF_BITS+1] = at_hand.token[NcWLsb+:DSF_BITS+1];
-    end
-    if (made) passing = layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
     ending = '0;
     ending[KindBits-1:0] = ends_volume ? KindEv : ends_sample ? KindEs : KindResolve;
     if (ends_volume || ends_sample) begin
@@ -219,13 +226,13 @@ module volume_ends #(
       ending[EvXrLsb+:X_BITS] = ends_volume ? volume_xr_q : sample_xr_q;
     end
     if (ends_sample) ending[EsLightLsb+:LightBits] = light_q;
-    token_o = passes ? passing : ending;
-    token_flags_o = passes && !made ? at_hand.flags : '0;
+    token_o = passes ? is_q.token : ending;
+    token_flags_o = passes ? is_q.flags : '0;
   end
-  assign token_index_o = at_hand.index;
+  assign token_index_o = is_q.index;
 
   logic unused_bits;
-  assign unused_bits = ^{coming, coming_span, span};
+  assign unused_bits = ^{coming, coming_span};
 
 endmodule
 
